@@ -1,0 +1,47 @@
+# Compiles every entry point under shaders/ to SPIR-V at build time, checks it and embeds it.
+include_guard(GLOBAL)
+find_program(GLSLC glslc REQUIRED)
+find_program(SPIRV_VAL spirv-val REQUIRED)
+
+# brume_shaders(TARGET files...): a library with one `extern const` word array a shader, named after its file.
+function(brume_shaders target)
+  set(sources "")
+  foreach(file ${ARGN})
+    get_filename_component(name ${file} NAME)
+    string(REPLACE "." "_" symbol ${name})
+    set(spv ${CMAKE_CURRENT_BINARY_DIR}/${name}.spv)
+    set(words ${CMAKE_CURRENT_BINARY_DIR}/${name}.words)
+    set(cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+    set(flags -Werror -O --target-env=vulkan1.3 -I ${CMAKE_CURRENT_SOURCE_DIR})
+    add_custom_command(
+      OUTPUT ${spv}
+      COMMAND ${GLSLC} ${flags} -MD -MF ${spv}.d -o ${spv} ${CMAKE_CURRENT_SOURCE_DIR}/${file}
+      COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${spv}
+      DEPENDS ${file} DEPFILE ${spv}.d VERBATIM)
+    add_custom_command(
+      OUTPUT ${words}
+      COMMAND ${GLSLC} ${flags} -mfmt=num -o ${words} ${CMAKE_CURRENT_SOURCE_DIR}/${file}
+      DEPENDS ${spv} VERBATIM)
+    file(CONFIGURE OUTPUT ${cpp} CONTENT
+"#include \"gpu/shader_code.hpp\"
+namespace brume::shaders {
+static const unsigned words[] = {
+#include \"@name@.words\"
+};
+const gpu::ShaderCode @symbol@{\"@name@\", words};
+}
+" @ONLY)
+    list(APPEND sources ${cpp} ${words})
+    set(declarations "${declarations}extern const gpu::ShaderCode ${symbol};\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/include/shader_list.hpp CONTENT
+"// The shaders that are built in, one constant a file.
+#pragma once
+#include \"gpu/shader_code.hpp\"
+namespace brume::shaders {
+@declarations@}
+" @ONLY)
+  add_library(${target} STATIC ${sources})
+  target_include_directories(${target} PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/include PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+  target_link_libraries(${target} PUBLIC brume_options)
+endfunction()

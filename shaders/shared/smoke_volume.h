@@ -1,0 +1,60 @@
+// Smoke density as the march reads it: sparse bricks, and boundary cells where a surface runs through.
+//
+//   page table   one uint per 8^3-voxel brick of a window of the world: slot + 1, or 0 where there is no
+//   smoke density      a 3D texture of 10^3-texel bricks (8^3 voxels and an apron of one texel); R: density
+//   of a free
+//                voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Trilinear: G < 1 says that
+//                the cell has a solid corner.
+//   cells        per slot 9^3 uints, one per cell whose points can lie in the brick: boundary cell + 1, or 0
+//   boundary     per boundary cell up to three planes, and the first of its 2^planes corner sets
+//   corners      per set eight densities of 8 bits: what the cell's eight corners hold *for a point on those
+//                sides of the planes*. Corners in or behind a wall carry what the near side extrapolates to.
+#ifndef BRUME_SMOKE_VOLUME_H
+#define BRUME_SMOKE_VOLUME_H
+#include "shared/shim.h"
+SHARED_BEGIN
+
+SHARED_CONST int kBrickVoxels = 8;
+SHARED_CONST int kBrickTexels = 10;
+SHARED_CONST int kBrickCells = 9;
+SHARED_CONST uint kCellsPerBrick = 729u;
+SHARED_CONST uint kTexelsPerBrick = 1000u;
+
+/// One cell that a surface runs through.
+struct BoundaryCell {
+  /// Planes as pack_plane makes them; 0 where there is none. Empty ones come last.
+  uint plane0, plane1, plane2;
+  /// Index of the first corner set. Set q is for points whose side of plane k is bit k of q.
+  uint first_set;
+};
+SHARED_SIZE(BoundaryCell, 16);
+
+/// Where the window and the bricks lie.
+struct SmokeVolumeFrame {
+  vec3 origin_world;    // low corner of voxel (0, 0, 0) [m]
+  float voxel_size;     // [m]
+  ivec3 window_origin;  // first brick of the page table, in bricks
+  ivec3 window_size;    // bricks
+  ivec3 atlas_bricks;   // bricks per axis of the density texture; slot = x + bx * (y + by * z)
+  vec3 bounds_min;      // where density can be above 0 [voxel space]
+  vec3 bounds_max;
+};
+SHARED_SIZE(SmokeVolumeFrame, 76);
+
+/// Plane in 32 bits: octahedral normal 2 x 10 bits, offset 12 bits over [-1, 1]. Never 0.
+/// Octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
+SHARED_FUNCTION vec3 plane_normal(uint plane) {
+  vec2 e = vec2(float(plane & 1023u), float((plane >> 10) & 1023u)) * (2.0f / 1022.0f) - vec2(1.0f);
+  vec3 n = vec3(e.x, e.y, 1.0f - abs(e.x) - abs(e.y));
+  float t = max(-n.z, 0.0f);
+  n.x += n.x >= 0.0f ? -t : t;
+  n.y += n.y >= 0.0f ? -t : t;
+  return normalize(n);
+}
+
+SHARED_FUNCTION float plane_offset(uint plane) {
+  return float(plane >> 20) * (2.0f / 4094.0f) - 1.0f;
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,94 @@
+// A scene as the loaders leave it and as everybody else reads it: meshes, materials, objects, lights, a
+// camera. Right-handed, Y up, metres. Plain data.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace brume::scene {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// One corner of a triangle, in mesh space.
+struct Vertex {
+  glm::vec3 position{0};
+  glm::vec3 normal{0, 1, 0};  ///< Unit length.
+  glm::vec4 tangent{1, 0, 0,
+                    1};  ///< xyz: unit length; w: +1 or -1, the bitangent is w * cross(normal, tangent).
+  glm::vec2 uv{0};       ///< v runs down the image: (0, 0) is the first texel of the first row.
+};
+
+/// Triangles, three indices each, counter-clockwise seen from outside. Every index is below vertices.size().
+struct Mesh {
+  std::string name;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+};
+
+/// 8-bit RGBA, rows from the top, width * height * 4 bytes.
+struct Image {
+  std::string name;
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+struct Material {
+  std::string name;
+  glm::vec3 base_color{1};  ///< Linear, multiplies the image.
+  glm::vec3 emission{0};    ///< Linear radiance [W/(sr m^2)], up to a scale that scenes choose.
+  float roughness = 0.8f;   ///< [0, 1], perceptual: alpha = roughness^2.
+  float metallic = 0;       ///< [0, 1].
+  float alpha_cutoff = 0;   ///< Texels with less alpha are not there; 0: all are.
+  std::uint32_t base_color_image = kNone;  ///< sRGB colour, linear alpha. Index into Scene::images.
+  std::uint32_t normal_image = kNone;      ///< Tangent-space normal map, +Y up.
+  std::uint32_t roughness_image = kNone;   ///< G roughness, B metallic, multiply the factors.
+};
+
+struct Object {
+  std::string name;
+  std::uint32_t mesh = kNone;      ///< Index into Scene::meshes.
+  std::uint32_t material = kNone;  ///< Index into Scene::materials.
+  glm::mat4 world_from_mesh{1};
+  bool voxelized = true;  ///< False: drawn, but smoke passes through it.
+};
+
+enum class LightKind : std::uint32_t { point, spot, directional };
+
+struct Light {
+  LightKind kind = LightKind::point;
+  glm::vec3 position_world{0};
+  glm::vec3 direction_world{0, -1, 0};  ///< Where the light goes. Unit length.
+  /// Point and spot: radiant intensity [W/sr] per channel; irradiance at distance d is intensity / d^2.
+  /// Directional: irradiance [W/m^2].
+  glm::vec3 intensity{1};
+  float cos_inner = 1, cos_outer = 0;  ///< Spot: full inside the inner cone, none outside the outer.
+};
+
+struct Camera {
+  glm::vec3 position_world{0, 1.7f, 5};
+  glm::vec3 target_world{0, 1.7f, 0};
+  float vertical_fov = 1.0472f;  ///< Radians, (0, pi).
+};
+
+struct Scene {
+  std::vector<Mesh> meshes;
+  std::vector<Image> images;
+  std::vector<Material> materials;
+  std::vector<Object> objects;  ///< What stands in the world. The grenade is not among them.
+  std::vector<Light> lights;
+  Object grenade;  ///< Drawn while it flies; its mesh is centred on its origin. Always a valid mesh and
+                   ///< material.
+  std::optional<Camera> camera;  ///< The first camera of the file.
+};
+
+/// The box around all objects, in world space; min > max when there is no triangle.
+struct Bounds {
+  glm::vec3 min{1e30f}, max{-1e30f};
+  bool empty() const { return min.x > max.x; }
+};
+Bounds world_bounds(const Scene& scene);
+
+}  // namespace brume::scene

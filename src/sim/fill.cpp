@@ -1,0 +1,1 @@
+#include "voxel/bit_grid.hpp"

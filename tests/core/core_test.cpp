@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "core/checked.hpp"
+#include "core/file.hpp"
+#include "core/hash.hpp"
+#include "core/progress.hpp"
+#include "core/tasks.hpp"
+
+namespace brume {
+namespace {
+
+class FileTest : public testing::Test {
+ protected:
+  FileTest() {
+    folder_ = std::filesystem::temp_directory_path() / ("brume_core_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  ~FileTest() override { std::filesystem::remove_all(folder_); }
+  std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator()));
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(FileTest, WritesAndReadsBack) {
+  ASSERT_TRUE(write_file_atomic(folder_ / "a", std::string("hello")));
+  EXPECT_EQ(*read_text_file(folder_ / "a"), "hello");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FileTest, LeavesNothingWithoutCommit) {
+  {
+    auto file = AtomicFile::open(folder_ / "a");
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(file->write(std::as_bytes(std::span("xyz"))));
+  }
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(FileTest, KeepsTheOldFileUntilCommit) {
+  ASSERT_TRUE(write_file_atomic(folder_ / "a", std::string("old")));
+  auto file = AtomicFile::open(folder_ / "a");
+  ASSERT_TRUE(file->write(std::as_bytes(std::span("new", 3))));
+  EXPECT_EQ(*read_text_file(folder_ / "a"), "old");
+  ASSERT_TRUE(file->commit());
+  EXPECT_EQ(*read_text_file(folder_ / "a"), "new");
+}
+
+TEST_F(FileTest, NamesTheMissingFolder) {
+  const auto result = write_file_atomic(folder_ / "none" / "a", std::string("x"));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.failure().code, ErrorCode::bad_input);
+  EXPECT_NE(result.failure().message.find("does not exist"), std::string::npos);
+}
+
+TEST_F(FileTest, RefusesAFolderAndALongFile) {
+  EXPECT_EQ(read_text_file(folder_).failure().code, ErrorCode::bad_input);
+  EXPECT_EQ(read_text_file(folder_ / "missing").failure().code, ErrorCode::bad_input);
+  ASSERT_TRUE(write_file_atomic(folder_ / "a", std::string(100, 'x')));
+  EXPECT_EQ(read_text_file(folder_ / "a", 99).failure().code, ErrorCode::resource_limit);
+}
+
+TEST(Checked, SeesOverflow) {
+  EXPECT_EQ(checked_mul(1u << 20, 1u << 20), 1ull << 40);
+  EXPECT_FALSE(checked_mul(1ull << 32, 1ull << 32));
+  EXPECT_FALSE(checked_mul(1ull << 30, 1ull << 30, 1ull << 30));
+  EXPECT_FALSE(checked_add(std::numeric_limits<std::uint64_t>::max(), 1));
+}
+
+TEST(Tasks, EveryIndexOnce) {
+  for (const unsigned threads : {1u, 2u, 7u}) {
+    set_thread_count(threads);
+    std::vector<std::atomic<int>> hits(1001);
+    parallel_for(hits.size(), 13, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) ++hits[i];
+    });
+    for (const auto& hit : hits) EXPECT_EQ(hit, 1);
+  }
+  set_thread_count(0);
+}
+
+TEST(Tasks, CarriesTheException) {
+  EXPECT_THROW(parallel_for(100, 1,
+                            [](std::size_t begin, std::size_t) {
+                              if (begin == 50) throw std::runtime_error("fifty");
+                            }),
+               std::runtime_error);
+}
+
+TEST(Tasks, NothingToDo) {
+  parallel_for(0, 0, [](std::size_t, std::size_t) { FAIL(); });
+}
+
+TEST(Progress, TellsRateAndTimeLeft) {
+  const Progress::State state{"frames", 30, 120, 10.0};
+  EXPECT_DOUBLE_EQ(state.seconds_left(), 30.0);
+  EXPECT_EQ(progress_line(state), "frames     [######..................] 30/120  3/s  30 s left");
+  EXPECT_LT((Progress::State{"x", 0, 10, 0}.seconds_left()), 0);
+}
+
+TEST(Hash, DependsOnBytesAndSeed) {
+  const std::vector<std::uint32_t> a{1, 2, 3}, b{1, 2, 4};
+  EXPECT_NE(hash_values<std::uint32_t>(a), hash_values<std::uint32_t>(b));
+  EXPECT_NE(hash_values<std::uint32_t>(a), hash_values<std::uint32_t>(a, 1));
+}
+
+}  // namespace
+}  // namespace brume
