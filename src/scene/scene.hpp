@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "image/image.hpp"
+
 namespace brume::scene {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
@@ -28,11 +30,9 @@ struct Mesh {
   std::vector<std::uint32_t> indices;
 };
 
-/// 8-bit RGBA, rows from the top, width * height * 4 bytes.
 struct Image {
   std::string name;
-  std::uint32_t width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;
+  image::Image8 pixels;
 };
 
 struct Material {

@@ -1,0 +1,18 @@
+// Pictures in memory: what files are decoded to and encoded from.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace brume::image {
+
+/// Most texels per axis that a file may have.
+constexpr std::uint32_t kMaxAxis = 16384;
+
+/// 8-bit RGBA, rows from the top, width * height * 4 bytes.
+struct Image8 {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+}  // namespace brume::image
