@@ -1,0 +1,49 @@
+#include "image/decode.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "core/file.hpp"
+#include "image/formats.hpp"
+
+namespace brume::image {
+namespace {
+
+constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+constexpr std::array<std::uint8_t, 3> kJpegSignature{0xff, 0xd8, 0xff};
+
+template <std::size_t N>
+bool starts_with(std::span<const std::byte> bytes, const std::array<std::uint8_t, N>& signature) {
+  return bytes.size() >= N && std::equal(signature.begin(), signature.end(), bytes.begin(),
+                                         [](std::uint8_t a, std::byte b) { return std::byte{a} == b; });
+}
+
+}  // namespace
+
+Result<void> check_size(std::uint64_t width, std::uint64_t height, const std::string& name) {
+  const std::string size = std::to_string(width) + "x" + std::to_string(height);
+  if (width == 0 || height == 0) {
+    return Failure{ErrorCode::bad_input, name + ": the picture is " + size + ", it has no texels"};
+  }
+  if (width > kMaxAxis || height > kMaxAxis) {
+    return Failure{ErrorCode::resource_limit, name + ": the picture is " + size + ", at most " +
+                                                  std::to_string(kMaxAxis) +
+                                                  " texels per axis are taken; scale it down"};
+  }
+  return {};
+}
+
+Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string& name) {
+  if (starts_with(bytes, kPngSignature)) return decode_png(bytes, name);
+  if (starts_with(bytes, kJpegSignature)) return decode_jpeg(bytes, name);
+  return Failure{ErrorCode::bad_input, name + ": neither a PNG nor a JPEG file; convert it to one of these"};
+}
+
+Result<Image8> load_image(const std::filesystem::path& path) {
+  auto bytes = read_file(path);
+  if (!bytes) return bytes.failure();
+  return decode_image(*bytes, path.string());
+}
+
+}  // namespace brume::image

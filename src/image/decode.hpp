@@ -1,0 +1,23 @@
+// Picture files in: PNG and JPEG, told apart by their first bytes.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "core/error.hpp"
+#include "image/image.hpp"
+
+namespace brume::image {
+
+/// Decodes a PNG (any colour type and depth, 16 bits are rounded down to 8) or a JPEG (grey or colour) to
+/// 8-bit RGBA. Sizes are checked before anything is allocated: at most kMaxAxis texels per axis. `name` is
+/// what error messages call the bytes. Fails with bad_input when they are neither, damaged or cut short, and
+/// with resource_limit when the picture is too large.
+Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string& name);
+
+/// Reads and decodes a file.
+Result<Image8> load_image(const std::filesystem::path& path);
+
+}  // namespace brume::image

@@ -1,0 +1,20 @@
+// The decoders behind decode_image, one a format.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/error.hpp"
+#include "image/image.hpp"
+
+namespace brume::image {
+
+Result<Image8> decode_png(std::span<const std::byte> bytes, const std::string& name);
+Result<Image8> decode_jpeg(std::span<const std::byte> bytes, const std::string& name);
+
+/// Refuses pictures without texels and with more than kMaxAxis per axis.
+Result<void> check_size(std::uint64_t width, std::uint64_t height, const std::string& name);
+
+}  // namespace brume::image
