@@ -1,0 +1,239 @@
+#include "image/video.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/file.hpp"
+#include "image/formats.hpp"
+
+extern char** environ;
+
+namespace brume::image {
+namespace {
+
+class Descriptor {
+ public:
+  explicit Descriptor(int value = -1) : value_(value) {}
+  Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    close();
+    value_ = std::exchange(other.value_, -1);
+    return *this;
+  }
+  ~Descriptor() { close(); }
+  int get() const { return value_; }
+  void close() {
+    if (value_ >= 0) ::close(std::exchange(value_, -1));
+  }
+
+ private:
+  int value_;
+};
+
+std::vector<std::string> ffmpeg_arguments(const VideoOptions& options, const std::string& output) {
+  const std::string rate = std::to_string(options.frames_per_second);
+  const std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
+  // Told in full, because players guess BT.601 or BT.709 by the picture's size.
+  const std::string to_bt709 = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int";
+  return {"ffmpeg",
+          "-nostdin",
+          "-hide_banner",
+          "-loglevel",
+          "error",
+          "-f",
+          "rawvideo",
+          "-pix_fmt",
+          "rgb24",
+          "-video_size",
+          size,
+          "-framerate",
+          rate,
+          "-i",
+          "pipe:0",
+          "-an",
+          "-vf",
+          to_bt709,
+          "-c:v",
+          "libx264",
+          "-preset",
+          "medium",
+          "-crf",
+          "16",
+          "-pix_fmt",
+          "yuv420p",
+          "-colorspace",
+          "bt709",
+          "-color_primaries",
+          "bt709",
+          "-color_trc",
+          "bt709",
+          "-threads",
+          std::to_string(options.threads),
+          "-movflags",
+          "+faststart",
+          "-f",
+          "mp4",
+          "-y",
+          output};
+}
+
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of("\r\n");
+  if (end == std::string::npos) return "";
+  const std::size_t begin = text.find_last_of("\r\n", end);
+  return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin + 1) + 1);
+}
+
+}  // namespace
+
+struct VideoWriter::Encoder {
+  std::filesystem::path path;
+  VideoOptions options;
+  AtomicFile file;
+  Descriptor frames;    // Our end of ffmpeg's standard input.
+  Descriptor messages;  // What ffmpeg says: a file in memory, which unlike a pipe never fills up.
+  pid_t process = -1;
+  std::vector<std::uint8_t> rgb;
+
+  Encoder(std::filesystem::path target, const VideoOptions& film, AtomicFile&& output)
+      : path(std::move(target)), options(film), file(std::move(output)) {}
+  Encoder(const Encoder&) = delete;
+  ~Encoder() {
+    if (process <= 0) return;
+    ::kill(process, SIGKILL);
+    wait_for_end();
+  }
+
+  Result<void> start();
+  int wait_for_end();
+  Failure stopped(int status) const;
+};
+
+Result<void> VideoWriter::Encoder::start() {
+  // A socket pair instead of a pipe: writing to it can be told not to raise SIGPIPE.
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return Failure{ErrorCode::resource_limit,
+                   path.string() + ": cannot start ffmpeg: " + std::strerror(errno)};
+  }
+  frames = Descriptor(ends[0]);
+  const Descriptor child_end(ends[1]);
+  messages = Descriptor(::memfd_create("messages", MFD_CLOEXEC));
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, child_end.get(), STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, messages.get(), STDERR_FILENO);
+  // Its own process group: Ctrl-C reaches us alone, and we stop it.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+
+  std::vector<std::string> arguments = ffmpeg_arguments(options, "file:" + file.temporary_path().string());
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  const int error = ::posix_spawnp(&process, "ffmpeg", &actions, &attributes, pointers.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error == 0) return {};
+  process = -1;
+  if (error == ENOENT) {
+    return Failure{ErrorCode::internal, path.string() +
+                                            ": films need the program ffmpeg, which is not installed; "
+                                            "run apt-get install ffmpeg, or write .png files"};
+  }
+  return Failure{ErrorCode::internal, path.string() + ": cannot start ffmpeg: " + std::strerror(error)};
+}
+
+int VideoWriter::Encoder::wait_for_end() {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  process = -1;
+  return status;
+}
+
+Failure VideoWriter::Encoder::stopped(int status) const {
+  std::string said(4096, '\0');
+  const off_t length = ::lseek(messages.get(), 0, SEEK_END);
+  const off_t begin = std::max<off_t>(0, length - static_cast<off_t>(said.size()));
+  const ssize_t got = ::pread(messages.get(), said.data(), said.size(), begin);
+  said.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  std::string reason = last_line(said);
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    reason = signal == SIGXFSZ ? "the file would be too large for its file system"
+                               : "stopped by signal " + std::to_string(signal);
+  }
+  if (reason.empty()) reason = "it ended with exit code " + std::to_string(WEXITSTATUS(status));
+  const bool full = reason.find(std::strerror(ENOSPC)) != std::string::npos ||
+                    (WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ);
+  return {full ? ErrorCode::resource_limit : ErrorCode::internal,
+          path.string() + ": ffmpeg could not write the film: " + reason +
+              (full ? "; free some space or choose another folder" : "")};
+}
+
+VideoWriter::VideoWriter(std::unique_ptr<Encoder> encoder) : encoder_(std::move(encoder)) {}
+VideoWriter::VideoWriter(VideoWriter&& other) noexcept = default;
+VideoWriter::~VideoWriter() = default;
+
+Result<VideoWriter> VideoWriter::open(const std::filesystem::path& path, const VideoOptions& options) {
+  if (auto size = check_size(options.width, options.height, path.string()); !size) return size.failure();
+  if (options.width % 2 != 0 || options.height % 2 != 0) {
+    return Failure{ErrorCode::usage, path.string() + ": a film of " + std::to_string(options.width) + "x" +
+                                         std::to_string(options.height) +
+                                         " is not possible: both sides must be even; change the size by one"};
+  }
+  if (options.frames_per_second == 0) {
+    return Failure{ErrorCode::usage, path.string() + ": a film needs at least 1 frame per second"};
+  }
+  auto file = AtomicFile::open(path);
+  if (!file) return file.failure();
+  auto encoder = std::make_unique<Encoder>(path, options, std::move(*file));
+  if (auto started = encoder->start(); !started) return started.failure();
+  return VideoWriter(std::move(encoder));
+}
+
+Result<void> VideoWriter::add_frame(const Image8& frame) {
+  BRUME_ASSERT(encoder_ && encoder_->process > 0, "after finish or a failure");
+  BRUME_ASSERT(frame.width == encoder_->options.width && frame.height == encoder_->options.height,
+               std::to_string(frame.width) + "x" + std::to_string(frame.height));
+  std::vector<std::uint8_t>& rgb = encoder_->rgb;
+  rgb.resize(frame.rgba.size() / 4 * 3);
+  for (std::size_t from = 0, to = 0; from < frame.rgba.size(); from += 4, to += 3) {
+    std::memcpy(&rgb[to], &frame.rgba[from], 3);
+  }
+  for (std::size_t done = 0; done < rgb.size();) {
+    const ssize_t put = ::send(encoder_->frames.get(), &rgb[done], rgb.size() - done, MSG_NOSIGNAL);
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return encoder_->stopped(encoder_->wait_for_end());
+    done += static_cast<std::size_t>(put);
+  }
+  return {};
+}
+
+Result<void> VideoWriter::finish() {
+  BRUME_ASSERT(encoder_ && encoder_->process > 0, "after finish or a failure");
+  encoder_->frames.close();  // The end of its input: ffmpeg writes the rest and ends.
+  const int status = encoder_->wait_for_end();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return encoder_->stopped(status);
+  return encoder_->file.commit();
+}
+
+}  // namespace brume::image
