@@ -1,0 +1,36 @@
+// Geodesic flood fill: which voxels smoke reaches first.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "voxel/bit_grid.hpp"
+
+namespace brume::sim {
+
+/// Length of a move to a face, edge or corner neighbour. The chamfer weights (10, 14, 17) keep a fill round:
+/// Borgefors 1986, "Distance Transformations in Digital Images", scaled to the unit voxel = 10.
+constexpr std::uint32_t kFaceStep = 10, kEdgeStep = 14, kCornerStep = 17;
+
+/// Largest budget of one fill; distances of that many voxels fit 32 bits.
+constexpr std::uint32_t kMaxFillVoxels = 1u << 27;
+
+struct FilledVoxel {
+  glm::ivec3 voxel;
+  std::uint32_t distance;  ///< Geodesic chamfer distance from the source, 10 units a voxel.
+  bool operator==(const FilledVoxel&) const = default;
+};
+
+/// Returns the `budget` nearest free voxels to `source` by geodesic chamfer distance, sorted by (distance,
+/// voxel index), index = x + size.x * (y + size.y * z); of equally distant ones at the end those with the
+/// lowest index. Fewer when the space that `source` can reach is smaller; none when `source` is solid or
+/// outside the grid.
+///
+/// A move goes to one of 26 neighbours and needs *every* voxel of the box that it spans (2, 4 or 8) free: the
+/// fill crosses no wall and slips through no diagonal crack. Time and memory follow the voxels filled.
+///
+/// budget: at most kMaxFillVoxels.
+std::vector<FilledVoxel> flood_fill(const voxel::BitGrid& grid, glm::ivec3 source, std::uint32_t budget);
+
+}  // namespace brume::sim
