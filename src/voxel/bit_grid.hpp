@@ -62,6 +62,8 @@ class BitGrid {
     const std::uint32_t brick = nodes_[node - 1][node_index(b)];
     return brick == 0 ? nullptr : &bricks_[brick - 1];
   }
+  /// The same to write into. A brick may be emptied; it then stays as one that holds nothing.
+  Brick* find_brick_to_write(glm::ivec3 b) { return const_cast<Brick*>(find_brick(b)); }
   /// The brick, made when it is not there. Invalidates pointers to other bricks.
   Brick& ensure_brick(glm::ivec3 b);
 

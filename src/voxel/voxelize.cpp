@@ -1,0 +1,268 @@
+#include "voxel/voxelize.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <string>
+
+#include "core/tasks.hpp"
+#include "voxel/triangle_box.hpp"
+
+namespace brume::voxel {
+namespace {
+
+using glm::dvec3;
+using glm::ivec3;
+
+// Candidates are found with this margin [voxels]; the tests decide. Far above the rounding of a double at any
+// coordinate in reach of the grid.
+constexpr double kMargin = 1e-3;
+// Below this sine squared of the widest angle a normal is too short to lead the search.
+constexpr double kSliver = 1e-20;
+constexpr std::size_t kTrianglesPerTask = 512;
+
+// Writes voxels into a grid and remembers the brick of the last one.
+class Pen {
+ public:
+  explicit Pen(BitGrid& grid) : grid_(grid) {}
+
+  bool solid(ivec3 v) {
+    move_to(v >> 3);
+    return brick_ && ((*brick_)[static_cast<unsigned>(v.z & 7)] >> bit(v) & 1);
+  }
+  void set(ivec3 v) {
+    move_to(v >> 3);
+    if (!brick_) brick_ = &grid_.ensure_brick(v >> 3);
+    (*brick_)[static_cast<unsigned>(v.z & 7)] |= std::uint64_t{1} << bit(v);
+  }
+
+ private:
+  static int bit(ivec3 v) { return (v.x & 7) + 8 * (v.y & 7); }
+  void move_to(ivec3 b) {
+    if (b == at_) return;
+    at_ = b;
+    brick_ = grid_.find_brick_to_write(b);
+  }
+
+  BitGrid& grid_;
+  ivec3 at_{-1};
+  BitGrid::Brick* brick_ = nullptr;
+};
+
+// Voxels [low, high] per axis that the closed interval [from, to] touches, within the grid.
+struct Range {
+  int low = 0, high = -1;
+  bool thin = false;  // The interval lies in one voxel's closed interval and touches no other.
+
+  Range() = default;
+  Range(double from, double to, int low_limit, int high_limit) {
+    const double first = std::ceil(from) - 1, last = std::floor(to);
+    thin = first == last;
+    low = static_cast<int>(std::clamp<double>(first, low_limit, high_limit + 1.0));
+    high = static_cast<int>(std::clamp<double>(last, low_limit - 1.0, high_limit));
+  }
+  bool empty() const { return low > high; }
+};
+
+class TriangleScan {
+ public:
+  TriangleScan(const VoxelTriangle& t, ivec3 size, Pen& pen) : t_(t), pen_(pen) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [from, to] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
+      range_[axis] = Range(from, to, 0, size[axis] - 1);
+    }
+  }
+
+  void run() {
+    if (range_[0].empty() || range_[1].empty() || range_[2].empty()) return;
+    const int thin = range_[0].thin + range_[1].thin + range_[2].thin;
+    if (thin >= 2) return fill_box();
+    if (thin == 1) return scan_slab(range_[0].thin ? 0 : range_[1].thin ? 1 : 2);
+    const TriangleTest test(t_);
+    const dvec3 e0 = t_[1] - t_[0], e1 = t_[2] - t_[1], e2 = t_[0] - t_[2];
+    const double longest = std::max({glm::dot(e0, e0), glm::dot(e1, e1), glm::dot(e2, e2)});
+    if (glm::dot(test.plane.normal, test.plane.normal) <= kSliver * longest * longest) {
+      scan_segment(test);
+    } else {
+      scan_columns(test);
+    }
+  }
+
+ private:
+  // A row of voxels in which the triangle reaches from end to end, and it hangs together: it touches all.
+  void fill_box() {
+    for (int z = range_[2].low; z <= range_[2].high; ++z)
+      for (int y = range_[1].low; y <= range_[1].high; ++y)
+        for (int x = range_[0].low; x <= range_[0].high; ++x) pen_.set({x, y, z});
+  }
+
+  // The columns (u, w) of a projection that the three edges leave.
+  template <typename Visit>
+  void for_columns(const std::array<EdgeTest, 3>& edges, int axis, Visit visit) {
+    const Range &range_u = range_[(axis + 1) % 3], &range_w = range_[(axis + 2) % 3];
+    for (int w = range_w.low; w <= range_w.high; ++w) {
+      double from = range_u.low, to = range_u.high;
+      if (range_u.high - range_u.low > 3) {
+        for (const EdgeTest& edge : edges) {
+          if (edge.nu == 0) continue;
+          const double rest = edge.nw * (w - edge.at_w);
+          const double p = (edge.low - rest) / edge.nu, q = (edge.high - rest) / edge.nu;
+          from = std::max(from, edge.at_u + std::min(p, q) - kMargin);
+          to = std::min(to, edge.at_u + std::max(p, q) + kMargin);
+        }
+      }
+      if (!(from <= to)) continue;
+      const int last = static_cast<int>(std::floor(to));
+      for (int u = static_cast<int>(std::ceil(from)); u <= last; ++u)
+        if (TriangleTest::joins(edges, u, w)) visit(u, w);
+    }
+  }
+
+  // Along `axis` the triangle lies within one voxel: its projection decides.
+  void scan_slab(int axis) {
+    for_columns(TriangleTest::projection(t_, axis), axis, [&](int u, int w) {
+      ivec3 v;
+      v[axis] = range_[axis].low;
+      v[(axis + 1) % 3] = u;
+      v[(axis + 2) % 3] = w;
+      pen_.set(v);
+    });
+  }
+
+  // Columns along the axis that the plane faces most, and in each the few voxels that the plane meets.
+  void scan_columns(const TriangleTest& test) {
+    const dvec3 n = test.plane.normal, size = glm::abs(n);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int a1 = (axis + 1) % 3, a2 = (axis + 2) % 3;
+    for_columns(test.edges[static_cast<unsigned>(axis)], axis, [&](int u, int w) {
+      dvec3 voxel;
+      voxel[a1] = u;
+      voxel[a2] = w;
+      const double rest = n[a1] * (u - test.plane.at[a1]) + n[a2] * (w - test.plane.at[a2]);
+      const double p = (test.plane.low - rest) / n[axis], q = (test.plane.high - rest) / n[axis];
+      const double from = test.plane.at[axis] + std::min(p, q) - kMargin;
+      const double to = test.plane.at[axis] + std::max(p, q) + kMargin;
+      const int low = static_cast<int>(std::ceil(std::max<double>(range_[axis].low, from)));
+      const int high = static_cast<int>(std::floor(std::min<double>(range_[axis].high, to)));
+      for (int i = low; i <= high; ++i) {
+        voxel[axis] = i;
+        const ivec3 v(voxel);
+        if (!pen_.solid(v) && test.plane.joins(voxel) && test.edges_join(a1, voxel) &&
+            test.edges_join(a2, voxel))
+          pen_.set(v);
+      }
+    });
+  }
+
+  // A triangle of next to no area is its longest edge: walk along that, slab by slab.
+  void scan_segment(const TriangleTest& test) {
+    dvec3 p = t_[0], q = t_[1];
+    for (unsigned i = 1; i < 3; ++i) {
+      const dvec3 e = t_[(i + 1) % 3] - t_[i];
+      if (glm::dot(e, e) > glm::dot(q - p, q - p)) p = t_[i], q = t_[(i + 1) % 3];
+    }
+    const dvec3 along = q - p, size = glm::abs(along);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    for (int i = range_[axis].low; i <= range_[axis].high; ++i) {
+      const double s0 = std::clamp((i - kMargin - p[axis]) / along[axis], 0.0, 1.0);
+      const double s1 = std::clamp((i + 1 + kMargin - p[axis]) / along[axis], 0.0, 1.0);
+      const dvec3 from = p + s0 * along, to = p + s1 * along;
+      Range slab[3];
+      for (int k = 0; k < 3; ++k)
+        slab[k] = Range(std::min(from[k], to[k]) - kMargin, std::max(from[k], to[k]) + kMargin, range_[k].low,
+                        range_[k].high);
+      slab[axis].low = slab[axis].high = i;
+      for (int z = slab[2].low; z <= slab[2].high; ++z)
+        for (int y = slab[1].low; y <= slab[1].high; ++y)
+          for (int x = slab[0].low; x <= slab[0].high; ++x)
+            if (test.joins(dvec3(x, y, z))) pen_.set({x, y, z});
+    }
+  }
+
+  const VoxelTriangle& t_;
+  Pen& pen_;
+  Range range_[3];
+};
+
+bool finite(const Triangle& t) {
+  const dvec3 sum = glm::abs(dvec3(t.a)) + glm::abs(dvec3(t.b)) + glm::abs(dvec3(t.c));
+  return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
+}
+
+void merge(BitGrid& into, const BitGrid& from) {
+  from.for_each_brick([&](ivec3 at, const BitGrid::Brick& brick) {
+    BitGrid::Brick& target = into.ensure_brick(at);
+    for (unsigned z = 0; z < brick.size(); ++z) target[z] |= brick[z];
+  });
+}
+
+}  // namespace
+
+Result<void> check_frame(const GridFrame& frame) {
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string given = "grid: " + std::to_string(frame.size[axis]) + " voxels along " + kAxes[axis];
+    if (frame.size[axis] < 1) return Failure{ErrorCode::usage, given + "; give 1 to 4096 per axis"};
+    if (frame.size[axis] > kMaxAxis)
+      return Failure{ErrorCode::resource_limit,
+                     given + "; at most 4096 per axis: make the voxels larger or the grid smaller"};
+    if (!std::isfinite(frame.origin_world[axis]))
+      return Failure{ErrorCode::usage, std::string("grid: the origin's ") + kAxes[axis] + " is not finite"};
+  }
+  if (!std::isfinite(frame.voxel_size) || frame.voxel_size <= 0)
+    return Failure{ErrorCode::usage, "grid: voxel size " + std::to_string(frame.voxel_size) +
+                                         " m; give a finite number above 0"};
+  return {};
+}
+
+Result<GridFrame> frame_around(const scene::Bounds& bounds, float voxel_size, int margin_voxels) {
+  GridFrame frame{ivec3(1), voxel_size, glm::vec3(0)};
+  if (auto checked = check_frame(frame); !checked) return checked.failure();
+  if (margin_voxels < 0)
+    return Failure{ErrorCode::usage,
+                   "grid: margin " + std::to_string(margin_voxels) + "; give 0 or more voxels"};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) ||
+        bounds.min[axis] > bounds.max[axis])
+      return Failure{ErrorCode::bad_input,
+                     "grid: nothing to lay it around; the scene has no finite triangle"};
+    const double low = std::floor(double{bounds.min[axis]} / voxel_size) - margin_voxels;
+    const double high = std::ceil(double{bounds.max[axis]} / voxel_size) + margin_voxels;
+    const double size = std::max(high - low, 1.0);
+    if (!(size <= kMaxAxis))
+      return Failure{ErrorCode::resource_limit,
+                     "grid: the scene would need " + std::to_string(size) +
+                         " voxels along an axis; at most 4096: make the voxels larger"};
+    frame.size[axis] = static_cast<int>(size);
+    frame.origin_world[axis] = static_cast<float>(low * voxel_size);
+  }
+  return frame;
+}
+
+Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridFrame& frame) {
+  if (auto checked = check_frame(frame); !checked) return checked.failure();
+  const std::size_t tasks = (triangles.size() + kTrianglesPerTask - 1) / kTrianglesPerTask;
+  const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(thread_count(), tasks));
+  std::vector<BitGrid> grids(workers, BitGrid(frame));
+  std::atomic<std::size_t> next{0};
+  const dvec3 origin(frame.origin_world);
+  const double voxel_size = frame.voxel_size;
+
+  // Each worker draws triangles into a grid of its own. Or-ing the grids forgets who drew what.
+  parallel_for(workers, 1, [&](std::size_t worker, std::size_t) {
+    Pen pen(grids[worker]);
+    for (std::size_t task; (task = next.fetch_add(1)) < tasks;) {
+      const std::size_t end = std::min(triangles.size(), (task + 1) * kTrianglesPerTask);
+      for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) {
+        const Triangle& t = triangles[i];
+        if (!finite(t)) continue;
+        const VoxelTriangle in_voxels{(dvec3(t.a) - origin) / voxel_size, (dvec3(t.b) - origin) / voxel_size,
+                                      (dvec3(t.c) - origin) / voxel_size};
+        TriangleScan(in_voxels, frame.size, pen).run();
+      }
+    }
+  });
+  for (std::size_t worker = 1; worker < workers; ++worker) merge(grids[0], grids[worker]);
+  return std::move(grids[0]);
+}
+
+}  // namespace brume::voxel
