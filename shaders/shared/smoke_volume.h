@@ -1,11 +1,12 @@
 // Smoke density as the march reads it: sparse bricks, and boundary cells where a surface runs through.
 //
 //   page table   one uint per 8^3-voxel brick of a window of the world: slot + 1, or 0 where there is no
-//   smoke density      a 3D texture of 10^3-texel bricks (8^3 voxels and an apron of one texel); R: density
-//   of a free
-//                voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Trilinear: G < 1 says that
-//                the cell has a solid corner.
+//                smoke; brick b is entry x + size.x (y + size.y z) of b - window_origin
+//   density      a 3D texture of 10^3-texel bricks (8^3 voxels and an apron of one texel); R: density of a
+//                free voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Trilinear: G < 1 says
+//                that the cell has a solid corner.
 //   cells        per slot 9^3 uints, one per cell whose points can lie in the brick: boundary cell + 1, or 0
+//                where the texels hold all there is. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
 //   boundary     per boundary cell up to three planes, and the first of its 2^planes corner sets
 //   corners      per set eight densities of 8 bits: what the cell's eight corners hold *for a point on those
 //                sides of the planes*. Corners in or behind a wall carry what the near side extrapolates to.
@@ -52,8 +53,32 @@ SHARED_FUNCTION vec3 plane_normal(uint plane) {
   return normalize(n);
 }
 
+/// Offset of the plane from the centre of its cell along the normal [voxels].
 SHARED_FUNCTION float plane_offset(uint plane) {
   return float(plane >> 20) * (2.0f / 4094.0f) - 1.0f;
+}
+
+/// On which sides of the planes of its cell a point lies: bit k is set when it is on the positive side of
+/// plane k. p_from_centre = position_voxel - (cell + 1).
+SHARED_FUNCTION uint boundary_side(BoundaryCell cell, vec3 p_from_centre) {
+  uint side = 0u;
+  if (cell.plane0 != 0u && dot(plane_normal(cell.plane0), p_from_centre) > plane_offset(cell.plane0))
+    side |= 1u;
+  if (cell.plane1 != 0u && dot(plane_normal(cell.plane1), p_from_centre) > plane_offset(cell.plane1))
+    side |= 2u;
+  if (cell.plane2 != 0u && dot(plane_normal(cell.plane2), p_from_centre) > plane_offset(cell.plane2))
+    side |= 4u;
+  return side;
+}
+
+/// Density in [0, 1] at f in [0, 1]^3 between the cell's corners: f = position_voxel - 0.5 - cell. Corner j
+/// is voxel cell + (j & 1, j >> 1 & 1, j >> 2), bits 8 j to 8 j + 7 of the set; corners 0 to 3 are in x.
+SHARED_FUNCTION float corner_set_density(uvec2 corner_set, vec3 f) {
+  vec4 low = unpackUnorm4x8(corner_set.x);
+  vec4 high = unpackUnorm4x8(corner_set.y);
+  vec4 layer = mix(low, high, f.z);
+  vec2 row = mix(vec2(layer.x, layer.y), vec2(layer.z, layer.w), f.y);
+  return mix(row.x, row.y, f.x);
 }
 
 SHARED_END

@@ -1,0 +1,62 @@
+// A hole that a shot leaves in smoke, and how much of the density it takes away at a point and a time.
+//
+//            time_to_reach_far              Cross-section at depth z, seconds after the front got there:
+//   origin |------------------->| far          opens over time_to_expand, stays for time_to_stay_open,
+//          z = 0      front                    then narrows and fades over time_to_fade
+#ifndef BRUME_HOLE_H
+#define BRUME_HOLE_H
+#include "shared/shim.h"
+SHARED_BEGIN
+
+/// Cross-section of a hole.
+SHARED_CONST uint kHoleCylinder = 0u;
+SHARED_CONST uint kHoleBox = 1u;
+
+/// Share of the radius over which the edge of a hole goes from open to closed.
+SHARED_CONST float kHoleSoftShare = 0.4f;
+
+/// `forward`, `right` and `up` are unit vectors, each at a right angle to the others.
+struct Hole {
+  vec3 origin_world;        // [m]
+  float radius;             // of the open hole; half the edge of a box [m]
+  vec3 forward;             // where the shot goes: local +z
+  float distance_to_far;    // depth of the hole [m], > 0
+  vec3 right;               // local +x
+  float time_start;         // when the shot was fired [s]
+  vec3 up;                  // local +y
+  float time_to_reach_far;  // the front gets from z = 0 to distance_to_far in this time [s]
+  float time_to_expand;     // [s]
+  float time_to_stay_open;  // counted from when it is wide open [s]
+  float time_to_fade;       // [s]
+  uint shape;               // kHoleCylinder or kHoleBox
+};
+SHARED_SIZE(Hole, 80);
+
+/// Share of the smoke that the hole removes at a point, in [0, 1]; `time` is on the clock of
+/// Hole::time_start. Nothing before the front has come by, at depths below 0 or above distance_to_far.
+/// rim_noise_metres widens (above 0) or narrows the hole at this point.
+SHARED_FUNCTION float hole_strength(Hole hole, vec3 p_world, float time, float rim_noise_metres) {
+  vec3 from_origin = p_world - hole.origin_world;
+  float z = dot(from_origin, hole.forward);
+  if (z < 0.0f || z > hole.distance_to_far) return 0.0f;
+
+  // How long the hole has been opening at this depth.
+  float age = time - hole.time_start - z / max(hole.distance_to_far, 1e-6f) * hole.time_to_reach_far;
+  if (age <= 0.0f) return 0.0f;
+  float opened = clamp(age / max(hole.time_to_expand, 1e-6f), 0.0f, 1.0f);
+  float closing_age = age - hole.time_to_expand - hole.time_to_stay_open;
+  float closed = clamp(closing_age / max(hole.time_to_fade, 1e-6f), 0.0f, 1.0f);
+  if (closed >= 1.0f) return 0.0f;
+
+  float radius = (hole.radius + rim_noise_metres) * opened * (1.0f - closed);
+  float x = abs(dot(from_origin, hole.right));
+  float y = abs(dot(from_origin, hole.up));
+  float from_axis = hole.shape == kHoleBox ? max(x, y) : length(vec2(x, y));
+  if (from_axis >= radius) return 0.0f;
+
+  float edge = smoothstep(0.0f, 1.0f, (radius - from_axis) / (radius * kHoleSoftShare));
+  return edge * (1.0f - closed);
+}
+
+SHARED_END
+#endif

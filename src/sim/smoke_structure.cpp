@@ -1,0 +1,302 @@
+#include "sim/smoke_structure.hpp"
+
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "sim/pack_plane.hpp"
+
+namespace brume::sim {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// 4x4x4 voxels around a cell, cell - 1 to cell + 2, as bits x + 4 y + 16 z: all that its corners may take
+/// from.
+using Block = std::uint64_t;
+
+constexpr Block block_bit(glm::ivec3 v) {
+  return Block{1} << (v.x + 4 * v.y + 16 * v.z);
+}
+glm::ivec3 block_voxel(int bit) {
+  return {bit & 3, bit >> 2 & 3, bit >> 4};
+}
+glm::ivec3 corner_offset(int corner) {
+  return {corner & 1, corner >> 1 & 1, corner >> 2};
+}
+
+/// The corners of the cell themselves, and the 3x3x3 voxels around each.
+struct BlockMasks {
+  Block corners = 0;
+  std::array<Block, 8> around{};
+};
+const BlockMasks& block_masks() {
+  static const BlockMasks masks = [] {
+    BlockMasks m;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::ivec3 at = corner_offset(corner);
+      m.corners |= block_bit(at + 1);
+      for (int i = 0; i < 27; ++i)
+        m.around[static_cast<std::size_t>(corner)] |= block_bit(at + glm::ivec3(i % 3, i / 3 % 3, i / 9));
+    }
+    return m;
+  }();
+  return masks;
+}
+
+/// All of `within` that `seed` reaches by faces.
+Block reachable(Block seed, Block within) {
+  constexpr Block kX0 = 0x1111111111111111u, kX3 = kX0 << 3;
+  constexpr Block kY0 = 0x000f000f000f000fu, kY3 = kY0 << 12;
+  for (Block grown = seed & within;; seed = grown) {
+    grown |= (grown & ~kX3) << 1 | (grown & ~kX0) >> 1;
+    grown |= (grown & ~kY3) << 4 | (grown & ~kY0) >> 4;
+    grown |= grown << 16 | grown >> 16;
+    grown &= within;
+    if (grown == seed) return grown;
+  }
+}
+
+/// Nearer voxels say more: 144 / distance^2, whole numbers that fit 8 bits.
+std::uint32_t weight_of(glm::ivec3 offset) {
+  const int square = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
+  return static_cast<std::uint32_t>(144 / square);
+}
+
+ListTable table_from_pairs(std::size_t lists,
+                           const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+  ListTable table;
+  table.first.assign(lists + 1, 0);
+  for (const auto& [list, value] : pairs) ++table.first[list + 1];
+  for (std::size_t i = 0; i < lists; ++i) table.first[i + 1] += table.first[i];
+  table.values.resize(pairs.size());
+  std::vector<std::uint32_t> next(table.first.begin(), table.first.end() - 1);
+  for (const auto& [list, value] : pairs) table.values[next[list]++] = value;
+  return table;
+}
+
+/// A cell's surroundings.
+struct CellBlock {
+  Block free = 0;                       // outside the grid too: smoke may end there
+  std::array<std::uint32_t, 64> voxel;  // number of the smoke voxel, or kNone
+};
+
+}  // namespace
+
+class SmokeStructure::Builder {
+ public:
+  Builder(const voxel::BitGrid& grid, const PlaneSource& planes, SmokeStructure& out)
+      : grid_(grid), planes_(planes), out_(out) {}
+
+  void place_bricks(std::span<const LiveCloud> clouds);
+  void number_voxels(std::span<const LiveCloud> clouds);
+  void list_texels();
+  void build_cells();
+
+ private:
+  std::uint32_t slot_at(glm::ivec3 brick) const {
+    const glm::ivec3 b = brick - out_.window_origin;
+    if (glm::any(glm::lessThan(b, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(b, out_.window_size)))
+      return kNone;
+    return out_.page_table[entry_of(b)] - 1;  // 0 wraps to kNone
+  }
+  std::size_t entry_of(glm::ivec3 b) const {
+    return static_cast<std::size_t>(b.x) +
+           static_cast<std::size_t>(out_.window_size.x) *
+               (static_cast<std::size_t>(b.y) +
+                static_cast<std::size_t>(out_.window_size.y) * static_cast<std::size_t>(b.z));
+  }
+  static std::size_t local_of(glm::ivec3 v) {
+    return static_cast<std::size_t>((v.x & 7) + 8 * (v.y & 7) + 64 * (v.z & 7));
+  }
+  std::uint32_t voxel_at(glm::ivec3 v) const {
+    const std::uint32_t slot = slot_at(v >> 3);
+    return slot == kNone ? kNone : number_[512 * std::size_t{slot} + local_of(v)];
+  }
+  bool has_solid_corner(glm::ivec3 cell) const {
+    for (int corner = 0; corner < 8; ++corner)
+      if (grid_.solid(cell + corner_offset(corner))) return true;
+    return false;
+  }
+
+  bool look_around(glm::ivec3 cell, CellBlock& block) const;
+  void add_cell(glm::ivec3 cell, const CellBlock& block);
+  void add_corner(const CellBlock& block, int corner, Block same_side, Block taken);
+  void enter_cell(glm::ivec3 cell, std::uint32_t entry);
+
+  const voxel::BitGrid& grid_;
+  const PlaneSource& planes_;
+  SmokeStructure& out_;
+  std::vector<std::uint32_t> number_;  // of the smoke voxel, 512 a slot
+  std::vector<std::uint32_t> last_cell_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> voxel_cell_pairs_;
+};
+
+/// The bricks that hold the filled voxels and two voxels around them: a surface may run that far beyond.
+void SmokeStructure::Builder::place_bricks(std::span<const LiveCloud> clouds) {
+  bool any = false;
+  for (const LiveCloud& live : clouds) {
+    if (live.cloud->voxels().empty()) continue;
+    out_.low = any ? glm::min(out_.low, live.cloud->low()) : live.cloud->low();
+    out_.high = any ? glm::max(out_.high, live.cloud->high()) : live.cloud->high();
+    any = true;
+  }
+  if (!any) return;
+  out_.window_origin = (out_.low - 2) >> 3;
+  out_.window_size = ((out_.high + 2) >> 3) - out_.window_origin + 1;
+  out_.page_table.resize(entry_of(out_.window_size - 1) + 1);
+  for (const LiveCloud& live : clouds)
+    for (const FilledVoxel& filled : live.cloud->voxels())
+      for (int corner = 0; corner < 8; ++corner)
+        out_.page_table[entry_of(((filled.voxel - 2 + 4 * corner_offset(corner)) >> 3) -
+                                 out_.window_origin)] = 1;
+
+  std::size_t entry = 0;
+  for (int z = 0; z < out_.window_size.z; ++z)
+    for (int y = 0; y < out_.window_size.y; ++y)
+      for (int x = 0; x < out_.window_size.x; ++x, ++entry) {
+        if (out_.page_table[entry] == 0) continue;
+        out_.bricks.push_back(out_.window_origin + glm::ivec3(x, y, z));
+        out_.page_table[entry] = static_cast<std::uint32_t>(out_.bricks.size());
+      }
+}
+
+void SmokeStructure::Builder::number_voxels(std::span<const LiveCloud> clouds) {
+  number_.assign(512 * out_.bricks.size(), kNone);
+  out_.cloud_voxels.first.push_back(0);
+  for (const LiveCloud& live : clouds) {
+    for (const FilledVoxel& filled : live.cloud->voxels()) {
+      std::uint32_t& number = number_[512 * std::size_t{slot_at(filled.voxel >> 3)} + local_of(filled.voxel)];
+      if (number == kNone) {
+        number = static_cast<std::uint32_t>(out_.voxels.size());
+        out_.voxels.push_back(filled.voxel);
+      }
+      out_.cloud_voxels.values.push_back(number);
+    }
+    out_.cloud_voxels.first.push_back(static_cast<std::uint32_t>(out_.cloud_voxels.values.size()));
+  }
+}
+
+/// A voxel is a texel of its own brick and of the aprons of up to seven others.
+void SmokeStructure::Builder::list_texels() {
+  ListTable& table = out_.voxel_texels;
+  table.first.reserve(out_.voxels.size() + 1);
+  table.first.push_back(0);
+  for (const glm::ivec3 v : out_.voxels) {
+    const glm::ivec3 low = (v - 1) >> 3, high = (v + 1) >> 3;
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+          const std::uint32_t slot = slot_at({x, y, z});
+          if (slot == kNone) continue;
+          const glm::ivec3 t = v - 8 * glm::ivec3(x, y, z) + 1;
+          table.values.push_back(slot * shared::kTexelsPerBrick +
+                                 static_cast<std::uint32_t>(t.x + 10 * (t.y + 10 * t.z)));
+        }
+    table.first.push_back(static_cast<std::uint32_t>(table.values.size()));
+  }
+}
+
+/// Reads the 4x4x4 voxels around a cell; false when there is no smoke among them.
+bool SmokeStructure::Builder::look_around(glm::ivec3 cell, CellBlock& block) const {
+  bool smoke = false;
+  for (int bit = 0; bit < 64; ++bit) {
+    const std::uint32_t number = voxel_at(cell - 1 + block_voxel(bit));
+    block.voxel[static_cast<std::size_t>(bit)] = number;
+    smoke |= number != kNone;
+  }
+  if (!smoke) return false;
+  block.free = 0;
+  for (int bit = 0; bit < 64; ++bit)
+    if (!grid_.solid(cell - 1 + block_voxel(bit))) block.free |= Block{1} << bit;
+  return true;
+}
+
+/// Lists what a corner takes from: itself where it is on the side in question, else the nearest voxels there.
+void SmokeStructure::Builder::add_corner(const CellBlock& block, int corner, Block same_side, Block taken) {
+  const glm::ivec3 at = corner_offset(corner) + 1;
+  CornerSource source{static_cast<std::uint32_t>(out_.contributions.size()), 0, 0};
+  Block from = block_bit(at) & same_side;
+  if (from == 0) from = taken & block_masks().around[static_cast<std::size_t>(corner)];
+  if (from == 0) from = taken;
+  for (; from != 0; from &= from - 1) {
+    const int bit = std::countr_zero(from);
+    const glm::ivec3 offset = block_voxel(bit) - at;
+    const std::uint32_t weight = offset == glm::ivec3(0) ? 1 : weight_of(offset);
+    source.total_weight += weight;
+    const std::uint32_t number = block.voxel[static_cast<std::size_t>(bit)];
+    if (number == kNone) continue;
+    out_.contributions.push_back({number, weight});
+    ++source.count;
+    const auto cell = static_cast<std::uint32_t>(out_.boundary_cells.size());
+    if (last_cell_[number] == cell) continue;
+    last_cell_[number] = cell;
+    voxel_cell_pairs_.emplace_back(number, cell);
+  }
+  out_.corners.push_back(source);
+}
+
+void SmokeStructure::Builder::add_cell(glm::ivec3 cell, const CellBlock& block) {
+  std::array<std::uint32_t, 3> packed{};
+  const std::span<const voxel::Plane> planes = planes_(cell);
+  for (std::size_t k = 0; k < planes.size(); ++k) packed[k] = pack_plane(planes[k]);
+  const shared::BoundaryCell record{packed[0], packed[1], packed[2],
+                                    static_cast<std::uint32_t>(out_.corners.size() / 8)};
+
+  // On which sides each voxel around lies, judged by the planes as the shader reads them.
+  std::array<Block, 8> on_side{};
+  for (Block left = block.free; left != 0; left &= left - 1) {
+    const int bit = std::countr_zero(left);
+    const glm::vec3 from_centre = glm::vec3(block_voxel(bit)) - 1.5f;
+    on_side[shared::boundary_side(record, from_centre)] |= Block{1} << bit;
+  }
+
+  const std::size_t sides = std::size_t{1} << planes.size();
+  for (std::size_t side = 0; side < sides; ++side) {
+    // What lies on the same side by the planes but behind a wall of another cell must not count: only what
+    // the cell's own corners reach. Where no corner is free, all of that side.
+    const Block seed = on_side[side] & block_masks().corners;
+    const Block taken = seed != 0 ? reachable(seed, on_side[side]) : on_side[side];
+    for (int corner = 0; corner < 8; ++corner) add_corner(block, corner, on_side[side], taken);
+  }
+  out_.boundary_cells.push_back(record);
+}
+
+/// Writes the cell into every brick in which its points may lie.
+void SmokeStructure::Builder::enter_cell(glm::ivec3 cell, std::uint32_t entry) {
+  const glm::ivec3 low = cell >> 3, high = (cell + 1) >> 3;
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) {
+        const std::uint32_t slot = slot_at({x, y, z});
+        if (slot == kNone) continue;
+        const glm::ivec3 i = cell - 8 * glm::ivec3(x, y, z) + 1;
+        out_.cells[std::size_t{slot} * shared::kCellsPerBrick +
+                   static_cast<std::size_t>(i.x + 9 * (i.y + 9 * i.z))] = entry;
+      }
+}
+
+void SmokeStructure::Builder::build_cells() {
+  out_.cells.assign(out_.bricks.size() * shared::kCellsPerBrick, 0);
+  last_cell_.assign(out_.voxels.size(), kNone);
+  CellBlock block;
+  for (const glm::ivec3 brick : out_.bricks)
+    for (int i = 0; i < 512; ++i) {
+      const glm::ivec3 cell = brick * 8 + glm::ivec3(i & 7, i >> 3 & 7, i >> 6);
+      if (!has_solid_corner(cell) || !look_around(cell, block)) continue;
+      add_cell(cell, block);
+      enter_cell(cell, static_cast<std::uint32_t>(out_.boundary_cells.size()));
+    }
+  out_.voxel_cells = table_from_pairs(out_.voxels.size(), voxel_cell_pairs_);
+}
+
+SmokeStructure::SmokeStructure(const voxel::BitGrid& grid, const PlaneSource& planes,
+                               std::span<const LiveCloud> clouds) {
+  Builder builder(grid, planes, *this);
+  builder.place_bricks(clouds);
+  builder.number_voxels(clouds);
+  builder.list_texels();
+  builder.build_cells();
+}
+
+}  // namespace brume::sim
