@@ -1,5 +1,8 @@
 #include "scene/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace brume::scene {
 
 Bounds world_bounds(const Scene& scene) {
@@ -12,6 +15,19 @@ Bounds world_bounds(const Scene& scene) {
     }
   }
   return bounds;
+}
+
+Camera default_camera(const Scene& scene) {
+  if (scene.camera) return *scene.camera;
+  Camera camera;
+  const Bounds bounds = world_bounds(scene);
+  if (bounds.empty()) return camera;
+  // The sphere around the bounds, seen under the vertical angle, also when the picture is a square.
+  const float radius = std::max(glm::length(bounds.max - bounds.min) / 2, 0.1f);
+  camera.target_world = (bounds.min + bounds.max) / 2.0f;
+  camera.position_world = camera.target_world + glm::normalize(glm::vec3(0.8f, 0.6f, 1)) *
+                                                    (radius / std::sin(camera.vertical_fov / 2));
+  return camera;
 }
 
 }  // namespace brume::scene

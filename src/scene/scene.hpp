@@ -91,4 +91,7 @@ struct Bounds {
 };
 Bounds world_bounds(const Scene& scene);
 
+/// The scene's own camera, or one that has all of its bounds in view, from above and aside.
+Camera default_camera(const Scene& scene);
+
 }  // namespace brume::scene

@@ -1,0 +1,25 @@
+#include "scene/load.hpp"
+
+#include "core/file.hpp"
+#include "scene/files.hpp"
+#include "scene/obj.hpp"
+#include "scene/scene_txt.hpp"
+
+namespace brume::scene {
+
+Result<Scene> load_scene(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const FolderFiles files(path.parent_path());
+
+  if (extension == ".txt" || extension == ".obj") {
+    const auto text = read_text_file(path);
+    if (!text) return text.failure();
+    return extension == ".txt" ? parse_scene_txt(*text, path.string(), files)
+                               : parse_obj_scene(*text, path.string(), files);
+  }
+  return Failure{ErrorCode::bad_input,
+                 path.string() + ": not a scene by its name; expected .txt, .gltf, .glb or .obj"};
+}
+
+}  // namespace brume::scene

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/log.hpp"
+#include "scene/obj.hpp"
+#include "scene/scene_builder.hpp"
+#include "scene/text_reader.hpp"
+
+namespace brume::scene {
+namespace {
+
+class MtlParser {
+ public:
+  MtlParser(std::string_view text, const std::string& name) : reader_(text, name) {}
+
+  Result<std::vector<MtlMaterial>> parse() {
+    while (reader_.next_line()) {
+      const std::string_view word = reader_.next_word();
+      if (word == "newmtl") {
+        materials_.push_back({});
+        materials_.back().name = reader_.rest_of_line();
+      } else if (!materials_.empty()) {
+        if (auto read = read_property(word, materials_.back()); !read) return read.failure();
+      }
+    }
+    return std::move(materials_);
+  }
+
+ private:
+  Result<void> read_property(std::string_view word, MtlMaterial& material) {
+    if (word == "Kd") return read_color(material.diffuse);
+    if (word == "Ke") return read_color(material.emission);
+    if (word == "Pr") return read_number(material.roughness, 0, 1, "the roughness");
+    if (word == "Pm") return read_number(material.metallic, 0, 1, "the metallic factor");
+    if (word == "Ns") {
+      float exponent = 0;
+      if (auto read = read_number(exponent, 0, 1e6f, "the exponent"); !read) return read;
+      material.roughness = std::sqrt(std::sqrt(2.0f / (exponent + 2.0f)));
+    }
+    if (word == "map_Kd") read_map(material.diffuse_map, material.diffuse_place);
+    if (word == "norm" || word == "map_Bump" || word == "map_bump" || word == "bump")
+      read_map(material.normal_map, material.normal_place);
+    return {};
+  }
+
+  /// One number stands for all three channels.
+  Result<void> read_color(glm::vec3& color) {
+    const auto red = reader_.number("red");
+    if (!red) return red.failure();
+    color = glm::vec3(std::clamp(*red, 0.0f, 1e6f));
+    for (int channel = 1; channel < 3; ++channel) {
+      const std::string_view word = reader_.next_word();
+      if (word.empty() && channel == 1) return {};
+      const auto number = reader_.number_from(word, channel == 1 ? "green" : "blue");
+      if (!number) return number.failure();
+      color[channel] = std::clamp(*number, 0.0f, 1e6f);
+    }
+    return {};
+  }
+
+  Result<void> read_number(float& value, float least, float most, const char* what) {
+    const auto number = reader_.number(what);
+    if (!number) return number.failure();
+    value = std::clamp(*number, least, most);
+    return {};
+  }
+
+  /// The file name behind options like "-bm 1.0": the last of them takes what follows as its values while
+  /// those are numbers or switches.
+  void read_map(std::string& file, std::string& place) {
+    std::string_view rest = reader_.rest_of_line();
+    const auto take_word = [&rest] {
+      const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
+      rest.remove_prefix(std::min(rest.find_first_not_of(" \t", end), rest.size()));
+    };
+    while (rest.starts_with('-')) {
+      take_word();
+      while (!rest.empty()) {
+        const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
+        if (word != "on" && word != "off" && !reader_.number_from(word, "an option")) break;
+        take_word();
+      }
+    }
+    file = rest;
+    std::replace(file.begin(), file.end(), '\\', '/');
+    place = reader_.line_place();
+  }
+
+  TextReader reader_;
+  std::vector<MtlMaterial> materials_;
+};
+
+using MtlByName = std::map<std::string, MtlMaterial>;
+
+Result<MtlByName> read_libraries(const ObjModel& model, const SceneFiles& files) {
+  MtlByName materials;
+  for (const ObjLibrary& library : model.libraries) {
+    const auto found = files.find(library.file);
+    if (!found) {
+      log_warning(library.place + ": the material file " + in_quotes(library.file) + " does not exist");
+      continue;
+    }
+    const auto bytes = files.read(*found);
+    if (!bytes) return bytes.failure();
+    auto parsed = parse_mtl({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *found);
+    if (!parsed) return parsed.failure();
+    for (MtlMaterial& material : *parsed) materials.try_emplace(material.name, std::move(material));
+  }
+  return materials;
+}
+
+Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
+  Material material;
+  material.name = source.name;
+  material.base_color = source.diffuse;
+  material.emission = source.emission;
+  material.roughness = source.roughness;
+  material.metallic = source.metallic;
+  const auto image = [&](const std::string& file, const std::string& place) {
+    return file.empty() ? kNone : builder.image_of_file({&file, 1}, place);
+  };
+  material.base_color_image = image(source.diffuse_map, source.diffuse_place);
+  material.normal_image = image(source.normal_map, source.normal_place);
+  // Exporters write Kd 0 beside a map that is meant to be seen as it is.
+  if (material.base_color_image != kNone && material.base_color == glm::vec3(0))
+    material.base_color = glm::vec3(1);
+  return material;
+}
+
+}  // namespace
+
+Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::string& name) {
+  return MtlParser(text, name).parse();
+}
+
+Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files) {
+  const auto model = parse_obj(text, name);
+  if (!model) return model.failure();
+  const auto materials = read_libraries(*model, files);
+  if (!materials) return materials.failure();
+
+  SceneBuilder builder(files, name);
+  std::vector<Mesh> meshes = part_meshes(*model);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const ObjPart& part = model->parts[i];
+    const auto source = materials->find(part.material);
+    Material material;
+    if (source != materials->end()) {
+      material = scene_material(source->second, builder);
+    } else {
+      material.name = "default";
+      material.base_color = glm::vec3(0.6f);
+      if (!part.material.empty()) {
+        log_warning(part.place + ": no material is called " + in_quotes(part.material) +
+                    "; a magenta checker stands in");
+        material.base_color = glm::vec3(1);
+        material.base_color_image = builder.checker_image();
+      }
+    }
+    builder.scene.materials.push_back(std::move(material));
+    const auto mesh = builder.add_mesh(std::move(meshes[i]));
+    if (!mesh) return mesh.failure();
+    Object object;
+    object.name = part.material.empty() ? "object" : part.material;
+    object.mesh = *mesh;
+    object.material = static_cast<std::uint32_t>(builder.scene.materials.size() - 1);
+    object.voxelized = !object.name.starts_with("IGNORE_");
+    if (auto added = builder.add_object(std::move(object), part.place); !added) return added.failure();
+  }
+  return std::move(builder).finish();
+}
+
+}  // namespace brume::scene

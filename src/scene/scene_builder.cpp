@@ -1,0 +1,177 @@
+#include "scene/scene_builder.hpp"
+
+#include <cmath>
+
+#include "core/log.hpp"
+#include "image/decode.hpp"
+#include "scene/mesh_tools.hpp"
+#include "scene/stand_ins.hpp"
+#include "scene/text_reader.hpp"
+
+namespace brume::scene {
+namespace {
+
+std::uint32_t last_index(std::size_t size) {
+  return static_cast<std::uint32_t>(size - 1);
+}
+
+bool all_finite(const glm::mat4& matrix) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!std::isfinite(matrix[column][row])) return false;
+    }
+  }
+  return true;
+}
+
+double determinant(const glm::mat4& matrix) {
+  return glm::determinant(glm::dmat3(glm::dmat4(matrix)));
+}
+
+}  // namespace
+
+Result<std::uint32_t> SceneBuilder::add_mesh(Mesh mesh) {
+  vertices_ += mesh.vertices.size();
+  indices_ += mesh.indices.size();
+  if (vertices_ > kMostVertices || indices_ > kMostIndices) {
+    return Failure{ErrorCode::resource_limit, name_ + ": has more than " + std::to_string(kMostVertices) +
+                                                  " vertices or " + std::to_string(kMostIndices) +
+                                                  " indices; split the scene or simplify its meshes"};
+  }
+  scene.meshes.push_back(std::move(mesh));
+  return last_index(scene.meshes.size());
+}
+
+std::uint32_t SceneBuilder::image_of_file(std::span<const std::string> names, const std::string& place) {
+  for (const std::string& name : names) {
+    const auto found = files_.find(name);
+    if (!found) continue;
+    if (const auto known = images_.find(*found); known != images_.end()) return known->second;
+    const auto bytes = files_.read(*found);
+    if (bytes) return images_[*found] = add_image(image::decode_image(*bytes, *found), *found, place);
+    log_warning(place + ": " + bytes.failure().message + "; a magenta checker stands in");
+    return images_[*found] = checker_image();
+  }
+  if (!images_.contains(names.front())) {
+    log_warning(place + ": the image " + in_quotes(names.front()) +
+                " does not exist; a magenta checker stands in");
+  }
+  return images_[names.front()] = checker_image();
+}
+
+std::uint32_t SceneBuilder::image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
+                                           const std::string& place) {
+  return add_image(image::decode_image(bytes, name), name, place);
+}
+
+std::uint32_t SceneBuilder::add_image(Result<image::Image8> pixels, const std::string& name,
+                                      const std::string& place) {
+  if (!pixels) {
+    log_warning(place + ": " + pixels.failure().message + "; a magenta checker stands in");
+    return checker_image();
+  }
+  if (image_bytes_ + pixels->rgba.size() > kMostImageBytes) {
+    log_warning(place + ": the scene's images pass " + std::to_string(kMostImageBytes >> 20) +
+                " MiB; a magenta checker stands in for " + name);
+    return checker_image();
+  }
+  image_bytes_ += pixels->rgba.size();
+  scene.images.push_back({name, std::move(*pixels)});
+  return last_index(scene.images.size());
+}
+
+std::uint32_t SceneBuilder::checker_image() {
+  if (checker_ == kNone) {
+    scene.images.push_back({"stand-in checker", magenta_checker()});
+    checker_ = last_index(scene.images.size());
+  }
+  return checker_;
+}
+
+Result<std::uint32_t> SceneBuilder::cube_mesh() {
+  if (cube_ == kNone) {
+    auto added = add_mesh(unit_cube());
+    if (!added) return added;
+    cube_ = *added;
+  }
+  return cube_;
+}
+
+Result<std::uint32_t> SceneBuilder::mirrored_mesh(std::uint32_t mesh) {
+  if (const auto known = mirrored_.find(mesh); known != mirrored_.end()) return known->second;
+  auto added = add_mesh(mirrored(scene.meshes[mesh]));
+  if (added) mirrored_[mesh] = *added;
+  return added;
+}
+
+Result<void> SceneBuilder::add_object(Object object, const std::string& place) {
+  const double volume = determinant(object.world_from_mesh);
+  if (volume == 0) {
+    log_warning(place + ": \"" + object.name +
+                "\" is scaled to nothing and left out; give it a scale above 0");
+    return {};
+  }
+  if (volume < 0) {
+    const auto copy = mirrored_mesh(object.mesh);
+    if (!copy) return copy.failure();
+    object.mesh = *copy;
+  }
+  scene.objects.push_back(std::move(object));
+  return {};
+}
+
+Result<void> SceneBuilder::set_grenade(const Object& object, const std::string& place) {
+  if (determinant(object.world_from_mesh) == 0) {
+    log_warning(place + ": the grenade is scaled to nothing; give it a scale above 0");
+    return {};
+  }
+  Mesh mesh = scene.meshes[object.mesh];
+  if (determinant(object.world_from_mesh) < 0) mesh = mirrored(mesh);
+  mesh.name = "grenade";
+  centre(mesh);
+  const auto added = add_mesh(std::move(mesh));
+  if (!added) return added.failure();
+  scene.grenade = object;
+  scene.grenade.mesh = *added;
+  scene.grenade.voxelized = false;
+  scene.grenade.world_from_mesh[3] = glm::vec4(0, 0, 0, 1);
+  return {};
+}
+
+Result<void> SceneBuilder::check_object(const Object& object) const {
+  bool reachable = all_finite(object.world_from_mesh);
+  for (const Vertex& vertex : scene.meshes[object.mesh].vertices) {
+    const glm::vec3 p = glm::vec3(object.world_from_mesh * glm::vec4(vertex.position, 1));
+    for (int axis = 0; axis < 3; ++axis) reachable = reachable && std::abs(p[axis]) <= kFarthest;
+  }
+  if (reachable) return {};
+  return Failure{ErrorCode::bad_input, name_ + ": \"" + object.name +
+                                           "\" reaches farther than 10,000 km from the origin; check its "
+                                           "position, its scale and the unit of its mesh"};
+}
+
+Result<Scene> SceneBuilder::finish() && {
+  bool any_triangle = false;
+  for (const Object& object : scene.objects) {
+    any_triangle = any_triangle || !scene.meshes[object.mesh].indices.empty();
+    if (auto checked = check_object(object); !checked) return checked.failure();
+  }
+  if (!any_triangle) {
+    return Failure{ErrorCode::bad_input,
+                   name_ + ": the scene has no triangle; add at least one object with a mesh"};
+  }
+  if (!has_grenade()) {
+    scene.materials.push_back({});
+    scene.materials.back().name = "built-in grenade";
+    scene.materials.back().base_color = glm::vec3(0.07f, 0.09f, 0.06f);
+    scene.materials.back().roughness = 0.5f;
+    scene.materials.back().metallic = 0.3f;
+    const auto added = add_mesh(built_in_grenade());
+    if (!added) return added.failure();
+    scene.grenade = Object{"Grenade", *added, last_index(scene.materials.size()), glm::mat4(1), false};
+  }
+  if (auto checked = check_object(scene.grenade); !checked) return checked.failure();
+  return std::move(scene);
+}
+
+}  // namespace brume::scene

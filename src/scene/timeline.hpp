@@ -1,0 +1,92 @@
+// A timeline: which scene, where the camera is, what happens when. Renders the same twice.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "scene/scene.hpp"
+
+namespace brume::scene {
+
+/// Where the voxels are. Without size and origin the grid covers the scene's bounds.
+struct GridOptions {
+  float voxel = 0.25f;                    ///< Edge of a voxel [m], [0.01, 10].
+  std::optional<glm::ivec3> size;         ///< Voxels per axis, [1, 4096].
+  std::optional<glm::vec3> origin_world;  ///< The grid's low corner [m].
+};
+
+struct SmokeOptions {
+  std::uint32_t voxels = 1800;  ///< How many voxels a grown smoke fills, [1, 16777216].
+  float bloom = 1.0f;           ///< From going off to full size [s], [0.05, 60].
+  float extinction = 3.0f;      ///< In dense smoke [1/m], [0.01, 100].
+  glm::vec3 albedo{0.92f};      ///< Share of light that is scattered, per channel, [0, 1].
+  float anisotropy = 0.2f;      ///< Henyey-Greenstein's g, [-0.9, 0.9]; above 0: forward.
+  float noise = 0.5f;           ///< How deep the noise cuts into the density, [0, 1].
+  float noise_size = 1.5f;      ///< Edge of a noise cell [m], [0.05, 100].
+  float throw_speed = 20.0f;    ///< Of the grenade on its way [m/s], [1, 200].
+};
+
+/// Linear radiance of what no surface covers, and of the light from everywhere, [0, 1000].
+struct SkyOptions {
+  glm::vec3 zenith{0.20f, 0.36f, 0.70f};
+  glm::vec3 horizon{0.55f, 0.65f, 0.78f};
+  glm::vec3 ambient{0.25f, 0.29f, 0.35f};
+};
+
+struct CameraKey {
+  double time = 0;  ///< [s], [0, 3600].
+  Camera camera;
+};
+
+/// A grenade is thrown; it flies straight at SmokeOptions::throw_speed and goes off at its target.
+struct SmokeEvent {
+  double time = 0;  ///< Of throwing [s], [0, 3600].
+  glm::vec3 from_world{0}, at_world{0};
+};
+
+/// A shot, and how the hole that it leaves in smoke opens and closes.
+struct ShotEvent {
+  double time = 0;  ///< [s], [0, 3600].
+  glm::vec3 from_world{0};
+  glm::vec3 toward_world{0, 0, -1};  ///< A point that the shot passes through; not `from_world`.
+  float radius = 0.25f;              ///< Of the hole [m], [0.01, 10].
+  float reach = 0.25f;               ///< Until the front is at the far end [s], [0, 60].
+  float expand = 0.05f;              ///< Growing at each depth [s], [0, 60].
+  float stay = 0.6f;                 ///< Open [s], [0, 600].
+  float fade = 0.35f;                ///< Closing [s], [0, 60].
+};
+
+struct Timeline {
+  std::filesystem::path scene;  ///< Ready to open: what the file says, from the timeline's own folder.
+  float duration = 4.0f;        ///< [s], [0.01, 3600].
+  float exposure = 0.0f;        ///< [EV], [-20, 20]: the picture is multiplied by 2^exposure.
+  GridOptions grid;
+  SmokeOptions smoke;
+  SkyOptions sky;
+  std::vector<CameraKey> camera;   ///< By time, no two alike.
+  std::vector<SmokeEvent> smokes;  ///< By time; those of the same time as in the file.
+  std::vector<ShotEvent> shots;    ///< The same.
+};
+
+/// Reads a timeline (TOML, `version = 1`; docs/timeline.md lists the keys). Fails with bad_input and
+/// file:line:column for broken TOML, a key that is not known (naming the nearest that is), a value of the
+/// wrong type or out of the range above.
+Result<Timeline> load_timeline(const std::filesystem::path& path);
+
+/// The same from text; `path` is what messages call it and what its scene is relative to.
+Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path);
+
+/// The timeline of a scene file without one: a smoke thrown from the camera to what it looks at.
+Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scene);
+
+/// The camera at a time [s]: through all keys, with continuous speed, at rest before the first and after the
+/// last; `fallback` where there is no key. The field of view never leaves the range of its two keys.
+Camera camera_at(const Timeline& timeline, const Camera& fallback, double time);
+
+}  // namespace brume::scene
