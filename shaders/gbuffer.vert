@@ -1,0 +1,27 @@
+// Brings a mesh into clip space.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/frame.h"
+#include "shared/gbuffer.h"
+
+layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 1) readonly buffer Vertices { Vertex vertices[]; };
+layout(push_constant, scalar) uniform Push { DrawConstants draw; };
+
+layout(location = 0) out vec3 normal_world;
+layout(location = 1) out vec4 tangent_world;
+layout(location = 2) out vec2 uv;
+
+void main() {
+  const Vertex vertex = vertices[gl_VertexIndex];
+  const mat3 linear = transpose(mat3(draw.row0.xyz, draw.row1.xyz, draw.row2.xyz));
+  const vec3 position_world = linear * vertex.position + vec3(draw.row0.w, draw.row1.w, draw.row2.w);
+  // The cofactor matrix turns normals right under any scale, mirroring included.
+  const mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
+  const float handedness = determinant(linear) < 0.0 ? -1.0 : 1.0;
+  normal_world = handedness * (cofactor * vertex.normal);
+  tangent_world = vec4(linear * vertex.tangent.xyz, vertex.tangent.w * handedness);
+  uv = vertex.uv;
+  gl_Position = frame.camera.clip_from_world * vec4(position_world, 1.0);
+}

@@ -1,0 +1,81 @@
+// In-scattered radiance at every texel of every brick: each lamp's light, through the scene's shadows and through
+// the smoke in between. The march then pays one fetch a sample, however many lamps there are.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define BINDING_PAGES 4
+#define BINDING_DENSITY 5
+#define BINDING_CELLS 6
+#define BINDING_BOUNDARY 7
+#define BINDING_CORNERS 8
+#include "lib/lights.glsl"
+#include "lib/smoke_density.glsl"
+#include "shared/frame.h"
+#include "shared/inscatter.h"
+
+layout(local_size_x = 64) in;
+layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
+layout(binding = 3) uniform sampler2DArrayShadow shadows;
+layout(scalar, binding = 9) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
+layout(binding = 10, rgba16f) uniform writeonly image3D inscatter;
+layout(push_constant, scalar) uniform Push { InscatterParams params; };
+
+const float kIsotropic = 0.0795774715;  // 1 / (4 pi)
+
+/// Optical depth from a point along a unit direction, at most `distance` metres.
+float optical_depth(vec3 p_voxel, vec3 direction, float distance_m) {
+  const SmokeVolumeFrame volume = frame.volume;
+  // Leave the smoke's box: nothing lies beyond.
+  const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
+  const vec3 ends = max((volume.bounds_min - p_voxel) * inverse, (volume.bounds_max - p_voxel) * inverse);
+  const float reach = min(min(ends.x, min(ends.y, ends.z)), distance_m / volume.voxel_size);
+  if (reach <= 0.0) return 0.0;
+  // Steps grow with the distance: what is near decides most.
+  const float steps = clamp(ceil(reach), 1.0, float(params.volume_steps));
+  float depth = 0.0, before = 0.0;
+  for (float i = 1.0; i <= steps; ++i) {
+    const float after = reach * (i / steps) * (0.5 + 0.5 * i / steps);
+    depth += smoke_density(volume, p_voxel + direction * (0.5 * (before + after))) * (after - before);
+    if (depth * volume.voxel_size * frame.look.extinction > 12.0) break;
+    before = after;
+  }
+  return depth * volume.voxel_size * frame.look.extinction;
+}
+
+/// Transmittance with multiple scattering by octaves: each scattering order sees thinner smoke and less light
+/// (Wrenninge et al. 2013, "Oz: The Great and Volumetric").
+float scattered_transmittance(float depth) {
+  float sum = 0.0, share = 1.0;
+  for (float octave = 0.0; octave < frame.look.scatter_octaves; ++octave) {
+    sum += share * exp(-depth * share);
+    share *= 0.5;
+  }
+  return sum;
+}
+
+void main() {
+  const uint texel = gl_GlobalInvocationID.x;
+  const uint slot = params.first_slot + texel / kTexelsPerBrick;
+  if (slot >= params.first_slot + params.slot_count) return;
+  const uint at = texel % kTexelsPerBrick;
+  const ivec3 local = ivec3(at % 10u, at / 10u % 10u, at / 100u);
+  const uvec3 bricks = uvec3(frame.volume.atlas_bricks);
+  const uvec3 corner = uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * uint(kBrickTexels);
+  const ivec3 atlas_texel = ivec3(corner) + local;
+
+  const vec3 p_voxel = vec3(slot_bricks[slot] * kBrickVoxels + local) - 0.5;
+  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
+  vec3 radiance = frame.sky.ambient * scattered_transmittance(optical_depth(p_voxel, vec3(0.0, 1.0, 0.0), 1e3));
+  for (uint i = 0u; i < frame.light_count; ++i) {
+    const Light light = lights[i];
+    const Incident incident = light_at(light, p_world);
+    if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < 1e-4) continue;
+    const float lit = shadow_at(shadows, light, sun.clip_from_world, p_world);
+    if (lit <= 0.0) continue;
+    const float depth = optical_depth(p_voxel, incident.to_light, incident.distance);
+    radiance += incident.irradiance * (lit * kIsotropic * scattered_transmittance(depth));
+  }
+  imageStore(inscatter, atlas_texel, vec4(radiance, 1.0));
+}

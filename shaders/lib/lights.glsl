@@ -1,0 +1,54 @@
+// What a light sends to a point, with the shadows of the scene.
+#ifndef LIGHTS_GLSL
+#define LIGHTS_GLSL
+#include "shared/light.h"
+
+struct Incident {
+  vec3 irradiance;  // on a surface that faces the light
+  vec3 to_light;    // unit
+  float distance;   // to the light [m]
+};
+
+/// Unshadowed light. The inverse square law, taken down to 0 at the light's range by a smooth window
+/// (Karis 2013, "Real Shading in Unreal Engine 4").
+Incident light_at(Light light, vec3 position_world) {
+  Incident incident;
+  if (light.kind == kLightDirectional) {
+    incident.irradiance = light.intensity;
+    incident.to_light = -light.direction;
+    incident.distance = 1e4;
+    return incident;
+  }
+  const vec3 to_light = light.position_world - position_world;
+  const float d2 = max(dot(to_light, to_light), 1e-4);
+  incident.distance = sqrt(d2);
+  incident.to_light = to_light / incident.distance;
+  const float x = d2 / (light.range * light.range);
+  const float window = clamp(1.0 - x * x, 0.0, 1.0);
+  incident.irradiance = light.intensity * (window * window / max(d2, 0.01));
+  if (light.kind == kLightSpot) {
+    incident.irradiance *= smoothstep(light.cos_outer, light.cos_inner, dot(-incident.to_light, light.direction));
+  }
+  return incident;
+}
+
+/// Share of the light that the scene lets through to a point, from the shadow array.
+float shadow_at(sampler2DArrayShadow shadows, Light light, mat4 sun_clip_from_world, vec3 position_world) {
+  if (light.shadow_layer == kNoShadow) return 1.0;
+  if (light.kind == kLightDirectional) {
+    const vec4 clip = sun_clip_from_world * vec4(position_world, 1.0);
+    const vec2 uv = clip.xy * 0.5 + 0.5;
+    if (any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return 1.0;
+    return texture(shadows, vec4(uv, float(light.shadow_layer), clip.z));
+  }
+  const vec3 d = position_world - light.position_world;
+  const vec3 a = abs(d);
+  const uint face = a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0u : 1u)
+                    : a.y >= a.z             ? (d.y > 0.0 ? 2u : 3u)
+                                             : (d.z > 0.0 ? 4u : 5u);
+  const float z = max(a.x, max(a.y, a.z));
+  const vec2 uv = vec2(dot(d, cube_right(face)), -dot(d, cube_up(face))) / z * 0.5 + 0.5;
+  return texture(shadows, vec4(uv, float(light.shadow_layer + face), kShadowNear / z));
+}
+
+#endif

@@ -1,0 +1,26 @@
+// The sky behind everything.
+#ifndef SKY_GLSL
+#define SKY_GLSL
+#include "lib/hash.glsl"
+#include "shared/frame.h"
+
+/// Stars at fixed directions: at most one in a cell of a cube map's grid.
+float star_light(vec3 direction) {
+  const vec3 a = abs(direction);
+  const float major = max(a.x, max(a.y, a.z));
+  const vec3 on_cube = direction / major * 48.0;
+  const uvec3 cell = uvec3(ivec3(floor(on_cube)) + 1024);
+  const vec3 random = hash3(cell);
+  const vec3 star = (floor(on_cube) + 0.2 + 0.6 * random) / 48.0;
+  const float apart = length(normalize(star) - direction);
+  const float bright = pow(fract(random.x * 7.13 + random.y * 3.7), 12.0);
+  return bright * smoothstep(0.0022, 0.0004, apart);
+}
+
+vec3 sky_radiance(Sky sky, vec3 direction) {
+  const float height = max(direction.y, 0.0);
+  const vec3 gradient = mix(sky.horizon, sky.zenith, 1.0 - exp(-4.0 * height));
+  return gradient + sky.stars * star_light(direction) * smoothstep(0.02, 0.3, direction.y);
+}
+
+#endif

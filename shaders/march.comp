@@ -1,0 +1,118 @@
+// Marches every pixel's ray through the smoke: premultiplied radiance and transmittance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#define BINDING_PAGES 1
+#define BINDING_DENSITY 2
+#define BINDING_CELLS 3
+#define BINDING_BOUNDARY 4
+#define BINDING_CORNERS 5
+#include "lib/blue_noise.glsl"
+#include "lib/camera.glsl"
+#include "lib/holes.glsl"
+#include "lib/smoke_density.glsl"
+#include "shared/frame.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kCountSamples = 0u;
+layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(binding = 6) uniform sampler3D inscatter_atlas;
+layout(binding = 7) uniform sampler3D worley_tile;
+layout(binding = 8) uniform sampler2D depth;
+layout(binding = 9) uniform sampler2D blue_noise_tile;
+layout(scalar, binding = 10) readonly buffer Holes { Hole holes[]; };
+layout(binding = 11, rgba16f) uniform writeonly image2D smoke;
+layout(scalar, binding = 12) buffer Counters { uint sample_count; };
+
+/// The holes that the ray comes near, one bit each.
+uvec2 holes_on_ray(vec3 origin_world, vec3 direction, float t_begin, float t_end) {
+  uvec2 mask = uvec2(0u);
+  for (uint i = 0u; i < min(frame.hole_count, 64u); ++i) {
+    if (hole_near_ray(holes[i], origin_world, direction, t_begin, t_end, frame.look.hole_rim)) mask[i >> 5u] |= 1u << (i & 31u);
+  }
+  return mask;
+}
+
+/// Share of the density that the holes of the mask leave at a point.
+float left_by_holes(uvec2 mask, vec3 p_world, float rim) {
+  float left = 1.0;
+  for (uint word = 0u; word < 2u; ++word) {
+    for (uint bits = mask[word]; bits != 0u; bits &= bits - 1u) {
+      left *= 1.0 - hole_strength(holes[word * 32u + uint(findLSB(bits))], p_world, frame.time, rim);
+    }
+  }
+  return left;
+}
+
+/// Billows eat from the rim inwards; where the smoke is full, nothing is lost.
+float erode(float density, vec2 billows) {
+  const float noise = 0.7 * billows.r + 0.3 * billows.g;
+  const float eaten = frame.look.erosion * (1.0 - noise);
+  return clamp((density - eaten * (1.0 - density)) / (1.0 - 0.9 * eaten), 0.0, 1.0) * density;
+}
+
+void main() {
+  const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(uvec2(px), frame.size_px))) return;
+  const SmokeVolumeFrame volume = frame.volume;
+
+  // The ray in voxels, t in metres; it ends at the surface behind.
+  const vec3 ray = camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
+  const vec3 direction = normalize(ray);
+  const float t_surface = view_distance(frame.camera, texelFetch(depth, px, 0).r) * length(ray);
+  const vec3 origin = (frame.camera.eye_world - volume.origin_world) / volume.voxel_size;
+  const vec3 per_metre = direction / volume.voxel_size;
+  const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
+
+  // The part inside the smoke's bounds.
+  const vec3 t0 = (volume.bounds_min - origin) * inverse, t1 = (volume.bounds_max - origin) * inverse;
+  const vec3 near = min(t0, t1), far = max(t0, t1);
+  const float t_begin = max(max(near.x, near.y), max(near.z, 0.0));
+  const float t_end = min(min(far.x, far.y), min(far.z, t_surface));
+  vec3 radiance = vec3(0.0);
+  float transmittance = 1.0;
+  uint samples = 0u;
+  if (t_begin < t_end) {
+    const uvec2 hole_mask = holes_on_ray(frame.camera.eye_world, direction, t_begin, t_end);
+    const float jitter = blue_noise(blue_noise_tile, px, frame.frame_index).r;
+    const float ds = frame.look.step_length;
+    // Segments of length ds from t_begin on, the last one cut; one sample in each, all at the same share of it.
+    for (float t = t_begin; t < t_end;) {
+      const float segment = min(ds, t_end - t);
+      const vec3 p_voxel = origin + per_metre * (t + jitter * segment);
+      const ivec3 brick = ivec3(floor(p_voxel / float(kBrickVoxels)));
+      const uint slot = slot_at(volume, brick);
+      if (slot == kNoSlot) {
+        // Whole segments up to the brick's far side: the samples stay where they would have been.
+        const vec3 exits = max((vec3(brick * kBrickVoxels) - origin) * inverse, (vec3(brick * kBrickVoxels + kBrickVoxels) - origin) * inverse);
+        t += ds * max(1.0, floor((min(exits.x, min(exits.y, exits.z)) - t) / ds));
+        continue;
+      }
+      t += ds;
+      ++samples;
+      const vec3 local_voxel = p_voxel - vec3(brick * kBrickVoxels);
+      const vec3 uvw = atlas_uvw(volume, slot, local_voxel);
+      float density = density_in_brick(volume, slot, local_voxel, uvw);
+      if (density <= 0.0) continue;
+      const vec3 p_world = volume.origin_world + p_voxel * volume.voxel_size;
+      if (frame.look.erosion > 0.0 || hole_mask != uvec2(0u)) {
+        const vec3 noise_uvw = (p_world - vec3(0.0, frame.look.noise_drift * frame.time, 0.0)) / frame.look.noise_period;
+        const vec2 billows = textureLod(worley_tile, noise_uvw, 0.0).rg;
+        if (frame.look.erosion > 0.0) density = erode(density, billows);
+        if (hole_mask != uvec2(0u)) density *= left_by_holes(hole_mask, p_world, (2.0 * billows.g - 1.0) * frame.look.hole_rim);
+        if (density <= 0.0) continue;
+      }
+      // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
+      const float passed = exp(-frame.look.extinction * density * segment);
+      radiance += transmittance * (1.0 - passed) * textureLod(inscatter_atlas, uvw, 0.0).rgb;
+      transmittance *= passed;
+      if (transmittance < frame.look.stop) {
+        transmittance = 0.0;
+        break;
+      }
+    }
+    radiance *= frame.look.albedo;
+  }
+  imageStore(smoke, px, vec4(radiance, transmittance));
+  if (kCountSamples != 0u) atomicAdd(sample_count, samples);
+}

@@ -1,0 +1,57 @@
+// What every pass of a frame may know: camera, sky, smoke look. One buffer, written once a frame.
+#ifndef BRUME_FRAME_H
+#define BRUME_FRAME_H
+#include "shared/shim.h"
+#include "shared/smoke_volume.h"
+SHARED_BEGIN
+
+/// A pinhole camera. A pixel's ray runs along forward + x right + y up, x and y in -1..1.
+struct Camera {
+  mat4 clip_from_world;  // reverse depth, infinite far plane: depth = near / distance along forward
+  vec3 eye_world;
+  float near_z;  // [m]
+  vec3 forward;  // unit
+  vec3 right;    // scaled by tan(half the horizontal field of view)
+  vec3 up;       // scaled by tan(half the vertical field of view)
+};
+SHARED_SIZE(Camera, 116);
+
+/// Light from far away: a gradient from horizon to zenith, and what surfaces get where no lamp shines.
+struct Sky {
+  vec3 zenith;   // radiance
+  vec3 horizon;  // radiance
+  vec3 ambient;  // irradiance / pi, from everywhere
+  float stars;   // radiance of the brightest star
+};
+SHARED_SIZE(Sky, 40);
+
+/// How the smoke looks.
+struct SmokeLook {
+  vec3 albedo;             // single-scattering albedo, [0, 1]
+  float extinction;        // at density 1 [1/m]
+  float step_length;       // of the march [m]
+  float stop;              // transmittance at which a ray is opaque
+  float erosion;           // how much noise eats from the rim inwards, [0, 1]
+  float noise_period;      // edge of one tile of the noise [m]
+  float noise_drift;       // upward [m/s]
+  float scatter_octaves;   // octaves of multiple scattering, 1: single scattering
+  float hole_rim;          // how far noise moves the rim of a hole [m]
+};
+SHARED_SIZE(SmokeLook, 44);
+
+struct FrameConstants {
+  Camera camera;
+  Sky sky;
+  SmokeLook look;
+  SmokeVolumeFrame volume;
+  uvec2 size_px;
+  uint light_count;
+  uint hole_count;
+  uint frame_index;  // moves the dither and the jitter
+  float time;        // [s]
+  float exposure;    // multiplies radiance before the tone curve
+};
+SHARED_SIZE(FrameConstants, 304);
+
+SHARED_END
+#endif

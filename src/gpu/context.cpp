@@ -1,0 +1,123 @@
+#include "gpu/context.hpp"
+
+#include "core/error.hpp"
+
+namespace brume::gpu {
+namespace {
+
+constexpr std::uint64_t kWaitNanoseconds = 600'000'000'000;  // Ten minutes: a software device may be slow.
+
+std::uint32_t find_queue_family(const Functions& vk, VkPhysicalDevice device) {
+  std::uint32_t count = 0;
+  vk.GetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vk.GetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if ((families[i].queueFlags & kNeeded) == kNeeded) return i;
+  }
+  throw Error(ErrorCode::no_device, "the Vulkan device has no queue for graphics and compute");
+}
+
+}  // namespace
+
+Context::Context(const ContextOptions& options)
+    : instance_(std::make_unique<Instance>(options.validation)), vk_(instance_->vk()) {
+  const auto devices = list_devices(vk_, instance_->handle());
+  info_ = choose_device(devices, options.device);
+  create_device();
+  read_properties();
+}
+
+Context::Context(const HostDevice& host) : device_(host.device), queue_family_(host.queue_family) {
+  vk_.load_instance(host.get_instance_proc_addr, host.instance);
+  for (const DeviceInfo& device : list_devices(vk_, host.instance)) {
+    if (device.handle == host.physical_device) info_ = device;
+  }
+  if (!info_.handle)
+    throw Error(ErrorCode::no_device, "the host's physical device is not one of its instance");
+  vk_.load_device(device_);
+  read_properties();
+}
+
+void Context::create_device() {
+  queue_family_ = find_queue_family(vk_, info_.handle);
+  const float priority = 1;
+  VkDeviceQueueCreateInfo queue{};
+  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue.queueFamilyIndex = queue_family_;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+
+  VkPhysicalDeviceVulkan13Features features13{};
+  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  features13.dynamicRendering = VK_TRUE;
+  features13.synchronization2 = VK_TRUE;
+  VkPhysicalDeviceVulkan12Features features12{};
+  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  features12.pNext = &features13;
+  features12.timelineSemaphore = VK_TRUE;
+  features12.scalarBlockLayout = VK_TRUE;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = &features12;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue;
+  check(vk_.CreateDevice(info_.handle, &info, nullptr, &device_), "vkCreateDevice");
+  vk_.load_device(device_);
+  vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);
+
+  const VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO, nullptr,
+                                       VK_SEMAPHORE_TYPE_TIMELINE, 0};
+  const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
+  const VkResult result = vk_.CreateSemaphore(device_, &semaphore, nullptr, &done_);
+  if (result != VK_SUCCESS) vk_.DestroyDevice(device_, nullptr);
+  check(result, "vkCreateSemaphore");
+}
+
+void Context::read_properties() {
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  vk_.GetPhysicalDeviceProperties2(info_.handle, &properties);
+  limits_ = properties.properties.limits;
+  memory_ = std::make_unique<Memory>(vk_, info_.handle, device_);
+}
+
+Context::~Context() {
+  if (!owns_device()) return;
+  vk_.DeviceWaitIdle(device_);  // A lost device cannot be waited for; it is destroyed all the same.
+  vk_.DestroySemaphore(device_, done_, nullptr);
+  memory_.reset();
+  vk_.DestroyDevice(device_, nullptr);
+}
+
+void Context::submit_and_wait(VkCommandBuffer commands) {
+  BRUME_ASSERT(owns_device(), "a host submits itself");
+  const std::uint64_t value = ++submitted_;
+  const VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands, 0};
+  const VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, done_, value,
+                                     VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,    0};
+  VkSubmitInfo2 submit{};
+  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+  submit.commandBufferInfoCount = 1;
+  submit.pCommandBufferInfos = &buffer;
+  submit.signalSemaphoreInfoCount = 1;
+  submit.pSignalSemaphoreInfos = &signal;
+  check(vk_.QueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
+
+  VkSemaphoreWaitInfo wait{};
+  wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
+  wait.semaphoreCount = 1;
+  wait.pSemaphores = &done_;
+  wait.pValues = &value;
+  const VkResult result = vk_.WaitSemaphores(device_, &wait, kWaitNanoseconds);
+  if (result == VK_TIMEOUT)
+    throw Error(ErrorCode::no_device, "the Vulkan device did not finish within ten minutes");
+  check(result, "vkWaitSemaphores");
+}
+
+std::vector<std::string> Context::take_validation_messages() const {
+  return instance_ ? instance_->take_messages() : std::vector<std::string>{};
+}
+
+}  // namespace brume::gpu

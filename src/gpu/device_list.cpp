@@ -1,0 +1,125 @@
+#include "gpu/device_list.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/error.hpp"
+#include "gpu/instance.hpp"
+
+namespace brume::gpu {
+namespace {
+
+const char* kind_name(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    default:
+      return "other";
+  }
+}
+
+std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::uint32_t api_version) {
+  if (api_version < VK_API_VERSION_1_3) return "speaks Vulkan older than 1.3";
+  VkPhysicalDeviceVulkan13Features features13{};
+  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  VkPhysicalDeviceVulkan12Features features12{};
+  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  features12.pNext = &features13;
+  VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features12, {}};
+  vk.GetPhysicalDeviceFeatures2(device, &features);
+  if (!features13.dynamicRendering) return "lacks dynamicRendering";
+  if (!features13.synchronization2) return "lacks synchronization2";
+  if (!features12.timelineSemaphore) return "lacks timelineSemaphore";
+  if (!features12.scalarBlockLayout) return "lacks scalarBlockLayout";
+  return "";
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+int speed_rank(const DeviceInfo& device) {
+  if (!device.unsupported.empty()) return 0;
+  if (device.kind == "discrete") return 5;
+  if (device.kind == "integrated") return 4;
+  if (device.kind == "virtual") return 3;
+  return device.kind == "cpu" ? 1 : 2;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance) {
+  std::uint32_t count = 0;
+  check(vk.EnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");
+  std::vector<VkPhysicalDevice> handles(count);
+  check(vk.EnumeratePhysicalDevices(instance, &count, handles.data()), "vkEnumeratePhysicalDevices");
+
+  std::vector<DeviceInfo> devices;
+  for (const VkPhysicalDevice handle : handles) {
+    VkPhysicalDeviceDriverProperties driver{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, nullptr, {}, {}, {}, {}};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
+    vk.GetPhysicalDeviceProperties2(handle, &properties);
+    VkPhysicalDeviceMemoryProperties memory{};
+    vk.GetPhysicalDeviceMemoryProperties(handle, &memory);
+    DeviceInfo info;
+    info.handle = handle;
+    info.name = properties.properties.deviceName;
+    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    info.kind = kind_name(properties.properties.deviceType);
+    info.api_version = properties.properties.apiVersion;
+    info.unsupported = missing_feature(vk, handle, info.api_version);
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+      if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
+        info.memory_bytes = std::max(info.memory_bytes, memory.memoryHeaps[i].size);
+      }
+    }
+    devices.push_back(std::move(info));
+  }
+  return devices;
+}
+
+std::vector<DeviceInfo> list_system_devices() {
+  const Instance instance(false);
+  return list_devices(instance.vk(), instance.handle());
+}
+
+const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+  std::string names;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    names += (i ? ", " : "") + std::to_string(i) + " " + devices[i].name;
+    if (!devices[i].unsupported.empty()) names += " (" + devices[i].unsupported + ")";
+  }
+  if (devices.empty()) {
+    throw Error(ErrorCode::no_device,
+                "no Vulkan device; install a driver (mesa-vulkan-drivers renders on any CPU)");
+  }
+  const DeviceInfo* chosen = nullptr;
+  if (wanted.empty()) {
+    chosen = &*std::max_element(devices.begin(), devices.end(),
+                                [](const auto& a, const auto& b) { return speed_rank(a) < speed_rank(b); });
+  } else if (std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); })) {
+    const unsigned long index = wanted.size() > 6 ? devices.size() : std::stoul(wanted);
+    if (index < devices.size()) chosen = &devices[index];
+  } else {
+    for (const DeviceInfo& device : devices) {
+      if (!chosen && lower(device.name).find(lower(wanted)) != std::string::npos) chosen = &device;
+    }
+  }
+  if (!chosen)
+    throw Error(ErrorCode::no_device, "no Vulkan device fits \"" + wanted + "\"; there are: " + names);
+  if (!chosen->unsupported.empty()) {
+    throw Error(ErrorCode::no_device, "the Vulkan device cannot be used; there are: " + names);
+  }
+  return *chosen;
+}
+
+}  // namespace brume::gpu

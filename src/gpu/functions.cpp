@@ -1,0 +1,97 @@
+#include "gpu/functions.hpp"
+
+#include <dlfcn.h>
+
+#include <string>
+
+#include "core/error.hpp"
+
+namespace brume::gpu {
+namespace {
+
+[[noreturn]] void missing(const char* name) {
+  throw Error(ErrorCode::no_device,
+              std::string("the Vulkan driver lacks vk") + name + "; Vulkan 1.3 is needed");
+}
+
+}  // namespace
+
+void Functions::load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance) {
+#define X(name)                                                     \
+  name = reinterpret_cast<PFN_vk##name>(get(instance, "vk" #name)); \
+  if (!name) missing(#name);
+  BRUME_VK_INSTANCE_FUNCTIONS(X)
+#undef X
+}
+
+void Functions::load_device(VkDevice device) {
+#define X(name)                                                                 \
+  name = reinterpret_cast<PFN_vk##name>(GetDeviceProcAddr(device, "vk" #name)); \
+  if (!name) missing(#name);
+  BRUME_VK_DEVICE_FUNCTIONS(X)
+#undef X
+}
+
+PFN_vkGetInstanceProcAddr system_loader() {
+  // Never closed: drivers do not survive being unloaded.
+  static void* const library = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  if (!library) {
+    throw Error(
+        ErrorCode::no_device,
+        "no Vulkan loader (libvulkan.so.1); install libvulkan1 and a driver such as mesa-vulkan-drivers");
+  }
+  const auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(::dlsym(library, "vkGetInstanceProcAddr"));
+  if (!get)
+    throw Error(ErrorCode::no_device, "libvulkan.so.1 has no vkGetInstanceProcAddr; reinstall libvulkan1");
+  return get;
+}
+
+const char* result_name(VkResult result) {
+  switch (result) {
+    case VK_SUCCESS:
+      return "VK_SUCCESS";
+    case VK_TIMEOUT:
+      return "VK_TIMEOUT";
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_INITIALIZATION_FAILED:
+      return "VK_ERROR_INITIALIZATION_FAILED";
+    case VK_ERROR_DEVICE_LOST:
+      return "VK_ERROR_DEVICE_LOST";
+    case VK_ERROR_MEMORY_MAP_FAILED:
+      return "VK_ERROR_MEMORY_MAP_FAILED";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+      return "VK_ERROR_LAYER_NOT_PRESENT";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+      return "VK_ERROR_EXTENSION_NOT_PRESENT";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+      return "VK_ERROR_FEATURE_NOT_PRESENT";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return "VK_ERROR_INCOMPATIBLE_DRIVER";
+    case VK_ERROR_TOO_MANY_OBJECTS:
+      return "VK_ERROR_TOO_MANY_OBJECTS";
+    case VK_ERROR_FORMAT_NOT_SUPPORTED:
+      return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+      return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    default:
+      return "an unnamed VkResult";
+  }
+}
+
+void check(VkResult result, const char* what) {
+  if (result == VK_SUCCESS) return;
+  const bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
+                      result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_TOO_MANY_OBJECTS;
+  const bool device = result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_INCOMPATIBLE_DRIVER ||
+                      result == VK_ERROR_INITIALIZATION_FAILED;
+  throw Error(memory   ? ErrorCode::resource_limit
+              : device ? ErrorCode::no_device
+                       : ErrorCode::internal,
+              std::string(what) + " failed with " + result_name(result) + " (" + std::to_string(result) +
+                  ")" + (memory ? "; a smaller picture or grid needs less memory" : ""));
+}
+
+}  // namespace brume::gpu

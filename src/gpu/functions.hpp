@@ -1,0 +1,55 @@
+// Our own table of the Vulkan functions that are used. Nothing here defines or calls a global vk* symbol, so
+// that the library can sit in a process whose host links the loader, and tests can replace an entry.
+#pragma once
+
+#define VK_NO_PROTOTYPES
+#include <vulkan/vulkan.h>
+
+// clang-format off
+#define BRUME_VK_INSTANCE_FUNCTIONS(X) \
+  X(DestroyInstance) X(EnumeratePhysicalDevices) X(GetPhysicalDeviceProperties2) X(GetPhysicalDeviceFeatures2) \
+  X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties) X(CreateDevice) X(GetDeviceProcAddr) \
+  X(GetPhysicalDeviceFormatProperties)
+
+#define BRUME_VK_DEVICE_FUNCTIONS(X) \
+  X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit2) X(DeviceWaitIdle) \
+  X(AllocateMemory) X(FreeMemory) X(MapMemory) \
+  X(CreateBuffer) X(DestroyBuffer) X(GetBufferMemoryRequirements) X(BindBufferMemory) \
+  X(CreateImage) X(DestroyImage) X(GetImageMemoryRequirements) X(BindImageMemory) \
+  X(CreateImageView) X(DestroyImageView) X(CreateSampler) X(DestroySampler) \
+  X(CreateShaderModule) X(DestroyShaderModule) X(CreateDescriptorSetLayout) X(DestroyDescriptorSetLayout) \
+  X(CreatePipelineLayout) X(DestroyPipelineLayout) X(CreateComputePipelines) X(CreateGraphicsPipelines) \
+  X(DestroyPipeline) X(CreateDescriptorPool) X(DestroyDescriptorPool) X(ResetDescriptorPool) \
+  X(AllocateDescriptorSets) X(UpdateDescriptorSets) \
+  X(CreateCommandPool) X(DestroyCommandPool) X(ResetCommandPool) X(AllocateCommandBuffers) \
+  X(BeginCommandBuffer) X(EndCommandBuffer) X(CreateSemaphore) X(DestroySemaphore) X(WaitSemaphores) \
+  X(CreateQueryPool) X(DestroyQueryPool) X(GetQueryPoolResults) \
+  X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants) X(CmdDispatch) X(CmdPipelineBarrier2) \
+  X(CmdCopyBuffer) X(CmdCopyBufferToImage) X(CmdCopyImageToBuffer) X(CmdUpdateBuffer) X(CmdFillBuffer) \
+  X(CmdClearColorImage) X(CmdBlitImage) X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) \
+  X(CmdSetCullMode) X(CmdBindIndexBuffer) X(CmdDrawIndexed) X(CmdDraw) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
+// clang-format on
+
+namespace brume::gpu {
+
+struct Functions {
+#define X(name) PFN_vk##name name = nullptr;
+  BRUME_VK_INSTANCE_FUNCTIONS(X)
+  BRUME_VK_DEVICE_FUNCTIONS(X)
+#undef X
+
+  /// Throws no_device when a function is missing.
+  void load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance);
+  void load_device(VkDevice device);
+};
+
+/// vkGetInstanceProcAddr of the system's loader. Throws no_device when there is none.
+PFN_vkGetInstanceProcAddr system_loader();
+
+/// "VK_ERROR_DEVICE_LOST" and so on.
+const char* result_name(VkResult result);
+
+/// Throws Error with the code that fits when `result` is not VK_SUCCESS; `what` is the failed call.
+void check(VkResult result, const char* what);
+
+}  // namespace brume::gpu

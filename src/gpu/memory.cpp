@@ -1,0 +1,128 @@
+#include "gpu/memory.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.hpp"
+
+namespace brume::gpu {
+namespace {
+
+VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
+  return (value + alignment - 1) / alignment * alignment;
+}
+
+/// Cuts an aligned range out of the first hole that holds it.
+std::optional<VkDeviceSize> take(std::map<VkDeviceSize, VkDeviceSize>& holes, VkDeviceSize size,
+                                 VkDeviceSize alignment) {
+  for (auto hole = holes.begin(); hole != holes.end(); ++hole) {
+    const auto [begin, length] = *hole;
+    const VkDeviceSize offset = align_up(begin, alignment);
+    if (offset + size > begin + length) continue;
+    holes.erase(hole);
+    if (offset > begin) holes[begin] = offset - begin;
+    if (offset + size < begin + length) holes[offset + size] = begin + length - offset - size;
+    return offset;
+  }
+  return std::nullopt;
+}
+
+/// Gives a range back, joined with the holes that it touches.
+void give(std::map<VkDeviceSize, VkDeviceSize>& holes, VkDeviceSize offset, VkDeviceSize size) {
+  auto next = holes.lower_bound(offset);
+  if (next != holes.end() && offset + size == next->first) {
+    size += next->second;
+    next = holes.erase(next);
+  }
+  if (next != holes.begin()) {
+    const auto previous = std::prev(next);
+    if (previous->first + previous->second == offset) {
+      previous->second += size;
+      return;
+    }
+  }
+  holes[offset] = size;
+}
+
+}  // namespace
+
+Memory::Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device)
+    : vk_(vk), device_(device) {
+  vk_.GetPhysicalDeviceMemoryProperties(physical_device, &properties_);
+}
+
+Memory::~Memory() {
+  for (const Block& block : blocks_) vk_.FreeMemory(device_, block.memory, nullptr);
+}
+
+std::uint32_t Memory::find_type(std::uint32_t type_bits, MemoryUse use) const {
+  constexpr VkMemoryPropertyFlags kHost =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  // The first that fits wins: what is wanted most comes first.
+  std::vector<VkMemoryPropertyFlags> wishes;
+  if (use == MemoryUse::device) wishes = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+  if (use == MemoryUse::upload) wishes = {kHost};
+  if (use == MemoryUse::readback) wishes = {kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kHost};
+  for (const VkMemoryPropertyFlags wish : wishes) {
+    for (std::uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
+      if ((type_bits >> i & 1) && (properties_.memoryTypes[i].propertyFlags & wish) == wish) return i;
+    }
+  }
+  throw Error(ErrorCode::resource_limit, "the Vulkan device has no memory of the kind that is needed");
+}
+
+Memory::Block& Memory::add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled) {
+  Block block;
+  block.size = size;
+  block.type = type;
+  block.tiled = tiled;
+  block.holes[0] = size;
+  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
+  check(vk_.AllocateMemory(device_, &info, nullptr, &block.memory), "vkAllocateMemory");
+  if (mapped) {
+    void* pointer = nullptr;
+    const VkResult result = vk_.MapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &pointer);
+    if (result != VK_SUCCESS) vk_.FreeMemory(device_, block.memory, nullptr);
+    check(result, "vkMapMemory");
+    block.mapped = static_cast<std::byte*>(pointer);
+  }
+  return blocks_.emplace_back(std::move(block));
+}
+
+Memory::Range Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool tiled) {
+  const std::lock_guard lock(mutex_);
+  const std::uint32_t type = find_type(needs.memoryTypeBits, use);
+  const bool mapped = use != MemoryUse::device;
+  const auto range_in = [&](Block& block) -> std::optional<Range> {
+    const auto offset = take(block.holes, needs.size, needs.alignment);
+    if (!offset) return std::nullopt;
+    bytes_in_use_ += needs.size;
+    return Range{&block, block.memory, *offset, needs.size, block.mapped ? block.mapped + *offset : nullptr};
+  };
+  if (needs.size < kDedicatedBytes) {
+    for (Block& block : blocks_) {
+      if (block.type != type || block.tiled != tiled || (block.mapped != nullptr) != mapped) continue;
+      if (const auto range = range_in(block)) return *range;
+    }
+  }
+  return *range_in(add_block(needs.size < kDedicatedBytes ? kBlockBytes : needs.size, type, mapped, tiled));
+}
+
+void Memory::free(const Range& range) noexcept {
+  if (!range.block) return;
+  const std::lock_guard lock(mutex_);
+  bytes_in_use_ -= range.size;
+  Block& block = *range.block;
+  give(block.holes, range.offset, range.size);
+  const bool empty = block.holes.size() == 1 && block.holes.begin()->second == block.size;
+  if (!empty || block.size == kBlockBytes) return;  // Shared blocks are kept for the next one.
+  vk_.FreeMemory(device_, block.memory, nullptr);
+  blocks_.remove_if([&](const Block& other) { return &other == &block; });
+}
+
+VkDeviceSize Memory::bytes_in_use() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_in_use_;
+}
+
+}  // namespace brume::gpu

@@ -1,0 +1,69 @@
+// Device memory: blocks of 64 MiB that are shared, and an allocation of its own from 16 MiB up.
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "gpu/functions.hpp"
+
+namespace brume::gpu {
+
+enum class MemoryUse {
+  device,    ///< Fastest for the device; the CPU does not see it.
+  upload,    ///< The CPU writes in order, the device reads.
+  readback,  ///< The device writes, the CPU reads.
+};
+
+class Memory {
+ public:
+  static constexpr VkDeviceSize kBlockBytes = 64ull << 20;
+  static constexpr VkDeviceSize kDedicatedBytes = 16ull << 20;
+
+  struct Block;
+  /// A range of memory, owned by whoever holds it until `free`.
+  struct Range {
+    Block* block = nullptr;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkDeviceSize size = 0;
+    std::byte* mapped = nullptr;  ///< For upload and readback: coherent, mapped for good.
+  };
+
+  Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device);
+  ~Memory();
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  /// Throws resource_limit when the device has no memory left. `tiled` keeps images apart from buffers, so
+  /// that bufferImageGranularity never matters.
+  Range allocate(const VkMemoryRequirements& needs, MemoryUse use, bool tiled);
+  void free(const Range& range) noexcept;
+
+  /// Bytes in live ranges.
+  VkDeviceSize bytes_in_use() const;
+
+ private:
+  std::uint32_t find_type(std::uint32_t type_bits, MemoryUse use) const;
+  Block& add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled);
+
+  const Functions& vk_;
+  VkDevice device_;
+  VkPhysicalDeviceMemoryProperties properties_{};
+  mutable std::mutex mutex_;
+  std::list<Block> blocks_;
+  VkDeviceSize bytes_in_use_ = 0;
+};
+
+struct Memory::Block {
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkDeviceSize size = 0;
+  std::uint32_t type = 0;
+  bool tiled = false;
+  std::byte* mapped = nullptr;
+  std::map<VkDeviceSize, VkDeviceSize> holes;  // offset -> size, never two that touch
+};
+
+}  // namespace brume::gpu

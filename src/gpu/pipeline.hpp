@@ -1,0 +1,79 @@
+// Compute and graphics pipelines. A pipeline has one descriptor set, whose bindings are numbered as listed.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <vector>
+
+#include "gpu/context.hpp"
+#include "gpu/shader_code.hpp"
+
+namespace brume::gpu {
+
+// What a binding can be, by the names of GLSL.
+constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+constexpr VkDescriptorType kUniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+constexpr VkDescriptorType kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+
+/// What compute and graphics pipelines share.
+class Pipeline {
+ public:
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  VkPipeline handle() const { return handle_; }
+  VkPipelineLayout layout() const { return layout_; }
+  VkDescriptorSetLayout set_layout() const { return set_layout_; }
+  VkPipelineBindPoint bind_point() const { return bind_point_; }
+  VkShaderStageFlags stages() const { return stages_; }
+  const std::vector<VkDescriptorType>& bindings() const { return bindings_; }
+  std::uint32_t push_bytes() const { return push_bytes_; }
+
+ protected:
+  Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderStageFlags stages,
+           std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
+  ~Pipeline();
+  Context& context_;
+  VkPipeline handle_ = VK_NULL_HANDLE;
+
+ private:
+  VkPipelineBindPoint bind_point_;
+  VkShaderStageFlags stages_;
+  std::vector<VkDescriptorType> bindings_;
+  std::uint32_t push_bytes_;
+  VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+};
+
+class ComputePipeline : public Pipeline {
+ public:
+  /// `group` is the workgroup size that the shader declares; `constants` are its specialization constants
+  /// 0, 1...
+  ComputePipeline(Context& context, const ShaderCode& shader,
+                  std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes,
+                  std::array<std::uint32_t, 3> group, const std::vector<std::uint32_t>& constants = {});
+  const std::array<std::uint32_t, 3>& group() const { return group_; }
+
+ private:
+  std::array<std::uint32_t, 3> group_;
+};
+
+struct GraphicsInfo {
+  const ShaderCode* vertex = nullptr;
+  const ShaderCode* fragment = nullptr;  ///< null: depth only.
+  std::vector<VkFormat> colours;
+  VkFormat depth = VK_FORMAT_D32_SFLOAT;
+  float depth_bias_slope = 0;  ///< Pushes surfaces away from the eye (reverse depth) by the slope.
+  float depth_bias_constant = 0;
+};
+
+/// Triangles, reverse depth (greater is nearer), cull mode set while recording; vertices are pulled from
+/// buffers.
+class GraphicsPipeline : public Pipeline {
+ public:
+  GraphicsPipeline(Context& context, const GraphicsInfo& info,
+                   std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
+};
+
+}  // namespace brume::gpu

@@ -1,0 +1,395 @@
+#include "gpu/recorder.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace brume::gpu {
+namespace {
+
+constexpr VkDeviceSize kStagingBytes = 8ull << 20;
+constexpr std::uint32_t kSetsPerFrame = 4096;
+constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
+                                   VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                   VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+
+struct Dependency {
+  bool needed = false;
+  VkPipelineStageFlags2 src_stages = 0;
+  VkAccessFlags2 src_access = 0;
+};
+
+/// Notes a use in the record and tells what it has to wait for.
+Dependency advance(LastUse& last, VkPipelineStageFlags2 stages, VkAccessFlags2 access, bool new_layout) {
+  if (!(access & kWrites) && !new_layout) {
+    const bool seen = (last.visible_stages & stages) == stages && (last.visible_access & access) == access;
+    const Dependency after_write{!seen && last.write_stages != 0, last.write_stages, last.write_access};
+    last.read_stages |= stages;
+    last.visible_stages |= stages;
+    last.visible_access |= access;
+    return after_write;
+  }
+  const Dependency after_all{new_layout || last.write_stages != 0 || last.read_stages != 0,
+                             last.write_stages | last.read_stages, last.write_access};
+  last.write_stages = stages;
+  last.write_access = access & kWrites;
+  const bool reads_only = last.write_access == 0;
+  last.read_stages = reads_only ? stages : 0;
+  last.visible_stages = reads_only ? stages : 0;
+  last.visible_access = reads_only ? access : 0;
+  return after_all;
+}
+
+}  // namespace
+
+FrameSlot::FrameSlot(Context& context) : context_(context), timings_(context) {
+  const VkDescriptorPoolSize sizes[] = {{kBuffer, 4 * kSetsPerFrame},
+                                        {kUniform, kSetsPerFrame},
+                                        {kSampled, 4 * kSetsPerFrame},
+                                        {kStored, kSetsPerFrame}};
+  VkDescriptorPoolCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  info.maxSets = kSetsPerFrame;
+  info.poolSizeCount = 4;
+  info.pPoolSizes = sizes;
+  check(context.vk().CreateDescriptorPool(context.device(), &info, nullptr, &descriptors_),
+        "vkCreateDescriptorPool");
+}
+
+FrameSlot::~FrameSlot() {
+  context_.vk().DestroyDescriptorPool(context_.device(), descriptors_, nullptr);
+}
+
+Recorder::Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands)
+    : context_(context), slot_(slot), commands_(commands) {
+  check(context.vk().ResetDescriptorPool(context.device(), slot.descriptors_, 0), "vkResetDescriptorPool");
+  slot.staging_index_ = 0;
+  slot.staging_used_ = 0;
+  slot.timings_.reset(commands);
+}
+
+void Recorder::use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
+  const Dependency wait = advance(buffer.last_use, stages, access, false);
+  if (!wait.needed) return;
+  buffer_barriers_.push_back({VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, nullptr, wait.src_stages,
+                              wait.src_access, stages, access, VK_QUEUE_FAMILY_IGNORED,
+                              VK_QUEUE_FAMILY_IGNORED, buffer.handle(), 0, VK_WHOLE_SIZE});
+}
+
+void Recorder::use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access,
+                   VkImageLayout layout) {
+  const VkImageLayout old_layout = image.last_use.layout;
+  const Dependency wait = advance(image.last_use, stages, access, old_layout != layout);
+  image.last_use.layout = layout;
+  if (!wait.needed) return;
+  image_barriers_.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                             nullptr,
+                             wait.src_stages,
+                             wait.src_access,
+                             stages,
+                             access,
+                             old_layout,
+                             layout,
+                             VK_QUEUE_FAMILY_IGNORED,
+                             VK_QUEUE_FAMILY_IGNORED,
+                             image.handle(),
+                             {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}});
+}
+
+void Recorder::use(const Binding& binding, VkPipelineStageFlags2 stages) {
+  VkAccessFlags2 access = 0;
+  if (binding.type == kUniform) access = VK_ACCESS_2_UNIFORM_READ_BIT;
+  if (binding.type == kSampled) access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+  if (binding.type == kBuffer || binding.type == kStored) {
+    if (binding.reads) access |= VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+    if (binding.writes) access |= VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  }
+  if (binding.buffer) use(*binding.buffer, stages, access);
+  if (binding.image) {
+    use(*binding.image, stages, access,
+        binding.type == kStored ? VK_IMAGE_LAYOUT_GENERAL : binding.image->sampled_layout());
+  }
+}
+
+void Recorder::flush_barriers() {
+  if (buffer_barriers_.empty() && image_barriers_.empty()) return;
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.bufferMemoryBarrierCount = static_cast<std::uint32_t>(buffer_barriers_.size());
+  info.pBufferMemoryBarriers = buffer_barriers_.data();
+  info.imageMemoryBarrierCount = static_cast<std::uint32_t>(image_barriers_.size());
+  info.pImageMemoryBarriers = image_barriers_.data();
+  context_.vk().CmdPipelineBarrier2(commands_, &info);
+  buffer_barriers_.clear();
+  image_barriers_.clear();
+}
+
+VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::initializer_list<Binding> bindings) {
+  BRUME_ASSERT(bindings.size() == pipeline.bindings().size(), std::to_string(bindings.size()));
+  VkDescriptorSetAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  info.descriptorPool = slot_.descriptors_;
+  info.descriptorSetCount = 1;
+  const VkDescriptorSetLayout layout = pipeline.set_layout();
+  info.pSetLayouts = &layout;
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  check(context_.vk().AllocateDescriptorSets(context_.device(), &info, &set), "vkAllocateDescriptorSets");
+
+  std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
+  std::vector<VkDescriptorImageInfo> images(bindings.size());
+  std::vector<VkWriteDescriptorSet> writes;
+  std::uint32_t i = 0;
+  for (const Binding& binding : bindings) {
+    BRUME_ASSERT(binding.type == pipeline.bindings()[i],
+                 "binding " + std::to_string(i) + " is of another type");
+    VkWriteDescriptorSet write{};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set;
+    write.dstBinding = i;
+    write.descriptorCount = 1;
+    write.descriptorType = binding.type;
+    if (binding.buffer) {
+      buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
+      write.pBufferInfo = &buffers[i];
+    } else {
+      images[i] = {binding.sampler ? binding.sampler->handle() : VK_NULL_HANDLE, binding.image->view(),
+                   binding.type == kStored ? VK_IMAGE_LAYOUT_GENERAL : binding.image->sampled_layout()};
+      write.pImageInfo = &images[i];
+    }
+    writes.push_back(write);
+    ++i;
+  }
+  context_.vk().UpdateDescriptorSets(context_.device(), i, writes.data(), 0, nullptr);
+  return set;
+}
+
+void Recorder::bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings,
+                    std::span<const std::byte> bytes) {
+  for (const Binding& binding : bindings) use(binding, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  flush_barriers();
+  bind_for_draws(pipeline, bindings);
+  if (!bytes.empty()) push(pipeline, bytes);
+}
+
+void Recorder::bind_for_draws(const Pipeline& pipeline, std::initializer_list<Binding> bindings) {
+  const VkDescriptorSet set = write_set(pipeline, bindings);
+  context_.vk().CmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
+  context_.vk().CmdBindDescriptorSets(commands_, pipeline.bind_point(), pipeline.layout(), 0, 1, &set, 0,
+                                      nullptr);
+}
+
+void Recorder::prepare_for_draws(std::initializer_list<Binding> bindings) {
+  for (const Binding& binding : bindings) {
+    use(binding, VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT);
+  }
+}
+
+void Recorder::prepare_indices(const Buffer& indices) {
+  use(indices, VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT);
+}
+
+void Recorder::push(const Pipeline& pipeline, std::span<const std::byte> bytes) {
+  BRUME_ASSERT(bytes.size() == pipeline.push_bytes(), std::to_string(bytes.size()));
+  context_.vk().CmdPushConstants(commands_, pipeline.layout(), pipeline.stages(), 0,
+                                 static_cast<std::uint32_t>(bytes.size()), bytes.data());
+}
+
+void Recorder::dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y,
+                                std::uint32_t z) {
+  const auto& group = pipeline.group();
+  context_.vk().CmdDispatch(commands_, (x + group[0] - 1) / group[0], (y + group[1] - 1) / group[1],
+                            (z + group[2] - 1) / group[2]);
+}
+
+Recorder::Staged Recorder::stage(std::span<const std::byte> bytes) {
+  // Offsets of image copies must be multiples of the texel size; 16 covers every format that is used.
+  constexpr VkDeviceSize kAlignment = 16;
+  auto& buffers = slot_.staging_;
+  while (slot_.staging_index_ < buffers.size() &&
+         slot_.staging_used_ + bytes.size() > buffers[slot_.staging_index_].size()) {
+    ++slot_.staging_index_;
+    slot_.staging_used_ = 0;
+  }
+  if (slot_.staging_index_ == buffers.size()) {
+    buffers.emplace_back(context_, std::max<VkDeviceSize>(kStagingBytes, bytes.size()),
+                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
+    slot_.staging_used_ = 0;
+  }
+  const Staged staged{&buffers[slot_.staging_index_], slot_.staging_used_};
+  std::memcpy(staged.buffer->mapped() + staged.offset, bytes.data(), bytes.size());
+  slot_.staging_used_ += (bytes.size() + kAlignment - 1) / kAlignment * kAlignment;
+  return staged;
+}
+
+void Recorder::upload(const Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes) {
+  if (bytes.empty()) return;
+  BRUME_ASSERT(offset + bytes.size() <= buffer.size(), std::to_string(offset + bytes.size()));
+  const Staged staged = stage(bytes);
+  use(buffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  flush_barriers();
+  const VkBufferCopy copy{staged.offset, offset, bytes.size()};
+  context_.vk().CmdCopyBuffer(commands_, staged.buffer->handle(), buffer.handle(), 1, &copy);
+}
+
+void Recorder::upload(const Image& image, std::span<const Region> regions) {
+  if (regions.empty()) return;
+  use(image, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  flush_barriers();
+  for (const Region& region : regions) {
+    const Staged staged = stage(region.texels);
+    VkBufferImageCopy copy{};
+    copy.bufferOffset = staged.offset;
+    copy.imageSubresource = {image.aspect(), 0, 0, 1};
+    copy.imageOffset = {region.offset.x, region.offset.y, region.offset.z};
+    copy.imageExtent = {region.size.x, region.size.y, region.size.z};
+    context_.vk().CmdCopyBufferToImage(commands_, staged.buffer->handle(), image.handle(),
+                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+  }
+}
+
+void Recorder::fill(const Buffer& buffer, std::uint32_t value) {
+  use(buffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  flush_barriers();
+  context_.vk().CmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, value);
+}
+
+void Recorder::clear(const Image& image, VkClearColorValue value) {
+  use(image, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL);
+  flush_barriers();
+  const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
+                                    VK_REMAINING_ARRAY_LAYERS};
+  context_.vk().CmdClearColorImage(commands_, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1, &all);
+}
+
+void Recorder::read_back(const Image& image, const Buffer& buffer) {
+  const bool general = image.sampled_layout() == VK_IMAGE_LAYOUT_GENERAL;
+  const VkImageLayout layout = general ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+  use(image, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, layout);
+  use(buffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  flush_barriers();
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {image.aspect(), 0, 0, 1};
+  copy.imageExtent = {image.info().size.x, image.info().size.y, image.info().size.z};
+  context_.vk().CmdCopyImageToBuffer(commands_, image.handle(), layout, buffer.handle(), 1, &copy);
+  use(buffer, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+  flush_barriers();
+}
+
+void Recorder::read_back(const Buffer& from, const Buffer& to, VkDeviceSize bytes) {
+  use(from, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+  use(to, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  flush_barriers();
+  const VkBufferCopy copy{0, 0, bytes};
+  context_.vk().CmdCopyBuffer(commands_, from.handle(), to.handle(), 1, &copy);
+  use(to, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+  flush_barriers();
+}
+
+void Recorder::make_mip_levels(const Image& image) {
+  use(image, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
+      VK_IMAGE_LAYOUT_GENERAL);
+  flush_barriers();
+  auto half = [](std::uint32_t size, std::uint32_t level) {
+    return static_cast<std::int32_t>(std::max(1u, size >> level));
+  };
+  const glm::uvec3 size = image.info().size;
+  for (std::uint32_t level = 1; level < image.info().mip_levels; ++level) {
+    VkImageBlit blit{};
+    blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1};
+    blit.srcOffsets[1] = {half(size.x, level - 1), half(size.y, level - 1), 1};
+    blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
+    blit.dstOffsets[1] = {half(size.x, level), half(size.y, level), 1};
+    context_.vk().CmdBlitImage(commands_, image.handle(), VK_IMAGE_LAYOUT_GENERAL, image.handle(),
+                               VK_IMAGE_LAYOUT_GENERAL, 1, &blit, VK_FILTER_LINEAR);
+    use(image, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
+        VK_IMAGE_LAYOUT_GENERAL);
+    flush_barriers();
+  }
+}
+
+void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_px) {
+  const auto attachment = [](VkImageView view, VkImageLayout layout) {
+    VkRenderingAttachmentInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+    info.imageView = view;
+    info.imageLayout = layout;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    return info;
+  };
+  std::vector<VkRenderingAttachmentInfo> colours;
+  for (const Image* image : attachments.colours) {
+    use(*image, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+        VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    colours.push_back(attachment(image->view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
+  }
+  use(*attachments.depth,
+      VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+      VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+  flush_barriers();
+  const VkImageView depth_view = attachments.depth_view ? attachments.depth_view : attachments.depth->view();
+  const auto depth = attachment(depth_view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+
+  VkRenderingInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  info.renderArea.extent = {size_px.x, size_px.y};
+  info.layerCount = 1;
+  info.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
+  info.pColorAttachments = colours.data();
+  info.pDepthAttachment = &depth;
+  const Functions& vk = context_.vk();
+  vk.CmdBeginRendering(commands_, &info);
+  const VkViewport viewport{0, 0, static_cast<float>(size_px.x), static_cast<float>(size_px.y), 0, 1};
+  vk.CmdSetViewport(commands_, 0, 1, &viewport);
+  vk.CmdSetScissor(commands_, 0, 1, &info.renderArea);
+  set_culling(false);
+}
+
+void Recorder::end_rendering() {
+  context_.vk().CmdEndRendering(commands_);
+}
+
+void Recorder::draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,
+                            std::int32_t first_vertex) {
+  context_.vk().CmdBindIndexBuffer(commands_, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+  context_.vk().CmdDrawIndexed(commands_, count, 1, first, first_vertex, 0);
+}
+
+void Recorder::set_culling(bool back_faces) {
+  context_.vk().CmdSetCullMode(commands_, back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+}
+
+CommandRunner::CommandRunner(Context& context) : context_(context), slot_(context) {
+  VkCommandPoolCreateInfo pool{};
+  pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  pool.queueFamilyIndex = context.queue_family();
+  check(context.vk().CreateCommandPool(context.device(), &pool, nullptr, &pool_), "vkCreateCommandPool");
+  VkCommandBufferAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  info.commandPool = pool_;
+  info.commandBufferCount = 1;
+  const VkResult result = context.vk().AllocateCommandBuffers(context.device(), &info, &commands_);
+  if (result != VK_SUCCESS) context.vk().DestroyCommandPool(context.device(), pool_, nullptr);
+  check(result, "vkAllocateCommandBuffers");
+}
+
+CommandRunner::~CommandRunner() {
+  context_.vk().DestroyCommandPool(context_.device(), pool_, nullptr);
+}
+
+void CommandRunner::run(const std::function<void(Recorder&)>& record) {
+  const Functions& vk = context_.vk();
+  check(vk.ResetCommandPool(context_.device(), pool_, 0), "vkResetCommandPool");
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
+                                       VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+  check(vk.BeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+  Recorder recorder(context_, slot_, commands_);
+  record(recorder);
+  check(vk.EndCommandBuffer(commands_), "vkEndCommandBuffer");
+  context_.submit_and_wait(commands_);
+}
+
+}  // namespace brume::gpu

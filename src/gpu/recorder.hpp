@@ -1,0 +1,172 @@
+// Records work into a command buffer, and the barriers between.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gpu/pipeline.hpp"
+#include "gpu/resources.hpp"
+#include "gpu/timings.hpp"
+
+namespace brume::gpu {
+
+/// A resource bound to a pass, and what the pass does with it.
+struct Binding {
+  VkDescriptorType type = kBuffer;
+  const Buffer* buffer = nullptr;
+  const Image* image = nullptr;
+  const Sampler* sampler = nullptr;
+  bool reads = false, writes = false;
+};
+inline Binding read(const Buffer& buffer) {
+  return {kBuffer, &buffer, nullptr, nullptr, true, false};
+}
+inline Binding write(const Buffer& buffer) {
+  return {kBuffer, &buffer, nullptr, nullptr, false, true};
+}
+inline Binding read_write(const Buffer& buffer) {
+  return {kBuffer, &buffer, nullptr, nullptr, true, true};
+}
+inline Binding uniform(const Buffer& buffer) {
+  return {kUniform, &buffer, nullptr, nullptr, true, false};
+}
+inline Binding sampled(const Image& image, const Sampler& sampler) {
+  return {kSampled, nullptr, &image, &sampler, true, false};
+}
+inline Binding stored(const Image& image) {
+  return {kStored, nullptr, &image, nullptr, false, true};
+}
+inline Binding read_stored(const Image& image) {
+  return {kStored, nullptr, &image, nullptr, true, false};
+}
+
+/// What one frame in flight needs besides its command buffer: descriptors, staging memory, timestamps.
+/// Reused when the device is done with the frame.
+class FrameSlot {
+ public:
+  explicit FrameSlot(Context& context);
+  ~FrameSlot();
+  FrameSlot(const FrameSlot&) = delete;
+  FrameSlot& operator=(const FrameSlot&) = delete;
+  const Timings& timings() const { return timings_; }
+
+ private:
+  friend class Recorder;
+  Context& context_;
+  VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
+  std::vector<Buffer> staging_;  // Each is filled front to back; a new one is added when all are full.
+  std::size_t staging_index_ = 0;
+  VkDeviceSize staging_used_ = 0;
+  Timings timings_;
+};
+
+class Recorder {
+ public:
+  /// `commands` is in the recording state, and stays so. `slot` must not be in use by the device.
+  Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands);
+
+  /// Binds resources (in the order of the pipeline's bindings) and push constants, with the barriers they
+  /// need.
+  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings,
+            std::span<const std::byte> push = {});
+  template <typename Push>
+  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings, const Push& push) {
+    bind(pipeline, bindings, std::as_bytes(std::span(&push, 1)));
+  }
+  /// Runs the bound compute pipeline over at least this many threads.
+  void dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y = 1,
+                        std::uint32_t z = 1);
+  void push(const Pipeline& pipeline, std::span<const std::byte> bytes);
+
+  /// Copies bytes through staging memory.
+  void upload(const Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
+  struct Region {
+    std::span<const std::byte> texels;
+    glm::ivec3 offset{0};
+    glm::uvec3 size{1};
+  };
+  void upload(const Image& image, std::span<const Region> regions);
+  void fill(const Buffer& buffer, std::uint32_t value);
+  void clear(const Image& image, VkClearColorValue value);
+  /// Copies the first level and layer of an image into a buffer, tightly packed, ready for the CPU.
+  void read_back(const Image& image, const Buffer& buffer);
+  void read_back(const Buffer& from, const Buffer& to, VkDeviceSize bytes);
+  /// Fills the mip levels of a 2D image from its first.
+  void make_mip_levels(const Image& image);
+
+  struct Attachments {
+    std::vector<const Image*> colours;
+    const Image* depth = nullptr;
+    VkImageView depth_view = VK_NULL_HANDLE;  ///< Of one layer; null: the image's own view.
+  };
+  /// Attachments are cleared to 0 (reverse depth: infinitely far).
+  void begin_rendering(const Attachments& attachments, glm::uvec2 size_px);
+  void end_rendering();
+  void draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,
+                    std::int32_t first_vertex);
+  void set_culling(bool back_faces);
+  /// Barriers for a resource that draws read, before begin_rendering.
+  void prepare_for_draws(std::initializer_list<Binding> bindings);
+  void prepare_indices(const Buffer& indices);
+  /// Binds inside a rendering, where no barrier can be: resources were prepared before.
+  void bind_for_draws(const Pipeline& pipeline, std::initializer_list<Binding> bindings);
+
+  void begin_scope(const char* name) { slot_.timings_.begin(commands_, name); }
+  void end_scope() { slot_.timings_.end(commands_); }
+
+  VkCommandBuffer commands() const { return commands_; }
+
+ private:
+  struct Staged {
+    const Buffer* buffer;
+    VkDeviceSize offset;
+  };
+  Staged stage(std::span<const std::byte> bytes);
+  VkDescriptorSet write_set(const Pipeline& pipeline, std::initializer_list<Binding> bindings);
+  void use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
+  void use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkImageLayout layout);
+  void use(const Binding& binding, VkPipelineStageFlags2 stages);
+  void flush_barriers();
+
+  Context& context_;
+  FrameSlot& slot_;
+  VkCommandBuffer commands_;
+  std::vector<VkBufferMemoryBarrier2> buffer_barriers_;
+  std::vector<VkImageMemoryBarrier2> image_barriers_;
+};
+
+/// Measures the GPU time of what is recorded while it lives.
+class Scope {
+ public:
+  Scope(Recorder& recorder, const char* name) : recorder_(recorder) { recorder.begin_scope(name); }
+  ~Scope() { recorder_.end_scope(); }
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+
+ private:
+  Recorder& recorder_;
+};
+
+/// A command buffer of our own, for programs that own the device.
+class CommandRunner {
+ public:
+  explicit CommandRunner(Context& context);
+  ~CommandRunner();
+  CommandRunner(const CommandRunner&) = delete;
+  CommandRunner& operator=(const CommandRunner&) = delete;
+
+  /// Records, submits and waits. Throws what `record` throws, or no_device when the device is lost.
+  void run(const std::function<void(Recorder&)>& record);
+  std::vector<Timings::Scope> timings() const { return slot_.timings().read(); }
+
+ private:
+  Context& context_;
+  FrameSlot slot_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+};
+
+}  // namespace brume::gpu

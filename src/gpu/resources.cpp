@@ -1,0 +1,147 @@
+#include "gpu/resources.hpp"
+
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace brume::gpu {
+
+Buffer::Buffer(Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, MemoryUse use)
+    : context_(&context), size_(bytes) {
+  BRUME_ASSERT(bytes > 0, "a buffer of no bytes");
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = bytes;
+  info.usage = usage;
+  const Functions& vk = context.vk();
+  check(vk.CreateBuffer(context.device(), &info, nullptr, &handle_), "vkCreateBuffer");
+  try {
+    VkMemoryRequirements needs{};
+    vk.GetBufferMemoryRequirements(context.device(), handle_, &needs);
+    range_ = context.memory().allocate(needs, use, false);
+    check(vk.BindBufferMemory(context.device(), handle_, range_.memory, range_.offset), "vkBindBufferMemory");
+  } catch (...) {
+    context.memory().free(range_);
+    vk.DestroyBuffer(context.device(), handle_, nullptr);
+    throw;
+  }
+}
+
+Buffer::Buffer(Buffer&& other) noexcept {
+  *this = std::move(other);
+}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(context_, other.context_);
+  std::swap(handle_, other.handle_);
+  std::swap(size_, other.size_);
+  std::swap(range_, other.range_);
+  std::swap(last_use, other.last_use);
+  return *this;
+}
+
+Buffer::~Buffer() {
+  if (!handle_) return;
+  context_->vk().DestroyBuffer(context_->device(), handle_, nullptr);
+  context_->memory().free(range_);
+}
+
+namespace {
+
+VkImageViewCreateInfo view_info(const Image& image, VkImageViewType type, std::uint32_t layer,
+                                std::uint32_t layers) {
+  VkImageViewCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+  info.image = image.handle();
+  info.viewType = type;
+  info.format = image.info().format;
+  info.subresourceRange = {image.aspect(), 0, image.info().mip_levels, layer, layers};
+  return info;
+}
+
+}  // namespace
+
+Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), info_(wanted) {
+  VkImageCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+  info.imageType = wanted.three_dimensional ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
+  info.format = wanted.format;
+  info.extent = {wanted.size.x, wanted.size.y, wanted.size.z};
+  info.mipLevels = wanted.mip_levels;
+  info.arrayLayers = wanted.layers;
+  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.usage = wanted.usage;
+  const Functions& vk = context.vk();
+  check(vk.CreateImage(context.device(), &info, nullptr, &handle_), "vkCreateImage");
+  try {
+    VkMemoryRequirements needs{};
+    vk.GetImageMemoryRequirements(context.device(), handle_, &needs);
+    range_ = context.memory().allocate(needs, MemoryUse::device, true);
+    check(vk.BindImageMemory(context.device(), handle_, range_.memory, range_.offset), "vkBindImageMemory");
+    const VkImageViewType type = wanted.three_dimensional ? VK_IMAGE_VIEW_TYPE_3D
+                                 : wanted.layers > 1      ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                                          : VK_IMAGE_VIEW_TYPE_2D;
+    const auto view = view_info(*this, type, 0, wanted.layers);
+    check(vk.CreateImageView(context.device(), &view, nullptr, &view_), "vkCreateImageView");
+  } catch (...) {
+    context.memory().free(range_);
+    vk.DestroyImage(context.device(), handle_, nullptr);
+    throw;
+  }
+}
+
+Image::Image(Image&& other) noexcept {
+  *this = std::move(other);
+}
+
+Image& Image::operator=(Image&& other) noexcept {
+  std::swap(context_, other.context_);
+  std::swap(handle_, other.handle_);
+  std::swap(view_, other.view_);
+  std::swap(info_, other.info_);
+  std::swap(range_, other.range_);
+  std::swap(last_use, other.last_use);
+  return *this;
+}
+
+Image::~Image() {
+  if (!handle_) return;
+  context_->vk().DestroyImageView(context_->device(), view_, nullptr);
+  context_->vk().DestroyImage(context_->device(), handle_, nullptr);
+  context_->memory().free(range_);
+}
+
+VkImageAspectFlags Image::aspect() const {
+  const bool depth = info_.format == VK_FORMAT_D32_SFLOAT || info_.format == VK_FORMAT_D16_UNORM;
+  return depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+LayerView::LayerView(Context& context, const Image& image, std::uint32_t layer) : context_(&context) {
+  const auto info = view_info(image, VK_IMAGE_VIEW_TYPE_2D, layer, 1);
+  check(context.vk().CreateImageView(context.device(), &info, nullptr, &handle_), "vkCreateImageView");
+}
+
+LayerView::LayerView(LayerView&& other) noexcept
+    : context_(other.context_), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
+
+LayerView::~LayerView() {
+  if (handle_) context_->vk().DestroyImageView(context_->device(), handle_, nullptr);
+}
+
+Sampler::Sampler(Context& context, const SamplerInfo& wanted) : context_(context) {
+  VkSamplerCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+  info.magFilter = info.minFilter = wanted.filter;
+  info.mipmapMode = wanted.mipmaps ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+  info.addressModeU = info.addressModeV = info.addressModeW = wanted.address;
+  info.maxLod = wanted.mipmaps ? VK_LOD_CLAMP_NONE : 0.0f;
+  info.compareEnable = wanted.compare ? VK_TRUE : VK_FALSE;
+  info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
+  check(context.vk().CreateSampler(context.device(), &info, nullptr, &handle_), "vkCreateSampler");
+}
+
+Sampler::~Sampler() {
+  context_.vk().DestroySampler(context_.device(), handle_, nullptr);
+}
+
+}  // namespace brume::gpu

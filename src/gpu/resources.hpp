@@ -1,0 +1,117 @@
+// Buffers, images and samplers, and for each the record of its last use from which barriers follow.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "gpu/context.hpp"
+
+namespace brume::gpu {
+
+/// What touched a resource last. A resource is used by one recording at a time.
+struct LastUse {
+  VkPipelineStageFlags2 write_stages = 0;  ///< Of the last write or layout change.
+  VkAccessFlags2 write_access = 0;
+  VkPipelineStageFlags2 read_stages = 0;     ///< Since that write.
+  VkPipelineStageFlags2 visible_stages = 0;  ///< Who already sees that write.
+  VkAccessFlags2 visible_access = 0;
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+class Buffer {
+ public:
+  Buffer() = default;
+  /// `bytes` > 0. Throws resource_limit when there is no memory.
+  Buffer(Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, MemoryUse use = MemoryUse::device);
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+  ~Buffer();
+
+  explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+  VkBuffer handle() const { return handle_; }
+  VkDeviceSize size() const { return size_; }
+  /// For upload and readback memory; else null.
+  std::byte* mapped() const { return range_.mapped; }
+
+  mutable LastUse last_use;
+
+ private:
+  Context* context_ = nullptr;
+  VkBuffer handle_ = VK_NULL_HANDLE;
+  VkDeviceSize size_ = 0;
+  Memory::Range range_;
+};
+
+struct ImageInfo {
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  glm::uvec3 size{1};  ///< Texels; z > 1 makes it three-dimensional.
+  bool three_dimensional = false;
+  std::uint32_t layers = 1;  ///< > 1: a 2D array.
+  std::uint32_t mip_levels = 1;
+  VkImageUsageFlags usage = 0;
+};
+
+class Image {
+ public:
+  Image() = default;
+  /// Throws resource_limit when there is no memory.
+  Image(Context& context, const ImageInfo& info);
+  Image(Image&& other) noexcept;
+  Image& operator=(Image&& other) noexcept;
+  ~Image();
+
+  explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+  VkImage handle() const { return handle_; }
+  VkImageView view() const { return view_; }
+  const ImageInfo& info() const { return info_; }
+  VkImageAspectFlags aspect() const;
+  /// Images that shaders write stay in GENERAL; others are read in SHADER_READ_ONLY.
+  VkImageLayout sampled_layout() const {
+    return info_.usage & VK_IMAGE_USAGE_STORAGE_BIT ? VK_IMAGE_LAYOUT_GENERAL
+                                                    : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  }
+
+  mutable LastUse last_use;
+
+ private:
+  Context* context_ = nullptr;
+  VkImage handle_ = VK_NULL_HANDLE;
+  VkImageView view_ = VK_NULL_HANDLE;
+  ImageInfo info_;
+  Memory::Range range_;
+};
+
+/// A view of one layer of an image, to render into.
+class LayerView {
+ public:
+  LayerView(Context& context, const Image& image, std::uint32_t layer);
+  LayerView(LayerView&& other) noexcept;
+  LayerView& operator=(LayerView&&) = delete;
+  ~LayerView();
+  VkImageView handle() const { return handle_; }
+
+ private:
+  Context* context_ = nullptr;
+  VkImageView handle_ = VK_NULL_HANDLE;
+};
+
+struct SamplerInfo {
+  VkFilter filter = VK_FILTER_LINEAR;
+  VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  bool mipmaps = false;
+  bool compare = false;  ///< A depth comparison, reverse depth: lit where the reference >= the stored depth.
+};
+
+class Sampler {
+ public:
+  Sampler(Context& context, const SamplerInfo& info);
+  ~Sampler();
+  Sampler(const Sampler&) = delete;
+  Sampler& operator=(const Sampler&) = delete;
+  VkSampler handle() const { return handle_; }
+
+ private:
+  Context& context_;
+  VkSampler handle_ = VK_NULL_HANDLE;
+};
+
+}  // namespace brume::gpu

@@ -1,0 +1,116 @@
+#include "passes/blue_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tasks.hpp"
+
+namespace brume::passes {
+namespace {
+
+constexpr std::uint32_t kCount = kBlueNoiseSize * kBlueNoiseSize;
+
+/// The points chosen so far and how crowded each place of the torus is.
+class Pattern {
+ public:
+  Pattern() : falloff_(kCount), energy_(kCount, 0), chosen_(kCount, false) {
+    constexpr float kSigma = 1.5f;  // Ulichney's value
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      const auto wrapped = [](std::uint32_t d) {
+        return static_cast<float>(std::min(d, kBlueNoiseSize - d));
+      };
+      const float dx = wrapped(i % kBlueNoiseSize), dy = wrapped(i / kBlueNoiseSize);
+      falloff_[i] = std::exp(-(dx * dx + dy * dy) / (2 * kSigma * kSigma));
+    }
+  }
+  void set(std::uint32_t point, bool chosen) {
+    chosen_[point] = chosen;
+    const float sign = chosen ? 1.0f : -1.0f;
+    const std::uint32_t px = point % kBlueNoiseSize, py = point / kBlueNoiseSize;
+    for (std::uint32_t y = 0; y < kBlueNoiseSize; ++y) {
+      const std::uint32_t row = (y + kBlueNoiseSize - py) % kBlueNoiseSize * kBlueNoiseSize;
+      for (std::uint32_t x = 0; x < kBlueNoiseSize; ++x) {
+        energy_[y * kBlueNoiseSize + x] += sign * falloff_[row + (x + kBlueNoiseSize - px) % kBlueNoiseSize];
+      }
+    }
+  }
+  std::uint32_t tightest_cluster() const { return extreme(true); }
+  std::uint32_t largest_void() const { return extreme(false); }
+  bool chosen(std::uint32_t point) const { return chosen_[point]; }
+
+ private:
+  /// The chosen point with the most energy, or the free one with the least.
+  std::uint32_t extreme(bool of_chosen) const {
+    std::uint32_t best = kCount;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      if (chosen_[i] != of_chosen) continue;
+      if (best == kCount || (of_chosen ? energy_[i] > energy_[best] : energy_[i] < energy_[best])) best = i;
+    }
+    return best;
+  }
+  std::vector<float> falloff_, energy_;
+  std::vector<bool> chosen_;
+};
+
+/// A random tenth of the points, moved from clusters to voids until nothing moves.
+Pattern initial_pattern(std::uint32_t seed) {
+  Pattern pattern;
+  std::uint64_t state = 0x9e3779b97f4a7c15ull * (seed + 1);
+  for (std::uint32_t placed = 0; placed < kCount / 10;) {
+    state = state * 6364136223846793005ull + 1442695040888963407ull;
+    const auto point = static_cast<std::uint32_t>((state >> 33) % kCount);
+    if (pattern.chosen(point)) continue;
+    pattern.set(point, true);
+    ++placed;
+  }
+  for (std::uint32_t moves = 0; moves < kCount; ++moves) {
+    const std::uint32_t from = pattern.tightest_cluster();
+    pattern.set(from, false);
+    const std::uint32_t to = pattern.largest_void();
+    pattern.set(to, true);
+    if (from == to) break;
+  }
+  return pattern;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> blue_noise_channel(std::uint32_t seed) {
+  const Pattern initial = initial_pattern(seed);
+  std::vector<std::uint32_t> rank(kCount);
+  // Ranks below the initial pattern's size: take its points away, tightest first.
+  Pattern pattern = initial;
+  for (std::uint32_t i = kCount / 10; i-- > 0;) {
+    const std::uint32_t point = pattern.tightest_cluster();
+    pattern.set(point, false);
+    rank[point] = i;
+  }
+  // Ranks above: fill the voids, largest first.
+  pattern = initial;
+  for (std::uint32_t i = kCount / 10; i < kCount; ++i) {
+    const std::uint32_t point = pattern.largest_void();
+    pattern.set(point, true);
+    rank[point] = i;
+  }
+  std::vector<std::uint8_t> values(kCount);
+  for (std::uint32_t i = 0; i < kCount; ++i) values[i] = static_cast<std::uint8_t>(rank[i] * 256 / kCount);
+  return values;
+}
+
+gpu::Image make_blue_noise(gpu::Context& context, gpu::Recorder& recorder) {
+  std::vector<std::byte> rgba(kCount * 4);
+  parallel_for(4, 1, [&](std::size_t begin, std::size_t) {
+    const auto channel = blue_noise_channel(static_cast<std::uint32_t>(begin));
+    for (std::uint32_t i = 0; i < kCount; ++i) rgba[4 * i + begin] = static_cast<std::byte>(channel[i]);
+  });
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R8G8B8A8_UNORM;
+  info.size = {kBlueNoiseSize, kBlueNoiseSize, 1};
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  gpu::Image image(context, info);
+  const gpu::Recorder::Region all{rgba, glm::ivec3(0), info.size};
+  recorder.upload(image, {&all, 1});
+  return image;
+}
+
+}  // namespace brume::passes

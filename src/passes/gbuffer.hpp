@@ -1,0 +1,31 @@
+// Draws the scene into the G-buffer.
+#pragma once
+
+#include <span>
+
+#include "passes/scene_upload.hpp"
+
+namespace brume::passes {
+
+/// What shading needs of the nearest surface of each pixel.
+struct GBuffer {
+  gpu::Image albedo_roughness;  ///< sRGB8 albedo, roughness in alpha.
+  gpu::Image normal_metallic;   ///< Half floats: world normal, metallic.
+  gpu::Image emission;          ///< Half floats: radiance.
+  gpu::Image depth;             ///< Reverse depth, 0: nothing there.
+  GBuffer(gpu::Context& context, glm::uvec2 size_px);
+};
+
+class GBufferPass {
+ public:
+  explicit GBufferPass(gpu::Context& context);
+  /// `moving` are drawn with the scene's own draws. `frame` holds FrameConstants.
+  void record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
+              const gpu::Buffer& frame, const GBuffer& target) const;
+
+ private:
+  gpu::GraphicsPipeline pipeline_;
+  gpu::Sampler sampler_;
+};
+
+}  // namespace brume::passes

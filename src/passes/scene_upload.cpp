@@ -1,0 +1,164 @@
+#include "passes/scene_upload.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "core/error.hpp"
+
+namespace brume::passes {
+namespace {
+
+constexpr std::uint32_t kMaxShadowLayers = 2046;  // maxImageArrayLayers is at least 2048 where it matters
+
+gpu::Image upload_image(gpu::Context& context, gpu::Recorder& recorder, const image::Image8& pixels,
+                        bool srgb) {
+  gpu::ImageInfo info;
+  info.format = srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+  info.size = {pixels.width, pixels.height, 1};
+  info.mip_levels = static_cast<std::uint32_t>(std::bit_width(std::max(pixels.width, pixels.height)));
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  gpu::Image image(context, info);
+  const gpu::Recorder::Region all{std::as_bytes(std::span(pixels.rgba)), glm::ivec3(0), info.size};
+  recorder.upload(image, {&all, 1});
+  recorder.make_mip_levels(image);
+  return image;
+}
+
+image::Image8 single_texel(std::uint8_t r, std::uint8_t g, std::uint8_t b) {
+  return {1, 1, {r, g, b, 255}};
+}
+
+/// Meshes one after the other in shared buffers.
+struct Geometry {
+  std::vector<shared::Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<Draw> ranges;  // a mesh each
+};
+
+Geometry gather_geometry(const scene::Scene& scene) {
+  Geometry geometry;
+  for (const scene::Mesh& mesh : scene.meshes) {
+    Draw range;
+    range.first_index = static_cast<std::uint32_t>(geometry.indices.size());
+    range.index_count = static_cast<std::uint32_t>(mesh.indices.size());
+    range.first_vertex = static_cast<std::int32_t>(geometry.vertices.size());
+    scene::Bounds bounds;
+    for (const scene::Vertex& v : mesh.vertices) {
+      geometry.vertices.push_back({v.position, v.normal, v.tangent, v.uv});
+      bounds.min = glm::min(bounds.min, v.position);
+      bounds.max = glm::max(bounds.max, v.position);
+    }
+    range.centre_world = bounds.empty() ? glm::vec3(0) : 0.5f * (bounds.min + bounds.max);
+    range.radius = bounds.empty() ? 0 : 0.5f * glm::length(bounds.max - bounds.min);
+    geometry.indices.insert(geometry.indices.end(), mesh.indices.begin(), mesh.indices.end());
+    geometry.ranges.push_back(range);
+  }
+  return geometry;
+}
+
+Draw place(const Geometry& geometry, const scene::Object& object) {
+  Draw draw = geometry.ranges[object.mesh];
+  draw.material = object.material;
+  draw.world_from_mesh = object.world_from_mesh;
+  draw.centre_world = glm::vec3(object.world_from_mesh * glm::vec4(draw.centre_world, 1));
+  float scale = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    scale = std::max(scale, glm::length(glm::vec3(object.world_from_mesh[axis])));
+  draw.radius *= scale;
+  return draw;
+}
+
+template <typename T>
+gpu::Buffer upload_list(gpu::Context& context, gpu::Recorder& recorder, const std::vector<T>& list,
+                        VkBufferUsageFlags usage) {
+  gpu::Buffer buffer(context, std::max<std::size_t>(list.size(), 1) * sizeof(T),
+                     usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  recorder.upload(buffer, 0, std::as_bytes(std::span(list)));
+  return buffer;
+}
+
+/// The scene's images and the three stand-ins, sRGB where a material uses them as a colour.
+void upload_images(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
+                   SceneResources& out) {
+  std::vector<bool> is_colour(scene.images.size(), false);
+  for (const scene::Material& material : scene.materials) {
+    if (material.base_color_image != scene::kNone) is_colour[material.base_color_image] = true;
+  }
+  runner.run([&](gpu::Recorder& recorder) {
+    for (const auto& texel :
+         {single_texel(255, 255, 255), single_texel(128, 128, 255), single_texel(255, 255, 255)}) {
+      out.images.push_back(upload_image(context, recorder, texel, false));
+    }
+  });
+  // One submission an image: staging memory stays small.
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    runner.run([&](gpu::Recorder& recorder) {
+      out.images.push_back(upload_image(context, recorder, scene.images[i].pixels, is_colour[i]));
+    });
+  }
+}
+
+MaterialImages device_material(const scene::Material& material) {
+  MaterialImages out;
+  out.constants = {material.base_color, material.roughness, material.emission, material.metallic,
+                   material.alpha_cutoff};
+  constexpr std::uint32_t kStandIns = 3;
+  const auto index = [](std::uint32_t image, std::uint32_t stand_in) {
+    return image == scene::kNone ? stand_in : image + kStandIns;
+  };
+  out.base_color = index(material.base_color_image, 0);
+  out.normal = index(material.normal_image, 1);
+  out.roughness = index(material.roughness_image, 2);
+  return out;
+}
+
+}  // namespace
+
+std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers) {
+  constexpr float kLeastIrradiance = 1.0f / 200;
+  std::vector<shared::Light> out;
+  std::uint32_t layer = 0;
+  bool has_sun = false;
+  for (const scene::Light& light : lights) {
+    const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+    shared::Light l{light.position_world,  std::sqrt(brightest / kLeastIrradiance),
+                    light.intensity,       static_cast<std::uint32_t>(light.kind),
+                    light.direction_world, light.cos_inner,
+                    light.cos_outer,       shared::kNoShadow};
+    const bool directional = light.kind == scene::LightKind::directional;
+    const std::uint32_t layers = directional ? 1 : 6;
+    // One orthographic view: only the first directional light casts shadows.
+    if (layer + layers <= max_layers && !(directional && has_sun)) {
+      l.shadow_layer = layer;
+      layer += layers;
+    }
+    has_sun = has_sun || directional;
+    out.push_back(l);
+  }
+  return out;
+}
+
+SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene) {
+  SceneResources out;
+  const Geometry geometry = gather_geometry(scene);
+  out.light_list =
+      device_lights(scene.lights, std::min(kMaxShadowLayers, context.limits().maxImageArrayLayers));
+  runner.run([&](gpu::Recorder& recorder) {
+    out.vertices = upload_list(context, recorder, geometry.vertices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    out.indices = upload_list(context, recorder, geometry.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    out.lights = upload_list(context, recorder, out.light_list, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  });
+  upload_images(context, runner, scene, out);
+  for (const scene::Material& material : scene.materials) out.materials.push_back(device_material(material));
+  for (const scene::Object& object : scene.objects) out.draws.push_back(place(geometry, object));
+  std::stable_sort(out.draws.begin(), out.draws.end(),
+                   [](const Draw& a, const Draw& b) { return a.material < b.material; });
+  out.grenade = place(geometry, scene.grenade);
+  const scene::Bounds bounds = scene::world_bounds(scene);
+  out.bounds_min = bounds.min;
+  out.bounds_max = bounds.max;
+  return out;
+}
+
+}  // namespace brume::passes

@@ -1,0 +1,45 @@
+// The scene on the device: vertices, textures and lights, uploaded once.
+#pragma once
+
+#include <vector>
+
+#include "gpu/recorder.hpp"
+#include "scene/scene.hpp"
+#include "shared/gbuffer.h"
+#include "shared/light.h"
+
+namespace brume::passes {
+
+/// One draw: a range of the index buffer with a material, and where it lies.
+struct Draw {
+  std::uint32_t first_index = 0, index_count = 0;
+  std::int32_t first_vertex = 0;
+  std::uint32_t material = 0;
+  glm::mat4 world_from_mesh{1};
+  glm::vec3 centre_world{0};  ///< Bounding sphere.
+  float radius = 0;
+};
+
+struct MaterialImages {
+  shared::MaterialConstants constants;
+  std::uint32_t base_color = 0, normal = 0, roughness = 0;  ///< Into SceneResources::images.
+};
+
+struct SceneResources {
+  gpu::Buffer vertices, indices, lights;
+  std::vector<gpu::Image> images;  ///< The first three: white, flat normal, white.
+  std::vector<MaterialImages> materials;
+  std::vector<Draw> draws;  ///< In order of material.
+  Draw grenade;
+  std::vector<shared::Light> light_list;  ///< As in `lights`.
+  glm::vec3 bounds_min{0}, bounds_max{0};
+};
+
+/// Creates and uploads everything. Every index of the scene must be valid. Throws resource_limit.
+SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene);
+
+/// The lights as the shaders read them: ranges chosen so that what is cut is below 1/200 of unit irradiance,
+/// shadow layers given in order, as many as `max_layers` holds.
+std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
+
+}  // namespace brume::passes

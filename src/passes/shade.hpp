@@ -1,0 +1,21 @@
+// Lights the G-buffer.
+#pragma once
+
+#include "passes/gbuffer.hpp"
+#include "passes/shadow.hpp"
+
+namespace brume::passes {
+
+class ShadePass {
+ public:
+  explicit ShadePass(gpu::Context& context);
+  /// Writes radiance (half floats) to `lit`.
+  void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
+              const ShadowMaps& shadows, const GBuffer& gbuffer, const gpu::Image& lit) const;
+
+ private:
+  gpu::ComputePipeline pipeline_;
+  gpu::Sampler nearest_, compare_;
+};
+
+}  // namespace brume::passes

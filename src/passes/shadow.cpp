@@ -1,0 +1,126 @@
+#include "passes/shadow.hpp"
+
+#include <algorithm>
+
+#include "shader_list.hpp"
+
+namespace brume::passes {
+namespace {
+
+constexpr VkFormat kFormat = VK_FORMAT_D32_SFLOAT;
+
+std::uint32_t layer_count(const SceneResources& scene) {
+  std::uint32_t count = 0;
+  for (const shared::Light& light : scene.light_list) {
+    if (light.shadow_layer == shared::kNoShadow) continue;
+    count = std::max(count, light.shadow_layer + (light.kind == shared::kLightDirectional ? 1u : 6u));
+  }
+  return count;
+}
+
+/// A lamp's face: reverse depth with the far plane at infinity.
+glm::mat4 face_clip_from_world(const shared::Light& light, std::uint32_t face) {
+  const glm::vec3 right = shared::cube_right(face), down = -shared::cube_up(face),
+                  forward = shared::cube_forward(face);
+  const glm::vec3 p = light.position_world;
+  glm::mat4 rows(0);
+  rows[0] = glm::vec4(right, -glm::dot(right, p));
+  rows[1] = glm::vec4(down, -glm::dot(down, p));
+  rows[2] = glm::vec4(0, 0, 0, shared::kShadowNear);
+  rows[3] = glm::vec4(forward, -glm::dot(forward, p));
+  return glm::transpose(rows);
+}
+
+/// The whole scene along a direction: depth 1 at the near side, 0 at the far side.
+glm::mat4 sun_view(const SceneResources& scene, glm::vec3 direction) {
+  const glm::vec3 centre = 0.5f * (scene.bounds_min + scene.bounds_max);
+  const float radius = std::max(1.0f, 0.5f * glm::length(scene.bounds_max - scene.bounds_min));
+  const glm::vec3 helper = std::abs(direction.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+  const glm::vec3 right = glm::normalize(glm::cross(direction, helper)), down = glm::cross(direction, right);
+  glm::mat4 rows(0);
+  rows[0] = glm::vec4(right, -glm::dot(right, centre)) / radius;
+  rows[1] = glm::vec4(down, -glm::dot(down, centre)) / radius;
+  rows[2] = glm::vec4(-direction, glm::dot(direction, centre) + radius) / (2 * radius);
+  rows[3] = glm::vec4(0, 0, 0, 1);
+  return glm::transpose(rows);
+}
+
+/// Whether a bounding sphere can be seen by a lamp's face within its reach.
+bool face_sees(const shared::Light& light, std::uint32_t face, const Draw& draw) {
+  const glm::vec3 d = draw.centre_world - light.position_world;
+  if (glm::length(d) > light.range + draw.radius) return false;
+  const float along = glm::dot(d, shared::cube_forward(face));
+  const float aside =
+      std::max(std::abs(glm::dot(d, shared::cube_right(face))), std::abs(glm::dot(d, shared::cube_up(face))));
+  return aside - along <= 1.4143f * draw.radius;  // outside of a 45 degree plane by more than the radius
+}
+
+}  // namespace
+
+std::uint32_t shadow_size(std::uint32_t layers) {
+  return layers <= 64 ? 512 : layers <= 400 ? 256 : 128;
+}
+
+ShadowPass::ShadowPass(gpu::Context& context)
+    : pipeline_(context, {&shaders::shadow_vert, nullptr, {}, kFormat, 2.0f, 0}, {gpu::kBuffer},
+                sizeof(shared::ShadowDraw)) {}
+
+ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& scene) const {
+  ShadowMaps maps;
+  const std::uint32_t layers = layer_count(scene);
+  gpu::ImageInfo info;
+  info.format = kFormat;
+  info.size = {glm::uvec2(layers > 0 ? shadow_size(layers) : 1), 1};
+  info.layers = std::max(layers, 2u);  // an array, whatever the lights
+  info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  maps.layers = gpu::Image(context, info);
+  maps.sun = gpu::Buffer(context, sizeof(shared::ShadowView),
+                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  for (const shared::Light& light : scene.light_list) {
+    if (light.kind != shared::kLightDirectional || light.shadow_layer == shared::kNoShadow) continue;
+    maps.sun_clip_from_world = sun_view(scene, light.direction);
+  }
+  return maps;
+}
+
+void ShadowPass::record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+                        const ShadowMaps& maps) const {
+  runner.run([&](gpu::Recorder& recorder) {
+    const shared::ShadowView sun{maps.sun_clip_from_world};
+    recorder.upload(maps.sun, 0, std::as_bytes(std::span(&sun, 1)));
+  });
+  for (const shared::Light& light : scene.light_list) {
+    if (light.shadow_layer == shared::kNoShadow) continue;
+    if (light.kind == shared::kLightDirectional) {
+      record_layer(context, runner, scene, maps, light.shadow_layer, maps.sun_clip_from_world,
+                   [](const Draw&) { return true; });
+      continue;
+    }
+    for (std::uint32_t face = 0; face < 6; ++face) {
+      record_layer(context, runner, scene, maps, light.shadow_layer + face, face_clip_from_world(light, face),
+                   [&](const Draw& draw) { return face_sees(light, face, draw); });
+    }
+  }
+}
+
+void ShadowPass::record_layer(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+                              const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
+                              const std::function<bool(const Draw&)>& sees) const {
+  // One submission a layer: its view lives until the device is done with it.
+  const gpu::LayerView view(context, maps.layers, layer);
+  runner.run([&](gpu::Recorder& recorder) {
+    recorder.prepare_for_draws({gpu::read(scene.vertices)});
+    recorder.prepare_indices(scene.indices);
+    recorder.begin_rendering({{}, &maps.layers, view.handle()}, glm::uvec2(maps.layers.info().size));
+    recorder.bind_for_draws(pipeline_, {gpu::read(scene.vertices)});
+    for (const Draw& draw : scene.draws) {
+      if (!sees(draw)) continue;
+      const shared::ShadowDraw constants{clip_from_world * draw.world_from_mesh};
+      recorder.push(pipeline_, std::as_bytes(std::span(&constants, 1)));
+      recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
+    }
+    recorder.end_rendering();
+  });
+}
+
+}  // namespace brume::passes

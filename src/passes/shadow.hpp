@@ -1,0 +1,34 @@
+// Depth of the scene as each light sees it: six faces around a lamp, one view along a sun.
+#pragma once
+
+#include <functional>
+
+#include "passes/scene_upload.hpp"
+
+namespace brume::passes {
+
+struct ShadowMaps {
+  gpu::Image layers;  ///< A 2D array, reverse depth.
+  gpu::Buffer sun;    ///< One ShadowView.
+  glm::mat4 sun_clip_from_world{1};
+};
+
+/// Edge of a shadow layer in texels: as fine as the lights leave memory for.
+std::uint32_t shadow_size(std::uint32_t layer_count);
+
+class ShadowPass {
+ public:
+  explicit ShadowPass(gpu::Context& context);
+  ShadowMaps make_maps(gpu::Context& context, const SceneResources& scene) const;
+  /// Draws every layer. The scene does not move: once is enough.
+  void record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+              const ShadowMaps& maps) const;
+
+ private:
+  void record_layer(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+                    const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
+                    const std::function<bool(const Draw&)>& sees) const;
+  gpu::GraphicsPipeline pipeline_;
+};
+
+}  // namespace brume::passes

@@ -1,0 +1,40 @@
+// The smoke on the device: bricks, cells and corner sets, uploaded where they changed.
+#pragma once
+
+#include "gpu/recorder.hpp"
+#include "sim/smoke_volume.hpp"
+
+namespace brume::passes {
+
+/// What every pass that reads density binds.
+struct SmokeResources {
+  gpu::Buffer pages, cells, boundary, corners;
+  gpu::Buffer slot_bricks;  ///< Per slot its brick, in bricks of the grid.
+  gpu::Image density;       ///< RG8 atlas.
+  gpu::Image inscatter;     ///< Half-float RGBA atlas of the same layout.
+  std::uint32_t slot_count = 0;
+};
+
+class SmokeUpload {
+ public:
+  /// The resources are those of a world without smoke until the first record.
+  explicit SmokeUpload(gpu::Context& context);
+
+  /// Makes room for what the volume holds. Not between the begin and the end of a recording, and only when
+  /// the device is done with what it recorded before. Throws resource_limit.
+  void reserve(const sim::SmokeVolume& volume);
+  /// Uploads what changed since the last record; true when anything did. The volume must be as `reserve` saw
+  /// it.
+  bool record(gpu::Recorder& recorder, const sim::SmokeVolume& volume);
+
+  const SmokeResources& resources() const { return resources_; }
+
+ private:
+  void record_structure(gpu::Recorder& recorder, const sim::SmokeVolume& volume);
+
+  gpu::Context& context_;
+  SmokeResources resources_;
+  std::uint64_t uploaded_generation_ = 0;
+};
+
+}  // namespace brume::passes

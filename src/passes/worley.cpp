@@ -1,0 +1,26 @@
+#include "passes/worley.hpp"
+
+#include "shader_list.hpp"
+
+namespace brume::passes {
+
+WorleyPass::WorleyPass(gpu::Context& context)
+    : pipeline_(context, shaders::worley_comp, {gpu::kStored}, sizeof(shared::WorleyParams),
+                {shared::kWorleyGroup, shared::kWorleyGroup, shared::kWorleyGroup}) {}
+
+void WorleyPass::record(gpu::Recorder& recorder, const gpu::Image& tile,
+                        const shared::WorleyParams& params) const {
+  recorder.bind(pipeline_, {gpu::stored(tile)}, params);
+  recorder.dispatch_threads(pipeline_, params.size, params.size, params.size);
+}
+
+gpu::Image make_worley_tile(gpu::Context& context, std::uint32_t size) {
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R8G8_UNORM;
+  info.size = glm::uvec3(size);
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  return gpu::Image(context, info);
+}
+
+}  // namespace brume::passes

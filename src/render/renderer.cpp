@@ -1,0 +1,122 @@
+#include "render/renderer.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "passes/blue_noise.hpp"
+#include "render/device_camera.hpp"
+
+namespace brume::render {
+namespace {
+
+constexpr VkBufferUsageFlags kBufferUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+
+gpu::Image storage_image(gpu::Context& context, glm::uvec2 size, VkFormat format) {
+  gpu::ImageInfo info;
+  info.format = format;
+  info.size = {size, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  return gpu::Image(context, info);
+}
+
+std::vector<passes::Draw> grenade_draws(const passes::SceneResources& scene,
+                                        const std::vector<glm::mat4>& grenades) {
+  std::vector<passes::Draw> draws(grenades.size(), scene.grenade);
+  for (std::size_t i = 0; i < draws.size(); ++i) draws[i].world_from_mesh = grenades[i];
+  return draws;
+}
+
+}  // namespace
+
+Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
+                   const RendererOptions& options)
+    : size_px_(options.size_px),
+      scene_(passes::upload_scene(context, runner, scene)),
+      gbuffer_pass_(context),
+      shadow_pass_(context),
+      shade_pass_(context),
+      inscatter_pass_(context),
+      march_pass_(context, options.count_samples),
+      composite_pass_(context),
+      display_pass_(context),
+      smoke_upload_(context),
+      shadows_(shadow_pass_.make_maps(context, scene_)),
+      gbuffer_(context, size_px_),
+      worley_(passes::make_worley_tile(context, passes::kSmokeNoise.size)),
+      lit_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
+      smoke_image_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
+      picture_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
+      display_image_(storage_image(context, size_px_, VK_FORMAT_R8G8B8A8_UNORM)),
+      frame_(context, sizeof(shared::FrameConstants), kBufferUsage),
+      holes_(context, passes::kMaxHoles * sizeof(shared::Hole), kBufferUsage),
+      counters_(context, sizeof(std::uint32_t), kBufferUsage) {
+  shadow_pass_.record(context, runner, scene_, shadows_);
+  runner.run([&](gpu::Recorder& recorder) {
+    const passes::WorleyPass worley(context);
+    worley.record(recorder, worley_, passes::kSmokeNoise);
+    blue_noise_ = passes::make_blue_noise(context, recorder);
+  });
+}
+
+void Renderer::prepare(const FrameInput& input) {
+  if (input.volume) smoke_upload_.reserve(*input.volume);
+}
+
+void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput& input) {
+  shared::FrameConstants frame{};
+  frame.camera = device_camera(input.camera, size_px_);
+  frame.sky = input.sky;
+  frame.look = input.look;
+  if (input.volume && input.volume->slot_count() > 0) frame.volume = input.volume->frame();
+  frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
+  frame.size_px = size_px_;
+  frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());
+  const auto holes = input.holes.last(std::min<std::size_t>(input.holes.size(), passes::kMaxHoles));
+  frame.hole_count = static_cast<std::uint32_t>(holes.size());
+  frame.frame_index = input.frame_index;
+  frame.time = input.time;
+  frame.exposure = input.exposure;
+  recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
+  recorder.upload(holes_, 0, std::as_bytes(holes));
+  recorder.fill(counters_, 0);
+}
+
+void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
+  const auto stage = [&](const char* name, auto record) {
+    const gpu::Scope scope(recorder, name);
+    record();
+  };
+  const auto& smoke = smoke_upload_.resources();
+
+  stage("upload", [&] {
+    record_frame_constants(recorder, input);
+    if (input.volume) smoke_changed_ = smoke_upload_.record(recorder, *input.volume) || smoke_changed_;
+  });
+  stage("gbuffer", [&] {
+    gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), frame_, gbuffer_);
+  });
+  stage("shade", [&] { shade_pass_.record(recorder, frame_, scene_, shadows_, gbuffer_, lit_); });
+  stage("inscatter", [&] {
+    if (input.volume && needs_inscatter(input))
+      inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke);
+  });
+  stage("march", [&] {
+    march_pass_.record(recorder, {frame_, smoke, worley_, gbuffer_.depth, blue_noise_, holes_}, smoke_image_,
+                       counters_);
+  });
+  stage("composite", [&] { composite_pass_.record(recorder, frame_, smoke_image_, lit_, picture_); });
+  stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
+}
+
+bool Renderer::needs_inscatter(const FrameInput& input) {
+  const bool same_look = std::memcmp(&lit_look_, &input.look, sizeof lit_look_) == 0 &&
+                         std::memcmp(&lit_sky_, &input.sky, sizeof lit_sky_) == 0;
+  const bool needed = smoke_changed_ || !same_look || input.force_inscatter;
+  lit_look_ = input.look;
+  lit_sky_ = input.sky;
+  smoke_changed_ = false;
+  return needed;
+}
+
+}  // namespace brume::render

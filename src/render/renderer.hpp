@@ -1,0 +1,84 @@
+// Draws a frame: the scene, the smoke of the simulation's present tick, and what a screen shows of them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "passes/composite.hpp"
+#include "passes/display.hpp"
+#include "passes/inscatter.hpp"
+#include "passes/march.hpp"
+#include "passes/shade.hpp"
+#include "passes/worley.hpp"
+#include "scene/scene.hpp"
+#include "sim/smoke_volume.hpp"
+
+namespace brume::render {
+
+/// What one frame shows.
+struct FrameInput {
+  scene::Camera camera;
+  shared::Sky sky{};
+  shared::SmokeLook look{};
+  float exposure = 1;                        ///< Multiplies radiance before the tone curve; > 0.
+  float time = 0;                            ///< [s], the clock of the holes and of the drifting noise.
+  std::uint32_t frame_index = 0;             ///< Moves jitter and dither; equal numbers give equal pictures.
+  const sim::SmokeVolume* volume = nullptr;  ///< null: no smoke.
+  std::span<const shared::Hole> holes;       ///< At most passes::kMaxHoles are drawn, the last ones.
+  std::vector<glm::mat4> grenades;           ///< world_from_mesh of each grenade in the air.
+  bool force_inscatter = false;  ///< Light the smoke even when nothing changed since the last frame.
+};
+
+struct RendererOptions {
+  glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
+  bool count_samples = false;     ///< Count the density samples of the march (slower).
+};
+
+class Renderer {
+ public:
+  /// Uploads the scene and draws its shadows. `runner` is used only here. Throws resource_limit when the
+  /// device has too little memory.
+  Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
+           const RendererOptions& options);
+
+  /// Makes room for the frame's smoke: call before record_frame, outside of a recording, when the device is
+  /// done with the frame before. Throws resource_limit.
+  void prepare(const FrameInput& input);
+  /// Records the whole frame. No allocation of device memory besides staging, no submit, no wait.
+  void record_frame(gpu::Recorder& recorder, const FrameInput& input);
+
+  const gpu::Image& display() const { return display_image_; }  ///< RGBA8, sRGB.
+  const gpu::Image& picture() const { return picture_; }        ///< Half floats: radiance.
+  const gpu::Image& smoke() const {
+    return smoke_image_;
+  }  ///< Half floats: premultiplied radiance, transmittance.
+  const gpu::Image& depth() const { return gbuffer_.depth; }
+  const gpu::Buffer& sample_counter() const { return counters_; }
+  const passes::SceneResources& scene() const { return scene_; }
+  glm::uvec2 size_px() const { return size_px_; }
+
+ private:
+  void record_frame_constants(gpu::Recorder& recorder, const FrameInput& input);
+  /// Whether the smoke must be lit anew; asks once a frame.
+  bool needs_inscatter(const FrameInput& input);
+
+  glm::uvec2 size_px_;
+  passes::SceneResources scene_;
+  passes::GBufferPass gbuffer_pass_;
+  passes::ShadowPass shadow_pass_;
+  passes::ShadePass shade_pass_;
+  passes::InscatterPass inscatter_pass_;
+  passes::MarchPass march_pass_;
+  passes::CompositePass composite_pass_;
+  passes::DisplayPass display_pass_;
+  passes::SmokeUpload smoke_upload_;
+  passes::ShadowMaps shadows_;
+  passes::GBuffer gbuffer_;
+  gpu::Image worley_, blue_noise_, lit_, smoke_image_, picture_, display_image_;
+  gpu::Buffer frame_, holes_, counters_;
+  shared::SmokeLook lit_look_{};  ///< The look that the in-scatter was made with.
+  shared::Sky lit_sky_{};
+  bool smoke_changed_ = false;
+};
+
+}  // namespace brume::render

@@ -1,0 +1,57 @@
+// GPU tests run on the system's default device with validation and synchronization layers: any message fails.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "gpu/recorder.hpp"
+
+namespace brume::gpu {
+
+class GpuTest : public testing::Test {
+ protected:
+  static Context& context() {
+    // One device for the whole program: making one takes longer than most tests.
+    static Context instance(ContextOptions{"", true});
+    return instance;
+  }
+  static CommandRunner& runner() {
+    static CommandRunner instance(context());
+    return instance;
+  }
+  void TearDown() override {
+    for (const std::string& message : context().take_validation_messages()) ADD_FAILURE() << message;
+  }
+
+  template <typename T>
+  static Buffer upload(const std::vector<T>& values,
+                       VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {
+    Buffer buffer(context(), std::max<std::size_t>(values.size(), 1) * sizeof(T),
+                  usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    runner().run([&](Recorder& recorder) { recorder.upload(buffer, 0, std::as_bytes(std::span(values))); });
+    return buffer;
+  }
+  template <typename T>
+  static std::vector<T> read_back(const Buffer& buffer, std::size_t count) {
+    const Buffer copy(context(), count * sizeof(T), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    runner().run([&](Recorder& recorder) { recorder.read_back(buffer, copy, count * sizeof(T)); });
+    std::vector<T> values(count);
+    std::memcpy(values.data(), copy.mapped(), count * sizeof(T));
+    return values;
+  }
+  /// The texels of an image whose texel is a T.
+  template <typename T>
+  static std::vector<T> read_back(const Image& image) {
+    const glm::uvec3 size = image.info().size;
+    const std::size_t count = std::size_t{size.x} * size.y * size.z;
+    const Buffer copy(context(), count * sizeof(T), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
+    runner().run([&](Recorder& recorder) { recorder.read_back(image, copy); });
+    std::vector<T> values(count);
+    std::memcpy(values.data(), copy.mapped(), count * sizeof(T));
+    return values;
+  }
+};
+
+}  // namespace brume::gpu
