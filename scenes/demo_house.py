@@ -187,7 +187,7 @@ def rooms(scene):
     for y in (3.55, 4.05):
         rail.beam("planks" if y > 4 else "dark_metal", (0.12, y, -3.46), (5.6, y, -3.46), 0.05, 0.04)
     scene.add("railings", rail, ignore=True)
-    for name, x, z, top in (("column_a", -5.15, -2.6, 3.1), ("column_b", 3.2, -3.75, 2.9)):
+    for name, x, z, top in (("column_a", -4.40, -2.35, 3.1), ("column_b", 3.2, -3.75, 2.9)):
         column = Solid()
         radius = 0.42
         column.lathe("concrete", [(0, FLOOR), (radius + .06, FLOOR), (radius + .06, FLOOR + .12), (radius, FLOOR + .18),

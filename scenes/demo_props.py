@@ -21,10 +21,10 @@ def yard(scene):
     scene.add("field", field, ignore=True)
     rng = _rng(101)
     path = Solid()
-    for row in range(11):
+    for row in range(16):
         z = 0.35 + 0.74 * row
         for col in range(2):
-            x = -3.28 + 0.80 * col + 0.09 * np.sin(row * 0.9) + 0.16 * row / 11
+            x = -3.28 + 0.80 * col + 0.09 * np.sin(row * 0.9) - 0.010 * row ** 2
             dx, dz, lift = rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03), rng.uniform(0.0, 0.018)
             path.box("concrete", (x + dx, -0.02, z + dz), (x + dx + 0.75, 0.035 + lift, z + dz + 0.69),
                      offset=tuple(rng.random(2)))
@@ -115,12 +115,12 @@ def stacks(scene):
              ("a3", mid, (-5.15, FLOOR, -5.8), -9), ("a4", small, (-0.6, FLOOR, -5.7), 12),
              ("b1", big, (1.0, FLOOR, -5.6), 3), ("b2", big, (1.05, FLOOR, -6.7), -4), ("b3", mid, (1.0, FLOOR + .95, -5.7), 22),
              ("y1", big, (-0.78, 0, 0.72), -7), ("y2", mid, (-0.72, 0.95, 0.66), 14), ("y3", small, (-1.02, 0, 1.72), 33),
-             ("f1", big, (-9.15, 0, 7.55), 24), ("f2", mid, (-9.0, 0.95, 7.5), 40), ("f3", mid, (-8.35, 0, 8.45), -12)]
+             ("f1", big, (-7.35, 0, 7.25), 24), ("f2", mid, (-7.3, 0.95, 7.2), 40), ("f3", small, (-7.2, 0, 8.35), -12)]
     for name, solid, at, turn in place:
         scene.add(f"crate_{name}", solid, at, rotation_y(turn))
     blue, rust = barrel("drum_blue"), barrel("drum_rust")
     for name, solid, at, turn in [("y1", blue, (5.35, 0.0, 2.55), 20), ("y2", rust, (6.05, 0.0, 2.45), 130),
-                                  ("y3", rust, (5.75, 0.0, 3.1), 70), ("f1", rust, (-7.55, 0, 8.05), 0),
+                                  ("y3", rust, (5.75, 0.0, 3.1), 70), ("f1", rust, (-6.60, 0, 8.62), 0),
                                   ("b1", blue, (6.3, FLOOR, -4.4), 45), ("b2", blue, (0.55, FLOOR, 1.2), 45)]:
         scene.add(f"barrel_{name}", solid, at, rotation_y(turn))
     wheel = tyre()
@@ -136,11 +136,11 @@ def furniture(scene):
         bench.box("concrete", (x - 0.07, 0, 0.24), (x + 0.07, 0.44, 0.58))
     scene.add("bench", bench)
     table = Solid()
-    table.box("planks", (-1.55, FLOOR + 0.72, -5.0), (-0.55, FLOOR + 0.78, -3.5), turn=True)
-    for x in (-1.47, -0.63):
-        for z in (-4.92, -3.58):
+    table.box("planks", (-1.00, FLOOR + 0.72, -4.85), (-0.15, FLOOR + 0.78, -3.45), turn=True)
+    for x in (-0.92, -0.23):
+        for z in (-4.77, -3.53):
             table.box("planks", (x - 0.035, FLOOR, z - 0.035), (x + 0.035, FLOOR + 0.72, z + 0.035), turn=True)
-    table.lathe("steel", [(0, .88), (.05, .88), (.055, .98), (.045, .98), (.042, .9), (0, .9)], 16, (-1.1, 0, -4.2))
+    table.lathe("steel", [(0, .88), (.05, .88), (.055, .98), (.045, .98), (.042, .9), (0, .9)], 16, (-0.6, 0, -4.1))
     scene.add("table", table)
     shelf = Solid()
     for y in (0.15, 0.75, 1.35, 1.95):
@@ -166,7 +166,7 @@ def furniture(scene):
     pipes = Solid()
     for i, y in enumerate((2.30, 2.48, 2.66)):
         pipes.tube("steel" if i != 1 else "drum_rust", [(6.62 - 0.1 * (i % 2), y, 1.6), (6.62 - 0.1 * (i % 2), y, -4.8)], 0.045)
-    pipes.tube("dark_metal", [(-6.65, 2.75, -0.45), (-6.65, 2.75, -6.1), (-6.5, 2.75, -6.15), (-0.2, 2.75, -6.15)], 0.05)
+    pipes.tube("dark_metal", [(-6.65, 2.75, -0.45), (-6.65, 2.75, -5.9), (-6.58, 2.75, -6.08), (-6.40, 2.75, -6.15), (-0.2, 2.75, -6.15)], 0.05)
     scene.add("pipes", pipes, ignore=True)
     vent = Solid()
     vent.box("steel", (-0.78, 1.75, 0.0), (-0.28, 2.35, 0.32))
@@ -196,11 +196,11 @@ def lamps(scene):
         shade(housings, at, radius, drop)
         bulb(glow, name, at, 0.055)
     # Work lamp in room A: a tripod whose head looks at the front door.
-    head = np.array([-2.95, 1.55, -5.66])
+    head = np.array([-1.42, 1.62, -5.55])
     for dx, dz in ((0.36, 0.18), (-0.36, 0.18), (0.0, -0.34)):
         housings.tube("dark_metal", [head - (0, 0.1, 0), (head[0] + dx, FLOOR, head[2] + dz)], 0.014, 8)
     housings.box("canister_band", head - (0.19, 0.13, 0.06), head + (0.19, 0.13, 0.03))
-    glow.box("glow_work", head + (-0.165, -0.105, 0.03), head + (0.165, 0.105, 0.036))
+    glow.box("glow_work", head + (-0.165, -0.105, 0.025), head + (0.165, 0.105, 0.036))
     # Neon tubes over the workshop.
     for x in (2.3, 3.5):
         glow.tube("glow_teal", [(x, 3.20, -1.75), (x, 3.20, -0.15)], 0.022, 10)
@@ -212,11 +212,11 @@ def lamps(scene):
     housings.beam("dark_metal", (-2.5, 2.80, 0.0), (-2.5, 2.80, 0.2), 0.05, 0.04)
     bulb(glow, "glow_red", (-2.5, 2.70, 0.16), 0.075)
     # Sodium lamp on a pole at the right of the yard.
-    housings.lathe("concrete", [(0, 0), (.2, 0), (.17, .3), (0, .3)], 16, (8.3, 0, 6.2))
-    housings.tube("dark_metal", [(8.3, 0.25, 6.2), (8.3, 4.5, 6.2), (8.25, 4.72, 6.19), (8.1, 4.82, 6.17), (7.45, 4.84, 6.09)],
+    housings.lathe("concrete", [(0, 0), (.2, 0), (.17, .3), (0, .3)], 16, (6.7, 0, 4.4))
+    housings.tube("dark_metal", [(6.7, 0.25, 4.4), (6.7, 4.5, 4.4), (6.65, 4.72, 4.4), (6.5, 4.82, 4.4), (5.9, 4.84, 4.4)],
                   0.055, 12)
-    housings.box("dark_metal", (7.28, 4.72, 5.97), (7.80, 4.82, 6.23))
-    glow.box("glow_sodium", (7.34, 4.685, 6.01), (7.74, 4.72, 6.19))
+    housings.box("dark_metal", (5.68, 4.72, 4.27), (6.20, 4.82, 4.53))
+    glow.box("glow_sodium", (5.74, 4.685, 4.31), (6.14, 4.72, 4.49))
     scene.add("lamp_housings", housings, ignore=True)
     scene.add("lamp_bulbs", glow, ignore=True)
 
@@ -231,11 +231,13 @@ def sign(scene):
     neon = Solid()
     ring = [(5.70 + 0.60 * np.cos(a), 4.43 + 0.60 * np.sin(a), 2.13) for a in np.linspace(0, 2 * np.pi, 41)[:-1]]
     neon.tube("glow_teal", ring, 0.020, 8, loop=True)
-    neon.tube("glow_pink", [(5.88, 4.88, 2.14), (5.50, 4.40, 2.14), (5.74, 4.44, 2.14), (5.54, 3.98, 2.14),
-                            (5.94, 4.52, 2.14), (5.70, 4.50, 2.14), (5.88, 4.86, 2.14)], 0.020, 8)
+    bolt = [(5.88, 4.88, 2.14), (5.50, 4.38, 2.14), (5.73, 4.42, 2.14), (5.54, 3.98, 2.14), (5.95, 4.53, 2.14),
+            (5.71, 4.50, 2.14)]
+    for start, end in zip(bolt, bolt[1:] + bolt[:1]):
+        neon.tube("glow_pink", [start, end], 0.020, 8)
     scene.add("sign_neon", neon, ignore=True)
     cables = Solid()
-    for start, end, sag in (((8.3, 4.55, 6.2), (7.0, 5.2, 1.9), 0.45), ((8.3, 4.45, 6.2), (7.0, 5.05, 1.9), 0.55),
+    for start, end, sag in (((6.7, 4.45, 4.4), (7.05, 5.0, 2.05), 0.16), ((6.7, 4.3, 4.4), (7.05, 4.8, 2.05), 0.22),
                             ((-0.03, 4.6, 1.4), (-5.05, 5.6, -4.6), 0.7)):
         t = np.linspace(0, 1, 15)[:, None]
         path = np.array(start) * (1 - t) + np.array(end) * t

@@ -47,10 +47,10 @@ MATERIALS = {
     "canister_band": dict(color=(0.55, 0.42, 0.06), roughness=0.5),
     "glow_tungsten": dict(color=(0.8, 0.6, 0.4), emission=(26.0, 14.5, 6.0)),
     "glow_work": dict(color=(0.8, 0.7, 0.5), emission=(34.0, 23.0, 12.5)),
-    "glow_teal": dict(color=(0.3, 0.6, 0.6), emission=(1.2, 12.5, 10.6)),
+    "glow_teal": dict(color=(0.3, 0.6, 0.6), emission=(0.5, 8.0, 6.8)),
     "glow_red": dict(color=(0.6, 0.1, 0.1), emission=(16.0, 1.1, 0.6)),
     "glow_violet": dict(color=(0.5, 0.4, 0.7), emission=(6.0, 3.8, 11.0)),
-    "glow_pink": dict(color=(0.6, 0.2, 0.3), emission=(12.0, 1.5, 4.6)),
+    "glow_pink": dict(color=(0.6, 0.2, 0.3), emission=(9.0, 0.7, 2.9)),
     "glow_white": dict(color=(0.7, 0.7, 0.7), emission=(7.0, 8.2, 9.0)),
     "glow_sodium": dict(color=(0.8, 0.5, 0.2), emission=(26.0, 11.5, 2.2)),
 }
@@ -58,20 +58,20 @@ MATERIALS = {
 # name: kind, linear colour, intensity [cd, or lux for the moon], position, target, half-angles of the cone
 LIGHTS = {
     "lamp_tungsten": ("point", (1.0, 0.60, 0.26), 15.0, (-4.45, 2.42, -4.55), None, None),
-    "lamp_work": ("spot", (1.0, 0.70, 0.38), 70.0, (-2.95, 1.55, -5.60), (-2.35, 1.15, 1.5), (0.24, 0.46)),
+    "lamp_work": ("spot", (1.0, 0.70, 0.38), 95.0, (-1.42, 1.62, -5.48), (-2.75, 1.35, 0.0), (0.24, 0.46)),
     "lamp_neon": ("point", (0.08, 0.92, 0.78), 24.0, (2.90, 3.20, -0.95), None, None),
     "lamp_loft": ("point", (0.60, 0.38, 1.0), 9.0, (3.50, 4.85, -5.20), None, None),
-    "lamp_door": ("point", (1.0, 0.085, 0.045), 6.5, (-2.50, 2.70, 0.30), None, None),
+    "lamp_door": ("point", (1.0, 0.085, 0.045), 4.5, (-2.50, 2.70, 0.30), None, None),
     "lamp_sign": ("point", (1.0, 0.14, 0.40), 4.5, (5.70, 4.45, 2.75), None, None),
     "lamp_washroom": ("point", (0.80, 0.93, 1.0), 5.0, (5.20, 2.50, -6.35), None, None),
-    "lamp_yard": ("spot", (1.0, 0.50, 0.13), 60.0, (7.55, 4.62, 6.10), (5.2, 0.0, 4.6), (0.75, 1.15)),
-    "moon": ("directional", (0.42, 0.60, 1.0), 0.16, (-20.0, 24.0, 14.0), (0.0, 0.0, 0.0), None),
+    "lamp_yard": ("spot", (1.0, 0.50, 0.13), 55.0, (5.94, 4.60, 4.40), (5.1, 0.0, 4.9), (0.75, 1.15)),
+    "moon": ("directional", (0.42, 0.60, 1.0), 0.24, (-20.0, 24.0, 14.0), (0.0, 0.0, 0.0), None),
 }
 
-CAMERA = ((-6.1, 1.55, 11.6), (-0.75, 2.35, -0.6), 45.0)  # eye, target, vertical field of view in degrees
+CAMERA = ((-6.3, 1.5, 13.9), (-0.40, 2.80, -0.6), 45.0)  # eye, target, vertical field of view in degrees
 
 
-SMOKE = ((-3.3, 0.5, -3.2), 11000)  # where it goes off, and how many voxels of 0.25 m it fills
+SMOKE = ((-2.6, 0.4, -3.0), 11000)  # where it goes off, and how many voxels of 0.25 m it fills
 
 
 class Scene:
