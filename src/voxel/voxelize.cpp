@@ -13,11 +13,6 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 
-// Candidates are found with this margin [voxels]; the tests decide. Far above the rounding of a double at any
-// coordinate in reach of the grid.
-constexpr double kMargin = 1e-3;
-// Below this sine squared of the widest angle a normal is too short to lead the search.
-constexpr double kSliver = 1e-20;
 constexpr std::size_t kTrianglesPerTask = 512;
 
 // Writes voxels into a grid and remembers the brick of the last one.
@@ -65,9 +60,9 @@ struct Range {
 
 class TriangleScan {
  public:
-  TriangleScan(const VoxelTriangle& t, ivec3 size, Pen& pen) : t_(t), pen_(pen) {
+  TriangleScan(VoxelTriangle& t, ivec3 size, Pen& pen) : t_(t), pen_(pen) {
     for (int axis = 0; axis < 3; ++axis) {
-      const auto [from, to] = std::minmax({t[0][axis], t[1][axis], t[2][axis]});
+      const auto [from, to] = std::minmax({t.corners[0][axis], t.corners[1][axis], t.corners[2][axis]});
       range_[axis] = Range(from, to, 0, size[axis] - 1);
     }
   }
@@ -76,14 +71,18 @@ class TriangleScan {
     if (range_[0].empty() || range_[1].empty() || range_[2].empty()) return;
     const int thin = range_[0].thin + range_[1].thin + range_[2].thin;
     if (thin >= 2) return fill_box();
+    t_.fix();
     if (thin == 1) return scan_slab(range_[0].thin ? 0 : range_[1].thin ? 1 : 2);
-    const TriangleTest test(t_);
-    const dvec3 e0 = t_[1] - t_[0], e1 = t_[2] - t_[1], e2 = t_[0] - t_[2];
-    const double longest = std::max({glm::dot(e0, e0), glm::dot(e1, e1), glm::dot(e2, e2)});
-    if (glm::dot(test.plane.normal, test.plane.normal) <= kSliver * longest * longest) {
-      scan_segment(test);
+    dvec3 reach;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = t_.corners[0][axis];
+      reach[axis] = std::max(std::abs(range_[axis].low - at), std::abs(range_[axis].high + 1 - at));
+    }
+    const PlaneTest plane(t_, reach);
+    if (plane.normal == dvec3(0)) {
+      scan_segment();
     } else {
-      scan_columns(test);
+      scan_columns(plane);
     }
   }
 
@@ -97,29 +96,38 @@ class TriangleScan {
 
   // The columns (u, w) of a projection that the three edges leave.
   template <typename Visit>
-  void for_columns(const std::array<EdgeTest, 3>& edges, int axis, Visit visit) {
-    const Range &range_u = range_[(axis + 1) % 3], &range_w = range_[(axis + 2) % 3];
-    for (int w = range_w.low; w <= range_w.high; ++w) {
-      double from = range_u.low, to = range_u.high;
-      if (range_u.high - range_u.low > 3) {
-        for (const EdgeTest& edge : edges) {
-          if (edge.nu == 0) continue;
-          const double rest = edge.nw * (w - edge.at_w);
-          const double p = (edge.low - rest) / edge.nu, q = (edge.high - rest) / edge.nu;
-          from = std::max(from, edge.at_u + std::min(p, q) - kMargin);
-          to = std::min(to, edge.at_u + std::max(p, q) + kMargin);
-        }
-      }
-      if (!(from <= to)) continue;
-      const int last = static_cast<int>(std::floor(to));
-      for (int u = static_cast<int>(std::ceil(from)); u <= last; ++u)
-        if (TriangleTest::joins(edges, u, w)) visit(u, w);
+  void for_columns(const ProjectionTest& projection, int axis, Visit visit) {
+    const int a1 = (axis + 1) % 3, a2 = (axis + 2) % 3;
+    for (int w = range_[a2].low; w <= range_[a2].high; ++w) {
+      const auto [first, last] = row(projection, a1, a2, w);
+      for (int u = first; u <= last; ++u)
+        if (projection.joins(t_.fixed_voxel(a1, u), t_.fixed_voxel(a2, w))) visit(u, w);
     }
+  }
+
+  // Where in row w the edges may leave something: nothing is left out, a little may be too much.
+  std::pair<int, int> row(const ProjectionTest& projection, int a1, int a2, int w) const {
+    const Range& range_u = range_[a1];
+    if (range_u.high - range_u.low <= 3) return {range_u.low, range_u.high};
+    double from = range_u.low, to = range_u.high;
+    const auto scale = static_cast<double>(std::int64_t{1} << t_.shift),
+               base = static_cast<double>(t_.base[a1]);
+    for (const EdgeTest& edge : projection.edges) {
+      if (edge.nu == 0) continue;
+      const Int128 rest = Int128{edge.nw} * (t_.fixed_voxel(a2, w) - edge.at_w);
+      const auto nu = static_cast<double>(edge.nu);
+      const double p = static_cast<double>(edge.low - rest) / nu,
+                   q = static_cast<double>(edge.high - rest) / nu;
+      const auto at = static_cast<double>(edge.at_u);
+      from = std::max(from, base + (at + std::min(p, q)) / scale - margin());
+      to = std::min(to, base + (at + std::max(p, q)) / scale + margin());
+    }
+    return {static_cast<int>(std::ceil(from)), static_cast<int>(std::floor(to))};
   }
 
   // Along `axis` the triangle lies within one voxel: its projection decides.
   void scan_slab(int axis) {
-    for_columns(TriangleTest::projection(t_, axis), axis, [&](int u, int w) {
+    for_columns(ProjectionTest(t_, axis), axis, [&](int u, int w) {
       ivec3 v;
       v[axis] = range_[axis].low;
       v[(axis + 1) % 3] = u;
@@ -129,63 +137,74 @@ class TriangleScan {
   }
 
   // Columns along the axis that the plane faces most, and in each the few voxels that the plane meets.
-  void scan_columns(const TriangleTest& test) {
-    const dvec3 n = test.plane.normal, size = glm::abs(n);
+  void scan_columns(const PlaneTest& plane) {
+    const dvec3 n = plane.normal, size = glm::abs(n);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const int a1 = (axis + 1) % 3, a2 = (axis + 2) % 3;
-    for_columns(test.edges[static_cast<unsigned>(axis)], axis, [&](int u, int w) {
-      dvec3 voxel;
-      voxel[a1] = u;
-      voxel[a2] = w;
-      const double rest = n[a1] * (u - test.plane.at[a1]) + n[a2] * (w - test.plane.at[a2]);
-      const double p = (test.plane.low - rest) / n[axis], q = (test.plane.high - rest) / n[axis];
-      const double from = test.plane.at[axis] + std::min(p, q) - kMargin;
-      const double to = test.plane.at[axis] + std::max(p, q) + kMargin;
+    const ProjectionTest along_a1(t_, a1), along_a2(t_, a2);
+    for_columns(ProjectionTest(t_, axis), axis, [&](int u, int w) {
+      const double rest = n[a1] * (u - plane.at[a1]) + n[a2] * (w - plane.at[a2]);
+      const double p = (plane.low - rest) / n[axis], q = (plane.high - rest) / n[axis];
+      const double from = plane.at[axis] + std::min(p, q) - margin();
+      const double to = plane.at[axis] + std::max(p, q) + margin();
       const int low = static_cast<int>(std::ceil(std::max<double>(range_[axis].low, from)));
       const int high = static_cast<int>(std::floor(std::min<double>(range_[axis].high, to)));
       for (int i = low; i <= high; ++i) {
-        voxel[axis] = i;
-        const ivec3 v(voxel);
-        if (!pen_.solid(v) && test.plane.joins(voxel) && test.edges_join(a1, voxel) &&
-            test.edges_join(a2, voxel))
+        ivec3 v;
+        v[axis] = i;
+        v[a1] = u;
+        v[a2] = w;
+        if (!pen_.solid(v) && plane.joins(v) &&
+            along_a1.joins(t_.fixed_voxel(a2, w), t_.fixed_voxel(axis, i)) &&
+            along_a2.joins(t_.fixed_voxel(axis, i), t_.fixed_voxel(a1, u)))
           pen_.set(v);
       }
     });
   }
 
-  // A triangle of next to no area is its longest edge: walk along that, slab by slab.
-  void scan_segment(const TriangleTest& test) {
-    dvec3 p = t_[0], q = t_[1];
+  // A triangle of no area is its longest edge: walk along that, slab by slab.
+  void scan_segment() {
+    const ProjectionTest projections[3] = {{t_, 0}, {t_, 1}, {t_, 2}};
+    dvec3 p = t_.corners[0], q = t_.corners[1];
     for (unsigned i = 1; i < 3; ++i) {
-      const dvec3 e = t_[(i + 1) % 3] - t_[i];
-      if (glm::dot(e, e) > glm::dot(q - p, q - p)) p = t_[i], q = t_[(i + 1) % 3];
+      const dvec3 e = t_.corners[(i + 1) % 3] - t_.corners[i];
+      if (glm::dot(e, e) > glm::dot(q - p, q - p)) p = t_.corners[i], q = t_.corners[(i + 1) % 3];
     }
     const dvec3 along = q - p, size = glm::abs(along);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     for (int i = range_[axis].low; i <= range_[axis].high; ++i) {
-      const double s0 = std::clamp((i - kMargin - p[axis]) / along[axis], 0.0, 1.0);
-      const double s1 = std::clamp((i + 1 + kMargin - p[axis]) / along[axis], 0.0, 1.0);
-      const dvec3 from = p + s0 * along, to = p + s1 * along;
+      const dvec3 from = p + std::clamp((i - margin() - p[axis]) / along[axis], 0.0, 1.0) * along;
+      const dvec3 to = p + std::clamp((i + 1 + margin() - p[axis]) / along[axis], 0.0, 1.0) * along;
       Range slab[3];
       for (int k = 0; k < 3; ++k)
-        slab[k] = Range(std::min(from[k], to[k]) - kMargin, std::max(from[k], to[k]) + kMargin, range_[k].low,
-                        range_[k].high);
+        slab[k] = Range(std::min(from[k], to[k]) - margin(), std::max(from[k], to[k]) + margin(),
+                        range_[k].low, range_[k].high);
       slab[axis].low = slab[axis].high = i;
       for (int z = slab[2].low; z <= slab[2].high; ++z)
         for (int y = slab[1].low; y <= slab[1].high; ++y)
-          for (int x = slab[0].low; x <= slab[0].high; ++x)
-            if (test.joins(dvec3(x, y, z))) pen_.set({x, y, z});
+          for (int x = slab[0].low; x <= slab[0].high; ++x) {
+            const std::int64_t fx = t_.fixed_voxel(0, x), fy = t_.fixed_voxel(1, y),
+                               fz = t_.fixed_voxel(2, z);
+            if (projections[0].joins(fy, fz) && projections[1].joins(fz, fx) && projections[2].joins(fx, fy))
+              pen_.set({x, y, z});
+          }
     }
   }
 
-  const VoxelTriangle& t_;
+  // Candidates are found with doubles and this margin [voxels], far above their error; the tests decide.
+  double margin() const { return 1e-3 + std::ldexp(1.0, 16 - t_.shift); }
+
+  VoxelTriangle& t_;
   Pen& pen_;
   Range range_[3];
 };
 
-bool finite(const Triangle& t) {
-  const dvec3 sum = glm::abs(dvec3(t.a)) + glm::abs(dvec3(t.b)) + glm::abs(dvec3(t.c));
-  return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
+bool within_reach(const VoxelTriangle& t) {
+  constexpr auto kLimit = static_cast<double>(std::int64_t{1} << VoxelTriangle::kMaxExponent);
+  for (const dvec3& p : t.corners)
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(p[axis]) < kLimit)) return false;  // False for NaN.
+  return true;
 }
 
 void merge(BitGrid& into, const BitGrid& from) {
@@ -254,10 +273,9 @@ Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridFrame& f
       const std::size_t end = std::min(triangles.size(), (task + 1) * kTrianglesPerTask);
       for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) {
         const Triangle& t = triangles[i];
-        if (!finite(t)) continue;
-        const VoxelTriangle in_voxels{(dvec3(t.a) - origin) / voxel_size, (dvec3(t.b) - origin) / voxel_size,
-                                      (dvec3(t.c) - origin) / voxel_size};
-        TriangleScan(in_voxels, frame.size, pen).run();
+        VoxelTriangle in_voxels({(dvec3(t.a) - origin) / voxel_size, (dvec3(t.b) - origin) / voxel_size,
+                                 (dvec3(t.c) - origin) / voxel_size});
+        if (within_reach(in_voxels)) TriangleScan(in_voxels, frame.size, pen).run();
       }
     }
   });

@@ -21,14 +21,14 @@ Result<GridFrame> frame_around(const scene::Bounds& bounds, float voxel_size, in
 
 /// The voxels that a triangle touches. Voxels are closed boxes and triangles closed sets here: touching with
 /// a face, an edge or a corner counts, so that a wall exactly between two voxels makes both solid. What lies
-/// outside the grid is clipped. Triangles of no area count as the segment or point that they are; one with an
-/// infinite or NaN corner is left out.
+/// outside the grid is clipped. Triangles of no area count as the segment or point that they are; one with a
+/// corner that is NaN or 2^55 voxels away or more is left out.
 ///
 /// The decision is the separating-axis test of Akenine-Moller 2001 ("Fast 3D Triangle-Box Overlap Testing")
-/// over all 13 axes, in double precision on voxel coordinates (position - origin) / voxel_size, with the
-/// candidates found by projection as in Schwarz & Seidel 2010 ("Fast Parallel Surface and Solid Voxelization
-/// on GPUs"). For coordinates of few enough bits (vertices on multiples of 2^-8 voxel within 2^12) no step
-/// rounds; otherwise touching is decided to within about 1e-12 voxel.
+/// over all 13 axes, with the candidates found by projection as in Schwarz & Seidel 2010 ("Fast Parallel
+/// Surface and Solid Voxelization on GPUs"). Voxel coordinates (position - origin) / voxel_size are doubles;
+/// from there nothing rounds, except that, where the axes are not the box's own, digits below 2^-55 of the
+/// triangle's extent do not count.
 ///
 /// Runs on all threads; the bits do not depend on their number. Fails as check_frame does.
 Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridFrame& frame);
