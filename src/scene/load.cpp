@@ -2,6 +2,7 @@
 
 #include "core/file.hpp"
 #include "scene/files.hpp"
+#include "scene/gltf.hpp"
 #include "scene/obj.hpp"
 #include "scene/scene_txt.hpp"
 
@@ -17,6 +18,11 @@ Result<Scene> load_scene(const std::filesystem::path& path) {
     if (!text) return text.failure();
     return extension == ".txt" ? parse_scene_txt(*text, path.string(), files)
                                : parse_obj_scene(*text, path.string(), files);
+  }
+  if (extension == ".gltf" || extension == ".glb") {
+    const auto bytes = read_file(path);
+    if (!bytes) return bytes.failure();
+    return parse_gltf(*bytes, path.string(), files);
   }
   return Failure{ErrorCode::bad_input,
                  path.string() + ": not a scene by its name; expected .txt, .gltf, .glb or .obj"};

@@ -1,0 +1,130 @@
+#include <cmath>
+
+#include "core/log.hpp"
+#include "scene/gltf_parts.hpp"
+#include "scene/mesh_tools.hpp"
+
+namespace brume::scene {
+namespace {
+
+constexpr std::uint64_t kMostElements = 1u << 30;
+
+enum Mode : std::uint64_t { kTriangles = 4, kTriangleStrip, kTriangleFan };
+
+glm::vec3 unit_or(glm::vec3 vector, glm::vec3 otherwise) {
+  const double length = glm::length(glm::dvec3(vector));
+  return length > 1e-30 ? glm::vec3(glm::dvec3(vector) / length) : otherwise;
+}
+
+/// The corners of separate triangles, from a list, a strip or a fan of corners.
+std::vector<std::uint32_t> as_triangles(const std::vector<std::uint32_t>& corners, std::uint64_t mode,
+                                        const GltfValue& primitive) {
+  if (mode == kTriangles) {
+    if (corners.size() % 3 != 0)
+      primitive.fail("has " + std::to_string(corners.size()) + " corners; expected a multiple of 3");
+    return corners;
+  }
+  std::vector<std::uint32_t> triangles;
+  for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+    // Every second triangle of a strip runs the other way.
+    const std::size_t swap = mode == kTriangleStrip ? i % 2 : 0;
+    triangles.push_back(corners[mode == kTriangleFan ? 0 : i]);
+    triangles.push_back(corners[i + 1 + swap]);
+    triangles.push_back(corners[i + 2 - swap]);
+  }
+  return triangles;
+}
+
+/// A vertex of its own for every corner, so that computed normals are those of the triangles.
+void separate_corners(Mesh& mesh) {
+  std::vector<Vertex> vertices;
+  vertices.reserve(mesh.indices.size());
+  for (std::uint32_t& index : mesh.indices) {
+    vertices.push_back(mesh.vertices[index]);
+    index = static_cast<std::uint32_t>(vertices.size() - 1);
+  }
+  mesh.vertices = std::move(vertices);
+}
+
+}  // namespace
+
+GltfMeshes::GltfMeshes(GltfValue document, GltfBuffers& buffers, GltfMaterials& materials,
+                       SceneBuilder& builder)
+    : document_(std::move(document)), buffers_(buffers), materials_(materials), builder_(builder) {}
+
+const std::vector<GltfMeshes::Part>& GltfMeshes::parts(std::uint64_t index, const GltfValue& asker) {
+  if (const auto known = parts_.find(index); known != parts_.end()) return known->second;
+  const GltfValue description = gltf_element(document_, "meshes", index, asker);
+  const GltfValue primitives = description.member("primitives");
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const GltfValue primitive = primitives[i];
+    const auto mode = primitive.find("mode");
+    const std::uint64_t mode_number = mode ? mode->whole(6) : kTriangles;
+    if (mode_number < kTriangles) {
+      log_warning(primitive.place() + ": points and lines are not drawn");
+      continue;
+    }
+    const auto material = materials_.of_primitive(primitive);
+    Mesh mesh = convert(primitive, material.uv_set);
+    mesh.name = description.text_or("name", "mesh " + std::to_string(index));
+    parts.push_back({builder_.add_mesh(std::move(mesh)).value_or_throw(), material.index});
+  }
+  return parts_[index] = std::move(parts);
+}
+
+Mesh GltfMeshes::convert(const GltfValue& primitive, std::uint64_t uv_set) {
+  const GltfValue attributes = primitive.member("attributes");
+  const auto read = [&](const std::string& key, std::size_t components) {
+    const auto accessor = attributes.find(key.c_str());
+    return accessor ? buffers_.floats(accessor->whole(kMostElements), components, *accessor)
+                    : std::vector<float>();
+  };
+  attributes.member("POSITION");
+  const std::vector<float> positions = read("POSITION", 3), normals = read("NORMAL", 3),
+                           tangents = read("TANGENT", 4), uvs = read("TEXCOORD_" + std::to_string(uv_set), 2);
+  const std::size_t count = positions.size() / 3;
+  if (count > kMostVertices) primitive.fail("has more vertices than a scene may have");
+  if ((!normals.empty() && normals.size() != count * 3) ||
+      (!tangents.empty() && tangents.size() != count * 4) || (!uvs.empty() && uvs.size() != count * 2)) {
+    attributes.fail("have different counts; expected as many of each as there are positions");
+  }
+
+  Mesh mesh;
+  mesh.vertices.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Vertex& vertex = mesh.vertices[i];
+    vertex.position = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
+    if (!uvs.empty()) vertex.uv = {uvs[2 * i], uvs[2 * i + 1]};
+    if (!normals.empty())
+      vertex.normal = unit_or({normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]}, {0, 1, 0});
+    if (!tangents.empty()) {
+      const glm::vec3 tangent =
+          unit_or({tangents[4 * i], tangents[4 * i + 1], tangents[4 * i + 2]}, {1, 0, 0});
+      vertex.tangent = glm::vec4(tangent, tangents[4 * i + 3] < 0 ? -1.0f : 1.0f);
+    }
+  }
+
+  std::vector<std::uint32_t> corners(count);
+  if (const auto indices = primitive.find("indices")) {
+    corners = buffers_.indices(indices->whole(kMostElements), *indices);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (corners[i] >= count) {
+        indices->fail("index " + std::to_string(corners[i]) + " (number " + std::to_string(i) +
+                      ") is out of range: the primitive has " + std::to_string(count) + " vertices");
+      }
+    }
+  } else {
+    for (std::size_t i = 0; i < count; ++i) corners[i] = static_cast<std::uint32_t>(i);
+  }
+  const auto mode = primitive.find("mode");
+  mesh.indices = as_triangles(corners, mode ? mode->whole(6) : kTriangles, primitive);
+  if (normals.empty()) {
+    separate_corners(mesh);
+    compute_normals(mesh);
+  }
+  if (tangents.empty() || normals.empty()) compute_tangents(mesh);
+  return mesh;
+}
+
+}  // namespace brume::scene
