@@ -1,0 +1,119 @@
+#include "apps/cli/console.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+
+namespace brume::cli {
+namespace {
+
+std::atomic<int> g_signal{0};
+std::atomic<bool> g_quiet{false};
+std::atomic<bool> g_line_shown{false};  // A progress line stands on the terminal, without its line end.
+
+extern "C" void on_signal(int signal) {
+  g_signal = signal;
+}
+
+// "\r", the text and blanks over what an earlier, longer line left.
+void show_line(const std::string& line) {
+  std::fprintf(stderr, "\r%-79s", line.c_str());
+  std::fflush(stderr);
+  g_line_shown = true;
+}
+
+void leave_line() {
+  if (g_line_shown.exchange(false)) std::fputc('\n', stderr);
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+void start_console(bool quiet) {
+  g_quiet = quiet;
+  set_log_callback([quiet](LogLevel level, const std::string& line) {
+    if (quiet || level != LogLevel::warning) return;
+    leave_line();
+    std::fprintf(stderr, "brume: warning: %s\n", one_line(line).c_str());
+  });
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+void stop_if_interrupted() {
+  if (const int signal = g_signal) throw Interrupted{signal};
+}
+
+Progress::Callback progress_display() {
+  using Clock = std::chrono::steady_clock;
+  const bool shown = !g_quiet && ::isatty(STDERR_FILENO) == 1;
+  auto last = std::make_shared<Clock::time_point>();
+  return [shown, last](const Progress::State& state) {
+    stop_if_interrupted();
+    if (!shown) return;
+    const bool ended = state.total > 0 && state.done >= state.total;
+    const auto now = Clock::now();
+    if (!ended && now - *last < std::chrono::milliseconds(100)) return;
+    *last = now;
+    show_line(progress_line(state));
+    if (ended) leave_line();
+  };
+}
+
+void say_failure(const std::string& message) {
+  leave_line();
+  std::fprintf(stderr, "brume: %s\n", one_line(message).c_str());
+}
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+}
+
+void write_json(const std::string& target, const nlohmann::ordered_json& object) {
+  // Names of files need not be UTF-8: what is not is shown as a replacement character.
+  const std::string text =
+      object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (target == "-") {
+    print(text);
+  } else {
+    write_file_atomic(target, text).value_or_throw();
+  }
+}
+
+void check_output(const std::filesystem::path& path) {
+  if (path.empty() || path == "-") return;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw Error(ErrorCode::bad_input, path.string() + ": is a folder; name a file in it");
+  }
+  auto file = AtomicFile::open(path);  // Removed again at once.
+  if (!file) throw Error(file.failure());
+}
+
+void finish_output() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw Error(ErrorCode::resource_limit,
+              std::string("standard output: cannot write: ") + std::strerror(errno) + "; free some space");
+}
+
+}  // namespace brume::cli

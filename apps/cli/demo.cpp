@@ -1,0 +1,68 @@
+#include <cmath>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "apps/cli/targets.hpp"
+#include "core/error.hpp"
+#include "gpu/context.hpp"
+#include "image/png.hpp"
+#include "render/playback.hpp"
+
+namespace brume::cli {
+namespace {
+
+constexpr glm::uvec2 kPictureSize{1280, 720};
+constexpr glm::uvec2 kFilmSize{640, 360};
+constexpr std::uint32_t kFramesPerSecond = 24;
+// The picture shows the timeline at this share of its length.
+constexpr double kPictureMoment = 0.6;
+constexpr const char* kDefaultFolder = "out";
+
+struct Options {
+  std::string folder = kDefaultFolder, device;
+};
+
+void demo(const Options& options, const CommonOptions& common) {
+  const std::filesystem::path folder = options.folder;
+  const auto picture = folder / "demo.png", film = folder / "demo.mp4";
+  if (options.folder == kDefaultFolder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      throw Error(ErrorCode::bad_input, options.folder + ": cannot make the folder: " + error.message());
+  }
+  check_output(picture);
+  check_output(film);
+
+  const render::Stage stage = render::load_stage(BRUME_SCENES_DIR "/demo.toml", {}).value_or_throw();
+  stop_if_interrupted();
+  gpu::Context context({options.device, false});
+  const double seconds = static_cast<double>(stage.timeline.duration);
+  {
+    render::Playback playback(context, stage, kPictureSize);
+    image::save_png(picture, playback.draw(kPictureMoment * seconds, 0)).value_or_throw();
+    stop_if_interrupted();
+  }
+  render::Playback playback(context, stage, kFilmSize);
+  const auto frames = static_cast<std::uint32_t>(std::ceil(seconds * kFramesPerSecond));
+  write_film(film, {kFilmSize, kFramesPerSecond, common.threads}, 0, frames - 1,
+             [&](std::uint32_t i) { return playback.draw(static_cast<double>(i) / kFramesPerSecond, i); });
+  print(picture.string() + "\n" + film.string() + "\n");
+}
+
+}  // namespace
+
+Command add_demo(CLI::App& program) {
+  Command command = declare(program, "demo", "Makes a picture and a film of smoke that floods a building.",
+                            "  brume demo\n  brume demo --out pictures --device 0");
+  auto options = std::make_shared<Options>();
+  command.parser
+      ->add_option("-o,--out", options->folder, "A folder that is there; default: out, made if missing")
+      ->type_name("FOLDER");
+  command.parser->add_option("--device", options->device, "Number or part of the name; see brume devices")
+      ->type_name("N|NAME");
+  command.run = [options, common = command.common] { demo(*options, *common); };
+  return command;
+}
+
+}  // namespace brume::cli

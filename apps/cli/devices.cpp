@@ -1,0 +1,52 @@
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "gpu/device_list.hpp"
+
+namespace brume::cli {
+namespace {
+
+std::string version_text(std::uint32_t version) {
+  // The layout of VK_MAKE_API_VERSION.
+  return std::to_string(version >> 22 & 0x7f) + "." + std::to_string(version >> 12 & 0x3ff) + "." +
+         std::to_string(version & 0xfff);
+}
+
+void list_devices(const std::string& json) {
+  nlohmann::ordered_json devices = nlohmann::ordered_json::array();
+  std::string text;
+  for (const gpu::DeviceInfo& device : gpu::list_system_devices()) {
+    const std::size_t number = devices.size();
+    devices.push_back({{"number", number},
+                       {"name", device.name},
+                       {"kind", device.kind},
+                       {"driver", device.driver},
+                       {"vulkan", version_text(device.api_version)},
+                       {"memory_bytes", device.memory_bytes},
+                       {"unsupported", device.unsupported}});
+    text += std::to_string(number) + "  " + device.name + "  (" + device.kind + ", " + device.driver +
+            ", Vulkan " + version_text(device.api_version) + ", " +
+            std::to_string(device.memory_bytes >> 20) + " MiB)" +
+            (device.unsupported.empty() ? "" : "  not usable: " + device.unsupported) + "\n";
+  }
+  if (!json.empty()) write_json(json, {{"devices", devices}});
+  if (json != "-") print(text);
+}
+
+}  // namespace
+
+Command add_devices(CLI::App& program) {
+  Command command = declare(program, "devices", "Lists the devices that can render, as --device takes them.",
+                            "  brume devices\n  brume devices --json -");
+  auto json = std::make_shared<std::string>();
+  command.parser->add_option("--json", *json, "Write the list as JSON; -: to standard output")
+      ->type_name("FILE");
+  command.run = [json] {
+    check_output(*json);
+    list_devices(*json);
+  };
+  return command;
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "core/error.hpp"
+#include "image/decode.hpp"
+#include "scene/load.hpp"
+#include "scene/timeline.hpp"
+#include "voxel/vxl_file.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point(glm::vec3 p) {
+  return {p.x, p.y, p.z};
+}
+
+Json scene_info(const std::filesystem::path& path) {
+  const scene::Scene scene = scene::load_scene(path).value_or_throw();
+  std::uint64_t triangles = 0;
+  for (const scene::Object& object : scene.objects) triangles += scene.meshes[object.mesh].indices.size() / 3;
+  Json info{{"kind", "scene"},
+            {"objects", scene.objects.size()},
+            {"meshes", scene.meshes.size()},
+            {"materials", scene.materials.size()},
+            {"images", scene.images.size()},
+            {"lights", scene.lights.size()},
+            {"triangles", triangles},
+            {"camera", scene.camera.has_value()}};
+  if (const scene::Bounds bounds = scene::world_bounds(scene); !bounds.empty()) {
+    info["bounds_min"] = point(bounds.min);
+    info["bounds_max"] = point(bounds.max);
+  }
+  return info;
+}
+
+Json timeline_info(const std::filesystem::path& path) {
+  const scene::Timeline timeline = scene::load_timeline(path).value_or_throw();
+  return {{"kind", "timeline"},
+          {"scene", timeline.scene.string()},
+          {"seconds", timeline.duration},
+          {"voxel_size", timeline.grid.voxel},
+          {"camera_keys", timeline.camera.size()},
+          {"smokes", timeline.smokes.size()},
+          {"shots", timeline.shots.size()}};
+}
+
+Json image_info(const std::filesystem::path& path) {
+  const image::Image8 image = image::load_image(path).value_or_throw();
+  bool opaque = true;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque = opaque && image.rgba[i] == 255;
+  return {{"kind", "image"}, {"width", image.width}, {"height", image.height}, {"opaque", opaque}};
+}
+
+Json info_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto is_one_of = [&](std::initializer_list<const char*> known) {
+    return std::find(known.begin(), known.end(), extension) != known.end();
+  };
+  if (is_one_of({".txt", ".gltf", ".glb", ".obj"})) return scene_info(path);
+  if (is_one_of({".toml"})) return timeline_info(path);
+  if (is_one_of({".vxl"})) return voxel_info(path);
+  if (is_one_of({".png", ".jpg", ".jpeg"})) return image_info(path);
+  throw Error(ErrorCode::usage,
+              path.string() +
+                  ": cannot tell what this is by its name; expected .txt, .gltf, .glb, .obj, "
+                  ".vxl, .toml, .png or .jpg");
+}
+
+}  // namespace
+
+Command add_info(CLI::App& program) {
+  struct Options {
+    std::string input, json;
+  };
+  Command command = declare(program, "info", "Tells what is in a scene, timeline, voxel or picture file.",
+                            "  brume info room.glb\n"
+                            "  brume info room.vxl --json -");
+  auto options = std::make_shared<Options>();
+  command.parser->add_option("FILE", options->input, "The file")->required()->type_name("");
+  command.parser->add_option("--json", options->json, "Write it as JSON; -: to standard output")
+      ->type_name("FILE");
+  command.run = [options] {
+    check_output(options->json);
+    Json info{{"file", options->input}};
+    info.update(info_of(options->input));
+    if (!options->json.empty()) write_json(options->json, info);
+    if (options->json == "-") return;
+    for (const auto& [key, value] : info.items()) {
+      print(key + std::string(14 - std::min<std::size_t>(13, key.size()), ' ') +
+            (value.is_string() ? value.get<std::string>() : value.dump()) + "\n");
+    }
+  };
+  return command;
+}
+
+}  // namespace brume::cli

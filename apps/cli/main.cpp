@@ -1,0 +1,89 @@
+#include <CLI/CLI.hpp>
+#include <array>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "core/error.hpp"
+#include "core/tasks.hpp"
+
+namespace brume::cli {
+namespace {
+
+constexpr const char* kAbout =
+    "Real-time volumetric smoke that floods real scenes.\n\n"
+    "Examples:\n"
+    "  brume demo                                        a picture and a film, out/demo.png and "
+    "out/demo.mp4\n"
+    "  brume render room.glb -o room.png --smoke 0,1,0   a picture of a scene with smoke in it\n"
+    "  brume voxelize room.glb -o room.vxl --json -      which voxels of a scene are solid\n"
+    "  brume info room.glb                               what is in a file\n"
+    "  brume devices                                     what can render";
+
+int fail(const Failure& failure) {
+  say_failure(failure.message);
+  return static_cast<int>(failure.code);
+}
+
+// The exit code. Every failure is one line on standard error.
+int run(const Command& command) {
+  try {
+    start_console(command.common->quiet);
+    set_thread_count(command.common->threads);
+    command.run();
+    finish_output();
+    return 0;
+  } catch (const Error& error) {
+    return fail(error.failure());
+  } catch (const Interrupted& interrupted) {
+    say_failure("interrupted");
+    return 128 + interrupted.signal;
+  } catch (const std::bad_alloc&) {
+    return fail({ErrorCode::resource_limit, "out of memory; use a smaller scene, grid or picture"});
+  } catch (const std::exception& error) {
+    return fail({ErrorCode::internal, error.what()});
+  }
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App program(kAbout, "brume");
+  program.set_version_flag("--version", BRUME_VERSION);
+  program.require_subcommand(1);
+  const std::array commands{add_demo(program), add_render(program),  add_voxelize(program),
+                            add_info(program), add_devices(program), add_bench(program)};
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const CLI::ParseError& error) {
+    const auto chosen = program.get_subcommands();
+    const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    return fail({ErrorCode::usage, std::string(error.what()) + "; see brume" + name + " --help"});
+  }
+  for (const Command& command : commands) {
+    if (command.parser->parsed()) return run(command);
+  }
+  return fail({ErrorCode::internal, "no command ran"});
+}
+
+}  // namespace
+
+Command declare(CLI::App& program, const std::string& name, const std::string& what,
+                const std::string& examples) {
+  Command command;
+  command.common = std::make_shared<CommonOptions>();
+  command.parser = program.add_subcommand(name, what + "\n\nExamples:\n" + examples);
+  command.parser->add_option("--threads", command.common->threads, "Threads to use; 0: one a core (default)")
+      ->check(CLI::Range(0u, 1024u))
+      ->type_name("N");
+  command.parser->add_flag("-q,--quiet", command.common->quiet, "No progress and no warnings");
+  return command;
+}
+
+}  // namespace brume::cli
+
+int main(int argc, char** argv) {
+  return brume::cli::parse_and_run(argc, argv);
+}

@@ -1,0 +1,106 @@
+#include "apps/cli/parse.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "image/image.hpp"
+
+namespace brume::cli {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& expected) {
+  throw Error(ErrorCode::usage, option + " '" + text + "': expected " + expected);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+// The number that is the whole text, independent of the locale.
+template <typename Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+template <typename Number>
+std::optional<std::vector<Number>> numbers(std::string_view text, char separator, std::size_t count) {
+  std::vector<Number> values;
+  for (const std::string_view part : split(text, separator)) {
+    const auto value = number<Number>(part);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  if (values.size() != count) return std::nullopt;
+  return values;
+}
+
+std::optional<glm::vec3> point(std::string_view text) {
+  const auto values = numbers<float>(text, ',', 3);
+  if (!values) return std::nullopt;
+  for (const float value : *values) {
+    if (!std::isfinite(value)) return std::nullopt;
+  }
+  return glm::vec3((*values)[0], (*values)[1], (*values)[2]);
+}
+
+}  // namespace
+
+glm::uvec2 parse_size(const std::string& option, const std::string& text) {
+  const auto values = numbers<std::uint32_t>(text, 'x', 2);
+  if (values && (*values)[0] > 0 && (*values)[1] > 0 && (*values)[0] <= image::kMaxAxis &&
+      (*values)[1] <= image::kMaxAxis) {
+    return {(*values)[0], (*values)[1]};
+  }
+  refuse(option, text, "WIDTHxHEIGHT up to " + std::to_string(image::kMaxAxis) + " each, such as 1280x720");
+}
+
+glm::ivec3 parse_grid(const std::string& option, const std::string& text) {
+  const auto values = numbers<std::int32_t>(text, 'x', 3);
+  if (values && (*values)[0] >= 0 && (*values)[1] >= 0 && (*values)[2] >= 0) {
+    return {(*values)[0], (*values)[1], (*values)[2]};
+  }
+  refuse(option, text, "three whole numbers of voxels, such as 120x20x120");
+}
+
+glm::vec3 parse_point(const std::string& option, const std::string& text) {
+  if (const auto value = point(text)) return *value;
+  refuse(option, text, "three finite numbers, such as -30,0,2.5");
+}
+
+scene::Camera parse_camera(const std::string& option, const std::string& text) {
+  const auto parts = split(text, ' ');
+  if (parts.size() == 3) {
+    const auto position = point(parts[0]), target = point(parts[1]);
+    const auto degrees = number<float>(parts[2]);
+    if (position && target && *position != *target && degrees && *degrees > 0 && *degrees < 180) {
+      return {*position, *target, *degrees * std::numbers::pi_v<float> / 180};
+    }
+  }
+  refuse(option, text,
+         "\"position target fov\" with two different points and an angle in (0, 180) degrees, such as "
+         "\"0,1.7,5 0,1.5,0 60\"");
+}
+
+FrameRange parse_frames(const std::string& option, const std::string& text) {
+  constexpr std::uint32_t kMaxFrame = 1'000'000;
+  const auto values = numbers<std::uint32_t>(text, '-', 2);
+  if (values && (*values)[0] <= (*values)[1] && (*values)[1] <= kMaxFrame)
+    return {(*values)[0], (*values)[1]};
+  refuse(option, text, "FIRST-LAST up to " + std::to_string(kMaxFrame) + ", such as 0-119");
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,196 @@
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "apps/cli/parse.hpp"
+#include "apps/cli/targets.hpp"
+#include "core/error.hpp"
+#include "gpu/context.hpp"
+#include "render/playback.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string input, output, timeline, frames, size = "1280x720", camera, device, json;
+  std::vector<std::string> smokes;
+  std::optional<double> time;
+  std::uint32_t fps = 24;
+};
+
+// What the options say, checked before any file is read.
+struct Plan {
+  TargetKind kind = TargetKind::picture;
+  glm::uvec2 size_px{0};
+  std::optional<scene::Camera> camera;
+  std::vector<scene::SmokeEvent> smokes;
+  std::optional<FrameRange> frames;
+};
+
+Plan make_plan(const Options& options) {
+  Plan plan;
+  plan.kind = target_kind(options.output);
+  plan.size_px = parse_size("--size", options.size);
+  if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
+  for (const std::string& text : options.smokes) {
+    const glm::vec3 place = parse_point("--smoke", text);
+    plan.smokes.push_back({0, place, place});
+  }
+  if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
+  if (plan.kind == TargetKind::picture && plan.frames) {
+    throw Error(ErrorCode::usage, options.output + ": --frames needs a film (.mp4) or a %04d in the name");
+  }
+  if (plan.kind != TargetKind::picture && options.time) {
+    throw Error(ErrorCode::usage, options.output + ": --time is for one picture; use --frames");
+  }
+  if (plan.kind == TargetKind::film && (plan.size_px.x % 2 != 0 || plan.size_px.y % 2 != 0)) {
+    throw Error(ErrorCode::usage, "--size '" + options.size + "': both sides of a film must be even");
+  }
+  check_output(plan.kind == TargetKind::sequence ? sequence_name(options.output, 0) : options.output);
+  check_output(options.json);
+  return plan;
+}
+
+render::Stage load(const Options& options, const Plan& plan) {
+  const std::filesystem::path input = options.input;
+  const bool is_timeline = input.extension() == ".toml";
+  if (is_timeline && !options.timeline.empty()) {
+    throw Error(ErrorCode::usage, "--timeline: " + options.input + " is a timeline already; name a scene");
+  }
+  if (is_timeline || !options.timeline.empty()) {
+    scene::Timeline timeline =
+        scene::load_timeline(is_timeline ? options.input : options.timeline).value_or_throw();
+    if (!is_timeline) timeline.scene = input;
+    timeline.smokes.insert(timeline.smokes.begin(), plan.smokes.begin(), plan.smokes.end());
+    return render::make_stage(std::move(timeline), {}).value_or_throw();
+  }
+  render::Stage stage = render::load_stage(input, {}).value_or_throw();
+  if (!plan.smokes.empty()) stage.timeline.smokes = plan.smokes;
+  return stage;
+}
+
+double cpu_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+// Draws, and keeps the books for --json.
+class Draughtsman {
+ public:
+  explicit Draughtsman(render::Playback& playback) : playback_(playback) {}
+  image::Image8 draw(double seconds, std::uint32_t frame_index) {
+    const double cpu = cpu_seconds();
+    const auto start = std::chrono::steady_clock::now();
+    image::Image8 picture = playback_.draw(seconds, frame_index);
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    cpu_seconds_ += cpu_seconds() - cpu;
+    ++frames_;
+    return picture;
+  }
+  Json statistics() const {
+    Json passes = Json::object();
+    for (const auto& scope : playback_.timings()) passes[scope.name] = scope.milliseconds;
+    return {{"frames", frames_},
+            {"seconds_per_frame", seconds_ / frames_},
+            {"cpu_seconds_per_frame", cpu_seconds_ / frames_},
+            {"gpu_milliseconds_of_last_frame", passes}};
+  }
+
+ private:
+  render::Playback& playback_;
+  double seconds_ = 0, cpu_seconds_ = 0;
+  int frames_ = 0;
+};
+
+void write(const Options& options, const Plan& plan, const CommonOptions& common,
+           const scene::Timeline& timeline, Draughtsman& draughtsman) {
+  const double fps = options.fps;
+  if (plan.kind == TargetKind::picture) {
+    const double time = options.time.value_or(static_cast<double>(timeline.duration));
+    const image::Image8 picture = draughtsman.draw(time, 0);
+    stop_if_interrupted();
+    image::save_png(options.output, picture).value_or_throw();
+    return;
+  }
+  const auto all = static_cast<std::uint32_t>(std::ceil(static_cast<double>(timeline.duration) * fps));
+  const FrameRange range = plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
+  const auto draw = [&](std::uint32_t i) { return draughtsman.draw(i / fps, i); };
+  if (plan.kind == TargetKind::film) {
+    write_film(options.output, {plan.size_px, options.fps, common.threads}, range.first, range.last, draw);
+  } else {
+    write_sequence(options.output, range.first, range.last, draw);
+  }
+}
+
+void render(const Options& options, const CommonOptions& common) {
+  const Plan plan = make_plan(options);
+  const render::Stage stage = load(options, plan);
+  stop_if_interrupted();
+  gpu::Context context({options.device, false});
+  render::Playback playback(context, stage, plan.size_px);
+  playback.set_camera(plan.camera);
+  Draughtsman draughtsman(playback);
+  write(options, plan, common, stage.timeline, draughtsman);
+  if (options.json.empty()) return;
+  Json statistics{{"output", options.output},
+                  {"size", {plan.size_px.x, plan.size_px.y}},
+                  {"device", context.info().name},
+                  {"driver", context.info().driver}};
+  statistics.update(draughtsman.statistics());
+  write_json(options.json, statistics);
+}
+
+}  // namespace
+
+Command add_render(CLI::App& program) {
+  Command command =
+      declare(program, "render", "Renders a scene or a timeline to a picture, numbered pictures or a film.",
+              "  brume render room.glb -o room.png --smoke 0,1,0\n"
+              "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
+              "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
+              "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
+  auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("INPUT", options->input, "A timeline (.toml) or a scene (.txt, .gltf, .glb, .obj)")
+      ->required()
+      ->type_name("");
+  parser.add_option("-o,--output", options->output, "Where to: .png, .png with %04d, or .mp4")
+      ->required()
+      ->type_name("FILE");
+  parser.add_option("--timeline", options->timeline, "What happens in the scene INPUT")->type_name("FILE");
+  parser.add_option("--time", options->time, "When the picture is taken [s]; default: at the end")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->type_name("S");
+  parser.add_option("--frames", options->frames, "First and last frame; default: the whole timeline")
+      ->type_name("A-B");
+  parser.add_option("--fps", options->fps, "Frames per second; default 24")
+      ->check(CLI::Range(1u, 1000u))
+      ->type_name("F");
+  parser.add_option("--size", options->size, "Pixels; default 1280x720")->type_name("WxH");
+  parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
+      ->type_name("CAMERA");
+  parser.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("X,Y,Z");
+  parser.add_option("--device", options->device, "Number or part of the name; see brume devices")
+      ->type_name("N|NAME");
+  parser.add_option("--json", options->json, "Write what it took as JSON; -: to standard output")
+      ->type_name("FILE");
+  command.run = [options, common = command.common] { render(*options, *common); };
+  return command;
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,34 @@
+// What `render` writes to: a picture, a numbered sequence of pictures, or a film. Told by the name.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/glm.hpp>
+
+#include "image/image.hpp"
+
+namespace brume::cli {
+
+enum class TargetKind { picture, sequence, film };
+
+/// .png; .png with one %d or %04d in its file name; .mp4. Throws Error (usage) for anything else.
+TargetKind target_kind(const std::filesystem::path& path);
+
+/// "smoke_%04d.png" and 7: "smoke_0007.png".
+std::filesystem::path sequence_name(const std::filesystem::path& pattern, std::uint32_t number);
+
+struct FilmSettings {
+  glm::uvec2 size_px{0};
+  std::uint32_t frames_per_second = 24;
+  unsigned threads = 0;
+};
+
+/// Draws frames first to last and writes them all, with progress. Throws Error, and what `draw` throws; no
+/// file is left half-written.
+void write_film(const std::filesystem::path& path, const FilmSettings& settings, std::uint32_t first,
+                std::uint32_t last, const std::function<image::Image8(std::uint32_t)>& draw);
+void write_sequence(const std::filesystem::path& pattern, std::uint32_t first, std::uint32_t last,
+                    const std::function<image::Image8(std::uint32_t)>& draw);
+
+}  // namespace brume::cli
