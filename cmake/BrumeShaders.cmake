@@ -12,18 +12,19 @@ function(brume_shaders target)
     set(spv ${CMAKE_CURRENT_BINARY_DIR}/${name}.spv)
     set(words ${CMAKE_CURRENT_BINARY_DIR}/${name}.words)
     set(cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
-    set(flags -Werror -O --target-env=vulkan1.3 -I ${CMAKE_CURRENT_SOURCE_DIR})
+    # SPIR-V 1.5: newer output would need maintenance4 of a host's device.
+    set(flags -Werror -O --target-env=vulkan1.2 -I ${CMAKE_CURRENT_SOURCE_DIR})
     add_custom_command(
       OUTPUT ${spv}
       COMMAND ${GLSLC} ${flags} -MD -MF ${spv}.d -o ${spv} ${CMAKE_CURRENT_SOURCE_DIR}/${file}
-      COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${spv}
+      COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${spv}
       DEPENDS ${file} DEPFILE ${spv}.d VERBATIM)
     add_custom_command(
       OUTPUT ${words}
       COMMAND ${GLSLC} ${flags} -mfmt=num -o ${words} ${CMAKE_CURRENT_SOURCE_DIR}/${file}
       DEPENDS ${spv} VERBATIM)
     file(CONFIGURE OUTPUT ${cpp} CONTENT
-"#include \"gpu/shader_code.hpp\"
+"#include \"shader_list.hpp\"
 namespace brume::shaders {
 static const unsigned words[] = {
 #include \"@name@.words\"

@@ -22,7 +22,11 @@ layout(scalar, binding = 9) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(binding = 10, rgba16f) uniform writeonly image3D inscatter;
 layout(push_constant, scalar) uniform Push { InscatterParams params; };
 
-const float kIsotropic = 0.0795774715;  // 1 / (4 pi)
+/// Henyey and Greenstein 1941 [1/sr]; cos_angle between the light's way and the way to the eye.
+float phase(float g, float cos_angle) {
+  const float d = 1.0 + g * g - 2.0 * g * cos_angle;
+  return (1.0 - g * g) * 0.0795774715 / (d * sqrt(d));
+}
 
 /// Optical depth from a point along a unit direction, at most `distance` metres.
 float optical_depth(vec3 p_voxel, vec3 direction, float distance_m) {
@@ -44,12 +48,12 @@ float optical_depth(vec3 p_voxel, vec3 direction, float distance_m) {
   return depth * volume.voxel_size * frame.look.extinction;
 }
 
-/// Transmittance with multiple scattering by octaves: each scattering order sees thinner smoke and less light
-/// (Wrenninge et al. 2013, "Oz: The Great and Volumetric").
-float scattered_transmittance(float depth) {
+/// Share of the light that is scattered towards the eye [1/sr], with multiple scattering by octaves: each order sees
+/// thinner smoke, less light and a rounder phase function (Wrenninge et al. 2013, "Oz: The Great and Volumetric").
+float scattered(float depth, float cos_angle) {
   float sum = 0.0, share = 1.0;
   for (float octave = 0.0; octave < frame.look.scatter_octaves; ++octave) {
-    sum += share * exp(-depth * share);
+    sum += share * exp(-depth * share) * phase(frame.look.anisotropy * share, cos_angle);
     share *= 0.5;
   }
   return sum;
@@ -67,7 +71,9 @@ void main() {
 
   const vec3 p_voxel = vec3(slot_bricks[slot] * kBrickVoxels + local) - 0.5;
   const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
-  vec3 radiance = frame.sky.ambient * scattered_transmittance(optical_depth(p_voxel, vec3(0.0, 1.0, 0.0), 1e3));
+  const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
+  // The sky's light comes from everywhere: what is above stands for all of it.
+  vec3 radiance = frame.sky.ambient * exp(-0.5 * optical_depth(p_voxel, vec3(0.0, 1.0, 0.0), 1e3));
   for (uint i = 0u; i < frame.light_count; ++i) {
     const Light light = lights[i];
     const Incident incident = light_at(light, p_world);
@@ -75,7 +81,7 @@ void main() {
     const float lit = shadow_at(shadows, light, sun.clip_from_world, p_world);
     if (lit <= 0.0) continue;
     const float depth = optical_depth(p_voxel, incident.to_light, incident.distance);
-    radiance += incident.irradiance * (lit * kIsotropic * scattered_transmittance(depth));
+    radiance += incident.irradiance * (lit * scattered(depth, -dot(incident.to_light, to_eye)));
   }
   imageStore(inscatter, atlas_texel, vec4(radiance, 1.0));
 }

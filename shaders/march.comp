@@ -44,11 +44,13 @@ float left_by_holes(uvec2 mask, vec3 p_world, float rim) {
   return left;
 }
 
-/// Billows eat from the rim inwards; where the smoke is full, nothing is lost.
+/// Billows eat from the rim inwards: the less smoke there is, the brighter the noise must be for any to stay. Full
+/// smoke stays full, so that nothing is lost along walls.
 float erode(float density, vec2 billows) {
-  const float noise = 0.7 * billows.r + 0.3 * billows.g;
-  const float eaten = frame.look.erosion * (1.0 - noise);
-  return clamp((density - eaten * (1.0 - density)) / (1.0 - 0.9 * eaten), 0.0, 1.0) * density;
+  const float noise = clamp(1.6 * (0.65 * billows.r + 0.35 * billows.g) - 0.35, 0.0, 1.0);
+  const float threshold = frame.look.erosion * (1.0 - noise);
+  const float full = 1.0 - frame.look.erosion;
+  return clamp((density - threshold) / max(full, 0.05), 0.0, 1.0);
 }
 
 void main() {

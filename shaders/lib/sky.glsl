@@ -4,17 +4,17 @@
 #include "lib/hash.glsl"
 #include "shared/frame.h"
 
-/// Stars at fixed directions: at most one in a cell of a cube map's grid.
+/// Stars at fixed directions: at most one in a cell of a cube map's grid, few of them bright.
 float star_light(vec3 direction) {
   const vec3 a = abs(direction);
   const float major = max(a.x, max(a.y, a.z));
-  const vec3 on_cube = direction / major * 48.0;
+  const vec3 on_cube = direction / major * 64.0;
   const uvec3 cell = uvec3(ivec3(floor(on_cube)) + 1024);
-  const vec3 random = hash3(cell);
-  const vec3 star = (floor(on_cube) + 0.2 + 0.6 * random) / 48.0;
+  const vec3 random = hash3(cell), more = hash3(cell + 4096u);
+  if (more.x > 0.3) return 0.0;
+  const vec3 star = (floor(on_cube) + 0.1 + 0.8 * random) / 64.0;
   const float apart = length(normalize(star) - direction);
-  const float bright = pow(fract(random.x * 7.13 + random.y * 3.7), 12.0);
-  return bright * smoothstep(0.0022, 0.0004, apart);
+  return (0.04 + pow(more.y, 10.0)) * smoothstep(0.0016, 0.0003, apart);
 }
 
 vec3 sky_radiance(Sky sky, vec3 direction) {

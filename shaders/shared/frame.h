@@ -36,8 +36,9 @@ struct SmokeLook {
   float noise_drift;       // upward [m/s]
   float scatter_octaves;   // octaves of multiple scattering, 1: single scattering
   float hole_rim;          // how far noise moves the rim of a hole [m]
+  float anisotropy;        // Henyey-Greenstein's g, (-1, 1); above 0: forward
 };
-SHARED_SIZE(SmokeLook, 44);
+SHARED_SIZE(SmokeLook, 48);
 
 struct FrameConstants {
   Camera camera;
@@ -51,7 +52,7 @@ struct FrameConstants {
   float time;        // [s]
   float exposure;    // multiplies radiance before the tone curve
 };
-SHARED_SIZE(FrameConstants, 304);
+SHARED_SIZE(FrameConstants, 308);
 
 SHARED_END
 #endif

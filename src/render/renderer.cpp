@@ -52,8 +52,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       holes_(context, passes::kMaxHoles * sizeof(shared::Hole), kBufferUsage),
       counters_(context, sizeof(std::uint32_t), kBufferUsage) {
   shadow_pass_.record(context, runner, scene_, shadows_);
+  const passes::WorleyPass worley(context);
   runner.run([&](gpu::Recorder& recorder) {
-    const passes::WorleyPass worley(context);
     worley.record(recorder, worley_, passes::kSmokeNoise);
     blue_noise_ = passes::make_blue_noise(context, recorder);
   });
@@ -112,7 +112,10 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
 bool Renderer::needs_inscatter(const FrameInput& input) {
   const bool same_look = std::memcmp(&lit_look_, &input.look, sizeof lit_look_) == 0 &&
                          std::memcmp(&lit_sky_, &input.sky, sizeof lit_sky_) == 0;
-  const bool needed = smoke_changed_ || !same_look || input.force_inscatter;
+  // Scattering depends on where the eye is, unless it goes evenly all around.
+  const bool same_eye = input.look.anisotropy == 0 || lit_eye_ == input.camera.position_world;
+  const bool needed = smoke_changed_ || !same_look || !same_eye || input.force_inscatter;
+  lit_eye_ = input.camera.position_world;
   lit_look_ = input.look;
   lit_sky_ = input.sky;
   smoke_changed_ = false;

@@ -78,6 +78,7 @@ class Renderer {
   gpu::Buffer frame_, holes_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the in-scatter was made with.
   shared::Sky lit_sky_{};
+  glm::vec3 lit_eye_{0};
   bool smoke_changed_ = false;
 };
 
