@@ -159,10 +159,27 @@ def check_solids(scene, found):
             found.append(f"{name}: wound inward")
 
 
+def check_grid(scene, found):
+    """No face of a wall or a floor lies on an edge of the timeline's voxels, where one side would be a toss-up."""
+    cell, origin = 0.25, np.array([-14.1, -0.35, -12.1])
+    for name, solid, *_ in scene.objects:
+        if not name.startswith(("wing_f", "wing_b", "wing_w", "wing_c", "tower_f", "tower_b", "tower_e", "tower_w",
+                                "partition", "loft")):
+            continue
+        for _, pos, nrm, _, _, _ in solid.arrays():
+            for axis in range(3):
+                at = (pos[abs(nrm[:, axis]) > 0.999, axis] - origin[axis]) / cell
+                near = abs(at - np.round(at)) * cell
+                if (near < 0.009).any():
+                    bad = pos[abs(nrm[:, axis]) > 0.999, axis][near < 0.009][0]
+                    found.append(f"{name}: a face at {'xyz'[axis]} = {bad:.3f} lies on a voxel's edge")
+
+
 def run(scene, data, path):
     found = []
     check_file(data, found)
     check_solids(scene, found)
+    check_grid(scene, found)
     if not os.path.exists(path):
         found.append(f"{path} is missing; run make_demo.py")
     elif open(path, "rb").read() != data:

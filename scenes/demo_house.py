@@ -4,7 +4,7 @@ Metres, y up, the front looks to +z. Wing: x -7..0, z -6.5..0. Tower: x 0..7, z 
 """
 import numpy as np
 
-from demo_geometry import Solid
+from demo_geometry import Solid, rotation_y
 
 FLOOR = 0.1
 OUTER, INNER = 0.25, 0.1     # wall thickness
@@ -16,9 +16,9 @@ HEAD = 2.45                  # top of doors and windows
 # Openings in world coordinates: (from, to, bottom, top) along x or z.
 FRONT_DOOR = (-3.2, -1.8, FLOOR, HEAD)
 FRONT_WINDOW = (-6.0, -4.2, 1.0, HEAD)
-SIDE_WINDOW = (-4.1, -2.5, 1.0, HEAD)          # z, west wall of the wing
+SIDE_WINDOW = (-4.15, -2.5, 1.0, HEAD)          # z, west wall of the wing
 INNER_DOOR = (-3.2, -1.8, FLOOR, HEAD)         # z, between the rooms
-CORNER_WINDOW = (0.4, 1.6, 1.0, HEAD)          # z, west wall of the tower, towards the yard
+CORNER_WINDOW = (0.35, 1.6, 1.0, HEAD)          # z, west wall of the tower, towards the yard
 GARAGE_DOOR = (1.3, 4.5, FLOOR, 2.95)
 GABLE_WINDOW = (2.7, 4.3, 3.95, 5.3)
 WASHROOM_WINDOW = (-6.9, -5.7, 1.3, HEAD)      # z, east wall
@@ -66,7 +66,7 @@ def wing(scene):
     apex = high + WING_RISE
     scene.add("wing_gable", prism("siding", [(-7, high, 0), (-7, high, -6.5), (-7, apex, -3.25)], (0.25, 0, 0)))
     scene.add("wing_ceiling", box("planks", (-6.75, 3.1, -6.25), (0, 3.25, -0.25)))
-    scene.add("wing_floor", box("tiles", (-6.75, -0.1, -6.25), (0.0, FLOOR, -0.25)))
+    scene.add("wing_floor", box("tiles", (-6.75, -0.05, -6.25), (0.0, FLOOR, -0.25)))
     slope, thick, over = np.tan(np.radians(27)), 0.16, 0.5
     for name, sign in (("front", 1), ("back", -1)):
         ridge, eave = (-7.45, apex, -3.25), (-7.45, high - over * slope, -3.25 + sign * (3.25 + over))
@@ -104,7 +104,6 @@ def porch(scene):
             leaf.box("door_paint", (0.14, y0, z - 0.012), (1.20, y1, z + 0.012))
         leaf.beam("steel", (1.26, 1.02, z), (1.26, 1.02, z * 2.4), 0.03, 0.03)
         leaf.beam("steel", (1.28, 1.02, z * 2.4), (1.14, 1.02, z * 2.4), 0.025, 0.025)
-    from demo_geometry import rotation_y
     scene.add("door_leaf", leaf, (-1.79, FLOOR, 0.05), rotation_y(-72))
 
 
@@ -165,29 +164,29 @@ def tower(scene):
 
 def rooms(scene):
     floors = Solid()
-    floors.box("concrete", (0.0, -0.1, -6.25), (6.75, FLOOR, 1.75), offset=(0.5, 0.3))
-    floors.box("concrete", (0.25, -0.1, -7.75), (6.75, FLOOR, -6.25), offset=(0.5, 0.3))
+    floors.box("concrete", (0.0, -0.05, -6.25), (6.75, FLOOR, 1.75), offset=(0.5, 0.3))
+    floors.box("concrete", (0.25, -0.05, -7.75), (6.75, FLOOR, -6.25), offset=(0.5, 0.3))
     scene.add("tower_floor", floors)
-    scene.add("loft", box({"side": "planks", "top": "planks"}, (0.1, 2.9, -7.75), (6.75, 3.1, -3.4), turn=True))
+    scene.add("loft", box({"side": "planks", "top": "planks"}, (0.1, 2.92, -7.75), (6.75, 3.1, -3.4), turn=True))
     wash = {"out": "plaster_in", "in": "tiles", "edge": "trim"}
-    scene.add("partition_washroom_side", along_z(wash, (-7.75, -5.0), 3.7, -1, FLOOR, 2.8, INNER, [WASHROOM_DOOR]))
-    scene.add("partition_washroom_front", along_x(wash, (3.6, 6.75), -5.0, 1, FLOOR, 2.8, INNER))
+    scene.add("partition_washroom_side", along_z(wash, (-7.75, -5.0), 3.7, -1, FLOOR, 2.82, INNER, [WASHROOM_DOOR]))
+    scene.add("partition_washroom_front", along_x(wash, (3.6, 6.75), -5.0, 1, FLOOR, 2.82, INNER))
     stair = Solid()
     for i in range(14):
         top, front = FLOOR + 0.2 * (i + 1), 0.38 - 0.27 * i
-        stair.box("planks", (5.65, max(FLOOR, top - 0.3), front - 0.27), (6.75, top, front), offset=(0.37 * i, 0.1 * i))
+        stair.box("planks", (5.60, max(FLOOR, top - 0.3), front - 0.27), (6.75, top, front), offset=(0.37 * i, 0.1 * i))
     scene.add("stair", stair)
     rail = Solid()
     for i in range(0, 15, 2):
-        x, y, z = 5.69, FLOOR + 0.2 * (i + 1), 0.245 - 0.27 * i
+        x, y, z = 5.64, FLOOR + 0.2 * (i + 1), 0.245 - 0.27 * i
         rail.beam("dark_metal", (x, y - 0.05, z), (x, y + 0.9, z), 0.035, 0.035)
-    rail.beam("planks", (5.69, FLOOR + 1.08, 0.30), (5.69, FLOOR + 4.02, -3.67), 0.06, 0.05)
+    rail.beam("planks", (5.64, FLOOR + 1.08, 0.30), (5.64, FLOOR + 4.02, -3.67), 0.06, 0.05)
     for x in np.arange(0.35, 5.6, 0.87):
         rail.beam("dark_metal", (x, 3.1, -3.46), (x, 4.05, -3.46), 0.035, 0.035)
     for y in (3.55, 4.05):
         rail.beam("planks" if y > 4 else "dark_metal", (0.12, y, -3.46), (5.6, y, -3.46), 0.05, 0.04)
     scene.add("railings", rail, ignore=True)
-    for name, x, z, top in (("column_a", -4.40, -2.35, 3.1), ("column_b", 3.2, -3.75, 2.9)):
+    for name, x, z, top in (("column_a", -4.40, -2.35, 3.1), ("column_b", 3.2, -3.85, 2.92)):
         column = Solid()
         radius = 0.42
         column.lathe("concrete", [(0, FLOOR), (radius + .06, FLOOR), (radius + .06, FLOOR + .12), (radius, FLOOR + .18),

@@ -140,8 +140,8 @@ def plaster(n=512):
     color = mix(color, np.array([.43, .38, .30]), 0.34 * smooth(0.6, 3.0, streak))
     rust = smooth(1.9, 3.0, spectral(rng, n, 2.0, 3, 120, (1.0, 6.0)) + 0.4 * tone)
     color = mix(color, np.array([.45, .28, .17]), 0.45 * rust)
-    crack_field = spectral(rng, n, 2.4, 2, 60)
-    crack = (1 - smooth(0.008, 0.035, np.abs(crack_field))) * smooth(0.5, 1.3, spectral(rng, n, 2.4, 2, 8))
+    crack_field = spectral(rng, n, 3.7, 3, 70)
+    crack = (1 - smooth(0.012, 0.040, np.abs(crack_field))) * smooth(0.7, 1.5, spectral(rng, n, 2.4, 2, 8))
     flake_field = spectral(rng, n, 2.6, 3, 90)
     flake = smooth(2.55, 2.63, flake_field + 0.06 * grit)
     rim = smooth(2.45, 2.55, flake_field) * (1 - flake)
@@ -222,9 +222,9 @@ def tiles(n=512):
     base = base * (1 + 0.05 * swirl)[..., None]
     odd = per(0, 1) > 0.95
     base = np.where(odd[..., None], base * np.array([.86, .80, .70]), base)
-    field = spectral(rng, n, 2.3, 2, 60)
+    field = spectral(rng, n, 3.6, 5, 80)
     cracked = per(0, 1) > 0.88
-    crack = (1 - smooth(0.015, 0.05, np.abs(field))) * cracked * inside
+    crack = (1 - smooth(0.03, 0.08, np.abs(field))) * cracked * inside
     dirt = smooth(0.2, 2.2, spectral(rng, n, 2.4, 1, 60)) * 0.34 + 0.25 * (1 - smooth(2, 9, edge))
     color = mix(base, np.array([.27, .23, .18]), np.clip(dirt, 0, 1))
     grout = np.array([.30, .28, .25])[None, None] * (1 + 0.12 * grit)[..., None]
@@ -322,7 +322,7 @@ def ground(n=512):
     color = mix(color, np.array([.075, .075, .08]), 0.8 * water)
     height = (0.006 * stone * mix(np.ones((n, n)), np.full((n, n), 0.45), bare) + 0.004 * swell) * (1 - water) + \
         0.00005 * spectral(rng, n, 2.0, 6, 60)
-    rough = np.clip(0.9 - 0.3 * damp - 0.52 * water, 0.06, 1)
+    rough = np.clip(0.9 - 0.3 * damp - 0.52 * water, 0.20, 1)
     return {"color": color, "height": height, "rough": rough}
 
 
