@@ -74,9 +74,12 @@ struct Timeline {
   std::vector<ShotEvent> shots;    ///< The same.
 };
 
-/// Reads a timeline (TOML, `version = 1`; docs/timeline.md lists the keys). Fails with bad_input and
-/// file:line:column for broken TOML, a key that is not known (naming the nearest that is), a value of the
-/// wrong type or out of the range above.
+/// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, the tables [grid] (voxel,
+/// size, origin), [smoke] and [sky] with the members above as keys, and [[camera]] (time, position, target,
+/// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at) or "shot"
+/// (time, from, toward, radius, reach, expand, stay, fade). Points in metres, [-10^6, 10^6]. Fails with
+/// bad_input and file:line:column for broken TOML, a key that is not known (naming the nearest that is), a
+/// value of the wrong type or out of its range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` is what messages call it and what its scene is relative to.

@@ -1,0 +1,176 @@
+#include "scene/timeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/file.hpp"
+#include "scene/ray.hpp"
+#include "scene/toml_table.hpp"
+
+namespace brume::scene {
+namespace {
+
+constexpr double kLatest = 3600, kFarthest = 1e6, kDegree = 3.14159265358979323846 / 180;
+
+class TimelineReader {
+ public:
+  explicit TimelineReader(const std::filesystem::path& path) : path_(path), file_(path.string()) {}
+
+  Result<Timeline> read(const toml::table& document) {
+    TomlTable root(document, "the timeline", file_);
+    std::uint32_t version = 0;
+    std::string scene;
+    root.require("version");
+    root.read("version", version, 1, 1);
+    root.require("scene");
+    root.read("scene", scene);
+    if (scene.empty() || scene.find('\0') != std::string::npos)
+      root.fail("scene", "\"scene\": expected the name of a scene file");
+    root.read("duration", timeline_.duration, 0.01, kLatest);
+    root.read("exposure", timeline_.exposure, -20, 20);
+    const toml::table* const grid = root.table("grid");
+    const toml::table* const smoke = root.table("smoke");
+    const toml::table* const sky = root.table("sky");
+    const auto cameras = root.tables("camera");
+    const auto events = root.tables("event");
+    if (auto done = root.finish(); !done) return done.failure();
+
+    timeline_.scene = path_.parent_path() / scene;
+    Result<void> outcome;
+    if (grid != nullptr && outcome) outcome = read_grid(*grid);
+    if (smoke != nullptr && outcome) outcome = read_smoke(*smoke);
+    if (sky != nullptr && outcome) outcome = read_sky(*sky);
+    for (std::size_t i = 0; i < cameras.size() && outcome; ++i) outcome = read_camera(*cameras[i]);
+    for (std::size_t i = 0; i < events.size() && outcome; ++i) outcome = read_event(*events[i]);
+    if (!outcome) return outcome.failure();
+
+    const auto earlier = [](const auto& a, const auto& b) { return a.time < b.time; };
+    std::stable_sort(timeline_.smokes.begin(), timeline_.smokes.end(), earlier);
+    std::stable_sort(timeline_.shots.begin(), timeline_.shots.end(), earlier);
+    return std::move(timeline_);
+  }
+
+ private:
+  Result<void> read_grid(const toml::table& source) {
+    TomlTable table(source, "[grid]", file_);
+    table.read("voxel", timeline_.grid.voxel, 0.01, 10);
+    table.read("size", timeline_.grid.size, 1, 4096);
+    table.read("origin", timeline_.grid.origin_world, -kFarthest, kFarthest);
+    return table.finish();
+  }
+
+  Result<void> read_smoke(const toml::table& source) {
+    TomlTable table(source, "[smoke]", file_);
+    SmokeOptions& smoke = timeline_.smoke;
+    table.read("voxels", smoke.voxels, 1, 1 << 24);
+    table.read("bloom", smoke.bloom, 0.05, 60);
+    table.read("extinction", smoke.extinction, 0.01, 100);
+    table.read("albedo", smoke.albedo, 0, 1);
+    table.read("anisotropy", smoke.anisotropy, -0.9, 0.9);
+    table.read("noise", smoke.noise, 0, 1);
+    table.read("noise_size", smoke.noise_size, 0.05, 100);
+    table.read("throw_speed", smoke.throw_speed, 1, 200);
+    return table.finish();
+  }
+
+  Result<void> read_sky(const toml::table& source) {
+    TomlTable table(source, "[sky]", file_);
+    table.read("zenith", timeline_.sky.zenith, 0, 1000);
+    table.read("horizon", timeline_.sky.horizon, 0, 1000);
+    table.read("ambient", timeline_.sky.ambient, 0, 1000);
+    return table.finish();
+  }
+
+  Result<void> read_camera(const toml::table& source) {
+    TomlTable table(source, "[[camera]]", file_);
+    CameraKey key;
+    double degrees = double{key.camera.vertical_fov} / kDegree;
+    for (const char* name : {"time", "position", "target"}) table.require(name);
+    table.read("time", key.time, 0, kLatest);
+    table.read("position", key.camera.position_world, -kFarthest, kFarthest);
+    table.read("target", key.camera.target_world, -kFarthest, kFarthest);
+    table.read("fov", degrees, 1, 170);
+    key.camera.vertical_fov = static_cast<float>(degrees * kDegree);
+    if (key.camera.position_world == key.camera.target_world)
+      table.fail("target", "\"target\": expected a point other than the position");
+    if (!timeline_.camera.empty() && !(key.time > timeline_.camera.back().time))
+      table.fail("time", "\"time\": expected a later time than that of the [[camera]] before");
+    timeline_.camera.push_back(key);
+    return table.finish();
+  }
+
+  Result<void> read_event(const toml::table& source) {
+    TomlTable table(source, "[[event]]", file_);
+    std::string type;
+    for (const char* name : {"type", "time"}) table.require(name);
+    table.read("type", type);
+    if (type == "smoke") return read_smoke_event(table);
+    if (type == "shot") return read_shot_event(table);
+    table.fail("type", "\"type\": expected \"smoke\" or \"shot\"");
+    return table.finish();
+  }
+
+  Result<void> read_smoke_event(TomlTable& table) {
+    SmokeEvent event;
+    for (const char* name : {"from", "at"}) table.require(name);
+    table.read("time", event.time, 0, kLatest);
+    table.read("from", event.from_world, -kFarthest, kFarthest);
+    table.read("at", event.at_world, -kFarthest, kFarthest);
+    timeline_.smokes.push_back(event);
+    return table.finish();
+  }
+
+  Result<void> read_shot_event(TomlTable& table) {
+    ShotEvent event;
+    for (const char* name : {"from", "toward"}) table.require(name);
+    table.read("time", event.time, 0, kLatest);
+    table.read("from", event.from_world, -kFarthest, kFarthest);
+    table.read("toward", event.toward_world, -kFarthest, kFarthest);
+    table.read("radius", event.radius, 0.01, 10);
+    table.read("reach", event.reach, 0, 60);
+    table.read("expand", event.expand, 0, 60);
+    table.read("stay", event.stay, 0, 600);
+    table.read("fade", event.fade, 0, 60);
+    if (event.from_world == event.toward_world)
+      table.fail("toward", "\"toward\": expected a point other than \"from\"");
+    timeline_.shots.push_back(event);
+    return table.finish();
+  }
+
+  const std::filesystem::path& path_;
+  std::string file_;
+  Timeline timeline_;
+};
+
+}  // namespace
+
+Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path) {
+  const toml::parse_result parsed = toml::parse(text);
+  if (!parsed) {
+    const toml::source_position at = parsed.error().source().begin;
+    return Failure{ErrorCode::bad_input, path.string() + ":" + std::to_string(at.line) + ":" +
+                                             std::to_string(at.column) + ": " +
+                                             std::string(parsed.error().description())};
+  }
+  return TimelineReader(path).read(parsed.table());
+}
+
+Result<Timeline> load_timeline(const std::filesystem::path& path) {
+  const auto text = read_text_file(path, 1u << 24);
+  if (!text) return text.failure();
+  return parse_timeline(*text, path);
+}
+
+Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scene) {
+  Timeline timeline;
+  timeline.scene = path;
+  const Camera camera = default_camera(scene);
+  SmokeEvent smoke;
+  smoke.from_world = camera.position_world;
+  smoke.at_world = first_hit(scene, camera.position_world, camera.target_world - camera.position_world)
+                       .value_or(camera.target_world);
+  timeline.smokes.push_back(smoke);
+  return timeline;
+}
+
+}  // namespace brume::scene

@@ -1,0 +1,194 @@
+#include "scene/toml_table.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "scene/text_reader.hpp"
+
+namespace brume::scene {
+namespace {
+
+std::string shown(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// The start of a message on a key's value.
+std::string expected(std::string_view key, const char* what) {
+  std::string text = "\"";
+  text += key;
+  text += "\": expected ";
+  text += what;
+  return text;
+}
+
+}  // namespace
+
+TomlTable::TomlTable(const toml::table& table, std::string name, std::string file)
+    : table_(table), name_(std::move(name)), file_(std::move(file)) {}
+
+const toml::node* TomlTable::find(std::string_view key) {
+  known_.emplace_back(key);
+  return failure_ ? nullptr : table_.get(key);
+}
+
+void TomlTable::fail_at(const toml::source_region& where, const std::string& what) {
+  if (failure_) return;
+  failure_ = Failure{ErrorCode::bad_input, file_ + ":" + std::to_string(where.begin.line) + ":" +
+                                               std::to_string(where.begin.column) + ": " + what};
+}
+
+void TomlTable::fail(std::string_view key, const std::string& what) {
+  const toml::node* node = table_.get(key);
+  fail_at(node ? node->source() : table_.source(), what);
+}
+
+void TomlTable::require(std::string_view key) {
+  if (table_.get(key) == nullptr)
+    fail_at(table_.source(), name_ + " lacks the key \"" + std::string(key) + "\"");
+}
+
+std::optional<double> TomlTable::number(const toml::node& node, std::string_view key, double least,
+                                        double most) {
+  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (value && *value >= least && *value <= most) return value;
+  std::string found = value ? ", found " + shown(*value) : "";
+  fail_at(node.source(), expected(key, "a number from ") + shown(least) + " to " + shown(most) + found);
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> TomlTable::whole(const toml::node& node, std::string_view key, std::int64_t least,
+                                             std::int64_t most) {
+  const std::optional<std::int64_t> value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
+  if (value && *value >= least && *value <= most) return value;
+  std::string found = value ? ", found " + std::to_string(*value) : "";
+  fail_at(node.source(), expected(key, "a whole number from ") + std::to_string(least) + " to " +
+                             std::to_string(most) + found);
+  return std::nullopt;
+}
+
+const toml::array* TomlTable::triple(const toml::node& node, std::string_view key) {
+  const toml::array* array = node.as_array();
+  if (array != nullptr && array->size() == 3) return array;
+  fail_at(node.source(), expected(key, "three numbers, like [0.0, 1.0, 2.0]"));
+  return nullptr;
+}
+
+void TomlTable::read(std::string_view key, double& value, double least, double most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (const auto found = number(*node, key, least, most)) value = *found;
+}
+
+void TomlTable::read(std::string_view key, float& value, double least, double most) {
+  double wide = double{value};
+  read(key, wide, least, most);
+  value = static_cast<float>(wide);
+}
+
+void TomlTable::read(std::string_view key, std::uint32_t& value, std::int64_t least, std::int64_t most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (const auto found = whole(*node, key, least, most)) value = static_cast<std::uint32_t>(*found);
+}
+
+void TomlTable::read(std::string_view key, glm::vec3& value, double least, double most) {
+  std::optional<glm::vec3> found;
+  read(key, found, least, most);
+  if (found) value = *found;
+}
+
+void TomlTable::read(std::string_view key, std::optional<glm::vec3>& value, double least, double most) {
+  const toml::node* node = find(key);
+  const toml::array* array = node != nullptr ? triple(*node, key) : nullptr;
+  if (array == nullptr) return;
+  glm::vec3 result(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto found = number((*array)[static_cast<std::size_t>(axis)], key, least, most);
+    if (!found) return;
+    result[axis] = static_cast<float>(*found);
+  }
+  value = result;
+}
+
+void TomlTable::read(std::string_view key, std::optional<glm::ivec3>& value, std::int64_t least,
+                     std::int64_t most) {
+  const toml::node* node = find(key);
+  const toml::array* array = node != nullptr ? triple(*node, key) : nullptr;
+  if (array == nullptr) return;
+  glm::ivec3 result(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto found = whole((*array)[static_cast<std::size_t>(axis)], key, least, most);
+    if (!found) return;
+    result[axis] = static_cast<int>(*found);
+  }
+  value = result;
+}
+
+void TomlTable::read(std::string_view key, std::string& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (const auto* text = node->as_string()) {
+    value = text->get();
+  } else {
+    fail_at(node->source(), expected(key, "a text in quotes"));
+  }
+}
+
+const toml::table* TomlTable::table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return nullptr;
+  if (!node->is_table()) fail_at(node->source(), "expected a table [" + std::string(key) + "]");
+  return node->as_table();
+}
+
+std::vector<const toml::table*> TomlTable::tables(std::string_view key) {
+  std::vector<const toml::table*> result;
+  const toml::node* node = find(key);
+  if (node == nullptr) return result;
+  const toml::array* array = node->as_array();
+  for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+    if ((*array)[i].is_table()) result.push_back((*array)[i].as_table());
+  }
+  if (array == nullptr || result.size() != array->size()) {
+    fail_at(node->source(), "expected tables [[" + std::string(key) + "]]");
+    result.clear();
+  }
+  return result;
+}
+
+Result<void> TomlTable::finish() {
+  for (const auto& [key, value] : table_) {
+    const std::string_view name = key.str();
+    if (failure_ || std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    std::string message = "unknown key " + in_quotes(name) + " in " + name_;
+    const auto nearest = std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) {
+      return edit_distance(a, name) < edit_distance(b, name);
+    });
+    if (nearest != known_.end()) message += "; the nearest known one is \"" + *nearest + "\"";
+    fail_at(key.source(), message);
+  }
+  return failure_ ? Result<void>(*failure_) : Result<void>();
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Long keys are nobody's typing error, and their distance would take long.
+  a = a.substr(0, 64);
+  b = b.substr(0, 64);
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const std::size_t above = row[k + 1];
+      row[k + 1] = std::min({above + 1, row[k] + 1, diagonal + (a[i] == b[k] ? 0u : 1u)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+}  // namespace brume::scene

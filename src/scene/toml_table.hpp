@@ -1,0 +1,63 @@
+// Settings from TOML tables: every key typed, in range and known, or an error that names the place.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#define TOML_EXCEPTIONS 0
+#define TOML_HEADER_ONLY 1
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+
+#include "core/error.hpp"
+
+namespace brume::scene {
+
+/// Reads one table. Each `read` takes a key that may be missing (the value is then left alone); `finish`
+/// refuses the keys that nobody read. The first failure is kept and later reads do nothing, so that a reader
+/// asks for all keys in a row and looks at the outcome once.
+class TomlTable {
+ public:
+  /// `name` is what messages call the table ("[smoke]"), `file` the file.
+  TomlTable(const toml::table& table, std::string name, std::string file);
+
+  void read(std::string_view key, float& value, double least, double most);
+  void read(std::string_view key, double& value, double least, double most);
+  void read(std::string_view key, std::uint32_t& value, std::int64_t least, std::int64_t most);
+  void read(std::string_view key, glm::vec3& value, double least, double most);
+  void read(std::string_view key, std::optional<glm::vec3>& value, double least, double most);
+  void read(std::string_view key, std::optional<glm::ivec3>& value, std::int64_t least, std::int64_t most);
+  void read(std::string_view key, std::string& value);
+  /// A table of the table; nothing when the key is missing.
+  const toml::table* table(std::string_view key);
+  /// The tables of an array of tables.
+  std::vector<const toml::table*> tables(std::string_view key);
+
+  /// Fails where the key is missing.
+  void require(std::string_view key);
+  /// Fails at a key's value (at the table where the key is missing).
+  void fail(std::string_view key, const std::string& what);
+  /// The first failure; else the first key that nobody read, with the nearest known one.
+  Result<void> finish();
+
+ private:
+  const toml::node* find(std::string_view key);
+  void fail_at(const toml::source_region& where, const std::string& what);
+  std::optional<double> number(const toml::node& node, std::string_view key, double least, double most);
+  std::optional<std::int64_t> whole(const toml::node& node, std::string_view key, std::int64_t least,
+                                    std::int64_t most);
+  const toml::array* triple(const toml::node& node, std::string_view key);
+
+  const toml::table& table_;
+  std::string name_, file_;
+  std::vector<std::string> known_;
+  std::optional<Failure> failure_;
+};
+
+/// How many single characters must be inserted, removed or replaced to turn a into b (Levenshtein 1966).
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+}  // namespace brume::scene
