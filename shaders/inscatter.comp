@@ -8,6 +8,7 @@
 #define BINDING_CELLS 6
 #define BINDING_BOUNDARY 7
 #define BINDING_CORNERS 8
+#include "lib/erosion.glsl"
 #include "lib/lights.glsl"
 #include "lib/smoke_density.glsl"
 #include "shared/frame.h"
@@ -20,12 +21,32 @@ layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArrayShadow shadows;
 layout(scalar, binding = 9) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(binding = 10, rgba16f) uniform writeonly image3D inscatter;
+layout(binding = 11) uniform sampler3D worley_tile;
 layout(push_constant, scalar) uniform Push { InscatterParams params; };
 
 /// Henyey and Greenstein 1941 [1/sr]; cos_angle between the light's way and the way to the eye.
 float phase(float g, float cos_angle) {
   const float d = 1.0 + g * g - 2.0 * g * cos_angle;
   return (1.0 - g * g) * 0.0795774715 / (d * sqrt(d));
+}
+
+/// Density as the march sees it, without holes.
+float seen_density(vec3 p_voxel) {
+  const float density = smoke_density(frame.volume, p_voxel);
+  if (density <= 0.0 || frame.look.erosion <= 0.0) return density;
+  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
+  return erode(frame.look, density, billows(worley_tile, frame.look, p_world, frame.time));
+}
+
+/// Whether any of the 27 texels around one holds smoke: only then a sample of the march can meet its light.
+bool smoke_around(ivec3 atlas_texel) {
+  const vec3 texel = 1.0 / vec3(textureSize(density_atlas, 0));
+  float sum = 0.0;
+  for (uint i = 0u; i < 8u; ++i) {
+    const vec3 offset = vec3(i & 1u, i >> 1u & 1u, i >> 2u);
+    sum += textureLod(density_atlas, (vec3(atlas_texel) + offset) * texel, 0.0).r;
+  }
+  return sum > 0.0;
 }
 
 /// Optical depth from a point along a unit direction, at most `distance` metres.
@@ -41,7 +62,7 @@ float optical_depth(vec3 p_voxel, vec3 direction, float distance_m) {
   float depth = 0.0, before = 0.0;
   for (float i = 1.0; i <= steps; ++i) {
     const float after = reach * (i / steps) * (0.5 + 0.5 * i / steps);
-    depth += smoke_density(volume, p_voxel + direction * (0.5 * (before + after))) * (after - before);
+    depth += seen_density(p_voxel + direction * (0.5 * (before + after))) * (after - before);
     if (depth * volume.voxel_size * frame.look.extinction > 12.0) break;
     before = after;
   }
@@ -69,6 +90,10 @@ void main() {
   const uvec3 corner = uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * uint(kBrickTexels);
   const ivec3 atlas_texel = ivec3(corner) + local;
 
+  if (!smoke_around(atlas_texel)) {
+    imageStore(inscatter, atlas_texel, vec4(0.0));
+    return;
+  }
   const vec3 p_voxel = vec3(slot_bricks[slot] * kBrickVoxels + local) - 0.5;
   const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
   const vec3 to_eye = normalize(frame.camera.eye_world - p_world);

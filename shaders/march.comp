@@ -9,6 +9,7 @@
 #define BINDING_CORNERS 5
 #include "lib/blue_noise.glsl"
 #include "lib/camera.glsl"
+#include "lib/erosion.glsl"
 #include "lib/holes.glsl"
 #include "lib/smoke_density.glsl"
 #include "shared/frame.h"
@@ -42,15 +43,6 @@ float left_by_holes(uvec2 mask, vec3 p_world, float rim) {
     }
   }
   return left;
-}
-
-/// Billows eat from the rim inwards: the less smoke there is, the brighter the noise must be for any to stay. Full
-/// smoke stays full, so that nothing is lost along walls.
-float erode(float density, vec2 billows) {
-  const float noise = clamp(1.6 * (0.65 * billows.r + 0.35 * billows.g) - 0.35, 0.0, 1.0);
-  const float threshold = frame.look.erosion * (1.0 - noise);
-  const float full = 1.0 - frame.look.erosion;
-  return clamp((density - threshold) / max(full, 0.05), 0.0, 1.0);
 }
 
 void main() {
@@ -98,10 +90,9 @@ void main() {
       if (density <= 0.0) continue;
       const vec3 p_world = volume.origin_world + p_voxel * volume.voxel_size;
       if (frame.look.erosion > 0.0 || hole_mask != uvec2(0u)) {
-        const vec3 noise_uvw = (p_world - vec3(0.0, frame.look.noise_drift * frame.time, 0.0)) / frame.look.noise_period;
-        const vec2 billows = textureLod(worley_tile, noise_uvw, 0.0).rg;
-        if (frame.look.erosion > 0.0) density = erode(density, billows);
-        if (hole_mask != uvec2(0u)) density *= left_by_holes(hole_mask, p_world, (2.0 * billows.g - 1.0) * frame.look.hole_rim);
+        const vec2 noise = billows(worley_tile, frame.look, p_world, frame.time);
+        density = erode(frame.look, density, noise);
+        if (hole_mask != uvec2(0u)) density *= left_by_holes(hole_mask, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
         if (density <= 0.0) continue;
       }
       // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.

@@ -12,11 +12,11 @@ class InscatterPass {
   explicit InscatterPass(gpu::Context& context);
   /// Fills smoke.inscatter for all slots.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-              const ShadowMaps& shadows, const SmokeResources& smoke) const;
+              const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& worley) const;
 
  private:
   gpu::ComputePipeline pipeline_;
-  gpu::Sampler linear_, compare_;
+  gpu::Sampler linear_, repeat_, compare_;
 };
 
 }  // namespace brume::passes

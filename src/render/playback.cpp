@@ -11,10 +11,13 @@ namespace brume::render {
 namespace {
 
 std::uint32_t tick_at(const sim::World& world, double seconds) {
-  return static_cast<std::uint32_t>(std::floor(std::max(0.0, seconds) * world.settings().ticks_per_second + 1e-9));
+  return static_cast<std::uint32_t>(
+      std::floor(std::max(0.0, seconds) * world.settings().ticks_per_second + 1e-9));
 }
 
-std::uint32_t milliseconds(float seconds) { return static_cast<std::uint32_t>(std::lround(seconds * 1000)); }
+std::uint32_t milliseconds(float seconds) {
+  return static_cast<std::uint32_t>(std::lround(seconds * 1000));
+}
 
 Result<voxel::GridFrame> grid_frame(const scene::Timeline& timeline, const scene::Scene& scene) {
   // Two voxels around the scene: smoke may flow around its outside.
@@ -38,8 +41,8 @@ Result<void> append_events(const scene::Timeline& timeline, sim::World& world) {
   for (const scene::SmokeEvent& event : timeline.smokes) {
     sim::ThrowSmoke thrown;
     thrown.tick = tick_at(world, event.time);
-    thrown.from = sim::position_from_metres(event.from_world);
-    thrown.at = sim::position_from_metres(event.at_world);
+    thrown.from = sim::position_from_metres(glm::dvec3(event.from_world));
+    thrown.at = sim::position_from_metres(glm::dvec3(event.at_world));
     thrown.smoke.voxels = timeline.smoke.voxels;
     thrown.smoke.bloom_ticks = std::max(1u, tick_at(world, timeline.smoke.bloom));
     if (auto done = world.append(thrown); !done) return done;
@@ -47,10 +50,11 @@ Result<void> append_events(const scene::Timeline& timeline, sim::World& world) {
   for (const scene::ShotEvent& event : timeline.shots) {
     sim::Shot shot;
     shot.tick = tick_at(world, event.time);
-    shot.origin = sim::position_from_metres(event.from_world);
-    shot.toward = sim::position_from_metres(event.toward_world);
+    shot.origin = sim::position_from_metres(glm::dvec3(event.from_world));
+    shot.toward = sim::position_from_metres(glm::dvec3(event.toward_world));
     shot.radius = static_cast<std::uint32_t>(std::lround(event.radius * sim::kUnitsPerMetre));
-    shot.timing = {milliseconds(event.reach), milliseconds(event.expand), milliseconds(event.stay), milliseconds(event.fade)};
+    shot.timing = {milliseconds(event.reach), milliseconds(event.expand), milliseconds(event.stay),
+                   milliseconds(event.fade)};
     if (auto done = world.append(shot); !done) return done;
   }
   return {};
@@ -83,8 +87,9 @@ Result<Stage> make_stage(scene::Timeline timeline, const std::filesystem::path& 
 }
 
 Simulation::Simulation(const Stage& stage)
-    : world_(stage.voxels.grid),
-      volume_(stage.voxels.grid, [&planes = stage.voxels.planes](glm::ivec3 cell) { return planes.at(cell); }) {}
+    : world_(stage.voxels.grid), volume_(stage.voxels.grid, [&planes = stage.voxels.planes](glm::ivec3 cell) {
+        return planes.at(cell);
+      }) {}
 
 Result<std::unique_ptr<Simulation>> Simulation::create(const Stage& stage) {
   std::unique_ptr<Simulation> simulation(new Simulation(stage));
@@ -97,7 +102,8 @@ void Simulation::advance_to(double seconds) {
   volume_.update(world_);
 }
 
-FrameInput frame_input(const Stage& stage, const Simulation& simulation, double seconds, std::vector<shared::Hole>& holes) {
+FrameInput frame_input(const Stage& stage, const Simulation& simulation, double seconds,
+                       std::vector<shared::Hole>& holes) {
   const scene::Timeline& timeline = stage.timeline;
   FrameInput input;
   input.camera = scene::camera_at(timeline, stage.camera, seconds);
@@ -118,7 +124,8 @@ FrameInput frame_input(const Stage& stage, const Simulation& simulation, double 
   input.volume = &simulation.volume();
   holes = simulation.world().holes();
   input.holes = holes;
-  for (const sim::Grenade& grenade : simulation.world().grenades()) input.grenades.push_back(grenade_matrix(grenade));
+  for (const sim::Grenade& grenade : simulation.world().grenades())
+    input.grenades.push_back(grenade_matrix(grenade));
   return input;
 }
 
@@ -127,7 +134,8 @@ Playback::Playback(gpu::Context& context, const Stage& stage, glm::uvec2 size_px
       simulation_(Simulation::create(stage).value_or_throw()),
       runner_(context),
       renderer_(context, runner_, stage.scene, {size_px, false}),
-      pixels_(context, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
+      pixels_(context, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+              gpu::MemoryUse::readback) {}
 
 image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   simulation_->advance_to(seconds);

@@ -47,7 +47,8 @@ class Simulation {
 };
 
 /// What a renderer shows of a stage at a time. `holes` keeps the holes that the result refers to.
-FrameInput frame_input(const Stage& stage, const Simulation& simulation, double seconds, std::vector<shared::Hole>& holes);
+FrameInput frame_input(const Stage& stage, const Simulation& simulation, double seconds,
+                       std::vector<shared::Hole>& holes);
 
 /// A stage on a device, frame after frame.
 class Playback {

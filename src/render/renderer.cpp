@@ -99,7 +99,7 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   stage("shade", [&] { shade_pass_.record(recorder, frame_, scene_, shadows_, gbuffer_, lit_); });
   stage("inscatter", [&] {
     if (input.volume && needs_inscatter(input))
-      inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke);
+      inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_);
   });
   stage("march", [&] {
     march_pass_.record(recorder, {frame_, smoke, worley_, gbuffer_.depth, blue_noise_, holes_}, smoke_image_,
@@ -114,7 +114,9 @@ bool Renderer::needs_inscatter(const FrameInput& input) {
                          std::memcmp(&lit_sky_, &input.sky, sizeof lit_sky_) == 0;
   // Scattering depends on where the eye is, unless it goes evenly all around.
   const bool same_eye = input.look.anisotropy == 0 || lit_eye_ == input.camera.position_world;
-  const bool needed = smoke_changed_ || !same_look || !same_eye || input.force_inscatter;
+  const bool same_noise = input.look.erosion == 0 || lit_time_ == input.time;
+  const bool needed = smoke_changed_ || !same_look || !same_eye || !same_noise || input.force_inscatter;
+  lit_time_ = input.time;
   lit_eye_ = input.camera.position_world;
   lit_look_ = input.look;
   lit_sky_ = input.sky;

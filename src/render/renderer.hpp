@@ -79,6 +79,7 @@ class Renderer {
   shared::SmokeLook lit_look_{};  ///< The look that the in-scatter was made with.
   shared::Sky lit_sky_{};
   glm::vec3 lit_eye_{0};
+  float lit_time_ = 0;
   bool smoke_changed_ = false;
 };
 
