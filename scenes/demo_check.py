@@ -52,21 +52,36 @@ def png_problem(data):
     return None if len(zlib.decompress(body)) == height * (1 + 3 * width) else "rows missing"
 
 
-def open_edges(positions, triangles):
+def weld(positions, triangles):
+    """The triangles over points that are one wherever positions agree to 10 micrometres."""
+    _, same = np.unique(np.round(positions * 1e5).astype(np.int64), axis=0, return_inverse=True)
+    return same.reshape(-1)[triangles]
+
+
+def open_edges(tri):
     """How many directed edges lack their opposite: 0 for a watertight, consistently wound surface."""
-    keys = np.round(positions * 1e5).astype(np.int64)
-    _, same = np.unique(keys, axis=0, return_inverse=True)
-    tri = same.reshape(-1)[triangles]
-    tri = tri[(tri[:, 0] != tri[:, 1]) & (tri[:, 1] != tri[:, 2]) & (tri[:, 2] != tri[:, 0])]
     count = {}
     for a, b in np.concatenate([tri[:, [0, 1]], tri[:, [1, 2]], tri[:, [2, 0]]]).tolist():
         count[(a, b)] = count.get((a, b), 0) + 1
     return sum(abs(n - count.get((b, a), 0)) for (a, b), n in count.items())
 
 
-def signed_volume(positions, triangles):
+def signed_volumes(positions, triangles, tri):
+    """The volume inside each connected surface, below 0 where it is wound inward. `tri` is welded."""
+    parent = list(range(tri.max() + 1))
+
+    def root(i):
+        while parent[i] != i:
+            parent[i] = parent[parent[i]]
+            i = parent[i]
+        return i
+
+    for a, b, c in tri.tolist():
+        parent[root(b)] = parent[root(c)] = root(a)
+    roots = np.array([root(a) for a in tri[:, 0].tolist()])
     p = positions[triangles] - positions.mean(axis=0)
-    return float(np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 1], p[:, 2])).sum() / 6)
+    volumes = np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 1], p[:, 2])) / 6
+    return [float(volumes[roots == r].sum()) for r in np.unique(roots)]
 
 
 def check_primitive(label, pos, nrm, tan, uv, tri, repeat, found):
@@ -152,11 +167,13 @@ def check_solids(scene, found):
             tri.append(idx.reshape(-1, 3) + base)
             base += len(p)
         pos, tri = np.concatenate(pos), np.concatenate(tri)
-        gaps = open_edges(pos, tri)
+        welded = weld(pos, tri)
+        gaps = open_edges(welded)
         if gaps:
             found.append(f"{name}: {gaps} open edges")
-        if signed_volume(pos, tri) <= 0:
-            found.append(f"{name}: wound inward")
+        inward = sum(v <= 0 for v in signed_volumes(pos, tri, welded))
+        if inward:
+            found.append(f"{name}: {inward} surfaces wound inward")
 
 
 def check_grid(scene, found):
@@ -175,6 +192,20 @@ def check_grid(scene, found):
                     found.append(f"{name}: a face at {'xyz'[axis]} = {bad:.3f} lies on a voxel's edge")
 
 
+def check_stale(data, stored, found):
+    """The file is what the script makes. Pixels are left out: their last bits depend on the machine's FFT and zlib."""
+    (doc, blob), (old_doc, old_blob) = read_glb(data), read_glb(stored)
+    parts = ("nodes", "materials", "meshes", "cameras", "extensions")
+    same = all(doc.get(part) == old_doc.get(part) for part in parts) and \
+        len(doc["accessors"]) == len(old_doc["accessors"]) and \
+        [image["name"] for image in doc["images"]] == [image["name"] for image in old_doc["images"]]
+    for i in range(len(doc["accessors"]) if same else 0):
+        new, old = accessor(doc, blob, i), accessor(old_doc, old_blob, i)
+        same = same and new.shape == old.shape and np.allclose(new, old, rtol=0, atol=1e-5)
+    if not same:
+        found.append("the stored demo.glb differs from what this script makes; run make_demo.py")
+
+
 def run(scene, data, path):
     found = []
     check_file(data, found)
@@ -182,8 +213,9 @@ def run(scene, data, path):
     check_grid(scene, found)
     if not os.path.exists(path):
         found.append(f"{path} is missing; run make_demo.py")
-    elif open(path, "rb").read() != data:
-        found.append(f"{path} differs from what this script makes; run make_demo.py")
+    else:
+        with open(path, "rb") as stored:
+            check_stale(data, stored.read(), found)
     for line in found:
         print("problem:", line)
     return 1 if found else 0

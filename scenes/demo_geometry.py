@@ -100,7 +100,8 @@ class Solid:
         along = unit(end - start)
         side = unit(np.cross(along, Y if abs(along[1]) < 0.99 else np.array([0.0, 0, 1])))
         rise = np.cross(side, along)
-        corners = [start + side * width / 2 * a + rise * height / 2 * b for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        corners = [start + side * width / 2 * a + rise * height / 2 * b
+                   for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
         self.prism(material, corners, end - start, turn, offset)
 
     def wall(self, materials, origin, along, outward, length, height, thickness, openings=()):
@@ -131,8 +132,8 @@ class Solid:
                 inside = 0 <= ni < solid.shape[0] and 0 <= nj < solid.shape[1] and solid[ni, nj]
                 if not inside:
                     (sa, ya), (sb, yb) = ends
-                    self.face(materials["edge"], [at(sa, ya, 0), at(sb, yb, 0), at(sb, yb, thickness), at(sa, ya, thickness)],
-                              way)
+                    reveal = [at(sa, ya, 0), at(sb, yb, 0), at(sb, yb, thickness), at(sa, ya, thickness)]
+                    self.face(materials["edge"], reveal, way)
 
     def lathe(self, material, profile, segments=32, center=(0, 0, 0), closed=False):
         """A profile of (radius, height) points, bottom to top, turned about +y. Creases stay sharp at each point.
@@ -188,14 +189,13 @@ class Solid:
                 run += np.linalg.norm(path[k] - path[order[step - 1]])
             a, b = frames[k]
             nrm = np.cos(angle)[:, None] * a + np.sin(angle)[:, None] * b
-            tan = np.concatenate([-np.sin(angle)[:, None] * a + np.cos(angle)[:, None] * b, np.full((segments + 1, 1), 1.0)],
-                                 axis=1)
+            # The bitangent cross(normal, tangent) runs along the path and v with it, so the image's up is against it.
+            around = -np.sin(angle)[:, None] * a + np.cos(angle)[:, None] * b
+            tan = np.concatenate([around, np.full((segments + 1, 1), -1.0)], axis=1)
             uv = np.stack([angle * radius / SIZE_M, np.full_like(angle, run / SIZE_M)], axis=1)
             rings.append((path[k] + radius * nrm, nrm, tan, uv))
         n = segments + 1
         pos, nrm, tan, uv = (np.concatenate([r[k] for r in rings]) for k in range(4))
-        # The bitangent cross(normal, tangent) runs along the path and v with it, so the image's up is against it.
-        tan[:, 3] = -1.0
         idx = []
         for r in range(len(rings) - 1):
             for i in range(segments):

@@ -80,7 +80,7 @@ def crate(size, tall, seed):
     for a in (-1, 1):
         for b in (-1, 1):
             x, z = a * (half - edge / 2), b * (half - edge / 2)
-            solid.box("crate", (x - edge / 2, 0, z - edge / 2), (x + edge / 2, tall, z + edge / 2), turn=True, offset=offset)
+            solid.box("crate", (x - edge / 2, 0, z - edge / 2), (x + edge / 2, tall, z + edge / 2), True, offset)
             y = 0 if b < 0 else tall - edge
             solid.box("crate", (-half + edge, y, a * (half - edge / 2) - edge / 2),
                       (half - edge, y + edge, a * (half - edge / 2) + edge / 2), offset=offset)
@@ -94,9 +94,9 @@ def crate(size, tall, seed):
 
 def barrel(material):
     solid = Solid()
-    solid.lathe(material, [(0, 0), (.275, 0), (.29, .02), (.29, .28), (.303, .295), (.303, .305), (.29, .32), (.29, .57),
-                           (.303, .585), (.303, .595), (.29, .61), (.29, .86), (.283, .88), (.265, .88), (.265, .855),
-                           (0, .855)], 32)
+    solid.lathe(material, [(0, 0), (.275, 0), (.29, .02), (.29, .28), (.303, .295), (.303, .305), (.29, .32),
+                           (.29, .57), (.303, .585), (.303, .595), (.29, .61), (.29, .86), (.283, .88), (.265, .88),
+                           (.265, .855), (0, .855)], 32)
     solid.lathe("steel", [(0, .85), (.03, .85), (.03, .872), (0, .872)], 12, (.14, 0, .05))
     return solid
 
@@ -113,8 +113,9 @@ def stacks(scene):
     big, mid, small = crate(0.95, 0.95, 1), crate(0.7, 0.66, 2), crate(0.5, 0.46, 3)
     place = [("a1", big, (-6.1, FLOOR, -5.6), 4), ("a2", mid, (-6.2, FLOOR + 0.95, -5.6), 18),
              ("a3", mid, (-5.15, FLOOR, -5.8), -9), ("a4", small, (-0.6, FLOOR, -5.7), 12),
-             ("b1", big, (1.0, FLOOR, -5.6), 3), ("b2", big, (1.05, FLOOR, -6.7), -4), ("b3", mid, (1.0, FLOOR + .95, -5.7), 22),
-             ("y1", big, (-0.78, 0, 0.72), -7), ("y2", mid, (-0.72, 0.95, 0.66), 14), ("y3", small, (-1.02, 0, 1.72), 33),
+             ("b1", big, (1.0, FLOOR, -5.6), 3), ("b2", big, (1.05, FLOOR, -6.7), -4),
+             ("b3", mid, (1.0, FLOOR + .95, -5.7), 22), ("y1", big, (-0.78, 0, 0.72), -7),
+             ("y2", mid, (-0.72, 0.95, 0.66), 14), ("y3", small, (-1.02, 0, 1.72), 33),
              ("f1", big, (-7.35, 0, 7.25), 24), ("f2", mid, (-7.3, 0.95, 7.2), 40), ("f3", small, (-7.2, 0, 8.35), -12)]
     for name, solid, at, turn in place:
         scene.add(f"crate_{name}", solid, at, rotation_y(turn))
@@ -158,15 +159,17 @@ def furniture(scene):
             x += w + rng.uniform(0.02, 0.09)
     scene.add("shelf", shelf)
     work = Solid()
-    work.box("planks", (0.35, FLOOR + 0.86, -2.9), (1.0, FLOOR + 0.93, -0.5 - 0.9), turn=True)
+    work.box("planks", (0.35, FLOOR + 0.86, -2.9), (1.0, FLOOR + 0.93, -1.4), turn=True)
     for z in (-2.75, -1.55):
         work.box("planks", (0.45, FLOOR, z - 0.05), (0.9, FLOOR + 0.86, z + 0.05))
     work.box("drum_rust", (0.5, FLOOR + 0.93, -2.6), (0.85, FLOOR + 1.12, -2.2))
     scene.add("workbench", work)
     pipes = Solid()
     for i, y in enumerate((2.30, 2.48, 2.66)):
-        pipes.tube("steel" if i != 1 else "drum_rust", [(6.62 - 0.1 * (i % 2), y, 1.6), (6.62 - 0.1 * (i % 2), y, -4.8)], 0.045)
-    pipes.tube("dark_metal", [(-6.65, 2.75, -0.45), (-6.65, 2.75, -5.9), (-6.58, 2.75, -6.08), (-6.40, 2.75, -6.15), (-0.2, 2.75, -6.15)], 0.05)
+        x = 6.62 - 0.1 * (i % 2)
+        pipes.tube("drum_rust" if i == 1 else "steel", [(x, y, 1.6), (x, y, -4.8)], 0.045)
+    pipes.tube("dark_metal", [(-6.65, 2.75, -0.45), (-6.65, 2.75, -5.9), (-6.58, 2.75, -6.08), (-6.40, 2.75, -6.15),
+                              (-0.2, 2.75, -6.15)], 0.05)
     scene.add("pipes", pipes, ignore=True)
     vent = Solid()
     vent.box("steel", (-0.78, 1.75, 0.0), (-0.28, 2.35, 0.32))
@@ -174,12 +177,12 @@ def furniture(scene):
     scene.add("vent_box", vent)
 
 
-def shade(solid, at, radius=0.2, drop=0.6, glow="glow_tungsten", material="dark_metal"):
-    """A hanging lamp: rod, conical shade and bulb, all in `solid`; `at` is the bulb's centre."""
+def shade(solid, at, radius, drop):
+    """A hanging lamp's rod and conical shade around a bulb at `at`."""
     x, y, z = at
-    solid.lathe(material, [(0, .085), (.035, .075), (radius, -.05), (radius, -.065), (.03, .05), (0, .05)][::1], 24,
-                (x, y + 0.06, z), closed=False)
-    solid.tube(material, [(x, y + 0.13, z), (x, y + drop, z)], 0.012, 8)
+    solid.lathe("dark_metal", [(0, .05), (.03, .05), (radius, -.065), (radius, -.05), (.035, .075), (0, .085)], 24,
+                (x, y + 0.06, z))
+    solid.tube("dark_metal", [(x, y + 0.13, z), (x, y + drop, z)], 0.012, 8)
 
 
 def bulb(solid, glow, at, radius):
@@ -213,8 +216,8 @@ def lamps(scene):
     bulb(glow, "glow_red", (-2.5, 2.70, 0.16), 0.075)
     # Sodium lamp on a pole at the right of the yard.
     housings.lathe("concrete", [(0, 0), (.2, 0), (.17, .3), (0, .3)], 16, (6.7, 0, 4.4))
-    housings.tube("dark_metal", [(6.7, 0.25, 4.4), (6.7, 4.5, 4.4), (6.65, 4.72, 4.4), (6.5, 4.82, 4.4), (5.9, 4.84, 4.4)],
-                  0.055, 12)
+    housings.tube("dark_metal", [(6.7, 0.25, 4.4), (6.7, 4.5, 4.4), (6.65, 4.72, 4.4), (6.5, 4.82, 4.4),
+                                 (5.9, 4.84, 4.4)], 0.055, 12)
     housings.box("dark_metal", (5.68, 4.72, 4.27), (6.20, 4.82, 4.53))
     glow.box("glow_sodium", (5.74, 4.685, 4.31), (6.14, 4.72, 4.49))
     scene.add("lamp_housings", housings, ignore=True)
@@ -261,7 +264,7 @@ def grenade():
     solid.lathe("canister", rest, 32)
     solid.lathe("steel", [(0, y + .094), (.012, y + .094), (.012, y + .101), (.0095, y + .103), (.0095, y + .116),
                           (.006, y + .120), (0, y + .120)], 20)
-    solid.box("steel", (-.006, y + .106, -.013), (.016, y + .117, .013 - .002))
+    solid.box("steel", (-.006, y + .106, -.012), (.016, y + .117, .012))
     lever = [(.014, y + .1165), (.027, y + .110), (.0335, y + .096), (.0335, y + .034), (.0315, y + .028)]
     for (x0, y0), (x1, y1) in zip(lever, lever[1:]):
         solid.beam("steel", (x0, y0, 0), (x1, y1, 0), .012, .0018)

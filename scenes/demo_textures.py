@@ -190,8 +190,9 @@ def planks(n=512):
     gap = np.minimum(across, along + 0.3)
     seam = 1 - smooth(0.7, 1.7, gap)
     color = color * (1 - 0.86 * seam)[..., None] * (0.80 + 0.20 * smooth(1.0, 5.0, gap))[..., None]
-    centers = [((j + side) % n, (b + f) * width) for b, j in enumerate(joint[(np.arange(boards) * width).astype(int) + 2, 0])
-               for side in (-7.5, 7.5) for f in (0.24, 0.76)]
+    ends = joint[(np.arange(boards) * width).astype(int) + 2, 0]
+    centers = [((end + side) % n, (b + f) * width) for b, end in enumerate(ends) for side in (-7.5, 7.5)
+               for f in (0.24, 0.76)]
     nail, _ = dots(n, centers, [2.1] * len(centers))
     head = 1 - smooth(0.75, 1.1, nail)
     color = mix(color, np.array([.13, .11, .10]), head)

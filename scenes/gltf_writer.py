@@ -45,8 +45,9 @@ class GlbWriter:
         self.blob = bytearray()
         self.doc = {"asset": {"version": "2.0", "generator": generator}, "scene": 0, "scenes": [{"nodes": []}],
                     "nodes": [], "meshes": [], "materials": [], "accessors": [], "bufferViews": [], "images": [],
-                    "textures": [], "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}],
-                    "cameras": [], "extensionsUsed": []}
+                    "textures": [], "cameras": [],
+                    "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}],
+                    "extensionsUsed": []}
         self.lights = []
 
     def _use(self, extension):

@@ -1,4 +1,4 @@
-"""A small software picture of the demo scene: z-buffer, textures, lamps with voxel shadows. For judging the composition."""
+"""A small software picture of the demo scene, to judge its composition: z-buffer, textures, lamps with shadows."""
 import numpy as np
 
 from demo_geometry import look_rotation
@@ -8,7 +8,7 @@ WIDTH, HEIGHT, CELL = 960, 540, 0.125
 
 
 def world_triangles(scene, voxelized_only=False):
-    """Corner positions (n, 3, 3), normals, tangents (n, 3, 4), uvs (n, 3, 2), and the material name of each triangle."""
+    """Positions (n, 3, 3), normals, tangents (n, 3, 4) and uvs (n, 3, 2) of the corners, and the materials' names."""
     rows, names = [[], [], [], []], []
     for _, solid, at, rotation, ignore in scene.objects:
         if ignore and voxelized_only:
@@ -149,7 +149,8 @@ def light_at(points, voxels, lights, normals=None):
             if kind == "spot":
                 axis = np.subtract(target, position)
                 cosine = -(way @ (axis / np.linalg.norm(axis)))
-                strength = strength * np.clip((cosine - np.cos(cone[1])) / (np.cos(cone[0]) - np.cos(cone[1])), 0, 1) ** 2
+                inner, outer = np.cos(cone[0]), np.cos(cone[1])
+                strength = strength * np.clip((cosine - outer) / (inner - outer), 0, 1) ** 2
         facing = 0.25 if normals is None else np.clip((normals * way).sum(axis=1), 0, 1)
         strength = strength * facing
         ask = np.nonzero(strength > 0.003)[0]
