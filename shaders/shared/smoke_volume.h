@@ -6,7 +6,7 @@
 //                free voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Trilinear: G < 1 says
 //                that the cell has a solid corner.
 //   cells        per slot 9^3 uints, one per cell whose points can lie in the brick: boundary cell + 1, or 0
-//                where the texels hold all there is. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
+//                where the cell has no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
 //   boundary     per boundary cell up to three planes, and the first of its 2^planes corner sets
 //   corners      per set eight densities of 8 bits: what the cell's eight corners hold *for a point on those
 //                sides of the planes*. Corners in or behind a wall carry what the near side extrapolates to.

@@ -4,57 +4,21 @@
 #include <bit>
 #include <limits>
 
-#include "sim/pack_plane.hpp"
+#include "sim/cell_block.hpp"
 
 namespace brume::sim {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// 4x4x4 voxels around a cell, cell - 1 to cell + 2, as bits x + 4 y + 16 z: all that its corners may take
-/// from.
-using Block = std::uint64_t;
-
-constexpr Block block_bit(glm::ivec3 v) {
-  return Block{1} << (v.x + 4 * v.y + 16 * v.z);
-}
-glm::ivec3 block_voxel(int bit) {
-  return {bit & 3, bit >> 2 & 3, bit >> 4};
-}
-glm::ivec3 corner_offset(int corner) {
-  return {corner & 1, corner >> 1 & 1, corner >> 2};
-}
-
-/// The corners of the cell themselves, and the 3x3x3 voxels around each.
-struct BlockMasks {
-  Block corners = 0;
+/// The 3x3x3 voxels around each corner of the cell.
+std::array<Block, 8> blocks_around_corners() {
   std::array<Block, 8> around{};
-};
-const BlockMasks& block_masks() {
-  static const BlockMasks masks = [] {
-    BlockMasks m;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::ivec3 at = corner_offset(corner);
-      m.corners |= block_bit(at + 1);
-      for (int i = 0; i < 27; ++i)
-        m.around[static_cast<std::size_t>(corner)] |= block_bit(at + glm::ivec3(i % 3, i / 3 % 3, i / 9));
-    }
-    return m;
-  }();
-  return masks;
-}
-
-/// All of `within` that `seed` reaches by faces.
-Block reachable(Block seed, Block within) {
-  constexpr Block kX0 = 0x1111111111111111u, kX3 = kX0 << 3;
-  constexpr Block kY0 = 0x000f000f000f000fu, kY3 = kY0 << 12;
-  for (Block grown = seed & within;; seed = grown) {
-    grown |= (grown & ~kX3) << 1 | (grown & ~kX0) >> 1;
-    grown |= (grown & ~kY3) << 4 | (grown & ~kY0) >> 4;
-    grown |= grown << 16 | grown >> 16;
-    grown &= within;
-    if (grown == seed) return grown;
-  }
+  for (int corner = 0; corner < 8; ++corner)
+    for (int i = 0; i < 27; ++i)
+      around[static_cast<std::size_t>(corner)] |=
+          block_bit(corner_offset(corner) + glm::ivec3(i % 3, i / 3 % 3, i / 9));
+  return around;
 }
 
 /// Nearer voxels say more: 144 / distance^2, whole numbers that fit 8 bits.
@@ -86,7 +50,7 @@ struct CellBlock {
 class SmokeStructure::Builder {
  public:
   Builder(const voxel::BitGrid& grid, const PlaneSource& planes, SmokeStructure& out)
-      : grid_(grid), planes_(planes), out_(out) {}
+      : grid_(grid), sight_(planes), out_(out) {}
 
   void place_bricks(std::span<const LiveCloud> clouds);
   void number_voxels(std::span<const LiveCloud> clouds);
@@ -121,11 +85,12 @@ class SmokeStructure::Builder {
 
   bool look_around(glm::ivec3 cell, CellBlock& block) const;
   void add_cell(glm::ivec3 cell, const CellBlock& block);
-  void add_corner(const CellBlock& block, int corner, Block same_side, Block taken);
+  void add_corner(const CellBlock& block, int corner, Block own_side, Block seen);
   void enter_cell(glm::ivec3 cell, std::uint32_t entry);
 
   const voxel::BitGrid& grid_;
-  const PlaneSource& planes_;
+  CellSight sight_;
+  const std::array<Block, 8> around_corner_ = blocks_around_corners();
   SmokeStructure& out_;
   std::vector<std::uint32_t> number_;  // of the smoke voxel, 512 a slot
   std::vector<std::uint32_t> last_cell_;
@@ -212,13 +177,14 @@ bool SmokeStructure::Builder::look_around(glm::ivec3 cell, CellBlock& block) con
   return true;
 }
 
-/// Lists what a corner takes from: itself where it is on the side in question, else the nearest voxels there.
-void SmokeStructure::Builder::add_corner(const CellBlock& block, int corner, Block same_side, Block taken) {
+/// Lists what a corner takes from: itself where it is on the side in question, else the nearest voxels that
+/// this side of the cell sees.
+void SmokeStructure::Builder::add_corner(const CellBlock& block, int corner, Block own_side, Block seen) {
   const glm::ivec3 at = corner_offset(corner) + 1;
   CornerSource source{static_cast<std::uint32_t>(out_.contributions.size()), 0, 0};
-  Block from = block_bit(at) & same_side;
-  if (from == 0) from = taken & block_masks().around[static_cast<std::size_t>(corner)];
-  if (from == 0) from = taken;
+  Block from = block_bit(at) & own_side;
+  if (from == 0) from = seen & around_corner_[static_cast<std::size_t>(corner)];
+  if (from == 0) from = seen;
   for (; from != 0; from &= from - 1) {
     const int bit = std::countr_zero(from);
     const glm::ivec3 offset = block_voxel(bit) - at;
@@ -237,27 +203,21 @@ void SmokeStructure::Builder::add_corner(const CellBlock& block, int corner, Blo
 }
 
 void SmokeStructure::Builder::add_cell(glm::ivec3 cell, const CellBlock& block) {
-  std::array<std::uint32_t, 3> packed{};
-  const std::span<const voxel::Plane> planes = planes_(cell);
-  for (std::size_t k = 0; k < planes.size(); ++k) packed[k] = pack_plane(planes[k]);
-  const shared::BoundaryCell record{packed[0], packed[1], packed[2],
-                                    static_cast<std::uint32_t>(out_.corners.size() / 8)};
-
-  // On which sides each voxel around lies, judged by the planes as the shader reads them.
-  std::array<Block, 8> on_side{};
-  for (Block left = block.free; left != 0; left &= left - 1) {
-    const int bit = std::countr_zero(left);
-    const glm::vec3 from_centre = glm::vec3(block_voxel(bit)) - 1.5f;
-    on_side[shared::boundary_side(record, from_centre)] |= Block{1} << bit;
-  }
-
-  const std::size_t sides = std::size_t{1} << planes.size();
-  for (std::size_t side = 0; side < sides; ++side) {
-    // What lies on the same side by the planes but behind a wall of another cell must not count: only what
-    // the cell's own corners reach. Where no corner is free, all of that side.
-    const Block seed = on_side[side] & block_masks().corners;
-    const Block taken = seed != 0 ? reachable(seed, on_side[side]) : on_side[side];
-    for (int corner = 0; corner < 8; ++corner) add_corner(block, corner, on_side[side], taken);
+  sight_.look_at(cell);
+  shared::BoundaryCell record = sight_.record();
+  record.first_set = static_cast<std::uint32_t>(out_.corners.size() / 8);
+  std::array<Block, 8> seen{};
+  for (int side = 0; side < sight_.side_count(); ++side)
+    seen[static_cast<std::size_t>(side)] = sight_.seen(side, block.free);
+  for (int side = 0; side < sight_.side_count(); ++side) {
+    // A side that sees no air is the inside of something: nobody is there to see it. It goes on as the side
+    // next to it, so that smoke reaches a curved surface also where that bulges through its plane.
+    int like = side;
+    for (int k = 0; seen[static_cast<std::size_t>(like)] == 0 && (1 << k) < sight_.side_count(); ++k)
+      if (seen[static_cast<std::size_t>(side ^ 1 << k)] != 0) like = side ^ 1 << k;
+    const Block own_side = sight_.on_side(like, block.free);
+    for (int corner = 0; corner < 8; ++corner)
+      add_corner(block, corner, own_side, seen[static_cast<std::size_t>(like)]);
   }
   out_.boundary_cells.push_back(record);
 }

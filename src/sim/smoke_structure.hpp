@@ -3,20 +3,17 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
 #include "shared/smoke_volume.h"
+#include "sim/cell_block.hpp"
 #include "sim/world.hpp"
 #include "voxel/bit_grid.hpp"
 #include "voxel/surface_planes.hpp"
 
 namespace brume::sim {
-
-/// The planes of a cell, at most voxel::kMaxPlanes; empty where it has none.
-using PlaneSource = std::function<std::span<const voxel::Plane>(glm::ivec3 cell)>;
 
 /// Lists of numbers, one after the other: list i is values[first[i]] to values[first[i + 1]].
 struct ListTable {

@@ -173,7 +173,7 @@ float sample_density(const SmokeVolume& volume, glm::vec3 position_voxel) {
   // A solid corner: the set for the point's side of the surface.
   const std::uint32_t entry =
       volume.cells(page - 1)[static_cast<std::size_t>(in_brick.x + 9 * (in_brick.y + 9 * in_brick.z))];
-  if (entry == 0) return plain;
+  if (entry == 0) return 0;  // no smoke near
   const shared::BoundaryCell& boundary = volume.boundary_cells()[entry - 1];
   const std::uint32_t side = shared::boundary_side(boundary, f - 0.5f);
   return shared::corner_set_density(volume.corner_sets()[boundary.first_set + side], f);

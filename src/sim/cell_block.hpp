@@ -1,0 +1,72 @@
+// The 4x4x4 voxels around a cell, and which of them a point of the cell sees past the surfaces between.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/smoke_volume.h"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::sim {
+
+/// The planes of a cell, at most voxel::kMaxPlanes; empty where it has none.
+using PlaneSource = std::function<std::span<const voxel::Plane>(glm::ivec3 cell)>;
+
+/// Voxels cell - 1 to cell + 2 per axis as bits x + 4 y + 16 z: all that the cell's corners may take from.
+using Block = std::uint64_t;
+
+constexpr Block block_bit(glm::ivec3 v) {
+  return Block{1} << (v.x + 4 * v.y + 16 * v.z);
+}
+inline glm::ivec3 block_voxel(int bit) {
+  return {bit & 3, bit >> 2 & 3, bit >> 4};
+}
+inline glm::ivec3 corner_offset(int corner) {
+  return {corner & 1, corner >> 1 & 1, corner >> 2};
+}
+/// The centre of a block's voxel from the centre of its cell [voxels].
+inline glm::vec3 from_cell_centre(int bit) {
+  return glm::vec3(block_voxel(bit)) - 1.5f;
+}
+
+/// Looks at one cell after the other. Surfaces are what `planes` says: each plane as a square that ends at
+/// the faces of its cell.
+class CellSight {
+ public:
+  explicit CellSight(const PlaneSource& planes) : planes_(planes) {}
+
+  /// Turns to a cell: reads its planes and those of the 26 cells around it.
+  void look_at(glm::ivec3 cell);
+  /// The planes of the cell, packed as the shader reads them; first_set is 0.
+  const shared::BoundaryCell& record() const { return record_; }
+  /// 2^planes.
+  int side_count() const { return side_count_; }
+
+  /// The voxels of `among` on side `side` of the cell's planes, thought of as endless.
+  Block on_side(int side, Block among) const;
+  /// The voxels of `among` that the points of the cell on side `side` see.
+  Block seen(int side, Block among);
+
+ private:
+  /// A plane of a cell of the 3x3x3 around; all relative to the centre of the cell that is looked at.
+  struct Square {
+    glm::vec3 normal;
+    float offset;
+    glm::vec3 cell;
+  };
+  bool hidden(glm::vec3 from, glm::vec3 to) const;
+  void find_viewpoints();
+
+  const PlaneSource& planes_;
+  shared::BoundaryCell record_{};
+  int side_count_ = 1;
+  bool flat_ = true;  // every plane around continues one of the cell's own
+  std::vector<Square> squares_;
+  std::array<std::vector<glm::vec3>, 8> viewpoints_;  // of each side: its middle, then points spread over it
+};
+
+}  // namespace brume::sim
