@@ -215,7 +215,8 @@ std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key
   return bytes;
 }
 
-Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes, std::uint64_t expected_key) {
+Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
+                                              std::optional<std::uint64_t> expected_key) {
   // Is it ours, and whole?
   Header header;
   if (bytes.size() < sizeof(Header) + kChecksumBytes) return damaged("not a voxel cache, or cut short");
@@ -230,7 +231,7 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes, 
   std::memcpy(&checksum, bytes.data() + bytes.size() - kChecksumBytes, kChecksumBytes);
   if (checksum != hash_bytes(bytes.first(bytes.size() - kChecksumBytes)))
     return damaged("a damaged voxel cache: its checksum is wrong");
-  if (header.key != expected_key) return std::optional<VxlContents>();
+  if (expected_key && header.key != *expected_key) return std::optional<VxlContents>();
 
   // Can it be what it says?
   const GridFrame frame{header.size, header.voxel_size, header.origin_world};
@@ -252,7 +253,8 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes, 
   return std::optional<VxlContents>(std::move(contents));
 }
 
-Result<std::optional<VxlContents>> load_vxl(const std::filesystem::path& path, std::uint64_t expected_key) {
+Result<std::optional<VxlContents>> load_vxl(const std::filesystem::path& path,
+                                            std::optional<std::uint64_t> expected_key) {
   const auto bytes = read_file(path);
   if (!bytes) return bytes.failure();
   auto contents = decode_vxl(*bytes, expected_key);

@@ -35,13 +35,15 @@ std::uint64_t vxl_key(std::span<const Triangle> triangles, const GridFrame& fram
 /// The bytes of a `.vxl` file. The same for the same contents.
 std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key);
 
-/// Reads what encode_vxl made. Nothing when the file is sound but stands for another key. Fails with
-/// bad_input when it is truncated, damaged, foreign or of another version; the message does not name the
-/// file.
-Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes, std::uint64_t expected_key);
+/// Reads what encode_vxl made. Nothing when the file is sound but stands for another key than the expected
+/// one; with none expected, any will do. Fails with bad_input when it is truncated, damaged, foreign or of
+/// another version; the message does not name the file.
+Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
+                                              std::optional<std::uint64_t> expected_key);
 
 /// decode_vxl of a file; messages name it.
-Result<std::optional<VxlContents>> load_vxl(const std::filesystem::path& path, std::uint64_t expected_key);
+Result<std::optional<VxlContents>> load_vxl(const std::filesystem::path& path,
+                                            std::optional<std::uint64_t> expected_key);
 
 /// Writes the file, whole or not at all. Fails as write_file_atomic does.
 Result<void> save_vxl(const std::filesystem::path& path, const VxlContents& contents, std::uint64_t key);
