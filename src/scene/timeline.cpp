@@ -69,7 +69,6 @@ class TimelineReader {
     table.read("anisotropy", smoke.anisotropy, -0.9, 0.9);
     table.read("noise", smoke.noise, 0, 1);
     table.read("noise_size", smoke.noise_size, 0.05, 100);
-    table.read("throw_speed", smoke.throw_speed, 1, 200);
     return table.finish();
   }
 
@@ -78,6 +77,7 @@ class TimelineReader {
     table.read("zenith", timeline_.sky.zenith, 0, 1000);
     table.read("horizon", timeline_.sky.horizon, 0, 1000);
     table.read("ambient", timeline_.sky.ambient, 0, 1000);
+    table.read("stars", timeline_.sky.stars, 0, 1000);
     return table.finish();
   }
 

@@ -29,7 +29,6 @@ struct SmokeOptions {
   float anisotropy = 0.2f;      ///< Henyey-Greenstein's g, [-0.9, 0.9]; above 0: forward.
   float noise = 0.5f;           ///< How deep the noise cuts into the density, [0, 1].
   float noise_size = 1.5f;      ///< Edge of a noise cell [m], [0.05, 100].
-  float throw_speed = 20.0f;    ///< Of the grenade on its way [m/s], [1, 200].
 };
 
 /// Linear radiance of what no surface covers, and of the light from everywhere, [0, 1000].
@@ -37,6 +36,7 @@ struct SkyOptions {
   glm::vec3 zenith{0.20f, 0.36f, 0.70f};
   glm::vec3 horizon{0.55f, 0.65f, 0.78f};
   glm::vec3 ambient{0.25f, 0.29f, 0.35f};
+  float stars = 0;  ///< Radiance of the brightest star, [0, 1000].
 };
 
 struct CameraKey {
@@ -44,7 +44,7 @@ struct CameraKey {
   Camera camera;
 };
 
-/// A grenade is thrown; it flies straight at SmokeOptions::throw_speed and goes off at its target.
+/// A grenade is thrown; it flies straight at 20 m/s and goes off at its target.
 struct SmokeEvent {
   double time = 0;  ///< Of throwing [s], [0, 3600].
   glm::vec3 from_world{0}, at_world{0};
