@@ -10,6 +10,7 @@ The same bytes come out of every run with the same numpy and zlib.
 import argparse
 import os
 import sys
+import tomllib
 
 import numpy as np
 
@@ -71,9 +72,6 @@ LIGHTS = {
 CAMERA = ((-6.3, 1.5, 13.9), (-0.40, 2.80, -0.6), 45.0)  # eye, target, vertical field of view in degrees
 
 
-SMOKE = ((-2.6, 0.4, -3.0), 11000)  # where it goes off, and how many voxels of 0.25 m it fills
-
-
 class Scene:
     """Named objects in world space, kept both for the file and for the checks."""
 
@@ -128,12 +126,19 @@ def make_glb(scene, images):
     return glb.to_bytes()
 
 
+def smoke_of_timeline():
+    """Where the timeline's first smoke goes off, and how many voxels it fills."""
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "demo.toml"), "rb") as file:
+        timeline = tomllib.load(file)
+    return next(e["at"] for e in timeline["event"] if e["type"] == "smoke"), timeline["smoke"]["voxels"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--preview", metavar="OUT.png")
     parser.add_argument("--camera", help="px,py,pz tx,ty,tz fov")
-    parser.add_argument("--smoke", action="store_true", help="put the flooded voxels into the preview")
+    parser.add_argument("--smoke", action="store_true", help="put the smoke of demo.toml into the preview")
     args = parser.parse_args()
     path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "demo.glb")
 
@@ -153,7 +158,7 @@ def main():
         if args.camera:
             eye, target, fov = args.camera.split()
             camera = tuple(map(float, eye.split(","))), tuple(map(float, target.split(","))), float(fov)
-        preview.draw(scene, images, MATERIALS, LIGHTS, camera, args.preview, SMOKE if args.smoke else None)
+        preview.draw(scene, images, MATERIALS, LIGHTS, camera, args.preview, smoke_of_timeline() if args.smoke else None)
     return 0
 
 
