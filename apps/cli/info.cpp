@@ -56,6 +56,19 @@ Json image_info(const std::filesystem::path& path) {
   return {{"kind", "image"}, {"width", image.width}, {"height", image.height}, {"opaque", opaque}};
 }
 
+Json voxel_info(const std::filesystem::path& path) {
+  const auto contents = voxel::load_vxl(path, std::nullopt).value_or_throw();
+  BRUME_ASSERT(contents.has_value(), "any key is taken");
+  const voxel::GridFrame& frame = contents->grid.frame();
+  return {{"kind", "voxels"},
+          {"size", {frame.size.x, frame.size.y, frame.size.z}},
+          {"voxel_size", frame.voxel_size},
+          {"origin", point(frame.origin_world)},
+          {"solid", contents->grid.count_solid()},
+          {"planes", contents->planes.plane_count()},
+          {"triangles", contents->triangles}};
+}
+
 Json info_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

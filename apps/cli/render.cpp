@@ -12,6 +12,7 @@
 #include "apps/cli/targets.hpp"
 #include "core/error.hpp"
 #include "gpu/context.hpp"
+#include "image/png.hpp"
 #include "render/playback.hpp"
 
 namespace brume::cli {
@@ -54,7 +55,8 @@ Plan make_plan(const Options& options) {
   if (plan.kind == TargetKind::film && (plan.size_px.x % 2 != 0 || plan.size_px.y % 2 != 0)) {
     throw Error(ErrorCode::usage, "--size '" + options.size + "': both sides of a film must be even");
   }
-  check_output(plan.kind == TargetKind::sequence ? sequence_name(options.output, 0) : options.output);
+  const std::filesystem::path output = options.output;
+  check_output(plan.kind == TargetKind::sequence ? sequence_name(output, 0) : output);
   check_output(options.json);
   return plan;
 }
@@ -174,11 +176,14 @@ Command add_render(CLI::App& program) {
       ->check(CLI::Range(0.0, 3600.0))
       ->type_name("S");
   parser.add_option("--frames", options->frames, "First and last frame; default: the whole timeline")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->type_name("A-B");
   parser.add_option("--fps", options->fps, "Frames per second; default 24")
       ->check(CLI::Range(1u, 1000u))
       ->type_name("F");
-  parser.add_option("--size", options->size, "Pixels; default 1280x720")->type_name("WxH");
+  parser.add_option("--size", options->size, "Pixels; default 1280x720")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+      ->type_name("WxH");
   parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
       ->type_name("CAMERA");
   parser.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")

@@ -1,0 +1,101 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "apps/cli/parse.hpp"
+#include "core/error.hpp"
+#include "scene/load.hpp"
+#include "voxel/obj_export.hpp"
+#include "voxel/voxelize.hpp"
+#include "voxel/vxl_file.hpp"
+
+namespace brume::cli {
+namespace {
+
+struct Options {
+  std::string scene, grid, origin, output, obj, json;
+  float voxel = 0.25f;
+};
+
+// What can be known of the frame before the scene is loaded.
+void check_options(const Options& options) {
+  if (!options.origin.empty()) parse_point("--origin", options.origin);
+  if (options.grid.empty()) {
+    if (options.origin.empty()) return;
+    throw Error(ErrorCode::usage, "--origin needs --grid, such as --grid 120x20x120; give both or none");
+  }
+  voxel::check_frame({parse_grid("--grid", options.grid), options.voxel, glm::vec3(0)}).value_or_throw();
+}
+
+// The frame that the options ask for: around the scene where they leave it open.
+voxel::GridFrame choose_frame(const Options& options, const scene::Scene& scene) {
+  const scene::Bounds bounds = scene::world_bounds(scene);
+  if (options.grid.empty()) return voxel::frame_around(bounds, options.voxel, 1).value_or_throw();
+  voxel::GridFrame frame{parse_grid("--grid", options.grid), options.voxel, {}};
+  frame.origin_world = options.origin.empty() ? glm::floor(bounds.min / options.voxel) * options.voxel
+                                              : parse_point("--origin", options.origin);
+  return frame;
+}
+
+void voxelize(const Options& options) {
+  check_options(options);
+  for (const std::string& path : {options.output, options.obj, options.json}) check_output(path);
+
+  const scene::Scene scene = scene::load_scene(options.scene).value_or_throw();
+  stop_if_interrupted();
+  const voxel::GridFrame frame = choose_frame(options, scene);
+  const voxel::Voxels voxels = voxel::load_or_voxelize(scene, frame, options.output).value_or_throw();
+  stop_if_interrupted();
+  if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, options.obj).value_or_throw();
+
+  const std::uint64_t solid = voxels.grid.count_solid();
+  if (!options.json.empty()) {
+    write_json(options.json,
+               {{"scene", options.scene},
+                {"solid", solid},
+                {"milliseconds", voxels.milliseconds},
+                {"triangles", voxels.triangles},
+                {"cached", voxels.cached},
+                {"grid", {frame.size.x, frame.size.y, frame.size.z}},
+                {"voxel_size", frame.voxel_size},
+                {"origin", {frame.origin_world.x, frame.origin_world.y, frame.origin_world.z}}});
+  }
+  if (options.json == "-") return;
+  char text[200];
+  std::snprintf(text, sizeof text, "%llu triangles, %llu solid voxels of %dx%dx%d, ",
+                static_cast<unsigned long long>(voxels.triangles), static_cast<unsigned long long>(solid),
+                frame.size.x, frame.size.y, frame.size.z);
+  print(text);
+  std::snprintf(text, sizeof text, "voxelized in %.2f ms\n", voxels.milliseconds);
+  print(voxels.cached ? "from the cache\n" : text);
+}
+
+}  // namespace
+
+Command add_voxelize(CLI::App& program) {
+  Command command = declare(
+      program, "voxelize", "Finds the voxels of a scene that are solid.",
+      "  brume voxelize room.glb -o room.vxl\n"
+      "  brume voxelize room.glb --grid 120x20x120 --voxel 0.5 --origin -30,0,-30 --obj cubes.obj --json -");
+  auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("SCENE", options->scene, "The scene (.txt, .gltf, .glb, .obj)")
+      ->required()
+      ->type_name("");
+  parser
+      .add_option("-o,--output", options->output, "Voxel file; loaded instead while the scene stays the same")
+      ->type_name("FILE");
+  parser.add_option("--grid", options->grid, "Voxels per axis; default: around the scene")
+      ->type_name("XxYxZ");
+  parser.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25")->type_name("M");
+  parser.add_option("--origin", options->origin, "Low corner of the grid [m]; default: the scene's")
+      ->type_name("X,Y,Z");
+  parser.add_option("--obj", options->obj, "Write the solid voxels as a mesh")->type_name("FILE");
+  parser.add_option("--json", options->json, "Write the result as JSON; -: to standard output")
+      ->type_name("FILE");
+  command.run = [options] { voxelize(*options); };
+  return command;
+}
+
+}  // namespace brume::cli
