@@ -165,6 +165,11 @@ Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scen
   Timeline timeline;
   timeline.scene = path;
   const Camera camera = default_camera(scene);
+  // A scene smaller than a room gets voxels to its size.
+  const Bounds bounds = world_bounds(scene);
+  const glm::vec3 extent = bounds.empty() ? glm::vec3(10) : bounds.max - bounds.min;
+  timeline.grid.voxel =
+      std::clamp(std::max({extent.x, extent.y, extent.z}) / 40, 0.01f, timeline.grid.voxel);
   SmokeEvent smoke;
   smoke.from_world = camera.position_world;
   smoke.at_world = first_hit(scene, camera.position_world, camera.target_world - camera.position_world)

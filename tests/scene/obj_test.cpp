@@ -1,0 +1,190 @@
+#include "scene/obj.hpp"
+
+#include <random>
+
+#include "scene/mesh_tools.hpp"
+#include "scene/polygon.hpp"
+#include "tests/scene/scene_test_tools.hpp"
+
+namespace brume::scene {
+namespace {
+
+std::string obj_error(const std::string& text) {
+  const auto model = parse_obj(text, "a.obj");
+  return model ? "no error" : model.failure().message;
+}
+
+/// The area of the triangles, each counted as positive, and their directed sum.
+struct Areas {
+  double sum = 0;
+  glm::dvec3 directed{0};
+};
+Areas areas(const std::vector<glm::vec3>& corners) {
+  Areas result;
+  for (const auto& t : triangulate(corners)) {
+    const glm::dvec3 a(corners[t[0]]), b(corners[t[1]]), c(corners[t[2]]);
+    const glm::dvec3 area = glm::cross(b - a, c - a) / 2.0;
+    result.sum += glm::length(area);
+    result.directed += area;
+  }
+  return result;
+}
+
+TEST(Polygon, TrianglesCoverStarShapedPolygonsExactly) {
+  // Area vector of the triangles = that of the outline always; equal absolute area only without overlap.
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> radius(0.2f, 2.0f);
+  for (int round = 0; round < 200; ++round) {
+    const int count = 3 + round % 30;
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < count; ++i) {
+      const float angle = 6.2831853f * static_cast<float>(i) / static_cast<float>(count), r = radius(random);
+      const float u = r * std::cos(angle), v = r * std::sin(angle);
+      corners.push_back(round % 3 == 0   ? glm::vec3(u, v, 0)
+                        : round % 3 == 1 ? glm::vec3(0, u, v)
+                                         : glm::vec3(v, 0.5f * u, u));
+    }
+    EXPECT_EQ(triangulate(corners).size(), corners.size() - 2);
+    const Areas found = areas(corners);
+    const double outline = glm::length(area_vector(corners)) / 2;
+    EXPECT_NEAR(glm::length(found.directed), outline, 1e-5 * outline);
+    EXPECT_NEAR(found.sum, outline, 1e-4 * outline) << round;
+  }
+}
+
+TEST(Polygon, AConcaveQuadIsCutAtItsDent) {
+  const std::vector<glm::vec3> arrow = {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5f, 1, 0}};
+  for (std::size_t shift = 0; shift < 4; ++shift) {
+    std::vector<glm::vec3> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners.push_back(arrow[(i + shift) % 4]);
+    EXPECT_NEAR(areas(corners).sum, 1.5, 1e-6) << shift;
+  }
+}
+
+TEST(Polygon, DegenerateOnesStillGiveAllTriangles) {
+  EXPECT_EQ(triangulate(std::vector<glm::vec3>(5, glm::vec3(1))).size(), 3u);
+  const std::vector<glm::vec3> bow_tie = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+  EXPECT_EQ(triangulate(bow_tie).size(), 2u);
+}
+
+TEST(Obj, NegativeIndicesCountFromTheEnd) {
+  const auto a = parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n", "a.obj");
+  const auto b = parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\n", "b.obj");
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->vertices.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(a->vertices[i].position, b->vertices[i].position);
+}
+
+TEST(Obj, CornersAreSharedWhereAllThreePartsAgree) {
+  const auto model = parse_obj(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 2\n"
+      "f 1/1/1 2/1/1 3/1/1\nf 1/1/1 3/1/1 4/2/1\n",
+      "a.obj");
+  ASSERT_TRUE(model) << model.failure().message;
+  EXPECT_EQ(model->vertices.size(), 4u);
+  EXPECT_EQ(model->vertices[0].normal, glm::vec3(0, 0, 1)) << "made unit length";
+  EXPECT_EQ(model->vertices[0].uv, glm::vec2(0, 1)) << "v runs down";
+  EXPECT_EQ(model->vertices[3].uv, glm::vec2(1, 0));
+}
+
+TEST(Obj, MissingNormalsAreThoseOfTheFaces) {
+  const auto model = parse_obj(kCubeObj, "cube.obj");
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->vertices.size(), 24u);
+  for (const Vertex& vertex : model->vertices) EXPECT_NEAR(glm::dot(vertex.normal, vertex.position), 1, 1e-6);
+}
+
+TEST(Obj, LinesMayGoOn) {
+  const auto model = parse_obj("v 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3\n", "a.obj");
+  ASSERT_TRUE(model) << model.failure().message;
+  EXPECT_EQ(model->vertices.size(), 3u);
+}
+
+TEST(Obj, ErrorsNameThePlace) {
+  EXPECT_EQ(obj_error("v 1 2\n"),
+            "a.obj:1:6: expected a number for the third component of a position, found the end of the line");
+  EXPECT_EQ(obj_error("v 1 x 3\n"),
+            "a.obj:1:5: expected a number for the second component of a position, found \"x\"");
+  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 0\n"),
+            "a.obj:2:7: \"0\" names no position: there are 1 above this line, and they count from 1");
+  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 -2\n"),
+            "a.obj:2:7: \"-2\" names no position: there are 1 above this line, and they count from 1");
+  EXPECT_EQ(
+      obj_error("v 1 2 3\nf 1/1 1 1\n"),
+      "a.obj:2:3: \"1/1\" names no texture coordinate: there are 0 above this line, and they count from 1");
+  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1x 1\n"),
+            "a.obj:2:5: expected a face corner like 1, 1/2, 1//3 or 1/2/3, found \"1x\"");
+  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1\n"),
+            "a.obj:2:6: expected at least 3 corners of a face, found the end of the line");
+  EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 99999999999999999999\n").substr(0, 9), "a.obj:2:7");
+}
+
+TEST(ObjScene, AnObjectAMaterial) {
+  MemoryFiles files;
+  files.add_text("m.mtl",
+                 "newmtl red\nKd 1 0 0\nKe 0 2 0\nnewmtl old map\nKd 0.5\nNs 0\nmap_Kd -s 1 1 1 gone.png\n");
+  const std::string text =
+      "mtllib M.MTL\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 3\nusemtl old map\nf 1 2 "
+      "4\nusemtl red\nf 1 3 4\nusemtl lost\nf 2 3 4\n";
+  const Warnings warnings;
+  const auto scene = parse_obj_scene(text, "a.obj", files);
+  ASSERT_TRUE(scene) << scene.failure().message;
+  expect_sound(*scene);
+  ASSERT_EQ(scene->objects.size(), 3u);
+  EXPECT_EQ(scene->meshes[scene->objects[0].mesh].indices.size(), 6u);
+  EXPECT_EQ(scene->materials[0].base_color, glm::vec3(1, 0, 0));
+  EXPECT_EQ(scene->materials[0].emission, glm::vec3(0, 2, 0));
+  EXPECT_EQ(scene->materials[1].base_color, glm::vec3(0.5f));
+  EXPECT_FLOAT_EQ(scene->materials[1].roughness, 1);
+  EXPECT_TRUE(warnings.has("m.mtl:7: the image \"gone.png\" does not exist"));
+  EXPECT_TRUE(warnings.has("a.obj:12: no material is called \"lost\""));
+}
+
+TEST(ObjScene, MtlErrorsNameThePlace) {
+  const auto materials = parse_mtl("newmtl a\nKd red\n", "m.mtl");
+  ASSERT_FALSE(materials);
+  EXPECT_EQ(materials.failure().message, "m.mtl:2:4: expected a number for red, found \"red\"");
+}
+
+TEST(Tangents, FollowTheTextureOnASlantedQuad) {
+  // u along (0, 1, 1), v (down the image) along -x, seen from the side of the normal.
+  Mesh mesh;
+  const glm::vec3 u = glm::normalize(glm::vec3(0, 1, 1)), down(-1, 0, 0);
+  for (const glm::vec2 uv : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+    Vertex vertex;
+    vertex.position = u * uv.x * 3.0f + down * uv.y * 2.0f;
+    vertex.uv = uv;
+    mesh.vertices.push_back(vertex);
+  }
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  compute_normals(mesh);
+  compute_tangents(mesh);
+  for (const Vertex& vertex : mesh.vertices) {
+    const glm::vec3 tangent(vertex.tangent);
+    EXPECT_LT(glm::distance(tangent, u), 1e-6f);
+    EXPECT_LT(glm::distance(vertex.tangent.w * glm::cross(vertex.normal, tangent), -down), 1e-6f);
+  }
+}
+
+TEST(Tangents, MirroredMeshesKeepTheBitangentInTheWorld) {
+  Mesh mesh;
+  for (const glm::vec2 uv : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)}) {
+    Vertex vertex;
+    vertex.position = glm::vec3(uv.x, -uv.y, 0);
+    vertex.uv = uv;
+    mesh.vertices.push_back(vertex);
+  }
+  mesh.indices = {0, 2, 1};
+  compute_normals(mesh);
+  compute_tangents(mesh);
+  const Mesh copy = mirrored(mesh);
+  EXPECT_EQ(copy.indices, (std::vector<std::uint32_t>{0, 1, 2}));
+  const Vertex& vertex = copy.vertices[0];
+  // In the world, x is mirrored; the image's up (+y) must stay so.
+  const glm::vec3 tangent_world(-vertex.tangent.x, vertex.tangent.y, vertex.tangent.z);
+  EXPECT_LT(glm::distance(vertex.tangent.w * glm::cross(vertex.normal, tangent_world), glm::vec3(0, 1, 0)),
+            1e-6f);
+}
+
+}  // namespace
+}  // namespace brume::scene

@@ -1,0 +1,80 @@
+// What the tests of the loaders share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/log.hpp"
+#include "scene/files.hpp"
+#include "scene/scene.hpp"
+
+namespace brume::scene {
+
+/// Collects the warnings while it lives.
+class Warnings {
+ public:
+  Warnings() {
+    set_log_callback([this](LogLevel level, const std::string& line) {
+      if (level == LogLevel::warning) lines.push_back(line);
+    });
+  }
+  ~Warnings() { set_log_callback({}); }
+  Warnings(const Warnings&) = delete;
+  bool has(const std::string& part) const {
+    for (const std::string& line : lines) {
+      if (line.find(part) != std::string::npos) return true;
+    }
+    return false;
+  }
+  std::vector<std::string> lines;
+};
+
+/// A cube from -1 to 1, faces counter-clockwise from outside, of quads.
+inline const char* const kCubeObj =
+    "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+
+/// The volume that the object's triangles enclose: positive when they are counter-clockwise from outside
+/// (divergence theorem).
+inline double signed_volume(const Scene& scene, const Object& object) {
+  const Mesh& mesh = scene.meshes[object.mesh];
+  double volume = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    glm::dvec3 p[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec3 position = mesh.vertices[mesh.indices[i + k]].position;
+      p[k] = glm::dvec3(glm::dmat4(object.world_from_mesh) * glm::dvec4(glm::dvec3(position), 1));
+    }
+    volume += glm::dot(p[0], glm::cross(p[1], p[2])) / 6;
+  }
+  return volume;
+}
+
+/// What every loader promises: valid indices, unit normals and tangents, finite numbers.
+inline void expect_sound(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) {
+    ASSERT_EQ(mesh.indices.size() % 3, 0u);
+    for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertices.size()) << mesh.name;
+    for (const Vertex& vertex : mesh.vertices) {
+      ASSERT_NEAR(glm::length(vertex.normal), 1, 1e-4) << mesh.name;
+      ASSERT_NEAR(glm::length(glm::vec3(vertex.tangent)), 1, 1e-4) << mesh.name;
+      ASSERT_EQ(std::abs(vertex.tangent.w), 1) << mesh.name;
+    }
+  }
+  std::vector<Object> objects = scene.objects;
+  objects.push_back(scene.grenade);
+  for (const Object& object : objects) {
+    ASSERT_LT(object.mesh, scene.meshes.size()) << object.name;
+    ASSERT_LT(object.material, scene.materials.size()) << object.name;
+  }
+  for (const Material& material : scene.materials) {
+    for (const std::uint32_t image :
+         {material.base_color_image, material.normal_image, material.roughness_image}) {
+      ASSERT_TRUE(image == kNone || image < scene.images.size()) << material.name;
+    }
+  }
+}
+
+}  // namespace brume::scene

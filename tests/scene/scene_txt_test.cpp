@@ -1,0 +1,223 @@
+#include "scene/scene_txt.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "core/file.hpp"
+#include "scene/load.hpp"
+#include "tests/scene/scene_test_tools.hpp"
+
+namespace brume::scene {
+namespace {
+
+Result<Scene> parse(const std::string& text) {
+  MemoryFiles files;
+  files.add_text("Meshes/Box.obj", kCubeObj);
+  files.add_text("Meshes/IGNORE_Peg.obj", kCubeObj);
+  files.add_text("Meshes/Grenade.obj", "v 1 1 1\nv 3 1 1\nv 1 5 1\nf 1 2 3\n");
+  files.add_text("Meshes/Broken.obj", "v 0 0 0\nv 1 0 nan\n");
+  files.add_text("Meshes/OutOfRange.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+  return parse_scene_txt(text, "Scene.txt", files);
+}
+
+std::string error_of(const std::string& text) {
+  const auto scene = parse(text);
+  if (scene) return "no error";
+  EXPECT_EQ(scene.failure().code, ErrorCode::bad_input);
+  EXPECT_EQ(scene.failure().message.find('\n'), std::string::npos) << "one line";
+  return scene.failure().message;
+}
+
+glm::vec3 image_of(const Scene& scene, glm::vec3 point) {
+  return glm::vec3(scene.objects.at(0).world_from_mesh * glm::vec4(point, 1));
+}
+
+void expect_near(glm::vec3 a, glm::vec3 b) {
+  EXPECT_LT(glm::distance(a, b), 1e-5f) << a.x << " " << a.y << " " << a.z;
+}
+
+TEST(SceneTxt, RotationsAreNegatedOneAxisAtATime) {
+  // A quarter turn about an axis by the negated angle: x: y -> -z; y: z -> -x; z: x -> -y.
+  const auto about_x = parse("Box 0 0 0 1.5707963 0 0 1 1 1\n");
+  const auto about_y = parse("Box 0 0 0 0 1.5707963 0 1 1 1\n");
+  const auto about_z = parse("Box 0 0 0 0 0 1.5707963 1 1 1\n");
+  ASSERT_TRUE(about_x && about_y && about_z);
+  expect_near(image_of(*about_x, {0, 1, 0}), {0, 0, -1});
+  expect_near(image_of(*about_y, {0, 0, 1}), {-1, 0, 0});
+  expect_near(image_of(*about_z, {1, 0, 0}), {0, -1, 0});
+}
+
+TEST(SceneTxt, TheMatrixIsTranslationTimesScaleTimesXTimesYTimesZ) {
+  // z first: x -> -y; then x: -y -> +z; then the world's axes are scaled; then moved.
+  const auto scene = parse("Box\t10 20 30\t1.5707963 0 1.5707963\t2 3 4\n");
+  ASSERT_TRUE(scene);
+  expect_near(image_of(*scene, {1, 0, 0}), {10, 20, 34});
+  // z: y -> x; x leaves it; scaled by 2.
+  expect_near(image_of(*scene, {0, 1, 0}), {12, 20, 30});
+}
+
+TEST(SceneTxt, NegativeScalesKeepTrianglesOutward) {
+  for (const std::string scale : {"1 1 1", "-1 1 1", "1 -2 1", "-1 -1 1", "-1 -1 -3"}) {
+    const auto scene = parse("Box 5 0 0 0.3 0.2 0.1 " + scale + "\n");
+    ASSERT_TRUE(scene);
+    EXPECT_GT(signed_volume(*scene, scene->objects[0]), 7.9) << scale;
+    expect_sound(*scene);
+  }
+}
+
+TEST(SceneTxt, RepeatedMeshesAreLoadedOnce) {
+  const auto scene =
+      parse("Box 0 0 0 0 0 0 1 1 1\nBox 1 0 0 0 0 0 1 1 1\nBox 2 0 0 0 0 0 -1 1 1\nBox 3 0 0 0 0 0 -1 1 1\n");
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->objects[0].mesh, scene->objects[1].mesh);
+  EXPECT_EQ(scene->objects[2].mesh, scene->objects[3].mesh);
+  EXPECT_NE(scene->objects[0].mesh, scene->objects[2].mesh);
+}
+
+TEST(SceneTxt, LightsSpreadTheirPowerOverTheSphere) {
+  const auto scene = parse("LIGHT_SOURCE -1 2 3\t1.0 0.5 0.25\t30.0 # warm\nBox 0 0 0 0 0 0 1 1 1\n");
+  ASSERT_TRUE(scene);
+  ASSERT_EQ(scene->lights.size(), 1u);
+  EXPECT_EQ(scene->lights[0].kind, LightKind::point);
+  expect_near(scene->lights[0].position_world, {-1, 2, 3});
+  EXPECT_NEAR(scene->lights[0].intensity.r * 4 * std::numbers::pi, 30, 1e-4);
+  EXPECT_NEAR(scene->lights[0].intensity.b * 4 * std::numbers::pi, 7.5, 1e-4);
+}
+
+TEST(SceneTxt, CommentsBlankLinesAndCarriageReturnsAreFine) {
+  const auto scene = parse("\xef\xbb\xbf# head\r\n\r\n  Box  0 0 0  0 0 0  1 1 1 \r\n\t# end");
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_EQ(scene->objects.size(), 1u);
+}
+
+TEST(SceneTxt, IgnoredObjectsAreDrawnButNotVoxelized) {
+  const auto scene = parse("IGNORE_Peg 0 0 0 0 0 0 1 1 1\nBox 0 0 0 0 0 0 1 1 1\n");
+  ASSERT_TRUE(scene);
+  EXPECT_FALSE(scene->objects[0].voxelized);
+  EXPECT_TRUE(scene->objects[1].voxelized);
+}
+
+TEST(SceneTxt, TheGrenadeIsCentredAndApart) {
+  const auto scene = parse("Grenade 7 8 9 0 0 0 2 2 2\nBox 0 0 0 0 0 0 1 1 1\n");
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->objects.size(), 1u);
+  EXPECT_EQ(scene->grenade.name, "Grenade");
+  const Mesh& mesh = scene->meshes[scene->grenade.mesh];
+  expect_near(mesh.vertices[0].position + mesh.vertices[1].position, {0, -4, 0});
+  expect_near(glm::vec3(scene->grenade.world_from_mesh * glm::vec4(1, 0, 0, 1)), {2, 0, 0});
+}
+
+TEST(SceneTxt, WithoutGrenadeABuiltInOneAndAWarning) {
+  const Warnings warnings;
+  const auto scene = parse("Box 0 0 0 0 0 0 1 1 1\n");
+  ASSERT_TRUE(scene);
+  EXPECT_TRUE(warnings.has("Scene.txt: no object is called Grenade"));
+  EXPECT_GT(signed_volume(*scene, scene->grenade), 1e-4) << "a closed, outward mesh of about 0.3 l";
+  expect_sound(*scene);
+}
+
+TEST(SceneTxt, MissingFilesAreWarningsWithStandIns) {
+  const Warnings warnings;
+  const auto scene = parse("# one\nNoSuchMesh 0 0 0 0 0 0 1 1 1 NoSuchImage 0\n");
+  ASSERT_TRUE(scene);
+  EXPECT_TRUE(warnings.has("Scene.txt:2: the mesh \"Meshes/NoSuchMesh.obj\""));
+  EXPECT_TRUE(warnings.has("Scene.txt:2: the image \"Textures/NoSuchImage_diffuse.png\""));
+  EXPECT_NEAR(signed_volume(*scene, scene->objects[0]), 1, 1e-6);
+  const Material& material = scene->materials[scene->objects[0].material];
+  ASSERT_NE(material.base_color_image, kNone);
+  EXPECT_EQ(scene->images[material.base_color_image].pixels.rgba[1], 0) << "magenta has no green";
+  EXPECT_FLOAT_EQ(material.roughness, 0.05f) << "0 means nobody chose";
+}
+
+TEST(SceneTxt, NamesDoNotLeaveTheFolder) {
+  const Warnings warnings;
+  const auto scene = parse("../../secret 0 0 0 0 0 0 1 1 1\n");
+  ASSERT_TRUE(scene);
+  EXPECT_TRUE(warnings.has("does not exist; a cube stands in"));
+}
+
+TEST(SceneTxt, BadLinesNameFileLineColumnAndWhatWasExpected) {
+  EXPECT_EQ(error_of("\nBox 0 abc 0 0 0 0 1 1 1\n"),
+            "Scene.txt:2:7: expected a number for the y position, found \"abc\"");
+  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1\n"),
+            "Scene.txt:1:20: expected a number for the z scale, found the end of the line");
+  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1 inf\n"),
+            "Scene.txt:1:21: expected a finite number for the z scale, found \"inf\"");
+  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1 1e99\n"),
+            "Scene.txt:1:21: expected a finite number for the z scale, found \"1e99\"");
+  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1 1 Wood 0.5 more\n"),
+            "Scene.txt:1:32: expected the end of the line, found \"more\"");
+  EXPECT_EQ(error_of("Box 0 0 0 0 0 0 1 1 1 Wood rough\n"),
+            "Scene.txt:1:28: expected a number for the roughness, found \"rough\"");
+  EXPECT_EQ(error_of("LIGHT_SOURCE 0 0 0 1 1 1\n"),
+            "Scene.txt:1:25: expected a number for the light's power, found the end of the line");
+  EXPECT_EQ(error_of("LIGHT_SOURCE 0 0 0 1 1 1 -5\n"),
+            "Scene.txt:1: a light's colour and power must not be negative");
+}
+
+TEST(SceneTxt, BadMeshesNameBothFiles) {
+  EXPECT_EQ(error_of("Broken 0 0 0 0 0 0 1 1 1\n"),
+            "Scene.txt:1: Meshes/Broken.obj:2:7: expected a finite number for the third component of a "
+            "position, found \"nan\"");
+  EXPECT_EQ(error_of("OutOfRange 0 0 0 0 0 0 1 1 1\n"),
+            "Scene.txt:1: Meshes/OutOfRange.obj:4:7: \"4\" names no position: there are 3 above this line, "
+            "and they count from 1");
+}
+
+TEST(SceneTxt, EmptyAndUnreachableScenesAreRefused) {
+  EXPECT_EQ(error_of("# nothing\n"),
+            "Scene.txt: the scene has no triangle; add at least one object with a mesh");
+  EXPECT_NE(error_of("Box 0 0 0 0 0 0 1e38 1 1\n").find("\"Box\" reaches farther"), std::string::npos);
+  EXPECT_NE(error_of("Box 1e30 0 0 0 0 0 1 1 1\n").find("\"Box\" reaches farther"), std::string::npos);
+}
+
+TEST(SceneTxt, AnObjectScaledToNothingIsLeftOut) {
+  const Warnings warnings;
+  const auto scene = parse("Box 0 0 0 0 0 0 1 0 1\nBox 0 0 0 0 0 0 1 1 1\n");
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->objects.size(), 1u);
+  EXPECT_TRUE(warnings.has("Scene.txt:1: \"Box\" is scaled to nothing"));
+}
+
+TEST(LoadScene, MissingAndUnknownFiles) {
+  const auto missing = load_scene("no/such/Scene.txt");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.failure().code, ErrorCode::bad_input);
+  EXPECT_NE(missing.failure().message.find("no/such/Scene.txt"), std::string::npos);
+  const auto unknown = load_scene("scene.fbx");
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.failure().message.find("expected .txt, .gltf, .glb or .obj"), std::string::npos);
+}
+
+TEST(LoadScene, ReadsAFolderIgnoringLetterCase) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("brume_scene_test_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder / "meshes");
+  ASSERT_TRUE(write_file_atomic(folder / "meshes" / "bOx.OBJ", std::string(kCubeObj)));
+  ASSERT_TRUE(write_file_atomic(folder / "Scene.TXT", std::string("Box 0 0 0 0 0 0 1 1 1\n")));
+  const Warnings warnings;
+  const auto scene = load_scene(folder / "Scene.TXT");
+  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_NEAR(signed_volume(*scene, scene->objects[0]), 8, 1e-6);
+  EXPECT_FALSE(warnings.has("does not exist"));
+}
+
+TEST(DefaultCamera, HasAllCornersOfTheBoundsInView) {
+  const auto scene = parse("Box 3 4 5 0 0 0 10 1 2\n");
+  ASSERT_TRUE(scene);
+  const Bounds bounds = world_bounds(*scene);
+  const Camera camera = default_camera(*scene);
+  const glm::vec3 axis = glm::normalize(camera.target_world - camera.position_world);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 p(corner & 1 ? bounds.min.x : bounds.max.x, corner & 2 ? bounds.min.y : bounds.max.y,
+                      corner & 4 ? bounds.min.z : bounds.max.z);
+    const float cosine = glm::dot(glm::normalize(p - camera.position_world), axis);
+    EXPECT_GE(cosine, std::cos(camera.vertical_fov / 2) - 1e-5f);
+  }
+}
+
+}  // namespace
+}  // namespace brume::scene
