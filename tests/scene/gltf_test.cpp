@@ -1,0 +1,356 @@
+#include "scene/gltf.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "tests/scene/scene_test_tools.hpp"
+
+namespace brume::scene {
+namespace {
+
+/// A buffer that grows by values, as the binary of a document.
+struct Bytes {
+  std::string data;
+  template <typename T>
+  Bytes& add(std::initializer_list<T> values) {
+    for (const T value : values) data.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
+  }
+  std::size_t size() const { return data.size(); }
+};
+
+/// The positions of one triangle in the x-y plane.
+Bytes triangle() {
+  return Bytes().add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+}
+
+struct Document {
+  std::string nodes = R"([{"mesh": 0}])";
+  std::string primitive = R"({"attributes": {"POSITION": 0}})";
+  std::string accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}])";
+  std::string views;  ///< Default: one over everything.
+  std::string more;   ///< Members behind a comma.
+  std::string uri = "data.bin";
+  Bytes binary = triangle();
+  std::size_t promised = 0;  ///< byteLength, where it is not the binary's size.
+
+  std::string json() const {
+    const std::string length = std::to_string(promised ? promised : binary.size());
+    return R"({"asset": {"version": "2.0"}, "nodes": )" + nodes + R"(, "meshes": [{"primitives": [)" +
+           primitive + R"(]}], "accessors": )" + accessors + R"(, "bufferViews": )" +
+           (views.empty() ? R"([{"buffer": 0, "byteLength": )" + std::to_string(binary.size()) + "}]"
+                          : views) +
+           R"(, "buffers": [{"byteLength": )" + length + (uri.empty() ? "" : R"(, "uri": ")" + uri + "\"") +
+           "}]" + more + "}";
+  }
+  Result<Scene> load() const {
+    MemoryFiles files;
+    files.add_text("data.bin", binary.data);
+    const std::string text = json();
+    return parse_gltf(std::as_bytes(std::span(text)), "a.gltf", files);
+  }
+  std::string error() const {
+    const auto scene = load();
+    if (scene) return "no error";
+    EXPECT_EQ(scene.failure().message.find('\n'), std::string::npos);
+    return scene.failure().message;
+  }
+};
+
+#define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+glm::vec3 world_corner(const Scene& scene, std::size_t object, std::size_t corner) {
+  const Mesh& mesh = scene.meshes[scene.objects.at(object).mesh];
+  return glm::vec3(scene.objects[object].world_from_mesh *
+                   glm::vec4(mesh.vertices[mesh.indices.at(corner)].position, 1));
+}
+
+TEST(Gltf, TheSmallestDocument) {
+  const auto scene = Document().load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  expect_sound(*scene);
+  EXPECT_EQ(scene->objects.size(), 1u);
+  EXPECT_EQ(scene->meshes[0].vertices[0].normal, glm::vec3(0, 0, 1)) << "computed";
+}
+
+TEST(Gltf, NodesMultiplyDownTheTree) {
+  Document document;
+  // A quarter turn about y takes x to -z; then the parent scales and moves.
+  document.nodes = R"([{"children": [1, 2], "translation": [10, 0, 0], "scale": [2, 2, 2]},
+    {"mesh": 0, "rotation": [0, 0.70710678, 0, 0.70710678], "translation": [0, 1, 0]},
+    {"mesh": 0, "matrix": [0,1,0,0, -1,0,0,0, 0,0,1,0, 5,6,7,1]}])";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  ASSERT_EQ(scene->objects.size(), 2u);
+  EXPECT_LT(glm::distance(world_corner(*scene, 0, 1), glm::vec3(10, 2, -2)), 1e-5f);
+  EXPECT_LT(glm::distance(world_corner(*scene, 1, 1), glm::vec3(20, 14, 14)), 1e-5f);
+  EXPECT_EQ(scene->objects[0].mesh, scene->objects[1].mesh) << "instanced";
+}
+
+TEST(Gltf, MirroringNodesKeepTrianglesOutward) {
+  Document document;
+  document.nodes = R"([{"mesh": 0, "scale": [-1, 1, 1]}])";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene);
+  const glm::vec3 a = world_corner(*scene, 0, 0), b = world_corner(*scene, 0, 1),
+                  c = world_corner(*scene, 0, 2);
+  EXPECT_GT(glm::cross(b - a, c - a).z, 0) << "still seen from +z";
+}
+
+TEST(Gltf, AllIndexTypes) {
+  const std::pair<int, Bytes> cases[] = {{5121, triangle().add<std::uint8_t>({0, 2, 1})},
+                                         {5123, triangle().add<std::uint16_t>({0, 2, 1})},
+                                         {5125, triangle().add<std::uint32_t>({0, 2, 1})}};
+  for (const auto& [type, binary] : cases) {
+    Document document;
+    document.binary = binary;
+    document.primitive = R"({"attributes": {"POSITION": 0}, "indices": 1})";
+    document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+      {"bufferView": 0, "byteOffset": 36, "count": 3, "type": "SCALAR", "componentType": )" +
+                         std::to_string(type) + "}]";
+    const auto scene = document.load();
+    ASSERT_TRUE(scene) << scene.failure().message;
+    EXPECT_EQ(world_corner(*scene, 0, 1), glm::vec3(0, 1, 0)) << type;
+  }
+}
+
+TEST(Gltf, AnIndexOutOfRangeIsRefused) {
+  Document document;
+  document.binary.add<std::uint16_t>({0, 1, 3});
+  document.primitive = R"({"attributes": {"POSITION": 0}, "indices": 1})";
+  document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+    {"bufferView": 0, "byteOffset": 36, "count": 3, "type": "SCALAR", "componentType": 5123}])";
+  EXPECT_EQ(document.error(),
+            "a.gltf: meshes[0].primitives[0].indices: index 3 (number 2) is out of range: the primitive has "
+            "3 vertices");
+}
+
+TEST(Gltf, StripsAndFansKeepTheirWinding) {
+  for (const int mode : {5, 6}) {
+    Document document;
+    document.binary = mode == 5 ? Bytes().add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0})
+                                : Bytes().add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}])";
+    document.primitive = R"({"attributes": {"POSITION": 0}, "mode": )" + std::to_string(mode) + "}";
+    const auto scene = document.load();
+    ASSERT_TRUE(scene) << scene.failure().message;
+    ASSERT_EQ(scene->meshes[0].indices.size(), 6u);
+    for (const Vertex& vertex : scene->meshes[0].vertices)
+      EXPECT_EQ(vertex.normal, glm::vec3(0, 0, 1)) << mode;
+  }
+}
+
+TEST(Gltf, NormalizedTextureCoordinatesAndStrides) {
+  Document document;
+  // Interleaved: a position, then two 16-bit coordinates.
+  document.binary = Bytes();
+  for (int i = 0; i < 3; ++i) {
+    document.binary.add<float>({float(i == 1), float(i == 2), 0});
+    document.binary.add<std::uint16_t>({std::uint16_t(i * 32767), 65535});
+  }
+  document.views = R"([{"buffer": 0, "byteLength": 48, "byteStride": 16}])";
+  document.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+    {"bufferView": 0, "byteOffset": 12, "componentType": 5123, "normalized": true, "count": 3, "type": "VEC2"}])";
+  document.primitive = R"({"attributes": {"POSITION": 0, "TEXCOORD_0": 1}})";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_EQ(scene->meshes[0].vertices[1].uv, glm::vec2(32767 / 65535.0f, 1));
+  EXPECT_EQ(scene->meshes[0].vertices[2].position, glm::vec3(0, 1, 0));
+}
+
+TEST(Gltf, SparseAccessorsReplaceElements) {
+  Document document;
+  document.binary.add<std::uint16_t>({2, 0}).add<float>({7, 8, 9});
+  document.views = R"([{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 2},
+    {"buffer": 0, "byteOffset": 40, "byteLength": 12}])";
+  document.accessors =
+      R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1,
+    "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 2}}}])";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_EQ(world_corner(*scene, 0, 1), glm::vec3(1, 0, 0));
+  EXPECT_EQ(world_corner(*scene, 0, 2), glm::vec3(7, 8, 9));
+}
+
+TEST(Gltf, CutShortOrOverreachingBytesAreRefused) {
+  Document truncated;
+  truncated.promised = 40;
+  EXPECT_HAS(truncated.error(), "a.gltf: buffers[0]: is cut short: 40 bytes are promised, 36 are there");
+
+  Document past_end;
+  past_end.accessors =
+      R"([{"bufferView": 0, "byteOffset": 4, "componentType": 5126, "count": 3, "type": "VEC3"}])";
+  EXPECT_HAS(past_end.error(), "a.gltf: accessors[0]: reaches past its bufferView");
+
+  Document huge;
+  huge.accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 4000000000, "type": "VEC3"}])";
+  EXPECT_HAS(huge.error(), "accessors[0]: reaches past its bufferView");
+  huge.accessors = R"([{"componentType": 5126, "count": 4000000000, "type": "VEC3"}])";
+  EXPECT_HAS(huge.error(), "accessors[0]: has too many elements without a bufferView");
+
+  Document view;
+  view.views = R"([{"buffer": 0, "byteOffset": 30, "byteLength": 36}])";
+  EXPECT_HAS(view.error(), "bufferViews[0]: ends at byte 66 of a buffer of 36");
+
+  Document missing;
+  missing.accessors = R"([])";
+  EXPECT_HAS(missing.error(), "names accessors[0], but the document has 0 of them");
+}
+
+TEST(Gltf, UrisStayBelowTheFolder) {
+  for (const char* uri : {"../data.bin", "/etc/passwd", "a/../../b.bin", "%2e%2e/data.bin", "C:/data.bin",
+                          "..\\\\data.bin", "http://host/data.bin"}) {
+    Document document;
+    document.uri = uri;
+    EXPECT_HAS(document.error(), "is not below the scene's own folder");
+  }
+  Document missing;
+  missing.uri = "other.bin";
+  EXPECT_HAS(missing.error(), "buffers[0].uri: the file \"other.bin\" does not exist beside the scene");
+}
+
+TEST(Gltf, DataUrisAndPercentEscapes) {
+  Document document;
+  document.uri = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_EQ(world_corner(*scene, 0, 2), glm::vec3(0, 1, 0));
+  document.uri = "data:application/octet-stream;base64,A*";
+  EXPECT_HAS(document.error(), "expected a data: URI in base64");
+  document.uri = "d%61ta.bin";
+  EXPECT_TRUE(document.load());
+}
+
+TEST(Gltf, NotFinitePositionsAreRefused) {
+  Document document;
+  document.binary = Bytes().add<float>({0, 0, 0, 1, std::numeric_limits<float>::quiet_NaN(), 0, 0, 1, 0});
+  EXPECT_HAS(document.error(),
+             "meshes[0].primitives[0].attributes.POSITION: element 1 of accessors[0] is not finite");
+}
+
+TEST(Gltf, LightsKeepTheirUnitsAndFollowTheirNodes) {
+  Document document;
+  document.nodes = R"([{"mesh": 0}, {"translation": [1, 2, 3], "rotation": [-0.70710678, 0, 0, 0.70710678],
+    "extensions": {"KHR_lights_punctual": {"light": 0}}}, {"extensions": {"KHR_lights_punctual": {"light": 1}}},
+    {"extensions": {"KHR_lights_punctual": {"light": 2}}}])";
+  document.more = R"(, "extensions": {"KHR_lights_punctual": {"lights": [
+    {"type": "spot", "color": [1, 0.5, 0], "intensity": 20, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}},
+    {"type": "directional", "intensity": 3}, {"type": "point"}]}})";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  ASSERT_EQ(scene->lights.size(), 3u);
+  const Light& spot = scene->lights[0];
+  EXPECT_EQ(spot.kind, LightKind::spot);
+  EXPECT_EQ(spot.intensity, glm::vec3(20, 10, 0));
+  EXPECT_EQ(spot.position_world, glm::vec3(1, 2, 3));
+  EXPECT_LT(glm::distance(spot.direction_world, glm::vec3(0, -1, 0)), 1e-6f) << "-z turned down";
+  EXPECT_FLOAT_EQ(spot.cos_inner, std::cos(0.2f));
+  EXPECT_FLOAT_EQ(spot.cos_outer, std::cos(0.4f));
+  EXPECT_EQ(scene->lights[1].kind, LightKind::directional);
+  EXPECT_EQ(scene->lights[2].kind, LightKind::point);
+  document.nodes = R"([{"mesh": 0}, {"extensions": {"KHR_lights_punctual": {"light": 3}}}])";
+  EXPECT_HAS(document.error(), "nodes[1].extensions.KHR_lights_punctual.light: names lights[3]");
+}
+
+TEST(Gltf, MaterialsAndCameras) {
+  Document document;
+  document.primitive = R"({"attributes": {"POSITION": 0}, "material": 0})";
+  document.nodes = R"([{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}])";
+  document.more = R"(, "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+    "materials": [{"name": "glow", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 0.8], "metallicFactor": 0.1,
+    "roughnessFactor": 0.3}, "emissiveFactor": [1, 0.5, 0], "alphaMode": "MASK", "alphaCutoff": 0.4,
+    "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 10}}}])";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  const Material& material = scene->materials[scene->objects[0].material];
+  EXPECT_EQ(material.base_color, glm::vec3(1, 0.5f, 0.25f));
+  EXPECT_EQ(material.emission, glm::vec3(10, 5, 0));
+  EXPECT_FLOAT_EQ(material.roughness, 0.3f);
+  EXPECT_FLOAT_EQ(material.metallic, 0.1f);
+  EXPECT_FLOAT_EQ(material.alpha_cutoff, 0.5f) << "of the texel: the factor is on its side";
+  ASSERT_TRUE(scene->camera);
+  EXPECT_EQ(scene->camera->position_world, glm::vec3(0, 0, 5));
+  EXPECT_LT(glm::distance(scene->camera->target_world, glm::vec3(0, 0, 0)), 1e-5f);
+  EXPECT_FLOAT_EQ(scene->camera->vertical_fov, 0.8f);
+}
+
+TEST(Gltf, MissingImagesAreWarningsWithStandIns) {
+  Document document;
+  document.primitive = R"({"attributes": {"POSITION": 0}, "material": 0})";
+  document.more = R"(, "images": [{"uri": "gone.png"}, {"bufferView": 0, "mimeType": "image/png"}],
+    "textures": [{"source": 0}, {"source": 1}], "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+    "normalTexture": {"index": 1}}])";
+  const Warnings warnings;
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  expect_sound(*scene);
+  EXPECT_TRUE(warnings.has("a.gltf: images[0]: the image \"gone.png\" does not exist"));
+  EXPECT_TRUE(warnings.has("a.gltf: images[1]"));
+  EXPECT_NE(scene->materials[0].base_color_image, kNone);
+}
+
+TEST(Gltf, MarksThatKeepObjectsOutOfTheVoxels) {
+  Document document;
+  document.nodes =
+      R"([{"mesh": 0}, {"mesh": 0, "name": "IGNORE_x"}, {"extras": {"brume_ignore": true}, "children": [3]},
+    {"mesh": 0}, {"mesh": 0, "extras": [1]}, {"mesh": 0, "name": "Grenade", "translation": [3, 3, 3]}])";
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  ASSERT_EQ(scene->objects.size(), 4u);
+  EXPECT_TRUE(scene->objects[0].voxelized);
+  EXPECT_FALSE(scene->objects[1].voxelized);
+  EXPECT_FALSE(scene->objects[2].voxelized) << "handed down";
+  EXPECT_TRUE(scene->objects[3].voxelized);
+  EXPECT_EQ(scene->grenade.name, "Grenade");
+  EXPECT_EQ(glm::vec3(scene->grenade.world_from_mesh[3]), glm::vec3(0));
+}
+
+TEST(Gltf, BrokenStructureIsRefused) {
+  Document cycle;
+  cycle.nodes = R"([{"mesh": 0}, {"children": [2]}, {"children": [1]}])";
+  cycle.more = R"(, "scenes": [{"nodes": [1]}])";
+  EXPECT_HAS(cycle.error(), "nodes[1]: is reached twice; expected a tree");
+  Document empty;
+  empty.nodes = "[]";
+  EXPECT_EQ(empty.error(), "a.gltf: the scene has no triangle; add at least one object with a mesh");
+  Document draco;
+  draco.more = R"(, "extensionsRequired": ["KHR_draco_mesh_compression"])";
+  EXPECT_HAS(draco.error(), "the file needs the extension KHR_draco_mesh_compression");
+  Document word;
+  word.nodes = R"([{"mesh": 0, "translation": [0, "up", 0]}])";
+  EXPECT_HAS(word.error(), "a.gltf: nodes[0].translation[1]: expected a number, found");
+  Document syntax;
+  syntax.nodes = "[\n  {]";
+  EXPECT_EQ(syntax.error().substr(0, 14), "a.gltf:2:4: ex");
+  EXPECT_HAS(syntax.error(), "expected JSON");
+}
+
+std::string glb_of(std::string json, std::string binary) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  Bytes glb;
+  const auto length = [](const std::string& text) { return static_cast<std::uint32_t>(text.size()); };
+  glb.add<std::uint32_t>({0x46546c67u, 2u, 28u + length(json) + length(binary), length(json), 0x4e4f534au});
+  glb.data += json;
+  glb.add<std::uint32_t>({length(binary), 0x004e4942u});
+  glb.data += binary;
+  return glb.data;
+}
+
+TEST(Glb, LoadsAndEveryTruncationIsRefused) {
+  Document document;
+  document.uri = "";
+  const std::string glb = glb_of(document.json(), document.binary.data);
+  const MemoryFiles files;
+  const auto load = [&](std::size_t size) {
+    return parse_gltf(std::as_bytes(std::span(glb).first(size)), "a.glb", files);
+  };
+  const auto whole = load(glb.size());
+  ASSERT_TRUE(whole) << whole.failure().message;
+  EXPECT_EQ(world_corner(*whole, 0, 2), glm::vec3(0, 1, 0));
+  for (std::size_t size = 0; size < glb.size(); ++size) EXPECT_FALSE(load(size)) << size;
+}
+
+}  // namespace
+}  // namespace brume::scene

@@ -1,0 +1,217 @@
+#include "scene/timeline.hpp"
+
+#include <cmath>
+
+#include "scene/obj.hpp"
+#include "scene/ray.hpp"
+#include "scene/toml_table.hpp"
+#include "tests/scene/scene_test_tools.hpp"
+
+namespace brume::scene {
+namespace {
+
+constexpr const char* kHead = "version = 1\nscene = \"demo.gltf\"\n";
+
+Result<Timeline> parse(const std::string& text) {
+  return parse_timeline(text, "scenes/t.toml");
+}
+
+std::string error_of(const std::string& text) {
+  const auto timeline = parse(text);
+  if (timeline) return "no error";
+  EXPECT_EQ(timeline.failure().code, ErrorCode::bad_input);
+  EXPECT_EQ(timeline.failure().message.find('\n'), std::string::npos);
+  return timeline.failure().message;
+}
+
+TEST(Timeline, DefaultsAndTheSceneBesideIt) {
+  const auto timeline = parse(kHead);
+  ASSERT_TRUE(timeline) << timeline.failure().message;
+  EXPECT_EQ(timeline->scene, std::filesystem::path("scenes/demo.gltf"));
+  EXPECT_EQ(timeline->smoke.voxels, 1800u);
+  EXPECT_EQ(timeline->duration, 4.0f);
+  EXPECT_FALSE(timeline->grid.size);
+}
+
+TEST(Timeline, EverythingIsRead) {
+  const auto timeline = parse(std::string(kHead) + R"(duration = 5.5
+exposure = -1
+[grid]
+voxel = 0.5
+size = [120, 20, 120]
+origin = [-30, 0, -30.5]
+[smoke]
+voxels = 900
+bloom = 2
+extinction = 4.5
+albedo = [0.9, 0.8, 0.7]
+anisotropy = -0.5
+noise = 0.25
+noise_size = 2
+[sky]
+zenith = [0, 0.1, 0.2]
+horizon = [0.3, 0.4, 0.5]
+ambient = [0.6, 0.7, 0.8]
+stars = 2
+[[camera]]
+time = 0
+position = [1, 2, 3]
+target = [4, 5, 6]
+fov = 45
+[[event]]
+type = "shot"
+time = 2
+from = [0, 1, 0]
+toward = [0, 1, -1]
+stay = 0.75
+[[event]]
+type = "shot"
+time = 1.5
+from = [0, 2, 0]
+toward = [0, 1, -1]
+[[event]]
+type = "smoke"
+time = 0.25
+from = [0, 1, 5]
+at = [0, 0, 0]
+)");
+  ASSERT_TRUE(timeline) << timeline.failure().message;
+  EXPECT_EQ(timeline->duration, 5.5f);
+  EXPECT_EQ(timeline->exposure, -1.0f);
+  EXPECT_EQ(*timeline->grid.size, glm::ivec3(120, 20, 120));
+  EXPECT_EQ(*timeline->grid.origin_world, glm::vec3(-30, 0, -30.5f));
+  EXPECT_EQ(timeline->smoke.albedo, glm::vec3(0.9f, 0.8f, 0.7f));
+  EXPECT_EQ(timeline->sky.ambient, glm::vec3(0.6f, 0.7f, 0.8f));
+  EXPECT_EQ(timeline->sky.stars, 2.0f);
+  ASSERT_EQ(timeline->camera.size(), 1u);
+  EXPECT_NEAR(timeline->camera[0].camera.vertical_fov, 0.785398f, 1e-5f);
+  ASSERT_EQ(timeline->shots.size(), 2u);
+  EXPECT_EQ(timeline->shots[0].time, 1.5) << "by time";
+  EXPECT_EQ(timeline->shots[1].stay, 0.75f);
+  EXPECT_EQ(timeline->shots[1].reach, 0.25f);
+  ASSERT_EQ(timeline->smokes.size(), 1u);
+  EXPECT_EQ(timeline->smokes[0].from_world, glm::vec3(0, 1, 5));
+}
+
+TEST(Timeline, UnknownKeysNameTheNearest) {
+  EXPECT_EQ(
+      error_of(std::string(kHead) + "durration = 5\n"),
+      "scenes/t.toml:3:1: unknown key \"durration\" in the timeline; the nearest known one is \"duration\"");
+  EXPECT_EQ(error_of(std::string(kHead) + "[smoke]\n  blooom = 5\n"),
+            "scenes/t.toml:4:3: unknown key \"blooom\" in [smoke]; the nearest known one is \"bloom\"");
+  EXPECT_EQ(error_of(std::string(kHead) +
+                     "[[event]]\ntype = \"shot\"\ntime = 1\nfrom = [0,0,0]\ntoward = [0,0,1]\nradios = 1\n"),
+            "scenes/t.toml:8:1: unknown key \"radios\" in [[event]]; the nearest known one is \"radius\"");
+}
+
+TEST(Timeline, ValuesOutOfRangeNamePlaceAndRange) {
+  EXPECT_EQ(error_of(std::string(kHead) + "[grid]\nvoxel = 0\n"),
+            "scenes/t.toml:4:9: \"voxel\": expected a number from 0.01 to 10, found 0");
+  EXPECT_EQ(error_of(std::string(kHead) + "[grid]\nsize = [0, 1, 1]\n"),
+            "scenes/t.toml:4:9: \"size\": expected a whole number from 1 to 4096, found 0");
+  EXPECT_EQ(error_of(std::string(kHead) + "[grid]\nsize = [1, 1000000, 1]\n"),
+            "scenes/t.toml:4:12: \"size\": expected a whole number from 1 to 4096, found 1000000");
+  EXPECT_EQ(error_of(std::string(kHead) + "duration = nan\n"),
+            "scenes/t.toml:3:12: \"duration\": expected a number from 0.01 to 3600, found nan");
+  EXPECT_EQ(error_of(std::string(kHead) + "duration = \"long\"\n"),
+            "scenes/t.toml:3:12: \"duration\": expected a number from 0.01 to 3600");
+  EXPECT_EQ(error_of(std::string(kHead) + "[sky]\nzenith = [1, 2]\n"),
+            "scenes/t.toml:4:10: \"zenith\": expected three numbers, like [0.0, 1.0, 2.0]");
+}
+
+TEST(Timeline, WhatMustBeThereAndHow) {
+  EXPECT_EQ(error_of("scene = \"a.obj\"\n").substr(0, 13), "scenes/t.toml");
+  EXPECT_NE(error_of("scene = \"a.obj\"\n").find("lacks the key \"version\""), std::string::npos);
+  EXPECT_NE(error_of("version = 2\nscene = \"a.obj\"\n").find("scenes/t.toml:1:11"), std::string::npos);
+  EXPECT_NE(error_of("version = 1\n").find("lacks the key \"scene\""), std::string::npos);
+  EXPECT_NE(error_of("version = 1\nscene = \n").find("scenes/t.toml:2:"), std::string::npos);
+  EXPECT_NE(error_of(std::string(kHead) + "smoke = 1\n").find("expected a table [smoke]"), std::string::npos);
+  EXPECT_NE(error_of(std::string(kHead) + "event = [1]\n").find("expected tables [[event]]"),
+            std::string::npos);
+  EXPECT_NE(error_of(std::string(kHead) + "[[event]]\ntype = \"bomb\"\ntime = 1\n")
+                .find("expected \"smoke\" or \"shot\""),
+            std::string::npos);
+  EXPECT_NE(error_of(std::string(kHead) + "[[event]]\ntype = \"smoke\"\ntime = 1\nfrom = [0,0,0]\n")
+                .find("lacks the key \"at\""),
+            std::string::npos);
+  const std::string key = "[[camera]]\ntime = 1\nposition = [0,0,0]\ntarget = [0,0,1]\n";
+  EXPECT_NE(error_of(kHead + key + key).find("scenes/t.toml:8:8: \"time\": expected a later time"),
+            std::string::npos);
+}
+
+TEST(Timeline, EditDistance) {
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("same", "same"), 0u);
+}
+
+Timeline path_of(std::initializer_list<CameraKey> keys) {
+  Timeline timeline;
+  timeline.camera = keys;
+  return timeline;
+}
+
+CameraKey key(double time, glm::vec3 position, float fov = 1.0f) {
+  return {time, {position, position + glm::vec3(0, 0, -1), fov}};
+}
+
+TEST(CameraPath, PassesThroughItsKeysAndStaysAtTheEnds) {
+  const Timeline timeline = path_of({key(1, {0, 0, 0}), key(2, {5, 1, 0}), key(4, {6, 3, 0})});
+  for (const CameraKey& at : timeline.camera)
+    EXPECT_LT(glm::distance(camera_at(timeline, {}, at.time).position_world, at.camera.position_world),
+              1e-6f);
+  EXPECT_EQ(camera_at(timeline, {}, -5).position_world, glm::vec3(0));
+  EXPECT_EQ(camera_at(timeline, {}, 99).position_world, glm::vec3(6, 3, 0));
+  EXPECT_EQ(camera_at(timeline, {}, std::nan("")).position_world, glm::vec3(0));
+  EXPECT_EQ(camera_at(Timeline(), {{1, 2, 3}, {0, 0, 0}, 1}, 0).position_world, glm::vec3(1, 2, 3));
+}
+
+TEST(CameraPath, EvenMotionStaysEvenAwayFromTheEnds) {
+  // Keys on a line at uneven times, all at 2 m/s: the spans between inner keys are straight and even.
+  const Timeline timeline = path_of(
+      {key(0, {0, 0, 0}), key(1, {2, 0, 0}), key(1.5, {3, 0, 0}), key(4, {8, 0, 0}), key(5, {10, 0, 0})});
+  for (double time = 1; time <= 4; time += 0.125)
+    EXPECT_NEAR(camera_at(timeline, {}, time).position_world.x, 2 * time, 1e-5) << time;
+}
+
+TEST(CameraPath, SpeedIsContinuous) {
+  const Timeline timeline = path_of({key(0, {0, 0, 0}, 0.5f), key(0.3, {5, -1, 0}, 1.5f),
+                                     key(2, {6, 3, 1}, 1.4f), key(2.5, {-1, 3, 2}, 0.6f)});
+  const auto slope = [&](double from, double to) {
+    return (glm::dvec3(camera_at(timeline, {}, to).position_world) -
+            glm::dvec3(camera_at(timeline, {}, from).position_world)) /
+           (to - from);
+  };
+  constexpr double h = 1e-3;
+  for (const CameraKey& at : timeline.camera) {
+    // Both one-sided slopes differ from the speed by at most h/2 times the acceleration (below 500 here).
+    EXPECT_LT(glm::distance(slope(at.time - h, at.time), slope(at.time, at.time + h)), 500 * h) << at.time;
+  }
+}
+
+TEST(CameraPath, TheFieldOfViewNeverOvershoots) {
+  const Timeline timeline = path_of({key(0, {0, 0, 0}, 0.1f), key(1, {1, 0, 0}, 3.0f),
+                                     key(1.1, {2, 0, 0}, 3.0f), key(2, {3, 0, 0}, 0.02f)});
+  for (double time = 0; time <= 2; time += 0.001) {
+    const float fov = camera_at(timeline, {}, time).vertical_fov;
+    EXPECT_GE(fov, 0.02f - 1e-6f);
+    EXPECT_LE(fov, 3.0f + 1e-6f);
+  }
+}
+
+TEST(TimelineForScene, ThrowsASmokeAtWhatTheCameraSees) {
+  auto scene = parse_obj_scene(kCubeObj, "cube.obj", MemoryFiles());
+  ASSERT_TRUE(scene);
+  scene->camera = Camera{{0.25f, 0.5f, 5}, {0.25f, 0.5f, 4}, 1};
+  const Timeline timeline = timeline_for_scene("cube.obj", *scene);
+  ASSERT_EQ(timeline.smokes.size(), 1u);
+  EXPECT_EQ(timeline.duration, 4.0f);
+  EXPECT_EQ(timeline.smokes[0].from_world, glm::vec3(0.25f, 0.5f, 5));
+  EXPECT_LT(glm::distance(timeline.smokes[0].at_world, glm::vec3(0.25f, 0.5f, 1)), 1e-5f);
+  EXPECT_FLOAT_EQ(timeline.grid.voxel, 0.05f) << "a 2 m scene";
+  EXPECT_FALSE(first_hit(*scene, {0, 0, 5}, {0, 0, 1})) << "behind the ray";
+  EXPECT_FALSE(first_hit(*scene, {3, 0, 5}, {0, 0, -1})) << "beside the cube";
+}
+
+}  // namespace
+}  // namespace brume::scene
