@@ -41,7 +41,8 @@ ListTable table_from_pairs(std::size_t lists,
 
 /// A cell's surroundings.
 struct CellBlock {
-  Block free = 0;                       // outside the grid too: smoke may end there
+  Block free = 0;  // outside the grid too: smoke may end there
+  Block smoke = 0;
   std::array<std::uint32_t, 64> voxel;  // number of the smoke voxel, or kNone
 };
 
@@ -164,13 +165,13 @@ void SmokeStructure::Builder::list_texels() {
 
 /// Reads the 4x4x4 voxels around a cell; false when there is no smoke among them.
 bool SmokeStructure::Builder::look_around(glm::ivec3 cell, CellBlock& block) const {
-  bool smoke = false;
+  block.smoke = 0;
   for (int bit = 0; bit < 64; ++bit) {
     const std::uint32_t number = voxel_at(cell - 1 + block_voxel(bit));
     block.voxel[static_cast<std::size_t>(bit)] = number;
-    smoke |= number != kNone;
+    if (number != kNone) block.smoke |= Block{1} << bit;
   }
-  if (!smoke) return false;
+  if (block.smoke == 0) return false;
   block.free = 0;
   for (int bit = 0; bit < 64; ++bit)
     if (!grid_.solid(cell - 1 + block_voxel(bit))) block.free |= Block{1} << bit;
@@ -211,10 +212,16 @@ void SmokeStructure::Builder::add_cell(glm::ivec3 cell, const CellBlock& block) 
     seen[static_cast<std::size_t>(side)] = sight_.seen(side, block.free);
   for (int side = 0; side < sight_.side_count(); ++side) {
     // A side that sees no air is the inside of something: nobody is there to see it. It goes on as the side
-    // next to it, so that smoke reaches a curved surface also where that bulges through its plane.
+    // next to it that sees most smoke, so that smoke reaches a curved surface also where that bulges through
+    // its plane.
     int like = side;
-    for (int k = 0; seen[static_cast<std::size_t>(like)] == 0 && (1 << k) < sight_.side_count(); ++k)
-      if (seen[static_cast<std::size_t>(side ^ 1 << k)] != 0) like = side ^ 1 << k;
+    for (int k = 0; seen[static_cast<std::size_t>(side)] == 0 && 1 << k < sight_.side_count(); ++k) {
+      const int other = side ^ 1 << k;
+      const auto smoke = [&](int s) {
+        return std::popcount(seen[static_cast<std::size_t>(s)] & block.smoke);
+      };
+      if (like == side || smoke(other) > smoke(like)) like = other;
+    }
     const Block own_side = sight_.on_side(like, block.free);
     for (int corner = 0; corner < 8; ++corner)
       add_corner(block, corner, own_side, seen[static_cast<std::size_t>(like)]);

@@ -29,7 +29,7 @@ constexpr std::uint32_t kMaxTick = 1u << 29;
 struct ThrowSmoke {
   std::uint32_t tick = 0;
   Position from{0}, at{0};  ///< 1/1024 m
-  SmokeSettings smoke;
+  SmokeSettings smoke = {};
 };
 
 /// Times of a hole (shared/hole.h) [ms].
@@ -45,7 +45,7 @@ struct Shot {
   std::uint32_t tick = 0;
   Position origin{0}, toward{0};  ///< 1/1024 m, must differ
   std::uint32_t radius = 205;     ///< 1/1024 m, [1, kMaxCoordinate]
-  HoleTiming timing;              ///< each at most 2^30 ms
+  HoleTiming timing = {};         ///< each at most 2^30 ms
 };
 
 constexpr std::uint32_t kGrenadeMetresPerSecond = 20;
