@@ -110,9 +110,10 @@ TEST(VisitVoxels, EqualsBruteForceForAMillionRays) {
       const auto [enter, leave] = interval_in<float>(ray, v);
       if (!(enter < leave)) return;
       ++expected;
-      const bool found = std::any_of(visits.begin(), visits.end(), [&](const Visit& visit) {
-        return visit.voxel == v && visit.enter == enter && visit.leave == leave;
-      });
+      const bool found =
+          std::any_of(visits.begin(), visits.end(), [&, in = enter, out = leave](const Visit& visit) {
+            return visit.voxel == v && visit.enter == in && visit.leave == out;
+          });
       ASSERT_TRUE(found) << "ray " << i << " misses " << v.x << " " << v.y << " " << v.z;
     });
     ASSERT_EQ(visits.size(), expected) << "ray " << i;

@@ -197,6 +197,13 @@ TEST(Voxelize, HostileCornersAreHarmless) {
                                         {vec3(std::nanf("")), vec3(0), vec3(1)},
                                         {vec3(-huge), vec3(huge), vec3(0)}};
   EXPECT_TRUE(voxelize(triangles, frame));
+  // Far, but within reach: the plane x + y + z = 0 still runs through the grid's first voxel.
+  const float far = 1e16f;
+  const auto plane = voxelize(std::vector<Triangle>{{{far, -far, 0}, {0, far, -far}, {-far, 0, far}}},
+                              {{8, 8, 8}, 1, vec3(0)});
+  ASSERT_TRUE(plane);
+  EXPECT_TRUE(plane->solid({0, 0, 0}));
+  EXPECT_EQ(plane->count_solid(), 1u);
   const auto none = voxelize(std::vector<Triangle>{{vec3(inf), vec3(0), vec3(1)}}, {{8, 8, 8}, 1, vec3(0)});
   ASSERT_TRUE(none);
   EXPECT_EQ(none->count_solid(), 0u);
