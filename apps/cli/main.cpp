@@ -22,6 +22,19 @@ constexpr const char* kAbout =
     "  brume info room.glb                               what is in a file\n"
     "  brume devices                                     what can render";
 
+// In the list of commands, only what each does: its examples are in its own help.
+class BriefFormatter : public CLI::Formatter {
+ public:
+  std::string make_subcommand(const CLI::App* command) const override {
+    const std::string text = command->get_description();
+    return "  " + command->get_name() + std::string(12 - command->get_name().size(), ' ') +
+           text.substr(0, text.find('\n')) + "\n";
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return CLI::Formatter::make_description(app) + "\n";
+  }
+};
+
 int fail(const Failure& failure) {
   say_failure(failure.message);
   return static_cast<int>(failure.code);
@@ -49,6 +62,7 @@ int run(const Command& command) {
 
 int parse_and_run(int argc, char** argv) {
   CLI::App program(kAbout, "brume");
+  program.formatter(std::make_shared<BriefFormatter>());
   program.set_version_flag("--version", BRUME_VERSION);
   program.require_subcommand(1);
   const std::array commands{add_demo(program), add_render(program), add_voxelize(program), add_info(program),
@@ -60,6 +74,10 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const auto chosen = program.get_subcommands();
     const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    if (chosen.empty() && !program.remaining().empty()) {
+      return fail(
+          {ErrorCode::usage, "there is no command '" + program.remaining().front() + "'; see brume --help"});
+    }
     return fail({ErrorCode::usage, std::string(error.what()) + "; see brume" + name + " --help"});
   }
   for (const Command& command : commands) {

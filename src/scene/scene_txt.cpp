@@ -37,10 +37,12 @@ class SceneTxtParser {
       auto read = word == "LIGHT_SOURCE" ? read_light() : read_object(std::string(word));
       if (!read) return read.failure();
     }
-    if (!builder_.has_grenade()) {
+    const bool has_grenade = builder_.has_grenade();
+    auto scene = std::move(builder_).finish();
+    if (scene && !has_grenade) {
       log_warning(reader_.name() + ": no object is called Grenade; a built-in one is thrown");
     }
-    return std::move(builder_).finish();
+    return scene;
   }
 
  private:

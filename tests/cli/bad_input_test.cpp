@@ -1,0 +1,177 @@
+// Whatever goes wrong: one line on standard error that names the place, nothing on standard output, the exit
+// code of docs/conventions.md, and no file left behind.
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+
+#include <algorithm>
+
+#include "core/file.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+// The arguments, the exit code and parts of the line that they must lead to, in a folder that stays as it is.
+void expect_failure(const WorkFolder& folder, const Arguments& arguments, int exit_code,
+                    const std::vector<std::string>& parts, const RunOptions& options = {}) {
+  SCOPED_TRACE(testing::PrintToString(arguments));
+  const auto before = folder.files();
+  const Outcome run = run_brume(folder.path(), arguments, options);
+  EXPECT_EQ(run.exit_code, exit_code) << run.error;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
+  EXPECT_EQ(run.error.rfind("brume: ", 0), 0u) << run.error;
+  EXPECT_EQ(run.error.rfind("brume: warning", 0), std::string::npos) << run.error;
+  for (const std::string& part : parts) EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
+  EXPECT_EQ(folder.files(), before);
+}
+
+Arguments voxelize(const std::string& scene, const Arguments& more = {}) {
+  Arguments arguments{"voxelize", scene, "-o", "result.vxl", "--json", "result.json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(BadInput, MissingFile) {
+  const WorkFolder folder;
+  expect_failure(folder, voxelize("missing.obj"), 3, {"missing.obj"});
+  expect_failure(folder, {"info", "missing.vxl"}, 3, {"missing.vxl"});
+  expect_failure(folder, {"info", "missing.png"}, 3, {"missing.png"});
+  expect_failure(folder, {"render", "missing.toml", "-o", "a.png"}, 3, {"missing.toml"});
+}
+
+TEST(BadInput, UnknownKeyInATimeline) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  folder.write("a.toml", "version = 1\nscene = \"room.obj\"\ndurration = 3.0\n");
+  expect_failure(folder, {"render", "a.toml", "-o", "a.png"}, 3, {"a.toml:3:", "durration", "duration"});
+}
+
+TEST(BadInput, WordInPlaceOfANumberInSceneTxt) {
+  const WorkFolder folder;
+  folder.write("Scene.txt", "# objects\nWall 0 0 0  0 zero 0  1 1 1 Brick 0.5\n");
+  expect_failure(folder, voxelize("Scene.txt"), 3, {"Scene.txt:2:", "zero", "number"});
+}
+
+TEST(BadInput, MeshWithNaN) {
+  const WorkFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_failure(folder, voxelize("a.obj"), 3, {"a.obj:2:"});
+}
+
+TEST(BadInput, IndexOutOfRange) {
+  const WorkFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+  expect_failure(folder, voxelize("a.obj"), 3, {"a.obj:4:", "9"});
+}
+
+TEST(BadInput, EmptyScene) {
+  const WorkFolder folder;
+  folder.write("empty.obj", "");
+  folder.write("Scene.txt", "# nothing\n");
+  expect_failure(folder, voxelize("empty.obj"), 3, {"empty.obj"});
+  expect_failure(folder, voxelize("Scene.txt"), 3, {"Scene.txt"});
+}
+
+TEST(BadInput, GridsThatCannotBe) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  expect_failure(folder, voxelize("room.obj", {"--grid", "0x10x10"}), 2, {"0"});
+  expect_failure(folder, voxelize("room.obj", {"--grid", "-4x10x10"}), 2, {"--grid", "-4x10x10"});
+  expect_failure(folder, voxelize("room.obj", {"--grid", "10x10"}), 2, {"--grid", "120x20x120"});
+  expect_failure(folder, voxelize("room.obj", {"--grid", "1000000x1000000x1000000"}), 4, {"1000000", "4096"});
+  expect_failure(folder, voxelize("room.obj", {"--grid", "8x8x8", "--voxel", "0"}), 2, {"voxel"});
+  expect_failure(folder, voxelize("room.obj", {"--voxel", "0.00001"}), 4, {"4096"});
+  expect_failure(folder, voxelize("room.obj", {"--grid", "8x8x8", "--origin", "0,0,inf"}), 2, {"--origin"});
+}
+
+TEST(BadInput, ArgumentsThatCannotBe) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  expect_failure(folder, {}, 2, {"--help"});
+  expect_failure(folder, {"fly"}, 2, {"fly", "--help"});
+  expect_failure(folder, {"voxelize"}, 2, {"SCENE"});
+  expect_failure(folder, {"voxelize", "room.obj", "--frobnicate"}, 2, {"--frobnicate"});
+  expect_failure(folder, {"render", "room.obj", "-o", "a.gif"}, 2, {"a.gif", ".png"});
+  expect_failure(folder, {"render", "room.obj", "-o", "a%s.png"}, 2, {"a%s.png", "%04d"});
+  expect_failure(folder, {"render", "room.obj", "-o", "a.png", "--size", "12"}, 2, {"--size", "1280x720"});
+  expect_failure(folder, {"render", "room.obj", "-o", "a.mp4", "--size", "33x16"}, 2, {"--size", "even"});
+  expect_failure(folder, {"render", "room.obj", "-o", "a.png", "--camera", "0,0,0 0,0,0 60"}, 2,
+                 {"--camera"});
+  expect_failure(folder, {"render", "room.obj", "-o", "a.mp4", "--frames", "9-3"}, 2, {"--frames"});
+  expect_failure(folder, {"render", "room.obj", "-o", "a.mp4", "--time", "1"}, 2, {"--time", "--frames"});
+  expect_failure(folder, {"info", "room.blend"}, 2, {"room.blend", ".glb"});
+}
+
+TEST(BadInput, OutputFolderThatDoesNotExist) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  expect_failure(folder, {"voxelize", "room.obj", "-o", "none/a.vxl"}, 3, {"none", "does not exist"});
+  expect_failure(folder, {"voxelize", "room.obj", "--obj", "none/a.obj"}, 3, {"none", "does not exist"});
+  expect_failure(folder, {"voxelize", "room.obj", "--json", "none/a.json"}, 3, {"none", "does not exist"});
+  expect_failure(folder, {"render", "room.obj", "-o", "none/a.png"}, 3, {"none", "does not exist"});
+  expect_failure(folder, {"render", "room.obj", "-o", "none/a_%d.png"}, 3, {"none", "does not exist"});
+  expect_failure(folder, {"demo", "--out", "none"}, 3, {"none", "does not exist"});
+  // A file where a folder is needed, and the other way round.
+  expect_failure(folder, {"voxelize", "room.obj", "-o", "room.obj/a.vxl"}, 3, {"room.obj"});
+  expect_failure(folder, {"voxelize", "room.obj", "--obj", "."}, 3, {"folder"});
+}
+
+// The old file stays when a new one does not fit.
+TEST(BadInput, FilesThatMayNotGrow) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  folder.write("old.obj", "# old\n");
+  RunOptions small;
+  small.file_bytes = 512;
+  expect_failure(folder, {"voxelize", "room.obj", "--obj", "old.obj"}, 4, {"old.obj", "space"}, small);
+  EXPECT_EQ(*read_text_file(folder.path() / "old.obj"), "# old\n");
+  expect_failure(folder, {"voxelize", "room.obj", "-o", "a.vxl"}, 4, {"a.vxl", "space"}, small);
+}
+
+TEST(BadInput, FullDisk) {
+  const WorkFolder folder;
+  // Mounts of a namespace of our own: the next process does not see them.
+  if (::unshare(CLONE_NEWNS) != 0 || ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) {
+    GTEST_SKIP() << "only root can mount a small disk; FilesThatMayNotGrow has run";
+  }
+  std::filesystem::create_directory(folder.path() / "disk");
+  const auto disk = folder.path() / "disk";
+  ASSERT_EQ(::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=4k"), 0);
+  folder.write("room.obj", room_obj());
+  expect_failure(folder, {"voxelize", "room.obj", "--voxel", "0.05", "-o", "disk/a.vxl"}, 4,
+                 {"disk/a.vxl", "space"});
+  EXPECT_TRUE(std::filesystem::is_empty(disk));
+  ::umount2(disk.c_str(), MNT_DETACH);
+}
+
+TEST(BadInput, StandardOutputThatIsFull) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  RunOptions full;
+  full.out_file = "/dev/full";
+  expect_failure(folder, {"info", "room.obj", "--json", "-"}, 4, {"standard output", "space"}, full);
+}
+
+TEST(BadInput, NoDevice) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  RunOptions none;
+  none.environment = {{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}};
+  expect_failure(folder, {"devices"}, 5, {"Vulkan"}, none);
+  expect_failure(folder, {"render", "room.obj", "-o", "a.png", "--size", "16x16"}, 5, {"Vulkan"}, none);
+  expect_failure(folder, {"render", "room.obj", "-o", "a.png", "--device", "no such device"}, 5,
+                 {"no such device"});
+}
+
+TEST(BadInput, DamagedPictures) {
+  const WorkFolder folder;
+  folder.write("a.png", "not a picture");
+  expect_failure(folder, {"info", "a.png"}, 3, {"a.png"});
+}
+
+}  // namespace
+}  // namespace brume::cli

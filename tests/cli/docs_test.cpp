@@ -1,0 +1,130 @@
+// The commands in the documents and in the program's own help work as they stand there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include "core/file.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+// What a shell makes of a simple command: words, "double quotes", and # to the end of the line.
+Arguments words_of(const std::string& line) {
+  Arguments words;
+  static const std::regex word("\"([^\"]*)\"|(#.*)|(\\S+)");
+  for (std::sregex_iterator it(line.begin(), line.end(), word), end; it != end; ++it) {
+    if ((*it)[2].matched) break;
+    words.push_back((*it)[1].matched ? (*it)[1].str() : (*it)[3].str());
+  }
+  return words;
+}
+
+// The arguments of each line that calls the program.
+std::vector<Arguments> calls_in(const std::string& text) {
+  std::vector<Arguments> calls;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    Arguments words = words_of(line);
+    if (words.empty() || (words[0] != "brume" && words[0] != "build/release/brume")) continue;
+    calls.emplace_back(words.begin() + 1, words.end());
+  }
+  return calls;
+}
+
+// The ```sh blocks of a Markdown text, lines joined where they end in a backslash.
+std::string shell_blocks(const std::string& markdown) {
+  std::string blocks, line;
+  bool inside = false;
+  std::istringstream lines(markdown);
+  while (std::getline(lines, line)) {
+    if (line.rfind("```", 0) == 0) {
+      inside = !inside && line == "```sh";
+    } else if (inside && !line.empty() && line.back() == '\\') {
+      blocks += line.substr(0, line.size() - 1);
+    } else if (inside) {
+      blocks += line + "\n";
+    }
+  }
+  return blocks;
+}
+
+// A folder with the files that documents speak of: the demo's scene under any name, voxels of it.
+class Documents : public testing::Test {
+ protected:
+  Documents() {
+    std::filesystem::create_directory_symlink(BRUME_SOURCE_DIR "/scenes", folder_.path() / "scenes");
+    folder_.write("room.obj", room_obj());
+    EXPECT_EQ(run_brume(folder_.path(), {"voxelize", "room.obj", "-o", "room.vxl"}).exit_code, 0);
+  }
+  void provide(const std::string& word) const {
+    const std::filesystem::path path = folder_.path() / word;
+    if (std::filesystem::path(word).is_absolute() || std::filesystem::exists(path)) return;
+    std::filesystem::create_directories(path.parent_path());
+    if (path.extension() == ".glb")
+      std::filesystem::create_symlink(BRUME_SOURCE_DIR "/scenes/demo.glb", path);
+    if (path.extension() == ".obj") folder_.write(word, room_obj());
+  }
+  // Runs a call small: few pixels, few frames. `demo` and `bench` take minutes and are run by scripts.
+  void expect_works(const std::string& source, Arguments call) const {
+    SCOPED_TRACE(source + ": brume " + testing::PrintToString(call));
+    if (call.empty() || call[0] == "demo" || call[0] == "bench") return;
+    if (call.size() > 1) provide(call[1]);
+    if (call[0] == "render") {
+      call.insert(call.end(), {"--size", "32x18"});
+      const bool film = std::any_of(call.begin(), call.end(), [](const std::string& word) {
+        return word.ends_with(".mp4") || word.find('%') != std::string::npos;
+      });
+      if (film) call.insert(call.end(), {"--frames", "0-1"});
+    }
+    const Outcome run = run_brume(folder_.path(), call);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+  }
+  WorkFolder folder_;
+};
+
+TEST_F(Documents, TheirCommandsRun) {
+  std::size_t count = 0;
+  std::vector<std::filesystem::path> pages;
+  for (const char* folder : {BRUME_SOURCE_DIR, BRUME_SOURCE_DIR "/docs"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() == ".md") pages.push_back(entry.path());
+    }
+  }
+  for (const auto& page : pages) {
+    for (const Arguments& call : calls_in(shell_blocks(*read_text_file(page)))) {
+      expect_works(page.filename().string(), call);
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 0u);
+}
+
+TEST_F(Documents, TheExamplesOfTheHelpRun) {
+  const Outcome help = run_brume(folder_.path(), {"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_EQ(help.error, "");
+  for (const char* command : {"demo", "render", "voxelize", "info", "devices", "bench"}) {
+    EXPECT_NE(help.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
+    const Outcome text = run_brume(folder_.path(), {command, "--help"});
+    EXPECT_EQ(text.exit_code, 0) << command;
+    // The examples come before the options.
+    const std::string examples = text.out.substr(0, text.out.find("Usage:"));
+    const auto calls = calls_in(examples);
+    EXPECT_FALSE(calls.empty()) << command;
+    for (const Arguments& call : calls) expect_works(std::string(command) + " --help", call);
+  }
+}
+
+TEST(DocumentRules, SeeTheCallsOfABlock) {
+  const std::string text =
+      "brume no\n```sh\nbrume a \\\n  --b \"c d\"  # e\nls\n```\n```toml\nbrume no\n```\n";
+  EXPECT_EQ(calls_in(shell_blocks(text)), (std::vector<Arguments>{{"a", "--b", "c d"}}));
+}
+
+}  // namespace
+}  // namespace brume::cli

@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/file.hpp"
+#include "image/decode.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+constexpr const char* kTimeline =
+    "version = 1\nscene = \"room.obj\"\nduration = 1.0\n"
+    "[[camera]]\ntime = 0.0\nposition = [0.0, 1.7, 1.8]\ntarget = [0.0, 1.2, -1.0]\nfov = 70.0\n"
+    "[[event]]\ntype = \"smoke\"\ntime = 0.0\nfrom = [0.0, 1.5, 1.0]\nat = [0.0, 0.5, -1.0]\n";
+
+class Render : public testing::Test {
+ protected:
+  Render() {
+    folder_.write("room.obj", room_obj());
+    folder_.write("room.toml", kTimeline);
+  }
+  Outcome render(const Arguments& more, const RunOptions& options = {}) const {
+    Arguments arguments{"render", "room.toml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_brume(folder_.path(), arguments, options);
+  }
+  image::Image8 picture(const std::string& name) const {
+    return image::load_image(folder_.path() / name).value_or_throw();
+  }
+  WorkFolder folder_;
+};
+
+TEST_F(Render, APictureTwiceTheSame) {
+  for (const char* name : {"a.png", "b.png"}) {
+    const Outcome run = render({"-o", name, "--size", "64x36", "--time", "0.8", "--json", "-"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_EQ(run.error, "");
+    const auto statistics = nlohmann::json::parse(run.out);
+    EXPECT_EQ(statistics["frames"], 1);
+    EXPECT_NE(statistics["device"], "");
+  }
+  EXPECT_EQ(picture("a.png").width, 64u);
+  EXPECT_EQ(picture("a.png").height, 36u);
+  EXPECT_EQ(picture("a.png").rgba, picture("b.png").rgba);
+}
+
+TEST_F(Render, SmokeAndCameraChangeThePicture) {
+  const Arguments common{"--size", "64x36", "--time", "0.9"};
+  const auto draw = [&](const std::string& name, Arguments more) {
+    more.insert(more.end(), {"-o", name});
+    more.insert(more.end(), common.begin(), common.end());
+    const Outcome run = render(more);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return picture(name).rgba;
+  };
+  const auto plain = draw("plain.png", {});
+  EXPECT_NE(draw("smoke.png", {"--smoke", "0.5,1.5,-0.5"}), plain);
+  EXPECT_NE(draw("camera.png", {"--camera", "1.5,1,1.5 -1,1,-1 60"}), plain);
+}
+
+TEST_F(Render, NumberedPicturesAndAFilm) {
+  const Outcome pictures = render({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
+  ASSERT_EQ(pictures.exit_code, 0) << pictures.error;
+  const Outcome film = render({"-o", "film.mp4", "--frames", "0-5", "--size", "32x18"});
+  ASSERT_EQ(film.exit_code, 0) << film.error;
+  EXPECT_EQ(folder_.files(),
+            (Arguments{"film.mp4", "p_002.png", "p_003.png", "p_004.png", "room.obj", "room.toml"}));
+}
+
+TEST_F(Render, ASceneWithoutATimeline) {
+  const Outcome run = run_brume(
+      folder_.path(), {"render", "room.obj", "-o", "a.png", "--size", "32x18", "--smoke", "0,1,-1"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const Outcome with = run_brume(
+      folder_.path(), {"render", "room.obj", "--timeline", "room.toml", "-o", "b.png", "--size", "32x18"});
+  ASSERT_EQ(with.exit_code, 0) << with.error;
+}
+
+TEST_F(Render, LeavesNothingWhenInterrupted) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    RunOptions interrupt;
+    interrupt.signal = signal;
+    interrupt.signal_after_ms = 1500;
+    const Outcome run = render({"-o", "long.mp4", "--frames", "0-100000", "--size", "640x360"}, interrupt);
+    EXPECT_EQ(run.exit_code, 128 + signal) << run.error;
+    EXPECT_EQ(run.error, "brume: interrupted\n");
+    EXPECT_EQ(folder_.files(), (Arguments{"room.obj", "room.toml"}));
+  }
+}
+
+TEST_F(Render, AFilmThatDoesNotFit) {
+  RunOptions small;
+  small.file_bytes = 400;
+  const Outcome run = render({"-o", "film.mp4", "--frames", "0-9", "--size", "64x36"}, small);
+  EXPECT_EQ(run.exit_code, 4) << run.error;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(folder_.files(), (Arguments{"room.obj", "room.toml"}));
+}
+
+}  // namespace
+}  // namespace brume::cli

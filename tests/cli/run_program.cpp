@@ -1,0 +1,133 @@
+#include "tests/cli/run_program.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace brume::cli {
+namespace {
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void send_to(int descriptor, const std::filesystem::path& file) {
+  const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(126);
+}
+
+// In the child: becomes the program.
+[[noreturn]] void become(const std::filesystem::path& folder, std::vector<std::string> arguments,
+                         const RunOptions& options, const std::filesystem::path& out,
+                         const std::filesystem::path& error) {
+  send_to(STDOUT_FILENO, out);
+  send_to(STDERR_FILENO, error);
+  for (const auto& [name, value] : options.environment) ::setenv(name.c_str(), value.c_str(), 1);
+  if (options.file_bytes > 0) {
+    ::signal(SIGXFSZ, SIG_IGN);  // Writing then fails with EFBIG, as a full disk does with ENOSPC.
+    const rlimit limit{options.file_bytes, options.file_bytes};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  arguments.insert(arguments.begin(), BRUME_PROGRAM);
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  if (::chdir(folder.c_str()) == 0) ::execv(BRUME_PROGRAM, pointers.data());
+  ::_exit(127);
+}
+
+std::filesystem::path fresh_folder() {
+  static std::atomic<int> number{0};
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("brume_cli_" + std::to_string(::getpid()) + "_" + std::to_string(number++));
+  std::filesystem::create_directories(path);
+  return path;
+}
+
+}  // namespace
+
+Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                  const RunOptions& options) {
+  const auto said = fresh_folder();
+  const std::filesystem::path out =
+      options.out_file.empty() ? said / "out" : std::filesystem::path(options.out_file);
+  const auto error = said / "error";
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("cannot fork");
+  if (child == 0) become(folder, arguments, options, out, error);
+  if (options.signal != 0) {
+    ::usleep(static_cast<useconds_t>(options.signal_after_ms) * 1000);
+    ::kill(child, options.signal);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  Outcome run;
+  run.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  if (options.out_file.empty()) run.out = read_text(out);
+  run.error = read_text(error);
+  std::filesystem::remove_all(said);
+  return run;
+}
+
+WorkFolder::WorkFolder() : path_(fresh_folder()) {}
+
+WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string WorkFolder::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path_ / name, std::ios::binary) << text;
+  return name;
+}
+
+std::vector<std::string> WorkFolder::files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path_))
+    names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string room_obj() {
+  std::string text;
+  int first = 1;
+  const std::array<std::array<int, 4>, 6> faces{
+      {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}};
+  const auto box = [&](std::array<double, 3> low, std::array<double, 3> high) {
+    for (int corner = 0; corner < 8; ++corner) {
+      text += "v";
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        text += ' ';
+        text += std::to_string(corner >> axis & 1 ? high[axis] : low[axis]);
+      }
+      text += "\n";
+    }
+    for (const auto& face : faces) {
+      text += "f";
+      for (const int corner : face) {
+        text += ' ';
+        text += std::to_string(first + corner);
+      }
+      text += "\n";
+    }
+    first += 8;
+  };
+  box({-2, 0, -2}, {2, 3, 2});
+  box({0.6, 0, 0.6}, {1.4, 0.9, 1.3});
+  return text;
+}
+
+}  // namespace brume::cli

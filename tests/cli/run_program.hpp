@@ -1,0 +1,48 @@
+// Runs the program as a shell would, and keeps what it says.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace brume::cli {
+
+struct Outcome {
+  int exit_code = -1;  ///< 128 + signal where one ended it.
+  std::string out, error;
+};
+
+struct RunOptions {
+  std::vector<std::pair<std::string, std::string>> environment;  ///< Added to the test's own.
+  std::uint64_t file_bytes = 0;                                  ///< No file may grow past this; 0: any size.
+  std::string out_file;                                          ///< Standard output goes there instead.
+  int signal = 0;                                                ///< Sent after `signal_after_ms`.
+  int signal_after_ms = 0;
+};
+
+/// Runs build/.../brume with these arguments in `folder`.
+Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                  const RunOptions& options = {});
+
+/// A folder of one test's own, removed with what is in it.
+class WorkFolder {
+ public:
+  WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  ~WorkFolder();
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes a file in it and returns its name.
+  std::string write(const std::string& name, const std::string& text) const;
+  /// The names of its files, sorted.
+  std::vector<std::string> files() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// An OBJ file: a closed room of 4 x 3 x 4 m around the origin, with a block in it.
+std::string room_obj();
+
+}  // namespace brume::cli
