@@ -3,7 +3,8 @@ include_guard(GLOBAL)
 find_program(GLSLC glslc REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# brume_shaders(TARGET files...): a library with one `extern const` word array a shader, named after its file.
+# brume_shaders(TARGET files...): a library with one constant a shader, named after its
+# file, that TARGET.hpp declares.
 function(brume_shaders target)
   set(sources "")
   foreach(file ${ARGN})
@@ -13,7 +14,7 @@ function(brume_shaders target)
     set(words ${CMAKE_CURRENT_BINARY_DIR}/${name}.words)
     set(cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
     # SPIR-V 1.5: newer output would need maintenance4 of a host's device.
-    set(flags -Werror -O --target-env=vulkan1.2 -I ${CMAKE_CURRENT_SOURCE_DIR})
+    set(flags -Werror -O --target-env=vulkan1.2 -I ${PROJECT_SOURCE_DIR}/shaders)
     add_custom_command(
       OUTPUT ${spv}
       COMMAND ${GLSLC} ${flags} -MD -MF ${spv}.d -o ${spv} ${CMAKE_CURRENT_SOURCE_DIR}/${file}
@@ -24,7 +25,7 @@ function(brume_shaders target)
       COMMAND ${GLSLC} ${flags} -mfmt=num -o ${words} ${CMAKE_CURRENT_SOURCE_DIR}/${file}
       DEPENDS ${spv} VERBATIM)
     file(CONFIGURE OUTPUT ${cpp} CONTENT
-"#include \"shader_list.hpp\"
+"#include \"@target@.hpp\"
 namespace brume::shaders {
 static const unsigned words[] = {
 #include \"@name@.words\"
@@ -35,7 +36,7 @@ const gpu::ShaderCode @symbol@{\"@name@\", words};
     list(APPEND sources ${cpp} ${words})
     set(declarations "${declarations}extern const gpu::ShaderCode ${symbol};\n")
   endforeach()
-  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/include/shader_list.hpp CONTENT
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/include/${target}.hpp CONTENT
 "// The shaders that are built in, one constant a file.
 #pragma once
 #include \"gpu/shader_code.hpp\"

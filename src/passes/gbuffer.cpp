@@ -1,6 +1,6 @@
 #include "passes/gbuffer.hpp"
 
-#include "shader_list.hpp"
+#include "brume_shaders.hpp"
 
 namespace brume::passes {
 namespace {

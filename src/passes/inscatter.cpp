@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shader_list.hpp"
+#include "brume_shaders.hpp"
 
 namespace brume::passes {
 namespace {

@@ -1,6 +1,6 @@
 #include "passes/shade.hpp"
 
-#include "shader_list.hpp"
+#include "brume_shaders.hpp"
 
 namespace brume::passes {
 

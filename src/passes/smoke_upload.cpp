@@ -67,8 +67,8 @@ SmokeUpload::SmokeUpload(gpu::Context& context) : context_(context) {
   }
   resources_.density =
       make_atlas(context, glm::ivec3(1), VK_FORMAT_R8G8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  resources_.inscatter =
-      make_atlas(context, glm::ivec3(1), VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT);
+  resources_.inscatter = make_atlas(context, glm::ivec3(1), VK_FORMAT_R16G16B16A16_SFLOAT,
+                                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
 }
 
 void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
@@ -83,8 +83,8 @@ void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
   if (resources_.density.info().size == glm::uvec3(bricks) * static_cast<std::uint32_t>(shared::kBrickTexels))
     return;
   resources_.density = make_atlas(context_, bricks, VK_FORMAT_R8G8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  resources_.inscatter =
-      make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_STORAGE_BIT);
+  resources_.inscatter = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
 }
 
 void SmokeUpload::record_structure(gpu::Recorder& recorder, const sim::SmokeVolume& volume) {

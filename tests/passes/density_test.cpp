@@ -1,0 +1,65 @@
+#include <random>
+
+#include "brume_test_shaders.hpp"
+#include "tests/passes/smoke_room.hpp"
+
+namespace brume::passes {
+namespace {
+
+class DensityTest : public gpu::GpuTest {
+ protected:
+  static std::vector<float> probe(const SmokeRoom& room, const std::vector<glm::vec3>& points) {
+    const gpu::ComputePipeline pipeline(
+        context(), shaders::density_probe_comp,
+        {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+        sizeof(shared::SmokeVolumeFrame), {64, 1, 1});
+    const gpu::Sampler linear(context(), {});
+    const gpu::Buffer in = upload(points);
+    const gpu::Buffer out(context(), points.size() * sizeof(float),
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const SmokeResources& smoke = room.upload.resources();
+    runner().run([&](gpu::Recorder& recorder) {
+      recorder.bind(
+          pipeline,
+          {gpu::read(in), gpu::read(smoke.pages), gpu::sampled(smoke.density, linear), gpu::read(smoke.cells),
+           gpu::read(smoke.boundary), gpu::read(smoke.corners), gpu::write(out)},
+          room.volume.frame());
+      recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(points.size()));
+    });
+    return read_back<float>(out, points.size());
+  }
+};
+
+TEST_F(DensityTest, ShadersReadWhatTheProcessorReads) {
+  // A thin flat wall with a gap, and a slanted roof.
+  std::vector<voxel::Triangle> walls;
+  add_quad(walls, {3.1f, 0, 0}, {3.1f, 6, 0}, {3.1f, 6, 4}, {3.1f, 0, 4});
+  add_quad(walls, {0, 4, 0}, {6, 5.5f, 0}, {6, 5.5f, 6}, {0, 4, 6});
+  SmokeRoom room(context(), runner(), walls, {{33, 17, 23}, 0.3f, {-1.3f, -0.2f, -0.4f}}, {1, 1, 1}, 1800,
+                 100);
+
+  std::mt19937 random(8);
+  std::uniform_real_distribution<float> share(-0.05f, 1.05f);
+  std::vector<glm::vec3> points;
+  for (int i = 0; i < 20000; ++i)
+    points.push_back(glm::vec3(33, 17, 23) * glm::vec3(share(random), share(random), share(random)));
+  const auto densities = probe(room, points);
+  int inside = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float expected = sim::sample_density(room.volume, points[i]);
+    // Texture units weigh with 8 bits in each of three axes (half a step each) and may round to 8 bits after
+    // each.
+    EXPECT_NEAR(densities[i], expected, 3 * 0.5 / 256 + 3 * 0.5 / 255)
+        << points[i].x << ' ' << points[i].y << ' ' << points[i].z;
+    inside += expected > 0.5f;
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST_F(DensityTest, NothingWhereThereIsNoSmoke) {
+  SmokeRoom room(context(), runner(), {}, {{7, 1, 7}, 0.5f, {0, 0, 0}}, {1, 0.2, 1}, 10, 0);
+  for (const float density : probe(room, {{3, 0.5f, 3}, {-100, 0, 0}, {1e6f, 0, 0}})) EXPECT_EQ(density, 0);
+}
+
+}  // namespace
+}  // namespace brume::passes

@@ -1,0 +1,172 @@
+#include "passes/march.hpp"
+
+#include <cmath>
+
+#include "passes/blue_noise.hpp"
+#include "passes/worley.hpp"
+#include "tests/passes/half.hpp"
+#include "tests/passes/smoke_room.hpp"
+
+namespace brume::passes {
+namespace {
+
+constexpr glm::uvec2 kSize{33, 17};
+
+class MarchTest : public gpu::GpuTest {
+ protected:
+  MarchTest() : march_(context(), true) {
+    worley_ = make_worley_tile(context(), 8);
+    const WorleyPass worley(context());
+    runner().run([&](gpu::Recorder& recorder) {
+      worley.record(recorder, worley_, {8, 2, 1, 1});
+      noise_ = make_blue_noise(context(), recorder);
+    });
+  }
+
+  /// A camera at `eye` that looks along -z, a quarter turn wide.
+  static shared::FrameConstants frame_at(const SmokeRoom& room, glm::vec3 eye) {
+    shared::FrameConstants frame{};
+    frame.camera.eye_world = eye;
+    frame.camera.near_z = 0.05f;
+    frame.camera.forward = {0, 0, -1};
+    frame.camera.right = {0.8f, 0, 0};
+    frame.camera.up = {0, 0.4f, 0};
+    frame.volume = room.volume.frame();
+    frame.size_px = kSize;
+    frame.look.albedo = glm::vec3(1);
+    frame.look.extinction = 0.7f;
+    frame.look.step_length = 0.1f;
+    frame.look.noise_period = 1;
+    return frame;
+  }
+  static glm::vec3 ray(const shared::FrameConstants& frame, std::uint32_t pixel) {
+    const glm::vec2 ndc =
+        (glm::vec2(pixel % kSize.x, pixel / kSize.x) + 0.5f) / glm::vec2(kSize) * 2.0f - 1.0f;
+    return frame.camera.forward + ndc.x * frame.camera.right - ndc.y * frame.camera.up;
+  }
+
+  /// Marches with a surface at `distance` along the view axis; radiance and transmittance of each pixel.
+  std::vector<glm::vec4> march(const SmokeRoom& room, const shared::FrameConstants& frame, float distance,
+                               const std::vector<shared::Hole>& holes = {}) {
+    const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / distance);
+    const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
+    const auto frame_buffer = upload(std::vector{frame});
+    const auto hole_buffer = upload(holes.empty() ? std::vector<shared::Hole>(1) : holes);
+    const auto counters = upload(std::vector<std::uint32_t>{0});
+    const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
+    runner().run([&](gpu::Recorder& recorder) {
+      recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
+      march_.record(recorder,
+                    {frame_buffer, room.upload.resources(), worley_, depth_image, noise_, hole_buffer},
+                    target, counters);
+    });
+    samples_ = read_back<std::uint32_t>(counters, 1)[0];
+    std::vector<glm::vec4> out;
+    for (const Half4& texel : read_back<Half4>(target)) out.push_back(from_half(texel));
+    return out;
+  }
+
+  MarchPass march_;
+  gpu::Image worley_, noise_;
+  std::uint32_t samples_ = 0;
+};
+
+/// A grid without walls, full of smoke: a box of constant density.
+class MarchConstantTest : public MarchTest {
+ protected:
+  MarchConstantTest()
+      : room_(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 1u << 22, 4000) {}
+  SmokeRoom room_;
+};
+
+TEST_F(MarchConstantTest, DensityIsOneEverywhere) {
+  for (const glm::vec3 p :
+       {glm::vec3(0.6f, 0.6f, 0.6f), glm::vec3(12, 8, 16), glm::vec3(23.4f, 16.4f, 32.4f)}) {
+    EXPECT_EQ(sim::sample_density(room_.volume, p), 1.0f);
+  }
+}
+
+TEST_F(MarchConstantTest, IsBeerLambertAtFiveStepLengths) {
+  auto frame = frame_at(room_, {0, 0, -0.5f});
+  for (const float step : {0.05f, 0.1f, 0.2f, 0.5f, 1.3f}) {
+    frame.look.step_length = step;
+    constexpr float kDistance = 2.5f;
+    const auto pixels = march(room_, frame, kDistance);
+    for (std::uint32_t i = 0; i < pixels.size(); ++i) {
+      const double path = static_cast<double>(kDistance * glm::length(ray(frame, i)));
+      const double expected = std::exp(-0.7 * path);
+      EXPECT_NEAR(pixels[i].w, expected, 0.01 * expected) << "step " << step << " pixel " << i;
+      // Constant in-scatter: what is not let through is scattered light.
+      EXPECT_NEAR(pixels[i].x, 0.5 * (1 - expected), 0.01 * 0.5);
+      EXPECT_NEAR(pixels[i].z, 1 - expected, 0.01);
+    }
+  }
+}
+
+TEST_F(MarchConstantTest, StopsWhereItIsOpaque) {
+  auto frame = frame_at(room_, {0, 0, -0.5f});
+  frame.look.extinction = 10;
+  const auto pixels = march(room_, frame, 12);
+  const std::uint32_t all = samples_;
+  frame.look.stop = 0.01f;
+  const auto stopped = march(room_, frame, 12);
+  EXPECT_LT(samples_, all / 5);
+  for (std::uint32_t i = 0; i < pixels.size(); ++i) {
+    EXPECT_EQ(stopped[i].w, 0);
+    EXPECT_NEAR(stopped[i].x, pixels[i].x, 0.5 * 0.01);  // at most the share that was left
+  }
+}
+
+TEST_F(MarchConstantTest, NothingBehindTheSurface) {
+  const auto frame = frame_at(room_, {0, 0, 30});
+  for (const glm::vec4& pixel : march(room_, frame, 20)) EXPECT_EQ(pixel, glm::vec4(0, 0, 0, 1));
+}
+
+TEST_F(MarchConstantTest, AHoleLetsThroughWhatItRemoves) {
+  auto frame = frame_at(room_, {0, 0, -0.5f});
+  frame.look.extinction = 2;
+  shared::Hole hole{};
+  hole.origin_world = {0, 0, 0};
+  hole.forward = {0, 0, -1};
+  hole.right = {1, 0, 0};
+  hole.up = {0, 1, 0};
+  hole.radius = 1;
+  hole.distance_to_far = 20;
+  hole.time_to_stay_open = 10;
+  frame.time = 1;
+  frame.hole_count = 1;
+  constexpr std::uint32_t kCentre = 16 + 8 * kSize.x;
+  // Down the axis everything is removed; at the picture's corner the ray leaves the hole early.
+  const auto open = march(room_, frame, 4, {hole});
+  EXPECT_GT(open[kCentre].w, 0.98f);
+  frame.hole_count = 0;
+  const auto shut = march(room_, frame, 4, {hole});
+  EXPECT_LT(shut[kCentre].w, 0.01f);
+  EXPECT_LT(open[0].w, 0.1f);
+  EXPECT_GE(open[0].w, shut[0].w);
+}
+
+TEST_F(MarchTest, StepLengthDoesNotChangeThePicture) {
+  // A smoke with soft rims behind a gap in a wall.
+  std::vector<voxel::Triangle> walls;
+  add_quad(walls, {-5, -3, -6.05f}, {-0.6f, -3, -6.05f}, {-0.6f, 3, -6.05f}, {-5, 3, -6.05f});
+  SmokeRoom room(context(), runner(), walls, {{40, 24, 40}, 0.25f, {-5, -3, -10.0f}}, {0, 0, -7}, 6000, 120);
+  auto frame = frame_at(room, {0, 0, 0});
+  frame.look.extinction = 2;
+  frame.look.step_length = 0.1f;
+  const auto fine = march(room, frame, 30);
+  const std::uint32_t fine_samples = samples_;
+  frame.look.step_length = 0.2f;
+  const auto coarse = march(room, frame, 30);
+  EXPECT_LT(samples_, 0.6 * fine_samples);
+  double difference = 0, seen = 0;
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    difference += static_cast<double>(std::abs(fine[i].w - coarse[i].w));
+    seen += static_cast<double>(1 - fine[i].w);
+  }
+  EXPECT_LT(difference / static_cast<double>(fine.size()), 1.0 / 255);
+  EXPECT_GT(seen, 50);
+}
+
+}  // namespace
+}  // namespace brume::passes

@@ -1,0 +1,137 @@
+#include "brume_test_shaders.hpp"
+#include "shared/frame.h"
+#include "shared/gbuffer.h"
+#include "shared/hole.h"
+#include "shared/inscatter.h"
+#include "shared/light.h"
+#include "shared/worley.h"
+#include "tests/gpu/gpu_test.hpp"
+
+namespace brume::passes {
+namespace {
+
+using gpu::GpuTest;
+
+/// first, first + 1, ... as the shader wrote them.
+template <typename V>
+void expect_counted(const V& v, float first) {
+  for (int i = 0; i < V::length(); ++i) EXPECT_EQ(static_cast<float>(v[i]), first + static_cast<float>(i));
+}
+
+class SharedStructs : public GpuTest {
+ protected:
+  template <typename T>
+  static T one(const gpu::Buffer& buffer) {
+    return read_back<T>(buffer, 1)[0];
+  }
+};
+
+TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
+  const gpu::ComputePipeline pipeline(context(), shaders::echo_comp,
+                                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+                                       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                                      0, {1, 1, 1});
+  std::vector<gpu::Buffer> out;
+  for (const std::size_t size :
+       {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
+        sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
+        sizeof(shared::WorleyParams), sizeof(shared::InscatterParams)}) {
+    out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  }
+  runner().run([&](gpu::Recorder& recorder) {
+    recorder.bind(pipeline, {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
+                             gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7])});
+    recorder.dispatch_threads(pipeline, 1);
+  });
+
+  const auto frame = one<shared::FrameConstants>(out[0]);
+  for (int i = 0; i < 4; ++i)
+    expect_counted(frame.camera.clip_from_world[i], 100.0f + 4.0f * static_cast<float>(i));
+  expect_counted(frame.camera.eye_world, 120);
+  EXPECT_EQ(frame.camera.near_z, 123);
+  expect_counted(frame.camera.forward, 124);
+  expect_counted(frame.camera.right, 127);
+  expect_counted(frame.camera.up, 130);
+  expect_counted(frame.sky.zenith, 140);
+  expect_counted(frame.sky.horizon, 143);
+  expect_counted(frame.sky.ambient, 146);
+  EXPECT_EQ(frame.sky.stars, 149);
+  expect_counted(frame.look.albedo, 150);
+  const float look[] = {frame.look.extinction,      frame.look.step_length,  frame.look.stop,
+                        frame.look.erosion,         frame.look.noise_period, frame.look.noise_drift,
+                        frame.look.scatter_octaves, frame.look.hole_rim,     frame.look.anisotropy};
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(look[i], 153.0f + static_cast<float>(i));
+  expect_counted(frame.volume.origin_world, 170);
+  EXPECT_EQ(frame.volume.voxel_size, 173);
+  expect_counted(frame.volume.window_origin, 174);
+  expect_counted(frame.volume.window_size, 177);
+  expect_counted(frame.volume.atlas_bricks, 180);
+  expect_counted(frame.volume.bounds_min, 183);
+  expect_counted(frame.volume.bounds_max, 186);
+  expect_counted(frame.size_px, 190);
+  EXPECT_EQ(frame.light_count, 192u);
+  EXPECT_EQ(frame.hole_count, 193u);
+  EXPECT_EQ(frame.frame_index, 194u);
+  EXPECT_EQ(frame.time, 195);
+  EXPECT_EQ(frame.exposure, 196);
+
+  const auto light = one<shared::Light>(out[1]);
+  expect_counted(light.position_world, 1);
+  EXPECT_EQ(light.range, 4);
+  expect_counted(light.intensity, 5);
+  EXPECT_EQ(light.kind, 8u);
+  expect_counted(light.direction, 9);
+  EXPECT_EQ(light.cos_inner, 12);
+  EXPECT_EQ(light.cos_outer, 13);
+  EXPECT_EQ(light.shadow_layer, 14u);
+
+  const auto hole = one<shared::Hole>(out[2]);
+  expect_counted(hole.origin_world, 1);
+  EXPECT_EQ(hole.radius, 4);
+  expect_counted(hole.forward, 5);
+  EXPECT_EQ(hole.distance_to_far, 8);
+  expect_counted(hole.right, 9);
+  EXPECT_EQ(hole.time_start, 12);
+  expect_counted(hole.up, 13);
+  EXPECT_EQ(hole.time_to_reach_far, 16);
+  EXPECT_EQ(hole.time_to_expand, 17);
+  EXPECT_EQ(hole.time_to_stay_open, 18);
+  EXPECT_EQ(hole.time_to_fade, 19);
+  EXPECT_EQ(hole.shape, 20u);
+
+  const auto cell = one<shared::BoundaryCell>(out[3]);
+  EXPECT_EQ(cell.plane0, 1u);
+  EXPECT_EQ(cell.plane1, 2u);
+  EXPECT_EQ(cell.plane2, 3u);
+  EXPECT_EQ(cell.first_set, 4u);
+
+  const auto draw = one<shared::DrawConstants>(out[4]);
+  expect_counted(draw.row0, 1);
+  expect_counted(draw.row1, 5);
+  expect_counted(draw.row2, 9);
+  expect_counted(draw.material.base_color, 13);
+  EXPECT_EQ(draw.material.roughness, 16);
+  expect_counted(draw.material.emission, 17);
+  EXPECT_EQ(draw.material.metallic, 20);
+  EXPECT_EQ(draw.material.alpha_cutoff, 21);
+
+  const auto vertex = one<shared::Vertex>(out[5]);
+  expect_counted(vertex.position, 1);
+  expect_counted(vertex.normal, 4);
+  expect_counted(vertex.tangent, 7);
+  expect_counted(vertex.uv, 11);
+
+  const auto worley = one<shared::WorleyParams>(out[6]);
+  EXPECT_EQ(worley.size, 1u);
+  EXPECT_EQ(worley.coarse_cells, 2u);
+  EXPECT_EQ(worley.octaves, 3u);
+  EXPECT_EQ(worley.seed, 4u);
+
+  const auto inscatter = one<shared::InscatterParams>(out[7]);
+  EXPECT_EQ(inscatter.first_slot, 1u);
+  EXPECT_EQ(inscatter.slot_count, 2u);
+  EXPECT_EQ(inscatter.volume_steps, 3u);
+}
+
+}  // namespace
+}  // namespace brume::passes

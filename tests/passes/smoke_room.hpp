@@ -1,0 +1,46 @@
+// A small world with smoke in it, on the CPU and on the device.
+#pragma once
+
+#include <memory>
+
+#include "passes/smoke_upload.hpp"
+#include "sim/smoke_volume.hpp"
+#include "sim/world.hpp"
+#include "tests/gpu/gpu_test.hpp"
+#include "voxel/voxelize.hpp"
+
+namespace brume::passes {
+
+struct SmokeRoom {
+  voxel::BitGrid grid;
+  voxel::SurfacePlanes planes;
+  sim::World world;
+  sim::SmokeVolume volume;
+  SmokeUpload upload;
+
+  /// Floods the grid with `voxels` of smoke from `source_world` and shows it `tick` ticks later.
+  SmokeRoom(gpu::Context& context, gpu::CommandRunner& runner, const std::vector<voxel::Triangle>& walls,
+            const voxel::GridFrame& frame, glm::dvec3 source_world, std::uint32_t voxels, std::uint32_t tick)
+      : grid(voxel::voxelize(walls, frame).value_or_throw()),
+        planes(voxel::SurfacePlanes::build(walls, grid)),
+        world(grid),
+        volume(grid, [this](glm::ivec3 cell) { return planes.at(cell); }),
+        upload(context) {
+    sim::ThrowSmoke event;
+    event.from = event.at = sim::position_from_metres(source_world);
+    event.smoke.voxels = voxels;
+    world.append(event).value_or_throw();
+    world.advance_to(tick);
+    volume.update(world);
+    upload.reserve(volume);
+    runner.run([&](gpu::Recorder& recorder) { upload.record(recorder, volume); });
+  }
+};
+
+/// Two triangles between four corners in order.
+inline void add_quad(std::vector<voxel::Triangle>& out, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
+  out.push_back({a, b, c});
+  out.push_back({a, c, d});
+}
+
+}  // namespace brume::passes
