@@ -1,0 +1,12 @@
+#include "fuzz/scene_fuzz.hpp"
+#include "scene/obj.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace brume::scene;
+  // The bytes are the mesh and its material file at once: each reader passes over the other's statements.
+  MemoryFiles files;
+  files.add_text("m.mtl", std::string(as_text(data, size)));
+  const auto scene = parse_obj_scene(as_text(data, size), "a.obj", files);
+  if (scene) check_scene(*scene);
+  return 0;
+}

@@ -1,0 +1,16 @@
+#include "scene/timeline.hpp"
+
+#include "fuzz/scene_fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace brume::scene;
+  const auto timeline = parse_timeline(as_text(data, size), "t.toml");
+  if (!timeline) return 0;
+  for (double time = -0.5; time < 5; time += 0.25) {
+    const Camera camera = camera_at(*timeline, Camera(), time);
+    if (!std::isfinite(camera.position_world.x) || camera.position_world == camera.target_world)
+      __builtin_trap();
+    if (!(camera.vertical_fov > 0 && camera.vertical_fov < 3.15f)) __builtin_trap();
+  }
+  return 0;
+}
