@@ -52,20 +52,24 @@ class CellSight {
   Block seen(int side, Block among);
 
  private:
-  /// A plane of a cell of the 3x3x3 around; all relative to the centre of the cell that is looked at.
-  struct Square {
+  /// One plane in one or several of the 3x3x3 cells around; relative to the centre of the cell looked at.
+  struct Sheet {
     glm::vec3 normal;
     float offset;
-    glm::vec3 cell;
+    std::uint32_t cells;               // bit x + 3 y + 9 z of cell + 1
+    std::array<float, 64> distance{};  // of each voxel of the block
+    Block positive = 0;                // voxels on the positive side
   };
-  bool hidden(glm::vec3 from, glm::vec3 to) const;
+  void add_sheet(const voxel::Plane& plane, glm::ivec3 step);
+  void measure_voxels();
+  Block seen_from(glm::vec3 viewpoint, Block among) const;
   void find_viewpoints();
 
   const PlaneSource& planes_;
   shared::BoundaryCell record_{};
   int side_count_ = 1;
   bool flat_ = true;  // every plane around continues one of the cell's own
-  std::vector<Square> squares_;
+  std::vector<Sheet> sheets_;
   std::array<std::vector<glm::vec3>, 8> viewpoints_;  // of each side: its middle, then points spread over it
 };
 

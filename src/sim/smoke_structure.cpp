@@ -39,6 +39,25 @@ ListTable table_from_pairs(std::size_t lists,
   return table;
 }
 
+/// The side that a side takes its densities from: itself when it sees any air. Else it is the inside of
+/// something and nobody is there to see it; it goes on as the side fewest planes away that sees most smoke,
+/// so that smoke reaches a curved surface also where that bulges through its plane.
+int side_to_follow(int side, int side_count, const std::array<Block, 8>& seen, Block smoke) {
+  int best = side;
+  int best_rank = -1;
+  for (int other = 0; other < side_count; ++other) {
+    const Block sees = seen[static_cast<std::size_t>(other)];
+    if (sees == 0) continue;
+    const int planes_between = std::popcount(static_cast<unsigned>(side ^ other));
+    const int rank = 65 * (3 - planes_between) + std::popcount(sees & smoke);
+    if (other == side || rank > best_rank) {
+      best = other;
+      best_rank = other == side ? 1000 : rank;
+    }
+  }
+  return best;
+}
+
 /// A cell's surroundings.
 struct CellBlock {
   Block free = 0;  // outside the grid too: smoke may end there
@@ -211,17 +230,7 @@ void SmokeStructure::Builder::add_cell(glm::ivec3 cell, const CellBlock& block) 
   for (int side = 0; side < sight_.side_count(); ++side)
     seen[static_cast<std::size_t>(side)] = sight_.seen(side, block.free);
   for (int side = 0; side < sight_.side_count(); ++side) {
-    // A side that sees no air is the inside of something: nobody is there to see it. It goes on as the side
-    // next to it that sees most smoke, so that smoke reaches a curved surface also where that bulges through
-    // its plane.
-    int like = side;
-    for (int k = 0; seen[static_cast<std::size_t>(side)] == 0 && 1 << k < sight_.side_count(); ++k) {
-      const int other = side ^ 1 << k;
-      const auto smoke = [&](int s) {
-        return std::popcount(seen[static_cast<std::size_t>(s)] & block.smoke);
-      };
-      if (like == side || smoke(other) > smoke(like)) like = other;
-    }
+    const int like = side_to_follow(side, sight_.side_count(), seen, block.smoke);
     const Block own_side = sight_.on_side(like, block.free);
     for (int corner = 0; corner < 8; ++corner)
       add_corner(block, corner, own_side, seen[static_cast<std::size_t>(like)]);
