@@ -33,7 +33,8 @@ struct Plane {
 /// way they face, so that the two faces of a thin wall become one plane in its middle, a piece of a round
 /// column one plane near its tangent, and a corner of a room two or three planes. A plane's normal is the
 /// mean of its pieces' normals weighted by area, and it goes through the mean of their centroids. The largest
-/// component of a normal is positive (the first of equal ones).
+/// component of a normal is positive (the first of equal ones). A face exactly between two cells is in the
+/// upper one.
 class SurfacePlanes {
  public:
   SurfacePlanes() = default;
