@@ -48,45 +48,14 @@ std::vector<std::string> ffmpeg_arguments(const VideoOptions& options, const std
   const std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
   // Told in full, because players guess BT.601 or BT.709 by the picture's size.
   const std::string to_bt709 = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int";
-  return {"ffmpeg",
-          "-nostdin",
-          "-hide_banner",
-          "-loglevel",
-          "error",
-          "-f",
-          "rawvideo",
-          "-pix_fmt",
-          "rgb24",
-          "-video_size",
-          size,
-          "-framerate",
-          rate,
-          "-i",
-          "pipe:0",
-          "-an",
-          "-vf",
-          to_bt709,
-          "-c:v",
-          "libx264",
-          "-preset",
-          "medium",
-          "-crf",
-          "16",
-          "-pix_fmt",
-          "yuv420p",
-          "-colorspace",
-          "bt709",
-          "-color_primaries",
-          "bt709",
-          "-color_trc",
-          "bt709",
-          "-threads",
-          std::to_string(options.threads),
-          "-movflags",
-          "+faststart",
-          "-f",
-          "mp4",
-          "-y",
+  return {"ffmpeg",      "-nostdin",   "-hide_banner", "-loglevel", "error",
+          "-xerror",     "-f",         "rawvideo",     "-pix_fmt",  "rgb24",
+          "-video_size", size,         "-framerate",   rate,        "-i",
+          "pipe:0",      "-an",        "-vf",          to_bt709,    "-c:v",
+          "libx264",     "-preset",    "medium",       "-crf",      "16",
+          "-pix_fmt",    "yuv420p",    "-colorspace",  "bt709",     "-color_primaries",
+          "bt709",       "-color_trc", "bt709",        "-threads",  std::to_string(options.threads),
+          "-movflags",   "+faststart", "-f",           "mp4",       "-y",
           output};
 }
 
@@ -119,6 +88,9 @@ struct VideoWriter::Encoder {
 
   Result<void> start();
   int wait_for_end();
+  /// The end of what ffmpeg has said.
+  std::string said() const;
+  /// What went wrong, after the end of ffmpeg.
   Failure stopped(int status) const;
 };
 
@@ -169,21 +141,24 @@ int VideoWriter::Encoder::wait_for_end() {
   return status;
 }
 
-Failure VideoWriter::Encoder::stopped(int status) const {
-  std::string said(4096, '\0');
+std::string VideoWriter::Encoder::said() const {
+  std::string text(4096, '\0');
   const off_t length = ::lseek(messages.get(), 0, SEEK_END);
-  const off_t begin = std::max<off_t>(0, length - static_cast<off_t>(said.size()));
-  const ssize_t got = ::pread(messages.get(), said.data(), said.size(), begin);
-  said.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-  std::string reason = last_line(said);
-  if (WIFSIGNALED(status)) {
-    const int signal = WTERMSIG(status);
-    reason = signal == SIGXFSZ ? "the file would be too large for its file system"
-                               : "stopped by signal " + std::to_string(signal);
-  }
+  const off_t begin = std::max<off_t>(0, length - static_cast<off_t>(text.size()));
+  const ssize_t got = ::pread(messages.get(), text.data(), text.size(), begin);
+  text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  return text;
+}
+
+Failure VideoWriter::Encoder::stopped(int status) const {
+  const std::string text = said();
+  std::string reason = last_line(text);
+  bool full = WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ;
+  for (const int error : {ENOSPC, EDQUOT, EFBIG})
+    full = full || text.find(std::strerror(error)) != std::string::npos;
+  if (reason.empty() && WIFSIGNALED(status))
+    reason = "signal " + std::to_string(WTERMSIG(status)) + " ended it";
   if (reason.empty()) reason = "it ended with exit code " + std::to_string(WEXITSTATUS(status));
-  const bool full = reason.find(std::strerror(ENOSPC)) != std::string::npos ||
-                    (WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ);
   return {full ? ErrorCode::resource_limit : ErrorCode::internal,
           path.string() + ": ffmpeg could not write the film: " + reason +
               (full ? "; free some space or choose another folder" : "")};
@@ -232,7 +207,9 @@ Result<void> VideoWriter::finish() {
   BRUME_ASSERT(encoder_ && encoder_->process > 0, "after finish or a failure");
   encoder_->frames.close();  // The end of its input: ffmpeg writes the rest and ends.
   const int status = encoder_->wait_for_end();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return encoder_->stopped(status);
+  // An error that ffmpeg tells of counts even when its exit code does not.
+  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && encoder_->said().empty();
+  if (!well) return encoder_->stopped(status);
   return encoder_->file.commit();
 }
 
