@@ -15,12 +15,11 @@ namespace {
 constexpr const char* kAbout =
     "Real-time volumetric smoke that floods real scenes.\n\n"
     "Examples:\n"
-    "  brume demo                                        a picture and a film, out/demo.png and "
-    "out/demo.mp4\n"
-    "  brume render room.glb -o room.png --smoke 0,1,0   a picture of a scene with smoke in it\n"
-    "  brume voxelize room.glb -o room.vxl --json -      which voxels of a scene are solid\n"
-    "  brume info room.glb                               what is in a file\n"
-    "  brume devices                                     what can render";
+    "  brume demo                                        # a picture and a film: out/demo.png, out/demo.mp4\n"
+    "  brume render room.glb -o room.png --smoke 0,1,0   # a picture of a scene with smoke in it\n"
+    "  brume voxelize room.glb -o room.vxl --json -      # which voxels of a scene are solid\n"
+    "  brume info room.glb                               # what is in a file\n"
+    "  brume devices                                     # what can render";
 
 // In the list of commands, only what each does: its examples are in its own help.
 class BriefFormatter : public CLI::Formatter {
