@@ -5,6 +5,7 @@
 
 #include "core/file.hpp"
 #include "scene/ray.hpp"
+#include "scene/text_reader.hpp"
 #include "scene/toml_table.hpp"
 
 namespace brume::scene {
@@ -145,6 +146,12 @@ class TimelineReader {
 }  // namespace
 
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path) {
+  if (const auto byte = misplaced_letter(text)) {
+    const LineColumn at = line_column(text, *byte);
+    return Failure{ErrorCode::bad_input,
+                   path.string() + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) +
+                       ": expected ASCII; other letters belong in comments and in texts on one line"};
+  }
   const toml::parse_result parsed = toml::parse(text);
   if (!parsed) {
     const toml::source_position at = parsed.error().source().begin;
@@ -168,8 +175,7 @@ Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scen
   // A scene smaller than a room gets voxels to its size.
   const Bounds bounds = world_bounds(scene);
   const glm::vec3 extent = bounds.empty() ? glm::vec3(10) : bounds.max - bounds.min;
-  timeline.grid.voxel =
-      std::clamp(std::max({extent.x, extent.y, extent.z}) / 40, 0.01f, timeline.grid.voxel);
+  timeline.grid.voxel = std::clamp(std::max({extent.x, extent.y, extent.z}) / 40, 0.01f, timeline.grid.voxel);
   SmokeEvent smoke;
   smoke.from_world = camera.position_world;
   smoke.at_world = first_hit(scene, camera.position_world, camera.target_world - camera.position_world)

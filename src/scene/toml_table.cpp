@@ -173,6 +173,35 @@ Result<void> TomlTable::finish() {
   return failure_ ? Result<void>(*failure_) : Result<void>();
 }
 
+std::optional<std::size_t> misplaced_letter(std::string_view text) {
+  enum class In { open, comment, basic, literal, long_basic, long_literal } in = In::open;
+  const bool has_mark = text.starts_with("\xef\xbb\xbf");
+  for (std::size_t i = has_mark ? 3 : 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool is_long = in == In::long_basic || in == In::long_literal;
+    const bool triple = text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''";
+    if (static_cast<unsigned char>(c) >= 0x80) {
+      if (in == In::open || is_long) return i;
+    } else if (c >= '\n' && c <= '\r') {
+      if (!is_long) in = In::open;
+    } else if (c == '\\' && (in == In::basic || in == In::long_basic)) {
+      if (i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0x80) ++i;
+    } else if (in == In::open) {
+      if (c == '#') in = In::comment;
+      if (c == '"') in = triple ? In::long_basic : In::basic;
+      if (c == '\'') in = triple ? In::long_literal : In::literal;
+      if (triple) i += 2;
+    } else if ((in == In::basic && c == '"') || (in == In::literal && c == '\'')) {
+      in = In::open;
+    } else if (is_long && triple && c == (in == In::long_basic ? '"' : '\'')) {
+      // Up to two more quotes belong to the text that ends here; more are an error for the parser.
+      for (i += 2; i + 1 < text.size() && text[i + 1] == c;) ++i;
+      in = In::open;
+    }
+  }
+  return std::nullopt;
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   // Long keys are nobody's typing error, and their distance would take long.
   a = a.substr(0, 64);

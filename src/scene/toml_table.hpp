@@ -57,6 +57,11 @@ class TomlTable {
   std::optional<Failure> failure_;
 };
 
+/// The first byte that is not ASCII outside of comments and of texts on one line; nothing where there is
+/// none. Asked before parsing: toml++ 3.3 runs into an unreachable point when it looks whether some letters
+/// (U+024C) are white space, and TOML allows them nowhere else but in texts over several lines.
+std::optional<std::size_t> misplaced_letter(std::string_view text);
+
 /// How many single characters must be inserted, removed or replaced to turn a into b (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 

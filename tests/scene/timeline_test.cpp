@@ -139,6 +139,16 @@ TEST(Timeline, WhatMustBeThereAndHow) {
             std::string::npos);
 }
 
+TEST(Timeline, OtherLettersOnlyInCommentsAndTexts) {
+  const auto timeline = parse("version = 1 # \xc9\x8c\nscene = \"a\\\"\xc9\x8c.gltf\" # '\xc9\x8c\n");
+  ASSERT_TRUE(timeline) << timeline.failure().message;
+  EXPECT_EQ(timeline->scene, std::filesystem::path("scenes/a\"\xc9\x8c.gltf"));
+  EXPECT_EQ(error_of("version = \xc9\x8c 1\n").substr(0, 34), "scenes/t.toml:1:11: expected ASCII");
+  EXPECT_EQ(error_of("scene = \"\"\"x\"\"\"\" \xc9\x8c\n").substr(0, 34),
+            "scenes/t.toml:1:18: expected ASCII");
+  EXPECT_EQ(error_of("scene = '''\n'' \xc9\x8c'''\n").substr(0, 33), "scenes/t.toml:2:4: expected ASCII");
+}
+
 TEST(Timeline, EditDistance) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
   EXPECT_EQ(edit_distance("", "abc"), 3u);
