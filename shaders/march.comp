@@ -23,7 +23,7 @@ layout(binding = 8) uniform sampler2D depth;
 layout(binding = 9) uniform sampler2D blue_noise_tile;
 layout(scalar, binding = 10) readonly buffer Holes { Hole holes[]; };
 layout(binding = 11, rgba16f) uniform writeonly image2D smoke;
-layout(scalar, binding = 12) buffer Counters { uint sample_count; };
+layout(scalar, binding = 12) buffer Counters { uint texture_samples; };
 
 /// The holes that the ray comes near, one bit each.
 uvec2 holes_on_ray(vec3 origin_world, vec3 direction, float t_begin, float t_end) {
@@ -90,12 +90,14 @@ void main() {
       if (density <= 0.0) continue;
       const vec3 p_world = volume.origin_world + p_voxel * volume.voxel_size;
       if (frame.look.erosion > 0.0 || hole_mask != uvec2(0u)) {
+        ++samples;
         const vec2 noise = billows(worley_tile, frame.look, p_world, frame.time);
         density = erode(frame.look, density, noise);
         if (hole_mask != uvec2(0u)) density *= left_by_holes(hole_mask, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
         if (density <= 0.0) continue;
       }
       // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
+      ++samples;
       const float passed = exp(-frame.look.extinction * density * segment);
       radiance += transmittance * (1.0 - passed) * textureLod(inscatter_atlas, uvw, 0.0).rgb;
       transmittance *= passed;
@@ -107,5 +109,5 @@ void main() {
     radiance *= frame.look.albedo;
   }
   imageStore(smoke, px, vec4(radiance, transmittance));
-  if (kCountSamples != 0u) atomicAdd(sample_count, samples);
+  if (kCountSamples != 0u) atomicAdd(texture_samples, samples);
 }

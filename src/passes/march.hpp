@@ -12,7 +12,7 @@ constexpr std::uint32_t kMaxHoles = 64;
 
 class MarchPass {
  public:
-  /// With `count_samples`, record adds the density samples taken to the first word of `counters`.
+  /// With `count_samples`, record adds the texture samples taken to the first word of `counters`.
   MarchPass(gpu::Context& context, bool count_samples);
 
   struct Inputs {

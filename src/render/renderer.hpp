@@ -31,7 +31,7 @@ struct FrameInput {
 
 struct RendererOptions {
   glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
-  bool count_samples = false;     ///< Count the density samples of the march (slower).
+  bool count_samples = false;     ///< Count the texture samples of the march (slower).
 };
 
 class Renderer {

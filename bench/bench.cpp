@@ -1,0 +1,114 @@
+#include "bench/bench.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "core/tasks.hpp"
+
+namespace brume::bench {
+namespace {
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const auto colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+bool wanted(const std::string& name, const std::vector<std::string>& names) {
+  return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
+           return name == n || name.starts_with(n + "/");
+         });
+}
+
+}  // namespace
+
+gpu::Context& Bench::context() {
+  if (!context_) context_ = std::make_unique<gpu::Context>(gpu::ContextOptions{options_.device, false});
+  return *context_;
+}
+
+Measurement Bench::time_calls(const std::string& name, unsigned usual,
+                              const std::function<void()>& body) const {
+  using Clock = std::chrono::steady_clock;
+  const unsigned count = repetitions(usual);
+  for (unsigned i = 0; i < std::max(1u, count / 8); ++i) body();
+  std::vector<double> milliseconds;
+  for (unsigned i = 0; i < count; ++i) {
+    const auto start = Clock::now();
+    body();
+    milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  }
+  return summarize(name, "ms", "wall", std::move(milliseconds));
+}
+
+Measurement summarize(const std::string& name, const std::string& unit, const std::string& clock,
+                      std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  Measurement m;
+  m.name = name;
+  m.unit = unit;
+  m.clock = clock;
+  m.median = n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+  m.min = values.front();
+  m.max = values.back();
+  m.repetitions = static_cast<unsigned>(n);
+  return m;
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> cases = cpu_cases();
+  for (Case& one : gpu_cases()) cases.push_back(std::move(one));
+  return cases;
+}
+
+Result<Report> run(const std::vector<std::string>& names, const BenchOptions& options,
+                   const std::function<void(const std::string&)>& starting) {
+  const std::vector<Case> cases = all_cases();
+  for (const std::string& name : names) {
+    if (std::any_of(cases.begin(), cases.end(), [&](const Case& one) { return wanted(one.name, {name}); }))
+      continue;
+    std::string known;
+    for (const Case& one : cases) known += (known.empty() ? "" : ", ") + one.name;
+    return Failure{ErrorCode::usage, "no benchmark \"" + name + "\"; there are: " + known};
+  }
+  Bench bench(options);
+  Report report;
+  for (const Case& one : cases) {
+    if (!wanted(one.name, names)) continue;
+    if (starting) starting(one.name);
+    auto measured = one.run(bench);
+    if (!measured) {
+      if (measured.failure().code != ErrorCode::bad_input) return measured.failure();
+      report.skipped.push_back(one.name + ": " + measured.failure().message);
+      continue;
+    }
+    for (Measurement& m : *measured) report.results.push_back(std::move(m));
+  }
+  if (bench.has_context()) {
+    report.device = bench.context().info().name;
+    report.driver = bench.context().info().driver;
+  }
+  report.processor = processor_name();
+  report.threads = thread_count();
+  report.commit = BRUME_COMMIT;
+  return report;
+}
+
+Result<std::string> motel_scene() {
+  const char* folder = std::getenv("BRUME_MOTEL");
+  const std::filesystem::path path =
+      std::filesystem::path(folder ? folder : "../shared/data/motel") / "Scene.txt";
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) return path.string();
+  return Failure{ErrorCode::bad_input,
+                 path.string() + " is not there; set BRUME_MOTEL to the motel's folder"};
+}
+
+}  // namespace brume::bench
