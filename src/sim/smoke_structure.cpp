@@ -168,10 +168,10 @@ void SmokeStructure::Builder::list_texels() {
   table.first.reserve(out_.voxels.size() + 1);
   table.first.push_back(0);
   for (const glm::ivec3 v : out_.voxels) {
-    const glm::ivec3 low = (v - 1) >> 3, high = (v + 1) >> 3;
-    for (int z = low.z; z <= high.z; ++z)
-      for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) {
+    const glm::ivec3 first = (v - 1) >> 3, last = (v + 1) >> 3;
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
           const std::uint32_t slot = slot_at({x, y, z});
           if (slot == kNone) continue;
           const glm::ivec3 t = v - 8 * glm::ivec3(x, y, z) + 1;
@@ -240,10 +240,10 @@ void SmokeStructure::Builder::add_cell(glm::ivec3 cell, const CellBlock& block) 
 
 /// Writes the cell into every brick in which its points may lie.
 void SmokeStructure::Builder::enter_cell(glm::ivec3 cell, std::uint32_t entry) {
-  const glm::ivec3 low = cell >> 3, high = (cell + 1) >> 3;
-  for (int z = low.z; z <= high.z; ++z)
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) {
+  const glm::ivec3 first = cell >> 3, last = (cell + 1) >> 3;
+  for (int z = first.z; z <= last.z; ++z)
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x) {
         const std::uint32_t slot = slot_at({x, y, z});
         if (slot == kNone) continue;
         const glm::ivec3 i = cell - 8 * glm::ivec3(x, y, z) + 1;
