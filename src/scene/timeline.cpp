@@ -5,7 +5,6 @@
 
 #include "core/file.hpp"
 #include "scene/ray.hpp"
-#include "scene/text_reader.hpp"
 #include "scene/toml_table.hpp"
 
 namespace brume::scene {
@@ -146,20 +145,9 @@ class TimelineReader {
 }  // namespace
 
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path) {
-  if (const auto byte = misplaced_letter(text)) {
-    const LineColumn at = line_column(text, *byte);
-    return Failure{ErrorCode::bad_input,
-                   path.string() + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) +
-                       ": expected ASCII; other letters belong in comments and in texts on one line"};
-  }
-  const toml::parse_result parsed = toml::parse(text);
-  if (!parsed) {
-    const toml::source_position at = parsed.error().source().begin;
-    return Failure{ErrorCode::bad_input, path.string() + ":" + std::to_string(at.line) + ":" +
-                                             std::to_string(at.column) + ": " +
-                                             std::string(parsed.error().description())};
-  }
-  return TimelineReader(path).read(parsed.table());
+  const auto document = parse_toml(text, path.string());
+  if (!document) return document.failure();
+  return TimelineReader(path).read(*document);
 }
 
 Result<Timeline> load_timeline(const std::filesystem::path& path) {

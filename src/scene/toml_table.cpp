@@ -24,6 +24,47 @@ std::string expected(std::string_view key, const char* what) {
   return text;
 }
 
+/// The first byte that is not ASCII outside of comments and of texts on one line.
+std::optional<std::size_t> misplaced_letter(std::string_view text) {
+  enum class In { open, comment, basic, literal, long_basic, long_literal } in = In::open;
+  const bool has_mark = text.starts_with("\xef\xbb\xbf");
+  for (std::size_t i = has_mark ? 3 : 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool is_long = in == In::long_basic || in == In::long_literal;
+    const bool triple = text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''";
+    if (static_cast<unsigned char>(c) >= 0x80) {
+      if (in == In::open || is_long) return i;
+    } else if (c >= '\n' && c <= '\r') {
+      if (!is_long) in = In::open;
+    } else if (c == '\\' && (in == In::basic || in == In::long_basic)) {
+      if (i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0x80) ++i;
+    } else if (in == In::open) {
+      if (c == '#') in = In::comment;
+      if (c == '"') in = triple ? In::long_basic : In::basic;
+      if (c == '\'') in = triple ? In::long_literal : In::literal;
+      if (triple) i += 2;
+    } else if ((in == In::basic && c == '"') || (in == In::literal && c == '\'')) {
+      in = In::open;
+    } else if (is_long && triple && c == (in == In::long_basic ? '"' : '\'')) {
+      // Up to two more quotes belong to the text that ends here; more are an error for the parser.
+      for (i += 2; i + 1 < text.size() && text[i + 1] == c;) ++i;
+      in = In::open;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The text with an x for every letter beyond ASCII: lines and columns stay.
+std::string ascii_twin(std::string_view text) {
+  std::string twin;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) twin += c;
+    if (byte >= 0xc0) twin += 'x';
+  }
+  return twin;
+}
+
 }  // namespace
 
 TomlTable::TomlTable(const toml::table& table, std::string name, std::string file)
@@ -173,33 +214,23 @@ Result<void> TomlTable::finish() {
   return failure_ ? Result<void>(*failure_) : Result<void>();
 }
 
-std::optional<std::size_t> misplaced_letter(std::string_view text) {
-  enum class In { open, comment, basic, literal, long_basic, long_literal } in = In::open;
-  const bool has_mark = text.starts_with("\xef\xbb\xbf");
-  for (std::size_t i = has_mark ? 3 : 0; i < text.size(); ++i) {
-    const char c = text[i];
-    const bool is_long = in == In::long_basic || in == In::long_literal;
-    const bool triple = text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''";
-    if (static_cast<unsigned char>(c) >= 0x80) {
-      if (in == In::open || is_long) return i;
-    } else if (c >= '\n' && c <= '\r') {
-      if (!is_long) in = In::open;
-    } else if (c == '\\' && (in == In::basic || in == In::long_basic)) {
-      if (i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0x80) ++i;
-    } else if (in == In::open) {
-      if (c == '#') in = In::comment;
-      if (c == '"') in = triple ? In::long_basic : In::basic;
-      if (c == '\'') in = triple ? In::long_literal : In::literal;
-      if (triple) i += 2;
-    } else if ((in == In::basic && c == '"') || (in == In::literal && c == '\'')) {
-      in = In::open;
-    } else if (is_long && triple && c == (in == In::long_basic ? '"' : '\'')) {
-      // Up to two more quotes belong to the text that ends here; more are an error for the parser.
-      for (i += 2; i + 1 < text.size() && text[i + 1] == c;) ++i;
-      in = In::open;
-    }
+Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
+  const auto failure = [&](std::size_t line, std::size_t column, std::string_view what) {
+    return Failure{ErrorCode::bad_input, file + ":" + std::to_string(line) + ":" + std::to_string(column) +
+                                             ": " + std::string(what)};
+  };
+  if (const auto byte = misplaced_letter(text)) {
+    const LineColumn at = line_column(text, *byte);
+    return failure(at.line, at.column,
+                   "expected ASCII; other letters belong in comments and in texts on one line");
   }
-  return std::nullopt;
+  // The twin shows that the document is sound, so that the other letters are looked at as text alone.
+  const std::string twin = ascii_twin(text);
+  toml::parse_result parsed = toml::parse(twin);
+  if (parsed && twin != text) parsed = toml::parse(text);
+  if (parsed) return std::move(parsed).table();
+  const toml::source_position at = parsed.error().source().begin;
+  return failure(at.line, at.column, parsed.error().description());
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

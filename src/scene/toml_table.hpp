@@ -57,10 +57,10 @@ class TomlTable {
   std::optional<Failure> failure_;
 };
 
-/// The first byte that is not ASCII outside of comments and of texts on one line; nothing where there is
-/// none. Asked before parsing: toml++ 3.3 runs into an unreachable point when it looks whether some letters
-/// (U+024C) are white space, and TOML allows them nowhere else but in texts over several lines.
-std::optional<std::size_t> misplaced_letter(std::string_view text);
+/// Parses a document; errors are "file:line:column: ...". Letters beyond ASCII are taken in comments and in
+/// texts on one line only: toml++ 3.3 runs into an unreachable point when it looks whether some of them
+/// (U+024C) are white space, which it does elsewhere and when it goes through a broken value.
+Result<toml::table> parse_toml(std::string_view text, const std::string& file);
 
 /// How many single characters must be inserted, removed or replaced to turn a into b (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
