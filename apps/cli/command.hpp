@@ -30,5 +30,6 @@ Command add_render(CLI::App& program);
 Command add_voxelize(CLI::App& program);
 Command add_info(CLI::App& program);
 Command add_devices(CLI::App& program);
+Command add_bench(CLI::App& program);
 
 }  // namespace brume::cli

@@ -1,0 +1,78 @@
+#include "bench/bench.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "core/error.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::vector<std::string> names;
+  std::string json;
+  bench::BenchOptions bench;
+};
+
+Json to_json(const bench::Report& report) {
+  Json results = Json::array();
+  for (const bench::Measurement& m : report.results) {
+    Json result{
+        {"name", m.name},   {"median", m.median},          {"min", m.min}, {"max", m.max}, {"unit", m.unit},
+        {"clock", m.clock}, {"repetitions", m.repetitions}};
+    if (!m.details.empty()) result["details"] = m.details;
+    results.push_back(result);
+  }
+  return {{"device", report.device},   {"driver", report.driver}, {"processor", report.processor},
+          {"threads", report.threads}, {"commit", report.commit}, {"results", results},
+          {"skipped", report.skipped}};
+}
+
+void print_report(const bench::Report& report) {
+  char line[200];
+  for (const bench::Measurement& m : report.results) {
+    std::snprintf(line, sizeof line, "%-24s median %10.4g  min %10.4g  max %10.4g %s (%s, %u repetitions)\n",
+                  m.name.c_str(), m.median, m.min, m.max, m.unit.c_str(), m.clock.c_str(), m.repetitions);
+    print(line);
+  }
+  for (const std::string& skipped : report.skipped) print("left out: " + skipped + "\n");
+}
+
+void measure(const Options& options) {
+  check_output(options.json);
+  const auto display = progress_display();
+  std::uint64_t started = 0;
+  const auto starting = [&](const std::string& name) { display({name, started++, 0, 0}); };
+  const bench::Report report = bench::run(options.names, options.bench, starting).value_or_throw();
+  stop_if_interrupted();
+  if (!options.json.empty()) write_json(options.json, to_json(report));
+  if (options.json != "-") print_report(report);
+}
+
+}  // namespace
+
+Command add_bench(CLI::App& program) {
+  Command command = declare(program, "bench", "Measures how fast the parts are on this machine.",
+                            "  brume bench\n"
+                            "  brume bench fill/1800 march --json bench.json --repetitions 31");
+  auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser
+      .add_option("NAME", options->names, "What to measure, whole names or their first parts; default: all")
+      ->type_name("");
+  parser.add_option("--json", options->json, "Write the results as JSON; -: to standard output")
+      ->type_name("FILE");
+  parser.add_option("--repetitions", options->bench.repetitions, "Samples of each; default: what suits it")
+      ->check(CLI::Range(1u, 100'000u))
+      ->type_name("N");
+  parser.add_option("--device", options->bench.device, "Number or part of the name; see brume devices")
+      ->type_name("N|NAME");
+  command.run = [options] { measure(*options); };
+  return command;
+}
+
+}  // namespace brume::cli
