@@ -8,8 +8,8 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 9> kFolders{"core", "image",  "scene",  "voxel", "sim",
-                                                   "gpu",  "passes", "render", "apps"};
+constexpr std::array<std::string_view, 10> kFolders{"core", "image",  "scene",  "voxel", "sim",
+                                                    "gpu",  "passes", "render", "bench", "apps"};
 
 // Every match's first group.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {

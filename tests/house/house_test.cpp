@@ -64,7 +64,7 @@ TEST(House, IncludesGoDownwards) {
       ADD_FAILURE() << path << " includes " << include << ", which lies above it";
     }
   };
-  for (const char* folder : {"src", "apps"}) count += for_each_source(kRoot / folder, check);
+  for (const char* folder : {"src", "bench", "apps"}) count += for_each_source(kRoot / folder, check);
   EXPECT_GT(count, 20);
 }
 
@@ -73,7 +73,7 @@ TEST(House, OnlyTheGpuFolderCallsVulkan) {
     if (folder_of(path) == "gpu") return;
     for (const auto& call : vulkan_calls(text)) ADD_FAILURE() << path << " has " << call;
   };
-  for (const char* folder : {"src", "apps"}) for_each_source(kRoot / folder, check);
+  for (const char* folder : {"src", "bench", "apps"}) for_each_source(kRoot / folder, check);
 }
 
 TEST(House, SharedStructsHaveASize) {
