@@ -34,7 +34,7 @@ class RepeatedFrame {
         counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
     simulation_->advance_to(kGrown);
     input_ = render::frame_input(stage, *simulation_, kGrown, holes_);
-    input_.force_inscatter = true;
+    input_.force_light = true;
   }
 
   /// GPU milliseconds of each pass.

@@ -8,9 +8,7 @@
 #define BINDING_CELLS 6
 #define BINDING_BOUNDARY 7
 #define BINDING_CORNERS 8
-#include "lib/erosion.glsl"
 #include "lib/lights.glsl"
-#include "lib/smoke_density.glsl"
 #include "shared/frame.h"
 #include "shared/inscatter.h"
 
@@ -23,19 +21,12 @@ layout(scalar, binding = 9) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(binding = 10, rgba16f) uniform writeonly image3D inscatter;
 layout(binding = 11) uniform sampler3D worley_tile;
 layout(push_constant, scalar) uniform Push { InscatterParams params; };
+#include "lib/optical_depth.glsl"
 
 /// Henyey and Greenstein 1941 [1/sr]; cos_angle between the light's way and the way to the eye.
 float phase(float g, float cos_angle) {
   const float d = 1.0 + g * g - 2.0 * g * cos_angle;
   return (1.0 - g * g) * 0.0795774715 / (d * sqrt(d));
-}
-
-/// Density as the march sees it, without holes.
-float seen_density(vec3 p_voxel) {
-  const float density = smoke_density(frame.volume, p_voxel);
-  if (density <= 0.0 || frame.look.erosion <= 0.0) return density;
-  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
-  return erode(frame.look, density, billows(worley_tile, frame.look, p_world, frame.time));
 }
 
 /// Whether any of the 27 texels around one holds smoke: only then a sample of the march can meet its light.
@@ -47,26 +38,6 @@ bool smoke_around(ivec3 atlas_texel) {
     sum += textureLod(density_atlas, (vec3(atlas_texel) + offset) * texel, 0.0).r;
   }
   return sum > 0.0;
-}
-
-/// Optical depth from a point along a unit direction, at most `distance` metres.
-float optical_depth(vec3 p_voxel, vec3 direction, float distance_m) {
-  const SmokeVolumeFrame volume = frame.volume;
-  // Leave the smoke's box: nothing lies beyond.
-  const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
-  const vec3 ends = max((volume.bounds_min - p_voxel) * inverse, (volume.bounds_max - p_voxel) * inverse);
-  const float reach = min(min(ends.x, min(ends.y, ends.z)), distance_m / volume.voxel_size);
-  if (reach <= 0.0) return 0.0;
-  // Steps grow with the distance: what is near decides most.
-  const float steps = clamp(ceil(reach), 1.0, float(params.volume_steps));
-  float depth = 0.0, before = 0.0;
-  for (float i = 1.0; i <= steps; ++i) {
-    const float after = reach * (i / steps) * (0.5 + 0.5 * i / steps);
-    depth += seen_density(p_voxel + direction * (0.5 * (before + after))) * (after - before);
-    if (depth * volume.voxel_size * frame.look.extinction > 12.0) break;
-    before = after;
-  }
-  return depth * volume.voxel_size * frame.look.extinction;
 }
 
 /// Share of the light that is scattered towards the eye [1/sr], with multiple scattering by octaves: each order sees
@@ -98,14 +69,14 @@ void main() {
   const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
   const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
   // The sky's light comes from everywhere: what is above stands for all of it.
-  vec3 radiance = frame.sky.ambient * exp(-0.5 * optical_depth(p_voxel, vec3(0.0, 1.0, 0.0), 1e3));
+  vec3 radiance = frame.sky.ambient * exp(-0.5 * optical_depth(p_voxel, vec3(0.0, 1.0, 0.0), 1e3, 12.0));
   for (uint i = 0u; i < frame.light_count; ++i) {
     const Light light = lights[i];
     const Incident incident = light_at(light, p_world);
     if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < 1e-4) continue;
-    const float lit = shadow_at(shadows, light, sun.clip_from_world, p_world);
+    const float lit = shadow_at(shadows, shadow_coordinates(light, sun.clip_from_world, p_world));
     if (lit <= 0.0) continue;
-    const float depth = optical_depth(p_voxel, incident.to_light, incident.distance);
+    const float depth = optical_depth(p_voxel, incident.to_light, incident.distance, float(params.volume_steps));
     radiance += incident.irradiance * (lit * scattered(depth, -dot(incident.to_light, to_eye)));
   }
   imageStore(inscatter, atlas_texel, vec4(radiance, 1.0));

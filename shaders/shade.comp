@@ -17,7 +17,8 @@ layout(binding = 4) uniform sampler2D albedo_roughness;
 layout(binding = 5) uniform sampler2D normal_metallic;
 layout(binding = 6) uniform sampler2D emission;
 layout(binding = 7) uniform sampler2D depth;
-layout(binding = 8, rgba16f) uniform writeonly image2D lit;
+layout(binding = 8) uniform sampler2DArray smoke_shadows;
+layout(binding = 9, rgba16f) uniform writeonly image2D lit;
 
 void main() {
   const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
@@ -47,7 +48,9 @@ void main() {
     if (answer.r + answer.g + answer.b < 1e-5) continue;
     // A surface must not shadow itself: it is looked up a shadow texel off its plane.
     const float off = 0.01 + 0.006 * min(incident.distance, 10.0);
-    radiance += answer * shadow_at(shadows, light, sun.clip_from_world, surface.position_world + off * surface.normal);
+    const vec4 shadow = shadow_coordinates(light, sun.clip_from_world, surface.position_world + off * surface.normal);
+    const float smoke = shadow.z < 0.0 ? 1.0 : exp(-textureLod(smoke_shadows, shadow.xyz, 0.0).r);
+    radiance += answer * (shadow_at(shadows, shadow) * smoke);
   }
   imageStore(lit, px, vec4(radiance, 1.0));
 }

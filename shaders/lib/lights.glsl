@@ -32,14 +32,14 @@ Incident light_at(Light light, vec3 position_world) {
   return incident;
 }
 
-/// Share of the light that the scene lets through to a point, from the shadow array.
-float shadow_at(sampler2DArrayShadow shadows, Light light, mat4 sun_clip_from_world, vec3 position_world) {
-  if (light.shadow_layer == kNoShadow) return 1.0;
+/// Where a point lies in the light's shadow layers: uv, layer, reverse depth. A negative layer: not covered.
+vec4 shadow_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world) {
+  if (light.shadow_layer == kNoShadow) return vec4(-1.0);
   if (light.kind == kLightDirectional) {
     const vec4 clip = sun_clip_from_world * vec4(position_world, 1.0);
     const vec2 uv = clip.xy * 0.5 + 0.5;
-    if (any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return 1.0;
-    return texture(shadows, vec4(uv, float(light.shadow_layer), clip.z));
+    if (any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return vec4(-1.0);
+    return vec4(uv, float(light.shadow_layer), clip.z);
   }
   const vec3 d = position_world - light.position_world;
   const vec3 a = abs(d);
@@ -48,7 +48,12 @@ float shadow_at(sampler2DArrayShadow shadows, Light light, mat4 sun_clip_from_wo
                                              : (d.z > 0.0 ? 4u : 5u);
   const float z = max(a.x, max(a.y, a.z));
   const vec2 uv = vec2(dot(d, cube_right(face)), -dot(d, cube_up(face))) / z * 0.5 + 0.5;
-  return texture(shadows, vec4(uv, float(light.shadow_layer + face), kShadowNear / z));
+  return vec4(uv, float(light.shadow_layer + face), kShadowNear / z);
+}
+
+/// Share of the light that the scene lets through to a point.
+float shadow_at(sampler2DArrayShadow shadows, vec4 coordinates) {
+  return coordinates.z < 0.0 ? 1.0 : texture(shadows, coordinates);
 }
 
 #endif

@@ -24,8 +24,9 @@ SHARED_SIZE(Light, 56);
 /// Where a directional light's shadow layer looks: clip space of an orthographic view.
 struct ShadowView {
   mat4 clip_from_world;
+  mat4 world_from_clip;
 };
-SHARED_SIZE(ShadowView, 64);
+SHARED_SIZE(ShadowView, 128);
 
 SHARED_CONST float kShadowNear = 0.05f;  // [m]
 

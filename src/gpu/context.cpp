@@ -58,9 +58,13 @@ void Context::create_device() {
   features12.pNext = &features13;
   features12.timelineSemaphore = VK_TRUE;
   features12.scalarBlockLayout = VK_TRUE;
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.pNext = &features12;
+  features.features.shaderStorageImageExtendedFormats = VK_TRUE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-  info.pNext = &features12;
+  info.pNext = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   check(vk_.CreateDevice(info_.handle, &info, nullptr, &device_), "vkCreateDevice");

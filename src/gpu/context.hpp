@@ -18,7 +18,7 @@ struct ContextOptions {
 };
 
 /// What a host lends. Everything must outlive the Context. The device needs Vulkan 1.3 with dynamicRendering,
-/// synchronization2, timelineSemaphore and scalarBlockLayout enabled.
+/// synchronization2, timelineSemaphore, scalarBlockLayout and shaderStorageImageExtendedFormats enabled.
 struct HostDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;

@@ -37,6 +37,7 @@ std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::u
   if (!features13.synchronization2) return "lacks synchronization2";
   if (!features12.timelineSemaphore) return "lacks timelineSemaphore";
   if (!features12.scalarBlockLayout) return "lacks scalarBlockLayout";
+  if (!features.features.shaderStorageImageExtendedFormats) return "lacks shaderStorageImageExtendedFormats";
   return "";
 }
 

@@ -237,16 +237,28 @@ void Recorder::upload(const Image& image, std::span<const Region> regions) {
   use(image, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   flush_barriers();
+  // Copies from the same staging buffer go in one command.
+  std::vector<VkBufferImageCopy> copies;
+  const Buffer* source = nullptr;
+  const auto flush_copies = [&] {
+    if (copies.empty()) return;
+    context_.vk().CmdCopyBufferToImage(commands_, source->handle(), image.handle(),
+                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                       static_cast<std::uint32_t>(copies.size()), copies.data());
+    copies.clear();
+  };
   for (const Region& region : regions) {
     const Staged staged = stage(region.texels);
+    if (staged.buffer != source) flush_copies();
+    source = staged.buffer;
     VkBufferImageCopy copy{};
     copy.bufferOffset = staged.offset;
     copy.imageSubresource = {image.aspect(), 0, 0, 1};
     copy.imageOffset = {region.offset.x, region.offset.y, region.offset.z};
     copy.imageExtent = {region.size.x, region.size.y, region.size.z};
-    context_.vk().CmdCopyBufferToImage(commands_, staged.buffer->handle(), image.handle(),
-                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    copies.push_back(copy);
   }
+  flush_copies();
 }
 
 void Recorder::fill(const Buffer& buffer, std::uint32_t value) {

@@ -1,6 +1,7 @@
 // Records work into a command buffer, and the barriers between.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -57,7 +58,7 @@ class FrameSlot {
   friend class Recorder;
   Context& context_;
   VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
-  std::vector<Buffer> staging_;  // Each is filled front to back; a new one is added when all are full.
+  std::deque<Buffer> staging_;  // Each is filled front to back; a new one is added when all are full.
   std::size_t staging_index_ = 0;
   VkDeviceSize staging_used_ = 0;
   Timings timings_;

@@ -86,7 +86,7 @@ ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& sc
 void ShadowPass::record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
                         const ShadowMaps& maps) const {
   runner.run([&](gpu::Recorder& recorder) {
-    const shared::ShadowView sun{maps.sun_clip_from_world};
+    const shared::ShadowView sun{maps.sun_clip_from_world, glm::inverse(maps.sun_clip_from_world)};
     recorder.upload(maps.sun, 0, std::as_bytes(std::span(&sun, 1)));
   });
   for (const shared::Light& light : scene.light_list) {

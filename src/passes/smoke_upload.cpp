@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "core/error.hpp"
 
@@ -102,22 +103,32 @@ void SmokeUpload::record_structure(gpu::Recorder& recorder, const sim::SmokeVolu
 }
 
 bool SmokeUpload::record(gpu::Recorder& recorder, const sim::SmokeVolume& volume) {
+  const bool had_smoke = resources_.slot_count > 0;
   resources_.slot_count = volume.slot_count();
-  if (volume.slot_count() == 0) return false;
+  if (volume.slot_count() == 0) return had_smoke;
+  if (volume.revision() == uploaded_revision_) return false;
   const bool new_structure = volume.structure_generation() != uploaded_generation_;
+  // What is dirty is only that since the revision before: whoever missed one takes everything.
+  const bool all = new_structure || volume.revision() != uploaded_revision_ + 1;
   if (new_structure) record_structure(recorder, volume);
   uploaded_generation_ = volume.structure_generation();
-  if (new_structure || volume.corner_sets_dirty()) {
-    recorder.upload(resources_.corners, 0, std::as_bytes(volume.corner_sets()));
+  uploaded_revision_ = volume.revision();
+
+  const bool corners = all || volume.corner_sets_dirty();
+  if (corners) recorder.upload(resources_.corners, 0, std::as_bytes(volume.corner_sets()));
+  std::vector<std::uint32_t> slots(volume.dirty_slots().begin(), volume.dirty_slots().end());
+  if (all) {
+    slots.resize(volume.slot_count());
+    std::iota(slots.begin(), slots.end(), 0u);
   }
   std::vector<gpu::Recorder::Region> regions;
-  for (const std::uint32_t slot : volume.dirty_slots()) {
+  for (const std::uint32_t slot : slots) {
     regions.push_back({std::as_bytes(volume.texels(slot)),
                        slot_position(volume.frame().atlas_bricks, slot) * shared::kBrickTexels,
                        glm::uvec3(static_cast<std::uint32_t>(shared::kBrickTexels))});
   }
   recorder.upload(resources_.density, regions);
-  return new_structure || volume.corner_sets_dirty() || !regions.empty();
+  return corners || !regions.empty();
 }
 
 }  // namespace brume::passes

@@ -34,7 +34,7 @@ class SmokeUpload {
 
   gpu::Context& context_;
   SmokeResources resources_;
-  std::uint64_t uploaded_generation_ = 0;
+  std::uint64_t uploaded_generation_ = 0, uploaded_revision_ = 0;
 };
 
 }  // namespace brume::passes

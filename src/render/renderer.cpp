@@ -35,6 +35,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       scene_(passes::upload_scene(context, runner, scene)),
       gbuffer_pass_(context),
       shadow_pass_(context),
+      smoke_shadow_pass_(context),
       shade_pass_(context),
       inscatter_pass_(context),
       march_pass_(context, options.count_samples),
@@ -43,6 +44,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       smoke_upload_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
       gbuffer_(context, size_px_),
+      smoke_shadows_(smoke_shadow_pass_.make_layers(context, shadows_)),
       worley_(passes::make_worley_tile(context, passes::kSmokeNoise.size)),
       lit_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       smoke_image_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
@@ -56,6 +58,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
   runner.run([&](gpu::Recorder& recorder) {
     worley.record(recorder, worley_, passes::kSmokeNoise);
     blue_noise_ = passes::make_blue_noise(context, recorder);
+    recorder.clear(smoke_shadows_, {});  // no smoke yet
   });
 }
 
@@ -96,10 +99,15 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   stage("gbuffer", [&] {
     gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), frame_, gbuffer_);
   });
-  stage("shade", [&] { shade_pass_.record(recorder, frame_, scene_, shadows_, gbuffer_, lit_); });
+  const bool light_smoke = input.volume && needs_light(input);
+  stage("smoke_shadow", [&] {
+    if (light_smoke)
+      smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_, smoke_shadows_);
+  });
+  stage("shade",
+        [&] { shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, gbuffer_, lit_); });
   stage("inscatter", [&] {
-    if (input.volume && needs_inscatter(input))
-      inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_);
+    if (light_smoke) inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_);
   });
   stage("march", [&] {
     march_pass_.record(recorder, {frame_, smoke, worley_, gbuffer_.depth, blue_noise_, holes_}, smoke_image_,
@@ -109,13 +117,13 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
 }
 
-bool Renderer::needs_inscatter(const FrameInput& input) {
+bool Renderer::needs_light(const FrameInput& input) {
   const bool same_look = std::memcmp(&lit_look_, &input.look, sizeof lit_look_) == 0 &&
                          std::memcmp(&lit_sky_, &input.sky, sizeof lit_sky_) == 0;
   // Scattering depends on where the eye is, unless it goes evenly all around.
   const bool same_eye = input.look.anisotropy == 0 || lit_eye_ == input.camera.position_world;
   const bool same_noise = input.look.erosion == 0 || lit_time_ == input.time;
-  const bool needed = smoke_changed_ || !same_look || !same_eye || !same_noise || input.force_inscatter;
+  const bool needed = smoke_changed_ || !same_look || !same_eye || !same_noise || input.force_light;
   lit_time_ = input.time;
   lit_eye_ = input.camera.position_world;
   lit_look_ = input.look;

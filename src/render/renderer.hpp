@@ -9,6 +9,7 @@
 #include "passes/inscatter.hpp"
 #include "passes/march.hpp"
 #include "passes/shade.hpp"
+#include "passes/smoke_shadow.hpp"
 #include "passes/worley.hpp"
 #include "scene/scene.hpp"
 #include "sim/smoke_volume.hpp"
@@ -26,7 +27,8 @@ struct FrameInput {
   const sim::SmokeVolume* volume = nullptr;  ///< null: no smoke.
   std::span<const shared::Hole> holes;       ///< At most passes::kMaxHoles are drawn, the last ones.
   std::vector<glm::mat4> grenades;           ///< world_from_mesh of each grenade in the air.
-  bool force_inscatter = false;  ///< Light the smoke even when nothing changed since the last frame.
+  bool force_light =
+      false;  ///< Light smoke and surfaces anew even when nothing changed since the last frame.
 };
 
 struct RendererOptions {
@@ -60,12 +62,13 @@ class Renderer {
  private:
   void record_frame_constants(gpu::Recorder& recorder, const FrameInput& input);
   /// Whether the smoke must be lit anew; asks once a frame.
-  bool needs_inscatter(const FrameInput& input);
+  bool needs_light(const FrameInput& input);
 
   glm::uvec2 size_px_;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;
   passes::ShadowPass shadow_pass_;
+  passes::SmokeShadowPass smoke_shadow_pass_;
   passes::ShadePass shade_pass_;
   passes::InscatterPass inscatter_pass_;
   passes::MarchPass march_pass_;
@@ -74,9 +77,9 @@ class Renderer {
   passes::SmokeUpload smoke_upload_;
   passes::ShadowMaps shadows_;
   passes::GBuffer gbuffer_;
-  gpu::Image worley_, blue_noise_, lit_, smoke_image_, picture_, display_image_;
+  gpu::Image smoke_shadows_, worley_, blue_noise_, lit_, smoke_image_, picture_, display_image_;
   gpu::Buffer frame_, holes_, counters_;
-  shared::SmokeLook lit_look_{};  ///< The look that the in-scatter was made with.
+  shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
   shared::Sky lit_sky_{};
   glm::vec3 lit_eye_{0};
   float lit_time_ = 0;

@@ -70,6 +70,7 @@ void SmokeVolume::update(const World& world) {
     }
   }
   refresh(std::move(densities), !same);
+  ++revision_;
 }
 
 void SmokeVolume::rebuild(std::span<const LiveCloud> clouds) {

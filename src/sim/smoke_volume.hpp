@@ -47,6 +47,8 @@ class SmokeVolume {
 
   /// Rises whenever window, slots, cells or boundary cells changed.
   std::uint64_t structure_generation() const { return generation_; }
+  /// Rises with each update: what is dirty is dirty since the revision before.
+  std::uint64_t revision() const { return revision_; }
   /// Slots whose texels the last update changed, in rising order; all after a change of structure.
   std::span<const std::uint32_t> dirty_slots() const { return dirty_slots_; }
   /// Whether the last update changed a corner set.
@@ -68,6 +70,7 @@ class SmokeVolume {
   std::vector<std::uint32_t> dirty_slots_;
   bool corner_sets_dirty_ = false;
   std::uint64_t generation_ = 0;
+  std::uint64_t revision_ = 0;
 };
 
 /// Density in [0, 1] at a point, exactly as the shaders read it.

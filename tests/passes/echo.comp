@@ -7,6 +7,7 @@
 #include "shared/hole.h"
 #include "shared/inscatter.h"
 #include "shared/light.h"
+#include "shared/smoke_shadow.h"
 #include "shared/worley.h"
 
 layout(local_size_x = 1) in;
@@ -18,6 +19,8 @@ layout(scalar, binding = 4) buffer Out4 { DrawConstants draw; };
 layout(scalar, binding = 5) buffer Out5 { Vertex vertex; };
 layout(scalar, binding = 6) buffer Out6 { WorleyParams worley; };
 layout(scalar, binding = 7) buffer Out7 { InscatterParams inscatter; };
+layout(scalar, binding = 8) buffer Out8 { SmokeShadowParams smoke_shadow; };
+layout(scalar, binding = 9) buffer Out9 { ShadowView view; };
 
 vec3 v3(float first) { return vec3(first, first + 1.0, first + 2.0); }
 vec4 v4(float first) { return vec4(first, first + 1.0, first + 2.0, first + 3.0); }
@@ -42,4 +45,6 @@ void main() {
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));
   worley = WorleyParams(1u, 2u, 3u, 4u);
   inscatter = InscatterParams(1u, 2u, 3u);
+  smoke_shadow = SmokeShadowParams(1u, 2u, 3.0);
+  view = ShadowView(m4(1.0), m4(17.0));
 }

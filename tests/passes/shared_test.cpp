@@ -4,6 +4,7 @@
 #include "shared/hole.h"
 #include "shared/inscatter.h"
 #include "shared/light.h"
+#include "shared/smoke_shadow.h"
 #include "shared/worley.h"
 #include "tests/gpu/gpu_test.hpp"
 
@@ -29,18 +30,20 @@ class SharedStructs : public GpuTest {
 TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   const gpu::ComputePipeline pipeline(context(), shaders::echo_comp,
                                       {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                                       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                                       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                                       0, {1, 1, 1});
   std::vector<gpu::Buffer> out;
   for (const std::size_t size :
        {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
         sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
-        sizeof(shared::WorleyParams), sizeof(shared::InscatterParams)}) {
+        sizeof(shared::WorleyParams), sizeof(shared::InscatterParams), sizeof(shared::SmokeShadowParams),
+        sizeof(shared::ShadowView)}) {
     out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   }
   runner().run([&](gpu::Recorder& recorder) {
     recorder.bind(pipeline, {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
-                             gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7])});
+                             gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7]),
+                             gpu::write(out[8]), gpu::write(out[9])});
     recorder.dispatch_threads(pipeline, 1);
   });
 
@@ -131,6 +134,17 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(inscatter.first_slot, 1u);
   EXPECT_EQ(inscatter.slot_count, 2u);
   EXPECT_EQ(inscatter.volume_steps, 3u);
+
+  const auto smoke_shadow = one<shared::SmokeShadowParams>(out[8]);
+  EXPECT_EQ(smoke_shadow.light, 1u);
+  EXPECT_EQ(smoke_shadow.size, 2u);
+  EXPECT_EQ(smoke_shadow.max_steps, 3);
+
+  const auto view = one<shared::ShadowView>(out[9]);
+  for (int i = 0; i < 4; ++i) {
+    expect_counted(view.clip_from_world[i], 1.0f + 4.0f * static_cast<float>(i));
+    expect_counted(view.world_from_clip[i], 17.0f + 4.0f * static_cast<float>(i));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+// How much smoke stands between two points. Needs `frame`, `worley_tile` and lib/smoke_density.glsl's bindings.
+#ifndef OPTICAL_DEPTH_GLSL
+#define OPTICAL_DEPTH_GLSL
+#include "lib/erosion.glsl"
+#include "lib/smoke_density.glsl"
+
+/// Density as the march sees it, without holes.
+float seen_density(vec3 p_voxel) {
+  const float density = smoke_density(frame.volume, p_voxel);
+  if (density <= 0.0 || frame.look.erosion <= 0.0) return density;
+  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
+  return erode(frame.look, density, billows(worley_tile, frame.look, p_world, frame.time));
+}
+
+/// Optical depth from a point along a unit direction, at most `distance_m` metres, in at most `max_steps` steps. They
+/// grow with the distance: what is near decides most.
+float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float max_steps) {
+  const SmokeVolumeFrame volume = frame.volume;
+  // The part inside the smoke's bounds.
+  const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
+  const vec3 t0 = (volume.bounds_min - p_voxel) * inverse, t1 = (volume.bounds_max - p_voxel) * inverse;
+  const vec3 near = min(t0, t1), far = max(t0, t1);
+  const float begin = max(max(near.x, near.y), max(near.z, 0.0));
+  const float reach = min(min(far.x, far.y), min(far.z, distance_m / volume.voxel_size)) - begin;
+  if (reach <= 0.0) return 0.0;
+  const float per_voxel = volume.voxel_size * frame.look.extinction;
+  const float steps = clamp(ceil(reach), 1.0, max_steps);
+  float depth = 0.0, before = 0.0;
+  for (float i = 1.0; i <= steps; ++i) {
+    const float after = reach * (i / steps) * (0.5 + 0.5 * i / steps);
+    depth += seen_density(p_voxel + direction * (begin + 0.5 * (before + after))) * (after - before);
+    if (depth * per_voxel > 12.0) break;
+    before = after;
+  }
+  return depth * per_voxel;
+}
+
+#endif
