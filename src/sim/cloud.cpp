@@ -12,9 +12,13 @@ namespace {
 
 constexpr int kAmountBits = 20;
 
-std::uint64_t key_of(glm::ivec3 v) {
-  return static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y) << 16 |
-         static_cast<std::uint64_t>(v.z) << 32;
+std::uint64_t key_of(glm::ivec3 brick) {
+  return static_cast<std::uint64_t>(brick.x) | static_cast<std::uint64_t>(brick.y) << 16 |
+         static_cast<std::uint64_t>(brick.z) << 32;
+}
+
+std::size_t local_of(glm::ivec3 v) {
+  return static_cast<std::size_t>((v.x & 7) + 8 * (v.y & 7) + 64 * (v.z & 7));
 }
 
 }  // namespace
@@ -30,16 +34,25 @@ Cloud::Cloud(const voxel::BitGrid& grid, glm::ivec3 source, const SmokeSettings&
   hash_ = hash_values(std::span<const std::uint32_t>(numbers));
   hash_ = hash_bytes(std::as_bytes(std::span(voxels_)), hash_);
 
-  distance_of_.reserve(voxels_.size());
   low_ = voxels_.empty() ? glm::ivec3(0) : voxels_.front().voxel;
   high_ = low_ - (voxels_.empty() ? 1 : 0);
   for (const FilledVoxel& filled : voxels_) {
-    distance_of_.emplace(key_of(filled.voxel), filled.distance);
     low_ = glm::min(low_, filled.voxel);
     high_ = glm::max(high_, filled.voxel);
     if (levels_.empty() || levels_.back().distance != filled.distance)
       levels_.push_back({filled.distance, 0});
     levels_.back().count = static_cast<std::uint64_t>(&filled - voxels_.data()) + 1;
+  }
+  keep_distances();
+}
+
+/// Brick by brick: one entry in a hash map a voxel would take as long as the fill itself.
+void Cloud::keep_distances() {
+  for (const FilledVoxel& filled : voxels_) {
+    const auto [entry, is_new] =
+        brick_of_.try_emplace(key_of(filled.voxel >> 3), static_cast<std::uint32_t>(bricks_.size()));
+    if (is_new) bricks_.emplace_back();
+    bricks_[entry->second][local_of(filled.voxel)] = filled.distance + 1;
   }
 }
 
@@ -88,9 +101,9 @@ std::uint8_t Cloud::density_at(std::uint32_t distance, Front front) {
 
 std::optional<std::uint32_t> Cloud::distance(glm::ivec3 voxel) const {
   if (glm::any(glm::lessThan(voxel, low_)) || glm::any(glm::greaterThan(voxel, high_))) return std::nullopt;
-  const auto found = distance_of_.find(key_of(voxel));
-  if (found == distance_of_.end()) return std::nullopt;
-  return found->second;
+  const auto found = brick_of_.find(key_of(voxel >> 3));
+  const std::uint32_t kept = found == brick_of_.end() ? 0 : bricks_[found->second][local_of(voxel)];
+  return kept == 0 ? std::nullopt : std::optional(kept - 1);
 }
 
 }  // namespace brume::sim

@@ -1,6 +1,7 @@
 // One smoke: the voxels that it fills, and how dense it is in each at any tick.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -56,6 +57,8 @@ class Cloud {
   std::uint64_t hash() const { return hash_; }
 
  private:
+  void keep_distances();
+
   /// Distinct distances in rising order, and how many voxels lie within each.
   struct Level {
     std::uint32_t distance;
@@ -66,7 +69,8 @@ class Cloud {
   std::uint32_t detonation_tick_;
   std::vector<FilledVoxel> voxels_;
   std::vector<Level> levels_;
-  std::unordered_map<std::uint64_t, std::uint32_t> distance_of_;
+  std::unordered_map<std::uint64_t, std::uint32_t> brick_of_;  // brick coordinates -> into bricks_
+  std::vector<std::array<std::uint32_t, 512>> bricks_;         // distance + 1 of each voxel, or 0
   glm::ivec3 low_{0}, high_{-1};
   std::uint64_t hash_ = 0;
 };
