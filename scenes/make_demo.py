@@ -58,11 +58,11 @@ MATERIALS = {
 
 # name: kind, linear colour, intensity [cd, or lux for the moon], position, target, half-angles of the cone
 LIGHTS = {
-    "lamp_tungsten": ("point", (1.0, 0.60, 0.26), 15.0, (-4.45, 2.42, -4.55), None, None),
-    "lamp_work": ("spot", (1.0, 0.70, 0.38), 95.0, (-1.42, 1.62, -5.48), (-2.75, 1.35, 0.0), (0.24, 0.46)),
+    "lamp_tungsten": ("point", (1.0, 0.60, 0.26), 34.0, (-4.45, 2.42, -4.55), None, None),
+    "lamp_work": ("spot", (1.0, 0.70, 0.38), 260.0, (-1.42, 1.62, -5.48), (-2.75, 1.35, 0.0), (0.24, 0.46)),
     "lamp_neon": ("point", (0.08, 0.92, 0.78), 24.0, (2.90, 3.20, -0.95), None, None),
     "lamp_loft": ("point", (0.60, 0.38, 1.0), 9.0, (3.50, 4.85, -5.20), None, None),
-    "lamp_door": ("point", (1.0, 0.085, 0.045), 4.5, (-2.50, 2.70, 0.30), None, None),
+    "lamp_door": ("point", (1.0, 0.085, 0.045), 6.0, (-2.50, 2.70, 0.30), None, None),
     "lamp_sign": ("point", (1.0, 0.14, 0.40), 4.5, (5.70, 4.45, 2.75), None, None),
     "lamp_washroom": ("point", (0.80, 0.93, 1.0), 5.0, (5.20, 2.50, -6.35), None, None),
     "lamp_yard": ("spot", (1.0, 0.50, 0.13), 55.0, (5.94, 4.60, 4.40), (5.1, 0.0, 4.9), (0.75, 1.15)),

@@ -21,6 +21,6 @@ class WorleyPass {
 gpu::Image make_worley_tile(gpu::Context& context, std::uint32_t size);
 
 /// What the smoke is eroded with.
-constexpr shared::WorleyParams kSmokeNoise{96, 4, 3, 7};
+constexpr shared::WorleyParams kSmokeNoise{64, 4, 2, 7};
 
 }  // namespace brume::passes

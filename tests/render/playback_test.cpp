@@ -1,0 +1,162 @@
+#include "render/playback.hpp"
+
+#include "tests/gpu/gpu_test.hpp"
+
+namespace brume::render {
+namespace {
+
+void add_box(scene::Mesh& mesh, glm::vec3 low, glm::vec3 high) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      glm::vec3 normal(0), u(0), v(0);
+      normal[axis] = side;
+      u[(axis + 1) % 3] = 1;
+      v[(axis + 2) % 3] = side;
+      const glm::vec3 centre = 0.5f * (low + high), half = 0.5f * (high - low);
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (const glm::vec2 corner :
+           {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+        scene::Vertex vertex;
+        vertex.position = centre + half * (normal + corner.x * u + corner.y * v);
+        vertex.normal = normal;
+        vertex.tangent = glm::vec4(u, 1);
+        mesh.vertices.push_back(vertex);
+      }
+      for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
+    }
+  }
+}
+
+/// A white floor, a white wall across it at z = -3, a lamp, a camera that looks at the wall along -z.
+scene::Scene small_scene(bool with_screen) {
+  scene::Scene scene;
+  scene::Mesh mesh;
+  add_box(mesh, {-6, -0.3f, -3.2f}, {6, -0.1f, 6});
+  add_box(mesh, {-6, -0.1f, -3.2f}, {6, 4, -3});
+  if (with_screen) add_box(mesh, {-0.1f, -0.1f, -3}, {0.1f, 4, 3});
+  scene.meshes.push_back(mesh);
+  scene::Mesh ball;
+  add_box(ball, glm::vec3(-0.2f), glm::vec3(0.2f));
+  scene.meshes.push_back(ball);
+  scene.materials.push_back({});
+  scene.objects.push_back({"room", 0, 0, glm::mat4(1), true});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene::Light lamp;
+  lamp.position_world = {-2, 2, 0};
+  lamp.intensity = glm::vec3(20);
+  scene.lights.push_back(lamp);
+  scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
+  return scene;
+}
+
+Stage small_stage(scene::Scene scene) {
+  scene::Timeline timeline;
+  timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.001f), 0};
+  timeline.smoke.voxels = 3000;
+  timeline.smoke.extinction = 4;
+  timeline.smoke.noise = 0;
+  timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {0, 0.2f, 0}}};  // from outside of the picture
+  const voxel::GridFrame frame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
+  auto voxels = voxel::load_or_voxelize(scene, frame, {}).value_or_throw();
+  const scene::Camera camera = *scene.camera;
+  return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
+}
+
+class PlaybackTest : public gpu::GpuTest {
+ protected:
+  static constexpr glm::uvec2 kSize{64, 36};
+  /// Mean brightness of a block of pixels around a place in the picture, 0..255.
+  static double brightness(const image::Image8& picture, double x, double y) {
+    const auto px = static_cast<std::uint32_t>(x * picture.width),
+               py = static_cast<std::uint32_t>(y * picture.height);
+    double sum = 0;
+    for (std::uint32_t j = 0; j < 3; ++j)
+      for (std::uint32_t i = 0; i < 3; ++i) sum += picture.rgba[4 * (px + i + picture.width * (py + j)) + 1];
+    return sum / 9;
+  }
+};
+
+TEST_F(PlaybackTest, TheSameMomentIsTheSamePicture) {
+  const Stage stage = small_stage(small_scene(true));
+  Playback playback(context(), stage, kSize);
+  const auto first = playback.draw(0.8, 5).rgba;
+  const auto early = playback.draw(0.1, 1).rgba;
+  EXPECT_NE(first, early);
+  EXPECT_EQ(playback.draw(0.8, 5).rgba, first);
+  Playback other(context(), stage, kSize);
+  EXPECT_EQ(other.draw(0.8, 5).rgba, first);
+}
+
+TEST_F(PlaybackTest, AwkwardSizes) {
+  const Stage stage = small_stage(small_scene(false));
+  for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(7, 5), glm::uvec2(33, 17)}) {
+    Playback playback(context(), stage, size);
+    const auto picture = playback.draw(1.2, 0);
+    EXPECT_EQ(picture.rgba.size(), std::size_t{4} * size.x * size.y);
+  }
+}
+
+TEST_F(PlaybackTest, AWallCastsAShadow) {
+  const Stage open = small_stage(small_scene(false)), screened = small_stage(small_scene(true));
+  Playback without(context(), open, kSize), with(context(), screened, kSize);
+  const auto a = without.draw(0, 0), b = with.draw(0, 0);
+  // Right of the screen the lamp, which hangs left of it, does not reach the back wall.
+  EXPECT_GT(brightness(a, 0.75, 0.4), 30);
+  EXPECT_LT(brightness(b, 0.75, 0.4), 12);
+  EXPECT_NEAR(brightness(a, 0.2, 0.4), brightness(b, 0.2, 0.4), 3);
+}
+
+TEST_F(PlaybackTest, SmokeHidesTheWallAndAShotOpensIt) {
+  scene::Scene scene = small_scene(false);
+  scene.materials[0].emission = glm::vec3(0.3f);  // the wall shines by itself: smoke also takes the lamp's light
+  Stage stage = small_stage(std::move(scene));
+  stage.timeline.smoke.albedo = glm::vec3(0);  // black smoke: what is bright is the wall
+  stage.timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, 0.1f, 0.05f, 1.0f, 0.2f}};
+  Playback playback(context(), stage, kSize);
+  const double clear = brightness(playback.draw(0.1, 0), 0.5, 0.47);
+  const double hidden = brightness(playback.draw(2.9, 0), 0.5, 0.47);
+  const double open = brightness(playback.draw(3.6, 0), 0.5, 0.47);
+  const double beside = brightness(playback.draw(3.6, 0), 0.3, 0.47);
+  const double closed = brightness(playback.draw(5.0, 0), 0.5, 0.47);
+  EXPECT_GT(clear, 60);
+  EXPECT_LT(hidden, 5);
+  EXPECT_GT(open, hidden + 20);
+  EXPECT_LT(beside, 5);
+  EXPECT_LT(closed, 5);
+}
+
+TEST_F(PlaybackTest, SmokeDimsTheSurfacesBehindIt) {
+  // A puff on the floor, a low lamp left of it, and a place on the floor to its right.
+  scene::Scene scene = small_scene(false);
+  scene.lights[0].position_world = {-3, 1, 0};
+  Stage stage = small_stage(std::move(scene));
+  stage.timeline.smoke.voxels = 150;
+  stage.timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {-0.9f, 0, 0}}};
+  Playback playback(context(), stage, kSize);
+  const auto before = playback.draw(0, 0), after = playback.draw(2.5, 0);
+  EXPECT_GT(brightness(before, 0.585, 0.79), 30);
+  EXPECT_LT(brightness(after, 0.585, 0.79), 0.5 * brightness(before, 0.585, 0.79));
+  // The back wall is lit over the puff.
+  EXPECT_NEAR(brightness(after, 0.2, 0.25), brightness(before, 0.2, 0.25), 3);
+}
+
+TEST_F(PlaybackTest, TheGrenadeFlies) {
+  Stage stage = small_stage(small_scene(false));
+  stage.timeline.smokes = {{0.5, {-2, 1.5f, 2}, {2, 1.5f, 2}}};
+  Playback playback(context(), stage, kSize);
+  const auto before = playback.draw(0.4, 0), flying = playback.draw(0.6, 0);
+  EXPECT_NE(before.rgba, flying.rgba);
+}
+
+TEST_F(PlaybackTest, MoreHolesThanAreDrawnAreNoError) {
+  Stage stage = small_stage(small_scene(false));
+  for (int i = 0; i < 100; ++i) {
+    stage.timeline.shots.push_back(
+        {2, {0, 1.5f, 5.4f}, {0.01f * static_cast<float>(i), 1.5f, 0}, 0.1f, 0.1f, 0.05f, 5.0f, 0.2f});
+  }
+  Playback playback(context(), stage, kSize);
+  EXPECT_EQ(playback.draw(2.5, 0).width, kSize.x);
+}
+
+}  // namespace
+}  // namespace brume::render
