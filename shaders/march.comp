@@ -45,6 +45,16 @@ float left_by_holes(uvec2 mask, vec3 p_world, float rim) {
   return left;
 }
 
+/// What noise and holes leave of the density at a point.
+float carved(float density, vec3 p_world, uvec2 hole_mask) {
+  const vec2 noise = billows(worley_tile, frame.look, p_world, frame.time);
+  if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
+  if (hole_mask != uvec2(0u)) {
+    density *= left_by_holes(hole_mask, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
+  }
+  return density;
+}
+
 void main() {
   const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(uvec2(px), frame.size_px))) return;
@@ -75,32 +85,29 @@ void main() {
       const float segment = min(ds, t_end - t);
       const vec3 p_voxel = origin + per_metre * (t + jitter * segment);
       const ivec3 brick = ivec3(floor(p_voxel / float(kBrickVoxels)));
+      const vec3 low = vec3(brick * kBrickVoxels);
       const uint slot = slot_at(volume, brick);
-      if (slot == kNoSlot) {
-        // Whole segments up to the brick's far side: the samples stay where they would have been.
-        const vec3 exits = max((vec3(brick * kBrickVoxels) - origin) * inverse, (vec3(brick * kBrickVoxels + kBrickVoxels) - origin) * inverse);
-        t += ds * max(1.0, floor((min(exits.x, min(exits.y, exits.z)) - t) / ds));
-        continue;
-      }
-      t += ds;
-      ++samples;
-      const vec3 local_voxel = p_voxel - vec3(brick * kBrickVoxels);
-      const vec3 uvw = atlas_uvw(volume, slot, local_voxel);
-      float density = density_in_brick(volume, slot, local_voxel, uvw);
-      if (density <= 0.0) continue;
-      const vec3 p_world = volume.origin_world + p_voxel * volume.voxel_size;
-      if (frame.look.erosion > 0.0 || hole_mask != uvec2(0u)) {
+      // Whole segments up to the far side of an empty brick: the samples stay where they would have been.
+      const vec3 exits = max((low - origin) * inverse, (low + float(kBrickVoxels) - origin) * inverse);
+      const float empty_segments = max(1.0, floor((min(exits.x, min(exits.y, exits.z)) - t) / ds));
+      t += slot == kNoSlot ? ds * empty_segments : ds;
+      if (slot != kNoSlot) {
+        const vec3 uvw = atlas_uvw(volume, slot, p_voxel - low);
+        float density = density_in_brick(volume, slot, p_voxel - low, uvw);
         ++samples;
-        const vec2 noise = billows(worley_tile, frame.look, p_world, frame.time);
-        density = erode(frame.look, density, noise);
-        if (hole_mask != uvec2(0u)) density *= left_by_holes(hole_mask, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
-        if (density <= 0.0) continue;
+        if (density > 0.0) {
+          const vec3 p_world = volume.origin_world + p_voxel * volume.voxel_size;
+          density = carved(density, p_world, hole_mask);
+          ++samples;
+        }
+        // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
+        if (density > 0.0) {
+          const float passed = exp(-frame.look.extinction * density * segment);
+          radiance += transmittance * (1.0 - passed) * textureLod(inscatter_atlas, uvw, 0.0).rgb;
+          transmittance *= passed;
+          ++samples;
+        }
       }
-      // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
-      ++samples;
-      const float passed = exp(-frame.look.extinction * density * segment);
-      radiance += transmittance * (1.0 - passed) * textureLod(inscatter_atlas, uvw, 0.0).rgb;
-      transmittance *= passed;
       if (transmittance < frame.look.stop) {
         transmittance = 0.0;
         break;

@@ -20,6 +20,23 @@ layout(binding = 7) uniform sampler2D depth;
 layout(binding = 8) uniform sampler2DArray smoke_shadows;
 layout(binding = 9, rgba16f) uniform writeonly image2D lit;
 
+/// Whether a lamp is near enough and in front of the surface.
+bool can_reach(Light light, Surface surface) {
+  if (light.kind == kLightDirectional) return dot(light.direction, surface.normal) < 0.0;
+  const vec3 apart = light.position_world - surface.position_world;
+  return dot(apart, apart) < light.range * light.range && dot(apart, surface.normal) > 0.0;
+}
+
+/// What the surface reflects of a lamp's light, after the scene's shadow and the smoke in between.
+vec3 lamp_radiance(Light light, Surface surface, vec3 view) {
+  const Incident incident = light_at(light, surface.position_world);
+  // A surface must not shadow itself: it is looked up a shadow texel off its plane.
+  const float off = 0.01 + 0.006 * min(incident.distance, 10.0);
+  const vec4 shadow = shadow_coordinates(light, sun.clip_from_world, surface.position_world + off * surface.normal);
+  const float smoke = shadow.z < 0.0 ? 1.0 : exp(-textureLod(smoke_shadows, shadow.xyz, 0.0).r);
+  return reflect_light(surface, view, incident.to_light) * incident.irradiance * (shadow_at(shadows, shadow) * smoke);
+}
+
 void main() {
   const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(uvec2(px), frame.size_px))) return;
@@ -39,18 +56,13 @@ void main() {
   vec3 radiance = texelFetch(emission, px, 0).rgb;
   radiance += surface.albedo * frame.sky.ambient * (0.75 + 0.25 * surface.normal.y);
 
-  for (uint i = 0u; i < frame.light_count; ++i) {
-    const Light light = lights[i];
-    const vec3 apart = light.position_world - surface.position_world;
-    if (light.kind != kLightDirectional && dot(apart, apart) > light.range * light.range) continue;
-    const Incident incident = light_at(light, surface.position_world);
-    const vec3 answer = reflect_light(surface, view, incident.to_light) * incident.irradiance;
-    if (answer.r + answer.g + answer.b < 1e-5) continue;
-    // A surface must not shadow itself: it is looked up a shadow texel off its plane.
-    const float off = 0.01 + 0.006 * min(incident.distance, 10.0);
-    const vec4 shadow = shadow_coordinates(light, sun.clip_from_world, surface.position_world + off * surface.normal);
-    const float smoke = shadow.z < 0.0 ? 1.0 : exp(-textureLod(smoke_shadows, shadow.xyz, 0.0).r);
-    radiance += answer * (shadow_at(shadows, shadow) * smoke);
+  // Lamps in runs of 32: first the cheap question for each, then the work for those that are left.
+  for (uint first = 0u; first < frame.light_count; first += 32u) {
+    uint left = 0u;
+    for (uint i = first; i < min(first + 32u, frame.light_count); ++i) {
+      if (can_reach(lights[i], surface)) left |= 1u << (i - first);
+    }
+    for (; left != 0u; left &= left - 1u) radiance += lamp_radiance(lights[first + uint(findLSB(left))], surface, view);
   }
   imageStore(lit, px, vec4(radiance, 1.0));
 }

@@ -6,10 +6,12 @@
 
 /// Density as the march sees it, without holes.
 float seen_density(vec3 p_voxel) {
-  const float density = smoke_density(frame.volume, p_voxel);
-  if (density <= 0.0 || frame.look.erosion <= 0.0) return density;
-  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
-  return erode(frame.look, density, billows(worley_tile, frame.look, p_world, frame.time));
+  float density = smoke_density(frame.volume, p_voxel);
+  if (density > 0.0 && frame.look.erosion > 0.0) {
+    const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
+    density = erode(frame.look, density, billows(worley_tile, frame.look, p_world, frame.time));
+  }
+  return density;
 }
 
 /// Optical depth from a point along a unit direction, at most `distance_m` metres, in at most `max_steps` steps. They

@@ -40,16 +40,21 @@ float boundary_density(uint slot, vec3 local_voxel) {
 /// Density [0, 1] at a point of a brick that has a slot.
 float density_in_brick(SmokeVolumeFrame volume, uint slot, vec3 local_voxel, vec3 uvw) {
   const vec2 texel = textureLod(density_atlas, uvw, 0.0).rg;
-  return texel.g < 1.0 - 1.0 / 512.0 ? boundary_density(slot, local_voxel) : texel.r;
+  float density = texel.r;
+  if (texel.g < 1.0 - 1.0 / 512.0) { density = boundary_density(slot, local_voxel); }
+  return density;
 }
 
 /// Density [0, 1] anywhere.
 float smoke_density(SmokeVolumeFrame volume, vec3 p_voxel) {
   const ivec3 brick = ivec3(floor(p_voxel / float(kBrickVoxels)));
   const uint slot = slot_at(volume, brick);
-  if (slot == kNoSlot) return 0.0;
-  const vec3 local_voxel = p_voxel - vec3(brick * kBrickVoxels);
-  return density_in_brick(volume, slot, local_voxel, atlas_uvw(volume, slot, local_voxel));
+  float density = 0.0;
+  if (slot != kNoSlot) {
+    const vec3 local_voxel = p_voxel - vec3(brick * kBrickVoxels);
+    density = density_in_brick(volume, slot, local_voxel, atlas_uvw(volume, slot, local_voxel));
+  }
+  return density;
 }
 
 #endif

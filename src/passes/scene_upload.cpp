@@ -116,7 +116,7 @@ MaterialImages device_material(const scene::Material& material) {
 }  // namespace
 
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers) {
-  constexpr float kLeastIrradiance = 1.0f / 200;
+  constexpr float kLeastIrradiance = 1.0f / 100;
   std::vector<shared::Light> out;
   std::uint32_t layer = 0;
   bool has_sun = false;

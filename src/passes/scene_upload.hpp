@@ -38,7 +38,7 @@ struct SceneResources {
 /// Creates and uploads everything. Every index of the scene must be valid. Throws resource_limit.
 SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene);
 
-/// The lights as the shaders read them: ranges chosen so that what is cut is below 1/200 of unit irradiance,
+/// The lights as the shaders read them: ranges chosen so that what is cut is below 1/100 of unit irradiance,
 /// shadow layers given in order, as many as `max_layers` holds.
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
 
