@@ -20,10 +20,11 @@ std::uint32_t milliseconds(float seconds) {
 }
 
 Result<voxel::GridFrame> grid_frame(const scene::Timeline& timeline, const scene::Scene& scene) {
-  // Two voxels around the scene: smoke may flow around its outside.
-  constexpr int kMargin = 2;
+  // Room around the scene for a whole smoke in open air: a ball of its voxels, and its soft rim.
   const auto& grid = timeline.grid;
-  auto frame = voxel::frame_around(scene::world_bounds(scene), grid.voxel, kMargin);
+  const int margin =
+      2 + static_cast<int>(std::cbrt(static_cast<float>(timeline.smoke.voxels) * 0.75f / 3.14159f) * 1.2f);
+  auto frame = voxel::frame_around(scene::world_bounds(scene), grid.voxel, margin);
   if (!frame && !(grid.size && grid.origin_world)) return frame;
   voxel::GridFrame chosen = frame ? *frame : voxel::GridFrame{glm::ivec3(1), grid.voxel, glm::vec3(0)};
   if (grid.size) chosen.size = *grid.size;
@@ -76,6 +77,14 @@ Result<Stage> load_stage(const std::filesystem::path& input, const std::filesyst
 Result<Stage> make_stage(scene::Timeline timeline, const std::filesystem::path& cache_folder) {
   auto scene = scene::load_scene(timeline.scene);
   if (!scene) return scene.failure();
+  // A scene without any lamp is shown by day.
+  if (scene->lights.empty()) {
+    scene::Light sun;
+    sun.kind = scene::LightKind::directional;
+    sun.direction_world = glm::normalize(glm::vec3(-0.5f, -0.75f, -0.4f));
+    sun.intensity = {2.6f, 2.4f, 2.1f};
+    scene->lights.push_back(sun);
+  }
   const auto frame = grid_frame(timeline, *scene);
   if (!frame) return frame.failure();
   std::filesystem::path cache;

@@ -53,7 +53,7 @@ class TimelineReader {
  private:
   Result<void> read_grid(const toml::table& source) {
     TomlTable table(source, "[grid]", file_);
-    table.read("voxel", timeline_.grid.voxel, 0.01, 10);
+    table.read("voxel", timeline_.grid.voxel, 0.015625, 10);
     table.read("size", timeline_.grid.size, 1, 4096);
     table.read("origin", timeline_.grid.origin_world, -kFarthest, kFarthest);
     return table.finish();
@@ -163,7 +163,16 @@ Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scen
   // A scene smaller than a room gets voxels to its size.
   const Bounds bounds = world_bounds(scene);
   const glm::vec3 extent = bounds.empty() ? glm::vec3(10) : bounds.max - bounds.min;
-  timeline.grid.voxel = std::clamp(std::max({extent.x, extent.y, extent.z}) / 40, 0.01f, timeline.grid.voxel);
+  const float room_voxel = timeline.grid.voxel;
+  timeline.grid.voxel = std::clamp(std::max({extent.x, extent.y, extent.z}) / 40, 0.015625f, room_voxel);
+  // And smoke that looks as it would in a room: a ball that does not hide the whole scene.
+  const float radius_voxels = 0.25f * std::max({extent.x, extent.y, extent.z}) / timeline.grid.voxel;
+  const float ball = 4.19f * radius_voxels * radius_voxels * radius_voxels;
+  timeline.smoke.voxels =
+      static_cast<std::uint32_t>(std::clamp(ball, 50.0f, static_cast<float>(timeline.smoke.voxels)));
+  const float scale = timeline.grid.voxel / room_voxel;
+  timeline.smoke.extinction = std::min(timeline.smoke.extinction / scale, 100.0f);
+  timeline.smoke.noise_size = std::max(timeline.smoke.noise_size * scale, 0.05f);
   SmokeEvent smoke;
   smoke.from_world = camera.position_world;
   smoke.at_world = first_hit(scene, camera.position_world, camera.target_world - camera.position_world)

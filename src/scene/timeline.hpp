@@ -16,7 +16,7 @@ namespace brume::scene {
 
 /// Where the voxels are. Without size and origin the grid covers the scene's bounds.
 struct GridOptions {
-  float voxel = 0.25f;                    ///< Edge of a voxel [m], [0.01, 10].
+  float voxel = 0.25f;                    ///< Edge of a voxel [m], [1/64, 10].
   std::optional<glm::ivec3> size;         ///< Voxels per axis, [1, 4096].
   std::optional<glm::vec3> origin_world;  ///< The grid's low corner [m].
 };
