@@ -54,17 +54,18 @@ void on_progress(j_common_ptr common) {
   std::longjmp(decoder.start, 1);
 }
 
-// True when the whole picture is decoded. No local here may own anything: longjmp runs no destructors.
-bool decode_rows(Decoder& decoder, std::span<const std::byte> bytes, const std::string& name) {
+// Decodes the whole picture, or sets `size` to why not, or jumps. No local that is alive while libjpeg works
+// may own anything: longjmp runs no destructors.
+[[gnu::noinline]] void decode_rows(Decoder& decoder, std::span<const std::byte> bytes,
+                                   const std::string& name) {
   jpeg_decompress_struct* jpeg = &decoder.jpeg;
-  if (setjmp(decoder.start) != 0) return false;
   jpeg_create_decompress(jpeg);
   jpeg->client_data = &decoder;
   jpeg->progress = &decoder.progress;
   jpeg_mem_src(jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_read_header(jpeg, TRUE);
   decoder.size = check_size(jpeg->image_width, jpeg->image_height, name);
-  if (!decoder.size) return false;
+  if (!decoder.size) return;
 
   jpeg->out_color_space = JCS_EXT_RGBA;
   jpeg_start_decompress(jpeg);
@@ -76,6 +77,13 @@ bool decode_rows(Decoder& decoder, std::span<const std::byte> bytes, const std::
     jpeg_read_scanlines(jpeg, &row, 1);
   }
   jpeg_finish_decompress(jpeg);
+}
+
+// False when libjpeg failed. Apart from decode_rows, so that the frame that is jumped back to has no locals
+// that the jump could spoil.
+bool try_to_decode(Decoder& decoder, std::span<const std::byte> bytes, const std::string& name) {
+  if (setjmp(decoder.start) != 0) return false;
+  decode_rows(decoder, bytes, name);
   return true;
 }
 
@@ -88,8 +96,9 @@ Result<Image8> decode_jpeg(std::span<const std::byte> bytes, const std::string& 
   decoder.errors.error_exit = fail;
   decoder.errors.emit_message = on_message;
   decoder.progress.progress_monitor = on_progress;
-  if (decode_rows(decoder, bytes, name)) return std::move(decoder.image);
+  const bool decoded = try_to_decode(decoder, bytes, name);
   if (!decoder.size) return decoder.size.failure();
+  if (decoded) return std::move(decoder.image);
   return Failure{ErrorCode::bad_input, name + ": not a whole JPEG file that can be shown: " +
                                            (decoder.reason ? decoder.reason : decoder.message)};
 }
