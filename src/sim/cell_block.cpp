@@ -14,6 +14,27 @@ constexpr float kOverlap = 0.1f;  // [voxels]
 /// Points per axis that stand for a cell: its corners are among them, where slivers of a side end.
 constexpr int kSamples = 3;
 
+/// Where a surface bends by an angle from cell to cell, it lies off the plane of its piece in a cell by at
+/// most this much a radian. An arc of chord L in a cell and of chord M in the next turns by (L + M) / 2 r and
+/// lies at most L^2 / 12 r off the mean plane of its piece, so L^2 / 6 (L + M) a radian, at most sqrt(2) / 6;
+/// a fold in the middle of the cell, twice the turn of both its neighbours: L / 4.
+constexpr float kDeviationPerBend = 0.35f;  // [voxels]
+/// Planes that differ by more are two surfaces, not one that bends.
+constexpr float kLeastCosine = 0.5f;
+
+/// For a coordinate from the cell's centre the third, or the two thirds, of the 3x3x3 cells that it is in.
+std::uint32_t thirds(float x, std::uint32_t first, int stride) {
+  // Without floor(), which is a call on plain x86-64.
+  const int low = (x - kOverlap >= -0.5f) + (x - kOverlap >= 0.5f);
+  const int high = (x + kOverlap >= -0.5f) + (x + kOverlap >= 0.5f);
+  return first << (low * stride) | first << (high * stride);
+}
+
+/// The cells that a point lies in or within kOverlap of, as Sheet::cells.
+std::uint32_t cells_around(glm::vec3 p) {
+  return thirds(p.x, 0x1249249u, 1) & thirds(p.y, 0x1c0e07u, 3) & thirds(p.z, 0x1ffu, 9);
+}
+
 /// Whether b is a continued within the given bounds, whichever way it faces.
 bool continues(glm::vec3 normal_a, float offset_a, glm::vec3 normal_b, float offset_b, float cosine,
                float apart) {
@@ -25,31 +46,52 @@ bool continues(glm::vec3 normal_a, float offset_a, glm::vec3 normal_b, float off
 
 void CellSight::look_at(glm::ivec3 cell) {
   sheets_.clear();
-  const std::span<const voxel::Plane> own = planes_(cell);
-  std::array<std::uint32_t, voxel::kMaxPlanes> packed{};
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    packed[k] = pack_plane(own[k]);
-    add_sheet(own[k], glm::ivec3(0));
-  }
-  record_ = {packed[0], packed[1], packed[2], 0};
-  side_count_ = 1 << own.size();
-
+  read_own_planes(planes_(cell));
   flat_ = true;
   for (int i = 0; i < 27; ++i) {
     const glm::ivec3 step = glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
     if (step == glm::ivec3(0)) continue;
-    for (const voxel::Plane& plane : planes_(cell + step)) {
-      const float offset = plane.offset + glm::dot(plane.normal, glm::vec3(step));
-      flat_ = flat_ && std::any_of(own.begin(), own.end(), [&](const voxel::Plane& mine) {
-                return continues(mine.normal, mine.offset, plane.normal, offset, 0.9995f, 0.02f);
-              });
-      add_sheet(plane, step);
-    }
+    for (const voxel::Plane& plane : planes_(cell + step)) read_neighbour(plane, step);
   }
-  for (std::vector<glm::vec3>& points : viewpoints_) points.clear();
   if (flat_) return;
   measure_voxels();
   find_viewpoints();
+}
+
+void CellSight::read_own_planes(std::span<const voxel::Plane> own) {
+  plane_count_ = static_cast<int>(own.size());
+  std::array<std::uint32_t, voxel::kMaxPlanes> packed{};
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    own_[k] = own[k];
+    packed[k] = pack_plane(own[k]);
+    deviation_[k] = 0;
+    const glm::vec3 normal = shared::plane_normal(packed[k]);
+    const float offset = shared::plane_offset(packed[k]);
+    positive_[k] = 0;
+    for (int bit = 0; bit < 64; ++bit)
+      positive_[k] |= Block{glm::dot(normal, from_cell_centre(bit)) > offset} << bit;
+    add_sheet(own[k], glm::ivec3(0));
+  }
+  record_ = {packed[0], packed[1], packed[2], 0};
+}
+
+void CellSight::read_neighbour(const voxel::Plane& plane, glm::ivec3 step) {
+  const float offset = plane.offset + glm::dot(plane.normal, glm::vec3(step));
+  bool goes_on = false;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(plane_count_); ++k) {
+    const float cosine = std::abs(glm::dot(own_[k].normal, plane.normal));
+    goes_on |= continues(own_[k].normal, own_[k].offset, plane.normal, offset, 0.9995f, 0.02f);
+    if (cosine > kLeastCosine)
+      deviation_[k] = std::max(deviation_[k], kDeviationPerBend * std::sqrt(std::max(0.0f, 2 - 2 * cosine)));
+  }
+  flat_ = flat_ && goes_on;
+  add_sheet(plane, step);
+}
+
+std::uint32_t CellSight::moved_plane(int k, float distance) const {
+  voxel::Plane plane = own_[static_cast<std::size_t>(k)];
+  plane.offset += distance;
+  return pack_plane(plane);
 }
 
 void CellSight::add_sheet(const voxel::Plane& plane, glm::ivec3 step) {
@@ -60,7 +102,10 @@ void CellSight::add_sheet(const voxel::Plane& plane, glm::ivec3 step) {
     sheet.cells |= bit;
     return;
   }
-  sheets_.push_back({plane.normal, offset, bit});
+  Sheet& sheet = sheets_.emplace_back();
+  sheet.normal = plane.normal;
+  sheet.offset = offset;
+  sheet.cells = bit;
 }
 
 void CellSight::measure_voxels() {
@@ -75,6 +120,7 @@ void CellSight::measure_voxels() {
 }
 
 void CellSight::find_viewpoints() {
+  for (std::vector<glm::vec3>& points : viewpoints_) points.clear();
   for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
     const glm::vec3 p =
         glm::vec3(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples)) / float{kSamples - 1} -
@@ -90,13 +136,11 @@ void CellSight::find_viewpoints() {
 }
 
 Block CellSight::on_side(int side, Block among) const {
-  Block result = 0;
-  for (Block left = among; left != 0; left &= left - 1) {
-    const int bit = std::countr_zero(left);
-    if (shared::boundary_side(record_, from_cell_centre(bit)) == static_cast<std::uint32_t>(side))
-      result |= Block{1} << bit;
+  for (int k = 0; k < plane_count_; ++k) {
+    const Block positive = positive_[static_cast<std::size_t>(k)];
+    among &= side >> k & 1 ? positive : ~positive;
   }
-  return result;
+  return among;
 }
 
 Block CellSight::seen_from(glm::vec3 viewpoint, Block among) const {
@@ -108,16 +152,9 @@ Block CellSight::seen_from(glm::vec3 viewpoint, Block among) const {
       const int bit = std::countr_zero(beyond);
       const float there = sheet.distance[static_cast<std::size_t>(bit)];
       const glm::vec3 crossing = viewpoint + (from_cell_centre(bit) - viewpoint) * (here / (here - there));
-      const glm::ivec3 low = glm::clamp(glm::ivec3(glm::floor(crossing + (1.5f - kOverlap))), 0, 2);
-      const glm::ivec3 high = glm::clamp(glm::ivec3(glm::floor(crossing + (1.5f + kOverlap))), 0, 2);
-      bool hit = false;
-      for (int corner = 0; corner < 8; ++corner) {
-        const glm::ivec3 c(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
-                           corner & 4 ? high.z : low.z);
-        hit |= (sheet.cells >> (c.x + 3 * c.y + 9 * c.z) & 1) != 0;
-      }
-      if (hit) among &= ~(Block{1} << bit);
+      if (sheet.cells & cells_around(crossing)) among &= ~(Block{1} << bit);
     }
+    if (among == 0) break;
   }
   return among;
 }

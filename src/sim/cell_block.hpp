@@ -43,8 +43,13 @@ class CellSight {
   void look_at(glm::ivec3 cell);
   /// The planes of the cell, packed as the shader reads them; first_set is 0.
   const shared::BoundaryCell& record() const { return record_; }
+  int plane_count() const { return plane_count_; }
   /// 2^planes.
-  int side_count() const { return side_count_; }
+  int side_count() const { return 1 << plane_count_; }
+  /// How far the surface may lie off plane `k` of the cell [voxels]; 0 where it goes on flat.
+  float deviation(int k) const { return deviation_[static_cast<std::size_t>(k)]; }
+  /// Plane `k`, packed, moved by `distance` along its normal [voxels].
+  std::uint32_t moved_plane(int k, float distance) const;
 
   /// The voxels of `among` on side `side` of the cell's planes, thought of as endless.
   Block on_side(int side, Block among) const;
@@ -56,10 +61,12 @@ class CellSight {
   struct Sheet {
     glm::vec3 normal;
     float offset;
-    std::uint32_t cells;               // bit x + 3 y + 9 z of cell + 1
-    std::array<float, 64> distance{};  // of each voxel of the block
-    Block positive = 0;                // voxels on the positive side
+    std::uint32_t cells;             // bit x + 3 y + 9 z of cell + 1
+    Block positive;                  // voxels of the block on the positive side
+    std::array<float, 64> distance;  // of each voxel of the block
   };
+  void read_own_planes(std::span<const voxel::Plane> own);
+  void read_neighbour(const voxel::Plane& plane, glm::ivec3 step);
   void add_sheet(const voxel::Plane& plane, glm::ivec3 step);
   void measure_voxels();
   Block seen_from(glm::vec3 viewpoint, Block among) const;
@@ -67,7 +74,10 @@ class CellSight {
 
   const PlaneSource& planes_;
   shared::BoundaryCell record_{};
-  int side_count_ = 1;
+  int plane_count_ = 0;
+  std::array<voxel::Plane, voxel::kMaxPlanes> own_;
+  std::array<Block, voxel::kMaxPlanes> positive_;  // voxels on the positive side of the packed planes
+  std::array<float, voxel::kMaxPlanes> deviation_;
   bool flat_ = true;  // every plane around continues one of the cell's own
   std::vector<Sheet> sheets_;
   std::array<std::vector<glm::vec3>, 8> viewpoints_;  // of each side: its middle, then points spread over it

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/cell_block.hpp"
+#include "sim/sealed_pockets.hpp"
 
 namespace brume::sim {
 namespace {
@@ -70,7 +71,10 @@ struct CellBlock {
 class SmokeStructure::Builder {
  public:
   Builder(const voxel::BitGrid& grid, const PlaneSource& planes, SmokeStructure& out)
-      : grid_(grid), sight_(planes), out_(out) {}
+      : grid_(grid),
+        sight_(planes),
+        pockets_(grid, [this](glm::ivec3 v) { return voxel_at(v) != kNone; }),
+        out_(out) {}
 
   void place_bricks(std::span<const LiveCloud> clouds);
   void number_voxels(std::span<const LiveCloud> clouds);
@@ -105,11 +109,16 @@ class SmokeStructure::Builder {
 
   bool look_around(glm::ivec3 cell, CellBlock& block) const;
   void add_cell(glm::ivec3 cell, const CellBlock& block);
+  Block sealed_voxels(glm::ivec3 cell, Block among);
+  float way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke, Block sealed) const;
+  void reach_bent_surfaces(glm::ivec3 cell, const CellBlock& block, const std::array<Block, 8>& seen,
+                           shared::BoundaryCell& record);
   void add_corner(const CellBlock& block, int corner, Block own_side, Block seen);
   void enter_cell(glm::ivec3 cell, std::uint32_t entry);
 
   const voxel::BitGrid& grid_;
   CellSight sight_;
+  SealedPockets pockets_;
   const std::array<Block, 8> around_corner_ = blocks_around_corners();
   SmokeStructure& out_;
   std::vector<std::uint32_t> number_;  // of the smoke voxel, 512 a slot
@@ -222,6 +231,55 @@ void SmokeStructure::Builder::add_corner(const CellBlock& block, int corner, Blo
   out_.corners.push_back(source);
 }
 
+/// The voxels of `among` in pockets that no smoke comes into.
+Block SmokeStructure::Builder::sealed_voxels(glm::ivec3 cell, Block among) {
+  Block sealed = 0;
+  for (Block left = among; left != 0; left &= left - 1) {
+    const int bit = std::countr_zero(left);
+    const glm::ivec3 v = cell - 1 + block_voxel(bit);
+    if (grid_.contains(v) && pockets_.sealed(v)) sealed |= Block{1} << bit;
+  }
+  return sealed;
+}
+
+/// How far to move a plane along its normal so that smoke on one side of it reaches the surface all over the
+/// cell, where behind it nothing is but sealed pockets: what runs over ends inside of them. 0 where there is
+/// air on both sides.
+float SmokeStructure::Builder::way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke,
+                                              Block sealed) const {
+  const float way = sight_.deviation(plane);
+  for (const int behind : {0, 1}) {
+    bool fits = true, any = false;
+    for (int side = 0; side < sight_.side_count(); ++side) {
+      if ((side >> plane & 1) != behind) continue;
+      const Block sees = seen[static_cast<std::size_t>(side)];
+      const Block smoke_before = seen[static_cast<std::size_t>(side ^ 1 << plane)] & smoke;
+      if ((sees & ~sealed) == 0)
+        any |= smoke_before != 0;
+      else
+        fits &= (smoke_before & ~sees) == 0;  // the plane ends: the same air on both sides
+    }
+    if (fits && any) return behind == 1 ? way : -way;
+  }
+  return 0;
+}
+
+void SmokeStructure::Builder::reach_bent_surfaces(glm::ivec3 cell, const CellBlock& block,
+                                                  const std::array<Block, 8>& seen,
+                                                  shared::BoundaryCell& record) {
+  bool bent = false;
+  for (int plane = 0; plane < sight_.plane_count(); ++plane) bent |= sight_.deviation(plane) > 0;
+  if (!bent) return;
+  Block all = 0;
+  for (const Block sees : seen) all |= sees;
+  const Block sealed = sealed_voxels(cell, all & ~block.smoke);
+  const std::array<std::uint32_t*, voxel::kMaxPlanes> packed{&record.plane0, &record.plane1, &record.plane2};
+  for (int plane = 0; plane < sight_.plane_count(); ++plane) {
+    const float way = way_to_surface(plane, seen, block.smoke, sealed);
+    if (way != 0) *packed[static_cast<std::size_t>(plane)] = sight_.moved_plane(plane, way);
+  }
+}
+
 void SmokeStructure::Builder::add_cell(glm::ivec3 cell, const CellBlock& block) {
   sight_.look_at(cell);
   shared::BoundaryCell record = sight_.record();
@@ -229,6 +287,7 @@ void SmokeStructure::Builder::add_cell(glm::ivec3 cell, const CellBlock& block) 
   std::array<Block, 8> seen{};
   for (int side = 0; side < sight_.side_count(); ++side)
     seen[static_cast<std::size_t>(side)] = sight_.seen(side, block.free);
+  reach_bent_surfaces(cell, block, seen, record);
   for (int side = 0; side < sight_.side_count(); ++side) {
     const int like = side_to_follow(side, sight_.side_count(), seen, block.smoke);
     const Block own_side = sight_.on_side(like, block.free);
