@@ -14,11 +14,12 @@ constexpr float kOverlap = 0.1f;  // [voxels]
 /// Points per axis that stand for a cell: its corners are among them, where slivers of a side end.
 constexpr int kSamples = 3;
 
-/// Where a surface bends by an angle from cell to cell, it lies off the plane of its piece in a cell by at
-/// most this much a radian. An arc of chord L in a cell and of chord M in the next turns by (L + M) / 2 r and
-/// lies at most L^2 / 12 r off the mean plane of its piece, so L^2 / 6 (L + M) a radian, at most sqrt(2) / 6;
-/// a fold in the middle of the cell, twice the turn of both its neighbours: L / 4.
-constexpr float kDeviationPerBend = 0.35f;  // [voxels]
+/// An arc with curvature k and chord L lies at most k L^2 / 12 off the mean plane of its piece; L^2 is at
+/// most 2 where a cylinder runs along an axis, so k / 6. The curvature is known from planes alone, whose
+/// pieces may lie anywhere in their cells: nearly twice as much makes up for that.
+constexpr float kDeviationPerCurvature = 0.3f;  // [voxels^2]
+/// Two pieces of a surface are not nearer than this [voxels].
+constexpr float kLeastApart = 0.5f;
 /// Planes that differ by more are two surfaces, not one that bends.
 constexpr float kLeastCosine = 0.5f;
 
@@ -40,6 +41,15 @@ bool continues(glm::vec3 normal_a, float offset_a, glm::vec3 normal_b, float off
                float apart) {
   const float along = glm::dot(normal_a, normal_b);
   return std::abs(along) > cosine && std::abs(offset_b - (along > 0 ? offset_a : -offset_a)) < apart;
+}
+
+/// Of the surface that runs from a plane in a cell to another plane `step` cells on [1/voxels]: by how much
+/// it turns between the points of the planes nearest to the middles of their cells.
+float curvature(const voxel::Plane& a, const voxel::Plane& b, glm::ivec3 step) {
+  const float cosine = std::abs(glm::dot(a.normal, b.normal));
+  if (cosine < kLeastCosine) return 0;
+  const glm::vec3 way = glm::vec3(step) + b.normal * b.offset - a.normal * a.offset;
+  return std::sqrt(std::max(0.0f, 2 - 2 * cosine)) / std::max(kLeastApart, glm::length(way));
 }
 
 }  // namespace
@@ -79,10 +89,8 @@ void CellSight::read_neighbour(const voxel::Plane& plane, glm::ivec3 step) {
   const float offset = plane.offset + glm::dot(plane.normal, glm::vec3(step));
   bool goes_on = false;
   for (std::size_t k = 0; k < static_cast<std::size_t>(plane_count_); ++k) {
-    const float cosine = std::abs(glm::dot(own_[k].normal, plane.normal));
     goes_on |= continues(own_[k].normal, own_[k].offset, plane.normal, offset, 0.9995f, 0.02f);
-    if (cosine > kLeastCosine)
-      deviation_[k] = std::max(deviation_[k], kDeviationPerBend * std::sqrt(std::max(0.0f, 2 - 2 * cosine)));
+    deviation_[k] = std::max(deviation_[k], kDeviationPerCurvature * curvature(own_[k], plane, step));
   }
   flat_ = flat_ && goes_on;
   add_sheet(plane, step);

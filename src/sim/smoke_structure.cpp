@@ -111,7 +111,7 @@ class SmokeStructure::Builder {
   void add_cell(glm::ivec3 cell, const CellBlock& block);
   Block sealed_voxels(glm::ivec3 cell, Block among);
   float way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke, Block sealed) const;
-  void reach_bent_surfaces(glm::ivec3 cell, const CellBlock& block, const std::array<Block, 8>& seen,
+  void reach_bent_surfaces(glm::ivec3 cell, const CellBlock& block, std::array<Block, 8>& seen,
                            shared::BoundaryCell& record);
   void add_corner(const CellBlock& block, int corner, Block own_side, Block seen);
   void enter_cell(glm::ivec3 cell, std::uint32_t entry);
@@ -249,30 +249,37 @@ float SmokeStructure::Builder::way_to_surface(int plane, const std::array<Block,
                                               Block sealed) const {
   const float way = sight_.deviation(plane);
   for (const int behind : {0, 1}) {
-    bool fits = true, any = false;
+    bool fits = true, any_smoke = false, any_sealed = false;
     for (int side = 0; side < sight_.side_count(); ++side) {
       if ((side >> plane & 1) != behind) continue;
       const Block sees = seen[static_cast<std::size_t>(side)];
       const Block smoke_before = seen[static_cast<std::size_t>(side ^ 1 << plane)] & smoke;
-      if ((sees & ~sealed) == 0)
-        any |= smoke_before != 0;
-      else
-        fits &= (smoke_before & ~sees) == 0;  // the plane ends: the same air on both sides
+      any_smoke |= smoke_before != 0;
+      any_sealed |= (sees & ~sealed) == 0;
+      // Air on both sides may only be the same air: the plane ends there.
+      if ((sees & ~sealed) != 0) fits &= smoke_before == 0 || (smoke_before & sees) != 0;
     }
-    if (fits && any) return behind == 1 ? way : -way;
+    if (fits && any_smoke && any_sealed) return behind == 1 ? way : -way;
   }
   return 0;
 }
 
+/// Where a surface bends, a piece of it that only just comes into the cell, and the pieces of the cells
+/// around it, may hide all smoke from the sliver before it: then the planes of the cell alone decide. And
+/// smoke has to reach the surface though that lies off its plane.
 void SmokeStructure::Builder::reach_bent_surfaces(glm::ivec3 cell, const CellBlock& block,
-                                                  const std::array<Block, 8>& seen,
-                                                  shared::BoundaryCell& record) {
+                                                  std::array<Block, 8>& seen, shared::BoundaryCell& record) {
   bool bent = false;
   for (int plane = 0; plane < sight_.plane_count(); ++plane) bent |= sight_.deviation(plane) > 0;
   if (!bent) return;
   Block all = 0;
   for (const Block sees : seen) all |= sees;
   const Block sealed = sealed_voxels(cell, all & ~block.smoke);
+  if ((all & ~sealed) == 0)
+    for (int side = 0; side < sight_.side_count(); ++side) {
+      Block& sees = seen[static_cast<std::size_t>(side)];
+      if (sees == 0) sees = sight_.on_side(side, block.smoke);
+    }
   const std::array<std::uint32_t*, voxel::kMaxPlanes> packed{&record.plane0, &record.plane1, &record.plane2};
   for (int plane = 0; plane < sight_.plane_count(); ++plane) {
     const float way = way_to_surface(plane, seen, block.smoke, sealed);
