@@ -7,8 +7,6 @@
 namespace brume::scene {
 namespace {
 
-constexpr std::uint64_t kMostElements = 1u << 30;
-
 /// IEC 61966-2-1.
 double linear_from_srgb(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -16,109 +14,78 @@ double linear_from_srgb(double encoded) {
 
 }  // namespace
 
-GltfMaterials::GltfMaterials(GltfValue document, GltfBuffers& buffers, SceneBuilder& builder,
-                             const SceneFiles& files)
-    : document_(std::move(document)), buffers_(buffers), builder_(builder), files_(files) {}
+GltfMaterials::GltfMaterials(const GltfDocument& document, SceneBuilder& builder)
+    : document_(document), builder_(builder) {}
 
-GltfMaterials::Converted GltfMaterials::of_primitive(const GltfValue& primitive) {
-  std::vector<Material>& materials = builder_.scene.materials;
-  const auto reference = primitive.find("material");
-  if (!reference) {
-    if (default_ == kNone) {
-      Material material;
-      material.name = "default";
-      material.base_color = glm::vec3(0.6f);
-      default_ = static_cast<std::uint32_t>(materials.size());
-      materials.push_back(std::move(material));
-    }
-    return {default_, 0};
-  }
-  const std::uint64_t index = reference->whole(kMostElements);
+GltfMaterials::Converted GltfMaterials::material(int index) {
   if (const auto known = materials_.find(index); known != materials_.end()) return known->second;
   Converted converted;
-  Material material = convert(gltf_element(document_, "materials", index, *reference), converted.uv_set);
-  if (material.name.empty()) material.name = "material " + std::to_string(index);
-  converted.index = static_cast<std::uint32_t>(materials.size());
-  materials.push_back(std::move(material));
+  Material material;
+  material.name = "default";
+  material.base_color = glm::vec3(0.6f);
+  if (index >= 0) {
+    const auto at = static_cast<std::size_t>(index);
+    material = convert(document_.model().materials[at], document_.place("materials", at), converted.uv_set);
+    if (material.name.empty()) material.name = "material " + std::to_string(index);
+  }
+  converted.index = static_cast<std::uint32_t>(builder_.scene.materials.size());
+  builder_.scene.materials.push_back(std::move(material));
   return materials_[index] = converted;
 }
 
-Material GltfMaterials::convert(const GltfValue& description, std::uint64_t& uv_set) {
+Material GltfMaterials::convert(const tinygltf::Material& source, const std::string& place, int& uv_set) {
+  const auto image = [&](const auto& texture, const char* name) {
+    return texture.index < 0 ? kNone
+                             : image_of_texture(texture.index, texture.extensions, place + "." + name);
+  };
+  const auto rgb = [](const std::vector<double>& c) { return glm::vec3(glm::dvec3(c[0], c[1], c[2])); };
+  const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
   Material material;
-  material.name = description.text_or("name", "");
-  material.roughness = 1;
-  material.metallic = 1;
-  double alpha = 1;
-  std::uint64_t ignored_set = 0;
-  if (const auto pbr = description.find("pbrMetallicRoughness")) {
-    if (const auto factor = pbr->find("baseColorFactor")) {
-      if (factor->size() != 4) factor->fail("expected 4 numbers, found " + std::to_string(factor->size()));
-      for (int i = 0; i < 3; ++i)
-        material.base_color[i] = static_cast<float>((*factor)[static_cast<std::size_t>(i)].number(0, 1));
-      alpha = (*factor)[3].number(0, 1);
-    }
-    material.roughness = static_cast<float>(pbr->number_or("roughnessFactor", 1, 0, 1));
-    material.metallic = static_cast<float>(pbr->number_or("metallicFactor", 1, 0, 1));
-    if (const auto texture = pbr->find("metallicRoughnessTexture"))
-      material.roughness_image = image_of_texture(*texture, uv_set);
-    if (const auto texture = pbr->find("baseColorTexture"))
-      material.base_color_image = image_of_texture(*texture, uv_set);
-  }
-  if (const auto texture = description.find("normalTexture"))
-    material.normal_image =
-        image_of_texture(*texture, material.base_color_image == kNone ? uv_set : ignored_set);
+  material.name = source.name;
+  material.base_color = rgb(pbr.baseColorFactor);
+  material.roughness = static_cast<float>(pbr.roughnessFactor);
+  material.metallic = static_cast<float>(pbr.metallicFactor);
+  material.roughness_image = image(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
+  material.base_color_image = image(pbr.baseColorTexture, "baseColorTexture");
+  material.normal_image = image(source.normalTexture, "normalTexture");
+  uv_set = material.base_color_image != kNone ? pbr.baseColorTexture.texCoord
+           : material.normal_image != kNone   ? source.normalTexture.texCoord
+                                              : pbr.metallicRoughnessTexture.texCoord;
 
-  material.emission = description.vec3_or("emissiveFactor", glm::vec3(0), 0, 1e6);
-  if (const auto extensions = description.find("extensions")) {
-    if (const auto strength = extensions->find("KHR_materials_emissive_strength"))
-      material.emission *= static_cast<float>(strength->number_or("emissiveStrength", 1, 0, 1e6));
-  }
-  const auto emissive = description.find("emissiveTexture");
-  if (emissive && material.emission != glm::vec3(0))
-    material.emission *= mean_color(image_of_texture(*emissive, ignored_set));
+  material.emission = rgb(source.emissiveFactor);
+  const auto strength = source.extensions.find("KHR_materials_emissive_strength");
+  if (strength != source.extensions.end() && strength->second.Has("emissiveStrength"))
+    material.emission *= static_cast<float>(strength->second.Get("emissiveStrength").GetNumberAsDouble());
+  if (source.emissiveTexture.index >= 0 && material.emission != glm::vec3(0))
+    material.emission *= mean_color(image(source.emissiveTexture, "emissiveTexture"));
 
   // The cutoff is compared with the texel alone: the factor moves to its side.
-  const std::string mode = description.text_or("alphaMode", "OPAQUE");
+  const std::string& mode = source.alphaMode;
   if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
-    description.member("alphaMode").fail("is none of OPAQUE, MASK, BLEND");
+    document_.fail(place + ".alphaMode", "is none of OPAQUE, MASK, BLEND");
   if (mode != "OPAQUE") {
-    const double cutoff = mode == "MASK" ? description.number_or("alphaCutoff", 0.5, 0, 1e6) : 0.5;
-    material.alpha_cutoff = static_cast<float>(cutoff / std::max(alpha, 1e-6));
+    const double cutoff = mode == "MASK" ? source.alphaCutoff : 0.5;
+    material.alpha_cutoff = static_cast<float>(cutoff / std::max(pbr.baseColorFactor[3], 1e-6));
   }
   return material;
 }
 
-std::uint32_t GltfMaterials::image_of_texture(const GltfValue& reference, std::uint64_t& uv_set) {
-  if (const auto set = reference.find("texCoord")) uv_set = set->whole(64);
-  if (const auto extensions = reference.find("extensions");
-      extensions && extensions->find("KHR_texture_transform")) {
-    log_warning(reference.place() + ": texture transforms are not applied");
-  }
-  const GltfValue index = reference.member("index");
-  const GltfValue texture = gltf_element(document_, "textures", index.whole(kMostElements), index);
-  const auto source = texture.find("source");
-  if (!source) {
-    log_warning(texture.place() + ": has no PNG or JPEG source; a magenta checker stands in");
+std::uint32_t GltfMaterials::image_of_texture(int texture, const tinygltf::ExtensionMap& extensions,
+                                              const std::string& place) {
+  if (extensions.contains("KHR_texture_transform"))
+    log_warning(place + ": texture transforms are not applied");
+  const int source = document_.model().textures[static_cast<std::size_t>(texture)].source;
+  if (source < 0) {
+    log_warning(document_.place("textures", static_cast<std::size_t>(texture)) +
+                ": has no PNG or JPEG source; a magenta checker stands in");
     return builder_.checker_image();
   }
-  const std::uint64_t image_index = source->whole(kMostElements);
-  if (const auto known = images_.find(image_index); known != images_.end()) return known->second;
-
-  const GltfValue image = gltf_element(document_, "images", image_index, *source);
-  const std::string name = image.place();
-  std::uint32_t converted = kNone;
-  if (const auto view = image.find("bufferView")) {
-    converted = builder_.image_of_bytes(buffers_.view(view->whole(kMostElements), *view), name, name);
-  } else {
-    const GltfValue uri = image.member("uri");
-    const std::string file = gltf_file_name(uri);
-    if (!file.empty() && !files_.find(file)) {
-      converted = builder_.image_of_file({&file, 1}, name);
-    } else {
-      converted = builder_.image_of_bytes(buffers_.uri_bytes(uri), name, name);
-    }
-  }
-  return images_[image_index] = converted;
+  if (const auto known = images_.find(source); known != images_.end()) return known->second;
+  const tinygltf::Image& image = document_.model().images[static_cast<std::size_t>(source)];
+  const std::string name = document_.place("images", static_cast<std::size_t>(source));
+  return images_[source] = image.image.empty()
+                               ? builder_.image_of_file({&image.uri, 1}, name)
+                               : builder_.image_of_bytes(std::as_bytes(std::span(image.image)), name, name);
 }
 
 glm::vec3 GltfMaterials::mean_color(std::uint32_t image) const {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numeric>
 
 #include "core/log.hpp"
 #include "scene/gltf_parts.hpp"
@@ -7,28 +8,19 @@
 namespace brume::scene {
 namespace {
 
-constexpr std::uint64_t kMostElements = 1u << 30;
-
-enum Mode : std::uint64_t { kTriangles = 4, kTriangleStrip, kTriangleFan };
-
 glm::vec3 unit_or(glm::vec3 vector, glm::vec3 otherwise) {
   const double length = glm::length(glm::dvec3(vector));
   return length > 1e-30 ? glm::vec3(glm::dvec3(vector) / length) : otherwise;
 }
 
 /// The corners of separate triangles, from a list, a strip or a fan of corners.
-std::vector<std::uint32_t> as_triangles(const std::vector<std::uint32_t>& corners, std::uint64_t mode,
-                                        const GltfValue& primitive) {
-  if (mode == kTriangles) {
-    if (corners.size() % 3 != 0)
-      primitive.fail("has " + std::to_string(corners.size()) + " corners; expected a multiple of 3");
-    return corners;
-  }
+std::vector<std::uint32_t> as_triangles(const std::vector<std::uint32_t>& corners, int mode) {
+  if (mode == TINYGLTF_MODE_TRIANGLES) return corners;
   std::vector<std::uint32_t> triangles;
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
     // Every second triangle of a strip runs the other way.
-    const std::size_t swap = mode == kTriangleStrip ? i % 2 : 0;
-    triangles.push_back(corners[mode == kTriangleFan ? 0 : i]);
+    const std::size_t swap = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? i % 2 : 0;
+    triangles.push_back(corners[mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i]);
     triangles.push_back(corners[i + 1 + swap]);
     triangles.push_back(corners[i + 2 - swap]);
   }
@@ -48,46 +40,43 @@ void separate_corners(Mesh& mesh) {
 
 }  // namespace
 
-GltfMeshes::GltfMeshes(GltfValue document, GltfBuffers& buffers, GltfMaterials& materials,
-                       SceneBuilder& builder)
-    : document_(std::move(document)), buffers_(buffers), materials_(materials), builder_(builder) {}
+GltfMeshes::GltfMeshes(const GltfDocument& document, GltfMaterials& materials, SceneBuilder& builder)
+    : document_(document), materials_(materials), builder_(builder) {}
 
-const std::vector<GltfMeshes::Part>& GltfMeshes::parts(std::uint64_t index, const GltfValue& asker) {
+const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index) {
   if (const auto known = parts_.find(index); known != parts_.end()) return known->second;
-  const GltfValue description = gltf_element(document_, "meshes", index, asker);
-  const GltfValue primitives = description.member("primitives");
+  const auto at = static_cast<std::size_t>(index);
+  const tinygltf::Mesh& source = document_.model().meshes[at];
   std::vector<Part> parts;
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
-    const GltfValue primitive = primitives[i];
-    const auto mode = primitive.find("mode");
-    const std::uint64_t mode_number = mode ? mode->whole(6) : kTriangles;
-    if (mode_number < kTriangles) {
-      log_warning(primitive.place() + ": points and lines are not drawn");
+  for (std::size_t i = 0; i < source.primitives.size(); ++i) {
+    const std::string place = document_.place("meshes", at) + ".primitives[" + std::to_string(i) + "]";
+    if (source.primitives[i].mode < TINYGLTF_MODE_TRIANGLES) {
+      log_warning(place + ": points and lines are not drawn");
       continue;
     }
-    const auto material = materials_.of_primitive(primitive);
-    Mesh mesh = convert(primitive, material.uv_set);
-    mesh.name = description.text_or("name", "mesh " + std::to_string(index));
+    const auto material = materials_.material(source.primitives[i].material);
+    Mesh mesh = convert(source.primitives[i], material.uv_set, place);
+    mesh.name = source.name.empty() ? "mesh " + std::to_string(index) : source.name;
     parts.push_back({builder_.add_mesh(std::move(mesh)).value_or_throw(), material.index});
   }
   return parts_[index] = std::move(parts);
 }
 
-Mesh GltfMeshes::convert(const GltfValue& primitive, std::uint64_t uv_set) {
-  const GltfValue attributes = primitive.member("attributes");
-  const auto read = [&](const std::string& key, std::size_t components) {
-    const auto accessor = attributes.find(key.c_str());
-    return accessor ? buffers_.floats(accessor->whole(kMostElements), components, *accessor)
-                    : std::vector<float>();
+Mesh GltfMeshes::convert(const tinygltf::Primitive& primitive, int uv_set, const std::string& place) {
+  const auto read = [&](const std::string& key, int components) {
+    const auto accessor = primitive.attributes.find(key);
+    return accessor == primitive.attributes.end()
+               ? std::vector<float>()
+               : document_.floats(accessor->second, components, place + ".attributes." + key);
   };
-  attributes.member("POSITION");
   const std::vector<float> positions = read("POSITION", 3), normals = read("NORMAL", 3),
                            tangents = read("TANGENT", 4), uvs = read("TEXCOORD_" + std::to_string(uv_set), 2);
   const std::size_t count = positions.size() / 3;
-  if (count > kMostVertices) primitive.fail("has more vertices than a scene may have");
+  if (count > kMostVertices) document_.fail(place, "has more vertices than a scene may have");
   if ((!normals.empty() && normals.size() != count * 3) ||
       (!tangents.empty() && tangents.size() != count * 4) || (!uvs.empty() && uvs.size() != count * 2)) {
-    attributes.fail("have different counts; expected as many of each as there are positions");
+    document_.fail(place + ".attributes",
+                   "have different counts; expected as many of each as there are positions");
   }
 
   Mesh mesh;
@@ -106,19 +95,21 @@ Mesh GltfMeshes::convert(const GltfValue& primitive, std::uint64_t uv_set) {
   }
 
   std::vector<std::uint32_t> corners(count);
-  if (const auto indices = primitive.find("indices")) {
-    corners = buffers_.indices(indices->whole(kMostElements), *indices);
+  if (primitive.indices >= 0) {
+    corners = document_.indices(primitive.indices, place + ".indices");
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (corners[i] >= count) {
-        indices->fail("index " + std::to_string(corners[i]) + " (number " + std::to_string(i) +
-                      ") is out of range: the primitive has " + std::to_string(count) + " vertices");
+        document_.fail(place + ".indices", "index " + std::to_string(corners[i]) + " (number " +
+                                               std::to_string(i) + ") is out of range: the primitive has " +
+                                               std::to_string(count) + " vertices");
       }
     }
   } else {
-    for (std::size_t i = 0; i < count; ++i) corners[i] = static_cast<std::uint32_t>(i);
+    std::iota(corners.begin(), corners.end(), 0u);
   }
-  const auto mode = primitive.find("mode");
-  mesh.indices = as_triangles(corners, mode ? mode->whole(6) : kTriangles, primitive);
+  if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
+    document_.fail(place, "has " + std::to_string(corners.size()) + " corners; expected a multiple of 3");
+  mesh.indices = as_triangles(corners, primitive.mode);
   if (normals.empty()) {
     separate_corners(mesh);
     compute_normals(mesh);

@@ -5,55 +5,51 @@
 #include <map>
 #include <vector>
 
-#include "scene/gltf_buffers.hpp"
-#include "scene/gltf_json.hpp"
+#include "scene/gltf_document.hpp"
 #include "scene/scene_builder.hpp"
 
 namespace brume::scene {
 
 class GltfMaterials {
  public:
-  GltfMaterials(GltfValue document, GltfBuffers& buffers, SceneBuilder& builder, const SceneFiles& files);
+  GltfMaterials(const GltfDocument& document, SceneBuilder& builder);
 
   struct Converted {
     std::uint32_t index = kNone;  ///< Into Scene::materials.
-    std::uint64_t uv_set = 0;     ///< The TEXCOORD that its images use.
+    int uv_set = 0;               ///< The TEXCOORD that its images use.
   };
-  /// The material that a primitive names, or the default one.
-  Converted of_primitive(const GltfValue& primitive);
+  /// The material with the document's index, or the default one for -1.
+  Converted material(int index);
 
  private:
-  Material convert(const GltfValue& description, std::uint64_t& uv_set);
-  std::uint32_t image_of_texture(const GltfValue& reference, std::uint64_t& uv_set);
+  Material convert(const tinygltf::Material& source, const std::string& place, int& uv_set);
+  std::uint32_t image_of_texture(int texture, const tinygltf::ExtensionMap& extensions,
+                                 const std::string& place);
   glm::vec3 mean_color(std::uint32_t image) const;
 
-  GltfValue document_;
-  GltfBuffers& buffers_;
+  const GltfDocument& document_;
   SceneBuilder& builder_;
-  const SceneFiles& files_;
-  std::map<std::uint64_t, Converted> materials_;
-  std::map<std::uint64_t, std::uint32_t> images_;
-  std::uint32_t default_ = kNone;
+  std::map<int, Converted> materials_;
+  std::map<int, std::uint32_t> images_;
 };
 
 class GltfMeshes {
  public:
-  GltfMeshes(GltfValue document, GltfBuffers& buffers, GltfMaterials& materials, SceneBuilder& builder);
+  GltfMeshes(const GltfDocument& document, GltfMaterials& materials, SceneBuilder& builder);
 
   struct Part {
     std::uint32_t mesh = kNone, material = kNone;
   };
   /// The primitives of meshes[index] that are triangles.
-  const std::vector<Part>& parts(std::uint64_t index, const GltfValue& asker);
+  const std::vector<Part>& parts(int index);
 
  private:
-  Mesh convert(const GltfValue& primitive, std::uint64_t uv_set);
+  Mesh convert(const tinygltf::Primitive& primitive, int uv_set, const std::string& place);
 
-  GltfValue document_;
-  GltfBuffers& buffers_;
+  const GltfDocument& document_;
   GltfMaterials& materials_;
   SceneBuilder& builder_;
-  std::map<std::uint64_t, std::vector<Part>> parts_;
+  std::map<int, std::vector<Part>> parts_;
 };
 
 }  // namespace brume::scene

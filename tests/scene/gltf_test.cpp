@@ -326,6 +326,64 @@ TEST(Gltf, BrokenStructureIsRefused) {
   EXPECT_HAS(syntax.error(), "expected JSON");
 }
 
+TEST(Gltf, ValuesOfAWrongTypeAreNeverPassedOver) {
+  const std::pair<const char*, const char*> nodes[] = {
+      {R"([{"mesh": 4294967296}])", "nodes[0].mesh: names meshes[4294967296]"},
+      {R"([{"mesh": "0"}])", "nodes[0].mesh: expected a whole number, found"},
+      {R"([{"mesh": -1}])", "nodes[0].mesh: expected a whole number, found"},
+      {R"([{"mesh": 0, "children": [true]}])", "nodes[0].children[0]: expected a whole number, found"},
+      {R"([{"mesh": 0, "scale": [1, 1]}])", "nodes[0].scale: expected 3 numbers, found 2"},
+      {R"({"mesh": 0})", "nodes: expected an array, found an object"},
+      {R"([7])", "nodes[0]: expected an object, found"}};
+  for (const auto& [value, message] : nodes) {
+    Document document;
+    document.nodes = value;
+    EXPECT_HAS(document.error(), message);
+  }
+  Document primitive;
+  primitive.primitive = R"({"attributes": {"POSITION": 0, "NORMAL": "0"}})";
+  EXPECT_HAS(primitive.error(), "meshes[0].primitives[0].attributes.NORMAL: expected a whole number, found");
+  primitive.primitive = "{}";
+  EXPECT_HAS(primitive.error(), "meshes[0].primitives[0]: expected a member \"attributes\"");
+  Document material;
+  material.more = R"(, "materials": [{"pbrMetallicRoughness": {"roughnessFactor": 2}}])";
+  EXPECT_HAS(material.error(), "materials[0].pbrMetallicRoughness.roughnessFactor: expected a number from 0");
+}
+
+TEST(Gltf, DeepNestingIsRefused) {
+  Document document;
+  document.more = ", \"extras\": " + std::string(1000000, '[') + "1" + std::string(1000000, ']');
+  EXPECT_HAS(document.error(), "is nested too deep");
+}
+
+TEST(Gltf, ImagesOutsideOfTheirBufferAreRefused) {
+  for (const char* offset : {"0", "36", "4294967296"}) {
+    Document document;
+    document.views = std::string(R"([{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteLength": 37,
+      "byteOffset": )") +
+                     offset + "}]";
+    document.more = R"(, "images": [{"bufferView": 1, "mimeType": "image/png"}])";
+    EXPECT_HAS(document.error(), "bufferViews[1]: ends at byte");
+  }
+}
+
+TEST(Gltf, FilesMayBeLongerThanTheirBuffer) {
+  Document document;
+  document.promised = 36;
+  document.binary.add<float>({5});
+  document.views = R"([{"buffer": 0, "byteLength": 36}])";
+  EXPECT_TRUE(document.load());
+}
+
+TEST(Gltf, APlusIsPartOfAFilesName) {
+  MemoryFiles files;
+  files.add_text("a+b.bin", triangle().data);
+  Document document;
+  document.uri = "a+b.bin";
+  const std::string text = document.json();
+  EXPECT_TRUE(parse_gltf(std::as_bytes(std::span(text)), "a.gltf", files));
+}
+
 std::string glb_of(std::string json, std::string binary) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   binary.resize((binary.size() + 3) / 4 * 4, '\0');

@@ -1,0 +1,47 @@
+// A glTF document as tinygltf reads it, and what its accessors hold. Every index and every buffer view in the
+// model is valid (checked_gltf_json); accessors are checked here, before they are read. Throws brume::Error;
+// parse_gltf turns that into its Result.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/files.hpp"
+
+namespace brume::scene {
+
+/// Most elements of an accessor without a buffer view: what it holds costs the file nothing.
+constexpr std::uint64_t kMostZeroElements = 1ull << 22;
+
+class GltfDocument {
+ public:
+  /// Reads .gltf or .glb, told apart by the first bytes, with its buffers and images (Image::image holds the
+  /// file as it is; empty when it does not exist). Files must lie below the scene's folder.
+  GltfDocument(std::span<const std::byte> bytes, std::string name, const SceneFiles& files);
+
+  const tinygltf::Model& model() const { return model_; }
+  /// "file: path[index]".
+  std::string place(const char* path, std::size_t index) const;
+  [[noreturn]] void fail(const std::string& place, const std::string& what) const;
+
+  /// An accessor's elements as numbers, `components` each (integers scaled where the accessor says
+  /// normalized). All finite.
+  std::vector<float> floats(int accessor, int components, const std::string& asker) const;
+  /// A scalar accessor of unsigned integers.
+  std::vector<std::uint32_t> indices(int accessor, const std::string& asker) const;
+
+ private:
+  std::vector<std::byte> packed(std::size_t accessor) const;
+  std::span<const std::byte> view(int index) const;
+  void apply_sparse(const tinygltf::Accessor& accessor, std::size_t element_size, const std::string& place,
+                    std::vector<std::byte>& packed) const;
+
+  tinygltf::Model model_;
+  std::string name_;
+};
+
+}  // namespace brume::scene
