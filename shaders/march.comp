@@ -80,37 +80,42 @@ void main() {
     const uvec2 hole_mask = holes_on_ray(frame.camera.eye_world, direction, t_begin, t_end);
     const float jitter = blue_noise(blue_noise_tile, px, frame.frame_index).r;
     const float ds = frame.look.step_length;
-    // Segments of length ds from t_begin on, the last one cut; one sample in each, all at the same share of it.
+    const bool noisy = frame.look.erosion > 0.0 || hole_mask != uvec2(0u);
+    const vec3 texel = atlas_texel(volume);
+    // Segments of length ds from t_begin on, the last one cut; one sample in each, all at the same share of it. Brick
+    // by brick, so that what a brick's samples share is found once.
     for (float t = t_begin; t < t_end;) {
-      const float segment = min(ds, t_end - t);
-      const vec3 p_voxel = origin + per_metre * (t + jitter * segment);
-      const ivec3 brick = ivec3(floor(p_voxel / float(kBrickVoxels)));
-      const vec3 low = vec3(brick * kBrickVoxels);
-      const uint slot = slot_at(volume, brick);
-      // Whole segments up to the far side of an empty brick: the samples stay where they would have been.
+      const vec3 low = floor((origin + per_metre * (t + jitter * min(ds, t_end - t))) / float(kBrickVoxels)) * float(kBrickVoxels);
       const vec3 exits = max((low - origin) * inverse, (low + float(kBrickVoxels) - origin) * inverse);
-      const float empty_segments = max(1.0, floor((min(exits.x, min(exits.y, exits.z)) - t) / ds));
-      t += slot == kNoSlot ? ds * empty_segments : ds;
-      if (slot != kNoSlot) {
-        const vec3 uvw = atlas_uvw(volume, slot, p_voxel - low);
-        float density = density_in_brick(volume, slot, p_voxel - low, uvw);
+      const float in_brick = max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds - jitter));
+      const float t_next = t + ds * in_brick;
+      const uint slot = slot_at(volume, ivec3(low) / kBrickVoxels);
+      if (slot == kNoSlot) {
+        t = t_next;
+        continue;
+      }
+      const vec3 corner = atlas_corner(volume, slot);
+      for (const float t_stop = min(t_next - 0.5 * ds, t_end); t < t_stop; t += ds) {
+        const float segment = min(ds, t_end - t);
+        const vec3 local_voxel = origin + per_metre * (t + jitter * segment) - low;
+        const vec3 uvw = (corner + local_voxel) * texel;
+        float density = density_in_brick(slot, local_voxel, uvw);
         ++samples;
-        if (density > 0.0) {
-          const vec3 p_world = volume.origin_world + p_voxel * volume.voxel_size;
-          density = carved(density, p_world, hole_mask);
+        if (density > 0.0 && noisy) {
+          density = carved(density, volume.origin_world + (low + local_voxel) * volume.voxel_size, hole_mask);
           ++samples;
         }
-        // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
         if (density > 0.0) {
+          // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
           const float passed = exp(-frame.look.extinction * density * segment);
           radiance += transmittance * (1.0 - passed) * textureLod(inscatter_atlas, uvw, 0.0).rgb;
           transmittance *= passed;
           ++samples;
+          if (transmittance < frame.look.stop) {
+            transmittance = 0.0;
+            t = t_end;
+          }
         }
-      }
-      if (transmittance < frame.look.stop) {
-        transmittance = 0.0;
-        break;
       }
     }
     radiance *= frame.look.albedo;

@@ -19,12 +19,15 @@ uint slot_at(SmokeVolumeFrame volume, ivec3 brick) {
   return pages[b.x + volume.window_size.x * (b.y + volume.window_size.y * b.z)] - 1u;
 }
 
-/// Where a point of a brick lies in the atlas, in 0..1. local_voxel: the point less the brick's low corner, [0, 8].
-vec3 atlas_uvw(SmokeVolumeFrame volume, uint slot, vec3 local_voxel) {
+/// Where a brick's low corner lies in the atlas, in texels.
+vec3 atlas_corner(SmokeVolumeFrame volume, uint slot) {
   const uvec3 bricks = uvec3(volume.atlas_bricks);
   const uvec3 at = uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y));
-  return (vec3(at * uint(kBrickTexels)) + local_voxel + 1.0) / vec3(bricks * uint(kBrickTexels));
+  return vec3(at * uint(kBrickTexels)) + 1.0;
 }
+
+/// One over the atlas's size in texels.
+vec3 atlas_texel(SmokeVolumeFrame volume) { return 1.0 / vec3(volume.atlas_bricks * kBrickTexels); }
 
 /// Density of a boundary cell's corner set for a point of the brick.
 float boundary_density(uint slot, vec3 local_voxel) {
@@ -37,8 +40,9 @@ float boundary_density(uint slot, vec3 local_voxel) {
   return corner_set_density(corner_sets[record.first_set + boundary_side(record, f - 0.5)], f);
 }
 
-/// Density [0, 1] at a point of a brick that has a slot.
-float density_in_brick(SmokeVolumeFrame volume, uint slot, vec3 local_voxel, vec3 uvw) {
+/// Density [0, 1] at a point of a brick that has a slot; local_voxel: the point less the brick's low corner, uvw: where
+/// it lies in the atlas.
+float density_in_brick(uint slot, vec3 local_voxel, vec3 uvw) {
   const vec2 texel = textureLod(density_atlas, uvw, 0.0).rg;
   float density = texel.r;
   if (texel.g < 1.0 - 1.0 / 512.0) { density = boundary_density(slot, local_voxel); }
@@ -52,7 +56,7 @@ float smoke_density(SmokeVolumeFrame volume, vec3 p_voxel) {
   float density = 0.0;
   if (slot != kNoSlot) {
     const vec3 local_voxel = p_voxel - vec3(brick * kBrickVoxels);
-    density = density_in_brick(volume, slot, local_voxel, atlas_uvw(volume, slot, local_voxel));
+    density = density_in_brick(slot, local_voxel, (atlas_corner(volume, slot) + local_voxel) * atlas_texel(volume));
   }
   return density;
 }
