@@ -72,7 +72,7 @@ TEST(Voxelize, ExportsASceneThatLoads) {
   const Json room = json_of(run_brume(folder.path(), {"info", "room.obj", "--json", "-"}));
   const Json cubes = json_of(run_brume(folder.path(), {"info", "cubes.obj", "--json", "-"}));
   EXPECT_GT(cubes["triangles"], 12);
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     EXPECT_LE(cubes["bounds_min"][axis], room["bounds_min"][axis]);
     EXPECT_GE(cubes["bounds_max"][axis], room["bounds_max"][axis]);
   }
