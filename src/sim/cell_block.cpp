@@ -23,17 +23,52 @@ constexpr float kLeastApart = 0.5f;
 /// Planes that differ by more are two surfaces, not one that bends.
 constexpr float kLeastCosine = 0.5f;
 
-/// For a coordinate from the cell's centre the third, or the two thirds, of the 3x3x3 cells that it is in.
-std::uint32_t thirds(float x, std::uint32_t first, int stride) {
+/// For a stretch of an axis, from the cell's centre, the thirds of the 3x3x3 cells that it or a point within
+/// kOverlap of it is in: bits 0 to 2.
+unsigned thirds(float from, float to) {
   // Without floor(), which is a call on plain x86-64.
-  const int low = (x - kOverlap >= -0.5f) + (x - kOverlap >= 0.5f);
-  const int high = (x + kOverlap >= -0.5f) + (x + kOverlap >= 0.5f);
-  return first << (low * stride) | first << (high * stride);
+  const int low = (from - kOverlap >= -0.5f) + (from - kOverlap >= 0.5f);
+  const int high = (to + kOverlap >= -0.5f) + (to + kOverlap >= 0.5f);
+  return (2u << high) - (1u << low);
 }
+
+/// Cells of the 3x3x3, as Sheet::cells, that are in the given thirds of an axis.
+constexpr std::array<std::array<std::uint32_t, 8>, 3> make_cells_in_thirds() {
+  std::array<std::array<std::uint32_t, 8>, 3> cells{};
+  for (unsigned set = 0; set < 8; ++set)
+    for (unsigned i = 0; i < 27; ++i) {
+      cells[0][set] |= (set >> i % 3 & 1) << i;
+      cells[1][set] |= (set >> i / 3 % 3 & 1) << i;
+      cells[2][set] |= (set >> i / 9 & 1) << i;
+    }
+  return cells;
+}
+constexpr auto kCellsInThirds = make_cells_in_thirds();
 
 /// The cells that a point lies in or within kOverlap of, as Sheet::cells.
 std::uint32_t cells_around(glm::vec3 p) {
-  return thirds(p.x, 0x1249249u, 1) & thirds(p.y, 0x1c0e07u, 3) & thirds(p.z, 0x1ffu, 9);
+  return kCellsInThirds[0][thirds(p.x, p.x)] & kCellsInThirds[1][thirds(p.y, p.y)] &
+         kCellsInThirds[2][thirds(p.z, p.z)];
+}
+
+/// The voxels of a block with coordinate 0 along each axis, and how far apart in bits the next ones are.
+constexpr std::array<Block, 3> kFirstLayer{0x1111111111111111u, 0x000f000f000f000fu, 0xffffu};
+constexpr std::array<int, 3> kLayerStride{1, 4, 16};
+
+/// For each of the 3x3x3 cells the voxels to which the way from a point may come through it, axis by axis.
+std::array<Block, 27> ways_through_cells(glm::vec3 from) {
+  std::array<std::array<Block, 3>, 3> through{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 4; ++i) {
+      const float here = from[static_cast<int>(axis)], to = static_cast<float>(i) - 1.5f;
+      const unsigned set = thirds(std::min(here, to), std::max(here, to));
+      for (std::size_t third = 0; third < 3; ++third)
+        if (set >> third & 1) through[axis][third] |= kFirstLayer[axis] << i * kLayerStride[axis];
+    }
+  std::array<Block, 27> result;
+  for (std::size_t i = 0; i < 27; ++i)
+    result[i] = through[0][i % 3] & through[1][i / 3 % 3] & through[2][i / 9];
+  return result;
 }
 
 /// Whether b is a continued within the given bounds, whichever way it faces.
@@ -152,11 +187,15 @@ Block CellSight::on_side(int side, Block among) const {
 }
 
 Block CellSight::seen_from(glm::vec3 viewpoint, Block among) const {
+  const std::array<Block, 27> ways = ways_through_cells(viewpoint);
   for (const Sheet& sheet : sheets_) {
     const float here = glm::dot(sheet.normal, viewpoint) - sheet.offset;
-    // Only voxels beyond the plane can be hidden by it.
-    for (Block beyond = among & (here > 0 ? ~sheet.positive : sheet.positive); beyond != 0;
-         beyond &= beyond - 1) {
+    // Only voxels beyond the plane can be hidden by it, and only where their way comes through its cells.
+    Block beyond = 0;
+    for (std::uint32_t cells = sheet.cells; cells != 0; cells &= cells - 1)
+      beyond |= ways[static_cast<std::size_t>(std::countr_zero(cells))];
+    beyond &= among & (here > 0 ? ~sheet.positive : sheet.positive);
+    for (; beyond != 0; beyond &= beyond - 1) {
       const int bit = std::countr_zero(beyond);
       const float there = sheet.distance[static_cast<std::size_t>(bit)];
       const glm::vec3 crossing = viewpoint + (from_cell_centre(bit) - viewpoint) * (here / (here - there));
