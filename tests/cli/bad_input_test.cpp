@@ -134,13 +134,13 @@ TEST(BadInput, FilesThatMayNotGrow) {
 
 TEST(BadInput, FullDisk) {
   const WorkFolder folder;
-  // Mounts of a namespace of our own: the next process does not see them.
-  if (::unshare(CLONE_NEWNS) != 0 || ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) {
-    GTEST_SKIP() << "only root can mount a small disk; FilesThatMayNotGrow has run";
-  }
-  std::filesystem::create_directory(folder.path() / "disk");
   const auto disk = folder.path() / "disk";
-  ASSERT_EQ(::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=4k"), 0);
+  std::filesystem::create_directory(disk);
+  // In a namespace of our own, so that nothing stays mounted when this process ends.
+  if (::unshare(CLONE_NEWNS) == 0) ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=4k") != 0) {
+    GTEST_SKIP() << "no small disk can be mounted here, which takes root; FilesThatMayNotGrow has run";
+  }
   folder.write("room.obj", room_obj());
   expect_failure(folder, {"voxelize", "room.obj", "--voxel", "0.05", "-o", "disk/a.vxl"}, 4,
                  {"disk/a.vxl", "space"});
