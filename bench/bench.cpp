@@ -74,9 +74,9 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
   for (const std::string& name : names) {
     if (std::any_of(cases.begin(), cases.end(), [&](const Case& one) { return wanted(one.name, {name}); }))
       continue;
-    std::string known;
-    for (const Case& one : cases) known += (known.empty() ? "" : ", ") + one.name;
-    return Failure{ErrorCode::usage, "no benchmark \"" + name + "\"; there are: " + known};
+    std::string message = "no benchmark \"" + name + "\"; there are";
+    for (const Case& one : cases) message.append(" ").append(one.name);
+    return Failure{ErrorCode::usage, message};
   }
   Bench bench(options);
   Report report;

@@ -19,7 +19,7 @@ using uint = std::uint32_t;
 #define SHARED_END }
 #define SHARED_FUNCTION inline
 #define SHARED_CONST constexpr
-#define SHARED_SIZE(type, bytes) static_assert(sizeof(type) == bytes)
+#define SHARED_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
 #else
 #define SHARED_BEGIN
 #define SHARED_END

@@ -241,7 +241,7 @@ void Recorder::upload(const Image& image, std::span<const Region> regions) {
   std::vector<VkBufferImageCopy> copies;
   const Buffer* source = nullptr;
   const auto flush_copies = [&] {
-    if (copies.empty()) return;
+    if (!source || copies.empty()) return;
     context_.vk().CmdCopyBufferToImage(commands_, source->handle(), image.handle(),
                                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                                        static_cast<std::uint32_t>(copies.size()), copies.data());

@@ -122,6 +122,7 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const sim::SmokeVolume& volume
     std::iota(slots.begin(), slots.end(), 0u);
   }
   std::vector<gpu::Recorder::Region> regions;
+  regions.reserve(slots.size());
   for (const std::uint32_t slot : slots) {
     regions.push_back({std::as_bytes(volume.texels(slot)),
                        slot_position(volume.frame().atlas_bricks, slot) * shared::kBrickTexels,

@@ -86,7 +86,8 @@ class BitGrid {
                 static_cast<std::size_t>(root_size_.y) * static_cast<std::size_t>(n.z));
   }
   static std::size_t node_index(glm::ivec3 b) {
-    return static_cast<std::size_t>((b.x & 7) + 8 * (b.y & 7) + 64 * (b.z & 7));
+    const glm::uvec3 in_node = glm::uvec3(b) & 7u;
+    return in_node.x + 8u * in_node.y + 64u * in_node.z;
   }
 
   GridFrame frame_;
