@@ -108,7 +108,8 @@ TEST_F(PlaybackTest, AWallCastsAShadow) {
 
 TEST_F(PlaybackTest, SmokeHidesTheWallAndAShotOpensIt) {
   scene::Scene scene = small_scene(false);
-  scene.materials[0].emission = glm::vec3(0.3f);  // the wall shines by itself: smoke also takes the lamp's light
+  scene.materials[0].emission =
+      glm::vec3(0.3f);  // the wall shines by itself: smoke also takes the lamp's light
   Stage stage = small_stage(std::move(scene));
   stage.timeline.smoke.albedo = glm::vec3(0);  // black smoke: what is bright is the wall
   stage.timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, 0.1f, 0.05f, 1.0f, 0.2f}};
