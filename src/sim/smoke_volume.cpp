@@ -40,6 +40,14 @@ SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, PlaneSource planes)
 SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, const voxel::SurfacePlanes& planes)
     : SmokeVolume(grid, [&planes](glm::ivec3 cell) { return planes.at(cell); }) {}
 
+std::uint32_t SmokeVolume::slot_at(glm::ivec3 brick) const {
+  const glm::ivec3 b = brick - frame_.window_origin;
+  if (glm::any(glm::lessThan(b, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(b, frame_.window_size)))
+    return kNoSlot;
+  const glm::u64vec3 at(b), size(frame_.window_size);
+  return page_table()[at.x + size.x * (at.y + size.y * at.z)] - 1;  // 0 wraps to kNoSlot
+}
+
 std::span<const Texel> SmokeVolume::texels(std::uint32_t slot) const {
   return std::span(texels_).subspan(texel_index(slot, {0, 0, 0}), shared::kTexelsPerBrick);
 }
@@ -143,24 +151,15 @@ void SmokeVolume::refresh(std::vector<std::uint8_t> densities, bool all) {
 }
 
 float sample_density(const SmokeVolume& volume, glm::vec3 position_voxel) {
-  // Page table.
-  const shared::SmokeVolumeFrame& frame = volume.frame();
   const glm::ivec3 brick(glm::floor(position_voxel / 8.0f));
-  const glm::ivec3 b = brick - frame.window_origin;
-  if (glm::any(glm::lessThan(b, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(b, frame.window_size)))
-    return 0;
-  const std::uint32_t page =
-      volume.page_table()[static_cast<std::size_t>(b.x) +
-                          static_cast<std::size_t>(frame.window_size.x) *
-                              (static_cast<std::size_t>(b.y) + static_cast<std::size_t>(frame.window_size.y) *
-                                                                   static_cast<std::size_t>(b.z))];
-  if (page == 0) return 0;
+  const std::uint32_t slot = volume.slot_at(brick);
+  if (slot == SmokeVolume::kNoSlot) return 0;
 
   // Trilinear density and share of free corners.
   const glm::ivec3 cell(glm::floor(position_voxel - 0.5f));
   const glm::vec3 f = position_voxel - 0.5f - glm::vec3(cell);
   const glm::ivec3 in_brick = cell - 8 * brick + 1;
-  const std::span<const Texel> texels = volume.texels(page - 1);
+  const std::span<const Texel> texels = volume.texels(slot);
   glm::uvec2 densities(0), frees(0);
   for (int corner = 0; corner < 8; ++corner) {
     const Texel texel =
@@ -173,7 +172,7 @@ float sample_density(const SmokeVolume& volume, glm::vec3 position_voxel) {
 
   // A solid corner: the set for the point's side of the surface.
   const std::uint32_t entry =
-      volume.cells(page - 1)[static_cast<std::size_t>(in_brick.x + 9 * (in_brick.y + 9 * in_brick.z))];
+      volume.cells(slot)[static_cast<std::size_t>(in_brick.x + 9 * (in_brick.y + 9 * in_brick.z))];
   if (entry == 0) return 0;  // no smoke near
   const shared::BoundaryCell& boundary = volume.boundary_cells()[entry - 1];
   const std::uint32_t side = shared::boundary_side(boundary, f - 0.5f);

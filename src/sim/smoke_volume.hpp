@@ -38,6 +38,10 @@ class SmokeVolume {
   /// Slot + 1 or 0 for each brick of the window; empty when there is no smoke.
   std::span<const std::uint32_t> page_table() const { return structure_.page_table; }
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(structure_.bricks.size()); }
+  /// What slot_at returns where there is no smoke.
+  static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
+  /// The slot of a brick (voxel / 8, rounded down), or kNoSlot.
+  std::uint32_t slot_at(glm::ivec3 brick) const;
   /// kTexelsPerBrick texels, x + 10 (y + 10 z).
   std::span<const Texel> texels(std::uint32_t slot) const;
   /// kCellsPerBrick entries: boundary cell + 1, or 0.
