@@ -4,6 +4,7 @@
 #include "core/tasks.hpp"
 #include "scene/load.hpp"
 #include "sim/fill.hpp"
+#include "stage/world_triangles.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -17,7 +18,7 @@ Result<std::vector<voxel::Triangle>> motel_triangles() {
   if (!path) return path.failure();
   auto scene = scene::load_scene(*path);
   if (!scene) return scene.failure();
-  return voxel::world_triangles(*scene);
+  return stage::world_triangles(*scene);
 }
 
 Result<std::vector<Measurement>> voxelize_triangles(const Bench& bench, const std::string& name,
@@ -41,7 +42,7 @@ Result<std::vector<Measurement>> voxelize_demo(Bench& bench) {
   if (!scene) return scene.failure();
   // The timeline's box, 512 voxels along its longer sides.
   const voxel::GridFrame frame{{512, 171, 512}, 28.5f / 512, {-14.1f, -0.35f, -12.1f}};
-  return voxelize_triangles(bench, "voxelize/demo@512", voxel::world_triangles(*scene), frame, 15);
+  return voxelize_triangles(bench, "voxelize/demo@512", stage::world_triangles(*scene), frame, 15);
 }
 
 /// Fills on one core, in the open and in the motel where that is there.

@@ -12,7 +12,7 @@ constexpr glm::uvec2 k1080p{1920, 1080};
 
 /// One grown smoke of 1,800 voxels of half a metre in the yard of the demo scene, seen from 6 m away: it
 /// fills the view.
-Result<render::Stage> smoke_in_the_yard() {
+Result<stage::Stage> smoke_in_the_yard() {
   auto timeline = scene::load_timeline(BRUME_SCENES_DIR "/demo.toml");
   if (!timeline) return timeline.failure();
   timeline->grid = {0.5f, glm::ivec3(57, 19, 57), glm::vec3(-14.1f, -0.35f, -12.1f)};
@@ -21,14 +21,14 @@ Result<render::Stage> smoke_in_the_yard() {
   timeline->smokes = {{0, {0, 3, 7}, {0, 0.3f, 6}}};
   timeline->shots.clear();
   timeline->camera = {{0, {{0, 1.8f, 12}, {0, 2.2f, 6}, 1.0472f}}};
-  return render::make_stage(std::move(*timeline), {});
+  return stage::make_stage(std::move(*timeline), {});
 }
 
 /// A frame that can be drawn again and again.
 class RepeatedFrame {
  public:
-  RepeatedFrame(gpu::Context& context, const render::Stage& stage, glm::uvec2 size, bool count_samples)
-      : simulation_(render::Simulation::create(stage).value_or_throw()),
+  RepeatedFrame(gpu::Context& context, const stage::Stage& stage, glm::uvec2 size, bool count_samples)
+      : simulation_(stage::Simulation::create(stage).value_or_throw()),
         runner_(context),
         renderer_(context, runner_, stage.scene, {size, count_samples}),
         counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
@@ -57,7 +57,7 @@ class RepeatedFrame {
 
  private:
   static constexpr double kGrown = 4;  // [s]
-  std::unique_ptr<render::Simulation> simulation_;
+  std::unique_ptr<stage::Simulation> simulation_;
   gpu::CommandRunner runner_;
   render::Renderer renderer_;
   gpu::Buffer counter_;
@@ -66,7 +66,7 @@ class RepeatedFrame {
 };
 
 /// Texture samples that the march takes for a frame.
-double count_texture_samples(gpu::Context& context, const render::Stage& stage) {
+double count_texture_samples(gpu::Context& context, const stage::Stage& stage) {
   RepeatedFrame frame(context, stage, k1080p, true);
   frame.draw();
   return frame.texture_samples();

@@ -34,7 +34,7 @@ void demo(const Options& options, const CommonOptions& common) {
   check_output(picture);
   check_output(film);
 
-  const render::Stage stage = render::load_stage(BRUME_SCENES_DIR "/demo.toml", {}).value_or_throw();
+  const stage::Stage stage = stage::load_stage(BRUME_SCENES_DIR "/demo.toml", {}).value_or_throw();
   stop_if_interrupted();
   gpu::Context context({options.device, false});
   const double seconds = static_cast<double>(stage.timeline.duration);

@@ -8,7 +8,7 @@
 #include "image/decode.hpp"
 #include "scene/load.hpp"
 #include "scene/timeline.hpp"
-#include "voxel/vxl_file.hpp"
+#include "stage/vxl_file.hpp"
 
 namespace brume::cli {
 namespace {
@@ -62,7 +62,7 @@ Json image_info(const std::filesystem::path& path) {
 }
 
 Json voxel_info(const std::filesystem::path& path) {
-  const auto contents = voxel::load_vxl(path, std::nullopt).value_or_throw();
+  const auto contents = stage::load_vxl(path, std::nullopt).value_or_throw();
   BRUME_ASSERT(contents.has_value(), "any key is taken");
   const voxel::GridFrame& frame = contents->grid.frame();
   return {{"kind", "voxels"},

@@ -61,7 +61,7 @@ Plan make_plan(const Options& options) {
   return plan;
 }
 
-render::Stage load(const Options& options, const Plan& plan) {
+stage::Stage load(const Options& options, const Plan& plan) {
   const std::filesystem::path input = options.input;
   const bool is_timeline = input.extension() == ".toml";
   if (is_timeline && !options.timeline.empty()) {
@@ -72,9 +72,9 @@ render::Stage load(const Options& options, const Plan& plan) {
         scene::load_timeline(is_timeline ? options.input : options.timeline).value_or_throw();
     if (!is_timeline) timeline.scene = input;
     timeline.smokes.insert(timeline.smokes.begin(), plan.smokes.begin(), plan.smokes.end());
-    return render::make_stage(std::move(timeline), {}).value_or_throw();
+    return stage::make_stage(std::move(timeline), {}).value_or_throw();
   }
-  render::Stage stage = render::load_stage(input, {}).value_or_throw();
+  stage::Stage stage = stage::load_stage(input, {}).value_or_throw();
   if (!plan.smokes.empty()) stage.timeline.smokes = plan.smokes;
   return stage;
 }
@@ -138,7 +138,7 @@ void write(const Options& options, const Plan& plan, const CommonOptions& common
 
 void render(const Options& options, const CommonOptions& common) {
   const Plan plan = make_plan(options);
-  const render::Stage stage = load(options, plan);
+  const stage::Stage stage = load(options, plan);
   stop_if_interrupted();
   gpu::Context context({options.device, false});
   render::Playback playback(context, stage, plan.size_px);

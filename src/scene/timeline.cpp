@@ -5,6 +5,7 @@
 
 #include "core/file.hpp"
 #include "scene/ray.hpp"
+#include "scene/text_reader.hpp"
 #include "scene/toml_table.hpp"
 
 namespace brume::scene {
@@ -45,8 +46,13 @@ class TimelineReader {
     if (!outcome) return outcome.failure();
 
     const auto earlier = [](const auto& a, const auto& b) { return a.time < b.time; };
-    std::stable_sort(timeline_.smokes.begin(), timeline_.smokes.end(), earlier);
-    std::stable_sort(timeline_.shots.begin(), timeline_.shots.end(), earlier);
+    const auto sort = [&](auto& list) { std::stable_sort(list.begin(), list.end(), earlier); };
+    sort(timeline_.smokes);
+    sort(timeline_.shots);
+    sort(timeline_.blasts);
+    sort(timeline_.moves);
+    sort(timeline_.edits);
+    sort(timeline_.doors);
     return std::move(timeline_);
   }
 
@@ -64,6 +70,8 @@ class TimelineReader {
     SmokeOptions& smoke = timeline_.smoke;
     table.read("voxels", smoke.voxels, 1, 1 << 24);
     table.read("bloom", smoke.bloom, 0.05, 60);
+    table.read("hold", smoke.hold, 0, kLatest);
+    table.read("dissolve", smoke.dissolve, 0.05, 60);
     table.read("extinction", smoke.extinction, 0.01, 100);
     table.read("albedo", smoke.albedo, 0, 1);
     table.read("anisotropy", smoke.anisotropy, -0.9, 0.9);
@@ -106,7 +114,11 @@ class TimelineReader {
     table.read("type", type);
     if (type == "smoke") return read_smoke_event(table);
     if (type == "shot") return read_shot_event(table);
-    table.fail("type", "\"type\": expected \"smoke\" or \"shot\"");
+    if (type == "blast") return read_blast_event(table);
+    if (type == "move") return read_move_event(table);
+    if (type == "edit") return read_edit_event(table);
+    if (type == "door") return read_door_event(table);
+    table.fail("type", "\"type\": expected \"smoke\", \"shot\", \"blast\", \"move\", \"edit\" or \"door\"");
     return table.finish();
   }
 
@@ -137,6 +149,56 @@ class TimelineReader {
     return table.finish();
   }
 
+  Result<void> read_blast_event(TomlTable& table) {
+    BlastEvent event;
+    table.require("at");
+    table.read("time", event.time, 0, kLatest);
+    table.read("at", event.at_world, -kFarthest, kFarthest);
+    table.read("radius", event.radius, 0.1, 100);
+    table.read("speed", event.speed, 1, 10000);
+    table.read("left", event.left, 0, 1);
+    table.read("refill_rim", event.refill_rim, 0.01, 60);
+    table.read("refill_middle", event.refill_middle, 0.01, 60);
+    if (event.refill_middle < event.refill_rim)
+      table.fail("refill_middle", "\"refill_middle\": expected no less than \"refill_rim\"");
+    timeline_.blasts.push_back(event);
+    return table.finish();
+  }
+
+  Result<void> read_move_event(TomlTable& table) {
+    MoveEvent event;
+    for (const char* name : {"body", "to"}) table.require(name);
+    table.read("time", event.time, 0, kLatest);
+    table.read("body", event.body);
+    table.read("to", event.to_world, -kFarthest, kFarthest);
+    timeline_.moves.push_back(event);
+    return table.finish();
+  }
+
+  Result<void> read_edit_event(TomlTable& table) {
+    EditEvent event;
+    for (const char* name : {"low", "high", "solid"}) table.require(name);
+    table.read("time", event.time, 0, kLatest);
+    table.read("low", event.low_world, -kFarthest, kFarthest);
+    table.read("high", event.high_world, -kFarthest, kFarthest);
+    table.read("solid", event.solid);
+    if (!glm::all(glm::lessThan(event.low_world, event.high_world)))
+      table.fail("high", "\"high\": expected more than \"low\" along every axis");
+    timeline_.edits.push_back(event);
+    return table.finish();
+  }
+
+  Result<void> read_door_event(TomlTable& table) {
+    DoorEvent event;
+    for (const char* name : {"object", "open"}) table.require(name);
+    table.read("time", event.time, 0, kLatest);
+    table.read("object", event.object);
+    table.read("open", event.open);
+    event.place = table.place("object");
+    timeline_.doors.push_back(std::move(event));
+    return table.finish();
+  }
+
   const std::filesystem::path& path_;
   std::string file_;
   Timeline timeline_;
@@ -154,6 +216,22 @@ Result<Timeline> load_timeline(const std::filesystem::path& path) {
   const auto text = read_text_file(path, 1u << 24);
   if (!text) return text.failure();
   return parse_timeline(*text, path);
+}
+
+Result<void> check_doors(const Timeline& timeline, const Scene& scene) {
+  for (const DoorEvent& door : timeline.doors) {
+    const auto& objects = scene.objects;
+    if (std::any_of(objects.begin(), objects.end(), [&](const Object& o) { return o.name == door.object; }))
+      continue;
+    std::string message = door.place + ": the scene has no object " + in_quotes(door.object);
+    const auto distance = [&](const Object& o) { return edit_distance(o.name, door.object); };
+    const auto nearest =
+        std::min_element(objects.begin(), objects.end(),
+                         [&](const Object& a, const Object& b) { return distance(a) < distance(b); });
+    if (nearest != objects.end()) message += "; the nearest name is " + in_quotes(nearest->name);
+    return Failure{ErrorCode::bad_input, message};
+  }
+  return {};
 }
 
 Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scene) {

@@ -24,6 +24,8 @@ struct GridOptions {
 struct SmokeOptions {
   std::uint32_t voxels = 1800;  ///< How many voxels a grown smoke fills, [1, 16777216].
   float bloom = 1.0f;           ///< From going off to full size [s], [0.05, 60].
+  float hold = 18.0f;           ///< From there until it begins to dissolve [s], [0, 3600].
+  float dissolve = 3.0f;        ///< From there until nothing is left [s], [0.05, 60].
   float extinction = 3.0f;      ///< In dense smoke [1/m], [0.01, 100].
   glm::vec3 albedo{0.92f};      ///< Share of light that is scattered, per channel, [0, 1].
   float anisotropy = 0.2f;      ///< Henyey-Greenstein's g, [-0.9, 0.9]; above 0: forward.
@@ -62,6 +64,39 @@ struct ShotEvent {
   float fade = 0.35f;                ///< Closing [s], [0, 60].
 };
 
+/// An explosion opens a cavity in the smoke around it, which then fills again.
+struct BlastEvent {
+  double time = 0;  ///< [s], [0, 3600].
+  glm::vec3 at_world{0};
+  float radius = 5.0f;         ///< [m], [0.1, 100].
+  float speed = 32.0f;         ///< Of the front [m/s], [1, 10000].
+  float left = 0.02f;          ///< Share of the density that stays, [0, 1].
+  float refill_rim = 0.5f;     ///< Until the rim is full again [s], [0.01, 60].
+  float refill_middle = 5.0f;  ///< Until the middle is [s], [refill_rim, 60].
+};
+
+/// A body is at a place now; its first move puts it there.
+struct MoveEvent {
+  double time = 0;   ///< [s], [0, 3600].
+  std::string body;  ///< Its name: any text.
+  glm::vec3 to_world{0};
+};
+
+/// The voxels whose centres lie in a box become solid or free.
+struct EditEvent {
+  double time = 0;  ///< [s], [0, 3600].
+  glm::vec3 low_world{0}, high_world{1};
+  bool solid = true;
+};
+
+/// A door opens, which takes its objects out of the scene, or shuts, which puts them back.
+struct DoorEvent {
+  double time = 0;     ///< [s], [0, 3600].
+  std::string object;  ///< Name of the scene's objects that are the door.
+  bool open = true;
+  std::string place;  ///< "file:line:column" of the name, for messages.
+};
+
 struct Timeline {
   std::filesystem::path scene;  ///< Ready to open: what the file says, from the timeline's own folder.
   float duration = 4.0f;        ///< [s], [0.01, 3600].
@@ -71,19 +106,29 @@ struct Timeline {
   SkyOptions sky;
   std::vector<CameraKey> camera;   ///< By time, no two alike.
   std::vector<SmokeEvent> smokes;  ///< By time; those of the same time as in the file.
-  std::vector<ShotEvent> shots;    ///< The same.
+  std::vector<ShotEvent> shots;    ///< The same, and so for all kinds of events.
+  std::vector<BlastEvent> blasts;
+  std::vector<MoveEvent> moves;
+  std::vector<EditEvent> edits;
+  std::vector<DoorEvent> doors;
 };
 
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, the tables [grid] (voxel,
 /// size, origin), [smoke] and [sky] with the members above as keys, and [[camera]] (time, position, target,
-/// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at) or "shot"
-/// (time, from, toward, radius, reach, expand, stay, fade). Points in metres, [-10^6, 10^6]. Fails with
+/// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
+/// from, toward, radius, reach, expand, stay, fade), "blast" (time, at, radius, speed, left, refill_rim,
+/// refill_middle), "move" (time, body, to), "edit" (time, low, high, solid) or "door" (time, object, open).
+/// Points in metres, [-10^6, 10^6]. Whether a door's object exists, is seen by check_doors. Fails with
 /// bad_input and file:line:column for broken TOML, a key that is not known (naming the nearest that is), a
 /// value of the wrong type or out of its range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` is what messages call it and what its scene is relative to.
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path);
+
+/// Fails with bad_input at the first door whose object the scene does not have, naming the nearest that it
+/// has.
+Result<void> check_doors(const Timeline& timeline, const Scene& scene);
 
 /// The timeline of a scene file without one: a smoke thrown from the camera to what it looks at.
 Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scene);

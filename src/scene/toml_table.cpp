@@ -75,10 +75,17 @@ const toml::node* TomlTable::find(std::string_view key) {
   return failure_ ? nullptr : table_.get(key);
 }
 
+std::string TomlTable::place_of(const toml::source_region& where) const {
+  return file_ + ":" + std::to_string(where.begin.line) + ":" + std::to_string(where.begin.column);
+}
+
+std::string TomlTable::place(std::string_view key) const {
+  const toml::node* node = table_.get(key);
+  return place_of(node ? node->source() : table_.source());
+}
+
 void TomlTable::fail_at(const toml::source_region& where, const std::string& what) {
-  if (failure_) return;
-  failure_ = Failure{ErrorCode::bad_input, file_ + ":" + std::to_string(where.begin.line) + ":" +
-                                               std::to_string(where.begin.column) + ": " + what};
+  if (!failure_) failure_ = Failure{ErrorCode::bad_input, place_of(where) + ": " + what};
 }
 
 void TomlTable::fail(std::string_view key, const std::string& what) {
@@ -175,6 +182,16 @@ void TomlTable::read(std::string_view key, std::string& value) {
     value = text->get();
   } else {
     fail_at(node->source(), expected(key, "a text in quotes"));
+  }
+}
+
+void TomlTable::read(std::string_view key, bool& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (const auto* found = node->as_boolean()) {
+    value = found->get();
+  } else {
+    fail_at(node->source(), expected(key, "true or false"));
   }
 }
 

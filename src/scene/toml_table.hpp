@@ -31,11 +31,14 @@ class TomlTable {
   void read(std::string_view key, std::optional<glm::vec3>& value, double least, double most);
   void read(std::string_view key, std::optional<glm::ivec3>& value, std::int64_t least, std::int64_t most);
   void read(std::string_view key, std::string& value);
+  void read(std::string_view key, bool& value);
   /// A table of the table; nothing when the key is missing.
   const toml::table* table(std::string_view key);
   /// The tables of an array of tables.
   std::vector<const toml::table*> tables(std::string_view key);
 
+  /// "file:line:column" of a key's value; of the table where the key is missing.
+  std::string place(std::string_view key) const;
   /// Fails where the key is missing.
   void require(std::string_view key);
   /// Fails at a key's value (at the table where the key is missing).
@@ -45,6 +48,7 @@ class TomlTable {
 
  private:
   const toml::node* find(std::string_view key);
+  std::string place_of(const toml::source_region& where) const;
   void fail_at(const toml::source_region& where, const std::string& what);
   std::optional<double> number(const toml::node& node, std::string_view key, double least, double most);
   std::optional<std::int64_t> whole(const toml::node& node, std::string_view key, std::int64_t least,

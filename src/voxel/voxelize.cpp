@@ -233,19 +233,20 @@ Result<void> check_frame(const GridFrame& frame) {
   return {};
 }
 
-Result<GridFrame> frame_around(const scene::Bounds& bounds, float voxel_size, int margin_voxels) {
+Result<GridFrame> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
+                               int margin_voxels) {
   GridFrame frame{ivec3(1), voxel_size, glm::vec3(0)};
   if (auto checked = check_frame(frame); !checked) return checked.failure();
   if (margin_voxels < 0)
     return Failure{ErrorCode::usage,
                    "grid: margin " + std::to_string(margin_voxels) + "; give 0 or more voxels"};
   for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis]) ||
-        bounds.min[axis] > bounds.max[axis])
+    if (!std::isfinite(low_world[axis]) || !std::isfinite(high_world[axis]) ||
+        low_world[axis] > high_world[axis])
       return Failure{ErrorCode::bad_input,
                      "grid: nothing to lay it around; the scene has no finite triangle"};
-    const double low = std::floor(double{bounds.min[axis]} / voxel_size) - margin_voxels;
-    const double high = std::ceil(double{bounds.max[axis]} / voxel_size) + margin_voxels;
+    const double low = std::floor(double{low_world[axis]} / voxel_size) - margin_voxels;
+    const double high = std::ceil(double{high_world[axis]} / voxel_size) + margin_voxels;
     const double size = std::max(high - low, 1.0);
     if (!(size <= kMaxAxis))
       return Failure{ErrorCode::resource_limit,

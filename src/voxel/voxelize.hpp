@@ -4,9 +4,8 @@
 #include <span>
 
 #include "core/error.hpp"
-#include "scene/scene.hpp"
 #include "voxel/bit_grid.hpp"
-#include "voxel/triangles.hpp"
+#include "voxel/triangle.hpp"
 
 namespace brume::voxel {
 
@@ -14,10 +13,11 @@ namespace brume::voxel {
 /// finite origin. Otherwise `usage` (resource_limit for an axis above kMaxAxis), in one line.
 Result<void> check_frame(const GridFrame& frame);
 
-/// The frame of whole voxels around `bounds` with `margin_voxels` (>= 0) more on every side; its origin is a
-/// multiple of the voxel size. Fails with bad_input for empty or infinite bounds, usage for a bad voxel size
-/// or margin, resource_limit when an axis would pass kMaxAxis.
-Result<GridFrame> frame_around(const scene::Bounds& bounds, float voxel_size, int margin_voxels);
+/// The frame of whole voxels around the box from `low` to `high` [m] with `margin_voxels` (>= 0) more on
+/// every side; its origin is a multiple of the voxel size. Fails with bad_input for an empty or infinite box,
+/// usage for a bad voxel size or margin, resource_limit when an axis would pass kMaxAxis.
+Result<GridFrame> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
+                               int margin_voxels);
 
 /// The voxels that a triangle touches. Voxels are closed boxes and triangles closed sets here: touching with
 /// a face, an edge or a corner counts, so that a wall exactly between two voxels makes both solid. What lies

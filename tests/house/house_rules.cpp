@@ -8,7 +8,7 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 10> kFolders{"core", "image",  "scene",  "voxel", "sim",
+constexpr std::array<std::string_view, 11> kFolders{"core", "image",  "scene",  "voxel", "sim", "stage",
                                                     "gpu",  "passes", "render", "bench", "apps"};
 
 // Every match's first group.

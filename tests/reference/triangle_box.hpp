@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "voxel/bit_grid.hpp"
-#include "voxel/triangles.hpp"
+#include "voxel/triangle.hpp"
 
 namespace brume::reference {
 

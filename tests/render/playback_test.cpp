@@ -49,7 +49,7 @@ scene::Scene small_scene(bool with_screen) {
   return scene;
 }
 
-Stage small_stage(scene::Scene scene) {
+stage::Stage small_stage(scene::Scene scene) {
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.001f), 0};
   timeline.smoke.voxels = 3000;
@@ -57,7 +57,7 @@ Stage small_stage(scene::Scene scene) {
   timeline.smoke.noise = 0;
   timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {0, 0.2f, 0}}};  // from outside of the picture
   const voxel::GridFrame frame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
-  auto voxels = voxel::load_or_voxelize(scene, frame, {}).value_or_throw();
+  auto voxels = stage::load_or_voxelize(scene, frame, {}).value_or_throw();
   const scene::Camera camera = *scene.camera;
   return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
 }
@@ -77,7 +77,7 @@ class PlaybackTest : public gpu::GpuTest {
 };
 
 TEST_F(PlaybackTest, TheSameMomentIsTheSamePicture) {
-  const Stage stage = small_stage(small_scene(true));
+  const stage::Stage stage = small_stage(small_scene(true));
   Playback playback(context(), stage, kSize);
   const auto first = playback.draw(0.8, 5).rgba;
   const auto early = playback.draw(0.1, 1).rgba;
@@ -88,7 +88,7 @@ TEST_F(PlaybackTest, TheSameMomentIsTheSamePicture) {
 }
 
 TEST_F(PlaybackTest, AwkwardSizes) {
-  const Stage stage = small_stage(small_scene(false));
+  const stage::Stage stage = small_stage(small_scene(false));
   for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(7, 5), glm::uvec2(33, 17)}) {
     Playback playback(context(), stage, size);
     const auto picture = playback.draw(1.2, 0);
@@ -97,7 +97,7 @@ TEST_F(PlaybackTest, AwkwardSizes) {
 }
 
 TEST_F(PlaybackTest, AWallCastsAShadow) {
-  const Stage open = small_stage(small_scene(false)), screened = small_stage(small_scene(true));
+  const stage::Stage open = small_stage(small_scene(false)), screened = small_stage(small_scene(true));
   Playback without(context(), open, kSize), with(context(), screened, kSize);
   const auto a = without.draw(0, 0), b = with.draw(0, 0);
   // Right of the screen the lamp, which hangs left of it, does not reach the back wall.
@@ -110,7 +110,7 @@ TEST_F(PlaybackTest, SmokeHidesTheWallAndAShotOpensIt) {
   scene::Scene scene = small_scene(false);
   scene.materials[0].emission =
       glm::vec3(0.3f);  // the wall shines by itself: smoke also takes the lamp's light
-  Stage stage = small_stage(std::move(scene));
+  stage::Stage stage = small_stage(std::move(scene));
   stage.timeline.smoke.albedo = glm::vec3(0);  // black smoke: what is bright is the wall
   stage.timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, 0.1f, 0.05f, 1.0f, 0.2f}};
   Playback playback(context(), stage, kSize);
@@ -130,7 +130,7 @@ TEST_F(PlaybackTest, SmokeDimsTheSurfacesBehindIt) {
   // A puff on the floor, a low lamp left of it, and a place on the floor to its right.
   scene::Scene scene = small_scene(false);
   scene.lights[0].position_world = {-3, 1, 0};
-  Stage stage = small_stage(std::move(scene));
+  stage::Stage stage = small_stage(std::move(scene));
   stage.timeline.smoke.voxels = 150;
   stage.timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {-0.9f, 0, 0}}};
   Playback playback(context(), stage, kSize);
@@ -142,7 +142,7 @@ TEST_F(PlaybackTest, SmokeDimsTheSurfacesBehindIt) {
 }
 
 TEST_F(PlaybackTest, TheGrenadeFlies) {
-  Stage stage = small_stage(small_scene(false));
+  stage::Stage stage = small_stage(small_scene(false));
   stage.timeline.smokes = {{0.5, {-2, 1.5f, 2}, {2, 1.5f, 2}}};
   Playback playback(context(), stage, kSize);
   const auto before = playback.draw(0.4, 0), flying = playback.draw(0.6, 0);
@@ -150,7 +150,7 @@ TEST_F(PlaybackTest, TheGrenadeFlies) {
 }
 
 TEST_F(PlaybackTest, MoreHolesThanAreDrawnAreNoError) {
-  Stage stage = small_stage(small_scene(false));
+  stage::Stage stage = small_stage(small_scene(false));
   for (int i = 0; i < 100; ++i) {
     stage.timeline.shots.push_back(
         {2, {0, 1.5f, 5.4f}, {0.01f * static_cast<float>(i), 1.5f, 0}, 0.1f, 0.1f, 0.05f, 5.0f, 0.2f});

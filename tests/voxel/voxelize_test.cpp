@@ -226,32 +226,14 @@ TEST(Voxelize, RefusesFramesThatAreNone) {
 }
 
 TEST(FrameAround, HoldsTheBoundsAndItsMargin) {
-  const auto frame = frame_around({{-1.2f, 0, 3.1f}, {2.6f, 0, 4.9f}}, 0.5f, 2);
+  const auto frame = frame_around({-1.2f, 0, 3.1f}, {2.6f, 0, 4.9f}, 0.5f, 2);
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->size, ivec3(9 + 4, 1 * 0 + 4, 4 + 4));
   EXPECT_EQ(frame->origin_world, vec3(-2.5f, -1.0f, 2.0f));
-  EXPECT_EQ(frame_around(scene::Bounds{}, 0.5f, 2).failure().code, ErrorCode::bad_input);
-  EXPECT_EQ(frame_around({vec3(-1e30f), vec3(1e30f)}, 0.5f, 2).failure().code, ErrorCode::resource_limit);
-  EXPECT_EQ(frame_around({vec3(0), vec3(1)}, 0, 2).failure().code, ErrorCode::usage);
-  EXPECT_EQ(frame_around({vec3(0), vec3(1)}, 1, -2).failure().code, ErrorCode::usage);
-}
-
-TEST(WorldTriangles, TakesVoxelizedObjectsOnly) {
-  scene::Scene scene;
-  scene::Mesh mesh;
-  mesh.vertices.resize(3);
-  mesh.vertices[1].position = {1, 0, 0};
-  mesh.vertices[2].position = {0, 1, 0};
-  mesh.indices = {0, 1, 2};
-  scene.meshes.push_back(mesh);
-  scene::Object object;
-  object.mesh = 0;
-  object.world_from_mesh[3] = glm::vec4(5, 6, 7, 1);
-  scene.objects.push_back(object);
-  object.voxelized = false;
-  scene.objects.push_back(object);
-  const std::vector<Triangle> expected{{{5, 6, 7}, {6, 6, 7}, {5, 7, 7}}};
-  EXPECT_EQ(world_triangles(scene), expected);
+  EXPECT_EQ(frame_around(vec3(1), vec3(0), 0.5f, 2).failure().code, ErrorCode::bad_input);
+  EXPECT_EQ(frame_around(vec3(-1e30f), vec3(1e30f), 0.5f, 2).failure().code, ErrorCode::resource_limit);
+  EXPECT_EQ(frame_around(vec3(0), vec3(1), 0, 2).failure().code, ErrorCode::usage);
+  EXPECT_EQ(frame_around(vec3(0), vec3(1), 1, -2).failure().code, ErrorCode::usage);
 }
 
 }  // namespace

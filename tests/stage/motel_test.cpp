@@ -5,12 +5,18 @@
 #include <filesystem>
 
 #include "scene/load.hpp"
+#include "stage/world_triangles.hpp"
 #include "tests/reference/triangle_box.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"
 
-namespace brume::voxel {
+namespace brume::stage {
 namespace {
+
+using voxel::BitGrid;
+using voxel::GridFrame;
+using voxel::SurfacePlanes;
+using voxel::Triangle;
 
 std::filesystem::path motel() {
   const char* chosen = std::getenv("BRUME_MOTEL");
@@ -25,7 +31,7 @@ TEST(Motel, VoxelsEqualBruteForceAndPlanesLieInThem) {
   ASSERT_TRUE(scene) << scene.failure().message;
   const std::vector<Triangle> triangles = world_triangles(*scene);
   const GridFrame frame{{120, 20, 120}, 0.5f, glm::vec3(-30, 0, -30)};
-  const auto grid = voxelize(triangles, frame);
+  const auto grid = voxel::voxelize(triangles, frame);
   ASSERT_TRUE(grid);
 
   // Each triangle against the voxels of its box and a rim around.
@@ -61,4 +67,4 @@ TEST(Motel, VoxelsEqualBruteForceAndPlanesLieInThem) {
 }
 
 }  // namespace
-}  // namespace brume::voxel
+}  // namespace brume::stage

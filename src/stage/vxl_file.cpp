@@ -1,4 +1,4 @@
-#include "voxel/vxl_file.hpp"
+#include "stage/vxl_file.hpp"
 
 #include <zstd.h>
 
@@ -13,12 +13,20 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
+#include "stage/world_triangles.hpp"
 #include "voxel/voxelize.hpp"
 
-namespace brume::voxel {
+namespace brume::stage {
 namespace {
 
 using glm::ivec3;
+using voxel::BitGrid;
+using voxel::GridFrame;
+using voxel::kBrickSize;
+using voxel::kMaxPlanes;
+using voxel::Plane;
+using voxel::SurfacePlanes;
+using voxel::Triangle;
 
 static_assert(std::endian::native == std::endian::little, "the format is what memory holds");
 
@@ -235,7 +243,7 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
 
   // Can it be what it says?
   const GridFrame frame{header.size, header.voxel_size, header.origin_world};
-  if (!check_frame(frame)) return damaged("a voxel cache with an impossible grid");
+  if (!voxel::check_frame(frame)) return damaged("a voxel cache with an impossible grid");
   const auto length = payload_bytes(header);
   if (!length) return damaged("a voxel cache with impossible counts");
   std::vector<std::byte> payload(*length);
@@ -268,7 +276,7 @@ Result<void> save_vxl(const std::filesystem::path& path, const VxlContents& cont
 
 Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridFrame& frame,
                                 const std::filesystem::path& cache_path) {
-  if (auto checked = check_frame(frame); !checked) return checked.failure();
+  if (auto checked = voxel::check_frame(frame); !checked) return checked.failure();
   const std::vector<Triangle> triangles = world_triangles(scene);
   const std::uint64_t key = vxl_key(triangles, frame);
   if (!cache_path.empty()) {
@@ -277,7 +285,7 @@ Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridFrame& fram
   }
 
   const auto start = std::chrono::steady_clock::now();
-  auto grid = voxelize(triangles, frame);
+  auto grid = voxel::voxelize(triangles, frame);
   const double milliseconds = milliseconds_since(start);
   if (!grid) return grid.failure();
   VxlContents contents{std::move(*grid), {}, triangles.size()};
@@ -288,4 +296,4 @@ Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridFrame& fram
   return Voxels{std::move(contents.grid), std::move(contents.planes), false, milliseconds, triangles.size()};
 }
 
-}  // namespace brume::voxel
+}  // namespace brume::stage

@@ -1,4 +1,4 @@
-#include "voxel/vxl_file.hpp"
+#include "stage/vxl_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,11 +10,14 @@
 #include "core/hash.hpp"
 #include "core/log.hpp"
 
-namespace brume::voxel {
+namespace brume::stage {
 namespace {
 
 using glm::ivec3;
 using glm::vec3;
+using voxel::BitGrid;
+using voxel::GridFrame;
+using voxel::Plane;
 
 constexpr std::uint64_t kKey = 42;
 
@@ -199,4 +202,4 @@ TEST_F(VxlFile, FailsWhereTheCacheCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace brume::voxel
+}  // namespace brume::stage

@@ -19,18 +19,18 @@
 #include "scene/scene.hpp"
 #include "voxel/bit_grid.hpp"
 #include "voxel/surface_planes.hpp"
-#include "voxel/triangles.hpp"
+#include "voxel/triangle.hpp"
 
-namespace brume::voxel {
+namespace brume::stage {
 
 struct VxlContents {
-  BitGrid grid;
-  SurfacePlanes planes;
+  voxel::BitGrid grid;
+  voxel::SurfacePlanes planes;
   std::uint64_t triangles = 0;  ///< How many the grid was made from.
 };
 
 /// What a cache stands for: hash of the triangles in world space, the frame and the version of the format.
-std::uint64_t vxl_key(std::span<const Triangle> triangles, const GridFrame& frame);
+std::uint64_t vxl_key(std::span<const voxel::Triangle> triangles, const voxel::GridFrame& frame);
 
 /// The bytes of a `.vxl` file. The same for the same contents.
 std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key);
@@ -49,8 +49,8 @@ Result<std::optional<VxlContents>> load_vxl(const std::filesystem::path& path,
 Result<void> save_vxl(const std::filesystem::path& path, const VxlContents& contents, std::uint64_t key);
 
 struct Voxels {
-  BitGrid grid;
-  SurfacePlanes planes;
+  voxel::BitGrid grid;
+  voxel::SurfacePlanes planes;
   bool cached = false;      ///< Read from the cache; nothing was voxelized.
   double milliseconds = 0;  ///< Time of voxelize() alone; 0 when cached.
   std::uint64_t triangles = 0;
@@ -59,7 +59,7 @@ struct Voxels {
 /// The voxels of a scene. A cache at `cache_path` (empty: none) that stands for this scene and frame is used;
 /// otherwise the scene is voxelized and the cache written. A file that is no sound cache is one warning and
 /// is written anew. Fails as check_frame does, and when the cache cannot be written.
-Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridFrame& frame,
+Result<Voxels> load_or_voxelize(const scene::Scene& scene, const voxel::GridFrame& frame,
                                 const std::filesystem::path& cache_path);
 
-}  // namespace brume::voxel
+}  // namespace brume::stage

@@ -1,9 +1,11 @@
-#include "voxel/triangles.hpp"
+#include "stage/world_triangles.hpp"
 
 #include "core/tasks.hpp"
 
-namespace brume::voxel {
+namespace brume::stage {
 namespace {
+
+using voxel::Triangle;
 
 // One object's triangles and where they go in the list.
 struct Part {
@@ -37,4 +39,12 @@ std::vector<Triangle> world_triangles(const scene::Scene& scene) {
   return triangles;
 }
 
-}  // namespace brume::voxel
+std::vector<Triangle> object_triangles(const scene::Scene& scene, const scene::Object& object) {
+  if (object.mesh == scene::kNone) return {};
+  const scene::Mesh& mesh = scene.meshes[object.mesh];
+  std::vector<Triangle> triangles(mesh.indices.size() / 3);
+  place_object(object, mesh, triangles.data());
+  return triangles;
+}
+
+}  // namespace brume::stage

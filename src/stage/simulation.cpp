@@ -1,0 +1,105 @@
+#include "stage/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brume::stage {
+namespace {
+
+std::uint32_t milliseconds(float seconds) {
+  return static_cast<std::uint32_t>(std::lround(seconds * 1000));
+}
+
+std::uint32_t units(float metres) {
+  return static_cast<std::uint32_t>(std::lround(metres * sim::kUnitsPerMetre));
+}
+
+sim::Position position(glm::vec3 world) {
+  return sim::position_from_metres(glm::dvec3(world));
+}
+
+sim::SmokeSettings smoke_settings(const scene::SmokeOptions& smoke, std::uint32_t ticks_per_second) {
+  sim::SmokeSettings settings;
+  settings.voxels = smoke.voxels;
+  settings.bloom_ticks = std::max(1u, tick_at(double{smoke.bloom}, ticks_per_second));
+  settings.hold_ticks = tick_at(double{smoke.hold}, ticks_per_second);
+  settings.dissolve_ticks = std::max(1u, tick_at(double{smoke.dissolve}, ticks_per_second));
+  return settings;
+}
+
+sim::Shot shot_of(const scene::ShotEvent& event, std::uint32_t tick) {
+  sim::Shot shot;
+  shot.tick = tick;
+  shot.origin = position(event.from_world);
+  shot.toward = position(event.toward_world);
+  shot.radius = units(event.radius);
+  shot.timing = {milliseconds(event.reach), milliseconds(event.expand), milliseconds(event.stay),
+                 milliseconds(event.fade)};
+  return shot;
+}
+
+sim::Blast blast_of(const scene::BlastEvent& event, std::uint32_t tick) {
+  sim::Blast blast;
+  blast.tick = tick;
+  blast.at = position(event.at_world);
+  blast.radius = units(event.radius);
+  blast.speed = units(event.speed);
+  blast.left = static_cast<std::uint32_t>(std::lround(event.left * 255));
+  blast.refill_rim_ms = milliseconds(event.refill_rim);
+  blast.refill_middle_ms = milliseconds(event.refill_middle);
+  return blast;
+}
+
+}  // namespace
+
+std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second) {
+  // A time that was meant to be a tick may fall short of it by a rounding.
+  return static_cast<std::uint32_t>(std::floor(std::max(0.0, seconds) * ticks_per_second + 1e-9));
+}
+
+Result<std::vector<sim::Event>> events_of(const Stage& stage, std::uint32_t ticks_per_second) {
+  const scene::Timeline& timeline = stage.timeline;
+  const auto tick = [&](double seconds) { return tick_at(seconds, ticks_per_second); };
+  std::vector<sim::Event> events;
+  for (const scene::SmokeEvent& event : timeline.smokes)
+    events.push_back(sim::ThrowSmoke{tick(event.time), position(event.from_world), position(event.at_world),
+                                     smoke_settings(timeline.smoke, ticks_per_second)});
+  for (const scene::ShotEvent& event : timeline.shots) events.push_back(shot_of(event, tick(event.time)));
+  for (const scene::BlastEvent& event : timeline.blasts) events.push_back(blast_of(event, tick(event.time)));
+  std::vector<std::string> names;
+  for (const scene::MoveEvent& event : timeline.moves) {
+    const auto known = std::find(names.begin(), names.end(), event.body);
+    const auto body = static_cast<std::uint32_t>(known - names.begin());
+    if (known == names.end()) names.push_back(event.body);
+    events.push_back(sim::MoveBody{tick(event.time), body, position(event.to_world)});
+  }
+  std::stable_sort(events.begin(), events.end(), [](const sim::Event& a, const sim::Event& b) {
+    return sim::tick_of(a) < sim::tick_of(b);
+  });
+  for (const sim::Event& event : events) {
+    if (auto checked = sim::check_event(event, stage.voxels.grid.frame()); !checked) return checked.failure();
+  }
+  return events;
+}
+
+Simulation::Simulation(const Stage& stage)
+    : world_(stage.voxels.grid), volume_(stage.voxels.grid, [&planes = stage.voxels.planes](glm::ivec3 cell) {
+        return planes.at(cell);
+      }) {}
+
+Result<std::unique_ptr<Simulation>> Simulation::create(const Stage& stage) {
+  std::unique_ptr<Simulation> simulation(new Simulation(stage));
+  auto events = events_of(stage);
+  if (!events) return events.failure();
+  for (sim::Event& event : *events) {
+    if (auto done = simulation->world_.append(std::move(event)); !done) return done.failure();
+  }
+  return simulation;
+}
+
+void Simulation::advance_to(double seconds) {
+  world_.advance_to(tick_at(seconds, world_.settings().ticks_per_second));
+  volume_.update(world_);
+}
+
+}  // namespace brume::stage
