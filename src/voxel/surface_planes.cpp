@@ -19,6 +19,8 @@ using glm::ivec3;
 constexpr double kSameDirection = 0.9;
 // A cluster below 2 % of a voxel face is an edge that peeps into the cell; it would shift nothing visible.
 constexpr double kLeastArea = 0.02;
+// How near to a voxel a part of a surface is at it: more than floats misplace a face that is at its side.
+constexpr double kAtVoxel = 1e-3;
 constexpr std::size_t kTrianglesPerTask = 2048;
 
 // Space of this file: cell space = voxel space - 0.5, so that cell c covers [c, c + 1).
@@ -159,10 +161,19 @@ bool has_solid_corner(const BitGrid& grid, ivec3 cell) {
   return false;
 }
 
+bool at_solid_voxel(const BitGrid& grid, ivec3 cell, const dvec3& from_centre) {
+  const auto low = ivec3(glm::floor(from_centre - kAtVoxel)),
+             high = ivec3(glm::floor(from_centre + kAtVoxel));
+  bool found = false;
+  for_each_in({low, high + 1}, [&](ivec3 v) { found = found || grid.solid(cell + 1 + v); });
+  return found;
+}
+
 class SlabBuilder {
  public:
-  SlabBuilder(std::span<const Triangle> triangles, const BitGrid& grid)
-      : triangles_(triangles), grid_(grid) {}
+  SlabBuilder(std::span<const Triangle> triangles, const BitGrid& grid, const IntBox& cells,
+              std::span<const IntBox> cleared)
+      : triangles_(triangles), grid_(grid), cells_(cells), cleared_(cleared) {}
 
   Slab build(std::span<const std::uint32_t> members, int z) {
     pieces_.clear();
@@ -191,16 +202,48 @@ class SlabBuilder {
     if (!(length > 0) || !std::isfinite(length)) return;  // No area, no side.
     const dvec3 n = cross / length;
     slice(triangle, 2, z, z, [&](int, const Polygon& in_slab) {
-      slice(in_slab, 1, -1, frame.size.y - 1, [&](int y, const Polygon& in_row) {
-        slice(in_row, 0, -1, frame.size.x - 1, [&](int x, const Polygon& in_cell) {
-          Piece piece = measure(in_cell, n, dvec3(x, y, z) + 0.5);
-          if (!(piece.area > 0)) return;
-          piece.cell = static_cast<std::uint64_t>(x + 1) +
-                       (static_cast<std::uint64_t>(frame.size.x) + 1) * static_cast<std::uint64_t>(y + 1);
-          pieces_.push_back(piece);
+      slice(in_slab, 1, cells_.low.y, cells_.high.y - 1, [&](int y, const Polygon& in_row) {
+        slice(in_row, 0, cells_.low.x, cells_.high.x - 1, [&](int x, const Polygon& in_cell) {
+          if (touches_cleared({x, y, z})) {
+            add_octants(in_cell, n, {x, y, z});
+          } else {
+            add_piece(measure(in_cell, n, dvec3(x, y, z) + 0.5), {x, y, z});
+          }
         });
       });
     });
+  }
+
+  void add_piece(Piece piece, ivec3 cell) {
+    if (!(piece.area > 0)) return;
+    piece.cell = static_cast<std::uint64_t>(cell.x + 1) +
+                 (static_cast<std::uint64_t>(grid_.size().x) + 1) * static_cast<std::uint64_t>(cell.y + 1);
+    pieces_.push_back(piece);
+  }
+
+  bool touches_cleared(ivec3 cell) const {
+    return std::any_of(cleared_.begin(), cleared_.end(), [&](const IntBox& box) {
+      return !intersection(box, {cell, cell + 2}).empty();
+    });
+  }
+
+  // The parts in the eight voxels of the cell, as far as those or one beside them are solid.
+  void add_octants(const Polygon& in_cell, const dvec3& n, ivec3 cell) {
+    const dvec3 centre = dvec3(cell) + 0.5;
+    for (int octant = 0; octant < 8; ++octant) {
+      Polygon part = in_cell;
+      for (int axis = 0; axis < 3 && part.count >= 3; ++axis) {
+        const bool below = (octant >> axis & 1) == 0;
+        // What lies in the middle plane itself is above it.
+        const auto end = part.corners.begin() + part.count;
+        const bool all_above =
+            std::all_of(part.corners.begin(), end, [&](const dvec3& p) { return p[axis] >= centre[axis]; });
+        part = below && all_above ? Polygon{} : cut(part, axis, centre[axis], below);
+      }
+      if (part.count < 3) continue;
+      const Piece piece = measure(part, n, centre);
+      if (at_solid_voxel(grid_, cell, dvec3(piece.centroid))) add_piece(piece, cell);
+    }
   }
 
   Slab cluster_cells(int z) {
@@ -221,18 +264,20 @@ class SlabBuilder {
 
   std::span<const Triangle> triangles_;
   const BitGrid& grid_;
+  const IntBox cells_;
+  std::span<const IntBox> cleared_;
   std::vector<Piece> pieces_, gathered_;
   std::vector<std::uint32_t> order_;
   std::vector<Cluster> clusters_;
 };
 
-// Of each slab the triangles that reach into it, ascending: a counting sort by slab.
+// Of each slab of the cells from z = low_z on the triangles that reach into it, ascending: a counting sort.
 struct Members {
   std::vector<std::size_t> first;
   std::vector<std::uint32_t> triangles;
 
-  Members(std::span<const Triangle> all, const GridFrame& frame) {
-    const auto slabs = static_cast<std::size_t>(frame.size.z) + 1;
+  Members(std::span<const Triangle> all, const GridFrame& frame, int low_z, int high_z) {
+    const auto slabs = static_cast<std::size_t>(high_z - low_z);
     std::vector<std::pair<int, int>> range(all.size(), {0, -1});
     parallel_for(all.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -240,19 +285,19 @@ struct Members {
                      c = cell_from_world(frame, all[i].c).z;
         auto& [low, high] = range[i];
         if (!std::isfinite(a + b + c) ||
-            !cell_range(std::min({a, b, c}), std::max({a, b, c}), -1, frame.size.z - 1, low, high))
+            !cell_range(std::min({a, b, c}), std::max({a, b, c}), low_z, high_z - 1, low, high))
           low = 0, high = -1;
       }
     });
     first.assign(slabs + 1, 0);
     for (const auto& [low, high] : range)
-      for (int z = low; z <= high; ++z) ++first[static_cast<std::size_t>(z + 2)];
+      for (int z = low; z <= high; ++z) ++first[static_cast<std::size_t>(z - low_z + 1)];
     for (std::size_t z = 1; z <= slabs; ++z) first[z] += first[z - 1];
     triangles.resize(first[slabs]);
     std::vector<std::size_t> next(first.begin(), first.end() - 1);
     for (std::size_t i = 0; i < all.size(); ++i)
       for (int z = range[i].first; z <= range[i].second; ++z)
-        triangles[next[static_cast<std::size_t>(z + 1)]++] = static_cast<std::uint32_t>(i);
+        triangles[next[static_cast<std::size_t>(z - low_z)]++] = static_cast<std::uint32_t>(i);
   }
   std::span<const std::uint32_t> of(std::size_t slab) const {
     return std::span(triangles).subspan(first[slab], first[slab + 1] - first[slab]);
@@ -271,14 +316,25 @@ std::uint64_t scramble(std::uint64_t key) {
 }  // namespace
 
 SurfacePlanes SurfacePlanes::build(std::span<const Triangle> triangles, const BitGrid& grid) {
+  return build_in(triangles, grid, {ivec3(-1), grid.size()}, {});
+}
+
+SurfacePlanes SurfacePlanes::build_in(std::span<const Triangle> triangles, const BitGrid& grid,
+                                      const IntBox& cells, std::span<const IntBox> cleared) {
   BRUME_ASSERT(triangles.size() < 0xffffffffu, std::to_string(triangles.size()));
-  const Members members(triangles, grid.frame());
-  std::vector<Slab> slabs(static_cast<std::size_t>(grid.size().z) + 1);
-  parallel_for(slabs.size(), 1, [&](std::size_t begin, std::size_t end) {
-    SlabBuilder builder(triangles, grid);
-    for (std::size_t i = begin; i < end; ++i)
-      slabs[i] = builder.build(members.of(i), static_cast<int>(i) - 1);
-  });
+  BRUME_ASSERT((IntBox{ivec3(-1), grid.size()}.contains(cells)), "the cells are the grid's");
+  std::vector<Slab> slabs;
+  if (!cells.empty()) {
+    const Members members(triangles, grid.frame(), cells.low.z, cells.high.z);
+    slabs.resize(static_cast<std::size_t>(cells.high.z - cells.low.z));
+    // A few triangles are done before another thread has begun.
+    const std::size_t grain = triangles.size() < kTrianglesPerTask ? slabs.size() : 1;
+    parallel_for(slabs.size(), grain, [&](std::size_t begin, std::size_t end) {
+      SlabBuilder builder(triangles, grid, cells, cleared);
+      for (std::size_t i = begin; i < end; ++i)
+        slabs[i] = builder.build(members.of(i), cells.low.z + static_cast<int>(i));
+    });
+  }
 
   SurfacePlanes result;
   result.size_ = grid.size();

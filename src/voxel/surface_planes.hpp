@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "voxel/bit_grid.hpp"
+#include "voxel/int_box.hpp"
 #include "voxel/triangle.hpp"
 
 namespace brume::voxel {
@@ -41,6 +42,12 @@ class SurfacePlanes {
 
   /// Of the triangles that `grid` was voxelized from. The same planes whatever the number of threads.
   static SurfacePlanes build(std::span<const Triangle> triangles, const BitGrid& grid);
+
+  /// The same for the cells of a box alone, the others have no planes here. `cleared` are boxes of voxels
+  /// that were taken out of the triangles' own: in the cells that have a corner in one of them, only the
+  /// parts of the triangles count that lie in or at a voxel that is solid now.
+  static SurfacePlanes build_in(std::span<const Triangle> triangles, const BitGrid& grid, const IntBox& cells,
+                                std::span<const IntBox> cleared);
 
   /// The planes of a cell, the one with the largest area first: none where no surface runs through the cell,
   /// or the cell lies outside [-1, size - 1], at most kMaxPlanes.

@@ -60,10 +60,10 @@ struct Range {
 
 class TriangleScan {
  public:
-  TriangleScan(VoxelTriangle& t, ivec3 size, Pen& pen) : t_(t), pen_(pen) {
+  TriangleScan(VoxelTriangle& t, const IntBox& box, Pen& pen) : t_(t), pen_(pen) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto [from, to] = std::minmax({t.corners[0][axis], t.corners[1][axis], t.corners[2][axis]});
-      range_[axis] = Range(from, to, 0, size[axis] - 1);
+      range_[axis] = Range(from, to, box.low[axis], box.high[axis] - 1);
     }
   }
 
@@ -207,6 +207,14 @@ bool within_reach(const VoxelTriangle& t) {
   return true;
 }
 
+void draw(const Triangle& t, const GridFrame& frame, const IntBox& box, Pen& pen) {
+  const dvec3 origin(frame.origin_world);
+  const double voxel_size = frame.voxel_size;
+  VoxelTriangle in_voxels({(dvec3(t.a) - origin) / voxel_size, (dvec3(t.b) - origin) / voxel_size,
+                           (dvec3(t.c) - origin) / voxel_size});
+  if (within_reach(in_voxels)) TriangleScan(in_voxels, box, pen).run();
+}
+
 void merge(BitGrid& into, const BitGrid& from) {
   from.for_each_brick([&](ivec3 at, const BitGrid::Brick& brick) {
     BitGrid::Brick& target = into.ensure_brick(at);
@@ -264,24 +272,25 @@ Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridFrame& f
   const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(thread_count(), tasks));
   std::vector<BitGrid> grids(workers, BitGrid(frame));
   std::atomic<std::size_t> next{0};
-  const dvec3 origin(frame.origin_world);
-  const double voxel_size = frame.voxel_size;
+  const IntBox all{ivec3(0), frame.size};
 
   // Each worker draws triangles into a grid of its own. Or-ing the grids forgets who drew what.
   parallel_for(workers, 1, [&](std::size_t worker, std::size_t) {
     Pen pen(grids[worker]);
     for (std::size_t task; (task = next.fetch_add(1)) < tasks;) {
       const std::size_t end = std::min(triangles.size(), (task + 1) * kTrianglesPerTask);
-      for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) {
-        const Triangle& t = triangles[i];
-        VoxelTriangle in_voxels({(dvec3(t.a) - origin) / voxel_size, (dvec3(t.b) - origin) / voxel_size,
-                                 (dvec3(t.c) - origin) / voxel_size});
-        if (within_reach(in_voxels)) TriangleScan(in_voxels, frame.size, pen).run();
-      }
+      for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) draw(triangles[i], frame, all, pen);
     }
   });
   for (std::size_t worker = 1; worker < workers; ++worker) merge(grids[0], grids[worker]);
   return std::move(grids[0]);
+}
+
+void draw_triangles(std::span<const Triangle> triangles, const IntBox& box, BitGrid& grid) {
+  BRUME_ASSERT((IntBox{ivec3(0), grid.size()}.contains(box)), "the box lies in the grid");
+  if (box.empty()) return;
+  Pen pen(grid);
+  for (const Triangle& t : triangles) draw(t, grid.frame(), box, pen);
 }
 
 }  // namespace brume::voxel

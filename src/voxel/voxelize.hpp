@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "voxel/bit_grid.hpp"
+#include "voxel/int_box.hpp"
 #include "voxel/triangle.hpp"
 
 namespace brume::voxel {
@@ -32,5 +33,9 @@ Result<GridFrame> frame_around(glm::vec3 low_world, glm::vec3 high_world, float 
 ///
 /// Runs on all threads; the bits do not depend on their number. Fails as check_frame does.
 Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridFrame& frame);
+
+/// Makes those voxels of the box solid that voxelize would make solid, and changes no other: what voxelize
+/// does, for a part of the grid, on one thread. The box must lie in the grid.
+void draw_triangles(std::span<const Triangle> triangles, const IntBox& box, BitGrid& grid);
 
 }  // namespace brume::voxel

@@ -1,0 +1,271 @@
+#include "voxel/level.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "voxel/patched_planes.hpp"
+#include "voxel/voxelize.hpp"
+
+namespace brume::voxel {
+namespace {
+
+using glm::ivec3;
+using glm::vec3;
+using Random = std::mt19937_64;
+using Triangles = std::vector<Triangle>;
+
+float uniform(Random& random, float low, float high) {
+  return low + (high - low) * static_cast<float>(random() >> 40) / 16777216.0f;
+}
+int whole(Random& random, int low, int high) {
+  return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
+}
+
+/// A slab of triangles somewhere, partly outside of the grid; often on the voxels' own sides.
+Triangles random_part(Random& random, const GridFrame& frame) {
+  Triangles part;
+  const vec3 extent = frame.voxel_size * vec3(frame.size);
+  const bool snapped = random() % 2 == 0;
+  const auto corner = [&](vec3 around, float reach) {
+    vec3 p;
+    for (int axis = 0; axis < 3; ++axis) {
+      p[axis] = around[axis] + uniform(random, -reach, reach);
+      if (snapped) p[axis] = std::round(p[axis] / (0.5f * frame.voxel_size)) * (0.5f * frame.voxel_size);
+    }
+    return frame.origin_world + p;
+  };
+  const vec3 centre =
+      extent * vec3(uniform(random, -0.1f, 1.1f), uniform(random, -0.1f, 1.1f), uniform(random, -0.1f, 1.1f));
+  const float reach = frame.voxel_size * uniform(random, 0.3f, 6);
+  for (int i = whole(random, 0, 80); i > 0; --i)
+    part.push_back({corner(centre, reach), corner(centre, reach), corner(centre, reach)});
+  if (random() % 4 == 0) part.push_back({vec3(NAN), vec3(1), vec3(2)});
+  return part;
+}
+
+void expect_same_voxels(const BitGrid& a, const BitGrid& b, const char* what) {
+  int differing = 0;
+  for_each_in({ivec3(0), a.size()}, [&](ivec3 v) { differing += a.solid(v) != b.solid(v); });
+  ASSERT_EQ(differing, 0) << what;
+}
+
+template <typename A, typename B>
+void expect_same_planes(const A& a, const B& b, ivec3 size) {
+  int differing = 0;
+  for_each_in({ivec3(-1), size}, [&](ivec3 cell) {
+    const auto p = a.at(cell), q = b.at(cell);
+    differing += !std::equal(p.begin(), p.end(), q.begin(), q.end());
+  });
+  ASSERT_EQ(differing, 0);
+}
+
+/// The rule of a Level, without any of its haste: layers in order, all of the grid each time.
+struct Slow {
+  struct Layer {
+    std::uint32_t part;  // or none
+    IntBox box;
+    bool solid;
+  };
+  static constexpr std::uint32_t kNone = ~0u;
+  GridFrame frame;
+  std::vector<Triangles> parts;
+  std::vector<Layer> layers;
+
+  void hide(std::uint32_t part) {
+    std::erase_if(layers, [&](const Layer& l) { return l.part == part; });
+  }
+  bool shown(std::uint32_t part) const {
+    return std::any_of(layers.begin(), layers.end(), [&](const Layer& l) { return l.part == part; });
+  }
+  void put(std::uint32_t part) {
+    hide(part);
+    layers.push_back({part, {}, false});
+  }
+  BitGrid grid() const {
+    BitGrid grid(frame);
+    for (const Layer& layer : layers) {
+      if (layer.part == kNone) {
+        for_each_in(intersection(layer.box, {ivec3(0), frame.size}),
+                    [&](ivec3 v) { grid.set(v, layer.solid); });
+        continue;
+      }
+      const BitGrid drawn = voxelize(parts[layer.part], frame).value_or_throw();
+      for_each_in({ivec3(0), frame.size}, [&](ivec3 v) {
+        if (drawn.solid(v)) grid.set(v, true);
+      });
+    }
+    return grid;
+  }
+  /// Of the parts alone.
+  SurfacePlanes planes(const BitGrid& solid) const {
+    Triangles all;
+    for (std::uint32_t i = 0; i < parts.size(); ++i)
+      if (shown(i)) all.insert(all.end(), parts[i].begin(), parts[i].end());
+    return SurfacePlanes::build(all, solid);
+  }
+};
+
+Triangles joined(const std::vector<Triangles>& parts) {
+  Triangles all;
+  for (const Triangles& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+void take_change(const LevelChange& change, const BitGrid& old, const BitGrid& now, PatchedPlanes& planes) {
+  for_each_in({ivec3(0), now.size()}, [&](ivec3 v) {
+    if (change.voxels.contains(v)) {
+      ASSERT_EQ(change.before.solid(v), old.solid(v));
+    } else {
+      ASSERT_EQ(old.solid(v), now.solid(v));
+      ASSERT_FALSE(change.before.solid(v));
+    }
+  });
+  planes.add(std::make_shared<const PlanePatch>(PlanePatch{change.cells, change.planes}));
+}
+
+class RandomLevels : public testing::TestWithParam<ivec3> {};
+
+TEST_P(RandomLevels, EveryChangeEqualsAFullRebuild) {
+  for (const bool with_boxes : {false, true}) {
+    Random random(with_boxes ? 5 : 4);
+    const GridFrame frame{GetParam(), 0.25f, vec3(-1.5f, 0.5f, 0)};
+    Slow slow{frame, {}, {}};
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      slow.parts.push_back(random_part(random, frame));
+      slow.put(i);
+    }
+    Level level(voxelize(joined(slow.parts), frame).value_or_throw(), slow.parts);
+    const SurfacePlanes first = slow.planes(level.grid());
+    PatchedPlanes patched(first);
+    for (int step = 0; step < 40; ++step) {
+      const BitGrid old = level.grid();
+      const auto part = static_cast<std::uint32_t>(random() % slow.parts.size());
+      switch (random() % (with_boxes ? 5 : 3)) {
+        case 0: {
+          const bool show = !slow.shown(part);
+          take_change(level.show({&part, 1}, show), old, level.grid(), patched);
+          if (show) {
+            slow.put(part);
+          } else {
+            slow.hide(part);
+          }
+          break;
+        }
+        case 1: {
+          const bool was_shown = slow.shown(part);
+          slow.parts[part] = random_part(random, frame);
+          take_change(level.replace(part, slow.parts[part]), old, level.grid(), patched);
+          if (was_shown) slow.put(part);
+          break;
+        }
+        case 2: {
+          const std::uint32_t added = level.add_part();
+          slow.parts.push_back(random_part(random, frame));
+          slow.put(added);
+          take_change(level.replace(added, slow.parts.back()), old, level.grid(), patched);
+          break;
+        }
+        default: {
+          const ivec3 low(whole(random, -3, frame.size.x), whole(random, -3, frame.size.y),
+                          whole(random, -3, frame.size.z));
+          const IntBox box{low, low + ivec3(whole(random, 0, 6), whole(random, 1, 6), whole(random, 1, 6))};
+          const bool solid = random() % 2 == 0;
+          take_change(level.set_box(box, solid), old, level.grid(), patched);
+          if (!box.empty()) slow.layers.push_back({Slow::kNone, box, solid});
+        }
+      }
+      const BitGrid expected = slow.grid();
+      expect_same_voxels(level.grid(), expected, "after a change");
+      expect_same_planes(patched, level.planes_in({ivec3(-1), frame.size}), frame.size);
+      if (!with_boxes) expect_same_planes(patched, slow.planes(expected), frame.size);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, RandomLevels,
+                         testing::Values(ivec3(1), ivec3(7), ivec3(33, 17, 5), ivec3(8, 16, 24)));
+
+/// A wall of one voxel across z = 4..5 with a plane in its middle, from two triangles.
+Triangles wall(float z) {
+  const vec3 a(-1, -1, z), b(9, -1, z), c(9, 9, z), d(-1, 9, z);
+  return {{a, b, c}, {a, c, d}};
+}
+
+TEST(Level, ADoorThatShutsAgainIsAsItWas) {
+  const GridFrame frame{{8, 8, 8}, 1, vec3(0)};
+  const std::vector<Triangles> parts{wall(4.5f), {{{2, 0, 2.5f}, {5, 0, 2.5f}, {5, 6, 2.5f}}}};
+  Level level(voxelize(joined(parts), frame).value_or_throw(), parts);
+  const BitGrid shut = level.grid();
+  const SurfacePlanes planes = SurfacePlanes::build(joined(parts), shut);
+  const std::uint32_t door = 1;
+  EXPECT_TRUE(level.grid().solid({4, 2, 2}));
+  const LevelChange opened = level.show({&door, 1}, false);
+  EXPECT_FALSE(level.grid().solid({4, 2, 2}));
+  EXPECT_TRUE(opened.before.solid({4, 2, 2}));
+  EXPECT_TRUE(opened.planes.at({4, 2, 2}).empty());
+  EXPECT_FALSE(planes.at({4, 2, 2}).empty());
+  EXPECT_TRUE(level.show({&door, 1}, false).voxels.empty());  // it is open already
+  level.show({&door, 1}, true);
+  expect_same_voxels(level.grid(), shut, "shut again");
+  expect_same_planes(level.planes_in({ivec3(-1), frame.size}), planes, frame.size);
+}
+
+TEST(Level, ABoxOfSolidVoxelsHasPlanesAtItsSixFaces) {
+  const GridFrame frame{{8, 8, 8}, 0.5f, vec3(-1.1f, 0.3f, 2.7f)};
+  Level level(BitGrid(frame), {});
+  level.set_box({{2, 3, 1}, {5, 6, 4}}, true);
+  const auto only_plane = [&](ivec3 cell) {
+    const SurfacePlanes planes = level.planes_in({ivec3(-1), frame.size});
+    const auto at = planes.at(cell);
+    EXPECT_EQ(at.size(), 1u);
+    return at.empty() ? Plane{} : at[0];
+  };
+  // The face between voxels 1 and 2 is the middle of cell 1.
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool high : {false, true}) {
+      ivec3 cell(3, 4, 2);
+      cell[axis] = (high ? ivec3(5, 6, 4) : ivec3(2, 3, 1))[axis] - 1;
+      const Plane plane = only_plane(cell);
+      EXPECT_NEAR(plane.normal[axis], 1, 1e-6);
+      EXPECT_NEAR(plane.offset, 0, 1e-5);
+    }
+  }
+  level.set_box({{2, 3, 1}, {5, 6, 4}}, false);
+  EXPECT_EQ(level.grid().count_solid(), 0u);
+  EXPECT_EQ(level.planes_in({ivec3(-1), frame.size}).cell_count(), 0u);
+}
+
+TEST(Level, AHoleInAWallTakesItsSurfaceOutAndLeavesTheRest) {
+  const GridFrame frame{{8, 8, 8}, 1, vec3(0)};
+  const std::vector<Triangles> parts{wall(4.5f)};
+  Level level(voxelize(parts[0], frame).value_or_throw(), parts);
+  const SurfacePlanes whole_wall = level.planes_in({ivec3(-1), frame.size});
+  level.set_box({{2, 2, 3}, {6, 6, 7}}, false);
+  EXPECT_TRUE(level.grid().free({3, 3, 4}));
+  EXPECT_TRUE(level.grid().solid({1, 3, 4}));
+  const SurfacePlanes planes = level.planes_in({ivec3(-1), frame.size});
+  EXPECT_TRUE(planes.at({3, 3, 4}).empty());                        // all of its voxels are free
+  EXPECT_EQ(planes.at({0, 3, 4}).size(), 1u);                       // none was touched
+  EXPECT_EQ(planes.at({0, 3, 4})[0], whole_wall.at({0, 3, 4})[0]);  // and nothing moved
+  ASSERT_EQ(planes.at({1, 3, 4}).size(), 1u);                       // half of it is wall
+  EXPECT_NEAR(planes.at({1, 3, 4})[0].normal.z, 1, 1e-6);
+  EXPECT_NEAR(planes.at({1, 3, 4})[0].offset, whole_wall.at({1, 3, 4})[0].offset, 1e-6);
+}
+
+TEST(Level, WhatIsShownLaterFillsAHole) {
+  const GridFrame frame{{8, 8, 8}, 1, vec3(0)};
+  const std::vector<Triangles> parts{wall(4.5f), wall(2.5f)};
+  Level level(voxelize(joined(parts), frame).value_or_throw(), parts);
+  const std::uint32_t second = 1;
+  level.show({&second, 1}, false);
+  level.set_box({ivec3(0), ivec3(8)}, false);
+  EXPECT_EQ(level.grid().count_solid(), 0u);
+  level.show({&second, 1}, true);
+  EXPECT_EQ(level.grid().count_solid(), 64u);
+}
+
+}  // namespace
+}  // namespace brume::voxel
