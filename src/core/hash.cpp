@@ -1,5 +1,7 @@
 #include "core/hash.hpp"
 
+// The whole of xxHash from its header: a server needs no library of it.
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 namespace brume {
