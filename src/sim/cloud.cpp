@@ -11,64 +11,232 @@ namespace brume::sim {
 namespace {
 
 constexpr int kAmountBits = 20;
+constexpr std::uint32_t kWhole = 65536;
+/// Share of the dissolve in which one voxel fades.
+constexpr std::uint32_t kDissolveSoft = kWhole * 3 / 10;
+/// Of a voxel's survival: what its distance decides and what noise does; together 255.
+constexpr std::uint32_t kSurvivalByDistance = 165, kSurvivalByNoise = 90;
 
-std::uint64_t key_of(glm::ivec3 brick) {
-  return static_cast<std::uint64_t>(brick.x) | static_cast<std::uint64_t>(brick.y) << 16 |
-         static_cast<std::uint64_t>(brick.z) << 32;
+/// 3x^2 - 2x^3 for x in [0, 65536].
+constexpr std::uint64_t smoothstep(std::uint64_t x) {
+  return (x * x * (3 * kWhole - 2 * x)) >> 32;
 }
 
-std::size_t local_of(glm::ivec3 v) {
-  return static_cast<std::size_t>((v.x & 7) + 8 * (v.y & 7) + 64 * (v.z & 7));
+/// Noise at the corner of a block, [0, 255].
+std::uint32_t corner_noise(glm::ivec3 block, std::uint32_t seed) {
+  std::uint32_t h = seed ^ static_cast<std::uint32_t>(block.x) * 0x9e3779b1u ^
+                    static_cast<std::uint32_t>(block.y) * 0x85ebca77u ^
+                    static_cast<std::uint32_t>(block.z) * 0xc2b2ae3du;
+  h = (h ^ h >> 15) * 0x2c1b3c6du;
+  h = (h ^ h >> 12) * 0x297a2d39u;
+  return (h ^ h >> 15) >> 24;
+}
+
+/// Value noise of one block, trilinear between its corners: lattice cells are blocks.
+class BlockNoise {
+ public:
+  BlockNoise(glm::ivec3 block, std::uint32_t seed) {
+    for (int i = 0; i < 8; ++i)
+      corners_[static_cast<std::size_t>(i)] =
+          corner_noise(block + glm::ivec3(i & 1, i >> 1 & 1, i >> 2), seed);
+  }
+  /// At the centre of the voxel with this bit, [0, 255].
+  std::uint32_t at(int bit) const {
+    const auto x = static_cast<std::uint32_t>(2 * (bit & 3) + 1),
+               y = static_cast<std::uint32_t>(2 * (bit >> 2 & 3) + 1),
+               z = static_cast<std::uint32_t>(2 * (bit >> 4) + 1);
+    std::uint32_t sum = 0;
+    for (std::uint32_t i = 0; i < 8; ++i)
+      sum += corners_[i] * (i & 1 ? x : 8 - x) * (i & 2 ? y : 8 - y) * (i & 4 ? z : 8 - z);
+    return sum >> 9;
+  }
+
+ private:
+  std::array<std::uint32_t, 8> corners_;
+};
+
+/// How long the smoke of a fill withstands the dissolve, by rank.
+std::vector<std::uint8_t> survival_of(const BlockSet& fill, std::span<const std::uint32_t> distances,
+                                      std::uint32_t max_distance, std::uint32_t seed) {
+  std::vector<std::uint8_t> survival(fill.size());
+  for (const VoxelBlock& block : fill.blocks()) {
+    const BlockNoise noise(glm::ivec3(block.at), seed);
+    std::uint32_t rank = block.first;
+    for (std::uint64_t left = block.mask; left != 0; left &= left - 1, ++rank) {
+      const std::uint64_t far =
+          std::uint64_t{kSurvivalByDistance} * distances[rank] / std::max(max_distance, 1u);
+      const std::uint32_t noisy = noise.at(std::countr_zero(left)) * kSurvivalByNoise / 255;
+      survival[rank] = static_cast<std::uint8_t>(kSurvivalByDistance - far + noisy);
+    }
+  }
+  return survival;
+}
+
+std::vector<glm::ivec3> voxels_of(std::span<const FilledVoxel> filled) {
+  std::vector<glm::ivec3> voxels;
+  voxels.reserve(filled.size());
+  for (const FilledVoxel& one : filled) voxels.push_back(one.voxel);
+  return voxels;
+}
+
+Failure bad_parts(const std::string& expected) {
+  return {ErrorCode::bad_input, "cloud: expected " + expected};
+}
+
+/// What can be said of parts before anything is computed from them.
+Result<void> check_parts(const CloudParts& p) {
+  const SmokeSettings& s = p.origin.settings;
+  if (s.voxels < 1 || s.voxels > kMaxFillVoxels || s.bloom_ticks < 1 || s.bloom_ticks > kMaxTick ||
+      s.hold_ticks > kMaxTick || s.dissolve_ticks < 1 || s.dissolve_ticks > kMaxTick)
+    return bad_parts("settings of a smoke");
+  if (p.origin.detonation_tick > kMaxTick + kMaxTick / 8)
+    return bad_parts("a detonation that an event can cause");
+  for (const BlockSet* set : {&p.fill, &p.rest})
+    if (!set->empty() && (glm::any(glm::lessThan(set->low(), glm::ivec3(0))) ||
+                          glm::any(glm::greaterThanEqual(set->high(), glm::ivec3(voxel::kMaxAxis)))))
+      return bad_parts("voxels within a grid");
+  if (p.fill.size() > s.voxels) return bad_parts("no more voxels than its amount");
+  if (count_common(p.fill, p.rest) != 0) return bad_parts("each voxel once");
+  const std::size_t flowing = p.flow_tick == 0 ? 0 : p.fill.size();
+  if (p.fill_base.size() != flowing || p.fill_delay.size() != flowing ||
+      p.rest_base.size() != p.rest.size() || p.rest_delay.size() != p.rest.size() ||
+      p.rest_survival.size() != p.rest.size())
+    return bad_parts("one number for each voxel that flows");
+  const auto any_leaving = [&] {
+    return std::any_of(p.rest_delay.begin(), p.rest_delay.end(), [](auto d) { return d != 0; });
+  };
+  if (p.flow_tick == 0 && any_leaving()) return bad_parts("smoke at rest to stay");
+  return {};
 }
 
 }  // namespace
 
-Cloud::Cloud(const voxel::BitGrid& grid, glm::ivec3 source, const SmokeSettings& settings,
-             std::uint32_t detonation_tick)
-    : settings_(settings), detonation_tick_(detonation_tick) {
-  BRUME_ASSERT(settings.voxels >= 1 && settings.voxels <= kMaxFillVoxels, std::to_string(settings.voxels));
-  BRUME_ASSERT(settings.bloom_ticks >= 1, std::to_string(settings.bloom_ticks));
-  voxels_ = flood_fill(grid, source, settings.voxels);
-
-  const std::array<std::uint32_t, 3> numbers{settings.voxels, settings.bloom_ticks, detonation_tick};
-  hash_ = hash_values(std::span<const std::uint32_t>(numbers));
-  hash_ = hash_bytes(std::as_bytes(std::span(voxels_)), hash_);
-
-  low_ = voxels_.empty() ? glm::ivec3(0) : voxels_.front().voxel;
-  high_ = low_ - (voxels_.empty() ? 1 : 0);
-  for (const FilledVoxel& filled : voxels_) {
-    low_ = glm::min(low_, filled.voxel);
-    high_ = glm::max(high_, filled.voxel);
-    if (levels_.empty() || levels_.back().distance != filled.distance)
-      levels_.push_back({filled.distance, 0});
-    levels_.back().count = static_cast<std::uint64_t>(&filled - voxels_.data()) + 1;
-  }
-  keep_distances();
+Cloud::Cloud(const voxel::BitGrid& grid, const CloudOrigin& origin) {
+  BRUME_ASSERT(origin.settings.voxels >= 1 && origin.settings.voxels <= kMaxFillVoxels,
+               std::to_string(origin.settings.voxels));
+  BRUME_ASSERT(origin.settings.bloom_ticks >= 1 && origin.settings.dissolve_ticks >= 1, "a life of no ticks");
+  parts_.origin = origin;
+  const std::vector<FilledVoxel> filled = flood_fill(grid, origin.source, origin.settings.voxels);
+  parts_.fill = BlockSet(voxels_of(filled));
+  finish(filled);
 }
 
-/// Brick by brick: one entry in a hash map a voxel would take as long as the fill itself.
-void Cloud::keep_distances() {
-  for (const FilledVoxel& filled : voxels_) {
-    const auto [entry, is_new] =
-        brick_of_.try_emplace(key_of(filled.voxel >> 3), static_cast<std::uint32_t>(bricks_.size()));
-    if (is_new) bricks_.emplace_back();
-    bricks_[entry->second][local_of(filled.voxel)] = filled.distance + 1;
+Result<Cloud> Cloud::from_parts(CloudParts parts) {
+  if (auto ok = check_parts(parts); !ok) return ok.failure();
+  const std::vector<FilledVoxel> filled = flood_fill(parts.fill, parts.origin.source);
+  if (filled.size() != parts.fill.size()) return bad_parts("all of its fill to be reached from its source");
+  Cloud cloud;
+  cloud.parts_ = std::move(parts);
+  cloud.finish(filled);
+  return cloud;
+}
+
+/// Computes from the parts, and from the flood in the order of its distances, what every question needs.
+void Cloud::finish(std::span<const FilledVoxel> filled) {
+  const CloudParts& p = parts_;
+  if (!p.rest.empty()) both_ = unite(p.fill, p.rest);
+  for (const FilledVoxel& one : filled) {
+    if (levels_.empty() || levels_.back().distance != one.distance) levels_.push_back({one.distance, 0});
+    levels_.back().count = static_cast<std::uint64_t>(&one - filled.data()) + 1;
   }
+  levels_.shrink_to_fit();
+
+  std::vector<std::uint32_t> fill_distances(p.fill.size());
+  for (const FilledVoxel& one : filled) fill_distances[p.fill.rank(one.voxel)] = one.distance;
+  const glm::ivec3 source = p.origin.source;
+  const std::array<std::uint32_t, 4> seeds{static_cast<std::uint32_t>(source.x),
+                                           static_cast<std::uint32_t>(source.y),
+                                           static_cast<std::uint32_t>(source.z), p.origin.detonation_tick};
+  const auto seed = static_cast<std::uint32_t>(hash_values(std::span<const std::uint32_t>(seeds)));
+  std::vector<std::uint8_t> fill_survival =
+      survival_of(p.fill, fill_distances, filled.empty() ? 0 : filled.back().distance, seed);
+
+  if (p.rest.empty() && p.flow_tick == 0) {
+    distances_ = std::move(fill_distances);
+    survival_ = std::move(fill_survival);
+  } else {
+    const BlockSet& all = voxels();
+    distances_.assign(all.size(), kNoDistance);
+    survival_.resize(all.size());
+    base_.assign(all.size(), 0);
+    delay_.assign(all.size(), 0);
+    p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
+      const std::uint32_t rank = all.rank(voxel);
+      distances_[rank] = fill_distances[i];
+      survival_[rank] = fill_survival[i];
+      if (p.flow_tick == 0) return;
+      base_[rank] = p.fill_base[i];
+      delay_[rank] = p.fill_delay[i];
+    });
+    p.rest.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
+      const std::uint32_t rank = all.rank(voxel);
+      survival_[rank] = p.rest_survival[i];
+      base_[rank] = p.rest_base[i];
+      delay_[rank] = p.rest_delay[i];
+      if (p.rest_delay[i] == 0) ++trapped_;
+    });
+  }
+  if (p.flow_tick != 0) {
+    const std::uint16_t last =
+        delay_.empty() ? std::uint16_t{0} : *std::max_element(delay_.begin(), delay_.end());
+    flow_length_ = last + flow_ramp();
+  }
+  hash_ = content_hash();
+}
+
+std::uint64_t Cloud::content_hash() const {
+  const CloudOrigin& o = parts_.origin;
+  const auto whole = [](int number) { return static_cast<std::uint64_t>(std::int64_t{number}); };
+  std::vector<std::uint64_t> words{whole(o.source.x),         whole(o.source.y),      whole(o.source.z),
+                                   o.settings.voxels,         o.settings.bloom_ticks, o.settings.hold_ticks,
+                                   o.settings.dissolve_ticks, o.detonation_tick,      parts_.flow_tick};
+  for (const BlockSet* set : {&parts_.fill, &parts_.rest}) {
+    words.push_back(set->size());
+    for (const VoxelBlock& block : set->blocks())
+      words.insert(words.end(), {whole(block.at.x), whole(block.at.y), whole(block.at.z), block.mask});
+  }
+  std::uint64_t hash = hash_values(std::span<const std::uint64_t>(words));
+  hash = hash_values(std::span<const std::uint32_t>(distances_), hash);
+  hash = hash_values(std::span<const std::uint8_t>(survival_), hash);
+  hash = hash_values(std::span<const std::uint8_t>(base_), hash);
+  return hash_values(std::span<const std::uint16_t>(delay_), hash);
+}
+
+std::uint64_t Cloud::bytes() const {
+  const std::uint64_t parts =
+      parts_.fill.bytes() + parts_.rest.bytes() + 3 * parts_.fill_base.size() + 4 * parts_.rest.size();
+  return sizeof(Cloud) + parts + both_.bytes() + 4 * distances_.size() + survival_.size() + base_.size() +
+         2 * delay_.size() + sizeof(Level) * levels_.size();
+}
+
+std::uint32_t Cloud::end_tick() const {
+  const SmokeSettings& s = parts_.origin.settings;
+  return parts_.origin.detonation_tick + s.bloom_ticks + s.hold_ticks + s.dissolve_ticks;
+}
+
+std::optional<std::uint32_t> Cloud::rest_tick() const {
+  if (parts_.flow_tick == 0) return std::nullopt;
+  return parts_.flow_tick + flow_length_;
 }
 
 std::uint64_t Cloud::amount(std::uint32_t tick) const {
-  if (tick <= detonation_tick_) return 0;
-  const std::uint64_t age = std::min(tick - detonation_tick_, settings_.bloom_ticks);
+  const CloudOrigin& o = parts_.origin;
+  if (tick <= o.detonation_tick) return 0;
+  const std::uint64_t age = std::min(tick - o.detonation_tick, o.settings.bloom_ticks);
   // Share (1 - (1 - x)^3)^2: a few voxels in the first tick, then fast, then ebbing.
   constexpr std::uint64_t kOne = std::uint64_t{1} << kAmountBits;
-  const std::uint64_t left = (settings_.bloom_ticks - age) * kOne / settings_.bloom_ticks;
+  const std::uint64_t left = (o.settings.bloom_ticks - age) * kOne / o.settings.bloom_ticks;
   const std::uint64_t out = kOne - (((left * left) >> kAmountBits) * left >> kAmountBits);
-  return settings_.voxels * ((out * out) >> kAmountBits);
+  return o.settings.voxels * ((out * out) >> kAmountBits);
 }
 
+/// How far the smoke has come at a tick: never falls, rises with each tick of the bloom, and the amount's
+/// nearest voxels lie within it. Where the cloud has filled all that it can reach the front goes on as
+/// before: what no longer fits makes the rim denser.
 Front Cloud::front(std::uint32_t tick) const {
-  const std::uint64_t n = amount(tick);
-  if (n == 0 || levels_.empty()) return 0;
+  const std::uint64_t out = amount(tick), trapped = std::uint64_t{trapped_} << kAmountBits;
+  if (out <= trapped || levels_.empty()) return 0;
+  const std::uint64_t n = out - trapped;
 
   // The level that the amount is filling: the front is at its distance when the first of its voxels is due,
   // and comes to the next level's when the last one is.
@@ -90,20 +258,57 @@ Front Cloud::front(std::uint32_t tick) const {
   return level->distance * kFrontUnit + (due / (level->count - before) * gap >> kAmountBits);
 }
 
-std::uint8_t Cloud::density_at(std::uint32_t distance, Front front) {
+CloudMoment Cloud::undissolved_moment(std::uint32_t tick) const {
+  CloudMoment m;
+  m.front = front(tick);
+  if (parts_.flow_tick != 0 && tick > parts_.flow_tick)
+    m.flowed = std::min(tick - parts_.flow_tick, flow_length_);
+  return m;
+}
+
+CloudMoment Cloud::moment(std::uint32_t tick) const {
+  const CloudOrigin& o = parts_.origin;
+  CloudMoment m = undissolved_moment(tick);
+  const std::uint32_t dissolve = o.detonation_tick + o.settings.bloom_ticks + o.settings.hold_ticks;
+  if (tick > dissolve)
+    m.dissolved = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(kWhole, std::uint64_t{tick - dissolve} * kWhole / o.settings.dissolve_ticks));
+  return m;
+}
+
+std::uint8_t Cloud::profile(std::uint32_t distance, Front front) {
   const Front here = distance * kFrontUnit;
   if (here >= front) return 0;
   const Front taper = std::max<Front>(2 * kFaceStep * kFrontUnit, front / 4);
-  const std::uint64_t x = std::min<std::uint64_t>((front - here) * 65536 / taper, 65536);
-  const std::uint64_t smooth = (x * x * (3 * 65536 - 2 * x)) >> 32;  // of 65536
-  return static_cast<std::uint8_t>((smooth * 255 + 32768) >> 16);
+  const std::uint64_t x = std::min<std::uint64_t>((front - here) * kWhole / taper, kWhole);
+  return static_cast<std::uint8_t>((smoothstep(x) * 255 + kWhole / 2) >> 16);
 }
 
-std::optional<std::uint32_t> Cloud::distance(glm::ivec3 voxel) const {
-  if (glm::any(glm::lessThan(voxel, low_)) || glm::any(glm::greaterThan(voxel, high_))) return std::nullopt;
-  const auto found = brick_of_.find(key_of(voxel >> 3));
-  const std::uint32_t kept = found == brick_of_.end() ? 0 : bricks_[found->second][local_of(voxel)];
-  return kept == 0 ? std::nullopt : std::optional(kept - 1);
+std::uint8_t Cloud::density(std::uint32_t rank, const CloudMoment& m) const {
+  const std::uint32_t distance = distances_[rank];
+  std::uint32_t density = distance == kNoDistance ? 0u : profile(distance, m.front);
+  if (!base_.empty()) {
+    const std::uint32_t base = base_[rank];
+    const std::uint32_t delay = delay_[rank];
+    if (delay == 0) {
+      if (distance == kNoDistance) density = base;
+    } else {
+      const std::uint64_t since = m.flowed > delay ? m.flowed - delay : 0;
+      const std::uint64_t turned = smoothstep(std::min<std::uint64_t>(since * kWhole / flow_ramp(), kWhole));
+      density =
+          static_cast<std::uint32_t>((base * (kWhole - turned) + density * turned + kWhole / 2) / kWhole);
+    }
+  }
+  if (m.dissolved == 0 || density == 0) return static_cast<std::uint8_t>(density);
+  // A voxel begins to fade when its survival is over, and is gone a share of kDissolveSoft later.
+  const std::uint32_t gone_at = survival_[rank] * (kWhole - kDissolveSoft) / 255 + kDissolveSoft;
+  const std::uint32_t left = gone_at <= m.dissolved ? 0 : std::min(gone_at - m.dissolved, kDissolveSoft);
+  return static_cast<std::uint8_t>((density * left + kDissolveSoft / 2) / kDissolveSoft);
+}
+
+std::uint8_t Cloud::density(glm::ivec3 voxel, const CloudMoment& m) const {
+  const std::uint32_t rank = voxels().rank(voxel);
+  return rank == BlockSet::kNone ? std::uint8_t{0} : density(rank, m);
 }
 
 }  // namespace brume::sim

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <string>
 #include <unordered_map>
@@ -16,6 +17,8 @@ namespace {
 constexpr std::uint32_t kUnreached = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kNoBrick = std::numeric_limits<std::uint32_t>::max();
 constexpr int kMoves = 26;
+/// Index of a voxel x + kRow y + kLayer z: the order of indices is that of any grid.
+constexpr std::int64_t kRow = std::int64_t{1} << 18, kLayer = kRow << 18;
 
 struct Move {
   glm::ivec3 step;
@@ -65,6 +68,21 @@ voxel::BitGrid::Brick free_words(const voxel::BitGrid& grid, glm::ivec3 brick) {
   return words;
 }
 
+/// The voxels of a set in a brick.
+voxel::BitGrid::Brick words_of(const BlockSet& set, glm::ivec3 brick) {
+  voxel::BitGrid::Brick words{};
+  for (int octant = 0; octant < 8; ++octant) {
+    const glm::ivec3 corner(octant & 1, octant >> 1 & 1, octant >> 2);
+    const VoxelBlock* block = set.find_block(brick * 2 + corner);
+    if (!block) continue;
+    for (int z = 0; z < kBlockSize; ++z)
+      for (int y = 0; y < kBlockSize; ++y)
+        words[static_cast<std::size_t>(4 * corner.z + z)] |= (block->mask >> (4 * y + 16 * z) & 0xf)
+                                                             << (4 * corner.x + 8 * (4 * corner.y + y));
+  }
+  return words;
+}
+
 /// Shifts one layer of 3x3 brick slices so that result[dy + 1][dx + 1] bit (x, y) tells of (x + dx, y + dy).
 ShiftedSlice shift_slice(const std::array<std::array<std::uint64_t, 3>, 3>& around) {
   constexpr std::uint64_t kFirstColumn = 0x0101010101010101u;
@@ -83,12 +101,14 @@ ShiftedSlice shift_slice(const std::array<std::array<std::uint64_t, 3>, 3>& arou
   return result;
 }
 
+/// The free voxels of a brick as 8 words: word z, bit x + 8 y.
+using FreeWords = std::function<voxel::BitGrid::Brick(glm::ivec3 brick)>;
+
 /// Writes FillBrick::may_move, 64 voxels at a time.
-void find_moves(const voxel::BitGrid& grid, FillBrick& brick) {
+void find_moves(const FreeWords& free, FillBrick& brick) {
   std::array<voxel::BitGrid::Brick, 27> words;
   for (int i = 0; i < 27; ++i)
-    words[static_cast<std::size_t>(i)] =
-        free_words(grid, brick.coordinates + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+    words[static_cast<std::size_t>(i)] = free(brick.coordinates + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
 
   std::array<ShiftedSlice, 10> slices;  // z = -1 .. 8
   for (std::size_t s = 0; s < 10; ++s) {
@@ -117,13 +137,13 @@ void find_moves(const voxel::BitGrid& grid, FillBrick& brick) {
 /// Topological Ordering": edge lengths are small integers, so 18 buckets in a ring hold all open voxels.
 class Fill {
  public:
-  explicit Fill(const voxel::BitGrid& grid) : grid_(grid) {}
+  explicit Fill(FreeWords free) : free_(std::move(free)) {}
 
   std::vector<FilledVoxel> run(glm::ivec3 source, std::uint32_t budget);
 
  private:
   struct Open {
-    std::uint64_t index;  // of the voxel in the grid: the order among equals
+    std::uint64_t index;  // of the voxel: the order among equals
     std::uint32_t brick, local;
   };
 
@@ -134,7 +154,7 @@ class Fill {
     return bricks_[open.brick].coordinates * 8 + glm::ivec3(local & 7, local >> 3 & 7, local >> 6);
   }
 
-  const voxel::BitGrid& grid_;
+  FreeWords free_;
   std::deque<FillBrick> bricks_;
   std::unordered_map<std::uint64_t, std::uint32_t> brick_of_;
   std::array<std::vector<Open>, kCornerStep + 1> buckets_;
@@ -151,7 +171,7 @@ std::uint32_t Fill::brick_at(glm::ivec3 b) {
     brick.neighbours.fill(kNoBrick);
     brick.neighbours[13] = entry->second;
     brick.distances.fill(kUnreached);
-    find_moves(grid_, brick);
+    find_moves(free_, brick);
   }
   return entry->second;
 }
@@ -162,8 +182,6 @@ void Fill::spread(const Open& from, std::uint32_t distance) {
                          static_cast<int>(from.local >> 6));
   const std::size_t word = from.local >> 6;
   const std::uint64_t bit = std::uint64_t{1} << (from.local & 63);
-  const std::int64_t row = grid_.size().x;
-  const std::int64_t layer = row * grid_.size().y;
   for (std::size_t m = 0; m < kMoves; ++m) {
     if (!(home.may_move[m][word] & bit)) continue;
     const Move& move = kMoveTable[m];
@@ -177,7 +195,7 @@ void Fill::spread(const Open& from, std::uint32_t distance) {
     const std::uint32_t length = distance + move.length;
     if (length >= known) continue;
     known = length;
-    const std::int64_t offset = move.step.x + row * move.step.y + layer * move.step.z;
+    const std::int64_t offset = move.step.x + kRow * move.step.y + kLayer * move.step.z;
     buckets_[length % buckets_.size()].push_back(
         {static_cast<std::uint64_t>(static_cast<std::int64_t>(from.index) + offset), brick, to_local});
     ++open_;
@@ -186,16 +204,15 @@ void Fill::spread(const Open& from, std::uint32_t distance) {
 
 std::vector<FilledVoxel> Fill::run(glm::ivec3 source, std::uint32_t budget) {
   std::vector<FilledVoxel> filled;
-  if (budget == 0 || !grid_.free(source)) return filled;
+  const glm::ivec3 in_brick = source & 7;
+  const bool is_free =
+      free_(source >> 3)[static_cast<std::size_t>(in_brick.z)] >> (in_brick.x + 8 * in_brick.y) & 1;
+  if (budget == 0 || !is_free) return filled;
   filled.reserve(std::min(budget, 1u << 12));
 
-  const glm::ivec3 in_brick = source & 7;
-  const auto row = static_cast<std::uint64_t>(grid_.size().x);
-  const Open first{
-      static_cast<std::uint64_t>(source.x) +
-          row * (static_cast<std::uint64_t>(source.y) +
-                 static_cast<std::uint64_t>(grid_.size().y) * static_cast<std::uint64_t>(source.z)),
-      brick_at(source >> 3), static_cast<std::uint32_t>(in_brick.x | in_brick.y << 3 | in_brick.z << 6)};
+  const Open first{static_cast<std::uint64_t>(source.x + kRow * source.y + kLayer * source.z),
+                   brick_at(source >> 3),
+                   static_cast<std::uint32_t>(in_brick.x | in_brick.y << 3 | in_brick.z << 6)};
   bricks_[first.brick].distances[first.local] = 0;
   buckets_[0].push_back(first);
   open_ = 1;
@@ -221,7 +238,13 @@ std::vector<FilledVoxel> Fill::run(glm::ivec3 source, std::uint32_t budget) {
 
 std::vector<FilledVoxel> flood_fill(const voxel::BitGrid& grid, glm::ivec3 source, std::uint32_t budget) {
   BRUME_ASSERT(budget <= kMaxFillVoxels, std::to_string(budget));
-  return Fill(grid).run(source, budget);
+  if (!grid.contains(source)) return {};
+  return Fill([&grid](glm::ivec3 brick) { return free_words(grid, brick); }).run(source, budget);
+}
+
+std::vector<FilledVoxel> flood_fill(const BlockSet& domain, glm::ivec3 source) {
+  if (!domain.contains(source)) return {};
+  return Fill([&domain](glm::ivec3 brick) { return words_of(domain, brick); }).run(source, domain.size());
 }
 
 }  // namespace brume::sim

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "sim/block_set.hpp"
 #include "voxel/bit_grid.hpp"
 
 namespace brume::sim {
@@ -32,5 +33,10 @@ struct FilledVoxel {
 ///
 /// budget: at most kMaxFillVoxels.
 std::vector<FilledVoxel> flood_fill(const voxel::BitGrid& grid, glm::ivec3 source, std::uint32_t budget);
+
+/// The same where the voxels of `domain` are the only free ones: all of them that `source` can reach. Of the
+/// voxels that flood_fill returned it gives back all, with the same distances: their shortest ways, and the
+/// boxes of their moves, hold nearer voxels only. Coordinates of the domain in [0, 2^17).
+std::vector<FilledVoxel> flood_fill(const BlockSet& domain, glm::ivec3 source);
 
 }  // namespace brume::sim

@@ -140,10 +140,10 @@ void SmokeStructure::Builder::place_bricks(std::span<const LiveCloud> clouds) {
   out_.window_size = ((out_.high + 2) >> 3) - out_.window_origin + 1;
   out_.page_table.resize(entry_of(out_.window_size - 1) + 1);
   for (const LiveCloud& live : clouds)
-    for (const FilledVoxel& filled : live.cloud->voxels())
+    live.cloud->voxels().for_each([&](glm::ivec3 voxel, std::uint32_t) {
       for (int corner = 0; corner < 8; ++corner)
-        out_.page_table[entry_of(((filled.voxel - 2 + 4 * corner_offset(corner)) >> 3) -
-                                 out_.window_origin)] = 1;
+        out_.page_table[entry_of(((voxel - 2 + 4 * corner_offset(corner)) >> 3) - out_.window_origin)] = 1;
+    });
 
   std::size_t entry = 0;
   for (int z = 0; z < out_.window_size.z; ++z)
@@ -159,14 +159,14 @@ void SmokeStructure::Builder::number_voxels(std::span<const LiveCloud> clouds) {
   number_.assign(512 * out_.bricks.size(), kNone);
   out_.cloud_voxels.first.push_back(0);
   for (const LiveCloud& live : clouds) {
-    for (const FilledVoxel& filled : live.cloud->voxels()) {
-      std::uint32_t& number = number_[512 * std::size_t{slot_at(filled.voxel >> 3)} + local_of(filled.voxel)];
+    live.cloud->voxels().for_each([&](glm::ivec3 voxel, std::uint32_t) {
+      std::uint32_t& number = number_[512 * std::size_t{slot_at(voxel >> 3)} + local_of(voxel)];
       if (number == kNone) {
         number = static_cast<std::uint32_t>(out_.voxels.size());
-        out_.voxels.push_back(filled.voxel);
+        out_.voxels.push_back(voxel);
       }
       out_.cloud_voxels.values.push_back(number);
-    }
+    });
     out_.cloud_voxels.first.push_back(static_cast<std::uint32_t>(out_.cloud_voxels.values.size()));
   }
 }

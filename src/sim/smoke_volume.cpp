@@ -58,8 +58,8 @@ std::span<const std::uint32_t> SmokeVolume::cells(std::uint32_t slot) const {
 }
 
 void SmokeVolume::update(const World& world) {
-  BRUME_ASSERT(&world.grid() == &grid_, "the world stands on another grid");
-  const std::span<const LiveCloud> clouds = world.clouds();
+  BRUME_ASSERT(world.grid().frame() == grid_.frame(), "the world stands on another grid");
+  const std::span<const LiveCloud> clouds = world.state().clouds;
   const bool same =
       std::equal(clouds.begin(), clouds.end(), cloud_hashes_.begin(), cloud_hashes_.end(),
                  [](const LiveCloud& live, std::uint64_t hash) { return live.cloud->hash() == hash; });
@@ -69,12 +69,11 @@ void SmokeVolume::update(const World& world) {
   std::vector<std::uint8_t> densities(structure_.voxels.size());
   for (std::size_t c = 0; c < clouds.size(); ++c) {
     const std::span<const std::uint32_t> numbers = structure_.cloud_voxels[c];
-    const std::span<const FilledVoxel> filled = clouds[c].cloud->voxels();
-    for (std::size_t i = 0; i < filled.size(); ++i) {
-      const std::uint8_t density = Cloud::density_at(filled[i].distance, clouds[c].front);
-      if (density == 0) break;  // nor any farther one
-      std::uint8_t& sum = densities[numbers[i]];
-      sum = static_cast<std::uint8_t>(std::min(255, sum + density));
+    const Cloud& cloud = *clouds[c].cloud;
+    const CloudMoment moment = cloud.moment(world.tick());
+    for (std::uint32_t rank = 0; rank < numbers.size(); ++rank) {
+      std::uint8_t& sum = densities[numbers[rank]];
+      sum = static_cast<std::uint8_t>(std::min(255, sum + cloud.density(rank, moment)));
     }
   }
   refresh(std::move(densities), !same);

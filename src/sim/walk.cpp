@@ -109,6 +109,10 @@ glm::i64vec3 VoxelRuler::subvoxel(Position position) const {
   return result;
 }
 
+std::int64_t VoxelRuler::subvoxels(std::int64_t length) const {
+  return floor_div(length * kFrameUnitsPerUnit * (1 << kSubvoxelBits), voxel_size_);
+}
+
 Position VoxelRuler::centre(glm::ivec3 voxel) const {
   Position result;
   for (int axis = 0; axis < 3; ++axis)
@@ -177,7 +181,11 @@ std::optional<glm::ivec3> landing_voxel(const voxel::BitGrid& grid, const VoxelR
     return o.x * way.x + o.y * way.y + o.z * way.z >= 0;
   };
   const auto on_side = nearest_free(grid, *first_solid, ahead);
-  return on_side ? on_side : nearest_free(grid, *first_solid, [](glm::ivec3) { return true; });
+  return on_side ? on_side : nearest_free_voxel(grid, *first_solid);
+}
+
+std::optional<glm::ivec3> nearest_free_voxel(const voxel::BitGrid& grid, glm::ivec3 voxel) {
+  return nearest_free(grid, voxel, [](glm::ivec3) { return true; });
 }
 
 std::optional<glm::ivec3> landing_voxel(const voxel::BitGrid& grid, glm::vec3 from_world,

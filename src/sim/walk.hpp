@@ -35,6 +35,8 @@ class VoxelRuler {
   explicit VoxelRuler(const voxel::GridFrame& frame);
   /// The position in 1/1024 voxel, rounded down, for |position| <= kMaxCoordinate.
   glm::i64vec3 subvoxel(Position position) const;
+  /// A length of 1/1024 m in 1/1024 voxel, rounded down; at most 2^32 units long.
+  std::int64_t subvoxels(std::int64_t length) const;
   /// The centre of a voxel, rounded down.
   Position centre(glm::ivec3 voxel) const;
 
@@ -71,5 +73,9 @@ std::optional<glm::ivec3> landing_voxel(const voxel::BitGrid& grid, const VoxelR
                                         Position at);
 /// The same for metres, which are rounded to Positions first.
 std::optional<glm::ivec3> landing_voxel(const voxel::BitGrid& grid, glm::vec3 from_world, glm::vec3 at_world);
+
+/// The free voxel nearest to one, itself included, within kLandingSearch voxels; of equals the one with the
+/// lowest index.
+std::optional<glm::ivec3> nearest_free_voxel(const voxel::BitGrid& grid, glm::ivec3 voxel);
 
 }  // namespace brume::sim

@@ -2,224 +2,291 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
-#include "core/hash.hpp"
+#include "core/tasks.hpp"
 
 namespace brume::sim {
 namespace {
 
-constexpr std::uint32_t kMaxMilliseconds = 1u << 30;
+constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 /// A surface may carry smoke this far beyond the voxels that a cloud fills.
 constexpr int kSmokeMargin = 2;
-
-bool in_world(Position p) {
-  return glm::all(
-      glm::lessThanEqual(glm::abs(glm::max(p, Position(-kMaxCoordinate - 1))), Position(kMaxCoordinate)));
-}
-
-Failure bad(const std::string& what, const std::string& expected) {
-  return {ErrorCode::bad_input, what + ": expected " + expected};
-}
-
-/// Checks what all events share: when, and from where to where.
-Result<void> check_event(const std::string& name, std::uint32_t tick, Position from, Position to) {
-  if (tick > kMaxTick)
-    return bad(name + " at tick " + std::to_string(tick), "at most " + std::to_string(kMaxTick));
-  if (!in_world(from) || !in_world(to))
-    return bad(name + " at tick " + std::to_string(tick) + " with a position out of the world",
-               "coordinates within 16384 m of the origin");
-  return {};
-}
+/// States that can be gone back to are at least this many ticks apart, and at most so many.
+constexpr std::uint32_t kCheckpointTicks = 64;
+constexpr std::size_t kMaxCheckpoints = 256;
 
 bool inside(glm::ivec3 v, glm::ivec3 low, glm::ivec3 high) {
   return glm::all(glm::greaterThanEqual(v, low)) && glm::all(glm::lessThanEqual(v, high));
 }
 
-float seconds_from_ms(std::uint32_t ms) {
-  return static_cast<float>(ms / 1000.0);
+/// The tick at which the last of a hole has closed.
+std::uint32_t end_of(const OpenHole& hole, std::uint32_t ticks_per_second) {
+  const HoleTiming& t = hole.shot.timing;
+  const std::uint64_t life = std::uint64_t{t.reach_far} + t.expand + t.stay_open + t.fade;
+  const std::uint64_t ticks = (life * ticks_per_second + 999) / 1000;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(hole.shot.tick + ticks, kNever - 1));
+}
+
+/// Puts an element with an `id` where it belongs in a list sorted by id.
+template <typename T>
+void insert_by_id(std::vector<T>& list, T element) {
+  const auto place = std::upper_bound(list.begin(), list.end(), element.id,
+                                      [](std::uint32_t id, const T& other) { return id < other.id; });
+  list.insert(place, std::move(element));
 }
 
 }  // namespace
 
-World::World(const voxel::BitGrid& grid, const WorldSettings& settings)
-    : grid_(grid), settings_(settings), ruler_(grid.frame()) {
+std::uint32_t next_end(const State& state) {
+  std::uint32_t next = kNever;
+  for (const Flight& flight : state.flights) next = std::min(next, flight.detonation_tick);
+  for (const LiveCloud& live : state.clouds) {
+    next = std::min(next, live.cloud->end_tick());
+    if (const auto rest = live.cloud->rest_tick()) next = std::min(next, *rest);
+  }
+  for (const LiveBlast& live : state.blasts) next = std::min(next, live.field->end_tick());
+  for (const OpenHole& hole : state.holes) next = std::min(next, end_of(hole, state.ticks_per_second));
+  return next;
+}
+
+void remove_ended(State& state) {
+  const std::uint32_t tick = state.tick;
+  std::erase_if(state.clouds, [&](const LiveCloud& live) { return live.cloud->end_tick() <= tick; });
+  for (LiveCloud& live : state.clouds)
+    if (const auto rest = live.cloud->rest_tick(); rest && *rest <= tick)
+      live.cloud = std::make_shared<const Cloud>(live.cloud->rested());
+  std::erase_if(state.blasts, [&](const LiveBlast& live) { return live.field->end_tick() <= tick; });
+  std::erase_if(state.holes,
+                [&](const OpenHole& hole) { return end_of(hole, state.ticks_per_second) <= tick; });
+}
+
+World::World(const voxel::BitGrid& level, const WorldSettings& settings)
+    : level_(level), settings_(settings), ruler_(level.frame()) {
   if (settings.ticks_per_second < 1 || settings.ticks_per_second > 1000)
     throw Error(ErrorCode::bad_input,
                 std::to_string(settings.ticks_per_second) + " ticks a second: expected 1 to 1000");
+  state_.frame = level.frame();
+  state_.ticks_per_second = settings.ticks_per_second;
+  first_ = state_;
+  next_end_ = kNever;
 }
 
-Result<void> World::append(const ThrowSmoke& event) {
-  if (auto ok = check_event("smoke", event.tick, event.from, event.at); !ok) return ok;
-  if (event.smoke.voxels < 1 || event.smoke.voxels > kMaxFillVoxels)
-    return bad("smoke of " + std::to_string(event.smoke.voxels) + " voxels",
-               "1 to " + std::to_string(kMaxFillVoxels));
-  if (event.smoke.bloom_ticks < 1 || event.smoke.bloom_ticks > kMaxTick)
-    return bad("smoke that blooms in " + std::to_string(event.smoke.bloom_ticks) + " ticks",
-               "1 to " + std::to_string(kMaxTick));
-
-  Throw thrown{event, landing_voxel(grid_, ruler_, event.from, event.at), 0, nullptr};
-  if (thrown.landing) {
-    const std::uint64_t units = ceil_distance(event.from, ruler_.centre(*thrown.landing));
-    const std::uint64_t speed = std::uint64_t{kGrenadeMetresPerSecond} * kUnitsPerMetre;
-    thrown.detonation_tick =
-        event.tick + static_cast<std::uint32_t>((units * settings_.ticks_per_second + speed - 1) / speed);
+Result<void> World::append(Event event) {
+  if (auto ok = check_event(event, level_.frame()); !ok) return ok;
+  const std::uint32_t tick = tick_of(event);
+  if (tick < first_free_tick_)
+    return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(tick) + ": expected tick " +
+                                             std::to_string(first_free_tick_) +
+                                             " or later, what was before is forgotten"};
+  const std::uint32_t present = state_.tick;
+  if (tick <= present) {
+    std::erase_if(checkpoints_, [&](const State& kept) { return kept.tick >= tick; });
+    go_back_before(tick);
   }
-  throws_.push_back(std::move(thrown));
-  // A new smoke may lie on the way of any shot.
-  for (Bullet& bullet : bullets_) bullet.distance.reset();
-  advance_to(tick_);
+  const auto place = std::upper_bound(log_.begin(), log_.end(), tick,
+                                      [](std::uint32_t t, const Event& other) { return t < tick_of(other); });
+  log_.insert(place, std::move(event));
+  if (tick <= present) advance_to(present);
   return {};
-}
-
-Result<void> World::append(const Shot& event) {
-  if (auto ok = check_event("shot", event.tick, event.origin, event.toward); !ok) return ok;
-  if (event.origin == event.toward)
-    return bad("shot at tick " + std::to_string(event.tick) + " that goes nowhere",
-               "origin and toward to differ");
-  if (event.radius < 1 || event.radius > kMaxCoordinate)
-    return bad("shot with radius " + std::to_string(event.radius), "1 to " + std::to_string(kMaxCoordinate));
-  const HoleTiming& t = event.timing;
-  if (std::max({t.reach_far, t.expand, t.stay_open, t.fade}) > kMaxMilliseconds)
-    return bad("shot with a hole that takes too long",
-               "at most " + std::to_string(kMaxMilliseconds) + " ms a time");
-  bullets_.push_back({event, std::nullopt});
-  advance_to(tick_);
-  return {};
-}
-
-void World::detonate_until(std::uint32_t tick) {
-  for (Throw& thrown : throws_)
-    if (thrown.landing && !thrown.cloud && thrown.detonation_tick <= tick)
-      thrown.cloud =
-          std::make_unique<Cloud>(grid_, *thrown.landing, thrown.event.smoke, thrown.detonation_tick);
 }
 
 void World::advance_to(std::uint32_t tick) {
-  tick_ = tick;
-  detonate_until(tick);
-  live_.clear();
-  for (std::uint32_t id = 0; id < throws_.size(); ++id) {
-    const Throw& thrown = throws_[id];
-    if (thrown.cloud && thrown.detonation_tick <= tick)
-      live_.push_back({id, thrown.cloud.get(), thrown.cloud->front(tick)});
+  tick = std::max(tick, first_.tick);
+  if (tick < state_.tick) go_back_before(tick + 1);
+  for (;;) {
+    const std::uint32_t event_tick = next_event_ < log_.size() ? tick_of(log_[next_event_]) : kNever;
+    const std::uint32_t due = std::min(event_tick, next_end_);
+    if (due > tick || due == kNever) break;
+    play_tick(due);
   }
-  for (Bullet& bullet : bullets_)
-    if (!bullet.distance && bullet.event.tick <= tick) bullet.distance = hole_distance(bullet.event);
+  state_.tick = tick;
 }
 
-std::uint8_t World::density(glm::ivec3 voxel) const {
-  unsigned sum = 0;
-  for (const LiveCloud& live : live_)
-    if (const auto distance = live.cloud->distance(voxel)) sum += Cloud::density_at(*distance, live.front);
-  return static_cast<std::uint8_t>(std::min(sum, 255u));
+void World::play_tick(std::uint32_t tick) {
+  state_.tick = tick;
+  for (; next_event_ < log_.size() && tick_of(log_[next_event_]) == tick; ++next_event_) {
+    std::visit([&](const auto& event) { apply(event); }, log_[next_event_]);
+    ++state_.events;
+  }
+  detonate();
+  remove_ended(state_);
+  next_end_ = next_end(state_);
+
+  // A state to go back to, now and then.
+  if (!checkpoints_.empty() && tick < checkpoints_.back().tick + kCheckpointTicks) return;
+  checkpoints_.push_back(state_);
+  if (checkpoints_.size() <= kMaxCheckpoints) return;
+  // Old ones thin out.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < checkpoints_.size(); ++i)
+    if (i >= kMaxCheckpoints / 2 || i % 2 == 0) checkpoints_[kept++] = std::move(checkpoints_[i]);
+  checkpoints_.resize(kept);
 }
 
-std::optional<std::uint32_t> World::detonation_tick(std::uint32_t id) const {
-  BRUME_ASSERT(id < throws_.size(), std::to_string(id));
-  if (!throws_[id].landing) return std::nullopt;
-  return throws_[id].detonation_tick;
+/// Becomes the last state kept of before a tick.
+void World::go_back_before(std::uint32_t tick) {
+  const auto after = std::lower_bound(checkpoints_.begin(), checkpoints_.end(), tick,
+                                      [](const State& kept, std::uint32_t t) { return kept.tick < t; });
+  const bool is_first = after == checkpoints_.begin();
+  const State target = is_first ? first_ : *std::prev(after);
+  change_edits(target.edits);
+  state_ = target;
+  // The log holds no event that first_ has taken in.
+  next_event_ = is_first ? 0
+                         : static_cast<std::size_t>(std::upper_bound(log_.begin(), log_.end(), target.tick,
+                                                                     [](std::uint32_t t, const Event& e) {
+                                                                       return t < tick_of(e);
+                                                                     }) -
+                                                    log_.begin());
+  next_end_ = next_end(state_);
 }
 
-std::optional<Grenade> World::grenade(std::uint32_t id, std::uint32_t tick) const {
-  BRUME_ASSERT(id < throws_.size(), std::to_string(id));
-  const Throw& thrown = throws_[id];
-  if (!thrown.landing || tick < thrown.event.tick || tick >= thrown.detonation_tick) return std::nullopt;
-  const double share =
-      static_cast<double>(tick - thrown.event.tick) / (thrown.detonation_tick - thrown.event.tick);
-  const glm::dvec3 from = metres_from_position(thrown.event.from);
-  const glm::dvec3 to = metres_from_position(ruler_.centre(*thrown.landing));
-  return Grenade{glm::vec3(glm::mix(from, to, share)), seconds(tick - thrown.event.tick)};
+/// Turns the grid from the edits of state_ to others.
+void World::change_edits(const std::shared_ptr<const EditBlocks>& edits) {
+  if (edits == state_.edits) return;
+  if (!edited_) edited_.emplace(level_);
+  if (state_.edits)
+    for (const EditBlock& edit : *state_.edits) {
+      const std::uint64_t bits = edit.make_solid | edit.make_free,
+                          solid = solid_bits(level_, glm::ivec3(edit.at));
+      apply_edits(*edited_, std::array{EditBlock{edit.at, bits & solid, bits & ~solid}});
+    }
+  if (edits) apply_edits(*edited_, *edits);
 }
 
-std::vector<Grenade> World::grenades() const {
-  std::vector<Grenade> flying;
-  for (std::uint32_t id = 0; id < throws_.size(); ++id)
-    if (const auto one = grenade(id, tick_)) flying.push_back(*one);
-  return flying;
+Result<void> World::restore(const State& state) {
+  if (state.frame != level_.frame() || state.ticks_per_second != settings_.ticks_per_second)
+    return Failure{ErrorCode::bad_input,
+                   "state: expected one of a world of the same grid and ticks a second"};
+  if (next_end(state) <= state.tick)
+    return Failure{ErrorCode::bad_input, "state: expected nothing in it that has ended before its tick"};
+  if (state.edits)
+    if (auto ok = check_event(LevelEdit{0, *state.edits}, level_.frame()); !ok) return ok;
+  std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= state.tick; });
+  checkpoints_.clear();
+  change_edits(state.edits);
+  state_ = first_ = state;
+  first_free_tick_ = state.tick + 1;
+  next_event_ = 0;
+  next_end_ = next_end(state_);
+  return {};
 }
 
-std::uint64_t World::hole_distance(const Shot& shot) const {
-  std::vector<const Cloud*> there;
-  for (const Throw& thrown : throws_)
-    if (thrown.cloud && thrown.detonation_tick <= shot.tick) there.push_back(thrown.cloud.get());
-  if (there.empty()) return 0;
+void World::forget_before(std::uint32_t tick) {
+  const std::uint32_t present = state_.tick;
+  if (tick <= first_.tick || tick > present) return;
+  advance_to(tick);
+  const State kept = state_;
+  std::erase_if(checkpoints_, [&](const State& state) { return state.tick <= tick; });
+  std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= tick; });
+  first_ = kept;
+  first_free_tick_ = tick + 1;
+  next_event_ = 0;
+  advance_to(present);
+}
 
-  Share far;
-  bool was_free = false;
-  walk_ray(grid_, ruler_, shot.origin, shot.toward, [&](const WalkStep& step) {
-    const bool in_smoke = std::any_of(there.begin(), there.end(), [&](const Cloud* cloud) {
-      return inside(step.voxel, cloud->low() - kSmokeMargin, cloud->high() + kSmokeMargin);
-    });
-    if (in_smoke) far = step.exit;
-    was_free |= !grid_.solid(step.voxel);
-    return !was_free || !grid_.solid(step.voxel);
+void World::apply(const ThrowSmoke& event) {
+  const auto landing = landing_voxel(grid(), ruler_, event.from, event.at);
+  if (!landing) return;
+  const std::uint64_t units = ceil_distance(event.from, ruler_.centre(*landing));
+  const std::uint64_t speed = std::uint64_t{kGrenadeMetresPerSecond} * kUnitsPerMetre;
+  const auto ticks = static_cast<std::uint32_t>((units * settings_.ticks_per_second + speed - 1) / speed);
+  state_.flights.push_back(
+      {state_.events, event.from, *landing, event.tick, event.tick + ticks, event.smoke});
+}
+
+void World::detonate() {
+  std::vector<Flight> due;
+  std::erase_if(state_.flights, [&](const Flight& flight) {
+    if (flight.detonation_tick > state_.tick) return false;
+    due.push_back(flight);
+    return true;
   });
+  std::vector<std::shared_ptr<const Cloud>> clouds(due.size());
+  parallel_for(due.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      // A wall may have come to stand where it was to land.
+      const glm::ivec3 source = nearest_free_voxel(grid(), due[i].landing).value_or(due[i].landing);
+      clouds[i] =
+          std::make_shared<const Cloud>(grid(), CloudOrigin{source, due[i].smoke, due[i].detonation_tick});
+    }
+  });
+  for (std::size_t i = 0; i < due.size(); ++i)
+    if (!clouds[i]->voxels().empty()) insert_by_id(state_.clouds, LiveCloud{due[i].id, clouds[i]});
+}
+
+/// How deep the hole of a shot goes, 1/1024 m: to where the shot leaves the last brick of smoke, but no
+/// farther than to the middle of its way through the first solid voxel after the first free one: there,
+/// somewhere, is the wall. 0: it meets no smoke.
+std::uint64_t World::hole_distance(const Shot& shot) const {
+  // The way, and the smoke that may be on it.
+  std::vector<WalkStep> way;
+  glm::ivec3 low(voxel::kMaxAxis), high(-1);
+  bool was_free = false;
+  walk_ray(grid(), ruler_, shot.origin, shot.toward, [&](const WalkStep& step) {
+    way.push_back(step);
+    low = glm::min(low, step.voxel);
+    high = glm::max(high, step.voxel);
+    const bool solid = grid().solid(step.voxel);
+    was_free |= !solid;
+    return !was_free || !solid;
+  });
+  std::vector<const Cloud*> there;
+  for (const LiveCloud& live : state_.clouds)
+    if (glm::all(glm::lessThanEqual(low, live.cloud->high() + kSmokeMargin)) &&
+        glm::all(glm::greaterThanEqual(high, live.cloud->low() - kSmokeMargin)))
+      there.push_back(live.cloud.get());
+
   const auto length = static_cast<__int128>(ceil_distance(shot.origin, shot.toward));
-  return static_cast<std::uint64_t>(length * far.num / far.den);
-}
-
-bool World::is_open(const Bullet& bullet) const {
-  const Shot& shot = bullet.event;
-  if (tick_ <= shot.tick || bullet.distance.value_or(0) == 0) return false;
-  const HoleTiming& t = shot.timing;
-  const std::uint64_t life = std::uint64_t{t.reach_far} + t.expand + t.stay_open + t.fade;
-  return std::uint64_t{tick_ - shot.tick} * 1000 < life * settings_.ticks_per_second;
-}
-
-shared::Hole World::make_hole(const Bullet& bullet) const {
-  const Shot& shot = bullet.event;
-  const glm::dvec3 from = metres_from_position(shot.origin);
-  const glm::dvec3 forward = glm::normalize(metres_from_position(shot.toward) - from);
-  // Right from the world's up, unless the shot goes nearly straight up or down.
-  const glm::dvec3 up_world = std::abs(forward.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, up_world));
-  shared::Hole hole{};
-  hole.origin_world = glm::vec3(from);
-  hole.radius = static_cast<float>(static_cast<double>(shot.radius) / kUnitsPerMetre);
-  hole.forward = glm::vec3(forward);
-  hole.right = glm::vec3(right);
-  hole.up = glm::vec3(glm::cross(right, forward));
-  hole.distance_to_far = static_cast<float>(static_cast<double>(*bullet.distance) / kUnitsPerMetre);
-  hole.time_start = seconds(shot.tick);
-  hole.time_to_reach_far = seconds_from_ms(shot.timing.reach_far);
-  hole.time_to_expand = seconds_from_ms(shot.timing.expand);
-  hole.time_to_stay_open = seconds_from_ms(shot.timing.stay_open);
-  hole.time_to_fade = seconds_from_ms(shot.timing.fade);
-  hole.shape = shared::kHoleCylinder;
-  return hole;
-}
-
-std::vector<shared::Hole> World::holes() const {
-  std::vector<shared::Hole> open;
-  for (const Bullet& bullet : bullets_)
-    if (is_open(bullet)) open.push_back(make_hole(bullet));
-  return open;
-}
-
-std::uint64_t World::state_hash() const {
-  std::vector<std::uint64_t> state{tick_, settings_.ticks_per_second};
-  for (const LiveCloud& live : live_) state.insert(state.end(), {live.id, live.cloud->hash(), live.front});
-  const auto add_position = [&](Position p) {
-    for (int axis = 0; axis < 3; ++axis) state.push_back(static_cast<std::uint64_t>(std::int64_t{p[axis]}));
-  };
-  for (const Throw& thrown : throws_) {
-    const bool flying = thrown.landing && tick_ >= thrown.event.tick && tick_ < thrown.detonation_tick;
-    if (!flying) continue;
-    add_position(thrown.event.from);
-    add_position(*thrown.landing);
-    state.insert(state.end(), {thrown.event.tick, thrown.detonation_tick});
+  const auto distance_at = [&](Share share) { return length * share.num / share.den; };
+  __int128 far = 0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const bool in_smoke = std::any_of(there.begin(), there.end(), [&](const Cloud* cloud) {
+      return inside(way[i].voxel, cloud->low() - kSmokeMargin, cloud->high() + kSmokeMargin);
+    });
+    if (!in_smoke) continue;
+    far = distance_at(way[i].exit);
+    const bool ends_in_wall = i + 1 == way.size() && i > 0 && grid().solid(way[i].voxel);
+    if (ends_in_wall) far = (distance_at(way[i - 1].exit) + far) / 2;
   }
-  for (const Bullet& bullet : bullets_) {
-    if (!is_open(bullet)) continue;
-    const Shot& shot = bullet.event;
-    add_position(shot.origin);
-    add_position(shot.toward);
-    const HoleTiming& t = shot.timing;
-    state.insert(state.end(),
-                 {shot.tick, shot.radius, *bullet.distance, t.reach_far, t.expand, t.stay_open, t.fade});
-  }
-  return hash_values(std::span<const std::uint64_t>(state));
+  return static_cast<std::uint64_t>(far);
+}
+
+void World::apply(const Shot& event) {
+  OpenHole hole{state_.events, event, hole_distance(event)};
+  if (hole.distance > 0) state_.holes.push_back(std::move(hole));
+}
+
+void World::apply(const Blast& event) {
+  auto field = std::make_shared<const BlastField>(grid(), event, settings_.ticks_per_second);
+  if (!field->reached().empty()) state_.blasts.push_back({state_.events, std::move(field)});
+}
+
+void World::apply(const MoveBody& event) {
+  auto place = std::lower_bound(state_.bodies.begin(), state_.bodies.end(), event.body,
+                                [](const Body& b, std::uint32_t body) { return b.body < body; });
+  if (place == state_.bodies.end() || place->body != event.body)
+    state_.bodies.insert(place, Body{event.body, event.to, event.to, event.tick, event.tick});
+  else
+    *place = {event.body, event.to, place->position, event.tick, place->tick};
+}
+
+void World::apply(const LevelEdit& event) {
+  const EditBlocks changes = effective_edits(grid(), event.blocks);
+  if (changes.empty()) return;
+  if (!edited_) edited_.emplace(level_);
+  apply_edits(*edited_, changes);
+  state_.edits =
+      std::make_shared<const EditBlocks>(state_.edits ? merge_edits(*state_.edits, changes) : changes);
+  parallel_for(state_.clouds.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      std::shared_ptr<const Cloud>& cloud = state_.clouds[i].cloud;
+      if (cloud->touched_by(changes))
+        cloud = std::make_shared<const Cloud>(cloud->flowed(grid(), event.tick));
+    }
+  });
 }
 
 }  // namespace brume::sim

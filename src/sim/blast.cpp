@@ -1,0 +1,189 @@
+#include "sim/blast.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/hash.hpp"
+#include "core/tasks.hpp"
+
+namespace brume::sim {
+namespace {
+
+constexpr std::int64_t kSub = 1024;  // subvoxels a voxel
+/// Beyond the radius the effect fades over a fifth of it more: reach 255 lies there.
+constexpr std::uint64_t kRimNum = 6, kRimDen = 5;
+constexpr std::uint32_t kFullReach = 255 * kRimDen / kRimNum;
+/// A voxel opens in this time once the front is there.
+constexpr std::uint64_t kOpenMilliseconds = 50;
+constexpr std::uint64_t kWhole = 65536;
+
+constexpr std::uint64_t smoothstep(std::uint64_t x) {
+  return (x * x * (3 * kWhole - 2 * x)) >> 32;
+}
+
+/// floor(sqrt(square)) for square < 2^52: the processor's root is correctly rounded.
+std::int64_t floor_sqrt(std::int64_t square) {
+  auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(square)));
+  while (root * root > square) --root;
+  while ((root + 1) * (root + 1) <= square) ++root;
+  return root;
+}
+
+/// Whether the straight way from a point to the centre of a voxel meets no solid voxel before it. Along an
+/// edge x steps before y, y before z. Both within 2^10 voxels of each other.
+bool in_sight(const voxel::BitGrid& grid, glm::i64vec3 from, glm::ivec3 target) {
+  const glm::i64vec3 to = glm::i64vec3(target) * kSub + kSub / 2;
+  const glm::i64vec3 way = to - from, length = glm::abs(way);
+  glm::ivec3 voxel(from >> std::int64_t{10});
+  // Times to the next face on each axis, all multiplied by the lengths of the ways, so that they are whole.
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  glm::i64vec3 next(kNever), stride(0);
+  glm::ivec3 step(0);
+  const glm::i64vec3 others(std::max<std::int64_t>(length.y, 1) * std::max<std::int64_t>(length.z, 1),
+                            std::max<std::int64_t>(length.x, 1) * std::max<std::int64_t>(length.z, 1),
+                            std::max<std::int64_t>(length.x, 1) * std::max<std::int64_t>(length.y, 1));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (way[axis] == 0) continue;
+    const std::int64_t in_voxel = from[axis] & (kSub - 1);
+    step[axis] = way[axis] > 0 ? 1 : -1;
+    next[axis] = (way[axis] > 0 ? kSub - in_voxel : in_voxel) * others[axis];
+    stride[axis] = kSub * others[axis];
+  }
+  for (;;) {
+    if (voxel == target) return true;
+    if (!grid.free(voxel)) return false;
+    const int axis = next.x <= next.y && next.x <= next.z ? 0 : next.y <= next.z ? 1 : 2;
+    voxel[axis] += step[axis];
+    next[axis] += stride[axis];
+  }
+}
+
+}  // namespace
+
+BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint32_t ticks_per_second)
+    : blast_(blast), centre_(blast.at), ticks_per_second_(ticks_per_second) {
+  const VoxelRuler ruler(grid.frame());
+  glm::i64vec3 from = ruler.subvoxel(centre_);
+  if (grid.solid(glm::ivec3(from >> std::int64_t{10}))) {
+    const auto nearest = nearest_free_voxel(grid, glm::ivec3(from >> std::int64_t{10}));
+    if (!nearest) {
+      finish(grid.frame());
+      return;
+    }
+    centre_ = ruler.centre(*nearest);
+    from = ruler.subvoxel(centre_);
+  }
+
+  // Every free voxel of the ball, slice by slice.
+  const std::int64_t limit = ruler.subvoxels(blast.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen};
+  const glm::ivec3 low = glm::max(glm::ivec3((from - limit) >> std::int64_t{10}), glm::ivec3(0));
+  const glm::ivec3 high = glm::min(glm::ivec3((from + limit) >> std::int64_t{10}), grid.size() - 1);
+  std::vector<std::vector<glm::ivec3>> slices(static_cast<std::size_t>(std::max(0, high.z - low.z + 1)));
+  parallel_for(slices.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+          const glm::ivec3 v(x, y, low.z + static_cast<int>(i));
+          const glm::i64vec3 d = glm::i64vec3(v) * kSub + kSub / 2 - from;
+          if (d.x * d.x + d.y * d.y + d.z * d.z > limit * limit || !grid.free(v)) continue;
+          if (in_sight(grid, from, v)) slices[i].push_back(v);
+        }
+  });
+  std::vector<glm::ivec3> voxels;
+  for (const auto& slice : slices) voxels.insert(voxels.end(), slice.begin(), slice.end());
+  reached_ = BlockSet(voxels);
+  finish(grid.frame());
+}
+
+Result<BlastField> BlastField::from_parts(const voxel::GridFrame& frame, const Blast& blast, Position centre,
+                                          BlockSet reached, std::uint32_t ticks_per_second) {
+  if (auto ok = check_event(blast, frame); !ok) return ok.failure();
+  if (auto ok = check_event(MoveBody{blast.tick, 0, centre}, frame); !ok) return ok.failure();
+  const VoxelRuler ruler(frame);
+  const glm::i64vec3 from = ruler.subvoxel(centre);
+  const std::int64_t limit = ruler.subvoxels(blast.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen};
+  bool within = true;
+  reached.for_each([&](glm::ivec3 v, std::uint32_t) {
+    const glm::i64vec3 d = glm::i64vec3(v) * kSub + kSub / 2 - from;
+    within &= d.x * d.x + d.y * d.y + d.z * d.z <= limit * limit;
+  });
+  if (!within) return Failure{ErrorCode::bad_input, "blast: expected voxels within its reach"};
+  BlastField field;
+  field.blast_ = blast;
+  field.centre_ = centre;
+  field.ticks_per_second_ = ticks_per_second;
+  field.reached_ = std::move(reached);
+  field.finish(frame);
+  return field;
+}
+
+/// Computes from what the blast reached how far each voxel lies, when all is over, and the hash.
+void BlastField::finish(const voxel::GridFrame& frame) {
+  const VoxelRuler ruler(frame);
+  const glm::i64vec3 from = ruler.subvoxel(centre_);
+  const std::int64_t limit = std::max<std::int64_t>(
+      1, ruler.subvoxels(blast_.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen});
+  reach_.resize(reached_.size());
+  reached_.for_each([&](glm::ivec3 v, std::uint32_t rank) {
+    const glm::i64vec3 d = glm::i64vec3(v) * kSub + kSub / 2 - from;
+    const std::int64_t distance = floor_sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    reach_[rank] = static_cast<std::uint8_t>(std::min<std::int64_t>(255, distance * 255 / limit));
+  });
+
+  end_tick_ = blast_.tick;
+  const std::uint64_t tps = ticks_per_second_;
+  for (std::uint32_t reach = 0; reach < 256; ++reach) {
+    const std::uint64_t over = arrival_ms(reach) + kOpenMilliseconds + refill_ms(reach);
+    end_tick_ = std::max(end_tick_, blast_.tick + static_cast<std::uint32_t>((over * tps + 999) / 1000));
+  }
+
+  std::vector<std::uint64_t> words{blast_.tick, blast_.radius,        blast_.speed,
+                                   blast_.left, blast_.refill_rim_ms, blast_.refill_middle_ms};
+  for (const Position p : {blast_.at, centre_})
+    for (int axis = 0; axis < 3; ++axis) words.push_back(static_cast<std::uint64_t>(std::int64_t{p[axis]}));
+  for (const VoxelBlock& block : reached_.blocks()) {
+    for (int axis = 0; axis < 3; ++axis)
+      words.push_back(static_cast<std::uint64_t>(std::int64_t{block.at[axis]}));
+    words.push_back(block.mask);
+  }
+  hash_ =
+      hash_values(std::span<const std::uint8_t>(reach_), hash_values(std::span<const std::uint64_t>(words)));
+}
+
+std::uint64_t BlastField::arrival_ms(std::uint32_t reach) const {
+  return std::uint64_t{blast_.radius} * reach * kRimNum * 1000 / (255 * kRimDen * blast_.speed);
+}
+
+std::uint64_t BlastField::refill_ms(std::uint32_t reach) const {
+  const std::uint32_t r = std::min(reach, kFullReach);
+  return (std::uint64_t{blast_.refill_middle_ms} * (kFullReach - r) +
+          std::uint64_t{blast_.refill_rim_ms} * r) /
+         kFullReach;
+}
+
+BlastMoment BlastField::moment(std::uint32_t tick) const {
+  BlastMoment m;
+  m.left.fill(255);
+  if (tick <= blast_.tick || tick >= end_tick_) return m;
+  const std::uint64_t age_us = std::uint64_t{tick - blast_.tick} * 1'000'000 / ticks_per_second_;
+  for (std::uint32_t reach = 0; reach < 256; ++reach) {
+    const std::uint64_t arrival = arrival_ms(reach) * 1000;
+    if (age_us <= arrival) continue;
+    const std::uint64_t since = age_us - arrival, open = kOpenMilliseconds * 1000;
+    std::uint64_t cleared = smoothstep(std::min(since * kWhole / open, kWhole));
+    if (since > open) {
+      // Comes back as smoothstep^1.8, here (s + 4 s^2) / 5: never more than 0.018 off.
+      const std::uint64_t s =
+          smoothstep(std::min((since - open) * kWhole / (refill_ms(reach) * 1000), kWhole));
+      cleared = kWhole - (s + 4 * (s * s >> 16)) / 5;
+    }
+    if (reach > kFullReach)
+      cleared = cleared * smoothstep((255 - reach) * kWhole / (255 - kFullReach)) / kWhole;
+    m.left[reach] = static_cast<std::uint8_t>(255 - ((255 - blast_.left) * cleared + kWhole / 2) / kWhole);
+  }
+  return m;
+}
+
+}  // namespace brume::sim

@@ -1,0 +1,65 @@
+// The cavity of an explosion: which voxels it reaches, and how much smoke it leaves in them at any tick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+#include "sim/block_set.hpp"
+#include "sim/events.hpp"
+#include "sim/walk.hpp"
+#include "voxel/bit_grid.hpp"
+
+namespace brume::sim {
+
+/// How much density a blast leaves at one tick, of 255, by reach. Equal moments, equal effect.
+struct BlastMoment {
+  std::array<std::uint8_t, 256> left;
+  bool operator==(const BlastMoment&) const = default;
+};
+
+class BlastField {
+ public:
+  /// Finds the free voxels within the radius whose centre is in a straight line from the blast, no solid
+  /// voxel between. A blast inside a solid voxel goes off in the free voxel nearest to it.
+  BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint32_t ticks_per_second);
+  /// From what travelled. Fails with bad_input when a voxel lies beyond the radius.
+  static Result<BlastField> from_parts(const voxel::GridFrame& frame, const Blast& blast, Position centre,
+                                       BlockSet reached, std::uint32_t ticks_per_second);
+
+  const Blast& blast() const { return blast_; }
+  /// Where it goes off: blast().at, or the centre of the free voxel that was taken instead.
+  Position centre() const { return centre_; }
+  const BlockSet& reached() const { return reached_; }
+  /// Distance from the centre by rank in reached(): 0 there, 255 at the radius.
+  std::span<const std::uint8_t> reach() const { return reach_; }
+  /// When all has refilled.
+  std::uint32_t end_tick() const { return end_tick_; }
+
+  BlastMoment moment(std::uint32_t tick) const;
+  /// Density that is left in a voxel, of 255; 255 where the blast does not reach.
+  std::uint8_t left(glm::ivec3 voxel, const BlastMoment& moment) const {
+    const std::uint32_t rank = reached_.rank(voxel);
+    return rank == BlockSet::kNone ? 255 : moment.left[reach_[rank]];
+  }
+
+  std::uint64_t hash() const { return hash_; }
+  std::uint64_t bytes() const { return reached_.bytes() + reach_.size(); }
+
+ private:
+  BlastField() = default;
+  void finish(const voxel::GridFrame& frame);
+  std::uint64_t arrival_ms(std::uint32_t reach) const;
+  std::uint64_t refill_ms(std::uint32_t reach) const;
+
+  Blast blast_;
+  Position centre_{0};
+  std::uint32_t ticks_per_second_ = 0, end_tick_ = 0;
+  BlockSet reached_;
+  std::vector<std::uint8_t> reach_;
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace brume::sim
