@@ -1,0 +1,217 @@
+#include "sim/sight_holes.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace brume::sim {
+namespace {
+
+constexpr float kLeastTime = 1e-6f;  // as shared/hole.h bounds times and depths
+
+/// How far the hole reaches from its axis at most: a box to its corners.
+float reach_of(const shared::Hole& hole) {
+  return hole.shape == shared::kHoleBox ? 1.41422f * hole.radius : hole.radius;
+}
+
+/// Where q2 t^2 + q1 t + q0 = 0: appends the t within (low, high), counted from `zero`.
+void add_roots(float q2, float q1, float q0, float zero, float low, float high, std::vector<float>& out) {
+  const auto add = [&](float root) {
+    if (const float t = zero + root; t > low && t < high) out.push_back(t);
+  };
+  const float discriminant = q1 * q1 - 4 * q2 * q0;
+  if (discriminant < 0) return;
+  // The form that does not cancel, also for q2 = 0.
+  const float root = std::sqrt(discriminant);
+  const float q = -0.5f * (q1 < 0 ? q1 - root : q1 + root);
+  if (q2 != 0) add(q / q2);
+  if (q != 0) add(q0 / q);
+}
+
+/// Adds where the distance from the axis becomes `share` of the radius, which runs from r0 at t0 to r1 at t1.
+void add_edges(const RayHole& h, float share, float t0, float r0, float t1, float r1,
+               std::vector<float>& out) {
+  const float slope = share * (r1 - r0) / (t1 - t0);
+  const float at_nearest = share * r0 + slope * (h.nearest - t0);
+  if (h.box) {
+    for (const float sign : {-1.0f, 1.0f}) {
+      add_roots(0, h.x_step - sign * slope, h.x - sign * at_nearest, h.nearest, t0, t1, out);
+      add_roots(0, h.y_step - sign * slope, h.y - sign * at_nearest, h.nearest, t0, t1, out);
+    }
+    return;
+  }
+  add_roots(h.x_step * h.x_step + h.y_step * h.y_step - slope * slope,
+            2 * (h.x * h.x_step + h.y * h.y_step - at_nearest * slope),
+            h.x * h.x + h.y * h.y - at_nearest * at_nearest, h.nearest, t0, t1, out);
+}
+
+float radius_at(const RayHole& h, float t) {
+  const float age = h.age + h.age_step * t;
+  const float opened = std::clamp(age / h.expand, 0.0f, 1.0f);
+  const float closed = std::clamp((age - h.stay_end) / h.fade, 0.0f, 1.0f);
+  return h.radius * opened * (1 - closed);
+}
+
+/// Adds every t at which the strength of the hole has a kink.
+void add_breaks(const RayHole& h, std::vector<float>& out) {
+  // Where it has just opened wide, and where it begins to close.
+  std::array<float, 4> times{h.begin, h.end, h.end, h.end};
+  std::size_t count = 1;
+  if (h.age_step != 0) {
+    for (const float age : {h.expand, h.stay_end}) {
+      const float t = (age - h.age) / h.age_step;
+      if (t > h.begin && t < h.end) times[count++] = t;
+    }
+  }
+  if (count == 3 && times[1] > times[2]) std::swap(times[1], times[2]);
+  times[count++] = h.end;
+
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const float t0 = times[i], t1 = times[i + 1];
+    if (!(t0 < t1)) continue;
+    out.push_back(t0);
+    const float r0 = radius_at(h, t0), r1 = radius_at(h, t1);
+    add_edges(h, 1, t0, r0, t1, r1, out);
+    add_edges(h, 1 - shared::kHoleSoftShare, t0, r0, t1, r1, out);
+  }
+  out.push_back(h.end);
+  if (h.box) {  // where the nearest face changes
+    add_roots(0, h.x_step - h.y_step, h.x - h.y, h.nearest, h.begin, h.end, out);
+    add_roots(0, h.x_step + h.y_step, h.x + h.y, h.nearest, h.begin, h.end, out);
+  }
+}
+
+/// Cuts the ray where a strength has a kink.
+void make_pieces(HolesOnRay& on_ray) {
+  std::vector<float>& breaks = on_ray.breaks;
+  breaks.clear();
+  for (const RayHole& hole : on_ray.holes) add_breaks(hole, breaks);
+  std::sort(breaks.begin(), breaks.end());
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const float begin = breaks[i], end = breaks[i + 1], middle = 0.5f * (begin + end);
+    if (!(begin < end)) continue;
+    bool met = false, gone = false;
+    for (const RayHole& hole : on_ray.holes) {
+      if (hole.begin > middle || hole.end < middle) continue;
+      met = true;
+      gone |= hole.strength(splat(middle))[0] == 1;
+    }
+    if (met) on_ray.pieces.push_back({begin, end, gone});
+  }
+}
+
+}  // namespace
+
+Float4 RayHole::strength(Float4 t) const {
+  const Float4 ages = splat(age) + splat(age_step) * t;
+  const Float4 opened = clamp4(ages / splat(expand), 0, 1);
+  const Float4 kept = splat(1.0f) - clamp4((ages - splat(stay_end)) / splat(fade), 0, 1);
+  const Float4 wide = max4(splat(radius) * opened * kept, splat(1e-12f));
+  const Float4 from_nearest = t - splat(nearest);
+  const Float4 px = splat(x) + splat(x_step) * from_nearest, py = splat(y) + splat(y_step) * from_nearest;
+  const Float4 from_axis = box ? max4(max4(px, -px), max4(py, -py)) : sqrt4(px * px + py * py);
+  const Float4 edge = clamp4((wide - from_axis) / (wide * splat(shared::kHoleSoftShare)), 0, 1);
+  return edge * edge * (splat(3.0f) - splat(2.0f) * edge) * kept;
+}
+
+Float4 HolesOnRay::left(const HolePiece& piece, Float4 t) const {
+  Float4 left = splat(1.0f);
+  for (const RayHole& hole : holes) {
+    if (hole.begin < piece.end && hole.end > piece.begin) left *= splat(1.0f) - hole.strength(t);
+  }
+  return left;
+}
+
+HoleSet::HoleSet(std::span<const shared::Hole> holes, float time) {
+  for (const shared::Hole& hole : holes) {
+    const float age = time - hole.time_start;
+    const float per_metre = hole.time_to_reach_far / std::max(hole.distance_to_far, kLeastTime);
+    const float life = std::max(hole.time_to_expand, kLeastTime) + hole.time_to_stay_open +
+                       std::max(hole.time_to_fade, kLeastTime);
+    // Open where the front has been, and not yet closed again: 0 < age - per_metre z < life.
+    const float over = age - life, whole_way = per_metre * hole.distance_to_far;
+    if (!(age > 0) || over >= whole_way) continue;
+    holes_.push_back({hole, age, per_metre, over > 0 ? over / per_metre : 0,
+                      age < whole_way ? age / per_metre : hole.distance_to_far});
+  }
+  groups_.resize((holes_.size() + 3) / 4);
+  for (std::size_t i = 0; i < 4 * groups_.size(); ++i) {
+    Group& group = groups_[i / 4];
+    const std::size_t lane = i % 4;
+    const bool any = i < holes_.size();
+    const OpenHole& open = holes_[any ? i : 0];
+    group.origin_x[lane] = open.hole.origin_world.x;
+    group.origin_y[lane] = open.hole.origin_world.y;
+    group.origin_z[lane] = open.hole.origin_world.z;
+    group.forward_x[lane] = open.hole.forward.x;
+    group.forward_y[lane] = open.hole.forward.y;
+    group.forward_z[lane] = open.hole.forward.z;
+    group.near[lane] = any ? open.near : 1;
+    group.far[lane] = any ? open.far : -1;
+    const float reach = reach_of(open.hole);
+    group.reach_squared[lane] = reach * reach;
+  }
+}
+
+void HoleSet::find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, HolesOnRay& out) const {
+  out.holes.clear();
+  out.pieces.clear();
+  // The least distance from the axis, of the points of the ray at the depths at which the hole is open.
+  const Float4 sx = splat(step_world.x), sy = splat(step_world.y), sz = splat(step_world.z);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    const Float4 ox = splat(origin_world.x) - group.origin_x, oy = splat(origin_world.y) - group.origin_y,
+                 oz = splat(origin_world.z) - group.origin_z;
+    const Float4 z = ox * group.forward_x + oy * group.forward_y + oz * group.forward_z;
+    Float4 z_step = sx * group.forward_x + sy * group.forward_y + sz * group.forward_z;
+    const Float4 px = ox - z * group.forward_x, py = oy - z * group.forward_y, pz = oz - z * group.forward_z;
+    const Float4 qx = sx - z_step * group.forward_x, qy = sy - z_step * group.forward_y,
+                 qz = sz - z_step * group.forward_z;
+    z_step = (z_step < 0 ? -z_step : z_step) < splat(1e-12f) ? splat(1e-12f) : z_step;
+    const Float4 ta = (group.near - z) / z_step, tb = (group.far - z) / z_step;
+    const Float4 begin = max4(min4(ta, tb), splat(0)), end = min4(max4(ta, tb), splat(t_end));
+    const Float4 across = px * qx + py * qy + pz * qz, speed = qx * qx + qy * qy + qz * qz;
+    const Float4 nearest = min4(max4(-across / max4(speed, splat(1e-24f)), begin), end);
+    const Float4 dx = px + nearest * qx, dy = py + nearest * qy, dz = pz + nearest * qz;
+    const Int4 met = (dx * dx + dy * dy + dz * dz < group.reach_squared) & (begin < end);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      if (met[lane]) add(holes_[4 * g + lane], origin_world, step_world, t_end, out);
+    }
+  }
+  if (!out.holes.empty()) make_pieces(out);
+}
+
+void HoleSet::add(const OpenHole& open, glm::vec3 origin_world, glm::vec3 step_world, float t_end,
+                  HolesOnRay& out) const {
+  const shared::Hole& hole = open.hole;
+  const glm::vec3 from = origin_world - hole.origin_world;
+  const float z = glm::dot(from, hole.forward), z_step = glm::dot(step_world, hole.forward);
+  const float x = glm::dot(from, hole.right), x_step = glm::dot(step_world, hole.right);
+  const float y = glm::dot(from, hole.up), y_step = glm::dot(step_world, hole.up);
+  float begin = 0, end = t_end;
+  // Between the depths at which it is open.
+  if (z_step != 0) {
+    const float ta = (open.near - z) / z_step, tb = (open.far - z) / z_step;
+    begin = std::max(begin, std::min(ta, tb));
+    end = std::min(end, std::max(ta, tb));
+  } else if (z < open.near || z > open.far) {
+    return;
+  }
+  // Within its widest cross-section.
+  const float speed = x_step * x_step + y_step * y_step;
+  const float nearest = speed > 1e-20f ? -(x * x_step + y * y_step) / speed : 0;
+  const float nx = x + x_step * nearest, ny = y + y_step * nearest;
+  const float reach = reach_of(hole), inside = reach * reach - nx * nx - ny * ny;
+  if (inside <= 0) return;
+  if (speed > 1e-20f) {
+    const float half = std::sqrt(inside / speed);
+    begin = std::max(begin, nearest - half);
+    end = std::min(end, nearest + half);
+  }
+  if (!(begin < end)) return;
+  out.holes.push_back({begin, end, nearest, nx, x_step, ny, y_step, open.age - open.age_per_metre * z,
+                       -open.age_per_metre * z_step, hole.radius, std::max(hole.time_to_expand, kLeastTime),
+                       hole.time_to_expand + hole.time_to_stay_open, std::max(hole.time_to_fade, kLeastTime),
+                       hole.shape == shared::kHoleBox});
+}
+
+}  // namespace brume::sim

@@ -1,0 +1,69 @@
+// What holes leave of the smoke along a ray (shared/hole.h, without the noise of their rims).
+//
+// Along a ray the strength of a hole is smooth but for a few points: where the ray enters its edge or its
+// middle, and where the hole begins to open or to close at that depth. All of them are roots of polynomials
+// of degree one or two. Between them, quadrature of a fixed order is accurate.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/hole.h"
+#include "sim/float4.hpp"
+
+namespace brume::sim {
+
+/// One hole, as a ray sees it: all that changes with the ray's t is linear in it.
+struct RayHole {
+  float begin, end;            ///< Where it can take anything away.
+  float nearest;               ///< t at which the ray is nearest to its axis;
+  float x, x_step, y, y_step;  ///< across it: x + x_step (t - nearest).
+  float age, age_step;         ///< How long it has been opening: age + age_step t [s].
+  float radius, expand, stay_end, fade;
+  bool box;
+  /// Strength of the hole at four t between begin and end.
+  Float4 strength(Float4 t) const;
+};
+
+/// A part of the ray along which no hole's strength has a kink.
+struct HolePiece {
+  float begin, end;
+  bool gone;  ///< A hole takes all of the smoke away.
+};
+
+/// The holes that a ray meets. Kept from ray to ray only to keep its memory.
+struct HolesOnRay {
+  std::vector<RayHole> holes;
+  std::vector<HolePiece> pieces;  ///< In order of t; between them no hole is.
+  std::vector<float> breaks;
+  /// Share of the smoke that is left at four t of a piece.
+  Float4 left(const HolePiece& piece, Float4 t) const;
+};
+
+/// The holes that are open somewhere at one time.
+class HoleSet {
+ public:
+  HoleSet(std::span<const shared::Hole> holes, float time);
+  bool empty() const { return holes_.empty(); }
+  /// Finds those that the points origin_world + t step_world come into for t in [0, t_end].
+  void find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, HolesOnRay& out) const;
+
+ private:
+  struct OpenHole {
+    shared::Hole hole;
+    float age, age_per_metre;  // how long it has been opening at depth z: age - age_per_metre z
+    float near, far;           // depths between which it is open [m]
+  };
+  // Four holes' axes, lane by lane; a lane without a hole has far < near.
+  struct Group {
+    Float4 origin_x, origin_y, origin_z, forward_x, forward_y, forward_z, near, far, reach_squared;
+  };
+  void add(const OpenHole& open, glm::vec3 origin_world, glm::vec3 step_world, float t_end,
+           HolesOnRay& out) const;
+
+  std::vector<OpenHole> holes_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace brume::sim
