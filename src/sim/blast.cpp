@@ -1,6 +1,7 @@
 #include "sim/blast.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -31,33 +32,61 @@ std::int64_t floor_sqrt(std::int64_t square) {
   return root;
 }
 
+/// The solid voxels of a box, a byte each, so that a step along a ray is one addition.
+class SolidBox {
+ public:
+  SolidBox(const voxel::BitGrid& grid, glm::ivec3 low, glm::ivec3 high)
+      : low_(low),
+        size_(high - low + 1),
+        solid_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
+               static_cast<std::size_t>(size_.z)) {
+    const glm::ivec3 first = glm::max(low, glm::ivec3(0)), last = glm::min(high, grid.size() - 1);
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) solid_[index({x, y, z})] = grid.solid({x, y, z});
+  }
+  std::size_t index(glm::ivec3 v) const {
+    const glm::ivec3 in = v - low_;
+    return static_cast<std::size_t>(in.x) + stride(1) * static_cast<std::size_t>(in.y) +
+           stride(2) * static_cast<std::size_t>(in.z);
+  }
+  std::size_t stride(int axis) const {
+    const auto x = static_cast<std::size_t>(size_.x), y = static_cast<std::size_t>(size_.y);
+    return axis == 0 ? 1 : axis == 1 ? x : x * y;
+  }
+  bool operator[](std::size_t i) const { return solid_[i] != 0; }
+
+ private:
+  glm::ivec3 low_, size_;
+  std::vector<std::uint8_t> solid_;
+};
+
 /// Whether the straight way from a point to the centre of a voxel meets no solid voxel before it. Along an
-/// edge x steps before y, y before z. Both within 2^10 voxels of each other.
-bool in_sight(const voxel::BitGrid& grid, glm::i64vec3 from, glm::ivec3 target) {
+/// edge x steps before y, y before z. Both in the box, which is at most 2^10 voxels wide.
+bool in_sight(const SolidBox& box, glm::i64vec3 from, glm::ivec3 target) {
   const glm::i64vec3 to = glm::i64vec3(target) * kSub + kSub / 2;
-  const glm::i64vec3 way = to - from, length = glm::abs(way);
-  glm::ivec3 voxel(from >> std::int64_t{10});
+  const glm::i64vec3 way = to - from, length = glm::max(glm::abs(way), std::int64_t{1});
   // Times to the next face on each axis, all multiplied by the lengths of the ways, so that they are whole.
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-  glm::i64vec3 next(kNever), stride(0);
-  glm::ivec3 step(0);
-  const glm::i64vec3 others(std::max<std::int64_t>(length.y, 1) * std::max<std::int64_t>(length.z, 1),
-                            std::max<std::int64_t>(length.x, 1) * std::max<std::int64_t>(length.z, 1),
-                            std::max<std::int64_t>(length.x, 1) * std::max<std::int64_t>(length.y, 1));
+  const glm::i64vec3 others(length.y * length.z, length.x * length.z, length.x * length.y);
+  glm::i64vec3 next(kNever), step_time(0);
+  std::array<std::size_t, 3> step{};  // downward steps wrap around
   for (int axis = 0; axis < 3; ++axis) {
     if (way[axis] == 0) continue;
     const std::int64_t in_voxel = from[axis] & (kSub - 1);
-    step[axis] = way[axis] > 0 ? 1 : -1;
+    const std::size_t stride = box.stride(axis);
+    step[static_cast<std::size_t>(axis)] = way[axis] > 0 ? stride : std::size_t{0} - stride;
     next[axis] = (way[axis] > 0 ? kSub - in_voxel : in_voxel) * others[axis];
-    stride[axis] = kSub * others[axis];
+    step_time[axis] = kSub * others[axis];
   }
-  for (;;) {
-    if (voxel == target) return true;
-    if (!grid.free(voxel)) return false;
+  const std::size_t end = box.index(target);
+  for (std::size_t at = box.index(glm::ivec3(from >> std::int64_t{10})); at != end;) {
+    if (box[at]) return false;
     const int axis = next.x <= next.y && next.x <= next.z ? 0 : next.y <= next.z ? 1 : 2;
-    voxel[axis] += step[axis];
-    next[axis] += stride[axis];
+    at += step[static_cast<std::size_t>(axis)];
+    next[axis] += step_time[axis];
   }
+  return true;
 }
 
 }  // namespace
@@ -78,8 +107,9 @@ BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint
 
   // Every free voxel of the ball, slice by slice.
   const std::int64_t limit = ruler.subvoxels(blast.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen};
-  const glm::ivec3 low = glm::max(glm::ivec3((from - limit) >> std::int64_t{10}), glm::ivec3(0));
-  const glm::ivec3 high = glm::min(glm::ivec3((from + limit) >> std::int64_t{10}), grid.size() - 1);
+  const glm::ivec3 box_low((from - limit) >> std::int64_t{10}), box_high((from + limit) >> std::int64_t{10});
+  const SolidBox box(grid, box_low, box_high);
+  const glm::ivec3 low = glm::max(box_low, glm::ivec3(0)), high = glm::min(box_high, grid.size() - 1);
   std::vector<std::vector<glm::ivec3>> slices(static_cast<std::size_t>(std::max(0, high.z - low.z + 1)));
   parallel_for(slices.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -87,8 +117,8 @@ BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint
         for (int x = low.x; x <= high.x; ++x) {
           const glm::ivec3 v(x, y, low.z + static_cast<int>(i));
           const glm::i64vec3 d = glm::i64vec3(v) * kSub + kSub / 2 - from;
-          if (d.x * d.x + d.y * d.y + d.z * d.z > limit * limit || !grid.free(v)) continue;
-          if (in_sight(grid, from, v)) slices[i].push_back(v);
+          if (d.x * d.x + d.y * d.y + d.z * d.z > limit * limit || box[box.index(v)]) continue;
+          if (in_sight(box, from, v)) slices[i].push_back(v);
         }
   });
   std::vector<glm::ivec3> voxels;

@@ -170,9 +170,16 @@ Cloud Cloud::rested() const {
     parts.rest_survival.push_back(parts_.rest_survival[rank]);
   });
   parts.rest = BlockSet(trapped);  // the order of ranks is kept
+
+  std::vector<FilledVoxel> filled;
+  parts.fill.for_each([&](glm::ivec3 voxel, std::uint32_t) {
+    filled.push_back({voxel, distances_[voxels().rank(voxel)]});
+  });
+  std::stable_sort(filled.begin(), filled.end(),
+                   [](const FilledVoxel& a, const FilledVoxel& b) { return a.distance < b.distance; });
   Cloud cloud;
   cloud.parts_ = std::move(parts);
-  cloud.finish(flood_fill(cloud.parts_.fill, cloud.parts_.origin.source));
+  cloud.finish(filled);
   return cloud;
 }
 
