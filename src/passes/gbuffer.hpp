@@ -19,9 +19,9 @@ struct GBuffer {
 class GBufferPass {
  public:
   explicit GBufferPass(gpu::Context& context);
-  /// `moving` are drawn with the scene's own draws. `frame` holds FrameConstants.
+  /// `moving` are drawn with the scene's own draws, `hidden` are left out. `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
-              const gpu::Buffer& frame, const GBuffer& target) const;
+              HiddenObjects hidden, const gpu::Buffer& frame, const GBuffer& target) const;
 
  private:
   gpu::GraphicsPipeline pipeline_;

@@ -151,7 +151,8 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, c
   });
   upload_images(context, runner, scene, out);
   for (const scene::Material& material : scene.materials) out.materials.push_back(device_material(material));
-  for (const scene::Object& object : scene.objects) out.draws.push_back(place(geometry, object));
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+    out.draws.emplace_back(place(geometry, scene.objects[i])).object = i;
   std::stable_sort(out.draws.begin(), out.draws.end(),
                    [](const Draw& a, const Draw& b) { return a.material < b.material; });
   out.grenade = place(geometry, scene.grenade);

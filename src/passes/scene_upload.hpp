@@ -1,6 +1,8 @@
 // The scene on the device: vertices, textures and lights, uploaded once.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "gpu/recorder.hpp"
@@ -15,10 +17,18 @@ struct Draw {
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t first_vertex = 0;
   std::uint32_t material = 0;
+  std::uint32_t object = scene::kNone;  ///< Of Scene::objects.
   glm::mat4 world_from_mesh{1};
   glm::vec3 centre_world{0};  ///< Bounding sphere.
   float radius = 0;
 };
+
+/// Objects that are not drawn, in rising order.
+using HiddenObjects = std::span<const std::uint32_t>;
+
+inline bool is_hidden(const Draw& draw, HiddenObjects hidden) {
+  return std::binary_search(hidden.begin(), hidden.end(), draw.object);
+}
 
 struct MaterialImages {
   shared::MaterialConstants constants;

@@ -84,28 +84,46 @@ ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& sc
 }
 
 void ShadowPass::record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
-                        const ShadowMaps& maps) const {
+                        HiddenObjects hidden, const ShadowMaps& maps) const {
   runner.run([&](gpu::Recorder& recorder) {
     const shared::ShadowView sun{maps.sun_clip_from_world, glm::inverse(maps.sun_clip_from_world)};
     recorder.upload(maps.sun, 0, std::as_bytes(std::span(&sun, 1)));
   });
+  record_layers(context, runner, scene, hidden, maps, [](const Sees&) { return true; });
+}
+
+void ShadowPass::record_changed(gpu::Context& context, gpu::CommandRunner& runner,
+                                const SceneResources& scene, HiddenObjects hidden,
+                                std::span<const std::uint32_t> changed, const ShadowMaps& maps) const {
+  record_layers(context, runner, scene, hidden, maps, [&](const Sees& sees) {
+    return std::any_of(scene.draws.begin(), scene.draws.end(),
+                       [&](const Draw& draw) { return is_hidden(draw, changed) && sees(draw); });
+  });
+}
+
+void ShadowPass::record_layers(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+                               HiddenObjects hidden, const ShadowMaps& maps,
+                               const std::function<bool(const Sees&)>& wanted) const {
+  const auto record_one = [&](std::uint32_t layer, const glm::mat4& clip_from_world, const Sees& sees) {
+    if (!wanted(sees)) return;
+    record_layer(context, runner, scene, maps, layer, clip_from_world,
+                 [&](const Draw& draw) { return !is_hidden(draw, hidden) && sees(draw); });
+  };
   for (const shared::Light& light : scene.light_list) {
     if (light.shadow_layer == shared::kNoShadow) continue;
     if (light.kind == shared::kLightDirectional) {
-      record_layer(context, runner, scene, maps, light.shadow_layer, maps.sun_clip_from_world,
-                   [](const Draw&) { return true; });
+      record_one(light.shadow_layer, maps.sun_clip_from_world, [](const Draw&) { return true; });
       continue;
     }
-    for (std::uint32_t face = 0; face < 6; ++face) {
-      record_layer(context, runner, scene, maps, light.shadow_layer + face, face_clip_from_world(light, face),
-                   [&](const Draw& draw) { return face_sees(light, face, draw); });
-    }
+    for (std::uint32_t face = 0; face < 6; ++face)
+      record_one(light.shadow_layer + face, face_clip_from_world(light, face),
+                 [&](const Draw& draw) { return face_sees(light, face, draw); });
   }
 }
 
 void ShadowPass::record_layer(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
                               const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
-                              const std::function<bool(const Draw&)>& sees) const {
+                              const Sees& draws) const {
   // One submission a layer: its view lives until the device is done with it.
   const gpu::LayerView view(context, maps.layers, layer);
   runner.run([&](gpu::Recorder& recorder) {
@@ -114,7 +132,7 @@ void ShadowPass::record_layer(gpu::Context& context, gpu::CommandRunner& runner,
     recorder.begin_rendering({{}, &maps.layers, view.handle()}, glm::uvec2(maps.layers.info().size));
     recorder.bind_for_draws(pipeline_, {gpu::read(scene.vertices)});
     for (const Draw& draw : scene.draws) {
-      if (!sees(draw)) continue;
+      if (!draws(draw)) continue;
       const shared::ShadowDraw constants{clip_from_world * draw.world_from_mesh};
       recorder.push(pipeline_, std::as_bytes(std::span(&constants, 1)));
       recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);

@@ -20,14 +20,23 @@ class ShadowPass {
  public:
   explicit ShadowPass(gpu::Context& context);
   ShadowMaps make_maps(gpu::Context& context, const SceneResources& scene) const;
-  /// Draws every layer. The scene does not move: once is enough.
+  /// Draws every layer without the hidden objects. The scene does not move: once is enough until others are
+  /// hidden.
   void record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
-              const ShadowMaps& maps) const;
+              HiddenObjects hidden, const ShadowMaps& maps) const;
+  /// Draws those layers anew in which one of the `changed` objects (rising) may be seen.
+  void record_changed(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+                      HiddenObjects hidden, std::span<const std::uint32_t> changed,
+                      const ShadowMaps& maps) const;
 
  private:
+  using Sees = std::function<bool(const Draw&)>;
+  void record_layers(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
+                     HiddenObjects hidden, const ShadowMaps& maps,
+                     const std::function<bool(const Sees&)>& wanted) const;
   void record_layer(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
                     const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
-                    const std::function<bool(const Draw&)>& sees) const;
+                    const Sees& draws) const;
   gpu::GraphicsPipeline pipeline_;
 };
 

@@ -39,6 +39,8 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   input.holes = holes;
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
     input.grenades.push_back(grenade_matrix(grenade));
+  const auto hidden = simulation.hidden_objects();
+  input.hidden_objects.assign(hidden.begin(), hidden.end());
   return input;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "passes/blue_noise.hpp"
 #include "render/device_camera.hpp"
@@ -31,7 +32,9 @@ std::vector<passes::Draw> grenade_draws(const passes::SceneResources& scene,
 
 Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
                    const RendererOptions& options)
-    : size_px_(options.size_px),
+    : context_(context),
+      runner_(runner),
+      size_px_(options.size_px),
       scene_(passes::upload_scene(context, runner, scene)),
       gbuffer_pass_(context),
       shadow_pass_(context),
@@ -53,7 +56,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       frame_(context, sizeof(shared::FrameConstants), kBufferUsage),
       holes_(context, passes::kMaxHoles * sizeof(shared::Hole), kBufferUsage),
       counters_(context, sizeof(std::uint32_t), kBufferUsage) {
-  shadow_pass_.record(context, runner, scene_, shadows_);
+  shadow_pass_.record(context, runner, scene_, {}, shadows_);
   const passes::WorleyPass worley(context);
   runner.run([&](gpu::Recorder& recorder) {
     worley.record(recorder, worley_, passes::kSmokeNoise);
@@ -64,6 +67,16 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
 
 void Renderer::prepare(const FrameInput& input) {
   if (input.volume) smoke_upload_.reserve(*input.volume);
+  if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
+}
+
+void Renderer::follow_hidden_objects(const FrameInput& input) {
+  std::vector<std::uint32_t> changed;
+  std::set_symmetric_difference(hidden_objects_.begin(), hidden_objects_.end(), input.hidden_objects.begin(),
+                                input.hidden_objects.end(), std::back_inserter(changed));
+  hidden_objects_ = input.hidden_objects;
+  shadow_pass_.record_changed(context_, runner_, scene_, hidden_objects_, changed, shadows_);
+  smoke_changed_ = true;  // the light in it has
 }
 
 void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput& input) {
@@ -97,7 +110,8 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
     if (input.volume) smoke_changed_ = smoke_upload_.record(recorder, *input.volume) || smoke_changed_;
   });
   stage("gbuffer", [&] {
-    gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), frame_, gbuffer_);
+    gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), input.hidden_objects,
+                         frame_, gbuffer_);
   });
   const bool light_smoke = input.volume && needs_light(input);
   stage("smoke_shadow", [&] {

@@ -21,12 +21,13 @@ struct FrameInput {
   scene::Camera camera;
   shared::Sky sky{};
   shared::SmokeLook look{};
-  float exposure = 1;                        ///< Multiplies radiance before the tone curve; > 0.
-  float time = 0;                            ///< [s], the clock of the holes and of the drifting noise.
-  std::uint32_t frame_index = 0;             ///< Moves jitter and dither; equal numbers give equal pictures.
-  const sim::SmokeVolume* volume = nullptr;  ///< null: no smoke.
-  std::span<const shared::Hole> holes;       ///< At most passes::kMaxHoles are drawn, the last ones.
-  std::vector<glm::mat4> grenades;           ///< world_from_mesh of each grenade in the air.
+  float exposure = 1;                         ///< Multiplies radiance before the tone curve; > 0.
+  float time = 0;                             ///< [s], the clock of the holes and of the drifting noise.
+  std::uint32_t frame_index = 0;              ///< Moves jitter and dither; equal numbers give equal pictures.
+  const sim::SmokeVolume* volume = nullptr;   ///< null: no smoke.
+  std::span<const shared::Hole> holes;        ///< At most passes::kMaxHoles are drawn, the last ones.
+  std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
+  std::vector<std::uint32_t> hidden_objects;  ///< Of the scene, rising: not drawn, and they cast no shadow.
   bool force_light =
       false;  ///< Light smoke and surfaces anew even when nothing changed since the last frame.
 };
@@ -38,13 +39,14 @@ struct RendererOptions {
 
 class Renderer {
  public:
-  /// Uploads the scene and draws its shadows. `runner` is used only here. Throws resource_limit when the
-  /// device has too little memory.
+  /// Uploads the scene and draws its shadows. `context` and `runner` must outlive the renderer. Throws
+  /// resource_limit when the device has too little memory.
   Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
            const RendererOptions& options);
 
-  /// Makes room for the frame's smoke: call before record_frame, outside of a recording, when the device is
-  /// done with the frame before. Throws resource_limit.
+  /// Makes room for the frame's smoke, and draws the shadows anew where other objects are hidden than before:
+  /// call before record_frame, outside of a recording, when the device is done with the frame before. Throws
+  /// resource_limit.
   void prepare(const FrameInput& input);
   /// Records the whole frame. No allocation of device memory besides staging, no submit, no wait.
   void record_frame(gpu::Recorder& recorder, const FrameInput& input);
@@ -64,6 +66,10 @@ class Renderer {
   /// Whether the smoke must be lit anew; asks once a frame.
   bool needs_light(const FrameInput& input);
 
+  void follow_hidden_objects(const FrameInput& input);
+
+  gpu::Context& context_;
+  gpu::CommandRunner& runner_;
   glm::uvec2 size_px_;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;
@@ -81,6 +87,7 @@ class Renderer {
   gpu::Buffer frame_, holes_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
   shared::Sky lit_sky_{};
+  std::vector<std::uint32_t> hidden_objects_;  ///< That the shadows were drawn without.
   glm::vec3 lit_eye_{0};
   float lit_time_ = 0;
   bool smoke_changed_ = false;

@@ -223,7 +223,8 @@ Result<void> check_doors(const Timeline& timeline, const Scene& scene) {
     const auto& objects = scene.objects;
     if (std::any_of(objects.begin(), objects.end(), [&](const Object& o) { return o.name == door.object; }))
       continue;
-    std::string message = door.place + ": the scene has no object " + in_quotes(door.object);
+    std::string message =
+        (door.place.empty() ? "" : door.place + ": ") + "the scene has no object " + in_quotes(door.object);
     const auto distance = [&](const Object& o) { return edit_distance(o.name, door.object); };
     const auto nearest =
         std::min_element(objects.begin(), objects.end(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace brume::stage {
 namespace {
@@ -50,17 +51,13 @@ sim::Blast blast_of(const scene::BlastEvent& event, std::uint32_t tick) {
   return blast;
 }
 
-}  // namespace
-
-std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second) {
-  // A time that was meant to be a tick may fall short of it by a rounding.
-  return static_cast<std::uint32_t>(std::floor(std::max(0.0, seconds) * ticks_per_second + 1e-9));
-}
-
-Result<std::vector<sim::Event>> events_of(const Stage& stage, std::uint32_t ticks_per_second) {
+Result<std::vector<sim::Event>> make_events(const Stage& stage, const std::vector<LevelEvent>& changes,
+                                            std::uint32_t ticks_per_second) {
   const scene::Timeline& timeline = stage.timeline;
   const auto tick = [&](double seconds) { return tick_at(seconds, ticks_per_second); };
   std::vector<sim::Event> events;
+  for (const LevelEvent& event : changes)
+    if (!event.blocks.empty()) events.push_back(sim::LevelEdit{tick(event.time), event.blocks});
   for (const scene::SmokeEvent& event : timeline.smokes)
     events.push_back(sim::ThrowSmoke{tick(event.time), position(event.from_world), position(event.at_world),
                                      smoke_settings(timeline.smoke, ticks_per_second)});
@@ -82,24 +79,68 @@ Result<std::vector<sim::Event>> events_of(const Stage& stage, std::uint32_t tick
   return events;
 }
 
-Simulation::Simulation(const Stage& stage)
-    : world_(stage.voxels.grid), volume_(stage.voxels.grid, [&planes = stage.voxels.planes](glm::ivec3 cell) {
-        return planes.at(cell);
-      }) {}
+}  // namespace
+
+std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second) {
+  // A time that was meant to be a tick may fall short of it by a rounding.
+  return static_cast<std::uint32_t>(std::floor(std::max(0.0, seconds) * ticks_per_second + 1e-9));
+}
+
+Result<std::vector<sim::Event>> events_of(const Stage& stage, std::uint32_t ticks_per_second) {
+  const auto changes = level_events(stage);
+  if (!changes) return changes.failure();
+  return make_events(stage, *changes, ticks_per_second);
+}
+
+Simulation::Simulation(const Stage& stage, std::vector<LevelEvent> level_events)
+    : level_events_(std::move(level_events)),
+      world_(stage.voxels.grid),
+      planes_(stage.voxels.planes),
+      volume_(stage.voxels.grid, [this](glm::ivec3 cell) { return planes_.at(cell); }) {}
 
 Result<std::unique_ptr<Simulation>> Simulation::create(const Stage& stage) {
-  std::unique_ptr<Simulation> simulation(new Simulation(stage));
-  auto events = events_of(stage);
+  auto changes = level_events(stage);
+  if (!changes) return changes.failure();
+  auto events = make_events(stage, *changes, sim::WorldSettings{}.ticks_per_second);
   if (!events) return events.failure();
+  std::unique_ptr<Simulation> simulation(new Simulation(stage, std::move(*changes)));
   for (sim::Event& event : *events) {
     if (auto done = simulation->world_.append(std::move(event)); !done) return done.failure();
   }
+  simulation->advance_to(0);
   return simulation;
 }
 
 void Simulation::advance_to(double seconds) {
   world_.advance_to(tick_at(seconds, world_.settings().ticks_per_second));
+  follow_level();
   volume_.update(world_);
+}
+
+void Simulation::follow_level() {
+  const auto later = std::partition_point(level_events_.begin(), level_events_.end(), [&](const auto& event) {
+    return tick_at(event.time, world_.settings().ticks_per_second) <= world_.tick();
+  });
+  const auto count = static_cast<std::size_t>(later - level_events_.begin());
+  if (count == in_effect_) return;
+
+  // Planes: on top of those that stay, or all anew when time ran backwards.
+  for (std::size_t i = std::min(count, in_effect_); i < std::max(count, in_effect_); ++i) {
+    const voxel::IntBox& cells = level_events_[i].planes->cells;
+    if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
+  }
+  if (count < in_effect_) planes_.clear();
+  for (std::size_t i = count < in_effect_ ? 0 : in_effect_; i < count; ++i)
+    planes_.add(level_events_[i].planes);
+  in_effect_ = count;
+
+  // The last word on each object.
+  std::map<std::uint32_t, bool> hidden;
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::uint32_t object : level_events_[i].objects) hidden[object] = level_events_[i].hidden;
+  hidden_objects_.clear();
+  for (const auto& [object, is_hidden] : hidden)
+    if (is_hidden) hidden_objects_.push_back(object);
 }
 
 }  // namespace brume::stage

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/smoke_volume.hpp"
 #include "sim/world.hpp"
+#include "stage/level_events.hpp"
 #include "stage/stage.hpp"
 
 namespace brume::stage {
@@ -13,9 +15,10 @@ namespace brume::stage {
 /// The tick at or before a time [s]; 0 for times before 0. The only place where seconds become ticks.
 std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 
-/// The timeline's events in the order in which a world takes them: smokes, then shots, then blasts and moves,
-/// each by time. Bodies are numbered in the order of their names' first appearance. Fails with bad_input for
-/// an event that is out of the simulation's range.
+/// The timeline's events in the order in which a world takes them: by tick, and within one tick the edits and
+/// doors, the smokes, the shots, the blasts, the moves. Bodies are numbered in the order of their names'
+/// first appearance. Fails with bad_input for an event that is out of the simulation's range, and as
+/// level_events.
 Result<std::vector<sim::Event>> events_of(
     const Stage& stage, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 
@@ -29,10 +32,20 @@ class Simulation {
   void advance_to(double seconds);
   const sim::World& world() const { return world_; }
   const sim::SmokeVolume& volume() const { return volume_; }
+  /// The surfaces of the level at the present tick.
+  const voxel::PatchedPlanes& planes() const { return planes_; }
+  /// Objects of the scene that are open doors at the present tick, rising.
+  std::span<const std::uint32_t> hidden_objects() const { return hidden_objects_; }
 
  private:
-  explicit Simulation(const Stage& stage);
+  Simulation(const Stage& stage, std::vector<LevelEvent> level_events);
+  void follow_level();
+
+  std::vector<LevelEvent> level_events_;
+  std::size_t in_effect_ = 0;  // of level_events_
+  std::vector<std::uint32_t> hidden_objects_;
   sim::World world_;
+  voxel::PatchedPlanes planes_;
   sim::SmokeVolume volume_;
 };
 

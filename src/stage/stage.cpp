@@ -38,6 +38,7 @@ Result<Stage> load_stage(const std::filesystem::path& input, const std::filesyst
 Result<Stage> make_stage(scene::Timeline timeline, const std::filesystem::path& cache_folder) {
   auto scene = scene::load_scene(timeline.scene);
   if (!scene) return scene.failure();
+  if (auto checked = scene::check_doors(timeline, *scene); !checked) return checked.failure();
   // A scene without any lamp is shown by day.
   if (scene->lights.empty()) {
     scene::Light sun;
