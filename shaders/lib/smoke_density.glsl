@@ -14,9 +14,13 @@ const uint kNoSlot = 0xffffffffu;
 
 /// The slot of a brick, or kNoSlot where there is no smoke.
 uint slot_at(SmokeVolumeFrame volume, ivec3 brick) {
-  const ivec3 b = brick - volume.window_origin;
-  if (any(lessThan(b, ivec3(0))) || any(greaterThanEqual(b, volume.window_size))) return kNoSlot;
-  return pages[b.x + volume.window_size.x * (b.y + volume.window_size.y * b.z)] - 1u;
+  const ivec3 n = (brick >> 3) - volume.window_origin, size = volume.window_size;
+  if (any(lessThan(n, ivec3(0))) || any(greaterThanEqual(n, size))) return kNoSlot;
+  const uint node = pages[n.x + size.x * (n.y + size.y * n.z)];
+  if (node == 0u) return kNoSlot;
+  const ivec3 b = brick & (kNodeBricks - 1);
+  const uint first = uint(size.x * size.y * size.z) + (node - 1u) * kPageEntries;
+  return pages[first + uint(b.x + kNodeBricks * (b.y + kNodeBricks * b.z))] - 1u;
 }
 
 /// Where a brick's low corner lies in the atlas, in texels.

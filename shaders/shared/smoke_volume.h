@@ -1,7 +1,8 @@
 // Smoke density as the march reads it: sparse bricks, and boundary cells where a surface runs through.
 //
-//   page table   one uint per 8^3-voxel brick of a window of the world: slot + 1, or 0 where there is no
-//                smoke; brick b is entry x + size.x (y + size.y z) of b - window_origin
+//   pages        a table of two levels: the root, one uint per node of a window of the world, node + 1 or 0
+//                where there is no smoke, x + size.x (y + size.y z) of node - window_origin; after it the
+//                nodes, 8^3 uints each, slot + 1 or 0 per 8^3-voxel brick: x + 8 (y + 8 z) of brick - 8 node
 //   density      a 3D texture of 10^3-texel bricks (8^3 voxels and an apron of one texel); R: density of a
 //                free voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Trilinear: G < 1 says
 //                that the cell has a solid corner.
@@ -18,6 +19,8 @@ SHARED_BEGIN
 SHARED_CONST int kBrickVoxels = 8;
 SHARED_CONST int kBrickTexels = 10;
 SHARED_CONST int kBrickCells = 9;
+SHARED_CONST int kNodeBricks = 8;
+SHARED_CONST uint kPageEntries = 512u;
 SHARED_CONST uint kCellsPerBrick = 729u;
 SHARED_CONST uint kTexelsPerBrick = 1000u;
 
@@ -34,8 +37,8 @@ SHARED_SIZE(BoundaryCell, 16);
 struct SmokeVolumeFrame {
   vec3 origin_world;    // low corner of voxel (0, 0, 0) [m]
   float voxel_size;     // [m]
-  ivec3 window_origin;  // first brick of the page table, in bricks
-  ivec3 window_size;    // bricks
+  ivec3 window_origin;  // first node of the page table, in nodes of kNodeBricks^3 bricks
+  ivec3 window_size;    // nodes
   ivec3 atlas_bricks;   // bricks per axis of the density texture; slot = x + bx * (y + by * z)
   vec3 bounds_min;      // where density can be above 0 [voxel space]
   vec3 bounds_max;

@@ -11,9 +11,10 @@ namespace {
 
 constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
-/// Makes the buffer at least this large, in powers of two so that growth is rare.
-void grow(gpu::Context& context, gpu::Buffer& buffer, std::size_t bytes) {
-  if (buffer && buffer.size() >= bytes) return;
+/// Makes the buffer at least this large, in powers of two so that growth is rare; true when it is a new one,
+/// with nothing in it.
+bool grow(gpu::Context& context, gpu::Buffer& buffer, std::size_t bytes) {
+  if (buffer && buffer.size() >= bytes) return false;
   if (bytes > context.limits().maxStorageBufferRange) {
     throw Error(ErrorCode::resource_limit, "the smoke needs a buffer of " + std::to_string(bytes) +
                                                " bytes, the device takes " +
@@ -23,6 +24,7 @@ void grow(gpu::Context& context, gpu::Buffer& buffer, std::size_t bytes) {
   const std::size_t size = std::min<std::size_t>(std::bit_ceil(std::max<std::size_t>(bytes, 256)),
                                                  context.limits().maxStorageBufferRange);
   buffer = gpu::Buffer(context, size, kUsage);
+  return true;
 }
 
 gpu::Image make_atlas(gpu::Context& context, glm::ivec3 bricks, VkFormat format, VkImageUsageFlags usage) {
@@ -46,17 +48,33 @@ glm::ivec3 slot_position(glm::ivec3 atlas, std::uint32_t slot) {
   return {s % atlas.x, s / atlas.x % atlas.y, s / (atlas.x * atlas.y)};
 }
 
-std::vector<glm::ivec3> bricks_of_slots(const sim::SmokeVolume& volume) {
-  std::vector<glm::ivec3> bricks(volume.slot_count());
-  const auto pages = volume.page_table();
-  const glm::ivec3 size = volume.frame().window_size;
-  for (std::size_t i = 0; i < pages.size(); ++i) {
-    if (pages[i] == 0) continue;
-    const auto at = static_cast<std::int32_t>(i);
-    bricks[pages[i] - 1] =
-        volume.frame().window_origin + glm::ivec3(at % size.x, at / size.x % size.y, at / (size.x * size.y));
+/// Slots one after the other.
+struct SlotRun {
+  std::uint32_t first = 0, count = 0;
+};
+std::vector<SlotRun> runs_of(std::span<const std::uint32_t> slots) {
+  std::vector<SlotRun> runs;
+  for (const std::uint32_t slot : slots) {
+    if (!runs.empty() && runs.back().first + runs.back().count == slot)
+      ++runs.back().count;
+    else
+      runs.push_back({slot, 1});
   }
-  return bricks;
+  return runs;
+}
+
+std::vector<std::uint32_t> all_slots(const sim::SmokeVolume& volume) {
+  std::vector<std::uint32_t> slots(volume.slot_count());
+  std::iota(slots.begin(), slots.end(), 0u);
+  return slots;
+}
+
+template <typename Value>
+void upload_ranges(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span<const Value> values,
+                   std::span<const sim::IndexRange> ranges) {
+  for (const sim::IndexRange& range : ranges)
+    recorder.upload(buffer, range.first * sizeof(Value),
+                    std::as_bytes(values.subspan(range.first, range.count)));
 }
 
 }  // namespace
@@ -73,54 +91,60 @@ SmokeUpload::SmokeUpload(gpu::Context& context) : context_(context) {
 }
 
 void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
-  if (volume.structure_generation() == uploaded_generation_ || volume.slot_count() == 0) return;
+  if (volume.structure_generation() == reserved_generation_ || volume.slot_count() == 0) return;
+  reserved_generation_ = volume.structure_generation();
   const std::size_t slots = volume.slot_count();
-  grow(context_, resources_.pages, volume.page_table().size_bytes());
-  grow(context_, resources_.cells, slots * shared::kCellsPerBrick * sizeof(std::uint32_t));
-  grow(context_, resources_.boundary, volume.boundary_cells().size_bytes());
-  grow(context_, resources_.corners, volume.corner_sets().size_bytes());
-  grow(context_, resources_.slot_bricks, slots * sizeof(glm::ivec3));
+  everything_ |= grow(context_, resources_.pages,
+                      volume.pages().root().size_bytes() + volume.pages().nodes().size_bytes());
+  everything_ |= grow(context_, resources_.cells, slots * shared::kCellsPerBrick * sizeof(std::uint32_t));
+  everything_ |= grow(context_, resources_.boundary, volume.boundary_cells().size_bytes());
+  everything_ |= grow(context_, resources_.corners, volume.corner_sets().size_bytes());
+  everything_ |= grow(context_, resources_.slot_bricks, slots * sizeof(glm::ivec3));
   const glm::ivec3 bricks = volume.frame().atlas_bricks;
   if (resources_.density.info().size == glm::uvec3(bricks) * static_cast<std::uint32_t>(shared::kBrickTexels))
     return;
+  everything_ = true;
   resources_.density = make_atlas(context_, bricks, VK_FORMAT_R8G8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   resources_.inscatter = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT,
                                     VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
 }
 
-void SmokeUpload::record_structure(gpu::Recorder& recorder, const sim::SmokeVolume& volume) {
-  std::vector<std::uint32_t> cells;
-  cells.reserve(static_cast<std::size_t>(volume.slot_count()) * shared::kCellsPerBrick);
-  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
-    const auto of_slot = volume.cells(slot);
-    cells.insert(cells.end(), of_slot.begin(), of_slot.end());
+void SmokeUpload::record_pages(gpu::Recorder& recorder, const sim::PageTable& pages, bool all) {
+  const std::size_t root_bytes = pages.root().size_bytes();
+  if (all || pages.root_changed()) recorder.upload(resources_.pages, 0, std::as_bytes(pages.root()));
+  // Another window moves all nodes.
+  if (all || pages.root().size() != root_entries_) {
+    recorder.upload(resources_.pages, root_bytes, std::as_bytes(pages.nodes()));
+  } else {
+    for (const std::uint32_t node : pages.changed_nodes()) {
+      const auto entries =
+          pages.nodes().subspan(std::size_t{node} * shared::kPageEntries, shared::kPageEntries);
+      recorder.upload(resources_.pages, root_bytes + node * entries.size_bytes(), std::as_bytes(entries));
+    }
   }
-  const std::vector<glm::ivec3> slot_bricks = bricks_of_slots(volume);
-  recorder.upload(resources_.pages, 0, std::as_bytes(volume.page_table()));
-  recorder.upload(resources_.cells, 0, std::as_bytes(std::span(cells)));
-  recorder.upload(resources_.boundary, 0, std::as_bytes(volume.boundary_cells()));
-  recorder.upload(resources_.slot_bricks, 0, std::as_bytes(std::span(slot_bricks)));
+  root_entries_ = pages.root().size();
 }
 
-bool SmokeUpload::record(gpu::Recorder& recorder, const sim::SmokeVolume& volume) {
-  const bool had_smoke = resources_.slot_count > 0;
-  resources_.slot_count = volume.slot_count();
-  if (volume.slot_count() == 0) return had_smoke;
-  if (volume.revision() == uploaded_revision_) return false;
-  const bool new_structure = volume.structure_generation() != uploaded_generation_;
-  // What is dirty is only that since the revision before: whoever missed one takes everything.
-  const bool all = new_structure || volume.revision() != uploaded_revision_ + 1;
-  if (new_structure) record_structure(recorder, volume);
-  uploaded_generation_ = volume.structure_generation();
-  uploaded_revision_ = volume.revision();
-
-  const bool corners = all || volume.corner_sets_dirty();
-  if (corners) recorder.upload(resources_.corners, 0, std::as_bytes(volume.corner_sets()));
-  std::vector<std::uint32_t> slots(volume.dirty_slots().begin(), volume.dirty_slots().end());
-  if (all) {
-    slots.resize(volume.slot_count());
-    std::iota(slots.begin(), slots.end(), 0u);
+void SmokeUpload::record_cells(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+                               std::span<const std::uint32_t> slots) {
+  std::vector<std::uint32_t> cells;
+  std::vector<glm::ivec3> bricks;
+  for (const SlotRun& run : runs_of(slots)) {
+    cells.clear();
+    bricks.clear();
+    for (std::uint32_t slot = run.first; slot < run.first + run.count; ++slot) {
+      const auto of_slot = volume.cells(slot);
+      cells.insert(cells.end(), of_slot.begin(), of_slot.end());
+      bricks.push_back(volume.brick_of(slot));
+    }
+    recorder.upload(resources_.cells, std::size_t{run.first} * shared::kCellsPerBrick * sizeof(std::uint32_t),
+                    std::as_bytes(std::span(cells)));
+    recorder.upload(resources_.slot_bricks, run.first * sizeof(glm::ivec3), std::as_bytes(std::span(bricks)));
   }
+}
+
+void SmokeUpload::record_texels(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+                                std::span<const std::uint32_t> slots) {
   std::vector<gpu::Recorder::Region> regions;
   regions.reserve(slots.size());
   for (const std::uint32_t slot : slots) {
@@ -129,7 +153,31 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const sim::SmokeVolume& volume
                        glm::uvec3(static_cast<std::uint32_t>(shared::kBrickTexels))});
   }
   recorder.upload(resources_.density, regions);
-  return corners || !regions.empty();
+}
+
+bool SmokeUpload::record(gpu::Recorder& recorder, const sim::SmokeVolume& volume) {
+  const bool had_smoke = resources_.slot_count > 0;
+  resources_.slot_count = volume.slot_count();
+  if (volume.slot_count() == 0) return had_smoke;
+  if (volume.revision() == uploaded_revision_) return false;
+  // What is dirty is only that since the revision before: whoever missed one takes everything.
+  const bool all = everything_ || volume.revision() != uploaded_revision_ + 1;
+  uploaded_revision_ = volume.revision();
+  everything_ = false;
+  record_pages(recorder, volume.pages(), all);
+  if (all) {
+    const std::vector<std::uint32_t> slots = all_slots(volume);
+    record_cells(recorder, volume, slots);
+    recorder.upload(resources_.boundary, 0, std::as_bytes(volume.boundary_cells()));
+    recorder.upload(resources_.corners, 0, std::as_bytes(volume.corner_sets()));
+    record_texels(recorder, volume, slots);
+    return true;
+  }
+  record_cells(recorder, volume, volume.dirty_cell_slots());
+  upload_ranges(recorder, resources_.boundary, volume.boundary_cells(), volume.dirty_boundary_cells());
+  upload_ranges(recorder, resources_.corners, volume.corner_sets(), volume.dirty_corner_sets());
+  record_texels(recorder, volume, volume.dirty_slots());
+  return volume.corner_sets_dirty() || !volume.dirty_slots().empty();
 }
 
 }  // namespace brume::passes

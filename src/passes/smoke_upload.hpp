@@ -30,11 +30,17 @@ class SmokeUpload {
   const SmokeResources& resources() const { return resources_; }
 
  private:
-  void record_structure(gpu::Recorder& recorder, const sim::SmokeVolume& volume);
+  void record_pages(gpu::Recorder& recorder, const sim::PageTable& pages, bool all);
+  void record_cells(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+                    std::span<const std::uint32_t> slots);
+  void record_texels(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+                     std::span<const std::uint32_t> slots);
 
   gpu::Context& context_;
   SmokeResources resources_;
-  std::uint64_t uploaded_generation_ = 0, uploaded_revision_ = 0;
+  std::uint64_t reserved_generation_ = 0, uploaded_revision_ = 0;
+  std::size_t root_entries_ = 0;
+  bool everything_ = true;  // a resource is new and empty
 };
 
 }  // namespace brume::passes

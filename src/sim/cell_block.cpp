@@ -91,12 +91,12 @@ float curvature(const voxel::Plane& a, const voxel::Plane& b, glm::ivec3 step) {
 
 void CellSight::look_at(glm::ivec3 cell) {
   sheets_.clear();
-  read_own_planes(planes_(cell));
+  read_own_planes(planes_.at(cell));
   flat_ = true;
   for (int i = 0; i < 27; ++i) {
     const glm::ivec3 step = glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
     if (step == glm::ivec3(0)) continue;
-    for (const voxel::Plane& plane : planes_(cell + step)) read_neighbour(plane, step);
+    for (const voxel::Plane& plane : planes_.at(cell + step)) read_neighbour(plane, step);
   }
   if (flat_) return;
   measure_voxels();

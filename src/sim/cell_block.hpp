@@ -33,11 +33,37 @@ inline glm::vec3 from_cell_centre(int bit) {
   return glm::vec3(block_voxel(bit)) - 1.5f;
 }
 
+/// The planes of a brick's cells and of those around them, each asked for once.
+class PlaneWindow {
+ public:
+  explicit PlaneWindow(const PlaneSource& source) : source_(source) {}
+  void move_to(glm::ivec3 brick) {
+    first_cell_ = 8 * brick - 1;
+    known_.fill(false);
+  }
+  /// Of a cell of the brick or next to one.
+  std::span<const voxel::Plane> at(glm::ivec3 cell) {
+    const glm::ivec3 c = cell - first_cell_;
+    const auto i = static_cast<std::size_t>(c.x + 10 * (c.y + 10 * c.z));
+    if (!known_[i]) {
+      planes_[i] = source_(cell);
+      known_[i] = true;
+    }
+    return planes_[i];
+  }
+
+ private:
+  const PlaneSource& source_;
+  glm::ivec3 first_cell_{0};
+  std::array<bool, 1000> known_{};
+  std::array<std::span<const voxel::Plane>, 1000> planes_;
+};
+
 /// Looks at one cell after the other. Surfaces are what `planes` says: each plane as a square that ends at
 /// the faces of its cell.
 class CellSight {
  public:
-  explicit CellSight(const PlaneSource& planes) : planes_(planes) {}
+  explicit CellSight(PlaneWindow& planes) : planes_(planes) {}
 
   /// Turns to a cell: reads its planes and those of the 26 cells around it.
   void look_at(glm::ivec3 cell);
@@ -72,7 +98,7 @@ class CellSight {
   Block seen_from(glm::vec3 viewpoint, Block among) const;
   void find_viewpoints();
 
-  const PlaneSource& planes_;
+  PlaneWindow& planes_;
   shared::BoundaryCell record_{};
   int plane_count_ = 0;
   std::array<voxel::Plane, voxel::kMaxPlanes> own_;

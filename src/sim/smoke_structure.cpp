@@ -1,16 +1,13 @@
 #include "sim/smoke_structure.hpp"
 
-#include <array>
+#include <algorithm>
 #include <bit>
-#include <limits>
-
-#include "sim/cell_block.hpp"
-#include "sim/sealed_pockets.hpp"
 
 namespace brume::sim {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr int kCorners =
+    shared::kBrickVoxels + 1;  // voxels per axis that are a corner of one of the brick's cells
 
 /// The 3x3x3 voxels around each corner of the cell.
 std::array<Block, 8> blocks_around_corners() {
@@ -26,18 +23,6 @@ std::array<Block, 8> blocks_around_corners() {
 std::uint32_t weight_of(glm::ivec3 offset) {
   const int square = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
   return static_cast<std::uint32_t>(144 / square);
-}
-
-ListTable table_from_pairs(std::size_t lists,
-                           const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
-  ListTable table;
-  table.first.assign(lists + 1, 0);
-  for (const auto& [list, value] : pairs) ++table.first[list + 1];
-  for (std::size_t i = 0; i < lists; ++i) table.first[i + 1] += table.first[i];
-  table.values.resize(pairs.size());
-  std::vector<std::uint32_t> next(table.first.begin(), table.first.end() - 1);
-  for (const auto& [list, value] : pairs) table.values[next[list]++] = value;
-  return table;
 }
 
 /// The side that a side takes its densities from: itself when it sees any air. Else it is the inside of
@@ -61,183 +46,149 @@ int side_to_follow(int side, int side_count, const std::array<Block, 8>& seen, B
 
 /// A cell's surroundings.
 struct CellBlock {
-  Block free = 0;  // outside the grid too: smoke may end there
+  glm::ivec3 local{0};  // cell - 8 brick
+  Block free = 0;       // outside the grid too: smoke may end there
   Block smoke = 0;
-  std::array<std::uint32_t, 64> voxel;  // number of the smoke voxel, or kNone
 };
+
+/// The 4x4x4 voxels around a cell.
+Block block_of(const VoxelWindow& window, glm::ivec3 local) {
+  Block block = 0;
+  const auto x = static_cast<unsigned>(local.x);
+  const auto y = static_cast<std::size_t>(local.y), z = static_cast<std::size_t>(local.z);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < 4; ++j)
+      block |= static_cast<Block>(window[z + k][y + j] >> x & 15) << (4 * j + 16 * k);
+  return block;
+}
+
+/// For each row of a brick's cells, those with any bit set among the 2^3 voxels of their corners, or the 4^3
+/// around them.
+template <std::size_t kFirst, std::size_t kCount>
+std::array<std::array<std::uint8_t, 8>, 8> cells_with_any(const VoxelWindow& window) {
+  std::array<std::array<std::uint8_t, 8>, 8> cells;
+  for (std::size_t z = 0; z < 8; ++z)
+    for (std::size_t y = 0; y < 8; ++y) {
+      unsigned row = 0;
+      for (std::size_t k = kFirst; k < kFirst + kCount; ++k)
+        for (std::size_t j = kFirst; j < kFirst + kCount; ++j) row |= window[z + k][y + j];
+      unsigned any = 0;
+      for (std::size_t i = kFirst; i < kFirst + kCount; ++i) any |= row >> i;
+      cells[z][y] = static_cast<std::uint8_t>(any);
+    }
+  return cells;
+}
 
 }  // namespace
 
-class SmokeStructure::Builder {
- public:
-  Builder(const voxel::BitGrid& grid, const PlaneSource& planes, SmokeStructure& out)
-      : grid_(grid),
-        sight_(planes),
-        pockets_(grid, [this](glm::ivec3 v) { return voxel_at(v) != kNone; }),
-        out_(out) {}
+VoxelWindow window_of(const std::array<const BrickBits*, 27>& around) {
+  VoxelWindow window;
+  const auto byte = [&](std::size_t i, int y, int z) -> unsigned {
+    return around[i] ? (*around[i])[static_cast<std::size_t>(z & 7)] >> (8 * (y & 7)) & 255 : 0;
+  };
+  for (int z = -1; z < 10; ++z)
+    for (int y = -1; y < 10; ++y) {
+      const auto i = static_cast<std::size_t>(3 * ((y >> 3) + 1) + 9 * ((z >> 3) + 1));
+      window[static_cast<std::size_t>(z + 1)][static_cast<std::size_t>(y + 1)] = static_cast<std::uint16_t>(
+          byte(i, y, z) >> 7 | byte(i + 1, y, z) << 1 | (byte(i + 2, y, z) & 3) << 9);
+    }
+  return window;
+}
 
-  void place_bricks(std::span<const LiveCloud> clouds);
-  void number_voxels(std::span<const LiveCloud> clouds);
-  void list_texels();
-  void build_cells();
+std::array<const BrickBits*, 27> solid_around(const voxel::BitGrid& grid, glm::ivec3 brick) {
+  std::array<const BrickBits*, 27> around{};
+  const glm::ivec3 bricks = (grid.size() + 7) >> 3;
+  for (int i = 0; i < 27; ++i) {
+    const glm::ivec3 b = brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+    if (glm::all(glm::greaterThanEqual(b, glm::ivec3(0))) && glm::all(glm::lessThan(b, bricks)))
+      around[static_cast<std::size_t>(i)] = grid.find_brick(b);
+  }
+  return around;
+}
+
+class CellBuilder::Work {
+ public:
+  explicit Work(const PlaneSource& planes) : planes_(planes), sight_(planes_) {}
+  std::unique_ptr<BrickCells> build(const BrickScene& scene, const Sealed& sealed);
 
  private:
-  std::uint32_t slot_at(glm::ivec3 brick) const {
-    const glm::ivec3 b = brick - out_.window_origin;
-    if (glm::any(glm::lessThan(b, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(b, out_.window_size)))
-      return kNone;
-    return out_.page_table[entry_of(b)] - 1;  // 0 wraps to kNone
-  }
-  std::size_t entry_of(glm::ivec3 b) const {
-    return static_cast<std::size_t>(b.x) +
-           static_cast<std::size_t>(out_.window_size.x) *
-               (static_cast<std::size_t>(b.y) +
-                static_cast<std::size_t>(out_.window_size.y) * static_cast<std::size_t>(b.z));
-  }
-  static std::size_t local_of(glm::ivec3 v) {
-    return static_cast<std::size_t>((v.x & 7) + 8 * (v.y & 7) + 64 * (v.z & 7));
-  }
-  std::uint32_t voxel_at(glm::ivec3 v) const {
-    const std::uint32_t slot = slot_at(v >> 3);
-    return slot == kNone ? kNone : number_[512 * std::size_t{slot} + local_of(v)];
-  }
-  bool has_solid_corner(glm::ivec3 cell) const {
-    for (int corner = 0; corner < 8; ++corner)
-      if (grid_.solid(cell + corner_offset(corner))) return true;
-    return false;
-  }
-
-  bool look_around(glm::ivec3 cell, CellBlock& block) const;
-  void add_cell(glm::ivec3 cell, const CellBlock& block);
-  Block sealed_voxels(glm::ivec3 cell, Block among);
+  void add_cell(const CellBlock& block);
+  Block sealed_voxels(const CellBlock& block, Block among) const;
   float way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke, Block sealed) const;
-  void reach_bent_surfaces(glm::ivec3 cell, const CellBlock& block, std::array<Block, 8>& seen,
-                           shared::BoundaryCell& record);
-  void add_corner(const CellBlock& block, int corner, Block own_side, Block seen);
-  void enter_cell(glm::ivec3 cell, std::uint32_t entry);
+  void reach_bent_surfaces(const CellBlock& block, std::array<Block, 8>& seen, shared::BoundaryCell& record);
+  void add_set(const CellBlock& block, int like, std::uint8_t sides, Block seen);
+  std::uint32_t corner(const CellBlock& block, int corner, Block own_side, Block seen);
+  std::uint32_t mean(const CellBlock& block, int corner, Block from, bool around_corner);
+  std::uint32_t voxel_number(glm::ivec3 local) const;
 
-  const voxel::BitGrid& grid_;
+  PlaneWindow planes_;
   CellSight sight_;
-  SealedPockets pockets_;
   const std::array<Block, 8> around_corner_ = blocks_around_corners();
-  SmokeStructure& out_;
-  std::vector<std::uint32_t> number_;  // of the smoke voxel, 512 a slot
-  std::vector<std::uint32_t> last_cell_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> voxel_cell_pairs_;
+  const BrickScene* scene_ = nullptr;
+  const Sealed* sealed_ = nullptr;
+  std::unique_ptr<BrickCells> out_;
+  /// Means of the voxels around a corner are the same for all cells that it is a corner of and that see the
+  /// same: by corner voxel a list of those there are.
+  struct KnownMean {
+    Block from;  // relative to the corner voxel - 1
+    std::uint32_t number, next;
+  };
+  std::vector<KnownMean> known_;
+  std::array<std::uint32_t, kCorners * kCorners * kCorners> first_known_;
 };
 
-/// The bricks that hold the filled voxels and two voxels around them: a surface may run that far beyond.
-void SmokeStructure::Builder::place_bricks(std::span<const LiveCloud> clouds) {
-  bool any = false;
-  for (const LiveCloud& live : clouds) {
-    if (live.cloud->voxels().empty()) continue;
-    out_.low = any ? glm::min(out_.low, live.cloud->low()) : live.cloud->low();
-    out_.high = any ? glm::max(out_.high, live.cloud->high()) : live.cloud->high();
-    any = true;
-  }
-  if (!any) return;
-  out_.window_origin = (out_.low - 2) >> 3;
-  out_.window_size = ((out_.high + 2) >> 3) - out_.window_origin + 1;
-  out_.page_table.resize(entry_of(out_.window_size - 1) + 1);
-  for (const LiveCloud& live : clouds)
-    live.cloud->voxels().for_each([&](glm::ivec3 voxel, std::uint32_t) {
-      for (int corner = 0; corner < 8; ++corner)
-        out_.page_table[entry_of(((voxel - 2 + 4 * corner_offset(corner)) >> 3) - out_.window_origin)] = 1;
-    });
-
-  std::size_t entry = 0;
-  for (int z = 0; z < out_.window_size.z; ++z)
-    for (int y = 0; y < out_.window_size.y; ++y)
-      for (int x = 0; x < out_.window_size.x; ++x, ++entry) {
-        if (out_.page_table[entry] == 0) continue;
-        out_.bricks.push_back(out_.window_origin + glm::ivec3(x, y, z));
-        out_.page_table[entry] = static_cast<std::uint32_t>(out_.bricks.size());
-      }
+/// The number of a smoke voxel, from its place in the brick.
+std::uint32_t CellBuilder::Work::voxel_number(glm::ivec3 local) const {
+  const glm::ivec3 brick = (local >> 3) + 1;
+  return scene_->slots[static_cast<std::size_t>(brick.x + 3 * brick.y + 9 * brick.z)] * kVoxelsPerBrick +
+         local_voxel(local);
 }
 
-void SmokeStructure::Builder::number_voxels(std::span<const LiveCloud> clouds) {
-  number_.assign(512 * out_.bricks.size(), kNone);
-  out_.cloud_voxels.first.push_back(0);
-  for (const LiveCloud& live : clouds) {
-    live.cloud->voxels().for_each([&](glm::ivec3 voxel, std::uint32_t) {
-      std::uint32_t& number = number_[512 * std::size_t{slot_at(voxel >> 3)} + local_of(voxel)];
-      if (number == kNone) {
-        number = static_cast<std::uint32_t>(out_.voxels.size());
-        out_.voxels.push_back(voxel);
-      }
-      out_.cloud_voxels.values.push_back(number);
-    });
-    out_.cloud_voxels.first.push_back(static_cast<std::uint32_t>(out_.cloud_voxels.values.size()));
-  }
-}
-
-/// A voxel is a texel of its own brick and of the aprons of up to seven others.
-void SmokeStructure::Builder::list_texels() {
-  ListTable& table = out_.voxel_texels;
-  table.first.reserve(out_.voxels.size() + 1);
-  table.first.push_back(0);
-  for (const glm::ivec3 v : out_.voxels) {
-    const glm::ivec3 first = (v - 1) >> 3, last = (v + 1) >> 3;
-    for (int z = first.z; z <= last.z; ++z)
-      for (int y = first.y; y <= last.y; ++y)
-        for (int x = first.x; x <= last.x; ++x) {
-          const std::uint32_t slot = slot_at({x, y, z});
-          if (slot == kNone) continue;
-          const glm::ivec3 t = v - 8 * glm::ivec3(x, y, z) + 1;
-          table.values.push_back(slot * shared::kTexelsPerBrick +
-                                 static_cast<std::uint32_t>(t.x + 10 * (t.y + 10 * t.z)));
-        }
-    table.first.push_back(static_cast<std::uint32_t>(table.values.size()));
-  }
-}
-
-/// Reads the 4x4x4 voxels around a cell; false when there is no smoke among them.
-bool SmokeStructure::Builder::look_around(glm::ivec3 cell, CellBlock& block) const {
-  block.smoke = 0;
-  for (int bit = 0; bit < 64; ++bit) {
-    const std::uint32_t number = voxel_at(cell - 1 + block_voxel(bit));
-    block.voxel[static_cast<std::size_t>(bit)] = number;
-    if (number != kNone) block.smoke |= Block{1} << bit;
-  }
-  if (block.smoke == 0) return false;
-  block.free = 0;
-  for (int bit = 0; bit < 64; ++bit)
-    if (!grid_.solid(cell - 1 + block_voxel(bit))) block.free |= Block{1} << bit;
-  return true;
-}
-
-/// Lists what a corner takes from: itself where it is on the side in question, else the nearest voxels that
-/// this side of the cell sees.
-void SmokeStructure::Builder::add_corner(const CellBlock& block, int corner, Block own_side, Block seen) {
+/// The mean of voxels of the block, nearer ones weighing more; 0 where none of them holds smoke.
+std::uint32_t CellBuilder::Work::mean(const CellBlock& block, int corner, Block from, bool around_corner) {
+  if ((from & block.smoke) == 0) return kMeanBit;
   const glm::ivec3 at = corner_offset(corner) + 1;
-  CornerSource source{static_cast<std::uint32_t>(out_.contributions.size()), 0, 0};
-  Block from = block_bit(at) & own_side;
-  if (from == 0) from = seen & around_corner_[static_cast<std::size_t>(corner)];
-  if (from == 0) from = seen;
+  std::uint32_t* list = nullptr;
+  if (around_corner) {
+    const glm::ivec3 voxel = block.local + corner_offset(corner);
+    list = &first_known_[static_cast<std::size_t>(voxel.x + kCorners * (voxel.y + kCorners * voxel.z))];
+    const Block relative = from >> std::countr_zero(block_bit(corner_offset(corner)));
+    for (std::uint32_t i = *list; i != 0; i = known_[i - 1].next)
+      if (known_[i - 1].from == relative) return known_[i - 1].number;
+    known_.push_back({relative, kMeanBit | static_cast<std::uint32_t>(out_->means.size() + 1), *list});
+    *list = static_cast<std::uint32_t>(known_.size());
+  }
+  SmokeMean mean{static_cast<std::uint32_t>(out_->contributions.size()), 0, 0,
+                 static_cast<std::uint16_t>(local_voxel(block.local))};
   for (; from != 0; from &= from - 1) {
     const int bit = std::countr_zero(from);
     const glm::ivec3 offset = block_voxel(bit) - at;
     const std::uint32_t weight = offset == glm::ivec3(0) ? 1 : weight_of(offset);
-    source.total_weight += weight;
-    const std::uint32_t number = block.voxel[static_cast<std::size_t>(bit)];
-    if (number == kNone) continue;
-    out_.contributions.push_back({number, weight});
-    ++source.count;
-    const auto cell = static_cast<std::uint32_t>(out_.boundary_cells.size());
-    if (last_cell_[number] == cell) continue;
-    last_cell_[number] = cell;
-    voxel_cell_pairs_.emplace_back(number, cell);
+    mean.total = static_cast<std::uint16_t>(mean.total + weight);
+    if ((block.smoke >> bit & 1) == 0) continue;
+    out_->contributions.push_back({voxel_number(block.local - 1 + block_voxel(bit)), weight});
+    ++mean.count;
   }
-  out_.corners.push_back(source);
+  out_->means.push_back(mean);
+  return kMeanBit | static_cast<std::uint32_t>(out_->means.size());
+}
+
+/// What a corner takes from: itself where it is on the side in question, else the nearest voxels that this
+/// side of the cell sees.
+std::uint32_t CellBuilder::Work::corner(const CellBlock& block, int corner, Block own_side, Block seen) {
+  const glm::ivec3 at = corner_offset(corner) + 1;
+  if (const Block own = block_bit(at) & own_side; own != 0)
+    return (own & block.smoke) != 0 ? voxel_number(block.local + corner_offset(corner)) : kMeanBit;
+  const Block near = seen & around_corner_[static_cast<std::size_t>(corner)];
+  return near != 0 ? mean(block, corner, near, true) : mean(block, corner, seen, false);
 }
 
 /// The voxels of `among` in pockets that no smoke comes into.
-Block SmokeStructure::Builder::sealed_voxels(glm::ivec3 cell, Block among) {
+Block CellBuilder::Work::sealed_voxels(const CellBlock& block, Block among) const {
   Block sealed = 0;
   for (Block left = among; left != 0; left &= left - 1) {
     const int bit = std::countr_zero(left);
-    const glm::ivec3 v = cell - 1 + block_voxel(bit);
-    if (grid_.contains(v) && pockets_.sealed(v)) sealed |= Block{1} << bit;
+    if ((*sealed_)(8 * scene_->brick + block.local - 1 + block_voxel(bit))) sealed |= Block{1} << bit;
   }
   return sealed;
 }
@@ -245,8 +196,8 @@ Block SmokeStructure::Builder::sealed_voxels(glm::ivec3 cell, Block among) {
 /// How far to move a plane along its normal so that smoke on one side of it reaches the surface all over the
 /// cell, where behind it nothing is but sealed pockets: what runs over ends inside of them. 0 where there is
 /// air on both sides.
-float SmokeStructure::Builder::way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke,
-                                              Block sealed) const {
+float CellBuilder::Work::way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke,
+                                        Block sealed) const {
   const float way = sight_.deviation(plane);
   for (const int behind : {0, 1}) {
     bool fits = true, any_smoke = false, any_sealed = false;
@@ -267,14 +218,14 @@ float SmokeStructure::Builder::way_to_surface(int plane, const std::array<Block,
 /// Where a surface bends, a piece of it that only just comes into the cell, and the pieces of the cells
 /// around it, may hide all smoke from the sliver before it: then the planes of the cell alone decide. And
 /// smoke has to reach the surface though that lies off its plane.
-void SmokeStructure::Builder::reach_bent_surfaces(glm::ivec3 cell, const CellBlock& block,
-                                                  std::array<Block, 8>& seen, shared::BoundaryCell& record) {
+void CellBuilder::Work::reach_bent_surfaces(const CellBlock& block, std::array<Block, 8>& seen,
+                                            shared::BoundaryCell& record) {
   bool bent = false;
   for (int plane = 0; plane < sight_.plane_count(); ++plane) bent |= sight_.deviation(plane) > 0;
   if (!bent) return;
   Block all = 0;
   for (const Block sees : seen) all |= sees;
-  const Block sealed = sealed_voxels(cell, all & ~block.smoke);
+  const Block sealed = sealed_voxels(block, all & ~block.smoke);
   if ((all & ~sealed) == 0)
     for (int side = 0; side < sight_.side_count(); ++side) {
       Block& sees = seen[static_cast<std::size_t>(side)];
@@ -287,58 +238,70 @@ void SmokeStructure::Builder::reach_bent_surfaces(glm::ivec3 cell, const CellBlo
   }
 }
 
-void SmokeStructure::Builder::add_cell(glm::ivec3 cell, const CellBlock& block) {
-  sight_.look_at(cell);
+/// The set of the sides that see what side `like` sees.
+void CellBuilder::Work::add_set(const CellBlock& block, int like, std::uint8_t sides, Block seen) {
+  CornerSource source{{}, out_->set_count, static_cast<std::uint16_t>(local_voxel(block.local)), sides};
+  const Block own_side = sight_.on_side(like, block.free);
+  std::uint32_t all = kMeanBit;
+  for (int i = 0; i < 8; ++i) {
+    const std::uint32_t from = corner(block, i, own_side, seen);
+    source.corners[static_cast<std::size_t>(i)] = from;
+    if (from != kMeanBit) all = from;
+  }
+  if (all != kMeanBit) out_->sources.push_back(source);
+}
+
+void CellBuilder::Work::add_cell(const CellBlock& block) {
+  sight_.look_at(8 * scene_->brick + block.local);
   shared::BoundaryCell record = sight_.record();
-  record.first_set = static_cast<std::uint32_t>(out_.corners.size() / 8);
+  record.first_set = out_->set_count;
   std::array<Block, 8> seen{};
   for (int side = 0; side < sight_.side_count(); ++side)
     seen[static_cast<std::size_t>(side)] = sight_.seen(side, block.free);
-  reach_bent_surfaces(cell, block, seen, record);
+  reach_bent_surfaces(block, seen, record);
+  std::array<std::uint8_t, 8> followers{};
   for (int side = 0; side < sight_.side_count(); ++side) {
-    const int like = side_to_follow(side, sight_.side_count(), seen, block.smoke);
-    const Block own_side = sight_.on_side(like, block.free);
-    for (int corner = 0; corner < 8; ++corner)
-      add_corner(block, corner, own_side, seen[static_cast<std::size_t>(like)]);
+    std::uint8_t& sides =
+        followers[static_cast<std::size_t>(side_to_follow(side, sight_.side_count(), seen, block.smoke))];
+    sides = static_cast<std::uint8_t>(sides | 1u << side);
   }
-  out_.boundary_cells.push_back(record);
+  for (int side = 0; side < sight_.side_count(); ++side)
+    if (const std::uint8_t sides = followers[static_cast<std::size_t>(side)]; sides != 0)
+      add_set(block, side, sides, seen[static_cast<std::size_t>(side)]);
+  out_->cells.push_back(static_cast<std::uint16_t>(local_voxel(block.local)));
+  out_->records.push_back(record);
+  out_->set_count += static_cast<std::uint32_t>(sight_.side_count());
 }
 
-/// Writes the cell into every brick in which its points may lie.
-void SmokeStructure::Builder::enter_cell(glm::ivec3 cell, std::uint32_t entry) {
-  const glm::ivec3 first = cell >> 3, last = (cell + 1) >> 3;
-  for (int z = first.z; z <= last.z; ++z)
-    for (int y = first.y; y <= last.y; ++y)
-      for (int x = first.x; x <= last.x; ++x) {
-        const std::uint32_t slot = slot_at({x, y, z});
-        if (slot == kNone) continue;
-        const glm::ivec3 i = cell - 8 * glm::ivec3(x, y, z) + 1;
-        out_.cells[std::size_t{slot} * shared::kCellsPerBrick +
-                   static_cast<std::size_t>(i.x + 9 * (i.y + 9 * i.z))] = entry;
-      }
-}
-
-void SmokeStructure::Builder::build_cells() {
-  out_.cells.assign(out_.bricks.size() * shared::kCellsPerBrick, 0);
-  last_cell_.assign(out_.voxels.size(), kNone);
-  CellBlock block;
-  for (const glm::ivec3 brick : out_.bricks)
-    for (int i = 0; i < 512; ++i) {
-      const glm::ivec3 cell = brick * 8 + glm::ivec3(i & 7, i >> 3 & 7, i >> 6);
-      if (!has_solid_corner(cell) || !look_around(cell, block)) continue;
-      add_cell(cell, block);
-      enter_cell(cell, static_cast<std::uint32_t>(out_.boundary_cells.size()));
+std::unique_ptr<BrickCells> CellBuilder::Work::build(const BrickScene& scene, const Sealed& sealed) {
+  const auto with_solid = cells_with_any<1, 2>(scene.solid);
+  const auto with_smoke = cells_with_any<0, 4>(scene.smoke);
+  out_ = nullptr;
+  for (int i = 0; i < 512; i += 8) {
+    const auto y = static_cast<std::size_t>(i >> 3 & 7), z = static_cast<std::size_t>(i >> 6);
+    unsigned row = static_cast<unsigned>(with_solid[z][y] & with_smoke[z][y]);
+    if (row == 0) continue;
+    if (!out_) {
+      out_ = std::make_unique<BrickCells>();
+      known_.clear();
+      first_known_.fill(0);
+      scene_ = &scene;
+      sealed_ = &sealed;
+      planes_.move_to(scene.brick);
     }
-  out_.voxel_cells = table_from_pairs(out_.voxels.size(), voxel_cell_pairs_);
+    for (; row != 0; row &= row - 1) {
+      const glm::ivec3 local(std::countr_zero(row), i >> 3 & 7, i >> 6);
+      add_cell({local, ~block_of(scene.solid, local), block_of(scene.smoke, local)});
+    }
+  }
+  if (out_) out_->mean_values.assign(out_->means.size() + 1, 0);
+  return std::move(out_);
 }
 
-SmokeStructure::SmokeStructure(const voxel::BitGrid& grid, const PlaneSource& planes,
-                               std::span<const LiveCloud> clouds) {
-  Builder builder(grid, planes, *this);
-  builder.place_bricks(clouds);
-  builder.number_voxels(clouds);
-  builder.list_texels();
-  builder.build_cells();
+CellBuilder::CellBuilder(const PlaneSource& planes) : work_(std::make_unique<Work>(planes)) {}
+CellBuilder::~CellBuilder() = default;
+std::unique_ptr<BrickCells> CellBuilder::build(const BrickScene& scene, const Sealed& sealed) {
+  return work_->build(scene, sealed);
 }
 
 }  // namespace brume::sim

@@ -1,62 +1,51 @@
-// Where the smoke of a set of clouds is, and which voxels each boundary corner takes its density from: all
-// that stays the same from tick to tick.
+// The boundary cells of one brick: which voxels each corner takes its density from, past the surfaces in
+// between. All that stays the same from tick to tick.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
-#include <span>
-#include <vector>
+#include <memory>
 
-#include "shared/smoke_volume.h"
 #include "sim/cell_block.hpp"
-#include "sim/world.hpp"
+#include "sim/sealed_pockets.hpp"
+#include "sim/smoke_brick.hpp"
 #include "voxel/bit_grid.hpp"
-#include "voxel/surface_planes.hpp"
 
 namespace brume::sim {
 
-/// Lists of numbers, one after the other: list i is values[first[i]] to values[first[i + 1]].
-struct ListTable {
-  std::vector<std::uint32_t> first, values;
-  std::span<const std::uint32_t> operator[](std::size_t i) const {
-    return std::span(values).subspan(first[i], first[i + 1] - first[i]);
-  }
+/// Voxels -1 to 9 of a brick per axis: all that its cells take from. Row [z + 1][y + 1], bit x + 1.
+using VoxelWindow = std::array<std::array<std::uint16_t, 11>, 11>;
+
+/// The window of a brick from the bits of the 27 bricks around it, x + 3 y + 9 z of brick - at + 1; null: no
+/// bit is set.
+VoxelWindow window_of(const std::array<const BrickBits*, 27>& around);
+/// The bits of the 27 bricks of a grid around one; null where there is none.
+std::array<const BrickBits*, 27> solid_around(const voxel::BitGrid& grid, glm::ivec3 brick);
+
+/// A brick and its surroundings.
+struct BrickScene {
+  glm::ivec3 brick{0};
+  VoxelWindow solid, smoke;
+  std::array<std::uint32_t, 27> slots;  ///< Of the bricks around, as window_of counts them.
 };
 
-/// A smoke voxel that a boundary corner takes from.
-struct Contribution {
-  std::uint32_t voxel;  ///< Index into SmokeStructure::voxels.
-  std::uint32_t weight;
-};
-
-/// A corner's density is the sum of weight * density over its contributions, divided by total_weight; voxels
-/// that smoke never reaches count in the total. total_weight = 0: no voxel on that side, density 0.
-struct CornerSource {
-  std::uint32_t first = 0, count = 0;
-  std::uint32_t total_weight = 0;
-};
-
-class SmokeStructure {
+/// Builds one brick after the other.
+class CellBuilder {
  public:
-  SmokeStructure() = default;
-  SmokeStructure(const voxel::BitGrid& grid, const PlaneSource& planes, std::span<const LiveCloud> clouds);
+  /// Says of a voxel of the grid whether it is free and no smoke comes into its space.
+  using Sealed = std::function<bool(glm::ivec3 voxel)>;
 
-  glm::ivec3 window_origin{0}, window_size{0};
-  std::vector<std::uint32_t> page_table;
-  std::vector<glm::ivec3> bricks;  ///< Of each slot.
-  std::vector<std::uint32_t> cells;
-  std::vector<shared::BoundaryCell> boundary_cells;
-  std::vector<CornerSource> corners;  ///< Eight per corner set.
-  std::vector<Contribution> contributions;
+  explicit CellBuilder(const PlaneSource& planes);
+  ~CellBuilder();
 
-  std::vector<glm::ivec3> voxels;  ///< Every voxel that one of the clouds ever fills, once.
-  ListTable cloud_voxels;          ///< For each cloud the numbers of its voxels, in the order of its fill.
-  ListTable voxel_texels;          ///< For each voxel its texels, counted through all slots.
-  ListTable voxel_cells;           ///< For each voxel the boundary cells that take from it.
-  glm::ivec3 low{0}, high{-1};     ///< Lowest and highest smoke voxel.
+  /// The boundary cells of a brick; null when there is none. first_set is counted from 0.
+  std::unique_ptr<BrickCells> build(const BrickScene& scene, const Sealed& sealed);
 
  private:
-  class Builder;
+  class Work;
+  std::unique_ptr<Work> work_;
 };
 
 }  // namespace brume::sim

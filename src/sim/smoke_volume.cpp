@@ -2,180 +2,352 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <string>
 
 namespace brume::sim {
 namespace {
 
-/// Bricks per axis of an atlas: as near to a cube as doublings get.
-constexpr int kMaxAtlasBricks = 2048 / shared::kBrickTexels;
-
-glm::ivec3 grown_atlas(glm::ivec3 bricks, std::uint64_t slots) {
-  if (bricks.x == 0) bricks = glm::ivec3(4);
-  while (static_cast<std::uint64_t>(bricks.x) * static_cast<std::uint64_t>(bricks.y) *
-             static_cast<std::uint64_t>(bricks.z) <
-         slots) {
-    const int axis = bricks.x <= bricks.y && bricks.x <= bricks.z ? 0 : bricks.y <= bricks.z ? 1 : 2;
-    if (bricks[axis] == kMaxAtlasBricks)
-      throw Error(ErrorCode::resource_limit,
-                  "smoke in " + std::to_string(slots) +
-                      " bricks: a 3D texture holds at most 204^3; use larger voxels");
-    bricks[axis] = std::min(2 * bricks[axis], kMaxAtlasBricks);
+/// Numbers of voxels and means share 32 bits.
+constexpr std::uint32_t kMaxSlots = kMeanBit / kVoxelsPerBrick;
+/// The bricks that a block's voxels are in or within two voxels of: a surface may run that far beyond them.
+void add_bricks_around(const VoxelBlock& block, std::vector<glm::ivec3>& bricks) {
+  constexpr std::array<std::uint64_t, 3> kLowHalf{0x3333333333333333u, 0x00ff00ff00ff00ffu, 0xffffffffu};
+  const glm::ivec3 at(block.at);
+  for (int way = 0; way < 8; ++way) {
+    std::uint64_t mask = block.mask;
+    glm::ivec3 brick = at >> 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((way >> axis & 1) == 0) continue;
+      const bool upper = (at[axis] & 1) != 0;
+      const std::uint64_t low = kLowHalf[static_cast<std::size_t>(axis)];
+      mask &= upper ? ~low : low;
+      brick[axis] += upper ? 1 : -1;
+    }
+    if (mask != 0) bricks.push_back(brick);
   }
-  return bricks;
 }
 
-std::size_t texel_index(std::uint32_t slot, glm::ivec3 t) {
-  return std::size_t{slot} * shared::kTexelsPerBrick + static_cast<std::size_t>(t.x + 10 * (t.y + 10 * t.z));
+bool brick_before(glm::ivec3 a, glm::ivec3 b) {
+  return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
+void sort_unique(std::vector<glm::ivec3>& bricks) {
+  std::sort(bricks.begin(), bricks.end(), brick_before);
+  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+}
+
+BrickBlocks no_blocks() {
+  BrickBlocks blocks;
+  blocks.fill(kNoBlock);
+  return blocks;
+}
+
+/// Which blocks of a set are those of a brick; all kNoBlock when there is none.
+BrickBlocks blocks_in(const BlockSet& set, glm::ivec3 brick) {
+  BrickBlocks blocks = no_blocks();
+  for (std::size_t i = 0; i < 8; ++i) {
+    const glm::ivec3 at = 2 * brick + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
+    if (const VoxelBlock* block = set.find_block(at))
+      blocks[i] = static_cast<std::uint32_t>(block - set.blocks().data());
+  }
+  return blocks;
+}
+
+bool reaches(const BlockSet& set, glm::ivec3 brick) {
+  return glm::all(glm::lessThanEqual(set.low(), 8 * brick + 7)) &&
+         glm::all(glm::greaterThanEqual(set.high(), 8 * brick));
+}
+
+void add_blast_part(SmokeBrick& brick, const SmokeSink& sink) {
+  if (!reaches(sink.field->reached(), brick.at)) return;
+  const BlastPart part{&sink, blocks_in(sink.field->reached(), brick.at)};
+  if (part.blocks == no_blocks()) return;
+  const auto after = std::find_if(brick.blasts.begin(), brick.blasts.end(),
+                                  [&](const BlastPart& other) { return other.sink->id > sink.id; });
+  brick.blasts.insert(after, part);
+}
+
+/// Goes through what is there and what will be, both by id: `add` makes what is new, `keep` says whether a
+/// thing stays as it is. Returns what is no longer there; `held` is then what will be.
+template <typename Held, typename Live, typename Keep, typename Add>
+std::vector<std::unique_ptr<Held>> exchange(std::vector<std::unique_ptr<Held>>& held,
+                                            const std::vector<Live>& live, Keep keep, Add add) {
+  std::vector<std::unique_ptr<Held>> gone, next;
+  next.reserve(live.size());
+  std::size_t i = 0;
+  for (const Live& one : live) {
+    while (i < held.size() && held[i]->id < one.id) gone.push_back(std::move(held[i++]));
+    if (i < held.size() && held[i]->id == one.id) {
+      if (keep(*held[i], one)) {
+        next.push_back(std::move(held[i++]));
+        continue;
+      }
+      gone.push_back(std::move(held[i++]));
+    }
+    next.push_back(add(one));
+  }
+  while (i < held.size()) gone.push_back(std::move(held[i++]));
+  held = std::move(next);
+  return gone;
 }
 
 }  // namespace
 
 SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, PlaneSource planes)
-    : grid_(grid), planes_(std::move(planes)) {
-  frame_.origin_world = grid.frame().origin_world;
-  frame_.voxel_size = grid.frame().voxel_size;
+    : grid_frame_(grid.frame()), planes_(std::move(planes)), builder_(planes_) {
+  frame_.origin_world = grid_frame_.origin_world;
+  frame_.voxel_size = grid_frame_.voxel_size;
 }
 
 SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, const voxel::SurfacePlanes& planes)
     : SmokeVolume(grid, [&planes](glm::ivec3 cell) { return planes.at(cell); }) {}
 
-std::uint32_t SmokeVolume::slot_at(glm::ivec3 brick) const {
-  const glm::ivec3 b = brick - frame_.window_origin;
-  if (glm::any(glm::lessThan(b, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(b, frame_.window_size)))
-    return kNoSlot;
-  const glm::u64vec3 at(b), size(frame_.window_size);
-  return page_table()[at.x + size.x * (at.y + size.y * at.z)] - 1;  // 0 wraps to kNoSlot
+void SmokeVolume::update(const State& state, const voxel::BitGrid& grid) {
+  BRUME_ASSERT(grid.frame() == grid_frame_ && state.frame == grid_frame_, "the state is of another grid");
+  grid_ = &grid;
+  pages_.forget_changes();
+  take_edits(state);
+  take_clouds(state);
+  take_blasts(state);
+  update_structure();
+  update_moments(state);
+  refresh();
+  report_changes();
+  ++revision_;
+  grid_ = nullptr;
 }
 
-std::span<const Texel> SmokeVolume::texels(std::uint32_t slot) const {
-  return std::span(texels_).subspan(texel_index(slot, {0, 0, 0}), shared::kTexelsPerBrick);
+void SmokeVolume::mark(std::uint32_t slot, bool SmokeBrick::*what) {
+  SmokeBrick& brick = *slots_[slot];
+  if (!brick.touched) touched_.push_back(slot);
+  brick.touched = true;
+  brick.*what = true;
+}
+
+void SmokeVolume::take_clouds(const State& state) {
+  const auto same = [](const std::unique_ptr<SmokeSource>& held, const LiveCloud& live) {
+    return held->id == live.id && held->cloud == live.cloud;
+  };
+  if (std::equal(sources_.begin(), sources_.end(), state.clouds.begin(), state.clouds.end(), same)) return;
+  // What comes is added before what goes is removed: no brick that stays loses its slot in between.
+  const auto gone = exchange(
+      sources_, state.clouds,
+      [](SmokeSource& held, const LiveCloud& live) {
+        if (held.cloud != live.cloud && held.cloud->hash() != live.cloud->hash()) return false;
+        held.cloud = live.cloud;
+        return true;
+      },
+      [&](const LiveCloud& live) {
+        auto source = std::make_unique<SmokeSource>();
+        source->id = live.id;
+        source->cloud = live.cloud;
+        add_cloud(*source);
+        return source;
+      });
+  for (const auto& source : gone) remove_cloud(*source);
+}
+
+void SmokeVolume::add_cloud(SmokeSource& source) {
+  structure_changed_ = true;
+  const std::span<const VoxelBlock> blocks = source.cloud->voxels().blocks();
+  std::vector<glm::ivec3> bricks;
+  for (const VoxelBlock& block : blocks) add_bricks_around(block, bricks);
+  sort_unique(bricks);
+  for (const glm::ivec3 brick : bricks) source.slots.push_back(need_brick(brick));
+  source.slot_of_block.reserve(blocks.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const glm::ivec3 at(blocks[i].at);
+    const std::uint32_t slot = slot_at(at >> 1);
+    source.slot_of_block.push_back(slot);
+    std::vector<CloudPart>& parts = slots_[slot]->clouds;
+    if (parts.empty() || parts.back().source != &source) parts.push_back({&source, no_blocks()});
+    parts.back().blocks[block_in_brick(at)] = static_cast<std::uint32_t>(i);
+    mark(slot, &SmokeBrick::masks_stale);
+  }
+}
+
+void SmokeVolume::remove_cloud(SmokeSource& source) {
+  structure_changed_ = true;
+  for (const std::uint32_t slot : source.slots) {
+    SmokeBrick& brick = *slots_[slot];
+    std::erase_if(brick.clouds, [&](const CloudPart& part) { return part.source == &source; });
+    mark(slot, &SmokeBrick::masks_stale);
+    mark(slot, &SmokeBrick::densities_stale);
+    --brick.needed;
+  }
+}
+
+std::array<std::uint32_t, 27> SmokeVolume::slots_around(glm::ivec3 brick) const {
+  std::array<std::uint32_t, 27> slots;
+  for (int i = 0; i < 27; ++i)
+    slots[static_cast<std::size_t>(i)] = slot_at(brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+  return slots;
+}
+
+/// The slot of the brick, a new one when it has none; counts that one cloud more needs it.
+std::uint32_t SmokeVolume::need_brick(glm::ivec3 at) {
+  std::uint32_t slot = slot_at(at);
+  if (slot == kNoSlot) {
+    slot = slot_count();
+    if (free_slots_.empty()) {
+      if (slot == kMaxSlots)
+        throw Error(ErrorCode::resource_limit, "smoke in more than " + std::to_string(kMaxSlots) +
+                                                   " bricks of 8^3 voxels; use larger voxels");
+      slots_.push_back(std::make_unique<SmokeBrick>());
+      densities_.resize(std::size_t{kVoxelsPerBrick} * slots_.size());
+    } else {
+      slot = free_slots_.top();
+      free_slots_.pop();
+    }
+    SmokeBrick& brick = *slots_[slot];
+    brick.live = true;
+    brick.at = at;
+    for (const auto& sink : sinks_) add_blast_part(brick, *sink);
+    pages_.set(at, slot);
+    mark(slot, &SmokeBrick::fresh);
+    mark(slot, &SmokeBrick::cells_stale);
+  }
+  ++slots_[slot]->needed;
+  return slot;
+}
+
+void SmokeVolume::free_slot(std::uint32_t slot) {
+  SmokeBrick& brick = *slots_[slot];
+  drop_cells(brick);
+  // What was here still shows in the aprons around.
+  std::uint8_t* densities = densities_.data() + std::size_t{slot} * kVoxelsPerBrick;
+  for (std::size_t i = 0; i < kVoxelsPerBrick; ++i)
+    brick.changed[i / 64] |= std::uint64_t{densities[i] != 0} << i % 64;
+  std::fill_n(densities, kVoxelsPerBrick, std::uint8_t{0});
+  if (brick.changed != BrickBits{}) spread_changes(brick);
+  pages_.set(brick.at, kNoSlot);
+  brick = SmokeBrick{};
+  brick.touched = brick.texels_changed = brick.cells_changed = true;
+  free_slots_.push(slot);
+}
+
+void SmokeVolume::take_blasts(const State& state) {
+  const auto same = [](const std::unique_ptr<SmokeSink>& held, const LiveBlast& live) {
+    return held->id == live.id && held->field == live.field;
+  };
+  if (std::equal(sinks_.begin(), sinks_.end(), state.blasts.begin(), state.blasts.end(), same)) return;
+  const auto gone = exchange(
+      sinks_, state.blasts,
+      [](SmokeSink& held, const LiveBlast& live) {
+        if (held.field != live.field && held.field->hash() != live.field->hash()) return false;
+        held.field = live.field;
+        return true;
+      },
+      [&](const LiveBlast& live) {
+        auto sink = std::make_unique<SmokeSink>();
+        sink->id = live.id;
+        sink->field = live.field;
+        sink->moment = live.field->moment(state.tick);
+        for (const VoxelBlock& block : live.field->reached().blocks())
+          sink->bricks.push_back(glm::ivec3(block.at) >> 1);
+        sort_unique(sink->bricks);
+        add_blast(*sink);
+        return sink;
+      });
+  for (const auto& sink : gone) remove_blast(*sink);
+}
+
+void SmokeVolume::add_blast(SmokeSink& sink) {
+  for (const glm::ivec3 at : sink.bricks)
+    if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) {
+      add_blast_part(*slots_[slot], sink);
+      mark(slot, &SmokeBrick::densities_stale);
+    }
+}
+
+void SmokeVolume::remove_blast(const SmokeSink& sink) {
+  for (const glm::ivec3 at : sink.bricks)
+    if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) {
+      std::erase_if(slots_[slot]->blasts, [&](const BlastPart& part) { return part.sink == &sink; });
+      mark(slot, &SmokeBrick::densities_stale);
+    }
+}
+
+void SmokeVolume::take_edits(const State& state) {
+  if (state.edits == edits_) return;
+  static const EditBlocks kNone;
+  const EditBlocks& was = edits_ ? *edits_ : kNone;
+  const EditBlocks& is = state.edits ? *state.edits : kNone;
+  auto a = was.begin(), b = is.begin();
+  while (a != was.end() || b != is.end()) {
+    const bool take_a = b == is.end() || (a != was.end() && !block_before(b->at, a->at));
+    const bool take_b = a == was.end() || (b != is.end() && !block_before(a->at, b->at));
+    const EditBlock before = take_a ? *a : EditBlock{}, after = take_b ? *b : EditBlock{};
+    const std::uint64_t mask = (before.make_solid ^ after.make_solid) | (before.make_free ^ after.make_free);
+    if (mask != 0) voxels_changed(glm::ivec3(take_a ? a->at : b->at), mask);
+    if (take_a) ++a;
+    if (take_b) ++b;
+  }
+  edits_ = state.edits;
+}
+
+/// Voxels of a block became solid or free.
+void SmokeVolume::voxels_changed(glm::ivec3 block, std::uint64_t mask) {
+  BrickBits bits{};
+  set_block(bits, block_in_brick(block), mask);
+  pockets_.changed(block >> 1, bits, stale_bricks_);
+  mark_walls(kBlockSize * block - 2, kBlockSize * block + kBlockSize + 1);
+}
+
+void SmokeVolume::planes_changed(glm::ivec3 low_cell, glm::ivec3 high_cell) {
+  // A cell looks at the planes of those next to it; its voxel numbers are its corners' lowest.
+  mark_walls(low_cell - 1, high_cell + 1);
+}
+
+/// What depends on the walls of these voxels is to be built anew.
+void SmokeVolume::mark_walls(glm::ivec3 low_voxel, glm::ivec3 high_voxel) {
+  const glm::ivec3 low = glm::max(low_voxel >> 3, 8 * pages_.origin());
+  const glm::ivec3 high = glm::min(high_voxel >> 3, 8 * (pages_.origin() + pages_.size()) - 1);
+  if (glm::any(glm::lessThan(high, low))) return;
+  const auto stale = [&](std::uint32_t slot) {
+    mark(slot, &SmokeBrick::walls_stale);
+    mark(slot, &SmokeBrick::cells_stale);
+  };
+  const glm::u64vec3 bricks(high - low + 1);
+  if (bricks.x * bricks.y * bricks.z > slot_count()) {
+    for (std::uint32_t slot = 0; slot < slot_count(); ++slot) {
+      const SmokeBrick& brick = *slots_[slot];
+      if (brick.live && glm::all(glm::greaterThanEqual(brick.at, low)) &&
+          glm::all(glm::lessThanEqual(brick.at, high)))
+        stale(slot);
+    }
+    return;
+  }
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        if (const std::uint32_t slot = slot_at({x, y, z}); slot != kNoSlot) stale(slot);
 }
 
 std::span<const std::uint32_t> SmokeVolume::cells(std::uint32_t slot) const {
-  return std::span(structure_.cells)
-      .subspan(std::size_t{slot} * shared::kCellsPerBrick, shared::kCellsPerBrick);
+  static constexpr std::array<std::uint32_t, shared::kCellsPerBrick> kNone{};
+  return slots_[slot]->cells ? *slots_[slot]->cells : kNone;
 }
 
-void SmokeVolume::update(const World& world) {
-  BRUME_ASSERT(world.grid().frame() == grid_.frame(), "the world stands on another grid");
-  const std::span<const LiveCloud> clouds = world.state().clouds;
-  const bool same =
-      std::equal(clouds.begin(), clouds.end(), cloud_hashes_.begin(), cloud_hashes_.end(),
-                 [](const LiveCloud& live, std::uint64_t hash) { return live.cloud->hash() == hash; });
-  if (!same) rebuild(clouds);
-
-  // Densities add up where clouds overlap.
-  std::vector<std::uint8_t> densities(structure_.voxels.size());
-  for (std::size_t c = 0; c < clouds.size(); ++c) {
-    const std::span<const std::uint32_t> numbers = structure_.cloud_voxels[c];
-    const Cloud& cloud = *clouds[c].cloud;
-    const CloudMoment moment = cloud.moment(world.tick());
-    for (std::uint32_t rank = 0; rank < numbers.size(); ++rank) {
-      std::uint8_t& sum = densities[numbers[rank]];
-      sum = static_cast<std::uint8_t>(std::min(255, sum + cloud.density(rank, moment)));
-    }
+std::uint64_t SmokeVolume::bytes() const {
+  std::uint64_t sum = densities_.capacity() + boundary_cells_.capacity() * sizeof(shared::BoundaryCell) +
+                      corner_sets_.capacity() * sizeof(glm::uvec2) + pages_.root().size_bytes() +
+                      pages_.nodes().size_bytes();
+  for (const auto& brick : slots_) {
+    sum += sizeof(SmokeBrick) + brick->clouds.capacity() * sizeof(CloudPart) +
+           brick->blasts.capacity() * sizeof(BlastPart) + (brick->cells ? sizeof(*brick->cells) : 0);
+    if (const BrickCells* home = brick->home.get())
+      sum += sizeof(BrickCells) + home->cells.capacity() * 2 +
+             home->records.capacity() * sizeof(shared::BoundaryCell) +
+             home->means.capacity() * (sizeof(SmokeMean) + 1) +
+             home->contributions.capacity() * sizeof(Contribution) +
+             home->sources.capacity() * sizeof(CornerSource);
   }
-  refresh(std::move(densities), !same);
-  ++revision_;
-}
-
-void SmokeVolume::rebuild(std::span<const LiveCloud> clouds) {
-  cloud_hashes_.clear();
-  for (const LiveCloud& live : clouds) cloud_hashes_.push_back(live.cloud->hash());
-  structure_ = SmokeStructure(grid_, planes_, clouds);
-  ++generation_;
-
-  frame_.window_origin = structure_.window_origin;
-  frame_.window_size = structure_.window_size;
-  frame_.atlas_bricks = grown_atlas(frame_.atlas_bricks, slot_count());
-  const bool any = !structure_.voxels.empty();
-  // The cells that take from voxel v are v - 2 to v + 1; their points lie in [v - 1.5, v + 2.5].
-  frame_.bounds_min = any ? glm::vec3(structure_.low) - 1.5f : glm::vec3(0);
-  frame_.bounds_max = any ? glm::vec3(structure_.high) + 2.5f : glm::vec3(0);
-
-  densities_.assign(structure_.voxels.size(), 0);
-  corner_sets_.assign(structure_.corners.size() / 8, glm::uvec2(0));
-  texels_.assign(structure_.bricks.size() * shared::kTexelsPerBrick, {});
-  for (std::uint32_t slot = 0; slot < slot_count(); ++slot) {
-    const glm::ivec3 low = 8 * structure_.bricks[slot] - 1;
-    glm::ivec3 t;
-    for (t.z = 0; t.z < 10; ++t.z)
-      for (t.y = 0; t.y < 10; ++t.y)
-        for (t.x = 0; t.x < 10; ++t.x) texels_[texel_index(slot, t)].free = grid_.solid(low + t) ? 0 : 255;
-  }
-}
-
-/// The eight densities of a set as the shader's eight bytes.
-glm::uvec2 SmokeVolume::evaluate_set(std::size_t set) const {
-  glm::uvec2 packed(0);
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    const CornerSource& source = structure_.corners[8 * set + corner];
-    if (source.count == 0) continue;
-    std::uint32_t sum = source.total_weight / 2;
-    for (std::uint32_t i = source.first; i < source.first + source.count; ++i)
-      sum += structure_.contributions[i].weight * densities_[structure_.contributions[i].voxel];
-    packed[corner < 4 ? 0 : 1] |= sum / source.total_weight << (8 * (corner & 3));
-  }
-  return packed;
-}
-
-void SmokeVolume::refresh(std::vector<std::uint8_t> densities, bool all) {
-  std::swap(densities_, densities);
-  std::vector<bool> slot_dirty(slot_count(), all);
-  std::vector<bool> cell_dirty(structure_.boundary_cells.size(), false);
-  for (std::size_t v = 0; v < densities_.size(); ++v) {
-    if (densities_[v] == densities[v]) continue;
-    for (const std::uint32_t texel : structure_.voxel_texels[v]) {
-      texels_[texel].density = densities_[v];
-      slot_dirty[texel / shared::kTexelsPerBrick] = true;
-    }
-    for (const std::uint32_t cell : structure_.voxel_cells[v]) cell_dirty[cell] = true;
-  }
-  dirty_slots_.clear();
-  for (std::uint32_t slot = 0; slot < slot_dirty.size(); ++slot)
-    if (slot_dirty[slot]) dirty_slots_.push_back(slot);
-
-  corner_sets_dirty_ = all;
-  for (std::size_t cell = 0; cell < cell_dirty.size(); ++cell) {
-    if (!cell_dirty[cell]) continue;
-    const bool last = cell + 1 == cell_dirty.size();
-    const std::size_t end = last ? corner_sets_.size() : structure_.boundary_cells[cell + 1].first_set;
-    for (std::size_t set = structure_.boundary_cells[cell].first_set; set < end; ++set) {
-      const glm::uvec2 packed = evaluate_set(set);
-      corner_sets_dirty_ |= packed != corner_sets_[set];
-      corner_sets_[set] = packed;
-    }
-  }
-}
-
-float sample_density(const SmokeVolume& volume, glm::vec3 position_voxel) {
-  const glm::ivec3 brick(glm::floor(position_voxel / 8.0f));
-  const std::uint32_t slot = volume.slot_at(brick);
-  if (slot == SmokeVolume::kNoSlot) return 0;
-
-  // Trilinear density and share of free corners.
-  const glm::ivec3 cell(glm::floor(position_voxel - 0.5f));
-  const glm::vec3 f = position_voxel - 0.5f - glm::vec3(cell);
-  const glm::ivec3 in_brick = cell - 8 * brick + 1;
-  const std::span<const Texel> texels = volume.texels(slot);
-  glm::uvec2 densities(0), frees(0);
-  for (int corner = 0; corner < 8; ++corner) {
-    const Texel texel =
-        texels[texel_index(0, in_brick + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2))];
-    densities[corner >> 2] |= std::uint32_t{texel.density} << (8 * (corner & 3));
-    frees[corner >> 2] |= std::uint32_t{texel.free} << (8 * (corner & 3));
-  }
-  const float plain = shared::corner_set_density(densities, f);
-  if (shared::corner_set_density(frees, f) >= 1.0f - 1.0f / 512.0f) return plain;
-
-  // A solid corner: the set for the point's side of the surface.
-  const std::uint32_t entry =
-      volume.cells(slot)[static_cast<std::size_t>(in_brick.x + 9 * (in_brick.y + 9 * in_brick.z))];
-  if (entry == 0) return 0;  // no smoke near
-  const shared::BoundaryCell& boundary = volume.boundary_cells()[entry - 1];
-  const std::uint32_t side = shared::boundary_side(boundary, f - 0.5f);
-  return shared::corner_set_density(volume.corner_sets()[boundary.first_set + side], f);
+  for (const auto& source : sources_)
+    sum += sizeof(SmokeSource) + source->densities.capacity() +
+           4 * (source->slot_of_block.capacity() + source->slots.capacity());
+  return sum;
 }
 
 }  // namespace brume::sim

@@ -1,78 +1,148 @@
-// The smoke of a world as the renderer reads it (shared/smoke_volume.h), kept up to date tick by tick.
+// The smoke of a state as renderer and line of sight read it (shared/smoke_volume.h), kept up to date tick by
+// tick.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
+#include <memory>
+#include <queue>
 #include <span>
 #include <vector>
 
 #include "shared/smoke_volume.h"
+#include "sim/page_table.hpp"
+#include "sim/range_arena.hpp"
+#include "sim/smoke_brick.hpp"
 #include "sim/smoke_structure.hpp"
+#include "sim/state.hpp"
 #include "sim/world.hpp"
 #include "voxel/bit_grid.hpp"
 #include "voxel/surface_planes.hpp"
 
 namespace brume::sim {
 
-/// One texel of the density texture.
-struct Texel {
-  std::uint8_t density = 0;  ///< R
-  std::uint8_t free = 0;     ///< G: 255 in a free voxel, 0 in a solid one.
-  bool operator==(const Texel&) const = default;
-};
-
-/// Where the smoke is (window, slots, cells, planes) is made anew when a cloud comes or goes; from tick to
-/// tick only texel densities and corner sets change. After `update` the content depends on the world's state
-/// alone, not on the ticks before it; only atlas_bricks never shrinks.
+/// Bricks and boundary cells are built where a cloud comes or goes or the level changes, and nowhere else;
+/// from tick to tick densities change, and corner sets that take from them. After `update` the content at
+/// each place depends on the state, the grid and the planes alone, not on what was there before; slots and
+/// the numbers of boundary cells and corner sets do depend on it, and atlas_bricks never shrinks.
 class SmokeVolume {
  public:
-  /// `grid` and what `planes` returns must outlive the volume.
+  /// `grid` gives the frame. What `planes` returns must outlive the volume, or until planes_changed.
   SmokeVolume(const voxel::BitGrid& grid, PlaneSource planes);
+  SmokeVolume(const SmokeVolume&) = delete;
+  SmokeVolume& operator=(const SmokeVolume&) = delete;
   /// The same with the planes of the grid's own triangles, which must outlive the volume.
   SmokeVolume(const voxel::BitGrid& grid, const voxel::SurfacePlanes& planes);
 
-  /// Takes over the clouds of the world at its tick. The world must stand on the same grid.
-  void update(const World& world);
+  /// Takes over a state; `grid` is the level with the state's edits, of the constructor's frame. What differs
+  /// from the last update is found from the state: clouds, blasts and edits that stayed cost next to nothing.
+  /// Throws Error(resource_limit) when the smoke fills more bricks than a 3D texture holds; the volume is
+  /// then of no further use.
+  void update(const State& state, const voxel::BitGrid& grid);
+  void update(const World& world) { update(world.state(), world.grid()); }
+  /// Says that the plane source answers otherwise for cells within [low, high], both included. The next
+  /// update builds anew what depends on them.
+  void planes_changed(glm::ivec3 low_cell, glm::ivec3 high_cell);
 
   const shared::SmokeVolumeFrame& frame() const { return frame_; }
-  /// Slot + 1 or 0 for each brick of the window; empty when there is no smoke.
-  std::span<const std::uint32_t> page_table() const { return structure_.page_table; }
-  std::uint32_t slot_count() const { return static_cast<std::uint32_t>(structure_.bricks.size()); }
+  const PageTable& pages() const { return pages_; }
+  /// Slots are 0 to slot_count() - 1; some may be out of use, all 0. None: no smoke.
+  std::uint32_t slot_count() const { return static_cast<std::uint32_t>(slots_.size()); }
   /// What slot_at returns where there is no smoke.
-  static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNoSlot = PageTable::kNoSlot;
   /// The slot of a brick (voxel / 8, rounded down), or kNoSlot.
-  std::uint32_t slot_at(glm::ivec3 brick) const;
+  std::uint32_t slot_at(glm::ivec3 brick) const { return pages_.at(brick); }
+  /// The brick of a slot; of one out of use, any.
+  glm::ivec3 brick_of(std::uint32_t slot) const { return slots_[slot]->at; }
   /// kTexelsPerBrick texels, x + 10 (y + 10 z).
-  std::span<const Texel> texels(std::uint32_t slot) const;
+  std::span<const Texel> texels(std::uint32_t slot) const { return slots_[slot]->texels; }
   /// kCellsPerBrick entries: boundary cell + 1, or 0.
   std::span<const std::uint32_t> cells(std::uint32_t slot) const;
-  std::span<const shared::BoundaryCell> boundary_cells() const { return structure_.boundary_cells; }
+  /// Some out of use between those that the cells name.
+  std::span<const shared::BoundaryCell> boundary_cells() const { return boundary_cells_; }
   std::span<const glm::uvec2> corner_sets() const { return corner_sets_; }
 
-  /// Rises whenever window, slots, cells or boundary cells changed.
+  /// Rises whenever pages, cells or boundary cells changed.
   std::uint64_t structure_generation() const { return generation_; }
   /// Rises with each update: what is dirty is dirty since the revision before.
   std::uint64_t revision() const { return revision_; }
-  /// Slots whose texels the last update changed, in rising order; all after a change of structure.
+  /// Slots whose texels the last update changed or that are new, in rising order.
   std::span<const std::uint32_t> dirty_slots() const { return dirty_slots_; }
+  /// Slots whose cells it changed or that are new, in rising order.
+  std::span<const std::uint32_t> dirty_cell_slots() const { return dirty_cell_slots_; }
+  /// What it changed of boundary_cells() and corner_sets(), in rising order, apart from each other; what lies
+  /// between may be named too.
+  std::span<const IndexRange> dirty_boundary_cells() const { return dirty_boundary_cells_; }
+  std::span<const IndexRange> dirty_corner_sets() const { return dirty_corner_sets_; }
   /// Whether the last update changed a corner set.
-  bool corner_sets_dirty() const { return corner_sets_dirty_; }
+  bool corner_sets_dirty() const { return !dirty_corner_sets_.empty(); }
+
+  /// Bytes of memory held.
+  std::uint64_t bytes() const;
 
  private:
-  void rebuild(std::span<const LiveCloud> clouds);
-  void refresh(std::vector<std::uint8_t> densities, bool all);
-  glm::uvec2 evaluate_set(std::size_t set) const;
+  // Where the smoke is (smoke_volume.cpp).
+  void take_clouds(const State& state);
+  void take_blasts(const State& state);
+  void take_edits(const State& state);
+  void add_cloud(SmokeSource& source);
+  void remove_cloud(SmokeSource& source);
+  void add_blast(SmokeSink& sink);
+  void remove_blast(const SmokeSink& sink);
+  std::uint32_t need_brick(glm::ivec3 brick);
+  void free_slot(std::uint32_t slot);
+  void voxels_changed(glm::ivec3 block, std::uint64_t mask);
+  void mark_walls(glm::ivec3 low_voxel, glm::ivec3 high_voxel);
+  void mark(std::uint32_t slot, bool SmokeBrick::*what);
+  std::array<std::uint32_t, 27> slots_around(glm::ivec3 brick) const;
 
-  const voxel::BitGrid& grid_;
+  // How its walls are seen (smoke_walls.cpp).
+  void update_structure();
+  void update_mask(std::uint32_t slot);
+  void fill_free(SmokeBrick& brick, const VoxelWindow& solid);
+  void build_cells(SmokeBrick& brick);
+  void drop_cells(SmokeBrick& brick);
+  void write_cells(const SmokeBrick& brick, bool clear);
+  void free_unneeded();
+  void update_frame();
+
+  // How dense it is (smoke_refresh.cpp).
+  void update_moments(const State& state);
+  void update_moment(SmokeSource& source, std::uint32_t tick);
+  void refresh_densities(std::uint32_t slot);
+  void spread_changes(SmokeBrick& brick);
+  void fill_texels(SmokeBrick& brick);
+  void evaluate_cells(SmokeBrick& brick);
+  void refresh();
+  void report_changes();
+
+  voxel::GridFrame grid_frame_;
   PlaneSource planes_;
+  CellBuilder builder_;
+  SealedPockets pockets_;
+  const voxel::BitGrid* grid_ = nullptr;  // while updating
+
+  std::vector<std::unique_ptr<SmokeSource>> sources_;  // by id
+  std::vector<std::unique_ptr<SmokeSink>> sinks_;      // by id
+  std::shared_ptr<const EditBlocks> edits_;
+
   shared::SmokeVolumeFrame frame_{};
-  SmokeStructure structure_;
-  std::vector<std::uint64_t> cloud_hashes_;
-  std::vector<std::uint8_t> densities_;  // of each voxel of the structure
-  std::vector<Texel> texels_;
+  PageTable pages_;
+  std::vector<std::unique_ptr<SmokeBrick>> slots_;
+  std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> free_slots_;
+  std::vector<std::uint8_t> densities_;  // kVoxelsPerBrick a slot
+  RangeArena cell_arena_, set_arena_;
+  std::vector<shared::BoundaryCell> boundary_cells_;
   std::vector<glm::uvec2> corner_sets_;
-  std::vector<std::uint32_t> dirty_slots_;
-  bool corner_sets_dirty_ = false;
+
+  // Of the update going on, or the last one.
+  std::vector<std::uint32_t> touched_;  // slots that have something to do
+  std::vector<glm::ivec3> stale_bricks_;
+  bool structure_changed_ = false;
+  std::vector<std::uint8_t> scratch_;
+  std::vector<std::uint32_t> dirty_slots_, dirty_cell_slots_;
+  std::vector<IndexRange> dirty_boundary_cells_, dirty_corner_sets_;
   std::uint64_t generation_ = 0;
   std::uint64_t revision_ = 0;
 };

@@ -78,12 +78,15 @@ struct Room {
     World world(grid);
     // So much smoke that even the farthest corner is past the taper.
     const Position at = position_from_metres(source);
-    ThrowSmoke thrown{0, at, at + Position(0, 1, 0), {200000, 1}};
+    ThrowSmoke thrown{0, at, at + Position(0, 1, 0), {200000, 1, 2000, 1}};
     world.append(thrown).value_or_throw();
     world.advance_to(1000);
-    full = !world.clouds().empty();
-    for (const LiveCloud& live : world.clouds())
-      full &= Cloud::density_at(live.cloud->voxels().back().distance, live.front) == 255;
+    full = !world.state().clouds.empty();
+    for (const LiveCloud& live : world.state().clouds) {
+      const CloudMoment moment = live.cloud->moment(world.tick());
+      for (std::uint32_t rank = 0; rank < live.cloud->voxels().size(); ++rank)
+        full &= live.cloud->density(rank, moment) == 255;
+    }
     volume.update(world);
   }
   double density(dvec3 p_world) const { return sample_density(volume, vec3(p_world / double{kVoxel})); }
