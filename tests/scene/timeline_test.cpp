@@ -129,7 +129,7 @@ TEST(Timeline, WhatMustBeThereAndHow) {
   EXPECT_NE(error_of(std::string(kHead) + "event = [1]\n").find("expected tables [[event]]"),
             std::string::npos);
   EXPECT_NE(error_of(std::string(kHead) + "[[event]]\ntype = \"bomb\"\ntime = 1\n")
-                .find("expected \"smoke\" or \"shot\""),
+                .find("expected \"smoke\", \"shot\", "),
             std::string::npos);
   EXPECT_NE(error_of(std::string(kHead) + "[[event]]\ntype = \"smoke\"\ntime = 1\nfrom = [0,0,0]\n")
                 .find("lacks the key \"at\""),
@@ -147,6 +147,77 @@ TEST(Timeline, OtherLettersOnlyInCommentsAndTexts) {
   EXPECT_EQ(error_of("scene = \"\"\"x\"\"\"\" \xc9\x8c\n").substr(0, 34),
             "scenes/t.toml:1:18: expected ASCII");
   EXPECT_EQ(error_of("scene = '''\n'' \xc9\x8c'''\n").substr(0, 33), "scenes/t.toml:2:4: expected ASCII");
+}
+
+std::string event(const std::string& type, const std::string& rest) {
+  return "[[event]]\ntype = \"" + type + "\"\n" + rest + "\n";
+}
+
+TEST(Timeline, TheLifeOfASmokeIsRead) {
+  const auto usual = parse(kHead), chosen = parse(std::string(kHead) + "[smoke]\nhold = 2\ndissolve = 0.5\n");
+  ASSERT_TRUE(usual && chosen);
+  EXPECT_EQ(usual->smoke.hold, 18.0f);
+  EXPECT_EQ(usual->smoke.dissolve, 3.0f);
+  EXPECT_EQ(chosen->smoke.hold, 2.0f);
+  EXPECT_EQ(chosen->smoke.dissolve, 0.5f);
+  EXPECT_EQ(error_of(std::string(kHead) + "[smoke]\ndissolve = 0\n"),
+            "scenes/t.toml:4:12: \"dissolve\": expected a number from 0.05 to 60, found 0");
+}
+
+TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
+  const auto timeline = parse(kHead + event("blast", "time = 3\nat = [1, 2, 3]\nradius = 4\nleft = 0.5") +
+                              event("blast", "time = 1\nat = [0, 0, 0]\nrefill_rim = 1\nrefill_middle = 2") +
+                              event("move", "time = 2\nbody = \"runner\"\nto = [4, 0, -1]") +
+                              event("edit", "time = 5\nlow = [0, 0, 0]\nhigh = [1, 2, 3]\nsolid = false") +
+                              event("door", "time = 6\nobject = \"front door\"\nopen = true"));
+  ASSERT_TRUE(timeline) << timeline.failure().message;
+  ASSERT_EQ(timeline->blasts.size(), 2u);
+  EXPECT_EQ(timeline->blasts[0].time, 1);  // by time
+  EXPECT_EQ(timeline->blasts[0].radius, 5.0f);
+  EXPECT_EQ(timeline->blasts[0].refill_middle, 2.0f);
+  EXPECT_EQ(timeline->blasts[1].at_world, glm::vec3(1, 2, 3));
+  EXPECT_EQ(timeline->blasts[1].left, 0.5f);
+  ASSERT_EQ(timeline->moves.size(), 1u);
+  EXPECT_EQ(timeline->moves[0].body, "runner");
+  EXPECT_EQ(timeline->moves[0].to_world, glm::vec3(4, 0, -1));
+  ASSERT_EQ(timeline->edits.size(), 1u);
+  EXPECT_EQ(timeline->edits[0].high_world, glm::vec3(1, 2, 3));
+  EXPECT_FALSE(timeline->edits[0].solid);
+  ASSERT_EQ(timeline->doors.size(), 1u);
+  EXPECT_EQ(timeline->doors[0].object, "front door");
+  EXPECT_TRUE(timeline->doors[0].open);
+  EXPECT_EQ(timeline->doors[0].place, "scenes/t.toml:29:10");
+}
+
+TEST(Timeline, NewEventsNameTheirMistakes) {
+  EXPECT_EQ(error_of(kHead + event("burst", "time = 1")),
+            "scenes/t.toml:4:8: \"type\": expected \"smoke\", \"shot\", \"blast\", \"move\", \"edit\" or "
+            "\"door\"");
+  EXPECT_EQ(error_of(kHead + event("blast", "time = 1\nat = [0, 0, 0]\nrefill_rim = 6")),
+            "scenes/t.toml:3:1: \"refill_middle\": expected no less than \"refill_rim\"");
+  EXPECT_EQ(error_of(kHead + event("move", "time = 1\nto = [0, 0, 0]")),
+            "scenes/t.toml:3:1: [[event]] lacks the key \"body\"");
+  EXPECT_EQ(error_of(kHead + event("edit", "time = 1\nlow = [0, 5, 0]\nhigh = [1, 2, 3]\nsolid = true")),
+            "scenes/t.toml:7:8: \"high\": expected more than \"low\" along every axis");
+  EXPECT_EQ(error_of(kHead + event("edit", "time = 1\nlow = [0, 0, 0]\nhigh = [1, 2, 3]\nsolid = 1")),
+            "scenes/t.toml:8:9: \"solid\": expected true or false");
+  EXPECT_EQ(error_of(kHead + event("door", "time = 1\nobject = \"a\"\nopened = true")),
+            "scenes/t.toml:3:1: [[event]] lacks the key \"open\"");
+}
+
+TEST(Timeline, ADoorThatIsNotInTheSceneNamesTheNearestObject) {
+  const auto timeline = parse(kHead + event("door", "time = 6\nobject = \"frontdor\"\nopen = true"));
+  ASSERT_TRUE(timeline);
+  Scene scene;
+  scene.objects.resize(3);
+  scene.objects[0].name = "floor";
+  scene.objects[1].name = "front door";
+  EXPECT_EQ(check_doors(*timeline, scene).failure().message,
+            "scenes/t.toml:6:10: the scene has no object \"frontdor\"; the nearest name is \"front door\"");
+  scene.objects[2].name = "frontdor";
+  EXPECT_TRUE(check_doors(*timeline, scene));
+  EXPECT_EQ(check_doors(*timeline, Scene()).failure().message,
+            "scenes/t.toml:6:10: the scene has no object \"frontdor\"");
 }
 
 TEST(Timeline, EditDistance) {

@@ -1,0 +1,222 @@
+#include "stage/level_events.hpp"
+
+#include <gtest/gtest.h>
+
+#include "stage/simulation.hpp"
+#include "stage/world_triangles.hpp"
+#include "voxel/voxelize.hpp"
+
+namespace brume::stage {
+namespace {
+
+using glm::ivec3;
+using glm::vec3;
+
+void add_box(scene::Mesh& mesh, vec3 low, vec3 high) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool at_high : {false, true}) {
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (int corner = 0; corner < 4; ++corner) {
+        vec3 p;
+        p[axis] = at_high ? high[axis] : low[axis];
+        p[(axis + 1) % 3] = corner & 1 ? high[(axis + 1) % 3] : low[(axis + 1) % 3];
+        p[(axis + 2) % 3] = corner & 2 ? high[(axis + 2) % 3] : low[(axis + 2) % 3];
+        mesh.vertices.emplace_back().position = p;
+      }
+      for (const std::uint32_t i : {0u, 1u, 3u, 0u, 3u, 2u}) mesh.indices.push_back(first + i);
+    }
+  }
+}
+
+void add_object(scene::Scene& scene, const std::string& name, vec3 low, vec3 high) {
+  add_box(scene.meshes.emplace_back(), low, high);
+  scene::Object object;
+  object.name = name;
+  object.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+  scene.objects.push_back(object);
+}
+
+/// Two rooms of 4 x 3 x 4 m side by side along x, a wall between them with a doorway of 1 x 2 m at its foot,
+/// and a door of two leaves in it.
+Stage two_rooms() {
+  scene::Scene scene;
+  const float t = 0.1f;  // half of a wall
+  add_object(scene, "floor", {-4 - t, -t, -2 - t}, {4 + t, t, 2 + t});
+  add_object(scene, "ceiling", {-4 - t, 3 - t, -2 - t}, {4 + t, 3 + t, 2 + t});
+  add_object(scene, "west", {-4 - t, 0, -2}, {-4 + t, 3, 2});
+  add_object(scene, "east", {4 - t, 0, -2}, {4 + t, 3, 2});
+  add_object(scene, "south", {-4, 0, -2 - t}, {4, 3, -2 + t});
+  add_object(scene, "north", {-4, 0, 2 - t}, {4, 3, 2 + t});
+  add_object(scene, "middle", {-t, 0, -2}, {t, 3, -0.5f});
+  add_object(scene, "middle", {-t, 0, 0.5f}, {t, 3, 2});
+  add_object(scene, "middle", {-t, 2, -0.5f}, {t, 3, 0.5f});
+  add_object(scene, "door", {-0.02f, 0, -0.5f}, {0.02f, 2, 0});
+  add_object(scene, "door", {-0.02f, 0, 0}, {0.02f, 2, 0.5f});
+  add_object(scene, "poster", {-3, 1, -1.8f}, {-2, 2, -1.75f});
+  scene.objects.back().voxelized = false;
+  scene::Timeline timeline;
+  timeline.smoke.voxels = 6000;
+  timeline.smokes = {{0.0, {-3, 1.5f, 0}, {-2, 0, 0}}};
+  const voxel::GridFrame frame{{44, 20, 28}, 0.2f, vec3(-4.33f, -0.43f, -2.83f)};
+  Voxels voxels = load_or_voxelize(scene, frame, {}).value_or_throw();
+  return {std::move(timeline), std::move(scene), {}, std::move(voxels)};
+}
+
+/// Grid and planes of a stage without some of its objects.
+Voxels rebuilt(Stage& stage, const std::string& without) {
+  scene::Scene scene = stage.scene;
+  std::erase_if(scene.objects, [&](const scene::Object& o) { return o.name == without; });
+  return load_or_voxelize(scene, stage.voxels.grid.frame(), {}).value_or_throw();
+}
+
+void expect_level(const Simulation& simulation, const Voxels& expected) {
+  int voxels = 0, planes = 0;
+  const ivec3 size = expected.grid.size();
+  voxel::for_each_in({ivec3(0), size}, [&](ivec3 v) {
+    voxels += simulation.world().grid().solid(v) != expected.grid.solid(v);
+  });
+  voxel::for_each_in({ivec3(-1), size}, [&](ivec3 cell) {
+    const auto p = simulation.planes().at(cell), q = expected.planes.at(cell);
+    planes += !std::equal(p.begin(), p.end(), q.begin(), q.end());
+  });
+  EXPECT_EQ(voxels, 0);
+  EXPECT_EQ(planes, 0);
+}
+
+/// Density of all smoke beyond the wall between the rooms.
+std::uint64_t smoke_in_the_east(const Simulation& simulation) {
+  std::uint64_t sum = 0;
+  const ivec3 size = simulation.world().grid().size();
+  voxel::for_each_in({ivec3(24, 0, 0), size}, [&](ivec3 v) { sum += simulation.world().state().density(v); });
+  return sum;
+}
+
+TEST(LevelEvents, ADoorChangesVoxelsPlanesAndPictureAndBack) {
+  Stage stage = two_rooms();
+  stage.timeline.doors = {{1.0, "door", true, ""}, {2.0, "door", false, ""}, {3.0, "poster", true, ""}};
+  const Voxels open = rebuilt(stage, "door"), shut = rebuilt(stage, "nothing");
+  const auto simulation = Simulation::create(stage).value_or_throw();
+  const std::vector<std::uint32_t> none, door{9, 10}, poster{11};
+  const auto hidden = [&] {
+    const auto now = simulation->hidden_objects();
+    return std::vector<std::uint32_t>(now.begin(), now.end());
+  };
+  // Forwards, backwards, and by leaps.
+  for (const double time : {0.0, 1.0, 1.99, 2.0, 3.0, 1.5, 0.5, 2.5, 1.0, 0.99}) {
+    SCOPED_TRACE(time);
+    simulation->advance_to(time);
+    const bool is_open = time >= 1 && time < 2;
+    expect_level(*simulation, is_open ? open : shut);
+    EXPECT_EQ(hidden(), is_open ? door : time >= 3 ? poster : none);
+  }
+}
+
+TEST(LevelEvents, SmokePassesADoorThatOpensAndNoneThatIsShut) {
+  Stage stage = two_rooms();
+  stage.timeline.doors = {{3.0, "door", true, ""}};
+  const auto simulation = Simulation::create(stage).value_or_throw();
+  simulation->advance_to(2.98);
+  EXPECT_EQ(smoke_in_the_east(*simulation), 0u);
+  simulation->advance_to(3.5);
+  EXPECT_GT(smoke_in_the_east(*simulation), 0u);
+  simulation->advance_to(6.0);
+  EXPECT_GT(smoke_in_the_east(*simulation), 255u * 100);
+  simulation->advance_to(2.98);
+  EXPECT_EQ(smoke_in_the_east(*simulation), 0u);
+}
+
+TEST(LevelEvents, TheSmokeVolumeIsThatOfTheOpenLevel) {
+  // A volume that saw the door open is one that never knew it shut, at every place that can be asked for.
+  Stage stage = two_rooms();
+  stage.timeline.doors = {{0.0, "door", true, ""}};
+  Stage other = two_rooms();
+  other.voxels = rebuilt(stage, "door");
+  const auto opened = Simulation::create(stage).value_or_throw(),
+             always = Simulation::create(other).value_or_throw();
+  for (const double time : {0.5, 2.0}) {
+    opened->advance_to(time);
+    always->advance_to(time);
+    int smoky = 0;
+    for (float z = 0.5f; z < 28; z += 0.41f)
+      for (float x = 18; x < 26; x += 0.23f) {
+        const vec3 p(x, 5.3f, z);
+        const float density = sim::sample_density(opened->volume(), p);
+        ASSERT_EQ(density, sim::sample_density(always->volume(), p)) << x << " " << z;
+        smoky += density > 0;
+      }
+    EXPECT_GT(smoky, time > 1 ? 100 : -1);
+  }
+}
+
+TEST(LevelEvents, AnEditFillsTheVoxelsWhoseCentresAreInIt) {
+  Stage stage = two_rooms();
+  const voxel::GridFrame& frame = stage.voxels.grid.frame();
+  EXPECT_EQ(voxels_in(frame, frame.origin_world + vec3(0.1f), frame.origin_world + vec3(0.5f, 0.51f, 0.6f)),
+            (voxel::IntBox{ivec3(0), ivec3(2, 3, 3)}));
+  EXPECT_TRUE(voxels_in(frame, frame.origin_world + vec3(0.15f), frame.origin_world + vec3(0.25f)).empty());
+  EXPECT_EQ(voxels_in(frame, vec3(-1e6f), vec3(1e6f)), (voxel::IntBox{ivec3(-1), frame.size + 1}));
+
+  // A hole in the wall between the rooms, and the doorway walled up.
+  stage.timeline.edits = {{1.0, {-0.3f, 2.1f, -1.5f}, {0.3f, 2.7f, -0.7f}, false},
+                          {2.0, {-0.3f, 0, -0.6f}, {0.3f, 2.1f, 0.6f}, true}};
+  stage.timeline.doors = {{2.0, "door", true, ""}};
+  const auto events = level_events(stage).value_or_throw();
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_FALSE(events[0].blocks.empty());
+  EXPECT_FALSE(events[1].blocks.empty());
+  EXPECT_TRUE(events[2].blocks.empty());  // the door is within what was walled up
+  EXPECT_TRUE(events[2].hidden);
+  const auto simulation = Simulation::create(stage).value_or_throw();
+  simulation->advance_to(0.5);
+  const ivec3 hole(21, 14, 9), doorway(22, 5, 14);
+  EXPECT_TRUE(simulation->world().grid().solid(hole));
+  EXPECT_TRUE(simulation->world().grid().free(doorway));
+  simulation->advance_to(2.5);
+  EXPECT_TRUE(simulation->world().grid().free(hole));
+  EXPECT_TRUE(simulation->world().grid().solid(doorway));
+  EXPECT_TRUE(simulation->planes().at(hole).empty());
+  simulation->advance_to(4.5);
+  EXPECT_GT(smoke_in_the_east(*simulation), 0u);
+}
+
+TEST(LevelEvents, EventsAreInOrderOfTheirTicks) {
+  Stage stage = two_rooms();
+  stage.timeline.doors = {{1.0, "door", true, ""}};
+  stage.timeline.edits = {{1.0, {-3, 1, -1}, {-2, 2, 1}, true}};
+  stage.timeline.shots = {{1.0, {-3, 1, 0}, {3, 1, 0}}};
+  stage.timeline.blasts = {{0.5, {1, 1, 1}}};
+  stage.timeline.moves = {{0.0, "b", {0, 1, 0}}, {0.25, "a", {0, 1, 0}}, {1.0, "b", {1, 1, 0}}};
+  const auto events = events_of(stage).value_or_throw();
+  std::vector<std::pair<std::uint32_t, std::size_t>> order;
+  for (const sim::Event& event : events) order.emplace_back(sim::tick_of(event), event.index());
+  const std::vector<std::pair<std::uint32_t, std::size_t>> expected{{0, 0},  {0, 3},  {16, 3}, {32, 2},
+                                                                    {64, 4}, {64, 4}, {64, 1}, {64, 3}};
+  EXPECT_EQ(order, expected);
+  EXPECT_EQ(std::get<sim::MoveBody>(events[1]).body, 0u);
+  EXPECT_EQ(std::get<sim::MoveBody>(events[2]).body, 1u);
+  EXPECT_EQ(std::get<sim::MoveBody>(events[7]).body, 0u);
+  EXPECT_EQ(std::get<sim::Blast>(events[3]).left, 5u);
+  const auto slower = events_of(stage, 20).value_or_throw();
+  EXPECT_EQ(sim::tick_of(slower.back()), 20u);
+  EXPECT_EQ(std::get<sim::ThrowSmoke>(slower[0]).smoke.hold_ticks, 360u);
+}
+
+TEST(LevelEvents, AnUnknownDoorFails) {
+  Stage stage = two_rooms();
+  stage.timeline.doors = {{1.0, "dor", true, "t.toml:3:4"}};
+  for (const Failure& failure :
+       {level_events(stage).failure(), events_of(stage).failure(), Simulation::create(stage).failure()})
+    EXPECT_EQ(failure.message, "t.toml:3:4: the scene has no object \"dor\"; the nearest name is \"door\"");
+}
+
+TEST(TickAt, TakesTheTickAtOrBefore) {
+  EXPECT_EQ(tick_at(0.0, 64), 0u);
+  EXPECT_EQ(tick_at(-3.0, 64), 0u);
+  EXPECT_EQ(tick_at(1.0 / 64, 64), 1u);
+  EXPECT_EQ(tick_at(0.99 / 64, 64), 0u);
+  EXPECT_EQ(tick_at(0.1 + 0.2, 10), 3u);  // not a rounding below it
+  EXPECT_EQ(tick_at(3600.0, 1000), 3600000u);
+}
+
+}  // namespace
+}  // namespace brume::stage
