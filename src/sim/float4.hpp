@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <cstdint>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
 
 namespace brume::sim {
 
@@ -36,11 +39,24 @@ inline Float4 min4(Float4 a, Float4 b) {
 inline Float4 max4(Float4 a, Float4 b) {
   return a > b ? a : b;
 }
+inline Float4 abs4(Float4 v) {
+  return reinterpret_cast<Float4>(reinterpret_cast<Uint4>(v) & 0x7fffffffu);
+}
 inline Float4 clamp4(Float4 v, float low, float high) {
   return min4(max4(v, splat(low)), splat(high));
 }
 inline Float4 sqrt4(Float4 v) {
+#if defined(__SSE__)
+  return _mm_sqrt_ps(v);
+#endif
   return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+}
+/// Bit i is set where lane i of a mask is.
+inline std::uint32_t bits_of(Int4 mask) {
+#if defined(__SSE__)
+  return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<Float4>(mask)));
+#endif
+  return static_cast<std::uint32_t>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 }
 /// In a fixed order.
 inline float sum4(Float4 v) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace brume::sim {
 namespace {
@@ -44,13 +45,6 @@ void add_edges(const RayHole& h, float share, float t0, float r0, float t1, floa
             h.x * h.x + h.y * h.y - at_nearest * at_nearest, h.nearest, t0, t1, out);
 }
 
-float radius_at(const RayHole& h, float t) {
-  const float age = h.age + h.age_step * t;
-  const float opened = std::clamp(age / h.expand, 0.0f, 1.0f);
-  const float closed = std::clamp((age - h.stay_end) / h.fade, 0.0f, 1.0f);
-  return h.radius * opened * (1 - closed);
-}
-
 /// Adds every t at which the strength of the hole has a kink.
 void add_breaks(const RayHole& h, std::vector<float>& out) {
   // Where it has just opened wide, and where it begins to close.
@@ -69,7 +63,7 @@ void add_breaks(const RayHole& h, std::vector<float>& out) {
     const float t0 = times[i], t1 = times[i + 1];
     if (!(t0 < t1)) continue;
     out.push_back(t0);
-    const float r0 = radius_at(h, t0), r1 = radius_at(h, t1);
+    const float r0 = h.radius_at(t0), r1 = h.radius_at(t1);
     add_edges(h, 1, t0, r0, t1, r1, out);
     add_edges(h, 1 - shared::kHoleSoftShare, t0, r0, t1, r1, out);
   }
@@ -101,16 +95,25 @@ void make_pieces(HolesOnRay& on_ray) {
 
 }  // namespace
 
+float RayHole::radius_at(float t) const {
+  const float now = age + age_step * t;
+  const float opened = std::clamp(now / expand, 0.0f, 1.0f);
+  const float closed = std::clamp((now - stay_end) / fade, 0.0f, 1.0f);
+  return radius * opened * (1 - closed);
+}
+
 Float4 RayHole::strength(Float4 t) const {
-  const Float4 ages = splat(age) + splat(age_step) * t;
-  const Float4 opened = clamp4(ages / splat(expand), 0, 1);
-  const Float4 kept = splat(1.0f) - clamp4((ages - splat(stay_end)) / splat(fade), 0, 1);
-  const Float4 wide = max4(splat(radius) * opened * kept, splat(1e-12f));
   const Float4 from_nearest = t - splat(nearest);
   const Float4 px = splat(x) + splat(x_step) * from_nearest, py = splat(y) + splat(y_step) * from_nearest;
-  const Float4 from_axis = box ? max4(max4(px, -px), max4(py, -py)) : sqrt4(px * px + py * py);
+  const Float4 from_axis = box ? max4(abs4(px), abs4(py)) : sqrt4(px * px + py * py);
+  Float4 wide = splat(radius), kept = splat(1);
+  if (!steady) {
+    const Float4 ages = splat(age) + splat(age_step) * t;
+    kept = splat(1) - clamp4((ages - splat(stay_end)) / splat(fade), 0, 1);
+    wide = max4(wide * clamp4(ages / splat(expand), 0, 1) * kept, splat(1e-12f));
+  }
   const Float4 edge = clamp4((wide - from_axis) / (wide * splat(shared::kHoleSoftShare)), 0, 1);
-  return edge * edge * (splat(3.0f) - splat(2.0f) * edge) * kept;
+  return edge * edge * (splat(3) - splat(2) * edge) * kept;
 }
 
 Float4 HolesOnRay::left(const HolePiece& piece, Float4 t) const {
@@ -133,48 +136,47 @@ HoleSet::HoleSet(std::span<const shared::Hole> holes, float time) {
     holes_.push_back({hole, age, per_metre, over > 0 ? over / per_metre : 0,
                       age < whole_way ? age / per_metre : hole.distance_to_far});
   }
-  groups_.resize((holes_.size() + 3) / 4);
-  for (std::size_t i = 0; i < 4 * groups_.size(); ++i) {
+  if (holes_.empty()) return;
+  reference_ = holes_[0].hole.origin_world;
+  groups_.resize((holes_.size() + 3) / 4, Group{});
+  for (std::size_t i = 0; i < holes_.size(); ++i) {
     Group& group = groups_[i / 4];
-    const std::size_t lane = i % 4;
-    const bool any = i < holes_.size();
-    const OpenHole& open = holes_[any ? i : 0];
-    group.origin_x[lane] = open.hole.origin_world.x;
-    group.origin_y[lane] = open.hole.origin_world.y;
-    group.origin_z[lane] = open.hole.origin_world.z;
-    group.forward_x[lane] = open.hole.forward.x;
-    group.forward_y[lane] = open.hole.forward.y;
-    group.forward_z[lane] = open.hole.forward.z;
-    group.near[lane] = any ? open.near : 1;
-    group.far[lane] = any ? open.far : -1;
-    const float reach = reach_of(open.hole);
-    group.reach_squared[lane] = reach * reach;
+    const shared::Hole& hole = holes_[i].hole;
+    const glm::vec3 from = hole.origin_world - reference_, moment = glm::cross(from, hole.forward);
+    farthest_ = std::max(farthest_, std::max({std::abs(from.x), std::abs(from.y), std::abs(from.z)}));
+    group.forward_x[i % 4] = hole.forward.x;
+    group.forward_y[i % 4] = hole.forward.y;
+    group.forward_z[i % 4] = hole.forward.z;
+    group.moment_x[i % 4] = moment.x;
+    group.moment_y[i % 4] = moment.y;
+    group.moment_z[i % 4] = moment.z;
+    group.reach_squared[i % 4] = reach_of(hole) * reach_of(hole);
   }
 }
 
 void HoleSet::find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, HolesOnRay& out) const {
   out.holes.clear();
   out.pieces.clear();
-  // The least distance from the axis, of the points of the ray at the depths at which the hole is open.
-  const Float4 sx = splat(step_world.x), sy = splat(step_world.y), sz = splat(step_world.z);
+  // How far apart the lines of ray and axis are: by their Pluecker coordinates, |forward . moment of the ray
+  // + step . moment of the axis| is the distance times |step x forward|. Rounding makes it wider, never
+  // narrower.
+  const glm::vec3 from = origin_world - reference_, moment = glm::cross(from, step_world);
+  const float speed_squared = glm::dot(step_world, step_world);
+  const float far = std::max({farthest_, std::abs(from.x), std::abs(from.y), std::abs(from.z)});
+  const Float4 blur = splat(4e-6f * far * std::sqrt(speed_squared));
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
-    const Float4 ox = splat(origin_world.x) - group.origin_x, oy = splat(origin_world.y) - group.origin_y,
-                 oz = splat(origin_world.z) - group.origin_z;
-    const Float4 z = ox * group.forward_x + oy * group.forward_y + oz * group.forward_z;
-    Float4 z_step = sx * group.forward_x + sy * group.forward_y + sz * group.forward_z;
-    const Float4 px = ox - z * group.forward_x, py = oy - z * group.forward_y, pz = oz - z * group.forward_z;
-    const Float4 qx = sx - z_step * group.forward_x, qy = sy - z_step * group.forward_y,
-                 qz = sz - z_step * group.forward_z;
-    z_step = (z_step < 0 ? -z_step : z_step) < splat(1e-12f) ? splat(1e-12f) : z_step;
-    const Float4 ta = (group.near - z) / z_step, tb = (group.far - z) / z_step;
-    const Float4 begin = max4(min4(ta, tb), splat(0)), end = min4(max4(ta, tb), splat(t_end));
-    const Float4 across = px * qx + py * qy + pz * qz, speed = qx * qx + qy * qy + qz * qz;
-    const Float4 nearest = min4(max4(-across / max4(speed, splat(1e-24f)), begin), end);
-    const Float4 dx = px + nearest * qx, dy = py + nearest * qy, dz = pz + nearest * qz;
-    const Int4 met = (dx * dx + dy * dy + dz * dz < group.reach_squared) & (begin < end);
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      if (met[lane]) add(holes_[4 * g + lane], origin_world, step_world, t_end, out);
+    const Float4 apart = group.forward_x * splat(moment.x) + group.forward_y * splat(moment.y) +
+                         group.forward_z * splat(moment.z) + group.moment_x * splat(step_world.x) +
+                         group.moment_y * splat(step_world.y) + group.moment_z * splat(step_world.z);
+    const Float4 along = group.forward_x * splat(step_world.x) + group.forward_y * splat(step_world.y) +
+                         group.forward_z * splat(step_world.z);
+    const Float4 least = max4(abs4(apart) - blur, splat(0));
+    const Float4 slant = splat(speed_squared) * splat(1.000001f) - along * along;
+    std::uint32_t near = bits_of(least * least <= group.reach_squared * slant);
+    for (; near != 0; near &= near - 1) {
+      const std::size_t i = 4 * g + static_cast<std::size_t>(std::countr_zero(near));
+      if (i < holes_.size()) add(holes_[i], origin_world, step_world, t_end, out);
     }
   }
   if (!out.holes.empty()) make_pieces(out);
@@ -208,10 +210,24 @@ void HoleSet::add(const OpenHole& open, glm::vec3 origin_world, glm::vec3 step_w
     end = std::min(end, nearest + half);
   }
   if (!(begin < end)) return;
-  out.holes.push_back({begin, end, nearest, nx, x_step, ny, y_step, open.age - open.age_per_metre * z,
-                       -open.age_per_metre * z_step, hole.radius, std::max(hole.time_to_expand, kLeastTime),
-                       hole.time_to_expand + hole.time_to_stay_open, std::max(hole.time_to_fade, kLeastTime),
-                       hole.shape == shared::kHoleBox});
+  RayHole met{};
+  met.begin = begin;
+  met.end = end;
+  met.nearest = nearest;
+  met.x = nx;
+  met.x_step = x_step;
+  met.y = ny;
+  met.y_step = y_step;
+  met.age = open.age - open.age_per_metre * z;
+  met.age_step = -open.age_per_metre * z_step;
+  met.radius = hole.radius;
+  met.expand = std::max(hole.time_to_expand, kLeastTime);
+  met.stay_end = hole.time_to_expand + hole.time_to_stay_open;
+  met.fade = std::max(hole.time_to_fade, kLeastTime);
+  met.box = hole.shape == shared::kHoleBox;
+  const float age0 = met.age + met.age_step * begin, age1 = met.age + met.age_step * end;
+  met.steady = std::min(age0, age1) >= met.expand && std::max(age0, age1) <= met.stay_end;
+  out.holes.push_back(met);
 }
 
 }  // namespace brume::sim

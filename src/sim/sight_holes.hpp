@@ -22,6 +22,8 @@ struct RayHole {
   float age, age_step;         ///< How long it has been opening: age + age_step t [s].
   float radius, expand, stay_end, fade;
   bool box;
+  bool steady;  ///< Wide open and not yet closing, all the way.
+  float radius_at(float t) const;
   /// Strength of the hole at four t between begin and end.
   Float4 strength(Float4 t) const;
 };
@@ -55,15 +57,17 @@ class HoleSet {
     float age, age_per_metre;  // how long it has been opening at depth z: age - age_per_metre z
     float near, far;           // depths between which it is open [m]
   };
-  // Four holes' axes, lane by lane; a lane without a hole has far < near.
+  // Four holes' axes as lines, lane by lane: directions, and their moments about reference_.
   struct Group {
-    Float4 origin_x, origin_y, origin_z, forward_x, forward_y, forward_z, near, far, reach_squared;
+    Float4 forward_x, forward_y, forward_z, moment_x, moment_y, moment_z, reach_squared;
   };
   void add(const OpenHole& open, glm::vec3 origin_world, glm::vec3 step_world, float t_end,
            HolesOnRay& out) const;
 
   std::vector<OpenHole> holes_;
   std::vector<Group> groups_;
+  glm::vec3 reference_{0};
+  float farthest_ = 0;  // of the holes from reference_ [m]
 };
 
 }  // namespace brume::sim

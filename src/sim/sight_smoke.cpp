@@ -36,20 +36,27 @@ Corners corners_of_set(glm::uvec2 set) {
   return {to_float(rows & 255u), to_float(rows >> 8 & 255u)};
 }
 
-/// Density at f in [0, 1]^3 between the corners, as four parts to be summed.
-Float4 parts_at(const Corners& c, Float4 f) {
-  constexpr Float4 kOnesY{1, 0, 1, 0}, kSignsY{-1, 1, -1, 1}, kOnesZ{1, 1, 0, 0}, kSignsZ{-1, -1, 1, 1};
-  const Float4 weights = (kOnesY + kSignsY * splat(f[1])) * (kOnesZ + kSignsZ * splat(f[2]));
-  return weights * (c.low_x + (c.high_x - c.low_x) * splat(f[0]));
-}
+constexpr Float4 kOnesY{1, 0, 1, 0}, kSignsY{-1, 1, -1, 1}, kOnesZ{1, 1, 0, 0}, kSignsZ{-1, -1, 1, 1};
 
-/// Integral from t0 to t1 along at + t direction within a cell: exact.
-Float4 integral(const Corners& c, Float4 at, Float4 direction, float t0, float t1) {
-  constexpr float kPoint = 0.577350269f;
-  const float half = 0.5f * (t1 - t0);
-  const Float4 middle = at + direction * splat(0.5f * (t0 + t1)), apart = direction * splat(kPoint * half);
-  return (parts_at(c, middle - apart) + parts_at(c, middle + apart)) * splat(half);
-}
+/// Integrates density along a direction. It is a cubic c0 + c1 t + c2 t^2 + c3 t^3 of the distance t from the
+/// middle of a part that is 2 h long; the odd terms cancel, 2 h (c0 + h^2 c2 / 3) stays: no error.
+struct CellIntegral {
+  Float4 yz, xy, xz;  ///< Products of the direction's axes, with the signs of the corners.
+
+  explicit CellIntegral(Float4 d)
+      : yz(splat(d[1] * d[2]) * kSignsY * kSignsZ),
+        xy(splat(d[0] * d[1]) * kSignsY),
+        xz(splat(d[0] * d[2]) * kSignsZ) {}
+
+  /// Over a length, `middle` in [0, 1]^3 between the corners; in four parts to be summed.
+  Float4 operator()(const Corners& c, Float4 middle, float length) const {
+    const Float4 third = splat(length * length * (1.0f / 12));  // h^2 / 3
+    const Float4 y = kOnesY + kSignsY * splat(middle[1]), z = kOnesZ + kSignsZ * splat(middle[2]);
+    const Float4 along_x = c.high_x - c.low_x;
+    const Float4 at_x = c.low_x + along_x * splat(middle[0]);
+    return (at_x * (y * z + third * yz) + along_x * (third * (xy * z + xz * y))) * splat(length);
+  }
+};
 
 /// Densities at four t.
 Float4 densities_at(const Corners& c, Float4 at, Float4 direction, Float4 t) {
@@ -71,11 +78,39 @@ Float4 holed_integral(const Corners& c, Float4 at, Float4 direction, float t0, f
   return densities_at(c, at, direction, t) * holes.left(piece, t) * (kWeights * splat(half));
 }
 
+/// The planes of a boundary cell as a ray sees them, a lane each; equal to shared::boundary_side but for
+/// rounding.
+struct PlanesOnRay {
+  Float4 height, slope;  ///< Over the plane, up to a factor above 0: height + slope t.
+  Int4 there;
+
+  PlanesOnRay(const shared::BoundaryCell& cell, Float4 at, Float4 direction) {
+    Uint4 packed;
+    static_assert(sizeof(cell) == sizeof(packed));
+    std::memcpy(&packed, &cell, sizeof(packed));
+    there = (packed != 0u) & Int4{-1, -1, -1, 0};
+    // The octahedral map, not brought to unit length.
+    Float4 x = to_float(packed & 1023u) * splat(2.0f / 1022) - splat(1);
+    Float4 y = to_float(packed >> 10 & 1023u) * splat(2.0f / 1022) - splat(1);
+    const Float4 z = splat(1) - abs4(x) - abs4(y);
+    const Float4 fold = max4(-z, splat(0));
+    x += x >= splat(0) ? -fold : fold;
+    y += y >= splat(0) ? -fold : fold;
+    const Float4 offset = to_float(packed >> 20) * splat(2.0f / 4094) - splat(1);
+    height = x * splat(at[0] - 0.5f) + y * splat(at[1] - 0.5f) + z * splat(at[2] - 0.5f) -
+             offset * sqrt4(x * x + y * y + z * z);
+    slope = x * splat(direction[0]) + y * splat(direction[1]) + z * splat(direction[2]);
+  }
+
+  std::uint32_t side(float t) const { return bits_of((height + slope * splat(t) > splat(0)) & there); }
+};
+
 /// Walks a ray through the cells of the smoke's bricks.
 class Walk {
  public:
   Walk(const SmokeVolume& volume, const SmokeRay& ray, const HolesOnRay* holes)
-      : volume_(volume), ray_(ray), holes_(holes && !holes->pieces.empty() ? holes : nullptr) {
+      : volume_(volume), ray_(ray), holes_(holes), integral_(ray.direction) {
+    if (holes && !holes->pieces.empty()) next_hole_ = holes->pieces[0].begin;
     for (int axis = 0; axis < 3; ++axis) {
       inverse_[axis] = shared::dda_inverse(ray.direction[axis]);
       leaving_[axis] = inverse_[axis] > 0;
@@ -126,55 +161,46 @@ class Walk {
   float through_brick(std::uint32_t slot, float t, Int4& cell) {
     const Texel* texels = volume_.texels(slot).data();
     const std::uint32_t* entries = volume_.cells(slot).data();
+    // Within a brick, exits are counted on from cell to cell: at most seven sums an axis.
+    Float4 exits = leave(cell);
+    const Int4 per_cell = reinterpret_cast<Int4>(abs4(inverse_));
     while (t < ray_.length) {
       const auto x = static_cast<std::uint32_t>(cell[0]), y = static_cast<std::uint32_t>(cell[1]),
                  z = static_cast<std::uint32_t>(cell[2]);
       if ((x | y | z) > 7) break;
-      const Float4 exits = leave(cell);
       const float first = min3(exits);
       const float out = std::min(first, ray_.length);
-      if (out > t) {
-        const Float4 at = at_ - to_float(cell);
-        const std::uint32_t entry = entries[x + 9 * (y + 9 * z)];
-        if (entry != 0) {
-          through_boundary(entry - 1, at, t, out);
-        } else {
-          add(plain_corners(texels + x + kRow * y + kLayer * z), at, t, out);
-        }
-        t = out;
+      const Float4 at = at_ - to_float(cell);
+      const Int4 crossed = exits <= splat(first);
+      cell += stride_ & crossed;
+      exits += reinterpret_cast<Float4>(per_cell & crossed);
+      if (!(out > t)) continue;
+      if (const std::uint32_t entry = entries[x + 9 * (y + 9 * z)]; entry != 0) {
+        through_boundary(volume_.boundary_cells()[entry - 1], at, t, out);
+      } else {
+        add(plain_corners(texels + x + kRow * y + kLayer * z), at, t, out);
       }
-      cell += stride_ & (exits <= splat(first));
+      t = out;
     }
     return t;
   }
 
   /// A cell with surfaces: one part for each side that the ray is on.
-  void through_boundary(std::uint32_t number, Float4 at, float t, float out) {
-    const shared::BoundaryCell& cell = volume_.boundary_cells()[number];
-    const std::array planes{cell.plane0, cell.plane1, cell.plane2};
-    std::array<float, 3> height, slope;  // of the ray over each plane: height + slope t
-    std::array<float, 5> cuts;
-    std::size_t plane_count = 0, cut_count = 1;
-    cuts[0] = t;
-    for (; plane_count < 3 && planes[plane_count] != 0; ++plane_count) {
-      const glm::vec3 n = shared::plane_normal(planes[plane_count]);
-      const float h = n.x * (at[0] - 0.5f) + n.y * (at[1] - 0.5f) + n.z * (at[2] - 0.5f) -
-                      shared::plane_offset(planes[plane_count]);
-      const float s = n.x * ray_.direction[0] + n.y * ray_.direction[1] + n.z * ray_.direction[2];
-      height[plane_count] = h;
-      slope[plane_count] = s;
-      if (const float cut = -h / s; cut > t && cut < out) {
-        std::size_t place = cut_count++;
-        for (; cuts[place - 1] > cut; --place) cuts[place] = cuts[place - 1];
-        cuts[place] = cut;
-      }
+  void through_boundary(const shared::BoundaryCell& cell, Float4 at, float t, float out) {
+    const PlanesOnRay planes(cell, at, ray_.direction);
+    std::array<float, 5> cuts{t};
+    std::size_t count = 1;
+    const Float4 crossings = -planes.height / planes.slope;
+    const Int4 cut_here = (crossings > splat(t)) & (crossings < splat(out)) & planes.there;
+    for (std::uint32_t left = bits_of(cut_here); left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      std::size_t place = count++;
+      for (; cuts[place - 1] > crossings[k]; --place) cuts[place] = cuts[place - 1];
+      cuts[place] = crossings[k];
     }
-    cuts[cut_count] = out;
-    for (std::size_t i = 0; i < cut_count; ++i) {
-      const float middle = 0.5f * (cuts[i] + cuts[i + 1]);
-      std::uint32_t side = 0;
-      for (std::size_t k = 0; k < plane_count; ++k)
-        side |= std::uint32_t{height[k] + slope[k] * middle > 0} << k;
+    cuts[count] = out;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t side = planes.side(0.5f * (cuts[i] + cuts[i + 1]));
       const glm::uvec2 set = volume_.corner_sets()[cell.first_set + side];
       if (set != glm::uvec2(0)) add(corners_of_set(set), at, cuts[i], cuts[i + 1]);
     }
@@ -182,27 +208,41 @@ class Walk {
 
   /// Adds a part of a cell.
   void add(const Corners& corners, Float4 at, float from, float to) {
-    if (!holes_) {
-      total_ += integral(corners, at, ray_.direction, from, to);
-      return;
+    if (to <= next_hole_) {
+      total_ += plain(corners, at, from, to);
+    } else {
+      add_holed(corners, at, from, to);
     }
+  }
+
+  Float4 plain(const Corners& corners, Float4 at, float from, float to) const {
+    return integral_(corners, at + ray_.direction * splat(0.5f * (from + to)), to - from);
+  }
+
+  void add_holed(const Corners& corners, Float4 at, float from, float to) {
     const std::vector<HolePiece>& pieces = holes_->pieces;
-    while (next_ < pieces.size() && pieces[next_].end <= from) ++next_;
     for (std::size_t i = next_; i < pieces.size() && pieces[i].begin < to; ++i) {
       const HolePiece& piece = pieces[i];
-      if (from < piece.begin) total_ += integral(corners, at, ray_.direction, from, piece.begin);
-      from = std::max(from, piece.begin);
+      if (from < piece.begin) {
+        total_ += plain(corners, at, from, piece.begin);
+        from = piece.begin;
+      }
       const float end = std::min(to, piece.end);
-      if (!piece.gone) total_ += holed_integral(corners, at, ray_.direction, from, end, *holes_, piece);
-      from = end;
+      if (from < end && !piece.gone)
+        total_ += holed_integral(corners, at, ray_.direction, from, end, *holes_, piece);
+      from = std::max(from, end);
     }
-    if (from < to) total_ += integral(corners, at, ray_.direction, from, to);
+    if (from < to) total_ += plain(corners, at, from, to);
+    while (next_ < pieces.size() && pieces[next_].end <= to) ++next_;
+    next_hole_ = next_ < pieces.size() ? pieces[next_].begin : kHuge;
   }
 
   const SmokeVolume& volume_;
   const SmokeRay& ray_;
   const HolesOnRay* holes_;
-  std::size_t next_ = 0;
+  CellIntegral integral_;
+  std::size_t next_ = 0;     // of the holes' pieces: the first that ends beyond here
+  float next_hole_ = kHuge;  // where it begins
   Int4 stride_{}, leaving_{};
   Float4 inverse_{};
   Float4 at_{};  // of the ray's start, from the low corner of the brick
