@@ -8,8 +8,8 @@
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 11> kFolders{"core", "image",  "scene",  "voxel", "sim", "stage",
-                                                    "gpu",  "passes", "render", "bench", "apps"};
+constexpr std::array<std::string_view, 12> kFolders{"core",  "image", "scene",  "voxel",  "sim",   "wire",
+                                                    "stage", "gpu",   "passes", "render", "bench", "apps"};
 
 // Every match's first group.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {

@@ -1,0 +1,101 @@
+#include "wire/event_log.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/hash.hpp"
+#include "wire/bytes.hpp"
+#include "wire/form.hpp"
+#include "wire/packet.hpp"
+
+namespace brume::wire {
+namespace {
+
+template <typename Coder>
+void describe(Form<Coder>& form, sim::ThrowSmoke& smoke) {
+  form.field(Field::throw_tick, smoke.tick);
+  describe_position(form, Field::from, smoke.from);
+  describe_position(form, Field::toward, smoke.at);
+  describe(form, smoke.smoke);
+}
+
+template <typename Coder>
+void describe(Form<Coder>& form, sim::MoveBody& move) {
+  form.field(Field::body_tick, move.tick);
+  form.field(Field::body, move.body);
+  describe_position(form, Field::body_at, move.to);
+}
+
+template <typename Coder>
+void describe(Form<Coder>& form, sim::LevelEdit& edit) {
+  form.field(Field::edit_tick, edit.tick);
+  describe(form, edit.blocks);
+}
+
+constexpr auto kFirstByte = static_cast<std::uint8_t>(kVersion << 4 | static_cast<int>(PacketKind::events));
+
+// An event of the variant's alternative with this index.
+template <std::size_t... kIndices>
+sim::Event event_of_kind(std::size_t kind, std::index_sequence<kIndices...>) {
+  sim::Event event;
+  static_cast<void>(((kind == kIndices && (event.emplace<kIndices>(), true)) || ...));
+  return event;
+}
+
+template <typename Coder>
+void code_event(Form<Coder>& form, sim::Event& event) {
+  constexpr std::size_t kKinds = std::variant_size_v<sim::Event>;
+  std::size_t kind = event.index();
+  form.field(Field::kind, kind);
+  if (kind >= kKinds) form.refuse("an event of a kind that is not known");
+  if (!form.ok()) return;
+  if constexpr (Coder::kReads) event = event_of_kind(kind, std::make_index_sequence<kKinds>());
+  std::visit([&](auto& e) { describe(form, e); }, event);
+  if constexpr (Coder::kReads) {
+    const Result<void> checked = sim::check_event(event, form.frame());
+    if (!checked) form.refuse(checked.failure().message);
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> write_events(std::span<const sim::Event> events, const voxel::GridFrame& frame) {
+  Encoder coder;
+  const auto form = std::make_unique<Form<Encoder>>(coder, frame, 0, Limits{});
+  form->count(events.size());
+  for (sim::Event event : events) code_event(*form, event);
+  const std::vector<std::byte> body = coder.finish();
+  ByteWriter out;
+  out.number(kFirstByte);
+  out.number(static_cast<std::uint32_t>(hash_bytes(body)));
+  out.raw(body);
+  return out.take();
+}
+
+Result<std::vector<sim::Event>> read_events(std::span<const std::byte> bytes, const voxel::GridFrame& frame,
+                                            const Limits& limits) {
+  ByteReader in(bytes);
+  const auto first = in.number<std::uint8_t>();
+  const auto checksum = in.number<std::uint32_t>();
+  if (!in.ok() || first != kFirstByte)
+    return Failure{ErrorCode::bad_input, "event log: not one of version " + std::to_string(kVersion)};
+  if (checksum != static_cast<std::uint32_t>(hash_bytes(in.rest())))
+    return Failure{ErrorCode::bad_input, "event log: damaged, its checksum is wrong"};
+  Decoder coder(in.rest());
+  const auto form = std::make_unique<Form<Decoder>>(coder, frame, 0, limits);
+  const std::uint64_t count = form->count(0);
+  std::vector<sim::Event> events;
+  for (std::uint64_t i = 0; i < count && form->ok(); ++i) {
+    sim::Event event;
+    code_event(*form, event);
+    events.push_back(std::move(event));
+  }
+  if (!form->reason().empty()) return Failure{ErrorCode::bad_input, "event log: " + form->reason()};
+  if (!coder.at_end())
+    return Failure{ErrorCode::bad_input,
+                   "event log: expected whole events, as many as are told; write it anew"};
+  return events;
+}
+
+}  // namespace brume::wire

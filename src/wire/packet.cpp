@@ -1,0 +1,132 @@
+#include "wire/packet.hpp"
+
+#include <memory>
+#include <string>
+
+#include "wire/bytes.hpp"
+#include "wire/state_coding.hpp"
+#include "wire/world_form.hpp"
+
+namespace brume::wire {
+namespace {
+
+Failure refused(const std::string& what) {
+  return {ErrorCode::bad_input, "packet: " + what + "; ask again"};
+}
+
+std::uint8_t first_byte(PacketKind kind) {
+  return static_cast<std::uint8_t>(kVersion << 4 | static_cast<std::uint8_t>(kind));
+}
+
+// The coded difference. A Form is large; it lives on the heap.
+std::vector<std::byte> encode(const sim::State& base, const sim::State& now) {
+  Encoder coder;
+  const auto form = std::make_unique<Form<Encoder>>(coder, now.frame, now.tick, Limits{});
+  sim::State copy = now;
+  code_state(*form, base, copy);
+  return coder.finish();
+}
+
+Result<sim::State> decode(std::span<const std::byte> body, const PacketHead& head, const sim::State& base,
+                          const Limits& limits) {
+  sim::State now;
+  now.frame = base.frame;
+  now.ticks_per_second = base.ticks_per_second;
+  now.tick = head.tick;
+  Decoder coder(body);
+  const auto form = std::make_unique<Form<Decoder>>(coder, now.frame, now.tick, limits);
+  code_state(*form, base, now);
+  if (!form->reason().empty()) return refused(form->reason());
+  if (!coder.at_end()) return refused("the bytes are cut short, too many, or out of range");
+  if (checksum_of(now) != head.checksum) return refused("the state has another checksum than the sender's");
+  return now;
+}
+
+}  // namespace
+
+std::uint32_t checksum_of(const sim::State& state) {
+  return static_cast<std::uint32_t>(state.hash());
+}
+
+std::vector<std::byte> write_keyframe(const sim::State& state) {
+  ByteWriter out;
+  out.number(first_byte(PacketKind::keyframe));
+  out.varint(state.tick);
+  out.number(checksum_of(state));
+  write_world(out, {state.frame, state.ticks_per_second});
+  out.raw(encode(sim::State{}, state));
+  return out.take();
+}
+
+std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now) {
+  BRUME_ASSERT(
+      base.tick < now.tick && base.frame == now.frame && base.ticks_per_second == now.ticks_per_second,
+      std::to_string(base.tick) + " to " + std::to_string(now.tick));
+  ByteWriter out;
+  out.number(first_byte(PacketKind::delta));
+  out.varint(now.tick);
+  out.varint(now.tick - base.tick);
+  out.number(checksum_of(now));
+  out.raw(encode(base, now));
+  return out.take();
+}
+
+std::vector<std::byte> write_request(const Request& request) {
+  ByteWriter out;
+  out.number(first_byte(PacketKind::request));
+  out.varint(request.tick ? std::uint64_t{*request.tick} + 1 : 0);
+  if (request.tick) out.number(request.checksum);
+  return out.take();
+}
+
+Result<PacketHead> read_head(std::span<const std::byte> packet, const Limits& limits) {
+  if (packet.size() > limits.max_bytes)
+    return refused(std::to_string(packet.size()) + " bytes, at most " + std::to_string(limits.max_bytes));
+  ByteReader in(packet);
+  PacketHead head;
+  const auto first = in.number<std::uint8_t>();
+  head.kind = static_cast<PacketKind>(first & 0xf);
+  if (!in.ok() || first >> 4 != kVersion ||
+      (head.kind != PacketKind::keyframe && head.kind != PacketKind::delta))
+    return refused("not a keyframe or delta of version " + std::to_string(kVersion));
+  head.tick = static_cast<std::uint32_t>(in.varint(~std::uint32_t{0}));
+  if (head.kind == PacketKind::delta) {
+    const std::uint64_t back = in.varint(head.tick);
+    if (back == 0) return refused("a delta must lead from one tick to a later one");
+    head.base_tick = head.tick - static_cast<std::uint32_t>(back);
+  }
+  head.checksum = in.number<std::uint32_t>();
+  head.body = in.rest();
+  if (!in.ok()) return refused("the bytes are cut short");
+  return head;
+}
+
+Result<Request> read_request(std::span<const std::byte> packet) {
+  ByteReader in(packet);
+  const auto first = in.number<std::uint8_t>();
+  const std::uint64_t tick = in.varint(std::uint64_t{1} << 32);
+  Request request;
+  if (tick > 0) {
+    request.tick = static_cast<std::uint32_t>(tick - 1);
+    request.checksum = in.number<std::uint32_t>();
+  }
+  if (!in.ok() || first != first_byte(PacketKind::request) || !in.rest().empty())
+    return refused("not a request of version " + std::to_string(kVersion));
+  return request;
+}
+
+Result<sim::State> read_keyframe(const PacketHead& head, const Limits& limits) {
+  ByteReader in(head.body);
+  const auto world = read_world(in);
+  if (!world) return refused(world.failure().message);
+  sim::State empty;
+  empty.frame = world->frame;
+  empty.ticks_per_second = world->ticks_per_second;
+  return decode(in.rest(), head, empty, limits);
+}
+
+Result<sim::State> read_delta(const PacketHead& head, const sim::State& base, const Limits& limits) {
+  return decode(head.body, head, base, limits);
+}
+
+}  // namespace brume::wire

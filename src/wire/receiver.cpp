@@ -1,0 +1,56 @@
+#include "wire/receiver.hpp"
+
+#include <algorithm>
+
+namespace brume::wire {
+namespace {
+
+// An answer begins with the state that was asked from; this many packets may overtake it.
+constexpr std::size_t kStates = 32;
+
+}  // namespace
+
+Result<Reception> Receiver::receive(std::span<const std::byte> packet) {
+  const auto head = read_head(packet, limits_);
+  if (!head) {
+    behind_ = true;
+    return head.failure();
+  }
+  if (!states_.empty() && head->tick <= states_.back().tick) return Reception::old;
+  const sim::State* base = nullptr;
+  if (head->kind == PacketKind::delta) {
+    base = find(head->base_tick);
+    if (!base) {
+      behind_ = true;
+      return Reception::missed;
+    }
+  }
+  auto state = base ? read_delta(*head, *base, limits_) : read_keyframe(*head, limits_);
+  if (!state) {
+    behind_ = true;
+    return state.failure();
+  }
+  states_.push_back(std::move(*state));
+  if (states_.size() > kStates) states_.pop_front();
+  behind_ = false;
+  return Reception::applied;
+}
+
+const sim::State* Receiver::find(std::uint32_t tick) const {
+  const auto found = std::lower_bound(states_.begin(), states_.end(), tick,
+                                      [](const sim::State& s, std::uint32_t t) { return s.tick < t; });
+  return found != states_.end() && found->tick == tick ? &*found : nullptr;
+}
+
+std::vector<std::byte> Receiver::request() const {
+  Request request;
+  if (!states_.empty()) request = {states_.back().tick, checksum_of(states_.back())};
+  return write_request(request);
+}
+
+void Receiver::reset() {
+  states_.clear();
+  behind_ = false;
+}
+
+}  // namespace brume::wire

@@ -1,0 +1,159 @@
+#include "wire/replay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+
+#include "core/file.hpp"
+#include "core/hash.hpp"
+#include "wire/block_coding.hpp"
+#include "wire/bytes.hpp"
+#include "wire/event_log.hpp"
+#include "wire/packet.hpp"
+#include "wire/world_form.hpp"
+
+namespace brume::wire {
+namespace {
+
+using glm::ivec3;
+
+constexpr std::array kMagic{std::byte{'B'}, std::byte{'R'}, std::byte{'U'}, std::byte{'M'},
+                            std::byte{'E'}, std::byte{'R'}, std::byte{'P'}, std::byte{'L'}};
+constexpr std::size_t kHashBytes = 8;
+
+Failure damaged(const std::string& what) {
+  return {ErrorCode::bad_input, what + "; record it anew"};
+}
+
+// The solid voxels of a level, by blocks.
+std::vector<sim::VoxelBlock> blocks_of(const voxel::BitGrid& level) {
+  std::vector<sim::VoxelBlock> blocks;
+  level.for_each_brick([&](ivec3 at, const voxel::BitGrid::Brick& brick) {
+    for (int i = 0; i < 8; ++i) {
+      const ivec3 corner(i & 1, i >> 1 & 1, i >> 2);
+      std::uint64_t mask = 0;
+      for (int z = 0; z < 4; ++z)
+        for (int y = 0; y < 4; ++y) {
+          const std::uint64_t slice = brick[static_cast<unsigned>(4 * corner.z + z)];
+          mask |= (slice >> (4 * corner.x + 8 * (4 * corner.y + y)) & 0xf) << (4 * y + 16 * z);
+        }
+      if (mask != 0) blocks.push_back({glm::i16vec3(2 * at + corner), mask, 0});
+    }
+  });
+  std::sort(blocks.begin(), blocks.end(),
+            [](const auto& a, const auto& b) { return sim::block_before(a.at, b.at); });
+  return blocks;
+}
+
+Result<std::vector<std::byte>> encode_level(const voxel::BitGrid& level) {
+  std::vector<sim::VoxelBlock> blocks = blocks_of(level);
+  std::uint64_t voxels = 0;
+  for (const sim::VoxelBlock& block : blocks) voxels += cost_of(block);
+  if (voxels > kMaxLevelVoxels)
+    return Failure{ErrorCode::resource_limit, "replay: the level has more than " +
+                                                  std::to_string(kMaxLevelVoxels) +
+                                                  " solid voxels; use a coarser grid"};
+  Encoder coder;
+  const auto models = std::make_unique<BlockModels>();
+  code_blocks(coder, *models, {level.size(), false, kMaxLevelVoxels}, ivec3(0), blocks);
+  return coder.finish();
+}
+
+Result<voxel::BitGrid> decode_level(std::span<const std::byte> bytes, const voxel::GridFrame& frame) {
+  Decoder coder(bytes);
+  const auto models = std::make_unique<BlockModels>();
+  std::vector<sim::VoxelBlock> blocks;
+  code_blocks(coder, *models, {frame.size, false, kMaxLevelVoxels}, ivec3(0), blocks);
+  if (!coder.at_end()) return damaged("a replay with an impossible level");
+  voxel::BitGrid level(frame);
+  for (const sim::VoxelBlock& block : blocks) {
+    const sim::EditBlock edit{block.at, block.mask, 0};
+    sim::apply_edits(level, {&edit, 1});
+  }
+  return level;
+}
+
+}  // namespace
+
+Replay replay_of(const voxel::BitGrid& level, const sim::WorldSettings& settings,
+                 std::span<const sim::Event> events) {
+  return {level, settings, {events.begin(), events.end()}, {}};
+}
+
+Result<std::vector<std::byte>> encode_replay(const Replay& replay) {
+  const auto level = encode_level(replay.level);
+  if (!level) return level.failure();
+  ByteWriter out;
+  out.raw(kMagic);
+  out.varint(kVersion);
+  write_world(out, {replay.level.frame(), replay.settings.ticks_per_second});
+  out.section(*level);
+  out.section(write_events(replay.events, replay.level.frame()));
+  out.varint(replay.checksums.size());
+  for (const std::uint32_t checksum : replay.checksums) out.number(checksum);
+  out.number(hash_bytes(out.bytes()));
+  return out.take();
+}
+
+Result<Replay> decode_replay(std::span<const std::byte> bytes) {
+  // Is it ours, and whole?
+  ByteReader in(bytes);
+  const auto magic = in.raw(kMagic.size());
+  if (!in.ok() || !std::equal(magic.begin(), magic.end(), kMagic.begin())) return damaged("not a replay");
+  const std::uint64_t version = in.varint(~std::uint64_t{0});
+  if (!in.ok() || version != kVersion)
+    return damaged("a replay of another version than " + std::to_string(kVersion));
+  if (in.rest().size() < kHashBytes) return damaged("a replay that is cut short");
+  const std::size_t hashed = bytes.size() - kHashBytes;
+  if (ByteReader(bytes.subspan(hashed)).number<std::uint64_t>() != hash_bytes(bytes.first(hashed)))
+    return damaged("a damaged replay: its hash is wrong");
+
+  // What does it tell?
+  const auto world = read_world(in);
+  if (!world) return damaged("replay: " + world.failure().message);
+  const auto level_bytes = in.section();
+  const auto event_bytes = in.section();
+  if (!in.ok() || in.rest().size() < kHashBytes) return damaged("a replay that is cut short");
+  const std::uint64_t ticks = in.varint(in.rest().size() / sizeof(std::uint32_t));
+  if (!in.ok() || in.rest().size() != ticks * sizeof(std::uint32_t) + kHashBytes)
+    return damaged("a replay with another number of ticks than it tells");
+  auto level = decode_level(level_bytes, world->frame);
+  if (!level) return level.failure();
+  auto events = read_events(event_bytes, world->frame);
+  if (!events) return damaged("replay: " + events.failure().message);
+  Replay replay{std::move(*level), {world->ticks_per_second}, std::move(*events), {}};
+  for (std::uint64_t tick = 0; tick < ticks; ++tick) replay.checksums.push_back(in.number<std::uint32_t>());
+  return replay;
+}
+
+Result<void> save_replay(const std::filesystem::path& path, const Replay& replay) {
+  const auto bytes = encode_replay(replay);
+  if (!bytes) return bytes.failure();
+  return write_file_atomic(path, *bytes);
+}
+
+Result<Replay> load_replay(const std::filesystem::path& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return bytes.failure();
+  auto replay = decode_replay(*bytes);
+  if (!replay) return Failure{replay.failure().code, path.string() + ": " + replay.failure().message};
+  return replay;
+}
+
+Result<std::optional<Departure>> play(const Replay& replay,
+                                      const std::function<void(const sim::State&)>& visit) {
+  sim::World world(replay.level, replay.settings);
+  for (const sim::Event& event : replay.events) {
+    if (auto taken = world.append(event); !taken) return taken.failure();
+  }
+  for (std::uint32_t tick = 0; tick < replay.checksums.size(); ++tick) {
+    world.advance_to(tick);
+    if (visit) visit(world.state());
+    const std::uint32_t got = checksum_of(world.state());
+    if (got != replay.checksums[tick]) return std::optional(Departure{tick, replay.checksums[tick], got});
+  }
+  return std::optional<Departure>();
+}
+
+}  // namespace brume::wire

@@ -1,0 +1,48 @@
+#include "wire/sender.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace brume::wire {
+
+Sender::Sender(const SenderSettings& settings) : settings_(settings) {
+  BRUME_ASSERT(settings.history >= 1, "a history of no state");
+}
+
+Result<std::vector<std::byte>> Sender::push(const sim::State& state) {
+  std::vector<std::byte> packet;
+  if (history_.empty()) {
+    packet = keyframe_ = write_keyframe(state);
+  } else {
+    const sim::State& last = history_.back();
+    if (state.tick <= last.tick || state.frame != last.frame ||
+        state.ticks_per_second != last.ticks_per_second)
+      return Failure{ErrorCode::bad_input, "sender: expected a state of the same world after tick " +
+                                               std::to_string(last.tick) + ", not of tick " +
+                                               std::to_string(state.tick)};
+    packet = write_delta(last, state);
+    keyframe_.clear();
+  }
+  history_.push_back(state);
+  if (history_.size() > settings_.history) history_.pop_front();
+  return packet;
+}
+
+Result<std::vector<std::byte>> Sender::answer(std::span<const std::byte> request) {
+  const auto asked = read_request(request);
+  if (!asked) return asked.failure();
+  if (history_.empty()) return Failure{ErrorCode::bad_input, "sender: no state to send yet; push one first"};
+  const sim::State& last = history_.back();
+  if (asked->tick) {
+    const auto base = std::lower_bound(history_.begin(), history_.end(), *asked->tick,
+                                       [](const sim::State& s, std::uint32_t tick) { return s.tick < tick; });
+    if (base != history_.end() && base->tick == *asked->tick && checksum_of(*base) == asked->checksum) {
+      if (base->tick == last.tick) return std::vector<std::byte>();
+      return write_delta(*base, last);
+    }
+  }
+  if (keyframe_.empty()) keyframe_ = write_keyframe(last);
+  return keyframe_;
+}
+
+}  // namespace brume::wire

@@ -1,0 +1,361 @@
+#include "wire/state_coding.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace brume::wire {
+namespace {
+
+using sim::Body;
+using sim::EditBlock;
+using sim::EditBlocks;
+using sim::Flight;
+using sim::LiveBlast;
+using sim::LiveCloud;
+using sim::OpenHole;
+using sim::State;
+
+std::uint32_t key_of(const Flight& flight) {
+  return flight.id;
+}
+std::uint32_t key_of(const LiveCloud& cloud) {
+  return cloud.id;
+}
+std::uint32_t key_of(const LiveBlast& blast) {
+  return blast.id;
+}
+std::uint32_t key_of(const OpenHole& hole) {
+  return hole.id;
+}
+std::uint32_t key_of(const Body& body) {
+  return body.body;
+}
+
+template <typename Item>
+bool same(const Item& a, const Item& b) {
+  return a == b;
+}
+bool same(const LiveCloud& a, const LiveCloud& b) {
+  return a.cloud == b.cloud || a.cloud->hash() == b.cloud->hash();
+}
+bool same(const LiveBlast& a, const LiveBlast& b) {
+  return a.field == b.field || a.field->hash() == b.field->hash();
+}
+
+template <typename F>
+void describe_numbers(F& form, Flight& flight) {
+  form.field(Field::throw_tick, flight.throw_tick);
+  form.field(Field::detonation_tick, flight.detonation_tick);
+  describe_position(form, Field::from, flight.from);
+  describe_position(form, Field::voxel, flight.landing);
+  describe(form, flight.smoke);
+}
+
+template <typename F>
+void describe_numbers(F& form, OpenHole& hole) {
+  describe(form, hole.shot);
+  form.field(Field::distance, hole.distance);
+}
+
+template <typename F>
+void describe_numbers(F& form, Body& body) {
+  describe_position(form, Field::body_at, body.position);
+  describe_position(form, Field::body_was, body.previous);
+  form.field(Field::body_tick, body.tick);
+  form.field(Field::body_tick_before, body.previous_tick);
+}
+
+template <typename F>
+void describe_numbers(F& form, sim::CloudOrigin& origin) {
+  form.field(Field::detonation_tick, origin.detonation_tick);
+  describe_position(form, Field::voxel, origin.source);
+  describe(form, origin.settings);
+}
+
+// One State as the difference from another.
+template <typename Coder>
+class StateCoder {
+ public:
+  static constexpr bool kReads = Coder::kReads;
+
+  StateCoder(Form<Coder>& form, const State& base, State& now) : form_(form), base_(base), now_(now) {}
+
+  void code() {
+    form_.memory.at(Field::events) = form_.memory.at(Field::id) = base_.events;
+    form_.field(Field::events, now_.events);
+    code_edits();
+    code_list(base_.flights, now_.flights);
+    code_list(base_.clouds, now_.clouds);
+    code_list(base_.blasts, now_.blasts);
+    code_list(base_.holes, now_.holes);
+    code_list(base_.bodies, now_.bodies);
+  }
+
+ private:
+  // An edit that is there before and after costs nothing: only bits that differ travel.
+  void code_edits() {
+    const EditBlocks none;
+    const EditBlocks& before = base_.edits ? *base_.edits : none;
+    EditBlocks changed;
+    if constexpr (!kReads)
+      if (base_.edits != now_.edits) changed = flipped(before, now_.edits ? *now_.edits : none);
+    if (!form_.flag(Flag::edits, !changed.empty())) {
+      if constexpr (kReads) now_.edits = base_.edits;
+      return;
+    }
+    describe(form_, changed);
+    if constexpr (kReads) {
+      EditBlocks after = flipped(before, changed);
+      for (const EditBlock& edit : after)
+        if (edit.make_solid & edit.make_free) form_.refuse("an edit makes a voxel both solid and free");
+      now_.edits = after.empty() ? nullptr : std::make_shared<const EditBlocks>(std::move(after));
+    }
+  }
+
+  // The bits that are in one of the two; flipping them again leads back.
+  static EditBlocks flipped(const EditBlocks& a, const EditBlocks& b) {
+    EditBlocks both;
+    std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both),
+               [](const EditBlock& x, const EditBlock& y) { return sim::block_before(x.at, y.at); });
+    EditBlocks result;
+    for (const EditBlock& edit : both) {
+      if (!result.empty() && result.back().at == edit.at) {
+        result.back().make_solid ^= edit.make_solid;
+        result.back().make_free ^= edit.make_free;
+      } else {
+        result.push_back(edit);
+      }
+    }
+    std::erase_if(result, [](const EditBlock& edit) { return (edit.make_solid | edit.make_free) == 0; });
+    return result;
+  }
+
+  // Of each thing in the base: whether it stays, and whether it is as it was. Then the new ones.
+  template <typename Item>
+  void code_list(const std::vector<Item>& base, std::vector<Item>& now) {
+    bool differs = false;
+    if constexpr (!kReads)
+      differs = base.size() != now.size() ||
+                !std::equal(base.begin(), base.end(), now.begin(), [](const Item& a, const Item& b) {
+                  return key_of(a) == key_of(b) && same(a, b);
+                });
+    if (!form_.flag(Flag::list, differs)) {
+      if constexpr (kReads) now = base;
+      return;
+    }
+    std::vector<Item> kept, added;
+    auto next = now.begin();
+    for (const Item& before : base) {
+      if (!form_.ok()) return;
+      Item after = before;
+      bool stays = false;
+      if constexpr (!kReads) {
+        for (; next != now.end() && key_of(*next) < key_of(before); ++next) added.push_back(*next);
+        stays = next != now.end() && key_of(*next) == key_of(before);
+        if (stays) after = *next++;
+      }
+      if (!form_.flag(Flag::kept, stays)) continue;
+      if (form_.flag(Flag::replaced, !same(before, after))) code_item(&before, after);
+      if constexpr (kReads) kept.push_back(std::move(after));
+    }
+    if constexpr (!kReads) added.insert(added.end(), next, now.end());
+    code_added(added);
+    if constexpr (kReads) put_together(std::move(kept), std::move(added), now);
+  }
+
+  template <typename Item>
+  void code_added(std::vector<Item>& added) {
+    const std::uint64_t count = form_.count(added.size());
+    for (std::uint64_t i = 0; i < count && form_.ok(); ++i) {
+      Item item{};
+      if constexpr (!kReads) item = added[i];
+      std::uint32_t key = key_of(item);
+      form_.field(std::is_same_v<Item, Body> ? Field::body : Field::id, key);
+      set_key(item, key);
+      code_item(static_cast<const Item*>(nullptr), item);
+      if constexpr (kReads)
+        if (form_.ok()) added.push_back(std::move(item));
+    }
+  }
+
+  template <typename Item>
+  void put_together(std::vector<Item> kept, std::vector<Item> added, std::vector<Item>& now) {
+    if (!form_.ok()) return;
+    const auto before = [](const Item& a, const Item& b) { return key_of(a) < key_of(b); };
+    now.clear();
+    std::merge(std::make_move_iterator(kept.begin()), std::make_move_iterator(kept.end()),
+               std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()),
+               std::back_inserter(now), before);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (i > 0 && !before(now[i - 1], now[i])) form_.refuse("numbers of things are out of order");
+      if (!std::is_same_v<Item, Body> && key_of(now[i]) >= now_.events)
+        form_.refuse("a thing is of an event that was not yet");
+    }
+  }
+
+  template <typename Item>
+  static void set_key(Item& item, std::uint32_t key) {
+    item.id = key;
+  }
+  static void set_key(Body& body, std::uint32_t key) { body.body = key; }
+
+  template <typename Item>
+  void code_item(const Item* before, Item& item) {
+    if (before) {
+      Item expected = *before;
+      describe_numbers(form_.memory, expected);
+    }
+    describe_numbers(form_, item);
+    if constexpr (kReads) check(item);
+  }
+
+  // A body that moves was where it was; that costs nothing then.
+  void code_item(const Body* before, Body& body) {
+    if (before) {
+      Body expected = *before;
+      expected.previous = before->position;
+      expected.previous_tick = before->tick;
+      expected.tick = now_.tick;
+      describe_numbers(form_.memory, expected);
+    }
+    describe_numbers(form_, body);
+    if constexpr (kReads) check(body);
+  }
+
+  void code_item(const LiveCloud* before, LiveCloud& live) {
+    if (before && form_.flag(Flag::rested, is_rested(*before, live))) {
+      if constexpr (kReads) live.cloud = std::make_shared<const sim::Cloud>(before->cloud->rested());
+      return;
+    }
+    // Its grenade told most of it.
+    const auto flight = std::find_if(base_.flights.begin(), base_.flights.end(),
+                                     [&](const Flight& f) { return f.id == live.id; });
+    if (flight != base_.flights.end()) {
+      Flight expected = *flight;
+      describe_numbers(form_.memory, expected);
+    }
+    if (before) {
+      sim::CloudOrigin expected = before->cloud->origin();
+      describe_numbers(form_.memory, expected);
+    }
+    sim::CloudParts parts;
+    if constexpr (!kReads) parts = live.cloud->parts();
+    code_parts(parts);
+    if constexpr (kReads) {
+      if (!form_.ok()) return;
+      auto cloud = sim::Cloud::from_parts(std::move(parts));
+      if (cloud)
+        live.cloud = std::make_shared<const sim::Cloud>(std::move(*cloud));
+      else
+        form_.refuse(cloud.failure().message);
+    }
+  }
+
+  static bool is_rested(const LiveCloud& before, const LiveCloud& now) {
+    if constexpr (kReads) return false;
+    return before.cloud->rest_tick() && !now.cloud->rest_tick() &&
+           before.cloud->rested().hash() == now.cloud->hash();
+  }
+
+  void code_parts(sim::CloudParts& parts) {
+    describe_numbers(form_, parts.origin);
+    check_begun(parts.origin.detonation_tick);
+    check_inside(parts.origin.source, "a cloud comes from outside of the grid");
+    form_.set(parts.origin.source, parts.fill);
+    form_.set(parts.origin.source, parts.rest);
+    if (form_.flag(Flag::flows, parts.flow_tick != 0)) {
+      form_.memory.at(Field::flow_tick) = now_.tick;
+      form_.field(Field::flow_tick, parts.flow_tick);
+      form_.steps(0, parts.fill, parts.fill_base);
+      form_.steps(1, parts.fill, parts.fill_delay);
+    }
+    form_.steps(2, parts.rest, parts.rest_base);
+    form_.steps(3, parts.rest, parts.rest_delay);
+    form_.steps(4, parts.rest, parts.rest_survival);
+  }
+
+  void code_item(const LiveBlast* before, LiveBlast& live) {
+    sim::Blast blast;
+    sim::Position centre{0};
+    sim::BlockSet reached;
+    if constexpr (!kReads) {
+      blast = live.field->blast();
+      centre = live.field->centre();
+      reached = live.field->reached();
+    }
+    if (before) {
+      sim::Blast expected = before->field->blast();
+      describe(form_.memory, expected);
+    }
+    describe(form_, blast);
+    describe_position(form_, Field::centre, centre);
+    if (!form_.ok()) return;
+    const sim::VoxelRuler ruler(form_.frame());
+    if constexpr (kReads) {
+      check_event(blast);
+      check_begun(blast.tick);
+      check_event(sim::MoveBody{0, 0, centre});
+      if (!form_.ok()) return;
+    }
+    form_.set(glm::ivec3(ruler.subvoxel(centre) >> std::int64_t{10}), reached);
+    if constexpr (kReads) {
+      if (!form_.ok()) return;
+      auto field = sim::BlastField::from_parts(form_.frame(), blast, centre, std::move(reached),
+                                               now_.ticks_per_second);
+      if (field)
+        live.field = std::make_shared<const sim::BlastField>(std::move(*field));
+      else
+        form_.refuse(field.failure().message);
+    }
+  }
+
+  void check_event(const sim::Event& event) {
+    const Result<void> checked = sim::check_event(event, form_.frame());
+    if (!checked) form_.refuse(checked.failure().message);
+  }
+  void check_inside(glm::ivec3 voxel, const char* otherwise) {
+    if (glm::any(glm::lessThan(voxel, glm::ivec3(0))) ||
+        glm::any(glm::greaterThanEqual(voxel, form_.frame().size)))
+      form_.refuse(otherwise);
+  }
+  void check_begun(std::uint32_t tick) {
+    if (tick > now_.tick) form_.refuse("a thing is there before it begins");
+  }
+  void check(const Flight& flight) {
+    check_event(sim::ThrowSmoke{flight.throw_tick, flight.from, flight.from, flight.smoke});
+    check_inside(flight.landing, "a grenade lands outside of the grid");
+    check_begun(flight.throw_tick);
+    if (flight.detonation_tick <= flight.throw_tick || flight.detonation_tick > 2 * sim::kMaxTick)
+      form_.refuse("a grenade goes off before it is thrown, or never");
+  }
+  void check(const OpenHole& hole) {
+    check_event(hole.shot);
+    check_begun(hole.shot.tick);
+    if (hole.distance == 0 || hole.distance > kMaxDistance) form_.refuse("a hole of no depth, or too deep");
+  }
+  void check(const Body& body) {
+    check_event(sim::MoveBody{body.tick, body.body, body.position});
+    check_event(sim::MoveBody{body.previous_tick, body.body, body.previous});
+    check_begun(body.tick);
+    if (body.previous_tick > body.tick) form_.refuse("a body moved before it was where it came from");
+  }
+
+  // Longer than any way through the world.
+  static constexpr std::uint64_t kMaxDistance = std::uint64_t{8} * sim::kMaxCoordinate;
+
+  Form<Coder>& form_;
+  const State& base_;
+  State& now_;
+};
+
+}  // namespace
+
+template <typename Coder>
+void code_state(Form<Coder>& form, const State& base, State& now) {
+  StateCoder<Coder>(form, base, now).code();
+}
+
+template void code_state(Form<Encoder>&, const State&, State&);
+template void code_state(Form<Decoder>&, const State&, State&);
+
+}  // namespace brume::wire

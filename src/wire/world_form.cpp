@@ -1,0 +1,43 @@
+#include "wire/world_form.hpp"
+
+#include <bit>
+
+#include "sim/walk.hpp"
+#include "voxel/voxelize.hpp"
+
+namespace brume::wire {
+namespace {
+
+constexpr std::uint32_t kMaxTicksPerSecond = 1000;
+
+}  // namespace
+
+void write_world(ByteWriter& out, const WorldForm& world) {
+  for (int axis = 0; axis < 3; ++axis) out.varint(static_cast<std::uint64_t>(world.frame.size[axis]));
+  out.number(std::bit_cast<std::uint32_t>(world.frame.voxel_size));
+  for (int axis = 0; axis < 3; ++axis)
+    out.number(std::bit_cast<std::uint32_t>(world.frame.origin_world[axis]));
+  out.varint(world.ticks_per_second);
+}
+
+Result<WorldForm> read_world(ByteReader& in) {
+  WorldForm world;
+  for (int axis = 0; axis < 3; ++axis) world.frame.size[axis] = static_cast<int>(in.varint(voxel::kMaxAxis));
+  world.frame.voxel_size = std::bit_cast<float>(in.number<std::uint32_t>());
+  for (int axis = 0; axis < 3; ++axis)
+    world.frame.origin_world[axis] = std::bit_cast<float>(in.number<std::uint32_t>());
+  world.ticks_per_second = static_cast<std::uint32_t>(in.varint(kMaxTicksPerSecond));
+  if (!in.ok() || world.ticks_per_second == 0)
+    return Failure{ErrorCode::bad_input,
+                   "expected a grid of up to 4096 voxels an axis and 1 to 1000 ticks a second"};
+  if (auto checked = voxel::check_frame(world.frame); !checked)
+    return Failure{ErrorCode::bad_input, checked.failure().message};
+  try {
+    static_cast<void>(sim::VoxelRuler(world.frame));
+  } catch (const Error& error) {
+    return error.failure();
+  }
+  return world;
+}
+
+}  // namespace brume::wire

@@ -1,0 +1,23 @@
+// What keyframes and replays say of the world itself.
+#pragma once
+
+#include <cstdint>
+
+#include "core/error.hpp"
+#include "voxel/bit_grid.hpp"
+#include "wire/bytes.hpp"
+
+namespace brume::wire {
+
+struct WorldForm {
+  voxel::GridFrame frame;
+  std::uint32_t ticks_per_second = 64;
+};
+
+/// Three varints of the size, the bits of four floats (voxel size, origin), a varint of the ticks a second.
+void write_world(ByteWriter& out, const WorldForm& world);
+
+/// Fails with bad_input for what no World can have.
+Result<WorldForm> read_world(ByteReader& in);
+
+}  // namespace brume::wire

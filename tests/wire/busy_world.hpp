@@ -1,0 +1,116 @@
+// Levels and matches for the tests of the wire.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "sim/level_edit.hpp"
+#include "sim/state.hpp"
+#include "sim/world.hpp"
+#include "voxel/bit_grid.hpp"
+
+namespace brume::wire {
+
+inline void fill_box(voxel::BitGrid& grid, glm::ivec3 low, glm::ivec3 high, bool solid) {
+  const sim::EditBlocks edits = sim::edit_box(grid.frame(), low, high, solid);
+  sim::apply_edits(grid, edits);
+}
+
+/// Voxels of half a metre; the ground is solid.
+inline voxel::BitGrid yard(glm::ivec3 size = {96, 32, 96}) {
+  voxel::BitGrid grid({size, 0.5f, glm::vec3(-24, -0.5f, -24)});
+  fill_box(grid, {0, 0, 0}, {size.x, 1, size.z}, true);
+  return grid;
+}
+
+/// Rooms of 12 x 6 x 10 voxels with doors of two voxels, furniture in each.
+inline voxel::BitGrid rooms(unsigned seed, glm::ivec3 size = {96, 8, 96}) {
+  voxel::BitGrid grid = yard(size);
+  std::mt19937 random(seed);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  fill_box(grid, {0, 7, 0}, {size.x, 8, size.z}, true);
+  for (int x = 0; x < size.x; x += 13) fill_box(grid, {x, 0, 0}, {x + 1, 7, size.z}, true);
+  for (int z = 0; z < size.z; z += 11) fill_box(grid, {0, 0, z}, {size.x, 7, z + 1}, true);
+  for (int x = 0; x < size.x; x += 13)
+    for (int z = 0; z < size.z; z += 11) {
+      const int door_z = z + 3 + below(5), door_x = x + 3 + below(7);
+      fill_box(grid, {x, 1, door_z}, {x + 1, 5, door_z + 2}, false);
+      fill_box(grid, {door_x, 1, z}, {door_x + 2, 5, z + 1}, false);
+      for (int thing = 0; thing < 6; ++thing) {
+        const glm::ivec3 low(x + 1 + below(11), below(4) == 0 ? 4 : 1, z + 1 + below(9));
+        fill_box(grid, low, low + glm::ivec3(1 + below(3), 1 + below(3), 1 + below(3)), true);
+      }
+    }
+  return grid;
+}
+
+/// Corridors of 4 x 5 voxels along z.
+inline voxel::BitGrid corridors(glm::ivec3 size = {64, 8, 480}) {
+  voxel::BitGrid grid = yard(size);
+  fill_box(grid, {0, 6, 0}, {size.x, 7, size.z}, true);
+  for (int x = 0; x < size.x; x += 5) fill_box(grid, {x, 0, 0}, {x + 1, 6, size.z}, true);
+  return grid;
+}
+
+/// The Position of a voxel's centre in these levels.
+inline sim::Position centre_of(const voxel::BitGrid& grid, glm::ivec3 voxel) {
+  return sim::VoxelRuler(grid.frame()).centre(voxel);
+}
+
+/// A free voxel, from some chosen at random.
+inline glm::ivec3 free_voxel(const voxel::BitGrid& grid, std::mt19937& random) {
+  for (;;) {
+    glm::ivec3 v;
+    for (int axis = 0; axis < 3; ++axis)
+      v[axis] = static_cast<int>(random() % static_cast<unsigned>(grid.size()[axis]));
+    if (grid.free(v)) return v;
+  }
+}
+
+/// A busy match of `ticks` ticks: smokes, shots, blasts, bodies, and doors that open and close.
+inline std::vector<sim::Event> busy_match(const voxel::BitGrid& level, unsigned seed, std::uint32_t ticks,
+                                          std::uint32_t voxels) {
+  std::mt19937 random(seed);
+  const auto tick = [&] { return static_cast<std::uint32_t>(random() % ticks); };
+  const auto place = [&] { return centre_of(level, free_voxel(level, random)); };
+  std::vector<sim::Event> events;
+  for (int i = 0; i < 8; ++i)
+    events.push_back(sim::ThrowSmoke{tick(), place(), place(), {voxels, 64, ticks / 4, 96}});
+  for (int i = 0; i < 200; ++i) {
+    sim::Shot shot{tick(), place(), place(), 205, {}};
+    if (shot.origin == shot.toward) ++shot.toward.x;
+    events.push_back(shot);
+  }
+  for (int i = 0; i < 5; ++i) events.push_back(sim::Blast{tick(), place()});
+  for (int i = 0; i < 60; ++i)
+    events.push_back(sim::MoveBody{tick(), static_cast<std::uint32_t>(random() % 3), place()});
+  for (int door = 0; door < 2; ++door) {
+    const glm::ivec3 low = free_voxel(level, random) - glm::ivec3(3);
+    const std::uint32_t opens = tick();
+    events.push_back(sim::LevelEdit{opens, sim::edit_box(level.frame(), low, low + 6, false)});
+    events.push_back(sim::LevelEdit{(opens + ticks) / 2, sim::edit_box(level.frame(), low, low + 6, true)});
+  }
+  return events;
+}
+
+inline sim::World world_of(const voxel::BitGrid& level, const std::vector<sim::Event>& events) {
+  sim::World world(level);
+  for (const sim::Event& event : events) world.append(event).value_or_throw();
+  return world;
+}
+
+/// Equal by hash and in the density of every voxel that any of the two fills.
+inline void expect_same(const sim::State& got, const sim::State& expected) {
+  ASSERT_EQ(got.hash(), expected.hash()) << "tick " << expected.tick;
+  ASSERT_EQ(got.clouds.size(), expected.clouds.size());
+  for (const sim::State* state : {&got, &expected})
+    for (const sim::LiveCloud& live : state->clouds)
+      live.cloud->voxels().for_each([&](glm::ivec3 voxel, std::uint32_t) {
+        ASSERT_EQ(got.density(voxel), expected.density(voxel)) << voxel.x << "," << voxel.y << "," << voxel.z;
+      });
+}
+
+}  // namespace brume::wire
