@@ -64,6 +64,8 @@ Measurement summarize(const std::string& name, const std::string& unit, const st
 
 std::vector<Case> all_cases() {
   std::vector<Case> cases = cpu_cases();
+  for (Case& one : edit_cases()) cases.push_back(std::move(one));
+  for (Case& one : volume_cases()) cases.push_back(std::move(one));
   for (Case& one : gpu_cases()) cases.push_back(std::move(one));
   return cases;
 }

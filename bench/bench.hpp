@@ -67,6 +67,8 @@ struct Case {
   std::function<Result<std::vector<Measurement>>(Bench&)> run;
 };
 std::vector<Case> cpu_cases();
+std::vector<Case> volume_cases();
+std::vector<Case> edit_cases();
 std::vector<Case> gpu_cases();
 /// All, in the order in which they run.
 std::vector<Case> all_cases();

@@ -91,17 +91,18 @@ bool Level::Reach::misses(const Run& run) const {
   return glm::any(glm::lessThan(dvec3(run.high), low)) || glm::any(glm::greaterThan(dvec3(run.low), high));
 }
 
-Level::Reach Level::reach_of(const IntBox& voxels) const {
-  // A cell at the rim reaches half a voxel farther, a touch one more; rounding is far below the rest.
+Level::Reach Level::reach_of(const dvec3& low_voxel, const dvec3& high_voxel) const {
+  constexpr double kMargin = 1e-3;
+  // What touches them counts. Doubles are wrong by far less than the margin.
   const GridFrame& frame = grid_.frame();
   const dvec3 origin(frame.origin_world);
   const double size = frame.voxel_size;
-  return {origin + (dvec3(voxels.low) - 2.0) * size, origin + (dvec3(voxels.high) + 2.0) * size};
+  return {origin + (low_voxel - kMargin) * size, origin + (high_voxel + kMargin) * size};
 }
 
 IntBox Level::voxels_of(const Part& part) const {
   const GridFrame& frame = grid_.frame();
-  IntBox box;
+  IntBox box;  // As voxelize sees it: a voxel that is touched with a face is in it.
   for (int axis = 0; axis < 3; ++axis) {
     const double origin = frame.origin_world[axis], size = frame.voxel_size;
     const double low = (part.bounds.low[axis] - origin) / size,
@@ -110,8 +111,8 @@ IntBox Level::voxels_of(const Part& part) const {
     const auto clamped = [&](double v) {
       return static_cast<int>(std::clamp(v, -2.0, frame.size[axis] + 2.0));
     };
-    box.low[axis] = clamped(std::floor(low) - 1);
-    box.high[axis] = clamped(std::floor(high) + 2);
+    box.low[axis] = clamped(std::ceil(low) - 1);
+    box.high[axis] = clamped(std::floor(high) + 1);
   }
   return box;
 }
@@ -181,7 +182,7 @@ void Level::paint(const IntBox& voxels) {
                    [](const Layer& a, const Layer& b) { return a.order < b.order; });
 
   fill_box(grid_, voxels, false);
-  const Reach reach = reach_of(voxels);
+  const Reach reach = reach_of(dvec3(voxels.low), dvec3(voxels.high));
   std::vector<Triangle> triangles;
   for (const Layer& layer : layers) {
     if (layer.box) {
@@ -225,7 +226,7 @@ void Level::add_faces(const Box& box, std::vector<Triangle>& out) const {
 }
 
 SurfacePlanes Level::planes_in(const IntBox& cells) const {
-  const Reach reach = reach_of({cells.low, cells.high + 1});
+  const Reach reach = reach_of(dvec3(cells.low) + 0.5, dvec3(cells.high) + 0.5);
   std::vector<Triangle> triangles;
   for (const Part& part : parts_) gather(part, reach, triangles);
   std::vector<IntBox> cleared;

@@ -74,7 +74,7 @@ class Level {
   };
 
   static Part make_part(std::vector<Triangle> triangles);
-  Reach reach_of(const IntBox& voxels) const;
+  Reach reach_of(const glm::dvec3& low_voxel, const glm::dvec3& high_voxel) const;
   IntBox voxels_of(const Part& part) const;
   void gather(const Part& part, const Reach& reach, std::vector<Triangle>& out) const;
   LevelChange rebuild(const IntBox& voxels);

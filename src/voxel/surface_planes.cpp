@@ -22,6 +22,7 @@ constexpr double kLeastArea = 0.02;
 // How near to a voxel a part of a surface is at it: more than floats misplace a face that is at its side.
 constexpr double kAtVoxel = 1e-3;
 constexpr std::size_t kTrianglesPerTask = 2048;
+constexpr std::int64_t kCellsForThreads = 32768;
 
 // Space of this file: cell space = voxel space - 0.5, so that cell c covers [c, c + 1).
 dvec3 cell_from_world(const GridFrame& frame, glm::vec3 p) {
@@ -327,8 +328,9 @@ SurfacePlanes SurfacePlanes::build_in(std::span<const Triangle> triangles, const
   if (!cells.empty()) {
     const Members members(triangles, grid.frame(), cells.low.z, cells.high.z);
     slabs.resize(static_cast<std::size_t>(cells.high.z - cells.low.z));
-    // A few triangles are done before another thread has begun.
-    const std::size_t grain = triangles.size() < kTrianglesPerTask ? slabs.size() : 1;
+    // A few cells are done before another thread has begun.
+    const glm::i64vec3 size(cells.high - cells.low);
+    const std::size_t grain = size.x * size.y * size.z < kCellsForThreads ? slabs.size() : 1;
     parallel_for(slabs.size(), grain, [&](std::size_t begin, std::size_t end) {
       SlabBuilder builder(triangles, grid, cells, cleared);
       for (std::size_t i = begin; i < end; ++i)
