@@ -1,0 +1,265 @@
+// Plays the busy match and prints what it came to, a line each: TICK KIND HASH.
+//
+//   state    sim::State::hash(), every tick          level    voxels and planes of the level, at tick 0
+//   voxels   densities of all voxels, every 16       sight    optical depths and what is visible, every 64
+//   second   the state hashes of 64 ticks, every 64
+//
+//   busy_match [--threads N] [--calls N] [--mode straight|rollback|late|snapshot] [--expect FILE]
+//
+// However it is played, a line has the same hash (docs/determinism.md). --calls: how many times a second the
+// world is stepped, at whatever tick it is then. --expect: fails with 7 and names the first line that differs
+// from the file's line of the same tick and kind, or is not there; prints nothing else.
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "core/hash.hpp"
+#include "core/tasks.hpp"
+#include "sim/sight.hpp"
+#include "sim/smoke_volume.hpp"
+#include "sim/world.hpp"
+#include "tests/determinism/match.hpp"
+
+namespace brume::determinism {
+namespace {
+
+struct Options {
+  std::uint32_t threads = 0, calls = 64;
+  std::string mode = "straight", expect;
+};
+
+/// Prints hashes, or compares them with those of a file.
+class Report {
+ public:
+  explicit Report(const std::string& expected_file) : comparing_(!expected_file.empty()) {
+    if (!comparing_) return;
+    std::ifstream file(expected_file);
+    std::uint32_t tick = 0;
+    for (std::string kind, hash; file >> tick >> kind >> hash;) expected_[{tick, kind}] = hash;
+    if (expected_.empty())
+      throw Error(ErrorCode::bad_input, expected_file + ": expected lines TICK KIND HASH");
+  }
+
+  void add(std::uint32_t tick, const char* kind, std::uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    if (!comparing_) {
+      std::printf("%u %s %s\n", tick, kind, text);
+      return;
+    }
+    const auto line = expected_.find({tick, kind});
+    if (line == expected_.end()) return;
+    if (line->second != text && differing_.empty())
+      differing_ = "tick " + std::to_string(tick) + " " + kind + ": " + text + ", expected " + line->second;
+    ++compared_;
+  }
+
+  /// The exit status.
+  int finish() const {
+    if (!comparing_) return 0;
+    if (differing_.empty() && compared_ >= expected_.size()) return 0;
+    std::cerr << "busy_match: "
+              << (differing_.empty() ? std::to_string(expected_.size() - compared_) + " lines are missing"
+                                     : differing_)
+              << "; where this is meant, script/determinism --update writes the new file\n";
+    return static_cast<int>(ErrorCode::comparison_failed);
+  }
+
+ private:
+  bool comparing_;
+  std::map<std::pair<std::uint32_t, std::string>, std::string> expected_;
+  std::size_t compared_ = 0;
+  std::string differing_;
+};
+
+std::uint64_t hash_level(const MatchLevel& level) {
+  std::uint64_t hash = 0;
+  level.grid.for_each_brick([&](glm::ivec3 at, const voxel::BitGrid::Brick& brick) {
+    const std::int32_t place[3] = {at.x, at.y, at.z};
+    hash = hash_values(std::span<const std::int32_t>(place), hash);
+    hash = hash_values(std::span<const std::uint64_t>(brick), hash);
+  });
+  hash = hash_values(level.planes.keys(), hash);
+  for (const voxel::Plane& plane : level.planes.planes()) {
+    const float numbers[4] = {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset};
+    hash = hash_values(std::span<const float>(numbers), hash);
+  }
+  return hash;
+}
+
+std::uint64_t hash_densities(const sim::State& state) {
+  const glm::ivec3 size = state.frame.size;
+  std::vector<std::uint8_t> densities(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                                      static_cast<std::size_t>(size.z));
+  const auto row = static_cast<std::size_t>(size.x);
+  parallel_for(densities.size() / row, 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int y = static_cast<int>(i) % size.y, z = static_cast<int>(i) / size.y;
+      for (int x = 0; x < size.x; ++x)
+        densities[i * row + static_cast<unsigned>(x)] = state.density({x, y, z});
+    }
+  });
+  return hash_values(std::span<const std::uint8_t>(densities));
+}
+
+std::uint64_t hash_sight(const sim::SmokeVolume& volume, const sim::World& world) {
+  Random random(world.tick());
+  std::vector<sim::Segment> segments(256);
+  const auto metres = [&] {
+    return glm::vec3(sim::metres_from_position(random.position(kLowCorner, kHighCorner)));
+  };
+  for (sim::Segment& segment : segments) segment = {metres(), metres()};
+  const auto holes = sim::holes_of(world.state());
+  const sim::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()));
+  std::vector<float> depths(segments.size());
+  std::vector<std::uint8_t> seen(segments.size());
+  sight.optical_depths(segments, depths).value_or_throw();
+  sight.visible(segments, 2, seen).value_or_throw();
+  return hash_values(std::span<const float>(depths), hash_values(std::span<const std::uint8_t>(seen)));
+}
+
+/// A world that is asked for its hashes at each tick to which it comes.
+class Match {
+ public:
+  Match(const MatchLevel& level, Report& report)
+      : level_(level), report_(report), volume_(level.grid, level.planes) {
+    restart();
+  }
+
+  sim::World& world() { return *world_; }
+  void append(const sim::Event& event) { world_->append(event).value_or_throw(); }
+  /// Another world in the place of this one.
+  void restart() { world_ = std::make_unique<sim::World>(level_.grid); }
+
+  void play_to(std::uint32_t tick) {
+    world_->advance_to(tick);
+    const std::uint64_t hash = world_->state_hash();
+    report_.add(tick, "state", hash);
+    if (tick == next_) {
+      second_ = hash_values(std::span<const std::uint64_t>(&hash, 1), second_);
+      if (tick % 64 == 0) report_.add(tick, "second", std::exchange(second_, 0));
+      ++next_;
+    }
+    if (tick % 16 != 0) return;
+    report_.add(tick, "voxels", hash_densities(world_->state()));
+    volume_.update(*world_);
+    if (tick % 64 == 0) report_.add(tick, "sight", hash_sight(volume_, *world_));
+  }
+
+ private:
+  const MatchLevel& level_;
+  Report& report_;
+  std::unique_ptr<sim::World> world_;
+  sim::SmokeVolume volume_;
+  std::uint32_t next_ = 0;  // ticks before it are in second_ or reported
+  std::uint64_t second_ = 0;
+};
+
+/// Tick after tick, or at the ticks at which calls find it.
+void play_straight(Match& match, const std::vector<sim::Event>& events, std::uint32_t calls) {
+  for (const sim::Event& event : events) match.append(event);
+  for (std::uint32_t call = 0; call <= kMatchTicks * calls / 64; ++call) match.play_to(call * 64 / calls);
+}
+
+/// Back 60 ticks, now and then, and again up to where it was.
+void play_rollback(Match& match, const std::vector<sim::Event>& events) {
+  for (const sim::Event& event : events) match.append(event);
+  for (std::uint32_t tick = 0; tick <= kMatchTicks; ++tick) {
+    match.play_to(tick);
+    if (tick < 60 || tick % 40 != 0) continue;
+    for (std::uint32_t again = tick - 60; again <= tick; ++again) match.play_to(again);
+  }
+}
+
+/// The events of half a second are told after it is over, the last ones first.
+void play_late(Match& match, const std::vector<sim::Event>& events) {
+  constexpr std::uint32_t kTicks = 32;
+  auto next = events.begin();
+  for (std::uint32_t begin = 0; begin <= kMatchTicks; begin += kTicks) {
+    const std::uint32_t end = std::min(begin + kTicks, kMatchTicks + 1);
+    match.world().advance_to(end - 1);
+    const auto first = next;
+    while (next != events.end() && tick_of(*next) < end) ++next;
+    // Those of one tick keep their order.
+    for (auto last = next; last != first;) {
+      auto same = std::prev(last);
+      while (same != first && tick_of(*std::prev(same)) == tick_of(*same)) --same;
+      for (auto event = same; event != last; ++event) match.append(*event);
+      last = same;
+    }
+    for (std::uint32_t tick = begin; tick < end; ++tick) match.play_to(tick);
+  }
+}
+
+/// Again and again another world takes the state over and goes on.
+void play_snapshot(Match& match, const std::vector<sim::Event>& events) {
+  for (const sim::Event& event : events) match.append(event);
+  for (std::uint32_t tick = 0; tick <= kMatchTicks; ++tick) {
+    match.play_to(tick);
+    if (tick % 23 != 0) continue;
+    const sim::State kept = match.world().state();
+    match.restart();
+    match.world().restore(kept).value_or_throw();
+    for (const sim::Event& event : events)
+      if (tick_of(event) > tick) match.append(event);
+  }
+}
+
+int play(const Options& options) {
+  set_thread_count(options.threads);
+  const MatchLevel level = make_level();
+  const std::vector<sim::Event> events = make_events(level.grid.frame());
+  Report report(options.expect);
+  report.add(0, "level", hash_level(level));
+  Match match(level, report);
+  if (options.mode == "straight") play_straight(match, events, options.calls);
+  if (options.mode == "rollback") play_rollback(match, events);
+  if (options.mode == "late") play_late(match, events);
+  if (options.mode == "snapshot") play_snapshot(match, events);
+  return report.finish();
+}
+
+std::optional<Options> parse(int count, char** arguments) {
+  Options options;
+  const auto number = [](const std::string& text, std::uint32_t& value) {
+    return std::from_chars(text.data(), text.data() + text.size(), value).ptr == text.data() + text.size();
+  };
+  for (int i = 1; i < count; i += 2) {
+    if (i + 1 == count) return std::nullopt;
+    const std::string name = arguments[i], value = arguments[i + 1];
+    const bool ok = name == "--threads" ? number(value, options.threads)
+                    : name == "--calls" ? number(value, options.calls) && options.calls > 0
+                    : name == "--mode"  ? (options.mode = value, value == "straight" || value == "rollback" ||
+                                                                    value == "late" || value == "snapshot")
+                                        : name == "--expect" && !(options.expect = value).empty();
+    if (!ok) return std::nullopt;
+  }
+  return options;
+}
+
+}  // namespace
+}  // namespace brume::determinism
+
+int main(int count, char** arguments) {
+  using namespace brume;
+  const auto options = determinism::parse(count, arguments);
+  if (!options) {
+    std::cerr << "usage: busy_match [--threads N] [--calls N] [--mode straight|rollback|late|snapshot] "
+                 "[--expect FILE]\n";
+    return static_cast<int>(ErrorCode::usage);
+  }
+  try {
+    return determinism::play(*options);
+  } catch (const Error& error) {
+    std::cerr << "busy_match: " << error.what() << '\n';
+    return static_cast<int>(error.code());
+  }
+}

@@ -1,0 +1,45 @@
+// A busy match, the same on every machine: a level of rooms, corridors, stairs and a slope, and thirty
+// seconds of smoke, shots, explosions, doors and moving bodies in it. Made of integers and a generator of its
+// own: the distributions of the standard library differ from one library to the next.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/events.hpp"
+#include "voxel/bit_grid.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::determinism {
+
+/// Numbers that look random: SplitMix64 (Steele, Lea, Flood 2014, "Fast Splittable Pseudorandom Number
+/// Generators").
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next();
+  /// In [low, high]; which of them are a little likelier does not matter here.
+  int between(int low, int high);
+  /// A position in the box [low, high], 1/1024 m.
+  sim::Position position(glm::ivec3 low, glm::ivec3 high);
+
+ private:
+  std::uint64_t state_;
+};
+
+struct MatchLevel {
+  voxel::BitGrid grid;
+  voxel::SurfacePlanes planes;
+};
+
+/// 48 x 8 x 48 m in voxels of half a metre, nine rooms.
+MatchLevel make_level();
+/// Where things happen in it, 1/1024 m.
+extern const glm::ivec3 kLowCorner, kHighCorner;
+
+constexpr std::uint32_t kMatchTicks = 30 * 64;
+
+/// 8 smokes, 200 shots, 5 blasts, 2 doors that open and shut while smoke is there, 4 bodies; by tick.
+std::vector<sim::Event> make_events(const voxel::GridFrame& frame);
+
+}  // namespace brume::determinism
