@@ -149,6 +149,63 @@ TEST_F(PlaybackTest, TheGrenadeFlies) {
   EXPECT_NE(before.rgba, flying.rgba);
 }
 
+/// A dark screen across the room, with a door in its middle that hides the bright wall behind.
+stage::Stage stage_with_door() {
+  scene::Scene scene = small_scene(false);
+  scene.materials[0].emission = glm::vec3(0.3f);
+  scene.materials.push_back({});
+  scene.materials[1].base_color = glm::vec3(0.01f);
+  scene.meshes.resize(4);
+  add_box(scene.meshes[2], {-6, -0.1f, 0.45f}, {-0.8f, 4, 0.65f});
+  add_box(scene.meshes[2], {0.8f, -0.1f, 0.45f}, {6, 4, 0.65f});
+  add_box(scene.meshes[3], {-0.8f, -0.1f, 0.5f}, {0.8f, 4, 0.6f});
+  scene.objects.push_back({"screen", 2, 1, glm::mat4(1), true});
+  scene.objects.push_back({"door", 3, 1, glm::mat4(1), true});
+  scene.lights[0].position_world = {0, 2, 3};
+  stage::Stage stage = small_stage(std::move(scene));
+  stage.timeline.smokes.clear();
+  stage.timeline.doors = {{1.0, "door", true, ""}, {2.0, "door", false, ""}};
+  return stage;
+}
+
+TEST_F(PlaybackTest, AnOpenDoorShowsWhatIsBehindItAndLetsTheLightThrough) {
+  const stage::Stage stage = stage_with_door();
+  stage::Stage lightless = stage_with_door();
+  lightless.scene.lights.clear();
+  Playback playback(context(), stage, kSize), unlit(context(), lightless, kSize);
+  const auto shut = playback.draw(0.5, 0), open = playback.draw(1.5, 0), again = playback.draw(2.5, 0);
+  EXPECT_LT(brightness(shut, 0.5, 0.47), 30);
+  EXPECT_GT(brightness(open, 0.5, 0.47), 60);
+  EXPECT_EQ(again.rgba, shut.rgba);
+  EXPECT_EQ(playback.draw(1.5, 0).rgba, open.rgba);  // and backwards
+  // The lamp is on this side: what it adds to the wall behind came through the door.
+  EXPECT_GT(brightness(open, 0.5, 0.47), brightness(unlit.draw(1.5, 0), 0.5, 0.47) + 10);
+  // A door that never was is one that is open.
+  stage::Stage without = stage_with_door();
+  without.scene.objects.pop_back();
+  without.timeline.doors.clear();
+  Playback never(context(), without, kSize);
+  EXPECT_EQ(never.draw(1.5, 0).rgba, open.rgba);
+}
+
+TEST_F(PlaybackTest, SmokeStaysBehindADoorThatIsShutAndComesThroughWhenItOpens) {
+  stage::Stage stage = stage_with_door();
+  stage.timeline.smokes = {{0.0, {0, 3.5f, -1}, {0, 0, -1}}};  // behind the screen
+  stage.timeline.smoke.voxels = 3000;
+  stage.timeline.doors = {{1.5, "door", true, ""}};
+  Playback playback(context(), stage, kSize);
+  const auto in_front = [&](double seconds) {
+    (void)playback.draw(seconds, 0);
+    const sim::State& state = playback.simulation().world().state();
+    int sum = 0;
+    for (int x = 20; x < 32; ++x) sum += state.density({x, 8, 18});  // z = 1.0 .. 1.25 m
+    return sum;
+  };
+  EXPECT_EQ(in_front(1.48), 0);
+  EXPECT_GT(in_front(4.0), 0);
+  EXPECT_EQ(in_front(1.48), 0);
+}
+
 TEST_F(PlaybackTest, MoreHolesThanAreDrawnAreNoError) {
   stage::Stage stage = small_stage(small_scene(false));
   for (int i = 0; i < 100; ++i) {
