@@ -42,6 +42,11 @@ inline Float4 max4(Float4 a, Float4 b) {
 inline Float4 abs4(Float4 v) {
   return reinterpret_cast<Float4>(reinterpret_cast<Uint4>(v) & 0x7fffffffu);
 }
+/// Values of 0 and more, with the signs of others.
+inline Float4 with_sign_of(Float4 values, Float4 signs) {
+  return reinterpret_cast<Float4>(reinterpret_cast<Uint4>(values) |
+                                  (reinterpret_cast<Uint4>(signs) & 0x80000000u));
+}
 inline Float4 clamp4(Float4 v, float low, float high) {
   return min4(max4(v, splat(low)), splat(high));
 }

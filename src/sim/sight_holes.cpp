@@ -7,7 +7,8 @@
 namespace brume::sim {
 namespace {
 
-constexpr float kLeastTime = 1e-6f;  // as shared/hole.h bounds times and depths
+constexpr float kLeastSpeed = 1e-20f;  // below, a ray runs along the axis
+constexpr float kLeastTime = 1e-6f;    // as shared/hole.h bounds times and depths
 
 /// How far the hole reaches from its axis at most: a box to its corners.
 float reach_of(const shared::Hole& hole) {
@@ -47,6 +48,17 @@ void add_edges(const RayHole& h, float share, float t0, float r0, float t1, floa
 
 /// Adds every t at which the strength of the hole has a kink.
 void add_breaks(const RayHole& h, std::vector<float>& out) {
+  if (h.steady && !h.box) {  // its edge begins where the hole does
+    out.insert(out.end(), {h.begin, h.end});
+    const float core = (1 - shared::kHoleSoftShare) * h.radius,
+                speed = h.x_step * h.x_step + h.y_step * h.y_step;
+    const float inside = core * core - h.x * h.x - h.y * h.y;
+    if (inside <= 0 || !(speed > kLeastSpeed)) return;
+    const float half = std::sqrt(inside / speed);
+    for (const float t : {h.nearest - half, h.nearest + half})
+      if (t > h.begin && t < h.end) out.push_back(t);
+    return;
+  }
   // Where it has just opened wide, and where it begins to close.
   std::array<float, 4> times{h.begin, h.end, h.end, h.end};
   std::size_t count = 1;
@@ -87,7 +99,7 @@ void make_pieces(HolesOnRay& on_ray) {
     for (const RayHole& hole : on_ray.holes) {
       if (hole.begin > middle || hole.end < middle) continue;
       met = true;
-      gone |= hole.strength(splat(middle))[0] == 1;
+      gone |= hole.takes_all(middle);
     }
     if (met) on_ray.pieces.push_back({begin, end, gone});
   }
@@ -100,6 +112,13 @@ float RayHole::radius_at(float t) const {
   const float opened = std::clamp(now / expand, 0.0f, 1.0f);
   const float closed = std::clamp((now - stay_end) / fade, 0.0f, 1.0f);
   return radius * opened * (1 - closed);
+}
+
+bool RayHole::takes_all(float t) const {
+  const float from_nearest = t - nearest, px = x + x_step * from_nearest, py = y + y_step * from_nearest;
+  const float core = (1 - shared::kHoleSoftShare) * (steady ? radius : radius_at(t));
+  if (!steady && age + age_step * t > stay_end) return false;
+  return box ? std::max(std::abs(px), std::abs(py)) <= core : px * px + py * py <= core * core;
 }
 
 Float4 RayHole::strength(Float4 t) const {
@@ -200,11 +219,11 @@ void HoleSet::add(const OpenHole& open, glm::vec3 origin_world, glm::vec3 step_w
   }
   // Within its widest cross-section.
   const float speed = x_step * x_step + y_step * y_step;
-  const float nearest = speed > 1e-20f ? -(x * x_step + y * y_step) / speed : 0;
+  const float nearest = speed > kLeastSpeed ? -(x * x_step + y * y_step) / speed : 0;
   const float nx = x + x_step * nearest, ny = y + y_step * nearest;
   const float reach = reach_of(hole), inside = reach * reach - nx * nx - ny * ny;
   if (inside <= 0) return;
-  if (speed > 1e-20f) {
+  if (speed > kLeastSpeed) {
     const float half = std::sqrt(inside / speed);
     begin = std::max(begin, nearest - half);
     end = std::min(end, nearest + half);

@@ -24,6 +24,8 @@ struct RayHole {
   bool box;
   bool steady;  ///< Wide open and not yet closing, all the way.
   float radius_at(float t) const;
+  /// Whether its strength is 1: within its core, before it closes.
+  bool takes_all(float t) const;
   /// Strength of the hole at four t between begin and end.
   Float4 strength(Float4 t) const;
 };

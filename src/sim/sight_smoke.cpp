@@ -20,16 +20,22 @@ struct Corners {
   Float4 low_x, high_x;
 };
 
-/// `texel` is that of the cell's lowest corner.
-Corners plain_corners(const Texel* texel) {
-  const auto row = [&](std::size_t offset) {
-    std::uint32_t two;  // density, free, density, free
-    std::memcpy(&two, texel + offset, 4);
-    return two;
-  };
-  const Uint4 rows{row(0), row(kRow), row(kLayer), row(kLayer + kRow)};
-  return {to_float(rows & 255u), to_float(rows >> 16 & 255u)};
-}
+/// The densities of the texels of a cell, two each: density, free, density, free. `texel` is that of the
+/// cell's lowest corner.
+struct TexelRows {
+  std::uint32_t rows[4];
+  explicit TexelRows(const Texel* texel) {
+    std::memcpy(&rows[0], texel, 4);
+    std::memcpy(&rows[1], texel + kRow, 4);
+    std::memcpy(&rows[2], texel + kLayer, 4);
+    std::memcpy(&rows[3], texel + kLayer + kRow, 4);
+  }
+  bool empty() const { return ((rows[0] | rows[1] | rows[2] | rows[3]) & 0x00ff00ffu) == 0; }
+  Corners corners() const {
+    const Uint4 all{rows[0], rows[1], rows[2], rows[3]};
+    return {to_float(all & 255u), to_float(all >> 16 & 255u)};
+  }
+};
 
 Corners corners_of_set(glm::uvec2 set) {
   const Uint4 rows{set.x, set.x >> 16, set.y, set.y >> 16};
@@ -89,14 +95,14 @@ struct PlanesOnRay {
     static_assert(sizeof(cell) == sizeof(packed));
     std::memcpy(&packed, &cell, sizeof(packed));
     there = (packed != 0u) & Int4{-1, -1, -1, 0};
-    // The octahedral map, not brought to unit length.
-    Float4 x = to_float(packed & 1023u) * splat(2.0f / 1022) - splat(1);
-    Float4 y = to_float(packed >> 10 & 1023u) * splat(2.0f / 1022) - splat(1);
-    const Float4 z = splat(1) - abs4(x) - abs4(y);
-    const Float4 fold = max4(-z, splat(0));
-    x += x >= splat(0) ? -fold : fold;
-    y += y >= splat(0) ? -fold : fold;
-    const Float4 offset = to_float(packed >> 20) * splat(2.0f / 4094) - splat(1);
+    // shared::plane_normal and plane_offset, times 511 and the length that the normal has before it is
+    // made 1.
+    const Int4 bits = reinterpret_cast<Int4>(packed);
+    Float4 x = to_float((bits & 1023) - 511), y = to_float((bits >> 10 & 1023) - 511);
+    const Float4 z = splat(511) - abs4(x) - abs4(y), fold = max4(-z, splat(0));
+    x -= with_sign_of(fold, x);
+    y -= with_sign_of(fold, y);
+    const Float4 offset = to_float(reinterpret_cast<Int4>(packed >> 20) - 2047) * splat(1.0f / 2047);
     height = x * splat(at[0] - 0.5f) + y * splat(at[1] - 0.5f) + z * splat(at[2] - 0.5f) -
              offset * sqrt4(x * x + y * y + z * z);
     slope = x * splat(direction[0]) + y * splat(direction[1]) + z * splat(direction[2]);
@@ -178,7 +184,8 @@ class Walk {
       if (const std::uint32_t entry = entries[x + 9 * (y + 9 * z)]; entry != 0) {
         through_boundary(volume_.boundary_cells()[entry - 1], at, t, out);
       } else {
-        add(plain_corners(texels + x + kRow * y + kLayer * z), at, t, out);
+        const TexelRows rows(texels + x + kRow * y + kLayer * z);
+        if (!rows.empty()) add(rows.corners(), at, t, out);
       }
       t = out;
     }
