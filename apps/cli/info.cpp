@@ -51,7 +51,11 @@ Json timeline_info(const std::filesystem::path& path) {
           {"voxel_size", timeline.grid.voxel},
           {"camera_keys", timeline.camera.size()},
           {"smokes", timeline.smokes.size()},
-          {"shots", timeline.shots.size()}};
+          {"shots", timeline.shots.size()},
+          {"blasts", timeline.blasts.size()},
+          {"moves", timeline.moves.size()},
+          {"edits", timeline.edits.size()},
+          {"doors", timeline.doors.size()}};
 }
 
 Json image_info(const std::filesystem::path& path) {

@@ -126,8 +126,9 @@ class TimelineReader {
     SmokeEvent event;
     for (const char* name : {"from", "at"}) table.require(name);
     table.read("time", event.time, 0, kLatest);
-    table.read("from", event.from_world, -kFarthest, kFarthest);
-    table.read("at", event.at_world, -kFarthest, kFarthest);
+    table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
+    table.read("at", event.at_world, -kFarthestEvent, kFarthestEvent);
+    event.place = table.place();
     timeline_.smokes.push_back(event);
     return table.finish();
   }
@@ -136,8 +137,8 @@ class TimelineReader {
     ShotEvent event;
     for (const char* name : {"from", "toward"}) table.require(name);
     table.read("time", event.time, 0, kLatest);
-    table.read("from", event.from_world, -kFarthest, kFarthest);
-    table.read("toward", event.toward_world, -kFarthest, kFarthest);
+    table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
+    table.read("toward", event.toward_world, -kFarthestEvent, kFarthestEvent);
     table.read("radius", event.radius, 0.01, 10);
     table.read("reach", event.reach, 0, 60);
     table.read("expand", event.expand, 0, 60);
@@ -145,6 +146,7 @@ class TimelineReader {
     table.read("fade", event.fade, 0, 60);
     if (event.from_world == event.toward_world)
       table.fail("toward", "\"toward\": expected a point other than \"from\"");
+    event.place = table.place();
     timeline_.shots.push_back(event);
     return table.finish();
   }
@@ -153,7 +155,7 @@ class TimelineReader {
     BlastEvent event;
     table.require("at");
     table.read("time", event.time, 0, kLatest);
-    table.read("at", event.at_world, -kFarthest, kFarthest);
+    table.read("at", event.at_world, -kFarthestEvent, kFarthestEvent);
     table.read("radius", event.radius, 0.1, 100);
     table.read("speed", event.speed, 1, 10000);
     table.read("left", event.left, 0, 1);
@@ -161,6 +163,7 @@ class TimelineReader {
     table.read("refill_middle", event.refill_middle, 0.01, 60);
     if (event.refill_middle < event.refill_rim)
       table.fail("refill_middle", "\"refill_middle\": expected no less than \"refill_rim\"");
+    event.place = table.place();
     timeline_.blasts.push_back(event);
     return table.finish();
   }
@@ -170,7 +173,8 @@ class TimelineReader {
     for (const char* name : {"body", "to"}) table.require(name);
     table.read("time", event.time, 0, kLatest);
     table.read("body", event.body);
-    table.read("to", event.to_world, -kFarthest, kFarthest);
+    table.read("to", event.to_world, -kFarthestEvent, kFarthestEvent);
+    event.place = table.place();
     timeline_.moves.push_back(event);
     return table.finish();
   }
@@ -179,8 +183,8 @@ class TimelineReader {
     EditEvent event;
     for (const char* name : {"low", "high", "solid"}) table.require(name);
     table.read("time", event.time, 0, kLatest);
-    table.read("low", event.low_world, -kFarthest, kFarthest);
-    table.read("high", event.high_world, -kFarthest, kFarthest);
+    table.read("low", event.low_world, -kFarthestEvent, kFarthestEvent);
+    table.read("high", event.high_world, -kFarthestEvent, kFarthestEvent);
     table.read("solid", event.solid);
     if (!glm::all(glm::lessThan(event.low_world, event.high_world)))
       table.fail("high", "\"high\": expected more than \"low\" along every axis");

@@ -46,10 +46,14 @@ struct CameraKey {
   Camera camera;
 };
 
+/// How far from the origin of the world something may happen, along each axis [m].
+constexpr double kFarthestEvent = 16384;
+
 /// A grenade is thrown; it flies straight at 20 m/s and goes off at its target.
 struct SmokeEvent {
   double time = 0;  ///< Of throwing [s], [0, 3600].
   glm::vec3 from_world{0}, at_world{0};
+  std::string place = {};  ///< "file:line:column", for messages; so in all events.
 };
 
 /// A shot, and how the hole that it leaves in smoke opens and closes.
@@ -62,6 +66,7 @@ struct ShotEvent {
   float expand = 0.05f;              ///< Growing at each depth [s], [0, 60].
   float stay = 0.6f;                 ///< Open [s], [0, 600].
   float fade = 0.35f;                ///< Closing [s], [0, 60].
+  std::string place = {};
 };
 
 /// An explosion opens a cavity in the smoke around it, which then fills again.
@@ -73,6 +78,7 @@ struct BlastEvent {
   float left = 0.02f;          ///< Share of the density that stays, [0, 1].
   float refill_rim = 0.5f;     ///< Until the rim is full again [s], [0.01, 60].
   float refill_middle = 5.0f;  ///< Until the middle is [s], [refill_rim, 60].
+  std::string place = {};
 };
 
 /// A body is at a place now; its first move puts it there.
@@ -80,6 +86,7 @@ struct MoveEvent {
   double time = 0;   ///< [s], [0, 3600].
   std::string body;  ///< Its name: any text.
   glm::vec3 to_world{0};
+  std::string place = {};
 };
 
 /// The voxels whose centres lie in a box become solid or free.
@@ -94,7 +101,7 @@ struct DoorEvent {
   double time = 0;     ///< [s], [0, 3600].
   std::string object;  ///< Name of the scene's objects that are the door.
   bool open = true;
-  std::string place;  ///< "file:line:column" of the name, for messages.
+  std::string place = {};  ///< Of the name.
 };
 
 struct Timeline {
@@ -118,9 +125,9 @@ struct Timeline {
 /// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
 /// from, toward, radius, reach, expand, stay, fade), "blast" (time, at, radius, speed, left, refill_rim,
 /// refill_middle), "move" (time, body, to), "edit" (time, low, high, solid) or "door" (time, object, open).
-/// Points in metres, [-10^6, 10^6]. Whether a door's object exists, is seen by check_doors. Fails with
-/// bad_input and file:line:column for broken TOML, a key that is not known (naming the nearest that is), a
-/// value of the wrong type or out of its range.
+/// Points in metres, [-10^6, 10^6]; those of events [-16384, 16384]. Whether a door's object exists, is seen
+/// by check_doors. Fails with bad_input and file:line:column for broken TOML, a key that is not known (naming
+/// the nearest that is), a value of the wrong type or out of its range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` is what messages call it and what its scene is relative to.

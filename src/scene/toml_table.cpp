@@ -79,6 +79,10 @@ std::string TomlTable::place_of(const toml::source_region& where) const {
   return file_ + ":" + std::to_string(where.begin.line) + ":" + std::to_string(where.begin.column);
 }
 
+std::string TomlTable::place() const {
+  return place_of(table_.source());
+}
+
 std::string TomlTable::place(std::string_view key) const {
   const toml::node* node = table_.get(key);
   return place_of(node ? node->source() : table_.source());

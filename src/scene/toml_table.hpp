@@ -37,7 +37,9 @@ class TomlTable {
   /// The tables of an array of tables.
   std::vector<const toml::table*> tables(std::string_view key);
 
-  /// "file:line:column" of a key's value; of the table where the key is missing.
+  /// "file:line:column" of the table.
+  std::string place() const;
+  /// The same of a key's value; of the table where the key is missing.
   std::string place(std::string_view key) const;
   /// Fails where the key is missing.
   void require(std::string_view key);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string>
 
 namespace brume::stage {
 namespace {
@@ -14,6 +16,8 @@ std::uint32_t milliseconds(float seconds) {
 std::uint32_t units(float metres) {
   return static_cast<std::uint32_t>(std::lround(metres * sim::kUnitsPerMetre));
 }
+
+static_assert(scene::kFarthestEvent * sim::kUnitsPerMetre == sim::kMaxCoordinate);
 
 sim::Position position(glm::vec3 world) {
   return sim::position_from_metres(glm::dvec3(world));
@@ -51,32 +55,54 @@ sim::Blast blast_of(const scene::BlastEvent& event, std::uint32_t tick) {
   return blast;
 }
 
+/// Collects events, checked one by one.
+class EventList {
+ public:
+  explicit EventList(const voxel::GridFrame& frame) : frame_(frame) {}
+
+  void add(sim::Event event, const std::string& place) {
+    if (auto checked = sim::check_event(event, frame_); !checked && !failure_)
+      failure_ =
+          Failure{checked.failure().code, (place.empty() ? "" : place + ": ") + checked.failure().message};
+    events_.push_back(std::move(event));
+  }
+  /// All of them by tick; those of one tick as they were added.
+  Result<std::vector<sim::Event>> sorted() && {
+    if (failure_) return *failure_;
+    std::stable_sort(events_.begin(), events_.end(), [](const sim::Event& a, const sim::Event& b) {
+      return sim::tick_of(a) < sim::tick_of(b);
+    });
+    return std::move(events_);
+  }
+
+ private:
+  const voxel::GridFrame& frame_;
+  std::vector<sim::Event> events_;
+  std::optional<Failure> failure_;
+};
+
 Result<std::vector<sim::Event>> make_events(const Stage& stage, const std::vector<LevelEvent>& changes,
                                             std::uint32_t ticks_per_second) {
   const scene::Timeline& timeline = stage.timeline;
-  const auto tick = [&](double seconds) { return tick_at(seconds, ticks_per_second); };
-  std::vector<sim::Event> events;
+  const auto tick = [&](const auto& event) { return tick_at(event.time, ticks_per_second); };
+  EventList events(stage.voxels.grid.frame());
   for (const LevelEvent& event : changes)
-    if (!event.blocks.empty()) events.push_back(sim::LevelEdit{tick(event.time), event.blocks});
+    if (!event.blocks.empty()) events.add(sim::LevelEdit{tick(event), event.blocks}, {});
+  const sim::SmokeSettings smoke = smoke_settings(timeline.smoke, ticks_per_second);
   for (const scene::SmokeEvent& event : timeline.smokes)
-    events.push_back(sim::ThrowSmoke{tick(event.time), position(event.from_world), position(event.at_world),
-                                     smoke_settings(timeline.smoke, ticks_per_second)});
-  for (const scene::ShotEvent& event : timeline.shots) events.push_back(shot_of(event, tick(event.time)));
-  for (const scene::BlastEvent& event : timeline.blasts) events.push_back(blast_of(event, tick(event.time)));
+    events.add(sim::ThrowSmoke{tick(event), position(event.from_world), position(event.at_world), smoke},
+               event.place);
+  for (const scene::ShotEvent& event : timeline.shots) events.add(shot_of(event, tick(event)), event.place);
+  for (const scene::BlastEvent& event : timeline.blasts)
+    events.add(blast_of(event, tick(event)), event.place);
   std::vector<std::string> names;
   for (const scene::MoveEvent& event : timeline.moves) {
     const auto known = std::find(names.begin(), names.end(), event.body);
     const auto body = static_cast<std::uint32_t>(known - names.begin());
     if (known == names.end()) names.push_back(event.body);
-    events.push_back(sim::MoveBody{tick(event.time), body, position(event.to_world)});
+    events.add(sim::MoveBody{tick(event), body, position(event.to_world)}, event.place);
   }
-  std::stable_sort(events.begin(), events.end(), [](const sim::Event& a, const sim::Event& b) {
-    return sim::tick_of(a) < sim::tick_of(b);
-  });
-  for (const sim::Event& event : events) {
-    if (auto checked = sim::check_event(event, stage.voxels.grid.frame()); !checked) return checked.failure();
-  }
-  return events;
+  return std::move(events).sorted();
 }
 
 }  // namespace

@@ -209,6 +209,17 @@ TEST(LevelEvents, AnUnknownDoorFails) {
     EXPECT_EQ(failure.message, "t.toml:3:4: the scene has no object \"dor\"; the nearest name is \"door\"");
 }
 
+TEST(LevelEvents, AnEventOutOfRangeNamesItsPlace) {
+  Stage stage = two_rooms();
+  stage.timeline.blasts = {{0.5, {1, 1, 1}}};
+  stage.timeline.blasts[0].radius = 100;  // 500 voxels
+  stage.timeline.blasts[0].place = "t.toml:5:1";
+  const auto events = events_of(stage);
+  ASSERT_FALSE(events);
+  EXPECT_EQ(events.failure().code, ErrorCode::bad_input);
+  EXPECT_EQ(events.failure().message.find("t.toml:5:1: blast at tick 32: expected "), 0u);
+}
+
 TEST(TickAt, TakesTheTickAtOrBefore) {
   EXPECT_EQ(tick_at(0.0, 64), 0u);
   EXPECT_EQ(tick_at(-3.0, 64), 0u);
