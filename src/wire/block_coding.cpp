@@ -121,6 +121,31 @@ std::uint64_t code_mask(Coder& coder, BlockModels& models, std::span<const Voxel
   return coded;
 }
 
+// The same where a set is known that this one is like: what matters is where neighbours are not as they are
+// there.
+template <typename Coder>
+std::uint64_t code_mask_like(Coder& coder, BlockModels& models, std::span<const VoxelBlock> known, ivec3 at,
+                             const Likeness& like, std::uint64_t mask) {
+  constexpr std::uint32_t kAllNeighbours = 511;
+  const std::uint64_t before = find_mask(like.set->blocks(), at);
+  Window window(known, at), window_before(like.set->blocks(), at);
+  std::uint64_t coded = 0;
+  for (int i = 0; i < 64; ++i) {
+    const ivec3 v = sim::voxel_of_block(ivec3(0), i);
+    const bool was = before >> i & 1;
+    const std::uint32_t neighbours = window_before.context(v);
+    const int changed = std::popcount(neighbours ^ window.context(v));
+    const bool at_rim = neighbours != (was ? kAllNeighbours : 0);
+    const unsigned context =
+        16 * like.kind + 8 * was + 4 * at_rim + static_cast<unsigned>(std::min(changed, 3));
+    if (was) window_before.set(v);
+    if (!coder.bit(models.like_mask[context], mask >> i & 1)) continue;
+    window.set(v);
+    coded |= std::uint64_t{1} << i;
+  }
+  return coded;
+}
+
 bool allowed(const BlockBounds& bounds, ivec3 at, std::uint64_t mask) {
   const ivec3 end = (bounds.size + (sim::kBlockSize - 1)) / sim::kBlockSize;
   if (glm::any(glm::lessThan(at, ivec3(0))) || glm::any(glm::greaterThanEqual(at, end))) return false;
@@ -131,7 +156,7 @@ bool allowed(const BlockBounds& bounds, ivec3 at, std::uint64_t mask) {
 
 template <typename Coder>
 void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, ivec3 near,
-                 std::vector<VoxelBlock>& blocks) {
+                 const Likeness& like, std::vector<VoxelBlock>& blocks) {
   const std::uint64_t count = coder.number(models.count, blocks.size());
   std::uint64_t voxels = 0;
   ivec3 row(0), slice(0);
@@ -149,7 +174,8 @@ void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, i
         at[axis] = code_signed(coder, models.first[static_cast<unsigned>(axis)], at[axis], near[axis]);
       row = slice = at;
     }
-    block.mask = code_mask(coder, models, known, at, block.mask);
+    block.mask = like.set ? code_mask_like(coder, models, known, at, like, block.mask)
+                          : code_mask(coder, models, known, at, block.mask);
     if constexpr (Coder::kReads) {
       voxels += cost_of(block);
       if (!allowed(bounds, at, block.mask) || voxels > bounds.max_voxels) coder.fail();
@@ -161,33 +187,61 @@ void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, i
   if (!coder.ok()) blocks.clear();
 }
 
-template <typename Coder, typename Step>
-void code_steps(Coder& coder, StepModels& models, const sim::BlockSet& set, std::vector<Step>& steps) {
-  if constexpr (Coder::kReads) steps.assign(set.size(), Step{0});
+template <typename Coder>
+void code_steps(Coder& coder, StepModels& models, const sim::BlockSet& set,
+                std::span<const std::uint8_t> expected, std::vector<std::uint8_t>& steps) {
+  if constexpr (Coder::kReads) steps.assign(set.size(), 0);
+  const auto code = [&](NumberModel& model, std::uint32_t rank, std::uint8_t near) {
+    const auto difference = static_cast<std::int8_t>(static_cast<std::uint8_t>(steps[rank] - near));
+    const std::int64_t coded = unfolded(coder.number(model, folded(difference)));
+    steps[rank] = static_cast<std::uint8_t>(near + static_cast<std::uint8_t>(coded));
+  };
   set.for_each([&](ivec3 voxel, std::uint32_t rank) {
     if (!coder.ok()) return;
+    if (!expected.empty()) return code(models.against_expected, rank, expected[rank]);
     // The neighbours before it tell: in x, else y, else z, else the voxel before.
-    std::array<std::uint32_t, 3> ranks{set.rank(voxel - ivec3(1, 0, 0)), set.rank(voxel - ivec3(0, 1, 0)),
-                                       set.rank(voxel - ivec3(0, 0, 1))};
+    const std::array ranks{set.rank(voxel - ivec3(1, 0, 0)), set.rank(voxel - ivec3(0, 1, 0)),
+                           set.rank(voxel - ivec3(0, 0, 1))};
     int found = 0, agreeing = 0;
-    Step expected = rank > 0 ? steps[rank - 1] : Step{0};
+    std::uint8_t near = rank > 0 ? steps[rank - 1] : std::uint8_t{0};
     for (const std::uint32_t other : ranks) {
       if (other == sim::BlockSet::kNone) continue;
-      if (found++ == 0) expected = steps[other];
-      agreeing += steps[other] == expected;
+      if (found++ == 0) near = steps[other];
+      agreeing += steps[other] == near;
     }
-    const std::size_t model = found == 0 ? 0u : agreeing == found ? 1u : 2u;
-    const auto difference = static_cast<std::make_signed_t<Step>>(static_cast<Step>(steps[rank] - expected));
-    const std::uint64_t code = coder.number(models[model], folded(difference));
-    steps[rank] = static_cast<Step>(expected + static_cast<Step>(unfolded(code)));
+    code(models.step[found == 0 ? 0u : agreeing == found ? 1u : 2u], rank, near);
   });
 }
 
-template void code_blocks(Encoder&, BlockModels&, const BlockBounds&, ivec3, std::vector<VoxelBlock>&);
-template void code_blocks(Decoder&, BlockModels&, const BlockBounds&, ivec3, std::vector<VoxelBlock>&);
-template void code_steps(Encoder&, StepModels&, const sim::BlockSet&, std::vector<std::uint8_t>&);
-template void code_steps(Decoder&, StepModels&, const sim::BlockSet&, std::vector<std::uint8_t>&);
-template void code_steps(Encoder&, StepModels&, const sim::BlockSet&, std::vector<std::uint16_t>&);
-template void code_steps(Decoder&, StepModels&, const sim::BlockSet&, std::vector<std::uint16_t>&);
+template <typename Coder>
+void code_waits(Coder& coder, WaitModels& models, std::span<const std::uint32_t> order,
+                std::span<const std::uint8_t> group, std::vector<std::uint16_t>& waits) {
+  if constexpr (Coder::kReads) waits.assign(order.size(), 0);
+  std::array<std::uint16_t, 2> last{};
+  std::array<bool, 2> none{};
+  for (const std::uint32_t rank : order) {
+    if (!coder.ok()) return;
+    const std::size_t g = group[rank] != 0;
+    std::uint16_t& wait = waits[rank];
+    none[g] = coder.bit(models.none[2 * g + none[g]], wait == 0);
+    if (none[g]) continue;
+    const auto difference = static_cast<std::int16_t>(static_cast<std::uint16_t>(wait - last[g]));
+    const std::int64_t coded = unfolded(coder.number(models.step[g], folded(difference)));
+    wait = last[g] = static_cast<std::uint16_t>(last[g] + static_cast<std::uint16_t>(coded));
+  }
+}
+
+template void code_blocks(Encoder&, BlockModels&, const BlockBounds&, ivec3, const Likeness&,
+                          std::vector<VoxelBlock>&);
+template void code_blocks(Decoder&, BlockModels&, const BlockBounds&, ivec3, const Likeness&,
+                          std::vector<VoxelBlock>&);
+template void code_steps(Encoder&, StepModels&, const sim::BlockSet&, std::span<const std::uint8_t>,
+                         std::vector<std::uint8_t>&);
+template void code_steps(Decoder&, StepModels&, const sim::BlockSet&, std::span<const std::uint8_t>,
+                         std::vector<std::uint8_t>&);
+template void code_waits(Encoder&, WaitModels&, std::span<const std::uint32_t>, std::span<const std::uint8_t>,
+                         std::vector<std::uint16_t>&);
+template void code_waits(Decoder&, WaitModels&, std::span<const std::uint32_t>, std::span<const std::uint8_t>,
+                         std::vector<std::uint16_t>&);
 
 }  // namespace brume::wire

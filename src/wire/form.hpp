@@ -127,25 +127,31 @@ class Form {
   }
 
   /// Voxels of clouds and blasts: all in the grid.
-  void set(glm::ivec3 near_voxel, sim::BlockSet& set) {
+  void set(glm::ivec3 near_voxel, const Likeness& like, sim::BlockSet& set) {
     std::vector<sim::VoxelBlock> coded =
-        blocks({set.blocks().begin(), set.blocks().end()}, near_voxel, false);
+        blocks({set.blocks().begin(), set.blocks().end()}, near_voxel, like, false);
     if constexpr (kReads) set = sim::BlockSet::from_blocks(std::move(coded));
   }
   /// Blocks of an edit: their voxels may lie beyond the grid.
   std::vector<sim::VoxelBlock> edit_blocks(std::vector<sim::VoxelBlock> list) {
-    return blocks(std::move(list), glm::ivec3(0), true);
+    return blocks(std::move(list), glm::ivec3(0), {}, true);
   }
 
-  template <typename Step>
-  void steps(std::size_t kind, const sim::BlockSet& set, std::vector<Step>& list) {
-    code_steps(coder_, steps_[kind], set, list);
+  /// Lists beside sets (block_coding.hpp); those of one kind share what was learnt.
+  void steps(std::size_t kind, const sim::BlockSet& set, std::span<const std::uint8_t> expected,
+             std::vector<std::uint8_t>& list) {
+    code_steps(coder_, steps_[kind], set, expected, list);
+  }
+  void waits(std::size_t kind, std::span<const std::uint32_t> order, std::span<const std::uint8_t> group,
+             std::vector<std::uint16_t>& list) {
+    code_waits(coder_, waits_[kind], order, group, list);
   }
 
  private:
-  std::vector<sim::VoxelBlock> blocks(std::vector<sim::VoxelBlock> list, glm::ivec3 near_voxel, bool whole) {
+  std::vector<sim::VoxelBlock> blocks(std::vector<sim::VoxelBlock> list, glm::ivec3 near_voxel,
+                                      const Likeness& like, bool whole) {
     if constexpr (kReads) list.clear();
-    code_blocks(coder_, block_models_, {frame_.size, whole, voxels_left_}, near_voxel >> 2, list);
+    code_blocks(coder_, block_models_, {frame_.size, whole, voxels_left_}, near_voxel >> 2, like, list);
     if constexpr (kReads)
       for (const sim::VoxelBlock& block : list) voxels_left_ -= cost_of(block);
     return list;
@@ -160,7 +166,8 @@ class Form {
   std::array<BitModel, static_cast<std::size_t>(Flag::count)> flags_;
   NumberModel counts_;
   BlockModels block_models_;
-  std::array<StepModels, 5> steps_;
+  std::array<StepModels, 3> steps_;
+  std::array<WaitModels, 2> waits_;
 };
 
 template <typename F>

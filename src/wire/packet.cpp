@@ -1,6 +1,5 @@
 #include "wire/packet.hpp"
 
-#include <memory>
 #include <string>
 
 #include "wire/bytes.hpp"
@@ -18,28 +17,11 @@ std::uint8_t first_byte(PacketKind kind) {
   return static_cast<std::uint8_t>(kVersion << 4 | static_cast<std::uint8_t>(kind));
 }
 
-// The coded difference. A Form is large; it lives on the heap.
-std::vector<std::byte> encode(const sim::State& base, const sim::State& now) {
-  Encoder coder;
-  const auto form = std::make_unique<Form<Encoder>>(coder, now.frame, now.tick, Limits{});
-  sim::State copy = now;
-  code_state(*form, base, copy);
-  return coder.finish();
-}
-
-Result<sim::State> decode(std::span<const std::byte> body, const PacketHead& head, const sim::State& base,
-                          const Limits& limits) {
-  sim::State now;
-  now.frame = base.frame;
-  now.ticks_per_second = base.ticks_per_second;
-  now.tick = head.tick;
-  Decoder coder(body);
-  const auto form = std::make_unique<Form<Decoder>>(coder, now.frame, now.tick, limits);
-  code_state(*form, base, now);
-  if (!form->reason().empty()) return refused(form->reason());
-  if (!coder.at_end()) return refused("the bytes are cut short, too many, or out of range");
-  if (checksum_of(now) != head.checksum) return refused("the state has another checksum than the sender's");
-  return now;
+Result<sim::State> checked(Result<sim::State> state, const PacketHead& head) {
+  if (!state) return refused(state.failure().message);
+  if (checksum_of(*state) != head.checksum)
+    return refused("the state has another checksum than the sender's");
+  return state;
 }
 
 }  // namespace
@@ -54,7 +36,7 @@ std::vector<std::byte> write_keyframe(const sim::State& state) {
   out.varint(state.tick);
   out.number(checksum_of(state));
   write_world(out, {state.frame, state.ticks_per_second});
-  out.raw(encode(sim::State{}, state));
+  out.raw(write_body(sim::State{}, state));
   return out.take();
 }
 
@@ -67,7 +49,7 @@ std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now
   out.varint(now.tick);
   out.varint(now.tick - base.tick);
   out.number(checksum_of(now));
-  out.raw(encode(base, now));
+  out.raw(write_body(base, now));
   return out.take();
 }
 
@@ -89,7 +71,7 @@ Result<PacketHead> read_head(std::span<const std::byte> packet, const Limits& li
   if (!in.ok() || first >> 4 != kVersion ||
       (head.kind != PacketKind::keyframe && head.kind != PacketKind::delta))
     return refused("not a keyframe or delta of version " + std::to_string(kVersion));
-  head.tick = static_cast<std::uint32_t>(in.varint(~std::uint32_t{0}));
+  head.tick = static_cast<std::uint32_t>(in.varint(kMaxPacketTick));
   if (head.kind == PacketKind::delta) {
     const std::uint64_t back = in.varint(head.tick);
     if (back == 0) return refused("a delta must lead from one tick to a later one");
@@ -122,11 +104,11 @@ Result<sim::State> read_keyframe(const PacketHead& head, const Limits& limits) {
   sim::State empty;
   empty.frame = world->frame;
   empty.ticks_per_second = world->ticks_per_second;
-  return decode(in.rest(), head, empty, limits);
+  return checked(read_body(in.rest(), empty, head.tick, limits), head);
 }
 
 Result<sim::State> read_delta(const PacketHead& head, const sim::State& base, const Limits& limits) {
-  return decode(head.body, head, base, limits);
+  return checked(read_body(head.body, base, head.tick, limits), head);
 }
 
 }  // namespace brume::wire

@@ -19,6 +19,9 @@ namespace brume::wire {
 
 constexpr std::uint8_t kVersion = 1;
 
+/// Later ticks do not travel: a year at 64 a second.
+constexpr std::uint32_t kMaxPacketTick = (1u << 31) - 1;
+
 /// The lower half of the first byte; the version is the upper half.
 enum class PacketKind : std::uint8_t { keyframe = 1, delta = 2, request = 3, events = 4 };
 
@@ -41,8 +44,9 @@ struct Request {
 /// The lower half of State::hash().
 std::uint32_t checksum_of(const sim::State& state);
 
+/// state.tick <= kMaxPacketTick.
 std::vector<std::byte> write_keyframe(const sim::State& state);
-/// base.tick < now.tick; both of the same frame and ticks_per_second.
+/// base.tick < now.tick <= kMaxPacketTick; both of the same frame and ticks_per_second.
 std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now);
 std::vector<std::byte> write_request(const Request& request);
 

@@ -56,7 +56,7 @@ Result<std::vector<std::byte>> encode_level(const voxel::BitGrid& level) {
                                                   " solid voxels; use a coarser grid"};
   Encoder coder;
   const auto models = std::make_unique<BlockModels>();
-  code_blocks(coder, *models, {level.size(), false, kMaxLevelVoxels}, ivec3(0), blocks);
+  code_blocks(coder, *models, {level.size(), false, kMaxLevelVoxels}, ivec3(0), {}, blocks);
   return coder.finish();
 }
 
@@ -64,7 +64,7 @@ Result<voxel::BitGrid> decode_level(std::span<const std::byte> bytes, const voxe
   Decoder coder(bytes);
   const auto models = std::make_unique<BlockModels>();
   std::vector<sim::VoxelBlock> blocks;
-  code_blocks(coder, *models, {frame.size, false, kMaxLevelVoxels}, ivec3(0), blocks);
+  code_blocks(coder, *models, {frame.size, false, kMaxLevelVoxels}, ivec3(0), {}, blocks);
   if (!coder.at_end()) return damaged("a replay with an impossible level");
   voxel::BitGrid level(frame);
   for (const sim::VoxelBlock& block : blocks) {

@@ -10,6 +10,9 @@ Sender::Sender(const SenderSettings& settings) : settings_(settings) {
 }
 
 Result<std::vector<std::byte>> Sender::push(const sim::State& state) {
+  if (state.tick > kMaxPacketTick)
+    return Failure{ErrorCode::bad_input,
+                   "sender: expected a tick of at most " + std::to_string(kMaxPacketTick)};
   std::vector<std::byte> packet;
   if (history_.empty()) {
     packet = keyframe_ = write_keyframe(state);

@@ -1,7 +1,11 @@
 #include "wire/state_coding.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
+
+#include "wire/cloud_coding.hpp"
+#include "wire/form.hpp"
 
 namespace brume::wire {
 namespace {
@@ -63,13 +67,6 @@ void describe_numbers(F& form, Body& body) {
   describe_position(form, Field::body_was, body.previous);
   form.field(Field::body_tick, body.tick);
   form.field(Field::body_tick_before, body.previous_tick);
-}
-
-template <typename F>
-void describe_numbers(F& form, sim::CloudOrigin& origin) {
-  form.field(Field::detonation_tick, origin.detonation_tick);
-  describe_position(form, Field::voxel, origin.source);
-  describe(form, origin.settings);
 }
 
 // One State as the difference from another.
@@ -236,11 +233,11 @@ class StateCoder {
     }
     if (before) {
       sim::CloudOrigin expected = before->cloud->origin();
-      describe_numbers(form_.memory, expected);
+      describe(form_.memory, expected);
     }
     sim::CloudParts parts;
     if constexpr (!kReads) parts = live.cloud->parts();
-    code_parts(parts);
+    code_cloud(form_, before ? before->cloud.get() : nullptr, now_.tick, parts);
     if constexpr (kReads) {
       if (!form_.ok()) return;
       auto cloud = sim::Cloud::from_parts(std::move(parts));
@@ -255,23 +252,6 @@ class StateCoder {
     if constexpr (kReads) return false;
     return before.cloud->rest_tick() && !now.cloud->rest_tick() &&
            before.cloud->rested().hash() == now.cloud->hash();
-  }
-
-  void code_parts(sim::CloudParts& parts) {
-    describe_numbers(form_, parts.origin);
-    check_begun(parts.origin.detonation_tick);
-    check_inside(parts.origin.source, "a cloud comes from outside of the grid");
-    form_.set(parts.origin.source, parts.fill);
-    form_.set(parts.origin.source, parts.rest);
-    if (form_.flag(Flag::flows, parts.flow_tick != 0)) {
-      form_.memory.at(Field::flow_tick) = now_.tick;
-      form_.field(Field::flow_tick, parts.flow_tick);
-      form_.steps(0, parts.fill, parts.fill_base);
-      form_.steps(1, parts.fill, parts.fill_delay);
-    }
-    form_.steps(2, parts.rest, parts.rest_base);
-    form_.steps(3, parts.rest, parts.rest_delay);
-    form_.steps(4, parts.rest, parts.rest_survival);
   }
 
   void code_item(const LiveBlast* before, LiveBlast& live) {
@@ -297,7 +277,7 @@ class StateCoder {
       check_event(sim::MoveBody{0, 0, centre});
       if (!form_.ok()) return;
     }
-    form_.set(glm::ivec3(ruler.subvoxel(centre) >> std::int64_t{10}), reached);
+    form_.set(glm::ivec3(ruler.subvoxel(centre) >> std::int64_t{10}), {}, reached);
     if constexpr (kReads) {
       if (!form_.ok()) return;
       auto field = sim::BlastField::from_parts(form_.frame(), blast, centre, std::move(reached),
@@ -350,12 +330,28 @@ class StateCoder {
 
 }  // namespace
 
-template <typename Coder>
-void code_state(Form<Coder>& form, const State& base, State& now) {
-  StateCoder<Coder>(form, base, now).code();
+// A Form is large; it lives on the heap.
+std::vector<std::byte> write_body(const sim::State& base, const sim::State& now) {
+  Encoder coder;
+  const auto form = std::make_unique<Form<Encoder>>(coder, now.frame, now.tick, Limits{});
+  sim::State copy = now;
+  StateCoder<Encoder>(*form, base, copy).code();
+  return coder.finish();
 }
 
-template void code_state(Form<Encoder>&, const State&, State&);
-template void code_state(Form<Decoder>&, const State&, State&);
+Result<sim::State> read_body(std::span<const std::byte> body, const sim::State& base, std::uint32_t tick,
+                             const Limits& limits) {
+  sim::State now;
+  now.frame = base.frame;
+  now.ticks_per_second = base.ticks_per_second;
+  now.tick = tick;
+  Decoder coder(body);
+  const auto form = std::make_unique<Form<Decoder>>(coder, now.frame, now.tick, limits);
+  StateCoder<Decoder>(*form, base, now).code();
+  if (!form->reason().empty()) return Failure{ErrorCode::bad_input, form->reason()};
+  if (!coder.at_end())
+    return Failure{ErrorCode::bad_input, "the bytes are cut short, too many, or out of range"};
+  return now;
+}
 
 }  // namespace brume::wire

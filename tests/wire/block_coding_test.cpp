@@ -11,10 +11,11 @@ namespace {
 using glm::ivec3;
 using Blocks = std::vector<sim::VoxelBlock>;
 
-std::vector<std::byte> encoded(const BlockBounds& bounds, ivec3 near, Blocks blocks) {
+std::vector<std::byte> encoded(const BlockBounds& bounds, ivec3 near, Blocks blocks,
+                               const Likeness& like = {}) {
   Encoder coder;
   const auto models = std::make_unique<BlockModels>();
-  code_blocks(coder, *models, bounds, near, blocks);
+  code_blocks(coder, *models, bounds, near, like, blocks);
   return coder.finish();
 }
 
@@ -22,11 +23,12 @@ struct Decoded {
   bool whole;
   Blocks blocks;
 };
-Decoded decoded(const BlockBounds& bounds, ivec3 near, std::span<const std::byte> bytes) {
+Decoded decoded(const BlockBounds& bounds, ivec3 near, std::span<const std::byte> bytes,
+                const Likeness& like = {}) {
   Decoder coder(bytes);
   const auto models = std::make_unique<BlockModels>();
   Decoded result{false, {}};
-  code_blocks(coder, *models, bounds, near, result.blocks);
+  code_blocks(coder, *models, bounds, near, like, result.blocks);
   result.whole = coder.at_end();
   return result;
 }
@@ -101,45 +103,81 @@ TEST(BlockCoding, DoesNotTrustACount) {
   EXPECT_TRUE(back.blocks.empty());
 }
 
-template <typename Step>
-void check_steps(const sim::BlockSet& set, const std::vector<Step>& steps) {
+// What is like something known costs little, and returns whatever it is like.
+TEST(BlockCoding, LikenessMakesItSmall) {
+  const ivec3 size(33, 17, 5);
+  const BlockBounds bounds{size, false, 1u << 20};
+  const sim::BlockSet known = random_set(size, 0.5, 1), other = random_set(size, 0.5, 2);
+  for (const unsigned kind : {0u, 1u}) {
+    const auto alone = encoded(bounds, ivec3(0), without_ranks(known));
+    const auto same = encoded(bounds, ivec3(0), without_ranks(known), {&known, kind});
+    EXPECT_LT(same.size() * 4, alone.size());
+    EXPECT_EQ(decoded(bounds, ivec3(0), same, {&known, kind}).blocks, without_ranks(known));
+    const auto unlike = encoded(bounds, ivec3(0), without_ranks(other), {&known, kind});
+    EXPECT_EQ(decoded(bounds, ivec3(0), unlike, {&known, kind}).blocks, without_ranks(other));
+  }
+}
+
+std::size_t steps_size(const sim::BlockSet& set, std::span<const std::uint8_t> expected,
+                       std::vector<std::uint8_t> steps) {
   Encoder encoder;
   auto models = std::make_unique<StepModels>();
-  std::vector<Step> copy = steps;
-  code_steps(encoder, *models, set, copy);
-  EXPECT_EQ(copy, steps);
+  const std::vector<std::uint8_t> given = steps;
+  code_steps(encoder, *models, set, expected, steps);
   const auto bytes = encoder.finish();
   Decoder decoder(bytes);
   models = std::make_unique<StepModels>();
-  std::vector<Step> back;
-  code_steps(decoder, *models, set, back);
+  std::vector<std::uint8_t> back;
+  code_steps(decoder, *models, set, expected, back);
   EXPECT_TRUE(decoder.at_end());
-  EXPECT_EQ(back, steps);
+  EXPECT_EQ(steps, given);
+  EXPECT_EQ(back, given);
+  return bytes.size();
 }
 
 TEST(BlockCoding, StepsOfAnyValuesReturn) {
   std::mt19937 random(5);
   for (const ivec3 size : {ivec3(1), ivec3(7), ivec3(33, 17, 5)}) {
     const sim::BlockSet set = random_set(size, 0.7, 11);
-    std::vector<std::uint8_t> bytes(set.size());
-    std::vector<std::uint16_t> words(set.size());
-    for (auto& b : bytes) b = static_cast<std::uint8_t>(random());
-    for (auto& w : words) w = static_cast<std::uint16_t>(random());
-    check_steps(set, bytes);
-    check_steps(set, words);
+    std::vector<std::uint8_t> steps(set.size()), expected(set.size());
+    for (auto& b : steps) b = static_cast<std::uint8_t>(random());
+    for (auto& b : expected) b = static_cast<std::uint8_t>(random());
+    steps_size(set, {}, steps);
+    steps_size(set, expected, steps);
   }
 }
 
-// A ramp of densities, as an edit leaves them: less than two bits a voxel, not eight.
+// A ramp of densities: less than two bits a voxel, not eight; foretold, less than a tenth of a bit.
 TEST(BlockCoding, SmoothStepsAreSmall) {
   const sim::BlockSet set = random_set(ivec3(12), 1, 1);
   std::vector<std::uint8_t> ramp(set.size());
   set.for_each(
       [&](ivec3 v, std::uint32_t rank) { ramp[rank] = static_cast<std::uint8_t>(std::min(255, 30 * v.y)); });
-  Encoder coder;
-  const auto models = std::make_unique<StepModels>();
-  code_steps(coder, *models, set, ramp);
-  EXPECT_LT(coder.finish().size() * 8, 2 * ramp.size());
+  EXPECT_LT(steps_size(set, {}, ramp) * 8, 2 * ramp.size());
+  EXPECT_LT(steps_size(set, ramp, ramp) * 80, ramp.size());
+}
+
+TEST(BlockCoding, WaitsReturn) {
+  std::mt19937 random(6);
+  for (const std::size_t length : {0u, 1u, 7u, 1000u}) {
+    std::vector<std::uint32_t> order(length);
+    for (std::uint32_t i = 0; i < length; ++i) order[i] = i;
+    std::shuffle(order.begin(), order.end(), random);
+    std::vector<std::uint8_t> group(length);
+    std::vector<std::uint16_t> waits(length);
+    for (auto& g : group) g = static_cast<std::uint8_t>(random() % 3);
+    for (auto& w : waits) w = static_cast<std::uint16_t>(random() % 2 == 0 ? 0 : random());
+    Encoder encoder;
+    auto models = std::make_unique<WaitModels>();
+    code_waits(encoder, *models, order, group, waits);
+    const auto bytes = encoder.finish();
+    Decoder decoder(bytes);
+    models = std::make_unique<WaitModels>();
+    std::vector<std::uint16_t> back;
+    code_waits(decoder, *models, order, group, back);
+    EXPECT_TRUE(decoder.at_end());
+    EXPECT_EQ(back, waits);
+  }
 }
 
 }  // namespace
