@@ -45,10 +45,24 @@ constexpr std::array<std::array<std::uint32_t, 8>, 3> make_cells_in_thirds() {
 }
 constexpr auto kCellsInThirds = make_cells_in_thirds();
 
+/// The cells of the five stretches of each axis: in the first cell, near the next, in the second and so on.
+constexpr std::array<std::uint32_t, 125> make_cells_of_stretches() {
+  constexpr std::array<unsigned, 5> kThirds{1, 3, 2, 6, 4};
+  std::array<std::uint32_t, 125> cells{};
+  for (std::size_t i = 0; i < 125; ++i)
+    cells[i] = kCellsInThirds[0][kThirds[i % 5]] & kCellsInThirds[1][kThirds[i / 5 % 5]] &
+               kCellsInThirds[2][kThirds[i / 25]];
+  return cells;
+}
+constexpr auto kCellsOfStretches = make_cells_of_stretches();
+
 /// The cells that a point lies in or within kOverlap of, as Sheet::cells.
-std::uint32_t cells_around(glm::vec3 p) {
-  return kCellsInThirds[0][thirds(p.x, p.x)] & kCellsInThirds[1][thirds(p.y, p.y)] &
-         kCellsInThirds[2][thirds(p.z, p.z)];
+std::uint32_t cells_around(float x, float y, float z) {
+  const auto stretch = [](float c) {
+    return static_cast<unsigned>(c >= -0.5f - kOverlap) + static_cast<unsigned>(c >= -0.5f + kOverlap) +
+           static_cast<unsigned>(c >= 0.5f - kOverlap) + static_cast<unsigned>(c >= 0.5f + kOverlap);
+  };
+  return kCellsOfStretches[stretch(x) + 5 * stretch(y) + 25 * stretch(z)];
 }
 
 /// The voxels of a block with coordinate 0 along each axis, and how far apart in bits the next ones are.
@@ -69,6 +83,75 @@ std::array<Block, 27> ways_through_cells(glm::vec3 from) {
   for (std::size_t i = 0; i < 27; ++i)
     result[i] = through[0][i % 3] & through[1][i / 3 % 3] & through[2][i / 9];
   return result;
+}
+
+constexpr int kSampleCount = kSamples * kSamples * kSamples;
+glm::vec3 sample_point(int i) {
+  return glm::vec3(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples)) / float{kSamples - 1} -
+         0.5f;
+}
+std::array<std::array<Block, 27>, kSampleCount> ways_from_samples() {
+  std::array<std::array<Block, 27>, kSampleCount> ways;
+  for (int i = 0; i < kSampleCount; ++i)
+    ways[static_cast<std::size_t>(i)] = ways_through_cells(sample_point(i));
+  return ways;
+}
+
+const std::array<std::array<Block, 27>, kSampleCount> kWaysFromSamples = ways_from_samples();
+
+/// The voxels of a block as the processor likes them: coordinates axis by axis, and their bits by halves.
+struct BlockPoints {
+  std::array<float, 64> x, y, z;
+  std::array<std::uint32_t, 64> bit;
+};
+constexpr BlockPoints make_block_points() {
+  BlockPoints points{};
+  for (unsigned i = 0; i < 64; ++i) {
+    points.x[i] = static_cast<float>(i & 3) - 1.5f;
+    points.y[i] = static_cast<float>(i >> 2 & 3) - 1.5f;
+    points.z[i] = static_cast<float>(i >> 4) - 1.5f;
+    points.bit[i] = 1u << (i & 31);
+  }
+  return points;
+}
+constexpr BlockPoints kPoints = make_block_points();
+
+/// How far each voxel of a block lies before a plane; returns those on its positive side.
+Block measure(glm::vec3 normal, float offset, std::array<float, 64>& distance) {
+  for (std::size_t i = 0; i < 64; ++i)
+    distance[i] = normal.x * kPoints.x[i] + normal.y * kPoints.y[i] + normal.z * kPoints.z[i] - offset;
+  std::uint32_t low = 0, high = 0;
+  for (std::size_t i = 0; i < 32; ++i) low |= distance[i] > 0 ? kPoints.bit[i] : 0;
+  for (std::size_t i = 32; i < 64; ++i) high |= distance[i] > 0 ? kPoints.bit[i] : 0;
+  return Block{low} | Block{high} << 32;
+}
+
+/// The centres of the 3x3x3 cells, and five more to make it a power of two.
+struct CellCentres {
+  std::array<float, 32> x, y, z;
+};
+constexpr CellCentres make_cell_centres() {
+  CellCentres centres{};
+  for (unsigned i = 0; i < 32; ++i) {
+    centres.x[i] = static_cast<float>(i % 3) - 1;
+    centres.y[i] = static_cast<float>(i / 3 % 3) - 1;
+    centres.z[i] = static_cast<float>(i / 9) - 1;
+  }
+  return centres;
+}
+constexpr CellCentres kCentres = make_cell_centres();
+
+/// The 3x3x3 cells, as Sheet::cells, that a plane comes into.
+std::uint32_t cells_of_plane(glm::vec3 normal, float offset) {
+  constexpr float kRounding = 1e-3f;
+  const float reach = (0.5f + kRounding) * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
+  std::uint32_t cells = 0;
+  for (std::size_t i = 0; i < 32; ++i) {
+    const float distance =
+        normal.x * kCentres.x[i] + normal.y * kCentres.y[i] + normal.z * kCentres.z[i] - offset;
+    cells |= std::abs(distance) <= reach ? kPoints.bit[i] : 0;
+  }
+  return cells & ((1u << 27) - 1);
 }
 
 /// Whether b is a continued within the given bounds, whichever way it faces.
@@ -110,11 +193,8 @@ void CellSight::read_own_planes(std::span<const voxel::Plane> own) {
     own_[k] = own[k];
     packed[k] = pack_plane(own[k]);
     deviation_[k] = 0;
-    const glm::vec3 normal = shared::plane_normal(packed[k]);
-    const float offset = shared::plane_offset(packed[k]);
-    positive_[k] = 0;
-    for (int bit = 0; bit < 64; ++bit)
-      positive_[k] |= Block{glm::dot(normal, from_cell_centre(bit)) > offset} << bit;
+    std::array<float, 64> distance;
+    positive_[k] = measure(shared::plane_normal(packed[k]), shared::plane_offset(packed[k]), distance);
     add_sheet(own[k], glm::ivec3(0));
   }
   record_ = {packed[0], packed[1], packed[2], 0};
@@ -153,29 +233,31 @@ void CellSight::add_sheet(const voxel::Plane& plane, glm::ivec3 step) {
 
 void CellSight::measure_voxels() {
   for (Sheet& sheet : sheets_) {
-    sheet.positive = 0;
-    for (int bit = 0; bit < 64; ++bit) {
-      const float distance = glm::dot(sheet.normal, from_cell_centre(bit)) - sheet.offset;
-      sheet.distance[static_cast<std::size_t>(bit)] = distance;
-      sheet.positive |= Block{distance > 0} << bit;
-    }
+    sheet.open_cells = cells_of_plane(sheet.normal, sheet.offset) & ~sheet.cells;
+    sheet.positive = measure(sheet.normal, sheet.offset, sheet.distance);
   }
 }
 
 void CellSight::find_viewpoints() {
-  for (std::vector<glm::vec3>& points : viewpoints_) points.clear();
-  for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
-    const glm::vec3 p =
-        glm::vec3(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples)) / float{kSamples - 1} -
-        0.5f;
-    viewpoints_[shared::boundary_side(record_, p)].push_back(p);
+  const std::array<std::uint32_t, voxel::kMaxPlanes> packed{record_.plane0, record_.plane1, record_.plane2};
+  std::array<glm::vec3, voxel::kMaxPlanes> normals;
+  std::array<float, voxel::kMaxPlanes> offsets;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(plane_count_); ++k) {
+    normals[k] = shared::plane_normal(packed[k]);
+    offsets[k] = shared::plane_offset(packed[k]);
   }
-  for (std::vector<glm::vec3>& points : viewpoints_) {
-    if (points.empty()) continue;
-    glm::vec3 middle(0);
-    for (const glm::vec3 p : points) middle += p;
-    points.insert(points.begin(), middle / static_cast<float>(points.size()));
+  samples_ = {};
+  std::array<glm::vec3, 8> sums{};
+  for (int i = 0; i < kSampleCount; ++i) {
+    const glm::vec3 p = sample_point(i);
+    std::size_t side = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(plane_count_); ++k)
+      side |= std::size_t{glm::dot(normals[k], p) > offsets[k]} << k;
+    samples_[side] |= 1u << i;
+    sums[side] += p;
   }
+  for (std::size_t side = 0; side < 8; ++side)
+    if (samples_[side] != 0) middles_[side] = sums[side] / static_cast<float>(std::popcount(samples_[side]));
 }
 
 Block CellSight::on_side(int side, Block among) const {
@@ -186,21 +268,51 @@ Block CellSight::on_side(int side, Block among) const {
   return among;
 }
 
-Block CellSight::seen_from(glm::vec3 viewpoint, Block among) const {
-  const std::array<Block, 27> ways = ways_through_cells(viewpoint);
+Block CellSight::seen_from(glm::vec3 viewpoint, const std::array<Block, 27>& ways, Block among) const {
   for (const Sheet& sheet : sheets_) {
     const float here = glm::dot(sheet.normal, viewpoint) - sheet.offset;
     // Only voxels beyond the plane can be hidden by it, and only where their way comes through its cells.
-    Block beyond = 0;
+    const Block across = among & (here > 0 ? ~sheet.positive : sheet.positive);
+    if (across == 0) continue;
+    Block beyond = 0, past = 0;
     for (std::uint32_t cells = sheet.cells; cells != 0; cells &= cells - 1)
       beyond |= ways[static_cast<std::size_t>(std::countr_zero(cells))];
-    beyond &= among & (here > 0 ? ~sheet.positive : sheet.positive);
-    for (; beyond != 0; beyond &= beyond - 1) {
-      const int bit = std::countr_zero(beyond);
-      const float there = sheet.distance[static_cast<std::size_t>(bit)];
-      const glm::vec3 crossing = viewpoint + (from_cell_centre(bit) - viewpoint) * (here / (here - there));
-      if (sheet.cells & cells_around(crossing)) among &= ~(Block{1} << bit);
+    for (std::uint32_t cells = sheet.open_cells; cells != 0; cells &= cells - 1)
+      past |= ways[static_cast<std::size_t>(std::countr_zero(cells))];
+    // Where the way comes through no other cell of the plane, it is hidden.
+    among &= ~(across & ~past);
+    for (Block left = across & beyond & past; left != 0; left &= left - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+      const float share = here / (here - sheet.distance[bit]);
+      const Block hidden = sheet.cells & cells_around(viewpoint.x + (kPoints.x[bit] - viewpoint.x) * share,
+                                                      viewpoint.y + (kPoints.y[bit] - viewpoint.y) * share,
+                                                      viewpoint.z + (kPoints.z[bit] - viewpoint.z) * share);
+      among &= ~(Block{hidden != 0} << bit);
     }
+    if (among == 0) break;
+  }
+  return among;
+}
+
+/// The voxels of `among` without those that one sheet alone hides from all points of a side.
+Block CellSight::seen_perhaps(std::uint32_t samples, Block among) const {
+  std::array<Block, 27> ways{};
+  for (std::uint32_t left = samples; left != 0; left &= left - 1) {
+    const std::array<Block, 27>& of_sample = kWaysFromSamples[static_cast<std::size_t>(std::countr_zero(left))];
+    for (std::size_t i = 0; i < 27; ++i) ways[i] |= of_sample[i];
+  }
+  for (const Sheet& sheet : sheets_) {
+    bool any_positive = false, any_negative = false;
+    for (std::uint32_t left = samples; left != 0; left &= left - 1) {
+      const bool positive = glm::dot(sheet.normal, sample_point(std::countr_zero(left))) - sheet.offset > 0;
+      any_positive |= positive;
+      any_negative |= !positive;
+    }
+    if (any_positive && any_negative) continue;
+    Block past = 0;
+    for (std::uint32_t cells = sheet.open_cells; cells != 0; cells &= cells - 1)
+      past |= ways[static_cast<std::size_t>(std::countr_zero(cells))];
+    among &= past | (any_positive ? sheet.positive : ~sheet.positive);
     if (among == 0) break;
   }
   return among;
@@ -209,8 +321,14 @@ Block CellSight::seen_from(glm::vec3 viewpoint, Block among) const {
 Block CellSight::seen(int side, Block among) {
   if (flat_) return on_side(side, among);
   // The middle of the side speaks for all of it; where it sees nothing, any other point may.
-  for (const glm::vec3 viewpoint : viewpoints_[static_cast<std::size_t>(side)]) {
-    const Block result = seen_from(viewpoint, among);
+  std::uint32_t samples = samples_[static_cast<std::size_t>(side)];
+  if (samples == 0) return 0;
+  const glm::vec3 middle = middles_[static_cast<std::size_t>(side)];
+  if (const Block result = seen_from(middle, ways_through_cells(middle), among); result != 0) return result;
+  among = seen_perhaps(samples, among);
+  for (; samples != 0 && among != 0; samples &= samples - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(samples));
+    const Block result = seen_from(sample_point(static_cast<int>(i)), kWaysFromSamples[i], among);
     if (result != 0) return result;
   }
   return 0;

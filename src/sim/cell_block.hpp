@@ -88,6 +88,7 @@ class CellSight {
     glm::vec3 normal;
     float offset;
     std::uint32_t cells;             // bit x + 3 y + 9 z of cell + 1
+    std::uint32_t open_cells;        // others that the plane comes into, thought of as endless
     Block positive;                  // voxels of the block on the positive side
     std::array<float, 64> distance;  // of each voxel of the block
   };
@@ -95,7 +96,8 @@ class CellSight {
   void read_neighbour(const voxel::Plane& plane, glm::ivec3 step);
   void add_sheet(const voxel::Plane& plane, glm::ivec3 step);
   void measure_voxels();
-  Block seen_from(glm::vec3 viewpoint, Block among) const;
+  Block seen_from(glm::vec3 viewpoint, const std::array<Block, 27>& ways, Block among) const;
+  Block seen_perhaps(std::uint32_t samples, Block among) const;
   void find_viewpoints();
 
   PlaneWindow& planes_;
@@ -106,7 +108,9 @@ class CellSight {
   std::array<float, voxel::kMaxPlanes> deviation_;
   bool flat_ = true;  // every plane around continues one of the cell's own
   std::vector<Sheet> sheets_;
-  std::array<std::vector<glm::vec3>, 8> viewpoints_;  // of each side: its middle, then points spread over it
+  // Of each side: points spread over it, one bit each, and their middle.
+  std::array<std::uint32_t, 8> samples_{};
+  std::array<glm::vec3, 8> middles_;
 };
 
 }  // namespace brume::sim

@@ -29,6 +29,7 @@ struct SmokeRoom {
     sim::ThrowSmoke event;
     event.from = event.at = sim::position_from_metres(source_world);
     event.smoke.voxels = voxels;
+    event.smoke.hold_ticks = tick;  // still there
     world.append(event).value_or_throw();
     world.advance_to(tick);
     volume.update(world);

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <ctime>
+
+#include "bench/bench.hpp"
+#include "scene/load.hpp"
+#include "sim/smoke_volume.hpp"
+#include "sim/world.hpp"
+#include "stage/world_triangles.hpp"
+#include "voxel/surface_planes.hpp"
+#include "voxel/voxelize.hpp"
+
+namespace brume::bench {
+namespace {
+
+constexpr int kSmokes = 16;
+
+struct Motel {
+  voxel::BitGrid grid;
+  voxel::SurfacePlanes planes;
+};
+
+Result<Motel> motel() {
+  const auto path = motel_scene();
+  if (!path) return path.failure();
+  const auto scene = scene::load_scene(*path);
+  if (!scene) return scene.failure();
+  const std::vector<voxel::Triangle> triangles = stage::world_triangles(*scene);
+  auto grid = voxel::voxelize(triangles, {{120, 20, 120}, 0.5f, {-30, 0, -30}});
+  if (!grid) return grid.failure();
+  auto planes = voxel::SurfacePlanes::build(triangles, *grid);
+  return Motel{std::move(*grid), std::move(planes)};
+}
+
+/// Processor time that a call takes on this thread [ms].
+template <typename Body>
+double processor_ms(Body body) {
+  const auto now = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+  };
+  const double start = now();
+  body();
+  return now() - start;
+}
+
+/// A smoke that goes off in the voxel below or at the place, at the first tick.
+sim::ThrowSmoke smoke_at(const Motel& level, glm::ivec3 voxel, std::uint32_t voxels) {
+  const auto metres = glm::dvec3(voxel::world_from_voxel(level.grid.frame(), glm::vec3(voxel) + 0.5f));
+  sim::ThrowSmoke event;
+  event.from = sim::position_from_metres(metres);
+  event.at = event.from;
+  event.smoke.voxels = voxels;
+  return event;
+}
+
+/// What one more smoke costs when it goes off: cloud known, bricks and boundary cells to build.
+Result<std::vector<Measurement>> detonation(Bench& bench) {
+  const auto level = motel();
+  if (!level) return level.failure();
+  std::vector<Measurement> all;
+  for (const std::uint32_t voxels : {1800u, 24000u}) {
+    sim::World world(level->grid);
+    if (auto done = world.append(smoke_at(*level, {80, 3, 80}, voxels)); !done) return done.failure();
+    world.advance_to(1);
+    std::vector<double> times;
+    double slots = 0, cells = 0;
+    for (unsigned i = 0; i < bench.repetitions(voxels < 10000 ? 50 : 10); ++i) {
+      sim::SmokeVolume volume(level->grid, level->planes);
+      times.push_back(processor_ms([&] { volume.update(world); }));
+      slots = volume.slot_count();
+      cells = static_cast<double>(volume.boundary_cells().size());
+    }
+    auto m = summarize("volume/detonation/" + std::to_string(voxels), "ms", "cpu", std::move(times));
+    m.details = {{"bricks", slots}, {"boundary cells", cells}};
+    all.push_back(std::move(m));
+  }
+  return all;
+}
+
+/// Sixteen smokes spread over the motel that go off at about the same time; the mean of the updates of
+/// `count` ticks after the last one has.
+Result<std::vector<Measurement>> ticks(Bench& bench, const std::string& name, std::uint32_t count) {
+  const auto level = motel();
+  if (!level) return level.failure();
+  sim::World world(level->grid);
+  for (int i = 0; i < kSmokes; ++i) {
+    const glm::ivec3 at(15 + 30 * (i & 3), 3, 15 + 30 * (i >> 2));
+    if (auto done = world.append(smoke_at(*level, at, 1800)); !done) return done.failure();
+  }
+  while (!world.state().flights.empty() || world.tick() == 0) world.step();
+  const std::uint32_t begin = world.tick();
+  std::vector<double> means;
+  double most = 0;
+  for (unsigned i = 0; i < bench.repetitions(5); ++i) {
+    sim::SmokeVolume volume(level->grid, level->planes);
+    world.advance_to(begin);
+    volume.update(world);
+    double sum = 0;
+    for (std::uint32_t tick = 0; tick < count; ++tick) {
+      world.step();
+      const double time = processor_ms([&] { volume.update(world); });
+      sum += time;
+      most = std::max(most, time);
+    }
+    means.push_back(sum / count);
+  }
+  auto m = summarize(name, "ms", "cpu", std::move(means));
+  m.details = {{"smokes", static_cast<double>(world.state().clouds.size())}, {"slowest tick [ms]", most}};
+  return std::vector{m};
+}
+
+}  // namespace
+
+std::vector<Case> volume_cases() {
+  const sim::SmokeSettings life;
+  // All but the last ticks, in which they go one after the other.
+  const std::uint32_t end = life.bloom_ticks + life.hold_ticks + life.dissolve_ticks;
+  return {
+      {"volume/detonation", "smoke volume: bricks and boundary cells of a smoke in the motel", detonation},
+      {"volume/tick16", "smoke volume: a tick of 16 smokes in the motel, mean over their life",
+       [end](Bench& b) { return ticks(b, "volume/tick16", end - 5); }},
+      {"volume/tick16growing", "smoke volume: the same while all 16 bloom",
+       [life](Bench& b) { return ticks(b, "volume/tick16growing", life.bloom_ticks); }},
+  };
+}
+
+}  // namespace brume::bench
