@@ -84,7 +84,8 @@ std::array<std::array<std::uint8_t, 8>, 8> cells_with_any(const VoxelWindow& win
 VoxelWindow window_of(const std::array<const BrickBits*, 27>& around) {
   VoxelWindow window;
   const auto byte = [&](std::size_t i, int y, int z) -> unsigned {
-    return around[i] ? (*around[i])[static_cast<std::size_t>(z & 7)] >> (8 * (y & 7)) & 255 : 0;
+    if (!around[i]) return 0;
+    return static_cast<std::uint8_t>((*around[i])[static_cast<std::size_t>(z & 7)] >> (8 * (y & 7)));
   };
   for (int z = -1; z < 10; ++z)
     for (int y = -1; y < 10; ++y) {
@@ -158,7 +159,7 @@ std::uint32_t CellBuilder::Work::mean(const CellBlock& block, int corner, Block 
     known_.push_back({relative, kMeanBit | static_cast<std::uint32_t>(out_->means.size() + 1), *list});
     *list = static_cast<std::uint32_t>(known_.size());
   }
-  SmokeMean mean{static_cast<std::uint32_t>(out_->contributions.size()), 0, 0,
+  SmokeMean mean{static_cast<std::uint32_t>(out_->mean_voxels.size()), 0, 0,
                  static_cast<std::uint16_t>(local_voxel(block.local))};
   for (; from != 0; from &= from - 1) {
     const int bit = std::countr_zero(from);
@@ -166,7 +167,8 @@ std::uint32_t CellBuilder::Work::mean(const CellBlock& block, int corner, Block 
     const std::uint32_t weight = offset == glm::ivec3(0) ? 1 : weight_of(offset);
     mean.total = static_cast<std::uint16_t>(mean.total + weight);
     if ((block.smoke >> bit & 1) == 0) continue;
-    out_->contributions.push_back({voxel_number(block.local - 1 + block_voxel(bit)), weight});
+    out_->mean_voxels.push_back(voxel_number(block.local - 1 + block_voxel(bit)));
+    out_->mean_weights.push_back(static_cast<std::uint8_t>(weight));
     ++mean.count;
   }
   out_->means.push_back(mean);
