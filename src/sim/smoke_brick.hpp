@@ -80,18 +80,13 @@ struct BlastPart {
 /// local_voxel, or with this bit a mean of its brick.
 constexpr std::uint32_t kMeanBit = 1u << 31;
 
-/// A mean of voxels: the sum of weight * density over its contributions, divided by total, rounded; voxels
+/// A mean of voxels: the sum of weight * density, divided by total, rounded; voxels
 /// that smoke never reaches count in the total only.
 struct SmokeMean {
-  std::uint32_t first;  ///< Of its contributions.
+  std::uint32_t first;  ///< Of its voxels and weights.
   std::uint16_t count, total;
   std::uint16_t cell;  ///< The first cell, by local index, that has it: all it takes from is around that.
 };
-struct Contribution {
-  std::uint32_t voxel;  ///< As of a corner.
-  std::uint32_t weight;
-};
-
 /// A corner set that smoke can reach.
 struct CornerSource {
   std::array<std::uint32_t, 8> corners;
@@ -105,7 +100,8 @@ struct BrickCells {
   std::vector<std::uint16_t> cells;           ///< Local index of each: x + 8 y + 64 z.
   std::vector<shared::BoundaryCell> records;  ///< first_set counted within the brick
   std::vector<SmokeMean> means;
-  std::vector<Contribution> contributions;
+  std::vector<std::uint32_t> mean_voxels;  ///< What the means take from, as of a corner,
+  std::vector<std::uint8_t> mean_weights;  ///< and how much.
   std::vector<CornerSource> sources;
   std::uint32_t set_count = 0;
 

@@ -12,9 +12,26 @@ using BrickDensities = std::array<std::uint8_t, kVoxelsPerBrick>;
 
 /// The densities of a whole cloud by rank.
 void densities_of(const Cloud& cloud, const CloudMoment& moment, std::vector<std::uint8_t>& out) {
-  const std::uint32_t size = cloud.voxels().size();
-  out.resize(size);
-  for (std::uint32_t rank = 0; rank < size; ++rank) out[rank] = cloud.density(rank, moment);
+  const std::span<const std::uint32_t> distances = cloud.distances();
+  out.resize(distances.size());
+  const CloudParts& parts = cloud.parts();
+  if (parts.flow_tick != 0 || !parts.rest.empty() || moment.dissolved != 0) {
+    for (std::uint32_t rank = 0; rank < out.size(); ++rank) out[rank] = cloud.density(rank, moment);
+    return;
+  }
+  // Only the distance counts: 0 from the front on, full from the taper inwards; between them a table.
+  const auto end =
+      static_cast<std::uint32_t>(std::min<Front>(moment.front / kFrontUnit + 1, Cloud::kNoDistance));
+  std::vector<std::uint8_t> taper;
+  std::uint32_t begin = end;
+  while (begin > 0 && (taper.empty() || taper.back() < 255))
+    taper.push_back(Cloud::profile(--begin, moment.front));
+  taper.insert(taper.begin(), 0);  // for `end` and beyond
+  const auto last = static_cast<std::uint32_t>(taper.size() - 1);
+  for (std::size_t rank = 0; rank < out.size(); ++rank) {
+    const std::uint32_t within = end - std::min(distances[rank], end);
+    out[rank] = taper[std::min(within, last)];
+  }
 }
 
 /// Index of a brick's voxel from the brick's block and the bit in it.
@@ -51,6 +68,15 @@ void apply_blast_part(const BlastPart& part, BrickDensities& densities) {
     }
   }
 }
+
+/// The texel of each voxel of a brick.
+constexpr std::array<std::uint16_t, kVoxelsPerBrick> make_texels_of_voxels() {
+  std::array<std::uint16_t, kVoxelsPerBrick> texels{};
+  for (unsigned i = 0; i < kVoxelsPerBrick; ++i)
+    texels[i] = static_cast<std::uint16_t>((i & 7) + 1 + 10 * ((i >> 3 & 7) + 1) + 100 * ((i >> 6) + 1));
+  return texels;
+}
+constexpr auto kTexelOfVoxel = make_texels_of_voxels();
 
 constexpr std::uint64_t kColumn0 = 0x0101010101010101u;
 
@@ -169,14 +195,14 @@ void SmokeVolume::spread_changes(SmokeBrick& brick) {
     std::uint64_t layer = ~std::uint64_t{0};
     if (step.x != 0) layer &= step.x < 0 ? kColumn0 : kColumn0 << 7;
     if (step.y != 0) layer &= step.y < 0 ? std::uint64_t{0xff} : std::uint64_t{0xff} << 56;
-    const int first_z = step.z > 0 ? 7 : 0, last_z = step.z < 0 ? 0 : 7;
+    const std::size_t first_z = step.z > 0 ? 7 : 0, last_z = step.z < 0 ? 0 : 7;
+    const int shift =
+        -8 * (step.x + 10 * (step.y + 10 * step.z));  // from texels of this brick to the other's
     bool any = false;
-    for (int z = first_z; z <= last_z; ++z)
-      for (std::uint64_t left = brick.changed[static_cast<std::size_t>(z)] & layer; left != 0;
-           left &= left - 1) {
-        const int bit = std::countr_zero(left);
-        const glm::ivec3 t = glm::ivec3(bit & 7, bit >> 3, z) + 1 - 8 * step;
-        into.texels[static_cast<std::size_t>(t.x + 10 * (t.y + 10 * t.z))].density = densities[64 * z + bit];
+    for (std::size_t z = first_z; z <= last_z; ++z)
+      for (std::uint64_t left = brick.changed[z] & layer; left != 0; left &= left - 1) {
+        const std::size_t voxel = 64 * z + static_cast<std::size_t>(std::countr_zero(left));
+        into.texels[static_cast<std::size_t>(kTexelOfVoxel[voxel] + shift)].density = densities[voxel];
         any = true;
       }
     if (any) mark(slots[static_cast<std::size_t>(i)], &SmokeBrick::texels_changed);
@@ -221,25 +247,37 @@ void SmokeVolume::fill_texels(SmokeBrick& brick) {
       }
 }
 
+/// Numbers of those things whose cell is stale. Written without a branch: which are is not to be foreseen.
+template <typename Thing>
+std::span<const std::uint32_t> SmokeVolume::stale_of(const std::vector<Thing>& things,
+                                                     const BrickBits& stale) {
+  if (stale_numbers_.size() < things.size()) stale_numbers_.resize(things.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const unsigned cell = things[i].cell;
+    stale_numbers_[count] = static_cast<std::uint32_t>(i);
+    count += stale[cell >> 6] >> (cell & 63) & 1;
+  }
+  return std::span(stale_numbers_).first(count);
+}
+
 /// Means and corner sets of the stale cells.
 void SmokeVolume::evaluate_cells(SmokeBrick& brick) {
   BrickCells& home = *brick.home;
-  const auto stale = [&](std::uint16_t cell) {
-    return (brick.stale_cells[static_cast<std::size_t>(cell >> 6)] >> (cell & 63) & 1) != 0;
-  };
-  for (std::size_t i = 0; i < home.means.size(); ++i) {
+  const std::uint8_t* densities = densities_.data();
+  for (const std::uint32_t i : stale_of(home.means, brick.stale_cells)) {
     const SmokeMean& mean = home.means[i];
-    if (!stale(mean.cell)) continue;
+    const std::uint32_t* voxels = home.mean_voxels.data() + mean.first;
+    const std::uint8_t* weights = home.mean_weights.data() + mean.first;
     std::uint32_t sum = mean.total / 2u;
-    const Contribution* from = home.contributions.data() + mean.first;
-    for (std::uint32_t k = 0; k < mean.count; ++k) sum += from[k].weight * densities_[from[k].voxel];
+    for (std::uint32_t k = 0; k < mean.count; ++k) sum += std::uint32_t{weights[k]} * densities[voxels[k]];
     home.mean_values[i + 1] = static_cast<std::uint8_t>(sum / mean.total);
   }
 
-  const std::array<const std::uint8_t*, 2> values{densities_.data(), home.mean_values.data()};
+  const std::array<const std::uint8_t*, 2> values{densities, home.mean_values.data()};
   std::uint32_t low = home.set_range.count, high = 0;
-  for (const CornerSource& source : home.sources) {
-    if (!stale(source.cell)) continue;
+  for (const std::uint32_t i : stale_of(home.sources, brick.stale_cells)) {
+    const CornerSource& source = home.sources[i];
     const auto value = [&](std::size_t corner) -> std::uint32_t {
       const std::uint32_t from = source.corners[corner];
       return values[from / kMeanBit][from & ~kMeanBit];

@@ -340,9 +340,8 @@ std::uint64_t SmokeVolume::bytes() const {
     if (const BrickCells* home = brick->home.get())
       sum += sizeof(BrickCells) + home->cells.capacity() * 2 +
              home->records.capacity() * sizeof(shared::BoundaryCell) +
-             home->means.capacity() * (sizeof(SmokeMean) + 1) +
-             home->contributions.capacity() * sizeof(Contribution) +
-             home->sources.capacity() * sizeof(CornerSource);
+             home->means.capacity() * (sizeof(SmokeMean) + 1) + home->mean_voxels.capacity() * 4 +
+             home->mean_weights.capacity() + home->sources.capacity() * sizeof(CornerSource);
   }
   for (const auto& source : sources_)
     sum += sizeof(SmokeSource) + source->densities.capacity() +

@@ -113,6 +113,8 @@ class SmokeVolume {
   void refresh_densities(std::uint32_t slot);
   void spread_changes(SmokeBrick& brick);
   void fill_texels(SmokeBrick& brick);
+  template <typename Thing>
+  std::span<const std::uint32_t> stale_of(const std::vector<Thing>& things, const BrickBits& stale);
   void evaluate_cells(SmokeBrick& brick);
   void refresh();
   void report_changes();
@@ -141,6 +143,7 @@ class SmokeVolume {
   std::vector<glm::ivec3> stale_bricks_;
   bool structure_changed_ = false;
   std::vector<std::uint8_t> scratch_;
+  std::vector<std::uint32_t> stale_numbers_;
   std::vector<std::uint32_t> dirty_slots_, dirty_cell_slots_;
   std::vector<IndexRange> dirty_boundary_cells_, dirty_corner_sets_;
   std::uint64_t generation_ = 0;
