@@ -1,0 +1,159 @@
+// What the readers of the wire promise of any bytes: for the fuzzers, and for the test that replays their
+// corpus.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "sim/world.hpp"
+#include "wire/bytes.hpp"
+#include "wire/event_log.hpp"
+#include "wire/receiver.hpp"
+#include "wire/replay.hpp"
+#include "wire/state_coding.hpp"
+#include "wire/world_form.hpp"
+
+namespace brume::wire {
+
+using Input = std::span<const std::byte>;
+
+// Small, so that a run is short.
+constexpr Limits kFuzzLimits{.max_bytes = 4096, .max_voxels = 2048, .max_items = 16};
+
+/// A small level: ground, a wall with a door, a pillar.
+inline const voxel::BitGrid& fuzz_level() {
+  static const voxel::BitGrid level = [] {
+    voxel::BitGrid grid({{13, 7, 10}, 0.5f, glm::vec3(-2, -0.5f, -2)});
+    for (const auto& [low, high, solid] : {std::tuple(glm::ivec3(0), glm::ivec3(13, 1, 10), true),
+                                           std::tuple(glm::ivec3(6, 0, 0), glm::ivec3(7, 7, 10), true),
+                                           std::tuple(glm::ivec3(6, 1, 4), glm::ivec3(7, 4, 6), false),
+                                           std::tuple(glm::ivec3(2, 1, 2), glm::ivec3(3, 5, 3), true)})
+      sim::apply_edits(grid, sim::edit_box(grid.frame(), low, high, solid));
+    return grid;
+  }();
+  return level;
+}
+
+/// The state that a packet makes of another one, whatever its checksum.
+inline Result<sim::State> state_of(const PacketHead& head, const sim::State& base) {
+  if (head.kind == PacketKind::delta) return read_body(head.body, base, head.tick, kFuzzLimits);
+  ByteReader in(head.body);
+  const auto world = read_world(in);
+  if (!world) return world.failure();
+  sim::State empty;
+  empty.frame = world->frame;
+  empty.ticks_per_second = world->ticks_per_second;
+  return read_body(in.rest(), empty, head.tick, kFuzzLimits);
+}
+
+/// Whoever holds the state may ask it anything, and may send it on.
+inline void check_state(const sim::State& base, const sim::State& state) {
+  for (const sim::LiveCloud& live : state.clouds) {
+    const glm::ivec3 low = live.cloud->low(), high = live.cloud->high();
+    for (const glm::ivec3 voxel : {low, high, (low + high) / 2}) static_cast<void>(state.density(voxel));
+  }
+  BRUME_ASSERT(sim::grenades_of(state).size() == state.flights.size(), "grenades");
+  BRUME_ASSERT(sim::holes_of(state).size() == state.holes.size(), "holes");
+
+  Receiver receiver;
+  const auto received = receiver.receive(write_keyframe(state));
+  BRUME_ASSERT(received, received.failure().message);
+  BRUME_ASSERT(receiver.state()->hash() == state.hash(), "a keyframe makes another state");
+  if (base.tick >= state.tick || base.frame != state.frame || base.ticks_per_second != state.ticks_per_second)
+    return;
+  const std::vector<std::byte> delta = write_delta(base, state);
+  const auto head = read_head(delta);
+  BRUME_ASSERT(head, head.failure().message);
+  const auto again = read_delta(*head, base);
+  BRUME_ASSERT(again, again.failure().message);
+}
+
+/// Packets, each with its length before it, to one receiver.
+inline void check_packets(Input bytes) {
+  ByteReader in(bytes);
+  Receiver receiver(kFuzzLimits);
+  sim::State state;
+  state.frame = fuzz_level().frame();
+  for (int i = 0; i < 6 && in.ok() && !in.rest().empty(); ++i) {
+    const Input rest = in.rest();
+    Input packet = in.section();
+    if (!in.ok()) packet = rest;
+    static_cast<void>(read_request(packet));
+    const bool had = receiver.state() != nullptr;
+    const std::uint64_t before = had ? receiver.state()->hash() : 0;
+    const auto received = receiver.receive(packet);
+    if (had && (!received || *received != Reception::applied))
+      BRUME_ASSERT(receiver.state()->hash() == before, "a packet that was not taken changed the state");
+    BRUME_ASSERT(received || receiver.behind(), "damage and no question");
+
+    // And as if the checksum were right.
+    const auto head = read_head(packet, kFuzzLimits);
+    if (!head || (head->kind == PacketKind::delta && head->tick <= state.tick)) continue;
+    const auto next = state_of(*head, state);
+    if (!next) continue;
+    check_state(state, *next);
+    state = *next;
+  }
+}
+
+/// The events as a short run can take them: small smokes, small blasts.
+inline std::vector<sim::Event> made_small(std::vector<sim::Event> events, float voxel_size) {
+  const auto max_radius = static_cast<std::uint32_t>(voxel_size * 3 * sim::kUnitsPerMetre);
+  for (sim::Event& event : events) {
+    if (auto* smoke = std::get_if<sim::ThrowSmoke>(&event))
+      smoke->smoke.voxels = std::min(smoke->smoke.voxels, 64u);
+    if (auto* blast = std::get_if<sim::Blast>(&event)) blast->radius = std::min(blast->radius, max_radius);
+  }
+  return events;
+}
+
+/// The body of an event log; what comes before it is made to fit.
+inline void check_event_log(Input body) {
+  const voxel::BitGrid& level = fuzz_level();
+  static_cast<void>(read_events(body, level.frame(), kFuzzLimits));
+  ByteWriter whole;
+  whole.number(static_cast<std::uint8_t>(kVersion << 4 | static_cast<int>(PacketKind::events)));
+  whole.number(static_cast<std::uint32_t>(hash_bytes(body)));
+  whole.raw(body);
+  const auto read = read_events(whole.bytes(), level.frame(), kFuzzLimits);
+  if (!read) return;
+  const auto again = read_events(write_events(*read, level.frame()), level.frame());
+  BRUME_ASSERT(again && *again == *read, "events written again are others");
+
+  // Known from the start, or told one by one after it all happened: the same end.
+  const std::vector<sim::Event> events = made_small(*read, level.frame().voxel_size);
+  std::uint32_t end = 0;
+  for (const sim::Event& event : events) end = std::max(end, sim::tick_of(event) + 70);
+  sim::World told(level), late(level);
+  for (const sim::Event& event : events) told.append(event).value_or_throw();
+  told.advance_to(end / 2);
+  told.advance_to(end);
+  late.advance_to(end);
+  for (const sim::Event& event : events) late.append(event).value_or_throw();
+  BRUME_ASSERT(told.state_hash() == late.state_hash(), "order of telling matters");
+  check_state(sim::State{}, told.state());
+}
+
+/// A replay without the hash at its end, which is made to fit.
+inline void check_replay(Input bytes) {
+  static_cast<void>(decode_replay(bytes));
+  ByteWriter whole;
+  whole.raw(bytes);
+  whole.number(hash_bytes(bytes));
+  const auto read = decode_replay(whole.bytes());
+  if (!read) return;
+  const auto again = decode_replay(encode_replay(*read).value_or_throw());
+  BRUME_ASSERT(again && again->events == read->events && again->checksums == read->checksums,
+               "a replay written again is another");
+  const glm::u64vec3 size(read->level.size());
+  if (size.x * size.y * size.z > 4096 || read->events.size() > 16) return;
+  Replay small{read->level, read->settings, made_small(read->events, read->level.frame().voxel_size),
+               read->checksums};
+  if (small.checksums.size() > 32) small.checksums.resize(32);
+  static_cast<void>(play(small));
+}
+
+}  // namespace brume::wire
