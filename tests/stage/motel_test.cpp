@@ -1,10 +1,12 @@
 // The real scene, where it is there.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 #include "scene/load.hpp"
+#include "stage/level_events.hpp"
 #include "stage/world_triangles.hpp"
 #include "tests/reference/triangle_box.hpp"
 #include "voxel/surface_planes.hpp"
@@ -64,6 +66,46 @@ TEST(Motel, VoxelsEqualBruteForceAndPlanesLieInThem) {
 
   const SurfacePlanes planes = SurfacePlanes::build(triangles, *grid);
   EXPECT_GT(planes.cell_count(), grid->count_solid() / 2);
+}
+
+TEST(Motel, ADoorThatOpensLeavesWhatAFullRebuildWithoutItMakes) {
+  if (!std::filesystem::exists(motel()))
+    GTEST_SKIP() << motel() << " is not there; set BRUME_MOTEL to its folder";
+  auto scene = scene::load_scene(motel());
+  ASSERT_TRUE(scene) << scene.failure().message;
+  const GridFrame frame{{240, 40, 240}, 0.25f, glm::vec3(-30, 0, -30)};
+  auto voxels = load_or_voxelize(*scene, frame, {}).value_or_throw();
+  const Stage stage{{}, std::move(*scene), {}, std::move(voxels)};
+  ObjectLevel objects = make_level(stage);
+  const auto& list = stage.scene.objects;
+  const auto door =
+      std::find_if(list.begin(), list.end(), [](const auto& o) { return o.name == "DoorRoom_E"; });
+  ASSERT_NE(door, list.end());
+  const std::uint32_t part = objects.part_of[static_cast<std::size_t>(door - list.begin())];
+
+  scene::Scene without = stage.scene;
+  std::erase_if(without.objects, [](const auto& o) { return o.name == "DoorRoom_E"; });
+  const Voxels open = load_or_voxelize(without, frame, {}).value_or_throw();
+  ASSERT_NE(open.grid.count_solid(), stage.voxels.grid.count_solid());
+
+  voxel::PatchedPlanes planes(stage.voxels.planes);
+  const auto expect_same = [&](const Voxels& expected) {
+    std::uint64_t voxels_differ = 0, planes_differ = 0;
+    voxel::for_each_in({glm::ivec3(0), frame.size}, [&](glm::ivec3 v) {
+      voxels_differ += objects.level.grid().solid(v) != expected.grid.solid(v);
+    });
+    voxel::for_each_in({glm::ivec3(-1), frame.size}, [&](glm::ivec3 cell) {
+      const auto p = planes.at(cell), q = expected.planes.at(cell);
+      planes_differ += !std::equal(p.begin(), p.end(), q.begin(), q.end());
+    });
+    EXPECT_EQ(voxels_differ, 0u);
+    EXPECT_EQ(planes_differ, 0u);
+  };
+  for (const bool shown : {false, true}) {
+    const voxel::LevelChange change = objects.level.show({&part, 1}, shown);
+    planes.add(std::make_shared<const voxel::PlanePatch>(voxel::PlanePatch{change.cells, change.planes}));
+    expect_same(shown ? stage.voxels : open);
+  }
 }
 
 }  // namespace
