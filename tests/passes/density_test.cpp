@@ -56,6 +56,43 @@ TEST_F(DensityTest, ShadersReadWhatTheProcessorReads) {
   EXPECT_GT(inside, 1000);
 }
 
+TEST_F(DensityTest, WhatWasUploadedInPartsReadsAsTheProcessorReads) {
+  std::vector<voxel::Triangle> walls;
+  add_quad(walls, {3.1f, 0, 0}, {3.1f, 6, 0}, {3.1f, 6, 4}, {3.1f, 0, 4});
+  add_quad(walls, {0, 0.2f, 0}, {40, 0.2f, 0}, {40, 0.2f, 6}, {0, 0.2f, 6});
+  const glm::ivec3 size(133, 17, 23);
+  SmokeRoom room(context(), runner(), walls, {size, 0.3f, {-0.3f, -0.2f, -0.4f}}, {1, 1, 1}, 600, 20);
+  // Another far off, so that the page table grows; one between them; a blast; and all of it back and forth.
+  for (const auto& [tick, x] : {std::pair{30u, 36.0}, {40u, 18.0}}) {
+    sim::ThrowSmoke event;
+    event.tick = tick;
+    event.from = event.at = sim::position_from_metres({x, 1, 3});
+    event.smoke = {900, 20, 25, 20};
+    room.world.append(event).value_or_throw();
+  }
+  room.world.append(sim::Blast{.tick = 50, .at = sim::position_from_metres({2, 1, 2}), .radius = 2048})
+      .value_or_throw();
+  std::mt19937 random(12);
+  std::uniform_real_distribution<float> share(-0.02f, 1.02f);
+  for (const std::uint32_t tick : {25u, 33u, 34u, 45u, 52u, 60u, 75u, 100u, 38u, 20u, 140u}) {
+    room.world.advance_to(tick);
+    room.volume.update(room.world);
+    room.upload.reserve(room.volume);
+    runner().run([&](gpu::Recorder& recorder) { room.upload.record(recorder, room.volume); });
+    std::vector<glm::vec3> points;
+    for (int i = 0; i < 4000; ++i)
+      points.push_back(glm::vec3(size) * glm::vec3(share(random), share(random), share(random)));
+    const auto densities = probe(room, points);
+    int smoky = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const float expected = sim::sample_density(room.volume, points[i]);
+      EXPECT_NEAR(densities[i], expected, 3 * 0.5 / 256 + 3 * 0.5 / 255) << "tick " << tick;
+      smoky += expected > 0;
+    }
+    EXPECT_GT(smoky, 20) << "tick " << tick;
+  }
+}
+
 TEST_F(DensityTest, NothingWhereThereIsNoSmoke) {
   SmokeRoom room(context(), runner(), {}, {{7, 1, 7}, 0.5f, {0, 0, 0}}, {1, 0.2, 1}, 10, 0);
   for (const float density : probe(room, {{3, 0.5f, 3}, {-100, 0, 0}, {1e6f, 0, 0}})) EXPECT_EQ(density, 0);
