@@ -95,19 +95,25 @@ std::uint64_t hash_level(const MatchLevel& level) {
   return hash;
 }
 
+/// Of all voxels in which there may be smoke: there is none in others.
 std::uint64_t hash_densities(const sim::State& state) {
-  const glm::ivec3 size = state.frame.size;
-  std::vector<std::uint8_t> densities(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                                      static_cast<std::size_t>(size.z));
-  const auto row = static_cast<std::size_t>(size.x);
-  parallel_for(densities.size() / row, 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const int y = static_cast<int>(i) % size.y, z = static_cast<int>(i) / size.y;
-      for (int x = 0; x < size.x; ++x)
-        densities[i * row + static_cast<unsigned>(x)] = state.density({x, y, z});
-    }
+  std::vector<glm::ivec3> voxels;
+  for (const sim::LiveCloud& live : state.clouds)
+    live.cloud->voxels().for_each([&](glm::ivec3 voxel, std::uint32_t) { voxels.push_back(voxel); });
+  const sim::BlockSet all(voxels);
+  voxels.clear();
+  all.for_each([&](glm::ivec3 voxel, std::uint32_t) { voxels.push_back(voxel); });
+  std::vector<std::uint8_t> densities(voxels.size());
+  parallel_for(voxels.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) densities[i] = state.density(voxels[i]);
   });
-  return hash_values(std::span<const std::uint8_t>(densities));
+  std::uint64_t hash = hash_values(std::span<const std::uint8_t>(densities));
+  for (const sim::VoxelBlock& block : all.blocks()) {
+    const std::int16_t place[3] = {block.at.x, block.at.y, block.at.z};
+    hash = hash_values(std::span<const std::int16_t>(place), hash);
+    hash = hash_values(std::span<const std::uint64_t>(&block.mask, 1), hash);
+  }
+  return hash;
 }
 
 std::uint64_t hash_sight(const sim::SmokeVolume& volume, const sim::World& world) {
@@ -148,7 +154,8 @@ class Match {
       if (tick % 64 == 0) report_.add(tick, "second", std::exchange(second_, 0));
       ++next_;
     }
-    if (tick % 16 != 0) return;
+    const bool came_here = std::exchange(last_, tick) != tick;
+    if (tick % 16 != 0 || !came_here) return;
     report_.add(tick, "voxels", hash_densities(world_->state()));
     volume_.update(*world_);
     if (tick % 64 == 0) report_.add(tick, "sight", hash_sight(volume_, *world_));
@@ -160,6 +167,7 @@ class Match {
   std::unique_ptr<sim::World> world_;
   sim::SmokeVolume volume_;
   std::uint32_t next_ = 0;  // ticks before it are in second_ or reported
+  std::uint32_t last_ = ~0u;
   std::uint64_t second_ = 0;
 };
 

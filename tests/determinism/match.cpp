@@ -66,7 +66,7 @@ void add_smokes(std::vector<sim::Event>& events, Random& random) {
     smoke.tick = 10 + 110 * i;
     smoke.at =
         i < targets.size() ? targets[i] * sim::kUnitsPerMetre : random.position(kLowCorner, kHighCorner);
-    smoke.from = smoke.at + sim::Position(random.between(-3000, 3000), 1600, random.between(-3000, 3000));
+    smoke.from = smoke.at + random.position({-3000, 1600, -3000}, {3000, 1600, 3000});
     smoke.smoke.voxels = i % 3 == 2 ? 900 : 1800;
     smoke.smoke.hold_ticks = i % 2 == 0 ? 1152 : 500;
     events.emplace_back(smoke);
