@@ -69,6 +69,7 @@ struct Case {
 std::vector<Case> cpu_cases();
 std::vector<Case> volume_cases();
 std::vector<Case> edit_cases();
+std::vector<Case> sight_cases();
 std::vector<Case> gpu_cases();
 /// All, in the order in which they run.
 std::vector<Case> all_cases();
