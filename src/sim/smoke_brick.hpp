@@ -47,6 +47,11 @@ constexpr void set_block(BrickBits& bits, std::size_t block, std::uint64_t mask)
   }
 }
 
+/// Ticks from `first` to `last`; none when first > last.
+struct TickSpan {
+  std::uint32_t first = 1, last = 0;
+};
+
 /// A cloud as the volume last saw it.
 struct SmokeSource {
   std::uint32_t id = 0;
@@ -55,8 +60,7 @@ struct SmokeSource {
   std::vector<std::uint8_t> densities;       ///< By rank, at that moment; empty before the first.
   std::vector<std::uint32_t> slot_of_block;  ///< For each block of its voxels.
   std::vector<std::uint32_t> slots;          ///< Every slot that it needs, each once.
-  /// Ticks between which its moment is known to stay; none when from > to.
-  std::uint32_t steady_from = 1, steady_to = 0;
+  TickSpan steady;                           ///< When its moment is known to stay.
 };
 
 /// A blast as the volume last saw it.

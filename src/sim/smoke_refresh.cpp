@@ -112,9 +112,11 @@ void sort_and_merge(std::vector<IndexRange>& ranges) {
 }  // namespace
 
 void SmokeVolume::update_moments(const State& state) {
-  for (const auto& source : sources_)
-    if (state.tick < source->steady_from || state.tick > source->steady_to)
-      update_moment(*source, state.tick);
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (state.tick >= steady_[i].first && state.tick <= steady_[i].last) continue;
+    update_moment(*sources_[i], state.tick);
+    steady_[i] = sources_[i]->steady;
+  }
   for (const auto& sink : sinks_) {
     const BlastMoment moment = sink->field->moment(state.tick);
     if (moment == sink->moment) continue;
@@ -133,8 +135,7 @@ void SmokeVolume::update_moment(SmokeSource& source, std::uint32_t tick) {
   const std::uint32_t held_until =
       origin.detonation_tick + origin.settings.bloom_ticks + origin.settings.hold_ticks;
   const bool steady = tick < held_until && cloud.moment(held_until) == moment;
-  source.steady_from = steady ? tick : 1;
-  source.steady_to = steady ? held_until : 0;
+  source.steady = steady ? TickSpan{tick, held_until} : TickSpan{};
 
   const bool first = source.densities.empty();
   if (!first && moment == source.moment) return;

@@ -126,10 +126,10 @@ void SmokeVolume::mark(std::uint32_t slot, bool SmokeBrick::*what) {
 }
 
 void SmokeVolume::take_clouds(const State& state) {
-  const auto same = [](const std::unique_ptr<SmokeSource>& held, const LiveCloud& live) {
-    return held->id == live.id && held->cloud == live.cloud;
-  };
-  if (std::equal(sources_.begin(), sources_.end(), state.clouds.begin(), state.clouds.end(), same)) return;
+  const auto same = [](const LiveCloud& a, const LiveCloud& b) { return a.id == b.id && a.cloud == b.cloud; };
+  if (std::equal(seen_clouds_.begin(), seen_clouds_.end(), state.clouds.begin(), state.clouds.end(), same))
+    return;
+  seen_clouds_ = state.clouds;
   // What comes is added before what goes is removed: no brick that stays loses its slot in between.
   const auto gone = exchange(
       sources_, state.clouds,
@@ -146,6 +146,8 @@ void SmokeVolume::take_clouds(const State& state) {
         return source;
       });
   for (const auto& source : gone) remove_cloud(*source);
+  steady_.clear();
+  for (const auto& source : sources_) steady_.push_back(source->steady);
 }
 
 void SmokeVolume::add_cloud(SmokeSource& source) {

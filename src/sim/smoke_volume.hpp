@@ -127,6 +127,9 @@ class SmokeVolume {
 
   std::vector<std::unique_ptr<SmokeSource>> sources_;  // by id
   std::vector<std::unique_ptr<SmokeSink>> sinks_;      // by id
+  // In one piece what each tick asks of all sources: what the state had, and whether anything can be new.
+  std::vector<LiveCloud> seen_clouds_;
+  std::vector<TickSpan> steady_;
   std::shared_ptr<const EditBlocks> edits_;
 
   shared::SmokeVolumeFrame frame_{};
