@@ -29,6 +29,7 @@ Command add_demo(CLI::App& program);
 Command add_render(CLI::App& program);
 Command add_voxelize(CLI::App& program);
 Command add_info(CLI::App& program);
+Command add_query(CLI::App& program);
 Command add_devices(CLI::App& program);
 Command add_bench(CLI::App& program);
 

@@ -19,6 +19,7 @@ constexpr const char* kAbout =
     "  brume render room.glb -o room.png --smoke 0,1,0   # a picture of a scene with smoke in it\n"
     "  brume voxelize room.glb -o room.vxl --json -      # which voxels of a scene are solid\n"
     "  brume info room.glb                               # what is in a file\n"
+    "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3   # who sees whom\n"
     "  brume devices                                     # what can render";
 
 // In the list of commands, only what each does: its examples are in its own help.
@@ -65,7 +66,7 @@ int parse_and_run(int argc, char** argv) {
   program.set_version_flag("--version", BRUME_VERSION);
   program.require_subcommand(1);
   const std::array commands{add_demo(program), add_render(program),  add_voxelize(program),
-                            add_info(program), add_devices(program), add_bench(program)};
+                            add_info(program), add_query(program),   add_devices(program), add_bench(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

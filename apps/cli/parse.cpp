@@ -103,4 +103,11 @@ FrameRange parse_frames(const std::string& option, const std::string& text) {
   refuse(option, text, "FIRST-LAST up to " + std::to_string(kMaxFrame) + ", such as 0-119");
 }
 
+TimeRange parse_times(const std::string& option, const std::string& text) {
+  const auto values = numbers<double>(text, '-', 2);
+  if (values && (*values)[0] >= 0 && (*values)[0] < (*values)[1] && (*values)[1] <= 3600)
+    return {(*values)[0], (*values)[1]};
+  refuse(option, text, "BEGIN-END in seconds, up to 3600, such as 1.5-6");
+}
+
 }  // namespace brume::cli

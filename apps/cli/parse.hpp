@@ -28,4 +28,10 @@ struct FrameRange {
 };
 FrameRange parse_frames(const std::string& option, const std::string& text);
 
+/// "1.5-6": from a time to a later one [s], within [0, 3600].
+struct TimeRange {
+  double begin = 0, end = 0;
+};
+TimeRange parse_times(const std::string& option, const std::string& text);
+
 }  // namespace brume::cli

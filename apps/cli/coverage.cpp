@@ -1,0 +1,129 @@
+#include "apps/cli/coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "apps/cli/console.hpp"
+
+namespace brume::cli {
+namespace {
+
+/// Where shot i of n goes: a point of a disk around the line, evenly by the golden angle.
+glm::vec3 aim(const SightLine& line, const Volley& volley, unsigned i) {
+  const glm::dvec3 from(line.from_world), way = glm::dvec3(line.to_world) - from;
+  const double length = glm::length(way);
+  const glm::dvec3 ahead = way / length;
+  const glm::dvec3 aside =
+      glm::normalize(glm::cross(ahead, std::abs(ahead.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
+  const double radius =
+      std::tan(volley.spread_degrees * std::numbers::pi / 180) * length * std::sqrt((i + 0.5) / volley.count);
+  const double angle = 2.399963229728653 * i;
+  return glm::vec3(from + way +
+                   radius * (std::cos(angle) * aside + std::sin(angle) * glm::cross(ahead, aside)));
+}
+
+std::vector<scene::ShotEvent> shots_of(const SightLine& line, const Volley& volley) {
+  std::vector<scene::ShotEvent> shots;
+  for (unsigned i = 0; i < volley.count; ++i) {
+    scene::ShotEvent shot;
+    shot.time = volley.first_time + i * volley.every;
+    shot.from_world = line.from_world;
+    shot.toward_world = aim(line, volley, i);
+    shot.place = "shot " + std::to_string(i + 1) + " of --shots";
+    shots.push_back(shot);
+  }
+  return shots;
+}
+
+double tick_seconds(const stage::Simulation& simulation) {
+  return 1.0 / simulation.world().settings().ticks_per_second;
+}
+
+/// Calls visit(simulation, time) at every tick whose time is in [begin, end).
+template <typename Visit>
+void at_every_tick(const stage::Stage& stage, double begin, double end, const Visit& visit) {
+  const auto simulation = stage::Simulation::create(stage).value_or_throw();
+  const double step = tick_seconds(*simulation);
+  for (auto tick = static_cast<std::uint64_t>(std::ceil(begin / step - 1e-9));
+       static_cast<double>(tick) * step < end - 1e-9; ++tick) {
+    stop_if_interrupted();
+    simulation->advance_to(static_cast<double>(tick) * step);
+    visit(*simulation, static_cast<double>(tick) * step);
+  }
+}
+
+}  // namespace
+
+const char* name_of(HiddenBy by) {
+  return by == HiddenBy::wall ? "wall" : by == HiddenBy::smoke ? "smoke" : "nothing";
+}
+
+Moment look(const stage::Stage& stage, const stage::Simulation& simulation, const SightLine& line) {
+  const sim::State& state = simulation.world().state();
+  const std::vector<shared::Hole> holes = sim::holes_of(state);
+  const sim::Sight sight(simulation.volume(), simulation.world().grid(), holes, state.seconds(state.tick),
+                         {stage.timeline.smoke.extinction, stage.timeline.smoke.albedo});
+  Moment moment;
+  moment.optical_depth = sight.optical_depth(line.from_world, line.to_world).value_or_throw();
+  moment.wall = sight.first_wall(line.from_world, line.to_world).value_or_throw();
+  moment.hidden_by = moment.wall                             ? HiddenBy::wall
+                     : moment.optical_depth > line.threshold ? HiddenBy::smoke
+                                                             : HiddenBy::nothing;
+  return moment;
+}
+
+Coverage coverage_of(const stage::Stage& stage, const SightLine& line, const TimeRange& times) {
+  Coverage coverage;
+  at_every_tick(stage, times.begin, times.end, [&](const stage::Simulation& simulation, double time) {
+    const Moment moment = look(stage, simulation, line);
+    if (moment.hidden_by == HiddenBy::nothing) return;
+    const double next = std::min(time + tick_seconds(simulation), times.end);
+    coverage.hidden_seconds += next - time;
+    auto& intervals = coverage.intervals;
+    const bool goes_on = !intervals.empty() && intervals.back().by == moment.hidden_by &&
+                         std::abs(intervals.back().end - time) < 1e-9;
+    if (!goes_on) intervals.push_back({time, next, moment.hidden_by, 0});
+    intervals.back().end = next;
+    intervals.back().most_depth = std::max(intervals.back().most_depth, moment.optical_depth);
+  });
+  return coverage;
+}
+
+std::vector<ShotResult> fire(const stage::Stage& stage, const SightLine& line, const Volley& volley,
+                             double end) {
+  const std::vector<scene::ShotEvent> shots = shots_of(line, volley);
+  const auto closed = [](const scene::ShotEvent& s) {
+    return s.time + double{s.reach} + double{s.expand} + double{s.stay} + double{s.fade};
+  };
+  std::vector<bool> hidden;
+  at_every_tick(stage, volley.first_time, std::min(end, closed(shots.back())),
+                [&](const stage::Simulation& simulation, double) {
+                  hidden.push_back(look(stage, simulation, line).hidden_by != HiddenBy::nothing);
+                });
+  std::vector<ShotResult> results;
+  if (std::find(hidden.begin(), hidden.end(), true) == hidden.end()) return results;
+
+  stage::Stage shot_at = stage;
+  auto& all = shot_at.timeline.shots;
+  for (const scene::ShotEvent& shot : shots) {
+    // Among the stage's own, by time.
+    const auto later = [&](const scene::ShotEvent& other) { return other.time > shot.time; };
+    all.insert(std::find_if(all.begin(), all.end(), later), shot);
+    ShotResult result{shot.time, std::numeric_limits<float>::max(), false};
+    std::size_t tick = 0;
+    at_every_tick(shot_at, volley.first_time, std::min(end, closed(shot)),
+                  [&](const stage::Simulation& simulation, double) {
+                    if (!hidden[tick++]) return;
+                    const Moment moment = look(stage, simulation, line);
+                    result.least_depth = std::min(result.least_depth, moment.optical_depth);
+                    result.seen |= moment.hidden_by == HiddenBy::nothing;
+                  });
+    if (shot.time < end) results.push_back(result);
+    if (result.seen) break;
+  }
+  return results;
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,227 @@
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "apps/cli/coverage.hpp"
+#include "apps/cli/parse.hpp"
+#include "core/error.hpp"
+#include "sim/sight.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string timeline, from, to, times, json;
+  double time = -1, shots_at = -1, shots_every = 0.1, spread = 0;
+  float threshold = 3;
+  unsigned shots = 0;
+  bool report = false;
+};
+
+Json point(glm::vec3 p) {
+  return {p.x, p.y, p.z};
+}
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+glm::vec3 parse_end(const std::string& option, const std::string& text) {
+  const glm::vec3 p = parse_point(option, text);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(p[axis]) > sim::kMaxSightMetres)
+      throw Error(ErrorCode::usage, option + " '" + text + "': expected coordinates within 16384 m");
+  }
+  return p;
+}
+
+void check_options(const Options& options) {
+  if (options.report && options.time >= 0)
+    throw Error(ErrorCode::usage,
+                "--time asks for one moment; with --report give --times, such as --times 0-6");
+  const std::pair<const char*, double> finite[] = {{"--time", options.time},
+                                                   {"--threshold", double{options.threshold}},
+                                                   {"--shots-at", options.shots_at},
+                                                   {"--shots-every", options.shots_every},
+                                                   {"--spread", options.spread}};
+  for (const auto& [name, value] : finite) {
+    if (std::isnan(value)) throw Error(ErrorCode::usage, std::string(name) + " 'nan': expected a number");
+  }
+  if (!options.report && options.time < 0)
+    throw Error(ErrorCode::usage, "give a moment, such as --time 3, or --report for all of them");
+  if (!options.report && (options.shots > 0 || !options.times.empty()))
+    throw Error(ErrorCode::usage, "--times and --shots belong to --report; add it");
+  check_output(options.json);
+}
+
+/// One line for each entry: its name and its value.
+void print_fields(const std::vector<std::pair<std::string, std::string>>& fields) {
+  for (const auto& [name, value] : fields) print(name + std::string(16 - name.size(), ' ') + value + "\n");
+}
+
+void tell_moment(const Options& options, const stage::Stage& stage, const SightLine& line) {
+  const auto simulation = stage::Simulation::create(stage).value_or_throw();
+  simulation->advance_to(options.time);
+  const Moment moment = look(stage, *simulation, line);
+  const double transmittance = std::exp(-double{moment.optical_depth});
+  const float distance = glm::length(line.to_world - line.from_world);
+  if (!options.json.empty()) {
+    Json first = nullptr;
+    if (const auto& wall = moment.wall)
+      first = {{"voxel", {wall->voxel.x, wall->voxel.y, wall->voxel.z}}, {"distance", wall->distance}};
+    write_json(options.json, {{"timeline", options.timeline},
+                              {"time", options.time},
+                              {"tick", simulation->world().tick()},
+                              {"from", point(line.from_world)},
+                              {"to", point(line.to_world)},
+                              {"threshold", line.threshold},
+                              {"extinction", stage.timeline.smoke.extinction},
+                              {"visible", moment.hidden_by == HiddenBy::nothing},
+                              {"hidden_by", name_of(moment.hidden_by)},
+                              {"optical_depth", moment.optical_depth},
+                              {"transmittance", transmittance},
+                              {"distance", distance},
+                              {"first_solid", first}});
+  }
+  if (options.json == "-") return;
+  const bool seen = moment.hidden_by == HiddenBy::nothing;
+  print_fields(
+      {{"visible", seen ? "yes" : std::string("no, hidden by ") + name_of(moment.hidden_by)},
+       {"optical depth", number("%.3f", double{moment.optical_depth})},
+       {"transmittance", number("%.4g", transmittance)},
+       {"distance", number("%.2f m", double{distance})},
+       {"first solid", moment.wall ? number("after %.2f m", double{moment.wall->distance}) : "none"}});
+}
+
+Json coverage_json(const Coverage& coverage) {
+  Json intervals = Json::array();
+  for (const HiddenInterval& i : coverage.intervals)
+    intervals.push_back(
+        {{"begin", i.begin}, {"end", i.end}, {"by", name_of(i.by)}, {"most_depth", i.most_depth}});
+  return {{"hidden_seconds", coverage.hidden_seconds}, {"intervals", intervals}};
+}
+
+Json shots_json(const std::vector<ShotResult>& shots) {
+  Json each = Json::array();
+  for (const ShotResult& shot : shots)
+    each.push_back({{"time", shot.time}, {"least_depth", shot.least_depth}, {"seen", shot.seen}});
+  const bool seen = shots.empty() || shots.back().seen;
+  return {{"seen_after", seen ? Json(shots.size()) : Json(nullptr)}, {"each", each}};
+}
+
+void print_coverage(const Coverage& coverage, const TimeRange& times) {
+  print("hidden for " + number("%.2f", coverage.hidden_seconds) + " of " +
+        number("%.2f s", times.end - times.begin) + "\n");
+  if (coverage.intervals.empty()) return;
+  print("   from s      to s  hidden by  most optical depth\n");
+  for (const HiddenInterval& i : coverage.intervals) {
+    char line[120];
+    std::snprintf(line, sizeof line, "%9.2f %9.2f  %-9s  %.3f\n", i.begin, i.end, name_of(i.by),
+                  double{i.most_depth});
+    print(line);
+  }
+}
+
+void print_shots(const std::vector<ShotResult>& shots, unsigned count) {
+  if (shots.empty()) return print("not hidden when the shots are fired\n");
+  print((shots.back().seen ? "seen after " : "not seen after ") + std::to_string(shots.size()) + " of " +
+        std::to_string(count) + " shots\n");
+  print("  shots  last fired s  least optical depth\n");
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    char line[120];
+    std::snprintf(line, sizeof line, "%7zu %13.2f  %19.3f\n", i + 1, shots[i].time,
+                  double{shots[i].least_depth});
+    print(line);
+  }
+}
+
+void tell_coverage(const Options& options, const stage::Stage& stage, const SightLine& line) {
+  const TimeRange times = options.times.empty() ? TimeRange{0, double{stage.timeline.duration}}
+                                                : parse_times("--times", options.times);
+  const Coverage coverage = coverage_of(stage, line, times);
+  std::vector<ShotResult> shots;
+  if (options.shots > 0) {
+    const double at = options.shots_at < 0 ? times.begin : options.shots_at;
+    shots = fire(stage, line, {options.shots, at, options.shots_every, options.spread}, times.end);
+  }
+  if (!options.json.empty()) {
+    Json report{{"timeline", options.timeline},   {"times", {times.begin, times.end}},
+                {"from", point(line.from_world)}, {"to", point(line.to_world)},
+                {"threshold", line.threshold},    {"extinction", stage.timeline.smoke.extinction}};
+    report.update(coverage_json(coverage));
+    if (options.shots > 0) report["shots"] = shots_json(shots);
+    write_json(options.json, report);
+  }
+  if (options.json == "-") return;
+  print_coverage(coverage, times);
+  if (options.shots > 0) print_shots(shots, options.shots);
+}
+
+void query(const Options& options) {
+  const SightLine line{parse_end("--from", options.from), parse_end("--to", options.to), options.threshold};
+  check_options(options);
+  if (!options.times.empty()) parse_times("--times", options.times);
+  if (options.shots > 0 && line.from_world == line.to_world)
+    throw Error(ErrorCode::usage, "--shots: --from and --to are the same point; give two");
+  const stage::Stage stage = stage::load_stage(options.timeline, {}).value_or_throw();
+  stop_if_interrupted();
+  if (options.report) {
+    tell_coverage(options, stage, line);
+  } else {
+    tell_moment(options, stage, line);
+  }
+}
+
+}  // namespace
+
+Command add_query(CLI::App& program) {
+  Command command =
+      declare(program, "query", "Tells whether one point can be seen from another through the smoke.",
+              "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3.2\n"
+              "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 1-3 "
+              "--json -\n"
+              "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 2-4 "
+              "--shots 5 "
+              "--shots-at 3");
+  auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("TIMELINE", options->timeline, "The timeline (.toml), or a scene")
+      ->required()
+      ->type_name("");
+  parser.add_option("--from", options->from, "Who looks [m]")->required()->type_name("X,Y,Z");
+  parser.add_option("--to", options->to, "What is looked at [m]")->required()->type_name("X,Y,Z");
+  const CLI::Range seconds(0.0, 3600.0);
+  parser.add_option("--time", options->time, "The moment [s]")->check(seconds)->type_name("S");
+  parser
+      .add_option("--threshold", options->threshold,
+                  "Optical depth from which smoke hides; default 3: 5 % come through")
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("T");
+  parser.add_flag("--report", options->report, "When the two are hidden from each other");
+  parser.add_option("--times", options->times, "From when to when; default: the whole timeline")
+      ->type_name("A-B");
+  parser.add_option("--shots", options->shots, "Fire so many more shots, and tell after how many it is seen")
+      ->check(CLI::Range(0u, 100u))
+      ->type_name("N");
+  parser.add_option("--shots-at", options->shots_at, "When the first is fired [s]; default: A")
+      ->check(seconds)
+      ->type_name("S");
+  parser.add_option("--shots-every", options->shots_every, "Time between two [s]; default 0.1")
+      ->check(CLI::Range(0.02, 60.0))
+      ->type_name("S");
+  parser
+      .add_option("--spread", options->spread, "How far from the line they go at most [degrees]; default 0")
+      ->check(CLI::Range(0.0, 45.0))
+      ->type_name("DEG");
+  parser.add_option("--json", options->json, "Write it as JSON; -: to standard output")->type_name("FILE");
+  command.run = [options] { query(*options); };
+  return command;
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,161 @@
+// `brume query`: who sees whom through smoke, holes and walls.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::json;
+
+// A closed room of 4 x 3 x 4 m with a block in it, smoke in it at 0.1 s that stays for half a second.
+class Query : public testing::Test {
+ protected:
+  Query() {
+    folder_.write("room.obj", room_obj());
+    folder_.write(
+        "smoke.toml",
+        "version = 1\nscene = \"room.obj\"\nduration = 3.0\n"
+        "[smoke]\nvoxels = 3000\nbloom = 0.3\nhold = 1.2\ndissolve = 0.3\nextinction = 4.0\n"
+        "[[event]]\ntype = \"smoke\"\ntime = 0.1\nfrom = [-1.5, 2.5, 1.5]\nat = [-1.5, 2.4, 1.5]\n");
+  }
+  Outcome query(const Arguments& more) const {
+    Arguments arguments{"query", "smoke.toml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_brume(folder_.path(), arguments);
+  }
+  Json answer(Arguments more) const {
+    more.insert(more.end(), {"--json", "-"});
+    const Outcome run = query(more);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return Json::parse(run.out);
+  }
+  // Through the upper half of the room, over the block.
+  static Arguments across(const Arguments& more) {
+    Arguments arguments{"--from", "-1.6,2.5,-1.6", "--to", "1.6,2.5,1.6"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  WorkFolder folder_;
+};
+
+TEST_F(Query, SmokeHidesWhileItIsThere) {
+  const Json before = answer(across({"--time", "0"}));
+  EXPECT_TRUE(before["visible"]);
+  EXPECT_EQ(before["optical_depth"], 0);
+  EXPECT_EQ(before["transmittance"], 1);
+  EXPECT_NEAR(before["distance"].get<double>(), std::hypot(3.2, 3.2), 1e-5);
+  EXPECT_TRUE(before["first_solid"].is_null());
+
+  const Json during = answer(across({"--time", "1"}));
+  EXPECT_FALSE(during["visible"]);
+  EXPECT_EQ(during["hidden_by"], "smoke");
+  // At most dense smoke all the way.
+  EXPECT_LE(during["optical_depth"].get<double>(), 4 * std::hypot(3.2, 3.2) * 1.0001);
+  EXPECT_NEAR(during["transmittance"].get<double>(), std::exp(-during["optical_depth"].get<double>()), 1e-9);
+  EXPECT_TRUE(answer(across({"--time", "1", "--threshold", "1000"}))["visible"]);
+  EXPECT_TRUE(answer(across({"--time", "2.9"}))["visible"]);
+}
+
+TEST_F(Query, WallsHideWithoutSmoke) {
+  const Json out = answer({"--from", "0,2.5,0", "--to", "9,2.5,0", "--time", "0"});
+  EXPECT_FALSE(out["visible"]);
+  EXPECT_EQ(out["hidden_by"], "wall");
+  EXPECT_NEAR(out["first_solid"]["distance"].get<double>(), 2, 0.26);  // the wall at x = 2, in its voxel
+}
+
+TEST_F(Query, TellsAPersonTheSame) {
+  const Outcome run = query(across({"--time", "1"}));
+  EXPECT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_NE(run.out.find("visible         no, hidden by smoke\n"), std::string::npos) << run.out;
+  const Outcome report = query(across({"--report", "--shots", "1", "--shots-at", "1"}));
+  EXPECT_EQ(report.exit_code, 0) << report.error;
+  EXPECT_EQ(report.out.rfind("hidden for ", 0), 0u) << report.out;
+  EXPECT_NE(report.out.find("seen after 1 of 1 shots\n"), std::string::npos) << report.out;
+}
+
+TEST_F(Query, ReportsWhenTwoAreHidden) {
+  const Json report = answer(across({"--report"}));
+  ASSERT_EQ(report["intervals"].size(), 1u) << report;
+  const Json& hidden = report["intervals"][0];
+  EXPECT_EQ(hidden["by"], "smoke");
+  // Not before it goes off, and not after all has dissolved: 0.1 + 0.3 + 1.2 + 0.3 s.
+  EXPECT_GT(hidden["begin"], 0.1);
+  EXPECT_LT(hidden["begin"], 0.5);
+  EXPECT_GT(hidden["end"], 1.5);
+  EXPECT_LT(hidden["end"], 2.0);
+  EXPECT_NEAR(report["hidden_seconds"].get<double>(),
+              hidden["end"].get<double>() - hidden["begin"].get<double>(), 1e-6);
+  // What the report says of a moment is what a query of the moment says.
+  for (const double off : {-1.5, 0.5}) {
+    const double begin = hidden["begin"].get<double>() + off / 64,
+                 end = hidden["end"].get<double>() + off / 64;
+    EXPECT_EQ(answer(across({"--time", std::to_string(begin)}))["visible"], off < 0);
+    EXPECT_EQ(answer(across({"--time", std::to_string(end)}))["visible"], off > 0);
+  }
+  // A part of it.
+  const Json part = answer(across({"--report", "--times", "0.75-1.25"}));
+  ASSERT_EQ(part["intervals"].size(), 1u);
+  EXPECT_EQ(part["intervals"][0]["begin"], 0.75);
+  EXPECT_EQ(part["intervals"][0]["end"], 1.25);
+}
+
+TEST_F(Query, CountsTheShotsThatItTakes) {
+  const auto shots = [&](const Arguments& more) {
+    Arguments arguments = across({"--report", "--times", "0.5-1.4"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return answer(arguments)["shots"];
+  };
+  // One straight along the line is enough.
+  const Json one = shots({"--shots", "3", "--shots-at", "0.6", "--shots-every", "0.25"});
+  EXPECT_EQ(one["seen_after"], 1);
+  EXPECT_EQ(one["each"].size(), 1u);
+  EXPECT_EQ(one["each"][0]["time"], 0.6);
+  EXPECT_LT(one["each"][0]["least_depth"], 0.05);
+  // Aside of it none is.
+  const Json none = shots({"--shots", "2", "--shots-at", "0.6", "--spread", "40"});
+  EXPECT_TRUE(none["seen_after"].is_null());
+  ASSERT_EQ(none["each"].size(), 2u);
+  EXPECT_FALSE(none["each"][1]["seen"]);
+  EXPECT_GT(none["each"][0]["least_depth"], 3);
+  // None is needed where nothing hides.
+  const Json needless = answer(across({"--report", "--shots", "2", "--shots-at", "2.5"}))["shots"];
+  EXPECT_EQ(needless["seen_after"], 0);
+}
+
+TEST_F(Query, RefusesWhatCannotBe) {
+  const auto refuses = [&](const Arguments& more, int exit_code, const std::string& part) {
+    SCOPED_TRACE(testing::PrintToString(more));
+    const auto before = folder_.files();
+    const Outcome run = query(more);
+    EXPECT_EQ(run.exit_code, exit_code) << run.error;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
+    EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
+    EXPECT_EQ(folder_.files(), before);
+  };
+  refuses(across({}), 2, "--time");
+  refuses(across({"--time", "-1"}), 2, "--time");
+  refuses(across({"--time", "nan"}), 2, "--time");
+  refuses(across({"--time", "1", "--report"}), 2, "--times");
+  refuses(across({"--time", "1", "--shots", "2"}), 2, "--report");
+  refuses(across({"--report", "--times", "3-1"}), 2, "--times");
+  refuses(across({"--report", "--times", "0-nan"}), 2, "--times");
+  refuses(across({"--time", "1", "--threshold", "-2"}), 2, "--threshold");
+  refuses({"--from", "0,nan,0", "--to", "1,1,1", "--time", "1"}, 2, "--from");
+  refuses({"--from", "0,0,0", "--to", "1,1e6,1", "--time", "1"}, 2, "--to");
+  refuses({"--from", "0,1,0", "--to", "0,1,0", "--report", "--shots", "1"}, 2, "--shots");
+  refuses(across({"--time", "1", "--json", "no/such/folder/a.json"}), 3, "no/such/folder");
+  const Outcome missing =
+      run_brume(folder_.path(), {"query", "missing.toml", "--from", "0,0,0", "--to", "1,1,1", "--time", "1"});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_NE(missing.error.find("missing.toml"), std::string::npos) << missing.error;
+}
+
+}  // namespace
+}  // namespace brume::cli
