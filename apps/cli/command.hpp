@@ -27,6 +27,7 @@ Command declare(CLI::App& program, const std::string& name, const std::string& w
 
 Command add_demo(CLI::App& program);
 Command add_render(CLI::App& program);
+Command add_sim(CLI::App& program);
 Command add_voxelize(CLI::App& program);
 Command add_info(CLI::App& program);
 Command add_query(CLI::App& program);

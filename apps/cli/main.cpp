@@ -17,6 +17,7 @@ constexpr const char* kAbout =
     "Examples:\n"
     "  brume demo                                        # a picture and a film: out/demo.png, out/demo.mp4\n"
     "  brume render room.glb -o room.png --smoke 0,1,0   # a picture of a scene with smoke in it\n"
+    "  brume sim scenes/demo.toml --hash                 # the same smoke on every machine\n"
     "  brume voxelize room.glb -o room.vxl --json -      # which voxels of a scene are solid\n"
     "  brume info room.glb                               # what is in a file\n"
     "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3   # who sees whom\n"
@@ -65,7 +66,7 @@ int parse_and_run(int argc, char** argv) {
   program.formatter(std::make_shared<BriefFormatter>());
   program.set_version_flag("--version", BRUME_VERSION);
   program.require_subcommand(1);
-  const std::array commands{add_demo(program), add_render(program),  add_voxelize(program),
+  const std::array commands{add_demo(program), add_render(program),  add_sim(program),  add_voxelize(program),
                             add_info(program), add_query(program),   add_devices(program), add_bench(program)};
   try {
     program.parse(argc, argv);

@@ -1,5 +1,8 @@
 #include "wire/range_coder.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace brume::wire {
 namespace {
 
@@ -42,11 +45,10 @@ std::uint64_t code_number(Coder& coder, NumberModel& model, std::uint64_t number
 }  // namespace
 
 void BitModel::learn(bool bit) {
-  const std::uint32_t step = kSteps[seen_];
-  const std::uint32_t zero = bit ? zero_ - (zero_ * step >> 16) : zero_ + ((65536 - zero_) * step >> 16);
-  zero_ = static_cast<std::uint16_t>(zero < kSurest           ? kSurest
-                                     : zero > 65536 - kSurest ? 65536 - kSurest
-                                                              : zero);
+  const std::uint32_t step = kSteps[seen_], before = zero();
+  const std::uint32_t after = bit ? before - (before * step >> 16) : before + ((65536 - before) * step >> 16);
+  above_half_ = static_cast<std::int16_t>(
+      static_cast<std::int32_t>(std::clamp(after, kSurest, 65536 - kSurest)) - 32768);
   if (seen_ < kMemory) ++seen_;
 }
 

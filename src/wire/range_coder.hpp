@@ -22,11 +22,12 @@ namespace brume::wire {
 class BitModel {
  public:
   /// Probability of a 0, of 65536.
-  std::uint32_t zero() const { return zero_; }
+  std::uint32_t zero() const { return static_cast<std::uint32_t>(32768 + above_half_); }
   void learn(bool bit);
 
  private:
-  std::uint16_t zero_ = 1u << 15;
+  // All bits 0 at first, so that thousands of models are made by one memset.
+  std::int16_t above_half_ = 0;
   std::uint16_t seen_ = 0;
 };
 

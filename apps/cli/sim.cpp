@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "core/error.hpp"
+#include "stage/simulation.hpp"
+#include "wire/packet.hpp"
+#include "wire/replay.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t kMaxTicks = 1u << 22;  // 18 hours at 64 a second.
+
+struct Options {
+  std::string timeline, record, replay, json;
+  std::optional<std::uint32_t> ticks, rate;
+  bool hash = false;
+};
+
+void check_options(const Options& options) {
+  if (options.timeline.empty() == options.replay.empty())
+    throw Error(ErrorCode::usage,
+                "expected a timeline, such as scenes/demo.toml, or --replay FILE; give one");
+  if (!options.replay.empty() && (options.ticks || options.rate || !options.record.empty()))
+    throw Error(ErrorCode::usage,
+                "--replay: the file has its own ticks; leave --ticks, --rate and --record out");
+  check_output(options.record);
+  check_output(options.json);
+}
+
+// What a run came to: the hash of each of its ticks.
+struct Run {
+  std::vector<std::uint64_t> hashes;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+
+  void take(const sim::State& state) {
+    stop_if_interrupted();
+    hashes.push_back(state.hash());
+  }
+};
+
+std::string hex(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+void say(const Options& options, const Run& run, std::uint32_t rate, bool compared) {
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - run.start;
+  if (!options.json.empty()) {
+    Json result{{"ticks", run.hashes.size()},
+                {"ticks_per_second", rate},
+                {"hash", hex(run.hashes.back())},
+                {"milliseconds", took.count()}};
+    if (compared) result["same"] = true;
+    if (options.hash)
+      for (const std::uint64_t hash : run.hashes) result["hashes"].push_back(hex(hash));
+    write_json(options.json, result);
+  }
+  if (options.json == "-") return;
+  const std::size_t last = run.hashes.size() - 1;
+  for (std::size_t tick = options.hash ? 0 : last; tick <= last; ++tick)
+    print(std::to_string(tick) + " " + hex(run.hashes[tick]) + "\n");
+  if (compared) print(std::to_string(run.hashes.size()) + " ticks as recorded\n");
+}
+
+void simulate(const Options& options) {
+  const std::uint32_t rate = options.rate.value_or(sim::WorldSettings{}.ticks_per_second);
+  const stage::Stage stage = stage::load_stage(options.timeline, {}).value_or_throw();
+  const std::vector<sim::Event> events = stage::events_of(stage, rate).value_or_throw();
+  const std::uint32_t ticks = options.ticks.value_or(
+      std::clamp(stage::tick_at(double{stage.timeline.duration}, rate), 1u, kMaxTicks));
+
+  wire::Replay replay = wire::replay_of(stage.voxels.grid, {rate}, events);
+  sim::World world(stage.voxels.grid, {rate});
+  for (const sim::Event& event : events) world.append(event).value_or_throw();
+  Run run;
+  for (std::uint32_t tick = 0; tick < ticks; ++tick) {
+    world.advance_to(tick);
+    run.take(world.state());
+    replay.checksums.push_back(wire::checksum_of(world.state()));
+  }
+  if (!options.record.empty()) wire::save_replay(options.record, replay).value_or_throw();
+  say(options, run, rate, false);
+}
+
+void play_again(const Options& options) {
+  const wire::Replay replay = wire::load_replay(options.replay).value_or_throw();
+  if (replay.checksums.empty())
+    throw Error(ErrorCode::bad_input, options.replay + ": a replay of no ticks; record some");
+  Run run;
+  const auto departure =
+      wire::play(replay, [&](const sim::State& state) { run.take(state); }).value_or_throw();
+  if (departure)
+    throw Error(ErrorCode::comparison_failed,
+                options.replay + ": tick " + std::to_string(departure->tick) + " is another: recorded " +
+                    hex(departure->recorded).substr(8) + ", simulated " + hex(departure->got).substr(8));
+  say(options, run, replay.settings.ticks_per_second, true);
+}
+
+}  // namespace
+
+Command add_sim(CLI::App& program) {
+  Command command = declare(
+      program, "sim", "Simulates a timeline without drawing it; records it, or plays a recording again.",
+      "  brume sim scenes/demo.toml --ticks 64 --hash\n"
+      "  brume sim scenes/demo.toml --record demo.brp\n"
+      "  brume sim --replay demo.brp");
+  auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("TIMELINE", options->timeline, "The timeline (.toml), or a scene")->type_name("");
+  parser.add_option("--ticks", options->ticks, "How many ticks, from tick 0 on; default: the duration")
+      ->check(CLI::Range(1u, kMaxTicks))
+      ->type_name("N");
+  parser.add_option("--rate", options->rate, "Ticks a second; default 64")
+      ->check(CLI::Range(1u, 1000u))
+      ->type_name("N");
+  parser.add_flag("--hash", options->hash, "Say the hash of each tick, not of the last one only");
+  parser.add_option("--record", options->record, "Write the level, the events and a checksum a tick")
+      ->type_name("FILE");
+  parser
+      .add_option("--replay", options->replay, "Simulate a recording again; exit code 7 where a tick differs")
+      ->type_name("FILE");
+  parser.add_option("--json", options->json, "Write the result as JSON; -: to standard output")
+      ->type_name("FILE");
+  command.run = [options] {
+    check_options(*options);
+    options->replay.empty() ? simulate(*options) : play_again(*options);
+  };
+  return command;
+}
+
+}  // namespace brume::cli
