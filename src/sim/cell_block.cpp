@@ -298,7 +298,8 @@ Block CellSight::seen_from(glm::vec3 viewpoint, const std::array<Block, 27>& way
 Block CellSight::seen_perhaps(std::uint32_t samples, Block among) const {
   std::array<Block, 27> ways{};
   for (std::uint32_t left = samples; left != 0; left &= left - 1) {
-    const std::array<Block, 27>& of_sample = kWaysFromSamples[static_cast<std::size_t>(std::countr_zero(left))];
+    const std::array<Block, 27>& of_sample =
+        kWaysFromSamples[static_cast<std::size_t>(std::countr_zero(left))];
     for (std::size_t i = 0; i < 27; ++i) ways[i] |= of_sample[i];
   }
   for (const Sheet& sheet : sheets_) {
