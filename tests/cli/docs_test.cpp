@@ -108,7 +108,7 @@ TEST_F(Documents, TheExamplesOfTheHelpRun) {
   const Outcome help = run_brume(folder_.path(), {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
-  for (const char* command : {"demo", "render", "voxelize", "info", "devices", "bench"}) {
+  for (const char* command : {"demo", "render", "voxelize", "info", "query", "devices", "bench"}) {
     EXPECT_NE(help.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
     const Outcome text = run_brume(folder_.path(), {command, "--help"});
     EXPECT_EQ(text.exit_code, 0) << command;
