@@ -66,8 +66,9 @@ int parse_and_run(int argc, char** argv) {
   program.formatter(std::make_shared<BriefFormatter>());
   program.set_version_flag("--version", BRUME_VERSION);
   program.require_subcommand(1);
-  const std::array commands{add_demo(program), add_render(program),  add_sim(program),  add_voxelize(program),
-                            add_info(program), add_query(program),   add_devices(program), add_bench(program)};
+  const std::array commands{add_demo(program),     add_render(program), add_sim(program),
+                            add_voxelize(program), add_info(program),   add_query(program),
+                            add_devices(program),  add_bench(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
