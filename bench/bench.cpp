@@ -67,6 +67,7 @@ std::vector<Case> all_cases() {
   for (Case& one : edit_cases()) cases.push_back(std::move(one));
   for (Case& one : volume_cases()) cases.push_back(std::move(one));
   for (Case& one : sight_cases()) cases.push_back(std::move(one));
+  for (Case& one : sim_cases()) cases.push_back(std::move(one));
   for (Case& one : gpu_cases()) cases.push_back(std::move(one));
   return cases;
 }

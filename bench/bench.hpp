@@ -70,6 +70,7 @@ std::vector<Case> cpu_cases();
 std::vector<Case> volume_cases();
 std::vector<Case> edit_cases();
 std::vector<Case> sight_cases();
+std::vector<Case> sim_cases();
 std::vector<Case> gpu_cases();
 /// All, in the order in which they run.
 std::vector<Case> all_cases();
