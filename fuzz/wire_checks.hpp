@@ -62,7 +62,8 @@ inline void check_state(const sim::State& base, const sim::State& state) {
   const auto received = receiver.receive(write_keyframe(state));
   BRUME_ASSERT(received, received.failure().message);
   BRUME_ASSERT(receiver.state()->hash() == state.hash(), "a keyframe makes another state");
-  if (base.tick >= state.tick || base.frame != state.frame || base.ticks_per_second != state.ticks_per_second)
+  if (base.tick >= state.tick || base.events > state.events || base.frame != state.frame ||
+      base.ticks_per_second != state.ticks_per_second)
     return;
   const std::vector<std::byte> delta = write_delta(base, state);
   const auto head = read_head(delta);

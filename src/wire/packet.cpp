@@ -41,9 +41,9 @@ std::vector<std::byte> write_keyframe(const sim::State& state) {
 }
 
 std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now) {
-  BRUME_ASSERT(
-      base.tick < now.tick && base.frame == now.frame && base.ticks_per_second == now.ticks_per_second,
-      std::to_string(base.tick) + " to " + std::to_string(now.tick));
+  BRUME_ASSERT(base.tick < now.tick && base.events <= now.events && base.frame == now.frame &&
+                   base.ticks_per_second == now.ticks_per_second,
+               std::to_string(base.tick) + " to " + std::to_string(now.tick));
   ByteWriter out;
   out.number(first_byte(PacketKind::delta));
   out.varint(now.tick);

@@ -46,7 +46,8 @@ std::uint32_t checksum_of(const sim::State& state);
 
 /// state.tick <= kMaxPacketTick.
 std::vector<std::byte> write_keyframe(const sim::State& state);
-/// base.tick < now.tick <= kMaxPacketTick; both of the same frame and ticks_per_second.
+/// base.tick < now.tick <= kMaxPacketTick, base.events <= now.events; both of the same frame and
+/// ticks_per_second.
 std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now);
 std::vector<std::byte> write_request(const Request& request);
 

@@ -13,6 +13,9 @@ Result<std::vector<std::byte>> Sender::push(const sim::State& state) {
   if (state.tick > kMaxPacketTick)
     return Failure{ErrorCode::bad_input,
                    "sender: expected a tick of at most " + std::to_string(kMaxPacketTick)};
+  // Fewer events than before: another world goes on here.
+  if (!history_.empty() && state.events < history_.back().events && state.tick > history_.back().tick)
+    history_.clear();
   std::vector<std::byte> packet;
   if (history_.empty()) {
     packet = keyframe_ = write_keyframe(state);

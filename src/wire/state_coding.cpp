@@ -80,6 +80,8 @@ class StateCoder {
   void code() {
     form_.memory.at(Field::events) = form_.memory.at(Field::id) = base_.events;
     form_.field(Field::events, now_.events);
+    // What stays is not looked at again: it is of an earlier event still.
+    if (now_.events < base_.events) form_.refuse("events were taken back");
     code_edits();
     code_list(base_.flights, now_.flights);
     code_list(base_.clouds, now_.clouds);

@@ -159,6 +159,11 @@ TEST(Sender, AnswersWithWhatIsMissing) {
   ++other.tick;
   other.ticks_per_second = 20;
   EXPECT_FALSE(sender.push(other));
+
+  sim::World idle(level);
+  idle.advance_to(101);
+  EXPECT_EQ(read_head(*sender.push(idle.state()))->kind, PacketKind::keyframe) << "another world goes on";
+  EXPECT_EQ(read_head(ask({100, checksums[100]}))->kind, PacketKind::keyframe);
 }
 
 TEST(Receiver, SaysWhatBecameOfAPacket) {

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "tests/wire/busy_world.hpp"
+#include "wire/state_coding.hpp"
 
 namespace brume::wire {
 namespace {
@@ -198,6 +199,18 @@ TEST(Packet, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([](auto& s) {
     s.edits = std::make_shared<const sim::EditBlocks>(sim::EditBlocks{{glm::i16vec3(0), 1, 1}});
   }));
+}
+
+// A delta that takes events back would leave things that are of none.
+TEST(Packet, EventsAreNotTakenBack) {
+  const voxel::BitGrid level = yard({24, 12, 24});
+  sim::World world = world_of(level, busy_match(level, 9, 100, 60));
+  world.advance_to(60);
+  sim::State later = world.state();
+  ++later.tick;
+  EXPECT_TRUE(read_body(write_body(world.state(), later), world.state(), later.tick, {}));
+  later.events = 0;
+  EXPECT_FALSE(read_body(write_body(world.state(), later), world.state(), later.tick, {}));
 }
 
 TEST(Packet, RequestsReturn) {
