@@ -5,7 +5,8 @@ include_guard(GLOBAL)
 add_library(brume_options INTERFACE)
 target_compile_features(brume_options INTERFACE cxx_std_20)
 target_compile_options(brume_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
-# One rounding everywhere: no fused multiply-add that only some machines have.
+# One rounding everywhere: no fused multiply-add, which g++ makes of a * b + c where the processor has one, and
+# which rounds once instead of twice (docs/determinism.md).
 target_compile_options(brume_options INTERFACE -ffp-contract=off)
 target_include_directories(brume_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/shaders)
 target_compile_definitions(brume_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_EXPLICIT_CTOR)
