@@ -1,6 +1,7 @@
 #include "gpu/context.hpp"
 
 #include "core/error.hpp"
+#include "gpu/device_features.hpp"
 
 namespace brume::gpu {
 namespace {
@@ -49,22 +50,10 @@ void Context::create_device() {
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
 
-  VkPhysicalDeviceVulkan13Features features13{};
-  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-  features13.dynamicRendering = VK_TRUE;
-  features13.synchronization2 = VK_TRUE;
-  VkPhysicalDeviceVulkan12Features features12{};
-  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-  features12.pNext = &features13;
-  features12.timelineSemaphore = VK_TRUE;
-  features12.scalarBlockLayout = VK_TRUE;
-  VkPhysicalDeviceFeatures2 features{};
-  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-  features.pNext = &features12;
-  features.features.shaderStorageImageExtendedFormats = VK_TRUE;
+  const DeviceFeatures features;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-  info.pNext = &features;
+  info.pNext = features.chain();
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   check(vk_.CreateDevice(info_.handle, &info, nullptr, &device_), "vkCreateDevice");

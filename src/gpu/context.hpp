@@ -17,8 +17,8 @@ struct ContextOptions {
   bool validation = false;  ///< Validation and synchronization layers; their messages are kept.
 };
 
-/// What a host lends. Everything must outlive the Context. The device needs Vulkan 1.3 with dynamicRendering,
-/// synchronization2, timelineSemaphore, scalarBlockLayout and shaderStorageImageExtendedFormats enabled.
+/// What a host lends. Everything must outlive the Context. The device needs Vulkan 1.3 with the features of
+/// DeviceFeatures (device_features.hpp) enabled.
 struct HostDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;

@@ -1,0 +1,33 @@
+// What Brume asks of a Vulkan 1.3 device beyond its core: for a host that makes the device itself.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+namespace brume::gpu {
+
+/// The features as a chain for VkDeviceCreateInfo::pNext, alone or with more of the host's behind it. It
+/// points into itself: it stays where it is until the device is made.
+struct DeviceFeatures {
+  VkPhysicalDeviceVulkan13Features vulkan13{};
+  VkPhysicalDeviceVulkan12Features vulkan12{};
+  VkPhysicalDeviceFeatures2 features{};
+
+  DeviceFeatures() {
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    vulkan13.dynamicRendering = VK_TRUE;
+    vulkan13.synchronization2 = VK_TRUE;
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    vulkan12.pNext = &vulkan13;
+    vulkan12.timelineSemaphore = VK_TRUE;
+    vulkan12.scalarBlockLayout = VK_TRUE;
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &vulkan12;
+    features.features.shaderStorageImageExtendedFormats = VK_TRUE;
+  }
+  DeviceFeatures(const DeviceFeatures&) = delete;
+  DeviceFeatures& operator=(const DeviceFeatures&) = delete;
+
+  const void* chain() const { return &features; }
+};
+
+}  // namespace brume::gpu
