@@ -54,7 +54,8 @@ class Window {
 
  private:
   static std::size_t index(ivec3 v) {
-    return static_cast<std::size_t>(v.x + 1 + 6 * (v.y + 1) + 36 * (v.z + 1));
+    const glm::uvec3 in_window(v + 1);
+    return in_window.x + 6u * in_window.y + 36u * in_window.z;
   }
 
   void copy(std::uint64_t mask, ivec3 corner) {

@@ -77,6 +77,7 @@ inline std::vector<sim::Event> busy_match(const voxel::BitGrid& level, unsigned 
   const auto tick = [&] { return static_cast<std::uint32_t>(random() % ticks); };
   const auto place = [&] { return centre_of(level, free_voxel(level, random)); };
   std::vector<sim::Event> events;
+  events.reserve(300);
   for (int i = 0; i < 8; ++i)
     events.push_back(sim::ThrowSmoke{tick(), place(), place(), {voxels, 64, ticks / 4, 96}});
   for (int i = 0; i < 200; ++i) {
