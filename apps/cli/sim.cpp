@@ -81,7 +81,7 @@ void simulate(const Options& options) {
 
   wire::Replay replay = wire::replay_of(stage.voxels.grid, {rate}, events);
   sim::World world(stage.voxels.grid, {rate});
-  for (const sim::Event& event : events) world.append(event).value_or_throw();
+  world.append(events).value_or_throw();
   Run run;
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {
     world.advance_to(tick);

@@ -95,8 +95,8 @@ class Cloud {
   /// When it has come to rest after an edit; nothing when it is at rest.
   std::optional<std::uint32_t> rest_tick() const;
 
-  /// Amount of smoke that is out at a tick, in voxels / 2^20. Rises from the detonation, fastest early, to
-  /// the whole budget after bloom_ticks, then stays.
+  /// Amount of smoke that is out at a tick, in voxels / 2^20. Rises from the detonation, fastest after a
+  /// quarter of the bloom, to the whole budget after bloom_ticks, then stays.
   std::uint64_t amount(std::uint32_t tick) const;
   CloudMoment moment(std::uint32_t tick) const;
   /// The same as if it never dissolved.

@@ -60,6 +60,7 @@ std::uint64_t State::hash() const {
   words.add(frame.voxel_size);
   for (int axis = 0; axis < 3; ++axis) words.add(frame.origin_world[axis]);
   words.add(ticks_per_second, tick, events);
+  words.add(std::uint64_t{edits ? edits->size() : 0});
   if (edits)
     for (const EditBlock& edit : *edits) {
       words.add(edit.at.x, edit.at.y, edit.at.z);
@@ -87,6 +88,7 @@ std::uint64_t State::hash() const {
   }
   words.add(std::uint64_t{holes.size()});
   for (const OpenHole& hole : holes) add_hole(words, hole);
+  words.add(std::uint64_t{bodies.size()});
   for (const Body& b : bodies) {
     words.add(b.body, b.tick, b.previous_tick);
     words.add(b.position);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -74,21 +75,32 @@ World::World(const voxel::BitGrid& level, const WorldSettings& settings)
 }
 
 Result<void> World::append(Event event) {
-  if (auto ok = check_event(event, level_.frame()); !ok) return ok;
-  const std::uint32_t tick = tick_of(event);
-  if (tick < first_free_tick_)
-    return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(tick) + ": expected tick " +
+  std::vector<Event> events;
+  events.push_back(std::move(event));
+  return append(std::move(events));
+}
+
+Result<void> World::append(std::vector<Event> events) {
+  std::uint32_t first = kNever;
+  for (const Event& event : events) {
+    if (auto ok = check_event(event, level_.frame()); !ok) return ok;
+    first = std::min(first, tick_of(event));
+  }
+  if (first < first_free_tick_)
+    return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(first) + ": expected tick " +
                                              std::to_string(first_free_tick_) +
                                              " or later, what was before is forgotten"};
   const std::uint32_t present = state_.tick;
-  if (tick <= present) {
-    std::erase_if(checkpoints_, [&](const State& kept) { return kept.tick >= tick; });
-    go_back_before(tick);
+  if (first <= present) {
+    std::erase_if(checkpoints_, [&](const State& kept) { return kept.tick >= first; });
+    go_back_before(first);
   }
-  const auto place = std::upper_bound(log_.begin(), log_.end(), tick,
-                                      [](std::uint32_t t, const Event& other) { return t < tick_of(other); });
-  log_.insert(place, std::move(event));
-  if (tick <= present) advance_to(present);
+  const auto by_tick = [](const Event& a, const Event& b) { return tick_of(a) < tick_of(b); };
+  const auto kept = static_cast<std::ptrdiff_t>(log_.size());
+  std::move(events.begin(), events.end(), std::back_inserter(log_));
+  std::stable_sort(log_.begin() + kept, log_.end(), by_tick);
+  std::inplace_merge(log_.begin(), log_.begin() + kept, log_.end(), by_tick);
+  if (first <= present) advance_to(present);
   return {};
 }
 
@@ -105,6 +117,7 @@ void World::advance_to(std::uint32_t tick) {
 }
 
 void World::play_tick(std::uint32_t tick) {
+  previous_ = state_;
   state_.tick = tick;
   for (; next_event_ < log_.size() && tick_of(log_[next_event_]) == tick; ++next_event_) {
     std::visit([&](const auto& event) { apply(event); }, log_[next_event_]);
@@ -129,17 +142,21 @@ void World::play_tick(std::uint32_t tick) {
 void World::go_back_before(std::uint32_t tick) {
   const auto after = std::lower_bound(checkpoints_.begin(), checkpoints_.end(), tick,
                                       [](const State& kept, std::uint32_t t) { return kept.tick < t; });
-  const bool is_first = after == checkpoints_.begin();
-  const State target = is_first ? first_ : *std::prev(after);
+  const bool is_kept = after != checkpoints_.begin();
+  const bool is_previous =
+      previous_ && previous_->tick < tick && (!is_kept || std::prev(after)->tick < previous_->tick);
+  const bool is_first = !is_kept && !is_previous;
+  const State target = is_previous ? *previous_ : is_first ? first_ : *std::prev(after);
+  previous_.reset();
   change_edits(target.edits);
   state_ = target;
   // The log holds no event that first_ has taken in.
-  next_event_ = is_first ? 0
-                         : static_cast<std::size_t>(std::upper_bound(log_.begin(), log_.end(), target.tick,
-                                                                     [](std::uint32_t t, const Event& e) {
-                                                                       return t < tick_of(e);
-                                                                     }) -
-                                                    log_.begin());
+  next_event_ = 0;
+  if (!is_first)
+    next_event_ = static_cast<std::size_t>(
+        std::upper_bound(log_.begin(), log_.end(), target.tick,
+                         [](std::uint32_t t, const Event& e) { return t < tick_of(e); }) -
+        log_.begin());
   next_end_ = next_end(state_);
 }
 
@@ -166,6 +183,7 @@ Result<void> World::restore(const State& state) {
     if (auto ok = check_event(LevelEdit{0, *state.edits}, level_.frame()); !ok) return ok;
   std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= state.tick; });
   checkpoints_.clear();
+  previous_.reset();
   change_edits(state.edits);
   state_ = first_ = state;
   first_free_tick_ = state.tick + 1;
@@ -184,6 +202,7 @@ void World::forget_before(std::uint32_t tick) {
   first_ = kept;
   first_free_tick_ = tick + 1;
   next_event_ = 0;
+  previous_.reset();
   advance_to(present);
 }
 

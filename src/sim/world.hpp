@@ -38,6 +38,8 @@ class World {
   /// plays it again up to the present. Fails with bad_input as check_event does, or for an event of
   /// a tick that is forgotten; the world is then as before.
   Result<void> append(Event event);
+  /// The same for many at once: the past is played again only once. All or none are taken.
+  Result<void> append(std::vector<Event> events);
 
   /// Moves to a tick, forwards or, down to earliest_tick(), backwards.
   void advance_to(std::uint32_t tick);
@@ -83,6 +85,7 @@ class World {
   State first_, state_;
   std::uint32_t first_free_tick_ = 0;  // the first tick whose events first_ has not taken in
   std::vector<State> checkpoints_;     // by tick, each with the events of its tick
+  std::optional<State> previous_;      // before the last tick that was played: for events of the present
   std::uint32_t next_end_ = 0;         // the next tick at which something in state_ goes off or ends
 };
 

@@ -130,9 +130,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(const Stage& stage) {
   auto events = make_events(stage, *changes, sim::WorldSettings{}.ticks_per_second);
   if (!events) return events.failure();
   std::unique_ptr<Simulation> simulation(new Simulation(stage, std::move(*changes)));
-  for (sim::Event& event : *events) {
-    if (auto done = simulation->world_.append(std::move(event)); !done) return done.failure();
-  }
+  if (auto done = simulation->world_.append(std::move(*events)); !done) return done.failure();
   simulation->advance_to(0);
   return simulation;
 }

@@ -144,9 +144,7 @@ Result<Replay> load_replay(const std::filesystem::path& path) {
 Result<std::optional<Departure>> play(const Replay& replay,
                                       const std::function<void(const sim::State&)>& visit) {
   sim::World world(replay.level, replay.settings);
-  for (const sim::Event& event : replay.events) {
-    if (auto taken = world.append(event); !taken) return taken.failure();
-  }
+  if (auto taken = world.append(replay.events); !taken) return taken.failure();
   for (std::uint32_t tick = 0; tick < replay.checksums.size(); ++tick) {
     world.advance_to(tick);
     if (visit) visit(world.state());

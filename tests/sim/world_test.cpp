@@ -278,6 +278,27 @@ TEST_F(BusyWorld, TakesEventsLateAndInAnyOrderOfTheirTicks) {
   }
 }
 
+TEST_F(BusyWorld, TakesEventsOfThePresentTickAsAServerHearsOfThem) {
+  World heard(grid_);
+  auto event = events_.begin();
+  for (std::uint32_t tick = 0; tick < kBusyTicks; ++tick) {
+    heard.advance_to(tick);
+    for (; event != events_.end() && tick_of(*event) == tick; ++event) heard.append(*event).value_or_throw();
+    ASSERT_EQ(heard.state_hash(), hashes_[tick]) << tick;
+  }
+}
+
+TEST_F(BusyWorld, TakesAllOfManyEventsOrNone) {
+  World told(grid_);
+  told.advance_to(kBusyTicks - 1);
+  std::vector<Event> wrong = events_;
+  wrong.push_back(Shot{1, {5, 5, 5}, {5, 5, 5}});
+  EXPECT_FALSE(told.append(wrong));
+  EXPECT_TRUE(told.log().empty());
+  told.append(events_).value_or_throw();
+  EXPECT_EQ(told.state_hash(), hashes_.back());
+}
+
 TEST(World, HoleRunsThroughTheSmokeToTheWallAndCloses) {
   const BitGrid grid = make_house();
   World world(grid);
