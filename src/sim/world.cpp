@@ -193,17 +193,17 @@ Result<void> World::restore(const State& state) {
 }
 
 void World::forget_before(std::uint32_t tick) {
-  const std::uint32_t present = state_.tick;
-  if (tick <= first_.tick || tick > present) return;
-  advance_to(tick);
-  const State kept = state_;
-  std::erase_if(checkpoints_, [&](const State& state) { return state.tick <= tick; });
-  std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= tick; });
-  first_ = kept;
-  first_free_tick_ = tick + 1;
-  next_event_ = 0;
-  previous_.reset();
-  advance_to(present);
+  const auto after = std::upper_bound(checkpoints_.begin(), checkpoints_.end(), std::min(tick, state_.tick),
+                                      [](std::uint32_t t, const State& kept) { return t < kept.tick; });
+  if (after == checkpoints_.begin()) return;
+  first_ = *std::prev(after);
+  first_free_tick_ = first_.tick + 1;
+  checkpoints_.erase(checkpoints_.begin(), after);
+  if (previous_ && previous_->tick < first_.tick) previous_.reset();
+  const auto past = std::upper_bound(log_.begin(), log_.end(), first_.tick,
+                                     [](std::uint32_t t, const Event& e) { return t < tick_of(e); });
+  next_event_ -= static_cast<std::size_t>(past - log_.begin());
+  log_.erase(log_.begin(), past);
 }
 
 void World::apply(const ThrowSmoke& event) {

@@ -58,7 +58,8 @@ class World {
   Result<void> restore(const State& state);
   /// The first tick that can be gone back to: 0, or that of the state restored or kept.
   std::uint32_t earliest_tick() const { return first_.tick; }
-  /// Lets the past go that nobody will ask for: ticks before `tick`, which is at most the present one.
+  /// Lets the past go that nobody will ask for: what was before `tick`, or what is kept of before it; where
+  /// the past then begins, earliest_tick() says. Costs next to nothing: a server may do it every tick.
   void forget_before(std::uint32_t tick);
 
   /// The events since earliest_tick(), by tick; those of one tick as they were appended.

@@ -251,11 +251,30 @@ TEST_F(BusyWorld, RestoringDoesNotCareWhatWasThereBefore) {
 TEST_F(BusyWorld, ForgetsThePastAndStaysTheSame) {
   world_.forget_before(300);
   EXPECT_EQ(world_.state_hash(), hashes_.back());
+  const std::uint32_t earliest = world_.earliest_tick();
+  EXPECT_GT(earliest, 300u - 128);  // something happens every few ticks, and a state is kept every 64
+  EXPECT_LE(earliest, 300u);
+  EXPECT_TRUE(std::all_of(world_.log().begin(), world_.log().end(),
+                          [&](const Event& event) { return tick_of(event) > earliest; }));
   world_.advance_to(310);
   EXPECT_EQ(world_.state_hash(), hashes_[310]);
   world_.advance_to(5);
-  EXPECT_EQ(world_.tick(), 300u);
-  EXPECT_FALSE(world_.append(MoveBody{300, 1, {0, 0, 0}}));
+  EXPECT_EQ(world_.tick(), earliest);
+  EXPECT_FALSE(world_.append(MoveBody{earliest, 1, {0, 0, 0}}));
+}
+
+TEST_F(BusyWorld, ForgetsEveryTickAndStillTakesLateEvents) {
+  World server(grid_);
+  auto event = events_.begin();
+  for (std::uint32_t tick = 0; tick < kBusyTicks; ++tick) {
+    server.advance_to(tick);
+    if (tick > 50) server.forget_before(tick - 50);
+    // Heard of 20 ticks late.
+    for (; event != events_.end() && tick_of(*event) + 20 <= tick; ++event)
+      server.append(*event).value_or_throw();
+  }
+  for (; event != events_.end(); ++event) server.append(*event).value_or_throw();
+  EXPECT_EQ(server.state_hash(), hashes_.back());
 }
 
 TEST_F(BusyWorld, TakesEventsLateAndInAnyOrderOfTheirTicks) {
