@@ -125,15 +125,20 @@ inline std::vector<sim::Event> made_small(std::vector<sim::Event> events, float 
   return events;
 }
 
-/// The body of an event log; what comes before it is made to fit.
-inline void check_event_log(Input body) {
-  const voxel::BitGrid& level = fuzz_level();
-  static_cast<void>(read_events(body, level.frame(), kFuzzLimits));
+/// The body of an event log behind a head that fits it.
+inline std::vector<std::byte> as_event_log(Input body) {
   ByteWriter whole;
   whole.number(static_cast<std::uint8_t>(kVersion << 4 | static_cast<int>(PacketKind::events)));
   whole.number(static_cast<std::uint32_t>(hash_bytes(body)));
   whole.raw(body);
-  const auto read = read_events(whole.bytes(), level.frame(), kFuzzLimits);
+  return whole.take();
+}
+
+/// The body of an event log; what comes before it is made to fit.
+inline void check_event_log(Input body) {
+  const voxel::BitGrid& level = fuzz_level();
+  static_cast<void>(read_events(body, level.frame(), kFuzzLimits));
+  const auto read = read_events(as_event_log(body), level.frame(), kFuzzLimits);
   if (!read) return;
   const auto again = read_events(write_events(*read, level.frame()), level.frame());
   BRUME_ASSERT(again && *again == *read, "events written again are others");
@@ -158,13 +163,33 @@ inline void check_event_log(Input body) {
   BRUME_ASSERT(late.state_hash() == hash, "the order of telling matters");
 }
 
-/// A replay without the hash at its end, which is made to fit.
+/// A replay whose checksums are made to fit: that of its events, where they can be found, and that at its
+/// end, which the bytes do not have.
+inline std::vector<std::byte> as_replay(Input bytes) {
+  ByteWriter whole;
+  ByteReader in(bytes);
+  constexpr std::size_t kMagicBytes = 8, kLogHead = 5;
+  in.raw(kMagicBytes);
+  in.varint(kVersion);
+  const bool sound = static_cast<bool>(read_world(in));
+  in.section();
+  const std::size_t before = bytes.size() - in.rest().size();
+  const Input events = in.section();
+  if (sound && in.ok() && events.size() >= kLogHead) {
+    whole.raw(bytes.first(before));
+    whole.section(as_event_log(events.subspan(kLogHead)));
+    whole.raw(in.rest());
+  } else {
+    whole.raw(bytes);
+  }
+  whole.number(hash_bytes(whole.bytes()));
+  return whole.take();
+}
+
 inline void check_replay(Input bytes) {
   static_cast<void>(decode_replay(bytes));
-  ByteWriter whole;
-  whole.raw(bytes);
-  whole.number(hash_bytes(bytes));
-  const auto read = decode_replay(whole.bytes());
+  const std::vector<std::byte> whole = as_replay(bytes);
+  const auto read = decode_replay(whole);
   if (!read) return;
   const auto again = decode_replay(encode_replay(*read).value_or_throw());
   BRUME_ASSERT(again && again->events == read->events && again->checksums == read->checksums,
