@@ -54,11 +54,11 @@ std::optional<glm::ivec3> nearest_free(const voxel::BitGrid& grid, glm::ivec3 ce
 }  // namespace
 
 Position position_from_metres(glm::dvec3 metres) {
-  Position position(0);
+  constexpr int kOutside = kMaxCoordinate + 1;
+  Position position(kOutside);
   for (int axis = 0; axis < 3; ++axis) {
     const double units = std::nearbyint(metres[axis] * kUnitsPerMetre);
-    if (!std::isnan(units))
-      position[axis] = static_cast<int>(std::clamp<double>(units, -kMaxCoordinate, kMaxCoordinate));
+    if (!std::isnan(units)) position[axis] = static_cast<int>(std::clamp<double>(units, -kOutside, kOutside));
   }
   return position;
 }

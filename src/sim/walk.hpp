@@ -18,7 +18,8 @@ constexpr int kUnitsPerMetre = 1024;
 /// Largest coordinate of a Position that the simulation takes, about 16 km.
 constexpr int kMaxCoordinate = 1 << 24;
 
-/// The nearest Position to a point; coordinates beyond kMaxCoordinate and what is not finite are clamped.
+/// The nearest Position to a point. Coordinates that are out of the world become kMaxCoordinate + 1, or minus
+/// that, those that are no number kMaxCoordinate + 1: no event takes such a position.
 Position position_from_metres(glm::dvec3 metres);
 glm::dvec3 metres_from_position(Position position);
 
@@ -33,7 +34,7 @@ class VoxelRuler {
   /// Throws Error(bad_input) when the frame's voxel is not in [1/64, 64] m or its origin not within
   /// kMaxCoordinate.
   explicit VoxelRuler(const voxel::GridFrame& frame);
-  /// The position in 1/1024 voxel, rounded down, for |position| <= kMaxCoordinate.
+  /// The position in 1/1024 voxel, rounded down, for |position| <= kMaxCoordinate + 1.
   glm::i64vec3 subvoxel(Position position) const;
   /// A length of 1/1024 m in 1/1024 voxel, rounded down; at most 2^32 units long.
   std::int64_t subvoxels(std::int64_t length) const;

@@ -92,11 +92,25 @@ TEST(Walk, VisitsEveryVoxelOfTheRayInOrder) {
   }
 }
 
-TEST(Walk, PositionsThatAreNoNumbersAreClamped) {
+TEST(Walk, PointsOutOfTheWorldAndNoNumbersAreNoPositionsOfEvents) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(metres(infinity, -infinity, nan), Position(kMaxCoordinate, -kMaxCoordinate, 0));
-  EXPECT_EQ(metres(1e300, 0.5, -1e300), Position(kMaxCoordinate, 512, -kMaxCoordinate));
+  constexpr int kOutside = kMaxCoordinate + 1;
+  EXPECT_EQ(metres(infinity, -infinity, nan), Position(kOutside, -kOutside, kOutside));
+  EXPECT_EQ(metres(1e300, 0.5, -1e300), Position(kOutside, 512, -kOutside));
+  EXPECT_EQ(metres(16384, -16384, 0), Position(kMaxCoordinate, -kMaxCoordinate, 0));
+  const BitGrid grid = make_house();
+  World world(grid);
+  for (const double wrong : {nan, infinity, -infinity, 16384.1, -1e300}) {
+    EXPECT_FALSE(world.append(throw_at(0, metres(wrong, 1, 5), metres(7, 1, 5))));
+    EXPECT_FALSE(world.append(Shot{0, metres(0, wrong, 5), metres(7, 1, 5)}));
+    EXPECT_FALSE(world.append(Blast{0, metres(0, 1, wrong)}));
+    EXPECT_FALSE(world.append(MoveBody{0, 1, metres(wrong, wrong, wrong)}));
+  }
+  EXPECT_TRUE(world.log().empty());
+  // Where it would land can be asked of any point.
+  static_cast<void>(
+      landing_voxel(grid, glm::vec3(std::numeric_limits<float>::quiet_NaN()), glm::vec3(1e30f)));
 }
 
 TEST(World, RefusesEventsOutOfRange) {
