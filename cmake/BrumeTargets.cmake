@@ -29,7 +29,8 @@ function(brume_library name)
 endfunction()
 
 # brume_test(NAME sources... LINKS libraries... LABELS labels...): a GoogleTest program that CTest runs.
-# A program is one CTest entry: starting a Vulkan device for each case would cost more than the cases.
+# The label one_thread is for programs that use no threads but through what others test: the thread sanitizer leaves
+# them out. A program is one CTest entry: starting a Vulkan device for each case would cost more than the cases.
 function(brume_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "LINKS;LABELS")
   if(NOT arg_TIMEOUT)
