@@ -1,4 +1,4 @@
-// Marches every pixel's ray through the smoke: premultiplied radiance and transmittance.
+// Marches rays through the smoke: premultiplied radiance and transmittance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,9 +13,12 @@
 #include "lib/holes.glsl"
 #include "lib/smoke_density.glsl"
 #include "shared/frame.h"
+#include "shared/resolve.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kCountSamples = 0u;
+layout(constant_id = 1) const uint kRays = kRaysOfPixels;
+const uint kRuns = kRays == kRaysOfBlocks ? 2u : 1u;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(binding = 6) uniform sampler3D inscatter_atlas;
 layout(binding = 7) uniform sampler3D worley_tile;
@@ -24,6 +27,8 @@ layout(binding = 9) uniform sampler2D blue_noise_tile;
 layout(scalar, binding = 10) readonly buffer Holes { Hole holes[]; };
 layout(binding = 11, rgba16f) uniform writeonly image2D smoke;
 layout(scalar, binding = 12) buffer Counters { uint texture_samples; };
+layout(scalar, binding = 13) readonly buffer Ends { RayEnds ends[]; };
+layout(binding = 14, rgba16f) uniform writeonly image2D smoke_near;
 
 /// The holes that the ray comes near, one bit each.
 uvec2 holes_on_ray(vec3 origin_world, vec3 direction, float t_begin, float t_end) {
@@ -55,15 +60,39 @@ float carved(float density, vec3 p_world, uvec2 hole_mask) {
   return density;
 }
 
+/// Where a ray runs. It is looked at in two places: at its last surface, and at the nearest of its block.
+struct Way {
+  ivec2 texel;       // of the pictures that are written
+  vec2 position_px;  // in the whole picture
+  float near, far;   // distances along the view axis
+};
+
+/// False where there is no ray.
+bool find_way(out Way way) {
+  way.texel = ivec2(gl_GlobalInvocationID.xy);
+  if (kRays == kRaysOfBlocks) {
+    const uvec2 blocks = blocks_of(frame.size_px, frame.march_scale);
+    if (any(greaterThanEqual(uvec2(way.texel), blocks))) return false;
+    const RayEnds e = ends[uint(way.texel.x) + blocks.x * uint(way.texel.y)];
+    way.position_px = e.position_px;
+    way.near = e.near;
+    way.far = e.far;
+    return true;
+  }
+  if (any(greaterThanEqual(uvec2(way.texel), frame.size_px))) return false;
+  way.position_px = vec2(way.texel) + 0.5;
+  way.near = way.far = view_distance(frame.camera, texelFetch(depth, way.texel, 0).r);
+  return true;
+}
+
 void main() {
-  const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(uvec2(px), frame.size_px))) return;
+  Way way;
+  if (!find_way(way)) return;
   const SmokeVolumeFrame volume = frame.volume;
 
   // The ray in voxels, t in metres; it ends at the surface behind.
-  const vec3 ray = camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
+  const vec3 ray = camera_ray(frame.camera, way.position_px, frame.size_px);
   const vec3 direction = normalize(ray);
-  const float t_surface = view_distance(frame.camera, texelFetch(depth, px, 0).r) * length(ray);
   const vec3 origin = (frame.camera.eye_world - volume.origin_world) / volume.voxel_size;
   const vec3 per_metre = direction / volume.voxel_size;
   const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
@@ -72,54 +101,64 @@ void main() {
   const vec3 t0 = (volume.bounds_min - origin) * inverse, t1 = (volume.bounds_max - origin) * inverse;
   const vec3 near = min(t0, t1), far = max(t0, t1);
   const float t_begin = max(max(near.x, near.y), max(near.z, 0.0));
-  const float t_end = min(min(far.x, far.y), min(far.z, t_surface));
+  const float t_last = min(min(far.x, far.y), min(far.z, way.far * length(ray)));
   vec3 radiance = vec3(0.0);
   float transmittance = 1.0;
+  vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
   uint samples = 0u;
-  if (t_begin < t_end) {
-    const uvec2 hole_mask = holes_on_ray(frame.camera.eye_world, direction, t_begin, t_end);
-    const float jitter = blue_noise(blue_noise_tile, px, frame.frame_index).r;
+  if (t_begin < t_last) {
+    const uvec2 hole_mask = holes_on_ray(frame.camera.eye_world, direction, t_begin, t_last);
+    const float jitter = blue_noise(blue_noise_tile, way.texel, frame.frame_index).r;
     const float ds = frame.look.step_length;
     const bool noisy = frame.look.erosion > 0.0 || hole_mask != uvec2(0u);
     const vec3 texel = atlas_texel(volume);
     // Segments of length ds from t_begin on, the last one cut; one sample in each, all at the same share of it. Brick
     // by brick, so that what a brick's samples share is found once.
-    for (float t = t_begin; t < t_end;) {
-      const vec3 low = floor((origin + per_metre * (t + jitter * min(ds, t_end - t))) / float(kBrickVoxels)) * float(kBrickVoxels);
-      const vec3 exits = max((low - origin) * inverse, (low + float(kBrickVoxels) - origin) * inverse);
-      const float in_brick = max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds - jitter));
-      const float t_next = t + ds * in_brick;
-      const uint slot = slot_at(volume, ivec3(low) / kBrickVoxels);
-      if (slot == kNoSlot) {
-        t = t_next;
-        continue;
-      }
-      const vec3 corner = atlas_corner(volume, slot);
-      for (const float t_stop = min(t_next - 0.5 * ds, t_end); t < t_stop; t += ds) {
-        const float segment = min(ds, t_end - t);
-        const vec3 local_voxel = origin + per_metre * (t + jitter * segment) - low;
-        const vec3 uvw = (corner + local_voxel) * texel;
-        float density = density_in_brick(slot, local_voxel, uvw);
-        ++samples;
-        if (density > 0.0 && noisy) {
-          density = carved(density, volume.origin_world + (low + local_voxel) * volume.voxel_size, hole_mask);
-          ++samples;
+    float t = t_begin;
+    for (uint run = 0u; run < kRuns; ++run) {
+      const float t_end = run + 1u < kRuns ? min(t_last, way.near * length(ray)) : t_last;
+      for (; t < t_end && transmittance > 0.0;) {
+        const vec3 low = floor((origin + per_metre * (t + jitter * min(ds, t_end - t))) / float(kBrickVoxels)) * float(kBrickVoxels);
+        const vec3 exits = max((low - origin) * inverse, (low + float(kBrickVoxels) - origin) * inverse);
+        const float in_brick = max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds - jitter));
+        const float t_next = t + ds * in_brick;
+        const uint slot = slot_at(volume, ivec3(low) / kBrickVoxels);
+        if (slot == kNoSlot) {
+          t = t_next;
+          continue;
         }
-        if (density > 0.0) {
-          // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
-          const float passed = exp(-frame.look.extinction * density * segment);
-          radiance += transmittance * (1.0 - passed) * textureLod(inscatter_atlas, uvw, 0.0).rgb;
-          transmittance *= passed;
+        const vec3 corner = atlas_corner(volume, slot);
+        for (const float t_stop = min(t_next - 0.5 * ds, t_end); t < t_stop; t += ds) {
+          const float segment = min(ds, t_end - t);
+          const vec3 local_voxel = origin + per_metre * (t + jitter * segment) - low;
+          const vec3 uvw = (corner + local_voxel) * texel;
+          float density = density_in_brick(slot, local_voxel, uvw);
           ++samples;
-          if (transmittance < frame.look.stop) {
-            transmittance = 0.0;
-            t = t_end;
+          if (density > 0.0 && noisy) {
+            density = carved(density, volume.origin_world + (low + local_voxel) * volume.voxel_size, hole_mask);
+            ++samples;
+          }
+          if (density > 0.0) {
+            // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
+            const float passed = exp(-frame.look.extinction * density * segment);
+            radiance += transmittance * (1.0 - passed) * textureLod(inscatter_atlas, uvw, 0.0).rgb;
+            transmittance *= passed;
+            ++samples;
+            if (transmittance < frame.look.stop) {
+              transmittance = 0.0;
+              t = t_end;
+            }
           }
         }
+      }
+      if (run + 1u < kRuns) {
+        at_near = vec4(radiance * frame.look.albedo, transmittance);
+        t = max(t_begin, t_end);
       }
     }
     radiance *= frame.look.albedo;
   }
-  imageStore(smoke, px, vec4(radiance, transmittance));
+  imageStore(smoke, way.texel, vec4(radiance, transmittance));
+  if (kRuns > 1u) imageStore(smoke_near, way.texel, at_near);
   if (kCountSamples != 0u) atomicAdd(texture_samples, samples);
 }

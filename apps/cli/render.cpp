@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string input, output, timeline, frames, size = "1280x720", camera, device, json;
+  std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json;
   std::vector<std::string> smokes;
   std::optional<double> time;
   std::uint32_t fps = 24;
@@ -30,7 +30,7 @@ struct Options {
 // What the options say, checked before any file is read.
 struct Plan {
   TargetKind kind = TargetKind::picture;
-  glm::uvec2 size_px{0};
+  render::RendererOptions renderer;
   std::optional<scene::Camera> camera;
   std::vector<scene::SmokeEvent> smokes;
   std::optional<FrameRange> frames;
@@ -39,7 +39,8 @@ struct Plan {
 Plan make_plan(const Options& options) {
   Plan plan;
   plan.kind = target_kind(options.output);
-  plan.size_px = parse_size("--size", options.size);
+  plan.renderer.size_px = parse_size("--size", options.size);
+  plan.renderer.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
   for (const std::string& text : options.smokes) {
     const glm::vec3 place = parse_point("--smoke", text);
@@ -52,7 +53,8 @@ Plan make_plan(const Options& options) {
   if (plan.kind != TargetKind::picture && options.time) {
     throw Error(ErrorCode::usage, options.output + ": --time is for one picture; use --frames");
   }
-  if (plan.kind == TargetKind::film && (plan.size_px.x % 2 != 0 || plan.size_px.y % 2 != 0)) {
+  if (plan.kind == TargetKind::film &&
+      (plan.renderer.size_px.x % 2 != 0 || plan.renderer.size_px.y % 2 != 0)) {
     throw Error(ErrorCode::usage, "--size '" + options.size + "': both sides of a film must be even");
   }
   const std::filesystem::path output = options.output;
@@ -130,7 +132,8 @@ void write(const Options& options, const Plan& plan, const CommonOptions& common
   const FrameRange range = plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
   const auto draw = [&](std::uint32_t i) { return draughtsman.draw(i / fps, i); };
   if (plan.kind == TargetKind::film) {
-    write_film(options.output, {plan.size_px, options.fps, common.threads}, range.first, range.last, draw);
+    write_film(options.output, {plan.renderer.size_px, options.fps, common.threads}, range.first, range.last,
+               draw);
   } else {
     write_sequence(options.output, range.first, range.last, draw);
   }
@@ -141,13 +144,14 @@ void render(const Options& options, const CommonOptions& common) {
   const stage::Stage stage = load(options, plan);
   stop_if_interrupted();
   gpu::Context context({options.device, false});
-  render::Playback playback(context, stage, plan.size_px);
+  render::Playback playback(context, stage, plan.renderer);
   playback.set_camera(plan.camera);
   Draughtsman draughtsman(playback);
   write(options, plan, common, stage.timeline, draughtsman);
   if (options.json.empty()) return;
   Json statistics{{"output", options.output},
-                  {"size", {plan.size_px.x, plan.size_px.y}},
+                  {"size", {plan.renderer.size_px.x, plan.renderer.size_px.y}},
+                  {"march", options.march},
                   {"device", context.info().name},
                   {"driver", context.info().driver}};
   statistics.update(draughtsman.statistics());
@@ -184,6 +188,11 @@ Command add_render(CLI::App& program) {
   parser.add_option("--size", options->size, "Pixels; default 1280x720")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->type_name("WxH");
+  parser
+      .add_option("--march", options->march,
+                  "Rays of the smoke: one for each pixel, 2x2 or 4x4; default full")
+      ->check(CLI::IsMember({"full", "half", "quarter"}))
+      ->type_name("full|half|quarter");
   parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
       ->type_name("CAMERA");
   parser.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")

@@ -51,8 +51,9 @@ struct FrameConstants {
   uint frame_index;  // moves the dither and the jitter
   float time;        // [s]
   float exposure;    // multiplies radiance before the tone curve
+  uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
 };
-SHARED_SIZE(FrameConstants, 308);
+SHARED_SIZE(FrameConstants, 312);
 
 SHARED_END
 #endif

@@ -4,6 +4,7 @@
 #include "passes/smoke_upload.hpp"
 #include "shared/frame.h"
 #include "shared/hole.h"
+#include "shared/resolve.h"
 
 namespace brume::passes {
 
@@ -12,8 +13,9 @@ constexpr std::uint32_t kMaxHoles = 64;
 
 class MarchPass {
  public:
-  /// With `count_samples`, record adds the texture samples taken to the first word of `counters`.
-  MarchPass(gpu::Context& context, bool count_samples);
+  /// `rays` is shared::kRaysOfPixels or kRaysOfBlocks. With `count_samples`, record adds the texture samples
+  /// taken to the first word of `counters`.
+  MarchPass(gpu::Context& context, bool count_samples, std::uint32_t rays = shared::kRaysOfPixels);
 
   struct Inputs {
     const gpu::Buffer& frame;
@@ -23,11 +25,24 @@ class MarchPass {
     const gpu::Image& blue_noise;
     const gpu::Buffer& holes;  ///< shared::Hole, frame.hole_count of them.
   };
-  /// Writes premultiplied radiance and transmittance (half floats) to `smoke`.
+  /// Marches the ray of each pixel. Writes premultiplied radiance and transmittance (half floats) to `smoke`.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Image& smoke,
               const gpu::Buffer& counters) const;
 
+  /// The rays of blocks of pixels: where they run, and what they see up to the nearest and to the farthest
+  /// surface of their block. See passes/resolve.hpp.
+  struct Blocks {
+    const gpu::Buffer& ends;  ///< shared::RayEnds, one a block.
+    const gpu::Image& near;   ///< Half floats, a texel a block.
+    const gpu::Image& far;
+  };
+  void record(gpu::Recorder& recorder, const Inputs& inputs, const Blocks& blocks,
+              const gpu::Buffer& counters) const;
+
  private:
+  void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Buffer& ends, const gpu::Image& near,
+              const gpu::Image& far, const gpu::Buffer& counters) const;
+
   gpu::ComputePipeline pipeline_;
   gpu::Sampler linear_, repeat_, nearest_;
 };

@@ -44,13 +44,13 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   return input;
 }
 
-Playback::Playback(gpu::Context& context, const stage::Stage& stage, glm::uvec2 size_px)
+Playback::Playback(gpu::Context& context, const stage::Stage& stage, const RendererOptions& options)
     : stage_(stage),
       simulation_(stage::Simulation::create(stage).value_or_throw()),
       runner_(context),
-      renderer_(context, runner_, stage.scene, {size_px, false}),
-      pixels_(context, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-              gpu::MemoryUse::readback) {}
+      renderer_(context, runner_, stage.scene, options),
+      pixels_(context, std::size_t{4} * options.size_px.x * options.size_px.y,
+              VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
 
 image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   simulation_->advance_to(seconds);

@@ -18,7 +18,9 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
 class Playback {
  public:
   /// `stage` must outlive it. Throws what Renderer and Simulation::create throw.
-  Playback(gpu::Context& context, const stage::Stage& stage, glm::uvec2 size_px);
+  Playback(gpu::Context& context, const stage::Stage& stage, const RendererOptions& options);
+  Playback(gpu::Context& context, const stage::Stage& stage, glm::uvec2 size_px)
+      : Playback(context, stage, RendererOptions{size_px}) {}
 
   /// The picture at a time [s]: the same for the same time and frame index, whatever came before.
   image::Image8 draw(double seconds, std::uint32_t frame_index);

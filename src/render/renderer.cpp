@@ -35,13 +35,16 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
     : context_(context),
       runner_(runner),
       size_px_(options.size_px),
+      march_scale_(options.march_scale),
       scene_(passes::upload_scene(context, runner, scene)),
       gbuffer_pass_(context),
       shadow_pass_(context),
       smoke_shadow_pass_(context),
       shade_pass_(context),
       inscatter_pass_(context),
-      march_pass_(context, options.count_samples),
+      march_pass_(context, options.count_samples,
+                  march_scale_ > 1 ? shared::kRaysOfBlocks : shared::kRaysOfPixels),
+      resolve_pass_(context),
       composite_pass_(context),
       display_pass_(context),
       smoke_upload_(context),
@@ -56,6 +59,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       frame_(context, sizeof(shared::FrameConstants), kBufferUsage),
       holes_(context, passes::kMaxHoles * sizeof(shared::Hole), kBufferUsage),
       counters_(context, sizeof(std::uint32_t), kBufferUsage) {
+  if (march_scale_ > 1) blocks_.emplace(context, size_px_, march_scale_);
   shadow_pass_.record(context, runner, scene_, {}, shadows_);
   const passes::WorleyPass worley(context);
   runner.run([&](gpu::Recorder& recorder) {
@@ -93,6 +97,7 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.frame_index = input.frame_index;
   frame.time = input.time;
   frame.exposure = input.exposure;
+  frame.march_scale = march_scale_;
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
   recorder.upload(holes_, 0, std::as_bytes(holes));
   recorder.fill(counters_, 0);
@@ -123,12 +128,23 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   stage("inscatter", [&] {
     if (light_smoke) inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_);
   });
-  stage("march", [&] {
-    march_pass_.record(recorder, {frame_, smoke, worley_, gbuffer_.depth, blue_noise_, holes_}, smoke_image_,
-                       counters_);
+  stage("march", [&] { record_march(recorder); });
+  stage("resolve", [&] {
+    if (blocks_) resolve_pass_.record(recorder, frame_, gbuffer_.depth, *blocks_, smoke_image_);
   });
   stage("composite", [&] { composite_pass_.record(recorder, frame_, smoke_image_, lit_, picture_); });
   stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
+}
+
+void Renderer::record_march(gpu::Recorder& recorder) {
+  const passes::MarchPass::Inputs inputs{
+      frame_, smoke_upload_.resources(), worley_, gbuffer_.depth, blue_noise_, holes_};
+  if (!blocks_) {
+    march_pass_.record(recorder, inputs, smoke_image_, counters_);
+    return;
+  }
+  resolve_pass_.record_ends(recorder, frame_, gbuffer_.depth, *blocks_);
+  march_pass_.record(recorder, inputs, {blocks_->ends, blocks_->near, blocks_->far}, counters_);
 }
 
 bool Renderer::needs_light(const FrameInput& input) {

@@ -1,6 +1,7 @@
 // Draws a frame: the scene, the smoke of the simulation's present tick, and what a screen shows of them.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "passes/display.hpp"
 #include "passes/inscatter.hpp"
 #include "passes/march.hpp"
+#include "passes/resolve.hpp"
 #include "passes/shade.hpp"
 #include "passes/smoke_shadow.hpp"
 #include "passes/worley.hpp"
@@ -35,6 +37,7 @@ struct FrameInput {
 struct RendererOptions {
   glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
   bool count_samples = false;     ///< Count the texture samples of the march (slower).
+  std::uint32_t march_scale = 1;  ///< Pixels per ray of the march along each axis: 1, 2 or 4.
 };
 
 class Renderer {
@@ -66,11 +69,15 @@ class Renderer {
   /// Whether the smoke must be lit anew; asks once a frame.
   bool needs_light(const FrameInput& input);
 
+  /// Smoke of every pixel, by a ray each or by a ray a block.
+  void record_march(gpu::Recorder& recorder);
+
   void follow_hidden_objects(const FrameInput& input);
 
   gpu::Context& context_;
   gpu::CommandRunner& runner_;
   glm::uvec2 size_px_;
+  std::uint32_t march_scale_;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;
   passes::ShadowPass shadow_pass_;
@@ -78,12 +85,14 @@ class Renderer {
   passes::ShadePass shade_pass_;
   passes::InscatterPass inscatter_pass_;
   passes::MarchPass march_pass_;
+  passes::ResolvePass resolve_pass_;
   passes::CompositePass composite_pass_;
   passes::DisplayPass display_pass_;
   passes::SmokeUpload smoke_upload_;
   passes::ShadowMaps shadows_;
   passes::GBuffer gbuffer_;
   gpu::Image smoke_shadows_, worley_, blue_noise_, lit_, smoke_image_, picture_, display_image_;
+  std::optional<passes::MarchBlocks> blocks_;  ///< Where march_scale_ is above 1.
   gpu::Buffer frame_, holes_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
   shared::Sky lit_sky_{};

@@ -7,6 +7,7 @@
 #include "shared/hole.h"
 #include "shared/inscatter.h"
 #include "shared/light.h"
+#include "shared/resolve.h"
 #include "shared/smoke_shadow.h"
 #include "shared/worley.h"
 
@@ -21,6 +22,7 @@ layout(scalar, binding = 6) buffer Out6 { WorleyParams worley; };
 layout(scalar, binding = 7) buffer Out7 { InscatterParams inscatter; };
 layout(scalar, binding = 8) buffer Out8 { SmokeShadowParams smoke_shadow; };
 layout(scalar, binding = 9) buffer Out9 { ShadowView view; };
+layout(scalar, binding = 10) buffer Out10 { RayEnds ends; };
 
 vec3 v3(float first) { return vec3(first, first + 1.0, first + 2.0); }
 vec4 v4(float first) { return vec4(first, first + 1.0, first + 2.0, first + 3.0); }
@@ -38,6 +40,7 @@ void main() {
   frame.frame_index = 194u;
   frame.time = 195.0;
   frame.exposure = 196.0;
+  frame.march_scale = 197u;
   light = Light(v3(1.0), 4.0, v3(5.0), 8u, v3(9.0), 12.0, 13.0, 14u);
   hole = Hole(v3(1.0), 4.0, v3(5.0), 8.0, v3(9.0), 12.0, v3(13.0), 16.0, 17.0, 18.0, 19.0, 20u);
   cell = BoundaryCell(1u, 2u, 3u, 4u);
@@ -47,4 +50,5 @@ void main() {
   inscatter = InscatterParams(1u, 2u, 3u);
   smoke_shadow = SmokeShadowParams(1u, 2u, 3.0);
   view = ShadowView(m4(1.0), m4(17.0));
+  ends = RayEnds(vec2(1.0, 2.0), 3.0, 4.0, 5.0, 6.0);
 }

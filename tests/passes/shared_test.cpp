@@ -4,6 +4,7 @@
 #include "shared/hole.h"
 #include "shared/inscatter.h"
 #include "shared/light.h"
+#include "shared/resolve.h"
 #include "shared/smoke_shadow.h"
 #include "shared/worley.h"
 #include "tests/gpu/gpu_test.hpp"
@@ -28,22 +29,23 @@ class SharedStructs : public GpuTest {
 };
 
 TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
-  const gpu::ComputePipeline pipeline(context(), shaders::echo_comp,
-                                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                                       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                                      0, {1, 1, 1});
+  const gpu::ComputePipeline pipeline(
+      context(), shaders::echo_comp,
+      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+      0, {1, 1, 1});
   std::vector<gpu::Buffer> out;
   for (const std::size_t size :
        {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
         sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
         sizeof(shared::WorleyParams), sizeof(shared::InscatterParams), sizeof(shared::SmokeShadowParams),
-        sizeof(shared::ShadowView)}) {
+        sizeof(shared::ShadowView), sizeof(shared::RayEnds)}) {
     out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   }
   runner().run([&](gpu::Recorder& recorder) {
     recorder.bind(pipeline, {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
                              gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7]),
-                             gpu::write(out[8]), gpu::write(out[9])});
+                             gpu::write(out[8]), gpu::write(out[9]), gpu::write(out[10])});
     recorder.dispatch_threads(pipeline, 1);
   });
 
@@ -77,6 +79,7 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(frame.frame_index, 194u);
   EXPECT_EQ(frame.time, 195);
   EXPECT_EQ(frame.exposure, 196);
+  EXPECT_EQ(frame.march_scale, 197u);
 
   const auto light = one<shared::Light>(out[1]);
   expect_counted(light.position_world, 1);
@@ -139,6 +142,11 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(smoke_shadow.light, 1u);
   EXPECT_EQ(smoke_shadow.size, 2u);
   EXPECT_EQ(smoke_shadow.max_steps, 3);
+
+  const auto ends = one<shared::RayEnds>(out[10]);
+  expect_counted(ends.position_px, 1);
+  const float distances[] = {ends.near, ends.near_last, ends.far_first, ends.far};
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(distances[i], 3.0f + static_cast<float>(i));
 
   const auto view = one<shared::ShadowView>(out[9]);
   for (int i = 0; i < 4; ++i) {

@@ -1,0 +1,30 @@
+// The march at a reduced resolution: one ray for a block of march_scale x march_scale pixels.
+#ifndef BRUME_RESOLVE_H
+#define BRUME_RESOLVE_H
+#include "shared/shim.h"
+SHARED_BEGIN
+
+/// Whose rays the march follows.
+SHARED_CONST uint kRaysOfPixels = 0u;
+SHARED_CONST uint kRaysOfBlocks = 1u;
+
+/// Where the ray of a block runs, and where the surfaces of the block's pixels lie [m along the view axis]. They fall
+/// into two groups at the middle of near and far:
+///
+///   near --- near_last            far_first --- far
+///
+/// In a block of one even surface near_last = far and far_first = near: the groups overlap. Distances stop at the end
+/// of the smoke.
+struct RayEnds {
+  vec2 position_px;  // of the ray: the middle of the block, or a far pixel where one surface stands before another
+  float near, near_last, far_first, far;
+};
+SHARED_SIZE(RayEnds, 24);
+
+/// Blocks per axis.
+SHARED_FUNCTION uvec2 blocks_of(uvec2 size_px, uint march_scale) {
+  return (size_px + march_scale - 1u) / march_scale;
+}
+
+SHARED_END
+#endif
