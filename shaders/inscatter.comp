@@ -11,6 +11,7 @@
 #include "lib/lights.glsl"
 #include "shared/frame.h"
 #include "shared/inscatter.h"
+#include "shared/scattering.h"
 
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
@@ -23,12 +24,6 @@ layout(binding = 11) uniform sampler3D worley_tile;
 layout(push_constant, scalar) uniform Push { InscatterParams params; };
 #include "lib/optical_depth.glsl"
 
-/// Henyey and Greenstein 1941 [1/sr]; cos_angle between the light's way and the way to the eye.
-float phase(float g, float cos_angle) {
-  const float d = 1.0 + g * g - 2.0 * g * cos_angle;
-  return (1.0 - g * g) * 0.0795774715 / (d * sqrt(d));
-}
-
 /// Whether any of the 27 texels around one holds smoke: only then a sample of the march can meet its light.
 bool smoke_around(ivec3 atlas_texel) {
   const vec3 texel = 1.0 / vec3(textureSize(density_atlas, 0));
@@ -38,17 +33,6 @@ bool smoke_around(ivec3 atlas_texel) {
     sum += textureLod(density_atlas, (vec3(atlas_texel) + offset) * texel, 0.0).r;
   }
   return sum > 0.0;
-}
-
-/// Share of the light that is scattered towards the eye [1/sr], with multiple scattering by octaves: each order sees
-/// thinner smoke, less light and a rounder phase function (Wrenninge et al. 2013, "Oz: The Great and Volumetric").
-float scattered(float depth, float cos_angle) {
-  float sum = 0.0, share = 1.0;
-  for (float octave = 0.0; octave < frame.look.scatter_octaves; ++octave) {
-    sum += share * exp(-depth * share) * phase(frame.look.anisotropy * share, cos_angle);
-    share *= 0.5;
-  }
-  return sum;
 }
 
 void main() {
@@ -77,7 +61,7 @@ void main() {
     const float lit = shadow_at(shadows, shadow_coordinates(light, sun.clip_from_world, p_world));
     if (lit <= 0.0) continue;
     const float depth = optical_depth(p_voxel, incident.to_light, incident.distance, float(params.volume_steps));
-    radiance += incident.irradiance * (lit * scattered(depth, -dot(incident.to_light, to_eye)));
+    radiance += incident.irradiance * (lit * scattered(frame.look, depth, -dot(incident.to_light, to_eye)));
   }
   imageStore(inscatter, atlas_texel, vec4(radiance, 1.0));
 }

@@ -1,6 +1,7 @@
 // What every pass of a frame may know: camera, sky, smoke look. One buffer, written once a frame.
 #ifndef BRUME_FRAME_H
 #define BRUME_FRAME_H
+#include "shared/phase.h"
 #include "shared/shim.h"
 #include "shared/smoke_volume.h"
 SHARED_BEGIN
@@ -36,9 +37,9 @@ struct SmokeLook {
   float noise_drift;       // upward [m/s]
   float scatter_octaves;   // octaves of multiple scattering, 1: single scattering
   float hole_rim;          // how far noise moves the rim of a hole [m]
-  float anisotropy;        // Henyey-Greenstein's g, (-1, 1); above 0: forward
+  Phase phase;             // where scattered light goes
 };
-SHARED_SIZE(SmokeLook, 48);
+SHARED_SIZE(SmokeLook, 60);
 
 struct FrameConstants {
   Camera camera;
@@ -53,7 +54,7 @@ struct FrameConstants {
   float exposure;    // multiplies radiance before the tone curve
   uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
 };
-SHARED_SIZE(FrameConstants, 312);
+SHARED_SIZE(FrameConstants, 324);
 
 SHARED_END
 #endif

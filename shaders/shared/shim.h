@@ -12,6 +12,7 @@ using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::l
     glm::mix;
 using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::mat3, glm::mat4, glm::bvec3;
+using glm::cos, glm::exp, glm::log, glm::pow, glm::sqrt, glm::tan;
 using glm::normalize, glm::sign, glm::smoothstep, glm::step, glm::unpackUnorm4x8;
 using uint = std::uint32_t;
 }  // namespace brume::shared

@@ -24,7 +24,8 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   const scene::SmokeOptions& smoke = timeline.smoke;
   input.look.albedo = smoke.albedo;
   input.look.extinction = smoke.extinction;
-  input.look.anisotropy = smoke.anisotropy;
+  input.look.phase =
+      smoke.droplet ? shared::phase_of_droplet(*smoke.droplet) : shared::phase_of_hg(smoke.anisotropy);
   input.look.step_length = 0.4f * stage.voxels.grid.frame().voxel_size;
   input.look.stop = 0.01f;
   input.look.erosion = smoke.noise;

@@ -151,7 +151,10 @@ bool Renderer::needs_light(const FrameInput& input) {
   const bool same_look = std::memcmp(&lit_look_, &input.look, sizeof lit_look_) == 0 &&
                          std::memcmp(&lit_sky_, &input.sky, sizeof lit_sky_) == 0;
   // Scattering depends on where the eye is, unless it goes evenly all around.
-  const bool same_eye = input.look.anisotropy == 0 || lit_eye_ == input.camera.position_world;
+  const shared::Phase& phase = input.look.phase;
+  const bool even =
+      phase.g_hg == 0 && (phase.draine_weight == 0 || (phase.g_draine == 0 && phase.alpha == 0));
+  const bool same_eye = even || lit_eye_ == input.camera.position_world;
   const bool same_noise = input.look.erosion == 0 || lit_time_ == input.time;
   const bool needed = smoke_changed_ || !same_look || !same_eye || !same_noise || input.force_light;
   lit_time_ = input.time;

@@ -75,6 +75,9 @@ class TimelineReader {
     table.read("extinction", smoke.extinction, 0.01, 100);
     table.read("albedo", smoke.albedo, 0, 1);
     table.read("anisotropy", smoke.anisotropy, -0.9, 0.9);
+    table.read("droplet", smoke.droplet, 0.1, 50);
+    if (smoke.droplet && source.contains("anisotropy"))
+      table.fail("droplet", "\"droplet\": expected either it or \"anisotropy\"; take one of them out");
     table.read("noise", smoke.noise, 0, 1);
     table.read("noise_size", smoke.noise_size, 0.05, 100);
     return table.finish();

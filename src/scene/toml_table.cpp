@@ -140,6 +140,12 @@ void TomlTable::read(std::string_view key, float& value, double least, double mo
   value = static_cast<float>(wide);
 }
 
+void TomlTable::read(std::string_view key, std::optional<float>& value, double least, double most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (const auto found = number(*node, key, least, most)) value = static_cast<float>(*found);
+}
+
 void TomlTable::read(std::string_view key, std::uint32_t& value, std::int64_t least, std::int64_t most) {
   const toml::node* node = find(key);
   if (node == nullptr) return;

@@ -93,6 +93,19 @@ at = [0, 0, 0]
   EXPECT_EQ(timeline->smokes[0].from_world, glm::vec3(0, 1, 5));
 }
 
+TEST(Timeline, SmokeIsOfAnAnisotropyOrOfDroplets) {
+  const auto drops = parse(std::string(kHead) + "[smoke]\ndroplet = 8\n");
+  ASSERT_TRUE(drops) << drops.failure().message;
+  EXPECT_EQ(drops->smoke.droplet, 8.0f);
+  const auto neither = parse(std::string(kHead));
+  ASSERT_TRUE(neither) << neither.failure().message;
+  EXPECT_EQ(neither->smoke.droplet, std::nullopt);
+  EXPECT_EQ(error_of(std::string(kHead) + "[smoke]\ndroplet = 8\nanisotropy = 0.3\n"),
+            "scenes/t.toml:4:11: \"droplet\": expected either it or \"anisotropy\"; take one of them out");
+  EXPECT_EQ(error_of(std::string(kHead) + "[smoke]\ndroplet = 51\n"),
+            "scenes/t.toml:4:11: \"droplet\": expected a number from 0.1 to 50, found 51");
+}
+
 TEST(Timeline, UnknownKeysNameTheNearest) {
   EXPECT_EQ(
       error_of(std::string(kHead) + "durration = 5\n"),
