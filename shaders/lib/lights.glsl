@@ -32,6 +32,26 @@ Incident light_at(Light light, vec3 position_world) {
   return incident;
 }
 
+/// A box in the world.
+struct TileBox {
+  vec3 low, high;
+};
+
+/// False only where the light reaches no point of the box. Spots by the sphere around the box: Wronski 2017, "Cull
+/// that cone!".
+bool reaches_box(Light light, TileBox box) {
+  if (max(light.intensity.r, max(light.intensity.g, light.intensity.b)) <= 0.0) return false;
+  if (light.kind == kLightDirectional) return true;
+  const vec3 apart = max(max(box.low - light.position_world, light.position_world - box.high), vec3(0.0));
+  if (dot(apart, apart) >= light.range * light.range) return false;
+  if (light.kind == kLightPoint || light.cos_outer <= 0.0) return true;
+  const vec3 to_box = 0.5 * (box.low + box.high) - light.position_world;
+  const float radius = 0.5 * length(box.high - box.low), along = dot(to_box, light.direction);
+  const float aside = sqrt(max(dot(to_box, to_box) - along * along, 0.0));
+  const float sin_outer = sqrt(1.0 - light.cos_outer * light.cos_outer);
+  return light.cos_outer * aside - sin_outer * along <= radius * 1.001 && along >= -radius * 1.001;
+}
+
 /// Where a point lies in the light's shadow layers: uv, layer, reverse depth. A negative layer: not covered.
 vec4 shadow_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world) {
   if (light.shadow_layer == kNoShadow) return vec4(-1.0);

@@ -1,4 +1,4 @@
-// Lights the G-buffer.
+// Lights the G-buffer and puts the smoke over it.
 #pragma once
 
 #include "passes/gbuffer.hpp"
@@ -8,11 +8,14 @@ namespace brume::passes {
 
 class ShadePass {
  public:
-  explicit ShadePass(gpu::Context& context);
-  /// Writes radiance (half floats) to `lit`; `smoke_shadows` as SmokeShadowPass makes it.
+  /// `cull_lights` false: every light at every pixel. The same picture, slower.
+  explicit ShadePass(gpu::Context& context, bool cull_lights = true);
+  /// picture = smoke radiance + smoke transmittance * radiance of the surface or the sky, half floats.
+  /// `smoke`: premultiplied radiance and transmittance, of the picture's size. What smoke of transmittance 0
+  /// hides costs nothing. `smoke_shadows` as SmokeShadowPass makes it.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
               const ShadowMaps& shadows, const gpu::Image& smoke_shadows, const GBuffer& gbuffer,
-              const gpu::Image& lit) const;
+              const gpu::Image& smoke, const gpu::Image& picture) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -45,14 +45,12 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       march_pass_(context, options.count_samples,
                   march_scale_ > 1 ? shared::kRaysOfBlocks : shared::kRaysOfPixels),
       resolve_pass_(context),
-      composite_pass_(context),
       display_pass_(context),
       smoke_upload_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
       gbuffer_(context, size_px_),
       smoke_shadows_(smoke_shadow_pass_.make_layers(context, shadows_)),
       worley_(passes::make_worley_tile(context, passes::kSmokeNoise.size)),
-      lit_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       smoke_image_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       picture_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       display_image_(storage_image(context, size_px_, VK_FORMAT_R8G8B8A8_UNORM)),
@@ -123,8 +121,6 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
     if (light_smoke)
       smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_, smoke_shadows_);
   });
-  stage("shade",
-        [&] { shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, gbuffer_, lit_); });
   stage("inscatter", [&] {
     if (light_smoke) inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_);
   });
@@ -132,7 +128,9 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   stage("resolve", [&] {
     if (blocks_) resolve_pass_.record(recorder, frame_, gbuffer_.depth, *blocks_, smoke_image_);
   });
-  stage("composite", [&] { composite_pass_.record(recorder, frame_, smoke_image_, lit_, picture_); });
+  stage("shade", [&] {
+    shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, gbuffer_, smoke_image_, picture_);
+  });
   stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
 }
 

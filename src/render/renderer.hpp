@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "passes/composite.hpp"
 #include "passes/display.hpp"
 #include "passes/inscatter.hpp"
 #include "passes/march.hpp"
@@ -86,12 +85,11 @@ class Renderer {
   passes::InscatterPass inscatter_pass_;
   passes::MarchPass march_pass_;
   passes::ResolvePass resolve_pass_;
-  passes::CompositePass composite_pass_;
   passes::DisplayPass display_pass_;
   passes::SmokeUpload smoke_upload_;
   passes::ShadowMaps shadows_;
   passes::GBuffer gbuffer_;
-  gpu::Image smoke_shadows_, worley_, blue_noise_, lit_, smoke_image_, picture_, display_image_;
+  gpu::Image smoke_shadows_, worley_, blue_noise_, smoke_image_, picture_, display_image_;
   std::optional<passes::MarchBlocks> blocks_;  ///< Where march_scale_ is above 1.
   gpu::Buffer frame_, holes_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
