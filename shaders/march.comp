@@ -29,6 +29,8 @@ layout(binding = 11, rgba16f) uniform writeonly image2D smoke;
 layout(scalar, binding = 12) buffer Counters { uint texture_samples; };
 layout(scalar, binding = 13) readonly buffer Ends { RayEnds ends[]; };
 layout(binding = 14, rgba16f) uniform writeonly image2D smoke_near;
+layout(binding = 15) uniform sampler2D hole_masks;
+#include "lib/hole_mask.glsl"
 
 /// The holes that the ray comes near, one bit each.
 uvec2 holes_on_ray(vec3 origin_world, vec3 direction, float t_begin, float t_end) {
@@ -44,7 +46,7 @@ float left_by_holes(uvec2 mask, vec3 p_world, float rim) {
   float left = 1.0;
   for (uint word = 0u; word < 2u; ++word) {
     for (uint bits = mask[word]; bits != 0u; bits &= bits - 1u) {
-      left *= 1.0 - hole_strength(holes[word * 32u + uint(findLSB(bits))], p_world, frame.time, rim);
+      left *= 1.0 - hole_strength_masked(holes[word * 32u + uint(findLSB(bits))], p_world, frame.time, rim);
     }
   }
   return left;

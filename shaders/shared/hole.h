@@ -11,14 +11,15 @@ SHARED_BEGIN
 /// Cross-section of a hole.
 SHARED_CONST uint kHoleCylinder = 0u;
 SHARED_CONST uint kHoleBox = 1u;
+SHARED_CONST uint kHoleMask = 2u;  // a box whose cross-section is an image
 
-/// Share of the radius over which the edge of a hole goes from open to closed.
+/// Share of the radius over which the edge of a cylinder or box goes from open to closed.
 SHARED_CONST float kHoleSoftShare = 0.4f;
 
 /// `forward`, `right` and `up` are unit vectors, each at a right angle to the others.
 struct Hole {
   vec3 origin_world;        // [m]
-  float radius;             // of the open hole; half the edge of a box [m]
+  float radius;             // of the open hole; half the edge of a box or mask [m]
   vec3 forward;             // where the shot goes: local +z
   float distance_to_far;    // depth of the hole [m], > 0
   vec3 right;               // local +x
@@ -28,34 +29,54 @@ struct Hole {
   float time_to_expand;     // [s]
   float time_to_stay_open;  // counted from when it is wide open [s]
   float time_to_fade;       // [s]
-  uint shape;               // kHoleCylinder or kHoleBox
+  uint shape;               // kHoleCylinder, kHoleBox or kHoleMask
+  vec2 uv_min, uv_max;      // of the mask in the mask atlas, (0, 0) its first texel's corner; else unused
 };
-SHARED_SIZE(Hole, 80);
+SHARED_SIZE(Hole, 96);
 
-/// Share of the smoke that the hole removes at a point, in [0, 1]; `time` is on the clock of
-/// Hole::time_start. Nothing before the front has come by, at depths below 0 or above distance_to_far.
-/// rim_noise_metres widens (above 0) or narrows the hole at this point.
-SHARED_FUNCTION float hole_strength(Hole hole, vec3 p_world, float time, float rim_noise_metres) {
+/// What a hole does at a point.
+struct HoleCut {
+  float strength;  // share of the smoke that it removes, [0, 1]; of a mask where its image is white
+  vec2 uv;         // where in the mask atlas the image is read; only for masks
+};
+
+/// `time` is on the clock of Hole::time_start. Nothing is removed before the front has come by, and at depths below 0
+/// or above distance_to_far. rim_noise_metres widens (above 0) or narrows the hole at this point.
+SHARED_FUNCTION HoleCut hole_cut(Hole hole, vec3 p_world, float time, float rim_noise_metres) {
+  HoleCut cut;
+  cut.strength = 0.0f;
+  cut.uv = hole.uv_min;
   vec3 from_origin = p_world - hole.origin_world;
   float z = dot(from_origin, hole.forward);
-  if (z < 0.0f || z > hole.distance_to_far) return 0.0f;
+  if (z < 0.0f || z > hole.distance_to_far) return cut;
 
   // How long the hole has been opening at this depth.
   float age = time - hole.time_start - z / max(hole.distance_to_far, 1e-6f) * hole.time_to_reach_far;
-  if (age <= 0.0f) return 0.0f;
+  if (age <= 0.0f) return cut;
   float opened = clamp(age / max(hole.time_to_expand, 1e-6f), 0.0f, 1.0f);
   float closing_age = age - hole.time_to_expand - hole.time_to_stay_open;
   float closed = clamp(closing_age / max(hole.time_to_fade, 1e-6f), 0.0f, 1.0f);
-  if (closed >= 1.0f) return 0.0f;
+  if (closed >= 1.0f) return cut;
 
   float radius = (hole.radius + rim_noise_metres) * opened * (1.0f - closed);
-  float x = abs(dot(from_origin, hole.right));
-  float y = abs(dot(from_origin, hole.up));
-  float from_axis = hole.shape == kHoleBox ? max(x, y) : length(vec2(x, y));
-  if (from_axis >= radius) return 0.0f;
+  float x = dot(from_origin, hole.right);
+  float y = dot(from_origin, hole.up);
+  float from_axis = hole.shape == kHoleCylinder ? length(vec2(x, y)) : max(abs(x), abs(y));
+  if (from_axis >= radius) return cut;
 
-  float edge = smoothstep(0.0f, 1.0f, (radius - from_axis) / (radius * kHoleSoftShare));
-  return edge * (1.0f - closed);
+  cut.strength = 1.0f - closed;
+  if (hole.shape == kHoleMask) {  // -1..1 across, the image's first row on top
+    vec2 across = clamp(vec2(0.5f + 0.5f * x / radius, 0.5f - 0.5f * y / radius), vec2(0.0f), vec2(1.0f));
+    cut.uv = mix(hole.uv_min, hole.uv_max, across);
+  } else {
+    cut.strength *= smoothstep(0.0f, 1.0f, (radius - from_axis) / (radius * kHoleSoftShare));
+  }
+  return cut;
+}
+
+/// Share of the smoke that the hole removes at a point, in [0, 1]; a mask as if its image were white.
+SHARED_FUNCTION float hole_strength(Hole hole, vec3 p_world, float time, float rim_noise_metres) {
+  return hole_cut(hole, p_world, time, rim_noise_metres).strength;
 }
 
 SHARED_END

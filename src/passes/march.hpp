@@ -23,7 +23,8 @@ class MarchPass {
     const gpu::Image& worley;
     const gpu::Image& depth;
     const gpu::Image& blue_noise;
-    const gpu::Buffer& holes;  ///< shared::Hole, frame.hole_count of them.
+    const gpu::Buffer& holes;      ///< shared::Hole, frame.hole_count of them.
+    const gpu::Image& hole_masks;  ///< As make_hole_masks makes it.
   };
   /// Marches the ray of each pixel. Writes premultiplied radiance and transmittance (half floats) to `smoke`.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Image& smoke,

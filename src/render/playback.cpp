@@ -13,6 +13,11 @@ glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
   return glm::rotate(moved, 9.0f * grenade.flight_seconds, glm::normalize(glm::vec3(1.0f, 0.35f, 0.2f)));
 }
 
+RendererOptions with_masks(RendererOptions options, const stage::Stage& stage) {
+  options.masks = &stage.masks;
+  return options;
+}
+
 }  // namespace
 
 FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simulation, double seconds,
@@ -49,7 +54,7 @@ Playback::Playback(gpu::Context& context, const stage::Stage& stage, const Rende
     : stage_(stage),
       simulation_(stage::Simulation::create(stage).value_or_throw()),
       runner_(context),
-      renderer_(context, runner_, stage.scene, options),
+      renderer_(context, runner_, stage.scene, with_masks(options, stage)),
       pixels_(context, std::size_t{4} * options.size_px.x * options.size_px.y,
               VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
 

@@ -63,6 +63,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
   runner.run([&](gpu::Recorder& recorder) {
     worley.record(recorder, worley_, passes::kSmokeNoise);
     blue_noise_ = passes::make_blue_noise(context, recorder);
+    hole_masks_ =
+        passes::make_hole_masks(context, recorder, options.masks ? *options.masks : sim::MaskAtlas());
     recorder.clear(smoke_shadows_, {});  // no smoke yet
   });
 }
@@ -136,7 +138,7 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
 
 void Renderer::record_march(gpu::Recorder& recorder) {
   const passes::MarchPass::Inputs inputs{
-      frame_, smoke_upload_.resources(), worley_, gbuffer_.depth, blue_noise_, holes_};
+      frame_, smoke_upload_.resources(), worley_, gbuffer_.depth, blue_noise_, holes_, hole_masks_};
   if (!blocks_) {
     march_pass_.record(recorder, inputs, smoke_image_, counters_);
     return;

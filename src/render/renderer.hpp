@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "passes/display.hpp"
+#include "passes/hole_masks.hpp"
 #include "passes/inscatter.hpp"
 #include "passes/march.hpp"
 #include "passes/resolve.hpp"
@@ -34,9 +35,10 @@ struct FrameInput {
 };
 
 struct RendererOptions {
-  glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
-  bool count_samples = false;     ///< Count the texture samples of the march (slower).
-  std::uint32_t march_scale = 1;  ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  glm::uvec2 size_px{1280, 720};          ///< Each in [1, 16384].
+  bool count_samples = false;             ///< Count the texture samples of the march (slower).
+  std::uint32_t march_scale = 1;          ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  const sim::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
 };
 
 class Renderer {
@@ -89,7 +91,7 @@ class Renderer {
   passes::SmokeUpload smoke_upload_;
   passes::ShadowMaps shadows_;
   passes::GBuffer gbuffer_;
-  gpu::Image smoke_shadows_, worley_, blue_noise_, smoke_image_, picture_, display_image_;
+  gpu::Image smoke_shadows_, worley_, blue_noise_, hole_masks_, smoke_image_, picture_, display_image_;
   std::optional<passes::MarchBlocks> blocks_;  ///< Where march_scale_ is above 1.
   gpu::Buffer frame_, holes_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "scene/timeline.hpp"
+#include "sim/mask_atlas.hpp"
 #include "stage/vxl_file.hpp"
 
 namespace brume::stage {
@@ -14,6 +15,7 @@ struct Stage {
   scene::Scene scene;
   scene::Camera camera;  ///< Where the timeline has no camera keys.
   Voxels voxels;
+  sim::MaskAtlas masks;  ///< Of the holes of its shots.
 };
 
 /// Loads a timeline (.toml), or a scene file with the timeline that fits it. Voxels are kept beside the

@@ -24,6 +24,7 @@ layout(scalar, binding = 8) buffer Out8 { SmokeShadowParams smoke_shadow; };
 layout(scalar, binding = 9) buffer Out9 { ShadowView view; };
 layout(scalar, binding = 10) buffer Out10 { RayEnds ends; };
 
+vec2 v2(float first) { return vec2(first, first + 1.0); }
 vec3 v3(float first) { return vec3(first, first + 1.0, first + 2.0); }
 vec4 v4(float first) { return vec4(first, first + 1.0, first + 2.0, first + 3.0); }
 ivec3 i3(int first) { return ivec3(first, first + 1, first + 2); }
@@ -42,7 +43,7 @@ void main() {
   frame.exposure = 196.0;
   frame.march_scale = 197u;
   light = Light(v3(1.0), 4.0, v3(5.0), 8u, v3(9.0), 12.0, 13.0, 14u);
-  hole = Hole(v3(1.0), 4.0, v3(5.0), 8.0, v3(9.0), 12.0, v3(13.0), 16.0, 17.0, 18.0, 19.0, 20u);
+  hole = Hole(v3(1.0), 4.0, v3(5.0), 8.0, v3(9.0), 12.0, v3(13.0), 16.0, 17.0, 18.0, 19.0, 20u, v2(21.0), v2(23.0));
   cell = BoundaryCell(1u, 2u, 3u, 4u);
   draw = DrawConstants(v4(1.0), v4(5.0), v4(9.0), MaterialConstants(v3(13.0), 16.0, v3(17.0), 20.0, 21.0));
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));

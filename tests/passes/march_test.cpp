@@ -1,4 +1,5 @@
 #include "passes/march.hpp"
+#include "passes/hole_masks.hpp"
 
 #include <cmath>
 
@@ -20,6 +21,7 @@ class MarchTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) {
       worley.record(recorder, worley_, {8, 2, 1, 1});
       noise_ = make_blue_noise(context(), recorder);
+      masks_ = make_hole_masks(context(), recorder, {});
     });
   }
 
@@ -56,9 +58,10 @@ class MarchTest : public gpu::GpuTest {
     const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
-      march_.record(recorder,
-                    {frame_buffer, room.upload.resources(), worley_, depth_image, noise_, hole_buffer},
-                    target, counters);
+      march_.record(
+          recorder,
+          {frame_buffer, room.upload.resources(), worley_, depth_image, noise_, hole_buffer, masks_}, target,
+          counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
     std::vector<glm::vec4> out;
@@ -67,7 +70,7 @@ class MarchTest : public gpu::GpuTest {
   }
 
   MarchPass march_;
-  gpu::Image worley_, noise_;
+  gpu::Image worley_, noise_, masks_;
   std::uint32_t samples_ = 0;
 };
 

@@ -105,6 +105,8 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(hole.time_to_stay_open, 18);
   EXPECT_EQ(hole.time_to_fade, 19);
   EXPECT_EQ(hole.shape, 20u);
+  expect_counted(hole.uv_min, 21);
+  expect_counted(hole.uv_max, 23);
 
   const auto cell = one<shared::BoundaryCell>(out[3]);
   EXPECT_EQ(cell.plane0, 1u);
