@@ -54,7 +54,7 @@ Result<Stage> make_stage(scene::Timeline timeline, const std::filesystem::path& 
   auto voxels = load_or_voxelize(*scene, *frame, cache);
   if (!voxels) return voxels.failure();
   const scene::Camera camera = scene->camera ? *scene->camera : scene::default_camera(*scene);
-  return Stage{std::move(timeline), std::move(*scene), camera, std::move(*voxels), {}};
+  return Stage{std::move(timeline), std::move(*scene), camera, std::move(*voxels)};
 }
 
 }  // namespace brume::stage

@@ -15,7 +15,7 @@ struct Stage {
   scene::Scene scene;
   scene::Camera camera;  ///< Where the timeline has no camera keys.
   Voxels voxels;
-  sim::MaskAtlas masks;  ///< Of the holes of its shots.
+  sim::MaskAtlas masks = {};  ///< Of the holes of its shots.
 };
 
 /// Loads a timeline (.toml), or a scene file with the timeline that fits it. Voxels are kept beside the
