@@ -20,7 +20,7 @@ layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArrayShadow shadows;
 layout(scalar, binding = 9) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(binding = 10, rgba16f) uniform writeonly image3D inscatter;
-layout(binding = 11) uniform sampler3D worley_tile;
+layout(binding = 11) uniform sampler3D noise_tile;
 layout(push_constant, scalar) uniform Push { InscatterParams params; };
 #include "lib/optical_depth.glsl"
 

@@ -21,7 +21,7 @@ layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 const uint kRuns = kRays == kRaysOfBlocks ? 2u : 1u;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(binding = 6) uniform sampler3D inscatter_atlas;
-layout(binding = 7) uniform sampler3D worley_tile;
+layout(binding = 7) uniform sampler3D noise_tile;
 layout(binding = 8) uniform sampler2D depth;
 layout(binding = 9) uniform sampler2D blue_noise_tile;
 layout(scalar, binding = 10) readonly buffer Holes { Hole holes[]; };
@@ -54,7 +54,7 @@ float left_by_holes(uvec2 mask, vec3 p_world, float rim) {
 
 /// What noise and holes leave of the density at a point.
 float carved(float density, vec3 p_world, uvec2 hole_mask) {
-  const vec2 noise = billows(worley_tile, frame.look, p_world, frame.time);
+  const vec4 noise = smoke_noise(noise_tile, frame.look, p_world, frame.time);
   if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
   if (hole_mask != uvec2(0u)) {
     density *= left_by_holes(hole_mask, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);

@@ -1,19 +1,22 @@
-// What makes smoke look like smoke: noise that eats into its rim.
+// What makes smoke look like smoke: noise that eats into its rim and lets billows show inside.
 #ifndef EROSION_GLSL
 #define EROSION_GLSL
 #include "shared/frame.h"
 
-/// The noise at a point: large and small billows, bright where the smoke stays.
-vec2 billows(sampler3D worley_tile, SmokeLook look, vec3 p_world, float time) {
-  return textureLod(worley_tile, (p_world - vec3(0.0, look.noise_drift * time, 0.0)) / look.noise_period, 0.0).rg;
+/// The noise at a point, a channel each: large billows, small ones, threads, broad (shaders/noise.comp).
+vec4 smoke_noise(sampler3D noise_tile, SmokeLook look, vec3 p_world, float time) {
+  return textureLod(noise_tile, (p_world - vec3(0.0, look.noise_drift * time, 0.0)) / look.noise_period, 0.0);
 }
 
-/// Density after the noise: the less smoke there is, the brighter the noise must be for any to stay. Full smoke stays
-/// full, so that nothing is lost along walls.
-float erode(SmokeLook look, float density, vec2 noise) {
-  const float bright = clamp(1.7 * (0.6 * noise.r + 0.4 * noise.g) - 0.4, 0.0, 1.0);
-  const float threshold = look.erosion * (1.0 - bright);
-  return clamp((density - threshold) / max(1.0 - look.erosion, 0.05), 0.0, 1.0);
+/// Density after the noise: the less smoke there is, the brighter the noise must be for any to stay. Rises with density
+/// and with each channel; 0 where the density is 0. Where it is 1 the mean over the noise is 1, so that no line shows
+/// along walls, and the most 1 + 0.5 look.erosion.
+float erode(SmokeLook look, float density, vec4 noise) {
+  const float billows = clamp(1.35 * dot(noise, vec4(0.55, 0.22, 0.0, 0.23)) - 0.175, 0.0, 1.0);
+  const float threshold = look.erosion * (1.0 - billows);
+  const float left = clamp(2.5 * (density - threshold) / max(1.0 - threshold, 0.05), 0.0, 1.0);
+  const float inside = 1.0 + look.erosion * (0.7 * noise.r + 0.3 * noise.a - 0.5);
+  return left * inside;
 }
 
 #endif

@@ -1,4 +1,4 @@
-// How much smoke stands between two points. Needs `frame`, `worley_tile` and lib/smoke_density.glsl's bindings.
+// How much smoke stands between two points. Needs `frame`, `noise_tile` and lib/smoke_density.glsl's bindings.
 #ifndef OPTICAL_DEPTH_GLSL
 #define OPTICAL_DEPTH_GLSL
 #include "lib/erosion.glsl"
@@ -9,7 +9,7 @@ float seen_density(vec3 p_voxel) {
   float density = smoke_density(frame.volume, p_voxel);
   if (density > 0.0 && frame.look.erosion > 0.0) {
     const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
-    density = erode(frame.look, density, billows(worley_tile, frame.look, p_world, frame.time));
+    density = erode(frame.look, density, smoke_noise(noise_tile, frame.look, p_world, frame.time));
   }
   return density;
 }

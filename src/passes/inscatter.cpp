@@ -25,7 +25,7 @@ InscatterPass::InscatterPass(gpu::Context& context)
 
 void InscatterPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
                            const ShadowMaps& shadows, const SmokeResources& smoke,
-                           const gpu::Image& worley) const {
+                           const gpu::Image& noise) const {
   for (std::uint32_t first = 0; first < smoke.slot_count; first += kSlotsPerDispatch) {
     const std::uint32_t count = std::min(kSlotsPerDispatch, smoke.slot_count - first);
     recorder.bind(
@@ -33,7 +33,7 @@ void InscatterPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, co
         {gpu::read(frame), gpu::read(scene.lights), gpu::read(shadows.sun),
          gpu::sampled(shadows.layers, compare_), gpu::read(smoke.pages), gpu::sampled(smoke.density, linear_),
          gpu::read(smoke.cells), gpu::read(smoke.boundary), gpu::read(smoke.corners),
-         gpu::read(smoke.slot_bricks), gpu::stored(smoke.inscatter), gpu::sampled(worley, repeat_)},
+         gpu::read(smoke.slot_bricks), gpu::stored(smoke.inscatter), gpu::sampled(noise, repeat_)},
         shared::InscatterParams{first, count, kVolumeSteps});
     recorder.dispatch_threads(pipeline_, count * shared::kTexelsPerBrick);
   }

@@ -12,7 +12,7 @@ class InscatterPass {
   explicit InscatterPass(gpu::Context& context);
   /// Fills smoke.inscatter for all slots.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-              const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& worley) const;
+              const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& noise) const;
 
  private:
   gpu::ComputePipeline pipeline_;

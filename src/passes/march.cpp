@@ -30,7 +30,7 @@ void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Buf
   recorder.bind(pipeline_,
                 {gpu::read(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.density, linear_),
                  gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
-                 gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.worley, repeat_),
+                 gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.noise, repeat_),
                  gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_), gpu::read(in.holes),
                  gpu::stored(far), gpu::read_write(counters), gpu::read(ends), gpu::stored(near),
                  gpu::sampled(in.hole_masks, nearest_)});

@@ -20,7 +20,7 @@ class MarchPass {
   struct Inputs {
     const gpu::Buffer& frame;
     const SmokeResources& smoke;
-    const gpu::Image& worley;
+    const gpu::Image& noise;
     const gpu::Image& depth;
     const gpu::Image& blue_noise;
     const gpu::Buffer& holes;      ///< shared::Hole, frame.hole_count of them.

@@ -33,14 +33,14 @@ gpu::Image SmokeShadowPass::make_layers(gpu::Context& context, const ShadowMaps&
 }
 
 void SmokeShadowPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-                             const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& worley,
+                             const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& noise,
                              const gpu::Image& layers) const {
   const std::uint32_t size = layers.info().size.x;
   recorder.bind(pipeline_,
                 {gpu::read(frame), gpu::read(scene.lights), gpu::read(shadows.sun),
                  gpu::sampled(shadows.layers, nearest_), gpu::read(smoke.pages),
                  gpu::sampled(smoke.density, linear_), gpu::read(smoke.cells), gpu::read(smoke.boundary),
-                 gpu::read(smoke.corners), gpu::sampled(worley, repeat_), gpu::stored(layers)});
+                 gpu::read(smoke.corners), gpu::sampled(noise, repeat_), gpu::stored(layers)});
   // Each light writes layers of its own: no barrier between.
   for (std::uint32_t i = 0; i < scene.light_list.size(); ++i) {
     const shared::Light& light = scene.light_list[i];

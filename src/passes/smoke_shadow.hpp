@@ -15,7 +15,7 @@ class SmokeShadowPass {
   gpu::Image make_layers(gpu::Context& context, const ShadowMaps& shadows) const;
   /// Fills all layers.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-              const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& worley,
+              const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& noise,
               const gpu::Image& layers) const;
 
  private:

@@ -50,7 +50,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       shadows_(shadow_pass_.make_maps(context, scene_)),
       gbuffer_(context, size_px_),
       smoke_shadows_(smoke_shadow_pass_.make_layers(context, shadows_)),
-      worley_(passes::make_worley_tile(context, passes::kSmokeNoise.size)),
+      noise_(passes::make_noise_tile(context, passes::kSmokeNoise.size)),
       smoke_image_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       picture_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       display_image_(storage_image(context, size_px_, VK_FORMAT_R8G8B8A8_UNORM)),
@@ -59,9 +59,9 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       counters_(context, sizeof(std::uint32_t), kBufferUsage) {
   if (march_scale_ > 1) blocks_.emplace(context, size_px_, march_scale_);
   shadow_pass_.record(context, runner, scene_, {}, shadows_);
-  const passes::WorleyPass worley(context);
+  const passes::NoisePass noise(context);
   runner.run([&](gpu::Recorder& recorder) {
-    worley.record(recorder, worley_, passes::kSmokeNoise);
+    noise.record(recorder, noise_, passes::kSmokeNoise);
     blue_noise_ = passes::make_blue_noise(context, recorder);
     hole_masks_ =
         passes::make_hole_masks(context, recorder, options.masks ? *options.masks : sim::MaskAtlas());
@@ -121,10 +121,10 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   const bool light_smoke = input.volume && needs_light(input);
   stage("smoke_shadow", [&] {
     if (light_smoke)
-      smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_, smoke_shadows_);
+      smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, noise_, smoke_shadows_);
   });
   stage("inscatter", [&] {
-    if (light_smoke) inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke, worley_);
+    if (light_smoke) inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke, noise_);
   });
   stage("march", [&] { record_march(recorder); });
   stage("resolve", [&] {
@@ -138,7 +138,7 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
 
 void Renderer::record_march(gpu::Recorder& recorder) {
   const passes::MarchPass::Inputs inputs{
-      frame_, smoke_upload_.resources(), worley_, gbuffer_.depth, blue_noise_, holes_, hole_masks_};
+      frame_, smoke_upload_.resources(), noise_, gbuffer_.depth, blue_noise_, holes_, hole_masks_};
   if (!blocks_) {
     march_pass_.record(recorder, inputs, smoke_image_, counters_);
     return;

@@ -9,10 +9,10 @@
 #include "passes/hole_masks.hpp"
 #include "passes/inscatter.hpp"
 #include "passes/march.hpp"
+#include "passes/noise.hpp"
 #include "passes/resolve.hpp"
 #include "passes/shade.hpp"
 #include "passes/smoke_shadow.hpp"
-#include "passes/worley.hpp"
 #include "scene/scene.hpp"
 #include "sim/smoke_volume.hpp"
 
@@ -91,7 +91,7 @@ class Renderer {
   passes::SmokeUpload smoke_upload_;
   passes::ShadowMaps shadows_;
   passes::GBuffer gbuffer_;
-  gpu::Image smoke_shadows_, worley_, blue_noise_, hole_masks_, smoke_image_, picture_, display_image_;
+  gpu::Image smoke_shadows_, noise_, blue_noise_, hole_masks_, smoke_image_, picture_, display_image_;
   std::optional<passes::MarchBlocks> blocks_;  ///< Where march_scale_ is above 1.
   gpu::Buffer frame_, holes_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.

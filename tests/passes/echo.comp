@@ -9,7 +9,7 @@
 #include "shared/light.h"
 #include "shared/resolve.h"
 #include "shared/smoke_shadow.h"
-#include "shared/worley.h"
+#include "shared/noise.h"
 
 layout(local_size_x = 1) in;
 layout(scalar, binding = 0) buffer Out0 { FrameConstants frame; };
@@ -18,7 +18,7 @@ layout(scalar, binding = 2) buffer Out2 { Hole hole; };
 layout(scalar, binding = 3) buffer Out3 { BoundaryCell cell; };
 layout(scalar, binding = 4) buffer Out4 { DrawConstants draw; };
 layout(scalar, binding = 5) buffer Out5 { Vertex vertex; };
-layout(scalar, binding = 6) buffer Out6 { WorleyParams worley; };
+layout(scalar, binding = 6) buffer Out6 { NoiseParams noise; };
 layout(scalar, binding = 7) buffer Out7 { InscatterParams inscatter; };
 layout(scalar, binding = 8) buffer Out8 { SmokeShadowParams smoke_shadow; };
 layout(scalar, binding = 9) buffer Out9 { ShadowView view; };
@@ -47,7 +47,7 @@ void main() {
   cell = BoundaryCell(1u, 2u, 3u, 4u);
   draw = DrawConstants(v4(1.0), v4(5.0), v4(9.0), MaterialConstants(v3(13.0), 16.0, v3(17.0), 20.0, 21.0));
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));
-  worley = WorleyParams(1u, 2u, 3u, 4u);
+  noise = NoiseParams(1u, 2u, 3u);
   inscatter = InscatterParams(1u, 2u, 3u);
   smoke_shadow = SmokeShadowParams(1u, 2u, 3.0);
   view = ShadowView(m4(1.0), m4(17.0));

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "passes/blue_noise.hpp"
-#include "passes/worley.hpp"
+#include "passes/noise.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/passes/smoke_room.hpp"
 
@@ -16,11 +16,11 @@ constexpr glm::uvec2 kSize{33, 17};
 class MarchTest : public gpu::GpuTest {
  protected:
   MarchTest() : march_(context(), true) {
-    worley_ = make_worley_tile(context(), 8);
-    const WorleyPass worley(context());
+    noise_tile_ = make_noise_tile(context(), 8);
+    const NoisePass noise(context());
     runner().run([&](gpu::Recorder& recorder) {
-      worley.record(recorder, worley_, {8, 2, 1, 1});
-      noise_ = make_blue_noise(context(), recorder);
+      noise.record(recorder, noise_tile_, {8, 2, 1});
+      blue_noise_ = make_blue_noise(context(), recorder);
       masks_ = make_hole_masks(context(), recorder, {});
     });
   }
@@ -60,8 +60,8 @@ class MarchTest : public gpu::GpuTest {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       march_.record(
           recorder,
-          {frame_buffer, room.upload.resources(), worley_, depth_image, noise_, hole_buffer, masks_}, target,
-          counters);
+          {frame_buffer, room.upload.resources(), noise_tile_, depth_image, blue_noise_, hole_buffer, masks_},
+          target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
     std::vector<glm::vec4> out;
@@ -70,7 +70,7 @@ class MarchTest : public gpu::GpuTest {
   }
 
   MarchPass march_;
-  gpu::Image worley_, noise_, masks_;
+  gpu::Image noise_tile_, blue_noise_, masks_;
   std::uint32_t samples_ = 0;
 };
 

@@ -4,9 +4,9 @@
 #include "shared/hole.h"
 #include "shared/inscatter.h"
 #include "shared/light.h"
+#include "shared/noise.h"
 #include "shared/resolve.h"
 #include "shared/smoke_shadow.h"
-#include "shared/worley.h"
 #include "tests/gpu/gpu_test.hpp"
 
 namespace brume::passes {
@@ -38,7 +38,7 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   for (const std::size_t size :
        {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
         sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
-        sizeof(shared::WorleyParams), sizeof(shared::InscatterParams), sizeof(shared::SmokeShadowParams),
+        sizeof(shared::NoiseParams), sizeof(shared::InscatterParams), sizeof(shared::SmokeShadowParams),
         sizeof(shared::ShadowView), sizeof(shared::RayEnds)}) {
     out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   }
@@ -130,11 +130,10 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(vertex.tangent, 7);
   expect_counted(vertex.uv, 11);
 
-  const auto worley = one<shared::WorleyParams>(out[6]);
-  EXPECT_EQ(worley.size, 1u);
-  EXPECT_EQ(worley.coarse_cells, 2u);
-  EXPECT_EQ(worley.octaves, 3u);
-  EXPECT_EQ(worley.seed, 4u);
+  const auto noise = one<shared::NoiseParams>(out[6]);
+  EXPECT_EQ(noise.size, 1u);
+  EXPECT_EQ(noise.coarse_cells, 2u);
+  EXPECT_EQ(noise.seed, 3u);
 
   const auto inscatter = one<shared::InscatterParams>(out[7]);
   EXPECT_EQ(inscatter.first_slot, 1u);

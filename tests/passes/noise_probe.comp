@@ -1,0 +1,22 @@
+// Evaluates each kind of noise at given points: ten values a point.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lib/noise.glsl"
+
+layout(local_size_x = 64) in;
+layout(scalar, binding = 0) readonly buffer Points { vec3 points[]; };
+layout(scalar, binding = 1) writeonly buffer Values { float values[]; };
+layout(push_constant, scalar) uniform Push { int cells; uint seed; };
+
+void main() {
+  const uint i = gl_GlobalInvocationID.x;
+  if (i >= uint(points.length())) return;
+  const vec3 p = points[i];
+  const vec4 gradient = perlin(p, cells, seed);
+  const vec3 curl = curl_noise(p, cells, seed);
+  const float all[10] =
+      float[10](worley(p, cells, seed), gradient.w, gradient.x, gradient.y, gradient.z, curl.x, curl.y, curl.z,
+                perlin_worley(p, cells, 2u, seed), threads(p, cells, 2u, seed));
+  for (uint k = 0u; k < 10u; ++k) values[10u * i + k] = all[k];
+}
