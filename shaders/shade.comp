@@ -3,6 +3,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#define BINDING_SKY_LIGHT 10
+#define BINDING_SOLID 11
 #include "lib/camera.glsl"
 #include "lib/lights.glsl"
 #include "lib/shading.glsl"
@@ -22,7 +24,8 @@ layout(binding = 6) uniform sampler2D emission;
 layout(binding = 7) uniform sampler2D depth;
 layout(binding = 8) uniform sampler2DArray smoke_shadows;
 layout(binding = 9) uniform sampler2D smoke;
-layout(binding = 10, rgba16f) uniform writeonly image2D picture;
+layout(binding = 12, rgba16f) uniform writeonly image2D picture;
+#include "lib/sky_light.glsl"
 
 // A tile is a workgroup. Its lights are bits, so that each pixel adds them up in their order, whoever found them.
 const uint kTile = 8u, kBatch = 512u;
@@ -114,8 +117,8 @@ void main() {
   const vec3 view = -normalize(ray);
   vec3 radiance = vec3(0.0);
   if (lit) {
-    // The sky's light, a little more of it on what faces up.
-    radiance = texelFetch(emission, px, 0).rgb + surface.albedo * frame.sky.ambient * (0.75 + 0.25 * surface.normal.y);
+    radiance = texelFetch(emission, px, 0).rgb +
+               surface.albedo * frame.sky.ambient * sky_irradiance(surface.position_world, surface.normal);
   } else if (seen) {
     radiance = sky_radiance(frame.sky, normalize(ray));
   }

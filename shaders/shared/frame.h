@@ -4,6 +4,7 @@
 #include "shared/phase.h"
 #include "shared/shim.h"
 #include "shared/smoke_volume.h"
+#include "shared/solid_volume.h"
 SHARED_BEGIN
 
 /// A pinhole camera. A pixel's ray runs along forward + x right + y up, x and y in -1..1.
@@ -46,6 +47,7 @@ struct FrameConstants {
   Sky sky;
   SmokeLook look;
   SmokeVolumeFrame volume;
+  SolidFrame solid;
   uvec2 size_px;
   uint light_count;
   uint hole_count;
@@ -54,7 +56,7 @@ struct FrameConstants {
   float exposure;    // multiplies radiance before the tone curve
   uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
 };
-SHARED_SIZE(FrameConstants, 324);
+SHARED_SIZE(FrameConstants, 352);
 
 SHARED_END
 #endif

@@ -3,8 +3,15 @@
 
 #include "passes/gbuffer.hpp"
 #include "passes/shadow.hpp"
+#include "passes/sky_light.hpp"
 
 namespace brume::passes {
+
+/// What a level does to light that comes from all around.
+struct LevelLight {
+  const SolidVolume& solid;
+  const SkyLightPass& sky;
+};
 
 class ShadePass {
  public:
@@ -14,8 +21,8 @@ class ShadePass {
   /// `smoke`: premultiplied radiance and transmittance, of the picture's size. What smoke of transmittance 0
   /// hides costs nothing. `smoke_shadows` as SmokeShadowPass makes it.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-              const ShadowMaps& shadows, const gpu::Image& smoke_shadows, const GBuffer& gbuffer,
-              const gpu::Image& smoke, const gpu::Image& picture) const;
+              const ShadowMaps& shadows, const gpu::Image& smoke_shadows, const LevelLight& level,
+              const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& picture) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -40,6 +40,7 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   input.look.hole_rim = 0.06f;
   input.exposure = std::exp2(timeline.exposure);
   input.time = static_cast<float>(seconds);
+  input.level = {&simulation.world().grid(), simulation.world().state().edits};
   input.volume = &simulation.volume();
   holes = sim::holes_of(simulation.world().state());
   input.holes = holes;

@@ -47,6 +47,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       resolve_pass_(context),
       display_pass_(context),
       smoke_upload_(context),
+      solid_(context),
+      sky_light_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
       gbuffer_(context, size_px_),
       smoke_shadows_(smoke_shadow_pass_.make_layers(context, shadows_)),
@@ -71,6 +73,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
 
 void Renderer::prepare(const FrameInput& input) {
   if (input.volume) smoke_upload_.reserve(*input.volume);
+  solid_.reserve(input.level);
+  sky_light_.reserve(solid_);
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
 }
 
@@ -89,6 +93,7 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.sky = input.sky;
   frame.look = input.look;
   if (input.volume && input.volume->slot_count() > 0) frame.volume = input.volume->frame();
+  frame.solid = solid_.frame();
   frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
   frame.size_px = size_px_;
   frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());
@@ -114,6 +119,9 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
     record_frame_constants(recorder, input);
     if (input.volume) smoke_changed_ = smoke_upload_.record(recorder, *input.volume) || smoke_changed_;
   });
+  stage("sky_light", [&] {
+    if (solid_.record(recorder, input.level)) sky_light_.record(recorder, frame_, solid_);
+  });
   stage("gbuffer", [&] {
     gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), input.hidden_objects,
                          frame_, gbuffer_);
@@ -131,7 +139,8 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
     if (blocks_) resolve_pass_.record(recorder, frame_, gbuffer_.depth, *blocks_, smoke_image_);
   });
   stage("shade", [&] {
-    shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, gbuffer_, smoke_image_, picture_);
+    shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, {solid_, sky_light_}, gbuffer_,
+                       smoke_image_, picture_);
   });
   stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
 }

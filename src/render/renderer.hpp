@@ -12,6 +12,7 @@
 #include "passes/noise.hpp"
 #include "passes/resolve.hpp"
 #include "passes/shade.hpp"
+#include "passes/sky_light.hpp"
 #include "passes/smoke_shadow.hpp"
 #include "scene/scene.hpp"
 #include "sim/smoke_volume.hpp"
@@ -23,9 +24,10 @@ struct FrameInput {
   scene::Camera camera;
   shared::Sky sky{};
   shared::SmokeLook look{};
-  float exposure = 1;                         ///< Multiplies radiance before the tone curve; > 0.
-  float time = 0;                             ///< [s], the clock of the holes and of the drifting noise.
-  std::uint32_t frame_index = 0;              ///< Moves jitter and dither; equal numbers give equal pictures.
+  float exposure = 1;             ///< Multiplies radiance before the tone curve; > 0.
+  float time = 0;                 ///< [s], the clock of the holes and of the drifting noise.
+  std::uint32_t frame_index = 0;  ///< Moves jitter and dither; equal numbers give equal pictures.
+  passes::LevelView level;        ///< Where the level is solid; of a renderer always the same level.
   const sim::SmokeVolume* volume = nullptr;   ///< null: no smoke.
   std::span<const shared::Hole> holes;        ///< At most passes::kMaxHoles are drawn, the last ones.
   std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
@@ -89,6 +91,8 @@ class Renderer {
   passes::ResolvePass resolve_pass_;
   passes::DisplayPass display_pass_;
   passes::SmokeUpload smoke_upload_;
+  passes::SolidVolume solid_;
+  passes::SkyLightPass sky_light_;
   passes::ShadowMaps shadows_;
   passes::GBuffer gbuffer_;
   gpu::Image smoke_shadows_, noise_, blue_noise_, hole_masks_, smoke_image_, picture_, display_image_;

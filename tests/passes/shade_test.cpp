@@ -68,14 +68,18 @@ class ShadeTest : public gpu::GpuTest {
     frame.camera.right = {1, 0, 0};
     frame.camera.up = {0, 0.5f, 0};
     frame.sky = {glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.05f), 0.3f};
+    frame.solid = solid_.frame();
     frame.size_px = size_;
     frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());
     const auto frame_buffer = upload(std::vector{frame});
     const auto smoke_image = upload_image(context(), runner(), size_, kHalf4, smoke);
     const auto picture = test_image(context(), size_, kHalf4);
     const ShadePass pass(context(), cull_lights);
+    sky_.reserve(solid_);
     runner().run([&](gpu::Recorder& recorder) {
-      pass.record(recorder, frame_buffer, scene_, shadows_, smoke_shadows_, gbuffer_, smoke_image, picture);
+      if (solid_.record(recorder, {})) sky_.record(recorder, frame_buffer, solid_);
+      pass.record(recorder, frame_buffer, scene_, shadows_, smoke_shadows_, {solid_, sky_}, gbuffer_,
+                  smoke_image, picture);
     });
     std::vector<glm::vec4> out;
     for (const Half4& texel : read_back<Half4>(picture)) out.push_back(from_half(texel));
@@ -88,6 +92,8 @@ class ShadeTest : public gpu::GpuTest {
   SceneResources scene_;
   ShadowMaps shadows_;
   gpu::Image smoke_shadows_;
+  SolidVolume solid_{context()};
+  SkyLightPass sky_{context()};
   GBuffer gbuffer_;
 };
 

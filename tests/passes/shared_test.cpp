@@ -74,6 +74,9 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(frame.volume.atlas_bricks, 180);
   expect_counted(frame.volume.bounds_min, 183);
   expect_counted(frame.volume.bounds_max, 186);
+  expect_counted(frame.solid.origin_world, 200);
+  EXPECT_EQ(frame.solid.texel_size, 203);
+  expect_counted(frame.solid.size, 204);
   expect_counted(frame.size_px, 190);
   EXPECT_EQ(frame.light_count, 192u);
   EXPECT_EQ(frame.hole_count, 193u);

@@ -1,0 +1,38 @@
+#include "passes/sky_light.hpp"
+
+#include "brume_shaders.hpp"
+
+namespace brume::passes {
+
+SkyLightPass::SkyLightPass(gpu::Context& context)
+    : context_(context),
+      rays_pipeline_(context, shaders::sky_rays_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
+                     {64, 1, 1}),
+      light_pipeline_(context, shaders::sky_light_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kStored}, 0,
+                      {64, 1, 1}) {}
+
+void SkyLightPass::reserve(const SolidVolume& solid) {
+  const VkDeviceSize bytes =
+      VkDeviceSize{shared::kSkyDirections} * solid.word_count() * sizeof(std::uint32_t);
+  if (!rays_ || rays_.size() != bytes)
+    rays_ =
+        gpu::Buffer(context_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  const glm::uvec3 size(solid.frame().size);
+  if (light_ && light_.info().size == size) return;
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = size;
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  light_ = gpu::Image(context_, info);
+}
+
+void SkyLightPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SolidVolume& solid) const {
+  recorder.bind(rays_pipeline_, {gpu::read(frame), gpu::read(solid.words()), gpu::write(rays_)});
+  recorder.dispatch_threads(rays_pipeline_, solid.word_count(), shared::kSkyDirections);
+  recorder.bind(light_pipeline_, {gpu::read(frame), gpu::read(rays_), gpu::stored(light_)});
+  const glm::uvec3 size = light_.info().size;
+  recorder.dispatch_threads(light_pipeline_, size.x, size.y * size.z);
+}
+
+}  // namespace brume::passes

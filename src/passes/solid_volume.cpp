@@ -1,0 +1,141 @@
+#include "passes/solid_volume.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace brume::passes {
+namespace {
+
+constexpr std::uint8_t kFreeTexel = 255;
+
+glm::ivec3 texels_of(glm::ivec3 voxels, int voxels_per_texel) {
+  return (voxels + (voxels_per_texel - 1)) / voxels_per_texel;
+}
+
+/// A box around the voxels where two lists of edits differ.
+voxel::IntBox difference_of(const sim::EditBlocks& a, const sim::EditBlocks& b) {
+  voxel::IntBox box{glm::ivec3(1 << 24), glm::ivec3(-(1 << 24))};
+  const auto add = [&](const sim::EditBlock& block) {
+    const glm::ivec3 low = glm::ivec3(block.at) * sim::kBlockSize;
+    box.low = glm::min(box.low, low);
+    box.high = glm::max(box.high, low + sim::kBlockSize);
+  };
+  for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (const sim::EditBlock& block : *one) {
+      const auto found = std::find(other->begin(), other->end(), block);
+      if (found == other->end()) add(block);
+    }
+  return box;
+}
+
+}  // namespace
+
+int voxels_per_solid_texel(glm::ivec3 voxels) {
+  for (int k = 1;; ++k) {
+    const glm::u64vec3 texels(texels_of(voxels, k));
+    const bool fits = texels.x * texels.y * texels.z <= kMaxSolidTexels;
+    if (fits && std::max({texels.x, texels.y, texels.z}) <= kMaxSolidAxis) return k;
+  }
+}
+
+SolidVolume::SolidVolume(gpu::Context& context) : context_(context) {
+  make({glm::ivec3(1), 1.0f, glm::vec3(0)});
+  grid_frame_ = {};  // no level's
+}
+
+void SolidVolume::make(const voxel::GridFrame& grid) {
+  grid_frame_ = grid;
+  voxels_per_texel_ = voxels_per_solid_texel(grid.size);
+  frame_.origin_world = grid.origin_world;
+  frame_.texel_size = grid.voxel_size * static_cast<float>(voxels_per_texel_);
+  frame_.size = texels_of(grid.size, voxels_per_texel_);
+  const auto words =
+      static_cast<std::size_t>(shared::solid_row_words(frame_.size.x) * frame_.size.y * frame_.size.z);
+  bits_.assign(words, 0);
+  edits_ = nullptr;
+  everything_ = true;
+
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R8_UNORM;
+  info.size = glm::uvec3(frame_.size);
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  texels_ = gpu::Image(context_, info);
+  words_ = gpu::Buffer(context_, words * sizeof(std::uint32_t),
+                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+}
+
+void SolidVolume::reserve(const LevelView& level) {
+  if (level.grid && !(level.grid->frame() == grid_frame_)) make(level.grid->frame());
+}
+
+bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
+  voxel::IntBox changed{glm::ivec3(0), frame_.size};
+  if (!everything_) {
+    if (!level.grid || level.edits == edits_) return false;
+    static const sim::EditBlocks none;
+    const voxel::IntBox voxels = difference_of(edits_ ? *edits_ : none, level.edits ? *level.edits : none);
+    if (voxels.empty()) return false;
+    changed = voxel::intersection(
+        changed, {voxels.low / voxels_per_texel_, texels_of(voxels.high, voxels_per_texel_)});
+  }
+  if (level.grid) fill_bits(*level.grid, changed);
+  upload(recorder, changed);
+  everything_ = false;
+  edits_ = level.edits;
+  return true;
+}
+
+void SolidVolume::fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& texels) {
+  const int k = voxels_per_texel_, row_words = shared::solid_row_words(frame_.size.x);
+  const glm::ivec3 size = texels.high - texels.low;
+  std::vector<std::uint32_t> counts(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                                    static_cast<std::size_t>(size.z));
+  const auto count_at = [&](glm::ivec3 texel) -> std::uint32_t& {
+    const glm::ivec3 t = texel - texels.low;
+    return counts[static_cast<std::size_t>(t.x + size.x * (t.y + size.y * t.z))];
+  };
+
+  // How many voxels of each texel are solid: brick by brick, bit by bit.
+  const voxel::IntBox bricks{texels.low * k / voxel::kBrickSize,
+                             (glm::min(texels.high * k, grid.size()) + 7) / voxel::kBrickSize};
+  voxel::for_each_in(bricks, [&](glm::ivec3 b) {
+    const voxel::BitGrid::Brick* brick = grid.find_brick(b);
+    for (int z = 0; brick && z < voxel::kBrickSize; ++z)
+      for (std::uint64_t left = (*brick)[static_cast<std::size_t>(z)]; left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left);
+        const glm::ivec3 texel = (b * voxel::kBrickSize + glm::ivec3(bit & 7, bit >> 3, z)) / k;
+        if (texels.contains(texel)) ++count_at(texel);
+      }
+  });
+
+  const auto half_a_wall = static_cast<std::uint32_t>((k * k + 1) / 2);
+  voxel::for_each_in(texels, [&](glm::ivec3 t) {
+    std::uint32_t& word = bits_[static_cast<std::size_t>(t.x / 32 + row_words * (t.y + frame_.size.y * t.z))];
+    const std::uint32_t bit = 1u << (t.x % 32);
+    word = count_at(t) >= half_a_wall ? word | bit : word & ~bit;
+  });
+}
+
+void SolidVolume::upload(gpu::Recorder& recorder, const voxel::IntBox& texels) const {
+  const int row_words = shared::solid_row_words(frame_.size.x);
+  std::vector<std::uint8_t> bytes;
+  voxel::for_each_in(texels, [&](glm::ivec3 t) {
+    const std::uint32_t word =
+        bits_[static_cast<std::size_t>(t.x / 32 + row_words * (t.y + frame_.size.y * t.z))];
+    bytes.push_back(word >> (t.x % 32) & 1 ? 0 : kFreeTexel);
+  });
+  const gpu::Recorder::Region region{std::as_bytes(std::span(bytes)), texels.low,
+                                     glm::uvec3(texels.high - texels.low)};
+  recorder.upload(texels_, {&region, 1});
+
+  // Words lie slice by slice.
+  const auto slice = static_cast<std::size_t>(row_words * frame_.size.y);
+  const std::size_t first = slice * static_cast<std::size_t>(texels.low.z),
+                    count = slice * static_cast<std::size_t>(texels.high.z - texels.low.z);
+  recorder.upload(words_, first * sizeof(std::uint32_t),
+                  std::as_bytes(std::span(bits_).subspan(first, count)));
+}
+
+}  // namespace brume::passes

@@ -1,0 +1,64 @@
+// The level on the device: which of its voxels are solid, for rays and for light.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "gpu/recorder.hpp"
+#include "shared/solid_volume.h"
+#include "sim/level_edit.hpp"
+#include "voxel/bit_grid.hpp"
+#include "voxel/int_box.hpp"
+
+namespace brume::passes {
+
+/// A level at a moment. The edits say what changed since another moment of the same level; null: as it was
+/// loaded.
+struct LevelView {
+  const voxel::BitGrid* grid = nullptr;  ///< Edits included; null: nothing is solid anywhere.
+  std::shared_ptr<const sim::EditBlocks> edits;
+};
+
+constexpr int kMaxSolidAxis = 256;
+constexpr std::uint32_t kMaxSolidTexels = 1u << 20;
+
+/// Voxels per edge of a texel: the least for which the texels keep to the limits above.
+int voxels_per_solid_texel(glm::ivec3 voxels);
+
+class SolidVolume {
+ public:
+  /// The volume of a world where nothing is solid.
+  explicit SolidVolume(gpu::Context& context);
+
+  /// Makes room for the level. Outside of a recording, when the device is done with the one before. Levels of
+  /// one frame are taken for moments of the same one. Throws resource_limit.
+  void reserve(const LevelView& level);
+  /// Uploads what changed since the last record; true when anything did. The level must be as `reserve` saw
+  /// it.
+  bool record(gpu::Recorder& recorder, const LevelView& level);
+
+  const shared::SolidFrame& frame() const { return frame_; }
+  /// R8, see shared/solid_volume.h; clamped at its edges.
+  const gpu::Image& texels() const { return texels_; }
+  const gpu::Buffer& words() const { return words_; }
+  std::uint32_t word_count() const { return static_cast<std::uint32_t>(bits_.size()); }
+
+ private:
+  void make(const voxel::GridFrame& grid);
+  /// The bits of the texels in a box, anew from the level.
+  void fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& texels);
+  void upload(gpu::Recorder& recorder, const voxel::IntBox& texels) const;
+
+  gpu::Context& context_;
+  voxel::GridFrame grid_frame_;
+  int voxels_per_texel_ = 1;
+  shared::SolidFrame frame_{};
+  std::vector<std::uint32_t> bits_;  // as in words_
+  std::shared_ptr<const sim::EditBlocks> edits_;
+  bool everything_ = true;  // the resources are new and empty
+  gpu::Image texels_;
+  gpu::Buffer words_;
+};
+
+}  // namespace brume::passes
