@@ -7,10 +7,12 @@
 #define BINDING_CELLS 3
 #define BINDING_BOUNDARY 4
 #define BINDING_CORNERS 5
+#define BINDING_HOLES 10
+#define BINDING_HOLE_MASKS 15
+#define BINDING_HOLE_GRID 16
 #include "lib/blue_noise.glsl"
 #include "lib/camera.glsl"
 #include "lib/erosion.glsl"
-#include "lib/holes.glsl"
 #include "lib/smoke_density.glsl"
 #include "shared/frame.h"
 #include "shared/resolve.h"
@@ -24,40 +26,18 @@ layout(binding = 6) uniform sampler3D inscatter_atlas;
 layout(binding = 7) uniform sampler3D noise_tile;
 layout(binding = 8) uniform sampler2D depth;
 layout(binding = 9) uniform sampler2D blue_noise_tile;
-layout(scalar, binding = 10) readonly buffer Holes { Hole holes[]; };
 layout(binding = 11, rgba16f) uniform writeonly image2D smoke;
 layout(scalar, binding = 12) buffer Counters { uint texture_samples; };
 layout(scalar, binding = 13) readonly buffer Ends { RayEnds ends[]; };
 layout(binding = 14, rgba16f) uniform writeonly image2D smoke_near;
-layout(binding = 15) uniform sampler2D hole_masks;
-#include "lib/hole_mask.glsl"
+#include "lib/holes.glsl"
 
-/// The holes that the ray comes near, one bit each.
-uvec2 holes_on_ray(vec3 origin_world, vec3 direction, float t_begin, float t_end) {
-  uvec2 mask = uvec2(0u);
-  for (uint i = 0u; i < min(frame.hole_count, 64u); ++i) {
-    if (hole_near_ray(holes[i], origin_world, direction, t_begin, t_end, frame.look.hole_rim)) mask[i >> 5u] |= 1u << (i & 31u);
-  }
-  return mask;
-}
-
-/// Share of the density that the holes of the mask leave at a point.
-float left_by_holes(uvec2 mask, vec3 p_world, float rim) {
-  float left = 1.0;
-  for (uint word = 0u; word < 2u; ++word) {
-    for (uint bits = mask[word]; bits != 0u; bits &= bits - 1u) {
-      left *= 1.0 - hole_strength_masked(holes[word * 32u + uint(findLSB(bits))], p_world, frame.time, rim);
-    }
-  }
-  return left;
-}
-
-/// What noise and holes leave of the density at a point.
-float carved(float density, vec3 p_world, uvec2 hole_mask) {
+/// What noise and holes leave of the density at a point of a brick.
+float carved(float density, uint holes_here, vec3 local_voxel, vec3 p_world) {
   const vec4 noise = smoke_noise(noise_tile, frame.look, p_world, frame.time);
   if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
-  if (hole_mask != uvec2(0u)) {
-    density *= left_by_holes(hole_mask, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
+  if (any_holes(holes_here) && density > 0.0) {
+    density *= left_by_holes(holes_here, local_voxel, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
   }
   return density;
 }
@@ -109,10 +89,8 @@ void main() {
   vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
   uint samples = 0u;
   if (t_begin < t_last) {
-    const uvec2 hole_mask = holes_on_ray(frame.camera.eye_world, direction, t_begin, t_last);
     const float jitter = blue_noise(blue_noise_tile, way.texel, frame.frame_index).r;
     const float ds = frame.look.step_length;
-    const bool noisy = frame.look.erosion > 0.0 || hole_mask != uvec2(0u);
     const vec3 texel = atlas_texel(volume);
     // Segments of length ds from t_begin on, the last one cut; one sample in each, all at the same share of it. Brick
     // by brick, so that what a brick's samples share is found once.
@@ -120,30 +98,37 @@ void main() {
     for (uint run = 0u; run < kRuns; ++run) {
       const float t_end = run + 1u < kRuns ? min(t_last, way.near * length(ray)) : t_last;
       for (; t < t_end && transmittance > 0.0;) {
-        const vec3 low = floor((origin + per_metre * (t + jitter * min(ds, t_end - t))) / float(kBrickVoxels)) * float(kBrickVoxels);
-        const vec3 exits = max((low - origin) * inverse, (low + float(kBrickVoxels) - origin) * inverse);
-        const float in_brick = max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds - jitter));
-        const float t_next = t + ds * in_brick;
-        const uint slot = slot_at(volume, ivec3(low) / kBrickVoxels);
+        const vec3 at = origin + per_metre * (t + jitter * min(ds, t_end - t));
+        vec3 low = floor(at / float(kBrickVoxels)) * float(kBrickVoxels);
+        int edge;
+        const uint slot = slot_at(volume, ivec3(low) / kBrickVoxels, edge);
+        if (slot == kNoSlot) low = floor(at / float(edge)) * float(edge);
+        const vec3 exits = max((low - origin) * inverse, (low + float(edge) - origin) * inverse);
+        const float inside = max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds - jitter));
+        const float t_next = t + ds * inside;
         if (slot == kNoSlot) {
           t = t_next;
           continue;
         }
         const vec3 corner = atlas_corner(volume, slot);
+        const uint holes_here = holes_in_slot(slot);
+        const bool noisy = frame.look.erosion > 0.0 || any_holes(holes_here);
         for (const float t_stop = min(t_next - 0.5 * ds, t_end); t < t_stop; t += ds) {
           const float segment = min(ds, t_end - t);
           const vec3 local_voxel = origin + per_metre * (t + jitter * segment) - low;
           const vec3 uvw = (corner + local_voxel) * texel;
-          float density = density_in_brick(slot, local_voxel, uvw);
+          const SmokeSample here = sample_brick(slot, local_voxel, uvw);
+          float density = here.density;
           ++samples;
           if (density > 0.0 && noisy) {
-            density = carved(density, volume.origin_world + (low + local_voxel) * volume.voxel_size, hole_mask);
+            density = carved(density, holes_here, local_voxel, volume.origin_world + (low + local_voxel) * volume.voxel_size);
             ++samples;
           }
           if (density > 0.0) {
             // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
             const float passed = exp(-frame.look.extinction * density * segment);
-            radiance += transmittance * (1.0 - passed) * textureLod(inscatter_atlas, uvw, 0.0).rgb;
+            const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
+            radiance += transmittance * (1.0 - passed) * light;
             transmittance *= passed;
             ++samples;
             if (transmittance < frame.look.stop) {

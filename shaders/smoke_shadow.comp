@@ -8,6 +8,9 @@
 #define BINDING_CELLS 6
 #define BINDING_BOUNDARY 7
 #define BINDING_CORNERS 8
+#define BINDING_HOLES 11
+#define BINDING_HOLE_GRID 12
+#define BINDING_HOLE_MASKS 13
 #include "shared/frame.h"
 #include "shared/light.h"
 #include "shared/smoke_shadow.h"

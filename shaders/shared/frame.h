@@ -1,6 +1,7 @@
 // What every pass of a frame may know: camera, sky, smoke look. One buffer, written once a frame.
 #ifndef BRUME_FRAME_H
 #define BRUME_FRAME_H
+#include "shared/hole_grid.h"
 #include "shared/phase.h"
 #include "shared/shim.h"
 #include "shared/smoke_volume.h"
@@ -50,13 +51,13 @@ struct FrameConstants {
   SolidFrame solid;
   uvec2 size_px;
   uint light_count;
-  uint hole_count;
+  HoleGridFrame holes;
   uint frame_index;  // moves the dither and the jitter
   float time;        // [s]
   float exposure;    // multiplies radiance before the tone curve
   uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
 };
-SHARED_SIZE(FrameConstants, 352);
+SHARED_SIZE(FrameConstants, 364);
 
 SHARED_END
 #endif

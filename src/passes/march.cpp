@@ -8,7 +8,7 @@ MarchPass::MarchPass(gpu::Context& context, bool count_samples, std::uint32_t ra
     : pipeline_(context, shaders::march_comp,
                 {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
                  gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored,
-                 gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kSampled},
+                 gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kSampled, gpu::kBuffer},
                 0, {8, 8, 1}, {count_samples ? 1u : 0u, rays}),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
@@ -31,9 +31,9 @@ void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Buf
                 {gpu::read(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.density, linear_),
                  gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
                  gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.noise, repeat_),
-                 gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_), gpu::read(in.holes),
-                 gpu::stored(far), gpu::read_write(counters), gpu::read(ends), gpu::stored(near),
-                 gpu::sampled(in.hole_masks, nearest_)});
+                 gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_),
+                 gpu::read(in.holes.holes), gpu::stored(far), gpu::read_write(counters), gpu::read(ends),
+                 gpu::stored(near), gpu::sampled(in.holes.masks, nearest_), gpu::read(in.holes.grid)});
   recorder.dispatch_threads(pipeline_, far.info().size.x, far.info().size.y);
 }
 

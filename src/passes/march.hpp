@@ -1,15 +1,11 @@
 // Marches rays through the smoke.
 #pragma once
 
+#include "passes/hole_grid.hpp"
 #include "passes/smoke_upload.hpp"
-#include "shared/frame.h"
-#include "shared/hole.h"
 #include "shared/resolve.h"
 
 namespace brume::passes {
-
-/// Most holes that are drawn at a time.
-constexpr std::uint32_t kMaxHoles = 64;
 
 class MarchPass {
  public:
@@ -23,8 +19,7 @@ class MarchPass {
     const gpu::Image& noise;
     const gpu::Image& depth;
     const gpu::Image& blue_noise;
-    const gpu::Buffer& holes;      ///< shared::Hole, frame.hole_count of them.
-    const gpu::Image& hole_masks;  ///< As make_hole_masks makes it.
+    const HoleResources& holes;
   };
   /// Marches the ray of each pixel. Writes premultiplied radiance and transmittance (half floats) to `smoke`.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Image& smoke,

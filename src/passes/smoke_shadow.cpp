@@ -17,7 +17,8 @@ std::uint32_t layer_size(std::uint32_t layers) {
 SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
     : pipeline_(context, shaders::smoke_shadow_comp,
                 {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled,
-                 gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kStored},
+                 gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kStored, gpu::kBuffer,
+                 gpu::kBuffer, gpu::kSampled},
                 sizeof(shared::SmokeShadowParams), {8, 8, 1}),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
@@ -33,14 +34,16 @@ gpu::Image SmokeShadowPass::make_layers(gpu::Context& context, const ShadowMaps&
 }
 
 void SmokeShadowPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-                             const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& noise,
+                             const ShadowMaps& shadows, const SmokeResources& smoke,
+                             const HoleResources& holes, const gpu::Image& noise,
                              const gpu::Image& layers) const {
   const std::uint32_t size = layers.info().size.x;
   recorder.bind(pipeline_,
                 {gpu::read(frame), gpu::read(scene.lights), gpu::read(shadows.sun),
                  gpu::sampled(shadows.layers, nearest_), gpu::read(smoke.pages),
                  gpu::sampled(smoke.density, linear_), gpu::read(smoke.cells), gpu::read(smoke.boundary),
-                 gpu::read(smoke.corners), gpu::sampled(noise, repeat_), gpu::stored(layers)});
+                 gpu::read(smoke.corners), gpu::sampled(noise, repeat_), gpu::stored(layers),
+                 gpu::read(holes.holes), gpu::read(holes.grid), gpu::sampled(holes.masks, nearest_)});
   // Each light writes layers of its own: no barrier between.
   for (std::uint32_t i = 0; i < scene.light_list.size(); ++i) {
     const shared::Light& light = scene.light_list[i];

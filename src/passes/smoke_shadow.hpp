@@ -1,6 +1,7 @@
 // How much the smoke dims what each light sends to the surfaces.
 #pragma once
 
+#include "passes/hole_grid.hpp"
 #include "passes/shadow.hpp"
 #include "passes/smoke_upload.hpp"
 #include "shared/smoke_shadow.h"
@@ -15,8 +16,8 @@ class SmokeShadowPass {
   gpu::Image make_layers(gpu::Context& context, const ShadowMaps& shadows) const;
   /// Fills all layers.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-              const ShadowMaps& shadows, const SmokeResources& smoke, const gpu::Image& noise,
-              const gpu::Image& layers) const;
+              const ShadowMaps& shadows, const SmokeResources& smoke, const HoleResources& holes,
+              const gpu::Image& noise, const gpu::Image& layers) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -41,7 +41,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       shadow_pass_(context),
       smoke_shadow_pass_(context),
       shade_pass_(context),
-      inscatter_pass_(context),
+      smoke_light_pass_(context),
       march_pass_(context, options.count_samples,
                   march_scale_ > 1 ? shared::kRaysOfBlocks : shared::kRaysOfPixels),
       resolve_pass_(context),
@@ -56,8 +56,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       smoke_image_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       picture_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       display_image_(storage_image(context, size_px_, VK_FORMAT_R8G8B8A8_UNORM)),
+      hole_grid_(context, runner, options.masks ? *options.masks : sim::MaskAtlas(), options.all_holes_wide),
       frame_(context, sizeof(shared::FrameConstants), kBufferUsage),
-      holes_(context, passes::kMaxHoles * sizeof(shared::Hole), kBufferUsage),
       counters_(context, sizeof(std::uint32_t), kBufferUsage) {
   if (march_scale_ > 1) blocks_.emplace(context, size_px_, march_scale_);
   shadow_pass_.record(context, runner, scene_, {}, shadows_);
@@ -65,16 +65,19 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
   runner.run([&](gpu::Recorder& recorder) {
     noise.record(recorder, noise_, passes::kSmokeNoise);
     blue_noise_ = passes::make_blue_noise(context, recorder);
-    hole_masks_ =
-        passes::make_hole_masks(context, recorder, options.masks ? *options.masks : sim::MaskAtlas());
     recorder.clear(smoke_shadows_, {});  // no smoke yet
   });
 }
 
 void Renderer::prepare(const FrameInput& input) {
+  const std::uint32_t slots = input.volume ? input.volume->slot_count() : 0;
   if (input.volume) smoke_upload_.reserve(*input.volume);
   solid_.reserve(input.level);
   sky_light_.reserve(solid_);
+  hole_grid_.reserve(input.holes.last(std::min<std::size_t>(input.holes.size(), passes::kMaxHoles)),
+                     input.time, input.look.hole_rim, slots > 0 ? input.volume->frame().voxel_size : 1.0f,
+                     slots);
+  smoke_light_pass_.reserve(slots, static_cast<std::uint32_t>(scene_.light_list.size()));
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
 }
 
@@ -97,14 +100,12 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
   frame.size_px = size_px_;
   frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());
-  const auto holes = input.holes.last(std::min<std::size_t>(input.holes.size(), passes::kMaxHoles));
-  frame.hole_count = static_cast<std::uint32_t>(holes.size());
+  frame.holes = hole_grid_.frame();
   frame.frame_index = input.frame_index;
   frame.time = input.time;
   frame.exposure = input.exposure;
   frame.march_scale = march_scale_;
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
-  recorder.upload(holes_, 0, std::as_bytes(holes));
   recorder.fill(counters_, 0);
 }
 
@@ -126,13 +127,15 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
     gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), input.hidden_objects,
                          frame_, gbuffer_);
   });
+  const auto& holes = hole_grid_.resources();
+  stage("holes", [&] { hole_grid_.record(recorder, frame_, smoke); });
   const bool light_smoke = input.volume && needs_light(input);
   stage("smoke_shadow", [&] {
     if (light_smoke)
-      smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, noise_, smoke_shadows_);
+      smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, holes, noise_, smoke_shadows_);
   });
-  stage("inscatter", [&] {
-    if (light_smoke) inscatter_pass_.record(recorder, frame_, scene_, shadows_, smoke, noise_);
+  stage("smoke_light", [&] {
+    if (light_smoke) smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, noise_});
   });
   stage("march", [&] { record_march(recorder); });
   stage("resolve", [&] {
@@ -146,8 +149,8 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
 }
 
 void Renderer::record_march(gpu::Recorder& recorder) {
-  const passes::MarchPass::Inputs inputs{
-      frame_, smoke_upload_.resources(), noise_, gbuffer_.depth, blue_noise_, holes_, hole_masks_};
+  const passes::MarchPass::Inputs inputs{frame_,      smoke_upload_.resources(), noise_, gbuffer_.depth,
+                                         blue_noise_, hole_grid_.resources()};
   if (!blocks_) {
     march_pass_.record(recorder, inputs, smoke_image_, counters_);
     return;
@@ -164,8 +167,11 @@ bool Renderer::needs_light(const FrameInput& input) {
   const bool even =
       phase.g_hg == 0 && (phase.draine_weight == 0 || (phase.g_draine == 0 && phase.alpha == 0));
   const bool same_eye = even || lit_eye_ == input.camera.position_world;
-  const bool same_noise = input.look.erosion == 0 || lit_time_ == input.time;
-  const bool needed = smoke_changed_ || !same_look || !same_eye || !same_noise || input.force_light;
+  // Noise drifts, holes open and close.
+  const bool has_holes = hole_grid_.frame().hole_count > 0;
+  const bool same_moment = lit_time_ == input.time || (input.look.erosion == 0 && !has_holes && !lit_holes_);
+  lit_holes_ = has_holes;
+  const bool needed = smoke_changed_ || !same_look || !same_eye || !same_moment || input.force_light;
   lit_time_ = input.time;
   lit_eye_ = input.camera.position_world;
   lit_look_ = input.look;

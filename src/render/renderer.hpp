@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "passes/display.hpp"
-#include "passes/hole_masks.hpp"
-#include "passes/inscatter.hpp"
 #include "passes/march.hpp"
 #include "passes/noise.hpp"
 #include "passes/resolve.hpp"
 #include "passes/shade.hpp"
 #include "passes/sky_light.hpp"
+#include "passes/smoke_light.hpp"
 #include "passes/smoke_shadow.hpp"
 #include "scene/scene.hpp"
 #include "sim/smoke_volume.hpp"
@@ -29,7 +28,7 @@ struct FrameInput {
   std::uint32_t frame_index = 0;  ///< Moves jitter and dither; equal numbers give equal pictures.
   passes::LevelView level;        ///< Where the level is solid; of a renderer always the same level.
   const sim::SmokeVolume* volume = nullptr;   ///< null: no smoke.
-  std::span<const shared::Hole> holes;        ///< At most passes::kMaxHoles are drawn, the last ones.
+  std::span<const shared::Hole> holes;        ///< At most passes::kMaxHoles, the last ones.
   std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
   std::vector<std::uint32_t> hidden_objects;  ///< Of the scene, rising: not drawn, and they cast no shadow.
   bool force_light =
@@ -37,9 +36,10 @@ struct FrameInput {
 };
 
 struct RendererOptions {
-  glm::uvec2 size_px{1280, 720};          ///< Each in [1, 16384].
-  bool count_samples = false;             ///< Count the texture samples of the march (slower).
-  std::uint32_t march_scale = 1;          ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
+  bool count_samples = false;     ///< Count the texture samples of the march (slower).
+  bool all_holes_wide = false;    ///< Ask every hole at every sample: what the structure is measured against.
+  std::uint32_t march_scale = 1;  ///< Pixels per ray of the march along each axis: 1, 2 or 4.
   const sim::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
 };
 
@@ -86,7 +86,7 @@ class Renderer {
   passes::ShadowPass shadow_pass_;
   passes::SmokeShadowPass smoke_shadow_pass_;
   passes::ShadePass shade_pass_;
-  passes::InscatterPass inscatter_pass_;
+  passes::SmokeLightPass smoke_light_pass_;
   passes::MarchPass march_pass_;
   passes::ResolvePass resolve_pass_;
   passes::DisplayPass display_pass_;
@@ -95,14 +95,16 @@ class Renderer {
   passes::SkyLightPass sky_light_;
   passes::ShadowMaps shadows_;
   passes::GBuffer gbuffer_;
-  gpu::Image smoke_shadows_, noise_, blue_noise_, hole_masks_, smoke_image_, picture_, display_image_;
+  gpu::Image smoke_shadows_, noise_, blue_noise_, smoke_image_, picture_, display_image_;
   std::optional<passes::MarchBlocks> blocks_;  ///< Where march_scale_ is above 1.
-  gpu::Buffer frame_, holes_, counters_;
+  passes::HoleGrid hole_grid_;
+  gpu::Buffer frame_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
   shared::Sky lit_sky_{};
   std::vector<std::uint32_t> hidden_objects_;  ///< That the shadows were drawn without.
   glm::vec3 lit_eye_{0};
   float lit_time_ = 0;
+  bool lit_holes_ = false;
   bool smoke_changed_ = false;
 };
 

@@ -16,5 +16,5 @@ layout(push_constant, scalar) uniform Push { SmokeVolumeFrame volume; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;
-  if (i < uint(points_voxel.length())) densities[i] = smoke_density(volume, points_voxel[i]);
+  if (i < uint(points_voxel.length())) densities[i] = smoke_at(volume, points_voxel[i]).density;
 }

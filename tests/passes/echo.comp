@@ -5,7 +5,7 @@
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
 #include "shared/hole.h"
-#include "shared/inscatter.h"
+#include "shared/smoke_light.h"
 #include "shared/light.h"
 #include "shared/resolve.h"
 #include "shared/smoke_shadow.h"
@@ -19,7 +19,7 @@ layout(scalar, binding = 3) buffer Out3 { BoundaryCell cell; };
 layout(scalar, binding = 4) buffer Out4 { DrawConstants draw; };
 layout(scalar, binding = 5) buffer Out5 { Vertex vertex; };
 layout(scalar, binding = 6) buffer Out6 { NoiseParams noise; };
-layout(scalar, binding = 7) buffer Out7 { InscatterParams inscatter; };
+layout(scalar, binding = 7) buffer Out7 { SmokeLightParams smoke_light; };
 layout(scalar, binding = 8) buffer Out8 { SmokeShadowParams smoke_shadow; };
 layout(scalar, binding = 9) buffer Out9 { ShadowView view; };
 layout(scalar, binding = 10) buffer Out10 { RayEnds ends; };
@@ -38,7 +38,7 @@ void main() {
   frame.solid = SolidFrame(v3(200.0), 203.0, i3(204));
   frame.size_px = uvec2(190u, 191u);
   frame.light_count = 192u;
-  frame.hole_count = 193u;
+  frame.holes = HoleGridFrame(193u, 198u, 199u, 200u);
   frame.frame_index = 194u;
   frame.time = 195.0;
   frame.exposure = 196.0;
@@ -49,7 +49,7 @@ void main() {
   draw = DrawConstants(v4(1.0), v4(5.0), v4(9.0), MaterialConstants(v3(13.0), 16.0, v3(17.0), 20.0, 21.0));
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));
   noise = NoiseParams(1u, 2u, 3u);
-  inscatter = InscatterParams(1u, 2u, 3u);
+  smoke_light = SmokeLightParams(1u, 2u, 3u, 4u);
   smoke_shadow = SmokeShadowParams(1u, 2u, 3.0);
   view = ShadowView(m4(1.0), m4(17.0));
   ends = RayEnds(vec2(1.0, 2.0), 3.0, 4.0, 5.0, 6.0);

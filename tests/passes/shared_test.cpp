@@ -2,10 +2,10 @@
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
 #include "shared/hole.h"
-#include "shared/inscatter.h"
 #include "shared/light.h"
 #include "shared/noise.h"
 #include "shared/resolve.h"
+#include "shared/smoke_light.h"
 #include "shared/smoke_shadow.h"
 #include "tests/gpu/gpu_test.hpp"
 
@@ -38,7 +38,7 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   for (const std::size_t size :
        {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
         sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
-        sizeof(shared::NoiseParams), sizeof(shared::InscatterParams), sizeof(shared::SmokeShadowParams),
+        sizeof(shared::NoiseParams), sizeof(shared::SmokeLightParams), sizeof(shared::SmokeShadowParams),
         sizeof(shared::ShadowView), sizeof(shared::RayEnds)}) {
     out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   }
@@ -79,7 +79,10 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(frame.solid.size, 204);
   expect_counted(frame.size_px, 190);
   EXPECT_EQ(frame.light_count, 192u);
-  EXPECT_EQ(frame.hole_count, 193u);
+  EXPECT_EQ(frame.holes.hole_count, 193u);
+  EXPECT_EQ(frame.holes.wide_count, 198u);
+  EXPECT_EQ(frame.holes.cells_at, 199u);
+  EXPECT_EQ(frame.holes.entries_at, 200u);
   EXPECT_EQ(frame.frame_index, 194u);
   EXPECT_EQ(frame.time, 195);
   EXPECT_EQ(frame.exposure, 196);
@@ -138,10 +141,11 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(noise.coarse_cells, 2u);
   EXPECT_EQ(noise.seed, 3u);
 
-  const auto inscatter = one<shared::InscatterParams>(out[7]);
-  EXPECT_EQ(inscatter.first_slot, 1u);
-  EXPECT_EQ(inscatter.slot_count, 2u);
-  EXPECT_EQ(inscatter.volume_steps, 3u);
+  const auto smoke_light = one<shared::SmokeLightParams>(out[7]);
+  EXPECT_EQ(smoke_light.first_slot, 1u);
+  EXPECT_EQ(smoke_light.slot_count, 2u);
+  EXPECT_EQ(smoke_light.rays_per_texel, 3u);
+  EXPECT_EQ(smoke_light.max_steps, 4u);
 
   const auto smoke_shadow = one<shared::SmokeShadowParams>(out[8]);
   EXPECT_EQ(smoke_shadow.light, 1u);

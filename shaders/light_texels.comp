@@ -1,0 +1,76 @@
+// Lists the texels whose light is needed: smoke is around them, and they may be in view. One workgroup a brick.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/frame.h"
+#include "shared/smoke_light.h"
+
+layout(local_size_x = 256) in;
+layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
+layout(binding = 2) uniform sampler3D density_atlas;
+layout(scalar, binding = 3) writeonly buffer Texels { uint texels[]; };
+layout(scalar, binding = 4) buffer Counters { SmokeLightCounters counters; };
+layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
+
+shared uint smoke[kTexelsPerBrick];
+shared uint grown[kTexelsPerBrick];
+shared uint group_count;
+shared uint group_first;
+
+/// Whether any of a brick's texels may be in view.
+bool in_view(ivec3 brick) {
+  const float edge = frame.volume.voxel_size * float(kBrickVoxels);
+  const vec3 centre = frame.volume.origin_world + (vec3(brick) + 0.5) * edge;
+  const float radius = 0.8661 * frame.volume.voxel_size * float(kBrickTexels);
+  const vec3 apart = centre - frame.camera.eye_world;
+  const float along = dot(apart, frame.camera.forward);
+  if (along < -radius) return false;
+  const float wide = length(frame.camera.right), high = length(frame.camera.up);
+  return abs(dot(apart, frame.camera.right)) / wide <= wide * along + radius * sqrt(1.0 + wide * wide) &&
+         abs(dot(apart, frame.camera.up)) / high <= high * along + radius * sqrt(1.0 + high * high);
+}
+
+/// Largest of the five values along an axis around texel i.
+uint largest_around(bool of_grown, uint i, uint stride) {
+  const uint at = i / stride % 10u;
+  const uint first = at < 2u ? 0u : at - 2u, last = min(at + 2u, 9u);
+  uint largest = 0u;
+  for (uint k = first; k <= last; ++k) {
+    const uint j = i + k * stride - at * stride;
+    largest = max(largest, of_grown ? grown[j] : smoke[j]);
+  }
+  return largest;
+}
+
+void main() {
+  const uint slot = params.first_slot + gl_WorkGroupID.x;
+  if (slot >= params.first_slot + params.slot_count || !in_view(slot_bricks[slot])) return;
+  const uint lane = gl_LocalInvocationID.x;
+  const uvec3 bricks = uvec3(frame.volume.atlas_bricks);
+  const ivec3 corner = ivec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * kBrickTexels;
+
+  // A sample meets the texels around it, and near walls those of a lookup that was moved by up to a voxel: two texels
+  // from smoke along each axis.
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
+    const ivec3 local = ivec3(i % 10u, i / 10u % 10u, i / 100u);
+    smoke[i] = texelFetch(density_atlas, corner + local, 0).r > 0.0 ? 1u : 0u;
+  }
+  barrier();
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u) grown[i] = largest_around(false, i, 1u);
+  barrier();
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u) smoke[i] = largest_around(true, i, 10u);
+  barrier();
+  if (lane == 0u) group_count = 0u;
+  barrier();
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
+    grown[i] = kTexelsPerBrick;
+    if (largest_around(false, i, 100u) > 0u) grown[i] = atomicAdd(group_count, 1u);
+  }
+  barrier();
+  if (lane == 0u && group_count > 0u) group_first = atomicAdd(counters.texels, group_count);
+  barrier();
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
+    if (grown[i] < kTexelsPerBrick) texels[group_first + grown[i]] = slot * kTexelsPerBrick + i;
+  }
+}

@@ -1,0 +1,179 @@
+#include "passes/hole_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "passes/blue_noise.hpp"
+#include "passes/march.hpp"
+#include "passes/noise.hpp"
+#include "tests/passes/half.hpp"
+#include "tests/passes/smoke_room.hpp"
+
+namespace brume::passes {
+namespace {
+
+/// Shots of all kinds through a box around the origin, from anywhere.
+std::vector<shared::Hole> random_holes(std::size_t count, std::uint32_t seed, float reach) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> one(-1, 1);
+  const auto point = [&] { return reach * glm::vec3(one(random), one(random), one(random)); };
+  std::vector<shared::Hole> holes(count);
+  for (shared::Hole& hole : holes) {
+    hole.origin_world = point();
+    hole.forward = glm::normalize(point() - hole.origin_world + glm::vec3(0, 0, 1e-3f));
+    const glm::vec3 helper = std::abs(hole.forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    hole.right = glm::normalize(glm::cross(hole.forward, helper));
+    hole.up = glm::cross(hole.right, hole.forward);
+    hole.radius = 0.02f + 0.3f * std::abs(one(random));
+    hole.distance_to_far = 0.1f + 2 * reach * std::abs(one(random));
+    hole.time_start = std::abs(one(random));
+    hole.time_to_reach_far = one(random) > 0 ? 0.5f * std::abs(one(random)) : 0.0f;
+    hole.time_to_expand = 0.1f * std::abs(one(random));
+    hole.time_to_stay_open = std::abs(one(random));
+    hole.time_to_fade = 0.5f * std::abs(one(random));
+    hole.shape = one(random) > 0 ? shared::kHoleBox : shared::kHoleCylinder;
+  }
+  return holes;
+}
+
+TEST(HolePlan, LeavesOutWhatIsNotOpen) {
+  std::vector<shared::Hole> holes = random_holes(3, 1, 5);
+  for (shared::Hole& hole : holes) {
+    hole.time_to_reach_far = 0.25f;
+    hole.time_to_expand = 0.05f;
+    hole.time_to_stay_open = 1;
+    hole.time_to_fade = 0.35f;
+  }
+  holes[0].time_start = 2;    // still to come
+  holes[1].time_start = -10;  // long closed
+  holes[2].time_start = 0.125f;
+  const HolePlan plan = plan_holes(holes, 1, 0.05f, 0.25f, 10, false);
+  ASSERT_EQ(plan.holes.size(), 1u);
+  EXPECT_EQ(plan.holes[0].time_start, 0.125f);
+  EXPECT_EQ(plan.wide_count, 0u);
+}
+
+TEST(HolePlan, MakesTheWidestWideAndKeepsWithinWhatEveryDeviceTakes) {
+  std::vector<shared::Hole> holes = random_holes(1000, 2, 20);
+  for (shared::Hole& hole : holes) {
+    hole.time_start = 0;
+    hole.time_to_stay_open = 100;
+  }
+  holes[7].radius = 10;
+  const HolePlan plan = plan_holes(holes, 50, 0, 0.25f, 100000, false);
+  EXPECT_GE(plan.wide_count, 1u);
+  EXPECT_EQ(plan.holes[0].radius, 10);
+  const std::size_t words =
+      100000 + std::size_t{plan.block_capacity} * 2 * shared::kHoleCellsPerBlock + plan.entry_capacity;
+  EXPECT_LE(words * sizeof(std::uint32_t), std::size_t{128} << 20);
+  EXPECT_EQ(plan_holes(holes, 50, 0, 0.25f, 100, true).wide_count, 1000u);
+}
+
+class HoleGridTest : public gpu::GpuTest {
+ protected:
+  static constexpr glm::uvec2 kSize{70, 41};
+  HoleGridTest()
+      : room_(context(), runner(), walls(), {{26, 17, 33}, 0.5f, {-6.5f, -4, -8}}, {0, 0, -1}, 1u << 22,
+              4000),
+        march_(context(), false) {
+    noise_tile_ = make_noise_tile(context(), 8);
+    const NoisePass noise(context());
+    runner().run([&](gpu::Recorder& recorder) {
+      noise.record(recorder, noise_tile_, {8, 2, 1});
+      blue_noise_ = make_blue_noise(context(), recorder);
+    });
+  }
+  static std::vector<voxel::Triangle> walls() {
+    std::vector<voxel::Triangle> walls;
+    add_quad(walls, {-3, -3, -2.05f}, {0, -3, -1.05f}, {0, 3, -1.05f}, {-3, 3, -2.05f});
+    return walls;
+  }
+
+  /// Radiance and transmittance as their bytes.
+  std::vector<Half4> march(const std::vector<shared::Hole>& holes, bool all_wide) {
+    shared::FrameConstants frame{};
+    frame.camera.eye_world = {0.3f, 0.2f, 7};
+    frame.camera.near_z = 0.05f;
+    frame.camera.forward = {0, 0, -1};
+    frame.camera.right = {0.9f, 0, 0};
+    frame.camera.up = {0, 0.55f, 0};
+    frame.volume = room_.volume.frame();
+    frame.size_px = kSize;
+    frame.look.albedo = glm::vec3(1);
+    frame.look.extinction = 0.3f;
+    frame.look.step_length = 0.1f;
+    frame.look.noise_period = 1;
+    frame.look.hole_rim = 0.06f;
+    frame.time = 1;
+    HoleGrid grid(context(), runner(), {}, all_wide);
+    grid.reserve(holes, frame.time, frame.look.hole_rim, frame.volume.voxel_size, room_.volume.slot_count());
+    frame.holes = grid.frame();
+    wide_ = frame.holes.wide_count;
+    const auto frame_buffer = upload(std::vector{frame});
+    const auto counters = upload(std::vector<std::uint32_t>{0});
+    const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / 15);
+    const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
+    const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
+    const SmokeResources& smoke = room_.upload.resources();
+    runner().run([&](gpu::Recorder& recorder) {
+      recorder.clear(smoke.inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
+      grid.record(recorder, frame_buffer, smoke);
+      march_.record(recorder, {frame_buffer, smoke, noise_tile_, depth_image, blue_noise_, grid.resources()},
+                    target, counters);
+    });
+    return read_back<Half4>(target);
+  }
+  static double largest_difference(const std::vector<Half4>& a, const std::vector<Half4>& b) {
+    float largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const glm::vec4 apart = glm::abs(from_half(a[i]) - from_half(b[i]));
+      largest = std::max({largest, apart.x, apart.y, apart.z, apart.w});
+    }
+    return static_cast<double>(largest);
+  }
+
+  SmokeRoom room_;
+  MarchPass march_;
+  gpu::Image noise_tile_, blue_noise_;
+  std::uint32_t wide_ = 0;
+};
+
+TEST_F(HoleGridTest, GivesThePictureOfAskingEveryHole) {
+  // The products of the same factors in another order: rounding alone, of 200 factors and 250 steps of
+  // floats, is far below the step of a half float at 1, 2^-11, of which it may change one.
+  constexpr double kHalfStep = 1.0 / 2048;
+  // No more holes: a software rasterizer ends all loops of a ray after 65,535 rounds, and asking every hole
+  // at each of 250 steps takes as many.
+  for (const std::size_t count : {1u, 7u, 63u, 200u}) {
+    const auto holes = random_holes(count, static_cast<std::uint32_t>(count), 8);
+    const auto grid = march(holes, false);
+    EXPECT_EQ(wide_, 0u);
+    const auto plain = march(holes, true);
+    EXPECT_LE(largest_difference(grid, plain), kHalfStep) << count << " holes";
+    if (count < 63) continue;
+    EXPECT_GT(largest_difference(grid, march({}, false)), 20 * kHalfStep) << "the holes are seen";
+  }
+}
+
+TEST_F(HoleGridTest, WideAndNarrowHolesTogetherGiveThePictureOfAskingEveryHole) {
+  auto holes = random_holes(40, 5, 8);
+  for (std::size_t i = 0; i < 3; ++i) {
+    holes[10 * i].radius = 9.5f;
+    holes[10 * i].time_to_stay_open = 0.1f;  // fading: some smoke is left
+    holes[10 * i].time_to_fade = 2;
+  }
+  const auto grid = march(holes, false);
+  EXPECT_GT(wide_, 0u);
+  EXPECT_LE(largest_difference(grid, march(holes, true)), 1.0 / 2048);
+}
+
+TEST_F(HoleGridTest, GivesTheSamePictureEachTime) {
+  const auto holes = random_holes(600, 9, 8);
+  const auto first = march(holes, false), second = march(holes, false);
+  EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(Half4)), 0);
+}
+
+}  // namespace
+}  // namespace brume::passes
