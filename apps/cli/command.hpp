@@ -30,6 +30,7 @@ Command add_render(CLI::App& program);
 Command add_sim(CLI::App& program);
 Command add_voxelize(CLI::App& program);
 Command add_info(CLI::App& program);
+Command add_diff(CLI::App& program);
 Command add_query(CLI::App& program);
 Command add_devices(CLI::App& program);
 Command add_bench(CLI::App& program);

@@ -21,6 +21,7 @@ constexpr const char* kAbout =
     "  brume voxelize room.glb -o room.vxl --json -      # which voxels of a scene are solid\n"
     "  brume info room.glb                               # what is in a file\n"
     "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3   # who sees whom\n"
+    "  brume diff reference.png test.png                 # how far two pictures are apart\n"
     "  brume devices                                     # what can render";
 
 // In the list of commands, only what each does: its examples are in its own help.
@@ -66,9 +67,9 @@ int parse_and_run(int argc, char** argv) {
   program.formatter(std::make_shared<BriefFormatter>());
   program.set_version_flag("--version", BRUME_VERSION);
   program.require_subcommand(1);
-  const std::array commands{add_demo(program),     add_render(program), add_sim(program),
-                            add_voxelize(program), add_info(program),   add_query(program),
-                            add_devices(program),  add_bench(program)};
+  const std::array commands{add_demo(program),     add_render(program),  add_sim(program),
+                            add_voxelize(program), add_info(program),    add_query(program),
+                            add_diff(program),     add_devices(program), add_bench(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/file.hpp"
+#include "image/png.hpp"
 #include "tests/cli/run_program.hpp"
 
 namespace brume::cli {
@@ -68,12 +69,18 @@ class Documents : public testing::Test {
     if (path.extension() == ".glb")
       std::filesystem::create_symlink(BRUME_SOURCE_DIR "/scenes/demo.glb", path);
     if (path.extension() == ".obj") folder_.write(word, room_obj());
+    if (path.extension() == ".png") {
+      const image::Image8 picture{32, 18,
+                                  std::vector<std::uint8_t>(4 * 32 * 18, 255)};  // as render is called
+      image::save_png(path, picture).value_or_throw();
+    }
   }
   // Runs a call small: few pixels, few frames. `demo` and `bench` take minutes and are run by scripts.
   void expect_works(const std::string& source, Arguments call) const {
     SCOPED_TRACE(source + ": brume " + testing::PrintToString(call));
     if (call.empty() || call[0] == "demo" || call[0] == "bench") return;
     if (call.size() > 1) provide(call[1]);
+    if (call[0] == "diff" && call.size() > 2) provide(call[2]);
     if (call[0] == "render") {
       call.insert(call.end(), {"--size", "32x18"});
       const bool film = std::any_of(call.begin(), call.end(), [](const std::string& word) {
@@ -108,7 +115,7 @@ TEST_F(Documents, TheExamplesOfTheHelpRun) {
   const Outcome help = run_brume(folder_.path(), {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
-  for (const char* command : {"demo", "render", "voxelize", "info", "query", "devices", "bench"}) {
+  for (const char* command : {"demo", "render", "voxelize", "info", "query", "diff", "devices", "bench"}) {
     EXPECT_NE(help.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
     const Outcome text = run_brume(folder_.path(), {command, "--help"});
     EXPECT_EQ(text.exit_code, 0) << command;

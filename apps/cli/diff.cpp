@@ -1,0 +1,141 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "core/error.hpp"
+#include "image/decode.hpp"
+#include "image/metrics.hpp"
+#include "image/png.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string reference, test, map, json;
+  std::optional<double> fail_above, psnr_below;
+};
+
+std::string size_of(const image::Image8& picture) {
+  return std::to_string(picture.width) + "x" + std::to_string(picture.height);
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text.precision(6);
+  text << value;
+  return text.str();
+}
+
+// In steps of 1/255, as eight bits hold colours.
+struct Comparison {
+  image::Difference colours;
+  double alpha_max = 0, psnr = 0, ssim = 0, flip = 0;
+  image::Plane flip_map;
+  double worst() const { return std::max(colours.max, alpha_max); }
+};
+
+Comparison compare(const image::Image8& reference, const image::Image8& test) {
+  Comparison result;
+  result.colours = image::difference(image::encoded_colours(reference), image::encoded_colours(test));
+  for (double* value : {&result.colours.max, &result.colours.mean, &result.colours.rmse}) *value *= 255;
+  result.alpha_max = 255 * image::difference(image::alphas(reference), image::alphas(test)).max;
+  result.psnr = image::psnr(result.colours.rmse, 255);
+  result.ssim = image::ssim(image::luma(reference), image::luma(test), 1);
+  stop_if_interrupted();
+  result.flip_map = image::flip(reference, test);
+  for (const float value : result.flip_map.values) result.flip += double{value};
+  result.flip /= static_cast<double>(result.flip_map.values.size());
+  return result;
+}
+
+Json json_of(const Options& options, const image::Image8& picture, const Comparison& c) {
+  // Equal pictures have no finite ratio of signal to noise.
+  return {{"reference", options.reference},
+          {"test", options.test},
+          {"size", {picture.width, picture.height}},
+          {"max", c.colours.max},
+          {"mean", c.colours.mean},
+          {"rmse", c.colours.rmse},
+          {"alpha_max", c.alpha_max},
+          {"psnr", std::isfinite(c.psnr) ? Json(c.psnr) : Json(nullptr)},
+          {"ssim", c.ssim},
+          {"flip", c.flip}};
+}
+
+std::string text_of(const Comparison& c) {
+  return "max    " + number(c.colours.max) + " of 255\nmean   " + number(c.colours.mean) + "\nrmse   " +
+         number(c.colours.rmse) + "\nalpha  " + number(c.alpha_max) + " at most\npsnr   " + number(c.psnr) +
+         " dB\nssim   " + number(c.ssim) + "\nflip   " + number(c.flip) + "\n";
+}
+
+void judge(const Options& options, const Comparison& c) {
+  const std::string both = options.reference + " and " + options.test + " ";
+  if (options.fail_above && c.worst() > *options.fail_above) {
+    throw Error(ErrorCode::comparison_failed, both + "differ by " + number(c.worst()) +
+                                                  " of 255, more than --fail-above " +
+                                                  number(*options.fail_above));
+  }
+  if (options.psnr_below && c.psnr < *options.psnr_below) {
+    throw Error(
+        ErrorCode::comparison_failed,
+        both + "agree to " + number(c.psnr) + " dB, less than --psnr-below " + number(*options.psnr_below));
+  }
+}
+
+void check_thresholds(const Options& options) {
+  const auto check = [](const char* name, const std::optional<double>& value, double most) {
+    if (!value || (*value >= 0 && *value <= most)) return;  // not for NaN
+    throw Error(ErrorCode::usage, std::string(name) + ": expected a number from 0 to " + number(most));
+  };
+  check("--fail-above", options.fail_above, 255);
+  check("--psnr-below", options.psnr_below, 200);
+}
+
+void diff(const Options& options) {
+  check_thresholds(options);
+  check_output(options.map);
+  check_output(options.json);
+  const image::Image8 reference = image::load_image(options.reference).value_or_throw();
+  const image::Image8 test = image::load_image(options.test).value_or_throw();
+  if (reference.width != test.width || reference.height != test.height) {
+    throw Error(ErrorCode::bad_input, options.test + ": expected " + size_of(reference) + " texels as in " +
+                                          options.reference + ", found " + size_of(test));
+  }
+  const Comparison comparison = compare(reference, test);
+  stop_if_interrupted();
+  if (!options.map.empty())
+    image::save_png(options.map, image::heat_map(comparison.flip_map)).value_or_throw();
+  if (!options.json.empty()) write_json(options.json, json_of(options, reference, comparison));
+  if (options.json != "-") print(text_of(comparison));
+  judge(options, comparison);
+}
+
+}  // namespace
+
+Command add_diff(CLI::App& program) {
+  Command command =
+      declare(program, "diff", "Tells how far two pictures are apart, and shows where one would notice.",
+              "  brume diff reference.png test.png\n"
+              "  brume diff reference.png test.png -o map.png --json -\n"
+              "  brume diff reference.png test.png --psnr-below 38   # exit code 7 if it is");
+  auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("REFERENCE", options->reference, "A picture, .png or .jpg")->required()->type_name("");
+  parser.add_option("TEST", options->test, "The one to compare with it")->required()->type_name("");
+  parser.add_option("-o,--output", options->map, "Write the map of FLIP, black to pale yellow: .png")
+      ->type_name("FILE");
+  parser.add_option("--fail-above", options->fail_above, "Fail if any channel differs by more [0, 255]")
+      ->type_name("N");
+  parser.add_option("--psnr-below", options->psnr_below, "Fail if the PSNR is below [dB]")->type_name("DB");
+  parser.add_option("--json", options->json, "Write the numbers as JSON; -: to standard output")
+      ->type_name("FILE");
+  command.run = [options] { diff(*options); };
+  return command;
+}
+
+}  // namespace brume::cli
