@@ -30,6 +30,10 @@ layout(binding = 11, rgba16f) uniform writeonly image2D smoke;
 layout(scalar, binding = 12) buffer Counters { uint texture_samples; };
 layout(scalar, binding = 13) readonly buffer Ends { RayEnds ends[]; };
 layout(binding = 14, rgba16f) uniform writeonly image2D smoke_near;
+layout(scalar, binding = 17) readonly buffer List {
+  MarchList list;
+  uint listed[];  // blocks
+};
 #include "lib/holes.glsl"
 
 /// What noise and holes leave of the density at a point of a brick.
@@ -60,6 +64,14 @@ bool find_way(out Way way) {
     way.near = e.near;
     way.far = e.far;
     return true;
+  }
+  if (kRays == kRaysOfList) {
+    const uint group = gl_WorkGroupID.x + kListedRow * gl_WorkGroupID.y;
+    const uint index = group * 64u + gl_LocalInvocationIndex, scale = frame.march_scale;
+    const uint entry = index / (scale * scale), pixel = index % (scale * scale);
+    if (entry >= list.count) return false;
+    const uint across = blocks_of(frame.size_px, scale).x;
+    way.texel = ivec2(uvec2(listed[entry] % across, listed[entry] / across) * scale + uvec2(pixel % scale, pixel / scale));
   }
   if (any(greaterThanEqual(uvec2(way.texel), frame.size_px))) return false;
   way.position_px = vec2(way.texel) + 0.5;

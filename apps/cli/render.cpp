@@ -109,6 +109,7 @@ class Draughtsman {
     return {{"frames", frames_},
             {"seconds_per_frame", seconds_ / frames_},
             {"cpu_seconds_per_frame", cpu_seconds_ / frames_},
+            {"share_marched_of_last_frame", playback_.share_marched()},
             {"gpu_milliseconds_of_last_frame", passes}};
   }
 

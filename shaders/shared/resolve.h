@@ -7,6 +7,7 @@ SHARED_BEGIN
 /// Whose rays the march follows.
 SHARED_CONST uint kRaysOfPixels = 0u;
 SHARED_CONST uint kRaysOfBlocks = 1u;
+SHARED_CONST uint kRaysOfList = 2u;
 
 /// Where the ray of a block runs, and where the surfaces of the block's pixels lie [m along the view axis]. They fall
 /// into two groups at the middle of near and far:
@@ -20,6 +21,16 @@ struct RayEnds {
   float near, near_last, far_first, far;
 };
 SHARED_SIZE(RayEnds, 24);
+
+/// How much of the list's blocks there is: what the march over their pixels is dispatched with.
+struct MarchList {
+  uvec3 groups;  // of 64 pixels; x and y begin at 0, z is 1
+  uint count;    // of blocks
+};
+SHARED_SIZE(MarchList, 16);
+
+/// Groups in a row of that dispatch.
+SHARED_CONST uint kListedRow = 1024u;
 
 /// Blocks per axis.
 SHARED_FUNCTION uvec2 blocks_of(uvec2 size_px, uint march_scale) {

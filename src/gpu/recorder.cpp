@@ -202,6 +202,12 @@ void Recorder::dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x
                             (z + group[2] - 1) / group[2]);
 }
 
+void Recorder::dispatch_indirect(const Buffer& groups) {
+  use(groups, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
+  flush_barriers();
+  context_.vk().CmdDispatchIndirect(commands_, groups.handle(), 0);
+}
+
 Recorder::Staged Recorder::stage(std::span<const std::byte> bytes) {
   // Offsets of image copies must be multiples of the texel size; 16 covers every format that is used.
   constexpr VkDeviceSize kAlignment = 16;

@@ -80,6 +80,8 @@ class Recorder {
   /// Runs the bound compute pipeline over at least this many threads.
   void dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y = 1,
                         std::uint32_t z = 1);
+  /// As many workgroups as the first three words of `groups` say (VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT).
+  void dispatch_indirect(const Buffer& groups);
   void push(const Pipeline& pipeline, std::span<const std::byte> bytes);
 
   /// Copies bytes through staging memory.

@@ -4,37 +4,78 @@
 
 namespace brume::passes {
 
-MarchPass::MarchPass(gpu::Context& context, bool count_samples, std::uint32_t rays)
-    : pipeline_(context, shaders::march_comp,
-                {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                 gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored,
-                 gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kSampled, gpu::kBuffer},
-                0, {8, 8, 1}, {count_samples ? 1u : 0u, rays}),
+namespace {
+
+gpu::Image block_image(gpu::Context& context, glm::uvec2 blocks) {
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = {blocks, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  return gpu::Image(context, info);
+}
+
+gpu::Buffer block_buffer(gpu::Context& context, glm::uvec2 blocks, std::size_t head, std::size_t per_block) {
+  return {context, head + per_block * blocks.x * blocks.y,
+          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+}
+
+gpu::ComputePipeline pipeline(gpu::Context& context, bool count_samples, std::uint32_t rays) {
+  return {context,
+          shaders::march_comp,
+          {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
+           gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored, gpu::kBuffer,
+           gpu::kBuffer, gpu::kStored, gpu::kSampled, gpu::kBuffer, gpu::kBuffer},
+          0,
+          {8, 8, 1},
+          {count_samples ? 1u : 0u, rays}};
+}
+
+}  // namespace
+
+MarchBlocks::MarchBlocks(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale)
+    : ends(block_buffer(context, shared::blocks_of(size_px, scale), 0, sizeof(shared::RayEnds))),
+      near(block_image(context, shared::blocks_of(size_px, scale))),
+      far(block_image(context, shared::blocks_of(size_px, scale))),
+      list(block_buffer(context, shared::blocks_of(size_px, scale), sizeof(shared::MarchList),
+                        sizeof(std::uint32_t))) {}
+
+MarchPass::MarchPass(gpu::Context& context, bool count_samples)
+    : pixels_(pipeline(context, count_samples, shared::kRaysOfPixels)),
+      blocks_(pipeline(context, count_samples, shared::kRaysOfBlocks)),
+      list_(pipeline(context, count_samples, shared::kRaysOfList)),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
 
 void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Image& smoke,
                        const gpu::Buffer& counters) const {
-  record(recorder, in, in.frame, smoke, smoke,
-         counters);  // no ends, nothing near: the shader touches neither
+  bind(recorder, pixels_, in, {in.frame, in.frame, smoke, smoke}, counters);
+  recorder.dispatch_threads(pixels_, smoke.info().size.x, smoke.info().size.y);
 }
 
-void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const Blocks& blocks,
-                       const gpu::Buffer& counters) const {
-  record(recorder, in, blocks.ends, blocks.near, blocks.far, counters);
+void MarchPass::record_blocks(gpu::Recorder& recorder, const Inputs& in, const MarchBlocks& blocks,
+                              const gpu::Buffer& counters) const {
+  bind(recorder, blocks_, in, {blocks.ends, in.frame, blocks.near, blocks.far}, counters);
+  recorder.dispatch_threads(blocks_, blocks.far.info().size.x, blocks.far.info().size.y);
 }
 
-void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Buffer& ends,
-                       const gpu::Image& near, const gpu::Image& far, const gpu::Buffer& counters) const {
-  recorder.bind(pipeline_,
-                {gpu::read(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.density, linear_),
-                 gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
-                 gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.noise, repeat_),
-                 gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_),
-                 gpu::read(in.holes.holes), gpu::stored(far), gpu::read_write(counters), gpu::read(ends),
-                 gpu::stored(near), gpu::sampled(in.holes.masks, nearest_), gpu::read(in.holes.grid)});
-  recorder.dispatch_threads(pipeline_, far.info().size.x, far.info().size.y);
+void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const MarchBlocks& blocks,
+                            const gpu::Image& smoke, const gpu::Buffer& counters) const {
+  bind(recorder, list_, in, {in.frame, blocks.list, smoke, smoke}, counters);
+  recorder.dispatch_indirect(blocks.list);
+}
+
+void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const Inputs& in,
+                     const Rays& rays, const gpu::Buffer& counters) const {
+  recorder.bind(
+      pipeline,
+      {gpu::read(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.density, linear_),
+       gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
+       gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.noise, repeat_),
+       gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_), gpu::read(in.holes.holes),
+       gpu::stored(rays.smoke), gpu::read_write(counters), gpu::read(rays.ends), gpu::stored(rays.near),
+       gpu::sampled(in.holes.masks, nearest_), gpu::read(in.holes.grid), gpu::read(rays.list)});
 }
 
 }  // namespace brume::passes

@@ -7,11 +7,20 @@
 
 namespace brume::passes {
 
+/// Blocks of scale x scale pixels that are marched by one ray each.
+struct MarchBlocks {
+  gpu::Buffer ends;  ///< shared::RayEnds, rows in order.
+  gpu::Image near;   ///< Half floats, a texel a block: the smoke up to the block's nearest surface.
+  gpu::Image far;    ///< The same up to its farthest.
+  gpu::Buffer list;  ///< shared::MarchList and the numbers of the blocks whose pixels are marched one by one.
+  /// `scale` is 2 or 4. Throws resource_limit.
+  MarchBlocks(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale);
+};
+
 class MarchPass {
  public:
-  /// `rays` is shared::kRaysOfPixels or kRaysOfBlocks. With `count_samples`, record adds the texture samples
-  /// taken to the first word of `counters`.
-  MarchPass(gpu::Context& context, bool count_samples, std::uint32_t rays = shared::kRaysOfPixels);
+  /// With `count_samples`, record adds the texture samples taken to the first word of `counters`.
+  MarchPass(gpu::Context& context, bool count_samples);
 
   struct Inputs {
     const gpu::Buffer& frame;
@@ -24,22 +33,25 @@ class MarchPass {
   /// Marches the ray of each pixel. Writes premultiplied radiance and transmittance (half floats) to `smoke`.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Image& smoke,
               const gpu::Buffer& counters) const;
-
-  /// The rays of blocks of pixels: where they run, and what they see up to the nearest and to the farthest
-  /// surface of their block. See passes/resolve.hpp.
-  struct Blocks {
-    const gpu::Buffer& ends;  ///< shared::RayEnds, one a block.
-    const gpu::Image& near;   ///< Half floats, a texel a block.
-    const gpu::Image& far;
-  };
-  void record(gpu::Recorder& recorder, const Inputs& inputs, const Blocks& blocks,
-              const gpu::Buffer& counters) const;
+  /// Marches one ray a block of pixels, and writes the same for its nearest and its farthest surface.
+  void record_blocks(gpu::Recorder& recorder, const Inputs& inputs, const MarchBlocks& blocks,
+                     const gpu::Buffer& counters) const;
+  /// Marches the pixels of the blocks that are listed, into `smoke`.
+  void record_list(gpu::Recorder& recorder, const Inputs& inputs, const MarchBlocks& blocks,
+                   const gpu::Image& smoke, const gpu::Buffer& counters) const;
 
  private:
-  void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Buffer& ends, const gpu::Image& near,
-              const gpu::Image& far, const gpu::Buffer& counters) const;
+  /// What the three kinds of rays differ in; those that do not use a thing get another in its place.
+  struct Rays {
+    const gpu::Buffer& ends;
+    const gpu::Buffer& list;
+    const gpu::Image& near;
+    const gpu::Image& smoke;
+  };
+  void bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const Inputs& inputs,
+            const Rays& rays, const gpu::Buffer& counters) const;
 
-  gpu::ComputePipeline pipeline_;
+  gpu::ComputePipeline pixels_, blocks_, list_;
   gpu::Sampler linear_, repeat_, nearest_;
 };
 

@@ -7,15 +7,6 @@
 
 namespace brume::passes {
 
-/// Blocks of scale x scale pixels, one ray each.
-struct MarchBlocks {
-  gpu::Buffer ends;  ///< shared::RayEnds, rows in order.
-  gpu::Image near;   ///< Half floats, a texel a block: the smoke up to the block's nearest surface.
-  gpu::Image far;    ///< The same up to its farthest.
-  /// `scale` is 1, 2 or 4. Throws resource_limit.
-  MarchBlocks(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale);
-};
-
 class ResolvePass {
  public:
   explicit ResolvePass(gpu::Context& context);
@@ -24,13 +15,17 @@ class ResolvePass {
   /// `depth` is the G-buffer's.
   void record_ends(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& depth,
                    const MarchBlocks& blocks) const;
+  /// Lists the blocks where interpolation between rays would be seen: off by more than 2/255 on the screen,
+  /// in front of a surface that shines as `emission` (the G-buffer's) says or that stands in bright light.
+  void record_select(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& emission,
+                     const MarchBlocks& blocks) const;
   /// Writes premultiplied radiance and transmittance of every pixel to `smoke` (half floats) from the marched
   /// blocks.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& depth,
               const MarchBlocks& blocks, const gpu::Image& smoke) const;
 
  private:
-  gpu::ComputePipeline ends_, resolve_;
+  gpu::ComputePipeline ends_, select_, resolve_;
   gpu::Sampler nearest_;
 };
 

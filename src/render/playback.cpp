@@ -57,7 +57,16 @@ Playback::Playback(gpu::Context& context, const stage::Stage& stage, const Rende
       runner_(context),
       renderer_(context, runner_, stage.scene, with_masks(options, stage)),
       pixels_(context, std::size_t{4} * options.size_px.x * options.size_px.y,
-              VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
+              VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback),
+      list_(context, sizeof(shared::MarchList), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
+
+double Playback::share_marched() const {
+  if (!renderer_.march_blocks()) return 1;
+  shared::MarchList list{};
+  std::memcpy(&list, list_.mapped(), sizeof list);
+  const glm::uvec2 blocks(renderer_.march_blocks()->far.info().size);
+  return static_cast<double>(list.count) / (static_cast<double>(blocks.x) * blocks.y);
+}
 
 image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   simulation_->advance_to(seconds);
@@ -69,6 +78,8 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   runner_.run([&](gpu::Recorder& recorder) {
     renderer_.record_frame(recorder, input);
     recorder.read_back(renderer_.display(), pixels_);
+    if (renderer_.march_blocks())
+      recorder.read_back(renderer_.march_blocks()->list, list_, sizeof(shared::MarchList));
   });
   image::Image8 picture;
   picture.width = renderer_.size_px().x;

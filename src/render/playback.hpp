@@ -28,6 +28,8 @@ class Playback {
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
   /// GPU times of the passes of the last frame.
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
+  /// Share of the pixels of the last frame whose rays were marched one by one, in [0, 1].
+  double share_marched() const;
   const stage::Simulation& simulation() const { return *simulation_; }
 
  private:
@@ -36,6 +38,7 @@ class Playback {
   gpu::CommandRunner runner_;
   Renderer renderer_;
   gpu::Buffer pixels_;
+  gpu::Buffer list_;  ///< shared::MarchList of the last frame.
   std::optional<scene::Camera> camera_;
 };
 

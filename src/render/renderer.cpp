@@ -42,8 +42,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       smoke_shadow_pass_(context),
       shade_pass_(context),
       smoke_light_pass_(context),
-      march_pass_(context, options.count_samples,
-                  march_scale_ > 1 ? shared::kRaysOfBlocks : shared::kRaysOfPixels),
+      march_pass_(context, options.count_samples),
       resolve_pass_(context),
       display_pass_(context),
       smoke_upload_(context),
@@ -138,9 +137,7 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
     if (light_smoke) smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, noise_});
   });
   stage("march", [&] { record_march(recorder); });
-  stage("resolve", [&] {
-    if (blocks_) resolve_pass_.record(recorder, frame_, gbuffer_.depth, *blocks_, smoke_image_);
-  });
+  if (blocks_) stage("resolve", [&] { record_resolve(recorder); });
   stage("shade", [&] {
     shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, {solid_, sky_light_}, gbuffer_,
                        smoke_image_, picture_);
@@ -148,15 +145,23 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
 }
 
+passes::MarchPass::Inputs Renderer::march_inputs() const {
+  return {frame_, smoke_upload_.resources(), noise_, gbuffer_.depth, blue_noise_, hole_grid_.resources()};
+}
+
 void Renderer::record_march(gpu::Recorder& recorder) {
-  const passes::MarchPass::Inputs inputs{frame_,      smoke_upload_.resources(), noise_, gbuffer_.depth,
-                                         blue_noise_, hole_grid_.resources()};
   if (!blocks_) {
-    march_pass_.record(recorder, inputs, smoke_image_, counters_);
+    march_pass_.record(recorder, march_inputs(), smoke_image_, counters_);
     return;
   }
   resolve_pass_.record_ends(recorder, frame_, gbuffer_.depth, *blocks_);
-  march_pass_.record(recorder, inputs, {blocks_->ends, blocks_->near, blocks_->far}, counters_);
+  march_pass_.record_blocks(recorder, march_inputs(), *blocks_, counters_);
+}
+
+void Renderer::record_resolve(gpu::Recorder& recorder) {
+  resolve_pass_.record_select(recorder, frame_, gbuffer_.emission, *blocks_);
+  resolve_pass_.record(recorder, frame_, gbuffer_.depth, *blocks_, smoke_image_);
+  march_pass_.record_list(recorder, march_inputs(), *blocks_, smoke_image_, counters_);
 }
 
 bool Renderer::needs_light(const FrameInput& input) {

@@ -63,6 +63,8 @@ class Renderer {
     return smoke_image_;
   }  ///< Half floats: premultiplied radiance, transmittance.
   const gpu::Image& depth() const { return gbuffer_.depth; }
+  /// The rays of the march; empty where each pixel has its own.
+  const std::optional<passes::MarchBlocks>& march_blocks() const { return blocks_; }
   const gpu::Buffer& sample_counter() const { return counters_; }
   const passes::SceneResources& scene() const { return scene_; }
   glm::uvec2 size_px() const { return size_px_; }
@@ -72,8 +74,11 @@ class Renderer {
   /// Whether the smoke must be lit anew; asks once a frame.
   bool needs_light(const FrameInput& input);
 
-  /// Smoke of every pixel, by a ray each or by a ray a block.
+  passes::MarchPass::Inputs march_inputs() const;
+  /// The rays of pixels or of blocks.
   void record_march(gpu::Recorder& recorder);
+  /// From the rays of blocks to the smoke of every pixel.
+  void record_resolve(gpu::Recorder& recorder);
 
   void follow_hidden_objects(const FrameInput& input);
 
