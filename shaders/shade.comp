@@ -25,6 +25,7 @@ layout(binding = 7) uniform sampler2D depth;
 layout(binding = 8) uniform sampler2DArray smoke_shadows;
 layout(binding = 9) uniform sampler2D smoke;
 layout(binding = 12, rgba16f) uniform writeonly image2D picture;
+#include "lib/light_share.glsl"
 #include "lib/sky_light.glsl"
 
 // A tile is a workgroup. Its lights are bits, so that each pixel adds them up in their order, whoever found them.
@@ -68,12 +69,13 @@ bool can_reach(Light light, Surface surface) {
 /// What the surface reflects of a lamp's light, after the scene's shadow and the smoke in between.
 vec3 lamp_radiance(Light light, Surface surface, vec3 view) {
   const Incident incident = light_at(light, surface.position_world);
-  // A surface must not shadow itself: it is looked up a shadow texel off its plane.
-  const float off = 0.01 + 0.006 * min(incident.distance, 10.0);
-  const vec4 shadow = shadow_coordinates(light, sun.clip_from_world, surface.position_world + off * surface.normal);
+  // A surface must not shadow itself: it is looked up a texel of the shadow off its plane.
+  const float off = light.shadow_layer == kShadowByVoxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
+  const vec3 off_world = surface.position_world + off * surface.normal;
+  const vec4 shadow = shadow_coordinates(light, sun.clip_from_world, off_world);
   const float smoke_light = shadow.z < 0.0 ? 1.0 : exp(-textureLod(smoke_shadows, shadow.xyz, 0.0).r);
   return reflect_light(surface, view, incident.to_light) * incident.irradiance *
-         (shadow_at(shadows, shadow) * smoke_light);
+         (light_share(light, off_world) * smoke_light);
 }
 
 /// The light of the gathered lamps of a batch.

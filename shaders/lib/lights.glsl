@@ -54,7 +54,7 @@ bool reaches_box(Light light, TileBox box) {
 
 /// Where a point lies in the light's shadow layers: uv, layer, reverse depth. A negative layer: not covered.
 vec4 shadow_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world) {
-  if (light.shadow_layer == kNoShadow) return vec4(-1.0);
+  if (light.shadow_layer >= kShadowByVoxels) return vec4(-1.0);
   if (light.kind == kLightDirectional) {
     const vec4 clip = sun_clip_from_world * vec4(position_world, 1.0);
     const vec2 uv = clip.xy * 0.5 + 0.5;

@@ -1,11 +1,11 @@
 // Light of the sky at a point of the level. Needs `frame`; the includer defines BINDING_SKY_LIGHT and BINDING_SOLID.
 #ifndef SKY_LIGHT_GLSL
 #define SKY_LIGHT_GLSL
+#include "lib/solid.glsl"
 #include "shared/frame.h"
 #include "shared/sky_light.h"
 
 layout(binding = BINDING_SKY_LIGHT) uniform sampler3D sky_light;
-layout(binding = BINDING_SOLID) uniform sampler3D free_texels;
 
 /// Radiance of the sky around a point: c.x + dot(c.yzw, direction). From the free texels around it alone, so that
 /// nothing comes through walls; 0 deep in solid.

@@ -8,6 +8,7 @@ SHARED_CONST uint kLightPoint = 0u;
 SHARED_CONST uint kLightSpot = 1u;
 SHARED_CONST uint kLightDirectional = 2u;
 SHARED_CONST uint kNoShadow = 0xffffffffu;
+SHARED_CONST uint kShadowByVoxels = 0xfffffffeu;  // rays through the solid volume
 
 struct Light {
   vec3 position_world;
@@ -17,9 +18,15 @@ struct Light {
   vec3 direction;   // where the light goes, unit
   float cos_inner;
   float cos_outer;
-  uint shadow_layer;  // first layer in the shadow array: six faces, or one of a directional light
+  // First layer in the shadow array: six faces, or one of a directional light; or one of the constants above.
+  uint shadow_layer;
 };
 SHARED_SIZE(Light, 56);
+
+/// Where what a lamp sends is below 1/100 of unit irradiance, from the greatest of its intensities [m].
+SHARED_FUNCTION float light_range(float intensity) {
+  return sqrt(100.0f * intensity);
+}
 
 /// Where a directional light's shadow layer looks: clip space of an orthographic view.
 struct ShadowView {

@@ -19,6 +19,9 @@ struct SolidFrame {
 };
 SHARED_SIZE(SolidFrame, 28);
 
+/// How much of both ends of a way from one surface to another does not count as blocked [texels]: a texel's longest way.
+SHARED_CONST float kSolidEnds = 1.7320508f;
+
 /// Words of a row of texels.
 SHARED_FUNCTION int solid_row_words(int texels_x) {
   return (texels_x + 31) / 32;

@@ -116,13 +116,12 @@ MaterialImages device_material(const scene::Material& material) {
 }  // namespace
 
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers) {
-  constexpr float kLeastIrradiance = 1.0f / 100;
   std::vector<shared::Light> out;
   std::uint32_t layer = 0;
   bool has_sun = false;
   for (const scene::Light& light : lights) {
     const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
-    shared::Light l{light.position_world,  std::sqrt(brightest / kLeastIrradiance),
+    shared::Light l{light.position_world,  shared::light_range(brightest),
                     light.intensity,       static_cast<std::uint32_t>(light.kind),
                     light.direction_world, light.cos_inner,
                     light.cos_outer,       shared::kNoShadow};
@@ -147,7 +146,9 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, c
   runner.run([&](gpu::Recorder& recorder) {
     out.vertices = upload_list(context, recorder, geometry.vertices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     out.indices = upload_list(context, recorder, geometry.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    out.lights = upload_list(context, recorder, out.light_list, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    out.lights = gpu::Buffer(context, (out.light_list.size() + kMaxFlashes) * sizeof(shared::Light),
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    recorder.upload(out.lights, 0, std::as_bytes(std::span(out.light_list)));
   });
   upload_images(context, runner, scene, out);
   for (const scene::Material& material : scene.materials) out.materials.push_back(device_material(material));

@@ -35,13 +35,16 @@ struct MaterialImages {
   std::uint32_t base_color = 0, normal = 0, roughness = 0;  ///< Into SceneResources::images.
 };
 
+/// Lights of a moment that there is room for after those of the scene.
+constexpr std::size_t kMaxFlashes = 64;
+
 struct SceneResources {
   gpu::Buffer vertices, indices, lights;
   std::vector<gpu::Image> images;  ///< The first three: white, flat normal, white.
   std::vector<MaterialImages> materials;
   std::vector<Draw> draws;  ///< In order of material.
   Draw grenade;
-  std::vector<shared::Light> light_list;  ///< As in `lights`.
+  std::vector<shared::Light> light_list;  ///< The first ones in `lights`; after them those of the moment.
   glm::vec3 bounds_min{0}, bounds_max{0};
 };
 

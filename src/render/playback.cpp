@@ -4,6 +4,8 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "stage/flashes.hpp"
+
 namespace brume::render {
 namespace {
 
@@ -44,6 +46,7 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   input.volume = &simulation.volume();
   holes = sim::holes_of(simulation.world().state());
   input.holes = holes;
+  input.flashes = stage::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
     input.grenades.push_back(grenade_matrix(grenade));
   const auto hidden = simulation.hidden_objects();

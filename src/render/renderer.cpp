@@ -98,13 +98,15 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.solid = solid_.frame();
   frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
   frame.size_px = size_px_;
-  frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());
+  const auto flashes = std::span(input.flashes).first(std::min(input.flashes.size(), passes::kMaxFlashes));
+  frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size() + flashes.size());
   frame.holes = hole_grid_.frame();
   frame.frame_index = input.frame_index;
   frame.time = input.time;
   frame.exposure = input.exposure;
   frame.march_scale = march_scale_;
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
+  recorder.upload(scene_.lights, scene_.light_list.size() * sizeof(shared::Light), std::as_bytes(flashes));
   recorder.fill(counters_, 0);
 }
 
@@ -176,11 +178,16 @@ bool Renderer::needs_light(const FrameInput& input) {
   const bool has_holes = hole_grid_.frame().hole_count > 0;
   const bool same_moment = lit_time_ == input.time || (input.look.erosion == 0 && !has_holes && !lit_holes_);
   lit_holes_ = has_holes;
-  const bool needed = smoke_changed_ || !same_look || !same_eye || !same_moment || input.force_light;
+  const bool same_flashes =
+      std::equal(lit_flashes_.begin(), lit_flashes_.end(), input.flashes.begin(), input.flashes.end(),
+                 [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; });
+  const bool needed =
+      smoke_changed_ || !same_flashes || !same_look || !same_eye || !same_moment || input.force_light;
   lit_time_ = input.time;
   lit_eye_ = input.camera.position_world;
   lit_look_ = input.look;
   lit_sky_ = input.sky;
+  lit_flashes_ = input.flashes;
   smoke_changed_ = false;
   return needed;
 }

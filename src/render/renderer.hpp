@@ -27,9 +27,10 @@ struct FrameInput {
   float time = 0;                 ///< [s], the clock of the holes and of the drifting noise.
   std::uint32_t frame_index = 0;  ///< Moves jitter and dither; equal numbers give equal pictures.
   passes::LevelView level;        ///< Where the level is solid; of a renderer always the same level.
-  const sim::SmokeVolume* volume = nullptr;   ///< null: no smoke.
-  std::span<const shared::Hole> holes;        ///< At most passes::kMaxHoles, the last ones.
-  std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
+  const sim::SmokeVolume* volume = nullptr;  ///< null: no smoke.
+  std::span<const shared::Hole> holes;       ///< At most passes::kMaxHoles, the last ones.
+  std::vector<shared::Light> flashes;  ///< Lights of the moment; at most passes::kMaxFlashes, the first ones.
+  std::vector<glm::mat4> grenades;     ///< world_from_mesh of each grenade in the air.
   std::vector<std::uint32_t> hidden_objects;  ///< Of the scene, rising: not drawn, and they cast no shadow.
   bool force_light =
       false;  ///< Light smoke and surfaces anew even when nothing changed since the last frame.
@@ -107,6 +108,7 @@ class Renderer {
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
   shared::Sky lit_sky_{};
   std::vector<std::uint32_t> hidden_objects_;  ///< That the shadows were drawn without.
+  std::vector<shared::Light> lit_flashes_;
   glm::vec3 lit_eye_{0};
   float lit_time_ = 0;
   bool lit_holes_ = false;

@@ -147,6 +147,7 @@ class TimelineReader {
     table.read("expand", event.expand, 0, 60);
     table.read("stay", event.stay, 0, 600);
     table.read("fade", event.fade, 0, 60);
+    table.read("flash", event.flash, 0, 1e6);
     if (event.from_world == event.toward_world)
       table.fail("toward", "\"toward\": expected a point other than \"from\"");
     event.place = table.place();
@@ -164,6 +165,7 @@ class TimelineReader {
     table.read("left", event.left, 0, 1);
     table.read("refill_rim", event.refill_rim, 0.01, 60);
     table.read("refill_middle", event.refill_middle, 0.01, 60);
+    table.read("flash", event.flash, 0, 1e6);
     if (event.refill_middle < event.refill_rim)
       table.fail("refill_middle", "\"refill_middle\": expected no less than \"refill_rim\"");
     event.place = table.place();

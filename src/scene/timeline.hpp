@@ -68,6 +68,7 @@ struct ShotEvent {
   float stay = 0.6f;                 ///< Open [s], [0, 600].
   float fade = 0.35f;                ///< Closing [s], [0, 60].
   std::string place = {};
+  float flash = 25.0f;  ///< Intensity of the muzzle's light [W/sr], [0, 10^6].
 };
 
 /// An explosion opens a cavity in the smoke around it, which then fills again.
@@ -80,6 +81,7 @@ struct BlastEvent {
   float refill_rim = 0.5f;     ///< Until the rim is full again [s], [0.01, 60].
   float refill_middle = 5.0f;  ///< Until the middle is [s], [refill_rim, 60].
   std::string place = {};
+  float flash = 250.0f;  ///< Intensity of its light [W/sr], [0, 10^6].
 };
 
 /// A body is at a place now; its first move puts it there.
@@ -124,11 +126,11 @@ struct Timeline {
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, the tables [grid] (voxel,
 /// size, origin), [smoke] and [sky] with the members above as keys, and [[camera]] (time, position, target,
 /// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
-/// from, toward, radius, reach, expand, stay, fade), "blast" (time, at, radius, speed, left, refill_rim,
-/// refill_middle), "move" (time, body, to), "edit" (time, low, high, solid) or "door" (time, object, open).
-/// Points in metres, [-10^6, 10^6]; those of events [-16384, 16384]. Whether a door's object exists, is seen
-/// by check_doors. Fails with bad_input and file:line:column for broken TOML, a key that is not known (naming
-/// the nearest that is), a value of the wrong type or out of its range.
+/// from, toward, radius, reach, expand, stay, fade, flash), "blast" (time, at, radius, speed, left,
+/// refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid) or "door"
+/// (time, object, open). Points in metres, [-10^6, 10^6]; those of events [-16384, 16384]. Whether a door's
+/// object exists, is seen by check_doors. Fails with bad_input and file:line:column for broken TOML, a key
+/// that is not known (naming the nearest that is), a value of the wrong type or out of its range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` is what messages call it and what its scene is relative to.

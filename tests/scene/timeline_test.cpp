@@ -64,6 +64,7 @@ time = 2
 from = [0, 1, 0]
 toward = [0, 1, -1]
 stay = 0.75
+flash = 3
 [[event]]
 type = "shot"
 time = 1.5
@@ -89,6 +90,8 @@ at = [0, 0, 0]
   EXPECT_EQ(timeline->shots[0].time, 1.5) << "by time";
   EXPECT_EQ(timeline->shots[1].stay, 0.75f);
   EXPECT_EQ(timeline->shots[1].reach, 0.25f);
+  EXPECT_EQ(timeline->shots[0].flash, 25.0f);
+  EXPECT_EQ(timeline->shots[1].flash, 3.0f);
   ASSERT_EQ(timeline->smokes.size(), 1u);
   EXPECT_EQ(timeline->smokes[0].from_world, glm::vec3(0, 1, 5));
 }
@@ -178,11 +181,12 @@ TEST(Timeline, TheLifeOfASmokeIsRead) {
 }
 
 TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
-  const auto timeline = parse(kHead + event("blast", "time = 3\nat = [1, 2, 3]\nradius = 4\nleft = 0.5") +
-                              event("blast", "time = 1\nat = [0, 0, 0]\nrefill_rim = 1\nrefill_middle = 2") +
-                              event("move", "time = 2\nbody = \"runner\"\nto = [4, 0, -1]") +
-                              event("edit", "time = 5\nlow = [0, 0, 0]\nhigh = [1, 2, 3]\nsolid = false") +
-                              event("door", "time = 6\nobject = \"front door\"\nopen = true"));
+  const auto timeline =
+      parse(kHead + event("blast", "time = 3\nat = [1, 2, 3]\nradius = 4\nleft = 0.5\nflash = 0") +
+            event("blast", "time = 1\nat = [0, 0, 0]\nrefill_rim = 1\nrefill_middle = 2") +
+            event("move", "time = 2\nbody = \"runner\"\nto = [4, 0, -1]") +
+            event("edit", "time = 5\nlow = [0, 0, 0]\nhigh = [1, 2, 3]\nsolid = false") +
+            event("door", "time = 6\nobject = \"front door\"\nopen = true"));
   ASSERT_TRUE(timeline) << timeline.failure().message;
   ASSERT_EQ(timeline->blasts.size(), 2u);
   EXPECT_EQ(timeline->blasts[0].time, 1);  // by time
@@ -190,6 +194,8 @@ TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
   EXPECT_EQ(timeline->blasts[0].refill_middle, 2.0f);
   EXPECT_EQ(timeline->blasts[1].at_world, glm::vec3(1, 2, 3));
   EXPECT_EQ(timeline->blasts[1].left, 0.5f);
+  EXPECT_EQ(timeline->blasts[0].flash, 250.0f);
+  EXPECT_EQ(timeline->blasts[1].flash, 0.0f);
   ASSERT_EQ(timeline->moves.size(), 1u);
   EXPECT_EQ(timeline->moves[0].body, "runner");
   EXPECT_EQ(timeline->moves[0].to_world, glm::vec3(4, 0, -1));
@@ -199,7 +205,7 @@ TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
   ASSERT_EQ(timeline->doors.size(), 1u);
   EXPECT_EQ(timeline->doors[0].object, "front door");
   EXPECT_TRUE(timeline->doors[0].open);
-  EXPECT_EQ(timeline->doors[0].place, "scenes/t.toml:29:10");
+  EXPECT_EQ(timeline->doors[0].place, "scenes/t.toml:30:10");
 }
 
 TEST(Timeline, NewEventsNameTheirMistakes) {
