@@ -11,6 +11,7 @@ layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(binding = 2) uniform sampler3D density_atlas;
 layout(scalar, binding = 3) writeonly buffer Texels { uint texels[]; };
 layout(scalar, binding = 4) buffer Counters { SmokeLightCounters counters; };
+layout(scalar, binding = 5) readonly buffer Cells { uint cells[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 
 shared uint smoke[kTexelsPerBrick];
@@ -29,6 +30,17 @@ bool in_view(ivec3 brick) {
   const float wide = length(frame.camera.right), high = length(frame.camera.up);
   return abs(dot(apart, frame.camera.right)) / wide <= wide * along + radius * sqrt(1.0 + wide * wide) &&
          abs(dot(apart, frame.camera.up)) / high <= high * along + radius * sqrt(1.0 + high * high);
+}
+
+/// Whether a boundary cell has the texel as a corner: its density may come from voxels that the brick does not hold.
+bool at_boundary(uint slot, ivec3 local) {
+  uint any_cell = 0u;
+  for (int corner = 0; corner < 8; ++corner) {
+    const ivec3 cell = local - ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(kBrickCells)))) continue;
+    any_cell |= cells[slot * kCellsPerBrick + uint(cell.x + kBrickCells * (cell.y + kBrickCells * cell.z))];
+  }
+  return any_cell != 0u;
 }
 
 /// Largest of the five values along an axis around texel i.
@@ -54,7 +66,7 @@ void main() {
   // from smoke along each axis.
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
     const ivec3 local = ivec3(i % 10u, i / 10u % 10u, i / 100u);
-    smoke[i] = texelFetch(density_atlas, corner + local, 0).r > 0.0 ? 1u : 0u;
+    smoke[i] = texelFetch(density_atlas, corner + local, 0).r > 0.0 || at_boundary(slot, local) ? 1u : 0u;
   }
   barrier();
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) grown[i] = largest_around(false, i, 1u);

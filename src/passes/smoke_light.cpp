@@ -20,7 +20,7 @@ constexpr std::uint32_t kGroups = 4096;
 SmokeLightPass::SmokeLightPass(gpu::Context& context)
     : context_(context),
       texels_pass_(context, shaders::light_texels_comp,
-                   {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer},
+                   {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::SmokeLightParams), {256, 1, 1}),
       rays_pass_(context, shaders::light_rays_comp,
                  {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
@@ -65,10 +65,11 @@ void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std
                                   std::uint32_t count) {
   const shared::SmokeLightParams params{first, count, rays_per_texel_, kMaxSteps};
   recorder.fill(counters_, 0);
-  recorder.bind(texels_pass_,
-                {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks),
-                 gpu::sampled(in.smoke.density, linear_), gpu::write(texels_), gpu::read_write(counters_)},
-                params);
+  recorder.bind(
+      texels_pass_,
+      {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
+       gpu::write(texels_), gpu::read_write(counters_), gpu::read(in.smoke.cells)},
+      params);
   recorder.dispatch_threads(texels_pass_, count * 256);
   recorder.bind(rays_pass_,
                 {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),

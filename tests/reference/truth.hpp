@@ -1,0 +1,63 @@
+// What the picture of lit smoke should be: single scattering by its definition, in double, in many small
+// steps. Nothing is stored on a grid: from every step of every pixel's ray a ray goes to every light, through
+// the triangles of the scene, the holes and the smoke.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "shared/frame.h"
+#include "shared/hole.h"
+#include "shared/light.h"
+#include "sim/smoke_volume.hpp"
+
+namespace brume::reference {
+
+/// The tile of noise as the device made it: RGBA of 8 bits, size^3 texels.
+struct NoiseTile {
+  std::uint32_t size = 0;
+  std::vector<glm::u8vec4> texels;
+};
+
+/// A triangle of the world and what it is made of.
+struct TruthTriangle {
+  glm::dvec3 a, b, c;
+  glm::dvec3 albedo, emission;
+  double roughness = 1;
+};
+
+/// The triangles of a scene without images; metals are not known here.
+std::vector<TruthTriangle> truth_triangles(const scene::Scene& scene);
+
+struct TruthScene {
+  shared::Camera camera{};
+  glm::uvec2 size_px{0};
+  shared::SmokeLook look{};  ///< Its step_length, stop and scatter_octaves play no part here.
+  double time = 0;           ///< [s]
+  const sim::SmokeVolume* volume = nullptr;
+  std::span<const shared::Hole> holes;  ///< Without masks.
+  std::span<const shared::Light> lights;
+  std::span<const TruthTriangle> triangles;
+  const NoiseTile* noise = nullptr;  ///< Needed where look.erosion or look.hole_rim is not 0.
+  double view_step = 0.2;            ///< Of the rays of the pixels [voxels].
+  double light_step = 0.4;           ///< Of the rays to the lights [voxels].
+};
+
+/// One pixel, seen through its middle.
+struct TruthPixel {
+  glm::dvec3 smoke{0};  ///< Radiance that the smoke scatters towards the eye, as far as it comes through.
+  double transmittance = 1;  ///< Of the smoke before the surface.
+  glm::dvec3 surface{0};     ///< Radiance of the surface behind, lit through the smoke.
+  glm::dvec3 picture() const { return smoke + transmittance * surface; }
+};
+
+/// Rows from the top. No ambient light, black sky. On all threads.
+std::vector<TruthPixel> trace_truth(const TruthScene& scene);
+
+/// Density at a point after noise and holes.
+double truth_density(const TruthScene& scene, glm::dvec3 p_world);
+
+}  // namespace brume::reference

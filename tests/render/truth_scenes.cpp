@@ -1,0 +1,135 @@
+#include "tests/render/truth_scenes.hpp"
+
+namespace brume::render {
+namespace {
+
+const voxel::GridFrame kFrame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
+
+scene::Light lamp(glm::vec3 position, glm::vec3 intensity) {
+  scene::Light light;
+  light.position_world = position;
+  light.intensity = intensity;
+  return light;
+}
+
+scene::Light spot(glm::vec3 position, glm::vec3 at, glm::vec3 intensity) {
+  scene::Light light = lamp(position, intensity);
+  light.kind = scene::LightKind::spot;
+  light.direction_world = glm::normalize(at - position);
+  light.cos_inner = 0.95f;
+  light.cos_outer = 0.85f;
+  return light;
+}
+
+/// A dark floor and a dark wall across it at z = -3, more boxes, a camera that looks at the wall along -z.
+scene::Scene room(const std::vector<std::pair<glm::vec3, glm::vec3>>& boxes,
+                  std::vector<scene::Light> lights) {
+  scene::Scene scene;
+  scene::Mesh mesh;
+  add_box(mesh, {-6, -0.3f, -3.2f}, {6, -0.1f, 6});
+  add_box(mesh, {-6, -0.1f, -3.2f}, {6, 4, -3});
+  for (const auto& [low, high] : boxes) add_box(mesh, low, high);
+  scene.meshes.push_back(mesh);
+  scene::Mesh ball;
+  add_box(ball, glm::vec3(-0.2f), glm::vec3(0.2f));
+  scene.meshes.push_back(ball);
+  scene.materials.push_back({});
+  scene.materials[0].base_color = glm::vec3(0.2f);
+  scene.objects.push_back({"room", 0, 0, glm::mat4(1), true});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.lights = std::move(lights);
+  scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
+  return scene;
+}
+
+scene::Timeline smoke_at(glm::vec3 place, std::uint32_t voxels) {
+  scene::Timeline timeline;
+  timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
+  timeline.smoke.voxels = voxels;
+  timeline.smoke.extinction = 2;
+  timeline.smoke.noise = 0;
+  timeline.smokes = {{0.0, place + glm::vec3(0, 0.5f, 0), place}};
+  return timeline;
+}
+
+scene::ShotEvent shot(glm::vec3 from, glm::vec3 toward, float radius) {
+  scene::ShotEvent event;
+  event.time = 1.5;
+  event.from_world = from;
+  event.toward_world = toward;
+  event.radius = radius;
+  event.stay = 5;
+  return event;
+}
+
+}  // namespace
+
+void add_box(scene::Mesh& mesh, glm::vec3 low, glm::vec3 high) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      glm::vec3 normal(0), u(0), v(0);
+      normal[axis] = side;
+      u[(axis + 1) % 3] = 1;
+      v[(axis + 2) % 3] = side;
+      const glm::vec3 centre = 0.5f * (low + high), half = 0.5f * (high - low);
+      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+      for (const glm::vec2 corner :
+           {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+        scene::Vertex vertex;
+        vertex.position = centre + half * (normal + corner.x * u + corner.y * v);
+        vertex.normal = normal;
+        vertex.tangent = glm::vec4(u, 1);
+        mesh.vertices.push_back(vertex);
+      }
+      for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
+    }
+  }
+}
+
+stage::Stage stage_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridFrame& frame) {
+  auto voxels = stage::load_or_voxelize(scene, frame, {}).value_or_throw();
+  const scene::Camera camera = *scene.camera;
+  return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
+}
+
+std::vector<TruthCase> truth_cases() {
+  const glm::vec3 white(60), red(40, 8, 5), blue(6, 12, 40), green(10, 40, 10);
+  const scene::Light side = lamp({-2.2f, 2.6f, 2.2f}, white);
+  std::vector<TruthCase> cases;
+  const auto add = [&](const char* name, scene::Scene scene, scene::Timeline timeline) -> TruthCase& {
+    cases.push_back({name, stage_of(std::move(scene), std::move(timeline), kFrame)});
+    return cases.back();
+  };
+  add("one light", room({}, {side}), smoke_at({0, 0.2f, 0}, 1500));
+  add("many lights",
+      room({}, {lamp({-2.5f, 1, 1}, red), lamp({2.6f, 1, 1.4f}, blue), lamp({0, 3.5f, -1}, green),
+                spot({1.6f, 3.5f, 2.4f}, {0.3f, 0.5f, 0}, white), lamp({0.2f, 0.8f, 0.9f}, 0.02f * white)}),
+      smoke_at({0, 0.2f, 0}, 1500));
+  auto pierced = smoke_at({0, 0.2f, 0}, 1800);
+  pierced.shots = {shot({-3, 1.2f, 1}, {3, 1, 0.7f}, 0.4f)};
+  add("hole", room({}, {lamp({-3, 1.25f, 1}, 0.7f * white)}), pierced);
+  auto noisy = smoke_at({0, 0.2f, 0}, 1800);
+  noisy.smoke.noise = 0.5f;
+  noisy.shots = {shot({0, 1.5f, 5.5f}, {-0.5f, 1, 0}, 0.4f), shot({3, 1.5f, 1}, {-1, 0.8f, 0}, 0.3f)};
+  add("noise and holes", room({}, {side, lamp({3, 1.5f, 1}, blue)}), noisy).noisy = true;
+  add("wall edge",
+      room({{{-1.3f, -0.1f, -0.55f}, {0.3f, 2.2f, -0.4f}}}, {lamp({-0.4f, 1.9f, -1.6f}, 2.0f * white)}),
+      smoke_at({0.4f, 0.2f, 0.6f}, 1500));
+  add("doorway",
+      room({{{-6, -0.1f, -0.6f}, {-0.6f, 4, -0.45f}},
+            {{0.6f, -0.1f, -0.6f}, {6, 4, -0.45f}},
+            {{-0.6f, 2.1f, -0.6f}, {0.6f, 4, -0.45f}}},
+           {lamp({0.7f, 1.5f, -2.2f}, 2.0f * white), lamp({2.5f, 3, 3}, red)}),
+      smoke_at({0, 0.2f, 0.6f}, 1500));
+  auto blasted = smoke_at({0, 0.2f, 0}, 2400);
+  blasted.blasts = {{1.5, {0.6f, 0.8f, 0.9f}}};
+  blasted.blasts[0].radius = 1.6f;
+  add("blast", room({}, {side}), blasted);
+  add("wall along the view",
+      room({{{-0.05f, -0.1f, -1}, {0.05f, 2.4f, 1.5f}}},
+           {lamp({-2, 2, 2}, blue), lamp({2.2f, 1.2f, 2}, red)}),
+      smoke_at({0.5f, 0.2f, 0}, 1800));
+  return cases;
+}
+
+}  // namespace brume::render

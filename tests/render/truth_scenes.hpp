@@ -1,0 +1,29 @@
+// Small scenes whose every part is known, for comparisons with what they should look like.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stage/simulation.hpp"
+
+namespace brume::render {
+
+/// A scene, when it is looked at, and how its smoke looks.
+struct TruthCase {
+  std::string name;
+  stage::Stage stage;
+  double seconds = 2;
+  bool noisy = false;  ///< With the noise of the smoke and of the rims of holes.
+};
+
+/// One light, many lights, a shot through the smoke, noise and several shots, the edge of a wall, a doorway,
+/// a blast, a wall along the view. Quarter-metre voxels, black sky, no ambient light.
+std::vector<TruthCase> truth_cases();
+
+/// A box of six sides, twelve triangles.
+void add_box(scene::Mesh& mesh, glm::vec3 low, glm::vec3 high);
+
+/// Voxels of a scene with its timeline and camera. The scene has a camera.
+stage::Stage stage_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridFrame& frame);
+
+}  // namespace brume::render
