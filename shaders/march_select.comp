@@ -44,16 +44,17 @@ Estimate neighbour(RayEnds own, ivec2 block, ivec2 blocks, float z) {
   return estimate(e, block, goes_on ? 0.5 * (e.near + e.far) : z);
 }
 
-/// How far interpolation in front of a surface at z can be off: half of what the values curve by, and where nobody
-/// knows this depth on one side, half of what they rise by on the other.
+/// How far interpolation in front of a surface at z can be off: a quarter of what the values bend by, twice what it is
+/// where they bend evenly; where nobody knows this depth on one side, what they rise by over half a block.
 vec4 error_at(RayEnds own, ivec2 block, ivec2 blocks, float z) {
   const ivec2 steps[4] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1));
   const vec4 here = estimate(own, block, z).smoke;
   vec4 error = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
     const Estimate a = neighbour(own, block - steps[i], blocks, z), b = neighbour(own, block + steps[i], blocks, z);
-    const vec4 to_a = a.doubt < kDoubt ? a.smoke - here : vec4(0.0), to_b = b.doubt < kDoubt ? b.smoke - here : vec4(0.0);
-    error = max(error, 0.5 * abs(to_a + to_b));
+    const bool knows_a = a.doubt < kDoubt, knows_b = b.doubt < kDoubt;
+    const vec4 bend = (knows_a ? a.smoke - here : vec4(0.0)) + (knows_b ? b.smoke - here : vec4(0.0));
+    error = max(error, (knows_a && knows_b ? 0.25 : 0.5) * abs(bend));
   }
   return error;
 }
