@@ -5,15 +5,6 @@
 #include "shared/frame.h"
 #include "shared/resolve.h"
 
-/// How far a ray's transmittance may be off before others are asked instead.
-const float kDoubt = 0.008;
-
-/// Smallest error of a pixel, between 0 and 1 on the screen, that is not left to interpolation.
-const float kSeenError = 3.0 / 255.0;
-
-/// Radiance times exposure of a surface in bright light.
-const float kBrightSurface = 0.3;
-
 /// Distance along the view axis to a surface from its reverse depth, moved to the smoke's bounds where it lies in
 /// front of them or behind: all the same for the smoke.
 float distance_in_smoke(FrameConstants frame, float depth) {

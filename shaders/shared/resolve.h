@@ -32,6 +32,15 @@ SHARED_SIZE(MarchList, 16);
 /// Groups in a row of that dispatch.
 SHARED_CONST uint kListedRow = 1024u;
 
+/// How far off a ray's transmittance may be at a pixel's depth for it to count in full among its neighbours.
+SHARED_CONST float kDoubt = 0.008f;
+
+/// Error of a pixel, between 0 and 1 on the screen, above which it is not left to interpolation.
+SHARED_CONST float kSeenError = 3.0f / 255.0f;
+
+/// Radiance times exposure of a surface in bright light.
+SHARED_CONST float kBrightSurface = 0.3f;
+
 /// Blocks per axis.
 SHARED_FUNCTION uvec2 blocks_of(uvec2 size_px, uint march_scale) {
   return (size_px + march_scale - 1u) / march_scale;

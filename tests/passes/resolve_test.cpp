@@ -1,0 +1,279 @@
+#include "passes/resolve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <set>
+
+#include "passes/blue_noise.hpp"
+#include "passes/noise.hpp"
+#include "tests/passes/half.hpp"
+#include "tests/passes/smoke_room.hpp"
+
+namespace brume::passes {
+namespace {
+
+using shared::RayEnds;
+
+class ResolveTest : public gpu::GpuTest {
+ protected:
+  ResolveTest() : march_(context(), false), resolve_(context()) {
+    noise_tile_ = make_noise_tile(context(), 8);
+    const NoisePass noise(context());
+    runner().run([&](gpu::Recorder& recorder) {
+      noise.record(recorder, noise_tile_, {8, 2, 1});
+      blue_noise_ = make_blue_noise(context(), recorder);
+    });
+  }
+
+  /// A camera at `eye` that looks along -z, narrow enough that the rays of a block are of one length.
+  static shared::FrameConstants frame_at(const SmokeRoom& room, glm::vec3 eye, glm::uvec2 size,
+                                         std::uint32_t scale) {
+    shared::FrameConstants frame{};
+    frame.camera.eye_world = eye;
+    frame.camera.near_z = 0.05f;
+    frame.camera.forward = {0, 0, -1};
+    frame.camera.right = {0.1f, 0, 0};
+    frame.camera.up = {0, 0.05f, 0};
+    frame.volume = room.volume.frame();
+    frame.size_px = size;
+    frame.march_scale = scale;
+    frame.look.albedo = glm::vec3(1);
+    frame.look.extinction = 0.7f;
+    frame.look.step_length = 0.1f;
+    frame.look.noise_period = 1;
+    frame.exposure = 1;
+    return frame;
+  }
+
+  enum class Way { blocks, pixels, all_listed, selected };
+  /// The smoke of every pixel in front of a surface at distance_at(x, y) along the view axis.
+  std::vector<glm::vec4> smoke(const SmokeRoom& room, const shared::FrameConstants& frame,
+                               const std::vector<float>& distances, Way way) {
+    const glm::uvec2 size = frame.size_px;
+    std::vector<float> reverse;
+    for (const float d : distances) reverse.push_back(frame.camera.near_z / d);
+    const auto depth = upload_image(context(), runner(), size, VK_FORMAT_R32_SFLOAT, reverse);
+    const auto emission = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                       std::vector<Half4>(size.x * size.y, to_half(glm::vec4(0))));
+    const auto frame_buffer = upload(std::vector{frame});
+    const auto counters = upload(std::vector<std::uint32_t>{0});
+    const auto target = test_image(context(), size, VK_FORMAT_R16G16B16A16_SFLOAT);
+    HoleGrid holes(context(), runner(), {}, false);
+    holes.reserve({}, 0, 0, frame.volume.voxel_size, room.volume.slot_count());
+    const MarchBlocks blocks(context(), size, std::max(frame.march_scale, 2u));
+    const MarchPass::Inputs in{frame_buffer, room.upload.resources(), noise_tile_, depth,
+                               blue_noise_,  holes.resources()};
+    runner().run([&](gpu::Recorder& recorder) {
+      recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
+      holes.record(recorder, frame_buffer, room.upload.resources());
+      if (way == Way::pixels) {
+        march_.record(recorder, in, target, counters);
+        return;
+      }
+      resolve_.record_ends(recorder, frame_buffer, depth, blocks);
+      march_.record_blocks(recorder, in, blocks, counters);
+      resolve_.record_select(recorder, frame_buffer, emission, blocks);
+      resolve_.record(recorder, frame_buffer, depth, blocks, target);
+      if (way == Way::blocks) return;
+      if (way == Way::all_listed) list_all(recorder, blocks, frame);
+      march_.record_list(recorder, in, blocks, target, counters);
+    });
+    std::vector<glm::vec4> out;
+    for (const Half4& texel : read_back<Half4>(target)) out.push_back(from_half(texel));
+    return out;
+  }
+  static void list_all(gpu::Recorder& recorder, const MarchBlocks& blocks,
+                       const shared::FrameConstants& frame) {
+    const glm::uvec2 count = shared::blocks_of(frame.size_px, frame.march_scale);
+    const std::uint32_t all = count.x * count.y, per_block = frame.march_scale * frame.march_scale;
+    std::vector<std::uint32_t> words{(all * per_block + 63) / 64, 1, 1, all};
+    for (std::uint32_t i = 0; i < all; ++i) words.push_back(all - 1 - i);  // in any order
+    recorder.upload(blocks.list, 0, std::as_bytes(std::span(words)));
+  }
+
+  MarchPass march_;
+  ResolvePass resolve_;
+  gpu::Image noise_tile_, blue_noise_;
+};
+
+using Surface = std::function<float(std::uint32_t x, std::uint32_t y)>;
+
+std::vector<float> distances_of(const Surface& surface, glm::uvec2 size) {
+  std::vector<float> distances;
+  for (std::uint32_t y = 0; y < size.y; ++y)
+    for (std::uint32_t x = 0; x < size.x; ++x) distances.push_back(surface(x, y));
+  return distances;
+}
+
+/// A wall, a floor that runs away, a grid of bars in front of a wall, and every pixel for itself.
+std::vector<Surface> surfaces() {
+  const auto random = std::make_shared<std::mt19937>(3);
+  return {[](std::uint32_t, std::uint32_t) { return 2.5f; },
+          [](std::uint32_t x, std::uint32_t y) {
+            return 1 / (0.15f + 0.011f * static_cast<float>(y) + 0.003f * static_cast<float>(x));
+          },
+          [](std::uint32_t x, std::uint32_t y) { return x % 6 == 0 || y % 7 == 3 ? 0.8f : 6.0f; },
+          [random](std::uint32_t, std::uint32_t) {
+            return std::uniform_real_distribution<float>(0.3f, 9.0f)(*random);
+          }};
+}
+
+TEST_F(ResolveTest, AConstantMediumIsBeerLambertInFrontOfAnySurface) {
+  const SmokeRoom room(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 1u << 22,
+                       4000);
+  // What is interpolated: among the pixel's own ray, which is exact between its ends in an even medium, with
+  // a share of a >= 9/64 of the bilinear weights, and others, off by d where they do not know the depth, that
+  // count (1 - a) / (1 + (d / kDoubt)^2). The sum is off by at most kDoubt (1 - a) x / (1 - a + a (1 + x^2)),
+  // x = d / kDoubt, which is largest at x = a^-1/2: kDoubt (1 - a) / (2 a^1/2) < 1.15 kDoubt. The march may
+  // be off by 1 %, half floats by 1/2048, and rays two pixels apart differ in length by 0.1 * 2 * 2 * 0.2
+  // / 33.
+  for (const std::uint32_t scale : {2u, 4u}) {
+    for (const glm::uvec2 size : {glm::uvec2(33, 17), glm::uvec2(7, 5), glm::uvec2(1, 1)}) {
+      const auto frame = frame_at(room, {0, 0, -0.5f}, size, scale);
+      for (const Surface& surface : surfaces()) {
+        const auto distances = distances_of(surface, size);
+        for (const Way way : {Way::blocks, Way::selected}) {
+          const auto pixels = smoke(room, frame, distances, way);
+          for (std::uint32_t i = 0; i < pixels.size(); ++i) {
+            const glm::vec2 ndc = (glm::vec2(i % size.x, i / size.x) + 0.5f) / glm::vec2(size) * 2.0f - 1.0f;
+            const double length =
+                std::hypot(1.0, 0.1 * static_cast<double>(ndc.x), 0.05 * static_cast<double>(ndc.y));
+            const double path = static_cast<double>(distances[i]) * length;
+            const double expected = std::exp(-0.7 * path);
+            const double ray = expected * 0.7 * path * (0.08 / std::min(size.x, 33u) + 1e-3);
+            const double bound = 1.15 * static_cast<double>(shared::kDoubt) + 0.011 * expected + ray;
+            EXPECT_NEAR(pixels[i].w, expected, bound) << scale << " pixel " << i;
+            EXPECT_NEAR(pixels[i].z, 1 - expected, bound + 0.001) << scale << " pixel " << i;
+            EXPECT_NEAR(pixels[i].x, 0.5 * (1 - expected), 0.5 * bound + 0.001);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(ResolveTest, ListedPixelsAreThoseOfTheFullMarchBitForBit) {
+  std::vector<voxel::Triangle> walls;
+  add_quad(walls, {-5, -3, -6.05f}, {-0.6f, -3, -6.05f}, {-0.6f, 3, -6.05f}, {-5, 3, -6.05f});
+  SmokeRoom room(context(), runner(), walls, {{40, 24, 40}, 0.25f, {-5, -3, -10.0f}}, {0, 0, -7}, 6000, 120);
+  for (const std::uint32_t scale : {2u, 4u}) {
+    for (const glm::uvec2 size : {glm::uvec2(33, 17), glm::uvec2(7, 5), glm::uvec2(1, 1)}) {
+      auto frame = frame_at(room, {0, 0, 0}, size, scale);
+      frame.camera.right *= 5.0f;
+      frame.camera.up *= 5.0f;
+      const auto distances = distances_of(surfaces()[2], size);
+      EXPECT_EQ(smoke(room, frame, distances, Way::all_listed), smoke(room, frame, distances, Way::pixels));
+    }
+  }
+}
+
+/// Ends of a block by the words of shared/resolve.h: of the distances of its pixels.
+void expect_ends_of(const RayEnds& ends, const std::vector<float>& distances) {
+  const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
+  EXPECT_FLOAT_EQ(ends.near, *low);
+  EXPECT_FLOAT_EQ(ends.far, *high);
+  if (ends.near_last > ends.far_first || ends.near == ends.far) return;
+  float near_last = 0, far_first = 1e9f;
+  for (const float d : distances)
+    (2 * d < *low + *high ? near_last : far_first) =
+        2 * d < *low + *high ? std::max(near_last, d) : std::min(far_first, d);
+  EXPECT_FLOAT_EQ(ends.near_last, near_last);
+  EXPECT_FLOAT_EQ(ends.far_first, far_first);
+}
+
+TEST_F(ResolveTest, RaysOfUnevenBlocksPassThroughAFarPixel) {
+  const SmokeRoom room(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 1u << 22,
+                       4000);
+  constexpr glm::uvec2 kSize{33, 17};
+  for (const std::uint32_t scale : {2u, 4u}) {
+    const auto frame = frame_at(room, {0, 0, -0.5f}, kSize, scale);
+    const auto frame_buffer = upload(std::vector{frame});
+    const glm::uvec2 count = shared::blocks_of(kSize, scale);
+    const auto all = surfaces();
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      const auto distances = distances_of(all[s], kSize);
+      std::vector<float> reverse;
+      for (const float d : distances) reverse.push_back(frame.camera.near_z / d);
+      const auto depth = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, reverse);
+      const MarchBlocks blocks(context(), kSize, scale);
+      runner().run([&](gpu::Recorder& r) { resolve_.record_ends(r, frame_buffer, depth, blocks); });
+      const auto ends = read_back<RayEnds>(blocks.ends, count.x * count.y);
+      for (std::uint32_t i = 0; i < ends.size(); ++i) {
+        const glm::uvec2 first = glm::uvec2(i % count.x, i / count.x) * scale;
+        std::vector<float> inside;
+        for (std::uint32_t y = first.y; y < std::min(first.y + scale, kSize.y); ++y)
+          for (std::uint32_t x = first.x; x < std::min(first.x + scale, kSize.x); ++x)
+            inside.push_back(distances[x + kSize.x * y]);
+        expect_ends_of(ends[i], inside);
+        const bool even = ends[i].near_last > ends[i].far_first || ends[i].near == ends[i].far;
+        if (s < 2) {
+          // At the picture's rim a window is filled up with its last row, and bends there.
+          const bool rim =
+              first.x + scale + 1 > kSize.x || first.y + scale + 1 > kSize.y || first.x == 0 || first.y == 0;
+          EXPECT_TRUE(even || rim) << "walls and floors are even, block " << i;
+        }
+        const glm::vec2 p = ends[i].position_px;
+        if (even) {
+          EXPECT_EQ(p, glm::vec2(first) + 0.5f * static_cast<float>(scale));
+        } else {
+          const auto pixel = static_cast<std::uint32_t>(p.x) + kSize.x * static_cast<std::uint32_t>(p.y);
+          EXPECT_EQ(p, glm::floor(p) + 0.5f);
+          EXPECT_GE(distances[pixel], ends[i].far_first * 0.999999f);
+        }
+      }
+    }
+  }
+}
+
+/// Which blocks are listed when the rays of 12 x 9 blocks in front of one wall saw this.
+class SelectTest : public ResolveTest {
+ protected:
+  static constexpr glm::uvec2 kBlocks{12, 9};
+  std::set<std::uint32_t> listed(const std::function<glm::vec4(glm::vec2)>& seen, glm::vec3 emission) {
+    const SmokeRoom room(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 100, 400);
+    const glm::uvec2 size = kBlocks * 4u;
+    const auto frame = frame_at(room, {0, 0, -0.5f}, size, 4);
+    const auto frame_buffer = upload(std::vector{frame});
+    MarchBlocks blocks(context(), size, 4);
+    std::vector<Half4> texels;
+    for (std::uint32_t i = 0; i < kBlocks.x * kBlocks.y; ++i)
+      texels.push_back(to_half(seen(glm::vec2(i % kBlocks.x, i / kBlocks.x))));
+    blocks.near = upload_image(context(), runner(), kBlocks, VK_FORMAT_R16G16B16A16_SFLOAT, texels);
+    blocks.far = upload_image(context(), runner(), kBlocks, VK_FORMAT_R16G16B16A16_SFLOAT, texels);
+    blocks.ends = upload(std::vector<RayEnds>(kBlocks.x * kBlocks.y, {{0, 0}, 3, 3, 3, 3}));
+    const auto shining = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                      std::vector<Half4>(size.x * size.y, to_half(glm::vec4(emission, 0))));
+    runner().run([&](gpu::Recorder& r) { resolve_.record_select(r, frame_buffer, shining, blocks); });
+    const auto words = read_back<std::uint32_t>(blocks.list, 4 + kBlocks.x * kBlocks.y);
+    const std::uint32_t groups = (words[3] * 16 + 63) / 64;
+    EXPECT_EQ(words[0], groups);
+    EXPECT_EQ(words[1], groups > 0 ? 1u : 0u);
+    EXPECT_EQ(words[2], 1u);
+    return {words.begin() + 4, words.begin() + 4 + words[3]};
+  }
+};
+
+TEST_F(SelectTest, ListsNothingWhereInterpolationIsExact) {
+  EXPECT_TRUE(listed([](glm::vec2) { return glm::vec4(0, 0, 0, 1); }, glm::vec3(10)).empty());
+  EXPECT_TRUE(listed([](glm::vec2) { return glm::vec4(0.3f, 0.2f, 0.1f, 0.4f); }, glm::vec3(10)).empty());
+}
+
+TEST_F(SelectTest, ListsBothSidesOfAnEdgeThatIsSeen) {
+  const auto edge = [](float right) {
+    return [=](glm::vec2 p) {
+      return p.x < 6 ? glm::vec4(0.2f, 0.2f, 0.2f, 0.1f) : glm::vec4(0.2f, 0.2f, 0.2f, right);
+    };
+  };
+  std::set<std::uint32_t> beside;
+  for (std::uint32_t y = 0; y < kBlocks.y; ++y)
+    for (const std::uint32_t x : {5u, 6u}) beside.insert(x + kBlocks.x * y);
+  EXPECT_EQ(listed(edge(0.6f), glm::vec3(0)), beside);
+  // In front of a lamp a small edge is seen, in front of a wall it is not.
+  EXPECT_EQ(listed(edge(0.13f), glm::vec3(0)), std::set<std::uint32_t>{});
+  EXPECT_EQ(listed(edge(0.13f), glm::vec3(3)), beside);
+}
+
+}  // namespace
+}  // namespace brume::passes
