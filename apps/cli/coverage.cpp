@@ -62,9 +62,9 @@ const char* name_of(HiddenBy by) {
 
 Moment look(const stage::Stage& stage, const stage::Simulation& simulation, const SightLine& line) {
   const sim::State& state = simulation.world().state();
-  const std::vector<shared::Hole> holes = sim::holes_of(state);
+  const std::vector<shared::Hole> holes = sim::holes_of(state, &stage.masks);
   const sim::Sight sight(simulation.volume(), simulation.world().grid(), holes, state.seconds(state.tick),
-                         {stage.timeline.smoke.extinction, stage.timeline.smoke.albedo});
+                         {stage.timeline.smoke.extinction, stage.timeline.smoke.albedo, &stage.masks});
   Moment moment;
   moment.optical_depth = sight.optical_depth(line.from_world, line.to_world).value_or_throw();
   moment.wall = sight.first_wall(line.from_world, line.to_world).value_or_throw();
@@ -95,7 +95,8 @@ std::vector<ShotResult> fire(const stage::Stage& stage, const SightLine& line, c
                              double end) {
   const std::vector<scene::ShotEvent> shots = shots_of(line, volley);
   const auto closed = [](const scene::ShotEvent& s) {
-    return s.time + double{s.reach} + double{s.expand} + double{s.stay} + double{s.fade};
+    return s.time + double{s.times.reach} + double{s.times.expand} + double{s.times.stay} +
+           double{s.times.fade};
   };
   std::vector<bool> hidden;
   at_every_tick(stage, volley.first_time, std::min(end, closed(shots.back())),

@@ -79,8 +79,9 @@ void simulate(const Options& options) {
   const std::uint32_t ticks = options.ticks.value_or(
       std::clamp(stage::tick_at(double{stage.timeline.duration}, rate), 1u, kMaxTicks));
 
-  wire::Replay replay = wire::replay_of(stage.voxels.grid, {rate}, events);
-  sim::World world(stage.voxels.grid, {rate});
+  const sim::WorldSettings settings{rate, stage.masks.key()};
+  wire::Replay replay = wire::replay_of(stage.voxels.grid, settings, events);
+  sim::World world(stage.voxels.grid, settings);
   world.append(events).value_or_throw();
   Run run;
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {

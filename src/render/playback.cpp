@@ -39,12 +39,12 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   input.look.noise_period = static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size;
   input.look.noise_drift = 0.35f;
   input.look.scatter_octaves = 3;
-  input.look.hole_rim = 0.06f;
+  input.look.hole_rim = smoke.rim;
   input.exposure = std::exp2(timeline.exposure);
   input.time = static_cast<float>(seconds);
   input.level = {&simulation.world().grid(), simulation.world().state().edits};
   input.volume = &simulation.volume();
-  holes = sim::holes_of(simulation.world().state());
+  holes = sim::holes_of(simulation.world().state(), &stage.masks);
   input.holes = holes;
   input.flashes = stage::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))

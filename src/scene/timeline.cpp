@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/file.hpp"
+#include "scene/files.hpp"
 #include "scene/ray.hpp"
 #include "scene/text_reader.hpp"
 #include "scene/toml_table.hpp"
@@ -12,6 +13,8 @@ namespace brume::scene {
 namespace {
 
 constexpr double kLatest = 3600, kFarthest = 1e6, kDegree = 3.14159265358979323846 / 180;
+
+constexpr std::size_t kMaxTextBytes = 1024;
 
 class TimelineReader {
  public:
@@ -49,6 +52,7 @@ class TimelineReader {
     const auto sort = [&](auto& list) { std::stable_sort(list.begin(), list.end(), earlier); };
     sort(timeline_.smokes);
     sort(timeline_.shots);
+    sort(timeline_.texts);
     sort(timeline_.blasts);
     sort(timeline_.moves);
     sort(timeline_.edits);
@@ -80,6 +84,7 @@ class TimelineReader {
       table.fail("droplet", "\"droplet\": expected either it or \"anisotropy\"; take one of them out");
     table.read("noise", smoke.noise, 0, 1);
     table.read("noise_size", smoke.noise_size, 0.05, 100);
+    table.read("rim", smoke.rim, 0, 10);
     return table.finish();
   }
 
@@ -117,11 +122,13 @@ class TimelineReader {
     table.read("type", type);
     if (type == "smoke") return read_smoke_event(table);
     if (type == "shot") return read_shot_event(table);
+    if (type == "text") return read_text_event(table);
     if (type == "blast") return read_blast_event(table);
     if (type == "move") return read_move_event(table);
     if (type == "edit") return read_edit_event(table);
     if (type == "door") return read_door_event(table);
-    table.fail("type", "\"type\": expected \"smoke\", \"shot\", \"blast\", \"move\", \"edit\" or \"door\"");
+    table.fail("type",
+               "\"type\": expected \"smoke\", \"shot\", \"text\", \"blast\", \"move\", \"edit\" or \"door\"");
     return table.finish();
   }
 
@@ -143,16 +150,78 @@ class TimelineReader {
     table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
     table.read("toward", event.toward_world, -kFarthestEvent, kFarthestEvent);
     table.read("radius", event.radius, 0.01, 10);
-    table.read("reach", event.reach, 0, 60);
-    table.read("expand", event.expand, 0, 60);
-    table.read("stay", event.stay, 0, 600);
-    table.read("fade", event.fade, 0, 60);
+    read_times(table, event.times);
+    read_shape(table, event);
     table.read("flash", event.flash, 0, 1e6);
     if (event.from_world == event.toward_world)
       table.fail("toward", "\"toward\": expected a point other than \"from\"");
     event.place = table.place();
     timeline_.shots.push_back(event);
     return table.finish();
+  }
+
+  Result<void> read_text_event(TomlTable& table) {
+    TextEvent event;
+    for (const char* name : {"text", "from", "toward"}) table.require(name);
+    table.read("time", event.time, 0, kLatest);
+    table.read("text", event.text);
+    table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
+    table.read("toward", event.toward_world, -kFarthestEvent, kFarthestEvent);
+    table.read("size", event.size, 0.02, 10);
+    table.read("spacing", event.spacing, -0.5, 10);
+    table.read("interval", event.interval, 0, 10);
+    read_times(table, event.times);
+    read_roll(table, event.roll);
+    read_file_name(table, "font", event.font);
+    if (event.text.empty() || event.text.size() > kMaxTextBytes)
+      table.fail("text", "\"text\": expected 1 to 1024 bytes");
+    if (event.from_world == event.toward_world)
+      table.fail("toward", "\"toward\": expected a point other than \"from\"");
+    event.place = table.place();
+    timeline_.texts.push_back(std::move(event));
+    return table.finish();
+  }
+
+  static void read_times(TomlTable& table, HoleTimes& times) {
+    table.read("reach", times.reach, 0, 60);
+    table.read("expand", times.expand, 0, 60);
+    table.read("stay", times.stay, 0, 600);
+    table.read("fade", times.fade, 0, 60);
+  }
+
+  static void read_roll(TomlTable& table, float& roll) {
+    double degrees = 0;
+    table.read("roll", degrees, -360, 360);
+    roll = static_cast<float>(degrees * kDegree);
+  }
+
+  /// A file below the timeline's folder.
+  void read_file_name(TomlTable& table, const char* key, std::filesystem::path& file) const {
+    std::string name;
+    table.read(key, name);
+    if (name.empty()) return;
+    if (!is_safe_relative(name))
+      table.fail(key, in_quotes(key) + ": expected the name of a file below the timeline's folder");
+    file = path_.parent_path() / name;
+  }
+
+  void read_shape(TomlTable& table, ShotEvent& event) const {
+    std::string shape = "cylinder";
+    table.read("shape", shape);
+    read_roll(table, event.roll);
+    read_file_name(table, "mask", event.mask);
+    if (shape == "box") {
+      event.shape = ShotShape::box;
+    } else if (shape == "mask") {
+      event.shape = ShotShape::mask;
+      table.require("mask");
+    } else if (shape != "cylinder") {
+      table.fail("shape", "\"shape\": expected \"cylinder\", \"box\" or \"mask\"");
+    }
+    if (event.shape != ShotShape::mask && !event.mask.empty())
+      table.fail("mask", "\"mask\": belongs to shape = \"mask\"");
+    if (event.shape == ShotShape::mask && event.mask.empty())
+      table.fail("mask", "\"mask\": expected the name of a picture");
   }
 
   Result<void> read_blast_event(TomlTable& table) {

@@ -32,6 +32,7 @@ struct SmokeOptions {
   std::optional<float> droplet;  ///< Instead of anisotropy: diameter of its droplets [um], [0.1, 50].
   float noise = 0.5f;            ///< How deep the noise cuts into the density, [0, 1].
   float noise_size = 1.5f;       ///< Edge of a noise cell [m], [0.05, 100].
+  float rim = 0.06f;             ///< How far noise moves the rims of holes at most [m], [0, 10].
 };
 
 /// Linear radiance of what no surface covers, and of the light from everywhere, [0, 1000].
@@ -57,18 +58,44 @@ struct SmokeEvent {
   std::string place = {};  ///< "file:line:column", for messages; so in all events.
 };
 
-/// A shot, and how the hole that it leaves in smoke opens and closes.
+/// How a hole opens and closes.
+struct HoleTimes {
+  float reach = 0.25f;   ///< Until the front is at the far end [s], [0, 60].
+  float expand = 0.05f;  ///< Growing at each depth [s], [0, 60].
+  float stay = 0.6f;     ///< Open [s], [0, 600].
+  float fade = 0.35f;    ///< Closing [s], [0, 60].
+};
+
+enum class ShotShape { cylinder, box, mask };
+
+/// A shot, and the hole that it leaves in smoke.
 struct ShotEvent {
   double time = 0;  ///< [s], [0, 3600].
   glm::vec3 from_world{0};
   glm::vec3 toward_world{0, 0, -1};  ///< A point that the shot passes through; not `from_world`.
-  float radius = 0.25f;              ///< Of the hole [m], [0.01, 10].
-  float reach = 0.25f;               ///< Until the front is at the far end [s], [0, 60].
-  float expand = 0.05f;              ///< Growing at each depth [s], [0, 60].
-  float stay = 0.6f;                 ///< Open [s], [0, 600].
-  float fade = 0.35f;                ///< Closing [s], [0, 60].
+  float radius = 0.25f;              ///< Of the hole, half the edge of a box or mask [m], [0.01, 10].
+  HoleTimes times = {};
+  ShotShape shape = ShotShape::cylinder;
+  std::filesystem::path mask = {};  ///< Picture of the cross-section, ready to open; for masks.
+  float roll = 0;                   ///< Turns a box or mask clockwise as the shooter sees it, [-2 pi, 2 pi].
   std::string place = {};
   float flash = 25.0f;  ///< Intensity of the muzzle's light [W/sr], [0, 10^6].
+};
+
+/// A row of letters is shot through the smoke, each a hole: parallel shots, side by side, that read from
+/// where they are fired.
+struct TextEvent {
+  double time = 0;   ///< Of the first letter [s], [0, 3600].
+  std::string text;  ///< One line, UTF-8, 1 to 1024 bytes.
+  glm::vec3 from_world{0};
+  glm::vec3 toward_world{0, 0, -1};  ///< Where the middle of the row passes; not `from_world`.
+  float size = 0.5f;                 ///< Height of capital letters [m], [0.02, 10].
+  std::filesystem::path font = {};   ///< Ready to open; empty: image::default_font().
+  float spacing = 0;                 ///< More room between letters [cap heights], [-0.5, 10].
+  float interval = 0;                ///< From letter to letter [s], [0, 10].
+  HoleTimes times = {};
+  float roll = 0;  ///< As that of a shot; the row turns with its letters.
+  std::string place = {};
 };
 
 /// An explosion opens a cavity in the smoke around it, which then fills again.
@@ -117,6 +144,7 @@ struct Timeline {
   std::vector<CameraKey> camera;   ///< By time, no two alike.
   std::vector<SmokeEvent> smokes;  ///< By time; those of the same time as in the file.
   std::vector<ShotEvent> shots;    ///< The same, and so for all kinds of events.
+  std::vector<TextEvent> texts;
   std::vector<BlastEvent> blasts;
   std::vector<MoveEvent> moves;
   std::vector<EditEvent> edits;
@@ -126,11 +154,12 @@ struct Timeline {
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, the tables [grid] (voxel,
 /// size, origin), [smoke] and [sky] with the members above as keys, and [[camera]] (time, position, target,
 /// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
-/// from, toward, radius, reach, expand, stay, fade, flash), "blast" (time, at, radius, speed, left,
-/// refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid) or "door"
-/// (time, object, open). Points in metres, [-10^6, 10^6]; those of events [-16384, 16384]. Whether a door's
-/// object exists, is seen by check_doors. Fails with bad_input and file:line:column for broken TOML, a key
-/// that is not known (naming the nearest that is), a value of the wrong type or out of its range.
+/// from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text,
+/// from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius,
+/// speed, left, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid)
+/// or "door" (time, object, open). Points in metres, [-10^6, 10^6]; those of events [-16384, 16384]. Whether
+/// a door's object exists, is seen by check_doors. Fails with bad_input and file:line:column for broken TOML,
+/// a key that is not known (naming the nearest that is), a value of the wrong type or out of its range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` is what messages call it and what its scene is relative to.

@@ -54,8 +54,12 @@ Result<void> check(const ThrowSmoke& e, const voxel::GridFrame&) {
 Result<void> check(const Shot& e, const voxel::GridFrame&) {
   const Check check("shot", e.tick);
   if (e.origin == e.toward) return check.expected("a point to shoot toward that is not the muzzle");
+  if (e.shape > HoleShape::mask) return check.expected("a cylinder, a box or a mask");
+  if (e.shape != HoleShape::mask && e.mask != 0) return check.expected("no mask where the shape is not one");
   return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("the muzzle", e.origin),
                 check.position("`toward`", e.toward), check.number("a radius", e.radius, 1, kMaxCoordinate),
+                check.number("a roll", e.roll, 0, kFullTurn - 1),
+                check.number("a mask", e.mask, 0, kMaxMasks - 1),
                 check.number("milliseconds", e.timing.reach_far, 0, kMaxMilliseconds),
                 check.number("milliseconds", e.timing.expand, 0, kMaxMilliseconds),
                 check.number("milliseconds", e.timing.stay_open, 0, kMaxMilliseconds),

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "sim/fill.hpp"
 #include "sim/level_edit.hpp"
+#include "sim/mask_atlas.hpp"
 #include "sim/walk.hpp"
 
 namespace brume::sim {
@@ -44,14 +45,27 @@ struct HoleTiming {
 };
 constexpr std::uint32_t kMaxMilliseconds = 1u << 30;
 
-/// A bullet leaves the muzzle and bores a round hole into the smoke that is there at that tick.
+/// Cross-section of a hole. The numbers are those of shared/hole.h.
+enum class HoleShape : std::uint8_t {
+  cylinder = shared::kHoleCylinder,
+  box = shared::kHoleBox,
+  mask = shared::kHoleMask,
+};
+
+/// A bullet leaves the muzzle and bores a hole into the smoke that is there at that tick.
 struct Shot {
   std::uint32_t tick = 0;
   Position origin{0}, toward{0};  ///< 1/1024 m, must differ
-  std::uint32_t radius = 205;     ///< 1/1024 m, [1, kMaxCoordinate]
+  std::uint32_t radius = 205;     ///< Half the edge of a box or mask; 1/1024 m, [1, kMaxCoordinate]
   HoleTiming timing = {};
+  HoleShape shape = HoleShape::cylinder;
+  std::uint32_t mask = 0;  ///< Number of the world's mask, [0, WorldSettings::masks.count); 0 unless a mask.
+  /// Turns the cross-section clockwise as the shooter sees it; 1/65536 of a turn, [0, 65535]. 0: the top of a
+  /// box or mask is up.
+  std::uint32_t roll = 0;
   bool operator==(const Shot&) const = default;
 };
+constexpr std::uint32_t kFullTurn = 65536;
 
 /// An explosion drives the smoke out of what it reaches in a straight line: a cavity whose front runs outward
 /// from `at`, and that fills again from its rim to its middle. Walls shield what lies behind them.

@@ -13,6 +13,7 @@ namespace brume::sim {
 namespace {
 
 constexpr std::uint32_t kPad = 1;  // texels around each image
+static_assert(kMaxMaskAxis + 2 * kPad == kMaxMaskAtlasAxis);
 
 struct Layout {
   std::uint32_t width = 0, height = 0;
@@ -57,14 +58,17 @@ std::optional<Layout> best_layout(std::span<const Mask> masks) {
 }
 
 Result<void> check(std::span<const Mask> masks) {
+  if (masks.size() > kMaxMasks)
+    return Failure{ErrorCode::resource_limit,
+                   "masks: " + std::to_string(masks.size()) + ", at most " + std::to_string(kMaxMasks)};
   for (const Mask& mask : masks) {
     const std::uint64_t texels = std::uint64_t{mask.width} * mask.height;
     if (texels == 0 || texels != mask.texels.size())
       return Failure{ErrorCode::bad_input, "masks: expected width x height texels, not none"};
-    if (std::max(mask.width, mask.height) > kMaxMaskAtlasAxis - 2 * kPad)
+    if (std::max(mask.width, mask.height) > kMaxMaskAxis)
       return Failure{ErrorCode::resource_limit,
                      "masks: one of " + std::to_string(mask.width) + " x " + std::to_string(mask.height) +
-                         " texels, at most " + std::to_string(kMaxMaskAtlasAxis - 2 * kPad) + " an axis"};
+                         " texels, at most " + std::to_string(kMaxMaskAxis) + " an axis"};
   }
   return {};
 }
@@ -115,6 +119,47 @@ float MaskAtlas::at(glm::vec2 uv) const {
   const float top = glm::mix(texel(a.x, a.y), texel(b.x, a.y), f.x);
   const float bottom = glm::mix(texel(a.x, b.y), texel(b.x, b.y), f.x);
   return glm::mix(top, bottom, f.y);
+}
+
+namespace {
+
+/// The texels around a point, (0, 0) to (1, 1), and how far it is on from the first to the last.
+struct Corners {
+  float f00, f10, f01, f11;
+  glm::vec2 share;
+};
+
+Corners corners_at(const MaskView& mask, glm::vec2 across) {
+  const glm::vec2 from_centres = across * glm::vec2(mask.width, mask.height) - 0.5f;
+  const glm::vec2 at = glm::clamp(from_centres, glm::vec2(0), glm::vec2(mask.width - 1, mask.height - 1));
+  const glm::ivec2 low(at), high = glm::min(low + 1, glm::ivec2(mask.width, mask.height) - 1);
+  const auto texel = [&](int x, int y) {
+    return static_cast<float>(
+        mask.first[static_cast<std::size_t>(y) * mask.stride + static_cast<std::size_t>(x)]);
+  };
+  return {texel(low.x, low.y), texel(high.x, low.y), texel(low.x, high.y), texel(high.x, high.y),
+          at - glm::vec2(low)};
+}
+
+}  // namespace
+
+float MaskView::at(glm::vec2 across) const {
+  const Corners c = corners_at(*this, across);
+  const float top = c.f00 + (c.f10 - c.f00) * c.share.x, bottom = c.f01 + (c.f11 - c.f01) * c.share.x;
+  return top + (bottom - top) * c.share.y;
+}
+
+std::uint8_t MaskView::least_around(glm::vec2 across) const {
+  const Corners c = corners_at(*this, across);
+  return static_cast<std::uint8_t>(std::min({c.f00, c.f10, c.f01, c.f11}));
+}
+
+MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole) {
+  const glm::vec2 size(masks.width(), masks.height());
+  const glm::uvec2 low(hole.uv_min * size), high(hole.uv_max * size);  // exact: the sides are powers of two
+  const std::size_t first = std::size_t{low.y} * masks.width() + low.x;
+  return {masks.texels().data() + first, masks.width(), static_cast<int>(high.x - low.x),
+          static_cast<int>(high.y - low.y)};
 }
 
 float hole_strength_masked(const shared::Hole& hole, glm::vec3 p_world, float time, float rim_noise_metres,

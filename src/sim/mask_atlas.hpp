@@ -33,6 +33,11 @@ struct MaskRectangle {
 /// Most texels per axis of an atlas.
 constexpr std::uint32_t kMaxMaskAtlasAxis = 4096;
 
+/// Most texels per axis of a mask.
+constexpr std::uint32_t kMaxMaskAxis = kMaxMaskAtlasAxis - 2;
+/// Most masks of an atlas.
+constexpr std::uint32_t kMaxMasks = 1u << 16;
+
 /// What must agree where holes are to agree: how many masks there are, and which. Masks do not travel.
 struct MaskKey {
   std::uint32_t count = 0;
@@ -45,8 +50,8 @@ class MaskAtlas {
   /// No mask; one texel, 0.
   MaskAtlas() = default;
   /// The masks in their order: mask i is the number i of shots. The same atlas for the same masks. Fails with
-  /// bad_input for one without texels, and with resource_limit when they do not fit into an atlas of
-  /// kMaxMaskAtlasAxis^2.
+  /// bad_input for one without texels, and with resource_limit when they are more than kMaxMasks or do
+  /// not fit into an atlas of kMaxMaskAtlasAxis^2.
   static Result<MaskAtlas> pack(std::span<const Mask> masks);
 
   std::uint32_t width() const { return width_; }
@@ -69,6 +74,20 @@ class MaskAtlas {
   std::vector<MaskRectangle> rectangles_;
   MaskKey key_;
 };
+
+/// One mask of an atlas, to be asked many times. The atlas must outlive it.
+struct MaskView {
+  const std::uint8_t* first = nullptr;  ///< Texel (0, 0); null: no mask.
+  std::uint32_t stride = 0;             ///< Texels from one row to the next.
+  int width = 0, height = 0;
+
+  /// [0, 255], linear between the centres of texels, the edge's beyond them; `across` in [0, 1]^2.
+  float at(glm::vec2 across) const;
+  /// The least of the texels that `at` reads there.
+  std::uint8_t least_around(glm::vec2 across) const;
+};
+/// That of a hole whose rectangle is one of the atlas.
+MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole);
 
 /// shared::hole_strength, masks through their images: the twin of lib/hole_mask.glsl's function of this name.
 float hole_strength_masked(const shared::Hole& hole, glm::vec3 p_world, float time, float rim_noise_metres,

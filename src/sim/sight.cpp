@@ -1,5 +1,6 @@
 #include "sim/sight.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -76,11 +77,21 @@ void answer_all(std::size_t count, const Answer& answer) {
   });
 }
 
+const MaskAtlas* masks_for(std::span<const shared::Hole> holes, const MaskAtlas* masks) {
+  const auto is_mask = [](const shared::Hole& hole) { return hole.shape == shared::kHoleMask; };
+  if (!masks && std::any_of(holes.begin(), holes.end(), is_mask))
+    throw Error(ErrorCode::bad_input, "line of sight: a hole is a mask; expected the masks in SightSettings");
+  return masks;
+}
+
 }  // namespace
 
 Sight::Sight(const SmokeVolume& volume, const voxel::BitGrid& level, std::span<const shared::Hole> holes,
              float time, const SightSettings& settings)
-    : volume_(volume), level_(level), holes_(holes, time), settings_(settings) {
+    : volume_(volume),
+      level_(level),
+      holes_(holes, time, masks_for(holes, settings.masks)),
+      settings_(settings) {
   if (!(settings.extinction >= 0 && settings.extinction <= 1e6f))
     throw Error(ErrorCode::bad_input, "line of sight: extinction " + std::to_string(settings.extinction) +
                                           " 1/m; expected 0 to 10^6");

@@ -30,6 +30,8 @@ constexpr float kMaxSightMetres = 16384;
 struct SightSettings {
   float extinction = 3;           ///< Where density is 1 (255 steps) [1/m], [0, 10^6].
   glm::vec3 smoke_albedo{0.92f};  ///< What sensors report of the smoke.
+  /// Those of holes_of; must outlive the Sight. Needed where a hole is a mask.
+  const MaskAtlas* masks = nullptr;
 };
 
 struct Segment {
@@ -65,7 +67,8 @@ class Sight {
  public:
   /// The smoke of `volume` with `holes` at a time on their clock (State::seconds, holes_of), the walls of
   /// `level`. Volume and level must be those of the same tick, and stay as they are while the Sight is used.
-  /// Throws Error (bad_input) for an extinction out of range or a time that is not finite.
+  /// Throws Error (bad_input) for an extinction out of range, a time that is not finite, or a hole that is a
+  /// mask where there are none.
   Sight(const SmokeVolume& volume, const voxel::BitGrid& level, std::span<const shared::Hole> holes,
         float time, const SightSettings& settings = {});
 

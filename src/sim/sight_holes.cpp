@@ -12,7 +12,7 @@ constexpr float kLeastTime = 1e-6f;    // as shared/hole.h bounds times and dept
 
 /// How far the hole reaches from its axis at most: a box to its corners.
 float reach_of(const shared::Hole& hole) {
-  return hole.shape == shared::kHoleBox ? 1.41422f * hole.radius : hole.radius;
+  return hole.shape == shared::kHoleCylinder ? hole.radius : 1.41422f * hole.radius;
 }
 
 /// Where q2 t^2 + q1 t + q0 = 0: appends the t within (low, high), counted from `zero`.
@@ -46,6 +46,28 @@ void add_edges(const RayHole& h, float share, float t0, float r0, float t1, floa
             h.x * h.x + h.y * h.y - at_nearest * at_nearest, h.nearest, t0, t1, out);
 }
 
+/// Where a point of the cross-section lies across a mask, from its one side to the other.
+float share_across(float from_axis, float radius) {
+  if (!(radius > 1e-12f)) return from_axis < 0 ? 0.0f : 1.0f;
+  return std::clamp(0.5f + 0.5f * from_axis / radius, 0.0f, 1.0f);
+}
+
+/// Adds where the ray passes the centres of a mask's texels along one axis: x(t) = x + x_step (t - nearest)
+/// is then a fixed share of the radius, which runs from r0 at t0 to r1 at t1.
+void add_texels(float x, float x_step, int texels, float nearest, float t0, float r0, float t1, float r1,
+                std::vector<float>& out) {
+  const float slope = (r1 - r0) / (t1 - t0), at_nearest = r0 + slope * (nearest - t0);
+  const float a = share_across(x + x_step * (t0 - nearest), r0),
+              b = share_across(x + x_step * (t1 - nearest), r1);
+  const auto count = static_cast<float>(texels);
+  const int first = static_cast<int>(std::ceil(std::min(a, b) * count - 0.5f));
+  const int last = static_cast<int>(std::floor(std::max(a, b) * count - 0.5f));
+  for (int i = first; i <= last; ++i) {
+    const float share = 2 * (static_cast<float>(i) + 0.5f) / count - 1;
+    add_roots(0, x_step - share * slope, x - share * at_nearest, nearest, t0, t1, out);
+  }
+}
+
 /// Adds every t at which the strength of the hole has a kink.
 void add_breaks(const RayHole& h, std::vector<float>& out) {
   if (h.steady && !h.box) {  // its edge begins where the hole does
@@ -77,10 +99,15 @@ void add_breaks(const RayHole& h, std::vector<float>& out) {
     out.push_back(t0);
     const float r0 = h.radius_at(t0), r1 = h.radius_at(t1);
     add_edges(h, 1, t0, r0, t1, r1, out);
-    add_edges(h, 1 - shared::kHoleSoftShare, t0, r0, t1, r1, out);
+    if (h.mask.first) {
+      add_texels(h.x, h.x_step, h.mask.width, h.nearest, t0, r0, t1, r1, out);
+      add_texels(-h.y, -h.y_step, h.mask.height, h.nearest, t0, r0, t1, r1, out);
+    } else {
+      add_edges(h, 1 - shared::kHoleSoftShare, t0, r0, t1, r1, out);
+    }
   }
   out.push_back(h.end);
-  if (h.box) {  // where the nearest face changes
+  if (h.box && !h.mask.first) {  // where the nearest face changes
     add_roots(0, h.x_step - h.y_step, h.x - h.y, h.nearest, h.begin, h.end, out);
     add_roots(0, h.x_step + h.y_step, h.x + h.y, h.nearest, h.begin, h.end, out);
   }
@@ -116,8 +143,12 @@ float RayHole::radius_at(float t) const {
 
 bool RayHole::takes_all(float t) const {
   const float from_nearest = t - nearest, px = x + x_step * from_nearest, py = y + y_step * from_nearest;
-  const float core = (1 - shared::kHoleSoftShare) * (steady ? radius : radius_at(t));
+  const float wide = steady ? radius : radius_at(t), core = (1 - shared::kHoleSoftShare) * wide;
   if (!steady && age + age_step * t > stay_end) return false;
+  if (mask.first) {
+    if (std::max(std::abs(px), std::abs(py)) > wide) return false;
+    return mask.least_around(glm::vec2(share_across(px, wide), share_across(-py, wide))) == 255;
+  }
   return box ? std::max(std::abs(px), std::abs(py)) <= core : px * px + py * py <= core * core;
 }
 
@@ -131,8 +162,19 @@ Float4 RayHole::strength(Float4 t) const {
     kept = splat(1) - clamp4((ages - splat(stay_end)) / splat(fade), 0, 1);
     wide = max4(wide * clamp4(ages / splat(expand), 0, 1) * kept, splat(1e-12f));
   }
+  if (mask.first) return mask_strength(px, py, wide, kept);
   const Float4 edge = clamp4((wide - from_axis) / (wide * splat(shared::kHoleSoftShare)), 0, 1);
   return edge * edge * (splat(3) - splat(2) * edge) * kept;
+}
+
+Float4 RayHole::mask_strength(Float4 px, Float4 py, Float4 wide, Float4 kept) const {
+  Float4 result{};
+  for (int i = 0; i < 4; ++i) {
+    if (std::max(std::abs(px[i]), std::abs(py[i])) >= wide[i]) continue;
+    const glm::vec2 across(share_across(px[i], wide[i]), share_across(-py[i], wide[i]));
+    result[i] = mask.at(across) * (1.0f / 255) * kept[i];
+  }
+  return result;
 }
 
 Float4 HolesOnRay::left(const HolePiece& piece, Float4 t) const {
@@ -143,7 +185,7 @@ Float4 HolesOnRay::left(const HolePiece& piece, Float4 t) const {
   return left;
 }
 
-HoleSet::HoleSet(std::span<const shared::Hole> holes, float time) {
+HoleSet::HoleSet(std::span<const shared::Hole> holes, float time, const MaskAtlas* masks) {
   for (const shared::Hole& hole : holes) {
     const float age = time - hole.time_start;
     const float per_metre = hole.time_to_reach_far / std::max(hole.distance_to_far, kLeastTime);
@@ -153,7 +195,8 @@ HoleSet::HoleSet(std::span<const shared::Hole> holes, float time) {
     const float over = age - life, whole_way = per_metre * hole.distance_to_far;
     if (!(age > 0) || over >= whole_way) continue;
     holes_.push_back({hole, age, per_metre, over > 0 ? over / per_metre : 0,
-                      age < whole_way ? age / per_metre : hole.distance_to_far});
+                      age < whole_way ? age / per_metre : hole.distance_to_far,
+                      hole.shape == shared::kHoleMask ? view_of(*masks, hole) : MaskView{}});
   }
   if (holes_.empty()) return;
   reference_ = holes_[0].hole.origin_world;
@@ -243,7 +286,8 @@ void HoleSet::add(const OpenHole& open, glm::vec3 origin_world, glm::vec3 step_w
   met.expand = std::max(hole.time_to_expand, kLeastTime);
   met.stay_end = hole.time_to_expand + hole.time_to_stay_open;
   met.fade = std::max(hole.time_to_fade, kLeastTime);
-  met.box = hole.shape == shared::kHoleBox;
+  met.mask = open.mask;
+  met.box = hole.shape != shared::kHoleCylinder;
   const float age0 = met.age + met.age_step * begin, age1 = met.age + met.age_step * end;
   met.steady = std::min(age0, age1) >= met.expand && std::max(age0, age1) <= met.stay_end;
   out.holes.push_back(met);

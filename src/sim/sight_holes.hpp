@@ -1,8 +1,9 @@
 // What holes leave of the smoke along a ray (shared/hole.h, without the noise of their rims).
 //
 // Along a ray the strength of a hole is smooth but for a few points: where the ray enters its edge or its
-// middle, and where the hole begins to open or to close at that depth. All of them are roots of polynomials
-// of degree one or two. Between them, quadrature of a fixed order is accurate.
+// middle, where it passes from one texel of a mask to the next, and where the hole begins to open or to close
+// at that depth. All of them are roots of polynomials of degree one or two. Between them, quadrature of a
+// fixed order is accurate.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,6 +12,7 @@
 
 #include "shared/hole.h"
 #include "sim/float4.hpp"
+#include "sim/mask_atlas.hpp"
 
 namespace brume::sim {
 
@@ -21,6 +23,7 @@ struct RayHole {
   float x, x_step, y, y_step;  ///< across it: x + x_step (t - nearest).
   float age, age_step;         ///< How long it has been opening: age + age_step t [s].
   float radius, expand, stay_end, fade;
+  MaskView mask;  ///< Of a box whose cross-section is an image.
   bool box;
   bool steady;  ///< Wide open and not yet closing, all the way.
   float radius_at(float t) const;
@@ -28,6 +31,9 @@ struct RayHole {
   bool takes_all(float t) const;
   /// Strength of the hole at four t between begin and end.
   Float4 strength(Float4 t) const;
+
+ private:
+  Float4 mask_strength(Float4 px, Float4 py, Float4 wide, Float4 kept) const;
 };
 
 /// A part of the ray along which no hole's strength has a kink.
@@ -48,7 +54,8 @@ struct HolesOnRay {
 /// The holes that are open somewhere at one time.
 class HoleSet {
  public:
-  HoleSet(std::span<const shared::Hole> holes, float time);
+  /// `masks` must outlive it and hold the rectangles of all holes that are masks.
+  HoleSet(std::span<const shared::Hole> holes, float time, const MaskAtlas* masks);
   bool empty() const { return holes_.empty(); }
   /// Finds those that the points origin_world + t step_world come into for t in [0, t_end].
   void find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, HolesOnRay& out) const;
@@ -58,6 +65,7 @@ class HoleSet {
     shared::Hole hole;
     float age, age_per_metre;  // how long it has been opening at depth z: age - age_per_metre z
     float near, far;           // depths between which it is open [m]
+    MaskView mask;
   };
   // Four holes' axes as lines, lane by lane: directions, and their moments about reference_.
   struct Group {

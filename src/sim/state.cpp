@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/hash.hpp"
 
@@ -35,7 +36,36 @@ void add_hole(Words& words, const OpenHole& hole) {
   words.add(s.origin);
   words.add(s.toward);
   words.add(s.timing.reach_far, s.timing.expand, s.timing.stay_open, s.timing.fade);
+  words.add(static_cast<std::uint32_t>(s.shape), s.mask, s.roll);
   words.add(hole.distance);
+}
+
+/// Cosine and sine of an angle of 1/65536 turns, off by less than 10^-12. From additions and multiplications
+/// alone: those of the standard library differ from one to the next.
+glm::dvec2 cos_sin(std::uint32_t angle) {
+  // The nearest quarter turn, and at most an eighth from there on.
+  constexpr std::uint32_t kQuarter = kFullTurn / 4;
+  const std::uint32_t quarters = (angle + kQuarter / 2) / kQuarter;
+  const double x = (static_cast<double>(angle) - static_cast<double>(quarters * kQuarter)) *
+                   (2 * std::numbers::pi / kFullTurn);
+  const double y = x * x;
+  // Taylor, up to x^14 and x^15: the next terms are below 0.786^16 / 16! = 10^-15.
+  const auto series = [y](int first) {
+    double sum = 1;
+    for (int n = 12 + first; n >= 0; n -= 2) sum = 1 - y / ((n + 1) * (n + 2)) * sum;
+    return sum;
+  };
+  const double c = series(0), s = x * series(1);
+  switch (quarters % 4) {
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
+  }
 }
 
 }  // namespace
@@ -59,7 +89,8 @@ std::uint64_t State::hash() const {
   words.add(frame.size);
   words.add(frame.voxel_size);
   for (int axis = 0; axis < 3; ++axis) words.add(frame.origin_world[axis]);
-  words.add(ticks_per_second, tick, events);
+  words.add(ticks_per_second, tick, events, masks.count);
+  words.add(masks.hash);
   words.add(std::uint64_t{edits ? edits->size() : 0});
   if (edits)
     for (const EditBlock& edit : *edits) {
@@ -108,32 +139,45 @@ std::vector<Grenade> grenades_of(const State& state) {
   return flying;
 }
 
-shared::Hole hole_of(const OpenHole& open, const State& state) {
-  const Shot& shot = open.shot;
-  const glm::dvec3 from = metres_from_position(shot.origin);
-  const glm::dvec3 forward = glm::normalize(metres_from_position(shot.toward) - from);
+ShotAxes axes_of(const Shot& shot) {
+  const glm::dvec3 forward =
+      glm::normalize(metres_from_position(shot.toward) - metres_from_position(shot.origin));
   // Right from the world's up, unless the shot goes nearly straight up or down.
   const glm::dvec3 up_world = std::abs(forward.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, up_world));
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, up_world)), up = glm::cross(right, forward);
+  const glm::dvec2 turn = cos_sin(shot.roll);
+  return {turn.x * right - turn.y * up, turn.x * up + turn.y * right, forward};
+}
+
+shared::Hole hole_of(const OpenHole& open, const State& state, const MaskAtlas* masks) {
+  const Shot& shot = open.shot;
+  const ShotAxes axes = axes_of(shot);
   shared::Hole hole{};
-  hole.origin_world = glm::vec3(from);
+  hole.origin_world = glm::vec3(metres_from_position(shot.origin));
   hole.radius = static_cast<float>(static_cast<double>(shot.radius) / kUnitsPerMetre);
-  hole.forward = glm::vec3(forward);
-  hole.right = glm::vec3(right);
-  hole.up = glm::vec3(glm::cross(right, forward));
+  hole.forward = glm::vec3(axes.forward);
+  hole.right = glm::vec3(axes.right);
+  hole.up = glm::vec3(axes.up);
   hole.distance_to_far = static_cast<float>(static_cast<double>(open.distance) / kUnitsPerMetre);
   hole.time_start = state.seconds(shot.tick);
   hole.time_to_reach_far = seconds_from_ms(shot.timing.reach_far);
   hole.time_to_expand = seconds_from_ms(shot.timing.expand);
   hole.time_to_stay_open = seconds_from_ms(shot.timing.stay_open);
   hole.time_to_fade = seconds_from_ms(shot.timing.fade);
-  hole.shape = shared::kHoleCylinder;
+  hole.shape = static_cast<shared::uint>(shot.shape);
+  if (shot.shape == HoleShape::mask) {
+    if (!masks || masks->key() != state.masks)
+      throw Error(ErrorCode::bad_input, "holes: the state was made with other masks; load the same timeline");
+    const MaskRectangle& rectangle = masks->rectangle(shot.mask);
+    hole.uv_min = rectangle.uv_min;
+    hole.uv_max = rectangle.uv_max;
+  }
   return hole;
 }
 
-std::vector<shared::Hole> holes_of(const State& state) {
+std::vector<shared::Hole> holes_of(const State& state, const MaskAtlas* masks) {
   std::vector<shared::Hole> holes;
-  for (const OpenHole& open : state.holes) holes.push_back(hole_of(open, state));
+  for (const OpenHole& open : state.holes) holes.push_back(hole_of(open, state, masks));
   return holes;
 }
 

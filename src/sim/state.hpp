@@ -55,6 +55,7 @@ struct Body {
 struct State {
   voxel::GridFrame frame;
   std::uint32_t ticks_per_second = 64;
+  MaskKey masks = {};  ///< Those that its holes name.
   std::uint32_t tick = 0;
   std::uint32_t events = 0;  ///< Events taken in so far: the id of the next one.
   /// What differs from the level as it was loaded; null: nothing.
@@ -88,8 +89,16 @@ struct Grenade {
 };
 std::vector<Grenade> grenades_of(const State& state);
 
-/// The holes as points in space are asked for them (shared/hole.h); the same bits on every machine.
-shared::Hole hole_of(const OpenHole& open, const State& state);
-std::vector<shared::Hole> holes_of(const State& state);
+/// Axes of a shot's hole, with its roll: unit vectors, right x up = -forward.
+struct ShotAxes {
+  glm::dvec3 right{0}, up{0}, forward{0};
+};
+ShotAxes axes_of(const Shot& shot);
+
+/// The holes as points in space are asked for them (shared/hole.h); the same bits on every machine. `masks`
+/// are those that the state was made with; null: it has none. Throws Error(bad_input) for the hole of a mask
+/// where they are others.
+shared::Hole hole_of(const OpenHole& open, const State& state, const MaskAtlas* masks = nullptr);
+std::vector<shared::Hole> holes_of(const State& state, const MaskAtlas* masks = nullptr);
 
 }  // namespace brume::sim

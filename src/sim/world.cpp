@@ -30,6 +30,14 @@ std::uint32_t end_of(const OpenHole& hole, std::uint32_t ticks_per_second) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(hole.shot.tick + ticks, kNever - 1));
 }
 
+Result<void> check_mask(const Event& event, const MaskKey& masks) {
+  const auto* shot = std::get_if<Shot>(&event);
+  if (!shot || shot->shape != HoleShape::mask || shot->mask < masks.count) return {};
+  return Failure{ErrorCode::bad_input, "shot at tick " + std::to_string(shot->tick) + ": mask " +
+                                           std::to_string(shot->mask) + " of a world of " +
+                                           std::to_string(masks.count) + "; give the world its masks"};
+}
+
 /// Puts an element with an `id` where it belongs in a list sorted by id.
 template <typename T>
 void insert_by_id(std::vector<T>& list, T element) {
@@ -70,6 +78,7 @@ World::World(const voxel::BitGrid& level, const WorldSettings& settings)
                 std::to_string(settings.ticks_per_second) + " ticks a second: expected 1 to 1000");
   state_.frame = level.frame();
   state_.ticks_per_second = settings.ticks_per_second;
+  state_.masks = settings.masks;
   first_ = state_;
   next_end_ = kNever;
 }
@@ -84,6 +93,7 @@ Result<void> World::append(std::vector<Event> events) {
   std::uint32_t first = kNever;
   for (const Event& event : events) {
     if (auto ok = check_event(event, level_.frame()); !ok) return ok;
+    if (auto ok = check_mask(event, settings_.masks); !ok) return ok;
     first = std::min(first, tick_of(event));
   }
   if (first < first_free_tick_)
@@ -177,6 +187,9 @@ Result<void> World::restore(const State& state) {
   if (state.frame != level_.frame() || state.ticks_per_second != settings_.ticks_per_second)
     return Failure{ErrorCode::bad_input,
                    "state: expected one of a world of the same grid and ticks a second"};
+  if (state.masks != settings_.masks)
+    return Failure{ErrorCode::bad_input,
+                   "state: its holes have other masks than this world's; load the same timeline"};
   if (next_end(state) <= state.tick)
     return Failure{ErrorCode::bad_input, "state: expected nothing in it that has ended before its tick"};
   if (state.edits)

@@ -17,6 +17,7 @@ namespace brume::sim {
 
 struct WorldSettings {
   std::uint32_t ticks_per_second = 64;  ///< [1, 1000]
+  MaskKey masks = {};                   ///< Those that its shots may name: MaskAtlas::key().
 };
 
 constexpr std::uint32_t kGrenadeMetresPerSecond = 20;
@@ -35,8 +36,8 @@ class World {
   explicit World(const voxel::BitGrid& level, const WorldSettings& settings = {});
 
   /// Takes an event into the log. One at or before the present tick changes the past: the world goes back and
-  /// plays it again up to the present. Fails with bad_input as check_event does, or for an event of
-  /// a tick that is forgotten; the world is then as before.
+  /// plays it again up to the present. Fails with bad_input as check_event does, for a shot of a mask that
+  /// the settings do not have, or for an event of a tick that is forgotten; the world is then as before.
   Result<void> append(Event event);
   /// The same for many at once: the past is played again only once. All or none are taken.
   Result<void> append(std::vector<Event> events);
@@ -54,7 +55,7 @@ class World {
 
   /// Becomes the world of a state: what another world's state() was, or what travelled. Events of the log up
   /// to the state's tick are dropped, later ones stay. Fails with bad_input when the state is of another
-  /// frame or ticks_per_second.
+  /// frame or ticks_per_second, or was made with other masks.
   Result<void> restore(const State& state);
   /// The first tick that can be gone back to: 0, or that of the state restored or kept.
   std::uint32_t earliest_tick() const { return first_.tick; }

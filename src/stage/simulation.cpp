@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -32,15 +33,69 @@ sim::SmokeSettings smoke_settings(const scene::SmokeOptions& smoke, std::uint32_
   return settings;
 }
 
-sim::Shot shot_of(const scene::ShotEvent& event, std::uint32_t tick) {
+sim::HoleTiming timing_of(const scene::HoleTimes& times) {
+  return {milliseconds(times.reach), milliseconds(times.expand), milliseconds(times.stay),
+          milliseconds(times.fade)};
+}
+
+std::uint32_t turns(float radians) {
+  const double share = double{radians} / (2 * std::numbers::pi);
+  return static_cast<std::uint32_t>(std::lround((share - std::floor(share)) * sim::kFullTurn)) %
+         sim::kFullTurn;
+}
+
+sim::Shot shot_of(const scene::ShotEvent& event, std::uint32_t tick, const ShotMasks& masks) {
   sim::Shot shot;
   shot.tick = tick;
   shot.origin = position(event.from_world);
   shot.toward = position(event.toward_world);
   shot.radius = units(event.radius);
-  shot.timing = {milliseconds(event.reach), milliseconds(event.expand), milliseconds(event.stay),
-                 milliseconds(event.fade)};
+  shot.timing = timing_of(event.times);
+  shot.roll = turns(event.roll);
+  switch (event.shape) {
+    case scene::ShotShape::cylinder:
+      break;
+    case scene::ShotShape::box:
+      shot.shape = sim::HoleShape::box;
+      break;
+    case scene::ShotShape::mask:
+      shot.shape = sim::HoleShape::mask;
+      shot.mask = masks.pictures.at(event.mask.string());
+      break;
+  }
   return shot;
+}
+
+/// One shot a letter: each the text's own, moved aside by whole units, so that all are parallel.
+std::vector<sim::Shot> shots_of(const scene::TextEvent& event, std::uint32_t ticks_per_second,
+                                const ShotMasks& masks) {
+  sim::Shot middle;
+  middle.origin = position(event.from_world);
+  middle.toward = position(event.toward_world);
+  middle.timing = timing_of(event.times);
+  middle.shape = sim::HoleShape::mask;
+  middle.roll = turns(event.roll);
+  std::vector<sim::Shot> shots;
+  if (middle.origin == middle.toward) {  // nearer than 1/1024 m: refused where events are checked
+    shots.push_back(middle);
+    return shots;
+  }
+  const sim::ShotAxes axes = sim::axes_of(middle);
+  double time = event.time;
+  for (const Letter& letter : masks.texts.at(ShotMasks::key(event))) {
+    const glm::dvec3 aside =
+        double{event.size} * (double{letter.right} * axes.right + double{letter.up} * axes.up);
+    const sim::Position units_aside = sim::position_from_metres(aside);
+    sim::Shot shot = middle;
+    shot.tick = tick_at(time, ticks_per_second);
+    shot.origin += units_aside;
+    shot.toward += units_aside;
+    shot.radius = std::max(1u, units(event.size * letter.half_side));
+    shot.mask = letter.mask;
+    shots.push_back(shot);
+    time += double{event.interval};
+  }
+  return shots;
 }
 
 sim::Blast blast_of(const scene::BlastEvent& event, std::uint32_t tick) {
@@ -92,7 +147,11 @@ Result<std::vector<sim::Event>> make_events(const Stage& stage, const std::vecto
   for (const scene::SmokeEvent& event : timeline.smokes)
     events.add(sim::ThrowSmoke{tick(event), position(event.from_world), position(event.at_world), smoke},
                event.place);
-  for (const scene::ShotEvent& event : timeline.shots) events.add(shot_of(event, tick(event)), event.place);
+  for (const scene::ShotEvent& event : timeline.shots)
+    events.add(shot_of(event, tick(event), stage.shot_masks), event.place);
+  for (const scene::TextEvent& event : timeline.texts)
+    for (const sim::Shot& shot : shots_of(event, ticks_per_second, stage.shot_masks))
+      events.add(shot, event.place);
   for (const scene::BlastEvent& event : timeline.blasts)
     events.add(blast_of(event, tick(event)), event.place);
   std::vector<std::string> names;
@@ -120,7 +179,7 @@ Result<std::vector<sim::Event>> events_of(const Stage& stage, std::uint32_t tick
 
 Simulation::Simulation(const Stage& stage, std::vector<LevelEvent> level_events)
     : level_events_(std::move(level_events)),
-      world_(stage.voxels.grid),
+      world_(stage.voxels.grid, {.masks = stage.masks.key()}),
       planes_(stage.voxels.planes),
       volume_(stage.voxels.grid, [this](glm::ivec3 cell) { return planes_.at(cell); }) {}
 

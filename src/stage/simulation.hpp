@@ -16,9 +16,9 @@ namespace brume::stage {
 std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 
 /// The timeline's events in the order in which a world takes them: by tick, and within one tick the edits and
-/// doors, the smokes, the shots, the blasts, the moves. Bodies are numbered in the order of their names'
-/// first appearance. Fails with bad_input for an event that is out of the simulation's range, and as
-/// level_events.
+/// doors, the smokes, the shots, the letters of texts, the blasts, the moves. Bodies are numbered in the
+/// order of their names' first appearance. Fails with bad_input for an event that is out of the simulation's
+/// range, and as level_events.
 Result<std::vector<sim::Event>> events_of(
     const Stage& stage, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 

@@ -54,7 +54,10 @@ Result<Stage> make_stage(scene::Timeline timeline, const std::filesystem::path& 
   auto voxels = load_or_voxelize(*scene, *frame, cache);
   if (!voxels) return voxels.failure();
   const scene::Camera camera = scene->camera ? *scene->camera : scene::default_camera(*scene);
-  return Stage{std::move(timeline), std::move(*scene), camera, std::move(*voxels)};
+  auto masks = load_masks(timeline);
+  if (!masks) return masks.failure();
+  return Stage{std::move(timeline), std::move(*scene),       camera,
+               std::move(*voxels),  std::move(masks->atlas), std::move(masks->of_shots)};
 }
 
 }  // namespace brume::stage

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "scene/timeline.hpp"
 #include "sim/mask_atlas.hpp"
+#include "stage/shot_masks.hpp"
 #include "stage/vxl_file.hpp"
 
 namespace brume::stage {
@@ -16,6 +17,7 @@ struct Stage {
   scene::Camera camera;  ///< Where the timeline has no camera keys.
   Voxels voxels;
   sim::MaskAtlas masks = {};  ///< Of the holes of its shots.
+  ShotMasks shot_masks = {};  ///< Which of them is whose.
 };
 
 /// Loads a timeline (.toml), or a scene file with the timeline that fits it. Voxels are kept beside the

@@ -45,6 +45,9 @@ enum class Field : std::uint8_t {
   expand,
   stay_open,
   fade,
+  shape,
+  mask,
+  roll,
   distance,
   blast_radius,
   blast_speed,
@@ -194,6 +197,9 @@ void describe(F& form, sim::Shot& shot) {
   form.field(Field::expand, shot.timing.expand);
   form.field(Field::stay_open, shot.timing.stay_open);
   form.field(Field::fade, shot.timing.fade);
+  form.field(Field::shape, shot.shape);
+  form.field(Field::mask, shot.mask);
+  form.field(Field::roll, shot.roll);
 }
 
 template <typename F>

@@ -35,14 +35,14 @@ std::vector<std::byte> write_keyframe(const sim::State& state) {
   out.number(first_byte(PacketKind::keyframe));
   out.varint(state.tick);
   out.number(checksum_of(state));
-  write_world(out, {state.frame, state.ticks_per_second});
+  write_world(out, {state.frame, state.ticks_per_second, state.masks});
   out.raw(write_body(sim::State{}, state));
   return out.take();
 }
 
 std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now) {
   BRUME_ASSERT(base.tick < now.tick && base.events <= now.events && base.frame == now.frame &&
-                   base.ticks_per_second == now.ticks_per_second,
+                   base.ticks_per_second == now.ticks_per_second && base.masks == now.masks,
                std::to_string(base.tick) + " to " + std::to_string(now.tick));
   ByteWriter out;
   out.number(first_byte(PacketKind::delta));
@@ -104,6 +104,7 @@ Result<sim::State> read_keyframe(const PacketHead& head, const Limits& limits) {
   sim::State empty;
   empty.frame = world->frame;
   empty.ticks_per_second = world->ticks_per_second;
+  empty.masks = world->masks;
   return checked(read_body(in.rest(), empty, head.tick, limits), head);
 }
 

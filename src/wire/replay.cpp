@@ -87,7 +87,7 @@ Result<std::vector<std::byte>> encode_replay(const Replay& replay) {
   ByteWriter out;
   out.raw(kMagic);
   out.varint(kVersion);
-  write_world(out, {replay.level.frame(), replay.settings.ticks_per_second});
+  write_world(out, {replay.level.frame(), replay.settings.ticks_per_second, replay.settings.masks});
   out.section(*level);
   out.section(write_events(replay.events, replay.level.frame()));
   out.varint(replay.checksums.size());
@@ -122,7 +122,7 @@ Result<Replay> decode_replay(std::span<const std::byte> bytes) {
   if (!level) return level.failure();
   auto events = read_events(event_bytes, world->frame);
   if (!events) return damaged("replay: " + events.failure().message);
-  Replay replay{std::move(*level), {world->ticks_per_second}, std::move(*events), {}};
+  Replay replay{std::move(*level), {world->ticks_per_second, world->masks}, std::move(*events), {}};
   for (std::uint64_t tick = 0; tick < ticks; ++tick) replay.checksums.push_back(in.number<std::uint32_t>());
   return replay;
 }

@@ -313,6 +313,8 @@ class StateCoder {
   void check(const OpenHole& hole) {
     check_event(hole.shot);
     check_begun(hole.shot.tick);
+    if (hole.shot.shape == sim::HoleShape::mask && hole.shot.mask >= now_.masks.count)
+      form_.refuse("a hole of a mask that is not there");
     if (hole.distance == 0 || hole.distance > kMaxDistance) form_.refuse("a hole of no depth, or too deep");
   }
   void check(const Body& body) {
@@ -346,6 +348,7 @@ Result<sim::State> read_body(std::span<const std::byte> body, const sim::State& 
   sim::State now;
   now.frame = base.frame;
   now.ticks_per_second = base.ticks_per_second;
+  now.masks = base.masks;
   now.tick = tick;
   Decoder coder(body);
   const auto form = std::make_unique<Form<Decoder>>(coder, now.frame, now.tick, limits);

@@ -12,8 +12,8 @@
 
 namespace brume::wire {
 
-/// What is different in `now` from `base`, which has no more events, and the same frame and ticks_per_second
-/// or nothing at all.
+/// What is different in `now` from `base`, which has no more events, and the same frame,
+/// ticks_per_second and masks or nothing at all.
 std::vector<std::byte> write_body(const sim::State& base, const sim::State& now);
 
 /// The state of `tick` that differs from the base as the bytes say; what does not differ is shared with it.

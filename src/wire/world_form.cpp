@@ -18,6 +18,8 @@ void write_world(ByteWriter& out, const WorldForm& world) {
   for (int axis = 0; axis < 3; ++axis)
     out.number(std::bit_cast<std::uint32_t>(world.frame.origin_world[axis]));
   out.varint(world.ticks_per_second);
+  out.varint(world.masks.count);
+  if (world.masks.count > 0) out.number(world.masks.hash);
 }
 
 Result<WorldForm> read_world(ByteReader& in) {
@@ -27,9 +29,12 @@ Result<WorldForm> read_world(ByteReader& in) {
   for (int axis = 0; axis < 3; ++axis)
     world.frame.origin_world[axis] = std::bit_cast<float>(in.number<std::uint32_t>());
   world.ticks_per_second = static_cast<std::uint32_t>(in.varint(kMaxTicksPerSecond));
+  world.masks.count = static_cast<std::uint32_t>(in.varint(sim::kMaxMasks));
+  if (world.masks.count > 0) world.masks.hash = in.number<std::uint64_t>();
   if (!in.ok() || world.ticks_per_second == 0)
-    return Failure{ErrorCode::bad_input,
-                   "expected a grid of up to 4096 voxels an axis and 1 to 1000 ticks a second"};
+    return Failure{
+        ErrorCode::bad_input,
+        "expected a grid of up to 4096 voxels an axis, 1 to 1000 ticks a second and at most 65536 masks"};
   if (auto checked = voxel::check_frame(world.frame); !checked)
     return Failure{ErrorCode::bad_input, checked.failure().message};
   try {

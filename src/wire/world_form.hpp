@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "sim/mask_atlas.hpp"
 #include "voxel/bit_grid.hpp"
 #include "wire/bytes.hpp"
 
@@ -12,9 +13,11 @@ namespace brume::wire {
 struct WorldForm {
   voxel::GridFrame frame;
   std::uint32_t ticks_per_second = 64;
+  sim::MaskKey masks;
 };
 
-/// Three varints of the size, the bits of four floats (voxel size, origin), a varint of the ticks a second.
+/// Three varints of the size, the bits of four floats (voxel size, origin), a varint of the ticks a second, a
+/// varint of how many masks there are and, where there are any, 8 bytes of their hash.
 void write_world(ByteWriter& out, const WorldForm& world);
 
 /// Fails with bad_input for what no World can have.

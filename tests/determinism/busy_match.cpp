@@ -116,15 +116,16 @@ std::uint64_t hash_densities(const sim::State& state) {
   return hash;
 }
 
-std::uint64_t hash_sight(const sim::SmokeVolume& volume, const sim::World& world) {
+std::uint64_t hash_sight(const sim::SmokeVolume& volume, const sim::World& world,
+                         const sim::MaskAtlas& masks) {
   Random random(world.tick());
   std::vector<sim::Segment> segments(256);
   const auto metres = [&] {
     return glm::vec3(sim::metres_from_position(random.position(kLowCorner, kHighCorner)));
   };
   for (sim::Segment& segment : segments) segment = {metres(), metres()};
-  const auto holes = sim::holes_of(world.state());
-  const sim::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()));
+  const auto holes = sim::holes_of(world.state(), &masks);
+  const sim::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()), {.masks = &masks});
   std::vector<float> depths(segments.size());
   std::vector<std::uint8_t> seen(segments.size());
   sight.optical_depths(segments, depths).value_or_throw();
@@ -143,7 +144,9 @@ class Match {
   sim::World& world() { return *world_; }
   void append(const sim::Event& event) { world_->append(event).value_or_throw(); }
   /// Another world in the place of this one.
-  void restart() { world_ = std::make_unique<sim::World>(level_.grid); }
+  void restart() {
+    world_ = std::make_unique<sim::World>(level_.grid, sim::WorldSettings{.masks = masks_.key()});
+  }
 
   void play_to(std::uint32_t tick) {
     world_->advance_to(tick);
@@ -158,11 +161,12 @@ class Match {
     if (tick % 16 != 0 || !came_here) return;
     report_.add(tick, "voxels", hash_densities(world_->state()));
     volume_.update(*world_);
-    if (tick % 64 == 0) report_.add(tick, "sight", hash_sight(volume_, *world_));
+    if (tick % 64 == 0) report_.add(tick, "sight", hash_sight(volume_, *world_, masks_));
   }
 
  private:
   const MatchLevel& level_;
+  const sim::MaskAtlas masks_ = make_masks();
   Report& report_;
   std::unique_ptr<sim::World> world_;
   sim::SmokeVolume volume_;

@@ -73,6 +73,8 @@ void add_smokes(std::vector<sim::Event>& events, Random& random) {
   }
 }
 
+constexpr std::uint32_t kMaskCount = 4;
+
 void add_shots(std::vector<sim::Event>& events, Random& random) {
   for (int i = 0; i < 200; ++i) {
     sim::Shot shot;
@@ -81,6 +83,10 @@ void add_shots(std::vector<sim::Event>& events, Random& random) {
     shot.toward = random.position(kLowCorner, kHighCorner);
     shot.radius = static_cast<std::uint32_t>(random.between(50, 500));
     if (i % 4 == 0) shot.timing = {100, 20, static_cast<std::uint32_t>(random.between(0, 4000)), 700};
+    shot.shape = static_cast<sim::HoleShape>(i % 3);
+    if (shot.shape == sim::HoleShape::mask) shot.mask = static_cast<std::uint32_t>(i) / 3 % kMaskCount;
+    if (shot.shape != sim::HoleShape::cylinder)
+      shot.roll = static_cast<std::uint32_t>(random.between(0, 65535));
     if (shot.origin != shot.toward) events.emplace_back(shot);
   }
 }
@@ -160,6 +166,18 @@ MatchLevel make_level() {
   voxel::BitGrid grid = voxel::voxelize(triangles, kFrame).value_or_throw();
   voxel::SurfacePlanes planes = voxel::SurfacePlanes::build(triangles, grid);
   return {std::move(grid), std::move(planes)};
+}
+
+sim::MaskAtlas make_masks() {
+  Random random(5);
+  std::vector<sim::Mask> masks;
+  for (std::uint32_t i = 0; i < kMaskCount; ++i) {
+    sim::Mask mask{7 + 3 * i, 5 + 2 * i, {}};
+    for (std::uint32_t t = 0; t < mask.width * mask.height; ++t)
+      mask.texels.push_back(static_cast<std::uint8_t>(std::clamp(random.between(-128, 384), 0, 255)));
+    masks.push_back(std::move(mask));
+  }
+  return sim::MaskAtlas::pack(masks).value_or_throw();
 }
 
 std::vector<sim::Event> make_events(const voxel::GridFrame& frame) {

@@ -39,7 +39,11 @@ extern const glm::ivec3 kLowCorner, kHighCorner;
 
 constexpr std::uint32_t kMatchTicks = 30 * 64;
 
-/// 8 smokes, 200 shots, 5 blasts, 2 doors that open and shut while smoke is there, 4 bodies; by tick.
+/// Of its shots.
+sim::MaskAtlas make_masks();
+
+/// 8 smokes, 200 shots of all shapes, 5 blasts, 2 doors that open and shut while smoke is there, 4 bodies; by
+/// tick.
 std::vector<sim::Event> make_events(const voxel::GridFrame& frame);
 
 }  // namespace brume::determinism

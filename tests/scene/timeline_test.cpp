@@ -88,8 +88,8 @@ at = [0, 0, 0]
   EXPECT_NEAR(timeline->camera[0].camera.vertical_fov, 0.785398f, 1e-5f);
   ASSERT_EQ(timeline->shots.size(), 2u);
   EXPECT_EQ(timeline->shots[0].time, 1.5) << "by time";
-  EXPECT_EQ(timeline->shots[1].stay, 0.75f);
-  EXPECT_EQ(timeline->shots[1].reach, 0.25f);
+  EXPECT_EQ(timeline->shots[1].times.stay, 0.75f);
+  EXPECT_EQ(timeline->shots[1].times.reach, 0.25f);
   EXPECT_EQ(timeline->shots[0].flash, 25.0f);
   EXPECT_EQ(timeline->shots[1].flash, 3.0f);
   ASSERT_EQ(timeline->smokes.size(), 1u);
@@ -210,8 +210,8 @@ TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
 
 TEST(Timeline, NewEventsNameTheirMistakes) {
   EXPECT_EQ(error_of(kHead + event("burst", "time = 1")),
-            "scenes/t.toml:4:8: \"type\": expected \"smoke\", \"shot\", \"blast\", \"move\", \"edit\" or "
-            "\"door\"");
+            "scenes/t.toml:4:8: \"type\": expected \"smoke\", \"shot\", \"text\", \"blast\", \"move\", "
+            "\"edit\" or \"door\"");
   EXPECT_EQ(error_of(kHead + event("blast", "time = 1\nat = [0, 0, 0]\nrefill_rim = 6")),
             "scenes/t.toml:3:1: \"refill_middle\": expected no less than \"refill_rim\"");
   EXPECT_EQ(error_of(kHead + event("move", "time = 1\nto = [0, 0, 0]")),

@@ -83,6 +83,10 @@ inline std::vector<sim::Event> busy_match(const voxel::BitGrid& level, unsigned 
   for (int i = 0; i < 200; ++i) {
     sim::Shot shot{tick(), place(), place(), 205, {}};
     if (shot.origin == shot.toward) ++shot.toward.x;
+    if (i % 3 == 0) {
+      shot.shape = sim::HoleShape::box;
+      shot.roll = static_cast<std::uint32_t>(i) * 977 % sim::kFullTurn;
+    }
     events.push_back(shot);
   }
   for (int i = 0; i < 5; ++i) events.push_back(sim::Blast{tick(), place()});
