@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#define BINDING_SOLID 9
 #include "lib/lights.glsl"
 #include "shared/frame.h"
 #include "shared/smoke_light.h"
@@ -17,6 +18,7 @@ layout(scalar, binding = 6) writeonly buffer Rays { uint rays[]; };
 layout(scalar, binding = 7) writeonly buffer RayLight { uint ray_light[]; };
 layout(scalar, binding = 8) buffer Counters { SmokeLightCounters counters; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
+#include "lib/light_share.glsl"
 #include "lib/smoke_texels.glsl"
 
 shared uint group_count;
@@ -26,7 +28,7 @@ shared uint group_first;
 float lamp_light(Light light, vec3 p_world) {
   const Incident incident = light_at(light, p_world);
   if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < 1e-4) return 0.0;
-  return shadow_at(shadows, shadow_coordinates(light, sun.clip_from_world, p_world));
+  return light_share(light, p_world);
 }
 
 void main() {

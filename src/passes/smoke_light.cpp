@@ -24,7 +24,7 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
                    sizeof(shared::SmokeLightParams), {256, 1, 1}),
       rays_pass_(context, shaders::light_rays_comp,
                  {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
-                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled},
                  sizeof(shared::SmokeLightParams), {64, 1, 1}),
       depth_pass_(context, shaders::light_depth_comp,
                   {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
@@ -74,7 +74,8 @@ void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std
   recorder.bind(rays_pass_,
                 {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                  gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_), gpu::read(texels_),
-                 gpu::write(rays_), gpu::write(ray_light_), gpu::read_write(counters_)},
+                 gpu::write(rays_), gpu::write(ray_light_), gpu::read_write(counters_),
+                 gpu::sampled(in.solid.texels(), linear_)},
                 params);
   recorder.dispatch_threads(rays_pass_, kGroups * 64);
   recorder.bind(

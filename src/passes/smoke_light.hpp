@@ -5,6 +5,7 @@
 #include "passes/hole_grid.hpp"
 #include "passes/shadow.hpp"
 #include "passes/smoke_upload.hpp"
+#include "passes/solid_volume.hpp"
 
 namespace brume::passes {
 
@@ -16,6 +17,7 @@ class SmokeLightPass {
     const gpu::Buffer& frame;
     const SceneResources& scene;
     const ShadowMaps& shadows;
+    const SolidVolume& solid;
     const SmokeResources& smoke;
     const HoleResources& holes;
     const gpu::Image& noise;

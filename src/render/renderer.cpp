@@ -76,8 +76,13 @@ void Renderer::prepare(const FrameInput& input) {
   hole_grid_.reserve(input.holes.last(std::min<std::size_t>(input.holes.size(), passes::kMaxHoles)),
                      input.time, input.look.hole_rim, slots > 0 ? input.volume->frame().voxel_size : 1.0f,
                      slots);
-  smoke_light_pass_.reserve(slots, static_cast<std::uint32_t>(scene_.light_list.size()));
+  smoke_light_pass_.reserve(slots, light_count(input));
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
+}
+
+std::uint32_t Renderer::light_count(const FrameInput& input) const {
+  return static_cast<std::uint32_t>(scene_.light_list.size() +
+                                    std::min(input.flashes.size(), passes::kMaxFlashes));
 }
 
 void Renderer::follow_hidden_objects(const FrameInput& input) {
@@ -98,15 +103,16 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.solid = solid_.frame();
   frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
   frame.size_px = size_px_;
-  const auto flashes = std::span(input.flashes).first(std::min(input.flashes.size(), passes::kMaxFlashes));
-  frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size() + flashes.size());
+  frame.light_count = light_count(input);
   frame.holes = hole_grid_.frame();
   frame.frame_index = input.frame_index;
   frame.time = input.time;
   frame.exposure = input.exposure;
   frame.march_scale = march_scale_;
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
-  recorder.upload(scene_.lights, scene_.light_list.size() * sizeof(shared::Light), std::as_bytes(flashes));
+  recorder.upload(
+      scene_.lights, scene_.light_list.size() * sizeof(shared::Light),
+      std::as_bytes(std::span(input.flashes).first(light_count(input) - scene_.light_list.size())));
   recorder.fill(counters_, 0);
 }
 
@@ -136,7 +142,8 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
       smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, holes, noise_, smoke_shadows_);
   });
   stage("smoke_light", [&] {
-    if (light_smoke) smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, noise_});
+    if (light_smoke)
+      smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, solid_, smoke, holes, noise_});
   });
   stage("march", [&] { record_march(recorder); });
   if (blocks_) stage("resolve", [&] { record_resolve(recorder); });

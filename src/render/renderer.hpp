@@ -81,6 +81,7 @@ class Renderer {
   /// From the rays of blocks to the smoke of every pixel.
   void record_resolve(gpu::Recorder& recorder);
 
+  std::uint32_t light_count(const FrameInput& input) const;  // of the scene and of the moment
   void follow_hidden_objects(const FrameInput& input);
 
   gpu::Context& context_;
