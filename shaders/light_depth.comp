@@ -17,7 +17,7 @@
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
-layout(binding = 9) uniform sampler3D noise_tile;
+layout(binding = 9) uniform sampler3D drift_atlas;
 layout(scalar, binding = 10) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 11) readonly buffer Texels { uint texels[]; };
 layout(scalar, binding = 12) readonly buffer Rays { uint rays[]; };

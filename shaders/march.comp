@@ -34,11 +34,13 @@ layout(scalar, binding = 17) readonly buffer List {
   MarchList list;
   uint listed[];  // blocks
 };
+layout(binding = 18) uniform sampler3D drift_atlas;
 #include "lib/holes.glsl"
 
 /// What noise and holes leave of the density at a point of a brick.
-float carved(float density, uint holes_here, vec3 local_voxel, vec3 p_world) {
-  const vec4 noise = smoke_noise(noise_tile, frame.look, p_world, frame.time);
+float carved(float density, uint holes_here, vec3 local_voxel, vec3 uvw, vec3 p_world) {
+  const vec3 drift = textureLod(drift_atlas, uvw, 0.0).xyz;
+  const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + drift, frame.time);
   if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
   if (any_holes(holes_here) && density > 0.0) {
     density *= left_by_holes(holes_here, local_voxel, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
@@ -133,8 +135,8 @@ void main() {
           float density = here.density;
           ++samples;
           if (density > 0.0 && noisy) {
-            density = carved(density, holes_here, local_voxel, volume.origin_world + (low + local_voxel) * volume.voxel_size);
-            ++samples;
+            density = carved(density, holes_here, local_voxel, uvw, volume.origin_world + (low + local_voxel) * volume.voxel_size);
+            samples += 2u;
           }
           if (density > 0.0) {
             // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.

@@ -20,7 +20,7 @@ layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArray shadows;
-layout(binding = 9) uniform sampler3D noise_tile;
+layout(binding = 9) uniform sampler3D drift_atlas;
 layout(binding = 10, r16f) uniform writeonly image2DArray smoke_shadows;
 layout(push_constant, scalar) uniform Push { SmokeShadowParams params; };
 #include "lib/optical_depth.glsl"

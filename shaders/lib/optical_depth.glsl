@@ -1,22 +1,21 @@
-// How much smoke stands between two points. Needs `frame`, `noise_tile` and the bindings of
+// How much smoke stands between two points. Needs `frame`, `drift_atlas` and the bindings of
 // lib/smoke_density.glsl and lib/holes.glsl.
 #ifndef OPTICAL_DEPTH_GLSL
 #define OPTICAL_DEPTH_GLSL
-#include "lib/erosion.glsl"
 #include "lib/holes.glsl"
 #include "lib/smoke_density.glsl"
 
-/// Density as the march sees it.
+/// Density as the march sees it in the mean of a texel: light is as coarse as those.
 float seen_density(vec3 p_voxel) {
   const SmokePoint point = smoke_at(frame.volume, p_voxel);
   float density = point.density;
   if (density <= 0.0) return 0.0;
-  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
-  const vec4 noise = smoke_noise(noise_tile, frame.look, p_world, frame.time);
-  if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
+  const vec3 uvw = (atlas_corner(frame.volume, point.slot) + point.local_voxel) * atlas_texel(frame.volume);
+  density *= textureLod(drift_atlas, uvw, 0.0).w;
   const uint holes_here = holes_in_slot(point.slot);
   if (any_holes(holes_here)) {
-    density *= left_by_holes(holes_here, point.local_voxel, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
+    const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
+    density *= left_by_holes(holes_here, point.local_voxel, p_world, 0.0);
   }
   return density;
 }

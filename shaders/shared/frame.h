@@ -37,11 +37,13 @@ struct SmokeLook {
   float erosion;           // how much noise eats from the rim inwards, [0, 1]
   float noise_period;      // edge of one tile of the noise [m]
   float noise_drift;       // upward [m/s]
+  float roll;              // how far the noise rolls around its place [m]
+  float roll_width;        // of one roll [m], > 0
   float scatter_octaves;   // octaves of multiple scattering, 1: single scattering
   float hole_rim;          // how far noise moves the rim of a hole [m]
   Phase phase;             // where scattered light goes
 };
-SHARED_SIZE(SmokeLook, 60);
+SHARED_SIZE(SmokeLook, 68);
 
 struct FrameConstants {
   Camera camera;
@@ -57,7 +59,7 @@ struct FrameConstants {
   float exposure;    // multiplies radiance before the tone curve
   uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
 };
-SHARED_SIZE(FrameConstants, 364);
+SHARED_SIZE(FrameConstants, 372);
 
 SHARED_END
 #endif

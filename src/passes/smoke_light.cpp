@@ -36,7 +36,6 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
           {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kStored},
           sizeof(shared::SmokeLightParams), {64, 1, 1}),
       linear_(context, {}),
-      repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
       counters_(context, sizeof(shared::SmokeLightCounters),
                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {}
@@ -78,14 +77,14 @@ void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std
                  gpu::sampled(in.solid.texels(), linear_)},
                 params);
   recorder.dispatch_threads(rays_pass_, kGroups * 64);
-  recorder.bind(
-      depth_pass_,
-      {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.smoke.pages),
-       gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
-       gpu::read(in.smoke.corners), gpu::read(in.holes.holes), gpu::read(in.holes.grid),
-       gpu::sampled(in.noise, repeat_), gpu::read(in.scene.lights), gpu::read(texels_), gpu::read(rays_),
-       gpu::read_write(ray_light_), gpu::read(counters_), gpu::sampled(in.holes.masks, linear_)},
-      params);
+  recorder.bind(depth_pass_,
+                {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.smoke.pages),
+                 gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells),
+                 gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners), gpu::read(in.holes.holes),
+                 gpu::read(in.holes.grid), gpu::sampled(in.smoke.drift, linear_), gpu::read(in.scene.lights),
+                 gpu::read(texels_), gpu::read(rays_), gpu::read_write(ray_light_), gpu::read(counters_),
+                 gpu::sampled(in.holes.masks, linear_)},
+                params);
   recorder.dispatch_threads(depth_pass_, kGroups * 64);
   recorder.bind(
       inscatter_pass_,

@@ -20,7 +20,6 @@ class SmokeLightPass {
     const SolidVolume& solid;
     const SmokeResources& smoke;
     const HoleResources& holes;
-    const gpu::Image& noise;
   };
   /// Makes room for the light of this many bricks and lamps. Not between the begin and the end of a
   /// recording, and only when the device is done with what it recorded before. Throws resource_limit.
@@ -33,7 +32,7 @@ class SmokeLightPass {
 
   gpu::Context& context_;
   gpu::ComputePipeline texels_pass_, rays_pass_, depth_pass_, inscatter_pass_;
-  gpu::Sampler linear_, repeat_, compare_;
+  gpu::Sampler linear_, compare_;
   gpu::Buffer texels_, rays_, ray_light_, counters_;
   std::uint32_t rays_per_texel_ = 0, slots_at_once_ = 0;
 };

@@ -21,7 +21,6 @@ SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
                  gpu::kBuffer, gpu::kSampled},
                 sizeof(shared::SmokeShadowParams), {8, 8, 1}),
       linear_(context, {}),
-      repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
 
 gpu::Image SmokeShadowPass::make_layers(gpu::Context& context, const ShadowMaps& shadows) const {
@@ -35,14 +34,13 @@ gpu::Image SmokeShadowPass::make_layers(gpu::Context& context, const ShadowMaps&
 
 void SmokeShadowPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
                              const ShadowMaps& shadows, const SmokeResources& smoke,
-                             const HoleResources& holes, const gpu::Image& noise,
-                             const gpu::Image& layers) const {
+                             const HoleResources& holes, const gpu::Image& layers) const {
   const std::uint32_t size = layers.info().size.x;
   recorder.bind(pipeline_,
                 {gpu::read(frame), gpu::read(scene.lights), gpu::read(shadows.sun),
                  gpu::sampled(shadows.layers, nearest_), gpu::read(smoke.pages),
                  gpu::sampled(smoke.density, linear_), gpu::read(smoke.cells), gpu::read(smoke.boundary),
-                 gpu::read(smoke.corners), gpu::sampled(noise, repeat_), gpu::stored(layers),
+                 gpu::read(smoke.corners), gpu::sampled(smoke.drift, linear_), gpu::stored(layers),
                  gpu::read(holes.holes), gpu::read(holes.grid), gpu::sampled(holes.masks, nearest_)});
   // Each light writes layers of its own: no barrier between.
   for (std::uint32_t i = 0; i < scene.light_list.size(); ++i) {

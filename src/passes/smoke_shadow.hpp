@@ -17,11 +17,11 @@ class SmokeShadowPass {
   /// Fills all layers.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
               const ShadowMaps& shadows, const SmokeResources& smoke, const HoleResources& holes,
-              const gpu::Image& noise, const gpu::Image& layers) const;
+              const gpu::Image& layers) const;
 
  private:
   gpu::ComputePipeline pipeline_;
-  gpu::Sampler linear_, repeat_, nearest_;
+  gpu::Sampler linear_, nearest_;
 };
 
 }  // namespace brume::passes

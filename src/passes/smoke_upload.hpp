@@ -12,6 +12,7 @@ struct SmokeResources {
   gpu::Buffer slot_bricks;  ///< Per slot its brick, in bricks of the grid.
   gpu::Image density;       ///< RG8 atlas.
   gpu::Image inscatter;     ///< Half-float RGBA atlas of the same layout.
+  gpu::Image drift;         ///< Likewise; see passes/drift.hpp.
   std::uint32_t slot_count = 0;
 };
 

@@ -37,7 +37,11 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   input.look.stop = 0.01f;
   input.look.erosion = smoke.noise;
   input.look.noise_period = static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size;
-  input.look.noise_drift = 0.35f;
+  input.look.noise_drift = smoke.rise;
+  input.look.roll = smoke.swirl;
+  input.look.roll_width = 2.0f * smoke.noise_size;
+  input.roll_seconds = double{smoke.swirl_time};
+  input.state = &simulation.world().state();
   input.look.scatter_octaves = 3;
   input.look.hole_rim = smoke.rim;
   input.exposure = std::exp2(timeline.exposure);

@@ -28,6 +28,11 @@ std::vector<passes::Draw> grenade_draws(const passes::SceneResources& scene,
   return draws;
 }
 
+const sim::State& state_of(const FrameInput& input) {
+  static const sim::State kNothing;
+  return input.state ? *input.state : kNothing;
+}
+
 }  // namespace
 
 Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
@@ -46,6 +51,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       resolve_pass_(context),
       display_pass_(context),
       smoke_upload_(context),
+      drift_pass_(context),
       solid_(context),
       sky_light_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
@@ -71,6 +77,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
 void Renderer::prepare(const FrameInput& input) {
   const std::uint32_t slots = input.volume ? input.volume->slot_count() : 0;
   if (input.volume) smoke_upload_.reserve(*input.volume);
+  if (input.volume) drift_pass_.reserve(state_of(input), *input.volume);
   solid_.reserve(input.level);
   sky_light_.reserve(solid_);
   hole_grid_.reserve(input.holes.last(std::min<std::size_t>(input.holes.size(), passes::kMaxHoles)),
@@ -136,14 +143,17 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   });
   const auto& holes = hole_grid_.resources();
   stage("holes", [&] { hole_grid_.record(recorder, frame_, smoke); });
+  stage("drift", [&] {
+    if (input.volume)
+      drift_pass_.record(recorder, {frame_, smoke, noise_, state_of(input), input.time, input.roll_seconds});
+  });
   const bool light_smoke = input.volume && needs_light(input);
   stage("smoke_shadow", [&] {
     if (light_smoke)
-      smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, holes, noise_, smoke_shadows_);
+      smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, holes, smoke_shadows_);
   });
   stage("smoke_light", [&] {
-    if (light_smoke)
-      smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, solid_, smoke, holes, noise_});
+    if (light_smoke) smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, solid_, smoke, holes});
   });
   stage("march", [&] { record_march(recorder); });
   if (blocks_) stage("resolve", [&] { record_resolve(recorder); });

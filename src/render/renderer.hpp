@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "passes/display.hpp"
+#include "passes/drift.hpp"
 #include "passes/march.hpp"
 #include "passes/noise.hpp"
 #include "passes/resolve.hpp"
@@ -31,6 +32,9 @@ struct FrameInput {
   std::span<const shared::Hole> holes;       ///< At most passes::kMaxHoles, the last ones.
   std::vector<shared::Light> flashes;  ///< Lights of the moment; at most passes::kMaxFlashes, the first ones.
   std::vector<glm::mat4> grenades;     ///< world_from_mesh of each grenade in the air.
+  /// Whose clouds, shots, bodies and blasts carry the noise; null: it only rises.
+  const sim::State* state = nullptr;
+  double roll_seconds = 12;                   ///< How long the noise takes to roll around once; > 0.
   std::vector<std::uint32_t> hidden_objects;  ///< Of the scene, rising: not drawn, and they cast no shadow.
   bool force_light =
       false;  ///< Light smoke and surfaces anew even when nothing changed since the last frame.
@@ -98,6 +102,7 @@ class Renderer {
   passes::ResolvePass resolve_pass_;
   passes::DisplayPass display_pass_;
   passes::SmokeUpload smoke_upload_;
+  passes::DriftPass drift_pass_;
   passes::SolidVolume solid_;
   passes::SkyLightPass sky_light_;
   passes::ShadowMaps shadows_;

@@ -85,6 +85,9 @@ class TimelineReader {
     table.read("noise", smoke.noise, 0, 1);
     table.read("noise_size", smoke.noise_size, 0.05, 100);
     table.read("rim", smoke.rim, 0, 10);
+    table.read("swirl", smoke.swirl, 0, 10);
+    table.read("swirl_time", smoke.swirl_time, 0.1, kLatest);
+    table.read("rise", smoke.rise, -10, 10);
     return table.finish();
   }
 
@@ -330,6 +333,8 @@ Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scen
   const float scale = timeline.grid.voxel / room_voxel;
   timeline.smoke.extinction = std::min(timeline.smoke.extinction / scale, 100.0f);
   timeline.smoke.noise_size = std::max(timeline.smoke.noise_size * scale, 0.05f);
+  timeline.smoke.swirl *= scale;
+  timeline.smoke.rise *= scale;
   SmokeEvent smoke;
   smoke.from_world = camera.position_world;
   smoke.at_world = first_hit(scene, camera.position_world, camera.target_world - camera.position_world)

@@ -1,0 +1,113 @@
+// For each texel of the smoke's bricks: how far the noise there has been carried, and the share of the density that
+// the noise leaves in the mean of the texel. Both depend on the moment alone, never on the frame before.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lib/erosion.glsl"
+#include "lib/noise.glsl"
+#include "shared/drift.h"
+#include "shared/frame.h"
+
+layout(local_size_x = 64) in;
+layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
+layout(binding = 2) uniform sampler3D density_atlas;
+layout(binding = 3) uniform sampler3D noise_tile;
+layout(scalar, binding = 4) readonly buffer Parts { uvec2 parts[]; };
+layout(scalar, binding = 5) readonly buffer Travel { uvec2 travel[]; };
+layout(scalar, binding = 6) readonly buffer Motions { CloudMotion motions[]; };
+layout(scalar, binding = 7) readonly buffer Pushes { Push pushes[]; };
+layout(binding = 8, rgba16f) uniform writeonly image3D drift;
+layout(push_constant, scalar) uniform Push_ { DriftParams params; };
+
+/// Rolls repeat after this many of their widths.
+const int kRollCells = 64;
+
+/// Density of the free voxels around a texel, and whether any voxel around it holds smoke at all.
+bool density_around(ivec3 atlas_texel, out float density) {
+  const vec3 texel = 1.0 / vec3(textureSize(density_atlas, 0));
+  vec2 sum = vec2(0.0);
+  for (uint i = 0u; i < 8u; ++i) {
+    const vec3 offset = vec3(i & 1u, i >> 1u & 1u, i >> 2u);
+    sum += textureLod(density_atlas, (vec3(atlas_texel) + offset) * texel, 0.0).rg;
+  }
+  // In a wall, what stands before it: light grazes walls.
+  const vec2 here = texelFetch(density_atlas, atlas_texel, 0).rg;
+  density = here.g > 0.5 ? here.r : sum.r / max(sum.g, 1e-3);
+  return sum.r > 0.0;
+}
+
+/// A part's growth at a texel of the brick, weighted, and the weight.
+vec4 growth_at(uint part, ivec3 local) {
+  const ivec3 low = local >> 1;
+  const vec3 f = 0.5 * vec3(local & 1);
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < 8; ++i) {
+    const ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2), at = low + corner;
+    const vec3 share = mix(1.0 - f, f, vec3(corner));
+    const uvec2 words = travel[part * kTravelPerPart + uint(at.x + kTravelPoints * (at.y + kTravelPoints * at.z))];
+    const vec2 high = unpackHalf2x16(words.y);
+    sum += share.x * share.y * share.z * high.y * vec4(unpackHalf2x16(words.x), high.x, 1.0);
+  }
+  return sum;
+}
+
+/// How far the clouds of a slot carry the noise at a point: each its way, where they meet by their shares.
+vec3 carried_by_clouds(uint slot, ivec3 local, vec3 p_world) {
+  const float width = kRollCells * frame.look.roll_width;
+  const vec3 one = curl_noise(p_world / width, kRollCells, 11u), other = curl_noise(p_world / width, kRollCells, 21u);
+  vec4 sum = vec4(0.0);
+  const uvec2 range = parts[slot];
+  for (uint i = range.x; i < range.x + range.y; ++i) {
+    const uvec2 part = parts[params.all_slots + i];
+    const CloudMotion motion = motions[part.y];
+    const vec4 growth = growth_at(part.x, local);
+    const vec3 roll = frame.look.roll * (motion.roll_cos * one + motion.roll_sin * other);
+    sum += vec4(motion.grown * growth.xyz + growth.w * roll, growth.w);
+  }
+  return sum.xyz / max(sum.w, 1e-6);
+}
+
+/// How far shots, bodies and explosions carry the noise at a point.
+vec3 pushed(vec3 p_world) {
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < params.push_count; ++i) {
+    const Push push = pushes[i];
+    const vec3 way = push.to_world - push.from_world, from = p_world - push.from_world;
+    const vec3 apart = from - way * clamp(dot(from, way) / max(dot(way, way), 1e-9), 0.0, 1.0);
+    const float near = max(0.0, 1.0 - dot(apart, apart) / (push.radius * push.radius));
+    sum += near * near * (push.along + push.outward * apart / push.radius);
+  }
+  return sum;
+}
+
+void main() {
+  const uint texel = gl_GlobalInvocationID.x;
+  const uint slot = params.first_slot + texel / kTexelsPerBrick;
+  if (slot >= params.first_slot + params.slot_count) return;
+  const uint at = texel % kTexelsPerBrick;
+  const ivec3 local = ivec3(at % 10u, at / 10u % 10u, at / 100u);
+  const uvec3 bricks = uvec3(frame.volume.atlas_bricks);
+  const uvec3 corner = uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * uint(kBrickTexels);
+  const ivec3 atlas_texel = ivec3(corner) + local;
+  float density;
+  if (!density_around(atlas_texel, density)) {
+    imageStore(drift, atlas_texel, vec4(0.0));
+    return;
+  }
+
+  const vec3 p_voxel = vec3(slot_bricks[slot] * kBrickVoxels + local) - 0.5;
+  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
+  const vec3 carried = carried_by_clouds(slot, local, p_world) - pushed(p_world);
+  // The mean of the texel: four points of it, at the corners of a tetrahedron.
+  float share = 1.0;
+  if (frame.look.erosion > 0.0) {
+    float left = 0.0;
+    for (uint i = 0u; i < 4u; ++i) {
+      const vec3 within = (vec3(i & 1u, i >> 1u, (i ^ i >> 1u) & 1u) - 0.5) * (0.5 * frame.volume.voxel_size);
+      left += 0.25 * erode(frame.look, density, smoke_noise(noise_tile, frame.look, p_world + within + carried, frame.time));
+    }
+    share = left / max(density, 1e-3);
+  }
+  imageStore(drift, atlas_texel, vec4(carried, share));
+}

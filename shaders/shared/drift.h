@@ -1,0 +1,41 @@
+// Where the smoke's noise is carried: outward while a cloud blooms, around in slow rolls, along with what moves through.
+//
+//   travel   per part (the share of a cloud in a brick) 6^3 points, x + 6 (y + 6 z), two voxels apart, the first at the
+//            brick's texel (0, 0, 0): two uints of two halves each, growth in metres (sim/growth.hpp) and its weight
+//   parts    per slot (first, count) in the list that follows all slots: (part, cloud) each
+#ifndef BRUME_DRIFT_H
+#define BRUME_DRIFT_H
+#include "shared/shim.h"
+SHARED_BEGIN
+
+SHARED_CONST int kTravelPoints = 6;
+SHARED_CONST uint kTravelPerPart = 216u;
+
+/// What a cloud does to the noise in it at a moment.
+struct CloudMotion {
+  float grown;       // share of its growth that the noise is still to be carried, below 0: has been carried beyond
+  float roll_cos;    // of the angle of its rolls
+  float roll_sin;
+};
+SHARED_SIZE(CloudMotion, 12);
+
+/// Something that moves the noise around a stretch of its way: a shot, a body, an explosion.
+struct Push {
+  vec3 from_world;  // [m]
+  float radius;     // nothing is moved farther from the stretch than this [m], > 0
+  vec3 to_world;    // [m]
+  float outward;    // how far the noise near the stretch is carried away from it [m]
+  vec3 along;       // how far it is carried with it [m]
+};
+SHARED_SIZE(Push, 44);
+
+struct DriftParams {
+  uint first_slot;
+  uint slot_count;
+  uint all_slots;
+  uint push_count;
+};
+SHARED_SIZE(DriftParams, 16);
+
+SHARED_END
+#endif

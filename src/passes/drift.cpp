@@ -1,0 +1,217 @@
+#include "passes/drift.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <glm/gtc/packing.hpp>
+
+#include "brume_shaders.hpp"
+#include "passes/drift_motion.hpp"
+#include "sim/growth.hpp"
+
+namespace brume::passes {
+namespace {
+
+constexpr std::uint32_t kGroup = 64;
+// Slots a dispatch: well below the 65,535 workgroups that every device takes.
+constexpr std::uint32_t kSlotsPerDispatch = 4096;
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+/// The bricks that a cloud's voxels are in or beside, in order.
+std::vector<glm::ivec3> bricks_of(const sim::Cloud& cloud) {
+  std::vector<glm::ivec3> bricks;
+  for (const sim::VoxelBlock& block : cloud.voxels().blocks()) {
+    const glm::ivec3 low = sim::kBlockSize * glm::ivec3(block.at);
+    const glm::ivec3 first = (low - 1) >> 3, last = (low + sim::kBlockSize) >> 3;
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) bricks.push_back({x, y, z});
+  }
+  const auto before = [](glm::ivec3 a, glm::ivec3 b) {
+    return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
+  };
+  std::sort(bricks.begin(), bricks.end(), before);
+  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+  return bricks;
+}
+
+/// The growth of the cloud's voxels in and around a brick: a box of 13^3 voxels whose first is brick 8 - 2.
+class GrowthAround {
+ public:
+  static constexpr int kEdge = 13;
+
+  GrowthAround(const sim::Cloud& cloud, std::span<const glm::vec3> growth, glm::ivec3 brick) {
+    const glm::ivec3 low = shared::kBrickVoxels * brick - 2;
+    const glm::ivec3 first = low >> 2, last = (low + kEdge - 1) >> 2;
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x)
+          if (const sim::VoxelBlock* block = cloud.voxels().find_block({x, y, z})) add(*block, growth, low);
+  }
+  /// The mean over the 3^3 voxels around one, in w how many of them the cloud fills.
+  glm::vec4 mean(glm::ivec3 local) const {
+    glm::vec4 sum(0);
+    for (int i = 0; i < 27; ++i) {
+      const glm::ivec3 at = local + glm::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      sum += voxels_[static_cast<std::size_t>(at.x + kEdge * (at.y + kEdge * at.z))];
+    }
+    return {glm::vec3(sum) / std::max(sum.w, 1.0f), sum.w};
+  }
+
+ private:
+  void add(const sim::VoxelBlock& block, std::span<const glm::vec3> growth, glm::ivec3 low) {
+    std::uint32_t rank = block.first;
+    for (std::uint64_t left = block.mask; left != 0; left &= left - 1, ++rank) {
+      const glm::ivec3 at = sim::voxel_of_block(glm::ivec3(block.at), std::countr_zero(left)) - low;
+      if (glm::any(glm::lessThan(at, glm::ivec3(0))) ||
+          glm::any(glm::greaterThanEqual(at, glm::ivec3(kEdge))))
+        continue;
+      voxels_[static_cast<std::size_t>(at.x + kEdge * (at.y + kEdge * at.z))] = glm::vec4(growth[rank], 1);
+    }
+  }
+
+  std::array<glm::vec4, kEdge * kEdge * kEdge> voxels_{};
+};
+
+/// Makes the buffer at least this large; true when it is a new one, with nothing in it.
+bool grow(gpu::Context& context, gpu::Buffer& buffer, std::size_t bytes) {
+  if (buffer && buffer.size() >= bytes) return false;
+  buffer = gpu::Buffer(context, std::bit_ceil(std::max<std::size_t>(bytes, 256)), kUsage);
+  return true;
+}
+
+}  // namespace
+
+bool CloudGrowth::update(const sim::State& state, const sim::SmokeVolume& volume) {
+  const auto same = [](const std::shared_ptr<const sim::Cloud>& held, const sim::LiveCloud& live) {
+    return held == live.cloud;
+  };
+  if (generation_ == volume.structure_generation() &&
+      std::equal(clouds_.begin(), clouds_.end(), state.clouds.begin(), state.clouds.end(), same))
+    return false;
+  generation_ = volume.structure_generation();
+
+  std::map<const sim::Cloud*, std::vector<Share>> before;
+  before.swap(shares_);
+  std::vector<std::shared_ptr<const sim::Cloud>> clouds;
+  std::vector<const sim::Cloud*> fresh;
+  for (const sim::LiveCloud& live : state.clouds) {
+    clouds.push_back(live.cloud);
+    if (auto held = before.extract(live.cloud.get()))
+      shares_.insert(std::move(held));
+    else
+      fresh.push_back(live.cloud.get());
+  }
+  for (const auto& [cloud, shares] : before)
+    for (const Share& share : shares) free_parts_.push_back(share.part);
+  for (const sim::Cloud* cloud : fresh)
+    if (!shares_.contains(cloud)) shares_.emplace(cloud, make_shares(*cloud, volume.frame().voxel_size));
+  clouds_ = std::move(clouds);
+  list_parts(volume);
+  return true;
+}
+
+std::uint32_t CloudGrowth::take_part() {
+  if (free_parts_.empty()) {
+    travel_.resize(travel_.size() + shared::kTravelPerPart);
+    return static_cast<std::uint32_t>(travel_.size() / shared::kTravelPerPart - 1);
+  }
+  const std::uint32_t part = free_parts_.back();
+  free_parts_.pop_back();
+  return part;
+}
+
+std::vector<CloudGrowth::Share> CloudGrowth::make_shares(const sim::Cloud& cloud, float voxel_size) {
+  const std::vector<glm::vec3> growth = sim::growth_of(cloud);
+  float longest = 1;
+  for (const glm::vec3& one : growth) longest = std::max(longest, glm::length(one));
+  std::vector<Share> shares;
+  for (const glm::ivec3 brick : bricks_of(cloud)) {
+    const GrowthAround around(cloud, growth, brick);
+    const std::uint32_t part = take_part();
+    shares.push_back({brick, part});
+    new_parts_.push_back(part);
+    glm::uvec2* out = travel_.data() + std::size_t{part} * shared::kTravelPerPart;
+    for (std::uint32_t i = 0; i < shared::kTravelPerPart; ++i) {
+      const auto n = static_cast<int>(i);
+      const glm::ivec3 point(n % shared::kTravelPoints, n / shared::kTravelPoints % shared::kTravelPoints,
+                             n / (shared::kTravelPoints * shared::kTravelPoints));
+      const glm::vec4 mean = around.mean(2 * point + 1);
+      // Where clouds meet, each counts for more the nearer its source is.
+      const float near = 1.02f - std::min(glm::length(glm::vec3(mean)) / longest, 1.0f);
+      const glm::vec3 metres = glm::vec3(mean) * voxel_size;
+      *out++ = {glm::packHalf2x16({metres.x, metres.y}), glm::packHalf2x16({metres.z, mean.w / 27 * near})};
+    }
+  }
+  return shares;
+}
+
+/// Which parts are in which slot.
+void CloudGrowth::list_parts(const sim::SmokeVolume& volume) {
+  const std::uint32_t slots = volume.slot_count();
+  std::vector<std::vector<glm::uvec2>> by_slot(slots);
+  for (std::uint32_t i = 0; i < clouds_.size(); ++i)
+    for (const Share& share : shares_.at(clouds_[i].get()))
+      if (const std::uint32_t slot = volume.slot_at(share.brick); slot != sim::SmokeVolume::kNoSlot)
+        by_slot[slot].push_back({share.part, i});
+  parts_.assign(slots, glm::uvec2(0));
+  for (std::uint32_t slot = 0; slot < slots; ++slot) {
+    parts_[slot] = {parts_.size() - slots, by_slot[slot].size()};
+    parts_.insert(parts_.end(), by_slot[slot].begin(), by_slot[slot].end());
+  }
+}
+
+DriftPass::DriftPass(gpu::Context& context)
+    : context_(context),
+      pipeline_(context, shaders::drift_comp,
+                {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
+                 gpu::kBuffer, gpu::kBuffer, gpu::kStored},
+                sizeof(shared::DriftParams), {kGroup, 1, 1}),
+      linear_(context, {}),
+      repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
+  for (gpu::Buffer* buffer : {&parts_, &travel_, &motions_}) grow(context, *buffer, 1);
+  grow(context, pushes_, kMaxPushes * sizeof(shared::Push));
+}
+
+void DriftPass::reserve(const sim::State& state, const sim::SmokeVolume& volume) {
+  parts_stale_ |= growth_.update(state, volume);
+  parts_stale_ |= grow(context_, parts_, growth_.parts().size_bytes());
+  travel_stale_ |= grow(context_, travel_, growth_.travel().size_bytes());
+  grow(context_, motions_, state.clouds.size() * sizeof(shared::CloudMotion));
+}
+
+void DriftPass::upload(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Push> pushes) {
+  if (parts_stale_) recorder.upload(parts_, 0, std::as_bytes(growth_.parts()));
+  if (travel_stale_) {
+    recorder.upload(travel_, 0, std::as_bytes(growth_.travel()));
+  } else if (parts_stale_) {
+    for (const std::uint32_t part : growth_.new_parts()) {
+      const auto entries =
+          growth_.travel().subspan(std::size_t{part} * shared::kTravelPerPart, shared::kTravelPerPart);
+      recorder.upload(travel_, std::size_t{part} * entries.size_bytes(), std::as_bytes(entries));
+    }
+  }
+  growth_.forget_new();
+  parts_stale_ = travel_stale_ = false;
+  std::vector<shared::CloudMotion> motions;
+  for (const sim::LiveCloud& live : in.state.clouds)
+    motions.push_back(cloud_motion(*live.cloud, in.state.ticks_per_second, in.seconds, in.roll_seconds));
+  recorder.upload(motions_, 0, std::as_bytes(std::span(motions)));
+  recorder.upload(pushes_, 0, std::as_bytes(pushes));
+}
+
+void DriftPass::record(gpu::Recorder& recorder, const Inputs& in) {
+  const std::vector<shared::Push> pushes = pushes_of(in.state, in.seconds);
+  upload(recorder, in, pushes);
+  for (std::uint32_t first = 0; first < in.smoke.slot_count; first += kSlotsPerDispatch) {
+    const std::uint32_t count = std::min(kSlotsPerDispatch, in.smoke.slot_count - first);
+    recorder.bind(
+        pipeline_,
+        {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
+         gpu::sampled(in.noise, repeat_), gpu::read(parts_), gpu::read(travel_), gpu::read(motions_),
+         gpu::read(pushes_), gpu::stored(in.smoke.drift)},
+        shared::DriftParams{first, count, in.smoke.slot_count, static_cast<std::uint32_t>(pushes.size())});
+    recorder.dispatch_threads(pipeline_, count * shared::kTexelsPerBrick);
+  }
+}
+
+}  // namespace brume::passes

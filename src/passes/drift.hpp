@@ -1,0 +1,75 @@
+// Carries the noise in the smoke.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "passes/smoke_upload.hpp"
+#include "shared/drift.h"
+#include "sim/state.hpp"
+
+namespace brume::passes {
+
+/// How each cloud grew, brick by brick, as shaders/shared/drift.h lays it out: made when a cloud comes,
+/// dropped when it goes.
+class CloudGrowth {
+ public:
+  /// Follows the clouds of a state and the slots of a volume; true when the list of parts is another one.
+  bool update(const sim::State& state, const sim::SmokeVolume& volume);
+
+  /// Per slot (first, count), then the list.
+  std::span<const glm::uvec2> parts() const { return parts_; }
+  /// kTravelPerPart entries a part.
+  std::span<const glm::uvec2> travel() const { return travel_; }
+  /// Parts that are new since the last forget_new.
+  std::span<const std::uint32_t> new_parts() const { return new_parts_; }
+  void forget_new() { new_parts_.clear(); }
+
+ private:
+  struct Share {
+    glm::ivec3 brick;
+    std::uint32_t part;
+  };
+  std::vector<Share> make_shares(const sim::Cloud& cloud, float voxel_size);
+  std::uint32_t take_part();
+
+  void list_parts(const sim::SmokeVolume& volume);
+
+  std::vector<std::shared_ptr<const sim::Cloud>> clouds_;  // of the last state
+  std::map<const sim::Cloud*, std::vector<Share>> shares_;
+  std::vector<glm::uvec2> parts_, travel_;
+  std::vector<std::uint32_t> free_parts_, new_parts_;
+  std::uint64_t generation_ = 0;
+};
+
+class DriftPass {
+ public:
+  explicit DriftPass(gpu::Context& context);
+
+  struct Inputs {
+    const gpu::Buffer& frame;
+    const SmokeResources& smoke;
+    const gpu::Image& noise;
+    const sim::State& state;  ///< Whose clouds, shots, bodies and blasts; as reserve saw it.
+    double seconds = 0;       ///< On the clock of the state.
+    double roll_seconds = 1;  ///< That a roll takes.
+  };
+  /// Makes room for the clouds. As SmokeUpload::reserve, and after it.
+  void reserve(const sim::State& state, const sim::SmokeVolume& volume);
+  /// Fills smoke.drift for all slots: the noise at a point is that of point + xyz [m]; w is the share
+  /// of the density that it leaves in the mean of the texel. Depends on the inputs alone.
+  void record(gpu::Recorder& recorder, const Inputs& inputs);
+
+ private:
+  void upload(gpu::Recorder& recorder, const Inputs& inputs, std::span<const shared::Push> pushes);
+
+  gpu::Context& context_;
+  gpu::ComputePipeline pipeline_;
+  gpu::Sampler linear_, repeat_;
+  CloudGrowth growth_;
+  gpu::Buffer parts_, travel_, motions_, pushes_;
+  bool parts_stale_ = true, travel_stale_ = true;
+};
+
+}  // namespace brume::passes
