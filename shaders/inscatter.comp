@@ -19,14 +19,17 @@ layout(binding = 6, rgba16f) uniform writeonly image3D inscatter;
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 #include "lib/smoke_texels.glsl"
 
+/// Mean transmittance out of the smoke, over all directions.
+float escape_of(uint first) {
+  float escape = 0.0;
+  for (uint i = 0u; i < kSkyRays; ++i) escape += exp(-unpackHalf2x16(ray_light[first + i]).x) / float(kSkyRays);
+  return escape;
+}
+
 /// Radiance from all around of an even sky of radiance 1: light that comes straight in, a share p, and light that was
 /// scattered on its way, as bright as here and dimmed by the albedo: J = p + albedo (1 - p) J. Without absorption the
 /// smoke is as bright as the sky, whatever its density.
-vec3 sky_light(uint first) {
-  float p = 0.0;
-  for (uint i = 0u; i < kSkyRays; ++i) p += exp(-unpackHalf2x16(ray_light[first + i]).x) / float(kSkyRays);
-  return vec3(p) / (1.0 - frame.look.albedo * (1.0 - p));
-}
+vec3 sky_light(float p) { return vec3(p) / (1.0 - frame.look.albedo * (1.0 - p)); }
 
 void main() {
   for (uint i = gl_GlobalInvocationID.x; i < counters.texels; i += gl_NumWorkGroups.x * 64u) {
@@ -34,12 +37,14 @@ void main() {
     const vec3 p_world = world_from_voxel(texel.position_voxel);
     const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
     const uint first = i * params.rays_per_texel;
-    vec3 radiance = frame.sky.ambient * sky_light(first + frame.light_count);
+    const float escape = escape_of(first + frame.light_count);
+    const ManyScatterings many = many_scatterings(frame.look, escape);
+    vec3 radiance = frame.sky.ambient * sky_light(escape);
     for (uint k = 0u; k < frame.light_count; ++k) {
       const vec2 depth_lit = unpackHalf2x16(ray_light[first + k]);
       if (depth_lit.y <= 0.0) continue;
       const Incident incident = light_at(lights[k], p_world);
-      radiance += incident.irradiance * (depth_lit.y * scattered(frame.look, depth_lit.x, -dot(incident.to_light, to_eye)));
+      radiance += incident.irradiance * (depth_lit.y * scattered(frame.look.phase, many, depth_lit.x, -dot(incident.to_light, to_eye)));
     }
     imageStore(inscatter, texel.at, vec4(radiance, 1.0));
   }

@@ -39,7 +39,7 @@ struct SmokeLook {
   float noise_drift;       // upward [m/s]
   float roll;              // how far the noise rolls around its place [m]
   float roll_width;        // of one roll [m], > 0
-  float scatter_octaves;   // octaves of multiple scattering, 1: single scattering
+  float many_scatterings;  // share of the light scattered more than once, 1: all of it, 0: single scattering
   float hole_rim;          // how far noise moves the rim of a hole [m]
   Phase phase;             // where scattered light goes
 };

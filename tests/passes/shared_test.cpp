@@ -64,7 +64,7 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(frame.look.albedo, 150);
   const float look[] = {frame.look.extinction,  frame.look.step_length,        frame.look.stop,
                         frame.look.erosion,     frame.look.noise_period,       frame.look.noise_drift,
-                        frame.look.roll,        frame.look.roll_width,         frame.look.scatter_octaves,
+                        frame.look.roll,        frame.look.roll_width,         frame.look.many_scatterings,
                         frame.look.hole_rim,    frame.look.phase.g_hg,         frame.look.phase.g_draine,
                         frame.look.phase.alpha, frame.look.phase.draine_weight};
   for (int i = 0; i < 14; ++i) EXPECT_EQ(look[i], 153.0f + static_cast<float>(i));

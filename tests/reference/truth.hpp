@@ -35,7 +35,7 @@ std::vector<TruthTriangle> truth_triangles(const scene::Scene& scene);
 struct TruthScene {
   shared::Camera camera{};
   glm::uvec2 size_px{0};
-  shared::SmokeLook look{};  ///< Its step_length, stop and scatter_octaves play no part here.
+  shared::SmokeLook look{};  ///< Its step_length, stop and many_scatterings play no part here.
   double time = 0;           ///< [s]
   const sim::SmokeVolume* volume = nullptr;
   std::span<const shared::Hole> holes;  ///< Without masks.

@@ -58,7 +58,8 @@ scene::ShotEvent shot(glm::vec3 from, glm::vec3 toward, float radius) {
   event.from_world = from;
   event.toward_world = toward;
   event.radius = radius;
-  event.stay = 5;
+  event.times.stay = 5;
+  event.flash = 0;
   return event;
 }
 
@@ -124,6 +125,7 @@ std::vector<TruthCase> truth_cases() {
   auto blasted = smoke_at({0, 0.2f, 0}, 2400);
   blasted.blasts = {{1.5, {0.6f, 0.8f, 0.9f}}};
   blasted.blasts[0].radius = 1.6f;
+  blasted.blasts[0].flash = 0;
   add("blast", room({}, {side}), blasted);
   add("wall along the view",
       room({{{-0.05f, -0.1f, -1}, {0.05f, 2.4f, 1.5f}}},

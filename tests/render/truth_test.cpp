@@ -39,7 +39,7 @@ class TruthTest : public gpu::GpuTest {
   static FrameInput input_of(const TruthCase& one, const stage::Simulation& simulation,
                              std::vector<shared::Hole>& holes) {
     FrameInput input = frame_input(one.stage, simulation, one.seconds, holes);
-    input.look.scatter_octaves = 1;
+    input.look.many_scatterings = 0;
     if (!one.noisy) input.look.hole_rim = 0;
     return input;
   }

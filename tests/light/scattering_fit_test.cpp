@@ -1,0 +1,47 @@
+// The constants of shared/scattering.h are those that the fit finds. Prints them, and how formulas compare.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/light/scattering_fit.hpp"
+
+namespace brume::reference {
+namespace {
+
+TEST(ManyFit, IsTheOneOfLeastMisfit) {
+  const auto samples = scattering_samples({0, 0.3, 0.6, 0.85}, {0.8, 0.9, 0.99, 1}, 5000, 1);
+  const auto of = [&](const shared::ManyFit& fit) {
+    return misfit(samples, [&](const ScatteringSample& s) { return many_of(fit, s); });
+  };
+  const shared::ManyFit found = fit_many(samples), kept = shared::many_fit();
+  const auto print = [&](const char* name, const shared::ManyFit& f) {
+    std::printf(
+        "%s decay %.3f held %.3f share %.3f share_g %.3f closure %.3f even %.3f even_g %.3f: misfit %.4f\n",
+        name, double{f.decay}, double{f.held}, double{f.share}, double{f.share_g}, double{f.closure},
+        double{f.even}, double{f.even_g}, of(f));
+  };
+  print("found:", found);
+  print("kept: ", kept);
+  const auto abc = minimize(
+      [&](const std::vector<double>& p) {
+        if (p[0] < 0 || p[1] < 0 || p[2] < 0 || p[2] >= 1) return 1e9;
+        return misfit(samples, [&](const ScatteringSample& s) { return octaves(p[0], p[1], p[2], s); });
+      },
+      {0.5, 0.5, 0.5}, 0.2, 200);
+  const double best_octaves =
+      misfit(samples, [&](const ScatteringSample& s) { return octaves(abc[0], abc[1], abc[2], s); });
+  std::printf("octaves: guessed %.4f; fitted, a %.3f b %.3f c %.3f: %.4f\n", misfit(samples, guessed_octaves),
+              abc[0], abc[1], abc[2], best_octaves);
+  double noise = 0;
+  for (const ScatteringSample& s : samples) {
+    const double relative = s.error / (s.once + s.more + 0.004 * s.irradiance);
+    noise += relative * relative / static_cast<double>(samples.size());
+  }
+  std::printf("noise of the samples: %.4f\n", std::sqrt(noise));
+  EXPECT_LT(of(kept), 1.01 * of(found));
+  EXPECT_LT(of(kept), 0.5 * best_octaves);
+}
+
+}  // namespace
+}  // namespace brume::reference

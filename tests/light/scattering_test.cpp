@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "tests/light/scattering_fit.hpp"
+#include "tests/reference/phase.hpp"
+
+namespace brume::reference {
+namespace {
+
+const std::vector<double> kGs{0, 0.3, 0.6, 0.85}, kAlbedos{0.8, 0.9, 0.99, 1};
+
+/// Chandrasekhar's H for even scattering ("Radiative Transfer", 1960, chapter V): 1 / H(mu) = sqrt(1 -
+/// albedo) + albedo / 2 times the integral over t from 0 to 1 of t H(t) / (mu + t), iterated with the
+/// midpoint rule.
+double chandrasekhar_h(double albedo, double mu) {
+  constexpr int kSteps = 2000;
+  std::vector<double> h(kSteps, 1);
+  const auto next = [&](double at) {
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double t = (i + 0.5) / kSteps;
+      sum += t * h[static_cast<std::size_t>(i)] / (at + t) / kSteps;
+    }
+    return 1 / (std::sqrt(1 - albedo) + albedo / 2 * sum);
+  };
+  for (int round = 0; round < 30; ++round) {
+    std::vector<double> better(kSteps);
+    for (int i = 0; i < kSteps; ++i) better[static_cast<std::size_t>(i)] = next((i + 0.5) / kSteps);
+    h = better;
+  }
+  return next(mu);
+}
+
+TEST(MultipleScattering, AtTheSurfaceOfAHalfSpaceIsChandrasekhars) {
+  // There the source of even scattering is albedo / 4 pi H(cosine of the light) for a beam of irradiance 1.
+  const Body body{Body::Shape::slab, 40};
+  const double tilt = 0.6;
+  const BodyLight light{true, {std::sqrt(1 - tilt * tilt), 0, tilt}, {}};
+  const std::vector<double> albedos{0.5, 0.9};
+  const auto samples = walk_light(body, light, 0, albedos, {0, 0, -40 + 1e-9}, {0, 0, -1}, 40000, 5);
+  for (const ScatteringSample& s : samples) {
+    const double expected = chandrasekhar_h(s.albedo, tilt) / (4 * std::numbers::pi);
+    EXPECT_NEAR(s.once + s.more, expected, 4 * s.error + 1e-4 * expected) << s.albedo;
+    EXPECT_LT(s.error, 0.01 * expected);
+    EXPECT_NEAR(s.once, 1 / (4 * std::numbers::pi), 1e-8);
+  }
+}
+
+TEST(MultipleScattering, InAThinBodyIsThatOfTwoScatterings) {
+  // In a small sphere, to the first order in its radius: the way out is R from its middle in every direction,
+  // so that albedo R of the even light that comes in is scattered a second time.
+  const Body body{Body::Shape::sphere, 0.01};
+  const auto samples = walk_light(body, {}, 0, {0.7}, glm::dvec3(0), {1, 0, 0}, 400000, 3);
+  const double expected = 0.7 * 0.01 / (4 * std::numbers::pi);
+  EXPECT_NEAR(samples[0].more, expected, 4 * samples[0].error + 0.02 * expected);
+  EXPECT_NEAR(samples[0].escape, std::exp(-0.01), 1e-12);
+  EXPECT_NEAR(samples[0].depth, 0.01, 1e-12);
+}
+
+TEST(MultipleScattering, WaysOutOfBodies) {
+  EXPECT_DOUBLE_EQ((Body{Body::Shape::slab, 2}.way_out({5, 9, -1}, {0, 0.6, 0.8})), 3 / 0.8);
+  EXPECT_DOUBLE_EQ((Body{Body::Shape::box, 2}.way_out({1, 0, -1}, {0.6, 0, 0.8})), 1 / 0.6);
+  EXPECT_DOUBLE_EQ((Body{Body::Shape::sphere, 2}.way_out({0, 0, -1}, {0, 0, 1})), 3);
+}
+
+/// Samples by other random numbers than the fit's, and fewer walks.
+const std::vector<ScatteringSample>& some_samples() {
+  static const std::vector<ScatteringSample> samples = scattering_samples(kGs, kAlbedos, 1000, 77);
+  return samples;
+}
+
+double misfit_of(const shared::ManyFit& fit, std::span<const ScatteringSample> samples) {
+  return misfit(samples, [&](const ScatteringSample& s) { return many_of(fit, s); });
+}
+
+TEST(ManyFit, ComesCloserToRandomWalksThanOctavesDo) {
+  const auto& samples = some_samples();
+  const double none = misfit(samples, [](const ScatteringSample&) { return 0.0; });
+  const double guessed = misfit(samples, guessed_octaves), fitted = misfit_of(shared::many_fit(), samples);
+  std::printf("misfit: single scattering %.3f, octaves of 1/2 %.3f, the fit %.3f\n", none, guessed, fitted);
+  // The table of docs/light.md, with the noise of these samples.
+  EXPECT_LT(fitted, 0.28);
+  EXPECT_LT(fitted, guessed / 3);
+  EXPECT_LT(guessed, none);
+  // And for each g and albedo alone.
+  for (const double g : kGs) {
+    for (const double albedo : kAlbedos) {
+      std::vector<ScatteringSample> part;
+      for (const ScatteringSample& s : samples)
+        if (s.g == g && s.albedo == albedo) part.push_back(s);
+      const double here = misfit_of(shared::many_fit(), part), there = misfit(part, guessed_octaves);
+      std::printf("g %.2f albedo %.2f: octaves of 1/2 %.3f, the fit %.3f\n", g, albedo, there, here);
+      EXPECT_LT(here, 0.5) << g << ' ' << albedo;
+      EXPECT_LT(here, there) << g << ' ' << albedo;
+    }
+  }
+}
+
+TEST(ManyFit, IsNothingWhereNothingScattersAgain) {
+  const shared::ManyScatterings many =
+      shared::many_scatterings(shared::many_fit(), glm::vec3(0.9f), 0.3f, 1.0f);
+  EXPECT_EQ(many.share, glm::vec3(0));
+  EXPECT_EQ(shared::many_scatterings(shared::many_fit(), glm::vec3(0), 0.3f, 0.2f).share, glm::vec3(0));
+  const shared::Phase phase = shared::phase_of_hg(0.3f);
+  EXPECT_EQ(shared::scattered(phase, many, 0.5f, 0.1f),
+            glm::vec3(std::exp(-0.5f) * shared::phase_value(phase, 0.1f)));
+}
+
+TEST(ManyFit, StaysFiniteAndSteady) {
+  // More light for more albedo and for less escape, decaying in depth, for every g.
+  for (const float g : {-0.9f, 0.0f, 0.5f, 0.9f, 0.99f}) {
+    float before = 0;
+    for (const float escape : {1.0f, 0.7f, 0.3f, 0.1f, 0.0f}) {
+      const auto many = shared::many_scatterings(shared::many_fit(), {0.5f, 0.9f, 1.0f}, g, escape);
+      EXPECT_TRUE(std::isfinite(many.share.z) && std::isfinite(many.decay.z));
+      EXPECT_GE(many.share.y, many.share.x);
+      EXPECT_GE(many.share.z, many.share.y);
+      EXPECT_GE(many.share.z, before);
+      before = many.share.z;
+      EXPECT_GT(many.decay.x, 0);
+      EXPECT_GE(many.g, 0);
+      EXPECT_LE(many.g, std::max(g, 0.0f));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace brume::reference
