@@ -10,6 +10,7 @@
 #include "lib/shading.glsl"
 #include "lib/sky.glsl"
 #include "shared/frame.h"
+#include "shared/smoke_shadow.h"
 
 layout(constant_id = 0) const uint kCullLights = 1u;  // 0: every light at every pixel
 
@@ -22,9 +23,10 @@ layout(binding = 4) uniform sampler2D albedo_roughness;
 layout(binding = 5) uniform sampler2D normal_metallic;
 layout(binding = 6) uniform sampler2D emission;
 layout(binding = 7) uniform sampler2D depth;
-layout(binding = 8) uniform sampler2DArray smoke_shadows;
+layout(binding = 8) uniform sampler2D smoke_shadows;
 layout(binding = 9) uniform sampler2D smoke;
-layout(binding = 12, rgba16f) uniform writeonly image2D picture;
+layout(scalar, binding = 12) readonly buffer Faces { SmokeShadowFace faces[]; };
+layout(binding = 13, rgba16f) uniform writeonly image2D picture;
 #include "lib/light_share.glsl"
 #include "lib/sky_light.glsl"
 
@@ -66,16 +68,27 @@ bool can_reach(Light light, Surface surface) {
   return dot(apart, apart) < light.range * light.range && dot(apart, surface.normal) > 0.0;
 }
 
+/// Share of a light that the smoke lets through to a surface.
+float smoke_share(uint index, Light light, vec3 position_world) {
+  vec4 on_face = vec4(0.0);
+  if (light.kind == kLightDirectional) on_face.xy = (sun.clip_from_world * vec4(position_world, 1.0)).xy * 0.5 + 0.5;
+  else on_face = cube_coordinates(position_world - light.position_world);
+  const SmokeShadowFace face = faces[index * kFacesPerLight + uint(on_face.z)];
+  const vec2 texel = on_face.xy * face.scale + face.offset;
+  const vec2 inside = clamp(texel, vec2(face.first_texel) + 0.5, vec2(face.first_texel + face.size) - 0.5);
+  if (face.size.x == 0u || texel != inside) return 1.0;
+  return exp(-textureLod(smoke_shadows, texel / vec2(textureSize(smoke_shadows, 0)), 0.0).r);
+}
+
 /// What the surface reflects of a lamp's light, after the scene's shadow and the smoke in between.
-vec3 lamp_radiance(Light light, Surface surface, vec3 view) {
+vec3 lamp_radiance(uint index, Surface surface, vec3 view) {
+  const Light light = lights[index];
   const Incident incident = light_at(light, surface.position_world);
   // A surface must not shadow itself: it is looked up a texel of the shadow off its plane.
   const float off = light.shadow_layer == kShadowByVoxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
   const vec3 off_world = surface.position_world + off * surface.normal;
-  const vec4 shadow = shadow_coordinates(light, sun.clip_from_world, off_world);
-  const float smoke_light = shadow.z < 0.0 ? 1.0 : exp(-textureLod(smoke_shadows, shadow.xyz, 0.0).r);
   return reflect_light(surface, view, incident.to_light) * incident.irradiance *
-         (light_share(light, off_world) * smoke_light);
+         (light_share(light, off_world) * smoke_share(index, light, surface.position_world));
 }
 
 /// The light of the gathered lamps of a batch.
@@ -89,7 +102,7 @@ vec3 lamps_radiance(uint first, Surface surface, vec3 view) {
       if (can_reach(lights[first + 32u * word + bit], surface)) left |= 1u << bit;
     }
     for (; left != 0u; left &= left - 1u)
-      radiance += lamp_radiance(lights[first + 32u * word + uint(findLSB(left))], surface, view);
+      radiance += lamp_radiance(first + 32u * word + uint(findLSB(left)), surface, view);
   }
   return radiance;
 }

@@ -1,5 +1,4 @@
-// For each direction from a light: the optical depth of the smoke up to the first surface. What a surface that the
-// light reaches has to be dimmed by.
+// The atlas of shared/smoke_shadow.h: a ray a texel, from the light through the smoke to the first surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -11,41 +10,80 @@
 #define BINDING_HOLES 11
 #define BINDING_HOLE_GRID 12
 #define BINDING_HOLE_MASKS 13
+#define BINDING_SOLID 15
 #include "shared/frame.h"
 #include "shared/light.h"
 #include "shared/smoke_shadow.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kSmokeShadowBlock, local_size_y = kSmokeShadowBlock) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArray shadows;
 layout(binding = 9) uniform sampler3D drift_atlas;
-layout(binding = 10, r16f) uniform writeonly image2DArray smoke_shadows;
+layout(binding = 10, r16f) uniform writeonly image2D smoke_shadows;
+layout(scalar, binding = 14) readonly buffer Faces { SmokeShadowFace faces[]; };
 layout(push_constant, scalar) uniform Push { SmokeShadowParams params; };
 #include "lib/optical_depth.glsl"
+#include "lib/solid.glsl"
+
+struct Way {
+  vec3 from, to;
+};
+
+/// The face that a block belongs to: the last one that begins at or before it.
+uint face_of(uint block) {
+  uint low = 0u, high = params.face_count;
+  while (high - low > 1u) {
+    const uint middle = (low + high) / 2u;
+    if (faces[middle].first_block <= block) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+/// From a light through a point of one of its faces to the first surface.
+Way light_way(Light light, uint face, vec2 uv) {
+  const vec2 ndc = uv * 2.0 - 1.0;
+  const bool by_voxels = light.shadow_layer == kShadowByVoxels;
+  const float depth = by_voxels ? 0.0 : textureLod(shadows, vec3(uv, float(light.shadow_layer + face)), 0.0).r;
+  if (light.kind == kLightDirectional) {
+    return Way((sun.world_from_clip * vec4(ndc, 1.0, 1.0)).xyz, (sun.world_from_clip * vec4(ndc, depth, 1.0)).xyz);
+  }
+  const vec3 ray = cube_forward(face) + ndc.x * cube_right(face) - ndc.y * cube_up(face);
+  const vec3 far = light.position_world + ray * min(kShadowNear / max(depth, 1e-6), light.range);
+  return Way(light.position_world, by_voxels ? first_solid(light.position_world, far) : far);
+}
+
+/// Optical depth along a way, by samples in the middle of equal steps.
+float way_depth(Way way) {
+  const SmokeVolumeFrame volume = frame.volume;
+  const vec3 from = (way.from - volume.origin_world) / volume.voxel_size;
+  const vec3 along = (way.to - volume.origin_world) / volume.voxel_size - from;
+  const float distance = length(along);
+  const vec3 direction = along / max(distance, 1e-6);
+  const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
+  const vec3 t0 = (volume.bounds_min - from) * inverse, t1 = (volume.bounds_max - from) * inverse;
+  const vec3 near = min(t0, t1), far = max(t0, t1);
+  const float begin = max(max(near.x, near.y), max(near.z, 0.0)), end = min(min(far.x, far.y), min(far.z, distance));
+  const float steps = clamp(ceil((end - begin) * volume.voxel_size / params.step_length), 0.0, params.max_steps);
+  const float length_voxel = (end - begin) / max(steps, 1.0);
+  const float per_sample = length_voxel * volume.voxel_size * frame.look.extinction;
+  float depth = 0.0;
+  for (float i = 0.5; i < steps && depth < 10.0; ++i) {
+    depth += per_sample * seen_density(from + direction * (begin + i * length_voxel));
+  }
+  return depth;
+}
 
 void main() {
-  const uvec3 at = gl_GlobalInvocationID;
-  if (any(greaterThanEqual(at.xy, uvec2(params.size)))) return;
-  const Light light = lights[params.light];
-  const vec2 uv = (vec2(at.xy) + 0.5) / float(params.size);
-  const vec2 ndc = uv * 2.0 - 1.0;
-  const float layer = float(light.shadow_layer + at.z);
-  const float depth = textureLod(shadows, vec3(uv, layer), 0.0).r;
-
-  // From the light to the first surface.
-  vec3 from, to;
-  if (light.kind == kLightDirectional) {
-    from = (sun.world_from_clip * vec4(ndc, 1.0, 1.0)).xyz;
-    to = (sun.world_from_clip * vec4(ndc, depth, 1.0)).xyz;
-  } else {
-    const vec3 ray = cube_forward(at.z) + ndc.x * cube_right(at.z) - ndc.y * cube_up(at.z);
-    from = light.position_world;
-    to = from + ray * min(kShadowNear / max(depth, 1e-6), light.range);
-  }
-  const float distance_m = length(to - from);
-  const vec3 p_voxel = (from - frame.volume.origin_world) / frame.volume.voxel_size;
-  const float tau = optical_depth(p_voxel, (to - from) / max(distance_m, 1e-6), distance_m, params.max_steps);
-  imageStore(smoke_shadows, ivec3(at.xy, int(layer)), vec4(tau));
+  const uint face_index = face_of(gl_WorkGroupID.x);
+  const SmokeShadowFace face = faces[face_index];
+  const uint block = gl_WorkGroupID.x - face.first_block, row = smoke_shadow_blocks(face.size).x;
+  const uvec2 texel = kSmokeShadowBlock * uvec2(block % row, block / row) + gl_LocalInvocationID.xy;
+  if (any(greaterThanEqual(texel, face.size))) return;
+  const uvec2 at = face.first_texel + texel;
+  const vec2 uv = (vec2(at) + 0.5 - face.offset) / face.scale;
+  const Way way = light_way(lights[face_index / kFacesPerLight], face_index % kFacesPerLight, uv);
+  imageStore(smoke_shadows, ivec2(at), vec4(way_depth(way)));
 }

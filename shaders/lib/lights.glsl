@@ -52,6 +52,16 @@ bool reaches_box(Light light, TileBox box) {
   return light.cos_outer * aside - sin_outer * along <= radius * 1.001 && along >= -radius * 1.001;
 }
 
+/// Where a direction from a light lies on its shadow cube: uv, face, distance along the face's axis.
+vec4 cube_coordinates(vec3 d) {
+  const vec3 a = abs(d);
+  const uint face = a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0u : 1u)
+                    : a.y >= a.z             ? (d.y > 0.0 ? 2u : 3u)
+                                             : (d.z > 0.0 ? 4u : 5u);
+  const float z = max(a.x, max(a.y, a.z));
+  return vec4(vec2(dot(d, cube_right(face)), -dot(d, cube_up(face))) / z * 0.5 + 0.5, float(face), z);
+}
+
 /// Where a point lies in the light's shadow layers: uv, layer, reverse depth. A negative layer: not covered.
 vec4 shadow_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world) {
   if (light.shadow_layer >= kShadowByVoxels) return vec4(-1.0);
@@ -61,14 +71,8 @@ vec4 shadow_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_wor
     if (any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return vec4(-1.0);
     return vec4(uv, float(light.shadow_layer), clip.z);
   }
-  const vec3 d = position_world - light.position_world;
-  const vec3 a = abs(d);
-  const uint face = a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0u : 1u)
-                    : a.y >= a.z             ? (d.y > 0.0 ? 2u : 3u)
-                                             : (d.z > 0.0 ? 4u : 5u);
-  const float z = max(a.x, max(a.y, a.z));
-  const vec2 uv = vec2(dot(d, cube_right(face)), -dot(d, cube_up(face))) / z * 0.5 + 0.5;
-  return vec4(uv, float(light.shadow_layer + face), kShadowNear / z);
+  const vec4 on_cube = cube_coordinates(position_world - light.position_world);
+  return vec4(on_cube.xy, float(light.shadow_layer) + on_cube.z, kShadowNear / on_cube.w);
 }
 
 /// Share of the light that the scene lets through to a point.

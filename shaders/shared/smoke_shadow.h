@@ -1,15 +1,38 @@
-// Smoke between a light and the surfaces that it reaches.
+// Smoke between the lights and the surfaces that they reach: an atlas of optical depths, one value a direction from a
+// light up to the first surface.
+//
+// Six faces a light, those of its shadow cube; a directional light has its one view as the first. A face has a
+// rectangle of the atlas for the part of it in which there can be smoke, with a texel around that sees none; elsewhere
+// its optical depth is 0.
 #ifndef BRUME_SMOKE_SHADOW_H
 #define BRUME_SMOKE_SHADOW_H
 #include "shared/shim.h"
 SHARED_BEGIN
 
+/// Edge of the blocks of texels that a workgroup marches.
+SHARED_CONST uint kSmokeShadowBlock = 8u;
+SHARED_CONST uint kFacesPerLight = 6u;
+
+struct SmokeShadowFace {
+  float scale;        // texels per unit of uv on the face
+  vec2 offset;        // texel of the atlas = scale * uv + offset
+  uvec2 first_texel;  // of the rectangle
+  uvec2 size;         // texels; 0: no smoke
+  uint first_block;   // how many blocks the faces before have
+};
+SHARED_SIZE(SmokeShadowFace, 32);
+
 struct SmokeShadowParams {
-  uint light;       // index of the light
-  uint size;        // texels per edge of a layer
-  float max_steps;  // through the smoke
+  uint face_count;
+  float step_length;  // through the smoke [m]
+  float max_steps;    // longer steps where more would be needed
 };
 SHARED_SIZE(SmokeShadowParams, 12);
+
+/// Blocks of a rectangle.
+SHARED_FUNCTION uvec2 smoke_shadow_blocks(uvec2 texels) {
+  return (texels + uvec2(kSmokeShadowBlock - 1u)) / kSmokeShadowBlock;
+}
 
 SHARED_END
 #endif

@@ -4,6 +4,7 @@
 #include "passes/gbuffer.hpp"
 #include "passes/shadow.hpp"
 #include "passes/sky_light.hpp"
+#include "passes/smoke_shadow.hpp"
 
 namespace brume::passes {
 
@@ -21,7 +22,7 @@ class ShadePass {
   /// `smoke`: premultiplied radiance and transmittance, of the picture's size. What smoke of transmittance 0
   /// hides costs nothing. `smoke_shadows` as SmokeShadowPass makes it.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-              const ShadowMaps& shadows, const gpu::Image& smoke_shadows, const LevelLight& level,
+              const ShadowMaps& shadows, const SmokeShadows& smoke_shadows, const LevelLight& level,
               const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& picture) const;
 
  private:

@@ -1,16 +1,15 @@
 #include "passes/smoke_shadow.hpp"
 
+#include <algorithm>
+
 #include "brume_shaders.hpp"
 
 namespace brume::passes {
 namespace {
 
-constexpr float kMaxSteps = 24;
-
-/// Texels per edge: 200,000 rays for a few lights and for many alike.
-std::uint32_t layer_size(std::uint32_t layers) {
-  return layers <= 64 ? 64 : 32;
-}
+constexpr float kMaxSteps = 64;
+constexpr float kStepMetres = 0.25f;
+constexpr std::uint32_t kAtlasWidth = 1024;
 
 }  // namespace
 
@@ -18,38 +17,46 @@ SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
     : pipeline_(context, shaders::smoke_shadow_comp,
                 {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled,
                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kStored, gpu::kBuffer,
-                 gpu::kBuffer, gpu::kSampled},
-                sizeof(shared::SmokeShadowParams), {8, 8, 1}),
+                 gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled},
+                sizeof(shared::SmokeShadowParams), {shared::kSmokeShadowBlock, shared::kSmokeShadowBlock, 1}),
       linear_(context, {}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
 
-gpu::Image SmokeShadowPass::make_layers(gpu::Context& context, const ShadowMaps& shadows) const {
+SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 picture_px,
+                                           std::size_t max_lights) const {
+  const std::uint64_t rays =
+      std::clamp<std::uint64_t>(std::uint64_t{picture_px.x} * picture_px.y / 4, 1u << 16, 1u << 20);
+  SmokeShadows shadows;
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R16_SFLOAT;
-  info.layers = shadows.layers.info().layers;
-  info.size = {glm::uvec2(layer_size(info.layers)), 1};
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-  return gpu::Image(context, info);
+  info.size = {kAtlasWidth, static_cast<std::uint32_t>(rays / kAtlasWidth), 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  shadows.atlas = gpu::Image(context, info);
+  const std::size_t faces = std::max<std::size_t>(max_lights, 1) * shared::kFacesPerLight;
+  shadows.faces = gpu::Buffer(context, faces * sizeof(shared::SmokeShadowFace),
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  return shadows;
 }
 
-void SmokeShadowPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-                             const ShadowMaps& shadows, const SmokeResources& smoke,
-                             const HoleResources& holes, const gpu::Image& layers) const {
-  const std::uint32_t size = layers.info().size.x;
-  recorder.bind(pipeline_,
-                {gpu::read(frame), gpu::read(scene.lights), gpu::read(shadows.sun),
-                 gpu::sampled(shadows.layers, nearest_), gpu::read(smoke.pages),
-                 gpu::sampled(smoke.density, linear_), gpu::read(smoke.cells), gpu::read(smoke.boundary),
-                 gpu::read(smoke.corners), gpu::sampled(smoke.drift, linear_), gpu::stored(layers),
-                 gpu::read(holes.holes), gpu::read(holes.grid), gpu::sampled(holes.masks, nearest_)});
-  // Each light writes layers of its own: no barrier between.
-  for (std::uint32_t i = 0; i < scene.light_list.size(); ++i) {
-    const shared::Light& light = scene.light_list[i];
-    if (light.shadow_layer == shared::kNoShadow) continue;
-    const shared::SmokeShadowParams params{i, size, kMaxSteps};
-    recorder.push(pipeline_, std::as_bytes(std::span(&params, 1)));
-    recorder.dispatch_threads(pipeline_, size, size, light.kind == shared::kLightDirectional ? 1 : 6);
-  }
+void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const SmokeShadowPlan& plan,
+                             const SmokeShadows& shadows) const {
+  recorder.upload(shadows.faces, 0, std::as_bytes(std::span(plan.faces)));
+  if (plan.blocks == 0) return;
+  shared::SmokeShadowParams params{};
+  params.face_count = static_cast<std::uint32_t>(plan.faces.size());
+  params.step_length = kStepMetres;
+  params.max_steps = kMaxSteps;
+  recorder.bind(
+      pipeline_,
+      {gpu::read(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
+       gpu::sampled(in.shadows.layers, nearest_), gpu::read(in.smoke.pages),
+       gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
+       gpu::read(in.smoke.corners), gpu::sampled(in.smoke.drift, linear_), gpu::stored(shadows.atlas),
+       gpu::read(in.holes.holes), gpu::read(in.holes.grid), gpu::sampled(in.holes.masks, nearest_),
+       gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_)},
+      params);
+  recorder.dispatch_threads(pipeline_, shared::kSmokeShadowBlock * plan.blocks, shared::kSmokeShadowBlock);
 }
 
 }  // namespace brume::passes

@@ -3,21 +3,36 @@
 
 #include "passes/hole_grid.hpp"
 #include "passes/shadow.hpp"
+#include "passes/smoke_shadow_plan.hpp"
 #include "passes/smoke_upload.hpp"
-#include "shared/smoke_shadow.h"
+#include "passes/solid_volume.hpp"
 
 namespace brume::passes {
+
+/// See shared/smoke_shadow.h.
+struct SmokeShadows {
+  gpu::Image atlas;   ///< Half floats: optical depth.
+  gpu::Buffer faces;  ///< SmokeShadowFace, kFacesPerLight for each light.
+};
 
 class SmokeShadowPass {
  public:
   explicit SmokeShadowPass(gpu::Context& context);
+  /// For pictures of this size: a ray for four pixels, at least 2^16 and at most 2^20 rays. Holds no smoke
+  /// until the first record.
+  SmokeShadows make_shadows(gpu::Context& context, glm::uvec2 picture_px, std::size_t max_lights) const;
 
-  /// Optical depths, a layer for each layer of the shadow maps but coarser: smoke has no sharp edges.
-  gpu::Image make_layers(gpu::Context& context, const ShadowMaps& shadows) const;
-  /// Fills all layers.
-  void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
-              const ShadowMaps& shadows, const SmokeResources& smoke, const HoleResources& holes,
-              const gpu::Image& layers) const;
+  struct Inputs {
+    const gpu::Buffer& frame;
+    const SceneResources& scene;
+    const ShadowMaps& shadows;
+    const SolidVolume& solid;
+    const SmokeResources& smoke;
+    const HoleResources& holes;
+  };
+  /// Marches the rays of a plan for the atlas; the plan's lights are those of the scene's buffer.
+  void record(gpu::Recorder& recorder, const Inputs& inputs, const SmokeShadowPlan& plan,
+              const SmokeShadows& shadows) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -56,7 +56,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       sky_light_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
       gbuffer_(context, size_px_),
-      smoke_shadows_(smoke_shadow_pass_.make_layers(context, shadows_)),
+      smoke_shadows_(
+          smoke_shadow_pass_.make_shadows(context, size_px_, scene_.light_list.size() + passes::kMaxFlashes)),
       noise_(passes::make_noise_tile(context, passes::kSmokeNoise.size)),
       smoke_image_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       picture_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
@@ -70,7 +71,6 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
   runner.run([&](gpu::Recorder& recorder) {
     noise.record(recorder, noise_, passes::kSmokeNoise);
     blue_noise_ = passes::make_blue_noise(context, recorder);
-    recorder.clear(smoke_shadows_, {});  // no smoke yet
   });
 }
 
@@ -148,10 +148,7 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
       drift_pass_.record(recorder, {frame_, smoke, noise_, state_of(input), input.time, input.roll_seconds});
   });
   const bool light_smoke = input.volume && needs_light(input);
-  stage("smoke_shadow", [&] {
-    if (light_smoke)
-      smoke_shadow_pass_.record(recorder, frame_, scene_, shadows_, smoke, holes, smoke_shadows_);
-  });
+  stage("smoke_shadow", [&] { record_smoke_shadows(recorder, input, light_smoke); });
   stage("smoke_light", [&] {
     if (light_smoke) smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, solid_, smoke, holes});
   });
@@ -162,6 +159,21 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
                        smoke_image_, picture_);
   });
   stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
+}
+
+void Renderer::record_smoke_shadows(gpu::Recorder& recorder, const FrameInput& input, bool anew) {
+  std::vector<shared::Light> lights = scene_.light_list;
+  lights.insert(lights.end(), input.flashes.begin(), input.flashes.end());
+  lights.resize(light_count(input));
+  const auto boxes = input.volume ? passes::smoke_boxes(*input.volume) : std::vector<passes::WorldBox>();
+  auto plan = passes::plan_smoke_shadows(
+      {lights, shadows_.sun_clip_from_world, device_camera(input.camera, size_px_)}, boxes,
+      glm::uvec2(smoke_shadows_.atlas.info().size));
+  if (!anew && plan == smoke_shadow_plan_) return;
+  smoke_shadow_plan_ = std::move(plan);
+  smoke_shadow_pass_.record(
+      recorder, {frame_, scene_, shadows_, solid_, smoke_upload_.resources(), hole_grid_.resources()},
+      smoke_shadow_plan_, smoke_shadows_);
 }
 
 passes::MarchPass::Inputs Renderer::march_inputs() const {

@@ -75,6 +75,7 @@ class Renderer {
   glm::uvec2 size_px() const { return size_px_; }
 
  private:
+  void record_smoke_shadows(gpu::Recorder& recorder, const FrameInput& input, bool anew);
   void record_frame_constants(gpu::Recorder& recorder, const FrameInput& input);
   /// Whether the smoke must be lit anew; asks once a frame.
   bool needs_light(const FrameInput& input);
@@ -107,7 +108,9 @@ class Renderer {
   passes::SkyLightPass sky_light_;
   passes::ShadowMaps shadows_;
   passes::GBuffer gbuffer_;
-  gpu::Image smoke_shadows_, noise_, blue_noise_, smoke_image_, picture_, display_image_;
+  passes::SmokeShadows smoke_shadows_;
+  passes::SmokeShadowPlan smoke_shadow_plan_;  ///< That they were made by.
+  gpu::Image noise_, blue_noise_, smoke_image_, picture_, display_image_;
   std::optional<passes::MarchBlocks> blocks_;  ///< Where march_scale_ is above 1.
   passes::HoleGrid hole_grid_;
   gpu::Buffer frame_, counters_;

@@ -22,6 +22,7 @@ layout(scalar, binding = 6) buffer Out6 { NoiseParams noise; };
 layout(scalar, binding = 7) buffer Out7 { SmokeLightParams smoke_light; };
 layout(scalar, binding = 8) buffer Out8 { SmokeShadowParams smoke_shadow; };
 layout(scalar, binding = 9) buffer Out9 { ShadowView view; };
+layout(scalar, binding = 11) buffer Out11 { SmokeShadowFace smoke_face; };
 layout(scalar, binding = 10) buffer Out10 { RayEnds ends; };
 
 vec2 v2(float first) { return vec2(first, first + 1.0); }
@@ -50,7 +51,8 @@ void main() {
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));
   noise = NoiseParams(1u, 2u, 3u);
   smoke_light = SmokeLightParams(1u, 2u, 3u, 4u);
-  smoke_shadow = SmokeShadowParams(1u, 2u, 3.0);
+  smoke_shadow = SmokeShadowParams(1u, 2.0, 3.0);
+  smoke_face = SmokeShadowFace(1.0, vec2(2.0, 3.0), uvec2(4u, 5u), uvec2(6u, 7u), 8u);
   view = ShadowView(m4(1.0), m4(17.0));
   ends = RayEnds(vec2(1.0, 2.0), 3.0, 4.0, 5.0, 6.0);
 }

@@ -37,8 +37,12 @@ class ShadeTest : public gpu::GpuTest {
     const ShadowPass shadow_pass(context());
     shadows_ = shadow_pass.make_maps(context(), scene_);
     shadow_pass.record(context(), runner(), scene_, {}, shadows_);
-    smoke_shadows_ = SmokeShadowPass(context()).make_layers(context(), shadows_);
-    runner().run([&](gpu::Recorder& recorder) { recorder.clear(smoke_shadows_, {}); });
+    const SmokeShadowPass smoke_shadow_pass(context());
+    smoke_shadows_ = smoke_shadow_pass.make_shadows(context(), size_, scene_.light_list.size());
+    const std::vector<shared::SmokeShadowFace> no_smoke(scene_.light_list.size() * shared::kFacesPerLight);
+    runner().run([&](gpu::Recorder& recorder) {
+      recorder.upload(smoke_shadows_.faces, 0, std::as_bytes(std::span(no_smoke)));
+    });
 
     const std::size_t count = std::size_t{size_.x} * size_.y;
     std::vector<glm::u8vec4> albedo(count);
@@ -91,7 +95,7 @@ class ShadeTest : public gpu::GpuTest {
   std::mt19937 random_{7};
   SceneResources scene_;
   ShadowMaps shadows_;
-  gpu::Image smoke_shadows_;
+  SmokeShadows smoke_shadows_;
   SolidVolume solid_{context()};
   SkyLightPass sky_{context()};
   GBuffer gbuffer_;

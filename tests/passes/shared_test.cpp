@@ -32,20 +32,21 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   const gpu::ComputePipeline pipeline(
       context(), shaders::echo_comp,
       {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
       0, {1, 1, 1});
   std::vector<gpu::Buffer> out;
   for (const std::size_t size :
        {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
         sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
         sizeof(shared::NoiseParams), sizeof(shared::SmokeLightParams), sizeof(shared::SmokeShadowParams),
-        sizeof(shared::ShadowView), sizeof(shared::RayEnds)}) {
+        sizeof(shared::ShadowView), sizeof(shared::RayEnds), sizeof(shared::SmokeShadowFace)}) {
     out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   }
   runner().run([&](gpu::Recorder& recorder) {
-    recorder.bind(pipeline, {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
-                             gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7]),
-                             gpu::write(out[8]), gpu::write(out[9]), gpu::write(out[10])});
+    recorder.bind(pipeline,
+                  {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
+                   gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7]),
+                   gpu::write(out[8]), gpu::write(out[9]), gpu::write(out[10]), gpu::write(out[11])});
     recorder.dispatch_threads(pipeline, 1);
   });
 
@@ -149,9 +150,16 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(smoke_light.max_steps, 4u);
 
   const auto smoke_shadow = one<shared::SmokeShadowParams>(out[8]);
-  EXPECT_EQ(smoke_shadow.light, 1u);
-  EXPECT_EQ(smoke_shadow.size, 2u);
+  EXPECT_EQ(smoke_shadow.face_count, 1u);
+  EXPECT_EQ(smoke_shadow.step_length, 2);
   EXPECT_EQ(smoke_shadow.max_steps, 3);
+
+  const auto face = one<shared::SmokeShadowFace>(out[11]);
+  EXPECT_EQ(face.scale, 1);
+  expect_counted(face.offset, 2);
+  expect_counted(face.first_texel, 4);
+  expect_counted(face.size, 6);
+  EXPECT_EQ(face.first_block, 8u);
 
   const auto ends = one<shared::RayEnds>(out[10]);
   expect_counted(ends.position_px, 1);

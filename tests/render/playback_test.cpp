@@ -174,6 +174,51 @@ TEST_F(PlaybackTest, SmokeDimsTheSurfacesBehindIt) {
   EXPECT_NEAR(brightness(after, 0.2, 0.25), brightness(before, 0.2, 0.25), 3);
 }
 
+TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
+  // Black smoke between a lamp and the wall, and an eye beside it that sees the wall alone. A shot from the
+  // lamp's place goes straight away from it.
+  scene::Scene scene = small_scene(false);
+  scene.lights[0].position_world = {0, 1, 4.5f};
+  scene.lights[0].intensity = glm::vec3(60);
+  stage::Stage stage = small_stage(std::move(scene));
+  stage.timeline.smoke.albedo = glm::vec3(0);
+  stage.timeline.smoke.voxels = 700;
+  stage.timeline.smokes = {{0.2, {0, 1, 1.5f}, {0, 0.2f, 1.5f}}};
+  stage.timeline.shots = {{3, {0, 1, 4.6f}, {0, 1, 0}, 0.25f, 0.1f, 0.05f, 1.0f, 0.2f}};
+  stage.timeline.shots[0].flash = 0;
+  Playback playback(context(), stage, kSize);
+  const scene::Camera beside{{2, 1.2f, -0.7f}, {0, 1, -3}, 0.9f};
+  playback.set_camera(beside);
+  // The middle of the picture looks at the wall where the shot hits it.
+  const auto spot = [&](double seconds) { return brightness(playback.draw(seconds, 0), 0.49, 0.47); };
+  const auto around = [&](double seconds) { return brightness(playback.draw(seconds, 0), 0.85, 0.47); };
+  const double clear = spot(0), clear_around = around(0);
+  EXPECT_GT(clear, 100);
+  EXPECT_GT(clear_around, 100);
+  // Optical depth: 4 a metre through more than 1.5 m; e^-6 of the light is below 1/255 of what is shown.
+  EXPECT_LE(spot(2.9), 2);
+  EXPECT_LE(around(2.9), 2);
+  // On the axis of the hole everything is out of the way.
+  EXPECT_NEAR(spot(3.6), clear, 3);
+  EXPECT_LE(around(3.6), 2);
+  EXPECT_LE(spot(5), 2);
+}
+
+TEST_F(PlaybackTest, AFlashLightsWhatNoWallHides) {
+  // Behind the screen it is dark, before it the muzzle shines.
+  scene::Scene scene = small_scene(true);
+  scene.lights.clear();
+  stage::Stage stage = small_stage(std::move(scene));
+  stage.timeline.smokes.clear();
+  stage.timeline.shots = {{1, {-2, 2, 0.3f}, {-2, 2, -1}}};
+  Playback playback(context(), stage, kSize);
+  const auto before = playback.draw(0.95, 0), flash = playback.draw(1.01, 0), after = playback.draw(1.1, 0);
+  EXPECT_LE(brightness(before, 0.2, 0.4), 2);
+  EXPECT_GT(brightness(flash, 0.2, 0.4), 50);
+  EXPECT_LE(brightness(flash, 0.75, 0.4), 2);
+  EXPECT_EQ(after.rgba, playback.draw(1.5, 0).rgba);
+}
+
 TEST_F(PlaybackTest, TheGrenadeFlies) {
   stage::Stage stage = small_stage(small_scene(false));
   stage.timeline.smokes = {{0.5, {-2, 1.5f, 2}, {2, 1.5f, 2}}};
