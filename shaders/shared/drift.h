@@ -14,7 +14,7 @@ SHARED_CONST uint kTravelPerPart = 216u;
 /// What a cloud does to the noise in it at a moment.
 struct CloudMotion {
   float grown;       // share of its growth that the noise is still to be carried, below 0: has been carried beyond
-  float roll_cos;    // of the angle of its rolls
+  float roll_cos;    // of the angle of its rolls, times how wide they are for the look's roll
   float roll_sin;
 };
 SHARED_SIZE(CloudMotion, 12);

@@ -13,6 +13,8 @@ constexpr double kMostGrown = 2.5;
 constexpr double kFollow = 0.8;
 constexpr double kCreep = 1.0 / 7, kCreepSeconds = 5;
 // How far the rolls of a new cloud are ahead of those of an old one, in turns, and for how long.
+// How much wider the rolls of a cloud become while it dissolves.
+constexpr double kDrawnOut = 2;
 constexpr double kRollAhead = 0.5, kRollAheadSeconds = 1.5;
 
 /// 3x^2 - 2x^3, x clamped to [0, 1].
@@ -99,7 +101,8 @@ shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_pe
   const double age = std::max(0.0, tick - origin.detonation_tick) / ticks_per_second;
 
   // How much finer the noise is than when the cloud is grown.
-  const double grown = front_voxels(cloud, static_cast<double>(origin.detonation_tick) + origin.settings.bloom_ticks);
+  const double grown =
+      front_voxels(cloud, static_cast<double>(origin.detonation_tick) + origin.settings.bloom_ticks);
   const double now = std::max(front_voxels(cloud, tick), 1e-3);
   const double finer = std::min(std::pow(std::max(grown / now, 1.0), kFollow), kMostGrown);
   const double creep = kCreep * (1 - std::exp(-age / kCreepSeconds));
@@ -108,8 +111,13 @@ shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_pe
   const double ahead = kRollAhead * (1 - std::exp(-age / kRollAheadSeconds));
   const double turns = std::fmod(seconds / std::max(roll_seconds, kLeastRollSeconds), 1.0) + ahead;
   const double angle = 2 * std::numbers::pi * turns;
-  return {static_cast<float>(finer - 1 - creep), static_cast<float>(std::cos(angle)),
-          static_cast<float>(std::sin(angle))};
+  // What dissolves is drawn out.
+  const double dissolve = (tick - static_cast<double>(origin.detonation_tick) - origin.settings.bloom_ticks -
+                           origin.settings.hold_ticks) /
+                          origin.settings.dissolve_ticks;
+  const double wide = 1 + kDrawnOut * smooth(dissolve);
+  return {static_cast<float>(finer - 1 - creep), static_cast<float>(wide * std::cos(angle)),
+          static_cast<float>(wide * std::sin(angle))};
 }
 
 std::vector<shared::Push> pushes_of(const sim::State& state, double seconds) {

@@ -13,8 +13,8 @@ constexpr double kLeastRollSeconds = 0.1;
 
 /// What a cloud does to its noise `seconds` after tick 0. While the cloud blooms its noise grows with its
 /// front, as a puff does that keeps its shape: what is at the front stays there. It ends on its place in the
-/// grown cloud, and then creeps on by at most a seventh of its way; the rolls start fast and settle to a turn
-/// in `roll_seconds`. Every member is bounded and continuous in time.
+/// grown cloud, and then creeps on by at most a seventh of its way. The rolls start fast, settle to a turn in
+/// `roll_seconds`, and widen while the cloud dissolves. Every member is bounded and continuous in time.
 shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_per_second, double seconds,
                                  double roll_seconds);
 

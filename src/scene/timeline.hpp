@@ -33,7 +33,7 @@ struct SmokeOptions {
   float noise = 0.5f;            ///< How deep the noise cuts into the density, [0, 1].
   float noise_size = 1.5f;       ///< Edge of a noise cell [m], [0.05, 100].
   float rim = 0.06f;             ///< How far noise moves the rims of holes at most [m], [0, 10].
-  float swirl = 0.3f;            ///< How far the noise rolls around its place [m], [0, 10].
+  float swirl = 0.2f;            ///< How far the noise rolls around its place [m], [0, 10].
   float swirl_time = 12.0f;      ///< How long one roll takes [s], [0.1, 3600].
   float rise = 0.12f;            ///< How fast the noise rises [m/s], [-10, 10].
 };

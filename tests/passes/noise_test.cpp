@@ -153,7 +153,7 @@ TEST_F(NoiseTile, EqualsTheReference) {
           (glm::dvec3(i % size, i / size % size, i / (size * size)) + 0.5) / static_cast<double>(size);
       const double expected[] = {reference::spread(perlin_worley(p, 2, 3, 5), 0.740, 0.065),
                                  reference::spread(worley_octaves(p, 6, 2, 5 + 64), 0.477, 0.129),
-                                 reference::spread(threads(p, 2, 3, 5 + 128), 0.845, 0.072),
+                                 reference::spread(threads(p, 4, 2, 5 + 128), 0.845, 0.082),
                                  reference::spread(perlin_octaves(p, 1, 2, 5 + 192), 0, 0.143)};
       // Rounding to 8 bits, and float arithmetic of at most 255 x 2e-5 x the steepest slope of `spread`, 6.5.
       for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(tile[i][k], 255 * expected[k], 0.54) << i << " " << k;
