@@ -40,7 +40,6 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
     : context_(context),
       runner_(runner),
       size_px_(options.size_px),
-      march_scale_(options.march_scale),
       scene_(passes::upload_scene(context, runner, scene)),
       gbuffer_pass_(context),
       shadow_pass_(context),
@@ -65,13 +64,19 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       hole_grid_(context, runner, options.masks ? *options.masks : sim::MaskAtlas(), options.all_holes_wide),
       frame_(context, sizeof(shared::FrameConstants), kBufferUsage),
       counters_(context, sizeof(std::uint32_t), kBufferUsage) {
-  if (march_scale_ > 1) blocks_.emplace(context, size_px_, march_scale_);
+  set_march_scale(options.march_scale);
   shadow_pass_.record(context, runner, scene_, {}, shadows_);
   const passes::NoisePass noise(context);
   runner.run([&](gpu::Recorder& recorder) {
     noise.record(recorder, noise_, passes::kSmokeNoise);
     blue_noise_ = passes::make_blue_noise(context, recorder);
   });
+}
+
+void Renderer::set_march_scale(std::uint32_t scale) {
+  march_scale_ = scale;
+  blocks_.reset();
+  if (scale > 1) blocks_.emplace(context_, size_px_, scale);
 }
 
 void Renderer::prepare(const FrameInput& input) {
@@ -198,11 +203,10 @@ void Renderer::record_resolve(gpu::Recorder& recorder) {
 bool Renderer::needs_light(const FrameInput& input) {
   const bool same_look = std::memcmp(&lit_look_, &input.look, sizeof lit_look_) == 0 &&
                          std::memcmp(&lit_sky_, &input.sky, sizeof lit_sky_) == 0;
-  // Scattering depends on where the eye is, unless it goes evenly all around.
-  const shared::Phase& phase = input.look.phase;
-  const bool even =
-      phase.g_hg == 0 && (phase.draine_weight == 0 || (phase.g_draine == 0 && phase.alpha == 0));
-  const bool same_eye = even || lit_eye_ == input.camera.position_world;
+  // Scattering depends on where the eye is, and only what may be in view is lit.
+  const bool same_view = lit_camera_.position_world == input.camera.position_world &&
+                         lit_camera_.target_world == input.camera.target_world &&
+                         lit_camera_.vertical_fov == input.camera.vertical_fov;
   // Noise drifts, holes open and close.
   const bool has_holes = hole_grid_.frame().hole_count > 0;
   const bool same_moment = lit_time_ == input.time || (input.look.erosion == 0 && !has_holes && !lit_holes_);
@@ -211,9 +215,9 @@ bool Renderer::needs_light(const FrameInput& input) {
       std::equal(lit_flashes_.begin(), lit_flashes_.end(), input.flashes.begin(), input.flashes.end(),
                  [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; });
   const bool needed =
-      smoke_changed_ || !same_flashes || !same_look || !same_eye || !same_moment || input.force_light;
+      smoke_changed_ || !same_flashes || !same_look || !same_view || !same_moment || input.force_light;
   lit_time_ = input.time;
-  lit_eye_ = input.camera.position_world;
+  lit_camera_ = input.camera;
   lit_look_ = input.look;
   lit_sky_ = input.sky;
   lit_flashes_ = input.flashes;

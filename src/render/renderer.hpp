@@ -55,6 +55,10 @@ class Renderer {
   Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
            const RendererOptions& options);
 
+  /// Rays of the march from the next frame on, as RendererOptions::march_scale. When the device is done with
+  /// what was recorded before. Throws resource_limit.
+  void set_march_scale(std::uint32_t scale);
+
   /// Makes room for the frame's smoke, and draws the shadows anew where other objects are hidden than before:
   /// call before record_frame, outside of a recording, when the device is done with the frame before. Throws
   /// resource_limit.
@@ -92,7 +96,7 @@ class Renderer {
   gpu::Context& context_;
   gpu::CommandRunner& runner_;
   glm::uvec2 size_px_;
-  std::uint32_t march_scale_;
+  std::uint32_t march_scale_ = 1;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;
   passes::ShadowPass shadow_pass_;
@@ -118,7 +122,7 @@ class Renderer {
   shared::Sky lit_sky_{};
   std::vector<std::uint32_t> hidden_objects_;  ///< That the shadows were drawn without.
   std::vector<shared::Light> lit_flashes_;
-  glm::vec3 lit_eye_{0};
+  scene::Camera lit_camera_;
   float lit_time_ = 0;
   bool lit_holes_ = false;
   bool smoke_changed_ = false;
