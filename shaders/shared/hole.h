@@ -39,6 +39,7 @@ struct HoleCut {
   float strength;  // share of the smoke that it removes, [0, 1]; of a mask where its image is white
   vec2 uv;         // where in the mask atlas the image is read; only for masks
 };
+SHARED_SIZE(HoleCut, 12);
 
 /// `time` is on the clock of Hole::time_start. Nothing is removed before the front has come by, and at depths below 0
 /// or above distance_to_far. rim_noise_metres widens (above 0) or narrows the hole at this point.

@@ -18,6 +18,8 @@ layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Segments { Segment segments[]; };
 layout(scalar, binding = 6) readonly buffer Holes { Hole holes[]; };
 layout(scalar, binding = 7) writeonly buffer Depths { float depths[]; };
+layout(binding = 8) uniform sampler2D hole_masks;
+#include "lib/hole_mask.glsl"
 layout(push_constant, scalar) uniform Push {
   SmokeVolumeFrame volume;
   float time;
@@ -64,7 +66,7 @@ void main() {
     if (density == 0.0) continue;
     const vec3 p_world = volume.origin_world + p * volume.voxel_size;
     for (uint bits = near; bits != 0u; bits &= bits - 1u)
-      density *= 1.0 - hole_strength(holes[findLSB(bits)], p_world, time, 0.0);
+      density *= 1.0 - hole_strength_masked(holes[findLSB(bits)], p_world, time, 0.0);
     sum += density;
   }
   depths[i] = sum * ds;

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "brume_test_shaders.hpp"
+#include "passes/hole_masks.hpp"
 #include "passes/smoke_upload.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/sim/sight_scene.hpp"
@@ -29,11 +30,15 @@ class SightTest : public gpu::GpuTest {
     SmokeUpload smoke(context());
     smoke.reserve(scene.volume());
     runner().run([&](gpu::Recorder& recorder) { smoke.record(recorder, scene.volume()); });
-    const gpu::ComputePipeline pipeline(context(), shaders::sight_probe_comp,
-                                        {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
-                                         gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                                        sizeof(ProbeConstants), {64, 1, 1});
-    const gpu::Sampler linear(context(), {});
+    const gpu::ComputePipeline pipeline(
+        context(), shaders::sight_probe_comp,
+        {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+         gpu::kBuffer, gpu::kSampled},
+        sizeof(ProbeConstants), {64, 1, 1});
+    const gpu::Sampler linear(context(), {}), nearest(context(), {VK_FILTER_NEAREST});
+    gpu::Image masks;
+    runner().run(
+        [&](gpu::Recorder& recorder) { masks = make_hole_masks(context(), recorder, scene.masks()); });
     const gpu::Buffer in = upload(segments), holes = upload(open);
     const gpu::Buffer out(context(), segments.size() * sizeof(float),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
@@ -44,7 +49,7 @@ class SightTest : public gpu::GpuTest {
       recorder.bind(pipeline,
                     {gpu::read(in), gpu::read(on_device.pages), gpu::sampled(on_device.density, linear),
                      gpu::read(on_device.cells), gpu::read(on_device.boundary), gpu::read(on_device.corners),
-                     gpu::read(holes), gpu::write(out)},
+                     gpu::read(holes), gpu::write(out), gpu::sampled(masks, nearest)},
                     constants);
       recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(segments.size()));
     });
@@ -64,7 +69,8 @@ TEST_F(SightTest, MarchAndLineOfSightSeeTheSameSmoke) {
   const std::vector<float> marched = probe(scene, holes, segments);
 
   const sim::Sight plain(scene.volume(), scene.grid(), {}, 0, {1 / sim::SightScene::kVoxel});
-  const sim::Sight sight(scene.volume(), scene.grid(), holes, scene.time(), {1 / sim::SightScene::kVoxel});
+  const sim::Sight sight(scene.volume(), scene.grid(), holes, scene.time(),
+                         {.extinction = 1 / sim::SightScene::kVoxel, .masks = &scene.masks()});
   std::vector<float> depths(segments.size()), without(segments.size());
   sight.optical_depths(segments, depths).value_or_throw();
   plain.optical_depths(segments, without).value_or_throw();

@@ -48,10 +48,11 @@ struct SmokeIntegral {
   double error = 0;
 };
 
-/// Density by `density(p_voxel)`, in steps of `step` voxels.
+/// Density by `density(p_voxel)`, in steps of `step` voxels; `masks` of the holes that are such.
 template <typename Density>
 SmokeIntegral integrate_smoke(const shared::SmokeVolumeFrame& frame, std::span<const shared::Hole> holes,
-                              float time, const sim::Segment& s, double step, const Density& density) {
+                              float time, const sim::Segment& s, double step, const Density& density,
+                              const sim::MaskAtlas& masks = {}) {
   const glm::dvec3 a(s.a_world), way = glm::dvec3(s.b_world) - a;
   const double length = glm::length(way) / frame.voxel_size;
   const auto count = static_cast<std::int64_t>(std::ceil(length / step));
@@ -63,7 +64,7 @@ SmokeIntegral integrate_smoke(const shared::SmokeVolumeFrame& frame, std::span<c
     double holed = plain;
     if (plain > 0)
       for (const shared::Hole& hole : holes)
-        holed *= 1 - double{shared::hole_strength(hole, glm::vec3(p), time, 0)};
+        holed *= 1 - double{sim::hole_strength_masked(hole, glm::vec3(p), time, 0, masks)};
     sum.plain += plain;
     sum.holed += holed;
     if (i > 0) sum.error += std::max(std::abs(plain - before_plain), std::abs(holed - before_holed));

@@ -208,6 +208,88 @@ TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
   EXPECT_EQ(timeline->doors[0].place, "scenes/t.toml:30:10");
 }
 
+TEST(Timeline, ShotsHaveShapesAndTextsTheirLetters) {
+  const auto timeline = parse(std::string(kHead) + R"([smoke]
+rim = 0.02
+[[event]]
+type = "shot"
+time = 1
+from = [0, 1, 0]
+toward = [0, 1, -1]
+shape = "mask"
+mask = "masks/star.png"
+roll = 90
+[[event]]
+type = "shot"
+time = 1
+from = [0, 1, 0]
+toward = [0, 1, -1]
+shape = "box"
+[[event]]
+type = "text"
+time = 3
+text = "BRUME \u00e9"
+from = [0, 1, 4]
+toward = [0, 1, -1]
+[[event]]
+type = "text"
+time = 2
+text = "a"
+from = [0, 1, 4]
+toward = [0, 1, -1]
+size = 0.75
+font = "fonts/some.ttf"
+spacing = 0.25
+interval = 0.125
+stay = 5
+roll = -45
+)");
+  ASSERT_TRUE(timeline) << timeline.failure().message;
+  EXPECT_EQ(timeline->smoke.rim, 0.02f);
+  ASSERT_EQ(timeline->shots.size(), 2u);
+  EXPECT_EQ(timeline->shots[0].shape, ShotShape::mask);
+  EXPECT_EQ(timeline->shots[0].mask, std::filesystem::path("scenes/masks/star.png"));
+  EXPECT_NEAR(timeline->shots[0].roll, 1.5707963f, 1e-6f);
+  EXPECT_EQ(timeline->shots[1].shape, ShotShape::box);
+  ASSERT_EQ(timeline->texts.size(), 2u);
+  const TextEvent& text = timeline->texts[0];
+  EXPECT_EQ(text.time, 2) << "by time";
+  EXPECT_EQ(text.text, "a");
+  EXPECT_EQ(text.from_world, glm::vec3(0, 1, 4));
+  EXPECT_EQ(text.toward_world, glm::vec3(0, 1, -1));
+  EXPECT_EQ(text.size, 0.75f);
+  EXPECT_EQ(text.font, std::filesystem::path("scenes/fonts/some.ttf"));
+  EXPECT_EQ(text.spacing, 0.25f);
+  EXPECT_EQ(text.interval, 0.125f);
+  EXPECT_EQ(text.times.stay, 5);
+  EXPECT_EQ(text.times.reach, 0.25f);
+  EXPECT_NEAR(text.roll, -0.7853982f, 1e-6f);
+  EXPECT_EQ(timeline->texts[1].text, "BRUME \xc3\xa9");
+  EXPECT_TRUE(timeline->texts[1].font.empty());
+}
+
+TEST(Timeline, ShapesAndTextsNameTheirMistakes) {
+  const std::string aimed = "time = 1\nfrom = [0, 1, 0]\ntoward = [0, 1, -1]\n";
+  EXPECT_EQ(error_of(kHead + event("shot", aimed + "shape = \"star\"")),
+            "scenes/t.toml:8:9: \"shape\": expected \"cylinder\", \"box\" or \"mask\"");
+  EXPECT_EQ(error_of(kHead + event("shot", aimed + "shape = \"mask\"")),
+            "scenes/t.toml:3:1: [[event]] lacks the key \"mask\"");
+  EXPECT_EQ(error_of(kHead + event("shot", aimed + "mask = \"a.png\"")),
+            "scenes/t.toml:8:8: \"mask\": belongs to shape = \"mask\"");
+  for (const char* name : {"../a.png", "/a.png", "a/../../b.png", "C:\\\\a.png"})
+    EXPECT_EQ(error_of(kHead + event("shot", aimed + "shape = \"mask\"\nmask = \"" + name + "\"")),
+              "scenes/t.toml:9:8: \"mask\": expected the name of a file below the timeline's folder");
+  EXPECT_EQ(error_of(kHead + event("text", aimed)), "scenes/t.toml:3:1: [[event]] lacks the key \"text\"");
+  EXPECT_EQ(error_of(kHead + event("text", aimed + "text = \"\"")),
+            "scenes/t.toml:8:8: \"text\": expected 1 to 1024 bytes");
+  EXPECT_EQ(error_of(kHead + event("text", aimed + "text = \"" + std::string(1025, 'a') + "\"")),
+            "scenes/t.toml:8:8: \"text\": expected 1 to 1024 bytes");
+  EXPECT_EQ(error_of(kHead + event("text", aimed + "text = \"a\"\nfont = \"/usr/a.ttf\"")),
+            "scenes/t.toml:9:8: \"font\": expected the name of a file below the timeline's folder");
+  EXPECT_EQ(error_of(kHead + event("text", "time = 1\nfrom = [0, 1, 0]\ntoward = [0, 1, 0]\ntext = \"a\"")),
+            "scenes/t.toml:7:10: \"toward\": expected a point other than \"from\"");
+}
+
 TEST(Timeline, NewEventsNameTheirMistakes) {
   EXPECT_EQ(error_of(kHead + event("burst", "time = 1")),
             "scenes/t.toml:4:8: \"type\": expected \"smoke\", \"shot\", \"text\", \"blast\", \"move\", "

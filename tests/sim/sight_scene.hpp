@@ -1,6 +1,7 @@
 // Levels of random boxes with smokes that overlap, a blast, and holes through them.
 #pragma once
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -22,7 +23,8 @@ class SightScene {
         triangles_(seed % 2 ? std::vector<voxel::Triangle>() : boxes()),
         grid_(voxel::voxelize(triangles_, kFrame).value_or_throw()),
         planes_(voxel::SurfacePlanes::build(triangles_, grid_)),
-        world_(grid_),
+        masks_(MaskAtlas::pack(random_masks()).value_or_throw()),
+        world_(grid_, {.masks = masks_.key()}),
         volume_(grid_, planes_) {
     for (const std::uint32_t at : {0u, 20u, 60u}) {
       ThrowSmoke thrown;
@@ -43,6 +45,9 @@ class SightScene {
       shot.toward = position_from_metres(point());
       shot.radius = 60 + static_cast<std::uint32_t>(random_() % 500);
       shot.timing.stay_open = static_cast<std::uint32_t>(random_() % 1000);
+      shot.shape = static_cast<HoleShape>(i % 3);
+      shot.roll = static_cast<std::uint32_t>(i) * 4999 % kFullTurn;
+      if (shot.shape == HoleShape::mask) shot.mask = static_cast<std::uint32_t>(i) % masks_.count();
       world_.append(shot).value_or_throw();
     }
     advance_to(tick);
@@ -53,13 +58,17 @@ class SightScene {
   void advance_to(std::uint32_t tick) {
     world_.advance_to(tick);
     volume_.update(world_);
-    holes_ = holes_of(world_.state());
+    holes_ = holes_of(world_.state(), &masks_);
   }
   float time() const { return world_.state().seconds(world_.tick()); }
   const voxel::BitGrid& grid() const { return grid_; }
   const SmokeVolume& volume() const { return volume_; }
   std::span<const shared::Hole> holes() const { return holes_; }
-  Sight sight(const SightSettings& settings = {}) const { return {volume_, grid_, holes_, time(), settings}; }
+  const MaskAtlas& masks() const { return masks_; }
+  Sight sight(SightSettings settings = {}) const {
+    settings.masks = &masks_;
+    return {volume_, grid_, holes_, time(), settings};
+  }
 
   /// Ends anywhere in the grid and a little beyond it.
   static Segment segment(std::mt19937& random) {
@@ -77,6 +86,21 @@ class SightScene {
     std::uniform_real_distribution<double> share(0.1, 0.9);
     const double x = share(random_), y = share(random_), z = share(random_);
     return glm::dvec3(kFrame.origin_world) + double{kVoxel} * glm::dvec3(kFrame.size) * glm::dvec3(x, y, z);
+  }
+  /// With edges as hard as those of letters, and soft ones.
+  static std::vector<Mask> random_masks() {
+    std::mt19937 random(99);
+    std::vector<Mask> masks;
+    for (const std::uint32_t side : {5u, 16u, 40u}) {
+      Mask mask{side, side, {}};
+      for (std::uint32_t i = 0; i < side * side; ++i) {
+        const bool hard = i / side % 8 < 4;
+        const int value = static_cast<int>(random() % (hard ? 3 : 256)) * (hard ? 255 : 1);
+        mask.texels.push_back(static_cast<std::uint8_t>(std::min(value, 255)));
+      }
+      masks.push_back(std::move(mask));
+    }
+    return masks;
   }
   glm::vec3 edge(int axis) {
     std::uniform_real_distribution<float> length(0.05f, 2.5f), tilt(-0.3f, 0.3f);
@@ -104,6 +128,7 @@ class SightScene {
   std::vector<voxel::Triangle> triangles_;
   voxel::BitGrid grid_;
   voxel::SurfacePlanes planes_;
+  MaskAtlas masks_;
   World world_;
   SmokeVolume volume_;
   std::vector<shared::Hole> holes_;

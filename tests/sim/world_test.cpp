@@ -132,6 +132,8 @@ TEST(World, RefusesEventsOutOfRange) {
   EXPECT_TRUE(refused(Shot{0, {5, 5, 5}, {5, 5, 5}}));
   EXPECT_TRUE(refused(Shot{0, {5, 5, 5}, {5, 5, 6}, 0}));
   EXPECT_TRUE(refused(Shot{0, {5, 5, 5}, {5, 5, 6}, 10, {250, 50, kMaxMilliseconds + 1, 350}}));
+  EXPECT_TRUE(refused(Shot{0, {5, 5, 5}, {5, 5, 6}, 10, {}, HoleShape::box, 0, kFullTurn}));
+  EXPECT_TRUE(refused(Shot{0, {5, 5, 5}, {5, 5, 6}, 10, {}, HoleShape::mask}));
   EXPECT_TRUE(refused(Blast{0, {0, 0, 0}, 0}));
   EXPECT_TRUE(refused(Blast{0, {0, 0, 0}, 512 * (kMaxBlastVoxels + 1)}));
   EXPECT_TRUE(refused(Blast{0, {0, 0, 0}, 1024, 1023}));
@@ -358,6 +360,20 @@ TEST(World, HoleRunsThroughTheSmokeToTheWallAndCloses) {
   EXPECT_EQ(world.state().holes.size(), 1u);
   world.advance_to(306);
   EXPECT_TRUE(world.state().holes.empty());
+}
+
+TEST(World, OfOneSetOfMasksIsNotThatOfAnother) {
+  const BitGrid grid = make_house();
+  World world(grid, {.masks = {2, 77}});
+  EXPECT_TRUE(world.append(Shot{0, {5, 5, 5}, {5, 5, 6}, 10, {}, HoleShape::mask, 1}));
+  const auto refused = world.append(Shot{3, {5, 5, 5}, {5, 5, 6}, 10, {}, HoleShape::mask, 2});
+  EXPECT_EQ(refused.failure().message, "shot at tick 3: mask 2 of a world of 2; give the world its masks");
+  World same(grid, {.masks = {2, 77}}), other(grid, {.masks = {2, 78}});
+  EXPECT_TRUE(same.restore(world.state()));
+  const auto mismatch = other.restore(world.state());
+  EXPECT_EQ(mismatch.failure().message,
+            "state: its holes have other masks than this world's; load the same timeline");
+  EXPECT_NE(other.state_hash(), World(grid, {.masks = {2, 77}}).state_hash());
 }
 
 TEST(World, ShotThatMeetsNoSmokeLeavesNoHole) {

@@ -70,6 +70,9 @@ inline glm::ivec3 free_voxel(const voxel::BitGrid& grid, std::mt19937& random) {
   }
 }
 
+/// Of the worlds of busy matches: their shots name masks.
+constexpr sim::WorldSettings kBusySettings{.masks = {5, 0x0123456789abcdefull}};
+
 /// A busy match of `ticks` ticks: smokes, shots, blasts, bodies, and doors that open and close.
 inline std::vector<sim::Event> busy_match(const voxel::BitGrid& level, unsigned seed, std::uint32_t ticks,
                                           std::uint32_t voxels) {
@@ -83,10 +86,11 @@ inline std::vector<sim::Event> busy_match(const voxel::BitGrid& level, unsigned 
   for (int i = 0; i < 200; ++i) {
     sim::Shot shot{tick(), place(), place(), 205, {}};
     if (shot.origin == shot.toward) ++shot.toward.x;
-    if (i % 3 == 0) {
-      shot.shape = sim::HoleShape::box;
+    shot.shape = static_cast<sim::HoleShape>(i % 3);
+    if (shot.shape == sim::HoleShape::mask)
+      shot.mask = static_cast<std::uint32_t>(i) % kBusySettings.masks.count;
+    if (shot.shape != sim::HoleShape::cylinder)
       shot.roll = static_cast<std::uint32_t>(i) * 977 % sim::kFullTurn;
-    }
     events.push_back(shot);
   }
   for (int i = 0; i < 5; ++i) events.push_back(sim::Blast{tick(), place()});
@@ -102,7 +106,7 @@ inline std::vector<sim::Event> busy_match(const voxel::BitGrid& level, unsigned 
 }
 
 inline sim::World world_of(const voxel::BitGrid& level, const std::vector<sim::Event>& events) {
-  sim::World world(level);
+  sim::World world(level, kBusySettings);
   for (const sim::Event& event : events) world.append(event).value_or_throw();
   return world;
 }

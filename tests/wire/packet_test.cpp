@@ -192,6 +192,11 @@ TEST(Packet, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([](auto& s) { s.holes[0].shot.toward = s.holes[0].shot.origin; }));
   EXPECT_TRUE(refused([](auto& s) { s.holes[0].shot.radius = 0; }));
   EXPECT_TRUE(refused([](auto& s) { s.holes.push_back(s.holes[0]); }));
+  EXPECT_TRUE(refused([](auto& s) { s.masks.count = sim::kMaxMasks + 1; }));
+  EXPECT_TRUE(refused([](auto& s) {
+    s.holes[0].shot.shape = sim::HoleShape::mask;
+    s.holes[0].shot.mask = s.masks.count;
+  }));
   EXPECT_TRUE(refused([](auto& s) { s.bodies[0].position.x = 1 << 25; }));
   EXPECT_TRUE(refused([](auto& s) { s.bodies[0].previous_tick = s.bodies[0].tick + 1; }));
   EXPECT_TRUE(refused([](auto& s) { s.flights.push_back({0, {}, {}, 60, 60, {}}); }));

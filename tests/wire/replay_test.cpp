@@ -16,7 +16,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 Replay recorded(const voxel::BitGrid& level, const std::vector<sim::Event>& events, std::uint32_t ticks) {
-  Replay replay = replay_of(level, {}, events);
+  Replay replay = replay_of(level, kBusySettings, events);
   sim::World world = world_of(level, events);
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {
     world.advance_to(tick);
@@ -50,6 +50,10 @@ TEST(EventLog, RefusesWhatTheWorldWouldRefuse) {
   EXPECT_TRUE(refused(sim::ThrowSmoke{0, {}, {}, {.voxels = 0}}));
   EXPECT_TRUE(refused(sim::Shot{0, {}, {}, 205, {}}));
   EXPECT_TRUE(refused(sim::Shot{0, {}, {1 << 25, 0, 0}, 205, {}}));
+  EXPECT_TRUE(refused(sim::Shot{0, {}, {1, 0, 0}, 205, {}, static_cast<sim::HoleShape>(3)}));
+  EXPECT_TRUE(refused(sim::Shot{0, {}, {1, 0, 0}, 205, {}, sim::HoleShape::box, 1}));
+  EXPECT_TRUE(refused(sim::Shot{0, {}, {1, 0, 0}, 205, {}, sim::HoleShape::mask, sim::kMaxMasks}));
+  EXPECT_TRUE(refused(sim::Shot{0, {}, {1, 0, 0}, 205, {}, sim::HoleShape::box, 0, sim::kFullTurn}));
   EXPECT_TRUE(refused(sim::Blast{0, {}, 0}));
   EXPECT_TRUE(refused(sim::MoveBody{0, 0, {std::numeric_limits<int>::min(), 0, 0}}));
   EXPECT_TRUE(refused(sim::LevelEdit{0, {{glm::i16vec3(9, 0, 0), 1, 0}}}));
@@ -78,6 +82,7 @@ TEST(Replay, ReturnsAndPlays) {
     EXPECT_EQ(back->events, replay.events);
     EXPECT_EQ(back->checksums, replay.checksums);
     EXPECT_EQ(back->level.frame(), level.frame());
+    EXPECT_EQ(back->settings.masks, kBusySettings.masks);
     EXPECT_TRUE(sim::difference(back->level, level, glm::ivec3(0), size).empty());
     std::uint32_t ticks = 0;
     const auto departure = play(*back, [&](const sim::State& state) { EXPECT_EQ(state.tick, ticks++); });
@@ -86,6 +91,21 @@ TEST(Replay, ReturnsAndPlays) {
     EXPECT_EQ(ticks, 250u);
     EXPECT_EQ(*encode_replay(*back), *bytes);
   }
+}
+
+TEST(Replay, OfOtherMasksDoesNotPlay) {
+  const voxel::BitGrid level = yard({20, 9, 20});
+  const Replay replay = recorded(level, busy_match(level, 1, 20, 30), 30);
+  Replay other = replay;
+  other.settings.masks.hash += 1;
+  const auto departure = play(other);
+  ASSERT_TRUE(departure && *departure);
+  EXPECT_EQ((*departure)->tick, 0u);
+  Replay none = replay;
+  none.settings.masks = {};
+  const auto refused = play(none);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.failure().message.find("of a world of 0; give the world its masks"), std::string::npos);
 }
 
 TEST(Replay, NamesTheFirstTickThatDiffers) {
