@@ -37,19 +37,23 @@ bool density_around(ivec3 atlas_texel, out float density) {
   return sum.r > 0.0;
 }
 
-/// A part's growth at a texel of the brick, weighted, and the weight.
+/// A part's growth at a texel of the brick, and its weight.
 vec4 growth_at(uint part, ivec3 local) {
   const ivec3 low = local >> 1;
   const vec3 f = 0.5 * vec3(local & 1);
   vec4 sum = vec4(0.0);
+  float weight = 0.0;
   for (int i = 0; i < 8; ++i) {
     const ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2), at = low + corner;
-    const vec3 share = mix(1.0 - f, f, vec3(corner));
+    const vec3 shares = mix(1.0 - f, f, vec3(corner));
+    const float share = shares.x * shares.y * shares.z;
     const uvec2 words = travel[part * kTravelPerPart + uint(at.x + kTravelPoints * (at.y + kTravelPoints * at.z))];
     const vec2 high = unpackHalf2x16(words.y);
-    sum += share.x * share.y * share.z * high.y * vec4(unpackHalf2x16(words.x), high.x, 1.0);
+    // Where the cloud is not, its growth is that of where it is.
+    if (high.y > 0.0) sum += share * vec4(unpackHalf2x16(words.x), high.x, 1.0);
+    weight += share * high.y;
   }
-  return sum;
+  return vec4(sum.xyz / max(sum.w, 1e-6), weight);
 }
 
 /// How far the clouds of a slot carry the noise at a point: each its way, where they meet by their shares.
@@ -63,7 +67,7 @@ vec3 carried_by_clouds(uint slot, ivec3 local, vec3 p_world) {
     const CloudMotion motion = motions[part.y];
     const vec4 growth = growth_at(part.x, local);
     const vec3 roll = frame.look.roll * (motion.roll_cos * one + motion.roll_sin * other);
-    sum += vec4(motion.grown * growth.xyz + growth.w * roll, growth.w);
+    sum += growth.w * vec4(motion.grown * growth.xyz + roll, 1.0);
   }
   return sum.xyz / max(sum.w, 1e-6);
 }

@@ -87,8 +87,9 @@ SmokeUpload::SmokeUpload(gpu::Context& context) : context_(context) {
   resources_.density =
       make_atlas(context, glm::ivec3(1), VK_FORMAT_R8G8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   for (gpu::Image* image : {&resources_.inscatter, &resources_.drift})
-    *image = make_atlas(context, glm::ivec3(1), VK_FORMAT_R16G16B16A16_SFLOAT,
-                        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    *image = make_atlas(
+        context, glm::ivec3(1), VK_FORMAT_R16G16B16A16_SFLOAT,
+        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
 }
 
 void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
@@ -107,8 +108,9 @@ void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
   everything_ = true;
   resources_.density = make_atlas(context_, bricks, VK_FORMAT_R8G8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   for (gpu::Image* image : {&resources_.inscatter, &resources_.drift})
-    *image = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT,
-                        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    *image = make_atlas(
+        context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT,
+        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
 }
 
 void SmokeUpload::record_pages(gpu::Recorder& recorder, const sim::PageTable& pages, bool all) {

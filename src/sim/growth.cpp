@@ -1,6 +1,7 @@
 #include "sim/growth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -90,24 +91,29 @@ class Ways {
   /// The way to a voxel: on from the last turn of one of those before it, or with a turn there.
   void find(std::uint32_t rank) {
     const glm::ivec3 voxel = box_.voxel(rank);
-    std::uint32_t straight = BlockSet::kNone, bent = BlockSet::kNone;
-    const auto shorter = [&](std::uint32_t turn, std::uint32_t than) {
-      return than == BlockSet::kNone || length_by(turn, voxel) < length_by(than, voxel);
-    };
+    std::array<std::pair<float, std::uint32_t>, 52>
+        turns;  // where the last stretch may begin, and the way's length
+    std::size_t count = 0;
     for (int i = 0; i < 27; ++i) {
       const glm::ivec3 step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       const std::uint32_t before = box_.rank(voxel + step);
       if (before == BlockSet::kNone || turns_[before] == BlockSet::kNone) continue;
       constexpr std::uint32_t kSteps[] = {0, kFaceStep, kEdgeStep, kCornerStep};
-      if (distances_[before] + kSteps[std::abs(step.x) + std::abs(step.y) + std::abs(step.z)] != distances_[rank]) continue;
-      if (shorter(turns_[before], straight)) straight = turns_[before];
-      if (shorter(before, bent)) bent = before;
+      if (distances_[before] + kSteps[std::abs(step.x) + std::abs(step.y) + std::abs(step.z)] !=
+          distances_[rank])
+        continue;
+      for (const std::uint32_t turn : {turns_[before], before})
+        turns[count++] = {length_by(turn, voxel), turn};
     }
-    if (bent == BlockSet::kNone)
-      turns_[rank] = rank;  // the source
-    else
-      turns_[rank] = box_.connected(voxel, box_.voxel(straight)) ? straight : bent;
-    lengths_[rank] = turns_[rank] == rank ? 0 : length_by(turns_[rank], voxel);
+    // The shortest that no wall cuts: at the latest that with a turn beside it.
+    std::sort(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(count));
+    turns_[rank] = rank;  // the source's
+    for (std::size_t i = 0; i < count && turns_[rank] == rank; ++i) {
+      if (i > 0 && turns[i] == turns[i - 1]) continue;
+      if (!box_.connected(voxel, box_.voxel(turns[i].second))) continue;
+      turns_[rank] = turns[i].second;
+      lengths_[rank] = turns[i].first;
+    }
   }
 
   RankBox box_;

@@ -1,0 +1,206 @@
+#include "passes/drift.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "passes/drift_motion.hpp"
+#include "passes/noise.hpp"
+#include "shared/frame.h"
+#include "tests/passes/half.hpp"
+#include "tests/passes/smoke_room.hpp"
+#include "tests/reference/noise.hpp"
+
+namespace brume::passes {
+namespace {
+
+constexpr std::uint32_t kTicks = 64;  // a second
+
+sim::Cloud cloud_of(const sim::SmokeSettings& settings, std::uint32_t detonation_tick) {
+  sim::CloudOrigin origin;
+  origin.source = glm::ivec3(16);
+  origin.settings = settings;
+  origin.detonation_tick = detonation_tick;
+  return sim::Cloud(voxel::BitGrid({glm::ivec3(33), 0.25f, glm::vec3(0)}), origin);
+}
+
+TEST(CloudMotion, IsBoundedAndContinuousOverALife) {
+  const sim::Cloud cloud = cloud_of({3000, 64, 64, 128}, 32);
+  constexpr double kStep = 1.0 / 1920;
+  shared::CloudMotion before = cloud_motion(cloud, kTicks, 0, 12);
+  for (double t = kStep; t < 5; t += kStep) {
+    const shared::CloudMotion now = cloud_motion(cloud, kTicks, t, 12);
+    EXPECT_GE(now.grown, -1.0f / 7 - 1e-6f);
+    EXPECT_LE(now.grown, 1.5f);
+    EXPECT_GE(std::hypot(now.roll_cos, now.roll_sin), 0.999f);
+    EXPECT_LE(std::hypot(now.roll_cos, now.roll_sin), 3.001f);
+    // A thirtieth of a tick: no jump, neither at ticks nor at the turns of its life.
+    EXPECT_LT(std::abs(now.grown - before.grown), 0.02f) << t;
+    EXPECT_LT(std::hypot(now.roll_cos - before.roll_cos, now.roll_sin - before.roll_sin), 0.01f) << t;
+    before = now;
+  }
+}
+
+TEST(CloudMotion, CarriesOutwardWhileItBloomsAndDiesDown) {
+  const sim::Cloud cloud = cloud_of({3000, 64, 1152, 128}, 0);
+  double before = 1e9, fastest_late = 0, fastest = 0;
+  for (int frame = 8; frame < 240; ++frame) {
+    const auto grown = static_cast<double>(cloud_motion(cloud, kTicks, frame / 24.0, 12).grown);
+    if (frame > 8) {
+      EXPECT_LE(grown, before + 1e-6);  // never back
+      (frame < 24 ? fastest : fastest_late) = std::max(frame < 24 ? fastest : fastest_late, before - grown);
+    }
+    before = grown;
+  }
+  EXPECT_LT(fastest_late, 0.2 * fastest);
+}
+
+TEST(Pushes, OfAShotBeginAndEndWithNothing) {
+  voxel::BitGrid grid({glm::ivec3(33), 0.25f, glm::vec3(0)});
+  sim::World world(grid);
+  sim::ThrowSmoke smoke;
+  smoke.from = smoke.at = sim::position_from_metres({4, 4, 4});
+  smoke.smoke.voxels = 3000;
+  world.append(smoke).value_or_throw();
+  sim::Shot shot;
+  shot.tick = 128;
+  shot.origin = sim::position_from_metres({0.5, 4, 4});
+  shot.toward = sim::position_from_metres({4, 4, 4});
+  world.append(shot).value_or_throw();
+  world.advance_to(129);
+  ASSERT_EQ(world.state().holes.size(), 1u);
+  const float radius = sim::hole_of(world.state().holes[0], world.state()).radius;
+  float most = 0;
+  for (double t = 2; t < 5; t += 1.0 / 480) {
+    const auto pushes = pushes_of(world.state(), t);
+    if (pushes.empty()) continue;
+    const float along = pushes[0].along.x;
+    EXPECT_GE(along, 0.0f);
+    EXPECT_LE(along, 2.001f * radius);
+    EXPECT_NEAR(pushes[0].along.y, 0, 1e-5);
+    most = std::max(most, along);
+  }
+  EXPECT_GT(most, 1.5f * radius);
+  EXPECT_TRUE(pushes_of(world.state(), 2.0).empty());
+  EXPECT_TRUE(pushes_of(world.state(), 4.5).empty());
+}
+
+class DriftTest : public gpu::GpuTest {
+ protected:
+  DriftTest() : room_(context(), runner(), {}, {{40, 33, 37}, 0.25f, {-5, -4, -4.6f}}, {0, 0, 0}, 8000, 400) {
+    noise_ = make_noise_tile(context(), kSmokeNoise.size);
+    const NoisePass noise(context());
+    runner().run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, kSmokeNoise); });
+    frame_.volume = room_.volume.frame();
+    frame_.look.noise_period = 6;
+    frame_.look.roll = 0.2f;
+    frame_.look.roll_width = 3;
+  }
+  std::vector<glm::vec4> record(const sim::State& state, double seconds, float erosion) {
+    return record(drift_, state, seconds, erosion);
+  }
+  std::vector<glm::vec4> record(DriftPass& drift, const sim::State& state, double seconds, float erosion) {
+    frame_.look.erosion = erosion;
+    frame_.time = static_cast<float>(seconds);
+    const auto frame = upload(std::vector{frame_});
+    drift.reserve(state, room_.volume);
+    runner().run([&](gpu::Recorder& recorder) {
+      drift.record(recorder, {frame, room_.upload.resources(), noise_, state, seconds, 12});
+    });
+    std::vector<glm::vec4> out;
+    for (const Half4& texel : read_back<Half4>(room_.upload.resources().drift))
+      out.push_back(from_half(texel));
+    return out;
+  }
+  const sim::State& state() const { return room_.world.state(); }
+  /// Calls visit(texel of the atlas, voxel) for all voxels of all bricks.
+  void for_each_voxel(auto visit) const {
+    const glm::ivec3 bricks = room_.volume.frame().atlas_bricks;
+    for (std::uint32_t slot = 0; slot < room_.volume.slot_count(); ++slot)
+      for (int i = 0; i < 512; ++i) {
+        const glm::ivec3 local(i & 7, i >> 3 & 7, i >> 6);
+        const auto s = static_cast<int>(slot);
+        const glm::ivec3 at =
+            10 * glm::ivec3(s % bricks.x, s / bricks.x % bricks.y, s / (bricks.x * bricks.y)) + local + 1;
+        const auto texel = static_cast<std::size_t>(at.x) +
+                           static_cast<std::size_t>(10 * bricks.x) *
+                               (static_cast<std::size_t>(at.y) +
+                                static_cast<std::size_t>(10 * bricks.y) * static_cast<std::size_t>(at.z));
+        visit(texel, 8 * room_.volume.brick_of(slot) + local);
+      }
+  }
+
+  SmokeRoom room_;
+  DriftPass drift_{context()};
+  gpu::Image noise_;
+  shared::FrameConstants frame_{};
+};
+
+TEST_F(DriftTest, StandsStillWithoutAState) {
+  const auto texels = record({}, 3, 0);
+  for_each_voxel([&](std::size_t texel, glm::ivec3 voxel) {
+    if (state().density(voxel) == 0) return;
+    EXPECT_EQ(texels[texel], glm::vec4(0, 0, 0, 1));
+  });
+}
+
+TEST_F(DriftTest, CarriesAsTheReference) {
+  const sim::Cloud& cloud = *state().clouds.at(0).cloud;
+  for (const double seconds : {0.3, 0.8, 6.0}) {
+    const auto texels = record(state(), seconds, 0);
+    const shared::CloudMotion motion = cloud_motion(cloud, kTicks, seconds, 12);
+    int compared = 0;
+    for_each_voxel([&](std::size_t texel, glm::ivec3 voxel) {
+      // In the open, where all voxels around belong to the cloud, its growth is a straight line.
+      for (int i = 0; i < 125; ++i)
+        if (!cloud.voxels().contains(voxel + glm::ivec3(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2))) return;
+      if (++compared % 7 != 0) return;
+      const glm::dvec3 growth = 0.25 * glm::dvec3(voxel - cloud.origin().source);
+      const glm::dvec3 p = glm::dvec3(-5, -4, -4.6) + 0.25 * (glm::dvec3(voxel) + 0.5);
+      const glm::dvec3 one = reference::curl_noise(p / 192.0, 64, 11),
+                       other = reference::curl_noise(p / 192.0, 64, 21);
+      const glm::dvec3 expected =
+          static_cast<double>(motion.grown) * growth +
+          0.2 * (static_cast<double>(motion.roll_cos) * one + static_cast<double>(motion.roll_sin) * other);
+      // Half floats in and out, each of at most 8 m, the first times 1.5.
+      for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(texels[texel][axis], expected[axis], 0.008);
+    });
+    EXPECT_GT(compared, 1000);
+  }
+}
+
+TEST_F(DriftTest, IsTheSameWhateverWasDrawnBefore) {
+  const auto first = record(state(), 2.1, 0.8f);
+  const auto other = record(state(), 5.3, 0.8f);
+  EXPECT_NE(first, other);
+  EXPECT_EQ(record(state(), 2.1, 0.8f), first);
+  DriftPass fresh(context());
+  EXPECT_EQ(record(fresh, state(), 2.1, 0.8f), first);
+}
+
+// Line of sight integrates without noise: through a grown smoke it must be about what the picture shows.
+TEST_F(DriftTest, LeavesTheOpticalDepthOfDenseSmoke) {
+  const auto texels = record(state(), 6.2, 0.8f);
+  std::vector<double> plain(40 * 33, 0.0), eroded(40 * 33, 0.0);
+  for_each_voxel([&](std::size_t texel, glm::ivec3 voxel) {
+    if (voxel.x < 0 || voxel.y < 0 || voxel.x >= 40 || voxel.y >= 33) return;
+    const auto column = static_cast<std::size_t>(voxel.x + 40 * voxel.y);
+    const double density = state().density(voxel) / 255.0;
+    plain[column] += density;
+    eroded[column] += density * static_cast<double>(texels[texel].w);
+  });
+  double sum = 0;
+  int dense = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    if (plain[i] < 12) continue;  // 3 m of full density
+    ++dense;
+    sum += eroded[i] / plain[i];
+    EXPECT_NEAR(eroded[i] / plain[i], 1, 0.3);
+  }
+  ASSERT_GT(dense, 100);
+  EXPECT_NEAR(sum / dense, 1, 0.15);
+  RecordProperty("eroded_share", std::to_string(sum / dense));
+}
+
+}  // namespace
+}  // namespace brume::passes
