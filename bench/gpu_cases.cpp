@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
+#include <random>
 
 #include "bench/bench.hpp"
 #include "render/playback.hpp"
@@ -8,29 +10,67 @@
 namespace brume::bench {
 namespace {
 
-constexpr glm::uvec2 k1080p{1920, 1080};
+constexpr double kGrown = 4;  // [s]: when the smoke has bloomed, and the holes are open
+
+/// What a frame of the yard is measured with.
+struct Yard {
+  bool from_all_around = false;  ///< Where the shots come from: else from around the camera.
+  std::uint32_t lamps = 0;       ///< Besides those of the demo scene.
+  std::uint32_t holes = 0;       ///< Shots and boxes from all around.
+};
+
+/// Shots through the smoke, a tenth of a metre wide, half of them square: all open when it has grown.
+std::vector<scene::ShotEvent> shots_through_smoke(std::uint32_t count, bool from_all_around) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> one(-1, 1);
+  std::vector<scene::ShotEvent> shots(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    scene::ShotEvent& shot = shots[i];
+    const float angle = 3.14159265f * one(random);
+    shot.time = kGrown - 1;
+    shot.from_world = {9 * std::cos(angle), 1.5f + 1.2f * one(random), 6 + 9 * std::sin(angle)};
+    if (!from_all_around) shot.from_world = {2 * one(random), 1.6f + 0.3f * one(random), 13 + one(random)};
+    shot.toward_world = {3.5f * one(random), 1.6f + 1.4f * one(random), 6 + 3.5f * one(random)};
+    shot.radius = 0.05f + 0.02f * one(random);
+    shot.shape = i % 2 == 0 ? scene::ShotShape::cylinder : scene::ShotShape::box;
+    shot.times.stay = 100;
+    shot.flash = 0;
+  }
+  return shots;
+}
 
 /// One grown smoke of 1,800 voxels of half a metre in the yard of the demo scene, seen from 6 m away: it
 /// fills the view.
-Result<stage::Stage> smoke_in_the_yard() {
+Result<stage::Stage> smoke_in_the_yard(const Yard& yard) {
   auto timeline = scene::load_timeline(BRUME_SCENES_DIR "/demo.toml");
   if (!timeline) return timeline.failure();
   timeline->grid = {0.5f, glm::ivec3(57, 19, 57), glm::vec3(-14.1f, -0.35f, -12.1f)};
   timeline->smoke.voxels = 1800;
   timeline->smoke.bloom = 1;
   timeline->smokes = {{0, {0, 3, 7}, {0, 0.3f, 6}}};
-  timeline->shots.clear();
+  timeline->shots = shots_through_smoke(yard.holes, yard.from_all_around);
   timeline->camera = {{0, {{0, 1.8f, 12}, {0, 2.2f, 6}, 1.0472f}}};
-  return stage::make_stage(std::move(*timeline), {});
+  auto stage = stage::make_stage(std::move(*timeline), {});
+  if (!stage) return stage.failure();
+  for (std::uint32_t i = 0; i < yard.lamps; ++i) {
+    scene::Light lamp;
+    const float angle = 2.39996f * static_cast<float>(i),
+                far = 1.6f * std::sqrt(static_cast<float>(i) + 0.5f);
+    lamp.position_world = {far * std::cos(angle), 0.6f + 0.35f * static_cast<float>(i % 9),
+                           5 + far * std::sin(angle)};
+    lamp.intensity = 0.5f + 0.5f * glm::vec3(std::cos(angle), std::cos(angle + 2), std::cos(angle + 4));
+    stage->scene.lights.push_back(lamp);
+  }
+  return stage;
 }
 
 /// A frame that can be drawn again and again.
 class RepeatedFrame {
  public:
-  RepeatedFrame(gpu::Context& context, const stage::Stage& stage, glm::uvec2 size, bool count_samples)
+  RepeatedFrame(gpu::Context& context, const stage::Stage& stage, render::RendererOptions options)
       : simulation_(stage::Simulation::create(stage).value_or_throw()),
         runner_(context),
-        renderer_(context, runner_, stage.scene, {size, count_samples}),
+        renderer_(context, runner_, stage.scene, options),
         counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
     simulation_->advance_to(kGrown);
     input_ = render::frame_input(stage, *simulation_, kGrown, holes_);
@@ -56,7 +96,6 @@ class RepeatedFrame {
   }
 
  private:
-  static constexpr double kGrown = 4;  // [s]
   std::unique_ptr<stage::Simulation> simulation_;
   gpu::CommandRunner runner_;
   render::Renderer renderer_;
@@ -65,51 +104,119 @@ class RepeatedFrame {
   render::FrameInput input_;
 };
 
-/// Texture samples that the march takes for a frame.
-double count_texture_samples(gpu::Context& context, const stage::Stage& stage) {
-  RepeatedFrame frame(context, stage, k1080p, true);
-  frame.draw();
-  return frame.texture_samples();
-}
+struct FrameTimes {
+  Measurement all;  ///< All passes but the raster; details: the median of each.
+  Measurement march;
+};
 
-Result<std::vector<Measurement>> frames(Bench& bench, bool march_only) {
-  const auto stage = smoke_in_the_yard();
-  if (!stage) return stage.failure();
-  gpu::Context& context = bench.context();
-  const bool slow = context.info().kind == "cpu";
-  const unsigned count = bench.repetitions(slow ? 5 : 200);
-  RepeatedFrame frame(context, *stage, k1080p, false);
+FrameTimes time_frames(Bench& bench, const std::string& name, const stage::Stage& stage,
+                       const render::RendererOptions& options) {
+  const bool slow = bench.context().info().kind == "cpu";
+  const unsigned count = bench.repetitions(slow ? 3 : 200);
+  RepeatedFrame frame(bench.context(), stage, options);
   for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame.draw();
-
   std::map<std::string, std::vector<double>> passes;
   std::vector<double> sums;
   for (unsigned i = 0; i < count; ++i) {
     double sum = 0;
-    for (const auto& [name, milliseconds] : frame.draw()) {
-      passes[name].push_back(milliseconds);
-      if (name != "gbuffer") sum += milliseconds;
+    for (const auto& [pass, milliseconds] : frame.draw()) {
+      passes[pass].push_back(milliseconds);
+      if (pass != "gbuffer") sum += milliseconds;
     }
     sums.push_back(sum);
   }
-  if (march_only) {
-    auto m = summarize("march/1080p", "ms", "gpu", passes["march"]);
-    const double samples = count_texture_samples(context, *stage);
-    m.details = {{"texture_samples", samples}, {"gsamples_per_second", samples / m.median * 1e-6}};
-    return std::vector{m};
-  }
-  auto m = summarize("frame/1080p", "ms", "gpu", sums);
-  for (const auto& [name, values] : passes)
-    m.details[name + "_ms"] = summarize(name, "ms", "gpu", values).median;
+  FrameTimes times{summarize(name, "ms", "gpu", sums), summarize(name, "ms", "gpu", passes["march"])};
+  for (const auto& [pass, values] : passes)
+    times.all.details[pass + "_ms"] = summarize(pass, "ms", "gpu", values).median;
+  return times;
+}
+
+/// Texture samples that the march takes for a frame.
+double count_texture_samples(gpu::Context& context, const stage::Stage& stage,
+                             render::RendererOptions options) {
+  options.count_samples = true;
+  RepeatedFrame frame(context, stage, options);
+  frame.draw();
+  return frame.texture_samples();
+}
+
+Result<std::vector<Measurement>> march(Bench& bench) {
+  const auto stage = smoke_in_the_yard({});
+  if (!stage) return stage.failure();
+  render::RendererOptions options;
+  options.size_px = {1920, 1080};
+  Measurement m = time_frames(bench, "march/1080p", *stage, options).march;
+  const double samples = count_texture_samples(bench.context(), *stage, options);
+  m.details = {{"texture_samples", samples}, {"gsamples_per_second", samples / m.median * 1e-6}};
   return std::vector{m};
+}
+
+/// 51 lamps and 64 open holes.
+Result<std::vector<Measurement>> frames(Bench& bench, const std::string& name, glm::uvec2 size_px,
+                                        std::uint32_t march_scale) {
+  Yard yard;
+  yard.lamps = 42;
+  yard.holes = 64;
+  const auto stage = smoke_in_the_yard(yard);
+  if (!stage) return stage.failure();
+  render::RendererOptions options;
+  options.size_px = size_px;
+  options.march_scale = march_scale;
+  options.masks = &stage->masks;
+  return std::vector{time_frames(bench, name, *stage, options).all};
+}
+
+/// The frame with ever more holes, with the structure and with the plain loop over all of them.
+Result<std::vector<Measurement>> holes(Bench& bench, const std::string& base, bool from_all_around) {
+  const bool slow = bench.context().info().kind == "cpu";
+  std::vector<Measurement> results;
+  for (const bool plain : {false, true}) {
+    double none = 0;
+    for (const std::uint32_t count : {0u, 16u, 64u, 256u, 1024u, 4096u}) {
+      // The loop's cost is known by then; on a processor it would be minutes.
+      if (plain && (count == 0 || count > (slow ? 64u : 1024u))) continue;
+      Yard yard;
+      yard.holes = count;
+      yard.from_all_around = from_all_around;
+      const auto stage = smoke_in_the_yard(yard);
+      if (!stage) return stage.failure();
+      render::RendererOptions options;
+      options.size_px = slow ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
+      options.plain_holes = plain;
+      options.masks = &stage->masks;
+      const std::string name = (plain ? base + "/plain/" : base + "/") + std::to_string(count);
+      Measurement m = time_frames(bench, name, *stage, options).all;
+      if (count == 0) none = m.median;
+      if (plain) none = results.front().median;
+      m.details["times_none"] = m.median / none;
+      results.push_back(m);
+    }
+  }
+  return results;
 }
 
 }  // namespace
 
 std::vector<Case> gpu_cases() {
   return {
-      {"march/1080p", "the march through one grown smoke that fills the view",
-       [](Bench& b) { return frames(b, true); }},
-      {"frame/1080p", "all passes of that frame but the raster", [](Bench& b) { return frames(b, false); }},
+      {"march/1080p", "the march through one grown smoke that fills the view", march},
+      {"frame/1080p", "all passes but the raster: that smoke with 51 lamps and 64 holes",
+       [](Bench& b) {
+         return frames(b, "frame/1080p", {1920, 1080}, 1);
+       }},
+      {"frame/1080p_half", "the same, marched at half resolution",
+       [](Bench& b) {
+         return frames(b, "frame/1080p_half", {1920, 1080}, 2);
+       }},
+      {"frame/4k", "the same at 3840x2160, marched at full resolution",
+       [](Bench& b) {
+         return frames(b, "frame/4k", {3840, 2160}, 1);
+       }},
+      {"holes",
+       "that frame with 0 to 4,096 open holes, and with a plain loop over them; 480x270 without a GPU",
+       [](Bench& b) { return holes(b, "holes", false); }},
+      {"holes_around", "the same, shot from all around the smoke",
+       [](Bench& b) { return holes(b, "holes_around", true); }},
   };
 }
 

@@ -1,55 +1,46 @@
-// Which holes reach which bricks: a list of pairs, and a block of empty cells for each brick that a hole reaches.
+// Which holes reach which bricks: a list of pairs, and a block of cells, all full, for each brick that a hole reaches.
 // One workgroup a brick.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/hole_reach.glsl"
-#include "shared/hole_grid.h"
+#include "shared/frame.h"
 
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
-layout(scalar, binding = 2) readonly buffer Holes { Hole holes[]; };
-layout(scalar, binding = 3) writeonly buffer HoleGrid { uint hole_grid[]; };
+layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
+layout(scalar, binding = 3) buffer HoleCells { uint hole_cells[]; };
 layout(scalar, binding = 4) writeonly buffer Pairs { uvec2 pairs[]; };
-layout(scalar, binding = 5) buffer Counters { HoleGridCounters counters; };
-layout(push_constant, scalar) uniform Push { HoleGridParams params; };
+layout(scalar, binding = 5) buffer Counters { HoleCellsCounters counters; };
+layout(push_constant, scalar) uniform Push { HoleCellsParams params; };
+#include "lib/hole_rows.glsl"
 
-shared uint reached;
-shared bool complete;
+shared bool reached;
 shared uint block;
 
 void main() {
   const uint slot = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
   if (slot >= params.slot_count) return;
   const uint lane = gl_LocalInvocationID.x;
-  if (lane == 0u) {
-    reached = 0u;
-    complete = true;
-  }
+  if (lane == 0u) reached = false;
   barrier();
-  const vec3 low = vec3(slot_bricks[slot] * kBrickVoxels);
-  for (uint i = frame.holes.wide_count + lane; i < frame.holes.hole_count; i += 64u) {
-    const HoleReach reach = hole_reach(holes[i], frame.volume, frame.time, frame.look.hole_rim);
-    if (!reach.open || !reaches_box(reach, low, float(kBrickVoxels))) continue;
+  const float edge = float(kBrickVoxels) * frame.volume.voxel_size;
+  const vec3 low = frame.volume.origin_world + vec3(slot_bricks[slot]) * edge;
+  for (uint i = lane; i < frame.holes.count; i += 64u) {
+    const HoleReach reach = hole_reach(hole_from_rows(i), frame.time, 0.0);
+    if (!reach.open || !hole_reaches_box(reach, low, edge)) continue;
     const uint at = atomicAdd(counters.pairs, 1u);
-    if (at < params.pair_capacity) {
-      pairs[at] = uvec2(slot, i);
-    } else {
-      complete = false;
-    }
-    reached = 1u;
+    if (at < params.pair_capacity) pairs[at] = uvec2(slot, i);
+    reached = true;
   }
   barrier();
-  if (reached == 0u) {
-    if (lane == 0u) hole_grid[slot] = 0u;
-    return;
+  if (lane == 0u) {
+    block = reached ? atomicAdd(counters.blocks, 1u) : params.block_capacity;
+    hole_cells[slot] = block < params.block_capacity ? block + 1u : 0u;
   }
-  if (lane == 0u) block = atomicAdd(counters.blocks, 1u);
   barrier();
-  const bool fits = complete && block < params.block_capacity;
-  if (lane == 0u) hole_grid[slot] = fits ? block + 1u : kHolesEverywhere;
-  if (!fits) return;
-  const uint first = frame.holes.cells_at + 2u * kHoleCellsPerBlock * block;
-  for (uint i = lane; i < 2u * kHoleCellsPerBlock; i += 64u) hole_grid[first + i] = 0u;
+  if (block >= params.block_capacity) return;
+  const uint first = frame.holes.cells_at + kHoleCellsPerBlock * block;
+  for (uint i = lane; i < kHoleCellsPerBlock; i += 64u) hole_cells[first + i] = 0u;
 }

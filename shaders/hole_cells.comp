@@ -1,62 +1,68 @@
-// Enters every pair of a brick and a hole into the cells that the hole reaches: first only counts, then writes. One
-// workgroup a pair.
+// Takes out of each cell what a hole removes from it on average. One workgroup for a pair of a brick and a hole.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/hole_reach.glsl"
-#include "shared/hole_grid.h"
+#include "shared/frame.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kWrite = 0u;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
-layout(scalar, binding = 2) readonly buffer Holes { Hole holes[]; };
-layout(scalar, binding = 3) buffer HoleGrid { uint hole_grid[]; };
+layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
+layout(scalar, binding = 3) buffer HoleCells { uint hole_cells[]; };
 layout(scalar, binding = 4) readonly buffer Pairs { uvec2 pairs[]; };
-layout(scalar, binding = 5) readonly buffer Counters { HoleGridCounters counters; };
-layout(push_constant, scalar) uniform Push { HoleGridParams params; };
+layout(scalar, binding = 5) readonly buffer Counters { HoleCellsCounters counters; };
+layout(binding = 6) uniform sampler2D hole_masks;
+layout(push_constant, scalar) uniform Push { HoleCellsParams params; };
+#include "lib/hole_mask.glsl"
+#include "lib/hole_rows.glsl"
 
-const float kCell = 1.0 / float(kHoleCellsPerVoxel);  // [voxels]
-
-void enter(uint block, uint hole, ivec3 cell) {
-  const uint number = kHoleCellsPerBlock * block + uint(cell.x + kHoleCellsPerEdge * (cell.y + kHoleCellsPerEdge * cell.z));
-  const uint at = frame.holes.cells_at + 2u * number;
-  const uint rank = atomicAdd(hole_grid[at + 1u], 1u);
-  if (kWrite != 0u) hole_grid[frame.holes.entries_at + hole_grid[at] + rank] = hole;
+/// Mean strength of a hole over a cell, from eight points.
+float mean_strength(Hole hole, vec3 low_world, float cell) {
+  float sum = 0.0;
+  for (uint i = 0u; i < 8u; ++i) {
+    const vec3 p_world = low_world + cell * (0.25 + 0.5 * vec3(i & 1u, i >> 1u & 1u, i >> 2u));
+    sum += hole_strength_masked(hole, p_world, frame.time, 0.0);
+  }
+  return sum / 8.0;
 }
 
 void main() {
   const uint pair_count = min(counters.pairs, params.pair_capacity);
   const int lane = int(gl_LocalInvocationID.x);
+  const float cell = frame.volume.voxel_size / float(kHoleCellsPerVoxel);
   for (uint p = gl_WorkGroupID.x; p < pair_count; p += gl_NumWorkGroups.x) {
-    const uint slot = pairs[p].x, hole = pairs[p].y;
-    const uint entry = hole_grid[slot];
-    if (entry == kHolesEverywhere) continue;
-    const HoleReach reach = hole_reach(holes[hole], frame.volume, frame.time, frame.look.hole_rim);
-    const vec3 low = vec3(slot_bricks[slot] * kBrickVoxels);
+    const uint slot = pairs[p].x, block = hole_cells[slot];
+    if (block == 0u) continue;
+    const Hole hole = hole_from_rows(pairs[p].y);
+    const HoleReach reach = hole_reach(hole, frame.time, 0.0);
+    const vec3 low = frame.volume.origin_world + vec3(slot_bricks[slot]) * (cell * float(kHoleCellsPerEdge));
 
     // Slices of cells across the longest axis of the hole; in each a square around where its axis passes.
-    const vec3 a = abs(reach.along_voxel);
+    const vec3 a = abs(reach.forward);
     const int major = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
     const int u = (major + 1) % 3, v = (major + 2) % 3;
-    const float slope_u = reach.along_voxel[u] / reach.along_voxel[major];
-    const float slope_v = reach.along_voxel[v] / reach.along_voxel[major];
-    const float half_u = reach.radius_voxel + abs(slope_u) * (0.5 * kCell + reach.radius_voxel);
-    const float half_v = reach.radius_voxel + abs(slope_v) * (0.5 * kCell + reach.radius_voxel);
-    // Four lanes a slice.
+    const float slope_u = reach.forward[u] / reach.forward[major], slope_v = reach.forward[v] / reach.forward[major];
+    const float half_u = reach.radius + abs(slope_u) * (0.5 * cell + reach.radius);
+    const float half_v = reach.radius + abs(slope_v) * (0.5 * cell + reach.radius);
+    // Four threads a slice.
     const int slice = lane >> 2;
-    const float from_start = low[major] + (float(slice) + 0.5) * kCell - reach.from_voxel[major];
-    const float at_u = reach.from_voxel[u] + slope_u * from_start - low[u];
-    const float at_v = reach.from_voxel[v] + slope_v * from_start - low[v];
-    const int u0 = max(int(floor((at_u - half_u) / kCell)), 0), u1 = min(int(floor((at_u + half_u) / kCell)), kHoleCellsPerEdge - 1);
-    const int v0 = max(int(floor((at_v - half_v) / kCell)), 0), v1 = min(int(floor((at_v + half_v) / kCell)), kHoleCellsPerEdge - 1);
+    const float from_start = low[major] + (float(slice) + 0.5) * cell - reach.from_world[major];
+    const float at_u = reach.from_world[u] + slope_u * from_start - low[u];
+    const float at_v = reach.from_world[v] + slope_v * from_start - low[v];
+    const int u0 = max(int(floor((at_u - half_u) / cell)), 0), u1 = min(int(floor((at_u + half_u) / cell)), kHoleCellsPerEdge - 1);
+    const int v0 = max(int(floor((at_v - half_v) / cell)), 0), v1 = min(int(floor((at_v + half_v) / cell)), kHoleCellsPerEdge - 1);
     for (int j = v0 + (lane & 3); j <= v1; j += 4) {
       for (int i = u0; i <= u1; ++i) {
-        ivec3 cell;
-        cell[major] = slice;
-        cell[u] = i;
-        cell[v] = j;
-        if (reaches_box(reach, low + vec3(cell) * kCell, kCell)) enter(entry - 1u, hole, cell);
+        ivec3 at;
+        at[major] = slice;
+        at[u] = i;
+        at[v] = j;
+        const vec3 low_world = low + vec3(at) * cell;
+        if (!hole_reaches_box(reach, low_world, cell)) continue;
+        const float left = max(1.0 - mean_strength(hole, low_world, cell), 1.0 / 4096.0);
+        const uint number = kHoleCellsPerBlock * (block - 1u) + uint(at.x + kHoleCellsPerEdge * (at.y + kHoleCellsPerEdge * at.z));
+        atomicAdd(hole_cells[frame.holes.cells_at + number], uint(-log2(left) * kHoleCellStep + 0.5));
       }
     }
   }

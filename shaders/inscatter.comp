@@ -3,6 +3,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#define BINDING_SKY_LIGHT 7
+#define BINDING_SOLID 8
 #include "lib/lights.glsl"
 #include "shared/frame.h"
 #include "shared/scattering.h"
@@ -17,6 +19,7 @@ layout(scalar, binding = 4) readonly buffer RayLight { uint ray_light[]; };
 layout(scalar, binding = 5) readonly buffer Counters { SmokeLightCounters counters; };
 layout(binding = 6, rgba16f) uniform writeonly image3D inscatter;
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
+#include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
 
 /// Mean transmittance out of the smoke, over all directions.
@@ -26,10 +29,10 @@ float escape_of(uint first) {
   return escape;
 }
 
-/// Radiance from all around of an even sky of radiance 1: light that comes straight in, a share p, and light that was
+/// Radiance from all around of an even sky of radiance 1, were there no level: light that comes straight in, a share p, and light that was
 /// scattered on its way, as bright as here and dimmed by the albedo: J = p + albedo (1 - p) J. Without absorption the
 /// smoke is as bright as the sky, whatever its density.
-vec3 sky_light(float p) { return vec3(p) / (1.0 - frame.look.albedo * (1.0 - p)); }
+vec3 scattered_sky(float p) { return vec3(p) / (1.0 - frame.look.albedo * (1.0 - p)); }
 
 void main() {
   for (uint i = gl_GlobalInvocationID.x; i < counters.texels; i += gl_NumWorkGroups.x * 64u) {
@@ -39,7 +42,7 @@ void main() {
     const uint first = i * params.rays_per_texel;
     const float escape = escape_of(first + frame.light_count);
     const ManyScatterings many = many_scatterings(frame.look, escape);
-    vec3 radiance = frame.sky.ambient * sky_light(escape);
+    vec3 radiance = frame.sky.ambient * sky_visibility(p_world) * scattered_sky(escape);
     for (uint k = 0u; k < frame.light_count; ++k) {
       const vec2 depth_lit = unpackHalf2x16(ray_light[first + k]);
       if (depth_lit.y <= 0.0) continue;

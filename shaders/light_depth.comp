@@ -7,9 +7,7 @@
 #define BINDING_CELLS 4
 #define BINDING_BOUNDARY 5
 #define BINDING_CORNERS 6
-#define BINDING_HOLES 7
-#define BINDING_HOLE_GRID 8
-#define BINDING_HOLE_MASKS 15
+#define BINDING_HOLE_CELLS 7
 #include "lib/lights.glsl"
 #include "shared/frame.h"
 #include "shared/smoke_light.h"
@@ -17,12 +15,12 @@
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
-layout(binding = 9) uniform sampler3D drift_atlas;
-layout(scalar, binding = 10) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = 11) readonly buffer Texels { uint texels[]; };
-layout(scalar, binding = 12) readonly buffer Rays { uint rays[]; };
-layout(scalar, binding = 13) buffer RayLight { uint ray_light[]; };
-layout(scalar, binding = 14) readonly buffer Counters { SmokeLightCounters counters; };
+layout(binding = 8) uniform sampler3D drift_atlas;
+layout(scalar, binding = 9) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = 10) readonly buffer Texels { uint texels[]; };
+layout(scalar, binding = 11) readonly buffer Rays { uint rays[]; };
+layout(scalar, binding = 12) buffer RayLight { uint ray_light[]; };
+layout(scalar, binding = 13) readonly buffer Counters { SmokeLightCounters counters; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 #include "lib/optical_depth.glsl"
 #include "lib/smoke_texels.glsl"

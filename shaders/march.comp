@@ -9,9 +9,8 @@
 #define BINDING_CORNERS 5
 #define BINDING_HOLES 10
 #define BINDING_HOLE_MASKS 15
-#define BINDING_HOLE_GRID 16
+#define BINDING_HOLE_TILES 16
 #include "lib/blue_noise.glsl"
-#include "lib/camera.glsl"
 #include "lib/erosion.glsl"
 #include "lib/smoke_density.glsl"
 #include "shared/frame.h"
@@ -20,6 +19,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kCountSamples = 0u;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
+layout(constant_id = 2) const uint kHoles = kHolesNone;
 const uint kRuns = kRays == kRaysOfBlocks ? 2u : 1u;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(binding = 6) uniform sampler3D inscatter_atlas;
@@ -35,18 +35,7 @@ layout(scalar, binding = 17) readonly buffer List {
   uint listed[];  // blocks
 };
 layout(binding = 18) uniform sampler3D drift_atlas;
-#include "lib/holes.glsl"
-
-/// What noise and holes leave of the density at a point of a brick.
-float carved(float density, uint holes_here, vec3 local_voxel, vec3 uvw, vec3 p_world) {
-  const vec3 drift = textureLod(drift_atlas, uvw, 0.0).xyz;
-  const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + drift, frame.time);
-  if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
-  if (any_holes(holes_here) && density > 0.0) {
-    density *= left_by_holes(holes_here, local_voxel, p_world, (2.0 * noise.g - 1.0) * frame.look.hole_rim);
-  }
-  return density;
-}
+#include "lib/ray_holes.glsl"
 
 /// Where a ray runs. It is looked at in two places: at its last surface, and at the nearest of its block.
 struct Way {
@@ -57,6 +46,8 @@ struct Way {
 
 /// False where there is no ray.
 bool find_way(out Way way) {
+  way.position_px = vec2(0.0);
+  way.near = way.far = 0.0;
   way.texel = ivec2(gl_GlobalInvocationID.xy);
   if (kRays == kRaysOfBlocks) {
     const uvec2 blocks = blocks_of(frame.size_px, frame.march_scale);
@@ -81,85 +72,131 @@ bool find_way(out Way way) {
   return true;
 }
 
-void main() {
-  Way way;
-  if (!find_way(way)) return;
+/// What a ray has gathered.
+struct Gathered {
+  vec3 radiance;
+  float transmittance;
+  uint samples;
+};
+
+/// A brick, or the cube without smoke around it, on the way of a ray.
+struct Stay {
+  vec3 low;  // low corner [voxels]
+  uint slot;
+  float t_next;  // where the first segment begins whose sample lies behind it
+};
+
+Stay find_stay(RaySamples ray, vec3 origin, vec3 per_metre, vec3 inverse, float t) {
+  const vec3 at = origin + per_metre * (t + ray.jitter * min(ray.ds, ray.end - t));
+  Stay stay;
+  stay.low = floor(at / float(kBrickVoxels)) * float(kBrickVoxels);
+  int edge;
+  stay.slot = slot_at(frame.volume, ivec3(stay.low) / kBrickVoxels, edge);
+  if (stay.slot == kNoSlot) stay.low = floor(at / float(edge)) * float(edge);
+  else edge = kBrickVoxels;
+  const vec3 exits = max((stay.low - origin) * inverse, (stay.low + float(edge) - origin) * inverse);
+  stay.t_next = t + ray.ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ray.ds - ray.jitter));
+  return stay;
+}
+
+/// Marches segments of length ds, the last one cut; one sample in each, all at the same share of it. Brick by brick, so
+/// that what a brick's samples share is found once.
+void march(RaySamples ray, inout Gathered got) {
   const SmokeVolumeFrame volume = frame.volume;
-
-  // The ray in voxels, t in metres; it ends at the surface behind.
-  const vec3 ray = camera_ray(frame.camera, way.position_px, frame.size_px);
-  const vec3 direction = normalize(ray);
-  const vec3 origin = (frame.camera.eye_world - volume.origin_world) / volume.voxel_size;
-  const vec3 per_metre = direction / volume.voxel_size;
+  const vec3 origin = (ray.origin_world - volume.origin_world) / volume.voxel_size;
+  const vec3 per_metre = ray.direction / volume.voxel_size;
   const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
+  const vec3 texel = atlas_texel(volume);
+  float t = ray.begin;
+  while (t < ray.end && got.transmittance > 0.0) {
+    // Where nothing is, holes take nothing: on to the first brick, and look ahead from there.
+    Stay stay = find_stay(ray, origin, per_metre, inverse, t);
+    while (stay.slot == kNoSlot && stay.t_next < ray.end) stay = find_stay(ray, origin, per_metre, inverse, t = stay.t_next);
+    if (stay.slot == kNoSlot) break;
+    HolesAhead holes;
+    float t_known = ray.end;
+    if (kHoles == kHolesListed) {
+      holes = look_ahead(ray, t);
+      t_known = t + (float(holes.samples) - 0.5) * ray.ds;
+    }
 
-  // The part inside the smoke's bounds.
-  const vec3 t0 = (volume.bounds_min - origin) * inverse, t1 = (volume.bounds_max - origin) * inverse;
-  const vec3 near = min(t0, t1), far = max(t0, t1);
-  const float t_begin = max(max(near.x, near.y), max(near.z, 0.0));
-  const float t_last = min(min(far.x, far.y), min(far.z, way.far * length(ray)));
-  vec3 radiance = vec3(0.0);
-  float transmittance = 1.0;
-  vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
-  uint samples = 0u;
-  if (t_begin < t_last) {
-    const float jitter = blue_noise(blue_noise_tile, way.texel, frame.frame_index).r;
-    const float ds = frame.look.step_length;
-    const vec3 texel = atlas_texel(volume);
-    // Segments of length ds from t_begin on, the last one cut; one sample in each, all at the same share of it. Brick
-    // by brick, so that what a brick's samples share is found once.
-    float t = t_begin;
-    for (uint run = 0u; run < kRuns; ++run) {
-      const float t_end = run + 1u < kRuns ? min(t_last, way.near * length(ray)) : t_last;
-      for (; t < t_end && transmittance > 0.0;) {
-        const vec3 at = origin + per_metre * (t + jitter * min(ds, t_end - t));
-        vec3 low = floor(at / float(kBrickVoxels)) * float(kBrickVoxels);
-        int edge;
-        const uint slot = slot_at(volume, ivec3(low) / kBrickVoxels, edge);
-        if (slot == kNoSlot) low = floor(at / float(edge)) * float(edge);
-        const vec3 exits = max((low - origin) * inverse, (low + float(edge) - origin) * inverse);
-        const float inside = max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds - jitter));
-        const float t_next = t + ds * inside;
-        if (slot == kNoSlot) {
-          t = t_next;
-          continue;
-        }
-        const vec3 corner = atlas_corner(volume, slot);
-        const uint holes_here = holes_in_slot(slot);
-        const bool noisy = frame.look.erosion > 0.0 || any_holes(holes_here);
-        for (const float t_stop = min(t_next - 0.5 * ds, t_end); t < t_stop; t += ds) {
-          const float segment = min(ds, t_end - t);
-          const vec3 local_voxel = origin + per_metre * (t + jitter * segment) - low;
-          const vec3 uvw = (corner + local_voxel) * texel;
-          const SmokeSample here = sample_brick(slot, local_voxel, uvw);
-          float density = here.density;
-          ++samples;
-          if (density > 0.0 && noisy) {
-            density = carved(density, holes_here, local_voxel, uvw, volume.origin_world + (low + local_voxel) * volume.voxel_size);
-            samples += 2u;
-          }
-          if (density > 0.0) {
-            // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
-            const float passed = exp(-frame.look.extinction * density * segment);
-            const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
-            radiance += transmittance * (1.0 - passed) * light;
-            transmittance *= passed;
-            ++samples;
-            if (transmittance < frame.look.stop) {
-              transmittance = 0.0;
-              t = t_end;
-            }
-          }
-        }
+    while (t < min(ray.end, t_known) && got.transmittance > 0.0) {
+      stay = find_stay(ray, origin, per_metre, inverse, t);
+      if (stay.slot == kNoSlot) {
+        t = stay.t_next;
+        continue;
       }
-      if (run + 1u < kRuns) {
-        at_near = vec4(radiance * frame.look.albedo, transmittance);
-        t = max(t_begin, t_end);
+      const vec3 corner = atlas_corner(volume, stay.slot);
+      const float t_stop = min(min(stay.t_next - 0.5 * ray.ds, ray.end), t_known);
+      for (; t < t_stop; t += ray.ds) {
+        const float segment = min(ray.ds, ray.end - t);
+        const vec3 local_voxel = origin + per_metre * (t + ray.jitter * segment) - stay.low;
+        const vec3 uvw = (corner + local_voxel) * texel;
+        const SmokeSample here = sample_brick(stay.slot, local_voxel, uvw);
+        float density = here.density;
+        ++got.samples;
+        if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
+          const vec3 p_world = volume.origin_world + (stay.low + local_voxel) * volume.voxel_size;
+          const vec3 drift = textureLod(drift_atlas, uvw, 0.0).xyz;
+          const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + drift, frame.time);
+          got.samples += 2u;
+          if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
+          if (density > 0.0 && kHoles == kHolesListed) density *= left_by_holes(holes, uint((t - holes.begin) / ray.ds + 0.5), p_world, noise.g);
+          if (density > 0.0 && kHoles == kHolesAllAsked) density *= left_by_all_holes(p_world, noise.g);
+        }
+        if (density > 0.0) {
+          // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
+          const float passed = exp(-frame.look.extinction * density * segment);
+          const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
+          got.radiance += got.transmittance * (1.0 - passed) * light;
+          got.transmittance *= passed;
+          ++got.samples;
+          if (got.transmittance < frame.look.stop) {
+            got.transmittance = 0.0;
+            t = ray.end;
+          }
+        }
       }
     }
-    radiance *= frame.look.albedo;
   }
-  imageStore(smoke, way.texel, vec4(radiance, transmittance));
+}
+
+void main() {
+  Way way;
+  const bool is_ray = find_way(way);
+  const SmokeVolumeFrame volume = frame.volume;
+
+  // The part of the ray inside the smoke's bounds, t in metres; it ends at the surface behind.
+  const vec3 along = camera_ray(frame.camera, way.position_px, frame.size_px);
+  RaySamples ray;
+  ray.origin_world = frame.camera.eye_world;
+  ray.direction = normalize(along);
+  ray.ds = frame.look.step_length;
+  ray.jitter = blue_noise(blue_noise_tile, way.texel, frame.frame_index).r;
+  const vec3 inverse = 1.0 / (ray.direction + vec3(equal(ray.direction, vec3(0.0))) * 1e-9);
+  const vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size - ray.origin_world;
+  const vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size - ray.origin_world;
+  const vec3 near = min(low * inverse, high * inverse), far = max(low * inverse, high * inverse);
+  const float t_begin = max(max(near.x, near.y), max(near.z, 0.0));
+  const float t_last = min(min(far.x, far.y), min(far.z, way.far * length(along)));
+  const bool meets = is_ray && t_begin < t_last;
+
+  if (kHoles == kHolesListed) find_group_holes(meets, way.position_px, t_last);
+  if (!is_ray) return;
+  Gathered got = Gathered(vec3(0.0), 1.0, 0u);
+  vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
+  if (meets) {
+    ray.begin = t_begin;
+    for (uint run = 0u; run < kRuns; ++run) {
+      ray.end = run + 1u < kRuns ? min(t_last, way.near * length(along)) : t_last;
+      march(ray, got);
+      if (run + 1u < kRuns) {
+        at_near = vec4(got.radiance * frame.look.albedo, got.transmittance);
+        ray.begin = max(t_begin, ray.end);
+      }
+    }
+  }
+  imageStore(smoke, way.texel, vec4(got.radiance * frame.look.albedo, got.transmittance));
   if (kRuns > 1u) imageStore(smoke_near, way.texel, at_near);
-  if (kCountSamples != 0u) atomicAdd(texture_samples, samples);
+  if (kCountSamples != 0u) atomicAdd(texture_samples, got.samples);
 }

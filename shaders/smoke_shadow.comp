@@ -7,10 +7,8 @@
 #define BINDING_CELLS 6
 #define BINDING_BOUNDARY 7
 #define BINDING_CORNERS 8
-#define BINDING_HOLES 11
-#define BINDING_HOLE_GRID 12
-#define BINDING_HOLE_MASKS 13
-#define BINDING_SOLID 15
+#define BINDING_HOLE_CELLS 11
+#define BINDING_SOLID 13
 #include "shared/frame.h"
 #include "shared/light.h"
 #include "shared/smoke_shadow.h"
@@ -22,7 +20,7 @@ layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArray shadows;
 layout(binding = 9) uniform sampler3D drift_atlas;
 layout(binding = 10, r16f) uniform writeonly image2D smoke_shadows;
-layout(scalar, binding = 14) readonly buffer Faces { SmokeShadowFace faces[]; };
+layout(scalar, binding = 12) readonly buffer Faces { SmokeShadowFace faces[]; };
 layout(push_constant, scalar) uniform Push { SmokeShadowParams params; };
 #include "lib/optical_depth.glsl"
 #include "lib/solid.glsl"

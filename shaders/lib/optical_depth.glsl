@@ -1,8 +1,8 @@
 // How much smoke stands between two points. Needs `frame`, `drift_atlas` and the bindings of
-// lib/smoke_density.glsl and lib/holes.glsl.
+// lib/smoke_density.glsl and lib/cell_holes.glsl.
 #ifndef OPTICAL_DEPTH_GLSL
 #define OPTICAL_DEPTH_GLSL
-#include "lib/holes.glsl"
+#include "lib/cell_holes.glsl"
 #include "lib/smoke_density.glsl"
 
 /// Density as the march sees it in the mean of a texel: light is as coarse as those.
@@ -12,12 +12,7 @@ float seen_density(vec3 p_voxel) {
   if (density <= 0.0) return 0.0;
   const vec3 uvw = (atlas_corner(frame.volume, point.slot) + point.local_voxel) * atlas_texel(frame.volume);
   density *= textureLod(drift_atlas, uvw, 0.0).w;
-  const uint holes_here = holes_in_slot(point.slot);
-  if (any_holes(holes_here)) {
-    const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
-    density *= left_by_holes(holes_here, point.local_voxel, p_world, 0.0);
-  }
-  return density;
+  return density * left_in_cell(point.slot, point.local_voxel);
 }
 
 /// Optical depth from a point along a unit direction, at most `distance_m` metres, in at most `max_steps` steps. They

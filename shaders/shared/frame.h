@@ -1,7 +1,7 @@
 // What every pass of a frame may know: camera, sky, smoke look. One buffer, written once a frame.
 #ifndef BRUME_FRAME_H
 #define BRUME_FRAME_H
-#include "shared/hole_grid.h"
+#include "shared/open_holes.h"
 #include "shared/phase.h"
 #include "shared/shim.h"
 #include "shared/smoke_volume.h"
@@ -53,7 +53,7 @@ struct FrameConstants {
   SolidFrame solid;
   uvec2 size_px;
   uint light_count;
-  HoleGridFrame holes;
+  OpenHolesFrame holes;
   uint frame_index;  // moves the dither and the jitter
   float time;        // [s]
   float exposure;    // multiplies radiance before the tone curve

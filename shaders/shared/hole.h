@@ -34,6 +34,9 @@ struct Hole {
 };
 SHARED_SIZE(Hole, 96);
 
+/// How far noise of the amplitude `rim` [m] moves the rim: of narrow holes less, so that they stay what they are.
+SHARED_FUNCTION float hole_rim(Hole hole, float rim) { return min(rim, 0.25f * hole.radius); }
+
 /// What a hole does at a point.
 struct HoleCut {
   float strength;  // share of the smoke that it removes, [0, 1]; of a mask where its image is white

@@ -20,7 +20,8 @@ gpu::Buffer block_buffer(gpu::Context& context, glm::uvec2 blocks, std::size_t h
               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
 }
 
-gpu::ComputePipeline pipeline(gpu::Context& context, bool count_samples, std::uint32_t rays) {
+gpu::ComputePipeline pipeline(gpu::Context& context, const MarchPass::Options& options, std::uint32_t rays,
+                              std::uint32_t holes) {
   return {context,
           shaders::march_comp,
           {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
@@ -28,7 +29,15 @@ gpu::ComputePipeline pipeline(gpu::Context& context, bool count_samples, std::ui
            gpu::kBuffer, gpu::kStored, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kSampled},
           0,
           {8, 8, 1},
-          {count_samples ? 1u : 0u, rays}};
+          {options.count_samples ? 1u : 0u, rays, holes}};
+}
+
+/// For frames without holes, and for those with.
+std::array<gpu::ComputePipeline, 2> pipelines(gpu::Context& context, const MarchPass::Options& options,
+                                              std::uint32_t rays) {
+  return {
+      pipeline(context, options, rays, shared::kHolesNone),
+      pipeline(context, options, rays, options.plain_holes ? shared::kHolesAllAsked : shared::kHolesListed)};
 }
 
 }  // namespace
@@ -40,29 +49,31 @@ MarchBlocks::MarchBlocks(gpu::Context& context, glm::uvec2 size_px, std::uint32_
       list(block_buffer(context, shared::blocks_of(size_px, scale), sizeof(shared::MarchList),
                         sizeof(std::uint32_t))) {}
 
-MarchPass::MarchPass(gpu::Context& context, bool count_samples)
-    : pixels_(pipeline(context, count_samples, shared::kRaysOfPixels)),
-      blocks_(pipeline(context, count_samples, shared::kRaysOfBlocks)),
-      list_(pipeline(context, count_samples, shared::kRaysOfList)),
+MarchPass::MarchPass(gpu::Context& context, const Options& options)
+    : pixels_(pipelines(context, options, shared::kRaysOfPixels)),
+      blocks_(pipelines(context, options, shared::kRaysOfBlocks)),
+      list_(pipelines(context, options, shared::kRaysOfList)),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
 
 void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Image& smoke,
                        const gpu::Buffer& counters) const {
-  bind(recorder, pixels_, in, {in.frame, in.frame, smoke, smoke}, counters);
-  recorder.dispatch_threads(pixels_, smoke.info().size.x, smoke.info().size.y);
+  const auto& pipeline = pixels_[in.holes.any ? 1 : 0];
+  bind(recorder, pipeline, in, {in.frame, in.frame, smoke, smoke}, counters);
+  recorder.dispatch_threads(pipeline, smoke.info().size.x, smoke.info().size.y);
 }
 
 void MarchPass::record_blocks(gpu::Recorder& recorder, const Inputs& in, const MarchBlocks& blocks,
                               const gpu::Buffer& counters) const {
-  bind(recorder, blocks_, in, {blocks.ends, in.frame, blocks.near, blocks.far}, counters);
-  recorder.dispatch_threads(blocks_, blocks.far.info().size.x, blocks.far.info().size.y);
+  const auto& pipeline = blocks_[in.holes.any ? 1 : 0];
+  bind(recorder, pipeline, in, {blocks.ends, in.frame, blocks.near, blocks.far}, counters);
+  recorder.dispatch_threads(pipeline, blocks.far.info().size.x, blocks.far.info().size.y);
 }
 
 void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const MarchBlocks& blocks,
                             const gpu::Image& smoke, const gpu::Buffer& counters) const {
-  bind(recorder, list_, in, {in.frame, blocks.list, smoke, smoke}, counters);
+  bind(recorder, list_[in.holes.any ? 1 : 0], in, {in.frame, blocks.list, smoke, smoke}, counters);
   recorder.dispatch_indirect(blocks.list);
 }
 
@@ -75,7 +86,7 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                  gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_),
                  gpu::read(in.holes.holes), gpu::stored(rays.smoke), gpu::read_write(counters),
                  gpu::read(rays.ends), gpu::stored(rays.near), gpu::sampled(in.holes.masks, nearest_),
-                 gpu::read(in.holes.grid), gpu::read(rays.list), gpu::sampled(in.smoke.drift, linear_)});
+                 gpu::read(in.holes.tiles), gpu::read(rays.list), gpu::sampled(in.smoke.drift, linear_)});
 }
 
 }  // namespace brume::passes

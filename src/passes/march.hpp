@@ -1,7 +1,9 @@
 // Marches rays through the smoke.
 #pragma once
 
-#include "passes/hole_grid.hpp"
+#include <array>
+
+#include "passes/open_holes.hpp"
 #include "passes/smoke_upload.hpp"
 #include "shared/resolve.h"
 
@@ -19,8 +21,11 @@ struct MarchBlocks {
 
 class MarchPass {
  public:
-  /// With `count_samples`, record adds the texture samples taken to the first word of `counters`.
-  MarchPass(gpu::Context& context, bool count_samples);
+  struct Options {
+    bool count_samples = false;  ///< record adds the texture samples taken to the first word of `counters`.
+    bool plain_holes = false;    ///< Every sample asks every hole: what the usual way is measured against.
+  };
+  MarchPass(gpu::Context& context, const Options& options);
 
   struct Inputs {
     const gpu::Buffer& frame;
@@ -51,7 +56,7 @@ class MarchPass {
   void bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const Inputs& inputs,
             const Rays& rays, const gpu::Buffer& counters) const;
 
-  gpu::ComputePipeline pixels_, blocks_, list_;
+  std::array<gpu::ComputePipeline, 2> pixels_, blocks_, list_;  ///< Without holes, with holes.
   gpu::Sampler linear_, repeat_, nearest_;
 };
 

@@ -26,15 +26,15 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
                  {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
                   gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled},
                  sizeof(shared::SmokeLightParams), {64, 1, 1}),
-      depth_pass_(context, shaders::light_depth_comp,
-                  {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
-                   gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
-                   gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled},
-                  sizeof(shared::SmokeLightParams), {64, 1, 1}),
-      inscatter_pass_(
-          context, shaders::inscatter_comp,
-          {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kStored},
+      depth_pass_(
+          context, shaders::light_depth_comp,
+          {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+           gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
           sizeof(shared::SmokeLightParams), {64, 1, 1}),
+      inscatter_pass_(context, shaders::inscatter_comp,
+                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+                       gpu::kStored, gpu::kSampled, gpu::kSampled},
+                      sizeof(shared::SmokeLightParams), {64, 1, 1}),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
       counters_(context, sizeof(shared::SmokeLightCounters),
@@ -74,22 +74,22 @@ void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std
                 {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                  gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_), gpu::read(texels_),
                  gpu::write(rays_), gpu::write(ray_light_), gpu::read_write(counters_),
-                 gpu::sampled(in.solid.texels(), linear_)},
+                 gpu::sampled(in.level.solid.texels(), linear_)},
                 params);
   recorder.dispatch_threads(rays_pass_, kGroups * 64);
   recorder.bind(depth_pass_,
                 {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.smoke.pages),
                  gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells),
-                 gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners), gpu::read(in.holes.holes),
-                 gpu::read(in.holes.grid), gpu::sampled(in.smoke.drift, linear_), gpu::read(in.scene.lights),
-                 gpu::read(texels_), gpu::read(rays_), gpu::read_write(ray_light_), gpu::read(counters_),
-                 gpu::sampled(in.holes.masks, linear_)},
+                 gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners), gpu::read(in.holes.cells),
+                 gpu::sampled(in.smoke.drift, linear_), gpu::read(in.scene.lights), gpu::read(texels_),
+                 gpu::read(rays_), gpu::read_write(ray_light_), gpu::read(counters_)},
                 params);
   recorder.dispatch_threads(depth_pass_, kGroups * 64);
   recorder.bind(
       inscatter_pass_,
       {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights), gpu::read(texels_),
-       gpu::read(ray_light_), gpu::read(counters_), gpu::stored(in.smoke.inscatter)},
+       gpu::read(ray_light_), gpu::read(counters_), gpu::stored(in.smoke.inscatter),
+       gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_)},
       params);
   recorder.dispatch_threads(inscatter_pass_, kGroups * 64);
 }

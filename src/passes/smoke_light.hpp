@@ -2,10 +2,10 @@
 // (shared/smoke_light.h).
 #pragma once
 
-#include "passes/hole_grid.hpp"
+#include "passes/open_holes.hpp"
+#include "passes/shade.hpp"
 #include "passes/shadow.hpp"
 #include "passes/smoke_upload.hpp"
-#include "passes/solid_volume.hpp"
 
 namespace brume::passes {
 
@@ -17,9 +17,9 @@ class SmokeLightPass {
     const gpu::Buffer& frame;
     const SceneResources& scene;
     const ShadowMaps& shadows;
-    const SolidVolume& solid;
     const SmokeResources& smoke;
     const HoleResources& holes;
+    LevelLight level;
   };
   /// Makes room for the light of this many bricks and lamps. Not between the begin and the end of a
   /// recording, and only when the device is done with what it recorded before. Throws resource_limit.

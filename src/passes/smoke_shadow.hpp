@@ -1,7 +1,7 @@
 // How much the smoke dims what each light sends to the surfaces.
 #pragma once
 
-#include "passes/hole_grid.hpp"
+#include "passes/open_holes.hpp"
 #include "passes/shadow.hpp"
 #include "passes/smoke_shadow_plan.hpp"
 #include "passes/smoke_upload.hpp"

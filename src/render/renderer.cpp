@@ -46,7 +46,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       smoke_shadow_pass_(context),
       shade_pass_(context),
       smoke_light_pass_(context),
-      march_pass_(context, options.count_samples),
+      march_pass_(context, {options.count_samples, options.plain_holes}),
       resolve_pass_(context),
       display_pass_(context),
       smoke_upload_(context),
@@ -61,7 +61,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       smoke_image_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       picture_(storage_image(context, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT)),
       display_image_(storage_image(context, size_px_, VK_FORMAT_R8G8B8A8_UNORM)),
-      hole_grid_(context, runner, options.masks ? *options.masks : sim::MaskAtlas(), options.all_holes_wide),
+      open_holes_(context, runner, options.masks ? *options.masks : sim::MaskAtlas()),
       frame_(context, sizeof(shared::FrameConstants), kBufferUsage),
       counters_(context, sizeof(std::uint32_t), kBufferUsage) {
   set_march_scale(options.march_scale);
@@ -85,9 +85,8 @@ void Renderer::prepare(const FrameInput& input) {
   if (input.volume) drift_pass_.reserve(state_of(input), *input.volume);
   solid_.reserve(input.level);
   sky_light_.reserve(solid_);
-  hole_grid_.reserve(input.holes.last(std::min<std::size_t>(input.holes.size(), passes::kMaxHoles)),
-                     input.time, input.look.hole_rim, slots > 0 ? input.volume->frame().voxel_size : 1.0f,
-                     slots);
+  open_holes_.reserve(input.holes, input.time, slots > 0 ? input.volume->frame().voxel_size : 1.0f, slots,
+                      size_px_);
   smoke_light_pass_.reserve(slots, light_count(input));
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
 }
@@ -116,7 +115,7 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
   frame.size_px = size_px_;
   frame.light_count = light_count(input);
-  frame.holes = hole_grid_.frame();
+  frame.holes = open_holes_.frame();
   frame.frame_index = input.frame_index;
   frame.time = input.time;
   frame.exposure = input.exposure;
@@ -146,8 +145,8 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
     gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), input.hidden_objects,
                          frame_, gbuffer_);
   });
-  const auto& holes = hole_grid_.resources();
-  stage("holes", [&] { hole_grid_.record(recorder, frame_, smoke); });
+  const auto& holes = open_holes_.resources();
+  stage("holes", [&] { open_holes_.record(recorder, frame_, smoke); });
   stage("drift", [&] {
     if (input.volume)
       drift_pass_.record(recorder, {frame_, smoke, noise_, state_of(input), input.time, input.roll_seconds});
@@ -155,7 +154,8 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   const bool light_smoke = input.volume && needs_light(input);
   stage("smoke_shadow", [&] { record_smoke_shadows(recorder, input, light_smoke); });
   stage("smoke_light", [&] {
-    if (light_smoke) smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, solid_, smoke, holes});
+    if (light_smoke)
+      smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, {solid_, sky_light_}});
   });
   stage("march", [&] { record_march(recorder); });
   if (blocks_) stage("resolve", [&] { record_resolve(recorder); });
@@ -177,12 +177,12 @@ void Renderer::record_smoke_shadows(gpu::Recorder& recorder, const FrameInput& i
   if (!anew && plan == smoke_shadow_plan_) return;
   smoke_shadow_plan_ = std::move(plan);
   smoke_shadow_pass_.record(
-      recorder, {frame_, scene_, shadows_, solid_, smoke_upload_.resources(), hole_grid_.resources()},
+      recorder, {frame_, scene_, shadows_, solid_, smoke_upload_.resources(), open_holes_.resources()},
       smoke_shadow_plan_, smoke_shadows_);
 }
 
 passes::MarchPass::Inputs Renderer::march_inputs() const {
-  return {frame_, smoke_upload_.resources(), noise_, gbuffer_.depth, blue_noise_, hole_grid_.resources()};
+  return {frame_, smoke_upload_.resources(), noise_, gbuffer_.depth, blue_noise_, open_holes_.resources()};
 }
 
 void Renderer::record_march(gpu::Recorder& recorder) {
@@ -208,7 +208,7 @@ bool Renderer::needs_light(const FrameInput& input) {
                          lit_camera_.target_world == input.camera.target_world &&
                          lit_camera_.vertical_fov == input.camera.vertical_fov;
   // Noise drifts, holes open and close.
-  const bool has_holes = hole_grid_.frame().hole_count > 0;
+  const bool has_holes = open_holes_.frame().count > 0;
   const bool same_moment = lit_time_ == input.time || (input.look.erosion == 0 && !has_holes && !lit_holes_);
   lit_holes_ = has_holes;
   const bool same_flashes =

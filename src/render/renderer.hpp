@@ -41,10 +41,10 @@ struct FrameInput {
 };
 
 struct RendererOptions {
-  glm::uvec2 size_px{1280, 720};  ///< Each in [1, 16384].
-  bool count_samples = false;     ///< Count the texture samples of the march (slower).
-  bool all_holes_wide = false;    ///< Ask every hole at every sample: what the structure is measured against.
-  std::uint32_t march_scale = 1;  ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  glm::uvec2 size_px{1280, 720};          ///< Each in [1, 16384].
+  bool count_samples = false;             ///< Count the texture samples of the march (slower).
+  bool plain_holes = false;               ///< See MarchPass::Options.
+  std::uint32_t march_scale = 1;          ///< Pixels per ray of the march along each axis: 1, 2 or 4.
   const sim::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
 };
 
@@ -116,7 +116,7 @@ class Renderer {
   passes::SmokeShadowPlan smoke_shadow_plan_;  ///< That they were made by.
   gpu::Image noise_, blue_noise_, smoke_image_, picture_, display_image_;
   std::optional<passes::MarchBlocks> blocks_;  ///< Where march_scale_ is above 1.
-  passes::HoleGrid hole_grid_;
+  passes::OpenHoles open_holes_;
   gpu::Buffer frame_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
   shared::Sky lit_sky_{};

@@ -39,7 +39,7 @@ void main() {
   frame.solid = SolidFrame(v3(200.0), 203.0, i3(204));
   frame.size_px = uvec2(190u, 191u);
   frame.light_count = 192u;
-  frame.holes = HoleGridFrame(193u, 198u, 199u, 200u);
+  frame.holes = OpenHolesFrame(193u, 198u, 199u, 200u);
   frame.frame_index = 194u;
   frame.time = 195.0;
   frame.exposure = 196.0;

@@ -14,7 +14,7 @@ constexpr glm::uvec2 kSize{33, 17};
 
 class MarchTest : public gpu::GpuTest {
  protected:
-  MarchTest() : march_(context(), true) {
+  MarchTest() : march_(context(), {true, false}) {
     noise_tile_ = make_noise_tile(context(), 8);
     const NoisePass noise(context());
     runner().run([&](gpu::Recorder& recorder) {
@@ -50,19 +50,19 @@ class MarchTest : public gpu::GpuTest {
                                const std::vector<shared::Hole>& holes = {}) {
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / distance);
     const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
-    HoleGrid grid(context(), runner(), {}, false);
-    grid.reserve(holes, frame.time, frame.look.hole_rim, frame.volume.voxel_size, room.volume.slot_count());
-    frame.holes = grid.frame();
+    OpenHoles open_holes(context(), runner(), {});
+    open_holes.reserve(holes, frame.time, frame.volume.voxel_size, room.volume.slot_count(), kSize);
+    frame.holes = open_holes.frame();
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
-      grid.record(recorder, frame_buffer, room.upload.resources());
-      march_.record(
-          recorder,
-          {frame_buffer, room.upload.resources(), noise_tile_, depth_image, blue_noise_, grid.resources()},
-          target, counters);
+      open_holes.record(recorder, frame_buffer, room.upload.resources());
+      march_.record(recorder,
+                    {frame_buffer, room.upload.resources(), noise_tile_, depth_image, blue_noise_,
+                     open_holes.resources()},
+                    target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
     std::vector<glm::vec4> out;

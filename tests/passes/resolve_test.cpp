@@ -18,7 +18,7 @@ using shared::RayEnds;
 
 class ResolveTest : public gpu::GpuTest {
  protected:
-  ResolveTest() : march_(context(), false), resolve_(context()) {
+  ResolveTest() : march_(context(), {}), resolve_(context()) {
     noise_tile_ = make_noise_tile(context(), 8);
     const NoisePass noise(context());
     runner().run([&](gpu::Recorder& recorder) {
@@ -60,8 +60,8 @@ class ResolveTest : public gpu::GpuTest {
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), size, VK_FORMAT_R16G16B16A16_SFLOAT);
-    HoleGrid holes(context(), runner(), {}, false);
-    holes.reserve({}, 0, 0, frame.volume.voxel_size, room.volume.slot_count());
+    OpenHoles holes(context(), runner(), {});
+    holes.reserve({}, 0, frame.volume.voxel_size, room.volume.slot_count(), size);
     const MarchBlocks blocks(context(), size, std::max(frame.march_scale, 2u));
     const MarchPass::Inputs in{frame_buffer, room.upload.resources(), noise_tile_, depth,
                                blue_noise_,  holes.resources()};

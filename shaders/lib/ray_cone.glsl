@@ -1,0 +1,29 @@
+// Cones around rays of the camera. Needs `frame`.
+#ifndef RAY_CONE_GLSL
+#define RAY_CONE_GLSL
+#include "lib/camera.glsl"
+#include "lib/hole_reach.glsl"
+
+/// Distance from the eye beyond which there is no smoke.
+float smoke_reach() {
+  const vec3 low = frame.volume.origin_world + frame.volume.bounds_min * frame.volume.voxel_size;
+  const vec3 high = frame.volume.origin_world + frame.volume.bounds_max * frame.volume.voxel_size;
+  return length(max(abs(low - frame.camera.eye_world), abs(high - frame.camera.eye_world)));
+}
+
+/// Around all rays through a rectangle of the picture.
+RayCone cone_of_pixels(vec2 low_px, vec2 high_px, float length_m) {
+  RayCone cone;
+  cone.origin_world = frame.camera.eye_world;
+  cone.axis = normalize(camera_ray(frame.camera, 0.5 * (low_px + high_px), frame.size_px));
+  cone.length_m = length_m;
+  cone.spread = 0.0;
+  for (uint i = 0u; i < 4u; ++i) {
+    const vec2 px = vec2((i & 1u) == 0u ? low_px.x : high_px.x, (i & 2u) == 0u ? low_px.y : high_px.y);
+    const vec3 ray = camera_ray(frame.camera, px, frame.size_px);
+    cone.spread = max(cone.spread, length(cross(cone.axis, ray)) / max(dot(cone.axis, ray), 1e-3));
+  }
+  return cone;
+}
+
+#endif

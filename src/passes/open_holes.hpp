@@ -1,0 +1,64 @@
+// Which holes reach where (shared/open_holes.h), found anew each frame: holes open, close and are shot.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "passes/hole_masks.hpp"
+#include "passes/smoke_upload.hpp"
+#include "shared/frame.h"
+#include "shared/hole.h"
+
+namespace brume::passes {
+
+/// What is known of a frame's holes before any is drawn.
+struct HolePlan {
+  std::vector<shared::Hole> holes;  ///< Those that may be open somewhere; at most kMaxHoles, the last ones.
+  std::uint32_t pair_capacity =
+      0;  ///< Never less than the pairs of a brick and a hole that meet, up to kMaxHolePairs.
+  std::uint32_t block_capacity = 0;
+};
+
+/// Where there are more, or more bricks with holes than block_capacity may be (7,000), light does not see
+/// some holes.
+constexpr std::uint32_t kMaxHolePairs = 1u << 22;
+
+/// Plans the holes that are open at `time` in smoke of `slot_count` bricks.
+HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float voxel_size,
+                    std::uint32_t slot_count);
+
+/// What every pass that looks for holes binds.
+struct HoleResources {
+  gpu::Buffer holes, tiles, cells;
+  gpu::Image masks;  ///< The mask atlas.
+  bool any = false;  ///< Whether any hole is open in this frame.
+};
+
+class OpenHoles {
+ public:
+  /// Uploads the masks.
+  OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const sim::MaskAtlas& masks);
+
+  /// Plans the frame and makes room. Not between the begin and the end of a recording, and only when the
+  /// device is done with what it recorded before. Throws resource_limit.
+  void reserve(std::span<const shared::Hole> holes, float time, float voxel_size, std::uint32_t slot_count,
+               glm::uvec2 size_px);
+  /// What the frame's constants must say.
+  shared::OpenHolesFrame frame() const;
+  /// Uploads the holes and finds where they are, after the frame's constants and the smoke were uploaded.
+  void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SmokeResources& smoke);
+
+  const HoleResources& resources() const { return resources_; }
+
+ private:
+  gpu::Context& context_;
+  gpu::ComputePipeline tiles_pass_, bricks_pass_, cells_pass_;
+  gpu::Sampler nearest_;
+  HoleResources resources_;
+  gpu::Buffer pairs_, counters_;
+  HolePlan plan_;
+  std::uint32_t slot_count_ = 0;
+  glm::uvec2 tiles_{0};
+};
+
+}  // namespace brume::passes
