@@ -25,6 +25,7 @@ struct Options {
   std::vector<std::string> smokes;
   std::optional<double> time;
   std::uint32_t fps = 24;
+  bool temporal = false;
 };
 
 // What the options say, checked before any file is read.
@@ -41,6 +42,7 @@ Plan make_plan(const Options& options) {
   plan.kind = target_kind(options.output);
   plan.renderer.size_px = parse_size("--size", options.size);
   plan.renderer.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
+  plan.renderer.temporal = options.temporal;
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
   for (const std::string& text : options.smokes) {
     const glm::vec3 place = parse_point("--smoke", text);
@@ -49,6 +51,9 @@ Plan make_plan(const Options& options) {
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
   if (plan.kind == TargetKind::picture && plan.frames) {
     throw Error(ErrorCode::usage, options.output + ": --frames needs a film (.mp4) or a %04d in the name");
+  }
+  if (plan.kind == TargetKind::picture && options.temporal) {
+    throw Error(ErrorCode::usage, options.output + ": --temporal needs a film (.mp4) or a %04d in the name");
   }
   if (plan.kind != TargetKind::picture && options.time) {
     throw Error(ErrorCode::usage, options.output + ": --time is for one picture; use --frames");
@@ -150,11 +155,10 @@ void render(const Options& options, const CommonOptions& common) {
   Draughtsman draughtsman(playback);
   write(options, plan, common, stage.timeline, draughtsman);
   if (options.json.empty()) return;
-  Json statistics{{"output", options.output},
-                  {"size", {plan.renderer.size_px.x, plan.renderer.size_px.y}},
-                  {"march", options.march},
-                  {"device", context.info().name},
-                  {"driver", context.info().driver}};
+  Json statistics{
+      {"output", options.output},      {"size", {plan.renderer.size_px.x, plan.renderer.size_px.y}},
+      {"march", options.march},        {"temporal", options.temporal},
+      {"device", context.info().name}, {"driver", context.info().driver}};
   statistics.update(draughtsman.statistics());
   write_json(options.json, statistics);
 }
@@ -194,6 +198,7 @@ Command add_render(CLI::App& program) {
                   "Rays of the smoke: one for each pixel, 2x2 or 4x4; default full")
       ->check(CLI::IsMember({"full", "half", "quarter"}))
       ->type_name("full|half|quarter");
+  parser.add_flag("--temporal", options->temporal, "Gather the smoke of a film over its frames");
   parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
       ->type_name("CAMERA");
   parser.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")

@@ -22,7 +22,9 @@ class Playback {
   Playback(gpu::Context& context, const stage::Stage& stage, glm::uvec2 size_px)
       : Playback(context, stage, RendererOptions{size_px}) {}
 
-  /// The picture at a time [s]: the same for the same time and frame index, whatever came before.
+  /// The picture at a time [s]: the same for the same time and frame index, whatever came before. With
+  /// RendererOptions::temporal a frame whose index is one more than that of the draw before goes on from it;
+  /// any other begins anew.
   image::Image8 draw(double seconds, std::uint32_t frame_index);
   /// Where the camera is instead of on the timeline's path; empty: on the path.
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
@@ -40,6 +42,7 @@ class Playback {
   gpu::Buffer pixels_;
   gpu::Buffer list_;  ///< shared::MarchList of the last frame.
   std::optional<scene::Camera> camera_;
+  std::optional<std::uint32_t> last_frame_index_;
 };
 
 }  // namespace brume::render

@@ -65,6 +65,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       frame_(context, sizeof(shared::FrameConstants), kBufferUsage),
       counters_(context, sizeof(std::uint32_t), kBufferUsage) {
   set_march_scale(options.march_scale);
+  if (options.temporal) accumulate_pass_.emplace(context, size_px_);
   shadow_pass_.record(context, runner, scene_, {}, shadows_);
   const passes::NoisePass noise(context);
   runner.run([&](gpu::Recorder& recorder) {
@@ -159,9 +160,14 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   });
   stage("march", [&] { record_march(recorder); });
   if (blocks_) stage("resolve", [&] { record_resolve(recorder); });
+  if (accumulate_pass_)
+    stage("accumulate", [&] {
+      accumulate_pass_->record(recorder, frame_, device_camera(input.camera, size_px_), gbuffer_.depth,
+                               smoke_image_, input.continues);
+    });
   stage("shade", [&] {
     shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, {solid_, sky_light_}, gbuffer_,
-                       smoke_image_, picture_);
+                       this->smoke(), picture_);
   });
   stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
 }

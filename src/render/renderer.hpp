@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "passes/accumulate.hpp"
 #include "passes/display.hpp"
 #include "passes/drift.hpp"
 #include "passes/march.hpp"
@@ -36,6 +37,8 @@ struct FrameInput {
   const sim::State* state = nullptr;
   double roll_seconds = 12;                   ///< How long the noise takes to roll around once; > 0.
   std::vector<std::uint32_t> hidden_objects;  ///< Of the scene, rising: not drawn, and they cast no shadow.
+  /// The next picture of a film: with RendererOptions::temporal the smoke of the frames before counts, too.
+  bool continues = false;
   bool force_light =
       false;  ///< Light smoke and surfaces anew even when nothing changed since the last frame.
 };
@@ -45,6 +48,7 @@ struct RendererOptions {
   bool count_samples = false;             ///< Count the texture samples of the march (slower).
   bool plain_holes = false;               ///< See MarchPass::Options.
   std::uint32_t march_scale = 1;          ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  bool temporal = false;                  ///< Gather smoke over the frames of a film (FrameInput::continues).
   const sim::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
 };
 
@@ -68,9 +72,8 @@ class Renderer {
 
   const gpu::Image& display() const { return display_image_; }  ///< RGBA8, sRGB.
   const gpu::Image& picture() const { return picture_; }        ///< Half floats: radiance.
-  const gpu::Image& smoke() const {
-    return smoke_image_;
-  }  ///< Half floats: premultiplied radiance, transmittance.
+  /// Half floats: premultiplied radiance, transmittance.
+  const gpu::Image& smoke() const { return accumulate_pass_ ? accumulate_pass_->gathered() : smoke_image_; }
   const gpu::Image& depth() const { return gbuffer_.depth; }
   /// The rays of the march; empty where each pixel has its own.
   const std::optional<passes::MarchBlocks>& march_blocks() const { return blocks_; }
@@ -115,7 +118,8 @@ class Renderer {
   passes::SmokeShadows smoke_shadows_;
   passes::SmokeShadowPlan smoke_shadow_plan_;  ///< That they were made by.
   gpu::Image noise_, blue_noise_, smoke_image_, picture_, display_image_;
-  std::optional<passes::MarchBlocks> blocks_;  ///< Where march_scale_ is above 1.
+  std::optional<passes::AccumulatePass> accumulate_pass_;  ///< Where smoke is gathered over frames.
+  std::optional<passes::MarchBlocks> blocks_;              ///< Where march_scale_ is above 1.
   passes::OpenHoles open_holes_;
   gpu::Buffer frame_, counters_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.

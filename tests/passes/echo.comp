@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "shared/accumulate.h"
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
 #include "shared/hole.h"
@@ -24,6 +25,9 @@ layout(scalar, binding = 8) buffer Out8 { SmokeShadowParams smoke_shadow; };
 layout(scalar, binding = 9) buffer Out9 { ShadowView view; };
 layout(scalar, binding = 11) buffer Out11 { SmokeShadowFace smoke_face; };
 layout(scalar, binding = 10) buffer Out10 { RayEnds ends; };
+layout(scalar, binding = 12) buffer Out12 { MarchList march_list; };
+layout(scalar, binding = 13) buffer Out13 { AccumulateParams accumulate; };
+layout(scalar, binding = 14) buffer Out14 { AccumulatedPixel pixel; };
 
 vec2 v2(float first) { return vec2(first, first + 1.0); }
 vec3 v3(float first) { return vec3(first, first + 1.0, first + 2.0); }
@@ -55,4 +59,7 @@ void main() {
   smoke_face = SmokeShadowFace(1.0, vec2(2.0, 3.0), uvec2(4u, 5u), uvec2(6u, 7u), 8u);
   view = ShadowView(m4(1.0), m4(17.0));
   ends = RayEnds(vec2(1.0, 2.0), 3.0, 4.0, 5.0, 6.0);
+  march_list = MarchList(uvec3(1u, 2u, 3u), 4u);
+  accumulate = AccumulateParams(m4(1.0), 17u);
+  pixel = AccumulatedPixel(1.0, 2.0);
 }

@@ -1,4 +1,5 @@
 #include "brume_test_shaders.hpp"
+#include "shared/accumulate.h"
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
 #include "shared/hole.h"
@@ -29,24 +30,25 @@ class SharedStructs : public GpuTest {
 };
 
 TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
-  const gpu::ComputePipeline pipeline(
-      context(), shaders::echo_comp,
-      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-      0, {1, 1, 1});
+  const gpu::ComputePipeline pipeline(context(), shaders::echo_comp,
+                                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+                                       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+                                       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                                      0, {1, 1, 1});
   std::vector<gpu::Buffer> out;
   for (const std::size_t size :
        {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
         sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
         sizeof(shared::NoiseParams), sizeof(shared::SmokeLightParams), sizeof(shared::SmokeShadowParams),
-        sizeof(shared::ShadowView), sizeof(shared::RayEnds), sizeof(shared::SmokeShadowFace)}) {
+        sizeof(shared::ShadowView), sizeof(shared::RayEnds), sizeof(shared::SmokeShadowFace),
+        sizeof(shared::MarchList), sizeof(shared::AccumulateParams), sizeof(shared::AccumulatedPixel)}) {
     out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   }
   runner().run([&](gpu::Recorder& recorder) {
-    recorder.bind(pipeline,
-                  {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
-                   gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7]),
-                   gpu::write(out[8]), gpu::write(out[9]), gpu::write(out[10]), gpu::write(out[11])});
+    recorder.bind(pipeline, {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
+                             gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7]),
+                             gpu::write(out[8]), gpu::write(out[9]), gpu::write(out[10]), gpu::write(out[11]),
+                             gpu::write(out[12]), gpu::write(out[13]), gpu::write(out[14])});
     recorder.dispatch_threads(pipeline, 1);
   });
 
@@ -160,6 +162,17 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(face.first_texel, 4);
   expect_counted(face.size, 6);
   EXPECT_EQ(face.first_block, 8u);
+
+  const auto list = one<shared::MarchList>(out[12]);
+  expect_counted(list.groups, 1);
+  EXPECT_EQ(list.count, 4u);
+  const auto accumulate = one<shared::AccumulateParams>(out[13]);
+  for (int i = 0; i < 4; ++i)
+    expect_counted(accumulate.past_clip_from_world[i], 1.0f + 4.0f * static_cast<float>(i));
+  EXPECT_EQ(accumulate.has_past, 17u);
+  const auto pixel = one<shared::AccumulatedPixel>(out[14]);
+  EXPECT_EQ(pixel.distance_in_smoke, 1);
+  EXPECT_EQ(pixel.frames, 2);
 
   const auto ends = one<shared::RayEnds>(out[10]);
   expect_counted(ends.position_px, 1);

@@ -1,0 +1,39 @@
+#include "passes/accumulate.hpp"
+
+#include "brume_shaders.hpp"
+
+namespace brume::passes {
+
+AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
+    : pipeline_(context, shaders::accumulate_comp,
+                {gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored,
+                 gpu::kBuffer},
+                sizeof(shared::AccumulateParams), {8, 8, 1}),
+      nearest_(context, {VK_FILTER_NEAREST}),
+      linear_(context, {}) {
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = {size_px, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  const VkDeviceSize bytes = VkDeviceSize{sizeof(shared::AccumulatedPixel)} * size_px.x * size_px.y;
+  for (std::size_t i = 0; i < 2; ++i) {
+    smoke_[i] = gpu::Image(context, info);
+    pixels_[i] = gpu::Buffer(context, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  }
+}
+
+void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
+                            const gpu::Image& depth, const gpu::Image& smoke, bool continues) {
+  const std::size_t before = current_, now = 1 - current_;
+  const shared::AccumulateParams params{past_clip_from_world_, continues ? 1u : 0u};
+  recorder.bind(pipeline_,
+                {gpu::read(frame), gpu::sampled(depth, nearest_), gpu::sampled(smoke, nearest_),
+                 gpu::sampled(smoke_[before], linear_), gpu::read(pixels_[before]), gpu::stored(smoke_[now]),
+                 gpu::write(pixels_[now])},
+                params);
+  recorder.dispatch_threads(pipeline_, smoke.info().size.x, smoke.info().size.y);
+  current_ = now;
+  past_clip_from_world_ = camera.clip_from_world;
+}
+
+}  // namespace brume::passes
