@@ -15,10 +15,10 @@ vec4 smoke_noise(sampler3D noise_tile, SmokeLook look, vec3 p_world, float time)
 /// the most is 1 + 0.5 look.erosion.
 float erode(SmokeLook look, float density, vec4 noise) {
   // Sums of channels crowd around their middle: spread over [0, 1] again.
-  const float billows = clamp(1.6 * dot(noise, vec4(0.55, 0.22, 0.0, 0.23)) - 0.3, 0.0, 1.0);
-  const float wisps = clamp(1.3 * dot(noise, vec4(0.25, 0.0, 0.75, 0.0)) + 0.05, 0.0, 1.0);
+  const float billows = clamp(1.6 * dot(noise, vec4(0.55, 0.22, 0.0, 0.23)) - 0.4, 0.0, 1.0);
+  const float wisps = clamp(1.3 * dot(noise, vec4(0.25, 0.0, 0.75, 0.0)) - 0.1, 0.0, 1.0);
   const float threshold = look.erosion * (1.0 - mix(billows, wisps, 0.5 - 0.5 * density));
-  const float left = clamp(2.5 * (density - threshold) / max(1.0 - threshold, 0.05), 0.0, 1.0);
+  const float left = clamp(4.0 * (density - threshold) / max(1.0 - threshold, 0.05), 0.0, 1.0);
   const float inside = 1.0 + look.erosion * (0.7 * noise.r + 0.3 * noise.g - 0.5);
   return left * inside;
 }
