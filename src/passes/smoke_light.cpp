@@ -33,7 +33,7 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
           sizeof(shared::SmokeLightParams), {64, 1, 1}),
       inscatter_pass_(context, shaders::inscatter_comp,
                       {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                       gpu::kStored, gpu::kSampled, gpu::kSampled},
+                       gpu::kStored, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled},
                       sizeof(shared::SmokeLightParams), {64, 1, 1}),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
@@ -89,7 +89,8 @@ void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std
       inscatter_pass_,
       {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights), gpu::read(texels_),
        gpu::read(ray_light_), gpu::read(counters_), gpu::stored(in.smoke.inscatter),
-       gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_)},
+       gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
+       gpu::sampled(in.smoke.density, linear_), gpu::sampled(in.smoke.drift, linear_)},
       params);
   recorder.dispatch_threads(inscatter_pass_, kGroups * 64);
 }

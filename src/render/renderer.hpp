@@ -74,6 +74,7 @@ class Renderer {
   const gpu::Image& picture() const { return picture_; }        ///< Half floats: radiance.
   /// Half floats: premultiplied radiance, transmittance.
   const gpu::Image& smoke() const { return accumulate_pass_ ? accumulate_pass_->gathered() : smoke_image_; }
+  const passes::SmokeResources& smoke_resources() const { return smoke_upload_.resources(); }
   const gpu::Image& depth() const { return gbuffer_.depth; }
   /// The rays of the march; empty where each pixel has its own.
   const std::optional<passes::MarchBlocks>& march_blocks() const { return blocks_; }

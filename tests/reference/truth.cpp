@@ -35,19 +35,44 @@ glm::dvec4 noise_at(const NoiseTile& tile, glm::dvec3 p_tile) {
   return sum;
 }
 
-glm::dvec4 smoke_noise(const TruthScene& scene, glm::dvec3 p_world) {
+/// How far the noise was carried to a point of the smoke.
+glm::dvec3 drift_at(const TruthScene& scene, glm::dvec3 p_voxel) {
+  if (scene.drift == nullptr) return glm::dvec3(0);
+  const glm::ivec3 brick(glm::floor(p_voxel / 8.0));
+  const std::uint32_t slot = scene.volume->slot_at(brick);
+  if (slot == sim::SmokeVolume::kNoSlot) return glm::dvec3(0);
+  const glm::uvec3 bricks(scene.volume->frame().atlas_bricks);
+  const glm::ivec3 corner(
+      glm::uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * 10u);
+  const glm::dvec3 at = p_voxel - glm::dvec3(8 * brick) + 0.5;  // a texel of apron before the brick
+  const glm::ivec3 low(glm::floor(at));
+  const glm::dvec3 f = at - glm::dvec3(low);
+  glm::dvec3 sum(0);
+  for (int i = 0; i < 8; ++i) {
+    const glm::ivec3 o(i & 1, i >> 1 & 1, i >> 2), t = corner + glm::min(low + o, glm::ivec3(9));
+    const double w = (o.x ? f.x : 1 - f.x) * (o.y ? f.y : 1 - f.y) * (o.z ? f.z : 1 - f.z);
+    const auto index =
+        t.x + std::int64_t{scene.drift->size.x} * (t.y + std::int64_t{scene.drift->size.y} * t.z);
+    sum += w * glm::dvec3(scene.drift->texels[static_cast<std::size_t>(index)]);
+  }
+  return sum;
+}
+
+glm::dvec4 smoke_noise(const TruthScene& scene, glm::dvec3 p_world, glm::dvec3 p_voxel) {
   if (scene.noise == nullptr) return glm::dvec4(0.5);
-  const glm::dvec3 drift(0, double{scene.look.noise_drift} * scene.time, 0);
-  return noise_at(*scene.noise, (p_world - drift) / double{scene.look.noise_period});
+  const glm::dvec3 rise(0, double{scene.look.noise_drift} * scene.time, 0);
+  return noise_at(*scene.noise,
+                  (p_world + drift_at(scene, p_voxel) - rise) / double{scene.look.noise_period});
 }
 
 /// What the noise leaves: the rule of shaders/lib/erosion.glsl.
 double eroded(const shared::SmokeLook& look, double density, glm::dvec4 noise) {
   const double erosion = double{look.erosion};
-  const double mixed = 0.55 * noise.r + 0.22 * noise.g + 0.23 * noise.a;
-  const double threshold = erosion * (1 - std::clamp(1.35 * mixed - 0.175, 0.0, 1.0));
+  const double billows = std::clamp(1.6 * (0.55 * noise.r + 0.22 * noise.g + 0.23 * noise.a) - 0.3, 0.0, 1.0);
+  const double wisps = std::clamp(1.3 * (0.25 * noise.r + 0.75 * noise.b) + 0.05, 0.0, 1.0);
+  const double threshold = erosion * (1 - glm::mix(billows, wisps, 0.5 - 0.5 * density));
   const double left = std::clamp(2.5 * (density - threshold) / std::max(1 - threshold, 0.05), 0.0, 1.0);
-  return left * (1 + erosion * (0.7 * noise.r + 0.3 * noise.a - 0.5));
+  return left * (1 + erosion * (0.7 * noise.r + 0.3 * noise.g - 0.5));
 }
 
 /// Share of the smoke that a hole takes away: the rule of shaders/shared/hole.h.
@@ -230,11 +255,12 @@ std::vector<TruthTriangle> truth_triangles(const scene::Scene& scene) {
 
 double truth_density(const TruthScene& scene, glm::dvec3 p_world) {
   const shared::SmokeVolumeFrame& frame = scene.volume->frame();
-  double density =
-      smoke_density(*scene.volume, (p_world - glm::dvec3(frame.origin_world)) / double{frame.voxel_size});
+  const glm::dvec3 p_voxel = (p_world - glm::dvec3(frame.origin_world)) / double{frame.voxel_size};
+  double density = smoke_density(*scene.volume, p_voxel);
   if (density <= 0) return 0;
   const bool eroding = scene.look.erosion > 0;
-  const glm::dvec4 noise = eroding || scene.look.hole_rim > 0 ? smoke_noise(scene, p_world) : glm::dvec4(0.5);
+  const glm::dvec4 noise =
+      eroding || scene.look.hole_rim > 0 ? smoke_noise(scene, p_world, p_voxel) : glm::dvec4(0.5);
   if (eroding) density = eroded(scene.look, density, noise);
   const double rim = (2 * noise.g - 1) * double{scene.look.hole_rim};
   for (const shared::Hole& hole : scene.holes) density *= 1 - hole_share(hole, p_world, scene.time, rim);

@@ -22,6 +22,13 @@ struct NoiseTile {
   std::vector<glm::u8vec4> texels;
 };
 
+/// Where the noise is carried as the device holds it: xyz of the texels of all bricks [m], laid out as the
+/// density.
+struct DriftField {
+  glm::ivec3 size{0};  ///< Texels per axis.
+  std::vector<glm::vec3> texels;
+};
+
 /// A triangle of the world and what it is made of.
 struct TruthTriangle {
   glm::dvec3 a, b, c;
@@ -41,9 +48,10 @@ struct TruthScene {
   std::span<const shared::Hole> holes;  ///< Without masks.
   std::span<const shared::Light> lights;
   std::span<const TruthTriangle> triangles;
-  const NoiseTile* noise = nullptr;  ///< Needed where look.erosion or look.hole_rim is not 0.
-  double view_step = 0.2;            ///< Of the rays of the pixels [voxels].
-  double light_step = 0.4;           ///< Of the rays to the lights [voxels].
+  const NoiseTile* noise = nullptr;   ///< Needed where look.erosion or look.hole_rim is not 0.
+  const DriftField* drift = nullptr;  ///< Null: the noise is not carried.
+  double view_step = 0.2;             ///< Of the rays of the pixels [voxels].
+  double light_step = 0.4;            ///< Of the rays to the lights [voxels].
 };
 
 /// One pixel, seen through its middle.

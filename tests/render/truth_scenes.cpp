@@ -109,10 +109,9 @@ std::vector<TruthCase> truth_cases() {
   auto pierced = smoke_at({0, 0.2f, 0}, 1800);
   pierced.shots = {shot({-3, 1.2f, 1}, {3, 1, 0.7f}, 0.4f)};
   add("hole", room({}, {lamp({-3, 1.25f, 1}, 0.7f * white)}), pierced);
-  auto noisy = smoke_at({0, 0.2f, 0}, 1800);
-  noisy.smoke.noise = 0.5f;
-  noisy.shots = {shot({0, 1.5f, 5.5f}, {-0.5f, 1, 0}, 0.4f), shot({3, 1.5f, 1}, {-1, 0.8f, 0}, 0.3f)};
-  add("noise and holes", room({}, {side, lamp({3, 1.5f, 1}, blue)}), noisy).noisy = true;
+  auto riddled = smoke_at({0, 0.2f, 0}, 1800);
+  riddled.shots = {shot({0, 1.5f, 5.5f}, {-0.5f, 1, 0}, 0.4f), shot({3, 1.5f, 1}, {-1, 0.8f, 0}, 0.3f)};
+  add("two holes", room({}, {side, lamp({3, 1.5f, 1}, blue)}), riddled);
   add("wall edge",
       room({{{-1.3f, -0.1f, -0.55f}, {0.3f, 2.2f, -0.4f}}}, {lamp({-0.4f, 1.9f, -1.6f}, 2.0f * white)}),
       smoke_at({0.4f, 0.2f, 0.6f}, 1500));
@@ -131,6 +130,11 @@ std::vector<TruthCase> truth_cases() {
       room({{{-0.05f, -0.1f, -1}, {0.05f, 2.4f, 1.5f}}},
            {lamp({-2, 2, 2}, blue), lamp({2.2f, 1.2f, 2}, red)}),
       smoke_at({0.5f, 0.2f, 0}, 1800));
+  riddled.smoke.noise = 0.5f;
+  TruthCase& noisy = add("noise and holes", room({}, {side, lamp({3, 1.5f, 1}, blue)}), riddled);
+  noisy.noisy = true;
+  // Light in the smoke is as coarse as voxels and knows the noise only in their mean.
+  noisy.least_psnr = 33;
   return cases;
 }
 

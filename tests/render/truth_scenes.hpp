@@ -13,11 +13,12 @@ struct TruthCase {
   std::string name;
   stage::Stage stage;
   double seconds = 2;
-  bool noisy = false;  ///< With the noise of the smoke and of the rims of holes.
+  bool noisy = false;      ///< With the noise of the smoke and of the rims of holes.
+  double least_psnr = 38;  ///< Of what is shown [dB].
 };
 
-/// One light, many lights, a shot through the smoke, noise and several shots, the edge of a wall, a doorway,
-/// a blast, a wall along the view. Quarter-metre voxels, black sky, no ambient light.
+/// One light, many lights, a shot through the smoke, two shots, the edge of a wall, a doorway, a blast, a
+/// wall along the view; and noise. Quarter-metre voxels, black sky, no ambient light.
 std::vector<TruthCase> truth_cases();
 
 /// A box of six sides, twelve triangles.
