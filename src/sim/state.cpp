@@ -149,7 +149,7 @@ ShotAxes axes_of(const Shot& shot) {
   return {turn.x * right - turn.y * up, turn.x * up + turn.y * right, forward};
 }
 
-shared::Hole hole_of(const OpenHole& open, const State& state, const MaskAtlas* masks) {
+shared::Hole hole_of(const OpenHole& open, const State& state) {
   const Shot& shot = open.shot;
   const ShotAxes axes = axes_of(shot);
   shared::Hole hole{};
@@ -165,19 +165,22 @@ shared::Hole hole_of(const OpenHole& open, const State& state, const MaskAtlas* 
   hole.time_to_stay_open = seconds_from_ms(shot.timing.stay_open);
   hole.time_to_fade = seconds_from_ms(shot.timing.fade);
   hole.shape = static_cast<shared::uint>(shot.shape);
-  if (shot.shape == HoleShape::mask) {
-    if (!masks || masks->key() != state.masks)
-      throw Error(ErrorCode::bad_input, "holes: the state was made with other masks; load the same timeline");
-    const MaskRectangle& rectangle = masks->rectangle(shot.mask);
-    hole.uv_min = rectangle.uv_min;
-    hole.uv_max = rectangle.uv_max;
-  }
   return hole;
 }
 
 std::vector<shared::Hole> holes_of(const State& state, const MaskAtlas* masks) {
   std::vector<shared::Hole> holes;
-  for (const OpenHole& open : state.holes) holes.push_back(hole_of(open, state, masks));
+  for (const OpenHole& open : state.holes) {
+    shared::Hole hole = hole_of(open, state);
+    if (open.shot.shape == HoleShape::mask) {
+      if (!masks || masks->key() != state.masks)
+        throw Error(ErrorCode::bad_input,
+                    "holes: the state was made with other masks; load the same timeline");
+      hole.uv_min = masks->rectangle(open.shot.mask).uv_min;
+      hole.uv_max = masks->rectangle(open.shot.mask).uv_max;
+    }
+    holes.push_back(hole);
+  }
   return holes;
 }
 

@@ -95,10 +95,11 @@ struct ShotAxes {
 };
 ShotAxes axes_of(const Shot& shot);
 
-/// The holes as points in space are asked for them (shared/hole.h); the same bits on every machine. `masks`
-/// are those that the state was made with; null: it has none. Throws Error(bad_input) for the hole of a mask
-/// where they are others.
-shared::Hole hole_of(const OpenHole& open, const State& state, const MaskAtlas* masks = nullptr);
+/// A hole as points in space ask for it (shared/hole.h), but for the rectangle of a mask: the same bits on
+/// every machine.
+shared::Hole hole_of(const OpenHole& open, const State& state);
+/// All of them, with the rectangles. `masks` are those that the state was made with; null: it has none.
+/// Throws Error(bad_input) where one is a mask and `masks` are others.
 std::vector<shared::Hole> holes_of(const State& state, const MaskAtlas* masks = nullptr);
 
 }  // namespace brume::sim

@@ -135,7 +135,8 @@ TEST(Hole, ShowsItsMaskUprightFromTheShooterMirroredFromBehind) {
                                {0, -1, 0}}) {
     OpenHole open = mask_shot(glm::ivec3(700, 5000, -300), glm::ivec3(700, 5000, -300) + 2000 * way, 0);
     open.shot.mask = 1;
-    const Hole hole = hole_of(open, state, &atlas);
+    state.holes = {open};
+    const Hole hole = holes_of(state, &atlas)[0];
     const vec3 forward = glm::normalize(vec3(way));
     const vec3 up_world = std::abs(forward.y) < 0.999f ? vec3(0, 1, 0) : vec3(0, 0, 1);
     const vec3 right = glm::normalize(glm::cross(forward, up_world)), up = glm::cross(right, forward);
@@ -163,7 +164,8 @@ TEST(Hole, RollsClockwiseAsTheShooterSeesIt) {
   State state;
   state.masks = atlas.key();
   for (std::uint32_t roll = 0; roll < kFullTurn; roll += 911) {
-    const Hole hole = hole_of(mask_shot(glm::ivec3(0), glm::ivec3(0, 0, -1024), roll), state, &atlas);
+    state.holes = {mask_shot(glm::ivec3(0), glm::ivec3(0, 0, -1024), roll)};
+    const Hole hole = holes_of(state, &atlas)[0];
     const double angle = 2 * 3.14159265358979 * roll / kFullTurn;
     // The top, seen along -z: from up to the right.
     EXPECT_NEAR(hole.up.x, std::sin(angle), 1e-7);
@@ -183,11 +185,12 @@ TEST(Hole, OfAMaskNeedsTheMasksOfItsState) {
   State state;
   state.masks = {1, atlas.key().hash + 1};
   const OpenHole open = mask_shot(glm::ivec3(0), glm::ivec3(0, 0, -1024), 0);
-  EXPECT_THROW(hole_of(open, state, &atlas), Error);
-  EXPECT_THROW(hole_of(open, state), Error);
-  OpenHole round = open;
-  round.shot.shape = HoleShape::cylinder;
-  EXPECT_EQ(hole_of(round, state).shape, shared::kHoleCylinder);
+  state.holes = {open};
+  EXPECT_THROW(holes_of(state, &atlas), Error);
+  EXPECT_THROW(holes_of(state), Error);
+  EXPECT_EQ(hole_of(open, state).shape, shared::kHoleMask) << "where it goes can be asked without";
+  state.holes[0].shot.shape = HoleShape::cylinder;
+  EXPECT_EQ(holes_of(state)[0].shape, shared::kHoleCylinder);
 }
 
 }  // namespace
