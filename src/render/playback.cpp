@@ -42,7 +42,7 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   input.look.roll_width = 2.0f * smoke.noise_size;
   input.roll_seconds = double{smoke.swirl_time};
   input.state = &simulation.world().state();
-  input.look.many_scatterings = 1;
+  input.look.many_scatterings = smoke.multiple_scattering;
   input.look.hole_rim = smoke.rim;
   input.exposure = std::exp2(timeline.exposure);
   input.time = static_cast<float>(seconds);

@@ -80,6 +80,7 @@ class TimelineReader {
     table.read("albedo", smoke.albedo, 0, 1);
     table.read("anisotropy", smoke.anisotropy, -0.9, 0.9);
     table.read("droplet", smoke.droplet, 0.1, 50);
+    table.read("multiple_scattering", smoke.multiple_scattering, 0, 1);
     if (smoke.droplet && source.contains("anisotropy"))
       table.fail("droplet", "\"droplet\": expected either it or \"anisotropy\"; take one of them out");
     table.read("noise", smoke.noise, 0, 1);

@@ -22,20 +22,21 @@ struct GridOptions {
 };
 
 struct SmokeOptions {
-  std::uint32_t voxels = 1800;   ///< How many voxels a grown smoke fills, [1, 16777216].
-  float bloom = 1.0f;            ///< From going off to full size [s], [0.05, 60].
-  float hold = 18.0f;            ///< From there until it begins to dissolve [s], [0, 3600].
-  float dissolve = 3.0f;         ///< From there until nothing is left [s], [0.05, 60].
-  float extinction = 3.0f;       ///< In dense smoke [1/m], [0.01, 100].
-  glm::vec3 albedo{0.92f};       ///< Share of light that is scattered, per channel, [0, 1].
-  float anisotropy = 0.2f;       ///< Henyey-Greenstein's g, [-0.9, 0.9]; above 0: forward.
-  std::optional<float> droplet;  ///< Instead of anisotropy: diameter of its droplets [um], [0.1, 50].
-  float noise = 0.5f;            ///< How deep the noise cuts into the density, [0, 1].
-  float noise_size = 1.5f;       ///< Edge of a noise cell [m], [0.05, 100].
-  float rim = 0.06f;             ///< How far noise moves the rims of holes at most [m], [0, 10].
-  float swirl = 0.2f;            ///< How far the noise rolls around its place [m], [0, 10].
-  float swirl_time = 12.0f;      ///< How long one roll takes [s], [0.1, 3600].
-  float rise = 0.12f;            ///< How fast the noise rises [m/s], [-10, 10].
+  std::uint32_t voxels = 1800;    ///< How many voxels a grown smoke fills, [1, 16777216].
+  float bloom = 1.0f;             ///< From going off to full size [s], [0.05, 60].
+  float hold = 18.0f;             ///< From there until it begins to dissolve [s], [0, 3600].
+  float dissolve = 3.0f;          ///< From there until nothing is left [s], [0.05, 60].
+  float extinction = 3.0f;        ///< In dense smoke [1/m], [0.01, 100].
+  glm::vec3 albedo{0.92f};        ///< Share of light that is scattered, per channel, [0, 1].
+  float anisotropy = 0.2f;        ///< Henyey-Greenstein's g, [-0.9, 0.9]; above 0: forward.
+  std::optional<float> droplet;   ///< Instead of anisotropy: diameter of its droplets [um], [0.1, 50].
+  float multiple_scattering = 1;  ///< Share of the light scattered more than once, [0, 1].
+  float noise = 0.5f;             ///< How deep the noise cuts into the density, [0, 1].
+  float noise_size = 1.5f;        ///< Edge of a noise cell [m], [0.05, 100].
+  float rim = 0.06f;              ///< How far noise moves the rims of holes at most [m], [0, 10].
+  float swirl = 0.2f;             ///< How far the noise rolls around its place [m], [0, 10].
+  float swirl_time = 12.0f;       ///< How long one roll takes [s], [0.1, 3600].
+  float rise = 0.12f;             ///< How fast the noise rises [m/s], [-10, 10].
 };
 
 /// Linear radiance of what no surface covers, and of the light from everywhere, [0, 1000].

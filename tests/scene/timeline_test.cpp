@@ -46,6 +46,7 @@ bloom = 2
 extinction = 4.5
 albedo = [0.9, 0.8, 0.7]
 anisotropy = -0.5
+multiple_scattering = 0.5
 noise = 0.25
 noise_size = 2
 [sky]
@@ -82,6 +83,7 @@ at = [0, 0, 0]
   EXPECT_EQ(*timeline->grid.size, glm::ivec3(120, 20, 120));
   EXPECT_EQ(*timeline->grid.origin_world, glm::vec3(-30, 0, -30.5f));
   EXPECT_EQ(timeline->smoke.albedo, glm::vec3(0.9f, 0.8f, 0.7f));
+  EXPECT_EQ(timeline->smoke.multiple_scattering, 0.5f);
   EXPECT_EQ(timeline->sky.ambient, glm::vec3(0.6f, 0.7f, 0.8f));
   EXPECT_EQ(timeline->sky.stars, 2.0f);
   ASSERT_EQ(timeline->camera.size(), 1u);
