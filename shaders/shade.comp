@@ -77,7 +77,7 @@ float smoke_share(uint index, Light light, vec3 position_world) {
   const vec2 texel = on_face.xy * face.scale + face.offset;
   const vec2 inside = clamp(texel, vec2(face.first_texel) + 0.5, vec2(face.first_texel + face.size) - 0.5);
   if (face.size.x == 0u || texel != inside) return 1.0;
-  return exp(-textureLod(smoke_shadows, texel / vec2(textureSize(smoke_shadows, 0)), 0.0).r);
+  return textureLod(smoke_shadows, texel / vec2(textureSize(smoke_shadows, 0)), 0.0).r;
 }
 
 /// What the surface reflects of a lamp's light, after the scene's shadow and the smoke in between.
@@ -87,8 +87,14 @@ vec3 lamp_radiance(uint index, Surface surface, vec3 view) {
   // A surface must not shadow itself: it is looked up a texel of the shadow off its plane.
   const float off = light.shadow_layer == kShadowByVoxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
   const vec3 off_world = surface.position_world + off * surface.normal;
-  return reflect_light(surface, view, incident.to_light) * incident.irradiance *
-         (light_share(light, off_world) * smoke_share(index, light, surface.position_world));
+  const float share = light_share(light, off_world);
+  vec3 radiance = vec3(0.0);
+  // A loop that runs at most once: a software rasteriser skips those, not branches, and most lamps are behind walls.
+  for (bool lit = share > 0.0; lit; lit = false) {
+    radiance = reflect_light(surface, view, incident.to_light) * incident.irradiance *
+               (share * smoke_share(index, light, off_world));
+  }
+  return radiance;
 }
 
 /// The light of the gathered lamps of a batch.

@@ -83,5 +83,5 @@ void main() {
   const uvec2 at = face.first_texel + texel;
   const vec2 uv = (vec2(at) + 0.5 - face.offset) / face.scale;
   const Way way = light_way(lights[face_index / kFacesPerLight], face_index % kFacesPerLight, uv);
-  imageStore(smoke_shadows, ivec2(at), vec4(way_depth(way)));
+  imageStore(smoke_shadows, ivec2(at), vec4(exp(-way_depth(way))));
 }

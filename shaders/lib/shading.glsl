@@ -26,7 +26,8 @@ vec3 reflect_light(Surface s, vec3 view, vec3 to_light) {
   const float distribution = a2 / (kPi * d * d);
   const float visibility = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, alpha);
   const vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic);
-  const vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - max(dot(h, view), 0.0), 5.0);
+  const float grazing = 1.0 - max(dot(h, view), 0.0), grazing2 = grazing * grazing;
+  const vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
   const vec3 diffuse = s.albedo * (1.0 - s.metallic) * (1.0 - fresnel) / kPi;
   return (diffuse + fresnel * distribution * visibility) * n_l;
 }

@@ -1,9 +1,10 @@
-// Smoke between the lights and the surfaces that they reach: an atlas of optical depths, one value a direction from a
-// light up to the first surface.
+// Smoke between the lights and the surfaces that they reach: an atlas of transmittances, one a direction from a light up to
+// the first surface.
 //
 // Six faces a light, those of its shadow cube; a directional light has its one view as the first. A face has a
 // rectangle of the atlas for the part of it in which there can be smoke, with a texel around that sees none; elsewhere
-// its optical depth is 0.
+// its transmittance is 1. Transmittance, not optical depth: between two texels light goes over evenly, and a small hole
+// does not shrink.
 #ifndef BRUME_SMOKE_SHADOW_H
 #define BRUME_SMOKE_SHADOW_H
 #include "shared/shim.h"

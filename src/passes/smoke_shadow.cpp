@@ -25,7 +25,7 @@ SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
 SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 picture_px,
                                            std::size_t max_lights) const {
   const std::uint64_t rays =
-      std::clamp<std::uint64_t>(std::uint64_t{picture_px.x} * picture_px.y / 4, 1u << 16, 1u << 20);
+      std::clamp<std::uint64_t>(std::uint64_t{picture_px.x} * picture_px.y / 8, 1u << 16, 1u << 19);
   SmokeShadows shadows;
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R16_SFLOAT;

@@ -11,14 +11,14 @@ namespace brume::passes {
 
 /// See shared/smoke_shadow.h.
 struct SmokeShadows {
-  gpu::Image atlas;   ///< Half floats: optical depth.
+  gpu::Image atlas;   ///< Half floats: transmittance.
   gpu::Buffer faces;  ///< SmokeShadowFace, kFacesPerLight for each light.
 };
 
 class SmokeShadowPass {
  public:
   explicit SmokeShadowPass(gpu::Context& context);
-  /// For pictures of this size: a ray for four pixels, at least 2^16 and at most 2^20 rays. Holds no smoke
+  /// For pictures of this size: a ray for eight pixels, at least 2^16 and at most 2^19 rays. Holds no smoke
   /// until the first record.
   SmokeShadows make_shadows(gpu::Context& context, glm::uvec2 picture_px, std::size_t max_lights) const;
 

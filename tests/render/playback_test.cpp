@@ -184,7 +184,7 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
   stage.timeline.smoke.albedo = glm::vec3(0);
   stage.timeline.smoke.voxels = 700;
   stage.timeline.smokes = {{0.2, {0, 1, 1.5f}, {0, 0.2f, 1.5f}}};
-  stage.timeline.shots = {{3, {0, 1, 4.6f}, {0, 1, 0}, 0.25f, 0.1f, 0.05f, 1.0f, 0.2f}};
+  stage.timeline.shots = {{3, {0, 1, 4.6f}, {0, 1, 0}, 0.4f, 0.1f, 0.05f, 1.0f, 0.2f}};
   stage.timeline.shots[0].flash = 0;
   Playback playback(context(), stage, kSize);
   const scene::Camera beside{{2, 1.2f, -0.7f}, {0, 1, -3}, 0.9f};
@@ -198,10 +198,35 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
   // Optical depth: 4 a metre through more than 1.5 m; e^-6 of the light is below 1/255 of what is shown.
   EXPECT_LE(spot(2.9), 2);
   EXPECT_LE(around(2.9), 2);
-  // On the axis of the hole everything is out of the way.
+  // Around the axis of the hole everything is out of the way: 0.6 of its radius less the noise of its rim is
+  // more than the pixels looked at and a texel of the shadow span.
   EXPECT_NEAR(spot(3.6), clear, 3);
   EXPECT_LE(around(3.6), 2);
   EXPECT_LE(spot(5), 2);
+}
+
+TEST_F(PlaybackTest, SmokeShadowsTheSunUnderIt) {
+  // A sun from above, a puff that touches the wall, the floor before it and the floor beside.
+  scene::Scene scene = small_scene(false);
+  scene.lights[0].kind = scene::LightKind::directional;
+  scene.lights[0].direction_world = {0, -1, 0};
+  scene.lights[0].intensity = glm::vec3(1);
+  stage::Stage stage = small_stage(std::move(scene));
+  stage.timeline.smoke.albedo = glm::vec3(0);
+  stage.timeline.smoke.voxels = 700;
+  stage.timeline.smokes = {{0.2, {0, 3, 1.5f}, {0, 3, 1.5f}}};
+  stage.timeline.edits = {{0.0, {-1.3f, 2.4f, 0.2f}, {1.3f, 2.6f, 2.8f}, true}};  // a shelf for it, not drawn
+  Playback playback(context(), stage, kSize);
+  // An eye on the floor that looks at the floor, first under the shelf, then beside.
+  const auto floor_at = [&](glm::vec3 target_world, double seconds) {
+    playback.set_camera(scene::Camera{target_world + glm::vec3(0, 0.8f, 0.5f), target_world, 0.9f});
+    return brightness(playback.draw(seconds, 0), 0.49, 0.47);
+  };
+  const glm::vec3 under{0, -0.1f, 1.5f}, beside{-5.2f, -0.1f, 4.5f};
+  const double clear = floor_at(under, 0);
+  EXPECT_GT(clear, 100);
+  EXPECT_LE(floor_at(under, 2.5), 2);
+  EXPECT_NEAR(floor_at(beside, 2.5), floor_at(beside, 0), 3);
 }
 
 TEST_F(PlaybackTest, AFlashLightsWhatNoWallHides) {
