@@ -107,54 +107,47 @@ void march(RaySamples ray, inout Gathered got) {
   const vec3 per_metre = ray.direction / volume.voxel_size;
   const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
   const vec3 texel = atlas_texel(volume);
-  float t = ray.begin;
+  float t = ray.begin, t_ahead = -1.0, t_known = kHoles == kHolesListed ? -1.0 : ray.end;
   while (t < ray.end && got.transmittance > 0.0) {
-    // Where nothing is, holes take nothing: on to the first brick, and look ahead from there.
-    Stay stay = find_stay(ray, origin, per_metre, inverse, t);
-    while (stay.slot == kNoSlot && stay.t_next < ray.end) stay = find_stay(ray, origin, per_metre, inverse, t = stay.t_next);
-    if (stay.slot == kNoSlot) break;
-    HolesAhead holes;
-    float t_known = ray.end;
-    if (kHoles == kHolesListed) {
-      holes = look_ahead(ray, t);
-      t_known = t + (float(holes.samples) - 0.5) * ray.ds;
+    const Stay stay = find_stay(ray, origin, per_metre, inverse, t);
+    if (stay.slot == kNoSlot) {
+      t = stay.t_next;
+      continue;
     }
-
-    while (t < min(ray.end, t_known) && got.transmittance > 0.0) {
-      stay = find_stay(ray, origin, per_metre, inverse, t);
-      if (stay.slot == kNoSlot) {
-        t = stay.t_next;
-        continue;
+    // Only here: where nothing is, holes take nothing.
+    if (kHoles == kHolesListed && t >= t_known) {
+      look_ahead(ray, t);
+      t_ahead = t;
+      t_known = t + (float(kAhead) - 0.5) * ray.ds;
+    }
+    const vec3 corner = atlas_corner(volume, stay.slot);
+    const float t_stop = min(min(stay.t_next - 0.5 * ray.ds, ray.end), t_known);
+    for (; t < t_stop; t += ray.ds) {
+      const float segment = min(ray.ds, ray.end - t);
+      const vec3 local_voxel = origin + per_metre * (t + ray.jitter * segment) - stay.low;
+      const vec3 uvw = (corner + local_voxel) * texel;
+      const SmokeSample here = sample_brick(stay.slot, local_voxel, uvw);
+      const float by_holes = kHoles == kHolesListed ? left_at(uint((t - t_ahead) / ray.ds + 0.5)) : 1.0;
+      float density = by_holes * here.density;
+      ++got.samples;
+      if (density > 0.0 && (kHoles == kHolesAllAsked || frame.look.erosion > 0.0)) {
+        const vec3 p_world = volume.origin_world + (stay.low + local_voxel) * volume.voxel_size;
+        const vec3 drift = textureLod(drift_atlas, uvw, 0.0).xyz;
+        const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + drift, frame.time);
+        got.samples += 2u;
+        if (frame.look.erosion > 0.0) density = by_holes * erode(frame.look, here.density, noise);
+        if (kHoles == kHolesAllAsked) density *= left_by_all_holes(p_world);
       }
-      const vec3 corner = atlas_corner(volume, stay.slot);
-      const float t_stop = min(min(stay.t_next - 0.5 * ray.ds, ray.end), t_known);
-      for (; t < t_stop; t += ray.ds) {
-        const float segment = min(ray.ds, ray.end - t);
-        const vec3 local_voxel = origin + per_metre * (t + ray.jitter * segment) - stay.low;
-        const vec3 uvw = (corner + local_voxel) * texel;
-        const SmokeSample here = sample_brick(stay.slot, local_voxel, uvw);
-        float density = here.density;
+      if (density > 0.0) {
+        // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
+        const float passed = exp(-frame.look.extinction * density * segment);
+        const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
+        got.radiance += got.transmittance * (1.0 - passed) * light;
+        got.transmittance *= passed;
         ++got.samples;
-        if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
-          const vec3 p_world = volume.origin_world + (stay.low + local_voxel) * volume.voxel_size;
-          const vec3 drift = textureLod(drift_atlas, uvw, 0.0).xyz;
-          const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + drift, frame.time);
-          got.samples += 2u;
-          if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
-          if (density > 0.0 && kHoles == kHolesListed) density *= left_by_holes(holes, uint((t - holes.begin) / ray.ds + 0.5), p_world, noise.g);
-          if (density > 0.0 && kHoles == kHolesAllAsked) density *= left_by_all_holes(p_world, noise.g);
-        }
-        if (density > 0.0) {
-          // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
-          const float passed = exp(-frame.look.extinction * density * segment);
-          const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
-          got.radiance += got.transmittance * (1.0 - passed) * light;
-          got.transmittance *= passed;
-          ++got.samples;
-          if (got.transmittance < frame.look.stop) {
-            got.transmittance = 0.0;
-            t = ray.end;
-          }
+        if (got.transmittance < frame.look.stop) {
+          got.transmittance = 0.0;
+          t = ray.end;
         }
       }
     }

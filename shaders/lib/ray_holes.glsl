@@ -1,11 +1,9 @@
-// What holes leave of the smoke at the samples of a ray from the eye: exactly, sample by sample, but a sample asks only
-// the holes that contain it.
+// What holes leave of the smoke at the samples of a ray from the eye: exactly, sample by sample, but a ray asks only the
+// holes that it meets, and only from where it enters them to where it leaves them.
 //
-// The workgroup finds the holes that any of its rays may meet. Every ray looks ahead: for each of those holes that it
-// meets it notes from which sample to which, in a list at the first of them. At each sample the holes of its list join
-// the active ones; those that have ended leave.
-// The includer has `frame`, a workgroup of 64 threads, and defines BINDING_HOLES, BINDING_HOLE_TILES and
-// BINDING_HOLE_MASKS.
+// The workgroup finds the holes that any of its rays may meet; then each ray looks kAhead samples ahead. The includer
+// has `frame`, `noise_tile`, a workgroup of 64 threads and the constant kHoles, and defines BINDING_HOLES,
+// BINDING_HOLE_TILES and BINDING_HOLE_MASKS.
 #ifndef RAY_HOLES_GLSL
 #define RAY_HOLES_GLSL
 #include "lib/ray_cone.glsl"
@@ -16,17 +14,15 @@ layout(binding = BINDING_HOLE_MASKS) uniform sampler2D hole_masks;
 #include "lib/hole_mask.glsl"
 #include "lib/hole_rows.glsl"
 
-const uint kAhead = 64u;     // samples at a time, at most
-const uint kRayHoles = 32u;  // holes of a ray at a time, at most
-const uint kNoEntry = 63u;
+const uint kAhead = 64u;
+// Frames without holes pay for none of it.
+const uint kShared = kHoles == kHolesListed ? 1u : 0u;
 
-// Per entry and thread: the hole, the first sample that is not in it, the next entry of its list (14, 7, 6 bits). At
-// first the candidates of the whole group.
-shared uint entries[kRayHoles * 64u];
-shared uint heads[kAhead / 4u * 64u];  // first entry of each sample's list, a byte each
-
-shared uint group_bits[kMaxHoles / 32u];         // one a hole
-shared uint group_words[kMaxHoles / 32u / 32u];  // one a word of those that is not 0
+shared uint group_bits[kShared * (kMaxHoles / 32u - 1u) + 1u];  // one a hole
+// One a word of those that is not 0.
+shared uint group_words[kShared * (kMaxHoles / 32u / 32u - 1u) + 1u];
+// What is left at each sample and thread: two half floats a word. At first the candidates of the whole group.
+shared uint left_ahead[kShared * (kAhead / 2u * 64u - 1u) + 1u];
 shared uint candidate_count;
 shared uvec4 group_px;  // the rectangle of the picture that the group's rays run through: low, high
 shared uint group_length;
@@ -39,10 +35,10 @@ void find_holes_of_tile(RayCone cone, uint tile) {
     barrier();
     uint bits = first + lane < frame.holes.tile_words ? hole_tiles[tile + first + lane] : 0u;
     uint at = bits != 0u ? atomicAdd(candidate_count, uint(bitCount(bits))) : 0u;
-    for (; bits != 0u; bits &= bits - 1u) entries[at++] = 32u * (first + lane) + uint(findLSB(bits));
+    for (; bits != 0u; bits &= bits - 1u) left_ahead[at++] = 32u * (first + lane) + uint(findLSB(bits));
     barrier();
     for (uint i = lane; i < candidate_count; i += 64u) {
-      const uint hole = entries[i];
+      const uint hole = left_ahead[i];
       if (!cone_meets_hole(cone, hole_reach(hole_from_rows(hole), frame.time, frame.look.hole_rim))) continue;
       atomicOr(group_bits[hole >> 5u], 1u << (hole & 31u));
       atomicOr(group_words[hole >> 10u], 1u << (hole >> 5u & 31u));
@@ -121,107 +117,43 @@ uvec2 samples_in(Hole hole, RaySamples ray, float begin, float rim) {
   return uvec2(uint(first), uint(min(last, float(kAhead))));
 }
 
-/// What a ray knows of the holes at its samples from `begin` on.
-struct HolesAhead {
-  float begin;
-  uint samples;       // for how many it knows
-  uvec2 lists;        // a bit for each sample with a list
-  uint first_active;  // entry of the list of active holes
-  bool ask_all;       // too many at one sample: it asks all of the group
-};
+float left_by_hole(Hole hole, vec3 p_world) {
+  const float noise = 2.0 * smoke_noise(noise_tile, frame.look, p_world, frame.time).g - 1.0;
+  return 1.0 - hole_strength_masked(hole, p_world, frame.time, noise * hole_rim(hole, frame.look.hole_rim));
+}
 
-/// Notes the holes of the next `limit` samples; false when there are too many.
-bool note_holes(RaySamples ray, uint limit, inout HolesAhead ahead) {
+/// Share of the density that the holes leave at sample k, counted from where the ray looked ahead.
+float left_at(uint k) {
+  const vec2 two = unpackHalf2x16(left_ahead[(k >> 1u) * 64u + gl_LocalInvocationIndex]);
+  return (k & 1u) == 0u ? two.x : two.y;
+}
+
+/// Finds what the group's holes leave at the ray's next kAhead samples from `begin` on.
+void look_ahead(RaySamples ray, float begin) {
   const uint lane = gl_LocalInvocationIndex;
-  uint count = 0u;
-  ahead.lists = uvec2(0u);
+  for (uint i = 0u; i < kAhead / 2u; ++i) left_ahead[i * 64u + lane] = 0x3c003c00u;  // 1, 1
   for (uint w = 0u; 1024u * w < frame.holes.count; ++w) {
     for (uint some = group_words[w]; some != 0u; some &= some - 1u) {
       const uint word = 32u * w + uint(findLSB(some));
       for (uint bits = group_bits[word]; bits != 0u; bits &= bits - 1u) {
-        const uint hole = 32u * word + uint(findLSB(bits));
-        const uvec2 run = samples_in(hole_from_rows(hole), ray, ahead.begin, frame.look.hole_rim);
-        if (run.x >= min(run.y, limit)) continue;
-        if (count == kRayHoles) return false;
-        const uint at = (run.x >> 2u) * 64u + lane, shift = (run.x & 3u) * 8u, bit = 1u << (run.x & 31u);
-        const bool is_first = (ahead.lists[run.x >> 5u] & bit) == 0u;
-        const uint next = is_first ? kNoEntry : heads[at] >> shift & 255u;
-        entries[count * 64u + lane] = hole | run.y << 14u | next << 21u;
-        heads[at] = (heads[at] & ~(255u << shift)) | count << shift;
-        ahead.lists[run.x >> 5u] |= bit;
-        ++count;
+        const Hole hole = hole_from_rows(32u * word + uint(findLSB(bits)));
+        const uvec2 run = samples_in(hole, ray, begin, frame.look.hole_rim);
+        for (uint k = run.x; k < run.y; ++k) {
+          const float t = begin + float(k) * ray.ds;
+          const vec3 p_world = ray.origin_world + (t + ray.jitter * min(ray.ds, ray.end - t)) * ray.direction;
+          const uint at = (k >> 1u) * 64u + lane;
+          const float left = left_by_hole(hole, p_world);
+          left_ahead[at] = packHalf2x16(unpackHalf2x16(left_ahead[at]) * ((k & 1u) == 0u ? vec2(left, 1.0) : vec2(1.0, left)));
+        }
       }
     }
   }
-  return true;
-}
-
-HolesAhead look_ahead(RaySamples ray, float begin) {
-  HolesAhead ahead = HolesAhead(begin, kAhead, uvec2(0u), kNoEntry, false);
-  while (!note_holes(ray, ahead.samples, ahead)) {
-    if (ahead.samples == 1u) {
-      ahead.ask_all = true;
-      break;
-    }
-    ahead.samples /= 2u;
-  }
-  return ahead;
-}
-
-float left_by_hole(uint i, vec3 p_world, float noise) {
-  const Hole hole = hole_from_rows(i);
-  return 1.0 - hole_strength_masked(hole, p_world, frame.time, (2.0 * noise - 1.0) * hole_rim(hole, frame.look.hole_rim));
-}
-
-/// The group's holes, one by one.
-float left_by_group(vec3 p_world, float noise) {
-  float left = 1.0;
-  for (uint word = 0u; word < frame.holes.tile_words; ++word)
-    for (uint bits = group_bits[word]; bits != 0u; bits &= bits - 1u) left *= left_by_hole(32u * word + uint(findLSB(bits)), p_world, noise);
-  return left;
-}
-
-/// Share of the density that the holes leave at sample k, counted from ahead.begin; k never falls. `noise` moves the rims.
-float left_by_holes(inout HolesAhead ahead, uint k, vec3 p_world, float noise) {
-  if (ahead.ask_all) return left_by_group(p_world, noise);
-  const uint lane = gl_LocalInvocationIndex;
-  // Those that begin here, or began since the last sample that asked.
-  const uvec2 until = uvec2(k >= 31u ? 0xffffffffu : (2u << k) - 1u, k < 32u ? 0u : k >= 63u ? 0xffffffffu : (2u << (k - 32u)) - 1u);
-  for (uint w = 0u; w < 2u; ++w) {
-    for (uint bits = ahead.lists[w] & until[w]; bits != 0u; bits &= bits - 1u) {
-      const uint sample_number = 32u * w + uint(findLSB(bits));
-      uint entry = heads[(sample_number >> 2u) * 64u + lane] >> ((sample_number & 3u) * 8u) & 255u;
-      while (entry != kNoEntry) {
-        const uint at = entry * 64u + lane, next = entries[at] >> 21u;
-        entries[at] = (entries[at] & 0x1fffffu) | ahead.first_active << 21u;
-        ahead.first_active = entry;
-        entry = next;
-      }
-    }
-    ahead.lists[w] &= ~until[w];
-  }
-  // The active ones; those that are over leave.
-  float left = 1.0;
-  uint before = kNoEntry;
-  for (uint entry = ahead.first_active; entry != kNoEntry;) {
-    const uint value = entries[entry * 64u + lane], next = value >> 21u;
-    if ((value >> 14u & 127u) > k) {
-      if (left > 0.0) left *= left_by_hole(value & 0x3fffu, p_world, noise);
-      before = entry;
-    } else if (before == kNoEntry) {
-      ahead.first_active = next;
-    } else {
-      entries[before * 64u + lane] = (entries[before * 64u + lane] & 0x1fffffu) | next << 21u;
-    }
-    entry = next;
-  }
-  return left;
 }
 
 /// The plain loop over all holes, which the above is measured against.
-float left_by_all_holes(vec3 p_world, float noise) {
+float left_by_all_holes(vec3 p_world) {
   float left = 1.0;
-  for (uint i = 0u; i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(i, p_world, noise);
+  for (uint i = 0u; i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(hole_from_rows(i), p_world);
   return left;
 }
 
