@@ -12,7 +12,7 @@ layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
 layout(scalar, binding = 3) buffer HoleCells { uint hole_cells[]; };
 layout(scalar, binding = 4) writeonly buffer Pairs { uvec2 pairs[]; };
-layout(scalar, binding = 5) buffer Counters { HoleCellsCounters counters; };
+layout(scalar, binding = 5) buffer Counters { HoleCounters counters; };
 layout(push_constant, scalar) uniform Push { HoleCellsParams params; };
 #include "lib/hole_rows.glsl"
 

@@ -11,7 +11,7 @@ layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
 layout(scalar, binding = 3) buffer HoleCells { uint hole_cells[]; };
 layout(scalar, binding = 4) readonly buffer Pairs { uvec2 pairs[]; };
-layout(scalar, binding = 5) readonly buffer Counters { HoleCellsCounters counters; };
+layout(scalar, binding = 5) readonly buffer Counters { HoleCounters counters; };
 layout(binding = 6) uniform sampler2D hole_masks;
 layout(push_constant, scalar) uniform Push { HoleCellsParams params; };
 #include "lib/hole_mask.glsl"

@@ -9,8 +9,9 @@
 #define BINDING_CORNERS 5
 #define BINDING_HOLES 10
 #define BINDING_HOLE_MASKS 15
-#define BINDING_HOLE_TILES 16
+#define BINDING_HOLE_LISTS 16
 #include "lib/blue_noise.glsl"
+#include "lib/camera.glsl"
 #include "lib/erosion.glsl"
 #include "lib/smoke_density.glsl"
 #include "shared/frame.h"
@@ -46,8 +47,6 @@ struct Way {
 
 /// False where there is no ray.
 bool find_way(out Way way) {
-  way.position_px = vec2(0.0);
-  way.near = way.far = 0.0;
   way.texel = ivec2(gl_GlobalInvocationID.xy);
   if (kRays == kRaysOfBlocks) {
     const uvec2 blocks = blocks_of(frame.size_px, frame.march_scale);
@@ -101,12 +100,13 @@ Stay find_stay(RaySamples ray, vec3 origin, vec3 per_metre, vec3 inverse, float 
 
 /// Marches segments of length ds, the last one cut; one sample in each, all at the same share of it. Brick by brick, so
 /// that what a brick's samples share is found once.
-void march(RaySamples ray, inout Gathered got) {
+void march(RaySamples ray, vec2 position_px, inout Gathered got) {
   const SmokeVolumeFrame volume = frame.volume;
   const vec3 origin = (ray.origin_world - volume.origin_world) / volume.voxel_size;
   const vec3 per_metre = ray.direction / volume.voxel_size;
   const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
   const vec3 texel = atlas_texel(volume);
+  bool holes_near = false;
   float t = ray.begin, t_ahead = -1.0, t_known = kHoles == kHolesListed ? -1.0 : ray.end;
   while (t < ray.end && got.transmittance > 0.0) {
     const Stay stay = find_stay(ray, origin, per_metre, inverse, t);
@@ -116,7 +116,7 @@ void march(RaySamples ray, inout Gathered got) {
     }
     // Only here: where nothing is, holes take nothing.
     if (kHoles == kHolesListed && t >= t_known) {
-      look_ahead(ray, t);
+      holes_near = look_ahead(ray, t, position_px);
       t_ahead = t;
       t_known = t + (float(kAhead) - 0.5) * ray.ds;
     }
@@ -126,25 +126,26 @@ void march(RaySamples ray, inout Gathered got) {
       const float segment = min(ray.ds, ray.end - t);
       const vec3 local_voxel = origin + per_metre * (t + ray.jitter * segment) - stay.low;
       const vec3 uvw = (corner + local_voxel) * texel;
+      // Asked for together, so that one does not wait for the other.
+      const vec3 drift = textureLod(drift_atlas, uvw, 0.0).xyz;
+      vec3 light = textureLod(inscatter_atlas, uvw, 0.0).rgb;
       const SmokeSample here = sample_brick(stay.slot, local_voxel, uvw);
-      const float by_holes = kHoles == kHolesListed ? left_at(uint((t - t_ahead) / ray.ds + 0.5)) : 1.0;
+      const float by_holes = kHoles == kHolesListed && holes_near ? left_at(uint((t - t_ahead) / ray.ds + 0.5)) : 1.0;
       float density = by_holes * here.density;
-      ++got.samples;
+      got.samples += 3u;
       if (density > 0.0 && (kHoles == kHolesAllAsked || frame.look.erosion > 0.0)) {
         const vec3 p_world = volume.origin_world + (stay.low + local_voxel) * volume.voxel_size;
-        const vec3 drift = textureLod(drift_atlas, uvw, 0.0).xyz;
         const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + drift, frame.time);
-        got.samples += 2u;
+        ++got.samples;
         if (frame.look.erosion > 0.0) density = by_holes * erode(frame.look, here.density, noise);
         if (kHoles == kHolesAllAsked) density *= left_by_all_holes(p_world);
       }
       if (density > 0.0) {
         // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
         const float passed = exp(-frame.look.extinction * density * segment);
-        const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
+        if (here.light_offset != vec3(0.0)) light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
         got.radiance += got.transmittance * (1.0 - passed) * light;
         got.transmittance *= passed;
-        ++got.samples;
         if (got.transmittance < frame.look.stop) {
           got.transmittance = 0.0;
           t = ray.end;
@@ -156,7 +157,7 @@ void march(RaySamples ray, inout Gathered got) {
 
 void main() {
   Way way;
-  const bool is_ray = find_way(way);
+  if (!find_way(way)) return;
   const SmokeVolumeFrame volume = frame.volume;
 
   // The part of the ray inside the smoke's bounds, t in metres; it ends at the surface behind.
@@ -172,17 +173,13 @@ void main() {
   const vec3 near = min(low * inverse, high * inverse), far = max(low * inverse, high * inverse);
   const float t_begin = max(max(near.x, near.y), max(near.z, 0.0));
   const float t_last = min(min(far.x, far.y), min(far.z, way.far * length(along)));
-  const bool meets = is_ray && t_begin < t_last;
-
-  if (kHoles == kHolesListed) find_group_holes(meets, way.position_px, t_last);
-  if (!is_ray) return;
   Gathered got = Gathered(vec3(0.0), 1.0, 0u);
   vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
-  if (meets) {
+  if (t_begin < t_last) {
     ray.begin = t_begin;
     for (uint run = 0u; run < kRuns; ++run) {
       ray.end = run + 1u < kRuns ? min(t_last, way.near * length(along)) : t_last;
-      march(ray, got);
+      march(ray, way.position_px, got);
       if (run + 1u < kRuns) {
         at_near = vec4(got.radiance * frame.look.albedo, got.transmittance);
         ray.begin = max(t_begin, ray.end);

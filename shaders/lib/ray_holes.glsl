@@ -1,78 +1,22 @@
 // What holes leave of the smoke at the samples of a ray from the eye: exactly, sample by sample, but a ray asks only the
-// holes that it meets, and only from where it enters them to where it leaves them.
+// holes of its group of pixels, and only from where it enters them to where it leaves them.
 //
-// The workgroup finds the holes that any of its rays may meet; then each ray looks kAhead samples ahead. The includer
-// has `frame`, `noise_tile`, a workgroup of 64 threads and the constant kHoles, and defines BINDING_HOLES,
-// BINDING_HOLE_TILES and BINDING_HOLE_MASKS.
+// The includer has `frame`, `noise_tile`, a workgroup of 64 threads and the constant kHoles, and defines BINDING_HOLES,
+// BINDING_HOLE_LISTS and BINDING_HOLE_MASKS.
 #ifndef RAY_HOLES_GLSL
 #define RAY_HOLES_GLSL
-#include "lib/ray_cone.glsl"
+#include "shared/frame.h"
 
 layout(binding = BINDING_HOLES) readonly buffer Holes { vec4 hole_rows[]; };
-layout(scalar, binding = BINDING_HOLE_TILES) readonly buffer HoleTiles { uint hole_tiles[]; };
+layout(scalar, binding = BINDING_HOLE_LISTS) readonly buffer HoleLists { uint hole_lists[]; };
 layout(binding = BINDING_HOLE_MASKS) uniform sampler2D hole_masks;
 #include "lib/hole_mask.glsl"
 #include "lib/hole_rows.glsl"
 
-const uint kAhead = 64u;
-// Frames without holes pay for none of it.
-const uint kShared = kHoles == kHolesListed ? 1u : 0u;
-
-shared uint group_bits[kShared * (kMaxHoles / 32u - 1u) + 1u];  // one a hole
-// One a word of those that is not 0.
-shared uint group_words[kShared * (kMaxHoles / 32u / 32u - 1u) + 1u];
-// What is left at each sample and thread: two half floats a word. At first the candidates of the whole group.
-shared uint left_ahead[kShared * (kAhead / 2u * 64u - 1u) + 1u];
-shared uint candidate_count;
-shared uvec4 group_px;  // the rectangle of the picture that the group's rays run through: low, high
-shared uint group_length;
-
-/// Enters those of a tile's holes that rays of the cone may meet. All threads of the workgroup.
-void find_holes_of_tile(RayCone cone, uint tile) {
-  const uint lane = gl_LocalInvocationIndex;
-  for (uint first = 0u; first < frame.holes.tile_words; first += 64u) {
-    if (lane == 0u) candidate_count = 0u;
-    barrier();
-    uint bits = first + lane < frame.holes.tile_words ? hole_tiles[tile + first + lane] : 0u;
-    uint at = bits != 0u ? atomicAdd(candidate_count, uint(bitCount(bits))) : 0u;
-    for (; bits != 0u; bits &= bits - 1u) left_ahead[at++] = 32u * (first + lane) + uint(findLSB(bits));
-    barrier();
-    for (uint i = lane; i < candidate_count; i += 64u) {
-      const uint hole = left_ahead[i];
-      if (!cone_meets_hole(cone, hole_reach(hole_from_rows(hole), frame.time, frame.look.hole_rim))) continue;
-      atomicOr(group_bits[hole >> 5u], 1u << (hole & 31u));
-      atomicOr(group_words[hole >> 10u], 1u << (hole >> 5u & 31u));
-    }
-    barrier();
-  }
-}
-
-/// Finds the holes that the group's rays may meet: those of its threads for which `is_ray`, each through a point of the
-/// picture and of a length. All threads of the workgroup take part.
-void find_group_holes(bool is_ray, vec2 position_px, float length_m) {
-  const uint lane = gl_LocalInvocationIndex;
-  for (uint i = lane; i < frame.holes.tile_words; i += 64u) group_bits[i] = 0u;
-  if (lane < kMaxHoles / 1024u) group_words[lane] = 0u;
-  if (lane == 0u) {
-    group_px = uvec4(frame.size_px, 0u, 0u);
-    group_length = 0u;
-  }
-  barrier();
-  if (is_ray) {
-    const uvec2 px = uvec2(position_px);
-    atomicMin(group_px.x, px.x);
-    atomicMin(group_px.y, px.y);
-    atomicMax(group_px.z, px.x + 1u);
-    atomicMax(group_px.w, px.y + 1u);
-    atomicMax(group_length, floatBitsToUint(max(length_m, 0.0)));
-  }
-  barrier();
-  if (group_length == 0u) return;
-  const RayCone cone = cone_of_pixels(vec2(group_px.xy), vec2(group_px.zw), uintBitsToFloat(group_length));
-  const uvec2 first = group_px.xy / kHoleTilePixels, last = (group_px.zw - 1u) / kHoleTilePixels;
-  for (uint y = first.y; y <= last.y; ++y)
-    for (uint x = first.x; x <= last.x; ++x) find_holes_of_tile(cone, frame.holes.tile_words * (x + frame.holes.tiles_across * y));
-}
+const uint kAhead = 32u;
+// What is left at the samples ahead of each thread: four numbers of 8 bits a word. Little memory, for it is taken from
+// the textures' cache; none for frames without holes.
+shared uint left_ahead[kHoles == kHolesListed ? kAhead / 4u * 64u : 1u];
 
 /// The samples of a ray: number k lies at t = begin + k ds + jitter * (its segment, ds or what is left of it up to end).
 struct RaySamples {
@@ -123,31 +67,33 @@ float left_by_hole(Hole hole, vec3 p_world) {
 }
 
 /// Share of the density that the holes leave at sample k, counted from where the ray looked ahead.
-float left_at(uint k) {
-  const vec2 two = unpackHalf2x16(left_ahead[(k >> 1u) * 64u + gl_LocalInvocationIndex]);
-  return (k & 1u) == 0u ? two.x : two.y;
+float left_at(uint k) { return unpackUnorm4x8(left_ahead[(k >> 2u) * 64u + gl_LocalInvocationIndex])[k & 3u]; }
+
+/// Takes a hole out of the ray's next kAhead samples.
+void look_ahead(RaySamples ray, float begin, Hole hole) {
+  const uvec2 run = samples_in(hole, ray, begin, frame.look.hole_rim);
+  for (uint k = run.x; k < run.y; ++k) {
+    const float t = begin + float(k) * ray.ds;
+    const vec3 p_world = ray.origin_world + (t + ray.jitter * min(ray.ds, ray.end - t)) * ray.direction;
+    const uint at = (k >> 2u) * 64u + gl_LocalInvocationIndex;
+    vec4 four = unpackUnorm4x8(left_ahead[at]);
+    four[k & 3u] *= left_by_hole(hole, p_world);
+    left_ahead[at] = packUnorm4x8(four);
+  }
 }
 
-/// Finds what the group's holes leave at the ray's next kAhead samples from `begin` on.
-void look_ahead(RaySamples ray, float begin) {
-  const uint lane = gl_LocalInvocationIndex;
-  for (uint i = 0u; i < kAhead / 2u; ++i) left_ahead[i * 64u + lane] = 0x3c003c00u;  // 1, 1
-  for (uint w = 0u; 1024u * w < frame.holes.count; ++w) {
-    for (uint some = group_words[w]; some != 0u; some &= some - 1u) {
-      const uint word = 32u * w + uint(findLSB(some));
-      for (uint bits = group_bits[word]; bits != 0u; bits &= bits - 1u) {
-        const Hole hole = hole_from_rows(32u * word + uint(findLSB(bits)));
-        const uvec2 run = samples_in(hole, ray, begin, frame.look.hole_rim);
-        for (uint k = run.x; k < run.y; ++k) {
-          const float t = begin + float(k) * ray.ds;
-          const vec3 p_world = ray.origin_world + (t + ray.jitter * min(ray.ds, ray.end - t)) * ray.direction;
-          const uint at = (k >> 1u) * 64u + lane;
-          const float left = left_by_hole(hole, p_world);
-          left_ahead[at] = packHalf2x16(unpackHalf2x16(left_ahead[at]) * ((k & 1u) == 0u ? vec2(left, 1.0) : vec2(1.0, left)));
-        }
-      }
-    }
+/// Finds what holes leave at the next kAhead samples, from `begin` on, of a ray through a point of the picture; false
+/// when that is all.
+bool look_ahead(RaySamples ray, float begin, vec2 position_px) {
+  const uvec2 group = uvec2(position_px) / kHoleGroupPixels;
+  const uint list = 2u * (group.x + frame.holes.groups_across * group.y);
+  const uint first = hole_lists[list], count = hole_lists[list + 1u];
+  if (count == 0u) return false;
+  for (uint i = 0u; i < kAhead / 4u; ++i) left_ahead[i * 64u + gl_LocalInvocationIndex] = 0xffffffffu;
+  for (uint i = 0u; i < min(count, frame.holes.count); ++i) {
+    look_ahead(ray, begin, hole_from_rows(count == kAskAllHoles ? i : hole_lists[first + i]));
   }
+  return true;
 }
 
 /// The plain loop over all holes, which the above is measured against.

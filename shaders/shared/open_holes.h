@@ -1,7 +1,7 @@
 // Which holes reach where, so that nobody asks holes that are elsewhere, however many there are.
 //
-//   hole_tiles   for rays from the eye: per tile of 64 x 64 pixels one bit a hole, tile_words uints; bit i & 31 of
-//                word i / 32 is set where a ray of the tile may meet hole i
+//   hole_lists   for rays from the eye: per group of 8 x 8 pixels the first of its entries and how many it has, or
+//                kAskAllHoles; from entries_at on the entries: holes that a ray of the group may meet, rising
 //   hole_cells   for light: a uint per slot, 0 or block + 1; from cells_at on, per block of a brick 16^3 cells of half a
 //                voxel, x + 16 (y + 16 z): what the holes leave of the smoke in it on average, as -log2 in steps of
 //                1 / kHoleCellStep; sums of what each hole leaves, so that their order does not matter
@@ -17,7 +17,9 @@ SHARED_CONST uint kHolesAllAsked = 2u;
 
 /// Most holes that are drawn at a time.
 SHARED_CONST uint kMaxHoles = 16384u;
-SHARED_CONST uint kHoleTilePixels = 64u;
+SHARED_CONST uint kHoleGroupPixels = 8u;
+/// A group for which there was no room: its rays ask all holes.
+SHARED_CONST uint kAskAllHoles = 0xffffffffu;
 
 SHARED_CONST int kHoleCellsPerVoxel = 2;
 SHARED_CONST int kHoleCellsPerEdge = 16;  // of a brick
@@ -26,11 +28,16 @@ SHARED_CONST float kHoleCellStep = 4096.0f;
 
 struct OpenHolesFrame {
   uint count;
-  uint tiles_across;
-  uint tile_words;
+  uint groups_across;
+  uint entries_at;
   uint cells_at;
 };
 SHARED_SIZE(OpenHolesFrame, 16);
+
+struct HoleListsParams {
+  uint entry_capacity;
+};
+SHARED_SIZE(HoleListsParams, 4);
 
 /// What the passes that make the cells need besides.
 struct HoleCellsParams {
@@ -40,12 +47,13 @@ struct HoleCellsParams {
 };
 SHARED_SIZE(HoleCellsParams, 12);
 
-/// What they count: pairs of a brick and a hole that reaches it, and bricks that any reaches.
-struct HoleCellsCounters {
+/// What is counted: pairs of a brick and a hole that reaches it, bricks that any reaches, entries of the lists.
+struct HoleCounters {
   uint pairs;
   uint blocks;
+  uint entries;
 };
-SHARED_SIZE(HoleCellsCounters, 8);
+SHARED_SIZE(HoleCounters, 12);
 
 SHARED_END
 #endif

@@ -86,7 +86,7 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                  gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_),
                  gpu::read(in.holes.holes), gpu::stored(rays.smoke), gpu::read_write(counters),
                  gpu::read(rays.ends), gpu::stored(rays.near), gpu::sampled(in.holes.masks, nearest_),
-                 gpu::read(in.holes.tiles), gpu::read(rays.list), gpu::sampled(in.smoke.drift, linear_)});
+                 gpu::read(in.holes.lists), gpu::read(rays.list), gpu::sampled(in.smoke.drift, linear_)});
 }
 
 }  // namespace brume::passes

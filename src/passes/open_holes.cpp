@@ -10,7 +10,9 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kMaxBlocks = 7000;  // 112 MiB of cells: every device takes 128 in one buffer
+constexpr std::uint32_t kMaxBlocks = 7000;    // 112 MiB of cells: every device takes 128 in one buffer
+constexpr std::uint32_t kGroupsPerTile = 8;   // along an axis
+constexpr std::size_t kMaxEntries = 1 << 23;  // of the lists: 32 MiB
 // Workgroups that share the work of a pass, however much it turns out to be.
 constexpr std::uint32_t kGroups = 8192;
 constexpr std::uint32_t kRow = 32768;  // every device takes 65,535 workgroups along an axis
@@ -61,8 +63,8 @@ HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float voxel
 
 OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const sim::MaskAtlas& masks)
     : context_(context),
-      tiles_pass_(context, shaders::hole_tiles_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
-                  {64, 1, 1}),
+      tiles_pass_(context, shaders::hole_tiles_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                  sizeof(shared::HoleListsParams), {64, 1, 1}),
       bricks_pass_(context, shaders::hole_bricks_comp,
                    {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::HoleCellsParams), {64, 1, 1}),
@@ -71,7 +73,7 @@ OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const si
           {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled},
           sizeof(shared::HoleCellsParams), {64, 1, 1}),
       nearest_(context, {VK_FILTER_NEAREST}),
-      counters_(context, sizeof(shared::HoleCellsCounters),
+      counters_(context, sizeof(shared::HoleCounters),
                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
   reserve({}, 0, 1, 0, {1, 1});
   runner.run([&](gpu::Recorder& recorder) { resources_.masks = make_hole_masks(context, recorder, masks); });
@@ -82,10 +84,13 @@ void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float v
   plan_ = plan_holes(holes, time, voxel_size, slot_count);
   slot_count_ = slot_count;
   resources_.any = !plan_.holes.empty() && slot_count > 0;
-  tiles_ = (size_px + shared::kHoleTilePixels - 1u) / shared::kHoleTilePixels;
+  constexpr std::uint32_t kTilePixels = kGroupsPerTile * shared::kHoleGroupPixels;
+  tiles_ = (size_px + kTilePixels - 1u) / kTilePixels;
+  const std::size_t groups = std::size_t{tiles_.x} * tiles_.y * kGroupsPerTile * kGroupsPerTile;
+  entries_at_ = static_cast<std::uint32_t>(2 * groups);
+  entry_capacity_ = static_cast<std::uint32_t>(std::min(groups * plan_.holes.size(), kMaxEntries));
   grow(context_, resources_.holes, plan_.holes.size() * sizeof(shared::Hole));
-  grow(context_, resources_.tiles,
-       std::size_t{tiles_.x} * tiles_.y * frame().tile_words * sizeof(std::uint32_t));
+  grow(context_, resources_.lists, (std::size_t{entries_at_} + entry_capacity_) * sizeof(std::uint32_t));
   grow(context_, resources_.cells,
        (slot_count + std::size_t{plan_.block_capacity} * shared::kHoleCellsPerBlock) * sizeof(std::uint32_t));
   grow(context_, pairs_, plan_.pair_capacity * sizeof(glm::uvec2));
@@ -93,17 +98,20 @@ void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float v
 
 shared::OpenHolesFrame OpenHoles::frame() const {
   const auto count = static_cast<std::uint32_t>(plan_.holes.size());
-  return {count, tiles_.x, (count + 31) / 32, slot_count_};
+  return {count, tiles_.x * kGroupsPerTile, entries_at_, slot_count_};
 }
 
 void OpenHoles::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SmokeResources& smoke) {
   if (!resources_.any) return;
   recorder.upload(resources_.holes, 0, std::as_bytes(std::span(plan_.holes)));
-  recorder.bind(tiles_pass_, {gpu::read(frame), gpu::read(resources_.holes), gpu::write(resources_.tiles)});
+  recorder.fill(counters_, 0);
+  recorder.bind(tiles_pass_,
+                {gpu::read(frame), gpu::read(resources_.holes), gpu::write(resources_.lists),
+                 gpu::read_write(counters_)},
+                shared::HoleListsParams{entry_capacity_});
   recorder.dispatch_threads(tiles_pass_, 64 * tiles_.x, tiles_.y);
 
   const shared::HoleCellsParams params{slot_count_, plan_.pair_capacity, plan_.block_capacity};
-  recorder.fill(counters_, 0);
   recorder.bind(bricks_pass_,
                 {gpu::read(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
                  gpu::read_write(resources_.cells), gpu::write(pairs_), gpu::read_write(counters_)},

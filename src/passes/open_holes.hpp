@@ -29,7 +29,7 @@ HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float voxel
 
 /// What every pass that looks for holes binds.
 struct HoleResources {
-  gpu::Buffer holes, tiles, cells;
+  gpu::Buffer holes, lists, cells;
   gpu::Image masks;  ///< The mask atlas.
   bool any = false;  ///< Whether any hole is open in this frame.
 };
@@ -59,6 +59,7 @@ class OpenHoles {
   HolePlan plan_;
   std::uint32_t slot_count_ = 0;
   glm::uvec2 tiles_{0};
+  std::uint32_t entries_at_ = 0, entry_capacity_ = 0;
 };
 
 }  // namespace brume::passes

@@ -84,8 +84,8 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(frame.size_px, 190);
   EXPECT_EQ(frame.light_count, 192u);
   EXPECT_EQ(frame.holes.count, 193u);
-  EXPECT_EQ(frame.holes.tiles_across, 198u);
-  EXPECT_EQ(frame.holes.tile_words, 199u);
+  EXPECT_EQ(frame.holes.groups_across, 198u);
+  EXPECT_EQ(frame.holes.entries_at, 199u);
   EXPECT_EQ(frame.holes.cells_at, 200u);
   EXPECT_EQ(frame.frame_index, 194u);
   EXPECT_EQ(frame.time, 195);
