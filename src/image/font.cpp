@@ -56,8 +56,8 @@ void centre(const FT_GlyphSlot slot, Glyph& glyph, float texels_per_cap) {
   const std::uint32_t left = (glyph.side - bitmap.width) / 2, top = (glyph.side - bitmap.rows) / 2;
   for (std::uint32_t y = 0; y < bitmap.rows; ++y) {
     const unsigned char* row = bitmap.buffer + static_cast<std::ptrdiff_t>(y) * bitmap.pitch;
-    std::copy_n(row, bitmap.width,
-                glyph.coverage.begin() + static_cast<std::ptrdiff_t>((top + y) * glyph.side + left));
+    const std::size_t to = std::size_t{top + y} * glyph.side + left;
+    std::copy_n(row, bitmap.width, glyph.coverage.begin() + static_cast<std::ptrdiff_t>(to));
   }
   const float half = 0.5f * static_cast<float>(glyph.side);
   glyph.centre_x = (static_cast<float>(slot->bitmap_left) - static_cast<float>(left) + half) / texels_per_cap;
