@@ -12,6 +12,7 @@ SHARED_BEGIN
 struct ManyFit {
   float decay, held, share, share_g, closure, even, even_g;
 };
+SHARED_SIZE(ManyFit, 28);
 
 /// Fitted to random walks in slabs, spheres and boxes by tests/light.
 SHARED_FUNCTION ManyFit many_fit() {
@@ -32,6 +33,7 @@ struct ManyScatterings {
   vec3 share;  // of the light's irradiance
   float g;     // how it leaves
 };
+SHARED_SIZE(ManyScatterings, 28);
 
 /// `g`: the mean cosine, [0, 1); below 0 as 0. `escape`: mean over all directions of the transmittance out of the smoke.
 SHARED_FUNCTION ManyScatterings many_scatterings(ManyFit fit, vec3 albedo, float g, float escape) {

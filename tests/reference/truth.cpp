@@ -68,10 +68,10 @@ glm::dvec4 smoke_noise(const TruthScene& scene, glm::dvec3 p_world, glm::dvec3 p
 /// What the noise leaves: the rule of shaders/lib/erosion.glsl.
 double eroded(const shared::SmokeLook& look, double density, glm::dvec4 noise) {
   const double erosion = double{look.erosion};
-  const double billows = std::clamp(1.6 * (0.55 * noise.r + 0.22 * noise.g + 0.23 * noise.a) - 0.3, 0.0, 1.0);
-  const double wisps = std::clamp(1.3 * (0.25 * noise.r + 0.75 * noise.b) + 0.05, 0.0, 1.0);
+  const double billows = std::clamp(1.6 * (0.55 * noise.r + 0.22 * noise.g + 0.23 * noise.a) - 0.4, 0.0, 1.0);
+  const double wisps = std::clamp(1.3 * (0.25 * noise.r + 0.75 * noise.b) - 0.1, 0.0, 1.0);
   const double threshold = erosion * (1 - glm::mix(billows, wisps, 0.5 - 0.5 * density));
-  const double left = std::clamp(2.5 * (density - threshold) / std::max(1 - threshold, 0.05), 0.0, 1.0);
+  const double left = std::clamp(4 * (density - threshold) / std::max(1 - threshold, 0.05), 0.0, 1.0);
   return left * (1 + erosion * (0.7 * noise.r + 0.3 * noise.g - 0.5));
 }
 
