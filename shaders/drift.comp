@@ -18,7 +18,7 @@ layout(scalar, binding = 5) readonly buffer Travel { uvec2 travel[]; };
 layout(scalar, binding = 6) readonly buffer Motions { CloudMotion motions[]; };
 layout(scalar, binding = 7) readonly buffer Pushes { Push pushes[]; };
 layout(binding = 8, rgba16f) uniform writeonly image3D drift;
-layout(push_constant, scalar) uniform Push_ { DriftParams params; };
+layout(push_constant, scalar) uniform Params { DriftParams params; };
 
 /// Rolls repeat after this many of their widths.
 const int kRollCells = 64;
@@ -67,9 +67,12 @@ vec3 carried_by_clouds(uint slot, ivec3 local, vec3 p_world) {
     const CloudMotion motion = motions[part.y];
     const vec4 growth = growth_at(part.x, local);
     const vec3 roll = frame.look.roll * (motion.roll_cos * one + motion.roll_sin * other);
-    sum += growth.w * vec4(motion.grown * growth.xyz + roll, 1.0);
+    // Where a cloud has not come yet it moves nothing that is there.
+    const float ahead = motion.front - length(growth.xyz) / frame.volume.voxel_size;
+    const float there = clamp(ahead / max(0.25 * motion.front, 2.0), 1e-5, 1.0);
+    sum += motion.weight * growth.w * there * vec4(motion.grown * growth.xyz + roll, 1.0);
   }
-  return sum.xyz / max(sum.w, 1e-6);
+  return sum.xyz / max(sum.w, 1e-12);
 }
 
 /// How far shots, bodies and explosions carry the noise at a point.

@@ -16,8 +16,10 @@ struct CloudMotion {
   float grown;       // share of its growth that the noise is still to be carried, below 0: has been carried beyond
   float roll_cos;    // of the angle of its rolls, times how wide they are for the look's roll
   float roll_sin;
+  float front;       // how far its smoke has come [voxels]
+  float weight;      // how much it counts where clouds meet, > 0
 };
-SHARED_SIZE(CloudMotion, 12);
+SHARED_SIZE(CloudMotion, 20);
 
 /// Something that moves the noise around a stretch of its way: a shot, a body, an explosion.
 struct Push {

@@ -13,6 +13,8 @@ constexpr double kMostGrown = 2.5;
 constexpr double kFollow = 0.8;
 constexpr double kCreep = 1.0 / 7, kCreepSeconds = 5;
 // How far the rolls of a new cloud are ahead of those of an old one, in turns, and for how long.
+// How little of a dissolved cloud counts, so that nothing jumps when it goes: 1 less this.
+constexpr double kGoneWeight = 0.999;
 // How much wider the rolls of a cloud become while it dissolves.
 constexpr double kDrawnOut = 2;
 constexpr double kRollAhead = 0.5, kRollAheadSeconds = 1.5;
@@ -117,7 +119,8 @@ shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_pe
                           origin.settings.dissolve_ticks;
   const double wide = 1 + kDrawnOut * smooth(dissolve);
   return {static_cast<float>(finer - 1 - creep), static_cast<float>(wide * std::cos(angle)),
-          static_cast<float>(wide * std::sin(angle))};
+          static_cast<float>(wide * std::sin(angle)), static_cast<float>(now),
+          static_cast<float>(1 - kGoneWeight * smooth(dissolve))};
 }
 
 std::vector<shared::Push> pushes_of(const sim::State& state, double seconds) {

@@ -85,6 +85,44 @@ TEST(Pushes, OfAShotBeginAndEndWithNothing) {
   EXPECT_TRUE(pushes_of(world.state(), 4.5).empty());
 }
 
+TEST(Pushes, OfABodyFollowItAndDieDown) {
+  const voxel::BitGrid grid({glm::ivec3(33), 0.25f, glm::vec3(0)});
+  sim::World world(grid);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    sim::MoveBody move;
+    move.tick = 10 + 8 * i;
+    move.to = sim::position_from_metres({2 + 0.5 * i, 1, 4});  // 4 m/s
+    world.append(move).value_or_throw();
+  }
+  world.advance_to(26);
+  const auto now = pushes_of(world.state(), 26.0 / kTicks);
+  ASSERT_EQ(now.size(), 1u);
+  EXPECT_LT(glm::distance(now[0].to_world, glm::vec3(3, 1, 4)), 1e-3f);
+  EXPECT_LT(glm::distance(now[0].from_world, glm::vec3(1, 1, 4)), 1e-3f);  // half a second of its way
+  EXPECT_NEAR(now[0].along.x, 0.6, 1e-4);
+  const auto later = pushes_of(world.state(), 26.0 / kTicks + 0.75);
+  ASSERT_EQ(later.size(), 1u);
+  EXPECT_NEAR(later[0].along.x, 0.3, 1e-3);
+  EXPECT_TRUE(pushes_of(world.state(), 26.0 / kTicks + 1.51).empty());
+}
+
+TEST(Pushes, OfABlastCarryOutwards) {
+  const voxel::BitGrid grid({glm::ivec3(33), 0.25f, glm::vec3(0)});
+  sim::World world(grid);
+  sim::Blast blast;
+  blast.tick = 64;
+  blast.at = sim::position_from_metres({4, 4, 4});
+  blast.radius = 2 * 1024;
+  world.append(blast).value_or_throw();
+  world.advance_to(65);
+  EXPECT_TRUE(pushes_of(world.state(), 1.0).empty());
+  const auto open = pushes_of(world.state(), 1.2);
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_EQ(open[0].along, glm::vec3(0));
+  EXPECT_NEAR(open[0].radius, 3, 1e-3);
+  EXPECT_NEAR(open[0].outward, 0.75, 1e-2);
+}
+
 class DriftTest : public gpu::GpuTest {
  protected:
   DriftTest() : room_(context(), runner(), {}, {{40, 33, 37}, 0.25f, {-5, -4, -4.6f}}, {0, 0, 0}, 8000, 400) {
@@ -167,6 +205,42 @@ TEST_F(DriftTest, CarriesAsTheReference) {
     });
     EXPECT_GT(compared, 1000);
   }
+}
+
+TEST_F(DriftTest, ANewCloudDoesNotMakeTheOldOneJump) {
+  sim::ThrowSmoke second;
+  second.tick = 440;
+  second.from = second.at = sim::position_from_metres({1.5, 0, 0});
+  second.smoke.voxels = 8000;
+  room_.world.append(second).value_or_throw();
+  const sim::Cloud& old = *state().clouds.at(0).cloud;
+  std::vector<glm::vec3> before, after;
+  const auto show = [&](std::uint32_t tick, std::vector<glm::vec3>& out) {
+    room_.world.advance_to(tick);
+    room_.volume.update(room_.world);
+    room_.upload.reserve(room_.volume);
+    runner().run([&](gpu::Recorder& recorder) { room_.upload.record(recorder, room_.volume); });
+    frame_.volume = room_.volume.frame();
+    const auto texels = record(state(), tick / 64.0, 0);
+    out.assign(old.voxels().size(), glm::vec3(0));
+    for_each_voxel([&](std::size_t texel, glm::ivec3 voxel) {
+      const std::uint32_t rank = old.voxels().rank(voxel);
+      if (rank != sim::BlockSet::kNone && state().density(voxel) > 0) out[rank] = glm::vec3(texels[texel]);
+    });
+  };
+  show(438, before);
+  ASSERT_EQ(state().clouds.size(), 1u);
+  show(442, after);
+  ASSERT_EQ(state().clouds.size(), 2u);
+  // Away from the new source, which stirs what is around it, a sixteenth of a second moves nothing far.
+  const glm::ivec3 source = state().clouds.at(1).cloud->origin().source;
+  std::size_t compared = 0;
+  old.voxels().for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
+    if (before[rank] == glm::vec3(0) || glm::length(glm::vec3(voxel - source)) < 8) return;
+    ++compared;
+    EXPECT_LT(glm::distance(before[rank], after[rank]), 0.06f);
+  });
+  EXPECT_GT(compared, 3000u);
 }
 
 TEST_F(DriftTest, IsTheSameWhateverWasDrawnBefore) {
