@@ -30,7 +30,9 @@ float smoke_distance(vec3 ray, float z_surface, float transmittance) {
   const float enter = max(max(low.x, low.y), max(low.z, 0.0));
   const float leave = min(min(high.x, high.y), min(high.z, z_surface));
   if (leave <= enter) return z_surface;
-  const float tau = -log(max(transmittance, 1e-3));
+  // What is opaque is dense.
+  const bool opaque = transmittance <= max(frame.look.stop, 1e-3);
+  const float tau = opaque ? max(frame.look.extinction * (leave - enter), 7.0) : -log(transmittance);
   // The mean of a truncated exponential distribution.
   const float share = tau > 0.01 ? 1.0 / tau - exp(-tau) / (1.0 - exp(-tau)) : 0.5;
   return mix(enter, leave, share);

@@ -52,7 +52,7 @@ vec4 error_at(RayEnds own, ivec2 block, ivec2 blocks, float z) {
   vec4 error = vec4(0.0);
   for (int i = 0; i < 4; ++i) {
     const Estimate a = neighbour(own, block - steps[i], blocks, z), b = neighbour(own, block + steps[i], blocks, z);
-    const bool knows_a = a.doubt < kDoubt, knows_b = b.doubt < kDoubt;
+    const bool knows_a = a.doubt < kKnown, knows_b = b.doubt < kKnown;
     const vec4 bend = (knows_a ? a.smoke - here : vec4(0.0)) + (knows_b ? b.smoke - here : vec4(0.0));
     error = max(error, (knows_a && knows_b ? 0.25 : 0.5) * abs(bend));
   }

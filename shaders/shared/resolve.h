@@ -35,6 +35,9 @@ SHARED_CONST uint kListedRow = 1024u;
 /// How far off a ray's transmittance may be at a pixel's depth for it to count in full among its neighbours.
 SHARED_CONST float kDoubt = 0.008f;
 
+/// How far off it may be for the rays of neighbours to be compared at that depth.
+SHARED_CONST float kKnown = 0.05f;
+
 /// Error of a pixel, between 0 and 1 on the screen, above which it is not left to interpolation.
 SHARED_CONST float kSeenError = 3.0f / 255.0f;
 

@@ -1,0 +1,131 @@
+// Films whose smoke is gathered over their frames.
+#include <cmath>
+
+#include "render/playback.hpp"
+#include "tests/gpu/gpu_test.hpp"
+#include "tests/render/truth_scenes.hpp"
+
+namespace brume::render {
+namespace {
+
+constexpr glm::uvec2 kSize{96, 54};
+
+class FilmTest : public gpu::GpuTest {
+ protected:
+  /// A bright wall behind dense smoke, and a shot that opens it from 1 s to about 2 s.
+  static stage::Stage stage() {
+    scene::Scene scene;
+    scene.meshes.resize(2);
+    add_box(scene.meshes[0], {-6, -0.3f, -3.2f}, {6, -0.1f, 6});
+    add_box(scene.meshes[0], {-6, -0.1f, -3.2f}, {6, 4, -3});
+    add_box(scene.meshes[1], glm::vec3(-0.2f), glm::vec3(0.2f));
+    scene.materials.resize(1);
+    scene.materials[0].emission = glm::vec3(0.6f);
+    scene.objects = {{"room", 0, 0, glm::mat4(1), true}};
+    scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+    scene::Light lamp;
+    lamp.position_world = {-2, 3, 3};
+    lamp.intensity = glm::vec3(10);
+    scene.lights = {lamp};
+    scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
+    scene::Timeline timeline;
+    timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.001f), 0};
+    timeline.smoke.voxels = 2000;
+    timeline.smoke.extinction = 4;
+    timeline.smokes = {{0, {0, 0.4f, 0}, {0, 0.4f, 0}}};
+    scene::ShotEvent shot;
+    shot.time = 3;
+    shot.from_world = {0, 1.5f, 5.4f};
+    shot.toward_world = {0, 1.5f, 0};
+    shot.radius = 0.5f;
+    shot.times = {0.05f, 0.05f, 0.3f, 0.1f};
+    shot.flash = 0;
+    timeline.shots = {shot};
+    return stage_of(std::move(scene), std::move(timeline), {{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}});
+  }
+  static RendererOptions options(std::uint32_t scale, bool temporal) {
+    RendererOptions options;
+    options.size_px = kSize;
+    options.march_scale = scale;
+    options.temporal = temporal;
+    return options;
+  }
+  static double mean_difference(const image::Image8& a, const image::Image8& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::abs(a.rgba[i] - b.rgba[i]);
+    return sum / (0.75 * static_cast<double>(a.rgba.size()));  // alpha is the same
+  }
+  static double centre(const image::Image8& picture) {
+    double sum = 0;
+    for (std::uint32_t y = 25; y < 29; ++y)
+      for (std::uint32_t x = 46; x < 50; ++x) sum += picture.rgba[4 * (x + std::size_t{kSize.x} * y) + 1];
+    return sum / 16;
+  }
+};
+
+TEST_F(FilmTest, AFrameThatFollowsNoneIsThePictureOfItsMoment) {
+  const stage::Stage scene = stage();
+  for (const std::uint32_t scale : {1u, 4u}) {
+    Playback film(context(), scene, options(scale, true)), pictures(context(), scene, options(scale, false));
+    EXPECT_EQ(film.draw(2, 48).rgba, pictures.draw(2, 48).rgba);
+    EXPECT_NE(film.draw(2.04, 49).rgba, pictures.draw(2.04, 49).rgba);
+    EXPECT_EQ(film.draw(2, 48).rgba, pictures.draw(2, 48).rgba);
+  }
+}
+
+TEST_F(FilmTest, AHoleThatHasClosedLeavesNoGhost) {
+  // The film's frames against pictures of the same moments. From three frames after it has closed on, what
+  // the hole showed is gone: two steps of 255.
+  const stage::Stage scene = stage();
+  for (const std::uint32_t scale : {1u, 2u}) {
+    Playback film(context(), scene, options(scale, true)), pictures(context(), scene, options(scale, false));
+    double most_open = 0;
+    std::uint32_t closed_at = 0;
+    for (std::uint32_t i = 0; i < 22; ++i) {
+      const double seconds = 3 + i / 24.0;
+      const auto shown = film.draw(seconds, i), now = pictures.draw(seconds, i);
+      most_open = std::max(most_open, centre(now));
+      if (most_open > 100 && closed_at == 0 && centre(now) < 0.5 * most_open) closed_at = i;
+      if (closed_at == 0 || i < closed_at + 3) continue;
+      EXPECT_NEAR(centre(shown), centre(now), 2) << "scale " << scale << " frame " << i;
+      EXPECT_LT(mean_difference(shown, now), 2) << "scale " << scale << " frame " << i;
+    }
+    EXPECT_GT(closed_at, 8u);
+  }
+}
+
+/// Mean difference of pictures that follow each other while the camera circles the smoke.
+double flicker(Playback& playback) {
+  const auto draw = [&](std::uint32_t i) {
+    const float angle = 0.6f * std::sin(0.6283f * static_cast<float>(i) / 24);
+    playback.set_camera(
+        scene::Camera{{5.5f * std::sin(angle), 1.5f, 5.5f * std::cos(angle)}, {0, 1.5f, 0}, 0.9f});
+    return playback.draw(2, i);
+  };
+  double sum = 0;
+  for (const std::uint32_t first : {0u, 120u}) {
+    image::Image8 before = draw(first);
+    for (std::uint32_t i = first + 1; i < first + 12; ++i) {
+      image::Image8 now = draw(i);
+      double difference = 0;
+      for (std::size_t k = 0; k < now.rgba.size(); ++k) difference += std::abs(now.rgba[k] - before.rgba[k]);
+      if (i > first + 8) sum += difference / (0.75 * static_cast<double>(now.rgba.size())) / 6;
+      before = std::move(now);
+    }
+  }
+  return sum;
+}
+
+TEST_F(FilmTest, AReducedMarchFlickersNoMoreThanAFullOne) {
+  const stage::Stage scene = stage();
+  Playback full(context(), scene, options(1, false)), half(context(), scene, options(2, false)),
+      gathered(context(), scene, options(2, true));
+  const double of_full = flicker(full), of_half = flicker(half), of_gathered = flicker(gathered);
+  std::printf("from frame to frame, of 255: full %.3f, half %.3f, half gathered %.3f\n", of_full, of_half,
+              of_gathered);
+  EXPECT_LT(of_half, 1.05 * of_full);
+  EXPECT_LT(of_gathered, of_half);
+}
+
+}  // namespace
+}  // namespace brume::render
