@@ -22,8 +22,18 @@ layout(binding = 9) uniform sampler3D drift_atlas;
 layout(binding = 10, r16f) uniform writeonly image2D smoke_shadows;
 layout(scalar, binding = 12) readonly buffer Faces { SmokeShadowFace faces[]; };
 layout(push_constant, scalar) uniform Push { SmokeShadowParams params; };
+layout(binding = 14) readonly buffer Holes { vec4 hole_rows[]; };
+layout(binding = 15) uniform sampler2D hole_masks;
+#include "lib/hole_mask.glsl"
+#include "lib/hole_reach.glsl"
+#include "lib/hole_rows.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/solid.glsl"
+
+// Holes that the rays of a block may meet; where there are more, their averages over cells do.
+const uint kBlockHoles = 64u;
+shared uint block_holes[kBlockHoles];
+shared uint block_count;
 
 struct Way {
   vec3 from, to;
@@ -53,6 +63,52 @@ Way light_way(Light light, uint face, vec2 uv) {
   return Way(light.position_world, by_voxels ? first_solid(light.position_world, far) : far);
 }
 
+/// Around the ways of a block of texels of a face.
+RayCone cone_of_block(Light light, uint face, vec2 low_uv, vec2 high_uv) {
+  const Way middle = light_way(light, face, 0.5 * (low_uv + high_uv));
+  RayCone cone = RayCone(middle.from, normalize(middle.to - middle.from), 0.0, 0.0, light.kind == kLightDirectional ? 1e4 : light.range);
+  for (uint i = 0u; i < 4u; ++i) {
+    const Way corner = light_way(light, face, vec2((i & 1u) == 0u ? low_uv.x : high_uv.x, (i & 2u) == 0u ? low_uv.y : high_uv.y));
+    const vec3 along = corner.to - corner.from;
+    if (light.kind == kLightDirectional) cone.radius = max(cone.radius, length(cross(corner.from - middle.from, cone.axis)));
+    else cone.spread = max(cone.spread, length(cross(along, cone.axis)) / max(dot(along, cone.axis), 1e-6));
+  }
+  return cone;
+}
+
+/// Finds the holes of the block. All threads of the workgroup take part.
+void find_block_holes(RayCone cone) {
+  if (gl_LocalInvocationIndex == 0u) block_count = 0u;
+  barrier();
+  for (uint i = gl_LocalInvocationIndex; i < frame.holes.count; i += kSmokeShadowBlock * kSmokeShadowBlock) {
+    if (!cone_meets_hole(cone, hole_reach(hole_from_rows(i), frame.time, 0.0))) continue;
+    const uint at = atomicAdd(block_count, 1u);
+    if (at < kBlockHoles) block_holes[at] = i;
+  }
+  barrier();
+  // In order, so that equal frames multiply in the same order.
+  if (gl_LocalInvocationIndex == 0u) {
+    for (uint i = 1u; i < min(block_count, kBlockHoles); ++i) {
+      const uint hole = block_holes[i];
+      uint to = i;
+      for (; to > 0u && block_holes[to - 1u] > hole; --to) block_holes[to] = block_holes[to - 1u];
+      block_holes[to] = hole;
+    }
+  }
+  barrier();
+}
+
+/// Density at a point, less what the holes of the block remove.
+float block_density(vec3 p_voxel) {
+  if (frame.holes.count > 0u && block_count > kBlockHoles) return seen_density(p_voxel);
+  float density = mean_smoke_at(p_voxel).density;
+  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
+  for (uint i = 0u; frame.holes.count > 0u && i < block_count && density > 0.0; ++i) {
+    density *= 1.0 - hole_strength_masked(hole_from_rows(block_holes[i]), p_world, frame.time, 0.0);
+  }
+  return density;
+}
+
 /// Optical depth along a way, by samples in the middle of equal steps.
 float way_depth(Way way) {
   const SmokeVolumeFrame volume = frame.volume;
@@ -69,7 +125,7 @@ float way_depth(Way way) {
   const float per_sample = length_voxel * volume.voxel_size * frame.look.extinction;
   float depth = 0.0;
   for (float i = 0.5; i < steps && depth < 10.0; ++i) {
-    depth += per_sample * seen_density(from + direction * (begin + i * length_voxel));
+    depth += per_sample * block_density(from + direction * (begin + i * length_voxel));
   }
   return depth;
 }
@@ -77,11 +133,16 @@ float way_depth(Way way) {
 void main() {
   const uint face_index = face_of(gl_WorkGroupID.x);
   const SmokeShadowFace face = faces[face_index];
+  const Light light = lights[face_index / kFacesPerLight];
+  const uint side = face_index % kFacesPerLight;
   const uint block = gl_WorkGroupID.x - face.first_block, row = smoke_shadow_blocks(face.size).x;
-  const uvec2 texel = kSmokeShadowBlock * uvec2(block % row, block / row) + gl_LocalInvocationID.xy;
-  if (any(greaterThanEqual(texel, face.size))) return;
-  const uvec2 at = face.first_texel + texel;
-  const vec2 uv = (vec2(at) + 0.5 - face.offset) / face.scale;
-  const Way way = light_way(lights[face_index / kFacesPerLight], face_index % kFacesPerLight, uv);
+  const uvec2 first = face.first_texel + kSmokeShadowBlock * uvec2(block % row, block / row);
+  if (frame.holes.count > 0u) {
+    const vec2 low_uv = (vec2(first) - face.offset) / face.scale;
+    find_block_holes(cone_of_block(light, side, low_uv, low_uv + float(kSmokeShadowBlock) / face.scale));
+  }
+  const uvec2 at = first + gl_LocalInvocationID.xy;
+  if (any(greaterThanEqual(at, face.first_texel + face.size))) return;
+  const Way way = light_way(light, side, (vec2(at) + 0.5 - face.offset) / face.scale);
   imageStore(smoke_shadows, ivec2(at), vec4(exp(-way_depth(way))));
 }

@@ -47,9 +47,10 @@ bool hole_reaches_box(HoleReach reach, vec3 low_world, float size) {
   return dot(from_axis, from_axis) <= ball * ball;
 }
 
-/// Rays from a point: those at most an angle from an axis, up to a distance.
+/// Rays around an axis, up to a distance: they begin at most `radius` from its origin and run at most an angle from it.
 struct RayCone {
   vec3 origin_world, axis;
+  float radius;
   float spread;  // tangent of the angle
   float length_m;
 };
@@ -61,20 +62,21 @@ struct RayCone {
 /// by is spread t0 - d sqrt(1 - spread^2 / sin^2).
 bool cone_meets_hole(RayCone cone, HoleReach reach) {
   if (!reach.open) return false;
+  const float radius = reach.radius + cone.radius;
   const vec3 apart = cone.origin_world - reach.from_world;
   const float b = dot(cone.axis, reach.forward), c = dot(cone.axis, apart), f = dot(reach.forward, apart);
   const float sine2 = max(1.0 - b * b, 0.0), spread2 = cone.spread * cone.spread;
   if (sine2 > 4.0 * spread2 && sine2 > 1e-4) {
     const float t = (b * f - c) / sine2;
     const float d = abs(dot(apart, cross(cone.axis, reach.forward))) * inversesqrt(sine2);
-    if (d * sqrt(1.0 - spread2 / sine2) > reach.radius + cone.spread * t + 1e-3) return false;
+    if (d * sqrt(1.0 - spread2 / sine2) > radius + cone.spread * t + 1e-3) return false;
   }
   // The parts that there are: nearest points of two segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
   float s = sine2 > 1e-6 ? clamp((b * f - c) / sine2, 0.0, cone.length_m) : 0.0;
   const float t = clamp(b * s + f, 0.0, reach.length_m);
   s = clamp(b * t - c, 0.0, cone.length_m);
   const vec3 between = apart + s * cone.axis - t * reach.forward;
-  const float most = reach.radius + cone.spread * cone.length_m;
+  const float most = radius + cone.spread * cone.length_m;
   return dot(between, between) <= most * most;
 }
 

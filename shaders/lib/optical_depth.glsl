@@ -5,14 +5,20 @@
 #include "lib/cell_holes.glsl"
 #include "lib/smoke_density.glsl"
 
-/// Density as the march sees it in the mean of a texel: light is as coarse as those.
+/// The smoke at a point with what the noise leaves of it in the mean of a texel: light is as coarse as those.
+SmokePoint mean_smoke_at(vec3 p_voxel) {
+  SmokePoint point = smoke_at(frame.volume, p_voxel);
+  if (point.density > 0.0) {
+    const vec3 uvw = (atlas_corner(frame.volume, point.slot) + point.local_voxel) * atlas_texel(frame.volume);
+    point.density *= textureLod(drift_atlas, uvw, 0.0).w;
+  }
+  return point;
+}
+
+/// Density as light sees it.
 float seen_density(vec3 p_voxel) {
-  const SmokePoint point = smoke_at(frame.volume, p_voxel);
-  float density = point.density;
-  if (density <= 0.0) return 0.0;
-  const vec3 uvw = (atlas_corner(frame.volume, point.slot) + point.local_voxel) * atlas_texel(frame.volume);
-  density *= textureLod(drift_atlas, uvw, 0.0).w;
-  return density * left_in_cell(point.slot, point.local_voxel);
+  const SmokePoint point = mean_smoke_at(p_voxel);
+  return point.density > 0.0 ? point.density * left_in_cell(point.slot, point.local_voxel) : 0.0;
 }
 
 /// Optical depth from a point along a unit direction, at most `distance_m` metres, in at most `max_steps` steps. They

@@ -17,7 +17,7 @@ RayCone cone_of_pixels(vec2 low_px, vec2 high_px, float length_m) {
   cone.origin_world = frame.camera.eye_world;
   cone.axis = normalize(camera_ray(frame.camera, 0.5 * (low_px + high_px), frame.size_px));
   cone.length_m = length_m;
-  cone.spread = 0.0;
+  cone.radius = cone.spread = 0.0;
   for (uint i = 0u; i < 4u; ++i) {
     const vec2 px = vec2((i & 1u) == 0u ? low_px.x : high_px.x, (i & 2u) == 0u ? low_px.y : high_px.y);
     const vec3 ray = camera_ray(frame.camera, px, frame.size_px);

@@ -17,7 +17,7 @@ SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
     : pipeline_(context, shaders::smoke_shadow_comp,
                 {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled,
                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kStored, gpu::kBuffer,
-                 gpu::kBuffer, gpu::kSampled},
+                 gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled},
                 sizeof(shared::SmokeShadowParams), {shared::kSmokeShadowBlock, shared::kSmokeShadowBlock, 1}),
       linear_(context, {}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
@@ -53,7 +53,8 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const Sm
        gpu::sampled(in.shadows.layers, nearest_), gpu::read(in.smoke.pages),
        gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
        gpu::read(in.smoke.corners), gpu::sampled(in.smoke.drift, linear_), gpu::stored(shadows.atlas),
-       gpu::read(in.holes.cells), gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_)},
+       gpu::read(in.holes.cells), gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_),
+       gpu::read(in.holes.holes), gpu::sampled(in.holes.masks, nearest_)},
       params);
   recorder.dispatch_threads(pipeline_, shared::kSmokeShadowBlock * plan.blocks, shared::kSmokeShadowBlock);
 }
