@@ -24,9 +24,10 @@ layout(scalar, binding = 12) readonly buffer Faces { SmokeShadowFace faces[]; };
 layout(push_constant, scalar) uniform Push { SmokeShadowParams params; };
 layout(binding = 14) readonly buffer Holes { vec4 hole_rows[]; };
 layout(binding = 15) uniform sampler2D hole_masks;
-#include "lib/hole_mask.glsl"
 #include "lib/hole_reach.glsl"
-#include "lib/hole_rows.glsl"
+const bool kLooksAhead = true;
+float hole_noise(vec3 p_world) { return 0.0; }  // light is too coarse for the noise of rims
+#include "lib/hole_window.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/solid.glsl"
 
@@ -98,34 +99,38 @@ void find_block_holes(RayCone cone) {
   barrier();
 }
 
-/// Density at a point, less what the holes of the block remove.
-float block_density(vec3 p_voxel) {
-  if (frame.holes.count > 0u && block_count > kBlockHoles) return seen_density(p_voxel);
-  float density = mean_smoke_at(p_voxel).density;
-  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
-  for (uint i = 0u; frame.holes.count > 0u && i < block_count && density > 0.0; ++i) {
-    density *= 1.0 - hole_strength_masked(hole_from_rows(block_holes[i]), p_world, frame.time, 0.0);
-  }
-  return density;
-}
-
 /// Optical depth along a way, by samples in the middle of equal steps.
 float way_depth(Way way) {
   const SmokeVolumeFrame volume = frame.volume;
-  const vec3 from = (way.from - volume.origin_world) / volume.voxel_size;
-  const vec3 along = (way.to - volume.origin_world) / volume.voxel_size - from;
-  const float distance = length(along);
-  const vec3 direction = along / max(distance, 1e-6);
-  const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
-  const vec3 t0 = (volume.bounds_min - from) * inverse, t1 = (volume.bounds_max - from) * inverse;
-  const vec3 near = min(t0, t1), far = max(t0, t1);
-  const float begin = max(max(near.x, near.y), max(near.z, 0.0)), end = min(min(far.x, far.y), min(far.z, distance));
-  const float steps = clamp(ceil((end - begin) * volume.voxel_size / params.step_length), 0.0, params.max_steps);
-  const float length_voxel = (end - begin) / max(steps, 1.0);
-  const float per_sample = length_voxel * volume.voxel_size * frame.look.extinction;
+  const float distance = length(way.to - way.from);
+  RaySamples ray;
+  ray.origin_world = way.from;
+  ray.direction = (way.to - way.from) / max(distance, 1e-6);
+  ray.jitter = 0.5;
+  const vec3 inverse = 1.0 / (ray.direction + vec3(equal(ray.direction, vec3(0.0))) * 1e-6);
+  const vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size - way.from;
+  const vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size - way.from;
+  const vec3 near = min(low * inverse, high * inverse), far = max(low * inverse, high * inverse);
+  ray.begin = max(max(near.x, near.y), max(near.z, 0.0));
+  ray.end = min(min(far.x, far.y), min(far.z, distance));
+  const float steps = clamp(ceil((ray.end - ray.begin) / params.step_length), 0.0, params.max_steps);
+  ray.ds = (ray.end - ray.begin) / max(steps, 1.0);
+  const bool holes_near = frame.holes.count > 0u && block_count > 0u, by_cells = holes_near && block_count > kBlockHoles;
+
+  const float per_sample = ray.ds * frame.look.extinction;
+  const vec3 origin = (way.from - volume.origin_world) / volume.voxel_size, per_metre = ray.direction / volume.voxel_size;
   float depth = 0.0;
-  for (float i = 0.5; i < steps && depth < 10.0; ++i) {
-    depth += per_sample * block_density(from + direction * (begin + i * length_voxel));
+  for (float first = 0.0; first < steps && depth < 10.0; first += float(kAhead)) {
+    if (holes_near && !by_cells) {
+      begin_ahead();
+      for (uint i = 0u; i < block_count; ++i) look_ahead(ray, ray.begin + first * ray.ds, hole_from_rows(block_holes[i]));
+    }
+    for (float i = 0.0; i < min(steps - first, float(kAhead)) && depth < 10.0; ++i) {
+      const vec3 p_voxel = origin + per_metre * (ray.begin + (first + i + 0.5) * ray.ds);
+      float density = by_cells ? seen_density(p_voxel) : mean_smoke_at(p_voxel).density;
+      if (holes_near && !by_cells) density *= left_at(uint(i));
+      depth += per_sample * density;
+    }
   }
   return depth;
 }
