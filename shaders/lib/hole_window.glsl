@@ -9,7 +9,7 @@
 #include "lib/hole_mask.glsl"
 #include "lib/hole_rows.glsl"
 
-const uint kAhead = 32u;
+const uint kAhead = 48u;
 // What is left at the samples ahead of each thread: four numbers of 8 bits a word. Little memory, for it is taken from
 // the textures' cache; none for frames without holes.
 shared uint left_ahead[kLooksAhead ? kAhead / 4u * 64u : 1u];
