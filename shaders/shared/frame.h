@@ -25,8 +25,9 @@ struct Sky {
   vec3 horizon;  // radiance
   vec3 ambient;  // irradiance / pi, from everywhere
   float stars;   // radiance of the brightest star
+  float bounce;  // share of ambient that comes, from surface to surface, to where no sky is seen, [0, 1]
 };
-SHARED_SIZE(Sky, 40);
+SHARED_SIZE(Sky, 44);
 
 /// How the smoke looks.
 struct SmokeLook {
@@ -59,7 +60,7 @@ struct FrameConstants {
   float exposure;    // multiplies radiance before the tone curve
   uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
 };
-SHARED_SIZE(FrameConstants, 372);
+SHARED_SIZE(FrameConstants, 376);
 
 SHARED_END
 #endif

@@ -27,7 +27,8 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   const scene::Timeline& timeline = stage.timeline;
   FrameInput input;
   input.camera = scene::camera_at(timeline, stage.camera, seconds);
-  input.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient, timeline.sky.stars};
+  input.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient, timeline.sky.stars,
+               timeline.sky.bounce};
   const scene::SmokeOptions& smoke = timeline.smoke;
   input.look.albedo = smoke.albedo;
   input.look.extinction = smoke.extinction;

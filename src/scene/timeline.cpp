@@ -98,6 +98,7 @@ class TimelineReader {
     table.read("horizon", timeline_.sky.horizon, 0, 1000);
     table.read("ambient", timeline_.sky.ambient, 0, 1000);
     table.read("stars", timeline_.sky.stars, 0, 1000);
+    table.read("bounce", timeline_.sky.bounce, 0, 1);
     return table.finish();
   }
 

@@ -44,7 +44,8 @@ struct SkyOptions {
   glm::vec3 zenith{0.20f, 0.36f, 0.70f};
   glm::vec3 horizon{0.55f, 0.65f, 0.78f};
   glm::vec3 ambient{0.25f, 0.29f, 0.35f};
-  float stars = 0;  ///< Radiance of the brightest star, [0, 1000].
+  float stars = 0;      ///< Radiance of the brightest star, [0, 1000].
+  float bounce = 0.2f;  ///< Share of ambient that comes to where no sky is seen, [0, 1].
 };
 
 struct CameraKey {

@@ -37,7 +37,7 @@ mat4 m4(float first) { return mat4(v4(first), v4(first + 4.0), v4(first + 8.0), 
 
 void main() {
   frame.camera = Camera(m4(100.0), v3(120.0), 123.0, v3(124.0), v3(127.0), v3(130.0));
-  frame.sky = Sky(v3(140.0), v3(143.0), v3(146.0), 149.0);
+  frame.sky = Sky(v3(140.0), v3(143.0), v3(146.0), 149.0, 189.0);
   frame.look = SmokeLook(v3(150.0), 153.0, 154.0, 155.0, 156.0, 157.0, 158.0, 159.0, 160.0, 161.0, 162.0, Phase(163.0, 164.0, 165.0, 166.0));
   frame.volume = SmokeVolumeFrame(v3(170.0), 173.0, i3(174), i3(177), i3(180), v3(183.0), v3(186.0));
   frame.solid = SolidFrame(v3(200.0), 203.0, i3(204));

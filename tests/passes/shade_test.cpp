@@ -71,7 +71,7 @@ class ShadeTest : public gpu::GpuTest {
     frame.camera.forward = {0, 0, -1};
     frame.camera.right = {1, 0, 0};
     frame.camera.up = {0, 0.5f, 0};
-    frame.sky = {glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.05f), 0.3f};
+    frame.sky = {glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.05f), 0.3f, 0.0f};
     frame.solid = solid_.frame();
     frame.size_px = size_;
     frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());

@@ -64,6 +64,7 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(frame.sky.horizon, 143);
   expect_counted(frame.sky.ambient, 146);
   EXPECT_EQ(frame.sky.stars, 149);
+  EXPECT_EQ(frame.sky.bounce, 189);
   expect_counted(frame.look.albedo, 150);
   const float look[] = {frame.look.extinction,  frame.look.step_length,        frame.look.stop,
                         frame.look.erosion,     frame.look.noise_period,       frame.look.noise_drift,
