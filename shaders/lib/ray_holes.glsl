@@ -15,7 +15,7 @@ float hole_noise(vec3 p_world) { return 2.0 * smoke_noise(noise_tile, frame.look
 #include "lib/hole_window.glsl"
 
 /// Finds what holes leave at the next kAhead samples, from `begin` on, of a ray through a point of the picture; false
-/// when that is all.
+/// when no hole is near: all is left.
 bool look_ahead(RaySamples ray, float begin, vec2 position_px) {
   const uvec2 group = uvec2(position_px) / kHoleGroupPixels;
   const uint list = 2u * (group.x + frame.holes.groups_across * group.y);

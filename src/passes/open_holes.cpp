@@ -97,7 +97,8 @@ void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float v
 }
 
 shared::OpenHolesFrame OpenHoles::frame() const {
-  const auto count = static_cast<std::uint32_t>(plan_.holes.size());
+  // Without smoke nothing is listed, and nobody may look.
+  const auto count = resources_.any ? static_cast<std::uint32_t>(plan_.holes.size()) : 0u;
   return {count, tiles_.x * kGroupsPerTile, entries_at_, slot_count_};
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "stage/simulation.hpp"
+#include "tests/render/boxes.hpp"
 
 namespace brume::render {
 
@@ -20,9 +21,6 @@ struct TruthCase {
 /// One light, many lights, a shot through the smoke, two shots, the edge of a wall, a doorway, a blast, a
 /// wall along the view; and noise. Quarter-metre voxels, black sky, no ambient light.
 std::vector<TruthCase> truth_cases();
-
-/// A box of six sides, twelve triangles.
-void add_box(scene::Mesh& mesh, glm::vec3 low, glm::vec3 high);
 
 /// Voxels of a scene with its timeline and camera. The scene has a camera.
 stage::Stage stage_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridFrame& frame);
