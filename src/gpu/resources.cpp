@@ -1,5 +1,8 @@
 #include "gpu/resources.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
@@ -25,6 +28,19 @@ Buffer::Buffer(Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, M
     vk.DestroyBuffer(context.device(), handle_, nullptr);
     throw;
   }
+}
+
+bool grow(Context& context, Buffer& buffer, VkDeviceSize bytes) {
+  if (buffer && buffer.size() >= bytes) return false;
+  const VkDeviceSize most = context.limits().maxStorageBufferRange;
+  if (bytes > most) {
+    throw Error(ErrorCode::resource_limit, "the smoke needs a buffer of " + std::to_string(bytes) +
+                                               " bytes, the device takes " + std::to_string(most) +
+                                               "; use larger voxels or less smoke");
+  }
+  buffer = Buffer(context, std::min(std::bit_ceil(std::max<VkDeviceSize>(bytes, 256)), most),
+                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  return true;
 }
 
 Buffer::Buffer(Buffer&& other) noexcept {

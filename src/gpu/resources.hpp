@@ -41,6 +41,10 @@ class Buffer {
   Memory::Range range_;
 };
 
+/// Makes a storage buffer at least this large, in powers of two so that growth is rare; true when it is a new
+/// one, with nothing in it. Throws resource_limit when the device takes no buffer of that size.
+bool grow(Context& context, Buffer& buffer, VkDeviceSize bytes);
+
 struct ImageInfo {
   VkFormat format = VK_FORMAT_UNDEFINED;
   glm::uvec3 size{1};  ///< Texels; z > 1 makes it three-dimensional.

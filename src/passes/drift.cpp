@@ -72,13 +72,6 @@ class GrowthAround {
   std::array<glm::vec4, kEdge * kEdge * kEdge> voxels_{};
 };
 
-/// Makes the buffer at least this large; true when it is a new one, with nothing in it.
-bool grow(gpu::Context& context, gpu::Buffer& buffer, std::size_t bytes) {
-  if (buffer && buffer.size() >= bytes) return false;
-  buffer = gpu::Buffer(context, std::bit_ceil(std::max<std::size_t>(bytes, 256)), kUsage);
-  return true;
-}
-
 }  // namespace
 
 bool CloudGrowth::update(const sim::State& state, const sim::SmokeVolume& volume) {
@@ -168,15 +161,15 @@ DriftPass::DriftPass(gpu::Context& context)
                 sizeof(shared::DriftParams), {kGroup, 1, 1}),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
-  for (gpu::Buffer* buffer : {&parts_, &travel_, &motions_}) grow(context, *buffer, 1);
-  grow(context, pushes_, kMaxPushes * sizeof(shared::Push));
+  for (gpu::Buffer* buffer : {&parts_, &travel_, &motions_}) gpu::grow(context, *buffer, 1);
+  gpu::grow(context, pushes_, kMaxPushes * sizeof(shared::Push));
 }
 
 void DriftPass::reserve(const sim::State& state, const sim::SmokeVolume& volume) {
   parts_stale_ |= growth_.update(state, volume);
-  parts_stale_ |= grow(context_, parts_, growth_.parts().size_bytes());
-  travel_stale_ |= grow(context_, travel_, growth_.travel().size_bytes());
-  grow(context_, motions_, state.clouds.size() * sizeof(shared::CloudMotion));
+  parts_stale_ |= gpu::grow(context_, parts_, growth_.parts().size_bytes());
+  travel_stale_ |= gpu::grow(context_, travel_, growth_.travel().size_bytes());
+  gpu::grow(context_, motions_, state.clouds.size() * sizeof(shared::CloudMotion));
 }
 
 void DriftPass::upload(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Push> pushes) {

@@ -35,14 +35,6 @@ bool is_open(const shared::Hole& hole, float time) {
                               hole.time_to_fade + kSlack;
 }
 
-/// Makes the buffer at least this large, in powers of two so that growth is rare.
-void grow(gpu::Context& context, gpu::Buffer& buffer, std::size_t bytes) {
-  if (buffer && buffer.size() >= bytes) return;
-  const std::size_t size = std::min<std::size_t>(std::bit_ceil(std::max<std::size_t>(bytes, 256)),
-                                                 context.limits().maxStorageBufferRange);
-  buffer = gpu::Buffer(context, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-}
-
 }  // namespace
 
 HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float voxel_size,
@@ -89,11 +81,12 @@ void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float v
   const std::size_t groups = std::size_t{tiles_.x} * tiles_.y * kGroupsPerTile * kGroupsPerTile;
   entries_at_ = static_cast<std::uint32_t>(2 * groups);
   entry_capacity_ = static_cast<std::uint32_t>(std::min(groups * plan_.holes.size(), kMaxEntries));
-  grow(context_, resources_.holes, plan_.holes.size() * sizeof(shared::Hole));
-  grow(context_, resources_.lists, (std::size_t{entries_at_} + entry_capacity_) * sizeof(std::uint32_t));
-  grow(context_, resources_.cells,
-       (slot_count + std::size_t{plan_.block_capacity} * shared::kHoleCellsPerBlock) * sizeof(std::uint32_t));
-  grow(context_, pairs_, plan_.pair_capacity * sizeof(glm::uvec2));
+  gpu::grow(context_, resources_.holes, plan_.holes.size() * sizeof(shared::Hole));
+  gpu::grow(context_, resources_.lists, (std::size_t{entries_at_} + entry_capacity_) * sizeof(std::uint32_t));
+  gpu::grow(
+      context_, resources_.cells,
+      (slot_count + std::size_t{plan_.block_capacity} * shared::kHoleCellsPerBlock) * sizeof(std::uint32_t));
+  gpu::grow(context_, pairs_, plan_.pair_capacity * sizeof(glm::uvec2));
 }
 
 shared::OpenHolesFrame OpenHoles::frame() const {

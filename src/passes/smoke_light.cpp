@@ -46,13 +46,9 @@ void SmokeLightPass::reserve(std::uint32_t slot_count, std::uint32_t light_count
       std::size_t{shared::kTexelsPerBrick} * rays_per_texel_ * sizeof(std::uint32_t);
   slots_at_once_ = static_cast<std::uint32_t>(std::max<std::size_t>(kRayBytes / slot_bytes, 1));
   const std::size_t slots = std::bit_ceil(std::max(std::min(slot_count, slots_at_once_), 1u));
-  const auto grow = [&](gpu::Buffer& buffer, std::size_t bytes) {
-    if (buffer && buffer.size() >= bytes) return;
-    buffer = gpu::Buffer(context_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  };
-  grow(texels_, slots * shared::kTexelsPerBrick * sizeof(std::uint32_t));
-  grow(rays_, slots * slot_bytes);
-  grow(ray_light_, slots * slot_bytes);
+  gpu::grow(context_, texels_, slots * shared::kTexelsPerBrick * sizeof(std::uint32_t));
+  gpu::grow(context_, rays_, slots * slot_bytes);
+  gpu::grow(context_, ray_light_, slots * slot_bytes);
 }
 
 void SmokeLightPass::record(gpu::Recorder& recorder, const Inputs& in) {

@@ -11,22 +11,6 @@ namespace {
 
 constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
-/// Makes the buffer at least this large, in powers of two so that growth is rare; true when it is a new one,
-/// with nothing in it.
-bool grow(gpu::Context& context, gpu::Buffer& buffer, std::size_t bytes) {
-  if (buffer && buffer.size() >= bytes) return false;
-  if (bytes > context.limits().maxStorageBufferRange) {
-    throw Error(ErrorCode::resource_limit, "the smoke needs a buffer of " + std::to_string(bytes) +
-                                               " bytes, the device takes " +
-                                               std::to_string(context.limits().maxStorageBufferRange) +
-                                               "; use larger voxels or less smoke");
-  }
-  const std::size_t size = std::min<std::size_t>(std::bit_ceil(std::max<std::size_t>(bytes, 256)),
-                                                 context.limits().maxStorageBufferRange);
-  buffer = gpu::Buffer(context, size, kUsage);
-  return true;
-}
-
 gpu::Image make_atlas(gpu::Context& context, glm::ivec3 bricks, VkFormat format, VkImageUsageFlags usage) {
   const glm::uvec3 texels = glm::uvec3(bricks) * static_cast<std::uint32_t>(shared::kBrickTexels);
   const std::uint32_t limit = context.limits().maxImageDimension3D;
@@ -82,7 +66,7 @@ void upload_ranges(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span
 SmokeUpload::SmokeUpload(gpu::Context& context) : context_(context) {
   for (gpu::Buffer* buffer : {&resources_.pages, &resources_.cells, &resources_.boundary, &resources_.corners,
                               &resources_.slot_bricks}) {
-    grow(context, *buffer, 1);
+    gpu::grow(context, *buffer, 1);
   }
   resources_.density =
       make_atlas(context, glm::ivec3(1), VK_FORMAT_R8G8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
@@ -96,12 +80,13 @@ void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
   if (volume.structure_generation() == reserved_generation_ || volume.slot_count() == 0) return;
   reserved_generation_ = volume.structure_generation();
   const std::size_t slots = volume.slot_count();
-  everything_ |= grow(context_, resources_.pages,
-                      volume.pages().root().size_bytes() + volume.pages().nodes().size_bytes());
-  everything_ |= grow(context_, resources_.cells, slots * shared::kCellsPerBrick * sizeof(std::uint32_t));
-  everything_ |= grow(context_, resources_.boundary, volume.boundary_cells().size_bytes());
-  everything_ |= grow(context_, resources_.corners, volume.corner_sets().size_bytes());
-  everything_ |= grow(context_, resources_.slot_bricks, slots * sizeof(glm::ivec3));
+  everything_ |= gpu::grow(context_, resources_.pages,
+                           volume.pages().root().size_bytes() + volume.pages().nodes().size_bytes());
+  everything_ |=
+      gpu::grow(context_, resources_.cells, slots * shared::kCellsPerBrick * sizeof(std::uint32_t));
+  everything_ |= gpu::grow(context_, resources_.boundary, volume.boundary_cells().size_bytes());
+  everything_ |= gpu::grow(context_, resources_.corners, volume.corner_sets().size_bytes());
+  everything_ |= gpu::grow(context_, resources_.slot_bricks, slots * sizeof(glm::ivec3));
   const glm::ivec3 bricks = volume.frame().atlas_bricks;
   if (resources_.density.info().size == glm::uvec3(bricks) * static_cast<std::uint32_t>(shared::kBrickTexels))
     return;
