@@ -1,4 +1,4 @@
-// lib/erosion.glsl: what noise leaves of smoke.
+// shared/erosion.h: what noise leaves of smoke.
 #include <array>
 #include <random>
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/tasks.hpp"
+#include "shared/erosion.h"
 #include "tests/reference/phase.hpp"
 #include "tests/reference/smoke_integral.hpp"
 
@@ -63,16 +64,6 @@ glm::dvec4 smoke_noise(const TruthScene& scene, glm::dvec3 p_world, glm::dvec3 p
   const glm::dvec3 rise(0, double{scene.look.noise_drift} * scene.time, 0);
   return noise_at(*scene.noise,
                   (p_world + drift_at(scene, p_voxel) - rise) / double{scene.look.noise_period});
-}
-
-/// What the noise leaves: the rule of shaders/lib/erosion.glsl.
-double eroded(const shared::SmokeLook& look, double density, glm::dvec4 noise) {
-  const double erosion = double{look.erosion};
-  const double billows = std::clamp(1.6 * (0.55 * noise.r + 0.22 * noise.g + 0.23 * noise.a) - 0.4, 0.0, 1.0);
-  const double wisps = std::clamp(1.3 * (0.25 * noise.r + 0.75 * noise.b) - 0.1, 0.0, 1.0);
-  const double threshold = erosion * (1 - glm::mix(billows, wisps, 0.5 - 0.5 * density));
-  const double left = std::clamp(4 * (density - threshold) / std::max(1 - threshold, 0.05), 0.0, 1.0);
-  return left * (1 + erosion * (0.7 * noise.r + 0.3 * noise.g - 0.5));
 }
 
 /// Share of the smoke that a hole takes away: the rule of shaders/shared/hole.h.
@@ -261,7 +252,7 @@ double truth_density(const TruthScene& scene, glm::dvec3 p_world) {
   const bool eroding = scene.look.erosion > 0;
   const glm::dvec4 noise =
       eroding || scene.look.hole_rim > 0 ? smoke_noise(scene, p_world, p_voxel) : glm::dvec4(0.5);
-  if (eroding) density = eroded(scene.look, density, noise);
+  if (eroding) density = double{shared::erode(scene.look, static_cast<float>(density), glm::vec4(noise))};
   const double rim = (2 * noise.g - 1) * double{scene.look.hole_rim};
   for (const shared::Hole& hole : scene.holes) density *= 1 - hole_share(hole, p_world, scene.time, rim);
   return density;
