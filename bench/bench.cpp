@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -47,6 +48,12 @@ Measurement Bench::time_calls(const std::string& name, unsigned usual,
   return summarize(name, "ms", "wall", std::move(milliseconds));
 }
 
+double thread_cpu_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+}
+
 Measurement summarize(const std::string& name, const std::string& unit, const std::string& clock,
                       std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -69,6 +76,7 @@ std::vector<Case> all_cases() {
   for (Case& one : sight_cases()) cases.push_back(std::move(one));
   for (Case& one : sim_cases()) cases.push_back(std::move(one));
   for (Case& one : gpu_cases()) cases.push_back(std::move(one));
+  for (Case& one : scaling_cases()) cases.push_back(std::move(one));
   return cases;
 }
 

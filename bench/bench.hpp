@@ -57,6 +57,9 @@ class Bench {
   std::unique_ptr<gpu::Context> context_;
 };
 
+/// Processor time of this thread [ms], from any moment on.
+double thread_cpu_ms();
+
 /// Median, least and most of `values`, which must not be empty.
 Measurement summarize(const std::string& name, const std::string& unit, const std::string& clock,
                       std::vector<double> values);
@@ -72,6 +75,7 @@ std::vector<Case> edit_cases();
 std::vector<Case> sight_cases();
 std::vector<Case> sim_cases();
 std::vector<Case> gpu_cases();
+std::vector<Case> scaling_cases();
 /// All, in the order in which they run.
 std::vector<Case> all_cases();
 

@@ -1,11 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <map>
 #include <random>
 
-#include "bench/bench.hpp"
-#include "render/playback.hpp"
+#include "bench/frames.hpp"
 
 namespace brume::bench {
 namespace {
@@ -64,78 +61,11 @@ Result<stage::Stage> smoke_in_the_yard(const Yard& yard) {
   return stage;
 }
 
-/// A frame that can be drawn again and again.
-class RepeatedFrame {
- public:
-  RepeatedFrame(gpu::Context& context, const stage::Stage& stage, render::RendererOptions options)
-      : simulation_(stage::Simulation::create(stage).value_or_throw()),
-        runner_(context),
-        renderer_(context, runner_, stage.scene, options),
-        counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
-    simulation_->advance_to(kGrown);
-    input_ = render::frame_input(stage, *simulation_, kGrown, holes_);
-    input_.force_light = true;
-  }
-
-  /// GPU milliseconds of each pass.
-  std::map<std::string, double> draw() {
-    ++input_.frame_index;
-    renderer_.prepare(input_);
-    runner_.run([&](gpu::Recorder& recorder) {
-      renderer_.record_frame(recorder, input_);
-      recorder.read_back(renderer_.sample_counter(), counter_, sizeof(std::uint32_t));
-    });
-    std::map<std::string, double> passes;
-    for (const auto& scope : runner_.timings()) passes[scope.name] = scope.milliseconds;
-    return passes;
-  }
-  std::uint32_t texture_samples() const {
-    std::uint32_t count = 0;
-    std::memcpy(&count, counter_.mapped(), sizeof count);
-    return count;
-  }
-
- private:
-  std::unique_ptr<stage::Simulation> simulation_;
-  gpu::CommandRunner runner_;
-  render::Renderer renderer_;
-  gpu::Buffer counter_;
-  std::vector<shared::Hole> holes_;
-  render::FrameInput input_;
-};
-
-struct FrameTimes {
-  Measurement all;  ///< All passes but the raster; details: the median of each.
-  Measurement march;
-};
-
-FrameTimes time_frames(Bench& bench, const std::string& name, const stage::Stage& stage,
-                       const render::RendererOptions& options) {
-  const bool slow = bench.context().info().kind == "cpu";
-  const unsigned count = bench.repetitions(slow ? 3 : 200);
-  RepeatedFrame frame(bench.context(), stage, options);
-  for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame.draw();
-  std::map<std::string, std::vector<double>> passes;
-  std::vector<double> sums;
-  for (unsigned i = 0; i < count; ++i) {
-    double sum = 0;
-    for (const auto& [pass, milliseconds] : frame.draw()) {
-      passes[pass].push_back(milliseconds);
-      if (pass != "gbuffer") sum += milliseconds;
-    }
-    sums.push_back(sum);
-  }
-  FrameTimes times{summarize(name, "ms", "gpu", sums), summarize(name, "ms", "gpu", passes["march"])};
-  for (const auto& [pass, values] : passes)
-    times.all.details[pass + "_ms"] = summarize(pass, "ms", "gpu", values).median;
-  return times;
-}
-
 /// Texture samples that the march takes for a frame.
 double count_texture_samples(gpu::Context& context, const stage::Stage& stage,
                              render::RendererOptions options) {
   options.count_samples = true;
-  RepeatedFrame frame(context, stage, options);
+  RepeatedFrame frame(context, stage, options, kGrown);
   frame.draw();
   return frame.texture_samples();
 }
@@ -145,7 +75,7 @@ Result<std::vector<Measurement>> march(Bench& bench) {
   if (!stage) return stage.failure();
   render::RendererOptions options;
   options.size_px = {1920, 1080};
-  Measurement m = time_frames(bench, "march/1080p", *stage, options).march;
+  Measurement m = time_frames(bench, "march/1080p", *stage, options, kGrown).march;
   const double samples = count_texture_samples(bench.context(), *stage, options);
   m.details = {{"texture_samples", samples}, {"gsamples_per_second", samples / m.median * 1e-6}};
   return std::vector{m};
@@ -163,7 +93,7 @@ Result<std::vector<Measurement>> frames(Bench& bench, const std::string& name, g
   options.size_px = size_px;
   options.march_scale = march_scale;
   options.masks = &stage->masks;
-  return std::vector{time_frames(bench, name, *stage, options).all};
+  return std::vector{time_frames(bench, name, *stage, options, kGrown).all};
 }
 
 /// The frame with ever more holes, with the structure and with the plain loop over all of them.
@@ -185,7 +115,7 @@ Result<std::vector<Measurement>> holes(Bench& bench, const std::string& base, bo
       options.plain_holes = plain;
       options.masks = &stage->masks;
       const std::string name = (plain ? base + "/plain/" : base + "/") + std::to_string(count);
-      Measurement m = time_frames(bench, name, *stage, options).all;
+      Measurement m = time_frames(bench, name, *stage, options, kGrown).all;
       if (count == 0) none = m.median;
       if (plain) none = results.front().median;
       m.details["times_none"] = m.median / none;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ctime>
 #include <random>
 
 #include "bench/bench.hpp"
@@ -15,12 +14,6 @@ namespace {
 
 constexpr std::size_t kHoles = 32, kSegments = 20000, kBatch = 2000;
 constexpr float kMetres = 10;
-
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
-}
 
 /// A smoke of 1,800 voxels, and the places that it fills.
 struct SmokyLevel {
@@ -84,11 +77,11 @@ Measurement measure(const Bench& bench, const std::string& name, SmokyLevel& lev
   std::vector<double> rates;
   double sum = 0;
   for (std::size_t i = 0; i < count + count / 8; ++i) {
-    const double start = processor_seconds();
+    const double start = thread_cpu_ms();
     sight.optical_depths(std::span(segments).subspan(i * kBatch % kSegments, kBatch), depths)
         .value_or_throw();
-    const double seconds = processor_seconds() - start;
-    if (i >= count / 8) rates.push_back(kBatch / seconds * 1e-6);
+    const double milliseconds = thread_cpu_ms() - start;
+    if (i >= count / 8) rates.push_back(kBatch / milliseconds * 1e-3);
     for (const float depth : depths) sum += depth;
   }
   set_thread_count(threads);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ctime>
 
 #include "bench/bench.hpp"
 #include "scene/load.hpp"
@@ -34,14 +33,9 @@ Result<Motel> motel() {
 /// Processor time that a call takes on this thread [ms].
 template <typename Body>
 double processor_ms(Body body) {
-  const auto now = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-  };
-  const double start = now();
+  const double start = thread_cpu_ms();
   body();
-  return now() - start;
+  return thread_cpu_ms() - start;
 }
 
 /// A smoke that goes off in the voxel below or at the place, at the first tick.

@@ -1,0 +1,69 @@
+#include "bench/frames.hpp"
+
+#include <cstring>
+
+namespace brume::bench {
+
+RepeatedFrame::RepeatedFrame(gpu::Context& context, const stage::Stage& stage,
+                             const render::RendererOptions& options, double seconds)
+    : simulation_(stage::Simulation::create(stage).value_or_throw()),
+      runner_(context),
+      renderer_(context, runner_, stage.scene, options),
+      counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
+  simulation_->advance_to(seconds);
+  input_ = render::frame_input(stage, *simulation_, seconds, holes_);
+  input_.force_light = true;
+}
+
+FrameCost RepeatedFrame::draw() {
+  ++input_.frame_index;
+  FrameCost cost;
+  const double start = thread_cpu_ms();
+  renderer_.prepare(input_);
+  cost.prepare_cpu = thread_cpu_ms() - start;
+  runner_.run([&](gpu::Recorder& recorder) {
+    const double begin = thread_cpu_ms();
+    renderer_.record_frame(recorder, input_);
+    cost.record_cpu = thread_cpu_ms() - begin;
+    recorder.read_back(renderer_.sample_counter(), counter_, sizeof(std::uint32_t));
+  });
+  for (const auto& scope : runner_.timings()) cost.passes[scope.name] = scope.milliseconds;
+  return cost;
+}
+
+std::uint32_t RepeatedFrame::texture_samples() const {
+  std::uint32_t count = 0;
+  std::memcpy(&count, counter_.mapped(), sizeof count);
+  return count;
+}
+
+FrameTimes time_frames(Bench& bench, const std::string& name, const stage::Stage& stage,
+                       const render::RendererOptions& options, double seconds) {
+  const bool slow = bench.context().info().kind == "cpu";
+  const unsigned count = bench.repetitions(slow ? 3 : 200);
+  const VkDeviceSize before = bench.context().memory().bytes_in_use();
+  RepeatedFrame frame(bench.context(), stage, options, seconds);
+  for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame.draw();
+  std::map<std::string, std::vector<double>> details;
+  std::vector<double> sums;
+  for (unsigned i = 0; i < count; ++i) {
+    const FrameCost cost = frame.draw();
+    double sum = 0;
+    for (const auto& [pass, milliseconds] : cost.passes) {
+      details[pass + "_ms"].push_back(milliseconds);
+      if (pass != "gbuffer") sum += milliseconds;
+    }
+    details["prepare_cpu_ms"].push_back(cost.prepare_cpu);
+    details["record_cpu_ms"].push_back(cost.record_cpu);
+    sums.push_back(sum);
+  }
+  FrameTimes times{summarize(name, "ms", "gpu", sums), summarize(name, "ms", "gpu", details["march_ms"])};
+  for (const auto& [detail, values] : details)
+    times.all.details[detail] = summarize(detail, "ms", "gpu", values).median;
+  times.all.details["device_mb"] =
+      static_cast<double>(bench.context().memory().bytes_in_use() - before) / 1e6;
+  times.all.details["volume_mb"] = static_cast<double>(frame.simulation().volume().bytes()) / 1e6;
+  return times;
+}
+
+}  // namespace brume::bench

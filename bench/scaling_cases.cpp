@@ -1,0 +1,158 @@
+// Whether a frame's time follows what is seen: ever more smokes in view, ever more out of view, and ever more
+// world.
+#include "bench/frames.hpp"
+#include "scene/stand_ins.hpp"
+
+namespace brume::bench {
+namespace {
+
+constexpr double kGrown = 2;        // [s]: when the smokes have bloomed
+constexpr float kCourt = 24;        // edge of a piece of the world [m]
+constexpr float kApart = 14;        // from smoke to smoke [m]
+constexpr int kUnseenColumns = 32;  // of the smokes behind the camera
+
+/// Adds a box from low to high.
+void add_box(scene::Scene& scene, glm::vec3 low, glm::vec3 high) {
+  glm::mat4 place(1);
+  for (int axis = 0; axis < 3; ++axis) place[axis][axis] = high[axis] - low[axis];
+  place[3] = glm::vec4(0.5f * (low + high), 1);
+  scene.objects.push_back({"box", 0, 0, place, true});
+}
+
+/// A piece of the world: ground, two walls, crates, eight lamps.
+void add_court(scene::Scene& scene, glm::vec3 corner) {
+  add_box(scene, corner - glm::vec3(0, 0.3f, 0), corner + glm::vec3(kCourt, 0, kCourt));
+  add_box(scene, corner + glm::vec3(1, 0, 2), corner + glm::vec3(1.4f, 3, 20));
+  add_box(scene, corner + glm::vec3(1, 0, 2), corner + glm::vec3(18, 3, 2.4f));
+  for (int i = 0; i < 12; ++i) {
+    const glm::vec3 at = corner + glm::vec3(4 + 5 * (i % 4), 0, 5 + 6 * (i / 4));
+    add_box(scene, at, at + glm::vec3(0.7f, 0.5f + 0.1f * static_cast<float>(i), 0.7f));
+  }
+  for (int i = 0; i < 8; ++i) {
+    scene::Light lamp;
+    lamp.position_world = corner + glm::vec3(3 + 6 * (i % 4), 2.6f, 6 + 12 * (i / 4));
+    lamp.intensity = glm::vec3(1.0f, 0.8f, 0.5f + 0.05f * static_cast<float>(i));
+    scene.lights.push_back(lamp);
+  }
+}
+
+/// So many courts, side by side; the first at the origin, the others behind it (+z), `across` in a row. The
+/// camera stands at its far edge and looks over it, along -z.
+scene::Scene world_of_courts(int count, int across) {
+  scene::Scene scene;
+  scene.meshes = {scene::unit_cube(), scene::built_in_grenade()};
+  scene.materials.resize(1);
+  scene.materials[0].base_color = glm::vec3(0.5f);
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  add_court(scene, {-0.5f * kCourt, 0, -kCourt});
+  for (int i = 0; i + 1 < count; ++i) {
+    const int column = i % across - across / 2, row = i / across;
+    add_court(scene, {kCourt * (static_cast<float>(column) - 0.5f), 0, kCourt * static_cast<float>(row)});
+  }
+  return scene;
+}
+
+/// The stage of a scene with a grown smoke at each of some places; half-metre voxels, from low to high.
+Result<stage::Stage> stage_of(scene::Scene scene, const std::vector<glm::vec3>& smokes, glm::vec3 low,
+                              glm::vec3 high, const scene::Camera& camera) {
+  scene::Timeline timeline;
+  timeline.sky = {glm::vec3(0.01f), glm::vec3(0.02f), glm::vec3(0.01f)};
+  timeline.smoke.bloom = 1;
+  for (const glm::vec3 place : smokes) timeline.smokes.push_back({0, place + glm::vec3(0, 2, 0), place});
+  constexpr float kVoxel = 0.5f;
+  // Off the surfaces, which lie on whole and half metres.
+  const voxel::GridFrame frame{glm::ivec3(glm::ceil((high - low) / kVoxel)), kVoxel, low - 0.1f};
+  auto voxels = stage::load_or_voxelize(scene, frame, {});
+  if (!voxels) return voxels.failure();
+  return stage::Stage{std::move(timeline), std::move(scene), camera, std::move(*voxels)};
+}
+
+Result<Measurement> time_stage(Bench& bench, const std::string& name, const Result<stage::Stage>& stage) {
+  if (!stage) return stage.failure();
+  const bool slow = bench.context().info().kind == "cpu";
+  render::RendererOptions options;
+  options.size_px = slow ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
+  Measurement m = time_frames(bench, name, *stage, options, kGrown).all;
+  m.details["smokes"] = static_cast<double>(stage->timeline.smokes.size());
+  m.details["lamps"] = static_cast<double>(stage->scene.lights.size());
+  m.details["objects"] = static_cast<double>(stage->scene.objects.size());
+  return m;
+}
+
+/// Collects measurements, and says of each how many times as long it takes as the first.
+class Row {
+ public:
+  Result<void> add(Result<Measurement> measured) {
+    if (!measured) return measured.failure();
+    results_.push_back(*std::move(measured));
+    results_.back().details["times_first"] = results_.back().median / results_.front().median;
+    return {};
+  }
+  std::vector<Measurement> take() { return std::move(results_); }
+
+ private:
+  std::vector<Measurement> results_;
+};
+
+/// 1 to 64 smokes on open ground before a camera that looks down at them: all are in view whole.
+Result<std::vector<Measurement>> in_view(Bench& bench) {
+  Row row;
+  for (const int count : {1, 4, 16, 64}) {
+    scene::Scene scene = world_of_courts(1, 1);
+    add_box(scene, {-120, -0.5f, -140}, {120, -0.31f, 0});
+    std::vector<glm::vec3> places;
+    for (int i = 0; i < count; ++i)
+      places.push_back(
+          {kApart * (static_cast<float>(i % 8) - 3.5f), 0.3f, -30 - kApart * static_cast<float>(i / 8)});
+    const auto stage =
+        stage_of(std::move(scene), places, {-120, -1, -148}, {120, 15, 8}, {{0, 40, 40}, {0, 0, -70}, 1.1f});
+    if (auto done = row.add(time_stage(bench, "scaling/in_view/" + std::to_string(count), stage)); !done)
+      return done.failure();
+  }
+  return row.take();
+}
+
+/// One smoke before the camera, and none to 1,000 behind it.
+Result<std::vector<Measurement>> out_of_view(Bench& bench) {
+  Row row;
+  for (const int count : {0, 10, 100, 1000}) {
+    std::vector<glm::vec3> places{{0, 0.3f, -12}};
+    for (int i = 0; i < count; ++i) {
+      const int column = i % kUnseenColumns - kUnseenColumns / 2, line = i / kUnseenColumns;
+      places.push_back(
+          {kApart * (static_cast<float>(column) + 0.5f), 0.3f, 20 + kApart * static_cast<float>(line)});
+    }
+    const auto stage = stage_of(world_of_courts(1, 1), places, {-240, -1, -32}, {240, 15, 480},
+                                {{0, 1.8f, 1}, {0, 1.8f, -12}, 1.0472f});
+    if (auto done = row.add(time_stage(bench, "scaling/out_of_view/" + std::to_string(count), stage)); !done)
+      return done.failure();
+  }
+  return row.take();
+}
+
+/// One smoke before the camera; the rest of the world, with its walls, things and lamps, behind it.
+Result<std::vector<Measurement>> world(Bench& bench) {
+  Row row;
+  for (const int count : {1, 10, 100}) {
+    const int across = count > 10 ? 11 : 3, rows = (count - 1 + across - 1) / across;
+    const float half = kCourt * 0.5f * static_cast<float>(across) + 4;
+    const auto stage =
+        stage_of(world_of_courts(count, across), {{0, 0.3f, -12}}, {-half, -1, -kCourt - 8},
+                 {half, 15, kCourt * static_cast<float>(rows) + 8}, {{0, 1.8f, 1}, {0, 1.8f, -12}, 1.0472f});
+    if (auto done = row.add(time_stage(bench, "scaling/world/" + std::to_string(count), stage)); !done)
+      return done.failure();
+  }
+  return row.take();
+}
+
+}  // namespace
+
+std::vector<Case> scaling_cases() {
+  return {
+      {"scaling/in_view", "a frame with 1 to 64 smokes in view; 480x270 without a GPU", in_view},
+      {"scaling/out_of_view", "a frame with one smoke in view and 0 to 1,000 behind the camera", out_of_view},
+      {"scaling/world", "a frame with one smoke, the world 1, 10 and 100 times as large", world},
+  };
+}
+
+}  // namespace brume::bench
