@@ -1,5 +1,6 @@
-// For each texel of the smoke's bricks: how far the noise there has been carried, and the share of the density that
-// the noise leaves in the mean of the texel. Both depend on the moment alone, never on the frame before.
+// For each texel of the smoke's bricks: the medium (shared/smoke_volume.h), density and how far the noise there has been
+// carried, for the eye's rays; and the share of the density that the noise leaves in the mean of the texel, for those of
+// light. They depend on the moment alone, never on the frame before.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -17,14 +18,15 @@ layout(scalar, binding = 4) readonly buffer Parts { uvec2 parts[]; };
 layout(scalar, binding = 5) readonly buffer Travel { uvec2 travel[]; };
 layout(scalar, binding = 6) readonly buffer Motions { CloudMotion motions[]; };
 layout(scalar, binding = 7) readonly buffer Pushes { Push pushes[]; };
-layout(binding = 8, rgba16f) uniform writeonly image3D drift;
+layout(binding = 8, rgba16f) uniform writeonly image3D medium;
+layout(binding = 9, r16f) uniform writeonly image3D share_left;
 layout(push_constant, scalar) uniform Params { DriftParams params; };
 
 /// Rolls repeat after this many of their widths.
 const int kRollCells = 64;
 
-/// Density of the free voxels around a texel, and whether any voxel around it holds smoke at all.
-bool density_around(ivec3 atlas_texel, out float density) {
+/// Density of the free voxels around a texel that holds `here`, and whether any voxel around it holds smoke at all.
+bool density_around(vec2 here, ivec3 atlas_texel, out float density) {
   const vec3 texel = 1.0 / vec3(textureSize(density_atlas, 0));
   vec2 sum = vec2(0.0);
   for (uint i = 0u; i < 8u; ++i) {
@@ -32,7 +34,6 @@ bool density_around(ivec3 atlas_texel, out float density) {
     sum += textureLod(density_atlas, (vec3(atlas_texel) + offset) * texel, 0.0).rg;
   }
   // In a wall, what stands before it: light grazes walls.
-  const vec2 here = texelFetch(density_atlas, atlas_texel, 0).rg;
   density = here.g > 0.5 ? here.r : sum.r / max(sum.g, 1e-3);
   return sum.r > 0.0;
 }
@@ -97,9 +98,12 @@ void main() {
   const uvec3 bricks = uvec3(frame.volume.atlas_bricks);
   const uvec3 corner = uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * uint(kBrickTexels);
   const ivec3 atlas_texel = ivec3(corner) + local;
+  const vec2 here = texelFetch(density_atlas, atlas_texel, 0).rg;
+  const float held = here.g > 0.5 ? here.r : kInSolid;
   float density;
-  if (!density_around(atlas_texel, density)) {
-    imageStore(drift, atlas_texel, vec4(0.0));
+  if (!density_around(here, atlas_texel, density)) {
+    imageStore(medium, atlas_texel, vec4(held, 0.0, 0.0, 0.0));
+    imageStore(share_left, atlas_texel, vec4(0.0));
     return;
   }
 
@@ -116,5 +120,6 @@ void main() {
     }
     share = left / max(density, 1e-3);
   }
-  imageStore(drift, atlas_texel, vec4(carried, share));
+  imageStore(medium, atlas_texel, vec4(held, carried));
+  imageStore(share_left, atlas_texel, vec4(share));
 }

@@ -12,6 +12,7 @@ layout(scalar, binding = 2) writeonly buffer HoleLists { uint hole_lists[]; };
 layout(scalar, binding = 3) buffer Counters { HoleCounters counters; };
 layout(push_constant, scalar) uniform Push { HoleListsParams params; };
 #include "lib/hole_rows.glsl"
+#include "lib/hole_slabs.glsl"
 #include "lib/ray_cone.glsl"
 
 shared uint bits[kMaxHoles / 32u];
@@ -38,7 +39,7 @@ void main() {
   if (lane == 0u) tile_entries = 0u;
   barrier();
   const vec2 low_px = vec2(gl_WorkGroupID.xy * tile_px);
-  const RayCone cone = cone_of_pixels(low_px, low_px + float(tile_px), smoke_reach());
+  const RayCone cone = cone_of_pixels(low_px, low_px + float(tile_px), smoke_reach().y);
   for (uint i = lane; i < frame.holes.count; i += 64u) {
     if (cone_meets_hole(cone, hole_reach(hole_from_rows(i), frame.time, frame.look.hole_rim))) {
       atomicOr(bits[i >> 5u], 1u << (i & 31u));
@@ -50,12 +51,13 @@ void main() {
   const vec2 group_px = vec2(group * kHoleGroupPixels);
   const RayCone group_cone = cone_of_pixels(group_px, group_px + float(kHoleGroupPixels), cone.length_m);
   const uint count = list_holes(group_cone, 0u, 0u);
-  const uint before = count > 0u ? atomicAdd(tile_entries, count) : 0u;
+  const uint words = count + kHoleSlabs * mask_words(count);
+  const uint before = count > 0u ? atomicAdd(tile_entries, words) : 0u;
   barrier();
   if (lane == 0u) tile_first = tile_entries > 0u ? atomicAdd(counters.entries, tile_entries) : 0u;
   barrier();
   const uint first = tile_first + before;
-  const bool fits = first + count <= params.entry_capacity;
+  const bool fits = first + words <= params.entry_capacity;
   const uint list = 2u * (group.x + frame.holes.groups_across * group.y);
   hole_lists[list] = frame.holes.entries_at + first;
   hole_lists[list + 1u] = fits ? count : kAskAllHoles;

@@ -19,7 +19,7 @@ layout(scalar, binding = 4) readonly buffer RayLight { uint ray_light[]; };
 layout(scalar, binding = 5) readonly buffer Counters { SmokeLightCounters counters; };
 layout(binding = 6, rgba16f) uniform writeonly image3D inscatter;
 layout(binding = 9) uniform sampler3D density_atlas;
-layout(binding = 10) uniform sampler3D drift_atlas;
+layout(binding = 10) uniform sampler3D share_atlas;
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
@@ -47,7 +47,7 @@ void main() {
     const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
     const uint first = i * params.rays_per_texel;
     const float escape = escape_of(first + frame.light_count);
-    const float density = texelFetch(density_atlas, texel.at, 0).r * texelFetch(drift_atlas, texel.at, 0).w;
+    const float density = texelFetch(density_atlas, texel.at, 0).r * texelFetch(share_atlas, texel.at, 0).r;
     const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
     const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
     ManyScatterings many = many_scatterings(frame.look, escape);

@@ -15,7 +15,7 @@
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
-layout(binding = 8) uniform sampler3D drift_atlas;
+layout(binding = 8) uniform sampler3D share_atlas;
 layout(scalar, binding = 9) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 10) readonly buffer Texels { uint texels[]; };
 layout(scalar, binding = 11) readonly buffer Rays { uint rays[]; };

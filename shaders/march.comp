@@ -3,7 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #define BINDING_PAGES 1
-#define BINDING_DENSITY 2
 #define BINDING_CELLS 3
 #define BINDING_BOUNDARY 4
 #define BINDING_CORNERS 5
@@ -13,7 +12,8 @@
 #include "lib/blue_noise.glsl"
 #include "lib/camera.glsl"
 #include "lib/erosion.glsl"
-#include "lib/smoke_density.glsl"
+#include "lib/ray_samples.glsl"
+#include "lib/smoke_bricks.glsl"
 #include "shared/frame.h"
 #include "shared/resolve.h"
 
@@ -23,6 +23,7 @@ layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
 const uint kRuns = kRays == kRaysOfBlocks ? 2u : 1u;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(binding = 2) uniform sampler3D medium_atlas;
 layout(binding = 6) uniform sampler3D inscatter_atlas;
 layout(binding = 7) uniform sampler3D noise_tile;
 layout(binding = 8) uniform sampler2D depth;
@@ -35,7 +36,6 @@ layout(scalar, binding = 17) readonly buffer List {
   MarchList list;
   uint listed[];  // blocks
 };
-layout(binding = 18) uniform sampler3D drift_atlas;
 #include "lib/ray_holes.glsl"
 
 /// Where a ray runs. It is looked at in two places: at its last surface, and at the nearest of its block.
@@ -106,44 +106,38 @@ void march(RaySamples ray, vec2 position_px, inout Gathered got) {
   const vec3 per_metre = ray.direction / volume.voxel_size;
   const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
   const vec3 texel = atlas_texel(volume);
-  bool holes_near = false;
-  float t = ray.begin, t_ahead = -1.0, t_known = kHoles == kHolesListed ? -1.0 : ray.end;
+  const RayHoles holes = holes_of_ray(position_px);
+  float t = ray.begin;
   while (t < ray.end && got.transmittance > 0.0) {
     const Stay stay = find_stay(ray, origin, per_metre, inverse, t);
     if (stay.slot == kNoSlot) {
       t = stay.t_next;
       continue;
     }
-    // Only here: where nothing is, holes take nothing.
-    if (kHoles == kHolesListed && t >= t_known) {
-      holes_near = look_ahead(ray, t, position_px);
-      t_ahead = t;
-      t_known = t + (float(kAhead) - 0.5) * ray.ds;
-    }
     const vec3 corner = atlas_corner(volume, stay.slot);
-    const float t_stop = min(min(stay.t_next - 0.5 * ray.ds, ray.end), t_known);
+    const float t_stop = min(stay.t_next - 0.5 * ray.ds, ray.end);
     for (; t < t_stop; t += ray.ds) {
       const float segment = min(ray.ds, ray.end - t);
-      const vec3 local_voxel = origin + per_metre * (t + ray.jitter * segment) - stay.low;
+      const float t_sample = t + ray.jitter * segment;
+      const vec3 local_voxel = origin + per_metre * t_sample - stay.low;
       const vec3 uvw = (corner + local_voxel) * texel;
-      // Asked for together, so that one does not wait for the other.
-      const vec3 drift = textureLod(drift_atlas, uvw, 0.0).xyz;
-      vec3 light = textureLod(inscatter_atlas, uvw, 0.0).rgb;
-      const SmokeSample here = sample_brick(stay.slot, local_voxel, uvw);
-      const float by_holes = kHoles == kHolesListed && holes_near ? left_at(uint((t - t_ahead) / ray.ds + 0.5)) : 1.0;
-      float density = by_holes * here.density;
-      got.samples += 3u;
-      if (density > 0.0 && (kHoles == kHolesAllAsked || frame.look.erosion > 0.0)) {
+      const vec4 medium = textureLod(medium_atlas, uvw, 0.0);
+      SmokeSample here = SmokeSample(medium.r, vec3(0.0));
+      if (medium.r < 0.0) here = boundary_sample(stay.slot, local_voxel);
+      float density = here.density;
+      ++got.samples;
+      if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
         const vec3 p_world = volume.origin_world + (stay.low + local_voxel) * volume.voxel_size;
-        const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + drift, frame.time);
+        const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + medium.gba, frame.time);
         ++got.samples;
-        if (frame.look.erosion > 0.0) density = by_holes * erode(frame.look, here.density, noise);
-        if (kHoles == kHolesAllAsked) density *= left_by_all_holes(p_world);
+        if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
+        if (kHoles != kHolesNone) density *= left_by_holes(holes, t_sample, p_world, 2.0 * noise.g - 1.0, density > 0.0);
       }
       if (density > 0.0) {
         // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
         const float passed = exp(-frame.look.extinction * density * segment);
-        if (here.light_offset != vec3(0.0)) light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
+        const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
+        ++got.samples;
         got.radiance += got.transmittance * (1.0 - passed) * light;
         got.transmittance *= passed;
         if (got.transmittance < frame.look.stop) {

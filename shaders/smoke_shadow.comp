@@ -18,15 +18,13 @@ layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArray shadows;
-layout(binding = 9) uniform sampler3D drift_atlas;
+layout(binding = 9) uniform sampler3D share_atlas;
 layout(binding = 10, r16f) uniform writeonly image2D smoke_shadows;
 layout(scalar, binding = 12) readonly buffer Faces { SmokeShadowFace faces[]; };
 layout(push_constant, scalar) uniform Push { SmokeShadowParams params; };
 layout(binding = 14) readonly buffer Holes { vec4 hole_rows[]; };
 layout(binding = 15) uniform sampler2D hole_masks;
 #include "lib/hole_reach.glsl"
-const bool kLooksAhead = true;
-float hole_noise(vec3 p_world) { return 0.0; }  // light is too coarse for the noise of rims
 #include "lib/hole_window.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/solid.glsl"

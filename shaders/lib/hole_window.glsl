@@ -1,31 +1,26 @@
 // What holes leave of the smoke at the next samples of a ray: exactly, sample by sample, but a hole is asked only from where
 // the ray enters it to where the ray leaves it.
 //
-// The includer has `frame`, a workgroup of 64 threads, `vec4 hole_rows[]`, `sampler2D hole_masks`, the constant kLooksAhead
-// and `float hole_noise(vec3 p_world)`, the noise of the rims, -1 to 1.
+// Light is too coarse for the noise of rims. The includer has `frame`, a workgroup of 64 threads, `vec4 hole_rows[]` and
+// `sampler2D hole_masks`.
 #ifndef HOLE_WINDOW_GLSL
 #define HOLE_WINDOW_GLSL
 #include "shared/frame.h"
 #include "lib/hole_mask.glsl"
 #include "lib/hole_rows.glsl"
+#include "lib/ray_samples.glsl"
 
 const uint kAhead = 48u;
 // What is left at the samples ahead of each thread: four numbers of 8 bits a word. Little memory, for it is taken from
-// the textures' cache; none for frames without holes.
-shared uint left_ahead[kLooksAhead ? kAhead / 4u * 64u : 1u];
-
-/// The samples of a ray: number k lies at t = begin + k ds + jitter * (its segment, ds or what is left of it up to end).
-struct RaySamples {
-  vec3 origin_world, direction;
-  float begin, end, ds, jitter;
-};
+// the textures' cache.
+shared uint left_ahead[kAhead / 4u * 64u];
 
 /// Where along the ray a hole can take anything away, as numbers of samples: the first, and one past the last.
-uvec2 samples_in(Hole hole, RaySamples ray, float begin, float rim) {
+uvec2 samples_in(Hole hole, RaySamples ray, float begin) {
   const vec3 apart = ray.origin_world - hole.origin_world;
   const vec3 at = vec3(dot(apart, hole.right), dot(apart, hole.up), dot(apart, hole.forward));
   const vec3 step = vec3(dot(ray.direction, hole.right), dot(ray.direction, hole.up), dot(ray.direction, hole.forward));
-  const float radius = hole.radius + hole_rim(hole, rim);
+  const float radius = hole.radius;
   const vec3 safe = step + vec3(lessThan(abs(step), vec3(1e-9))) * 2e-9;
   const float z0 = -at.z / safe.z, z1 = (hole.distance_to_far - at.z) / safe.z;
   float enter = min(z0, z1), leave = max(z0, z1);
@@ -52,10 +47,6 @@ uvec2 samples_in(Hole hole, RaySamples ray, float begin, float rim) {
   return uvec2(uint(first), uint(min(last, float(kAhead))));
 }
 
-float left_by_hole(Hole hole, vec3 p_world) {
-  return 1.0 - hole_strength_masked(hole, p_world, frame.time, hole_noise(p_world) * hole_rim(hole, frame.look.hole_rim));
-}
-
 /// Share of the density that the holes leave at sample k, counted from where the ray looked ahead.
 float left_at(uint k) { return unpackUnorm4x8(left_ahead[(k >> 2u) * 64u + gl_LocalInvocationIndex])[k & 3u]; }
 
@@ -66,13 +57,13 @@ void begin_ahead() {
 
 /// Takes a hole out of the ray's next kAhead samples.
 void look_ahead(RaySamples ray, float begin, Hole hole) {
-  const uvec2 run = samples_in(hole, ray, begin, frame.look.hole_rim);
+  const uvec2 run = samples_in(hole, ray, begin);
   for (uint k = run.x; k < run.y; ++k) {
     const float t = begin + float(k) * ray.ds;
     const vec3 p_world = ray.origin_world + (t + ray.jitter * min(ray.ds, ray.end - t)) * ray.direction;
     const uint at = (k >> 2u) * 64u + gl_LocalInvocationIndex;
     vec4 four = unpackUnorm4x8(left_ahead[at]);
-    four[k & 3u] *= left_by_hole(hole, p_world);
+    four[k & 3u] *= 1.0 - hole_strength_masked(hole, p_world, frame.time, 0.0);
     left_ahead[at] = packUnorm4x8(four);
   }
 }

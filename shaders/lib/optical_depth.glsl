@@ -1,4 +1,4 @@
-// How much smoke stands between two points. Needs `frame`, `drift_atlas` and the bindings of
+// How much smoke stands between two points. Needs `frame`, `share_atlas` and the bindings of
 // lib/smoke_density.glsl and lib/cell_holes.glsl.
 #ifndef OPTICAL_DEPTH_GLSL
 #define OPTICAL_DEPTH_GLSL
@@ -10,7 +10,7 @@ SmokePoint mean_smoke_at(vec3 p_voxel) {
   SmokePoint point = smoke_at(frame.volume, p_voxel);
   if (point.density > 0.0) {
     const vec3 uvw = (atlas_corner(frame.volume, point.slot) + point.local_voxel) * atlas_texel(frame.volume);
-    point.density *= textureLod(drift_atlas, uvw, 0.0).w;
+    point.density *= textureLod(share_atlas, uvw, 0.0).r;
   }
   return point;
 }

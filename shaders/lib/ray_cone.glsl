@@ -4,13 +4,6 @@
 #include "lib/camera.glsl"
 #include "lib/hole_reach.glsl"
 
-/// Distance from the eye beyond which there is no smoke.
-float smoke_reach() {
-  const vec3 low = frame.volume.origin_world + frame.volume.bounds_min * frame.volume.voxel_size;
-  const vec3 high = frame.volume.origin_world + frame.volume.bounds_max * frame.volume.voxel_size;
-  return length(max(abs(low - frame.camera.eye_world), abs(high - frame.camera.eye_world)));
-}
-
 /// Around all rays through a rectangle of the picture.
 RayCone cone_of_pixels(vec2 low_px, vec2 high_px, float length_m) {
   RayCone cone;

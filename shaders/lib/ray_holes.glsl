@@ -1,7 +1,7 @@
-// What holes leave of the smoke at the samples of a ray from the eye: each ray asks the holes of its group of pixels.
+// What holes leave of the smoke at the samples of a ray from the eye: each sample asks the holes that its group of pixels
+// meets at that distance (shared/open_holes.h).
 //
-// The includer has `frame`, `noise_tile`, a workgroup of 64 threads and the constant kHoles, and defines BINDING_HOLES,
-// BINDING_HOLE_LISTS and BINDING_HOLE_MASKS.
+// The includer has `frame` and the constant kHoles, and defines BINDING_HOLES, BINDING_HOLE_LISTS and BINDING_HOLE_MASKS.
 #ifndef RAY_HOLES_GLSL
 #define RAY_HOLES_GLSL
 #include "shared/frame.h"
@@ -9,29 +9,54 @@
 layout(binding = BINDING_HOLES) readonly buffer Holes { vec4 hole_rows[]; };
 layout(scalar, binding = BINDING_HOLE_LISTS) readonly buffer HoleLists { uint hole_lists[]; };
 layout(binding = BINDING_HOLE_MASKS) uniform sampler2D hole_masks;
+#include "lib/hole_mask.glsl"
+#include "lib/hole_rows.glsl"
+#include "lib/hole_slabs.glsl"
 
-const bool kLooksAhead = kHoles == kHolesListed;
-float hole_noise(vec3 p_world) { return 2.0 * smoke_noise(noise_tile, frame.look, p_world, frame.time).g - 1.0; }
-#include "lib/hole_window.glsl"
+/// The holes that a ray may meet.
+struct RayHoles {
+  HoleSlabs slabs;
+  uint entries;  // index of the first
+  uint words;    // of a slab's mask, after the entries
+  uint masks;
+  bool all;      // there was no room for a list
+};
 
-/// Finds what holes leave at the next kAhead samples, from `begin` on, of a ray through a point of the picture; false
-/// when no hole is near: all is left.
-bool look_ahead(RaySamples ray, float begin, vec2 position_px) {
+RayHoles holes_of_ray(vec2 position_px) {
+  RayHoles holes;
+  if (kHoles == kHolesNone) return holes;
+  holes.slabs = hole_slabs();
   const uvec2 group = uvec2(position_px) / kHoleGroupPixels;
-  const uint list = 2u * (group.x + frame.holes.groups_across * group.y);
-  const uint first = hole_lists[list], count = hole_lists[list + 1u];
-  if (count == 0u) return false;
-  begin_ahead();
-  for (uint i = 0u; i < min(count, frame.holes.count); ++i) {
-    look_ahead(ray, begin, hole_from_rows(count == kAskAllHoles ? i : hole_lists[first + i]));
-  }
-  return true;
+  const uint list = 2u * (group.x + frame.holes.groups_across * group.y), count = hole_lists[list + 1u];
+  holes.all = kHoles == kHolesAllAsked || count == kAskAllHoles;
+  holes.entries = hole_lists[list];
+  holes.words = holes.all ? 0u : mask_words(count);
+  holes.masks = holes.entries + count;
+  return holes;
 }
 
-/// The plain loop over all holes, which the above is measured against.
-float left_by_all_holes(vec3 p_world) {
-  float left = 1.0;
-  for (uint i = 0u; i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(hole_from_rows(i), p_world);
+/// Share of the density that a hole leaves at a point; rim_noise: -1 to 1.
+float left_by_hole(uint index, vec3 p_world, float rim_noise) {
+  // Most are passed by: two of its rows tell.
+  const vec4 from_radius = hole_rows[6u * index], forward_far = hole_rows[6u * index + 1u];
+  const vec3 apart = p_world - from_radius.xyz;
+  const float z = dot(apart, forward_far.xyz), widest = kHoleWidest * from_radius.w;
+  const vec3 from_axis = apart - z * forward_far.xyz;
+  if (z < 0.0 || z > forward_far.w || dot(from_axis, from_axis) > widest * widest) return 1.0;
+  const Hole hole = hole_from_rows(index);
+  return 1.0 - hole_strength_masked(hole, p_world, frame.time, rim_noise * hole_rim(hole, frame.look.hole_rim));
+}
+
+/// Share of the density that the holes leave at a point of the ray, t metres from the eye; nobody is asked where there
+/// is no smoke.
+float left_by_holes(RayHoles holes, float t, vec3 p_world, float rim_noise, bool smoke) {
+  float left = smoke ? 1.0 : 0.0;
+  const uint slab = holes.masks + holes.words * slab_at(holes.slabs, t);
+  for (uint word = 0u; word < holes.words && left > 0.0; ++word) {
+    for (uint bits = hole_lists[slab + word]; bits != 0u && left > 0.0; bits &= bits - 1u)
+      left *= left_by_hole(hole_lists[holes.entries + 32u * word + uint(findLSB(bits))], p_world, rim_noise);
+  }
+  for (uint i = 0u; holes.all && i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(i, p_world, rim_noise);
   return left;
 }
 

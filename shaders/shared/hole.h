@@ -36,6 +36,8 @@ SHARED_SIZE(Hole, 96);
 
 /// How far noise of the amplitude `rim` [m] moves the rim: of narrow holes less, so that they stay what they are.
 SHARED_FUNCTION float hole_rim(Hole hole, float rim) { return min(rim, 0.25f * hole.radius); }
+/// No point of any shape is farther from the axis than so many radii: the corner of a box whose rim is moved outward.
+SHARED_CONST float kHoleWidest = 1.7682f;
 
 /// What a hole does at a point.
 struct HoleCut {

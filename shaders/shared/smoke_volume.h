@@ -6,6 +6,8 @@
 //   density      a 3D texture of 10^3-texel bricks (8^3 voxels and an apron of one texel); R: density of a
 //                free voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Trilinear: G < 1 says
 //                that the cell has a solid corner.
+//   medium       half floats of the same layout, what the eye's rays read (shaders/drift.comp); R: density, kInSolid in a
+//                solid voxel, GBA: how far the noise was carried [m]. Trilinear: R < 0 says that the cell has a solid corner.
 //   cells        per slot 9^3 uints, one per cell whose points can lie in the brick: boundary cell + 1, or 0
 //                where the cell has no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
 //   boundary     per boundary cell up to three planes, and the first of its 2^planes corner sets
@@ -23,6 +25,8 @@ SHARED_CONST int kNodeBricks = 8;
 SHARED_CONST uint kPageEntries = 512u;
 SHARED_CONST uint kCellsPerBrick = 729u;
 SHARED_CONST uint kTexelsPerBrick = 1000u;
+/// So far below 0 that the least share of it outweighs any density.
+SHARED_CONST float kInSolid = -16384.0f;
 
 /// One cell that a surface runs through.
 struct BoundaryCell {

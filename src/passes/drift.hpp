@@ -1,4 +1,4 @@
-// Carries the noise in the smoke.
+// Carries the noise in the smoke, and makes the medium that the eye's rays read.
 #pragma once
 
 #include <map>
@@ -57,8 +57,8 @@ class DriftPass {
   };
   /// Makes room for the clouds. As SmokeUpload::reserve, and after it.
   void reserve(const sim::State& state, const sim::SmokeVolume& volume);
-  /// Fills smoke.drift for all slots: the noise at a point is that of point + xyz [m]; w is the share
-  /// of the density that it leaves in the mean of the texel. Depends on the inputs alone.
+  /// Fills smoke.medium (shaders/shared/smoke_volume.h; the noise at a point is that of point + GBA) and
+  /// smoke.share for all slots. Depends on the inputs alone.
   void record(gpu::Recorder& recorder, const Inputs& inputs);
 
  private:

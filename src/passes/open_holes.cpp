@@ -57,6 +57,8 @@ OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const si
     : context_(context),
       tiles_pass_(context, shaders::hole_tiles_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                   sizeof(shared::HoleListsParams), {64, 1, 1}),
+      slabs_pass_(context, shaders::hole_slabs_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
+                  {shared::kHoleSlabs, 2, 1}),
       bricks_pass_(context, shaders::hole_bricks_comp,
                    {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::HoleCellsParams), {64, 1, 1}),
@@ -80,7 +82,9 @@ void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float v
   tiles_ = (size_px + kTilePixels - 1u) / kTilePixels;
   const std::size_t groups = std::size_t{tiles_.x} * tiles_.y * kGroupsPerTile * kGroupsPerTile;
   entries_at_ = static_cast<std::uint32_t>(2 * groups);
-  entry_capacity_ = static_cast<std::uint32_t>(std::min(groups * plan_.holes.size(), kMaxEntries));
+  const std::size_t listed = plan_.holes.size();
+  const std::size_t words_of_all = listed + shared::kHoleSlabs * ((listed + 31) / 32);
+  entry_capacity_ = static_cast<std::uint32_t>(std::min(groups * words_of_all, kMaxEntries));
   gpu::grow(context_, resources_.holes, plan_.holes.size() * sizeof(shared::Hole));
   gpu::grow(context_, resources_.lists, (std::size_t{entries_at_} + entry_capacity_) * sizeof(std::uint32_t));
   gpu::grow(
@@ -104,6 +108,10 @@ void OpenHoles::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                  gpu::read_write(counters_)},
                 shared::HoleListsParams{entry_capacity_});
   recorder.dispatch_threads(tiles_pass_, 64 * tiles_.x, tiles_.y);
+  recorder.bind(slabs_pass_,
+                {gpu::read(frame), gpu::read(resources_.holes), gpu::read_write(resources_.lists)});
+  recorder.dispatch_threads(slabs_pass_, shared::kHoleSlabs * kGroupsPerTile * tiles_.x,
+                            kGroupsPerTile * tiles_.y);
 
   const shared::HoleCellsParams params{slot_count_, plan_.pair_capacity, plan_.block_capacity};
   recorder.bind(bricks_pass_,

@@ -52,7 +52,7 @@ class OpenHoles {
 
  private:
   gpu::Context& context_;
-  gpu::ComputePipeline tiles_pass_, bricks_pass_, cells_pass_;
+  gpu::ComputePipeline tiles_pass_, slabs_pass_, bricks_pass_, cells_pass_;
   gpu::Sampler nearest_;
   HoleResources resources_;
   gpu::Buffer pairs_, counters_;

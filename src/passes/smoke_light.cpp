@@ -77,7 +77,7 @@ void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std
                 {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.smoke.pages),
                  gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells),
                  gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners), gpu::read(in.holes.cells),
-                 gpu::sampled(in.smoke.drift, linear_), gpu::read(in.scene.lights), gpu::read(texels_),
+                 gpu::sampled(in.smoke.share, linear_), gpu::read(in.scene.lights), gpu::read(texels_),
                  gpu::read(rays_), gpu::read_write(ray_light_), gpu::read(counters_)},
                 params);
   recorder.dispatch_threads(depth_pass_, kGroups * 64);
@@ -86,7 +86,7 @@ void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std
       {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights), gpu::read(texels_),
        gpu::read(ray_light_), gpu::read(counters_), gpu::stored(in.smoke.inscatter),
        gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
-       gpu::sampled(in.smoke.density, linear_), gpu::sampled(in.smoke.drift, linear_)},
+       gpu::sampled(in.smoke.density, linear_), gpu::sampled(in.smoke.share, linear_)},
       params);
   recorder.dispatch_threads(inscatter_pass_, kGroups * 64);
 }

@@ -52,7 +52,7 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const Sm
       {gpu::read(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
        gpu::sampled(in.shadows.layers, nearest_), gpu::read(in.smoke.pages),
        gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
-       gpu::read(in.smoke.corners), gpu::sampled(in.smoke.drift, linear_), gpu::stored(shadows.atlas),
+       gpu::read(in.smoke.corners), gpu::sampled(in.smoke.share, linear_), gpu::stored(shadows.atlas),
        gpu::read(in.holes.cells), gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_),
        gpu::read(in.holes.holes), gpu::sampled(in.holes.masks, nearest_)},
       params);

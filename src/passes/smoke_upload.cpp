@@ -70,10 +70,7 @@ SmokeUpload::SmokeUpload(gpu::Context& context) : context_(context) {
   }
   resources_.density =
       make_atlas(context, glm::ivec3(1), VK_FORMAT_R8G8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  for (gpu::Image* image : {&resources_.inscatter, &resources_.drift})
-    *image = make_atlas(
-        context, glm::ivec3(1), VK_FORMAT_R16G16B16A16_SFLOAT,
-        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+  make_written_atlases(glm::ivec3(1));
 }
 
 void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
@@ -92,10 +89,15 @@ void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
     return;
   everything_ = true;
   resources_.density = make_atlas(context_, bricks, VK_FORMAT_R8G8_UNORM, VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  for (gpu::Image* image : {&resources_.inscatter, &resources_.drift})
-    *image = make_atlas(
-        context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT,
-        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+  make_written_atlases(bricks);
+}
+
+void SmokeUpload::make_written_atlases(glm::ivec3 bricks) {
+  constexpr VkImageUsageFlags kUses =
+      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  resources_.inscatter = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
+  resources_.medium = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
+  resources_.share = make_atlas(context_, bricks, VK_FORMAT_R16_SFLOAT, kUses);
 }
 
 void SmokeUpload::record_pages(gpu::Recorder& recorder, const sim::PageTable& pages, bool all) {
@@ -152,7 +154,6 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const sim::SmokeVolume& volume
   // What is dirty is only that since the revision before: whoever missed one takes everything.
   const bool all = everything_ || volume.revision() != uploaded_revision_ + 1;
   uploaded_revision_ = volume.revision();
-  if (everything_) recorder.clear(resources_.drift, {{0, 0, 0, 1}});  // nothing carried, nothing eroded
   everything_ = false;
   record_pages(recorder, volume.pages(), all);
   if (all) {

@@ -12,7 +12,8 @@ struct SmokeResources {
   gpu::Buffer slot_bricks;  ///< Per slot its brick, in bricks of the grid.
   gpu::Image density;       ///< RG8 atlas.
   gpu::Image inscatter;     ///< Half-float RGBA atlas of the same layout.
-  gpu::Image drift;         ///< Likewise; see passes/drift.hpp.
+  gpu::Image medium;        ///< Likewise; made by passes/drift.hpp, as the next.
+  gpu::Image share;         ///< Half floats: what the noise leaves of the density in the mean of a texel.
   std::uint32_t slot_count = 0;
 };
 
@@ -31,6 +32,8 @@ class SmokeUpload {
   const SmokeResources& resources() const { return resources_; }
 
  private:
+  /// Those that passes write.
+  void make_written_atlases(glm::ivec3 bricks);
   void record_pages(gpu::Recorder& recorder, const sim::PageTable& pages, bool all);
   void record_cells(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
                     std::span<const std::uint32_t> slots);

@@ -134,6 +134,7 @@ class DriftTest : public gpu::GpuTest {
     frame_.look.roll = 0.2f;
     frame_.look.roll_width = 3;
   }
+  /// How far the noise is carried at each texel, and the share of the density that it leaves.
   std::vector<glm::vec4> record(const sim::State& state, double seconds, float erosion) {
     return record(drift_, state, seconds, erosion);
   }
@@ -145,9 +146,13 @@ class DriftTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) {
       drift.record(recorder, {frame, room_.upload.resources(), noise_, state, seconds, 12});
     });
+    const auto medium = read_back<Half4>(room_.upload.resources().medium);
+    const auto share = read_back<std::uint16_t>(room_.upload.resources().share);
     std::vector<glm::vec4> out;
-    for (const Half4& texel : read_back<Half4>(room_.upload.resources().drift))
-      out.push_back(from_half(texel));
+    for (std::size_t i = 0; i < medium.size(); ++i) {
+      const glm::vec4 texel = from_half(medium[i]);
+      out.emplace_back(texel.y, texel.z, texel.w, glm::unpackHalf1x16(share[i]));
+    }
     return out;
   }
   const sim::State& state() const { return room_.world.state(); }

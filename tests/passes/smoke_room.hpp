@@ -3,9 +3,12 @@
 
 #include <memory>
 
+#include "passes/drift.hpp"
+#include "passes/noise.hpp"
 #include "passes/smoke_upload.hpp"
 #include "sim/smoke_volume.hpp"
 #include "sim/world.hpp"
+#include "shared/frame.h"
 #include "tests/gpu/gpu_test.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -35,6 +38,26 @@ struct SmokeRoom {
     volume.update(world);
     upload.reserve(volume);
     runner.run([&](gpu::Recorder& recorder) { upload.record(recorder, volume); });
+    make_still_medium(context, runner);
+  }
+
+ private:
+  /// The medium of smoke that no noise eats from.
+  void make_still_medium(gpu::Context& context, gpu::CommandRunner& runner) {
+    shared::FrameConstants constants{};
+    constants.volume = volume.frame();
+    constants.look.roll_width = 1;
+    const gpu::Buffer frame(context, sizeof constants,
+                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const gpu::Image noise = make_noise_tile(context, 8);
+    const NoisePass noise_pass(context);
+    DriftPass drift(context);
+    drift.reserve({}, volume);
+    runner.run([&](gpu::Recorder& recorder) {
+      recorder.upload(frame, 0, std::as_bytes(std::span(&constants, 1)));
+      noise_pass.record(recorder, noise, {8, 2, 1});
+      drift.record(recorder, {frame, upload.resources(), noise, {}, 0, 1});
+    });
   }
 };
 

@@ -53,9 +53,9 @@ class TruthTest : public gpu::GpuTest {
       runner().run([&](gpu::Recorder& recorder) { renderer_.record_frame(recorder, input); });
       Drawn drawn{texels(renderer_.smoke()), {}, {}};
       for (const glm::dvec4& texel : texels(renderer_.picture())) drawn.picture.emplace_back(texel);
-      const gpu::Image& drift = renderer_.smoke_resources().drift;
-      drawn.drift.size = glm::ivec3(drift.info().size);
-      for (const glm::dvec4& texel : texels(drift)) drawn.drift.texels.emplace_back(texel);
+      const gpu::Image& medium = renderer_.smoke_resources().medium;
+      drawn.drift.size = glm::ivec3(medium.info().size);
+      for (const glm::dvec4& texel : texels(medium)) drawn.drift.texels.emplace_back(texel.y, texel.z, texel.w);
       return drawn;
     }
     std::vector<shared::Hole> holes;
