@@ -17,7 +17,7 @@ void main() {
   const vec3 p_tile = (vec3(texel) + 0.5) / float(params.size);
   const int cells = int(params.coarse_cells);
   // Means and deviations are those of the noise itself, measured over many seeds.
-  const float billows = spread(perlin_worley(p_tile, cells, 3u, params.seed), 0.740, 0.065);
+  const float billows = spread(perlin_worley(p_tile, cells, 3u, params.seed), 0.860, 0.061);
   const float detail = spread(worley_octaves(p_tile, 3 * cells, 2u, params.seed + 64u), 0.477, 0.129);
   const float wisps = spread(threads(p_tile, 2 * cells, 2u, params.seed + 128u), 0.845, 0.082);
   const float broad = spread(perlin_octaves(p_tile, max(cells / 2, 1), 2u, params.seed + 192u), 0.0, 0.143);

@@ -80,10 +80,11 @@ float perlin_octaves(vec3 p_tile, int cells, uint octaves, uint seed) {
 }
 
 /// Connected as gradient noise, round as cellular noise: the first, widened by the second (Schneider 2016, "Real-Time
-/// Volumetric Cloudscapes", GPU Pro 7). [0, 1]
+/// Volumetric Cloudscapes", GPU Pro 7), whose cones are made round: billows with creases between them. [0, 1]
 float perlin_worley(vec3 p_tile, int cells, uint octaves, uint seed) {
   const float base = 0.5 + 0.5 * perlin_octaves(p_tile, cells, octaves, seed);
-  return mix(base, 1.0, worley_octaves(p_tile, cells, octaves, seed + 16u));
+  const float far = 1.0 - worley_octaves(p_tile, cells, octaves, seed + 16u);
+  return mix(base, 1.0, 1.0 - far * far);
 }
 
 /// Thin threads: gradient noise is 1 where it crosses 0 (Musgrave 1994, "Texturing and Modeling"). [0, 1]

@@ -35,7 +35,7 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   input.look.phase =
       smoke.droplet ? shared::phase_of_droplet(*smoke.droplet) : shared::phase_of_hg(smoke.anisotropy);
   input.look.step_length = 0.4f * stage.voxels.grid.frame().voxel_size;
-  input.look.stop = 0.01f;
+  input.look.stop = 0.004f;
   input.look.erosion = smoke.noise;
   input.look.noise_period = static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size;
   input.look.noise_drift = smoke.rise;

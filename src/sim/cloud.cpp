@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "sim/lattice_noise.hpp"
 
 namespace brume::sim {
 namespace {
@@ -16,20 +17,12 @@ constexpr std::uint32_t kWhole = 65536;
 constexpr std::uint32_t kDissolveSoft = kWhole * 3 / 10;
 /// Of a voxel's survival: what its distance decides and what noise does; together 255.
 constexpr std::uint32_t kSurvivalByDistance = 165, kSurvivalByNoise = 90;
+/// Radius of the sphere of the lobes' noise, in 1/256 of a cell: a lobe is about a tenth of a turn wide.
+constexpr int kLobesWide = 3 * 256;
 
 /// 3x^2 - 2x^3 for x in [0, 65536].
 constexpr std::uint64_t smoothstep(std::uint64_t x) {
   return (x * x * (3 * kWhole - 2 * x)) >> 32;
-}
-
-/// Noise at the corner of a block, [0, 255].
-std::uint32_t corner_noise(glm::ivec3 block, std::uint32_t seed) {
-  std::uint32_t h = seed ^ static_cast<std::uint32_t>(block.x) * 0x9e3779b1u ^
-                    static_cast<std::uint32_t>(block.y) * 0x85ebca77u ^
-                    static_cast<std::uint32_t>(block.z) * 0xc2b2ae3du;
-  h = (h ^ h >> 15) * 0x2c1b3c6du;
-  h = (h ^ h >> 12) * 0x297a2d39u;
-  return (h ^ h >> 15) >> 24;
 }
 
 /// Value noise of one block, trilinear between its corners: lattice cells are blocks.
@@ -38,7 +31,7 @@ class BlockNoise {
   BlockNoise(glm::ivec3 block, std::uint32_t seed) {
     for (int i = 0; i < 8; ++i)
       corners_[static_cast<std::size_t>(i)] =
-          corner_noise(block + glm::ivec3(i & 1, i >> 1 & 1, i >> 2), seed);
+          lattice_noise(block + glm::ivec3(i & 1, i >> 1 & 1, i >> 2), seed);
   }
   /// At the centre of the voxel with this bit, [0, 255].
   std::uint32_t at(int bit) const {
@@ -54,6 +47,24 @@ class BlockNoise {
  private:
   std::array<std::uint32_t, 8> corners_;
 };
+
+/// How far the smoke at a voxel is behind the front: noise on a sphere around the source, whose bulges are as
+/// wide in every direction and keep their places while the cloud grows.
+std::uint8_t lag_of(glm::ivec3 from_source, std::uint32_t distance, std::uint32_t seed) {
+  // Towards the voxel, as long as the sphere's radius; moved to where no component is below 0.
+  const auto on_sphere = [&](int radius_256) {
+    const auto far = static_cast<std::int64_t>(std::max(distance, kFaceStep));
+    glm::ivec3 point;
+    for (int axis = 0; axis < 3; ++axis)
+      point[axis] = (64 << 8) + static_cast<int>(std::int64_t{from_source[axis]} *
+                                                 static_cast<std::int64_t>(kFaceStep) * radius_256 / far);
+    return point;
+  };
+  const std::uint32_t wide = value_noise(on_sphere(kLobesWide), seed);
+  const std::uint32_t narrow = value_noise(on_sphere(2 * kLobesWide), seed + 1);
+  const int sum = static_cast<int>(3 * wide + narrow) / 4;
+  return static_cast<std::uint8_t>(std::clamp(128 + 5 * (sum - 128) / 2, 0, 255));
+}
 
 /// How long the smoke of a fill withstands the dissolve, by rank.
 std::vector<std::uint8_t> survival_of(const BlockSet& fill, std::span<const std::uint32_t> distances,
@@ -151,19 +162,27 @@ void Cloud::finish(std::span<const FilledVoxel> filled) {
   std::vector<std::uint8_t> fill_survival =
       survival_of(p.fill, fill_distances, filled.empty() ? 0 : filled.back().distance, seed);
 
+  std::vector<std::uint8_t> fill_lag(p.fill.size());
+  p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
+    fill_lag[i] = lag_of(voxel - source, fill_distances[i], seed);
+  });
+
   if (p.rest.empty() && p.flow_tick == 0) {
     distances_ = std::move(fill_distances);
+    lag_ = std::move(fill_lag);
     survival_ = std::move(fill_survival);
   } else {
     const BlockSet& all = voxels();
     distances_.assign(all.size(), kNoDistance);
     survival_.resize(all.size());
+    lag_.assign(all.size(), 0);
     base_.assign(all.size(), 0);
     delay_.assign(all.size(), 0);
     p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
       const std::uint32_t rank = all.rank(voxel);
       distances_[rank] = fill_distances[i];
       survival_[rank] = fill_survival[i];
+      lag_[rank] = fill_lag[i];
       if (p.flow_tick == 0) return;
       base_[rank] = p.fill_base[i];
       delay_[rank] = p.fill_delay[i];
@@ -198,6 +217,7 @@ std::uint64_t Cloud::content_hash() const {
   std::uint64_t hash = hash_values(std::span<const std::uint64_t>(words));
   hash = hash_values(std::span<const std::uint32_t>(distances_), hash);
   hash = hash_values(std::span<const std::uint8_t>(survival_), hash);
+  hash = hash_values(std::span<const std::uint8_t>(lag_), hash);
   hash = hash_values(std::span<const std::uint8_t>(base_), hash);
   return hash_values(std::span<const std::uint16_t>(delay_), hash);
 }
@@ -205,8 +225,8 @@ std::uint64_t Cloud::content_hash() const {
 std::uint64_t Cloud::bytes() const {
   const std::uint64_t parts =
       parts_.fill.bytes() + parts_.rest.bytes() + 3 * parts_.fill_base.size() + 4 * parts_.rest.size();
-  return sizeof(Cloud) + parts + both_.bytes() + 4 * distances_.size() + survival_.size() + base_.size() +
-         2 * delay_.size() + sizeof(Level) * levels_.size();
+  return sizeof(Cloud) + parts + both_.bytes() + 4 * distances_.size() + survival_.size() + lag_.size() +
+         base_.size() + 2 * delay_.size() + sizeof(Level) * levels_.size();
 }
 
 std::uint32_t Cloud::end_tick() const {
@@ -279,14 +299,14 @@ CloudMoment Cloud::moment(std::uint32_t tick) const {
 std::uint8_t Cloud::profile(std::uint32_t distance, Front front) {
   const Front here = distance * kFrontUnit;
   if (here >= front) return 0;
-  const Front taper = std::max<Front>(2 * kFaceStep * kFrontUnit, front / 4);
+  const Front taper = std::max<Front>(2 * kFaceStep * kFrontUnit, front / 3);
   const std::uint64_t x = std::min<std::uint64_t>((front - here) * kWhole / taper, kWhole);
-  return static_cast<std::uint8_t>((smoothstep(x) * 255 + kWhole / 2) >> 16);
+  return static_cast<std::uint8_t>((x * 255 + kWhole / 2) >> 16);
 }
 
 std::uint8_t Cloud::density(std::uint32_t rank, const CloudMoment& m) const {
   const std::uint32_t distance = distances_[rank];
-  std::uint32_t density = distance == kNoDistance ? 0u : profile(distance, m.front);
+  std::uint32_t density = distance == kNoDistance ? 0u : profile(reach(rank), m.front);
   if (!base_.empty()) {
     const std::uint32_t base = base_[rank];
     const std::uint32_t delay = delay_[rank];

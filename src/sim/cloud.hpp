@@ -106,12 +106,19 @@ class Cloud {
   /// The density of any voxel; 0 where the cloud never is.
   std::uint8_t density(glm::ivec3 voxel, const CloudMoment& moment) const;
 
-  /// Density in [0, 255] at a distance from the source for a front: 0 at and beyond the front, 255 from a
-  /// taper before it; between them a smoothstep. The taper is a quarter of the front, at least two voxels, so
+  /// Density in [0, 255] where smoke arrives with a front at this distance: 0 at and beyond the front, 255
+  /// from a taper before it, even between them. The taper is a third of the front, at least two voxels, so
   /// that the rim fades in open air while walls, which the fill reaches early, see full density.
   static std::uint8_t profile(std::uint32_t distance, Front front);
 
   static constexpr std::uint32_t kNoDistance = ~std::uint32_t{0};
+  /// How far the front must have come for a voxel's smoke to be there, by rank in voxels(): its distance and
+  /// up to a quarter more, so that the cloud bulges in lobes. kNoDistance for those of parts().rest.
+  std::uint32_t reach(std::uint32_t rank) const {
+    const std::uint32_t distance = distances_[rank];
+    if (distance == kNoDistance) return kNoDistance;
+    return distance + static_cast<std::uint32_t>((std::uint64_t{distance} * lag_[rank]) >> kLagBits);
+  }
   /// Distance from the source by rank in voxels(); kNoDistance for those of parts().rest.
   std::span<const std::uint32_t> distances() const { return distances_; }
   /// How long a voxel's smoke withstands the dissolve, of 255, by rank in voxels(): less far from the source,
@@ -141,6 +148,8 @@ class Cloud {
   BlockSet both_;  // fill and rest, where there is a rest
   std::vector<std::uint32_t> distances_;
   std::vector<std::uint8_t> survival_;
+  static constexpr int kLagBits = 10;
+  std::vector<std::uint8_t> lag_;   // of the distance, / 2^kLagBits
   std::vector<std::uint8_t> base_;  // of fill and rest, by rank in voxels(); empty when there are none
   std::vector<std::uint16_t> delay_;
   std::uint32_t trapped_ = 0;  // voxels of the rest that stay

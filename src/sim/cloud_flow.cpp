@@ -56,12 +56,13 @@ std::vector<std::uint16_t> fill_delays(const Cloud& after, const Before& before,
   std::vector<std::uint16_t> delays(p.fill.size());
   std::vector<std::uint32_t> distances(p.fill.size());
   p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
-    const std::uint32_t distance = distances[rank] = after.distances()[after.voxels().rank(voxel)];
+    const std::uint32_t in_all = after.voxels().rank(voxel);
+    distances[rank] = after.distances()[in_all];
     const std::uint32_t old = before.set.rank(voxel);
     if (old == BlockSet::kNone)
       gained.push_back(rank);
     else
-      delays[rank] = before.densities[old] == Cloud::profile(distance, front) ? 0 : 1;
+      delays[rank] = before.densities[old] == Cloud::profile(after.reach(in_all), front) ? 0 : 1;
   });
   std::stable_sort(gained.begin(), gained.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return distances[a] < distances[b]; });

@@ -12,14 +12,13 @@ using BrickDensities = std::array<std::uint8_t, kVoxelsPerBrick>;
 
 /// The densities of a whole cloud by rank.
 void densities_of(const Cloud& cloud, const CloudMoment& moment, std::vector<std::uint8_t>& out) {
-  const std::span<const std::uint32_t> distances = cloud.distances();
-  out.resize(distances.size());
+  out.resize(cloud.voxels().size());
   const CloudParts& parts = cloud.parts();
   if (parts.flow_tick != 0 || !parts.rest.empty() || moment.dissolved != 0) {
     for (std::uint32_t rank = 0; rank < out.size(); ++rank) out[rank] = cloud.density(rank, moment);
     return;
   }
-  // Only the distance counts: 0 from the front on, full from the taper inwards; between them a table.
+  // Only the reach counts: 0 from the front on, full from the taper inwards; between them a table.
   const auto end =
       static_cast<std::uint32_t>(std::min<Front>(moment.front / kFrontUnit + 1, Cloud::kNoDistance));
   std::vector<std::uint8_t> taper;
@@ -28,8 +27,8 @@ void densities_of(const Cloud& cloud, const CloudMoment& moment, std::vector<std
     taper.push_back(Cloud::profile(--begin, moment.front));
   taper.insert(taper.begin(), 0);  // for `end` and beyond
   const auto last = static_cast<std::uint32_t>(taper.size() - 1);
-  for (std::size_t rank = 0; rank < out.size(); ++rank) {
-    const std::uint32_t within = end - std::min(distances[rank], end);
+  for (std::uint32_t rank = 0; rank < out.size(); ++rank) {
+    const std::uint32_t within = end - std::min(cloud.reach(rank), end);
     out[rank] = taper[std::min(within, last)];
   }
 }

@@ -260,25 +260,32 @@ TEST_F(DriftTest, IsTheSameWhateverWasDrawnBefore) {
 // Line of sight integrates without noise: through a grown smoke it must be about what the picture shows.
 TEST_F(DriftTest, LeavesTheOpticalDepthOfDenseSmoke) {
   const auto texels = record(state(), 6.2, 0.8f);
-  std::vector<double> plain(40 * 33, 0.0), eroded(40 * 33, 0.0);
+  std::vector<double> plain(40 * 33, 0.0), eroded(40 * 33, 0.0), full(40 * 33, 0.0);
   for_each_voxel([&](std::size_t texel, glm::ivec3 voxel) {
     if (voxel.x < 0 || voxel.y < 0 || voxel.x >= 40 || voxel.y >= 33) return;
     const auto column = static_cast<std::size_t>(voxel.x + 40 * voxel.y);
     const double density = state().density(voxel) / 255.0;
     plain[column] += density;
+    full[column] += density > 0.99 ? 1 : 0;
     eroded[column] += density * static_cast<double>(texels[texel].w);
   });
-  double sum = 0;
+  double sum = 0, plain_sum = 0, eroded_sum = 0, most = 0;
   int dense = 0;
   for (std::size_t i = 0; i < plain.size(); ++i) {
-    if (plain[i] < 12) continue;  // 3 m of full density
+    plain_sum += plain[i];
+    eroded_sum += eroded[i];
+    if (full[i] < 12) continue;  // 3 m of full density
     ++dense;
     sum += eroded[i] / plain[i];
+    most = std::max(most, std::abs(eroded[i] / plain[i] - 1));
     EXPECT_NEAR(eroded[i] / plain[i], 1, 0.3);
   }
-  ASSERT_GT(dense, 100);
+  ASSERT_GT(dense, 50);
   EXPECT_NEAR(sum / dense, 1, 0.15);
-  RecordProperty("eroded_share", std::to_string(sum / dense));
+  EXPECT_NEAR(eroded_sum / plain_sum, 1, 0.15);
+  RecordProperty("eroded_share", std::to_string(sum / dense) + " most off " + std::to_string(most) + " of " +
+                                     std::to_string(dense) + ", all " +
+                                     std::to_string(eroded_sum / plain_sum));
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ TEST_F(NoiseTile, EqualsTheReference) {
     for (std::uint32_t i = 0; i < tile.size(); ++i) {
       const glm::dvec3 p =
           (glm::dvec3(i % size, i / size % size, i / (size * size)) + 0.5) / static_cast<double>(size);
-      const double expected[] = {reference::spread(perlin_worley(p, 2, 3, 5), 0.740, 0.065),
+      const double expected[] = {reference::spread(perlin_worley(p, 2, 3, 5), 0.860, 0.061),
                                  reference::spread(worley_octaves(p, 6, 2, 5 + 64), 0.477, 0.129),
                                  reference::spread(threads(p, 4, 2, 5 + 128), 0.845, 0.082),
                                  reference::spread(perlin_octaves(p, 1, 2, 5 + 192), 0, 0.143)};

@@ -95,7 +95,8 @@ inline double perlin_octaves(glm::dvec3 p, int cells, std::uint32_t count, std::
 
 inline double perlin_worley(glm::dvec3 p, int cells, std::uint32_t count, std::uint32_t seed) {
   const double base = 0.5 + 0.5 * perlin_octaves(p, cells, count, seed);
-  return base + (1 - base) * worley_octaves(p, cells, count, seed + 16);
+  const double far = 1 - worley_octaves(p, cells, count, seed + 16);
+  return base + (1 - base) * (1 - far * far);
 }
 
 inline double threads(glm::dvec3 p, int cells, std::uint32_t count, std::uint32_t seed) {

@@ -106,6 +106,30 @@ TEST(CloudLife, ProfileFallsFromFullToNothing) {
   EXPECT_EQ(Cloud::profile(10, 256 * 20), 128);  // half way through the least taper
 }
 
+// The front lags by up to a quarter of the way, by direction alone, so that lobes grow with the cloud.
+TEST(CloudLife, BulgesInLobes) {
+  const BitGrid grid({glm::ivec3(81), 0.25f, glm::vec3(0)});
+  const glm::ivec3 source(40);
+  const Cloud cloud(grid, {source, {100000, 64, 100, 192}, 0});
+  const auto lag = [&](glm::ivec3 way) {
+    const std::uint32_t rank = cloud.voxels().rank(source + way);
+    return static_cast<double>(cloud.reach(rank)) / cloud.distances()[rank] - 1;
+  };
+  double least = 1, most = 0;
+  for (int i = 0; i < 343; ++i) {
+    const glm::ivec3 way(i % 7 - 3, i / 7 % 7 - 3, i / 49 - 3);
+    if (way == glm::ivec3(0)) continue;
+    const double near = lag(4 * way), far = lag(6 * way);
+    // Reaches are whole numbers, and the point on the sphere is one of 1/256 of a cell.
+    EXPECT_NEAR(near, far, 1.0 / 40 + 1.0 / 100) << i;
+    least = std::min(least, far);
+    most = std::max(most, far);
+  }
+  EXPECT_GE(least, 0);
+  EXPECT_LE(most, 0.25);
+  EXPECT_GT(most - least, 0.15) << "lobes";
+}
+
 TEST(CloudLife, DissolvesFromItsEdgesWithoutEverRising) {
   for (const BitGrid& grid : rooms()) {
     const Cloud cloud(grid, {first_free(grid), {1800, 64, 100, 192}, 0});
@@ -255,8 +279,12 @@ TEST(Doors, OneThatShutsKeepsSmokeOnBothSides) {
   world.append(kInTheFirstRoom).value_or_throw();
   world.append(LevelEdit{300, rooms.shut}).value_or_throw();
   world.advance_to(299);
-  const std::uint32_t beyond = TwoRooms::beyond(*world.state().clouds[0].cloud);
-  ASSERT_GT(beyond, 300u);
+  // Not all that the cloud may fill holds smoke: its lobes differ.
+  std::uint32_t held = 0;
+  world.state().clouds[0].cloud->voxels().for_each([&](glm::ivec3 v, std::uint32_t) {
+    if (v.x > 21 && world.state().density(v) > 0) ++held;
+  });
+  ASSERT_GT(held, 200u);
   world.advance_to(1500);
   const Cloud& cloud = *world.state().clouds[0].cloud;
   std::uint32_t trapped = 0;
@@ -265,9 +293,7 @@ TEST(Doors, OneThatShutsKeepsSmokeOnBothSides) {
     EXPECT_EQ(world.state().density(v), cloud.parts().rest_base[rank]);
     ++trapped;
   });
-  // Those at the very rim may have held less than a step of density.
-  EXPECT_LE(trapped, beyond);
-  EXPECT_GT(trapped, beyond * 9 / 10);
+  EXPECT_EQ(trapped, held);
   EXPECT_LE(cloud.parts().fill.size() + trapped, 3000u);
   for (int y = 1; y < 5; ++y) EXPECT_EQ(world.state().density({21, y, 8}), 0) << "in the door";
   // With the smoke its rest goes.
