@@ -40,7 +40,7 @@ stage::Stage hall() {
 
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.01f), 0};
-  timeline.smoke.voxels = 6000;
+  timeline.smoke.voxels = 9000;
   timeline.smoke.extinction = 1.5f;
   timeline.smokes = {{0, {0.5f, 1, 0.5f}, {0.5f, 0.2f, 0.5f}}};
   for (const float x : {-4.0f, -1.0f, 1.5f, 4.0f}) {
