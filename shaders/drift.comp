@@ -20,6 +20,7 @@ layout(scalar, binding = 6) readonly buffer Motions { CloudMotion motions[]; };
 layout(scalar, binding = 7) readonly buffer Pushes { Push pushes[]; };
 layout(binding = 8, rgba16f) uniform writeonly image3D medium;
 layout(binding = 9, r16f) uniform writeonly image3D share_left;
+layout(scalar, binding = 10) readonly buffer Slots { uint slots[]; };
 layout(push_constant, scalar) uniform Params { DriftParams params; };
 
 /// Rolls repeat after this many of their widths.
@@ -91,8 +92,8 @@ vec3 pushed(vec3 p_world) {
 
 void main() {
   const uint texel = gl_GlobalInvocationID.x;
-  const uint slot = params.first_slot + texel / kTexelsPerBrick;
-  if (slot >= params.first_slot + params.slot_count) return;
+  if (texel >= params.slot_count * kTexelsPerBrick) return;
+  const uint slot = slots[params.first_slot + texel / kTexelsPerBrick];
   const uint at = texel % kTexelsPerBrick;
   const ivec3 local = ivec3(at % 10u, at / 10u % 10u, at / 100u);
   const uvec3 bricks = uvec3(frame.volume.atlas_bricks);

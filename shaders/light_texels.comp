@@ -1,4 +1,4 @@
-// Lists the texels whose light is needed: smoke is around them, and they may be in view. One workgroup a brick.
+// Lists the texels whose light is needed: smoke is around them, and their brick may be in view. One workgroup a brick.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -7,7 +7,7 @@
 
 layout(local_size_x = 256) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
+layout(scalar, binding = 1) readonly buffer Slots { uint slots[]; };
 layout(binding = 2) uniform sampler3D density_atlas;
 layout(scalar, binding = 3) writeonly buffer Texels { uint texels[]; };
 layout(scalar, binding = 4) buffer Counters { SmokeLightCounters counters; };
@@ -18,19 +18,6 @@ shared uint smoke[kTexelsPerBrick];
 shared uint grown[kTexelsPerBrick];
 shared uint group_count;
 shared uint group_first;
-
-/// Whether any of a brick's texels may be in view.
-bool in_view(ivec3 brick) {
-  const float edge = frame.volume.voxel_size * float(kBrickVoxels);
-  const vec3 centre = frame.volume.origin_world + (vec3(brick) + 0.5) * edge;
-  const float radius = 0.8661 * frame.volume.voxel_size * float(kBrickTexels);
-  const vec3 apart = centre - frame.camera.eye_world;
-  const float along = dot(apart, frame.camera.forward);
-  if (along < -radius) return false;
-  const float wide = length(frame.camera.right), high = length(frame.camera.up);
-  return abs(dot(apart, frame.camera.right)) / wide <= wide * along + radius * sqrt(1.0 + wide * wide) &&
-         abs(dot(apart, frame.camera.up)) / high <= high * along + radius * sqrt(1.0 + high * high);
-}
 
 /// Whether a boundary cell has the texel as a corner: its density may come from voxels that the brick does not hold.
 bool at_boundary(uint slot, ivec3 local) {
@@ -56,8 +43,8 @@ uint largest_around(bool of_grown, uint i, uint stride) {
 }
 
 void main() {
-  const uint slot = params.first_slot + gl_WorkGroupID.x;
-  if (slot >= params.first_slot + params.slot_count || !in_view(slot_bricks[slot])) return;
+  if (gl_WorkGroupID.x >= params.slot_count) return;
+  const uint slot = slots[params.first_slot + gl_WorkGroupID.x];
   const uint lane = gl_LocalInvocationID.x;
   const uvec3 bricks = uvec3(frame.volume.atlas_bricks);
   const ivec3 corner = ivec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * kBrickTexels;

@@ -32,9 +32,9 @@ struct Push {
 SHARED_SIZE(Push, 44);
 
 struct DriftParams {
-  uint first_slot;
+  uint first_slot;  // into the list of slots that the frame needs
   uint slot_count;
-  uint all_slots;
+  uint all_slots;   // of the volume
   uint push_count;
 };
 SHARED_SIZE(DriftParams, 16);

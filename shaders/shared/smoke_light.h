@@ -12,7 +12,7 @@ SHARED_BEGIN
 SHARED_CONST uint kSkyRays = 6u;
 
 struct SmokeLightParams {
-  uint first_slot;
+  uint first_slot;  // into the list of slots that may be in view
   uint slot_count;
   uint rays_per_texel;
   uint max_steps;  // most steps through the smoke along a ray

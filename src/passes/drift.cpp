@@ -157,7 +157,7 @@ DriftPass::DriftPass(gpu::Context& context)
     : context_(context),
       pipeline_(context, shaders::drift_comp,
                 {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
-                 gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kStored},
+                 gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kStored, gpu::kBuffer},
                 sizeof(shared::DriftParams), {kGroup, 1, 1}),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
@@ -195,13 +195,14 @@ void DriftPass::upload(gpu::Recorder& recorder, const Inputs& in, std::span<cons
 void DriftPass::record(gpu::Recorder& recorder, const Inputs& in) {
   const std::vector<shared::Push> pushes = pushes_of(in.state, in.seconds);
   upload(recorder, in, pushes);
-  for (std::uint32_t first = 0; first < in.smoke.slot_count; first += kSlotsPerDispatch) {
-    const std::uint32_t count = std::min(kSlotsPerDispatch, in.smoke.slot_count - first);
+  for (std::uint32_t first = 0; first < in.smoke.needed; first += kSlotsPerDispatch) {
+    const std::uint32_t count = std::min(kSlotsPerDispatch, in.smoke.needed - first);
     recorder.bind(
         pipeline_,
         {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
          gpu::sampled(in.noise, repeat_), gpu::read(parts_), gpu::read(travel_), gpu::read(motions_),
-         gpu::read(pushes_), gpu::stored(in.smoke.medium), gpu::stored(in.smoke.share)},
+         gpu::read(pushes_), gpu::stored(in.smoke.medium), gpu::stored(in.smoke.share),
+         gpu::read(in.smoke.slots)},
         shared::DriftParams{first, count, in.smoke.slot_count, static_cast<std::uint32_t>(pushes.size())});
     recorder.dispatch_threads(pipeline_, count * shared::kTexelsPerBrick);
   }

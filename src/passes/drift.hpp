@@ -58,7 +58,7 @@ class DriftPass {
   /// Makes room for the clouds. As SmokeUpload::reserve, and after it.
   void reserve(const sim::State& state, const sim::SmokeVolume& volume);
   /// Fills smoke.medium (shaders/shared/smoke_volume.h; the noise at a point is that of point + GBA) and
-  /// smoke.share for all slots. Depends on the inputs alone.
+  /// smoke.share for the needed slots. Depends on the inputs alone.
   void record(gpu::Recorder& recorder, const Inputs& inputs);
 
  private:

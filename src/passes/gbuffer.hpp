@@ -4,6 +4,7 @@
 #include <span>
 
 #include "passes/scene_upload.hpp"
+#include "passes/view_volume.hpp"
 
 namespace brume::passes {
 
@@ -19,9 +20,11 @@ struct GBuffer {
 class GBufferPass {
  public:
   explicit GBufferPass(gpu::Context& context);
-  /// `moving` are drawn with the scene's own draws, `hidden` are left out. `frame` holds FrameConstants.
+  /// `moving` are drawn with the scene's own draws; `hidden` are left out, and what `view` cannot see.
+  /// `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
-              HiddenObjects hidden, const gpu::Buffer& frame, const GBuffer& target) const;
+              HiddenObjects hidden, const ViewVolume& view, const gpu::Buffer& frame,
+              const GBuffer& target) const;
 
  private:
   gpu::GraphicsPipeline pipeline_;

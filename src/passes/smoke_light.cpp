@@ -52,19 +52,18 @@ void SmokeLightPass::reserve(std::uint32_t slot_count, std::uint32_t light_count
 }
 
 void SmokeLightPass::record(gpu::Recorder& recorder, const Inputs& in) {
-  for (std::uint32_t first = 0; first < in.smoke.slot_count; first += slots_at_once_)
-    record_slots(recorder, in, first, std::min(slots_at_once_, in.smoke.slot_count - first));
+  for (std::uint32_t first = 0; first < in.smoke.seen; first += slots_at_once_)
+    record_slots(recorder, in, first, std::min(slots_at_once_, in.smoke.seen - first));
 }
 
 void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std::uint32_t first,
                                   std::uint32_t count) {
   const shared::SmokeLightParams params{first, count, rays_per_texel_, kMaxSteps};
   recorder.fill(counters_, 0);
-  recorder.bind(
-      texels_pass_,
-      {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
-       gpu::write(texels_), gpu::read_write(counters_), gpu::read(in.smoke.cells)},
-      params);
+  recorder.bind(texels_pass_,
+                {gpu::read(in.frame), gpu::read(in.smoke.slots), gpu::sampled(in.smoke.density, linear_),
+                 gpu::write(texels_), gpu::read_write(counters_), gpu::read(in.smoke.cells)},
+                params);
   recorder.dispatch_threads(texels_pass_, count * 256);
   recorder.bind(rays_pass_,
                 {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),

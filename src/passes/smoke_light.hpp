@@ -21,7 +21,7 @@ class SmokeLightPass {
     const HoleResources& holes;
     LevelLight level;
   };
-  /// Makes room for the light of this many bricks and lamps. Not between the begin and the end of a
+  /// Makes room for the light of this many bricks in view and of so many lamps. Not between the begin and the end of a
   /// recording, and only when the device is done with what it recorded before. Throws resource_limit.
   void reserve(std::uint32_t slot_count, std::uint32_t light_count);
   /// Fills smoke.inscatter where a ray of the frame's camera can meet smoke.

@@ -4,9 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <numeric>
-#include <tuple>
 
 namespace brume::passes {
 namespace {
@@ -22,16 +19,6 @@ struct FacePart {
 
 float least_distance(glm::vec3 p, const WorldBox& box) {
   return glm::length(glm::max(glm::max(box.low - p, p - box.high), glm::vec3(0)));
-}
-
-bool in_view(const shared::Camera& camera, glm::vec3 centre, float radius) {
-  const glm::vec3 d = centre - camera.eye_world;
-  if (glm::dot(d, camera.forward) < -radius) return false;
-  for (const glm::vec3 side : {camera.right, -camera.right, camera.up, -camera.up}) {
-    const glm::vec3 inward = camera.forward - side / glm::dot(side, side);
-    if (glm::dot(d, inward) < -radius * glm::length(inward)) return false;
-  }
-  return true;
 }
 
 /// Bounds of x / z for x in [low, high] and z in [near, far], near > 0.
@@ -84,12 +71,13 @@ bool shines_into(const shared::Light& light, std::uint32_t face) {
 std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const WorldBox> smoke) {
   std::vector<FacePart> parts;
   std::vector<float> irradiance;
+  const ViewVolume view(scene.camera);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const shared::Light& light = scene.lights[i];
     const float intensity = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
     const bool sun = light.kind == shared::kLightDirectional;
     if (light.shadow_layer == shared::kNoShadow || intensity <= 0) continue;
-    if (!sun && !in_view(scene.camera, light.position_world, light.range)) continue;
+    if (!sun && !view.may_see({light.position_world, light.range})) continue;
     std::array<FacePart, shared::kFacesPerLight> faces;
     float nearest = sun ? 1 : light.range;
     for (const WorldBox& box : smoke) {
@@ -146,30 +134,6 @@ bool SmokeShadowPlan::operator==(const SmokeShadowPlan& other) const {
   return blocks == other.blocks && faces.size() == other.faces.size() &&
          (faces.empty() ||
           std::memcmp(faces.data(), other.faces.data(), faces.size() * sizeof faces[0]) == 0);
-}
-
-std::vector<WorldBox> smoke_boxes(const sim::SmokeVolume& volume) {
-  if (volume.slot_count() == 0) return {};
-  const shared::SmokeVolumeFrame frame = volume.frame();
-  std::map<std::tuple<int, int, int>, WorldBox> nodes;  // in voxels
-  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
-    const glm::ivec3 brick = volume.brick_of(slot);
-    if (volume.slot_at(brick) != slot) continue;  // out of use
-    const glm::ivec3 node = brick >> 3;
-    const WorldBox box{glm::vec3(brick * shared::kBrickVoxels),
-                       glm::vec3((brick + 1) * shared::kBrickVoxels)};
-    const auto [known, added] = nodes.try_emplace({node.x, node.y, node.z}, box);
-    if (!added)
-      known->second = {glm::min(known->second.low, box.low), glm::max(known->second.high, box.high)};
-  }
-  std::vector<WorldBox> boxes;
-  for (const auto& [node, box] : nodes) {
-    const glm::vec3 low = glm::max(box.low, frame.bounds_min), high = glm::min(box.high, frame.bounds_max);
-    if (glm::all(glm::lessThan(low, high)))
-      boxes.push_back(
-          {frame.origin_world + low * frame.voxel_size, frame.origin_world + high * frame.voxel_size});
-  }
-  return boxes;
 }
 
 SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const WorldBox> smoke,

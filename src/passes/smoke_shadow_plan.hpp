@@ -4,20 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "passes/smoke_needs.hpp"
 #include "shared/frame.h"
 #include "shared/light.h"
 #include "shared/smoke_shadow.h"
-#include "sim/smoke_volume.hpp"
 
 namespace brume::passes {
-
-/// A box in the world [m].
-struct WorldBox {
-  glm::vec3 low{0}, high{0};
-};
-
-/// Boxes around the smoke: one for each node of the page table that holds some.
-std::vector<WorldBox> smoke_boxes(const sim::SmokeVolume& volume);
 
 struct SmokeShadowPlan {
   std::vector<shared::SmokeShadowFace> faces;  ///< kFacesPerLight for each light, in their order.

@@ -65,7 +65,7 @@ void upload_ranges(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span
 
 SmokeUpload::SmokeUpload(gpu::Context& context) : context_(context) {
   for (gpu::Buffer* buffer : {&resources_.pages, &resources_.cells, &resources_.boundary, &resources_.corners,
-                              &resources_.slot_bricks}) {
+                              &resources_.slot_bricks, &resources_.slots}) {
     gpu::grow(context, *buffer, 1);
   }
   resources_.density =
@@ -84,6 +84,7 @@ void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
   everything_ |= gpu::grow(context_, resources_.boundary, volume.boundary_cells().size_bytes());
   everything_ |= gpu::grow(context_, resources_.corners, volume.corner_sets().size_bytes());
   everything_ |= gpu::grow(context_, resources_.slot_bricks, slots * sizeof(glm::ivec3));
+  gpu::grow(context_, resources_.slots, slots * sizeof(std::uint32_t));
   const glm::ivec3 bricks = volume.frame().atlas_bricks;
   if (resources_.density.info().size == glm::uvec3(bricks) * static_cast<std::uint32_t>(shared::kBrickTexels))
     return;
@@ -98,6 +99,12 @@ void SmokeUpload::make_written_atlases(glm::ivec3 bricks) {
   resources_.inscatter = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
   resources_.medium = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
   resources_.share = make_atlas(context_, bricks, VK_FORMAT_R16_SFLOAT, kUses);
+}
+
+void SmokeUpload::record_needs(gpu::Recorder& recorder, const SmokeNeeds& needs) {
+  recorder.upload(resources_.slots, 0, std::as_bytes(std::span(needs.slots)));
+  resources_.needed = static_cast<std::uint32_t>(needs.slots.size());
+  resources_.seen = needs.seen;
 }
 
 void SmokeUpload::record_pages(gpu::Recorder& recorder, const sim::PageTable& pages, bool all) {

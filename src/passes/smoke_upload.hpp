@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/recorder.hpp"
+#include "passes/smoke_needs.hpp"
 #include "sim/smoke_volume.hpp"
 
 namespace brume::passes {
@@ -14,7 +15,9 @@ struct SmokeResources {
   gpu::Image inscatter;     ///< Half-float RGBA atlas of the same layout.
   gpu::Image medium;        ///< Likewise; made by passes/drift.hpp, as the next.
   gpu::Image share;         ///< Half floats: what the noise leaves of the density in the mean of a texel.
+  gpu::Buffer slots;        ///< SmokeNeeds::slots of the frame.
   std::uint32_t slot_count = 0;
+  std::uint32_t needed = 0, seen = 0;  ///< How many `slots` has, and how many of them may be in view.
 };
 
 class SmokeUpload {
@@ -28,6 +31,9 @@ class SmokeUpload {
   /// Uploads what changed since the last record; true when anything did. The volume must be as `reserve` saw
   /// it.
   bool record(gpu::Recorder& recorder, const sim::SmokeVolume& volume);
+
+  /// Uploads what the frame needs of the volume that `reserve` saw.
+  void record_needs(gpu::Recorder& recorder, const SmokeNeeds& needs);
 
   const SmokeResources& resources() const { return resources_; }
 

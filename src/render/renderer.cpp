@@ -80,7 +80,21 @@ void Renderer::set_march_scale(std::uint32_t scale) {
   if (scale > 1) blocks_.emplace(context_, size_px_, scale);
 }
 
+void Renderer::find_needs(const FrameInput& input) {
+  const passes::ViewVolume view(device_camera(input.camera, size_px_));
+  std::vector<shared::Light> lights = scene_.light_list;
+  const std::size_t flashes = std::min(input.flashes.size(), passes::kMaxFlashes);
+  lights.insert(lights.end(), input.flashes.begin(),
+                input.flashes.begin() + static_cast<std::ptrdiff_t>(flashes));
+  const float voxel_size = input.volume ? input.volume->frame().voxel_size : 0;
+  lights_ = passes::lights_in_view(lights, view, passes::light_slack(voxel_size));
+  needs_ = {};
+  if (input.volume)
+    needs_ = passes::smoke_needs(*input.volume, view, lights_, {scene_.bounds_min, scene_.bounds_max});
+}
+
 void Renderer::prepare(const FrameInput& input) {
+  find_needs(input);
   const std::uint32_t slots = input.volume ? input.volume->slot_count() : 0;
   if (input.volume) smoke_upload_.reserve(*input.volume);
   if (input.volume) drift_pass_.reserve(state_of(input), *input.volume);
@@ -88,13 +102,8 @@ void Renderer::prepare(const FrameInput& input) {
   sky_light_.reserve(solid_);
   open_holes_.reserve(input.holes, input.time, slots > 0 ? input.volume->frame().voxel_size : 1.0f, slots,
                       size_px_);
-  smoke_light_pass_.reserve(slots, light_count(input));
+  smoke_light_pass_.reserve(needs_.seen, static_cast<std::uint32_t>(lights_.size()));
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
-}
-
-std::uint32_t Renderer::light_count(const FrameInput& input) const {
-  return static_cast<std::uint32_t>(scene_.light_list.size() +
-                                    std::min(input.flashes.size(), passes::kMaxFlashes));
 }
 
 void Renderer::follow_hidden_objects(const FrameInput& input) {
@@ -112,19 +121,19 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.sky = input.sky;
   frame.look = input.look;
   if (input.volume && input.volume->slot_count() > 0) frame.volume = input.volume->frame();
+  frame.volume.bounds_min = needs_.bounds_min;
+  frame.volume.bounds_max = needs_.bounds_max;
   frame.solid = solid_.frame();
   frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
   frame.size_px = size_px_;
-  frame.light_count = light_count(input);
+  frame.light_count = static_cast<std::uint32_t>(lights_.size());
   frame.holes = open_holes_.frame();
   frame.frame_index = input.frame_index;
   frame.time = input.time;
   frame.exposure = input.exposure;
   frame.march_scale = march_scale_;
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
-  recorder.upload(
-      scene_.lights, scene_.light_list.size() * sizeof(shared::Light),
-      std::as_bytes(std::span(input.flashes).first(light_count(input) - scene_.light_list.size())));
+  recorder.upload(scene_.lights, 0, std::as_bytes(std::span(lights_)));
   recorder.fill(counters_, 0);
 }
 
@@ -138,13 +147,14 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   stage("upload", [&] {
     record_frame_constants(recorder, input);
     if (input.volume) smoke_changed_ = smoke_upload_.record(recorder, *input.volume) || smoke_changed_;
+    smoke_upload_.record_needs(recorder, needs_);
   });
   stage("sky_light", [&] {
     if (solid_.record(recorder, input.level)) sky_light_.record(recorder, frame_, solid_);
   });
   stage("gbuffer", [&] {
     gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), input.hidden_objects,
-                         frame_, gbuffer_);
+                         passes::ViewVolume(device_camera(input.camera, size_px_)), frame_, gbuffer_);
   });
   const auto& holes = open_holes_.resources();
   stage("holes", [&] { open_holes_.record(recorder, frame_, smoke); });
@@ -173,12 +183,10 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
 }
 
 void Renderer::record_smoke_shadows(gpu::Recorder& recorder, const FrameInput& input, bool anew) {
-  std::vector<shared::Light> lights = scene_.light_list;
-  lights.insert(lights.end(), input.flashes.begin(), input.flashes.end());
-  lights.resize(light_count(input));
-  const auto boxes = input.volume ? passes::smoke_boxes(*input.volume) : std::vector<passes::WorldBox>();
+  const auto boxes =
+      input.volume ? passes::smoke_boxes(*input.volume, needs_) : std::vector<passes::WorldBox>();
   auto plan = passes::plan_smoke_shadows(
-      {lights, shadows_.sun_clip_from_world, device_camera(input.camera, size_px_)}, boxes,
+      {lights_, shadows_.sun_clip_from_world, device_camera(input.camera, size_px_)}, boxes,
       glm::uvec2(smoke_shadows_.atlas.info().size));
   if (!anew && plan == smoke_shadow_plan_) return;
   smoke_shadow_plan_ = std::move(plan);

@@ -85,6 +85,8 @@ class Renderer {
  private:
   void record_smoke_shadows(gpu::Recorder& recorder, const FrameInput& input, bool anew);
   void record_frame_constants(gpu::Recorder& recorder, const FrameInput& input);
+  /// What of lights and smoke the frame needs.
+  void find_needs(const FrameInput& input);
   /// Whether the smoke must be lit anew; asks once a frame.
   bool needs_light(const FrameInput& input);
 
@@ -94,7 +96,6 @@ class Renderer {
   /// From the rays of blocks to the smoke of every pixel.
   void record_resolve(gpu::Recorder& recorder);
 
-  std::uint32_t light_count(const FrameInput& input) const;  // of the scene and of the moment
   void follow_hidden_objects(const FrameInput& input);
 
   gpu::Context& context_;
@@ -123,6 +124,8 @@ class Renderer {
   std::optional<passes::MarchBlocks> blocks_;              ///< Where march_scale_ is above 1.
   passes::OpenHoles open_holes_;
   gpu::Buffer frame_, counters_;
+  std::vector<shared::Light> lights_;  ///< Of the scene and of the moment, that reach what is in view.
+  passes::SmokeNeeds needs_;
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
   shared::Sky lit_sky_{};
   std::vector<std::uint32_t> hidden_objects_;  ///< That the shadows were drawn without.

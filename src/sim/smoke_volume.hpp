@@ -22,6 +22,11 @@
 
 namespace brume::sim {
 
+/// A box of points [voxel space].
+struct SmokeBounds {
+  glm::vec3 low{0}, high{0};
+};
+
 /// Bricks and boundary cells are built where a cloud comes or goes or the level changes, and nowhere else;
 /// from tick to tick densities change, and corner sets that take from them. After `update` the content at
 /// each place depends on the state, the grid and the planes alone, not on what was there before; slots and
@@ -46,6 +51,8 @@ class SmokeVolume {
   void planes_changed(glm::ivec3 low_cell, glm::ivec3 high_cell);
 
   const shared::SmokeVolumeFrame& frame() const { return frame_; }
+  /// Where the density of each cloud can be above 0, in no order; frame().bounds_min and max are around all.
+  std::span<const SmokeBounds> cloud_bounds() const { return cloud_bounds_; }
   const PageTable& pages() const { return pages_; }
   /// Slots are 0 to slot_count() - 1; some may be out of use, all 0. None: no smoke.
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(slots_.size()); }
@@ -133,6 +140,7 @@ class SmokeVolume {
   std::shared_ptr<const EditBlocks> edits_;
 
   shared::SmokeVolumeFrame frame_{};
+  std::vector<SmokeBounds> cloud_bounds_;
   PageTable pages_;
   std::vector<std::unique_ptr<SmokeBrick>> slots_;
   std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> free_slots_;

@@ -185,17 +185,17 @@ void SmokeVolume::update_frame() {
   frame_.window_origin = pages_.origin();
   frame_.window_size = pages_.size();
   frame_.atlas_bricks = grown_atlas(frame_.atlas_bricks, slot_count());
-  glm::ivec3 low(0), high(0);
-  bool any = false;
+  cloud_bounds_.clear();
+  frame_.bounds_min = frame_.bounds_max = glm::vec3(0);
   for (const auto& source : sources_) {
     if (source->cloud->voxels().empty()) continue;
-    low = any ? glm::min(low, source->cloud->low()) : source->cloud->low();
-    high = any ? glm::max(high, source->cloud->high()) : source->cloud->high();
-    any = true;
+    // The cells that take from voxel v are v - 2 to v + 1; their points lie in [v - 1.5, v + 2.5].
+    const SmokeBounds cloud{glm::vec3(source->cloud->low()) - 1.5f, glm::vec3(source->cloud->high()) + 2.5f};
+    const bool first = cloud_bounds_.empty();
+    frame_.bounds_min = first ? cloud.low : glm::min(frame_.bounds_min, cloud.low);
+    frame_.bounds_max = first ? cloud.high : glm::max(frame_.bounds_max, cloud.high);
+    cloud_bounds_.push_back(cloud);
   }
-  // The cells that take from voxel v are v - 2 to v + 1; their points lie in [v - 1.5, v + 2.5].
-  frame_.bounds_min = any ? glm::vec3(low) - 1.5f : glm::vec3(0);
-  frame_.bounds_max = any ? glm::vec3(high) + 2.5f : glm::vec3(0);
   if (slots_.empty()) {
     boundary_cells_.clear();
     corner_sets_.clear();

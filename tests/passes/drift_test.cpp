@@ -224,7 +224,10 @@ TEST_F(DriftTest, ANewCloudDoesNotMakeTheOldOneJump) {
     room_.world.advance_to(tick);
     room_.volume.update(room_.world);
     room_.upload.reserve(room_.volume);
-    runner().run([&](gpu::Recorder& recorder) { room_.upload.record(recorder, room_.volume); });
+    runner().run([&](gpu::Recorder& recorder) {
+      room_.upload.record(recorder, room_.volume);
+      room_.upload.record_needs(recorder, all_of_smoke(room_.volume));
+    });
     frame_.volume = room_.volume.frame();
     const auto texels = record(state(), tick / 64.0, 0);
     out.assign(old.voxels().size(), glm::vec3(0));

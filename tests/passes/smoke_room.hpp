@@ -6,9 +6,9 @@
 #include "passes/drift.hpp"
 #include "passes/noise.hpp"
 #include "passes/smoke_upload.hpp"
+#include "shared/frame.h"
 #include "sim/smoke_volume.hpp"
 #include "sim/world.hpp"
-#include "shared/frame.h"
 #include "tests/gpu/gpu_test.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -37,7 +37,10 @@ struct SmokeRoom {
     world.advance_to(tick);
     volume.update(world);
     upload.reserve(volume);
-    runner.run([&](gpu::Recorder& recorder) { upload.record(recorder, volume); });
+    runner.run([&](gpu::Recorder& recorder) {
+      upload.record(recorder, volume);
+      upload.record_needs(recorder, all_of_smoke(volume));
+    });
     make_still_medium(context, runner);
   }
 
