@@ -12,7 +12,6 @@
 #include "lib/blue_noise.glsl"
 #include "lib/camera.glsl"
 #include "lib/erosion.glsl"
-#include "lib/ray_samples.glsl"
 #include "lib/smoke_bricks.glsl"
 #include "shared/frame.h"
 #include "shared/resolve.h"
@@ -21,7 +20,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kCountSamples = 0u;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
-const uint kRuns = kRays == kRaysOfBlocks ? 2u : 1u;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(binding = 2) uniform sampler3D medium_atlas;
 layout(binding = 6) uniform sampler3D inscatter_atlas;
@@ -71,6 +69,12 @@ bool find_way(out Way way) {
   return true;
 }
 
+struct Ray {
+  vec3 origin_world, direction;
+  float jitter;
+  RayHoles holes;
+};
+
 /// What a ray has gathered.
 struct Gathered {
   vec3 radiance;
@@ -78,71 +82,84 @@ struct Gathered {
   uint samples;
 };
 
+/// The equal steps that a part of a ray is cut into; a sample in each, all at the same share of it.
+struct Steps {
+  vec3 origin_voxel, per_metre;  // of the ray, in voxels
+  vec3 inverse;                  // 1 / per_metre
+  float ds;
+};
+
 /// A brick, or the cube without smoke around it, on the way of a ray.
 struct Stay {
   vec3 low;  // low corner [voxels]
   uint slot;
-  float t_next;  // where the first segment begins whose sample lies behind it
+  float t_next;  // the first sample behind it
 };
 
-Stay find_stay(RaySamples ray, vec3 origin, vec3 per_metre, vec3 inverse, float t) {
-  const vec3 at = origin + per_metre * (t + ray.jitter * min(ray.ds, ray.end - t));
+Stay find_stay(Steps steps, float t) {
   Stay stay;
-  stay.low = floor(at / float(kBrickVoxels)) * float(kBrickVoxels);
+  const vec3 brick = floor((steps.origin_voxel + steps.per_metre * t) / float(kBrickVoxels));
   int edge;
-  stay.slot = slot_at(frame.volume, ivec3(stay.low) / kBrickVoxels, edge);
-  if (stay.slot == kNoSlot) stay.low = floor(at / float(edge)) * float(edge);
-  else edge = kBrickVoxels;
-  const vec3 exits = max((stay.low - origin) * inverse, (stay.low + float(edge) - origin) * inverse);
-  stay.t_next = t + ray.ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ray.ds - ray.jitter));
+  stay.slot = slot_at(frame.volume, ivec3(brick), edge);
+  if (stay.slot != kNoSlot) edge = kBrickVoxels;
+  stay.low = floor(brick * float(kBrickVoxels) / float(edge)) * float(edge);
+  const vec3 to_low = (stay.low - steps.origin_voxel) * steps.inverse;
+  const vec3 exits = max(to_low, to_low + float(edge) * steps.inverse);
+  stay.t_next = t + steps.ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / steps.ds));
   return stay;
 }
 
-/// Marches segments of length ds, the last one cut; one sample in each, all at the same share of it. Brick by brick, so
-/// that what a brick's samples share is found once.
-void march(RaySamples ray, vec2 position_px, inout Gathered got) {
+/// Marches the part of a ray between two distances in steps of at most the look's length. Brick by brick, so that what a
+/// brick's samples share is found once.
+void march(Ray ray, float begin, float end, inout Gathered got) {
   const SmokeVolumeFrame volume = frame.volume;
-  const vec3 origin = (ray.origin_world - volume.origin_world) / volume.voxel_size;
-  const vec3 per_metre = ray.direction / volume.voxel_size;
-  const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
+  Steps steps;
+  steps.origin_voxel = (ray.origin_world - volume.origin_world) / volume.voxel_size;
+  steps.per_metre = ray.direction / volume.voxel_size;
+  steps.inverse = 1.0 / (steps.per_metre + vec3(equal(steps.per_metre, vec3(0.0))) * 1e-9);
+  const float count = ceil((end - begin) / frame.look.step_length);
+  steps.ds = (end - begin) / max(count, 1.0);
+  const float after_last = begin + (count - 0.5 + ray.jitter) * steps.ds;
+
   const vec3 texel = atlas_texel(volume);
-  const RayHoles holes = holes_of_ray(position_px);
-  float t = ray.begin;
-  while (t < ray.end && got.transmittance > 0.0) {
-    const Stay stay = find_stay(ray, origin, per_metre, inverse, t);
+  const float per_density = -1.44269504 * frame.look.extinction * steps.ds;  // for exp2
+  const float erosion = frame.look.erosion, stop = frame.look.stop;
+  const float per_period = 1.0 / frame.look.noise_period;
+  const vec3 noise_origin = (ray.origin_world - vec3(0.0, frame.look.noise_drift * frame.time, 0.0)) * per_period;
+  const vec3 noise_per_metre = ray.direction * per_period;
+  for (float t = begin + ray.jitter * steps.ds; t < after_last;) {
+    const Stay stay = find_stay(steps, t);
     if (stay.slot == kNoSlot) {
       t = stay.t_next;
       continue;
     }
-    const vec3 corner = atlas_corner(volume, stay.slot);
-    const float t_stop = min(stay.t_next - 0.5 * ray.ds, ray.end);
-    for (; t < t_stop; t += ray.ds) {
-      const float segment = min(ray.ds, ray.end - t);
-      const float t_sample = t + ray.jitter * segment;
-      const vec3 local_voxel = origin + per_metre * t_sample - stay.low;
-      const vec3 uvw = (corner + local_voxel) * texel;
+    const vec3 uvw_origin = (atlas_corner(volume, stay.slot) + steps.origin_voxel - stay.low) * texel;
+    const vec3 uvw_per_metre = steps.per_metre * texel;
+    const float t_stop = min(stay.t_next - 0.5 * steps.ds, after_last);
+    for (; t < t_stop; t += steps.ds) {
+      const vec3 uvw = uvw_origin + uvw_per_metre * t;
       const vec4 medium = textureLod(medium_atlas, uvw, 0.0);
       SmokeSample here = SmokeSample(medium.r, vec3(0.0));
-      if (medium.r < 0.0) here = boundary_sample(stay.slot, local_voxel);
+      if (medium.r < 0.0) here = boundary_sample(stay.slot, steps.origin_voxel + steps.per_metre * t - stay.low);
       float density = here.density;
       ++got.samples;
-      if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
-        const vec3 p_world = volume.origin_world + (stay.low + local_voxel) * volume.voxel_size;
-        const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + medium.gba, frame.time);
+      if (density > 0.0 && (kHoles != kHolesNone || erosion > 0.0)) {
+        const vec4 noise = textureLod(noise_tile, noise_origin + noise_per_metre * t + medium.gba * per_period, 0.0);
         ++got.samples;
-        if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
-        if (kHoles != kHolesNone) density *= left_by_holes(holes, t_sample, p_world, 2.0 * noise.g - 1.0, density > 0.0);
+        if (erosion > 0.0) density = erode(frame.look, density, noise);
+        if (kHoles != kHolesNone)
+          density *= left_by_holes(ray.holes, t, ray.origin_world + ray.direction * t, 2.0 * noise.g - 1.0, density > 0.0);
       }
       if (density > 0.0) {
-        // In-scatter is constant over the segment, so its integral is exact: no step length changes the energy.
-        const float passed = exp(-frame.look.extinction * density * segment);
+        // In-scatter is constant over the step, so its integral is exact: no step length changes the energy.
+        const float passed = exp2(per_density * density);
         const vec3 light = textureLod(inscatter_atlas, uvw + here.light_offset * texel, 0.0).rgb;
         ++got.samples;
         got.radiance += got.transmittance * (1.0 - passed) * light;
         got.transmittance *= passed;
-        if (got.transmittance < frame.look.stop) {
+        if (got.transmittance < stop) {
           got.transmittance = 0.0;
-          t = ray.end;
+          return;
         }
       }
     }
@@ -156,11 +173,11 @@ void main() {
 
   // The part of the ray inside the smoke's bounds, t in metres; it ends at the surface behind.
   const vec3 along = camera_ray(frame.camera, way.position_px, frame.size_px);
-  RaySamples ray;
+  Ray ray;
   ray.origin_world = frame.camera.eye_world;
   ray.direction = normalize(along);
-  ray.ds = frame.look.step_length;
   ray.jitter = blue_noise(blue_noise_tile, way.texel, frame.frame_index).r;
+  ray.holes = holes_of_ray(way.position_px);
   const vec3 inverse = 1.0 / (ray.direction + vec3(equal(ray.direction, vec3(0.0))) * 1e-9);
   const vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size - ray.origin_world;
   const vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size - ray.origin_world;
@@ -170,17 +187,16 @@ void main() {
   Gathered got = Gathered(vec3(0.0), 1.0, 0u);
   vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
   if (t_begin < t_last) {
-    ray.begin = t_begin;
-    for (uint run = 0u; run < kRuns; ++run) {
-      ray.end = run + 1u < kRuns ? min(t_last, way.near * length(along)) : t_last;
-      march(ray, way.position_px, got);
-      if (run + 1u < kRuns) {
-        at_near = vec4(got.radiance * frame.look.albedo, got.transmittance);
-        ray.begin = max(t_begin, ray.end);
-      }
+    if (kRays == kRaysOfBlocks) {
+      const float t_near = clamp(way.near * length(along), t_begin, t_last);
+      march(ray, t_begin, t_near, got);
+      at_near = vec4(got.radiance * frame.look.albedo, got.transmittance);
+      if (got.transmittance > 0.0) march(ray, t_near, t_last, got);
+    } else {
+      march(ray, t_begin, t_last, got);
     }
   }
   imageStore(smoke, way.texel, vec4(got.radiance * frame.look.albedo, got.transmittance));
-  if (kRuns > 1u) imageStore(smoke_near, way.texel, at_near);
+  if (kRays == kRaysOfBlocks) imageStore(smoke_near, way.texel, at_near);
   if (kCountSamples != 0u) atomicAdd(texture_samples, got.samples);
 }
