@@ -28,8 +28,8 @@ void main() {
   const float edge = float(kBrickVoxels) * frame.volume.voxel_size;
   const vec3 low = frame.volume.origin_world + vec3(slot_bricks[slot]) * edge;
   for (uint i = lane; i < frame.holes.count; i += 64u) {
-    const HoleReach reach = hole_reach(hole_from_rows(i), frame.time, 0.0);
-    if (!reach.open || !hole_reaches_box(reach, low, edge)) continue;
+    const HoleReach reach = reach_from_rows(i);
+    if (!hole_reaches_box(reach, low, edge)) continue;
     const uint at = atomicAdd(counters.pairs, 1u);
     if (at < params.pair_capacity) pairs[at] = uvec2(slot, i);
     reached = true;

@@ -35,7 +35,7 @@ void main() {
     const uint slot = pairs[p].x, block = hole_cells[slot];
     if (block == 0u) continue;
     const Hole hole = hole_from_rows(pairs[p].y);
-    const HoleReach reach = hole_reach(hole, frame.time, 0.0);
+    const HoleReach reach = reach_from_rows(pairs[p].y);
     const vec3 low = frame.volume.origin_world + vec3(slot_bricks[slot]) * (cell * float(kHoleCellsPerEdge));
 
     // Slices of cells across the longest axis of the hole; in each a square around where its axis passes.

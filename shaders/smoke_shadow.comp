@@ -80,7 +80,7 @@ void find_block_holes(RayCone cone) {
   if (gl_LocalInvocationIndex == 0u) block_count = 0u;
   barrier();
   for (uint i = gl_LocalInvocationIndex; i < frame.holes.count; i += kSmokeShadowBlock * kSmokeShadowBlock) {
-    if (!cone_meets_hole(cone, hole_reach(hole_from_rows(i), frame.time, 0.0))) continue;
+    if (!cone_meets_hole(cone, reach_from_rows(i))) continue;
     const uint at = atomicAdd(block_count, 1u);
     if (at < kBlockHoles) block_holes[at] = i;
   }

@@ -1,37 +1,7 @@
-// How far a hole reaches at a time, and who may meet it: never less than where it takes anything away.
+// Who may meet a hole: never less than where it takes anything away.
 #ifndef HOLE_REACH_GLSL
 #define HOLE_REACH_GLSL
-#include "shared/hole.h"
-
-/// The open part of a hole's axis, and how far from it the hole reaches.
-struct HoleReach {
-  vec3 from_world;
-  vec3 forward;
-  float length_m;
-  float radius;
-  bool open;
-};
-
-HoleReach hole_reach(Hole hole, float time, float rim) {
-  // Open where the front has been and the hole is not closed again: 0 < age - per_metre z < life.
-  const float age = time - hole.time_start;
-  const float per_metre = hole.time_to_reach_far / max(hole.distance_to_far, 1e-6);
-  const float life = max(hole.time_to_expand, 1e-6) + hole.time_to_stay_open + max(hole.time_to_fade, 1e-6);
-  const float slack = 1e-4;  // [s], for rounding
-  float near = 0.0, far = hole.distance_to_far;
-  if (per_metre > 1e-9) {
-    near = max(near, (age - life - slack) / per_metre);
-    far = min(far, (age + slack) / per_metre);
-  }
-  HoleReach reach;
-  reach.open = age > 0.0 && near < far && (per_metre > 1e-9 || age < life + slack);
-  reach.from_world = hole.origin_world + near * hole.forward;
-  reach.forward = hole.forward;
-  reach.length_m = far - near;
-  const float corner = hole.shape == kHoleCylinder ? 1.0 : 1.41422;
-  reach.radius = (hole.radius + hole_rim(hole, rim)) * corner + 1e-4;
-  return reach;
-}
+#include "shared/hole_reach.h"
 
 /// False only when no point of the box low .. low + size lies in the hole: its axis meets neither the box grown by the
 /// radius nor the ball around the box grown by it.
@@ -61,7 +31,6 @@ struct RayCone {
 /// nearest, at t0 and d apart; the cone is spread t wide there. The most that the second can exceed the first
 /// by is spread t0 - d sqrt(1 - spread^2 / sin^2).
 bool cone_meets_hole(RayCone cone, HoleReach reach) {
-  if (!reach.open) return false;
   const float radius = reach.radius + cone.radius;
   const vec3 apart = cone.origin_world - reach.from_world;
   const float b = dot(cone.axis, reach.forward), c = dot(cone.axis, apart), f = dot(reach.forward, apart);
@@ -78,6 +47,42 @@ bool cone_meets_hole(RayCone cone, HoleReach reach) {
   const vec3 between = apart + s * cone.axis - t * reach.forward;
   const float most = radius + cone.spread * cone.length_m;
   return dot(between, between) <= most * most;
+}
+
+/// Keeps of an interval where slope u >= bound.
+void keep_above(float slope, float bound, inout vec2 interval) {
+  if (slope > 1e-6) interval.x = max(interval.x, bound / slope);
+  else if (slope < -1e-6) interval.y = min(interval.y, bound / slope);
+  else if (bound > 0.0) interval.y = -1.0;
+}
+
+/// Distances from the cone's origin between which its rays may meet the hole; the first above the second: nowhere.
+///
+/// A point u along the axis is sqrt(A v^2 + 2 B v + C) from the hole's line, v = u - u0 from where the two are nearest; a
+/// ray there is at most spread u farther in, and the hole reaches out by its radius.
+vec2 cone_in_hole(RayCone cone, HoleReach reach) {
+  const vec3 apart = cone.origin_world - reach.from_world;
+  const float along = dot(cone.axis, reach.forward), behind = dot(apart, reach.forward);
+  const vec3 across = cone.axis - along * reach.forward;
+  const float a = dot(across, across), a_cone = a - cone.spread * cone.spread;
+  vec2 interval = vec2(0.0, cone.length_m);
+  if (a_cone > 1e-4) {
+    const vec3 from_line = apart - behind * reach.forward;
+    const float nearest = -dot(across, from_line) / a;
+    const vec3 least = from_line + nearest * across;
+    const float radius = max(reach.radius + cone.radius + cone.spread * nearest + 1e-3, 0.0);
+    const float b = dot(across, least) - radius * cone.spread, c = dot(least, least) - radius * radius;
+    const float root2 = b * b - a_cone * c;
+    if (root2 <= 0.0) return vec2(0.0, -1.0);
+    interval.x = max(interval.x, nearest + (-b - sqrt(root2)) / a_cone);
+    interval.y = min(interval.y, nearest + (-b + sqrt(root2)) / a_cone);
+  } else if (!cone_meets_hole(cone, reach)) {
+    return vec2(0.0, -1.0);
+  }
+  keep_above(along + cone.spread, -behind - cone.radius - 1e-3, interval);
+  keep_above(cone.spread - along, behind - reach.length_m - cone.radius - 1e-3, interval);
+  // A ray at the cone's rim is farther on its way than along the axis.
+  return vec2(interval.x, interval.y * sqrt(1.0 + cone.spread * cone.spread));
 }
 
 #endif

@@ -1,12 +1,19 @@
-// A hole from its buffer, read in rows of 16 bytes: six loads instead of 24. Needs `vec4 hole_rows[]`.
+// A hole from its buffer, read in rows of 16 bytes: six loads instead of 24. Needs `frame` and
+// `vec4 hole_rows[]`.
 #ifndef HOLE_ROWS_GLSL
 #define HOLE_ROWS_GLSL
-#include "shared/hole.h"
+#include "shared/hole_reach.h"
 
 Hole hole_from_rows(uint i) {
   const vec4 a = hole_rows[6u * i], b = hole_rows[6u * i + 1u], c = hole_rows[6u * i + 2u];
   const vec4 d = hole_rows[6u * i + 3u], e = hole_rows[6u * i + 4u], f = hole_rows[6u * i + 5u];
   return Hole(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, d.w, e.x, e.y, e.z, floatBitsToUint(e.w), f.xy, f.zw);
+}
+
+/// Its reach (shared/hole_reach.h), which stand behind all holes.
+HoleReach reach_from_rows(uint i) {
+  const vec4 a = hole_rows[6u * frame.holes.count + 2u * i], b = hole_rows[6u * frame.holes.count + 2u * i + 1u];
+  return HoleReach(a.xyz, a.w, b.xyz, b.w);
 }
 
 #endif

@@ -54,7 +54,7 @@ float left_by_holes(RayHoles holes, float t, vec3 p_world, float rim_noise, bool
   const uint slab = holes.masks + holes.words * slab_at(holes.slabs, t);
   for (uint word = 0u; word < holes.words && left > 0.0; ++word) {
     for (uint bits = hole_lists[slab + word]; bits != 0u && left > 0.0; bits &= bits - 1u)
-      left *= left_by_hole(hole_lists[holes.entries + 32u * word + uint(findLSB(bits))], p_world, rim_noise);
+      left *= left_by_hole(hole_lists[holes.entries + 32u * word + uint(findLSB(bits))] & 0xffffu, p_world, rim_noise);
   }
   for (uint i = 0u; holes.all && i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(i, p_world, rim_noise);
   return left;

@@ -1,9 +1,10 @@
 // Which holes reach where, so that nobody asks holes that are elsewhere, however many there are.
 //
 //   hole_lists   for rays from the eye: per group of 8 x 8 pixels the first of its entries and how many it has, or
-//                kAskAllHoles; from entries_at on the entries: holes that a ray of the group may meet, rising; after a
-//                group's entries, for each of kHoleSlabs slabs of distance from the eye, a mask of those that it
-//                may meet there, 32 entries a word
+//                kAskAllHoles; from entries_at on the entries: holes that a ray of the group may meet, rising, hole | first <<
+//                16 | last << 24 of the slabs of distance from the eye where it may; after a group's entries, for each
+//                of the kHoleSlabs slabs a mask of those, 32 entries a word
+//   tile_holes   a mask of all holes for each tile of 4 x 4 groups: those that may meet it, 32 holes a word
 //   hole_cells   for light: a uint per slot, 0 or block + 1; from cells_at on, per block of a brick 16^3 cells of half a
 //                voxel, x + 16 (y + 16 z): what the holes leave of the smoke in it on average, as -log2 in steps of
 //                1 / kHoleCellStep; sums of what each hole leaves, so that their order does not matter
@@ -20,6 +21,7 @@ SHARED_CONST uint kHolesAllAsked = 2u;
 /// Most holes that are drawn at a time.
 SHARED_CONST uint kMaxHoles = 16384u;
 SHARED_CONST uint kHoleGroupPixels = 8u;
+SHARED_CONST uint kHoleTileGroups = 4u;  // along an axis
 SHARED_CONST uint kHoleSlabs = 32u;
 /// A group for which there was no room: its rays ask all holes.
 SHARED_CONST uint kAskAllHoles = 0xffffffffu;

@@ -11,7 +11,6 @@ namespace brume::passes {
 namespace {
 
 constexpr std::uint32_t kMaxBlocks = 7000;    // 112 MiB of cells: every device takes 128 in one buffer
-constexpr std::uint32_t kGroupsPerTile = 8;   // along an axis
 constexpr std::size_t kMaxEntries = 1 << 23;  // of the lists: 32 MiB
 // Workgroups that share the work of a pass, however much it turns out to be.
 constexpr std::uint32_t kGroups = 8192;
@@ -19,34 +18,33 @@ constexpr std::uint32_t kRow = 32768;  // every device takes 65,535 workgroups a
 
 /// How many bricks a hole can reach: their centres lie in its capsule grown by half their diagonal, and so
 /// all of them lie in the capsule grown by a whole one.
-double bricks_reached(const shared::Hole& hole, float voxel_size) {
+double bricks_reached(const shared::HoleReach& reach, float voxel_size) {
   constexpr double kEdge = shared::kBrickVoxels;
-  const double corner = hole.shape == shared::kHoleCylinder ? 1 : std::numbers::sqrt2;
-  const double radius = corner * static_cast<double>(hole.radius) / static_cast<double>(voxel_size);
-  const double length = static_cast<double>(hole.distance_to_far) / static_cast<double>(voxel_size);
+  const double radius = static_cast<double>(reach.radius) / static_cast<double>(voxel_size);
+  const double length = static_cast<double>(reach.length_m) / static_cast<double>(voxel_size);
   const double r = radius + std::numbers::sqrt3 * kEdge;
   return std::numbers::pi * r * r * (length + 4.0 / 3 * r) / (kEdge * kEdge * kEdge) + 1;
 }
 
-bool is_open(const shared::Hole& hole, float time) {
-  constexpr float kSlack = 1e-3f;  // [s]
-  const float age = time - hole.time_start;
-  return age > 0 && age < hole.time_to_reach_far + hole.time_to_expand + hole.time_to_stay_open +
-                              hole.time_to_fade + kSlack;
-}
-
 }  // namespace
 
-HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float voxel_size,
-                    std::uint32_t slot_count) {
+HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
+                    const shared::SmokeVolumeFrame& volume, std::uint32_t slot_count) {
+  const glm::vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size;
+  const glm::vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size;
   HolePlan plan;
-  for (const shared::Hole& hole : holes)
-    if (is_open(hole, time)) plan.holes.push_back(hole);
-  if (plan.holes.size() > shared::kMaxHoles)
-    plan.holes.erase(plan.holes.begin(), plan.holes.end() - shared::kMaxHoles);
   double pairs = 0;
-  for (const shared::Hole& hole : plan.holes)
-    pairs += std::min(bricks_reached(hole, voxel_size), static_cast<double>(slot_count));
+  // From the last on, so that the first of too many are left out.
+  for (std::size_t i = holes.size(); i-- > 0 && plan.holes.size() < shared::kMaxHoles;) {
+    const shared::HoleReach open = shared::hole_reach(holes[i], time, rim);
+    const shared::HoleReach reach = shared::hole_reach_within(open, low, high);
+    if (open.length_m < 0 || reach.length_m < 0) continue;
+    plan.holes.push_back(holes[i]);
+    plan.reaches.push_back(reach);
+    pairs += std::min(bricks_reached(reach, volume.voxel_size), static_cast<double>(slot_count));
+  }
+  std::reverse(plan.holes.begin(), plan.holes.end());
+  std::reverse(plan.reaches.begin(), plan.reaches.end());
   plan.pair_capacity =
       static_cast<std::uint32_t>(std::min(std::ceil(pairs), static_cast<double>(kMaxHolePairs)));
   plan.block_capacity = std::min({slot_count, plan.pair_capacity, kMaxBlocks});
@@ -55,10 +53,11 @@ HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float voxel
 
 OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const sim::MaskAtlas& masks)
     : context_(context),
-      tiles_pass_(context, shaders::hole_tiles_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                  sizeof(shared::HoleListsParams), {64, 1, 1}),
-      slabs_pass_(context, shaders::hole_slabs_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
-                  {shared::kHoleSlabs, 2, 1}),
+      tiles_pass_(context, shaders::hole_tiles_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
+                  {64, 1, 1}),
+      groups_pass_(context, shaders::hole_groups_comp,
+                   {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                   sizeof(shared::HoleListsParams), {shared::kHoleSlabs, 1, 1}),
       bricks_pass_(context, shaders::hole_bricks_comp,
                    {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::HoleCellsParams), {64, 1, 1}),
@@ -69,23 +68,26 @@ OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const si
       nearest_(context, {VK_FILTER_NEAREST}),
       counters_(context, sizeof(shared::HoleCounters),
                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
-  reserve({}, 0, 1, 0, {1, 1});
+  reserve({}, 0, 0, {}, 0, {1, 1});
   runner.run([&](gpu::Recorder& recorder) { resources_.masks = make_hole_masks(context, recorder, masks); });
 }
 
-void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float voxel_size,
-                        std::uint32_t slot_count, glm::uvec2 size_px) {
-  plan_ = plan_holes(holes, time, voxel_size, slot_count);
+void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float rim,
+                        const shared::SmokeVolumeFrame& volume, std::uint32_t slot_count,
+                        glm::uvec2 size_px) {
+  plan_ = slot_count > 0 ? plan_holes(holes, time, rim, volume, slot_count) : HolePlan();
   slot_count_ = slot_count;
-  resources_.any = !plan_.holes.empty() && slot_count > 0;
-  constexpr std::uint32_t kTilePixels = kGroupsPerTile * shared::kHoleGroupPixels;
+  resources_.any = !plan_.holes.empty();
+  constexpr std::uint32_t kTilePixels = shared::kHoleTileGroups * shared::kHoleGroupPixels;
   tiles_ = (size_px + kTilePixels - 1u) / kTilePixels;
-  const std::size_t groups = std::size_t{tiles_.x} * tiles_.y * kGroupsPerTile * kGroupsPerTile;
+  const std::size_t tiles = std::size_t{tiles_.x} * tiles_.y;
+  const std::size_t groups = tiles * shared::kHoleTileGroups * shared::kHoleTileGroups;
+  const std::size_t count = plan_.holes.size(), words = (count + 31) / 32;
   entries_at_ = static_cast<std::uint32_t>(2 * groups);
-  const std::size_t listed = plan_.holes.size();
-  const std::size_t words_of_all = listed + shared::kHoleSlabs * ((listed + 31) / 32);
-  entry_capacity_ = static_cast<std::uint32_t>(std::min(groups * words_of_all, kMaxEntries));
-  gpu::grow(context_, resources_.holes, plan_.holes.size() * sizeof(shared::Hole));
+  entry_capacity_ =
+      static_cast<std::uint32_t>(std::min(groups * (count + shared::kHoleSlabs * words), kMaxEntries));
+  gpu::grow(context_, resources_.holes, count * (sizeof(shared::Hole) + sizeof(shared::HoleReach)));
+  gpu::grow(context_, tile_holes_, tiles * words * sizeof(std::uint32_t));
   gpu::grow(context_, resources_.lists, (std::size_t{entries_at_} + entry_capacity_) * sizeof(std::uint32_t));
   gpu::grow(
       context_, resources_.cells,
@@ -96,22 +98,24 @@ void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float v
 shared::OpenHolesFrame OpenHoles::frame() const {
   // Without smoke nothing is listed, and nobody may look.
   const auto count = resources_.any ? static_cast<std::uint32_t>(plan_.holes.size()) : 0u;
-  return {count, tiles_.x * kGroupsPerTile, entries_at_, slot_count_};
+  return {count, tiles_.x * shared::kHoleTileGroups, entries_at_, slot_count_};
 }
 
 void OpenHoles::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SmokeResources& smoke) {
   if (!resources_.any) return;
-  recorder.upload(resources_.holes, 0, std::as_bytes(std::span(plan_.holes)));
+  const auto holes = std::as_bytes(std::span(plan_.holes));
+  recorder.upload(resources_.holes, 0, holes);
+  recorder.upload(resources_.holes, holes.size(), std::as_bytes(std::span(plan_.reaches)));
   recorder.fill(counters_, 0);
-  recorder.bind(tiles_pass_,
-                {gpu::read(frame), gpu::read(resources_.holes), gpu::write(resources_.lists),
-                 gpu::read_write(counters_)},
+  recorder.bind(tiles_pass_, {gpu::read(frame), gpu::read(resources_.holes), gpu::write(tile_holes_)});
+  const auto words = static_cast<std::uint32_t>((plan_.holes.size() + 31) / 32);
+  recorder.dispatch_threads(tiles_pass_, words * tiles_.x * tiles_.y);
+  recorder.bind(groups_pass_,
+                {gpu::read(frame), gpu::read(resources_.holes), gpu::read(tile_holes_),
+                 gpu::read_write(resources_.lists), gpu::read_write(counters_)},
                 shared::HoleListsParams{entry_capacity_});
-  recorder.dispatch_threads(tiles_pass_, 64 * tiles_.x, tiles_.y);
-  recorder.bind(slabs_pass_,
-                {gpu::read(frame), gpu::read(resources_.holes), gpu::read_write(resources_.lists)});
-  recorder.dispatch_threads(slabs_pass_, shared::kHoleSlabs * kGroupsPerTile * tiles_.x,
-                            kGroupsPerTile * tiles_.y);
+  recorder.dispatch_threads(groups_pass_, shared::kHoleSlabs * shared::kHoleTileGroups * tiles_.x,
+                            shared::kHoleTileGroups * tiles_.y);
 
   const shared::HoleCellsParams params{slot_count_, plan_.pair_capacity, plan_.block_capacity};
   recorder.bind(bricks_pass_,

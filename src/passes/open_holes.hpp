@@ -7,13 +7,14 @@
 #include "passes/hole_masks.hpp"
 #include "passes/smoke_upload.hpp"
 #include "shared/frame.h"
-#include "shared/hole.h"
+#include "shared/hole_reach.h"
 
 namespace brume::passes {
 
 /// What is known of a frame's holes before any is drawn.
 struct HolePlan {
-  std::vector<shared::Hole> holes;  ///< Those that may be open somewhere; at most kMaxHoles, the last ones.
+  std::vector<shared::Hole> holes;  ///< Those that may take smoke away; at most kMaxHoles, the last ones.
+  std::vector<shared::HoleReach> reaches;  ///< Of each, inside the smoke's bounds.
   std::uint32_t pair_capacity =
       0;  ///< Never less than the pairs of a brick and a hole that meet, up to kMaxHolePairs.
   std::uint32_t block_capacity = 0;
@@ -23,9 +24,10 @@ struct HolePlan {
 /// some holes.
 constexpr std::uint32_t kMaxHolePairs = 1u << 22;
 
-/// Plans the holes that are open at `time` in smoke of `slot_count` bricks.
-HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float voxel_size,
-                    std::uint32_t slot_count);
+/// Plans the holes that are open at `time` in smoke of `slot_count` bricks; noise moves their rims by up to
+/// `rim` metres.
+HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
+                    const shared::SmokeVolumeFrame& volume, std::uint32_t slot_count);
 
 /// What every pass that looks for holes binds.
 struct HoleResources {
@@ -41,8 +43,8 @@ class OpenHoles {
 
   /// Plans the frame and makes room. Not between the begin and the end of a recording, and only when the
   /// device is done with what it recorded before. Throws resource_limit.
-  void reserve(std::span<const shared::Hole> holes, float time, float voxel_size, std::uint32_t slot_count,
-               glm::uvec2 size_px);
+  void reserve(std::span<const shared::Hole> holes, float time, float rim,
+               const shared::SmokeVolumeFrame& volume, std::uint32_t slot_count, glm::uvec2 size_px);
   /// What the frame's constants must say.
   shared::OpenHolesFrame frame() const;
   /// Uploads the holes and finds where they are, after the frame's constants and the smoke were uploaded.
@@ -52,10 +54,10 @@ class OpenHoles {
 
  private:
   gpu::Context& context_;
-  gpu::ComputePipeline tiles_pass_, slabs_pass_, bricks_pass_, cells_pass_;
+  gpu::ComputePipeline tiles_pass_, groups_pass_, bricks_pass_, cells_pass_;
   gpu::Sampler nearest_;
   HoleResources resources_;
-  gpu::Buffer pairs_, counters_;
+  gpu::Buffer tile_holes_, pairs_, counters_;
   HolePlan plan_;
   std::uint32_t slot_count_ = 0;
   glm::uvec2 tiles_{0};

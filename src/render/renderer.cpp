@@ -100,8 +100,8 @@ void Renderer::prepare(const FrameInput& input) {
   if (input.volume) drift_pass_.reserve(state_of(input), *input.volume);
   solid_.reserve(input.level);
   sky_light_.reserve(solid_);
-  open_holes_.reserve(input.holes, input.time, slots > 0 ? input.volume->frame().voxel_size : 1.0f, slots,
-                      size_px_);
+  open_holes_.reserve(input.holes, input.time, input.look.hole_rim,
+                      slots > 0 ? input.volume->frame() : shared::SmokeVolumeFrame(), slots, size_px_);
   smoke_light_pass_.reserve(needs_.seen, static_cast<std::uint32_t>(lights_.size()));
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
 }

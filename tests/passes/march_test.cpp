@@ -51,7 +51,7 @@ class MarchTest : public gpu::GpuTest {
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / distance);
     const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
     OpenHoles open_holes(context(), runner(), {});
-    open_holes.reserve(holes, frame.time, frame.volume.voxel_size, room.volume.slot_count(), kSize);
+    open_holes.reserve(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
     frame.holes = open_holes.frame();
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});

@@ -61,7 +61,7 @@ class ResolveTest : public gpu::GpuTest {
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), size, VK_FORMAT_R16G16B16A16_SFLOAT);
     OpenHoles holes(context(), runner(), {});
-    holes.reserve({}, 0, frame.volume.voxel_size, room.volume.slot_count(), size);
+    holes.reserve({}, 0, 0, frame.volume, room.volume.slot_count(), size);
     const MarchBlocks blocks(context(), size, std::max(frame.march_scale, 2u));
     const MarchPass::Inputs in{frame_buffer, room.upload.resources(), noise_tile_, depth,
                                blue_noise_,  holes.resources()};
