@@ -11,7 +11,7 @@ namespace brume::passes {
 namespace {
 
 constexpr std::uint32_t kMaxBlocks = 7000;    // 112 MiB of cells: every device takes 128 in one buffer
-constexpr std::size_t kMaxEntries = 1 << 23;  // of the lists: 32 MiB
+constexpr std::size_t kMaxEntries = 1 << 24;  // of the lists: 64 MiB
 // Workgroups that share the work of a pass, however much it turns out to be.
 constexpr std::uint32_t kGroups = 8192;
 constexpr std::uint32_t kRow = 32768;  // every device takes 65,535 workgroups along an axis
