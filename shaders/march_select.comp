@@ -35,28 +35,38 @@ vec4 error_between(RayEnds e, ivec2 block, float z) {
 }
 
 /// What a neighbour says of the smoke in front of a surface at z; on an even surface that goes on there, what it says
-/// of its own part of it: the smoke in front of an even surface is even, whatever its slope.
-Estimate neighbour(RayEnds own, ivec2 block, ivec2 blocks, float z) {
+/// of its own part of it: the smoke in front of an even surface is even, whatever its slope. `goes_on` is cleared where
+/// it does not.
+Estimate neighbour(RayEnds own, ivec2 block, ivec2 blocks, float z, inout bool goes_on) {
   block = clamp(block, ivec2(0), blocks - 1);
   const RayEnds e = ends_of(block, blocks);
   const float slack = max(own.far - own.near, e.far - e.near);
-  const bool goes_on = is_even(own) && is_even(e) && e.near <= own.far + slack && e.far >= own.near - slack;
-  return estimate(e, block, goes_on ? 0.5 * (e.near + e.far) : z);
+  const bool here = is_even(own) && is_even(e) && e.near <= own.far + slack && e.far >= own.near - slack;
+  goes_on = goes_on && here;
+  return estimate(e, block, here ? 0.5 * (e.near + e.far) : z);
 }
 
 /// How far interpolation in front of a surface at z can be off: a quarter of what the values bend by, twice what it is
 /// where they bend evenly; where nobody knows this depth on one side, what they rise by over half a block.
+///
+/// Rays are jittered, and so are full ones: where one surface goes on all around, what bends the same in all four
+/// directions counts (a straight edge does in three), less what bends to and fro from ray to ray, as jitter does.
 vec4 error_at(RayEnds own, ivec2 block, ivec2 blocks, float z) {
   const ivec2 steps[4] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1));
   const vec4 here = estimate(own, block, z).smoke;
-  vec4 error = vec4(0.0);
+  vec4 error = vec4(0.0), sum = vec4(0.0), to_and_fro = vec4(0.0);
+  bool goes_on = true;
   for (int i = 0; i < 4; ++i) {
-    const Estimate a = neighbour(own, block - steps[i], blocks, z), b = neighbour(own, block + steps[i], blocks, z);
+    const Estimate a = neighbour(own, block - steps[i], blocks, z, goes_on);
+    const Estimate b = neighbour(own, block + steps[i], blocks, z, goes_on);
     const bool knows_a = a.doubt < kKnown, knows_b = b.doubt < kKnown;
     const vec4 bend = (knows_a ? a.smoke - here : vec4(0.0)) + (knows_b ? b.smoke - here : vec4(0.0));
     error = max(error, (knows_a && knows_b ? 0.25 : 0.5) * abs(bend));
+    sum += bend;
+    to_and_fro += i < 2 ? -2.0 * bend : bend;
+    goes_on = goes_on && knows_a && knows_b;
   }
-  return error;
+  return goes_on ? max(abs(sum) - abs(to_and_fro), vec4(0.0)) / 12.0 : error;
 }
 
 /// Whether an error of the smoke is seen in front of a surface of this radiance.
