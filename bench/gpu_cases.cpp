@@ -43,6 +43,7 @@ Result<stage::Stage> smoke_in_the_yard(const Yard& yard) {
   if (!timeline) return timeline.failure();
   timeline->grid = {0.5f, glm::ivec3(57, 19, 57), glm::vec3(-14.1f, -0.35f, -12.1f)};
   timeline->smoke.voxels = 1800;
+  timeline->smoke.extinction = 1.3f;  // so that figures compare, however the demo looks
   timeline->smoke.bloom = 1;
   timeline->smokes = {{0, {0, 3, 7}, {0, 0.3f, 6}}};
   timeline->shots = shots_through_smoke(yard.holes, yard.from_all_around);

@@ -15,7 +15,7 @@ constexpr glm::uvec2 kPictureSize{1280, 720};
 constexpr glm::uvec2 kFilmSize{640, 360};
 constexpr std::uint32_t kFramesPerSecond = 24;
 // The picture shows the timeline at this share of its length.
-constexpr double kPictureMoment = 0.6;
+constexpr double kPictureMoment = 0.825;
 constexpr const char* kDefaultFolder = "out";
 
 struct Options {
