@@ -106,8 +106,8 @@ float way_depth(Way way) {
   ray.direction = (way.to - way.from) / max(distance, 1e-6);
   ray.jitter = 0.5;
   const vec3 inverse = 1.0 / (ray.direction + vec3(equal(ray.direction, vec3(0.0))) * 1e-6);
-  const vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size - way.from;
-  const vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size - way.from;
+  const vec3 low = volume.origin_world + frame.shading_min * volume.voxel_size - way.from;
+  const vec3 high = volume.origin_world + frame.shading_max * volume.voxel_size - way.from;
   const vec3 near = min(low * inverse, high * inverse), far = max(low * inverse, high * inverse);
   ray.begin = max(max(near.x, near.y), max(near.z, 0.0));
   ray.end = min(min(far.x, far.y), min(far.z, distance));

@@ -27,7 +27,7 @@ float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float max_st
   const SmokeVolumeFrame volume = frame.volume;
   // The part inside the smoke's bounds.
   const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
-  const vec3 t0 = (volume.bounds_min - p_voxel) * inverse, t1 = (volume.bounds_max - p_voxel) * inverse;
+  const vec3 t0 = (frame.shading_min - p_voxel) * inverse, t1 = (frame.shading_max - p_voxel) * inverse;
   const vec3 near = min(t0, t1), far = max(t0, t1);
   const float begin = max(max(near.x, near.y), max(near.z, 0.0));
   const float reach = min(min(far.x, far.y), min(far.z, distance_m / volume.voxel_size)) - begin;

@@ -51,6 +51,8 @@ struct FrameConstants {
   Sky sky;
   SmokeLook look;
   SmokeVolumeFrame volume;
+  vec3 shading_min;  // where the smoke may be that dims light on its way to what is in view [voxel space]
+  vec3 shading_max;
   SolidFrame solid;
   uvec2 size_px;
   uint light_count;
@@ -60,7 +62,7 @@ struct FrameConstants {
   float exposure;    // multiplies radiance before the tone curve
   uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
 };
-SHARED_SIZE(FrameConstants, 376);
+SHARED_SIZE(FrameConstants, 400);
 
 SHARED_END
 #endif

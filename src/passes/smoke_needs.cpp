@@ -1,6 +1,7 @@
 #include "passes/smoke_needs.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -99,10 +100,13 @@ class Places {
   const shared::SmokeVolumeFrame& frame_;
 };
 
-/// Calls visit(slot) for each slot of a cloud that is wanted; node by node, so that what is far costs little.
-void for_each_slot(const sim::SmokeVolume& volume, const sim::SmokeBounds& cloud, const Places& places,
-                   const auto& wanted, const auto& visit) {
+/// Adds the slots of a cloud that are wanted, and says whether there are any; node by node, so that what is
+/// far costs little.
+bool take_slots(const sim::SmokeVolume& volume, const sim::SmokeBounds& cloud, const Places& places,
+                const auto& wanted, std::vector<std::uint32_t>& slots) {
   const voxel::IntBox all = brick_range(cloud);
+  if (!wanted(around(places.bricks(all)))) return false;
+  const std::size_t before = slots.size();
   const voxel::IntBox nodes{all.low >> 3, ((all.high - 1) >> 3) + 1};
   voxel::for_each_in(nodes, [&](glm::ivec3 node) {
     const voxel::IntBox bricks =
@@ -110,9 +114,16 @@ void for_each_slot(const sim::SmokeVolume& volume, const sim::SmokeBounds& cloud
     if (!wanted(around(places.bricks(bricks)))) return;
     voxel::for_each_in(bricks, [&](glm::ivec3 brick) {
       const std::uint32_t slot = volume.slot_at(brick);
-      if (slot != sim::SmokeVolume::kNoSlot && wanted(places.brick(brick))) visit(slot);
+      if (slot != sim::SmokeVolume::kNoSlot && wanted(places.brick(brick))) slots.push_back(slot);
     });
   });
+  return slots.size() > before;
+}
+
+/// Bounds with those of one more cloud.
+sim::SmokeBounds with(const sim::SmokeBounds& bounds, const sim::SmokeBounds& cloud) {
+  if (bounds.low == bounds.high) return cloud;
+  return {glm::min(bounds.low, cloud.low), glm::max(bounds.high, cloud.high)};
 }
 
 void sort_once(std::vector<std::uint32_t>& slots) {
@@ -135,29 +146,29 @@ SmokeNeeds smoke_needs(const sim::SmokeVolume& volume, const ViewVolume& view,
                        std::span<const shared::Light> lights, const WorldBox& scene) {
   const Places places(volume.frame());
   const auto in_view = [&](const WorldSphere& smoke) { return view.may_see(smoke); };
-  WorldBox seen_smoke = kNothing;
-  for (const sim::SmokeBounds& cloud : volume.cloud_bounds())
-    if (in_view(around(places.bricks_of(cloud)))) seen_smoke = join(seen_smoke, places.bricks_of(cloud));
-  const LightWays ways(view, lights, join(scene, seen_smoke), seen_smoke,
-                       light_slack(volume.frame().voxel_size));
-  const auto needed = [&](const WorldSphere& smoke) { return in_view(smoke) || ways.may_cross(smoke); };
-
+  // What may be in view.
   SmokeNeeds needs;
-  std::vector<std::uint32_t> others;
-  bool any = false;
+  WorldBox seen_smoke = kNothing;
   for (const sim::SmokeBounds& cloud : volume.cloud_bounds()) {
-    if (!needed(around(places.bricks_of(cloud)))) continue;
-    needs.bounds_min = any ? glm::min(needs.bounds_min, cloud.low) : cloud.low;
-    needs.bounds_max = any ? glm::max(needs.bounds_max, cloud.high) : cloud.high;
-    any = true;
-    for_each_slot(volume, cloud, places, needed, [&](std::uint32_t slot) {
-      (in_view(places.brick(volume.brick_of(slot))) ? needs.slots : others).push_back(slot);
-    });
+    if (!take_slots(volume, cloud, places, in_view, needs.slots)) continue;
+    needs.seen_bounds = with(needs.seen_bounds, cloud);
+    seen_smoke = join(seen_smoke, places.bricks_of(cloud));
   }
   sort_once(needs.slots);
-  sort_once(others);
   needs.seen = static_cast<std::uint32_t>(needs.slots.size());
-  needs.slots.insert(needs.slots.end(), others.begin(), others.end());
+
+  // What stands between that and the lights.
+  const LightWays ways(view, lights, join(scene, seen_smoke), seen_smoke,
+                       light_slack(volume.frame().voxel_size));
+  const auto in_the_way = [&](const WorldSphere& smoke) { return ways.may_cross(smoke); };
+  std::vector<std::uint32_t> shading;
+  needs.bounds = needs.seen_bounds;
+  for (const sim::SmokeBounds& cloud : volume.cloud_bounds())
+    if (take_slots(volume, cloud, places, in_the_way, shading)) needs.bounds = with(needs.bounds, cloud);
+  sort_once(shading);
+  const std::vector<std::uint32_t> seen = needs.slots;
+  std::set_difference(shading.begin(), shading.end(), seen.begin(), seen.end(),
+                      std::back_inserter(needs.slots));
   return needs;
 }
 
@@ -166,8 +177,7 @@ SmokeNeeds all_of_smoke(const sim::SmokeVolume& volume) {
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
     if (volume.slot_at(volume.brick_of(slot)) == slot) needs.slots.push_back(slot);
   needs.seen = static_cast<std::uint32_t>(needs.slots.size());
-  needs.bounds_min = volume.frame().bounds_min;
-  needs.bounds_max = volume.frame().bounds_max;
+  needs.seen_bounds = needs.bounds = {volume.frame().bounds_min, volume.frame().bounds_max};
   return needs;
 }
 
@@ -183,7 +193,7 @@ std::vector<WorldBox> smoke_boxes(const sim::SmokeVolume& volume, const SmokeNee
   }
   std::vector<WorldBox> boxes;
   for (const auto& [node, box] : nodes) {
-    const WorldBox cut{glm::max(box.low, needs.bounds_min), glm::min(box.high, needs.bounds_max)};
+    const WorldBox cut{glm::max(box.low, needs.bounds.low), glm::min(box.high, needs.bounds.high)};
     if (glm::all(glm::lessThan(cut.low, cut.high))) boxes.push_back(places.box(cut.low, cut.high));
   }
   return boxes;

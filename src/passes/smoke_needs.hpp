@@ -21,9 +21,9 @@ struct SmokeNeeds {
   /// Slots in use whose smoke may be in view, in rising order; after them, likewise, those whose smoke may
   /// dim light on its way to what is in view.
   std::vector<std::uint32_t> slots;
-  std::uint32_t seen = 0;  ///< How many of `slots` may be in view.
-  glm::vec3 bounds_min{0},
-      bounds_max{0};  ///< Around the clouds that these are of [voxel space]; both 0: none.
+  std::uint32_t seen = 0;        ///< How many of `slots` may be in view.
+  sim::SmokeBounds seen_bounds;  ///< Around the clouds that may be in view; no volume: none.
+  sim::SmokeBounds bounds;       ///< Around all that are needed.
 };
 
 /// How far from what is in view light in smoke is still looked up, by interpolation and off walls [m].

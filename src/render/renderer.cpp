@@ -121,8 +121,10 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.sky = input.sky;
   frame.look = input.look;
   if (input.volume && input.volume->slot_count() > 0) frame.volume = input.volume->frame();
-  frame.volume.bounds_min = needs_.bounds_min;
-  frame.volume.bounds_max = needs_.bounds_max;
+  frame.volume.bounds_min = needs_.seen_bounds.low;
+  frame.volume.bounds_max = needs_.seen_bounds.high;
+  frame.shading_min = needs_.bounds.low;
+  frame.shading_max = needs_.bounds.high;
   frame.solid = solid_.frame();
   frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
   frame.size_px = size_px_;

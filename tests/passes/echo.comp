@@ -40,6 +40,8 @@ void main() {
   frame.sky = Sky(v3(140.0), v3(143.0), v3(146.0), 149.0, 189.0);
   frame.look = SmokeLook(v3(150.0), 153.0, 154.0, 155.0, 156.0, 157.0, 158.0, 159.0, 160.0, 161.0, 162.0, Phase(163.0, 164.0, 165.0, 166.0));
   frame.volume = SmokeVolumeFrame(v3(170.0), 173.0, i3(174), i3(177), i3(180), v3(183.0), v3(186.0));
+  frame.shading_min = v3(210.0);
+  frame.shading_max = v3(213.0);
   frame.solid = SolidFrame(v3(200.0), 203.0, i3(204));
   frame.size_px = uvec2(190u, 191u);
   frame.light_count = 192u;

@@ -79,6 +79,8 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(frame.volume.atlas_bricks, 180);
   expect_counted(frame.volume.bounds_min, 183);
   expect_counted(frame.volume.bounds_max, 186);
+  expect_counted(frame.shading_min, 210);
+  expect_counted(frame.shading_max, 213);
   expect_counted(frame.solid.origin_world, 200);
   EXPECT_EQ(frame.solid.texel_size, 203);
   expect_counted(frame.solid.size, 204);

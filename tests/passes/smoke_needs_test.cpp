@@ -59,7 +59,9 @@ class SmokeNeedsTest : public ::testing::Test {
     return smoke_needs(volume_, view, lights_in_view(lights_, view, light_slack(kVoxel)), scene_);
   }
   /// Whether all smoke on a way is needed: looked up twice a voxel.
-  bool all_needed(const SmokeNeeds& needs, glm::vec3 from, glm::vec3 way, std::size_t first_slots) const {
+  bool all_needed(const SmokeNeeds& needs, glm::vec3 from, glm::vec3 way, bool seen) const {
+    const sim::SmokeBounds& bounds = seen ? needs.seen_bounds : needs.bounds;
+    const std::size_t first_slots = seen ? needs.seen : needs.slots.size();
     const int count = static_cast<int>(glm::length(way) / (0.5f * kVoxel)) + 1;
     for (int i = 0; i <= count; ++i) {
       const glm::vec3 p = (from + way * (static_cast<float>(i) / static_cast<float>(count))) / kVoxel;
@@ -67,8 +69,7 @@ class SmokeNeedsTest : public ::testing::Test {
       const std::uint32_t slot = volume_.slot_at(glm::ivec3(glm::floor(p)) >> 3);
       const auto end = needs.slots.begin() + static_cast<std::ptrdiff_t>(first_slots);
       if (std::find(needs.slots.begin(), end, slot) == end) return false;
-      if (glm::any(glm::lessThan(p, needs.bounds_min)) || glm::any(glm::greaterThan(p, needs.bounds_max)))
-        return false;
+      if (glm::any(glm::lessThan(p, bounds.low)) || glm::any(glm::greaterThan(p, bounds.high))) return false;
     }
     return true;
   }
@@ -99,7 +100,7 @@ TEST_F(SmokeNeedsTest, NoRayOfAPictureMeetsSmokeThatIsNotNeeded) {
       const float x = 2 * unit(random_) - 1, y = 2 * unit(random_) - 1, far = 60 * unit(random_);
       const glm::vec3 to = far * (camera.forward + x * camera.right + y * camera.up),
                       p = camera.eye_world + to;
-      EXPECT_TRUE(all_needed(needs, camera.eye_world, to, needs.seen));
+      EXPECT_TRUE(all_needed(needs, camera.eye_world, to, true));
       if (glm::any(glm::lessThan(p, scene_.low)) || glm::any(glm::greaterThan(p, scene_.high))) continue;
       // It is lit.
       for (const shared::Light& light : lights_) {
@@ -108,12 +109,12 @@ TEST_F(SmokeNeedsTest, NoRayOfAPictureMeetsSmokeThatIsNotNeeded) {
           way = -200.0f * light.direction;
         else if (glm::length(way) >= light.range)
           continue;
-        EXPECT_TRUE(all_needed(needs, p, way, needs.slots.size()));
+        EXPECT_TRUE(all_needed(needs, p, way, false));
         ++rays;
       }
       if (sim::sample_density(volume_, p / kVoxel) <= 0) continue;
       for (std::uint32_t sky = 0; sky < shared::kSkyRays; ++sky, ++rays)
-        EXPECT_TRUE(all_needed(needs, p, 200.0f * shared::sky_ray(sky), needs.slots.size()));
+        EXPECT_TRUE(all_needed(needs, p, 200.0f * shared::sky_ray(sky), false));
     }
   }
   EXPECT_GT(rays, 5000u);
@@ -129,7 +130,7 @@ TEST_F(SmokeNeedsTest, WhatIsFarBehindIsNotNeeded) {
   camera.up = {0, 0.4f, 0};
   const SmokeNeeds none = needs(camera);
   EXPECT_TRUE(none.slots.empty());
-  EXPECT_EQ(none.bounds_min, none.bounds_max);
+  EXPECT_EQ(none.bounds.low, none.bounds.high);
   EXPECT_TRUE(smoke_boxes(volume_, none).empty());
   camera.forward = {1, 0, 0};
   EXPECT_GT(needs(camera).seen, 0u);
