@@ -15,7 +15,8 @@ layout(binding = 3, rgba8) uniform writeonly image2D display;
 void main() {
   const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(uvec2(px), frame.size_px))) return;
-  const vec3 radiance = imageLoad(picture, px).rgb * frame.exposure;
+  // Beside a bulb more comes than a half float holds.
+  const vec3 radiance = min(imageLoad(picture, px).rgb, 65504.0) * frame.exposure;
   const vec3 shown = srgb_from_linear(tone_curve(radiance));
   // Noise of one step's width before rounding: on average every value is shown exactly.
   const vec3 noise = blue_noise(blue_noise_tile, px, frame.frame_index).gba - 0.5;

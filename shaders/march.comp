@@ -82,13 +82,6 @@ struct Gathered {
   uint samples;
 };
 
-/// The equal steps that a part of a ray is cut into; a sample in each, all at the same share of it.
-struct Steps {
-  vec3 origin_voxel, per_metre;  // of the ray, in voxels
-  vec3 inverse;                  // 1 / per_metre
-  float ds;
-};
-
 /// A brick, or the cube without smoke around it, on the way of a ray.
 struct Stay {
   vec3 low;  // low corner [voxels]
@@ -96,59 +89,53 @@ struct Stay {
   float t_next;  // the first sample behind it
 };
 
-Stay find_stay(Steps steps, float t) {
+Stay find_stay(Ray ray, float t, float ds) {
+  const SmokeVolumeFrame volume = frame.volume;
+  const vec3 origin = (ray.origin_world - volume.origin_world) / volume.voxel_size, per_metre = ray.direction / volume.voxel_size;
   Stay stay;
-  const vec3 brick = floor((steps.origin_voxel + steps.per_metre * t) / float(kBrickVoxels));
+  const vec3 brick = floor((origin + per_metre * t) / float(kBrickVoxels));
   int edge;
-  stay.slot = slot_at(frame.volume, ivec3(brick), edge);
+  stay.slot = slot_at(volume, ivec3(brick), edge);
   if (stay.slot != kNoSlot) edge = kBrickVoxels;
   stay.low = floor(brick * float(kBrickVoxels) / float(edge)) * float(edge);
-  const vec3 to_low = (stay.low - steps.origin_voxel) * steps.inverse;
-  const vec3 exits = max(to_low, to_low + float(edge) * steps.inverse);
-  stay.t_next = t + steps.ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / steps.ds));
+  const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
+  const vec3 to_low = (stay.low - origin) * inverse, exits = max(to_low, to_low + float(edge) * inverse);
+  stay.t_next = t + ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds));
   return stay;
 }
 
-/// Marches the part of a ray between two distances in steps of at most the look's length. Brick by brick, so that what a
-/// brick's samples share is found once.
+/// Marches the part of a ray between two distances in equal steps of at most the look's length, a sample in each, all at
+/// the same share of it. Brick by brick, so that what a brick's samples share is found once; little is kept from step to
+/// step, for every register is taken from other rays.
 void march(Ray ray, float begin, float end, inout Gathered got) {
   const SmokeVolumeFrame volume = frame.volume;
-  Steps steps;
-  steps.origin_voxel = (ray.origin_world - volume.origin_world) / volume.voxel_size;
-  steps.per_metre = ray.direction / volume.voxel_size;
-  steps.inverse = 1.0 / (steps.per_metre + vec3(equal(steps.per_metre, vec3(0.0))) * 1e-9);
-  const float count = ceil((end - begin) / frame.look.step_length);
-  steps.ds = (end - begin) / max(count, 1.0);
-  const float after_last = begin + (count - 0.5 + ray.jitter) * steps.ds;
-
-  const vec3 texel = atlas_texel(volume);
-  const float per_density = -1.44269504 * frame.look.extinction * steps.ds;  // for exp2
-  const float erosion = frame.look.erosion, stop = frame.look.stop;
-  const float per_period = 1.0 / frame.look.noise_period;
-  const vec3 noise_origin = (ray.origin_world - vec3(0.0, frame.look.noise_drift * frame.time, 0.0)) * per_period;
-  const vec3 noise_per_metre = ray.direction * per_period;
-  for (float t = begin + ray.jitter * steps.ds; t < after_last;) {
-    const Stay stay = find_stay(steps, t);
+  const float count = ceil((end - begin) / frame.look.step_length), ds = (end - begin) / max(count, 1.0);
+  const float after_last = begin + (count - 0.5 + ray.jitter) * ds;
+  const vec3 texel = atlas_texel(volume), texels_per_metre = texel / volume.voxel_size;
+  const float per_density = -1.44269504 * frame.look.extinction * ds;  // for exp2
+  const float periods_per_metre = 1.0 / frame.look.noise_period;
+  const vec3 risen = vec3(0.0, frame.look.noise_drift * frame.time * periods_per_metre, 0.0);
+  for (float t = begin + ray.jitter * ds; t < after_last;) {
+    const Stay stay = find_stay(ray, t, ds);
     if (stay.slot == kNoSlot) {
       t = stay.t_next;
       continue;
     }
-    const vec3 uvw_origin = (atlas_corner(volume, stay.slot) + steps.origin_voxel - stay.low) * texel;
-    const vec3 uvw_per_metre = steps.per_metre * texel;
-    const float t_stop = min(stay.t_next - 0.5 * steps.ds, after_last);
-    for (; t < t_stop; t += steps.ds) {
-      const vec3 uvw = uvw_origin + uvw_per_metre * t;
+    const vec3 uvw_of_world = (atlas_corner(volume, stay.slot) - stay.low) * texel - volume.origin_world * texels_per_metre;
+    const float t_stop = min(stay.t_next - 0.5 * ds, after_last);
+    for (; t < t_stop; t += ds) {
+      const vec3 p_world = ray.origin_world + ray.direction * t;
+      const vec3 uvw = p_world * texels_per_metre + uvw_of_world;
       const vec4 medium = textureLod(medium_atlas, uvw, 0.0);
       SmokeSample here = SmokeSample(medium.r, vec3(0.0));
-      if (medium.r < 0.0) here = boundary_sample(stay.slot, steps.origin_voxel + steps.per_metre * t - stay.low);
+      if (medium.r < 0.0) here = boundary_sample(stay.slot, (p_world - volume.origin_world) / volume.voxel_size - stay.low);
       float density = here.density;
       ++got.samples;
-      if (density > 0.0 && (kHoles != kHolesNone || erosion > 0.0)) {
-        const vec4 noise = textureLod(noise_tile, noise_origin + noise_per_metre * t + medium.gba * per_period, 0.0);
+      if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
+        const vec4 noise = textureLod(noise_tile, (p_world + medium.gba) * periods_per_metre - risen, 0.0);
         ++got.samples;
-        if (erosion > 0.0) density = erode(frame.look, density, noise);
-        if (kHoles != kHolesNone)
-          density *= left_by_holes(ray.holes, t, ray.origin_world + ray.direction * t, 2.0 * noise.g - 1.0, density > 0.0);
+        if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
+        if (kHoles != kHolesNone) density *= left_by_holes(ray.holes, t, p_world, 2.0 * noise.g - 1.0, density > 0.0);
       }
       if (density > 0.0) {
         // In-scatter is constant over the step, so its integral is exact: no step length changes the energy.
@@ -157,7 +144,7 @@ void march(Ray ray, float begin, float end, inout Gathered got) {
         ++got.samples;
         got.radiance += got.transmittance * (1.0 - passed) * light;
         got.transmittance *= passed;
-        if (got.transmittance < stop) {
+        if (got.transmittance < frame.look.stop) {
           got.transmittance = 0.0;
           return;
         }

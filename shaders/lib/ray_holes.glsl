@@ -13,26 +13,18 @@ layout(binding = BINDING_HOLE_MASKS) uniform sampler2D hole_masks;
 #include "lib/hole_rows.glsl"
 #include "lib/hole_slabs.glsl"
 
-/// The holes that a ray may meet.
+/// The holes that a ray may meet: the list of its group of pixels.
 struct RayHoles {
+  uint entries;  // index of the first; their masks come after the last
+  uint count;    // or kAskAllHoles
   HoleSlabs slabs;
-  uint entries;  // index of the first
-  uint words;    // of a slab's mask, after the entries
-  uint masks;
-  bool all;      // there was no room for a list
 };
 
 RayHoles holes_of_ray(vec2 position_px) {
-  RayHoles holes;
-  if (kHoles == kHolesNone) return holes;
-  holes.slabs = hole_slabs();
   const uvec2 group = uvec2(position_px) / kHoleGroupPixels;
-  const uint list = 2u * (group.x + frame.holes.groups_across * group.y), count = hole_lists[list + 1u];
-  holes.all = kHoles == kHolesAllAsked || count == kAskAllHoles;
-  holes.entries = hole_lists[list];
-  holes.words = holes.all ? 0u : mask_words(count);
-  holes.masks = holes.entries + count;
-  return holes;
+  const uint list = 2u * (group.x + frame.holes.groups_across * group.y);
+  if (kHoles == kHolesListed) return RayHoles(hole_lists[list], hole_lists[list + 1u], hole_slabs());
+  return RayHoles(0u, kHoles == kHolesAllAsked ? kAskAllHoles : 0u, HoleSlabs(0.0, 0.0));
 }
 
 /// Share of the density that a hole leaves at a point; rim_noise: -1 to 1.
@@ -51,12 +43,14 @@ float left_by_hole(uint index, vec3 p_world, float rim_noise) {
 /// is no smoke.
 float left_by_holes(RayHoles holes, float t, vec3 p_world, float rim_noise, bool smoke) {
   float left = smoke ? 1.0 : 0.0;
-  const uint slab = holes.masks + holes.words * slab_at(holes.slabs, t);
-  for (uint word = 0u; word < holes.words && left > 0.0; ++word) {
+  const bool all = holes.count == kAskAllHoles;
+  const uint words = all ? 0u : mask_words(holes.count);
+  const uint slab = holes.entries + holes.count + words * slab_at(holes.slabs, t);
+  for (uint word = 0u; word < words && left > 0.0; ++word) {
     for (uint bits = hole_lists[slab + word]; bits != 0u && left > 0.0; bits &= bits - 1u)
       left *= left_by_hole(hole_lists[holes.entries + 32u * word + uint(findLSB(bits))] & 0xffffu, p_world, rim_noise);
   }
-  for (uint i = 0u; holes.all && i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(i, p_world, rim_noise);
+  for (uint i = 0u; all && i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(i, p_world, rim_noise);
   return left;
 }
 
