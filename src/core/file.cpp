@@ -33,7 +33,8 @@ Result<Container> read_whole(const std::filesystem::path& path, std::uint64_t ma
   if (file.value < 0) return system_failure(path, "open", errno);
   struct stat info {};
   if (::fstat(file.value, &info) != 0) return system_failure(path, "inspect", errno);
-  if (!S_ISREG(info.st_mode)) return Failure{ErrorCode::bad_input, path.string() + ": not a regular file"};
+  if (!S_ISREG(info.st_mode))
+    return Failure{ErrorCode::bad_input, path.string() + ": not a regular file; check the path"};
   const auto size = static_cast<std::uint64_t>(info.st_size);
   if (size > max_bytes) {
     return Failure{ErrorCode::resource_limit, path.string() + ": has " + std::to_string(size) +

@@ -17,7 +17,7 @@ struct FreeContext {
 };
 
 Failure png_failure(const std::string& name, const char* reason) {
-  return {ErrorCode::bad_input, name + ": not a whole, valid PNG file: " + reason};
+  return {ErrorCode::bad_input, name + ": not a whole, valid PNG file: " + reason + "; save it again"};
 }
 
 std::uint64_t big_endian(std::span<const std::byte> bytes) {

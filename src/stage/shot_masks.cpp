@@ -24,6 +24,7 @@ class Collector {
     auto mask = mask_of(*picture, file);
     if (!mask) return at_place(shot.place, mask.failure());
     of_shots_.pictures[file] = take(std::move(*mask));
+    last_place_ = shot.place;
     return {};
   }
 
@@ -34,12 +35,13 @@ class Collector {
     auto letters = letters_of(event, file);
     if (!letters) return at_place(event.place, letters.failure());
     of_shots_.texts[key] = std::move(*letters);
+    last_place_ = event.place;
     return {};
   }
 
   Result<LoadedMasks> finish() && {
     auto atlas = sim::MaskAtlas::pack(masks_);
-    if (!atlas) return atlas.failure();
+    if (!atlas) return at_place(last_place_, atlas.failure());
     return LoadedMasks{std::move(*atlas), std::move(of_shots_)};
   }
 
@@ -98,12 +100,14 @@ class Collector {
           letters.empty() ? letter.right + letter.half_side : std::max(high, letter.right + letter.half_side);
       letters.push_back(letter);
     }
-    if (letters.empty()) return Failure{ErrorCode::bad_input, "the text has no letter that can be seen"};
+    if (letters.empty())
+      return Failure{ErrorCode::bad_input, "the text has no letter that can be seen; expected one at least"};
     for (Letter& letter : letters) letter.right -= 0.5f * (low + high);
     return letters;
   }
 
   std::vector<sim::Mask> masks_;
+  std::string last_place_;  // of an event that brought one
   std::map<std::string, LoadedFont> fonts_;
   ShotMasks of_shots_;
 };

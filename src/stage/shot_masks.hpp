@@ -44,7 +44,7 @@ Result<sim::Mask> mask_of(const image::Image8& picture, const std::string& name)
 /// Reads the pictures and fonts that the timeline names; each picture, and each glyph of a font, is one mask.
 /// The same atlas for the same files and timeline. Fails with bad_input for a file that is missing or cannot
 /// be read, a character that its font lacks, a text of blanks, naming the event's place, and with
-/// resource_limit as MaskAtlas::pack.
+/// resource_limit as MaskAtlas::pack, naming the last event's that brings a mask.
 Result<LoadedMasks> load_masks(const scene::Timeline& timeline);
 
 }  // namespace brume::stage

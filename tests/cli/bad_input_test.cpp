@@ -4,8 +4,6 @@
 #include <sched.h>
 #include <sys/mount.h>
 
-#include <algorithm>
-
 #include "core/file.hpp"
 #include "tests/cli/run_program.hpp"
 
@@ -13,21 +11,6 @@ namespace brume::cli {
 namespace {
 
 using Arguments = std::vector<std::string>;
-
-// The arguments, the exit code and parts of the line that they must lead to, in a folder that stays as it is.
-void expect_failure(const WorkFolder& folder, const Arguments& arguments, int exit_code,
-                    const std::vector<std::string>& parts, const RunOptions& options = {}) {
-  SCOPED_TRACE(testing::PrintToString(arguments));
-  const auto before = folder.files();
-  const Outcome run = run_brume(folder.path(), arguments, options);
-  EXPECT_EQ(run.exit_code, exit_code) << run.error;
-  EXPECT_EQ(run.out, "");
-  EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
-  EXPECT_EQ(run.error.rfind("brume: ", 0), 0u) << run.error;
-  EXPECT_EQ(run.error.rfind("brume: warning", 0), std::string::npos) << run.error;
-  for (const std::string& part : parts) EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
-  EXPECT_EQ(folder.files(), before);
-}
 
 Arguments voxelize(const std::string& scene, const Arguments& more = {}) {
   Arguments arguments{"voxelize", scene, "-o", "result.vxl", "--json", "result.json"};

@@ -1,6 +1,7 @@
 #include "tests/cli/run_program.hpp"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -99,6 +100,20 @@ std::vector<std::string> WorkFolder::files() const {
     names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+void expect_failure(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code,
+                    const std::vector<std::string>& parts, const RunOptions& options) {
+  SCOPED_TRACE(testing::PrintToString(arguments));
+  const auto before = folder.files();
+  const Outcome run = run_brume(folder.path(), arguments, options);
+  EXPECT_EQ(run.exit_code, exit_code) << run.error;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1) << run.error;
+  EXPECT_EQ(run.error.rfind("brume: ", 0), 0u) << run.error;
+  EXPECT_EQ(run.error.rfind("brume: warning", 0), std::string::npos) << run.error;
+  for (const std::string& part : parts) EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
+  EXPECT_EQ(folder.files(), before);
 }
 
 std::string room_obj() {

@@ -42,6 +42,11 @@ class WorkFolder {
   std::filesystem::path path_;
 };
 
+/// Fails unless the program, run with these arguments, ends with the exit code, says nothing on standard
+/// output and one line on standard error that has all the parts, and leaves the folder as it was.
+void expect_failure(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code,
+                    const std::vector<std::string>& parts, const RunOptions& options = {});
+
 /// An OBJ file: a closed room of 4 x 3 x 4 m around the origin, with a block in it.
 std::string room_obj();
 
