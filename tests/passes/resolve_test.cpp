@@ -120,30 +120,55 @@ std::vector<Surface> surfaces() {
           }};
 }
 
+/// Most that a number changes by, of itself, when it becomes a half float: by rounding towards 0, which
+/// Vulkan allows.
+constexpr double kHalfRounding = 1.0 / 1024;
+
+/// How far off a pixel's transmittance may be in an even medium of density 1, at a distance z along the view
+/// axis. Of shaders/resolve.comp:
+///
+/// A block's ray knows its own pixels' depths exactly: between its two ends least and most agree but for the
+/// rounding of two half floats, which is its doubt d0. Its share a of the bilinear weights is least in a
+/// corner of the block.
+///
+/// The other rays are off by what they doubt, d, but for the slope of rays, 1 to `longest`, which makes it
+/// (longest - 1)(1 + 9 * extinction) of d more at most: the surfaces lie within 9 m. With x = d / kDoubt they
+/// count (1 - a) / (1 + x^2), the block's own a' = a / (1 + (d0 / kDoubt)^2). Their mean is off by
+/// d (1 - a) / (1 - a + a' (1 + x^2)), which is largest at x^2 = (1 - a + a') / a'.
+///
+/// Rays two blocks apart differ in length; the middle of a block that the picture's rim cuts may lie beyond
+/// it. What rays saw and their mean are rounded to half floats.
+double most_off(double z, double expected, double extinction, std::uint32_t scale, glm::uvec2 size) {
+  const double beyond = scale - 2, rounding = kHalfRounding;
+  const double slope_x = 0.1 * (1 + beyond / size.x), slope_y = 0.05 * (1 + beyond / size.y);
+  const double longest = std::hypot(1.0, slope_x, slope_y);
+  const double side = 1 - 0.5 * (scale - 1.0) / scale, a = side * side;
+  const double doubt = shared::kDoubt, own = a / (1 + std::pow(2 * rounding / doubt, 2));
+  const double steeper = (longest - 1) * (1 + extinction * 9);
+  const double others = doubt * (1 + steeper) * (1 - a) / (2 * std::sqrt(own * (1 - a + own)));
+  // The length of a ray changes by no more than its slope times what the slope changes by.
+  const double longer =
+      std::min(longest - 1, 2.0 * scale * (slope_x * 0.2 / size.x + slope_y * 0.1 / size.y));
+  return others + expected * (extinction * z * longer + 2 * rounding);
+}
+
 TEST_F(ResolveTest, AConstantMediumIsBeerLambertInFrontOfAnySurface) {
   const SmokeRoom room(context(), runner(), {}, {{24, 17, 33}, 0.5f, {-6, -4, -16}}, {0, 0, -1}, 1u << 22,
                        4000);
-  // What is interpolated: among the pixel's own ray, which is exact between its ends in an even medium, with
-  // a share of a >= 9/64 of the bilinear weights, and others, off by d where they do not know the depth, that
-  // count (1 - a) / (1 + (d / kDoubt)^2). The sum is off by at most kDoubt (1 - a) x / (1 - a + a (1 + x^2)),
-  // x = d / kDoubt, which is largest at x = a^-1/2: kDoubt (1 - a) / (2 a^1/2) < 1.15 kDoubt. The march may
-  // be off by 1 %, half floats by 1/2048, and rays two pixels apart differ in length by 0.1 * 2 * 2 * 0.2
-  // / 33.
   for (const std::uint32_t scale : {2u, 4u}) {
     for (const glm::uvec2 size : {glm::uvec2(33, 17), glm::uvec2(7, 5), glm::uvec2(1, 1)}) {
       const auto frame = frame_at(room, {0, 0, -0.5f}, size, scale);
       for (const Surface& surface : surfaces()) {
         const auto distances = distances_of(surface, size);
-        for (const Way way : {Way::blocks, Way::selected}) {
+        for (const Way way : {Way::blocks, Way::selected, Way::pixels}) {
           const auto pixels = smoke(room, frame, distances, way);
           for (std::uint32_t i = 0; i < pixels.size(); ++i) {
             const glm::vec2 ndc = (glm::vec2(i % size.x, i / size.x) + 0.5f) / glm::vec2(size) * 2.0f - 1.0f;
             const double length =
                 std::hypot(1.0, 0.1 * static_cast<double>(ndc.x), 0.05 * static_cast<double>(ndc.y));
-            const double path = static_cast<double>(distances[i]) * length;
-            const double expected = std::exp(-0.7 * path);
-            const double ray = expected * 0.7 * path * (0.08 / std::min(size.x, 33u) + 1e-3);
-            const double bound = 1.15 * static_cast<double>(shared::kDoubt) + 0.011 * expected + ray;
+            const double z = static_cast<double>(distances[i]), expected = std::exp(-0.7 * z * length);
+            const double bound =
+                way == Way::pixels ? kHalfRounding * expected : most_off(z, expected, 0.7, scale, size);
             EXPECT_NEAR(pixels[i].w, expected, bound) << scale << " pixel " << i;
             EXPECT_NEAR(pixels[i].z, 1 - expected, bound + 0.001) << scale << " pixel " << i;
             EXPECT_NEAR(pixels[i].x, 0.5 * (1 - expected), 0.5 * bound + 0.001);
