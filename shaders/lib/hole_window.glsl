@@ -1,22 +1,28 @@
-// What holes leave of the smoke at the next samples of a ray: exactly, sample by sample, but a hole is asked only from where
+// What holes leave of the smoke at the samples of a ray: exactly, sample by sample, but a hole is asked only from where
 // the ray enters it to where the ray leaves it.
 //
-// Light is too coarse for the noise of rims. The includer has `frame`, a workgroup of 64 threads, `vec4 hole_rows[]` and
-// `sampler2D hole_masks`.
+// Light is too coarse for the noise of rims. The includer has `frame`, `vec4 hole_rows[]`, `sampler2D hole_masks` and a
+// workgroup of kWindowThreads threads; kRayParts of them share a ray.
 #ifndef HOLE_WINDOW_GLSL
 #define HOLE_WINDOW_GLSL
 #include "shared/frame.h"
 #include "lib/hole_mask.glsl"
 #include "lib/hole_rows.glsl"
-#include "lib/ray_samples.glsl"
 
-const uint kAhead = 48u;
-// What is left at the samples ahead of each thread: four numbers of 8 bits a word. Little memory, for it is taken from
-// the textures' cache.
-shared uint left_ahead[kAhead / 4u * 64u];
+/// The samples of a ray: number k lies at t = begin + (k + 0.5) ds. A thread takes every kRayParts-th, from `part` on.
+struct RaySteps {
+  vec3 origin_world, direction;
+  float begin, ds;
+  uint count;  // at most kRayParts * kPartSteps
+  uint part;
+};
+
+// What is left at each thread's samples: four numbers of 8 bits a word. Little memory, for it is taken from the
+// textures' cache.
+shared uint left_words[kPartSteps / 4u * kWindowThreads];
 
 /// Where along the ray a hole can take anything away, as numbers of samples: the first, and one past the last.
-uvec2 samples_in(Hole hole, RaySamples ray, float begin) {
+uvec2 samples_in(Hole hole, RaySteps ray) {
   const vec3 apart = ray.origin_world - hole.origin_world;
   const vec3 at = vec3(dot(apart, hole.right), dot(apart, hole.up), dot(apart, hole.forward));
   const vec3 step = vec3(dot(ray.direction, hole.right), dot(ray.direction, hole.up), dot(ray.direction, hole.forward));
@@ -38,33 +44,36 @@ uvec2 samples_in(Hole hole, RaySamples ray, float begin) {
     leave = min(leave, min(high.x, high.y));
   }
   if (enter >= leave) return uvec2(0u);
-  const float to_first = begin + ray.jitter * ray.ds;
-  const float first = clamp(ceil((enter - to_first) / ray.ds - 1e-3), 0.0, float(kAhead));
-  float last = clamp(floor((leave - to_first) / ray.ds + 1e-3) + 1.0, 0.0, float(kAhead));
-  // The last segment of the ray is cut, and its sample lies nearer.
-  const float cut = floor((ray.end - begin) / ray.ds);
-  if (first <= cut && last == cut && leave + 1e-3 * ray.ds >= mix(begin + cut * ray.ds, ray.end, ray.jitter)) last += 1.0;
-  return uvec2(uint(first), uint(min(last, float(kAhead))));
+  const vec2 samples = (vec2(enter, leave) - ray.begin) / ray.ds - 0.5;
+  return uvec2(clamp(vec2(ceil(samples.x - 1e-3), floor(samples.y + 1e-3) + 1.0), 0.0, float(ray.count)));
 }
 
-/// Share of the density that the holes leave at sample k, counted from where the ray looked ahead.
-float left_at(uint k) { return unpackUnorm4x8(left_ahead[(k >> 2u) * 64u + gl_LocalInvocationIndex])[k & 3u]; }
+/// Share of the density that the holes leave at the thread's sample i.
+float left_at(uint i) { return unpackUnorm4x8(left_words[(i >> 2u) * kWindowThreads + gl_LocalInvocationIndex])[i & 3u]; }
 
 /// Before the first hole.
-void begin_ahead() {
-  for (uint i = 0u; i < kAhead / 4u; ++i) left_ahead[i * 64u + gl_LocalInvocationIndex] = 0xffffffffu;
+void fill_window() {
+  for (uint i = 0u; i < kPartSteps / 4u; ++i) left_words[i * kWindowThreads + gl_LocalInvocationIndex] = 0xffffffffu;
 }
 
-/// Takes a hole out of the ray's next kAhead samples.
-void look_ahead(RaySamples ray, float begin, Hole hole) {
-  const uvec2 run = samples_in(hole, ray, begin);
-  for (uint k = run.x; k < run.y; ++k) {
-    const float t = begin + float(k) * ray.ds;
-    const vec3 p_world = ray.origin_world + (t + ray.jitter * min(ray.ds, ray.end - t)) * ray.direction;
-    const uint at = (k >> 2u) * 64u + gl_LocalInvocationIndex;
-    vec4 four = unpackUnorm4x8(left_ahead[at]);
-    four[k & 3u] *= 1.0 - hole_strength_masked(hole, p_world, frame.time, 0.0);
-    left_ahead[at] = packUnorm4x8(four);
+/// Whether the ray passes a hole by: the lines of the two are too far apart.
+bool passes_by(HoleReach reach, RaySteps ray) {
+  const vec3 across = cross(ray.direction, reach.forward);
+  const float apart = max(abs(dot(ray.origin_world - reach.from_world, across)) - 1e-5, 0.0), least = 1.001 * reach.radius;
+  return apart * apart > least * least * dot(across, across);
+}
+
+/// Takes a hole out of the thread's samples.
+void cut_hole(RaySteps ray, uint index) {
+  if (passes_by(reach_from_rows(index), ray)) return;
+  const Hole hole = hole_from_rows(index);
+  const uvec2 run = samples_in(hole, ray);
+  for (uint i = (run.x + kRayParts - 1u - ray.part) / kRayParts; kRayParts * i + ray.part < run.y; ++i) {
+    const vec3 p_world = ray.origin_world + (ray.begin + (float(kRayParts * i + ray.part) + 0.5) * ray.ds) * ray.direction;
+    const uint at = (i >> 2u) * kWindowThreads + gl_LocalInvocationIndex;
+    vec4 four = unpackUnorm4x8(left_words[at]);
+    four[i & 3u] *= 1.0 - hole_strength_masked(hole, p_world, frame.time, 0.0);
+    left_words[at] = packUnorm4x8(four);
   }
 }
 

@@ -20,9 +20,9 @@ Incident light_at(Light light, vec3 position_world) {
     return incident;
   }
   const vec3 to_light = light.position_world - position_world;
-  const float d2 = max(dot(to_light, to_light), 1e-4);
-  incident.distance = sqrt(d2);
-  incident.to_light = to_light / incident.distance;
+  const float d2 = max(dot(to_light, to_light), 1e-4), one_over = inversesqrt(d2);
+  incident.distance = d2 * one_over;
+  incident.to_light = to_light * one_over;
   const float x = d2 / (light.range * light.range);
   const float window = clamp(1.0 - x * x, 0.0, 1.0);
   incident.irradiance = light.intensity * (window * window / max(d2, 0.01));
@@ -52,32 +52,30 @@ bool reaches_box(Light light, TileBox box) {
   return light.cos_outer * aside - sin_outer * along <= radius * 1.001 && along >= -radius * 1.001;
 }
 
-/// Where a direction from a light lies on its shadow cube: uv, face, distance along the face's axis.
+/// Where a direction from a light lies on its shadow cube: uv, face, distance along the face's axis. The faces are those of
+/// shared/light.h, whose axes are the world's.
 vec4 cube_coordinates(vec3 d) {
   const vec3 a = abs(d);
-  const uint face = a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0u : 1u)
-                    : a.y >= a.z             ? (d.y > 0.0 ? 2u : 3u)
-                                             : (d.z > 0.0 ? 4u : 5u);
-  const float z = max(a.x, max(a.y, a.z));
-  return vec4(vec2(dot(d, cube_right(face)), -dot(d, cube_up(face))) / z * 0.5 + 0.5, float(face), z);
+  const bool x = a.x >= a.y && a.x >= a.z, y = !x && a.y >= a.z;
+  const float along = x ? d.x : y ? d.y : d.z, right = x ? d.z : d.x, up = y ? d.z : d.y;
+  const float face = (x ? 0.0 : y ? 2.0 : 4.0) + (along > 0.0 ? 0.0 : 1.0);
+  return vec4(vec2(right, -up) * (0.5 / abs(along)) + 0.5, face, abs(along));
 }
 
-/// Where a point lies in the light's shadow layers: uv, layer, reverse depth. A negative layer: not covered.
-vec4 shadow_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world) {
-  if (light.shadow_layer >= kShadowByVoxels) return vec4(-1.0);
+/// Where a point lies on the faces of a light: uv, face, reverse depth there.
+vec4 face_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world) {
   if (light.kind == kLightDirectional) {
     const vec4 clip = sun_clip_from_world * vec4(position_world, 1.0);
-    const vec2 uv = clip.xy * 0.5 + 0.5;
-    if (any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)))) return vec4(-1.0);
-    return vec4(uv, float(light.shadow_layer), clip.z);
+    return vec4(clip.xy * 0.5 + 0.5, 0.0, clip.z);
   }
   const vec4 on_cube = cube_coordinates(position_world - light.position_world);
-  return vec4(on_cube.xy, float(light.shadow_layer) + on_cube.z, kShadowNear / on_cube.w);
+  return vec4(on_cube.xyz, kShadowNear / on_cube.w);
 }
 
-/// Share of the light that the scene lets through to a point.
-float shadow_at(sampler2DArrayShadow shadows, vec4 coordinates) {
-  return coordinates.z < 0.0 ? 1.0 : texture(shadows, coordinates);
+/// Share of the light that its shadow map lets through; 1 where it has none.
+float shadow_at(sampler2DArrayShadow shadows, Light light, vec4 on_face) {
+  const bool mapped = light.shadow_layer < kShadowByVoxels && on_face.xy == clamp(on_face.xy, 0.0, 1.0);
+  return mapped ? texture(shadows, vec4(on_face.xy, float(light.shadow_layer) + on_face.z, on_face.w)) : 1.0;
 }
 
 #endif

@@ -17,19 +17,20 @@ struct Surface {
 vec3 reflect_light(Surface s, vec3 view, vec3 to_light) {
   const float n_l = dot(s.normal, to_light);
   if (n_l <= 0.0) return vec3(0.0);
-  const float n_v = max(dot(s.normal, view), 1e-3);
-  const vec3 h = normalize(view + to_light);
-  const float n_h = max(dot(s.normal, h), 0.0);
+  const float n_v = dot(s.normal, view), facing = max(n_v, 1e-3);
+  // The half vector is as long as 2 cos, cos = h.view.
+  const float v_l = dot(view, to_light), one_over = inversesqrt(max(2.0 + 2.0 * v_l, 1e-6));
+  const float n_h = max((n_l + n_v) * one_over, 0.0), h_v = (1.0 + v_l) * one_over;
   const float alpha = max(s.roughness * s.roughness, 0.02);
   const float a2 = alpha * alpha;
   const float d = n_h * n_h * (a2 - 1.0) + 1.0;
-  const float distribution = a2 / (kPi * d * d);
-  const float visibility = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, alpha);
+  // Distribution a2 / (pi d^2) and visibility 0.5 / mix(...).
+  const float specular = 0.5 * a2 / (kPi * d * d * mix(2.0 * n_l * facing, n_l + facing, alpha));
   const vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic);
-  const float grazing = 1.0 - max(dot(h, view), 0.0), grazing2 = grazing * grazing;
+  const float grazing = 1.0 - clamp(h_v, 0.0, 1.0), grazing2 = grazing * grazing;
   const vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
   const vec3 diffuse = s.albedo * (1.0 - s.metallic) * (1.0 - fresnel) / kPi;
-  return (diffuse + fresnel * distribution * visibility) * n_l;
+  return (diffuse + fresnel * specular) * n_l;
 }
 
 #endif

@@ -20,8 +20,9 @@ struct Light {
   float cos_outer;
   // First layer in the shadow array: six faces, or one of a directional light; or one of the constants above.
   uint shadow_layer;
+  vec2 padding;  // to whole rows of 16 bytes
 };
-SHARED_SIZE(Light, 56);
+SHARED_SIZE(Light, 64);
 
 /// Where what a lamp sends is below 1/100 of unit irradiance, from the greatest of its intensities [m].
 SHARED_FUNCTION float light_range(float intensity) {

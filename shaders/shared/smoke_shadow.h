@@ -17,18 +17,17 @@ SHARED_CONST uint kFacesPerLight = 6u;
 struct SmokeShadowFace {
   float scale;        // texels per unit of uv on the face
   vec2 offset;        // texel of the atlas = scale * uv + offset
+  uint first_block;   // how many blocks the faces before have
   uvec2 first_texel;  // of the rectangle
   uvec2 size;         // texels; 0: no smoke
-  uint first_block;   // how many blocks the faces before have
 };
 SHARED_SIZE(SmokeShadowFace, 32);
 
 struct SmokeShadowParams {
   uint face_count;
-  float step_length;  // through the smoke [m]
-  float max_steps;    // longer steps where more would be needed
+  float step_length;  // through the smoke [m]; longer where more than 64 would be needed
 };
-SHARED_SIZE(SmokeShadowParams, 12);
+SHARED_SIZE(SmokeShadowParams, 8);
 
 /// Blocks of a rectangle.
 SHARED_FUNCTION uvec2 smoke_shadow_blocks(uvec2 texels) {

@@ -38,6 +38,15 @@ std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::u
   if (!features12.timelineSemaphore) return "lacks timelineSemaphore";
   if (!features12.scalarBlockLayout) return "lacks scalarBlockLayout";
   if (!features.features.shaderStorageImageExtendedFormats) return "lacks shaderStorageImageExtendedFormats";
+  VkPhysicalDeviceSubgroupProperties subgroups{};
+  subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups, {}};
+  vk.GetPhysicalDeviceProperties2(device, &properties);
+  constexpr VkSubgroupFeatureFlags kOperations =
+      VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+  if (!(subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
+      (subgroups.supportedOperations & kOperations) != kOperations)
+    return "lacks subgroup vote, arithmetic or ballot in compute shaders";
   return "";
 }
 

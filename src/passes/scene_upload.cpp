@@ -121,10 +121,15 @@ std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights
   bool has_sun = false;
   for (const scene::Light& light : lights) {
     const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
-    shared::Light l{light.position_world,  shared::light_range(brightest),
-                    light.intensity,       static_cast<std::uint32_t>(light.kind),
-                    light.direction_world, light.cos_inner,
-                    light.cos_outer,       shared::kNoShadow};
+    shared::Light l{light.position_world,
+                    shared::light_range(brightest),
+                    light.intensity,
+                    static_cast<std::uint32_t>(light.kind),
+                    light.direction_world,
+                    light.cos_inner,
+                    light.cos_outer,
+                    shared::kNoShadow,
+                    {}};
     const bool directional = light.kind == scene::LightKind::directional;
     const std::uint32_t layers = directional ? 1 : 6;
     // One orthographic view: only the first directional light casts shadows.

@@ -7,9 +7,9 @@
 namespace brume::passes {
 namespace {
 
-constexpr float kMaxSteps = 64;
 constexpr float kStepMetres = 0.25f;
 constexpr std::uint32_t kAtlasWidth = 1024;
+constexpr std::uint32_t kThreads = 256;  // four for each ray of a block
 
 }  // namespace
 
@@ -18,7 +18,7 @@ SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
                 {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled,
                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kStored, gpu::kBuffer,
                  gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled},
-                sizeof(shared::SmokeShadowParams), {shared::kSmokeShadowBlock, shared::kSmokeShadowBlock, 1}),
+                sizeof(shared::SmokeShadowParams), {kThreads, 1, 1}),
       linear_(context, {}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
 
@@ -46,7 +46,6 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const Sm
   shared::SmokeShadowParams params{};
   params.face_count = static_cast<std::uint32_t>(plan.faces.size());
   params.step_length = kStepMetres;
-  params.max_steps = kMaxSteps;
   recorder.bind(
       pipeline_,
       {gpu::read(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
@@ -56,7 +55,7 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const Sm
        gpu::read(in.holes.cells), gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_),
        gpu::read(in.holes.holes), gpu::sampled(in.holes.masks, nearest_)},
       params);
-  recorder.dispatch_threads(pipeline_, shared::kSmokeShadowBlock * plan.blocks, shared::kSmokeShadowBlock);
+  recorder.dispatch_threads(pipeline_, kThreads * plan.blocks, 1);
 }
 
 }  // namespace brume::passes
