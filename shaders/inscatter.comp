@@ -1,5 +1,5 @@
-// In-scattered radiance at every listed texel: what each ray brings, scattered towards the eye. The march then pays one
-// fetch a sample, however many lamps there are.
+// In-scattered radiance at every listed texel of a brick: what each ray brings, scattered towards the eye. The march then
+// pays one fetch a sample, however many lamps there are.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -14,20 +14,24 @@ layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(scalar, binding = 2) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = 3) readonly buffer Texels { uint texels[]; };
-layout(scalar, binding = 4) readonly buffer RayLight { uint ray_light[]; };
-layout(scalar, binding = 5) readonly buffer Counters { SmokeLightCounters counters; };
+layout(scalar, binding = 3) readonly buffer Rows { uint rows[]; };
+layout(scalar, binding = 4) readonly buffer Blocks { uint blocks[]; };
+layout(scalar, binding = 5) readonly buffer Bricks { LightBrick bricks[]; };
 layout(binding = 6, rgba16f) uniform writeonly image3D inscatter;
 layout(binding = 9) uniform sampler3D density_atlas;
 layout(binding = 10) uniform sampler3D share_atlas;
+layout(scalar, binding = 11) readonly buffer BrickLamps { uvec2 brick_lamps[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
 
 /// Mean transmittance out of the smoke, over all directions.
-float escape_of(uint first) {
+float escape_of(uint block, uint local) {
   float escape = 0.0;
-  for (uint i = 0u; i < kSkyRays; ++i) escape += exp(-unpackHalf2x16(ray_light[first + i]).x) / float(kSkyRays);
+  for (uint k = 0u; k < kSkyBlocks; ++k) {
+    const vec2 depths = unpackHalf2x16(blocks[(block + k) * kTexelsPerBrick + local]);
+    escape += (exp(-depths.x) + exp(-depths.y)) / float(kSkyRays);
+  }
   return escape;
 }
 
@@ -40,26 +44,37 @@ vec3 scattered_sky(float p) { return vec3(p) / (1.0 - frame.look.albedo * (1.0 -
 /// depth of `step` apart: (x / 2) coth(x / 2) along an axis, x = k step; to the second order 1 + x^2 / 12 in every direction.
 vec3 interpolation_excess(vec3 k, float step) { return 1.0 + k * k * (step * step / 12.0); }
 
-void main() {
-  for (uint i = gl_GlobalInvocationID.x; i < counters.texels; i += gl_NumWorkGroups.x * 64u) {
-    const SmokeTexel texel = smoke_texel(texels[i]);
-    const vec3 p_world = world_from_voxel(texel.position_voxel);
-    const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
-    const uint first = i * params.rays_per_texel;
-    const float escape = escape_of(first + frame.light_count);
-    const float density = texelFetch(density_atlas, texel.at, 0).r * texelFetch(share_atlas, texel.at, 0).r;
-    const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
-    const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
-    ManyScatterings many = many_scatterings(frame.look, escape);
-    many.share *= excess / interpolation_excess(many.decay, texel_depth);
-    vec3 lamps = vec3(0.0);
-    for (uint k = 0u; k < frame.light_count; ++k) {
-      const vec2 depth_lit = unpackHalf2x16(ray_light[first + k]);
-      if (depth_lit.y <= 0.0) continue;
-      const Incident incident = light_at(lights[k], p_world);
-      lamps += incident.irradiance * (depth_lit.y * scattered(frame.look.phase, many, depth_lit.x, -dot(incident.to_light, to_eye)));
-    }
-    const vec3 sky = frame.sky.ambient * sky_visibility(p_world) * scattered_sky(escape);
-    imageStore(inscatter, texel.at, vec4(sky + lamps / excess, 1.0));
+/// Light of the lamps of a brick at a texel, scattered towards the eye.
+vec3 scattered_lamps(LightBrick brick, uint local, vec3 p_world, ManyScatterings many) {
+  const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
+  vec3 sum = vec3(0.0);
+  for (uint k = 0u; k < brick.lamp_count; ++k) {
+    const uvec2 lamp = brick_lamps[brick.first_lamp + k];
+    const vec2 depth_lit = unpackHalf2x16(blocks[lamp.y * kTexelsPerBrick + local]);
+    if (depth_lit.y <= 0.0) continue;
+    const Incident incident = light_at(lights[lamp.x], p_world);
+    if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
+    sum += incident.irradiance * (depth_lit.y * scattered(frame.look.phase, many, depth_lit.x, -dot(incident.to_light, to_eye)));
   }
+  return sum;
+}
+
+void main() {
+  const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z, i = gl_GlobalInvocationID.x;
+  if (number >= params.count) return;
+  const LightBrick brick = bricks[params.first + number];
+  const uint row = brick.row * kLightRow;
+  if (i >= rows[row]) return;
+  const uint local = rows[row + 1u + i];
+  const ivec3 at = texel_in_atlas(brick.slot, local);
+  const vec3 p_world = world_from_voxel(texel_position(brick.slot, local));
+  const float escape = escape_of(brick.sky_block, local);
+  const float density = texelFetch(density_atlas, at, 0).r * texelFetch(share_atlas, at, 0).r;
+  const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
+  const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
+  ManyScatterings many = many_scatterings(frame.look, escape);
+  many.share *= excess / interpolation_excess(many.decay, texel_depth);
+  const vec3 lamps = scattered_lamps(brick, local, p_world, many);
+  const vec3 sky = frame.sky.ambient * sky_visibility(p_world) * scattered_sky(escape);
+  imageStore(inscatter, at, vec4(sky + lamps / excess, 1.0));
 }

@@ -1,8 +1,15 @@
-// For every listed texel and every lamp: whether the scene lets light through; and a list of the rays that are left.
+// What smoke and scene leave of light on its way from a lamp, or from the sky, to each texel of a brick. Neighbours ask for the
+// same, so that their rays meet the same bricks.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#define BINDING_SOLID 9
+#define BINDING_PAGES 5
+#define BINDING_DENSITY 6
+#define BINDING_CELLS 7
+#define BINDING_BOUNDARY 8
+#define BINDING_CORNERS 9
+#define BINDING_HOLE_CELLS 10
+#define BINDING_SOLID 12
 #include "lib/lights.glsl"
 #include "shared/frame.h"
 #include "shared/smoke_light.h"
@@ -13,42 +20,46 @@ layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(scalar, binding = 2) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 3) readonly buffer Views { ShadowView sun; };
 layout(binding = 4) uniform sampler2DArrayShadow shadows;
-layout(scalar, binding = 5) readonly buffer Texels { uint texels[]; };
-layout(scalar, binding = 6) writeonly buffer Rays { uint rays[]; };
-layout(scalar, binding = 7) writeonly buffer RayLight { uint ray_light[]; };
-layout(scalar, binding = 8) buffer Counters { SmokeLightCounters counters; };
+layout(binding = 11) uniform sampler3D share_atlas;
+layout(scalar, binding = 13) readonly buffer Pairs { LightPair pairs[]; };
+layout(scalar, binding = 14) readonly buffer Rows { uint rows[]; };
+layout(scalar, binding = 15) writeonly buffer Blocks { uint blocks[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 #include "lib/light_share.glsl"
+#include "lib/optical_depth.glsl"
 #include "lib/smoke_texels.glsl"
 
-shared uint group_count;
-shared uint group_first;
-
-/// Share of a lamp's light that the scene lets through to a point; 0 too where the lamp is too weak to be seen.
-float lamp_light(Light light, vec3 p_world) {
-  const Incident incident = light_at(light, p_world);
-  if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < 1e-4) return 0.0;
+/// Share of a lamp's light that the scene lets through to a point; 0 too where the lamp is too weak to be seen
+/// (a little less than where inscatter.comp leaves it out).
+float lamp_light(Light light, Incident incident, vec3 p_world) {
+  if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < 0.99 * kLeastIrradiance) return 0.0;
   return light_share(light, p_world);
 }
 
+void to_lamp(LightPair pair, uint local) {
+  const vec3 p_voxel = texel_position(pair.slot, local), p_world = world_from_voxel(p_voxel);
+  const Incident incident = light_at(lights[pair.lamp], p_world);
+  const float lit = lamp_light(lights[pair.lamp], incident, p_world);
+  const float depth = optical_depth(p_voxel, incident.to_light, lit > 0.0 ? incident.distance : 0.0, 1.0);
+  blocks[pair.block * kTexelsPerBrick + local] = packHalf2x16(vec2(depth, lit));
+}
+
+void to_sky(LightPair pair, uint local) {
+  const vec3 p_voxel = texel_position(pair.slot, local);
+  vec2 depths;
+  for (uint i = 0u; i < 2u; ++i) depths[i] = optical_depth(p_voxel, sky_ray(2u * (pair.lamp - kTowardSky) + i), 1e4, 2.0);
+  blocks[pair.block * kTexelsPerBrick + local] = packHalf2x16(depths);
+}
+
 void main() {
-  const uint count = counters.texels * params.rays_per_texel;
-  for (uint first = gl_WorkGroupID.x * 64u; first < count; first += gl_NumWorkGroups.x * 64u) {
-    const uint at = first + gl_LocalInvocationID.x;
-    float lit = 0.0;
-    if (at < count) {
-      const uint ray = at % params.rays_per_texel;
-      const vec3 p_world = world_from_voxel(smoke_texel(texels[at / params.rays_per_texel]).position_voxel);
-      lit = ray < frame.light_count ? lamp_light(lights[ray], p_world) : 1.0;
-      ray_light[at] = packHalf2x16(vec2(0.0, lit));
-    }
-    if (gl_LocalInvocationID.x == 0u) group_count = 0u;
-    barrier();
-    const uint rank = lit > 0.0 ? atomicAdd(group_count, 1u) : 0u;
-    barrier();
-    if (gl_LocalInvocationID.x == 0u && group_count > 0u) group_first = atomicAdd(counters.rays, group_count);
-    barrier();
-    if (lit > 0.0) rays[group_first + rank] = at;
-    barrier();
-  }
+  const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z, i = gl_GlobalInvocationID.x;
+  if (number >= params.count) return;
+  const LightPair pair = pairs[params.first + number];
+  const uint row = pair.row * kLightRow;
+  if (i >= rows[row]) return;
+  const uint local = rows[row + 1u + i];
+  const bool sky = pair.lamp >= kTowardSky;
+  // Loops that run at most once: a software rasteriser pays for branches that it does not take, not for loops.
+  for (bool now = !sky; now; now = false) to_lamp(pair, local);
+  for (bool now = sky; now; now = false) to_sky(pair, local);
 }

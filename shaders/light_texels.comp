@@ -1,4 +1,4 @@
-// Lists the texels whose light is needed: smoke is around them, and their brick may be in view. One workgroup a brick.
+// Lists the texels of a brick whose light is needed, since smoke is around them. One workgroup a brick.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -7,17 +7,15 @@
 
 layout(local_size_x = 256) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Slots { uint slots[]; };
+layout(scalar, binding = 1) readonly buffer Bricks { LightRow bricks[]; };
 layout(binding = 2) uniform sampler3D density_atlas;
-layout(scalar, binding = 3) writeonly buffer Texels { uint texels[]; };
-layout(scalar, binding = 4) buffer Counters { SmokeLightCounters counters; };
-layout(scalar, binding = 5) readonly buffer Cells { uint cells[]; };
+layout(scalar, binding = 3) writeonly buffer Rows { uint rows[]; };
+layout(scalar, binding = 4) readonly buffer Cells { uint cells[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 
 shared uint smoke[kTexelsPerBrick];
 shared uint grown[kTexelsPerBrick];
-shared uint group_count;
-shared uint group_first;
+shared uint texel_count;
 
 /// Whether a boundary cell has the texel as a corner: its density may come from voxels that the brick does not hold.
 bool at_boundary(uint slot, ivec3 local) {
@@ -43,33 +41,29 @@ uint largest_around(bool of_grown, uint i, uint stride) {
 }
 
 void main() {
-  if (gl_WorkGroupID.x >= params.slot_count) return;
-  const uint slot = slots[params.first_slot + gl_WorkGroupID.x];
+  const uint number = gl_WorkGroupID.x + kLightGroups * gl_WorkGroupID.y;
+  if (number >= params.count) return;
+  const LightRow brick = bricks[params.first + number];
   const uint lane = gl_LocalInvocationID.x;
-  const uvec3 bricks = uvec3(frame.volume.atlas_bricks);
-  const ivec3 corner = ivec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * kBrickTexels;
+  const uvec3 atlas = uvec3(frame.volume.atlas_bricks);
+  const ivec3 corner = ivec3(brick.slot % atlas.x, brick.slot / atlas.x % atlas.y, brick.slot / (atlas.x * atlas.y)) * kBrickTexels;
 
   // A sample meets the texels around it, and near walls those of a lookup that was moved by up to a voxel: two texels
   // from smoke along each axis.
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
     const ivec3 local = ivec3(i % 10u, i / 10u % 10u, i / 100u);
-    smoke[i] = texelFetch(density_atlas, corner + local, 0).r > 0.0 || at_boundary(slot, local) ? 1u : 0u;
+    smoke[i] = texelFetch(density_atlas, corner + local, 0).r > 0.0 || at_boundary(brick.slot, local) ? 1u : 0u;
   }
   barrier();
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) grown[i] = largest_around(false, i, 1u);
   barrier();
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) smoke[i] = largest_around(true, i, 10u);
+  if (lane == 0u) texel_count = 0u;
   barrier();
-  if (lane == 0u) group_count = 0u;
-  barrier();
+  const uint first = brick.row * kLightRow;
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
-    grown[i] = kTexelsPerBrick;
-    if (largest_around(false, i, 100u) > 0u) grown[i] = atomicAdd(group_count, 1u);
+    if (largest_around(false, i, 100u) > 0u) rows[first + 1u + atomicAdd(texel_count, 1u)] = i;
   }
   barrier();
-  if (lane == 0u && group_count > 0u) group_first = atomicAdd(counters.texels, group_count);
-  barrier();
-  for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
-    if (grown[i] < kTexelsPerBrick) texels[group_first + grown[i]] = slot * kTexelsPerBrick + i;
-  }
+  if (lane == 0u) rows[first] = texel_count;
 }

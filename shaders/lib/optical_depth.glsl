@@ -21,25 +21,52 @@ float seen_density(vec3 p_voxel) {
   return point.density > 0.0 ? point.density * left_in_cell(point.slot, point.local_voxel) : 0.0;
 }
 
-/// Optical depth from a point along a unit direction, at most `distance_m` metres, in at most `max_steps` steps. They
-/// grow with the distance: what is near decides most.
-float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float max_steps) {
+/// The same for who knows the slot of the point's brick.
+float seen_density_in(uint slot, vec3 p_voxel) {
+  const vec3 local_voxel = p_voxel - floor(p_voxel / float(kBrickVoxels)) * float(kBrickVoxels);
+  const vec3 uvw = (atlas_corner(frame.volume, slot) + local_voxel) * atlas_texel(frame.volume);
+  const float density = sample_brick(slot, local_voxel, uvw).density * textureLod(share_atlas, uvw, 0.0).r;
+  return density > 0.0 ? density * left_in_cell(slot, local_voxel) : 0.0;
+}
+
+/// Where step i of a ray of light begins [voxels]: half a voxel long at first, ever longer with the distance, as what
+/// is near decides most. And which step a distance lies in.
+float light_step(float i) { return i * (0.5 + i / 24.0); }
+float light_step_at(float distance_voxel) { return floor(sqrt(36.0 + 24.0 * distance_voxel) - 6.0); }
+
+/// Where a ray from a point leaves the cube of an edge that is aligned to it [voxels].
+float leaves_cube(vec3 p_voxel, vec3 inverse, float edge) {
+  const vec3 low = floor(p_voxel / edge) * edge;
+  const vec3 way = (mix(low, low + edge, greaterThan(inverse, vec3(0.0))) - p_voxel) * inverse;
+  return min(way.x, min(way.y, way.z));
+}
+
+/// Optical depth from a point along a unit direction, at most `distance_m` metres, by steps of light_step times
+/// `coarse`. Where they are follows from the ray alone, not from what other smoke there is.
+float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
   const SmokeVolumeFrame volume = frame.volume;
-  // The part inside the smoke's bounds.
+  // To where it leaves what may dim it.
   const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
   const vec3 t0 = (frame.shading_min - p_voxel) * inverse, t1 = (frame.shading_max - p_voxel) * inverse;
   const vec3 near = min(t0, t1), far = max(t0, t1);
   const float begin = max(max(near.x, near.y), max(near.z, 0.0));
-  const float reach = min(min(far.x, far.y), min(far.z, distance_m / volume.voxel_size)) - begin;
-  if (reach <= 0.0) return 0.0;
+  const float ray_end = distance_m / volume.voxel_size, end = min(min(far.x, far.y), min(far.z, ray_end));
   const float per_voxel = volume.voxel_size * frame.look.extinction;
-  const float steps = clamp(ceil(reach), 1.0, max_steps);
-  float depth = 0.0, before = 0.0;
-  for (float i = 1.0; i <= steps; ++i) {
-    const float after = reach * (i / steps) * (0.5 + 0.5 * i / steps);
-    depth += seen_density(p_voxel + direction * (begin + 0.5 * (before + after))) * (after - before);
-    if (depth * per_voxel > 12.0) break;
-    before = after;
+  float depth = 0.0;
+  for (float i = light_step_at(begin / coarse); begin < end; ++i) {
+    const float before = coarse * light_step(i);
+    if (before >= end || depth * per_voxel > 12.0) break;
+    const float after = min(coarse * light_step(i + 1.0), ray_end), middle = 0.5 * (before + after);
+    const vec3 p = p_voxel + direction * middle;
+    int empty_edge;
+    const uint slot = slot_at(volume, ivec3(floor(p / float(kBrickVoxels))), empty_edge);
+    if (slot != kNoSlot) {
+      depth += seen_density_in(slot, p) * (after - before);
+    } else {
+      // On to the step in which the ray leaves where nothing is, or a little before.
+      const float leaves = middle + leaves_cube(p, inverse, float(empty_edge)) - 0.01;
+      i = max(i, light_step_at(leaves / coarse) - 1.0);
+    }
   }
   return depth * per_voxel;
 }

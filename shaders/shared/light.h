@@ -36,6 +36,9 @@ struct ShadowView {
 };
 SHARED_SIZE(ShadowView, 128);
 
+/// Of a lamp in smoke: less is not seen.
+SHARED_CONST float kLeastIrradiance = 1e-4f;
+
 SHARED_CONST float kShadowNear = 0.05f;  // [m]
 
 SHARED_FUNCTION vec3 cube_forward(uint face) {

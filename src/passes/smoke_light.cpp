@@ -1,93 +1,110 @@
 #include "passes/smoke_light.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "brume_shaders.hpp"
-#include "shared/smoke_light.h"
 
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kMaxSteps = 24;
-// Bytes of light per ray at a time; more bricks are lit one part after the other.
-constexpr std::size_t kRayBytes = std::size_t{64} << 20;
-// Workgroups that share the work of a pass, however much it turns out to be.
-constexpr std::uint32_t kGroups = 4096;
+/// Workgroups of y and z for a list.
+struct Groups {
+  std::uint32_t y, z;
+};
+Groups groups_of(std::uint32_t count) {
+  return {std::min(count, shared::kLightGroups), (count + shared::kLightGroups - 1) / shared::kLightGroups};
+}
+
+template <typename T>
+void upload(gpu::Recorder& recorder, const gpu::Buffer& buffer, const std::vector<T>& list) {
+  if (!list.empty()) recorder.upload(buffer, 0, std::as_bytes(std::span(list)));
+}
 
 }  // namespace
 
 SmokeLightPass::SmokeLightPass(gpu::Context& context)
     : context_(context),
       texels_pass_(context, shaders::light_texels_comp,
-                   {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                   {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::SmokeLightParams), {256, 1, 1}),
       rays_pass_(context, shaders::light_rays_comp,
                  {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
-                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled},
+                  gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
+                  gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                  sizeof(shared::SmokeLightParams), {64, 1, 1}),
-      depth_pass_(
-          context, shaders::light_depth_comp,
-          {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-           gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+      inscatter_pass_(
+          context, shaders::inscatter_comp,
+          {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kStored,
+           gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer},
           sizeof(shared::SmokeLightParams), {64, 1, 1}),
-      inscatter_pass_(context, shaders::inscatter_comp,
-                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                       gpu::kStored, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled},
-                      sizeof(shared::SmokeLightParams), {64, 1, 1}),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
-      counters_(context, sizeof(shared::SmokeLightCounters),
-                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {}
+      plan_(&kept_.plan({})) {
+  for (gpu::Buffer* buffer : {&rows_, &blocks_, &listed_rows_, &pairs_, &bricks_, &brick_lamps_})
+    gpu::grow(context, *buffer, 1);
+}
 
-void SmokeLightPass::reserve(std::uint32_t slot_count, std::uint32_t light_count) {
-  rays_per_texel_ = light_count + shared::kSkyRays;
-  const std::size_t slot_bytes =
-      std::size_t{shared::kTexelsPerBrick} * rays_per_texel_ * sizeof(std::uint32_t);
-  slots_at_once_ = static_cast<std::uint32_t>(std::max<std::size_t>(kRayBytes / slot_bytes, 1));
-  const std::size_t slots = std::bit_ceil(std::max(std::min(slot_count, slots_at_once_), 1u));
-  gpu::grow(context_, texels_, slots * shared::kTexelsPerBrick * sizeof(std::uint32_t));
-  gpu::grow(context_, rays_, slots * slot_bytes);
-  gpu::grow(context_, ray_light_, slots * slot_bytes);
+void SmokeLightPass::reserve(const SmokeLightMoment& moment) {
+  const auto make_room = [&] {
+    constexpr std::size_t kWord = sizeof(std::uint32_t);
+    const bool rows = gpu::grow(context_, rows_, plan_->row_count * shared::kLightRow * kWord);
+    const bool blocks = gpu::grow(context_, blocks_, plan_->block_count * shared::kTexelsPerBrick * kWord);
+    return rows || blocks;
+  };
+  plan_ = &kept_.plan(moment);
+  if (make_room()) {
+    kept_.forget();
+    plan_ = &kept_.plan(moment);
+  }
+  gpu::grow(context_, listed_rows_, plan_->rows.size() * sizeof(shared::LightRow));
+  gpu::grow(context_, pairs_, plan_->pairs.size() * sizeof(shared::LightPair));
+  gpu::grow(context_, bricks_, plan_->bricks.size() * sizeof(shared::LightBrick));
+  gpu::grow(context_, brick_lamps_, plan_->lamps.size() * sizeof(glm::uvec2));
 }
 
 void SmokeLightPass::record(gpu::Recorder& recorder, const Inputs& in) {
-  for (std::uint32_t first = 0; first < in.smoke.seen; first += slots_at_once_)
-    record_slots(recorder, in, first, std::min(slots_at_once_, in.smoke.seen - first));
+  upload(recorder, listed_rows_, plan_->rows);
+  upload(recorder, pairs_, plan_->pairs);
+  upload(recorder, bricks_, plan_->bricks);
+  upload(recorder, brick_lamps_, plan_->lamps);
+  for (const SmokeLightPlan::Part& part : plan_->parts) record_part(recorder, in, part);
 }
 
-void SmokeLightPass::record_slots(gpu::Recorder& recorder, const Inputs& in, std::uint32_t first,
-                                  std::uint32_t count) {
-  const shared::SmokeLightParams params{first, count, rays_per_texel_, kMaxSteps};
-  recorder.fill(counters_, 0);
-  recorder.bind(texels_pass_,
-                {gpu::read(in.frame), gpu::read(in.smoke.slots), gpu::sampled(in.smoke.density, linear_),
-                 gpu::write(texels_), gpu::read_write(counters_), gpu::read(in.smoke.cells)},
-                params);
-  recorder.dispatch_threads(texels_pass_, count * 256);
-  recorder.bind(rays_pass_,
+void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
+                                 const SmokeLightPlan::Part& part) {
+  const auto params = [](const sim::IndexRange& range) {
+    return shared::SmokeLightParams{range.first, range.count};
+  };
+  if (part.rows.count > 0) {
+    recorder.bind(texels_pass_,
+                  {gpu::read(in.frame), gpu::read(listed_rows_), gpu::sampled(in.smoke.density, linear_),
+                   gpu::write(rows_), gpu::read(in.smoke.cells)},
+                  params(part.rows));
+    const Groups groups = groups_of(part.rows.count);
+    recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
+  }
+  if (part.pairs.count > 0) {
+    recorder.bind(
+        rays_pass_,
+        {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
+         gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_), gpu::read(in.smoke.pages),
+         gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
+         gpu::read(in.smoke.corners), gpu::read(in.holes.cells), gpu::sampled(in.smoke.share, linear_),
+         gpu::sampled(in.level.solid.texels(), linear_), gpu::read(pairs_), gpu::read(rows_),
+         gpu::write(blocks_)},
+        params(part.pairs));
+    const Groups groups = groups_of(part.pairs.count);
+    recorder.dispatch_threads(rays_pass_, shared::kTexelsPerBrick, groups.y, groups.z);
+  }
+  recorder.bind(inscatter_pass_,
                 {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
-                 gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_), gpu::read(texels_),
-                 gpu::write(rays_), gpu::write(ray_light_), gpu::read_write(counters_),
-                 gpu::sampled(in.level.solid.texels(), linear_)},
-                params);
-  recorder.dispatch_threads(rays_pass_, kGroups * 64);
-  recorder.bind(depth_pass_,
-                {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.smoke.pages),
-                 gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells),
-                 gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners), gpu::read(in.holes.cells),
-                 gpu::sampled(in.smoke.share, linear_), gpu::read(in.scene.lights), gpu::read(texels_),
-                 gpu::read(rays_), gpu::read_write(ray_light_), gpu::read(counters_)},
-                params);
-  recorder.dispatch_threads(depth_pass_, kGroups * 64);
-  recorder.bind(
-      inscatter_pass_,
-      {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights), gpu::read(texels_),
-       gpu::read(ray_light_), gpu::read(counters_), gpu::stored(in.smoke.inscatter),
-       gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
-       gpu::sampled(in.smoke.density, linear_), gpu::sampled(in.smoke.share, linear_)},
-      params);
-  recorder.dispatch_threads(inscatter_pass_, kGroups * 64);
+                 gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
+                 gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
+                 gpu::sampled(in.smoke.density, linear_), gpu::sampled(in.smoke.share, linear_),
+                 gpu::read(brick_lamps_)},
+                params(part.bricks));
+  const Groups groups = groups_of(part.bricks.count);
+  recorder.dispatch_threads(inscatter_pass_, shared::kTexelsPerBrick, groups.y, groups.z);
 }
 
 }  // namespace brume::passes

@@ -5,6 +5,7 @@
 #include "passes/open_holes.hpp"
 #include "passes/shade.hpp"
 #include "passes/shadow.hpp"
+#include "passes/smoke_light_plan.hpp"
 #include "passes/smoke_upload.hpp"
 
 namespace brume::passes {
@@ -21,20 +22,25 @@ class SmokeLightPass {
     const HoleResources& holes;
     LevelLight level;
   };
-  /// Makes room for the light of this many bricks in view and of so many lamps. Not between the begin and the end of a
+  /// Plans a frame, which must then be recorded, and makes room. Not between the begin and the end of a
   /// recording, and only when the device is done with what it recorded before. Throws resource_limit.
-  void reserve(std::uint32_t slot_count, std::uint32_t light_count);
-  /// Fills smoke.inscatter where a ray of the frame's camera can meet smoke.
+  void reserve(const SmokeLightMoment& moment);
+  /// Brings smoke.inscatter to the moment of `reserve`, where a ray of the frame's camera can meet smoke.
   void record(gpu::Recorder& recorder, const Inputs& inputs);
 
+  /// What the next record does, or the last one did.
+  const SmokeLightPlan& plan() const { return *plan_; }
+
  private:
-  void record_slots(gpu::Recorder& recorder, const Inputs& inputs, std::uint32_t first, std::uint32_t count);
+  void record_part(gpu::Recorder& recorder, const Inputs& inputs, const SmokeLightPlan::Part& part);
 
   gpu::Context& context_;
-  gpu::ComputePipeline texels_pass_, rays_pass_, depth_pass_, inscatter_pass_;
+  gpu::ComputePipeline texels_pass_, rays_pass_, inscatter_pass_;
   gpu::Sampler linear_, compare_;
-  gpu::Buffer texels_, rays_, ray_light_, counters_;
-  std::uint32_t rays_per_texel_ = 0, slots_at_once_ = 0;
+  KeptSmokeLight kept_;
+  const SmokeLightPlan* plan_;
+  gpu::Buffer rows_, blocks_;                               // what is kept
+  gpu::Buffer listed_rows_, pairs_, bricks_, brick_lamps_;  // the lists of a plan
 };
 
 }  // namespace brume::passes

@@ -102,8 +102,12 @@ void Renderer::prepare(const FrameInput& input) {
   sky_light_.reserve(solid_);
   open_holes_.reserve(input.holes, input.time, input.look.hole_rim,
                       slots > 0 ? input.volume->frame() : shared::SmokeVolumeFrame(), slots, size_px_);
-  smoke_light_pass_.reserve(needs_.seen, static_cast<std::uint32_t>(lights_.size()));
+  const bool walls_changed = input.hidden_objects != hidden_objects_ || input.level.grid != lit_level_.grid ||
+                             input.level.edits != lit_level_.edits;
+  lit_level_ = input.level;
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
+  smoke_light_pass_.reserve({input.volume, &needs_, lights_, input.holes, input.time, input.look, input.sky,
+                             input.camera.position_world, walls_changed || input.force_light});
 }
 
 void Renderer::follow_hidden_objects(const FrameInput& input) {
@@ -167,8 +171,7 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   const bool light_smoke = input.volume && needs_light(input);
   stage("smoke_shadow", [&] { record_smoke_shadows(recorder, input, light_smoke); });
   stage("smoke_light", [&] {
-    if (light_smoke)
-      smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, {solid_, sky_light_}});
+    smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, {solid_, sky_light_}});
   });
   stage("march", [&] { record_march(recorder); });
   if (blocks_) stage("resolve", [&] { record_resolve(recorder); });

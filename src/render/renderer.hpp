@@ -79,6 +79,8 @@ class Renderer {
   /// The rays of the march; empty where each pixel has its own.
   const std::optional<passes::MarchBlocks>& march_blocks() const { return blocks_; }
   const gpu::Buffer& sample_counter() const { return counters_; }
+  /// What of the light in the smoke the last frame made anew.
+  const passes::SmokeLightPlan& light_plan() const { return smoke_light_pass_.plan(); }
   const passes::SceneResources& scene() const { return scene_; }
   glm::uvec2 size_px() const { return size_px_; }
 
@@ -126,6 +128,7 @@ class Renderer {
   gpu::Buffer frame_, counters_;
   std::vector<shared::Light> lights_;  ///< Of the scene and of the moment, that reach what is in view.
   passes::SmokeNeeds needs_;
+  passes::LevelView lit_level_;   ///< Whose walls kept light away.
   shared::SmokeLook lit_look_{};  ///< The look that the light in the smoke was made with.
   shared::Sky lit_sky_{};
   std::vector<std::uint32_t> hidden_objects_;  ///< That the shadows were drawn without.

@@ -28,6 +28,9 @@ layout(scalar, binding = 10) buffer Out10 { RayEnds ends; };
 layout(scalar, binding = 12) buffer Out12 { MarchList march_list; };
 layout(scalar, binding = 13) buffer Out13 { AccumulateParams accumulate; };
 layout(scalar, binding = 14) buffer Out14 { AccumulatedPixel pixel; };
+layout(scalar, binding = 15) buffer Out15 { LightRow light_row; };
+layout(scalar, binding = 16) buffer Out16 { LightPair light_pair; };
+layout(scalar, binding = 17) buffer Out17 { LightBrick light_brick; };
 
 vec2 v2(float first) { return vec2(first, first + 1.0); }
 vec3 v3(float first) { return vec3(first, first + 1.0, first + 2.0); }
@@ -56,7 +59,10 @@ void main() {
   draw = DrawConstants(v4(1.0), v4(5.0), v4(9.0), MaterialConstants(v3(13.0), 16.0, v3(17.0), 20.0, 21.0));
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));
   noise = NoiseParams(1u, 2u, 3u);
-  smoke_light = SmokeLightParams(1u, 2u, 3u, 4u);
+  smoke_light = SmokeLightParams(1u, 2u);
+  light_row = LightRow(1u, 2u);
+  light_pair = LightPair(1u, 2u, 3u, 4u);
+  light_brick = LightBrick(1u, 2u, 3u, 4u, 5u);
   smoke_shadow = SmokeShadowParams(1u, 2.0);
   smoke_face = SmokeShadowFace(1.0, vec2(2.0, 3.0), 4u, uvec2(5u, 6u), uvec2(7u, 8u));
   view = ShadowView(m4(1.0), m4(17.0));

@@ -30,25 +30,28 @@ class SharedStructs : public GpuTest {
 };
 
 TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
-  const gpu::ComputePipeline pipeline(context(), shaders::echo_comp,
-                                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                                       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                                       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                                      0, {1, 1, 1});
+  const gpu::ComputePipeline pipeline(
+      context(), shaders::echo_comp,
+      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+      0, {1, 1, 1});
   std::vector<gpu::Buffer> out;
   for (const std::size_t size :
        {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
         sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
         sizeof(shared::NoiseParams), sizeof(shared::SmokeLightParams), sizeof(shared::SmokeShadowParams),
         sizeof(shared::ShadowView), sizeof(shared::RayEnds), sizeof(shared::SmokeShadowFace),
-        sizeof(shared::MarchList), sizeof(shared::AccumulateParams), sizeof(shared::AccumulatedPixel)}) {
+        sizeof(shared::MarchList), sizeof(shared::AccumulateParams), sizeof(shared::AccumulatedPixel),
+        sizeof(shared::LightRow), sizeof(shared::LightPair), sizeof(shared::LightBrick)}) {
     out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   }
   runner().run([&](gpu::Recorder& recorder) {
     recorder.bind(pipeline, {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
                              gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7]),
                              gpu::write(out[8]), gpu::write(out[9]), gpu::write(out[10]), gpu::write(out[11]),
-                             gpu::write(out[12]), gpu::write(out[13]), gpu::write(out[14])});
+                             gpu::write(out[12]), gpu::write(out[13]), gpu::write(out[14]),
+                             gpu::write(out[15]), gpu::write(out[16]), gpu::write(out[17])});
     recorder.dispatch_threads(pipeline, 1);
   });
 
@@ -150,10 +153,22 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(noise.seed, 3u);
 
   const auto smoke_light = one<shared::SmokeLightParams>(out[7]);
-  EXPECT_EQ(smoke_light.first_slot, 1u);
-  EXPECT_EQ(smoke_light.slot_count, 2u);
-  EXPECT_EQ(smoke_light.rays_per_texel, 3u);
-  EXPECT_EQ(smoke_light.max_steps, 4u);
+  EXPECT_EQ(smoke_light.first, 1u);
+  EXPECT_EQ(smoke_light.count, 2u);
+  const auto light_row = one<shared::LightRow>(out[15]);
+  EXPECT_EQ(light_row.slot, 1u);
+  EXPECT_EQ(light_row.row, 2u);
+  const auto light_pair = one<shared::LightPair>(out[16]);
+  EXPECT_EQ(light_pair.slot, 1u);
+  EXPECT_EQ(light_pair.row, 2u);
+  EXPECT_EQ(light_pair.lamp, 3u);
+  EXPECT_EQ(light_pair.block, 4u);
+  const auto light_brick = one<shared::LightBrick>(out[17]);
+  EXPECT_EQ(light_brick.slot, 1u);
+  EXPECT_EQ(light_brick.row, 2u);
+  EXPECT_EQ(light_brick.sky_block, 3u);
+  EXPECT_EQ(light_brick.first_lamp, 4u);
+  EXPECT_EQ(light_brick.lamp_count, 5u);
 
   const auto smoke_shadow = one<shared::SmokeShadowParams>(out[8]);
   EXPECT_EQ(smoke_shadow.face_count, 1u);

@@ -1,0 +1,125 @@
+// Which rays of light through the smoke a frame needs, and which of them are still as they were.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "passes/smoke_needs.hpp"
+#include "shared/frame.h"
+#include "shared/hole.h"
+#include "shared/light.h"
+#include "shared/smoke_light.h"
+
+namespace brume::passes {
+
+/// Work for the device, in lists as shaders/shared/smoke_light.h reads them.
+struct SmokeLightPlan {
+  std::vector<shared::LightRow> rows;      ///< Bricks whose texels are to be listed.
+  std::vector<shared::LightPair> pairs;    ///< Rays to be followed.
+  std::vector<shared::LightBrick> bricks;  ///< Whose light is to be put together.
+  std::vector<glm::uvec2> lamps;           ///< Of those bricks: (lamp of the frame, block).
+  /// What is done in one go. More than one only where the blocks of all would not fit.
+  struct Part {
+    sim::IndexRange rows, pairs, bricks;
+  };
+  std::vector<Part> parts;
+  std::uint32_t row_count = 0, block_count = 0;  ///< That there must be room for.
+};
+
+/// What the light of a frame follows from.
+struct SmokeLightMoment {
+  const sim::SmokeVolume* volume = nullptr;  ///< null: no smoke.
+  const SmokeNeeds* needs = nullptr;         ///< Not null where there is smoke.
+  std::span<const shared::Light> lights;     ///< Of the frame.
+  std::span<const shared::Hole> holes;
+  float time = 0;  ///< Of holes and noise [s].
+  shared::SmokeLook look{};
+  shared::Sky sky{};
+  glm::vec3 eye_world{0};
+  bool anew = false;  ///< Something else changed, walls for instance: nothing is kept.
+};
+
+/// Most blocks of rays at a time; of shared::kTexelsPerBrick words: 128 MB.
+constexpr std::uint32_t kMostLightBlocks = 1u << 15;
+
+/// Remembers what the device holds. A ray is followed anew when its lamp, or anything that may lie on its
+/// way, is not what it was; a brick's light is put together anew when a ray of its own was, or the eye, the
+/// sky or a lamp of it changed. Where noise drifts every moment changes all smoke, and all rays with it.
+class KeptSmokeLight {
+ public:
+  explicit KeptSmokeLight(std::uint32_t most_blocks = kMostLightBlocks) : most_blocks_(most_blocks) {}
+
+  /// The work of a frame. Its lists hold until the next call; what they ask for counts as done from then on.
+  const SmokeLightPlan& plan(const SmokeLightMoment& moment);
+  /// The device lost what it held.
+  void forget();
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  struct Kept {
+    std::uint32_t block = kNone;
+    bool valid = false;
+    // Where the lamp reached when the rays were followed: beyond they say nothing.
+    float range = 0, intensity = 0;
+  };
+  struct Row {
+    std::uint32_t slot = 0, number = 0;
+    glm::ivec3 brick{0};
+    bool listed = false;
+    std::uint64_t put_together = 0;  // hash of what its light was put together from; 0: nothing
+    Kept sky;
+    std::vector<Kept> lamps;  // by number of the lamp here
+  };
+  struct Lamp {
+    shared::Light light{};
+    std::uint64_t version = 0;       // of `light`, never the same twice
+    std::uint64_t last_frame = 0;    // that had it
+    std::uint32_t in_frame = kNone;  // its number there
+  };
+  /// Around a stretch of a line, in the world [m].
+  struct Capsule {
+    glm::vec3 from{0}, to{0};
+    float radius = 0;
+  };
+
+  bool must_forget(const SmokeLightMoment& moment) const;
+  void remember(const SmokeLightMoment& moment);
+  void forget_rays();
+  void add_hole_changes(const SmokeLightMoment& moment, std::vector<Capsule>& changes) const;
+  void add_smoke_changes(const SmokeLightMoment& moment, std::vector<Capsule>& changes);
+  bool drop_crossed(const SmokeLightMoment& moment, std::span<const Capsule> changes);
+  void follow_lamps(std::span<const shared::Light> lights);
+  Lamp& known_lamp(const shared::Light& light, std::size_t hint, std::size_t most);
+  void find_reaching(const SmokeLightMoment& moment);
+  std::span<const std::uint32_t> reaching(std::size_t seen_index) const;
+  std::uint32_t blocks_missing(const SmokeLightMoment& moment) const;
+  Row& row_of(const SmokeLightMoment& moment, std::uint32_t slot);
+  void take_blocks(Kept& kept, std::uint32_t count);
+  void plan_row(Row& row, std::span<const std::uint32_t> lamps);
+  void plan_kept(const SmokeLightMoment& moment);
+  void plan_parts(const SmokeLightMoment& moment);
+  std::uint64_t made_of(std::span<const std::uint32_t> lamps) const;
+
+  std::uint32_t most_blocks_;
+  SmokeLightPlan plan_;
+  std::vector<Row> rows_;
+  std::unordered_map<std::uint32_t, std::uint32_t> row_of_slot_;
+  std::vector<glm::ivec3> brick_of_slot_;  // of all slots, as of the last frame
+  std::vector<Lamp> lamps_;
+  std::uint32_t block_end_ = 0;
+  // The lamps that reach each slot in view: their list, and where each slot's begin.
+  std::vector<std::uint32_t> reaching_, reaching_first_;
+  std::uint64_t versions_ = 0, frames_ = 0, epoch_ = 0;  // epoch: of eye and sky
+  std::optional<SmokeLightMoment> last_;                 // its pointers are not followed
+  std::vector<shared::Hole> holes_;                      // its
+  std::uint64_t revision_ = 0, generation_ = 0;
+  shared::SmokeVolumeFrame frame_{};
+};
+
+/// Whether a hole takes the same away everywhere at two moments.
+bool same_cut(const shared::Hole& hole, float time_a, float time_b);
+
+}  // namespace brume::passes
