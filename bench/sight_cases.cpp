@@ -3,6 +3,7 @@
 
 #include "bench/bench.hpp"
 #include "core/tasks.hpp"
+#include "image/font.hpp"
 #include "scene/load.hpp"
 #include "sim/sight.hpp"
 #include "sim/world.hpp"
@@ -14,19 +15,23 @@ namespace {
 
 constexpr std::size_t kHoles = 32, kSegments = 20000, kBatch = 2000;
 constexpr float kMetres = 10;
+constexpr std::uint32_t kLetterRadius = sim::kUnitsPerMetre / 2;  // of a letter's square
 
 /// A smoke of 1,800 voxels, and the places that it fills.
 struct SmokyLevel {
   voxel::BitGrid grid;
   voxel::SurfacePlanes planes;
+  sim::MaskAtlas masks;
   sim::World world;
   sim::SmokeVolume volume;
   std::vector<glm::vec3> places;  // centres of its voxels
 
-  SmokyLevel(const std::vector<voxel::Triangle>& triangles, const voxel::GridFrame& frame, glm::dvec3 source)
+  SmokyLevel(const std::vector<voxel::Triangle>& triangles, const voxel::GridFrame& frame, glm::dvec3 source,
+             std::span<const sim::Mask> pictures = {})
       : grid(voxel::voxelize(triangles, frame).value_or_throw()),
         planes(voxel::SurfacePlanes::build(triangles, grid)),
-        world(grid),
+        masks(sim::MaskAtlas::pack(pictures).value_or_throw()),
+        world(grid, {.masks = masks.key()}),
         volume(grid, planes) {
     sim::ThrowSmoke thrown;
     thrown.from = thrown.at = sim::position_from_metres(source);
@@ -38,13 +43,19 @@ struct SmokyLevel {
       });
   }
 
-  /// Shots from and towards places in the smoke, until so many holes are wide open at once.
+  /// Shots from and towards places in the smoke, until so many holes are wide open at once; of its masks by
+  /// turns, where it has any.
   void shoot(std::size_t holes, std::mt19937& random) {
     for (int tries = 0; tries < 1000 && world.state().holes.size() < holes; ++tries) {
       sim::Shot shot;
       shot.tick = world.tick();
       shot.origin = sim::position_from_metres(glm::dvec3(places[random() % places.size()]));
       shot.toward = sim::position_from_metres(glm::dvec3(places[random() % places.size()]));
+      if (masks.count() > 0) {
+        shot.shape = sim::HoleShape::mask;
+        shot.mask = static_cast<std::uint32_t>(tries) % masks.count();
+        shot.radius = kLetterRadius;
+      }
       if (shot.origin != shot.toward) world.append(shot).value_or_throw();
     }
     world.advance_to(world.tick() + 25);
@@ -68,8 +79,9 @@ std::vector<sim::Segment> segments_through(const std::vector<glm::vec3>& places,
 Measurement measure(const Bench& bench, const std::string& name, SmokyLevel& level, std::size_t holes) {
   std::mt19937 random(7);
   level.shoot(holes, random);
-  const std::vector<shared::Hole> open = sim::holes_of(level.world.state());
-  const sim::Sight sight(level.volume, level.grid, open, level.world.state().seconds(level.world.tick()));
+  const std::vector<shared::Hole> open = sim::holes_of(level.world.state(), &level.masks);
+  const sim::Sight sight(level.volume, level.grid, open, level.world.state().seconds(level.world.tick()),
+                         {.masks = &level.masks});
   const std::vector<sim::Segment> segments = segments_through(level.places, random);
   std::vector<float> depths(kBatch);
   const unsigned threads = thread_count(), count = bench.repetitions(200);
@@ -92,6 +104,19 @@ Measurement measure(const Bench& bench, const std::string& name, SmokyLevel& lev
   return m;
 }
 
+/// The letters of a word, as text events shoot them.
+Result<std::vector<sim::Mask>> letters(const std::string& word) {
+  auto font = image::Font::load(image::default_font());
+  if (!font) return font.failure();
+  std::vector<sim::Mask> masks;
+  for (const char letter : word) {
+    auto glyph = font->glyph(static_cast<unsigned char>(letter));
+    if (!glyph) return glyph.failure();
+    masks.push_back({glyph->side, glyph->side, std::move(glyph->coverage)});
+  }
+  return masks;
+}
+
 Result<std::vector<Measurement>> sight_1800(Bench& bench) {
   std::vector<Measurement> all;
   const auto both = [&](const std::string& name, SmokyLevel& level) {
@@ -100,6 +125,10 @@ Result<std::vector<Measurement>> sight_1800(Bench& bench) {
   };
   SmokyLevel open({}, {{64, 64, 64}, 0.5f, {0, 0, 0}}, {16, 16, 16});
   both("sight/1800/open", open);
+  const auto word = letters("BRUME");
+  if (!word) return word.failure();
+  SmokyLevel written({}, {{64, 64, 64}, 0.5f, {0, 0, 0}}, {16, 16, 16}, *word);
+  all.push_back(measure(bench, "sight/1800/letters", written, kHoles));
 
   const auto demo = scene::load_scene(BRUME_SCENES_DIR "/demo.glb");
   if (!demo) return demo.failure();

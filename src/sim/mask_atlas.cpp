@@ -66,9 +66,9 @@ Result<void> check(std::span<const Mask> masks) {
     if (texels == 0 || texels != mask.texels.size())
       return Failure{ErrorCode::bad_input, "masks: expected width x height texels, not none"};
     if (std::max(mask.width, mask.height) > kMaxMaskAxis)
-      return Failure{ErrorCode::resource_limit,
-                     "masks: one of " + std::to_string(mask.width) + " x " + std::to_string(mask.height) +
-                         " texels, at most " + std::to_string(kMaxMaskAxis) + " an axis"};
+      return Failure{ErrorCode::resource_limit, "masks: one of " + std::to_string(mask.width) + " x " +
+                                                    std::to_string(mask.height) + " texels, at most " +
+                                                    std::to_string(kMaxMaskAxis) + " an axis"};
   }
   return {};
 }
@@ -149,9 +149,10 @@ float MaskView::at(glm::vec2 across) const {
   return top + (bottom - top) * c.share.y;
 }
 
-std::uint8_t MaskView::least_around(glm::vec2 across) const {
+std::pair<std::uint8_t, std::uint8_t> MaskView::range_around(glm::vec2 across) const {
   const Corners c = corners_at(*this, across);
-  return static_cast<std::uint8_t>(std::min({c.f00, c.f10, c.f01, c.f11}));
+  const auto [least, most] = std::minmax({c.f00, c.f10, c.f01, c.f11});
+  return {static_cast<std::uint8_t>(least), static_cast<std::uint8_t>(most)};
 }
 
 MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole) {

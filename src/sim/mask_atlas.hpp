@@ -83,8 +83,8 @@ struct MaskView {
 
   /// [0, 255], linear between the centres of texels, the edge's beyond them; `across` in [0, 1]^2.
   float at(glm::vec2 across) const;
-  /// The least of the texels that `at` reads there.
-  std::uint8_t least_around(glm::vec2 across) const;
+  /// The least and the most of the texels that `at` reads there.
+  std::pair<std::uint8_t, std::uint8_t> range_around(glm::vec2 across) const;
 };
 /// That of a hole whose rectangle is one of the atlas.
 MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole);

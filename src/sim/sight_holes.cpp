@@ -68,6 +68,25 @@ void add_texels(float x, float x_step, int texels, float nearest, float t0, floa
   }
 }
 
+/// Sorts the breaks from `first` on, which lie between t0 and t1, and drops those between texels that are all
+/// black, or all white: most of a letter is.
+void keep_uneven(const RayHole& h, float t0, float t1, std::size_t first, std::vector<float>& breaks) {
+  std::sort(breaks.begin() + static_cast<std::ptrdiff_t>(first), breaks.end());
+  const std::size_t count = breaks.size();
+  std::size_t kept = first;
+  float from = t0;
+  RayHole::Takes before = RayHole::Takes::part;
+  for (std::size_t i = first; i <= count; ++i) {
+    const float to = i < count ? breaks[i] : t1;
+    const RayHole::Takes here = from < to ? h.takes(0.5f * (from + to)) : before;
+    // `from` is the break before this part.
+    if (i > first && (here != before || here == RayHole::Takes::part)) breaks[kept++] = from;
+    before = here;
+    from = to;
+  }
+  breaks.resize(kept);
+}
+
 /// Adds every t at which the strength of the hole has a kink.
 void add_breaks(const RayHole& h, std::vector<float>& out) {
   if (h.steady && !h.box) {  // its edge begins where the hole does
@@ -98,10 +117,12 @@ void add_breaks(const RayHole& h, std::vector<float>& out) {
     if (!(t0 < t1)) continue;
     out.push_back(t0);
     const float r0 = h.radius_at(t0), r1 = h.radius_at(t1);
+    const std::size_t first = out.size();
     add_edges(h, 1, t0, r0, t1, r1, out);
     if (h.mask.first) {
       add_texels(h.x, h.x_step, h.mask.width, h.nearest, t0, r0, t1, r1, out);
       add_texels(-h.y, -h.y_step, h.mask.height, h.nearest, t0, r0, t1, r1, out);
+      keep_uneven(h, t0, t1, first, out);
     } else {
       add_edges(h, 1 - shared::kHoleSoftShare, t0, r0, t1, r1, out);
     }
@@ -125,8 +146,9 @@ void make_pieces(HolesOnRay& on_ray) {
     bool met = false, gone = false;
     for (const RayHole& hole : on_ray.holes) {
       if (hole.begin > middle || hole.end < middle) continue;
-      met = true;
-      gone |= hole.takes_all(middle);
+      const RayHole::Takes takes = hole.takes(middle);
+      met |= takes != RayHole::Takes::nothing;
+      gone |= takes == RayHole::Takes::all;
     }
     if (met) on_ray.pieces.push_back({begin, end, gone});
   }
@@ -141,15 +163,18 @@ float RayHole::radius_at(float t) const {
   return radius * opened * (1 - closed);
 }
 
-bool RayHole::takes_all(float t) const {
+RayHole::Takes RayHole::takes(float t) const {
   const float from_nearest = t - nearest, px = x + x_step * from_nearest, py = y + y_step * from_nearest;
   const float wide = steady ? radius : radius_at(t), core = (1 - shared::kHoleSoftShare) * wide;
-  if (!steady && age + age_step * t > stay_end) return false;
+  const bool closing = !steady && age + age_step * t > stay_end;
   if (mask.first) {
-    if (std::max(std::abs(px), std::abs(py)) > wide) return false;
-    return mask.least_around(glm::vec2(share_across(px, wide), share_across(-py, wide))) == 255;
+    if (std::max(std::abs(px), std::abs(py)) > wide) return Takes::nothing;
+    const auto [least, most] = mask.range_around(glm::vec2(share_across(px, wide), share_across(-py, wide)));
+    if (most == 0) return Takes::nothing;
+    return least == 255 && !closing ? Takes::all : Takes::part;
   }
-  return box ? std::max(std::abs(px), std::abs(py)) <= core : px * px + py * py <= core * core;
+  const bool within = box ? std::max(std::abs(px), std::abs(py)) <= core : px * px + py * py <= core * core;
+  return within && !closing ? Takes::all : Takes::part;
 }
 
 Float4 RayHole::strength(Float4 t) const {

@@ -27,8 +27,10 @@ struct RayHole {
   bool box;
   bool steady;  ///< Wide open and not yet closing, all the way.
   float radius_at(float t) const;
-  /// Whether its strength is 1: within its core, before it closes.
-  bool takes_all(float t) const;
+  enum class Takes { nothing, part, all };
+  /// What it takes around t, where no texel begins: nothing where its mask is black or ends, all where it is
+  /// wide open and its mask white, or within its core.
+  Takes takes(float t) const;
   /// Strength of the hole at four t between begin and end.
   Float4 strength(Float4 t) const;
 
