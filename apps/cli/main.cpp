@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
@@ -106,5 +107,10 @@ Command declare(CLI::App& program, const std::string& name, const std::string& w
 }  // namespace brume::cli
 
 int main(int argc, char** argv) {
-  return brume::cli::parse_and_run(argc, argv);
+  try {
+    return brume::cli::parse_and_run(argc, argv);
+  } catch (const std::exception& error) {  // before a command ran
+    std::fprintf(stderr, "brume: %s\n", error.what());
+    return static_cast<int>(brume::ErrorCode::internal);
+  }
 }

@@ -59,7 +59,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 Buffer::~Buffer() {
   if (!handle_) return;
   context_->vk().DestroyBuffer(context_->device(), handle_, nullptr);
-  context_->memory().free(range_);
+  context_->memory().free(range_);  // NOLINT(clang-analyzer-unix.Malloc): not that of the C library
 }
 
 namespace {

@@ -14,7 +14,6 @@ namespace {
 constexpr std::uint32_t kGroup = 64;
 // Slots a dispatch: well below the 65,535 workgroups that every device takes.
 constexpr std::uint32_t kSlotsPerDispatch = 4096;
-constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 /// The bricks that a cloud's voxels are in or beside, in order.
 std::vector<glm::ivec3> bricks_of(const sim::Cloud& cloud) {

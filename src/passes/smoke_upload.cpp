@@ -9,8 +9,6 @@
 namespace brume::passes {
 namespace {
 
-constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-
 gpu::Image make_atlas(gpu::Context& context, glm::ivec3 bricks, VkFormat format, VkImageUsageFlags usage) {
   const glm::uvec3 texels = glm::uvec3(bricks) * static_cast<std::uint32_t>(shared::kBrickTexels);
   const std::uint32_t limit = context.limits().maxImageDimension3D;

@@ -170,8 +170,8 @@ class Checker {
         visit(value[i], pattern + "[]", path + "[" + std::to_string(i) + "]", depth + 1);
     } else if (value.is_object()) {
       for (const auto& [key, member] : value.items()) {
-        const std::string dot = path.empty() ? "" : ".";
-        visit(member, pattern + dot + key, path + dot + key, depth + 1);
+        const std::string name = (path.empty() ? "" : ".") + key;
+        visit(member, pattern + name, path + name, depth + 1);
       }
     }
   }

@@ -133,9 +133,10 @@ struct CellCentres {
 constexpr CellCentres make_cell_centres() {
   CellCentres centres{};
   for (unsigned i = 0; i < 32; ++i) {
-    centres.x[i] = static_cast<float>(i % 3) - 1;
-    centres.y[i] = static_cast<float>(i / 3 % 3) - 1;
-    centres.z[i] = static_cast<float>(i / 9) - 1;
+    const unsigned x = i % 3, y = i / 3 % 3, z = i / 9;
+    centres.x[i] = static_cast<float>(x) - 1;
+    centres.y[i] = static_cast<float>(y) - 1;
+    centres.z[i] = static_cast<float>(z) - 1;
   }
   return centres;
 }

@@ -17,7 +17,7 @@ constexpr std::size_t kWriteBytes = 1 << 20;
 
 struct Face {
   int plane, h, w;  // Of the face's low corner: along the axis, the height, the width.
-  auto operator<=>(const Face&) const = default;
+  auto operator<=>(const Face&) const = default;  // NOLINT(modernize-use-nullptr): there is no pointer
 };
 
 // The faces that look along one direction of one axis, in order of plane, row and place in the row.
@@ -43,7 +43,7 @@ std::vector<Face> faces_towards(const BitGrid& grid, int axis, bool positive) {
 void merge_faces(const std::vector<Face>& faces, int axis, bool positive, std::vector<FaceRectangle>& out) {
   struct Run {
     int plane, w, width, h;
-    auto operator<=>(const Run&) const = default;
+    auto operator<=>(const Run&) const = default;  // NOLINT(modernize-use-nullptr): there is no pointer
   };
   std::vector<Run> runs;
   for (const Face& f : faces) {
