@@ -80,7 +80,8 @@ inline HolePairs make_hole_pairs(std::size_t count, std::uint32_t seed) {
     const auto mask = static_cast<std::uint32_t>(i / 3 % result.masks.size());
     q.hole.uv_min = result.atlas.rectangle(mask).uv_min;
     q.hole.uv_max = result.atlas.rectangle(mask).uv_max;
-    const float x = 2 * share(random) - 1, y = 2 * share(random) - 1, z = 1.1f * share(random) - 0.05f;
+    float x = 2 * share(random) - 1, y = 2 * share(random) - 1, z = 1.1f * share(random) - 0.05f;
+    if (i % 10 == 7) x = y = 0;  // on the axis
     q.p_world = q.hole.origin_world + q.hole.forward * (q.hole.distance_to_far * z) +
                 q.hole.radius * (x * q.hole.right + y * q.hole.up);
     // Every fifth while the hole opens or closes there.

@@ -1,0 +1,29 @@
+// What a blast leaves of the smoke, in double and by its definition (docs/simulation.md): a front runs
+// outward, behind it all is cleared in a moment and comes back, from the rim first.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/events.hpp"
+
+namespace brume::reference {
+
+inline double smooth(double x) {
+  x = std::clamp(x, 0.0, 1.0);
+  return x * x * (3 - 2 * x);
+}
+
+/// Density that is left, of 255, at a distance [m] from a blast in the open, `age` seconds after it.
+inline double blast_left(const sim::Blast& blast, double distance, double age) {
+  const double radius = blast.radius / 1024.0, share = distance / radius;
+  if (share > 1.2) return 255;  // the effect fades over a fifth of the radius more
+  const double since = age - distance / (blast.speed / 1024.0);
+  const double refill = std::lerp(blast.refill_middle_ms, blast.refill_rim_ms, std::min(share, 1.0)) / 1000;
+  double cleared = smooth(since / 0.05);
+  if (since > 0.05) cleared = 1 - std::pow(smooth((since - 0.05) / refill), 1.8);
+  if (share > 1) cleared *= smooth((1.2 - share) / 0.2);
+  return 255 - (255.0 - blast.left) * cleared;
+}
+
+}  // namespace brume::reference
