@@ -13,7 +13,11 @@ layout(scalar, binding = 3) writeonly buffer Rows { uint rows[]; };
 layout(scalar, binding = 4) readonly buffer Cells { uint cells[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 
-shared uint smoke[kTexelsPerBrick];
+// What samples may take from a texel: from smoke in it, or from a cell at a wall that it is a corner of.
+const uint kSmoke = 1u;
+const uint kWall = 2u;
+
+shared uint needed[kTexelsPerBrick];
 shared uint grown[kTexelsPerBrick];
 shared uint texel_count;
 
@@ -28,16 +32,16 @@ bool at_boundary(uint slot, ivec3 local) {
   return any_cell != 0u;
 }
 
-/// Largest of the five values along an axis around texel i.
-uint largest_around(bool of_grown, uint i, uint stride) {
-  const uint at = i / stride % 10u;
-  const uint first = at < 2u ? 0u : at - 2u, last = min(at + 2u, 9u);
-  uint largest = 0u;
-  for (uint k = first; k <= last; ++k) {
-    const uint j = i + k * stride - at * stride;
-    largest = max(largest, of_grown ? grown[j] : smoke[j]);
+/// What is around texel i along an axis: smoke within one texel, walls within two, as a lookup near them is moved by up
+/// to a voxel.
+uint around(bool of_grown, uint i, uint stride) {
+  const int at = int(i / stride % 10u);
+  uint found = 0u;
+  for (int k = max(at - 2, 0); k <= min(at + 2, 9); ++k) {
+    const uint j = uint(int(i) + (k - at) * int(stride)), there = of_grown ? grown[j] : needed[j];
+    found |= abs(k - at) < 2 ? there : there & kWall;
   }
-  return largest;
+  return found;
 }
 
 void main() {
@@ -48,21 +52,19 @@ void main() {
   const uvec3 atlas = uvec3(frame.volume.atlas_bricks);
   const ivec3 corner = ivec3(brick.slot % atlas.x, brick.slot / atlas.x % atlas.y, brick.slot / (atlas.x * atlas.y)) * kBrickTexels;
 
-  // A sample meets the texels around it, and near walls those of a lookup that was moved by up to a voxel: two texels
-  // from smoke along each axis.
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
     const ivec3 local = ivec3(i % 10u, i / 10u % 10u, i / 100u);
-    smoke[i] = texelFetch(density_atlas, corner + local, 0).r > 0.0 || at_boundary(brick.slot, local) ? 1u : 0u;
+    needed[i] = (texelFetch(density_atlas, corner + local, 0).r > 0.0 ? kSmoke : 0u) | (at_boundary(brick.slot, local) ? kWall : 0u);
   }
   barrier();
-  for (uint i = lane; i < kTexelsPerBrick; i += 256u) grown[i] = largest_around(false, i, 1u);
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u) grown[i] = around(false, i, 1u);
   barrier();
-  for (uint i = lane; i < kTexelsPerBrick; i += 256u) smoke[i] = largest_around(true, i, 10u);
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u) needed[i] = around(true, i, 10u);
   if (lane == 0u) texel_count = 0u;
   barrier();
   const uint first = brick.row * kLightRow;
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) {
-    if (largest_around(false, i, 100u) > 0u) rows[first + 1u + atomicAdd(texel_count, 1u)] = i;
+    if (around(false, i, 100u) > 0u) rows[first + 1u + atomicAdd(texel_count, 1u)] = i;
   }
   barrier();
   if (lane == 0u) rows[first] = texel_count;
