@@ -19,7 +19,7 @@ layout(scalar, binding = 5) readonly buffer Travel { uvec2 travel[]; };
 layout(scalar, binding = 6) readonly buffer Motions { CloudMotion motions[]; };
 layout(scalar, binding = 7) readonly buffer Pushes { Push pushes[]; };
 layout(binding = 8, rgba16f) uniform writeonly image3D medium;
-layout(binding = 9, r16f) uniform writeonly image3D share_left;
+layout(binding = 9, rg16f) uniform writeonly image3D share_left;
 layout(scalar, binding = 10) readonly buffer Slots { uint slots[]; };
 layout(push_constant, scalar) uniform Params { DriftParams params; };
 
@@ -104,7 +104,7 @@ void main() {
   float density;
   if (!density_around(here, atlas_texel, density)) {
     imageStore(medium, atlas_texel, vec4(held, 0.0, 0.0, 0.0));
-    imageStore(share_left, atlas_texel, vec4(0.0));
+    imageStore(share_left, atlas_texel, vec4(held, 0.0, 0.0, 0.0));
     return;
   }
 
@@ -122,5 +122,5 @@ void main() {
     share = left / max(density, 1e-3);
   }
   imageStore(medium, atlas_texel, vec4(held, carried));
-  imageStore(share_left, atlas_texel, vec4(share));
+  imageStore(share_left, atlas_texel, vec4(here.g > 0.5 ? here.r * share : kInSolid, share, 0.0, 0.0));
 }

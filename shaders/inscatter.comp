@@ -18,9 +18,8 @@ layout(scalar, binding = 3) readonly buffer Rows { uint rows[]; };
 layout(scalar, binding = 4) readonly buffer Blocks { uint blocks[]; };
 layout(scalar, binding = 5) readonly buffer Bricks { LightBrick bricks[]; };
 layout(binding = 6, rgba16f) uniform writeonly image3D inscatter;
-layout(binding = 9) uniform sampler3D density_atlas;
-layout(binding = 10) uniform sampler3D share_atlas;
-layout(scalar, binding = 11) readonly buffer BrickLamps { uvec2 brick_lamps[]; };
+layout(binding = 9) uniform sampler3D share_atlas;
+layout(scalar, binding = 10) readonly buffer BrickLamps { uvec2 brick_lamps[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
@@ -69,7 +68,7 @@ void main() {
   const ivec3 at = texel_in_atlas(brick.slot, local);
   const vec3 p_world = world_from_voxel(texel_position(brick.slot, local));
   const float escape = escape_of(brick.sky_block, local);
-  const float density = texelFetch(density_atlas, at, 0).r * texelFetch(share_atlas, at, 0).r;
+  const float density = max(texelFetch(share_atlas, at, 0).r, 0.0);
   const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
   const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
   ManyScatterings many = many_scatterings(frame.look, escape);

@@ -4,12 +4,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #define BINDING_PAGES 5
-#define BINDING_DENSITY 6
 #define BINDING_CELLS 7
 #define BINDING_BOUNDARY 8
 #define BINDING_CORNERS 9
 #define BINDING_HOLE_CELLS 10
-#define BINDING_SOLID 12
+#define BINDING_SOLID 11
 #include "lib/lights.glsl"
 #include "shared/frame.h"
 #include "shared/smoke_light.h"
@@ -20,10 +19,10 @@ layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(scalar, binding = 2) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 3) readonly buffer Views { ShadowView sun; };
 layout(binding = 4) uniform sampler2DArrayShadow shadows;
-layout(binding = 11) uniform sampler3D share_atlas;
-layout(scalar, binding = 13) readonly buffer Pairs { LightPair pairs[]; };
-layout(scalar, binding = 14) readonly buffer Rows { uint rows[]; };
-layout(scalar, binding = 15) writeonly buffer Blocks { uint blocks[]; };
+layout(binding = 6) uniform sampler3D share_atlas;
+layout(scalar, binding = 12) readonly buffer Pairs { LightPair pairs[]; };
+layout(scalar, binding = 13) readonly buffer Rows { uint rows[]; };
+layout(scalar, binding = 14) writeonly buffer Blocks { uint blocks[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 #include "lib/light_share.glsl"
 #include "lib/optical_depth.glsl"

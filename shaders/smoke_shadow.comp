@@ -3,12 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #define BINDING_PAGES 4
-#define BINDING_DENSITY 5
 #define BINDING_CELLS 6
 #define BINDING_BOUNDARY 7
 #define BINDING_CORNERS 8
-#define BINDING_HOLE_CELLS 11
-#define BINDING_SOLID 13
+#define BINDING_HOLE_CELLS 10
+#define BINDING_SOLID 12
 #include "shared/frame.h"
 #include "shared/light.h"
 #include "shared/smoke_shadow.h"
@@ -21,12 +20,12 @@ layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArray shadows;
-layout(binding = 9) uniform sampler3D share_atlas;
-layout(binding = 10, r16f) uniform writeonly image2D smoke_shadows;
-layout(scalar, binding = 12) readonly buffer Faces { SmokeShadowFace faces[]; };
+layout(binding = 5) uniform sampler3D share_atlas;
+layout(binding = 9, r16f) uniform writeonly image2D smoke_shadows;
+layout(scalar, binding = 11) readonly buffer Faces { SmokeShadowFace faces[]; };
 layout(push_constant, scalar) uniform Push { SmokeShadowParams params; };
-layout(binding = 14) readonly buffer Holes { vec4 hole_rows[]; };
-layout(binding = 15) uniform sampler2D hole_masks;
+layout(binding = 13) readonly buffer Holes { vec4 hole_rows[]; };
+layout(binding = 14) uniform sampler2D hole_masks;
 #include "lib/hole_reach.glsl"
 #include "lib/hole_window.glsl"
 #include "lib/optical_depth.glsl"
@@ -142,7 +141,7 @@ float part_depth(RaySteps ray) {
   float depth = 0.0;
   for (uint i = 0u; kRayParts * i + ray.part < ray.count && depth < 10.0; ++i) {
     const vec3 p_voxel = origin + per_metre * (ray.begin + (float(kRayParts * i + ray.part) + 0.5) * ray.ds);
-    float density = by_cells ? seen_density(p_voxel) : mean_smoke_at(p_voxel).density;
+    float density = by_cells ? seen_smoke_at(p_voxel).density : mean_smoke_at(p_voxel).density;
     if (by_window) density *= left_at(i);
     depth += per_sample * density;
   }

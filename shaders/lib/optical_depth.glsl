@@ -1,32 +1,39 @@
 // How much smoke stands between two points. Needs `frame`, `share_atlas` and the bindings of
-// lib/smoke_density.glsl and lib/cell_holes.glsl.
+// lib/smoke_bricks.glsl and lib/cell_holes.glsl.
 #ifndef OPTICAL_DEPTH_GLSL
 #define OPTICAL_DEPTH_GLSL
 #include "lib/cell_holes.glsl"
-#include "lib/smoke_density.glsl"
+#include "lib/smoke_bricks.glsl"
 
-/// The smoke at a point with what the noise leaves of it in the mean of a texel: light is as coarse as those.
-SmokePoint mean_smoke_at(vec3 p_voxel) {
-  SmokePoint point = smoke_at(frame.volume, p_voxel);
-  if (point.density > 0.0) {
-    const vec3 uvw = (atlas_corner(frame.volume, point.slot) + point.local_voxel) * atlas_texel(frame.volume);
-    point.density *= textureLod(share_atlas, uvw, 0.0).r;
+/// A point of the smoke as light sees it, for those who ask one at a time: with what the noise leaves in the mean of a
+/// texel, since light is as coarse as those.
+struct MeanSmoke {
+  float density;  // [0, 1]
+  vec3 local_voxel;
+  int empty_edge;  // without a slot: of the aligned cube around the point that has no smoke [voxels]
+  uint slot;       // kNoSlot: no smoke anywhere near
+};
+
+MeanSmoke mean_smoke_at(vec3 p_voxel) {
+  const vec3 brick = floor(p_voxel / float(kBrickVoxels));
+  MeanSmoke smoke;
+  smoke.density = 0.0;
+  smoke.local_voxel = p_voxel - brick * float(kBrickVoxels);
+  smoke.slot = slot_at(frame.volume, ivec3(brick), smoke.empty_edge);
+  if (smoke.slot != kNoSlot) {
+    const vec3 uvw = (atlas_corner(frame.volume, smoke.slot) + smoke.local_voxel) * atlas_texel(frame.volume);
+    const vec2 left = textureLod(share_atlas, uvw, 0.0).rg;
+    smoke.density = left.r;
+    if (left.r < 0.0) smoke.density = boundary_sample(smoke.slot, smoke.local_voxel).density * left.g;
   }
-  return point;
+  return smoke;
 }
 
-/// Density as light sees it.
-float seen_density(vec3 p_voxel) {
-  const SmokePoint point = mean_smoke_at(p_voxel);
-  return point.density > 0.0 ? point.density * left_in_cell(point.slot, point.local_voxel) : 0.0;
-}
-
-/// The same for who knows the slot of the point's brick.
-float seen_density_in(uint slot, vec3 p_voxel) {
-  const vec3 local_voxel = p_voxel - floor(p_voxel / float(kBrickVoxels)) * float(kBrickVoxels);
-  const vec3 uvw = (atlas_corner(frame.volume, slot) + local_voxel) * atlas_texel(frame.volume);
-  const float density = sample_brick(slot, local_voxel, uvw).density * textureLod(share_atlas, uvw, 0.0).r;
-  return density > 0.0 ? density * left_in_cell(slot, local_voxel) : 0.0;
+/// The same with what holes leave of it.
+MeanSmoke seen_smoke_at(vec3 p_voxel) {
+  MeanSmoke smoke = mean_smoke_at(p_voxel);
+  if (smoke.density > 0.0) smoke.density *= left_in_cell(smoke.slot, smoke.local_voxel);
+  return smoke;
 }
 
 /// Where step i of a ray of light begins [voxels]: half a voxel long at first, ever longer with the distance, as what
@@ -58,13 +65,11 @@ float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse
     if (before >= end || depth * per_voxel > 12.0) break;
     const float after = min(coarse * light_step(i + 1.0), ray_end), middle = 0.5 * (before + after);
     const vec3 p = p_voxel + direction * middle;
-    int empty_edge;
-    const uint slot = slot_at(volume, ivec3(floor(p / float(kBrickVoxels))), empty_edge);
-    if (slot != kNoSlot) {
-      depth += seen_density_in(slot, p) * (after - before);
-    } else {
+    const MeanSmoke smoke = seen_smoke_at(p);
+    depth += smoke.density * (after - before);
+    if (smoke.slot == kNoSlot) {
       // On to the step in which the ray leaves where nothing is, or a little before.
-      const float leaves = middle + leaves_cube(p, inverse, float(empty_edge)) - 0.01;
+      const float leaves = middle + leaves_cube(p, inverse, float(smoke.empty_edge)) - 0.01;
       i = max(i, light_step_at(leaves / coarse) - 1.0);
     }
   }

@@ -8,6 +8,8 @@
 //                that the cell has a solid corner.
 //   medium       half floats of the same layout, what the eye's rays read (shaders/drift.comp); R: density, kInSolid in a
 //                solid voxel, GBA: how far the noise was carried [m]. Trilinear: R < 0 says that the cell has a solid corner.
+//   share        half floats of the same layout, what rays of light read; R: density that the noise leaves in the mean of the
+//                texel, kInSolid in a solid voxel; G: the share of the density that it leaves there
 //   cells        per slot 9^3 uints, one per cell whose points can lie in the brick: boundary cell + 1, or 0
 //                where the cell has no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
 //   boundary     per boundary cell up to three planes, and the first of its 2^planes corner sets

@@ -30,13 +30,12 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
       rays_pass_(context, shaders::light_rays_comp,
                  {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
                   gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
-                  gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                  sizeof(shared::SmokeLightParams), {64, 1, 1}),
-      inscatter_pass_(
-          context, shaders::inscatter_comp,
-          {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kStored,
-           gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer},
-          sizeof(shared::SmokeLightParams), {64, 1, 1}),
+      inscatter_pass_(context, shaders::inscatter_comp,
+                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+                       gpu::kStored, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer},
+                      sizeof(shared::SmokeLightParams), {64, 1, 1}),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
       plan_(&kept_.plan({})) {
@@ -84,15 +83,14 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
     recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
   }
   if (part.pairs.count > 0) {
-    recorder.bind(
-        rays_pass_,
-        {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
-         gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_), gpu::read(in.smoke.pages),
-         gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
-         gpu::read(in.smoke.corners), gpu::read(in.holes.cells), gpu::sampled(in.smoke.share, linear_),
-         gpu::sampled(in.level.solid.texels(), linear_), gpu::read(pairs_), gpu::read(rows_),
-         gpu::write(blocks_)},
-        params(part.pairs));
+    recorder.bind(rays_pass_,
+                  {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
+                   gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
+                   gpu::read(in.smoke.pages), gpu::sampled(in.smoke.share, linear_),
+                   gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
+                   gpu::read(in.holes.cells), gpu::sampled(in.level.solid.texels(), linear_),
+                   gpu::read(pairs_), gpu::read(rows_), gpu::write(blocks_)},
+                  params(part.pairs));
     const Groups groups = groups_of(part.pairs.count);
     recorder.dispatch_threads(rays_pass_, shared::kTexelsPerBrick, groups.y, groups.z);
   }
@@ -100,8 +98,7 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
                 {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                  gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
                  gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
-                 gpu::sampled(in.smoke.density, linear_), gpu::sampled(in.smoke.share, linear_),
-                 gpu::read(brick_lamps_)},
+                 gpu::sampled(in.smoke.share, linear_), gpu::read(brick_lamps_)},
                 params(part.bricks));
   const Groups groups = groups_of(part.bricks.count);
   recorder.dispatch_threads(inscatter_pass_, shared::kTexelsPerBrick, groups.y, groups.z);

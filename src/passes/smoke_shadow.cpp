@@ -16,8 +16,8 @@ constexpr std::uint32_t kThreads = 256;  // four for each ray of a block
 SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
     : pipeline_(context, shaders::smoke_shadow_comp,
                 {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled,
-                 gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kStored, gpu::kBuffer,
-                 gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled},
+                 gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kBuffer, gpu::kBuffer,
+                 gpu::kSampled, gpu::kBuffer, gpu::kSampled},
                 sizeof(shared::SmokeShadowParams), {kThreads, 1, 1}),
       linear_(context, {}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
@@ -50,10 +50,10 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const Sm
       pipeline_,
       {gpu::read(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
        gpu::sampled(in.shadows.layers, nearest_), gpu::read(in.smoke.pages),
-       gpu::sampled(in.smoke.density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
-       gpu::read(in.smoke.corners), gpu::sampled(in.smoke.share, linear_), gpu::stored(shadows.atlas),
-       gpu::read(in.holes.cells), gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_),
-       gpu::read(in.holes.holes), gpu::sampled(in.holes.masks, nearest_)},
+       gpu::sampled(in.smoke.share, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
+       gpu::read(in.smoke.corners), gpu::stored(shadows.atlas), gpu::read(in.holes.cells),
+       gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_), gpu::read(in.holes.holes),
+       gpu::sampled(in.holes.masks, nearest_)},
       params);
   recorder.dispatch_threads(pipeline_, kThreads * plan.blocks, 1);
 }

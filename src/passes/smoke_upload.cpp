@@ -96,7 +96,7 @@ void SmokeUpload::make_written_atlases(glm::ivec3 bricks) {
       VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   resources_.inscatter = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
   resources_.medium = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
-  resources_.share = make_atlas(context_, bricks, VK_FORMAT_R16_SFLOAT, kUses);
+  resources_.share = make_atlas(context_, bricks, VK_FORMAT_R16G16_SFLOAT, kUses);
 }
 
 void SmokeUpload::record_needs(gpu::Recorder& recorder, const SmokeNeeds& needs) {

@@ -14,7 +14,7 @@ struct SmokeResources {
   gpu::Image density;       ///< RG8 atlas.
   gpu::Image inscatter;     ///< Half-float RGBA atlas of the same layout.
   gpu::Image medium;        ///< Likewise; made by passes/drift.hpp, as the next.
-  gpu::Image share;         ///< Half floats: what the noise leaves of the density in the mean of a texel.
+  gpu::Image share;         ///< Half-float RG: what the noise leaves of it in the mean of a texel.
   gpu::Buffer slots;        ///< SmokeNeeds::slots of the frame.
   std::uint32_t slot_count = 0;
   std::uint32_t needed = 0, seen = 0;  ///< How many `slots` has, and how many of them may be in view.

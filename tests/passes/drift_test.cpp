@@ -149,11 +149,11 @@ class DriftTest : public gpu::GpuTest {
       drift.record(recorder, {frame, room_.upload.resources(), noise_, state, seconds, 12});
     });
     const auto medium = read_back<Half4>(room_.upload.resources().medium);
-    const auto share = read_back<std::uint16_t>(room_.upload.resources().share);
+    const auto share = read_back<std::uint32_t>(room_.upload.resources().share);
     std::vector<glm::vec4> out;
     for (std::size_t i = 0; i < medium.size(); ++i) {
       const glm::vec4 texel = from_half(medium[i]);
-      out.emplace_back(texel.y, texel.z, texel.w, glm::unpackHalf1x16(share[i]));
+      out.emplace_back(texel.y, texel.z, texel.w, glm::unpackHalf2x16(share[i]).y);
     }
     return out;
   }
