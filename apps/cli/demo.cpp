@@ -2,6 +2,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/demo_picture.hpp"
 #include "apps/cli/targets.hpp"
 #include "core/error.hpp"
 #include "gpu/context.hpp"
@@ -14,8 +15,6 @@ namespace {
 constexpr glm::uvec2 kPictureSize{1280, 720};
 constexpr glm::uvec2 kFilmSize{640, 360};
 constexpr std::uint32_t kFramesPerSecond = 24;
-// The picture shows the timeline at this share of its length.
-constexpr double kPictureMoment = 0.825;
 constexpr const char* kDefaultFolder = "out";
 
 struct Options {
@@ -40,7 +39,7 @@ void demo(const Options& options, const CommonOptions& common) {
   const double seconds = static_cast<double>(stage.timeline.duration);
   {
     render::Playback playback(context, stage, kPictureSize);
-    image::save_png(picture, playback.draw(kPictureMoment * seconds, 0)).value_or_throw();
+    image::save_png(picture, playback.draw(kPictureMoment, 0)).value_or_throw();
     stop_if_interrupted();
   }
   render::Playback playback(context, stage, kFilmSize);

@@ -5,6 +5,7 @@
 #include <regex>
 #include <sstream>
 
+#include "apps/cli/demo_picture.hpp"
 #include "core/file.hpp"
 #include "image/png.hpp"
 #include "tests/cli/run_program.hpp"
@@ -125,6 +126,13 @@ TEST_F(Documents, TheExamplesOfTheHelpRun) {
     EXPECT_FALSE(calls.empty()) << command;
     for (const Arguments& call : calls) expect_works(std::string(command) + " --help", call);
   }
+}
+
+TEST(DocumentRules, TheGalleryShowsTheMomentOfTheDemo) {
+  std::ostringstream call;
+  call << "`brume render scenes/demo.toml -o demo.png --time " << kPictureMoment << ' ';
+  const auto gallery = read_text_file(BRUME_SOURCE_DIR "/docs/gallery.md");
+  EXPECT_NE(gallery->find(call.str()), std::string::npos) << call.str();
 }
 
 TEST(DocumentRules, SeeTheCallsOfABlock) {

@@ -1,0 +1,9 @@
+// What the picture of `brume demo` shows; docs/gallery.md shows the same moment.
+#pragma once
+
+namespace brume::cli {
+
+/// Of scenes/demo.toml [s].
+inline constexpr double kPictureMoment = 4.95;
+
+}  // namespace brume::cli
