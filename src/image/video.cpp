@@ -19,8 +19,6 @@
 #include "core/file.hpp"
 #include "image/formats.hpp"
 
-extern char** environ;
-
 namespace brume::image {
 namespace {
 
@@ -118,6 +116,7 @@ Result<void> VideoWriter::Encoder::start() {
 
   std::vector<std::string> arguments = ffmpeg_arguments(options, "file:" + file.temporary_path().string());
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const int error = ::posix_spawnp(&process, "ffmpeg", &actions, &attributes, pointers.data(), environ);
