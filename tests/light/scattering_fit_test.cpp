@@ -43,5 +43,36 @@ TEST(ManyFit, IsTheOneOfLeastMisfit) {
   EXPECT_LT(of(kept), 0.5 * best_octaves);
 }
 
+// A beam through a round hole: the formula, which knows only whether a place is lit, against walks on the
+// axis and, where it knows of no light at all, beside the beam. Prints the table of docs/light.md.
+TEST(ManyFit, TakesEveryBeamForAWideOne) {
+  const Body body{Body::Shape::box, 4};
+  const std::vector<double> albedos{0.5, 0.9, 0.99};
+  std::vector<double> narrowest, widest;
+  for (const double beam : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+    const BodyLight light{true, {0, 0, 1}, {}, beam};
+    const glm::dvec3 on_axis{0, 0, -2.5}, out{1, 0, 0}, beside = on_axis + glm::dvec3(0, beam + 0.3, 0);
+    const auto inside = walk_light(body, light, 0.3, albedos, on_axis, out, 60000, 7);
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      const ScatteringSample& s = inside[i];
+      const double ratio = (s.once + many_of(shared::many_fit(), s)) / (s.once + s.more);
+      std::printf("beam %4.1f albedo %.2f: formula / walks %.2f", beam, s.albedo, ratio);
+      if (body.contains(beside)) {
+        const auto there = walk_light(body, light, 0.3, albedos, beside, out, 60000, 8);
+        std::printf("; beside it walks are %.3f of inside", there[i].more / (s.once + s.more));
+        EXPECT_EQ(there[i].once, 0);
+      }
+      std::printf("\n");
+      EXPECT_LT(s.error, 0.02 * (s.once + s.more));
+      if (beam == 0.1) narrowest.push_back(s.more);
+      if (beam == 10.0) {
+        widest.push_back(s.more);
+        EXPECT_NEAR(std::log(ratio), 0, 0.26) << "the fit's misfit where all is lit";
+      }
+    }
+  }
+  for (std::size_t i = 0; i < albedos.size(); ++i) EXPECT_LT(narrowest[i], widest[i]);
+}
+
 }  // namespace
 }  // namespace brume::reference

@@ -48,7 +48,10 @@ struct Arrival {
   double irradiance, depth;
 };
 Arrival arrival(const Body& body, const BodyLight& light, glm::dvec3 p) {
-  if (light.directional) return {light.direction, 1, body.way_out(p, -light.direction)};
+  if (light.directional) {
+    const double off_axis = glm::length(glm::cross(p, light.direction));
+    return {light.direction, off_axis < light.beam ? 1.0 : 0.0, body.way_out(p, -light.direction)};
+  }
   const glm::dvec3 way = p - light.position;
   const double d2 = glm::dot(way, way), d = std::sqrt(d2);
   return {way / d, glm::dot(light.position, light.position) / d2, std::min(d, body.way_out(p, -way / d))};

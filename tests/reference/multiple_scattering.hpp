@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
 
 namespace brume::reference {
@@ -23,6 +24,8 @@ struct BodyLight {
   bool directional = true;
   glm::dvec3 direction{0, 0, 1};  ///< Where a directional light goes, unit.
   glm::dvec3 position{0};         ///< Of a point light, outside of the body.
+  /// Of a directional light, as through a round hole: radius around the line through the origin [free paths].
+  double beam = std::numeric_limits<double>::infinity();
 };
 
 /// What reaches a point of a body and is scattered there into one direction.
