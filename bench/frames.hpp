@@ -20,6 +20,9 @@ class RepeatedFrame {
                 double seconds);
 
   FrameCost draw();
+  /// What is drawn: to be changed from drawing to drawing.
+  render::FrameInput& input() { return input_; }
+  const render::Renderer& renderer() const { return renderer_; }
   /// Texture samples that the last march took, with RendererOptions::count_samples.
   std::uint32_t texture_samples() const;
   const stage::Simulation& simulation() const { return *simulation_; }

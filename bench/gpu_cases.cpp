@@ -126,6 +126,62 @@ Result<std::vector<Measurement>> holes(Bench& bench, const std::string& base, bo
   return results;
 }
 
+/// A flash of an intensity beside the smoke of the yard.
+shared::Light flash_beside(float intensity) {
+  shared::Light light{};
+  light.kind = shared::kLightPoint;
+  light.position_world = {3.5f, 1.5f, 9};
+  light.intensity = glm::vec3(intensity);
+  light.range = shared::light_range(intensity);
+  light.shadow_layer = shared::kShadowByVoxels;
+  return light;
+}
+
+/// Light in a smoke that holds still, without noise: all of it, and what is made anew where one thing
+/// changes.
+Result<std::vector<Measurement>> kept_light(Bench& bench) {
+  Yard yard;
+  yard.lamps = 42;
+  yard.holes = 16;
+  auto stage = smoke_in_the_yard(yard);
+  if (!stage) return stage.failure();
+  stage->timeline.smoke.noise = 0;
+  const bool slow = bench.context().info().kind == "cpu";
+  render::RendererOptions options;
+  options.size_px = slow ? glm::uvec2(96, 54) : glm::uvec2(1920, 1080);
+  RepeatedFrame frame(bench.context(), *stage, options, kGrown);
+  const std::vector<shared::Hole> holes(frame.input().holes.begin(), frame.input().holes.end());
+  std::vector<shared::Hole> changing = holes;
+  std::vector<Measurement> results;
+  const auto time = [&](const std::string& name, auto change) {
+    std::vector<double> milliseconds;
+    const unsigned count = bench.repetitions(slow ? 3 : 200);
+    std::size_t rays = 0, bricks = 0;
+    for (unsigned i = 0; i < count + 2; ++i) {
+      change(i);
+      const FrameCost cost = frame.draw();
+      if (i < 2) continue;
+      milliseconds.push_back(cost.passes.at("smoke_light"));
+      rays += frame.renderer().light_plan().pairs.size();
+      bricks += frame.renderer().light_plan().bricks.size();
+    }
+    results.push_back(summarize("kept_light/" + name, "ms", "gpu", milliseconds));
+    results.back().details = {{"blocks_of_rays", static_cast<double>(rays) / count},
+                              {"bricks", static_cast<double>(bricks) / count}};
+  };
+  time("all", [](unsigned) {});
+  frame.input().force_light = false;
+  time("nothing", [](unsigned) {});
+  time("eye", [&](unsigned i) { frame.input().camera.position_world.x = 0.01f * static_cast<float>(i); });
+  time("hole", [&](unsigned i) {
+    changing.back().radius = holes.back().radius * (i % 2 == 0 ? 1 : 0.9f);
+    frame.input().holes = changing;
+  });
+  time("flash", [&](unsigned i) { frame.input().flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
+  time("dims", [&](unsigned i) { frame.input().flashes = {flash_beside(2 / static_cast<float>(i + 1))}; });
+  return results;
+}
+
 }  // namespace
 
 std::vector<Case> gpu_cases() {
@@ -143,6 +199,7 @@ std::vector<Case> gpu_cases() {
        [](Bench& b) {
          return frames(b, "frame/4k", {3840, 2160}, 1);
        }},
+      {"kept_light", "light in smoke that holds still, where all, nothing or one thing changes", kept_light},
       {"holes",
        "that frame with 0 to 4,096 open holes, and with a plain loop over them; 480x270 without a GPU",
        [](Bench& b) { return holes(b, "holes", false); }},

@@ -84,8 +84,8 @@ bool same_cut(const shared::Hole& hole, float time_a, float time_b) {
 }
 
 void KeptSmokeLight::forget_rays() {
-  rows_.clear();
-  row_of_slot_.clear();
+  row_count_ = 0;
+  std::fill(row_of_slot_.begin(), row_of_slot_.end(), kNone);
   block_end_ = 0;
 }
 
@@ -101,9 +101,7 @@ bool KeptSmokeLight::must_forget(const SmokeLightMoment& moment) const {
       frame.atlas_bricks != frame_.atlas_bricks || !same_bytes(moment.look, last_->look))
     return true;
   // What is dirty is only that since the revision before.
-  if (moment.volume->revision() != revision_ && moment.volume->revision() != revision_ + 1) return true;
-  // Noise drifts.
-  return moment.look.erosion > 0 && moment.time != last_->time;
+  return moment.volume->revision() != revision_ && moment.volume->revision() != revision_ + 1;
 }
 
 void KeptSmokeLight::remember(const SmokeLightMoment& moment) {
@@ -148,8 +146,7 @@ void KeptSmokeLight::add_smoke_changes(const SmokeLightMoment& moment, std::vect
   const auto add_slot = [&](std::uint32_t slot) {
     add(moment.volume->brick_of(slot));
     if (slot < brick_of_slot_.size()) add(brick_of_slot_[slot]);
-    if (const auto row = row_of_slot_.find(slot); row != row_of_slot_.end())
-      rows_[row->second].listed = false;
+    if (slot < row_of_slot_.size() && row_of_slot_[slot] != kNone) rows_[row_of_slot_[slot]].listed = false;
   };
   for (const std::uint32_t slot : moment.volume->dirty_slots()) add_slot(slot);
   for (const std::uint32_t slot : moment.volume->dirty_cell_slots()) add_slot(slot);
@@ -162,15 +159,25 @@ void KeptSmokeLight::add_smoke_changes(const SmokeLightMoment& moment, std::vect
   }
 }
 
+/// Drops all rays; which texels have any stays known.
+void KeptSmokeLight::drop_rays() {
+  for (Row& row : std::span(rows_).first(row_count_)) {
+    row.sky.valid = false;
+    for (Kept& kept : row.lamps) kept.valid = false;
+  }
+}
+
 /// Drops the rays that changes may lie on; false where there is too much to ask.
 bool KeptSmokeLight::drop_crossed(const SmokeLightMoment& moment, std::span<const Capsule> changes) {
   if (changes.empty()) return true;
-  if (changes.size() * rows_.size() * (lamps_.size() + shared::kSkyRays) > kMostQuestions) return false;
+  std::size_t rays = 0;
+  for (const Row& row : std::span(rows_).first(row_count_)) rays += shared::kSkyRays + row.lamps.size();
+  if (changes.size() * rays > kMostQuestions) return false;
   const shared::SmokeVolumeFrame &now = moment.volume->frame(), &then = frame_;
   const float far = frame_.voxel_size * glm::length(glm::max(now.bounds_max, then.bounds_max) -
                                                     glm::min(now.bounds_min, then.bounds_min));
   const float radius = kBrickReach * frame_.voxel_size;
-  for (Row& row : rows_) {
+  for (Row& row : std::span(rows_).first(row_count_)) {
     const glm::vec3 from = middle_of(frame_, row.brick);
     const auto crossed = [&](glm::vec3 to) {
       return std::any_of(changes.begin(), changes.end(), [&](const Capsule& change) {
@@ -180,11 +187,10 @@ bool KeptSmokeLight::drop_crossed(const SmokeLightMoment& moment, std::span<cons
     };
     for (std::uint32_t i = 0; i < shared::kSkyRays && row.sky.valid; ++i)
       row.sky.valid = !crossed(from + far * shared::sky_ray(i));
-    for (std::size_t i = 0; i < row.lamps.size(); ++i) {
-      const shared::Light& light = lamps_[i].light;
-      if (row.lamps[i].valid)
-        row.lamps[i].valid = !crossed(light.kind == shared::kLightDirectional ? from - far * light.direction
-                                                                              : light.position_world);
+    for (Kept& kept : row.lamps) {
+      const shared::Light& light = lamps_[kept.lamp].light;
+      const bool sun = light.kind == shared::kLightDirectional;
+      if (kept.valid) kept.valid = !crossed(sun ? from - far * light.direction : light.position_world);
     }
   }
   return true;
@@ -202,10 +208,10 @@ KeptSmokeLight::Lamp& KeptSmokeLight::known_lamp(const shared::Light& light, std
   // In the place of the one that was not seen for the longest time.
   const auto oldest = std::min_element(
       lamps_.begin(), lamps_.end(), [](const Lamp& a, const Lamp& b) { return a.last_frame < b.last_frame; });
-  for (Row& row : rows_) {
-    const auto i = static_cast<std::size_t>(oldest - lamps_.begin());
-    if (i < row.lamps.size()) row.lamps[i].valid = false;
-  }
+  const auto number = static_cast<std::uint32_t>(oldest - lamps_.begin());
+  for (Row& row : std::span(rows_).first(row_count_))
+    for (Kept& kept : row.lamps)
+      if (kept.lamp == number) kept.valid = false;
   *oldest = {};
   return *oldest;
 }
@@ -242,30 +248,41 @@ std::span<const std::uint32_t> KeptSmokeLight::reaching(std::size_t seen_index) 
                                       reaching_first_[seen_index + 1] - reaching_first_[seen_index]);
 }
 
-std::uint32_t KeptSmokeLight::blocks_missing(const SmokeLightMoment& moment) const {
+const KeptSmokeLight::Row* KeptSmokeLight::known_row(std::uint32_t slot) const {
+  return slot < row_of_slot_.size() && row_of_slot_[slot] != kNone ? &rows_[row_of_slot_[slot]] : nullptr;
+}
+
+/// At most: blocks for all that is in view, less those that it has.
+std::size_t KeptSmokeLight::blocks_missing(const SmokeLightMoment& moment) const {
   std::size_t missing = 0;
   for (std::uint32_t i = 0; i < moment.needs->seen; ++i) {
+    const Row* row = known_row(moment.needs->slots[i]);
+    missing += reaching(i).size() + (row ? 0 : shared::kSkyBlocks);
+    if (!row) continue;
     const auto lamps = reaching(i);
-    missing += lamps.size() + shared::kSkyBlocks;
-    const auto found = row_of_slot_.find(moment.needs->slots[i]);
-    if (found == row_of_slot_.end()) continue;
-    const Row& row = rows_[found->second];
-    missing -= row.sky.block != kNone ? shared::kSkyBlocks : 0;
-    for (const std::uint32_t lamp : lamps)
-      missing -= lamp < row.lamps.size() && row.lamps[lamp].block != kNone;
+    for (const Kept& kept : row->lamps)
+      missing -= std::find(lamps.begin(), lamps.end(), kept.lamp) != lamps.end();
   }
-  return static_cast<std::uint32_t>(std::min<std::size_t>(missing, kNone));
+  return missing;
 }
 
 KeptSmokeLight::Row& KeptSmokeLight::row_of(const SmokeLightMoment& moment, std::uint32_t slot) {
-  const auto [found, added] = row_of_slot_.try_emplace(slot, static_cast<std::uint32_t>(rows_.size()));
-  if (added) rows_.emplace_back();
-  Row& row = rows_[found->second];
+  if (slot >= row_of_slot_.size()) row_of_slot_.resize(std::size_t{slot} + 1, kNone);
+  const bool is_new = row_of_slot_[slot] == kNone;
+  if (is_new) {
+    row_of_slot_[slot] = row_count_++;
+    if (rows_.size() < row_count_) rows_.emplace_back();
+  }
+  Row& row = rows_[row_of_slot_[slot]];
   const glm::ivec3 brick = moment.volume->brick_of(slot);
-  if (added || row.brick != brick) {
+  if (is_new) {
+    row.sky = {};
+    row.lamps.clear();
+  }
+  if (is_new || row.brick != brick) {
     // The blocks stay its own.
     row.slot = slot;
-    row.number = found->second;
+    row.number = row_of_slot_[slot];
     row.brick = brick;
     row.listed = row.sky.valid = false;
     row.put_together = 0;
@@ -281,9 +298,19 @@ void KeptSmokeLight::take_blocks(Kept& kept, std::uint32_t count) {
 }
 
 std::uint64_t KeptSmokeLight::made_of(std::span<const std::uint32_t> lamps) const {
-  std::vector<std::uint64_t> of{epoch_};
-  for (const std::uint32_t lamp : lamps) of.push_back(lamps_[lamp].version);
-  return std::max<std::uint64_t>(hash_values(std::span<const std::uint64_t>(of)), 1);
+  std::uint64_t made = hash_values(std::span(&epoch_, 1));
+  for (const std::uint32_t lamp : lamps) made = hash_values(std::span(&lamps_[lamp].version, 1), made);
+  return std::max<std::uint64_t>(made, 1);
+}
+
+/// What is kept of a lamp in a row, most likely at a place.
+KeptSmokeLight::Kept& KeptSmokeLight::kept_of(Row& row, std::uint32_t lamp, std::size_t hint) {
+  if (hint < row.lamps.size() && row.lamps[hint].lamp == lamp) return row.lamps[hint];
+  const auto known = std::find_if(row.lamps.begin(), row.lamps.end(),
+                                  [lamp](const Kept& kept) { return kept.lamp == lamp; });
+  if (known != row.lamps.end()) return *known;
+  row.lamps.emplace_back().lamp = lamp;
+  return row.lamps.back();
 }
 
 void KeptSmokeLight::plan_row(Row& row, std::span<const std::uint32_t> lamps) {
@@ -295,15 +322,14 @@ void KeptSmokeLight::plan_row(Row& row, std::span<const std::uint32_t> lamps) {
     plan_.pairs.push_back({row.slot, row.number, shared::kTowardSky + i, row.sky.block + i});
   row.sky.valid = true;
   const auto first = static_cast<std::uint32_t>(plan_.lamps.size());
-  if (row.lamps.size() < lamps_.size()) row.lamps.resize(lamps_.size());
-  for (const std::uint32_t i : lamps) {
-    const Lamp& lamp = lamps_[i];
-    Kept& kept = row.lamps[i];
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    const Lamp& lamp = lamps_[lamps[i]];
+    Kept& kept = kept_of(row, lamps[i], i);
     take_blocks(kept, 1);
     plan_.lamps.push_back({lamp.in_frame, kept.block});
     if (kept.valid && lamp.light.range <= kept.range && brightest(lamp.light) <= kept.intensity) continue;
     plan_.pairs.push_back({row.slot, row.number, lamp.in_frame, kept.block});
-    kept = {kept.block, true, lamp.light.range, brightest(lamp.light)};
+    kept = {kept.lamp, kept.block, true, lamp.light.range, brightest(lamp.light)};
   }
   const std::uint64_t made = made_of(lamps);
   if (row.put_together == made && plan_.pairs.size() == pairs_before) {
@@ -318,7 +344,7 @@ void KeptSmokeLight::plan_row(Row& row, std::span<const std::uint32_t> lamps) {
 void KeptSmokeLight::plan_kept(const SmokeLightMoment& moment) {
   for (std::uint32_t i = 0; i < moment.needs->seen; ++i)
     plan_row(row_of(moment, moment.needs->slots[i]), reaching(i));
-  plan_.row_count = static_cast<std::uint32_t>(rows_.size());
+  plan_.row_count = row_count_;
   plan_.block_count = block_end_;
   const auto all = [](const auto& list) {
     return sim::IndexRange{0, static_cast<std::uint32_t>(list.size())};
@@ -337,7 +363,7 @@ void KeptSmokeLight::plan_parts(const SmokeLightMoment& moment) {
                              static_cast<std::uint32_t>(end[i] - begin[i])};
     };
     plan_.parts.push_back({range(0), range(1), range(2)});
-    plan_.row_count = std::max(plan_.row_count, static_cast<std::uint32_t>(rows_.size()));
+    plan_.row_count = std::max(plan_.row_count, row_count_);
     plan_.block_count = std::max(plan_.block_count, block_end_);
     begin = end;
     forget_rays();
@@ -360,15 +386,16 @@ const SmokeLightPlan& KeptSmokeLight::plan(const SmokeLightMoment& moment) {
     forget_rays();
   } else {
     std::vector<Capsule> changes;
-    add_hole_changes(moment, changes);
     add_smoke_changes(moment, changes);
-    if (!drop_crossed(moment, changes)) forget_rays();
+    const bool noise_drifts = moment.look.erosion > 0 && moment.time != last_->time;
+    if (!noise_drifts) add_hole_changes(moment, changes);
+    if (noise_drifts || !drop_crossed(moment, changes)) drop_rays();
   }
   if (!last_ || last_->eye_world != moment.eye_world || !same_bytes(last_->sky, moment.sky)) ++epoch_;
   follow_lamps(moment.lights);
   find_reaching(moment);
-  if (block_end_ + std::size_t{blocks_missing(moment)} > most_blocks_) forget_rays();
-  if (blocks_missing(moment) > most_blocks_) {
+  if (block_end_ + blocks_missing(moment) > most_blocks_) forget_rays();
+  if (block_end_ == 0 && blocks_missing(moment) > most_blocks_) {
     plan_parts(moment);
     last_.reset();
   } else {

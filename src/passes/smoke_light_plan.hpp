@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "passes/smoke_needs.hpp"
@@ -60,6 +59,7 @@ class KeptSmokeLight {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   struct Kept {
+    std::uint32_t lamp = kNone;  // its number here
     std::uint32_t block = kNone;
     bool valid = false;
     // Where the lamp reached when the rays were followed: beyond they say nothing.
@@ -71,7 +71,7 @@ class KeptSmokeLight {
     bool listed = false;
     std::uint64_t put_together = 0;  // hash of what its light was put together from; 0: nothing
     Kept sky;
-    std::vector<Kept> lamps;  // by number of the lamp here
+    std::vector<Kept> lamps;
   };
   struct Lamp {
     shared::Light light{};
@@ -88,6 +88,7 @@ class KeptSmokeLight {
   bool must_forget(const SmokeLightMoment& moment) const;
   void remember(const SmokeLightMoment& moment);
   void forget_rays();
+  void drop_rays();
   void add_hole_changes(const SmokeLightMoment& moment, std::vector<Capsule>& changes) const;
   void add_smoke_changes(const SmokeLightMoment& moment, std::vector<Capsule>& changes);
   bool drop_crossed(const SmokeLightMoment& moment, std::span<const Capsule> changes);
@@ -95,9 +96,11 @@ class KeptSmokeLight {
   Lamp& known_lamp(const shared::Light& light, std::size_t hint, std::size_t most);
   void find_reaching(const SmokeLightMoment& moment);
   std::span<const std::uint32_t> reaching(std::size_t seen_index) const;
-  std::uint32_t blocks_missing(const SmokeLightMoment& moment) const;
+  std::size_t blocks_missing(const SmokeLightMoment& moment) const;
+  const Row* known_row(std::uint32_t slot) const;
   Row& row_of(const SmokeLightMoment& moment, std::uint32_t slot);
   void take_blocks(Kept& kept, std::uint32_t count);
+  Kept& kept_of(Row& row, std::uint32_t lamp, std::size_t hint);
   void plan_row(Row& row, std::span<const std::uint32_t> lamps);
   void plan_kept(const SmokeLightMoment& moment);
   void plan_parts(const SmokeLightMoment& moment);
@@ -105,8 +108,9 @@ class KeptSmokeLight {
 
   std::uint32_t most_blocks_;
   SmokeLightPlan plan_;
-  std::vector<Row> rows_;
-  std::unordered_map<std::uint32_t, std::uint32_t> row_of_slot_;
+  std::vector<Row> rows_;  // the first row_count_ are in use
+  std::uint32_t row_count_ = 0;
+  std::vector<std::uint32_t> row_of_slot_;
   std::vector<glm::ivec3> brick_of_slot_;  // of all slots, as of the last frame
   std::vector<Lamp> lamps_;
   std::uint32_t block_end_ = 0;

@@ -1,0 +1,173 @@
+#include "passes/smoke_light_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "passes/view_volume.hpp"
+#include "sim/world.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::passes {
+namespace {
+
+constexpr float kVoxel = 0.5f;
+
+/// Three smokes in an open world, lamps between.
+class SmokeLightPlanTest : public ::testing::Test {
+ protected:
+  SmokeLightPlanTest() {
+    for (const double x : {6.0, 20.0, 34.0}) {
+      sim::ThrowSmoke event;
+      event.from = event.at = sim::position_from_metres(glm::dvec3(x, 1, 8));
+      event.smoke.voxels = 400;
+      world_.append(event).value_or_throw();
+    }
+    world_.advance_to(90);
+    volume_.update(world_);
+    needs_ = all_of_smoke(volume_);
+    for (int i = 0; i < 9; ++i) {
+      shared::Light lamp{};
+      lamp.position_world = {4.5f * static_cast<float>(i), 2, 4};
+      lamp.intensity = glm::vec3(1);
+      lamp.range = 10;
+      lights_.push_back(lamp);
+    }
+  }
+  SmokeLightMoment moment() const {
+    SmokeLightMoment moment;
+    moment.volume = &volume_;
+    moment.needs = &needs_;
+    moment.lights = lights_;
+    moment.holes = holes_;
+    moment.time = 1.5f;
+    return moment;
+  }
+
+  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
+  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
+  sim::World world_{grid_};
+  sim::SmokeVolume volume_{grid_, planes_};
+  SmokeNeeds needs_;
+  std::vector<shared::Light> lights_;
+  std::vector<shared::Hole> holes_;
+};
+
+TEST_F(SmokeLightPlanTest, AsksForEveryLampOfEveryBrickOnceAndThenForNothing) {
+  KeptSmokeLight kept;
+  const SmokeLightPlan first = kept.plan(moment());
+  ASSERT_EQ(first.parts.size(), 1u);
+  EXPECT_EQ(first.bricks.size(), needs_.seen);
+  EXPECT_EQ(first.rows.size(), needs_.seen);
+  std::set<std::uint32_t> blocks;
+  for (const shared::LightPair& pair : first.pairs) EXPECT_TRUE(blocks.insert(pair.block).second);
+  EXPECT_EQ(blocks.size(), first.block_count);
+  // Every point of a brick within the range of a lamp has that lamp.
+  const shared::SmokeVolumeFrame& frame = volume_.frame();
+  for (const shared::LightBrick& brick : first.bricks)
+    for (std::uint32_t lamp = 0; lamp < lights_.size(); ++lamp) {
+      const glm::vec3 low =
+          frame.origin_world + kVoxel * (8.0f * glm::vec3(volume_.brick_of(brick.slot)) - 0.5f);
+      const glm::vec3 near = glm::clamp(lights_[lamp].position_world, low, low + 9 * kVoxel);
+      if (glm::distance(near, lights_[lamp].position_world) >= lights_[lamp].range) continue;
+      bool listed = false;
+      for (std::uint32_t i = 0; i < brick.lamp_count; ++i)
+        listed |= first.lamps[brick.first_lamp + i].x == lamp;
+      EXPECT_TRUE(listed);
+    }
+  const SmokeLightPlan again = kept.plan(moment());
+  EXPECT_TRUE(again.parts.empty() && again.pairs.empty() && again.bricks.empty());
+}
+
+TEST_F(SmokeLightPlanTest, WhatDoesNotFitIsDoneInParts) {
+  const std::size_t all = KeptSmokeLight().plan(moment()).pairs.size();
+  const auto most = static_cast<std::uint32_t>(all / 3);
+  KeptSmokeLight kept(most);
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    const SmokeLightPlan plan = kept.plan(moment());
+    EXPECT_GT(plan.parts.size(), 2u);
+    EXPECT_LE(plan.block_count, most);
+    EXPECT_EQ(plan.pairs.size(), all);
+    std::size_t pairs = 0;
+    std::set<std::uint32_t> slots;
+    for (const SmokeLightPlan::Part& part : plan.parts) {
+      EXPECT_EQ(part.pairs.first, pairs);
+      pairs += part.pairs.count;
+      std::set<std::uint32_t> blocks;
+      for (std::uint32_t i = 0; i < part.pairs.count; ++i)
+        EXPECT_TRUE(blocks.insert(plan.pairs[part.pairs.first + i].block).second);
+      for (std::uint32_t i = 0; i < part.bricks.count; ++i)
+        EXPECT_TRUE(slots.insert(plan.bricks[part.bricks.first + i].slot).second);
+    }
+    EXPECT_EQ(pairs, all);
+    EXPECT_EQ(slots.size(), needs_.seen);
+  }
+}
+
+TEST_F(SmokeLightPlanTest, AHoleMakesAnewOnlyWhatMayCrossIt) {
+  KeptSmokeLight kept;
+  const std::size_t all = kept.plan(moment()).pairs.size();
+  // Along z through the first smoke; the last is 28 m away, and no lamp reaches from there to here.
+  shared::Hole hole{};
+  hole.origin_world = {6, 1, 4};
+  hole.forward = {0, 0, 1};
+  hole.distance_to_far = 8;
+  hole.radius = 0.2f;
+  hole.time_start = 1;
+  hole.time_to_stay_open = 10;
+  holes_ = {hole};
+  const SmokeLightPlan plan = kept.plan(moment());
+  EXPECT_GT(plan.pairs.size(), 0u);
+  EXPECT_LT(plan.pairs.size(), all);
+  // All the lamps' rays of the smoke that it goes through.
+  const auto in_first = [&](std::uint32_t slot) { return static_cast<float>(8 * volume_.brick_of(slot).x) * kVoxel < 12; };
+  const SmokeLightPlan whole = KeptSmokeLight().plan(moment());
+  std::multiset<std::uint32_t> lamps, whole_lamps;
+  for (const auto& pair : plan.pairs)
+    if (volume_.brick_of(pair.slot) == glm::ivec3(1, 0, 2)) lamps.insert(pair.lamp);
+  for (const auto& pair : whole.pairs)
+    if (volume_.brick_of(pair.slot) == glm::ivec3(1, 0, 2)) whole_lamps.insert(pair.lamp);
+  EXPECT_FALSE(whole_lamps.empty());
+  EXPECT_EQ(lamps, whole_lamps);
+  bool far_lamp = false;
+  for (const auto& pair : plan.pairs) far_lamp |= !in_first(pair.slot) && pair.lamp == 8;
+  EXPECT_FALSE(far_lamp);
+}
+
+TEST(SameCut, IsOnlySaidWhereNothingDiffers) {
+  std::mt19937 random(5);
+  const auto unit = [&] { return std::uniform_real_distribution<float>(0, 1)(random); };
+  int same = 0, different = 0;
+  for (int i = 0; i < 20000; ++i) {
+    shared::Hole hole{};
+    hole.origin_world = {unit(), unit(), unit()};
+    hole.forward = {0, 0, 1};
+    hole.right = {1, 0, 0};
+    hole.up = {0, 1, 0};
+    hole.radius = 0.2f + unit();
+    hole.distance_to_far = 1 + 4 * unit();
+    hole.time_start = 100 * unit();
+    hole.time_to_reach_far = i % 3 == 0 ? 0 : 0.5f * unit();
+    hole.time_to_expand = i % 5 == 0 ? 0 : 0.3f * unit();
+    hole.time_to_stay_open = 2 * unit();
+    hole.time_to_fade = i % 7 == 0 ? 0 : 0.5f * unit();
+    hole.shape = i % 2 == 0 ? shared::kHoleCylinder : shared::kHoleBox;
+    const float a = hole.time_start - 0.5f + 4 * unit(), b = a + 0.5f * unit();
+    bool equal = true;
+    for (int k = 0; k < 40; ++k) {
+      const glm::vec3 p =
+          hole.origin_world + glm::vec3(2 * unit() - 1, 2 * unit() - 1, hole.distance_to_far * unit());
+      equal &= shared::hole_strength(hole, p, a, 0) == shared::hole_strength(hole, p, b, 0);
+    }
+    const bool said = same_cut(hole, a, b);
+    same += said;
+    different += !equal;
+    EXPECT_TRUE(equal || !said);
+  }
+  EXPECT_GT(same, 3000);
+  EXPECT_GT(different, 3000);
+}
+
+}  // namespace
+}  // namespace brume::passes
