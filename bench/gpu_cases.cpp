@@ -177,8 +177,12 @@ Result<std::vector<Measurement>> kept_light(Bench& bench) {
     changing.back().radius = holes.back().radius * (i % 2 == 0 ? 1 : 0.9f);
     frame.input().holes = changing;
   });
-  time("flash", [&](unsigned i) { frame.input().flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
-  time("dims", [&](unsigned i) { frame.input().flashes = {flash_beside(2 / static_cast<float>(i + 1))}; });
+  // A lamp that was as bright before, and one that comes.
+  time("flicker", [&](unsigned i) { frame.input().flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
+  time("flash", [&](unsigned i) {
+    frame.input().flashes = {flash_beside(2)};
+    frame.input().flashes[0].position_world.y += 0.01f * static_cast<float>(i);
+  });
   return results;
 }
 
