@@ -1,80 +1,157 @@
-// Which holes of its tile the rays of a group of pixels may meet, and where. A workgroup a group.
+// Which holes of its tile the rays of each group of pixels may meet, slab by slab: the lists of shared/open_holes.h.
+// A workgroup for 2 x 2 groups.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/frame.h"
 
-layout(local_size_x = kHoleSlabs) in;
+layout(local_size_x = 128) in;
 layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
 layout(binding = 1) readonly buffer Holes { vec4 hole_rows[]; };
 layout(scalar, binding = 2) readonly buffer TileHoles { uint tile_holes[]; };
-layout(scalar, binding = 3) coherent buffer HoleLists { uint hole_lists[]; };
-layout(scalar, binding = 4) buffer Counters { HoleCounters counters; };
+layout(scalar, binding = 3) writeonly buffer HoleLists { uint hole_lists[]; };
+layout(scalar, binding = 4) coherent buffer Counter { uint words_taken; };
 layout(push_constant, scalar) uniform Push { HoleListsParams params; };
 #include "lib/hole_rows.glsl"
 #include "lib/hole_slabs.glsl"
 #include "lib/ray_cone.glsl"
 
-shared uint counts[kHoleSlabs];
-shared uint first_of_group;
+const uint kThreads = gl_WorkGroupSize.x;
+const uint kGroups = 4u;  // of a workgroup
+const uint kLists = kGroups * kHoleSlabs;
+/// Holes of the tile that are looked at together: each group gets a block for them. With what they take, a workgroup keeps
+/// to the 16 KiB of shared memory that every device has.
+const uint kChunk = 416u;
+const uint kRun = kMaxHoles / 32u / kThreads;  // words of the tile's mask that a thread takes at most
 
-/// Counts the holes of the lane's share of the tile's, and writes them where `write` says so.
-uint list_holes(uint first_word, uint end_word, RayCone cone, bool write, uint at) {
+shared uint chunk[kChunk];  // holes, rising
+// Which of those are in which list: 32 a word, lists side by side.
+shared uint members[kChunk / 32u * kLists];
+shared uint sums[kThreads];
+shared uint sums8[kThreads / 8u];
+shared uint words_of_lists, used_groups, first_word;
+
+/// How many holes the threads below the lane have, and all together.
+uvec2 count_before(uint lane, uint own) {
+  sums[lane] = own;
+  barrier();
+  if (lane < kThreads / 8u) {
+    uint sum = 0u;
+    for (uint i = 0u; i < 8u; ++i) sum += sums[8u * lane + i];
+    sums8[lane] = sum;
+  }
+  barrier();
+  uint before = 0u, all = 0u;
+  for (uint i = 0u; i < kThreads / 8u; ++i) {
+    before += i < lane / 8u ? sums8[i] : 0u;
+    all += sums8[i];
+  }
+  for (uint i = lane & ~7u; i < lane; ++i) before += sums[i];
+  return uvec2(before, all);
+}
+
+/// Puts the holes of the chunk that the lane's group meets into the lists of the slabs where it does.
+void find_members(uint lane, uint count, RayCone cone) {
   const HoleSlabs slabs = hole_slabs();
   // More than what rounding may move a sample.
   const float slack = 1e-3 / slabs.per_metre + 1e-4;
-  const uint tiles_across = frame.holes.groups_across / kHoleTileGroups;
-  const uvec2 tile = gl_WorkGroupID.xy / kHoleTileGroups;
-  const uint of_tile = (tile.x + tiles_across * tile.y) * mask_words(frame.holes.count);
-  uint count = 0u;
-  for (uint word = first_word; word < end_word; ++word) {
-    for (uint bits = tile_holes[of_tile + word]; bits != 0u; bits &= bits - 1u) {
-      const uint hole = 32u * word + uint(findLSB(bits));
-      const vec2 interval = cone_in_hole(cone, reach_from_rows(hole));
-      if (interval.x > interval.y) continue;
-      const uint first = slab_at(slabs, interval.x - slack), last = slab_at(slabs, interval.y + slack);
-      if (write) hole_lists[at + count] = hole | first << 16u | last << 24u;
+  for (uint i = lane / kGroups; i < count; i += kThreads / kGroups) {
+    const vec2 interval = cone_in_hole(cone, reach_from_rows(chunk[i]));
+    if (interval.x > interval.y) continue;
+    const uint first = slab_at(slabs, interval.x - slack), last = slab_at(slabs, interval.y + slack);
+    const uint at = i / 32u * kLists + lane % kGroups;
+    for (uint slab = first; slab <= last; ++slab) atomicOr(members[at + kGroups * slab], 1u << (i & 31u));
+  }
+}
+
+/// Writes the list of a slab, two holes a word.
+void write_list(uint list, uint mask_count, uint to) {
+  uint pending = 0u, count = 0u;
+  for (uint word = 0u; word < mask_count; ++word) {
+    for (uint bits = members[word * kLists + list]; bits != 0u; bits &= bits - 1u) {
+      // The one before is written when it is known that another follows.
+      if (count > 0u && (count & 1u) == 0u) {
+        hole_lists[to] = pending;
+        ++to;
+        pending = 0u;
+      }
+      pending |= chunk[32u * word + uint(findLSB(bits))] << (16u * (count & 1u));
       ++count;
     }
   }
-  return count;
+  hole_lists[to] = pending | kLastInSlab << (16u * ((count - 1u) & 1u));
+}
+
+/// Writes the blocks of the chunk. `own` is the word of the group of the first lanes, `last` its last block.
+bool write_blocks(uint lane, uint count, inout uint own, inout uint last) {
+  const uint mask_count = mask_words(count);
+  uint sizes[kLists / kThreads], offsets[kLists / kThreads];
+  for (uint k = 0u; k < kLists / kThreads; ++k) {
+    uint size = 0u;
+    for (uint word = 0u; word < mask_count; ++word) size += bitCount(members[word * kLists + kThreads * k + lane]);
+    sizes[k] = (size + 1u) / 2u;
+    offsets[k] = size > 0u ? atomicAdd(words_of_lists, sizes[k]) : 0u;
+    if (size > 0u) atomicOr(used_groups, 1u << (lane % kGroups));
+  }
+  barrier();
+  const uint used = used_groups, blocks = kBlockWords * bitCount(used);
+  if (used == 0u) return true;
+  // When all is taken the sum stays, lest it should wrap.
+  if (lane == 0u) first_word = words_taken < params.entry_capacity ? atomicAdd(words_taken, blocks + words_of_lists) : words_taken;
+  barrier();
+  const bool room = first_word + blocks + words_of_lists <= params.entry_capacity;
+  const uint group = lane % kGroups, first = frame.holes.entries_at + first_word;
+  const uint block = first + kBlockWords * bitCount(used & ((1u << group) - 1u));
+  const bool in_use = (used >> group & 1u) != 0u;
+  if (lane < kGroups && in_use) {
+    if (room && last != 0u) hole_lists[last + kHoleSlabs] = block;
+    own = !room ? kAskAllHoles : last != 0u ? own | kMoreBlocks : block;
+    last = block;
+    if (room) hole_lists[block + kHoleSlabs] = 0u;
+  }
+  for (uint k = 0u; room && in_use && k < kLists / kThreads; ++k) {
+    const uint list = kThreads * k + lane, to = first + blocks + offsets[k];
+    hole_lists[block + list / kGroups] = sizes[k] > 0u ? to : 0u;
+    if (sizes[k] > 0u) write_list(list, mask_count, to);
+  }
+  return room;
 }
 
 void main() {
-  const uint lane = gl_LocalInvocationID.x;
-  const vec2 low_px = vec2(gl_WorkGroupID.xy * kHoleGroupPixels);
-  const RayCone cone = cone_of_pixels(low_px, low_px + float(kHoleGroupPixels), smoke_reach().y);
-  // Each lane a run of words, so that the list rises.
-  const uint words = mask_words(frame.holes.count), run = (words + kHoleSlabs - 1u) / kHoleSlabs;
-  const uint first_word = min(lane * run, words), end_word = min(first_word + run, words);
-  counts[lane] = list_holes(first_word, end_word, cone, false, 0u);
-  barrier();
-  uint before = 0u, count = 0u;
-  for (uint i = 0u; i < kHoleSlabs; ++i) {
-    before += i < lane ? counts[i] : 0u;
-    count += counts[i];
-  }
-  const uint room = count + kHoleSlabs * mask_words(count);
-  if (lane == 0u) {
-    first_of_group = count > 0u ? atomicAdd(counters.entries, room) : 0u;
-    const uint list = 2u * (gl_WorkGroupID.x + frame.holes.groups_across * gl_WorkGroupID.y);
-    hole_lists[list] = frame.holes.entries_at + first_of_group;
-    hole_lists[list + 1u] = first_of_group + room <= params.entry_capacity ? count : kAskAllHoles;
-  }
-  barrier();
-  if (count == 0u || first_of_group + room > params.entry_capacity) return;
-  const uint entries = frame.holes.entries_at + first_of_group;
-  list_holes(first_word, end_word, cone, true, entries + before);
-  memoryBarrierBuffer();
-  barrier();
+  const uint lane = gl_LocalInvocationID.x, words = mask_words(frame.holes.count);
+  const uvec2 group = 2u * gl_WorkGroupID.xy + uvec2(lane & 1u, lane >> 1u & 1u);
+  const uvec2 tile = group / kHoleTileGroups;
+  const uint of_tile = (tile.x + frame.holes.groups_across / kHoleTileGroups * tile.y) * words;
 
-  // A lane a slab.
-  for (uint word = 0u; word < mask_words(count); ++word) {
-    uint bits = 0u;
-    for (uint i = 32u * word; i < min(32u * word + 32u, count); ++i) {
-      const uint entry = hole_lists[entries + i];
-      if ((entry >> 16u & 255u) <= lane && lane <= entry >> 24u) bits |= 1u << (i & 31u);
-    }
-    hole_lists[entries + count + mask_words(count) * lane + word] = bits;
+  // Each thread a run of words, so that the lists rise.
+  const uint run = (words + kThreads - 1u) / kThreads, first = min(lane * run, words);
+  uint bits[kRun], own_count = 0u;
+  for (uint i = 0u; i < kRun; ++i) {
+    bits[i] = i < run && first + i < words ? tile_holes[of_tile + first + i] : 0u;
+    own_count += bitCount(bits[i]);
   }
+  const uvec2 before_all = count_before(lane, own_count);
+  const vec2 low_px = vec2(group * kHoleGroupPixels);
+  const RayCone cone = cone_of_pixels(low_px, low_px + float(kHoleGroupPixels), smoke_reach().y);
+
+  uint own = 0u, last = 0u;
+  bool room = true;
+  for (uint begin = 0u; begin < before_all.y && room; begin += kChunk) {
+    const uint count = min(before_all.y - begin, kChunk);
+    for (uint i = lane; i < mask_words(count) * kLists; i += kThreads) members[i] = 0u;
+    if (lane == 0u) words_of_lists = used_groups = 0u;
+    uint rank = before_all.x;
+    for (uint i = 0u; i < kRun; ++i) {
+      for (uint rest = bits[i]; rest != 0u; rest &= rest - 1u) {
+        if (rank >= begin && rank < begin + count) chunk[rank - begin] = 32u * (first + i) + uint(findLSB(rest));
+        ++rank;
+      }
+    }
+    barrier();
+    find_members(lane, count, cone);
+    barrier();
+    room = write_blocks(lane, count, own, last);
+    barrier();
+  }
+  if (lane < kGroups) hole_lists[group.x + frame.holes.groups_across * group.y] = own;
 }

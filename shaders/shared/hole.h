@@ -36,8 +36,37 @@ SHARED_SIZE(Hole, 96);
 
 /// How far noise of the amplitude `rim` [m] moves the rim: of narrow holes less, so that they stay what they are.
 SHARED_FUNCTION float hole_rim(Hole hole, float rim) { return min(rim, 0.25f * hole.radius); }
+
 /// No point of any shape is farther from the axis than so many radii: the corner of a box whose rim is moved outward.
 SHARED_CONST float kHoleWidest = 1.7682f;
+
+/// How open a hole is at a depth, as shares of its radius and of what it removes.
+struct HoleOpening {
+  float radius;
+  float strength;
+};
+SHARED_SIZE(HoleOpening, 8);
+
+/// `age`: how long it has been opening there [s], above 0; the other times as in Hole.
+SHARED_FUNCTION HoleOpening hole_opening(float age, float time_to_expand, float time_to_stay_open, float time_to_fade) {
+  float opened = clamp(age / max(time_to_expand, 1e-6f), 0.0f, 1.0f);
+  float closing_age = age - time_to_expand - time_to_stay_open;
+  float left = 1.0f - clamp(closing_age / max(time_to_fade, 1e-6f), 0.0f, 1.0f);
+  HoleOpening opening;
+  opening.radius = opened * left;
+  opening.strength = left;
+  return opening;
+}
+
+/// What is removed of the smoke inside the radius of a cylinder or box, 0 at its edge.
+SHARED_FUNCTION float hole_edge(float from_axis, float radius) {
+  return smoothstep(0.0f, 1.0f, (radius - from_axis) / (radius * kHoleSoftShare));
+}
+
+/// Where across a mask a point lies: -1..1 of the radius, the image's first row on top.
+SHARED_FUNCTION vec2 hole_mask_share(float x, float y, float radius) {
+  return clamp(vec2(0.5f + 0.5f * x / radius, 0.5f - 0.5f * y / radius), vec2(0.0f), vec2(1.0f));
+}
 
 /// What a hole does at a point.
 struct HoleCut {
@@ -59,23 +88,20 @@ SHARED_FUNCTION HoleCut hole_cut(Hole hole, vec3 p_world, float time, float rim_
   // How long the hole has been opening at this depth.
   float age = time - hole.time_start - z / max(hole.distance_to_far, 1e-6f) * hole.time_to_reach_far;
   if (age <= 0.0f) return cut;
-  float opened = clamp(age / max(hole.time_to_expand, 1e-6f), 0.0f, 1.0f);
-  float closing_age = age - hole.time_to_expand - hole.time_to_stay_open;
-  float closed = clamp(closing_age / max(hole.time_to_fade, 1e-6f), 0.0f, 1.0f);
-  if (closed >= 1.0f) return cut;
+  HoleOpening opening = hole_opening(age, hole.time_to_expand, hole.time_to_stay_open, hole.time_to_fade);
+  if (opening.strength <= 0.0f) return cut;
 
-  float radius = (hole.radius + rim_noise_metres) * opened * (1.0f - closed);
+  float radius = (hole.radius + rim_noise_metres) * opening.radius;
   float x = dot(from_origin, hole.right);
   float y = dot(from_origin, hole.up);
   float from_axis = hole.shape == kHoleCylinder ? length(vec2(x, y)) : max(abs(x), abs(y));
   if (from_axis >= radius) return cut;
 
-  cut.strength = 1.0f - closed;
-  if (hole.shape == kHoleMask) {  // -1..1 across, the image's first row on top
-    vec2 across = clamp(vec2(0.5f + 0.5f * x / radius, 0.5f - 0.5f * y / radius), vec2(0.0f), vec2(1.0f));
-    cut.uv = mix(hole.uv_min, hole.uv_max, across);
+  cut.strength = opening.strength;
+  if (hole.shape == kHoleMask) {
+    cut.uv = mix(hole.uv_min, hole.uv_max, hole_mask_share(x, y, radius));
   } else {
-    cut.strength *= smoothstep(0.0f, 1.0f, (radius - from_axis) / (radius * kHoleSoftShare));
+    cut.strength *= hole_edge(from_axis, radius);
   }
   return cut;
 }

@@ -1,10 +1,10 @@
 // Which holes reach where, so that nobody asks holes that are elsewhere, however many there are.
 //
-//   hole_lists   for rays from the eye: per group of 8 x 8 pixels the first of its entries and how many it has, or
-//                kAskAllHoles; from entries_at on the entries: holes that a ray of the group may meet, rising, hole | first <<
-//                16 | last << 24 of the slabs of distance from the eye where it may; after a group's entries, for each
-//                of the kHoleSlabs slabs a mask of those, 32 entries a word
-//   tile_holes   a mask of all holes for each tile of 4 x 4 groups: those that may meet it, 32 holes a word
+//   tile_holes   a mask of all holes for each tile of 4 x 4 groups of 8 x 8 pixels: those that may meet it, 32 a word
+//   hole_lists   for rays from the eye, first a word for each group: 0, where its block is, or kAskAllHoles. A block has
+//                for each of kHoleSlabs slabs of distance from the eye 0 or where its list is, and where the group's
+//                next block is, asked only where the word has kMoreBlocks. A list: the holes that a ray of the
+//                group may meet there, rising, two of 16 bits a word, the lower first; kLastInSlab ends it
 //   hole_cells   for light: a uint per slot, 0 or block + 1; from cells_at on, per block of a brick 16^3 cells of half a
 //                voxel, x + 16 (y + 16 z): what the holes leave of the smoke in it on average, as -log2 in steps of
 //                1 / kHoleCellStep; sums of what each hole leaves, so that their order does not matter
@@ -22,7 +22,10 @@ SHARED_CONST uint kHolesAllAsked = 2u;
 SHARED_CONST uint kMaxHoles = 16384u;
 SHARED_CONST uint kHoleGroupPixels = 8u;
 SHARED_CONST uint kHoleTileGroups = 4u;  // along an axis
-SHARED_CONST uint kHoleSlabs = 32u;
+SHARED_CONST uint kHoleSlabs = 64u;
+SHARED_CONST uint kBlockWords = kHoleSlabs + 1u;
+SHARED_CONST uint kMoreBlocks = 0x80000000u;
+SHARED_CONST uint kLastInSlab = 0x8000u;
 /// A group for which there was no room: its rays ask all holes.
 SHARED_CONST uint kAskAllHoles = 0xffffffffu;
 
@@ -52,13 +55,12 @@ struct HoleCellsParams {
 };
 SHARED_SIZE(HoleCellsParams, 12);
 
-/// What is counted: pairs of a brick and a hole that reaches it, bricks that any reaches, entries of the lists.
+/// What is counted: pairs of a brick and a hole that reaches it, and bricks that any reaches.
 struct HoleCounters {
   uint pairs;
   uint blocks;
-  uint entries;
 };
-SHARED_SIZE(HoleCounters, 12);
+SHARED_SIZE(HoleCounters, 8);
 
 SHARED_END
 #endif

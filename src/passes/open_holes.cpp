@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "brume_shaders.hpp"
@@ -10,8 +11,8 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kMaxBlocks = 7000;    // 112 MiB of cells: every device takes 128 in one buffer
-constexpr std::size_t kMaxEntries = 1 << 24;  // of the lists: 64 MiB
+constexpr std::uint32_t kMaxBlocks = 7000;  // 112 MiB of cells: every device takes 128 in one buffer
+constexpr std::size_t kMaxWords = 1 << 24;  // of the lists: 64 MiB
 // Workgroups that share the work of a pass, however much it turns out to be.
 constexpr std::uint32_t kGroups = 8192;
 constexpr std::uint32_t kRow = 32768;  // every device takes 65,535 workgroups along an axis
@@ -24,6 +25,19 @@ double bricks_reached(const shared::HoleReach& reach, float voxel_size) {
   const double length = static_cast<double>(reach.length_m) / static_cast<double>(voxel_size);
   const double r = radius + std::numbers::sqrt3 * kEdge;
   return std::numbers::pi * r * r * (length + 4.0 / 3 * r) / (kEdge * kEdge * kEdge) + 1;
+}
+
+/// Whether it is wide open wherever it is: hole_opening gives 1 and 1 at both ends, and so between.
+bool is_wide_open(const shared::Hole& hole, float time) {
+  constexpr float kSlack = 1e-4f;  // [s], for rounding
+  const float at_muzzle = time - hole.time_start, at_far = at_muzzle - hole.time_to_reach_far;
+  return at_far > hole.time_to_expand + kSlack &&
+         at_muzzle < hole.time_to_expand + hole.time_to_stay_open - kSlack;
+}
+
+/// Most words that the lists of a group may take: a block for each 32 holes at worst, a list in each slab.
+std::size_t words_of_group(std::size_t holes) {
+  return (holes + 31) / 32 * shared::kBlockWords + shared::kHoleSlabs * ((holes + 1) / 2 + (holes + 31) / 32);
 }
 
 }  // namespace
@@ -51,13 +65,29 @@ HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
   return plan;
 }
 
+std::vector<glm::vec4> hole_rows(const HolePlan& plan, float time) {
+  constexpr std::size_t kRows = sizeof(shared::Hole) / sizeof(glm::vec4);
+  constexpr std::size_t kReachRows = sizeof(shared::HoleReach) / sizeof(glm::vec4);
+  std::vector<glm::vec4> rows(plan.holes.size() * (kRows + kReachRows));
+  for (std::size_t i = 0; i < plan.holes.size(); ++i) {
+    shared::Hole hole = plan.holes[i];
+    if (hole.shape == shared::kHoleMask || !is_wide_open(hole, time)) hole.radius = -hole.radius;
+    if (hole.shape == shared::kHoleCylinder) hole.distance_to_far = -hole.distance_to_far;
+    std::memcpy(&rows[kRows * i], &hole, sizeof hole);
+  }
+  if (!plan.reaches.empty())
+    std::memcpy(&rows[kRows * plan.holes.size()], plan.reaches.data(),
+                plan.reaches.size() * sizeof(shared::HoleReach));
+  return rows;
+}
+
 OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const sim::MaskAtlas& masks)
     : context_(context),
       tiles_pass_(context, shaders::hole_tiles_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
-                  {64, 1, 1}),
+                  {256, 1, 1}),
       groups_pass_(context, shaders::hole_groups_comp,
                    {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                   sizeof(shared::HoleListsParams), {shared::kHoleSlabs, 1, 1}),
+                   sizeof(shared::HoleListsParams), {128, 1, 1}),
       bricks_pass_(context, shaders::hole_bricks_comp,
                    {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::HoleCellsParams), {64, 1, 1}),
@@ -67,7 +97,9 @@ OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const si
           sizeof(shared::HoleCellsParams), {64, 1, 1}),
       nearest_(context, {VK_FILTER_NEAREST}),
       counters_(context, sizeof(shared::HoleCounters),
-                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
+                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT),
+      words_taken_(context, sizeof(std::uint32_t),
+                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
   reserve({}, 0, 0, {}, 0, {1, 1});
   runner.run([&](gpu::Recorder& recorder) { resources_.masks = make_hole_masks(context, recorder, masks); });
 }
@@ -75,6 +107,7 @@ OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const si
 void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float rim,
                         const shared::SmokeVolumeFrame& volume, std::uint32_t slot_count,
                         glm::uvec2 size_px) {
+  time_ = time;
   plan_ = slot_count > 0 ? plan_holes(holes, time, rim, volume, slot_count) : HolePlan();
   slot_count_ = slot_count;
   resources_.any = !plan_.holes.empty();
@@ -83,9 +116,8 @@ void OpenHoles::reserve(std::span<const shared::Hole> holes, float time, float r
   const std::size_t tiles = std::size_t{tiles_.x} * tiles_.y;
   const std::size_t groups = tiles * shared::kHoleTileGroups * shared::kHoleTileGroups;
   const std::size_t count = plan_.holes.size(), words = (count + 31) / 32;
-  entries_at_ = static_cast<std::uint32_t>(2 * groups);
-  entry_capacity_ =
-      static_cast<std::uint32_t>(std::min(groups * (count + shared::kHoleSlabs * words), kMaxEntries));
+  entries_at_ = static_cast<std::uint32_t>(groups);
+  entry_capacity_ = static_cast<std::uint32_t>(std::min(groups * words_of_group(count), kMaxWords));
   gpu::grow(context_, resources_.holes, count * (sizeof(shared::Hole) + sizeof(shared::HoleReach)));
   gpu::grow(context_, tile_holes_, tiles * words * sizeof(std::uint32_t));
   gpu::grow(context_, resources_.lists, (std::size_t{entries_at_} + entry_capacity_) * sizeof(std::uint32_t));
@@ -103,19 +135,18 @@ shared::OpenHolesFrame OpenHoles::frame() const {
 
 void OpenHoles::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SmokeResources& smoke) {
   if (!resources_.any) return;
-  const auto holes = std::as_bytes(std::span(plan_.holes));
-  recorder.upload(resources_.holes, 0, holes);
-  recorder.upload(resources_.holes, holes.size(), std::as_bytes(std::span(plan_.reaches)));
   recorder.fill(counters_, 0);
+  recorder.fill(words_taken_, 0);
+  const auto rows = hole_rows(plan_, time_);
+  recorder.upload(resources_.holes, 0, std::as_bytes(std::span(rows)));
   recorder.bind(tiles_pass_, {gpu::read(frame), gpu::read(resources_.holes), gpu::write(tile_holes_)});
-  const auto words = static_cast<std::uint32_t>((plan_.holes.size() + 31) / 32);
-  recorder.dispatch_threads(tiles_pass_, words * tiles_.x * tiles_.y);
+  recorder.dispatch_threads(tiles_pass_, tiles_pass_.group()[0] * tiles_.x, tiles_.y);
   recorder.bind(groups_pass_,
                 {gpu::read(frame), gpu::read(resources_.holes), gpu::read(tile_holes_),
-                 gpu::read_write(resources_.lists), gpu::read_write(counters_)},
+                 gpu::write(resources_.lists), gpu::read_write(words_taken_)},
                 shared::HoleListsParams{entry_capacity_});
-  recorder.dispatch_threads(groups_pass_, shared::kHoleSlabs * shared::kHoleTileGroups * tiles_.x,
-                            shared::kHoleTileGroups * tiles_.y);
+  constexpr std::uint32_t kPerTile = shared::kHoleTileGroups / 2;  // workgroups, along an axis
+  recorder.dispatch_threads(groups_pass_, groups_pass_.group()[0] * kPerTile * tiles_.x, kPerTile * tiles_.y);
 
   const shared::HoleCellsParams params{slot_count_, plan_.pair_capacity, plan_.block_capacity};
   recorder.bind(bricks_pass_,

@@ -29,6 +29,11 @@ constexpr std::uint32_t kMaxHolePairs = 1u << 22;
 HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
                     const shared::SmokeVolumeFrame& volume, std::uint32_t slot_count);
 
+/// As the shaders read them (lib/hole_rows.glsl): first all holes, then all their reaches. A radius is
+/// negative where two rows do not tell all: the hole opens or closes somewhere at `time`, or has a mask; a
+/// length where it is round.
+std::vector<glm::vec4> hole_rows(const HolePlan& plan, float time);
+
 /// What every pass that looks for holes binds.
 struct HoleResources {
   gpu::Buffer holes, lists, cells;
@@ -57,8 +62,9 @@ class OpenHoles {
   gpu::ComputePipeline tiles_pass_, groups_pass_, bricks_pass_, cells_pass_;
   gpu::Sampler nearest_;
   HoleResources resources_;
-  gpu::Buffer tile_holes_, pairs_, counters_;
+  gpu::Buffer tile_holes_, pairs_, counters_, words_taken_;
   HolePlan plan_;
+  float time_ = 0;
   std::uint32_t slot_count_ = 0;
   glm::uvec2 tiles_{0};
   std::uint32_t entries_at_ = 0, entry_capacity_ = 0;
