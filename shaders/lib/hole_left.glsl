@@ -5,9 +5,15 @@
 #include "lib/hole_mask.glsl"
 #include "lib/hole_rows.glsl"
 
+/// The rows of a hole that are always needed.
+struct HoleFront {
+  vec4 a, b;
+};
+HoleFront hole_front(uint index) { return HoleFront(hole_rows[6u * index], hole_rows[6u * index + 1u]); }
+
 /// Share of the density that a hole leaves at a point; rim_noise: -1 to 1, of at most `rim` metres.
-float left_by_hole(uint index, vec3 p_world, float time, float rim_noise, float rim) {
-  const vec4 a = hole_rows[6u * index], b = hole_rows[6u * index + 1u];
+float left_by_hole(uint index, HoleFront front, vec3 p_world, float time, float rim_noise, float rim) {
+  const vec4 a = front.a, b = front.b;
   const bool is_round = b.w < 0.0;
   const vec3 apart = p_world - a.xyz;
   const float z = dot(apart, b.xyz), full = abs(a.w), far = abs(b.w);

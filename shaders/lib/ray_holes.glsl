@@ -33,16 +33,20 @@ float left_by_holes(RayHoles holes, float t, vec3 p_world, float rim_noise, bool
   uint block = all ? 0u : holes.blocks & ~kMoreBlocks;
   const uint slab = slab_at(holes.slabs, t);
   while (block != 0u && left > 0.0) {
-    const uint list = hole_lists[block + slab];
-    bool more = list != 0u;
-    for (uint i = 2u * list; more && left > 0.0; ++i) {
-      const uint entry = hole_lists[i >> 1u] >> (16u * (i & 1u));
-      left *= left_by_hole(entry & (kLastInSlab - 1u), p_world, time, rim_noise, rim);
-      more = (entry & kLastInSlab) == 0u;
+    uint at = hole_lists[block + slab];
+    for (bool more = at != 0u; more && left > 0.0; ++at) {
+      // Two at a time: one is fetched while the other is asked.
+      const uint two = hole_lists[at];
+      const bool both = (two & kLastInSlab) == 0u;
+      const uint i = two & (kLastInSlab - 1u), j = both ? two >> 16u & (kLastInSlab - 1u) : i;
+      const HoleFront front_i = hole_front(i), front_j = hole_front(j);
+      left *= left_by_hole(i, front_i, p_world, time, rim_noise, rim);
+      if (both) left *= left_by_hole(j, front_j, p_world, time, rim_noise, rim);
+      more = both && (two >> 16u & kLastInSlab) == 0u;
     }
     block = (holes.blocks & kMoreBlocks) != 0u ? hole_lists[block + kHoleSlabs] : 0u;
   }
-  for (uint i = 0u; all && i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(i, p_world, time, rim_noise, rim);
+  for (uint i = 0u; all && i < frame.holes.count && left > 0.0; ++i) left *= left_by_hole(i, hole_front(i), p_world, time, rim_noise, rim);
   return left;
 }
 

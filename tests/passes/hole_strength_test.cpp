@@ -1,5 +1,6 @@
 #include "brume_test_shaders.hpp"
 #include "passes/hole_masks.hpp"
+#include "passes/open_holes.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/sim/hole_pairs.hpp"
 
@@ -36,6 +37,51 @@ TEST_F(HoleStrength, EqualsTheModelInDoubleAt1000PointsAndTimes) {
   }
   EXPECT_GT(removed, 240);
   RecordProperty("farthest_from_the_cpu", std::to_string(apart));
+}
+
+/// As the shader reads them.
+struct LeftQuestion {
+  glm::vec3 p_world;
+  float time, rim_noise, rim;
+};
+
+TEST_F(HoleStrength, TheMarchLeavesWhatTheModelDoesNotRemove) {
+  const sim::HolePairs pairs = sim::make_hole_pairs(1000, 6);
+  std::vector<LeftQuestion> questions;
+  std::vector<glm::vec4> rows;
+  std::size_t steady = 0;
+  for (const sim::HolePair& q : pairs.pairs) {
+    const float rim = 0.25f * q.hole.radius;
+    questions.push_back({q.p_world, q.time, q.rim / rim, rim});
+    HolePlan plan;
+    plan.holes = {q.hole};
+    const auto of_hole = hole_rows(plan, q.time);
+    steady += of_hole[0].w > 0 ? 1u : 0u;
+    rows.insert(rows.end(), of_hole.begin(), of_hole.end());
+  }
+  EXPECT_GT(steady, 100u);
+  EXPECT_LT(steady, 900u);
+  const gpu::ComputePipeline pipeline(context(), shaders::left_probe_comp,
+                                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer},
+                                      0, {64, 1, 1});
+  const gpu::Sampler nearest(context(), {VK_FILTER_NEAREST});
+  const gpu::Buffer frame = upload(std::vector<shared::FrameConstants>(1));
+  const gpu::Buffer asked = upload(questions), holes = upload(rows);
+  const gpu::Buffer out(context(), questions.size() * sizeof(float),
+                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  gpu::Image masks;
+  runner().run([&](gpu::Recorder& recorder) {
+    masks = make_hole_masks(context(), recorder, pairs.atlas);
+    recorder.bind(pipeline, {gpu::read(frame), gpu::read(asked), gpu::read(holes),
+                             gpu::sampled(masks, nearest), gpu::write(out)});
+    recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(questions.size()));
+  });
+  const std::vector<float> left = read_back<float>(out, questions.size());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const reference::StrengthRange allowed = pairs.allowed(i);
+    EXPECT_GE(1 - left[i], allowed.low) << "pair " << i;
+    EXPECT_LE(1 - left[i], allowed.high) << "pair " << i;
+  }
 }
 
 }  // namespace
