@@ -8,7 +8,7 @@
 #include "shared/frame.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(binding = 1) uniform sampler2D depth;
 layout(binding = 2) uniform sampler2D smoke;
 layout(binding = 3) uniform sampler2D past_smoke;

@@ -7,7 +7,7 @@
 #include "shared/frame.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(binding = 1) uniform sampler2D blue_noise_tile;
 layout(binding = 2, rgba16f) uniform readonly image2D picture;
 layout(binding = 3, rgba8) uniform writeonly image2D display;

@@ -5,7 +5,7 @@
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
 
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Vertices { Vertex vertices[]; };
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 

@@ -6,7 +6,7 @@
 #include "shared/frame.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
 layout(scalar, binding = 3) buffer HoleCells { uint hole_cells[]; };

@@ -6,7 +6,7 @@
 #include "shared/frame.h"
 
 layout(local_size_x = 128) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(binding = 1) readonly buffer Holes { vec4 hole_rows[]; };
 layout(scalar, binding = 2) readonly buffer TileHoles { uint tile_holes[]; };
 layout(scalar, binding = 3) writeonly buffer HoleLists { uint hole_lists[]; };

@@ -5,7 +5,7 @@
 #include "shared/frame.h"
 
 layout(local_size_x = 256) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(binding = 1) readonly buffer Holes { vec4 hole_rows[]; };
 layout(scalar, binding = 2) writeonly buffer TileHoles { uint tile_holes[]; };
 #include "lib/hole_rows.glsl"

@@ -14,7 +14,7 @@
 #include "shared/smoke_light.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(scalar, binding = 2) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 3) readonly buffer Views { ShadowView sun; };

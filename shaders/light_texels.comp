@@ -6,7 +6,7 @@
 #include "shared/smoke_light.h"
 
 layout(local_size_x = 256) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Bricks { LightRow bricks[]; };
 layout(binding = 2) uniform sampler3D density_atlas;
 layout(scalar, binding = 3) writeonly buffer Rows { uint rows[]; };

@@ -20,7 +20,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kCountSamples = 0u;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(binding = 2) uniform sampler3D medium_atlas;
 layout(binding = 6) uniform sampler3D inscatter_atlas;
 layout(binding = 7) uniform sampler3D noise_tile;
@@ -34,6 +34,7 @@ layout(scalar, binding = 17) readonly buffer List {
   MarchList list;
   uint listed[];  // blocks
 };
+layout(scalar, binding = 18) readonly buffer Filled { uint filled[]; };
 #include "lib/ray_holes.glsl"
 
 /// Where a ray runs. It is looked at in two places: at its last surface, and at the nearest of its block.
@@ -86,7 +87,8 @@ struct Gathered {
 struct Stay {
   vec3 low;  // low corner [voxels]
   uint slot;
-  float t_next;  // the first sample behind it
+  float t_first, t_stop;  // samples from the first on, up to the second, may find smoke
+  float t_next;           // the first sample behind the brick
 };
 
 Stay find_stay(Ray ray, float t, float ds) {
@@ -101,6 +103,14 @@ Stay find_stay(Ray ray, float t, float ds) {
   const vec3 inverse = 1.0 / (per_metre + vec3(equal(per_metre, vec3(0.0))) * 1e-9);
   const vec3 to_low = (stay.low - origin) * inverse, exits = max(to_low, to_low + float(edge) * inverse);
   stay.t_next = t + ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds));
+  stay.t_first = stay.t_stop = t;
+  if (stay.slot == kNoSlot) return stay;
+  // Cell 0 of a brick begins half a voxel before it.
+  const uint cells_filled = filled[stay.slot];
+  const vec3 to_first = to_low + (vec3(cells_low(cells_filled)) - 0.5) * inverse, to_end = to_low + (vec3(cells_end(cells_filled)) - 0.5) * inverse;
+  const vec3 enters = min(to_first, to_end), leaves = max(to_first, to_end);
+  stay.t_first = t + ds * max(0.0, ceil((max(enters.x, max(enters.y, enters.z)) - t) / ds - 1e-3));
+  stay.t_stop = min(min(leaves.x, min(leaves.y, leaves.z)) + 1e-3 * ds, stay.t_next - 0.5 * ds);
   return stay;
 }
 
@@ -117,13 +127,9 @@ void march(Ray ray, float begin, float end, inout Gathered got) {
   const vec3 risen = vec3(0.0, frame.look.noise_drift * frame.time * periods_per_metre, 0.0);
   for (float t = begin + ray.jitter * ds; t < after_last;) {
     const Stay stay = find_stay(ray, t, ds);
-    if (stay.slot == kNoSlot) {
-      t = stay.t_next;
-      continue;
-    }
     const vec3 uvw_of_world = (atlas_corner(volume, stay.slot) - stay.low) * texel - volume.origin_world * texels_per_metre;
-    const float t_stop = min(stay.t_next - 0.5 * ds, after_last);
-    for (; t < t_stop; t += ds) {
+    const float t_stop = min(stay.t_stop, after_last);
+    for (t = stay.t_first; t < t_stop; t += ds) {
       const vec3 p_world = ray.origin_world + ray.direction * t;
       const vec3 uvw = p_world * texels_per_metre + uvw_of_world;
       const vec4 medium = textureLod(medium_atlas, uvw, 0.0);
@@ -150,6 +156,7 @@ void march(Ray ray, float begin, float end, inout Gathered got) {
         }
       }
     }
+    t = stay.t_next;
   }
 }
 

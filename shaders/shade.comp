@@ -19,7 +19,7 @@ layout(constant_id = 0) const uint kCullLights = 1u;  // 0: every light at every
 
 const uint kGroup = 8u;
 layout(local_size_x = kGroup, local_size_y = kGroup) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(binding = 1) readonly buffer Lights { vec4 light_rows[]; };
 layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArrayShadow shadows;

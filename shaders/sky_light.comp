@@ -6,7 +6,7 @@
 #include "shared/sky_light.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Rays { uint sky_words[]; };
 layout(binding = 2, rgba16f) uniform writeonly image3D sky_light;
 

@@ -8,7 +8,7 @@
 #include "shared/sky_light.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Words { uint solid_words[]; };
 layout(scalar, binding = 2) writeonly buffer Rays { uint sky_words[]; };  // per direction as many as solid_words
 

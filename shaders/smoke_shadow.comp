@@ -16,7 +16,7 @@
 const uint kRayParts = 4u, kPartSteps = 16u;
 const uint kWindowThreads = kRayParts * kSmokeShadowBlock * kSmokeShadowBlock;
 layout(local_size_x = kWindowThreads) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArray shadows;

@@ -12,6 +12,7 @@
 //                texel, kInSolid in a solid voxel; G: the share of the density that it leaves there
 //   cells        per slot 9^3 uints, one per cell whose points can lie in the brick: boundary cell + 1, or 0
 //                where the cell has no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
+//   filled       per slot the cells in which smoke may be, as pack_cells packs them: rays leave out the rest of the brick
 //   boundary     per boundary cell up to three planes, and the first of its 2^planes corner sets
 //   corners      per set eight densities of 8 bits: what the cell's eight corners hold *for a point on those
 //                sides of the planes*. Corners in or behind a wall carry what the near side extrapolates to.
@@ -29,6 +30,17 @@ SHARED_CONST uint kCellsPerBrick = 729u;
 SHARED_CONST uint kTexelsPerBrick = 1000u;
 /// So far below 0 that the least share of it outweighs any density.
 SHARED_CONST float kInSolid = -16384.0f;
+
+/// A box of cells of a brick in 24 bits: its low corner, and one past its high one, each number in [0, 9].
+SHARED_FUNCTION uint pack_cells(uvec3 low, uvec3 end) {
+  return low.x | low.y << 4u | low.z << 8u | end.x << 12u | end.y << 16u | end.z << 20u;
+}
+SHARED_FUNCTION uvec3 cells_low(uint cells) {
+  return uvec3(cells & 15u, cells >> 4u & 15u, cells >> 8u & 15u);
+}
+SHARED_FUNCTION uvec3 cells_end(uint cells) {
+  return uvec3(cells >> 12u & 15u, cells >> 16u & 15u, cells >> 20u & 15u);
+}
 
 /// One cell that a surface runs through.
 struct BoundaryCell {

@@ -6,7 +6,7 @@ namespace brume::passes {
 
 AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
     : pipeline_(context, shaders::accumulate_comp,
-                {gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored,
+                {gpu::kUniform, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored,
                  gpu::kBuffer},
                 sizeof(shared::AccumulateParams), {8, 8, 1}),
       nearest_(context, {VK_FILTER_NEAREST}),
@@ -27,7 +27,7 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, c
   const std::size_t before = current_, now = 1 - current_;
   const shared::AccumulateParams params{past_clip_from_world_, continues ? 1u : 0u};
   recorder.bind(pipeline_,
-                {gpu::read(frame), gpu::sampled(depth, nearest_), gpu::sampled(smoke, nearest_),
+                {gpu::uniform(frame), gpu::sampled(depth, nearest_), gpu::sampled(smoke, nearest_),
                  gpu::sampled(smoke_[before], linear_), gpu::read(pixels_[before]), gpu::stored(smoke_[now]),
                  gpu::write(pixels_[now])},
                 params);

@@ -155,7 +155,7 @@ void CloudGrowth::list_parts(const sim::SmokeVolume& volume) {
 DriftPass::DriftPass(gpu::Context& context)
     : context_(context),
       pipeline_(context, shaders::drift_comp,
-                {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
+                {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
                  gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kStored, gpu::kBuffer},
                 sizeof(shared::DriftParams), {kGroup, 1, 1}),
       linear_(context, {}),
@@ -198,7 +198,7 @@ void DriftPass::record(gpu::Recorder& recorder, const Inputs& in) {
     const std::uint32_t count = std::min(kSlotsPerDispatch, in.smoke.needed - first);
     recorder.bind(
         pipeline_,
-        {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
+        {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
          gpu::sampled(in.noise, repeat_), gpu::read(parts_), gpu::read(travel_), gpu::read(motions_),
          gpu::read(pushes_), gpu::stored(in.smoke.medium), gpu::stored(in.smoke.share),
          gpu::read(in.smoke.slots)},

@@ -33,14 +33,14 @@ GBuffer::GBuffer(gpu::Context& context, glm::uvec2 size)
 GBufferPass::GBufferPass(gpu::Context& context)
     : pipeline_(context,
                 {&shaders::gbuffer_vert, &shaders::gbuffer_frag, {std::begin(kFormats), std::end(kFormats)}},
-                {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kSampled},
+                {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kSampled},
                 sizeof(shared::DrawConstants)),
       sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}) {}
 
 void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
                          HiddenObjects hidden, const ViewVolume& view, const gpu::Buffer& frame,
                          const GBuffer& target) const {
-  recorder.prepare_for_draws({gpu::read(frame), gpu::read(scene.vertices)});
+  recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
   for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});
   recorder.prepare_indices(scene.indices);
   const glm::uvec2 size(target.depth.info().size);
@@ -50,7 +50,7 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
   const auto draw_one = [&](const Draw& draw) {
     const MaterialImages& material = scene.materials[draw.material];
     if (draw.material != bound) {
-      recorder.bind_for_draws(pipeline_, {gpu::read(frame), gpu::read(scene.vertices),
+      recorder.bind_for_draws(pipeline_, {gpu::uniform(frame), gpu::read(scene.vertices),
                                           gpu::sampled(scene.images[material.base_color], sampler_),
                                           gpu::sampled(scene.images[material.normal], sampler_),
                                           gpu::sampled(scene.images[material.roughness], sampler_)});

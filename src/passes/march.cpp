@@ -24,9 +24,9 @@ gpu::ComputePipeline pipeline(gpu::Context& context, const MarchPass::Options& o
                               std::uint32_t holes) {
   return {context,
           shaders::march_comp,
-          {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
-           gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored, gpu::kBuffer,
-           gpu::kBuffer, gpu::kStored, gpu::kSampled, gpu::kBuffer, gpu::kBuffer},
+          {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+           gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored,
+           gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
           0,
           {8, 8, 1},
           {options.count_samples ? 1u : 0u, rays, holes}};
@@ -79,14 +79,14 @@ void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const Mar
 
 void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const Inputs& in,
                      const Rays& rays, const gpu::Buffer& counters) const {
-  recorder.bind(
-      pipeline,
-      {gpu::read(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.medium, linear_),
-       gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
-       gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.noise, repeat_),
-       gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_), gpu::read(in.holes.holes),
-       gpu::stored(rays.smoke), gpu::read_write(counters), gpu::read(rays.ends), gpu::stored(rays.near),
-       gpu::sampled(in.holes.masks, nearest_), gpu::read(in.holes.lists), gpu::read(rays.list)});
+  recorder.bind(pipeline,
+                {gpu::uniform(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.medium, linear_),
+                 gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
+                 gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.noise, repeat_),
+                 gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_),
+                 gpu::read(in.holes.holes), gpu::stored(rays.smoke), gpu::read_write(counters),
+                 gpu::read(rays.ends), gpu::stored(rays.near), gpu::sampled(in.holes.masks, nearest_),
+                 gpu::read(in.holes.lists), gpu::read(rays.list), gpu::read(in.smoke.filled)});
 }
 
 }  // namespace brume::passes

@@ -83,18 +83,18 @@ std::vector<glm::vec4> hole_rows(const HolePlan& plan, float time) {
 
 OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const sim::MaskAtlas& masks)
     : context_(context),
-      tiles_pass_(context, shaders::hole_tiles_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
+      tiles_pass_(context, shaders::hole_tiles_comp, {gpu::kUniform, gpu::kBuffer, gpu::kBuffer}, 0,
                   {256, 1, 1}),
       groups_pass_(context, shaders::hole_groups_comp,
-                   {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                   {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::HoleListsParams), {128, 1, 1}),
       bricks_pass_(context, shaders::hole_bricks_comp,
-                   {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
+                   {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::HoleCellsParams), {64, 1, 1}),
-      cells_pass_(
-          context, shaders::hole_cells_comp,
-          {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled},
-          sizeof(shared::HoleCellsParams), {64, 1, 1}),
+      cells_pass_(context, shaders::hole_cells_comp,
+                  {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+                   gpu::kSampled},
+                  sizeof(shared::HoleCellsParams), {64, 1, 1}),
       nearest_(context, {VK_FILTER_NEAREST}),
       counters_(context, sizeof(shared::HoleCounters),
                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT),
@@ -139,10 +139,10 @@ void OpenHoles::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
   recorder.fill(words_taken_, 0);
   const auto rows = hole_rows(plan_, time_);
   recorder.upload(resources_.holes, 0, std::as_bytes(std::span(rows)));
-  recorder.bind(tiles_pass_, {gpu::read(frame), gpu::read(resources_.holes), gpu::write(tile_holes_)});
+  recorder.bind(tiles_pass_, {gpu::uniform(frame), gpu::read(resources_.holes), gpu::write(tile_holes_)});
   recorder.dispatch_threads(tiles_pass_, tiles_pass_.group()[0] * tiles_.x, tiles_.y);
   recorder.bind(groups_pass_,
-                {gpu::read(frame), gpu::read(resources_.holes), gpu::read(tile_holes_),
+                {gpu::uniform(frame), gpu::read(resources_.holes), gpu::read(tile_holes_),
                  gpu::write(resources_.lists), gpu::read_write(words_taken_)},
                 shared::HoleListsParams{entry_capacity_});
   constexpr std::uint32_t kPerTile = shared::kHoleTileGroups / 2;  // workgroups, along an axis
@@ -150,12 +150,12 @@ void OpenHoles::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
 
   const shared::HoleCellsParams params{slot_count_, plan_.pair_capacity, plan_.block_capacity};
   recorder.bind(bricks_pass_,
-                {gpu::read(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
+                {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
                  gpu::read_write(resources_.cells), gpu::write(pairs_), gpu::read_write(counters_)},
                 params);
   recorder.dispatch_threads(bricks_pass_, 64 * std::min(slot_count_, kRow), (slot_count_ + kRow - 1) / kRow);
   recorder.bind(cells_pass_,
-                {gpu::read(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
+                {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
                  gpu::read_write(resources_.cells), gpu::read(pairs_), gpu::read(counters_),
                  gpu::sampled(resources_.masks, nearest_)},
                 params);

@@ -6,7 +6,7 @@ namespace brume::passes {
 
 ShadePass::ShadePass(gpu::Context& context, bool cull_lights)
     : pipeline_(context, shaders::shade_comp,
-                {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kSampled,
+                {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kSampled,
                  gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled,
                  gpu::kBuffer, gpu::kStored},
                 0, {8, 8, 1}, {cull_lights ? 1u : 0u}),
@@ -19,7 +19,7 @@ void ShadePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                        const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& picture) const {
   recorder.bind(
       pipeline_,
-      {gpu::read(frame), gpu::read(scene.lights), gpu::read(shadows.sun),
+      {gpu::uniform(frame), gpu::read(scene.lights), gpu::read(shadows.sun),
        gpu::sampled(shadows.layers, compare_), gpu::sampled(gbuffer.albedo_roughness, nearest_),
        gpu::sampled(gbuffer.normal_metallic, nearest_), gpu::sampled(gbuffer.emission, nearest_),
        gpu::sampled(gbuffer.depth, nearest_), gpu::sampled(smoke_shadows.atlas, linear_),

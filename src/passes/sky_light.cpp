@@ -6,9 +6,9 @@ namespace brume::passes {
 
 SkyLightPass::SkyLightPass(gpu::Context& context)
     : context_(context),
-      rays_pipeline_(context, shaders::sky_rays_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
+      rays_pipeline_(context, shaders::sky_rays_comp, {gpu::kUniform, gpu::kBuffer, gpu::kBuffer}, 0,
                      {64, 1, 1}),
-      light_pipeline_(context, shaders::sky_light_comp, {gpu::kBuffer, gpu::kBuffer, gpu::kStored}, 0,
+      light_pipeline_(context, shaders::sky_light_comp, {gpu::kUniform, gpu::kBuffer, gpu::kStored}, 0,
                       {64, 1, 1}) {}
 
 void SkyLightPass::reserve(const SolidVolume& solid) {
@@ -28,9 +28,9 @@ void SkyLightPass::reserve(const SolidVolume& solid) {
 }
 
 void SkyLightPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SolidVolume& solid) const {
-  recorder.bind(rays_pipeline_, {gpu::read(frame), gpu::read(solid.words()), gpu::write(rays_)});
+  recorder.bind(rays_pipeline_, {gpu::uniform(frame), gpu::read(solid.words()), gpu::write(rays_)});
   recorder.dispatch_threads(rays_pipeline_, solid.word_count(), shared::kSkyDirections);
-  recorder.bind(light_pipeline_, {gpu::read(frame), gpu::read(rays_), gpu::stored(light_)});
+  recorder.bind(light_pipeline_, {gpu::uniform(frame), gpu::read(rays_), gpu::stored(light_)});
   const glm::uvec3 size = light_.info().size;
   recorder.dispatch_threads(light_pipeline_, size.x, size.y * size.z);
 }

@@ -25,15 +25,15 @@ void upload(gpu::Recorder& recorder, const gpu::Buffer& buffer, const std::vecto
 SmokeLightPass::SmokeLightPass(gpu::Context& context)
     : context_(context),
       texels_pass_(context, shaders::light_texels_comp,
-                   {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer},
+                   {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer},
                    sizeof(shared::SmokeLightParams), {256, 1, 1}),
       rays_pass_(context, shaders::light_rays_comp,
-                 {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
+                 {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
                   gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
                   gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
                  sizeof(shared::SmokeLightParams), {64, 1, 1}),
       inscatter_pass_(context, shaders::inscatter_comp,
-                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+                      {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
                        gpu::kStored, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer},
                       sizeof(shared::SmokeLightParams), {64, 1, 1}),
       linear_(context, {}),
@@ -76,7 +76,7 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   };
   if (part.rows.count > 0) {
     recorder.bind(texels_pass_,
-                  {gpu::read(in.frame), gpu::read(listed_rows_), gpu::sampled(in.smoke.density, linear_),
+                  {gpu::uniform(in.frame), gpu::read(listed_rows_), gpu::sampled(in.smoke.density, linear_),
                    gpu::write(rows_), gpu::read(in.smoke.cells)},
                   params(part.rows));
     const Groups groups = groups_of(part.rows.count);
@@ -84,7 +84,7 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   }
   if (part.pairs.count > 0) {
     recorder.bind(rays_pass_,
-                  {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
+                  {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                    gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
                    gpu::read(in.smoke.pages), gpu::sampled(in.smoke.share, linear_),
                    gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
@@ -95,7 +95,7 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
     recorder.dispatch_threads(rays_pass_, shared::kTexelsPerBrick, groups.y, groups.z);
   }
   recorder.bind(inscatter_pass_,
-                {gpu::read(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
+                {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                  gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
                  gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
                  gpu::sampled(in.smoke.share, linear_), gpu::read(brick_lamps_)},

@@ -15,7 +15,7 @@ constexpr std::uint32_t kThreads = 256;  // four for each ray of a block
 
 SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
     : pipeline_(context, shaders::smoke_shadow_comp,
-                {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled,
+                {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled,
                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kBuffer, gpu::kBuffer,
                  gpu::kSampled, gpu::kBuffer, gpu::kSampled},
                 sizeof(shared::SmokeShadowParams), {kThreads, 1, 1}),
@@ -48,7 +48,7 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const Sm
   params.step_length = kStepMetres;
   recorder.bind(
       pipeline_,
-      {gpu::read(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
+      {gpu::uniform(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
        gpu::sampled(in.shadows.layers, nearest_), gpu::read(in.smoke.pages),
        gpu::sampled(in.smoke.share, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
        gpu::read(in.smoke.corners), gpu::stored(shadows.atlas), gpu::read(in.holes.cells),

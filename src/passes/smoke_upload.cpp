@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -61,9 +62,31 @@ void upload_ranges(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span
 
 }  // namespace
 
+std::uint32_t filled_cells(const sim::SmokeVolume& volume, std::uint32_t slot) {
+  glm::uvec3 low(shared::kBrickCells), end(0);
+  const auto add = [&](glm::uvec3 first, glm::uvec3 last) {
+    low = glm::min(low, first);
+    end = glm::max(end, last + 1u);
+  };
+  const auto at = [](std::uint32_t i, std::uint32_t edge) {
+    return glm::uvec3(i % edge, i / edge % edge, i / (edge * edge));
+  };
+  // A texel is a corner of the cells before it and after it.
+  const auto texels = volume.texels(slot);
+  for (std::uint32_t i = 0; i < texels.size(); ++i) {
+    if (texels[i].density == 0) continue;
+    const glm::uvec3 texel = at(i, shared::kBrickTexels);
+    add(glm::max(texel, 1u) - 1u, glm::min(texel, shared::kBrickCells - 1u));
+  }
+  const auto cells = volume.cells(slot);
+  for (std::uint32_t i = 0; i < cells.size(); ++i)
+    if (cells[i] != 0) add(at(i, shared::kBrickCells), at(i, shared::kBrickCells));
+  return end.x == 0 ? 0 : shared::pack_cells(low, end);
+}
+
 SmokeUpload::SmokeUpload(gpu::Context& context) : context_(context) {
   for (gpu::Buffer* buffer : {&resources_.pages, &resources_.cells, &resources_.boundary, &resources_.corners,
-                              &resources_.slot_bricks, &resources_.slots}) {
+                              &resources_.slot_bricks, &resources_.filled, &resources_.slots}) {
     gpu::grow(context, *buffer, 1);
   }
   resources_.density =
@@ -82,6 +105,7 @@ void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
   everything_ |= gpu::grow(context_, resources_.boundary, volume.boundary_cells().size_bytes());
   everything_ |= gpu::grow(context_, resources_.corners, volume.corner_sets().size_bytes());
   everything_ |= gpu::grow(context_, resources_.slot_bricks, slots * sizeof(glm::ivec3));
+  everything_ |= gpu::grow(context_, resources_.filled, slots * sizeof(std::uint32_t));
   gpu::grow(context_, resources_.slots, slots * sizeof(std::uint32_t));
   const glm::ivec3 bricks = volume.frame().atlas_bricks;
   if (resources_.density.info().size == glm::uvec3(bricks) * static_cast<std::uint32_t>(shared::kBrickTexels))
@@ -139,6 +163,17 @@ void SmokeUpload::record_cells(gpu::Recorder& recorder, const sim::SmokeVolume& 
   }
 }
 
+void SmokeUpload::record_filled(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+                                std::span<const std::uint32_t> slots) {
+  std::vector<std::uint32_t> filled;
+  for (const SlotRun& run : runs_of(slots)) {
+    filled.clear();
+    for (std::uint32_t slot = run.first; slot < run.first + run.count; ++slot)
+      filled.push_back(filled_cells(volume, slot));
+    recorder.upload(resources_.filled, run.first * sizeof(std::uint32_t), std::as_bytes(std::span(filled)));
+  }
+}
+
 void SmokeUpload::record_texels(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
                                 std::span<const std::uint32_t> slots) {
   std::vector<gpu::Recorder::Region> regions;
@@ -164,12 +199,17 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const sim::SmokeVolume& volume
   if (all) {
     const std::vector<std::uint32_t> slots = all_slots(volume);
     record_cells(recorder, volume, slots);
+    record_filled(recorder, volume, slots);
     recorder.upload(resources_.boundary, 0, std::as_bytes(volume.boundary_cells()));
     recorder.upload(resources_.corners, 0, std::as_bytes(volume.corner_sets()));
     record_texels(recorder, volume, slots);
     return true;
   }
   record_cells(recorder, volume, volume.dirty_cell_slots());
+  std::vector<std::uint32_t> changed;
+  std::set_union(volume.dirty_slots().begin(), volume.dirty_slots().end(), volume.dirty_cell_slots().begin(),
+                 volume.dirty_cell_slots().end(), std::back_inserter(changed));
+  record_filled(recorder, volume, changed);
   upload_ranges(recorder, resources_.boundary, volume.boundary_cells(), volume.dirty_boundary_cells());
   upload_ranges(recorder, resources_.corners, volume.corner_sets(), volume.dirty_corner_sets());
   record_texels(recorder, volume, volume.dirty_slots());

@@ -15,10 +15,14 @@ struct SmokeResources {
   gpu::Image inscatter;     ///< Half-float RGBA atlas of the same layout.
   gpu::Image medium;        ///< Likewise; made by passes/drift.hpp, as the next.
   gpu::Image share;         ///< Half-float RG: what the noise leaves of it in the mean of a texel.
+  gpu::Buffer filled;       ///< Per slot the cells in which smoke may be.
   gpu::Buffer slots;        ///< SmokeNeeds::slots of the frame.
   std::uint32_t slot_count = 0;
   std::uint32_t needed = 0, seen = 0;  ///< How many `slots` has, and how many of them may be in view.
 };
+
+/// The cells of a slot in which smoke may be, as shared::pack_cells packs them.
+std::uint32_t filled_cells(const sim::SmokeVolume& volume, std::uint32_t slot);
 
 class SmokeUpload {
  public:
@@ -43,6 +47,8 @@ class SmokeUpload {
   void record_pages(gpu::Recorder& recorder, const sim::PageTable& pages, bool all);
   void record_cells(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
                     std::span<const std::uint32_t> slots);
+  void record_filled(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+                     std::span<const std::uint32_t> slots);
   void record_texels(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
                      std::span<const std::uint32_t> slots);
 

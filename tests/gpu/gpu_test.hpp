@@ -27,7 +27,8 @@ class GpuTest : public testing::Test {
 
   template <typename T>
   static Buffer upload(const std::vector<T>& values,
-                       VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {
+                       VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT) {
     Buffer buffer(context(), std::max<std::size_t>(values.size(), 1) * sizeof(T),
                   usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     runner().run([&](Recorder& recorder) { recorder.upload(buffer, 0, std::as_bytes(std::span(values))); });

@@ -62,9 +62,9 @@ TEST_F(HoleStrength, TheMarchLeavesWhatTheModelDoesNotRemove) {
   }
   EXPECT_GT(steady, 100u);
   EXPECT_LT(steady, 900u);
-  const gpu::ComputePipeline pipeline(context(), shaders::left_probe_comp,
-                                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer},
-                                      0, {64, 1, 1});
+  const gpu::ComputePipeline pipeline(
+      context(), shaders::left_probe_comp,
+      {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer}, 0, {64, 1, 1});
   const gpu::Sampler nearest(context(), {VK_FILTER_NEAREST});
   const gpu::Buffer frame = upload(std::vector<shared::FrameConstants>(1));
   const gpu::Buffer asked = upload(questions), holes = upload(rows);
@@ -73,7 +73,7 @@ TEST_F(HoleStrength, TheMarchLeavesWhatTheModelDoesNotRemove) {
   gpu::Image masks;
   runner().run([&](gpu::Recorder& recorder) {
     masks = make_hole_masks(context(), recorder, pairs.atlas);
-    recorder.bind(pipeline, {gpu::read(frame), gpu::read(asked), gpu::read(holes),
+    recorder.bind(pipeline, {gpu::uniform(frame), gpu::read(asked), gpu::read(holes),
                              gpu::sampled(masks, nearest), gpu::write(out)});
     recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(questions.size()));
   });

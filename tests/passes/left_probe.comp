@@ -12,7 +12,7 @@ struct Question {
 };
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Questions { Question questions[]; };
 layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
 layout(binding = 3) uniform sampler2D hole_masks;

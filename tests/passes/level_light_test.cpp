@@ -51,7 +51,7 @@ class LevelLightTest : public gpu::GpuTest {
   Answers ask(const std::vector<glm::vec3>& pairs) {
     const gpu::ComputePipeline pipeline(
         context(), shaders::level_probe_comp,
-        {gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
+        {gpu::kUniform, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
         {64, 1, 1});
     const gpu::Sampler linear(context(), {});
     const std::size_t count = pairs.size() / 2;
@@ -59,7 +59,7 @@ class LevelLightTest : public gpu::GpuTest {
     const auto free = upload(std::vector<float>(count)), sky = upload(std::vector<glm::vec4>(count));
     runner().run([&](gpu::Recorder& recorder) {
       recorder.bind(pipeline,
-                    {gpu::read(frame_), gpu::sampled(solid_.texels(), linear),
+                    {gpu::uniform(frame_), gpu::sampled(solid_.texels(), linear),
                      gpu::sampled(sky_.light(), linear), gpu::read(in), gpu::write(free), gpu::write(sky)});
       recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(count));
     });

@@ -7,7 +7,7 @@
 #include "shared/frame.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Frame { FrameConstants frame; };
+layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 3) readonly buffer Pairs { vec3 pairs[]; };
 layout(scalar, binding = 4) writeonly buffer FreeAnswers { float free[]; };
 layout(scalar, binding = 5) writeonly buffer SkyAnswers { vec4 sky[]; };  // visibility; irradiance from above, below, +x

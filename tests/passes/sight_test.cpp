@@ -91,5 +91,37 @@ TEST_F(SightTest, MarchAndLineOfSightSeeTheSameSmoke) {
   EXPECT_GT(carved, 50);
 }
 
+TEST(FilledCells, HoldAllThatLinesOfSightFind) {
+  for (const std::uint32_t seed : {1u, 2u}) {
+    const sim::SightScene scene(seed, 0);
+    const sim::Sight sight(scene.volume(), scene.grid(), {}, 0, {});
+    const shared::SmokeVolumeFrame& frame = scene.volume().frame();
+    std::mt19937 random(seed);
+    std::vector<sim::Segment> points(20000);  // as good as
+    for (sim::Segment& p : points) {
+      p = sim::SightScene::segment(random);
+      p.b_world = p.a_world + glm::vec3(1e-4f);
+    }
+    std::vector<float> depths(points.size());
+    sight.optical_depths(points, depths).value_or_throw();
+    int smoky = 0, left_out = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const glm::vec3 p = (points[i].a_world + 0.5e-4f - frame.origin_world) / frame.voxel_size;
+      const glm::ivec3 brick(glm::floor(p / 8.0f));
+      const std::uint32_t slot = scene.volume().slot_at(brick);
+      if (slot == sim::SmokeVolume::kNoSlot) continue;
+      const glm::uvec3 cell(glm::floor(p - 8.0f * glm::vec3(brick) + 0.5f));
+      const std::uint32_t filled = filled_cells(scene.volume(), slot);
+      const bool inside = glm::all(glm::greaterThanEqual(cell, shared::cells_low(filled))) &&
+                          glm::all(glm::lessThan(cell, shared::cells_end(filled)));
+      smoky += depths[i] > 0;
+      left_out += !inside;
+      EXPECT_TRUE(inside || depths[i] == 0) << i;
+    }
+    EXPECT_GT(smoky, 1000);
+    EXPECT_GT(left_out, 100);
+  }
+}
+
 }  // namespace
 }  // namespace brume::passes

@@ -51,7 +51,7 @@ struct SmokeRoom {
     constants.volume = volume.frame();
     constants.look.roll_width = 1;
     const gpu::Buffer frame(context, sizeof constants,
-                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     const gpu::Image noise = make_noise_tile(context, 8);
     const NoisePass noise_pass(context);
     DriftPass drift(context);
