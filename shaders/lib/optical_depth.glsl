@@ -36,11 +36,6 @@ MeanSmoke seen_smoke_at(vec3 p_voxel) {
   return smoke;
 }
 
-/// Where step i of a ray of light begins [voxels]: half a voxel long at first, ever longer with the distance, as what
-/// is near decides most. And which step a distance lies in.
-float light_step(float i) { return i * (0.5 + i / 24.0); }
-float light_step_at(float distance_voxel) { return floor(sqrt(36.0 + 24.0 * distance_voxel) - 6.0); }
-
 /// Where a ray from a point leaves the cube of an edge that is aligned to it [voxels].
 float leaves_cube(vec3 p_voxel, vec3 inverse, float edge) {
   const vec3 low = floor(p_voxel / edge) * edge;
@@ -48,29 +43,30 @@ float leaves_cube(vec3 p_voxel, vec3 inverse, float edge) {
   return min(way.x, min(way.y, way.z));
 }
 
-/// Optical depth from a point along a unit direction, at most `distance_m` metres, by steps of light_step times
-/// `coarse`. Where they are follows from the ray alone, not from what other smoke there is.
+/// Optical depth from a point along a unit direction, at most `distance_m` metres. Steps grow with the distance, as what is
+/// near decides most, and fill the way to its end or to that of the box around what may dim it: a voxel each in the mean up
+/// to 24 / coarse voxels, then ever longer.
 float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
   const SmokeVolumeFrame volume = frame.volume;
-  // To where it leaves what may dim it.
   const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
   const vec3 t0 = (frame.shading_min - p_voxel) * inverse, t1 = (frame.shading_max - p_voxel) * inverse;
   const vec3 near = min(t0, t1), far = max(t0, t1);
   const float begin = max(max(near.x, near.y), max(near.z, 0.0));
-  const float ray_end = distance_m / volume.voxel_size, end = min(min(far.x, far.y), min(far.z, ray_end));
+  const float reach = min(min(far.x, far.y), min(far.z, distance_m / volume.voxel_size)) - begin;
+  if (reach <= 0.0) return 0.0;
   const float per_voxel = volume.voxel_size * frame.look.extinction;
+  const float steps = min(ceil(reach), ceil(max(24.0, sqrt(144.0 + 48.0 * reach) - 12.0) / coarse));
   float depth = 0.0;
-  for (float i = light_step_at(begin / coarse); begin < end; ++i) {
-    const float before = coarse * light_step(i);
-    if (before >= end || depth * per_voxel > 12.0) break;
-    const float after = min(coarse * light_step(i + 1.0), ray_end), middle = 0.5 * (before + after);
+  for (float i = 0.0; i < steps && depth * per_voxel <= 12.0; ++i) {
+    const float before = reach * (i / steps) * (0.5 + 0.5 * i / steps);
+    const float after = reach * ((i + 1.0) / steps) * (0.5 + 0.5 * (i + 1.0) / steps), middle = begin + 0.5 * (before + after);
     const vec3 p = p_voxel + direction * middle;
     const MeanSmoke smoke = seen_smoke_at(p);
     depth += smoke.density * (after - before);
     if (smoke.slot == kNoSlot) {
       // On to the step in which the ray leaves where nothing is, or a little before.
-      const float leaves = middle + leaves_cube(p, inverse, float(smoke.empty_edge)) - 0.01;
-      i = max(i, light_step_at(leaves / coarse) - 1.0);
+      const float leaves = middle + leaves_cube(p, inverse, float(smoke.empty_edge)) - 0.01 - begin;
+      i = max(i, floor(steps * (sqrt(0.25 + 2.0 * leaves / reach) - 0.5)) - 1.0);
     }
   }
   return depth * per_voxel;

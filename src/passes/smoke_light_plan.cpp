@@ -108,6 +108,7 @@ void KeptSmokeLight::remember(const SmokeLightMoment& moment) {
   holes_.assign(moment.holes.begin(), moment.holes.end());
   revision_ = moment.volume->revision();
   frame_ = moment.volume->frame();
+  bounds_ = moment.needs->bounds;
   const bool other_volume = !last_ || last_->volume != moment.volume;
   last_ = moment;
   if (!other_volume && generation_ == moment.volume->structure_generation()) return;
@@ -387,9 +388,12 @@ const SmokeLightPlan& KeptSmokeLight::plan(const SmokeLightMoment& moment) {
   } else {
     std::vector<Capsule> changes;
     add_smoke_changes(moment, changes);
+    // Rays end where the box around the smoke does.
+    const bool other_box =
+        bounds_.low != moment.needs->bounds.low || bounds_.high != moment.needs->bounds.high;
     const bool noise_drifts = moment.look.erosion > 0 && moment.time != last_->time;
     if (!noise_drifts) add_hole_changes(moment, changes);
-    if (noise_drifts || !drop_crossed(moment, changes)) drop_rays();
+    if (noise_drifts || other_box || !drop_crossed(moment, changes)) drop_rays();
   }
   if (!last_ || last_->eye_world != moment.eye_world || !same_bytes(last_->sky, moment.sky)) ++epoch_;
   follow_lamps(moment.lights);

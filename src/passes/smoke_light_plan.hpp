@@ -121,6 +121,7 @@ class KeptSmokeLight {
   std::vector<shared::Hole> holes_;                      // its
   std::uint64_t revision_ = 0, generation_ = 0;
   shared::SmokeVolumeFrame frame_{};
+  sim::SmokeBounds bounds_;
 };
 
 /// Whether a hole takes the same away everywhere at two moments.

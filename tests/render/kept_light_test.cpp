@@ -39,7 +39,7 @@ stage::Stage two_smokes(float noise) {
 
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.1f), 0};
-  timeline.smoke.voxels = 250;
+  timeline.smoke.voxels = 120;
   timeline.smoke.noise = noise;
   timeline.smokes = {{0, {-6, 1, 0}, {-6, 0.2f, 0}}, {3, {6, 1, 0}, {6, 0.2f, 0}}};
   timeline.shots = {{5, {-10, 1, 0.3f}, {-2, 1, 0.3f}, 0.3f, {0.1f, 0.1f, 2.0f, 0.3f}}};
@@ -51,12 +51,9 @@ stage::Stage two_smokes(float noise) {
 
 class KeptLightTest : public gpu::GpuTest {
  protected:
-  static constexpr glm::uvec2 kSize{96, 54};
+  static constexpr glm::uvec2 kSize{80, 45};
 
-  void SetUp() override { begin(0); }
   void begin(float noise) {
-    kept_.reset();
-    anew_.reset();
     stage_.emplace(two_smokes(noise));
     simulation_ = stage::Simulation::create(*stage_).value_or_throw();
     RendererOptions options;
@@ -64,7 +61,6 @@ class KeptLightTest : public gpu::GpuTest {
     kept_.emplace(context(), runner(), stage_->scene, options);
     anew_.emplace(context(), runner(), stage_->scene, options);
     camera_ = stage_->camera;
-    flash_ = 0;
   }
 
   /// What a frame asked for.
@@ -94,7 +90,7 @@ class KeptLightTest : public gpu::GpuTest {
     const auto kept = smoke_of(*kept_);
     input.force_light = true;
     const auto anew = smoke_of(*anew_);
-    EXPECT_GT(std::set<std::uint64_t>(anew.begin(), anew.end()).size(), 150u) << "smoke is in view";
+    EXPECT_GT(std::set<std::uint64_t>(anew.begin(), anew.end()).size(), 60u) << "smoke is in view";
     EXPECT_EQ(kept, anew) << "at " << seconds;
     return {kept_->light_plan().pairs.size(), kept_->light_plan().bricks.size(),
             anew_->light_plan().pairs.size(), anew_->light_plan().bricks.size()};
@@ -109,6 +105,7 @@ class KeptLightTest : public gpu::GpuTest {
 };
 
 TEST_F(KeptLightTest, IsThatMadeAnewWhateverHappens) {
+  begin(0);
   Work work = draw(2);
   EXPECT_EQ(work.rays, work.all_rays);
   EXPECT_GT(work.rays, 40u);
