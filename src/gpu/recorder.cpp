@@ -125,7 +125,7 @@ void Recorder::flush_barriers() {
   image_barriers_.clear();
 }
 
-VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::initializer_list<Binding> bindings) {
+VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Binding> bindings) {
   BRUME_ASSERT(bindings.size() == pipeline.bindings().size(), std::to_string(bindings.size()));
   VkDescriptorSetAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
@@ -168,11 +168,15 @@ void Recorder::bind(const Pipeline& pipeline, std::initializer_list<Binding> bin
                     std::span<const std::byte> bytes) {
   for (const Binding& binding : bindings) use(binding, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
   flush_barriers();
-  bind_for_draws(pipeline, bindings);
+  bind_set(pipeline, bindings);
   if (!bytes.empty()) push(pipeline, bytes);
 }
 
 void Recorder::bind_for_draws(const Pipeline& pipeline, std::initializer_list<Binding> bindings) {
+  bind_set(pipeline, bindings);
+}
+
+void Recorder::bind_set(const Pipeline& pipeline, std::span<const Binding> bindings) {
   const VkDescriptorSet set = write_set(pipeline, bindings);
   context_.vk().CmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
   context_.vk().CmdBindDescriptorSets(commands_, pipeline.bind_point(), pipeline.layout(), 0, 1, &set, 0,
@@ -200,6 +204,17 @@ void Recorder::dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x
   const auto& group = pipeline.group();
   context_.vk().CmdDispatch(commands_, (x + group[0] - 1) / group[0], (y + group[1] - 1) / group[1],
                             (z + group[2] - 1) / group[2]);
+}
+
+void Recorder::dispatch_together(std::initializer_list<Dispatch> dispatches) {
+  for (const Dispatch& dispatch : dispatches)
+    for (const Binding& binding : dispatch.bindings) use(binding, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  flush_barriers();
+  for (const Dispatch& dispatch : dispatches) {
+    bind_set(dispatch.pipeline, dispatch.bindings);
+    if (!dispatch.push.empty()) push(dispatch.pipeline, dispatch.push);
+    dispatch_threads(dispatch.pipeline, dispatch.threads.x, dispatch.threads.y, dispatch.threads.z);
+  }
 }
 
 void Recorder::dispatch_indirect(const Buffer& groups) {

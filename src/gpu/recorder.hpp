@@ -80,6 +80,14 @@ class Recorder {
   /// Runs the bound compute pipeline over at least this many threads.
   void dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y = 1,
                         std::uint32_t z = 1);
+  /// What depends on nothing of each other runs at once: the barriers of all of them come before the first.
+  struct Dispatch {
+    const ComputePipeline& pipeline;
+    std::vector<Binding> bindings;
+    glm::uvec3 threads{1};  ///< At least so many.
+    std::span<const std::byte> push = {};
+  };
+  void dispatch_together(std::initializer_list<Dispatch> dispatches);
   /// As many workgroups as the first three words of `groups` say (VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT).
   void dispatch_indirect(const Buffer& groups);
   void push(const Pipeline& pipeline, std::span<const std::byte> bytes);
@@ -128,7 +136,8 @@ class Recorder {
     VkDeviceSize offset;
   };
   Staged stage(std::span<const std::byte> bytes);
-  VkDescriptorSet write_set(const Pipeline& pipeline, std::initializer_list<Binding> bindings);
+  VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const Binding> bindings);
+  void bind_set(const Pipeline& pipeline, std::span<const Binding> bindings);
   void use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
   void use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkImageLayout layout);
   void use(const Binding& binding, VkPipelineStageFlags2 stages);

@@ -139,27 +139,32 @@ void OpenHoles::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
   recorder.fill(words_taken_, 0);
   const auto rows = hole_rows(plan_, time_);
   recorder.upload(resources_.holes, 0, std::as_bytes(std::span(rows)));
-  recorder.bind(tiles_pass_, {gpu::uniform(frame), gpu::read(resources_.holes), gpu::write(tile_holes_)});
-  recorder.dispatch_threads(tiles_pass_, tiles_pass_.group()[0] * tiles_.x, tiles_.y);
-  recorder.bind(groups_pass_,
-                {gpu::uniform(frame), gpu::read(resources_.holes), gpu::read(tile_holes_),
-                 gpu::write(resources_.lists), gpu::read_write(words_taken_)},
-                shared::HoleListsParams{entry_capacity_});
+  const shared::HoleListsParams lists{entry_capacity_};
+  const shared::HoleCellsParams cells{slot_count_, plan_.pair_capacity, plan_.block_capacity};
+  const auto bytes = [](const auto& params) { return std::as_bytes(std::span(&params, 1)); };
   constexpr std::uint32_t kPerTile = shared::kHoleTileGroups / 2;  // workgroups, along an axis
-  recorder.dispatch_threads(groups_pass_, groups_pass_.group()[0] * kPerTile * tiles_.x, kPerTile * tiles_.y);
-
-  const shared::HoleCellsParams params{slot_count_, plan_.pair_capacity, plan_.block_capacity};
-  recorder.bind(bricks_pass_,
-                {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
-                 gpu::read_write(resources_.cells), gpu::write(pairs_), gpu::read_write(counters_)},
-                params);
-  recorder.dispatch_threads(bricks_pass_, 64 * std::min(slot_count_, kRow), (slot_count_ + kRow - 1) / kRow);
-  recorder.bind(cells_pass_,
-                {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
-                 gpu::read_write(resources_.cells), gpu::read(pairs_), gpu::read(counters_),
-                 gpu::sampled(resources_.masks, nearest_)},
-                params);
-  recorder.dispatch_threads(cells_pass_, 64 * std::min(kGroups, plan_.pair_capacity));
+  // What pixels need and what light needs depend on nothing of each other.
+  recorder.dispatch_together(
+      {{tiles_pass_,
+        {gpu::uniform(frame), gpu::read(resources_.holes), gpu::write(tile_holes_)},
+        {tiles_pass_.group()[0] * tiles_.x, tiles_.y, 1}},
+       {bricks_pass_,
+        {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
+         gpu::read_write(resources_.cells), gpu::write(pairs_), gpu::read_write(counters_)},
+        {64 * std::min(slot_count_, kRow), (slot_count_ + kRow - 1) / kRow, 1},
+        bytes(cells)}});
+  recorder.dispatch_together(
+      {{groups_pass_,
+        {gpu::uniform(frame), gpu::read(resources_.holes), gpu::read(tile_holes_),
+         gpu::write(resources_.lists), gpu::read_write(words_taken_)},
+        {groups_pass_.group()[0] * kPerTile * tiles_.x, kPerTile * tiles_.y, 1},
+        bytes(lists)},
+       {cells_pass_,
+        {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
+         gpu::read_write(resources_.cells), gpu::read(pairs_), gpu::read(counters_),
+         gpu::sampled(resources_.masks, nearest_)},
+        {64 * std::min(kGroups, plan_.pair_capacity), 1, 1},
+        bytes(cells)}});
 }
 
 }  // namespace brume::passes
