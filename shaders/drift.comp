@@ -4,6 +4,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #include "lib/erosion.glsl"
 #include "lib/noise.glsl"
 #include "shared/drift.h"
@@ -77,25 +79,44 @@ vec3 carried_by_clouds(uint slot, ivec3 local, vec3 p_world) {
   return sum.xyz / max(sum.w, 1e-12);
 }
 
-/// How far shots, bodies and explosions carry the noise at a point.
+/// From the nearest point of a push's way to a point.
+vec3 from_way(Push push, vec3 p_world) {
+  const vec3 way = push.to_world - push.from_world, from = p_world - push.from_world;
+  return from - way * clamp(dot(from, way) / max(dot(way, way), 1e-9), 0.0, 1.0);
+}
+
+/// How far shots, bodies and explosions carry the noise at a point: of those that come near the ball around the points of
+/// the subgroup, whose threads ask one each.
 vec3 pushed(vec3 p_world) {
+  const vec3 low = subgroupMin(p_world), high = subgroupMax(p_world), centre = 0.5 * (low + high);
+  const float ball = 1.001 * length(high - centre);
   vec3 sum = vec3(0.0);
-  for (uint i = 0u; i < params.push_count; ++i) {
-    const Push push = pushes[i];
-    const vec3 way = push.to_world - push.from_world, from = p_world - push.from_world;
-    const vec3 apart = from - way * clamp(dot(from, way) / max(dot(way, way), 1e-9), 0.0, 1.0);
-    const float near = max(0.0, 1.0 - dot(apart, apart) / (push.radius * push.radius));
-    sum += near * near * (push.along + push.outward * apart / push.radius);
+  for (uint first = 0u; first < params.push_count; first += gl_SubgroupSize) {
+    const uint mine = min(first + gl_SubgroupInvocationID, params.push_count - 1u);
+    const bool near_some = length(from_way(pushes[mine], centre)) < pushes[mine].radius + ball;
+    const uvec4 asked = subgroupBallot(first + gl_SubgroupInvocationID < params.push_count && near_some);
+    for (uint word = 0u; 32u * word < gl_SubgroupSize; ++word) {
+      for (uint bits = asked[word]; bits != 0u; bits &= bits - 1u) {
+        const Push push = pushes[first + 32u * word + uint(findLSB(bits))];
+        const vec3 apart = from_way(push, p_world);
+        const float near = max(0.0, 1.0 - dot(apart, apart) / (push.radius * push.radius));
+        sum += near * near * (push.along + push.outward * apart / push.radius);
+      }
+    }
   }
   return sum;
 }
 
 void main() {
-  const uint texel = gl_GlobalInvocationID.x;
-  if (texel >= params.slot_count * kTexelsPerBrick) return;
+  const uint texels = params.slot_count * kTexelsPerBrick, texel = min(gl_GlobalInvocationID.x, texels - 1u);
   const uint slot = slots[params.first_slot + texel / kTexelsPerBrick];
   const uint at = texel % kTexelsPerBrick;
   const ivec3 local = ivec3(at % 10u, at / 10u % 10u, at / 100u);
+  const vec3 p_voxel = vec3(slot_bricks[slot] * kBrickVoxels + local) - 0.5;
+  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
+  const vec3 pushed_m = pushed(p_world);  // while all threads are there
+  if (gl_GlobalInvocationID.x >= texels) return;
+
   const uvec3 bricks = uvec3(frame.volume.atlas_bricks);
   const uvec3 corner = uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * uint(kBrickTexels);
   const ivec3 atlas_texel = ivec3(corner) + local;
@@ -108,9 +129,7 @@ void main() {
     return;
   }
 
-  const vec3 p_voxel = vec3(slot_bricks[slot] * kBrickVoxels + local) - 0.5;
-  const vec3 p_world = frame.volume.origin_world + p_voxel * frame.volume.voxel_size;
-  const vec3 carried = carried_by_clouds(slot, local, p_world) - pushed(p_world);
+  const vec3 carried = carried_by_clouds(slot, local, p_world) - pushed_m;
   // The mean of the texel: four points of it, at the corners of a tetrahedron.
   float share = 1.0;
   if (frame.look.erosion > 0.0) {
