@@ -124,8 +124,8 @@ TEST(Flip, SeesALineWhereItIsAndLessOfItFromAfar) {
     for (std::uint32_t c = 0; c < 3; ++c) line.rgba[4 * (y * 64 + 32) + c] = 160;
   const auto along = [&](double pixels_per_degree) {
     const Plane map = flip(plain, line, pixels_per_degree);
-    for (int x = 0; x < 32; ++x)
-      EXPECT_NEAR(map.values[32u * 64 + 32 - x], map.values[32u * 64 + 32 + x], 1e-6);
+    for (std::uint32_t x = 0; x < 32; ++x)
+      EXPECT_NEAR(map.values[32 * 64 + 32 - x], map.values[32 * 64 + 32 + x], 1e-6);
     EXPECT_LT(map.values[32u * 64 + 2], 0.2f * map.values[32u * 64 + 32]);
     return map.values[32u * 64 + 32];
   };

@@ -125,7 +125,7 @@ TEST_F(PlaybackTest, SmokeHidesTheWallAndAShotOpensIt) {
       glm::vec3(0.3f);  // the wall shines by itself: smoke also takes the lamp's light
   stage::Stage stage = small_stage(std::move(scene));
   stage.timeline.smoke.albedo = glm::vec3(0);  // black smoke: what is bright is the wall
-  stage.timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, 0.1f, 0.05f, 1.0f, 0.2f}};
+  stage.timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, {0.1f, 0.05f, 1.0f, 0.2f}}};
   Playback playback(context(), stage, kSize);
   const double clear = brightness(playback.draw(0.1, 0), 0.5, 0.47);
   const double hidden = brightness(playback.draw(2.9, 0), 0.5, 0.47);
@@ -190,7 +190,7 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
   stage.timeline.smoke.albedo = glm::vec3(0);
   stage.timeline.smoke.voxels = 700;
   stage.timeline.smokes = {{0.2, {0, 1, 1.5f}, {0, 0.2f, 1.5f}}};
-  stage.timeline.shots = {{3, {0, 1, 4.6f}, {0, 1, 0}, 0.4f, 0.1f, 0.05f, 1.0f, 0.2f}};
+  stage.timeline.shots = {{3, {0, 1, 4.6f}, {0, 1, 0}, 0.4f, {0.1f, 0.05f, 1.0f, 0.2f}}};
   stage.timeline.shots[0].flash = 0;
   Playback playback(context(), stage, kSize);
   const scene::Camera beside{{2, 1.2f, -0.7f}, {0, 1, -3}, 0.9f};
@@ -339,7 +339,7 @@ TEST_F(PlaybackTest, MoreHolesThanAreDrawnAreNoError) {
   stage::Stage stage = small_stage(small_scene(false));
   for (int i = 0; i < 100; ++i) {
     stage.timeline.shots.push_back(
-        {2, {0, 1.5f, 5.4f}, {0.01f * static_cast<float>(i), 1.5f, 0}, 0.1f, 0.1f, 0.05f, 5.0f, 0.2f});
+        {2, {0, 1.5f, 5.4f}, {0.01f * static_cast<float>(i), 1.5f, 0}, 0.1f, {0.1f, 0.05f, 5.0f, 0.2f}});
   }
   Playback playback(context(), stage, kSize);
   EXPECT_EQ(playback.draw(2.5, 0).width, kSize.x);
