@@ -162,7 +162,9 @@ class FairnessTest : public gpu::GpuTest {
       return std::uniform_real_distribution<float>(a, b)(random);
     };
     const auto place = [&] {
-      return glm::vec3(between(low.x, high.x), between(low.y, high.y), between(low.z, high.z));
+      // One after the other: compilers differ in the order of arguments.
+      const float z = between(low.z, high.z), y = between(low.y, high.y), x = between(low.x, high.x);
+      return glm::vec3(x, y, z);
     };
     const auto free = [&](glm::vec3 p) {
       return stage.voxels.grid.free(
