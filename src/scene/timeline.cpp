@@ -5,6 +5,7 @@
 
 #include "core/file.hpp"
 #include "scene/files.hpp"
+#include "scene/options.hpp"
 #include "scene/ray.hpp"
 #include "scene/text_reader.hpp"
 #include "scene/toml_table.hpp"
@@ -12,9 +13,29 @@
 namespace brume::scene {
 namespace {
 
-constexpr double kLatest = 3600, kFarthest = 1e6, kDegree = 3.14159265358979323846 / 180;
-
 constexpr std::size_t kMaxTextBytes = 1024;
+
+/// Reads settings from a table: the visitor of scene/options.hpp.
+struct OptionReader {
+  TomlTable& table;
+
+  template <typename Member>
+  void operator()(const OptionInfo& info, Member& member) const {
+    table.read(info.key, member, info.low, info.high);
+  }
+  void operator()(const OptionInfo& info, float& member) const {
+    if (!is_angle(info)) return table.read(info.key, member, info.low, info.high);
+    double degrees = double{member} / kRadiansOfDegree;
+    table.read(info.key, degrees, info.low, info.high);
+    member = static_cast<float>(degrees * kRadiansOfDegree);
+  }
+  void operator()(const OptionInfo& info, std::uint32_t& member) const {
+    table.read(info.key, member, static_cast<std::int64_t>(info.low), static_cast<std::int64_t>(info.high));
+  }
+  void operator()(const OptionInfo& info, std::optional<glm::ivec3>& member) const {
+    table.read(info.key, member, static_cast<std::int64_t>(info.low), static_cast<std::int64_t>(info.high));
+  }
+};
 
 class TimelineReader {
  public:
@@ -30,8 +51,7 @@ class TimelineReader {
     root.read("scene", scene);
     if (scene.empty() || scene.find('\0') != std::string::npos)
       root.fail("scene", "\"scene\": expected the name of a scene file");
-    root.read("duration", timeline_.duration, 0.01, kLatest);
-    root.read("exposure", timeline_.exposure, -20, 20);
+    visit_timeline_options(timeline_, OptionReader{root});
     const toml::table* const grid = root.table("grid");
     const toml::table* const smoke = root.table("smoke");
     const toml::table* const sky = root.table("sky");
@@ -63,55 +83,32 @@ class TimelineReader {
  private:
   Result<void> read_grid(const toml::table& source) {
     TomlTable table(source, "[grid]", file_);
-    table.read("voxel", timeline_.grid.voxel, 0.015625, 10);
-    table.read("size", timeline_.grid.size, 1, 4096);
-    table.read("origin", timeline_.grid.origin_world, -kFarthest, kFarthest);
+    visit_grid_options(timeline_.grid, OptionReader{table});
     return table.finish();
   }
 
   Result<void> read_smoke(const toml::table& source) {
     TomlTable table(source, "[smoke]", file_);
-    SmokeOptions& smoke = timeline_.smoke;
-    table.read("voxels", smoke.voxels, 1, 1 << 24);
-    table.read("bloom", smoke.bloom, 0.05, 60);
-    table.read("hold", smoke.hold, 0, kLatest);
-    table.read("dissolve", smoke.dissolve, 0.05, 60);
-    table.read("extinction", smoke.extinction, 0.01, 100);
-    table.read("albedo", smoke.albedo, 0, 1);
-    table.read("anisotropy", smoke.anisotropy, -0.9, 0.9);
-    table.read("droplet", smoke.droplet, 0.1, 50);
-    table.read("multiple_scattering", smoke.multiple_scattering, 0, 1);
-    if (smoke.droplet && source.contains("anisotropy"))
+    visit_smoke_options(timeline_.smoke, OptionReader{table});
+    if (timeline_.smoke.droplet && source.contains("anisotropy"))
       table.fail("droplet", "\"droplet\": expected either it or \"anisotropy\"; take one of them out");
-    table.read("noise", smoke.noise, 0, 1);
-    table.read("noise_size", smoke.noise_size, 0.05, 100);
-    table.read("rim", smoke.rim, 0, 10);
-    table.read("swirl", smoke.swirl, 0, 10);
-    table.read("swirl_time", smoke.swirl_time, 0.1, kLatest);
-    table.read("rise", smoke.rise, -10, 10);
     return table.finish();
   }
 
   Result<void> read_sky(const toml::table& source) {
     TomlTable table(source, "[sky]", file_);
-    table.read("zenith", timeline_.sky.zenith, 0, 1000);
-    table.read("horizon", timeline_.sky.horizon, 0, 1000);
-    table.read("ambient", timeline_.sky.ambient, 0, 1000);
-    table.read("stars", timeline_.sky.stars, 0, 1000);
-    table.read("bounce", timeline_.sky.bounce, 0, 1);
+    visit_sky_options(timeline_.sky, OptionReader{table});
     return table.finish();
   }
 
   Result<void> read_camera(const toml::table& source) {
     TomlTable table(source, "[[camera]]", file_);
     CameraKey key;
-    double degrees = double{key.camera.vertical_fov} / kDegree;
     for (const char* name : {"time", "position", "target"}) table.require(name);
-    table.read("time", key.time, 0, kLatest);
-    table.read("position", key.camera.position_world, -kFarthest, kFarthest);
-    table.read("target", key.camera.target_world, -kFarthest, kFarthest);
-    table.read("fov", degrees, 1, 170);
-    key.camera.vertical_fov = static_cast<float>(degrees * kDegree);
+    table.read("time", key.time, 0, kLatestTime);
+    table.read("position", key.camera.position_world, -kFarthestPoint, kFarthestPoint);
+    table.read("target", key.camera.target_world, -kFarthestPoint, kFarthestPoint);
+    visit_camera_options(key.camera, OptionReader{table});
     if (key.camera.position_world == key.camera.target_world)
       table.fail("target", "\"target\": expected a point other than the position");
     if (!timeline_.camera.empty() && !(key.time > timeline_.camera.back().time))
@@ -140,7 +137,7 @@ class TimelineReader {
   Result<void> read_smoke_event(TomlTable& table) {
     SmokeEvent event;
     for (const char* name : {"from", "at"}) table.require(name);
-    table.read("time", event.time, 0, kLatest);
+    table.read("time", event.time, 0, kLatestTime);
     table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
     table.read("at", event.at_world, -kFarthestEvent, kFarthestEvent);
     event.place = table.place();
@@ -151,13 +148,11 @@ class TimelineReader {
   Result<void> read_shot_event(TomlTable& table) {
     ShotEvent event;
     for (const char* name : {"from", "toward"}) table.require(name);
-    table.read("time", event.time, 0, kLatest);
+    table.read("time", event.time, 0, kLatestTime);
     table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
     table.read("toward", event.toward_world, -kFarthestEvent, kFarthestEvent);
-    table.read("radius", event.radius, 0.01, 10);
-    read_times(table, event.times);
+    visit_shot_options(event, OptionReader{table});
     read_shape(table, event);
-    table.read("flash", event.flash, 0, 1e6);
     if (event.from_world == event.toward_world)
       table.fail("toward", "\"toward\": expected a point other than \"from\"");
     event.place = table.place();
@@ -168,15 +163,11 @@ class TimelineReader {
   Result<void> read_text_event(TomlTable& table) {
     TextEvent event;
     for (const char* name : {"text", "from", "toward"}) table.require(name);
-    table.read("time", event.time, 0, kLatest);
+    table.read("time", event.time, 0, kLatestTime);
     table.read("text", event.text);
     table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
     table.read("toward", event.toward_world, -kFarthestEvent, kFarthestEvent);
-    table.read("size", event.size, 0.02, 10);
-    table.read("spacing", event.spacing, -0.5, 10);
-    table.read("interval", event.interval, 0, 10);
-    read_times(table, event.times);
-    read_roll(table, event.roll);
+    visit_text_options(event, OptionReader{table});
     read_file_name(table, "font", event.font);
     if (event.text.empty() || event.text.size() > kMaxTextBytes)
       table.fail("text", "\"text\": expected 1 to 1024 bytes");
@@ -185,19 +176,6 @@ class TimelineReader {
     event.place = table.place();
     timeline_.texts.push_back(std::move(event));
     return table.finish();
-  }
-
-  static void read_times(TomlTable& table, HoleTimes& times) {
-    table.read("reach", times.reach, 0, 60);
-    table.read("expand", times.expand, 0, 60);
-    table.read("stay", times.stay, 0, 600);
-    table.read("fade", times.fade, 0, 60);
-  }
-
-  static void read_roll(TomlTable& table, float& roll) {
-    double degrees = 0;
-    table.read("roll", degrees, -360, 360);
-    roll = static_cast<float>(degrees * kDegree);
   }
 
   /// A file below the timeline's folder.
@@ -213,7 +191,6 @@ class TimelineReader {
   void read_shape(TomlTable& table, ShotEvent& event) const {
     std::string shape = "cylinder";
     table.read("shape", shape);
-    read_roll(table, event.roll);
     read_file_name(table, "mask", event.mask);
     if (shape == "box") {
       event.shape = ShotShape::box;
@@ -232,14 +209,9 @@ class TimelineReader {
   Result<void> read_blast_event(TomlTable& table) {
     BlastEvent event;
     table.require("at");
-    table.read("time", event.time, 0, kLatest);
+    table.read("time", event.time, 0, kLatestTime);
     table.read("at", event.at_world, -kFarthestEvent, kFarthestEvent);
-    table.read("radius", event.radius, 0.1, 100);
-    table.read("speed", event.speed, 1, 10000);
-    table.read("left", event.left, 0, 1);
-    table.read("refill_rim", event.refill_rim, 0.01, 60);
-    table.read("refill_middle", event.refill_middle, 0.01, 60);
-    table.read("flash", event.flash, 0, 1e6);
+    visit_blast_options(event, OptionReader{table});
     if (event.refill_middle < event.refill_rim)
       table.fail("refill_middle", "\"refill_middle\": expected no less than \"refill_rim\"");
     event.place = table.place();
@@ -250,7 +222,7 @@ class TimelineReader {
   Result<void> read_move_event(TomlTable& table) {
     MoveEvent event;
     for (const char* name : {"body", "to"}) table.require(name);
-    table.read("time", event.time, 0, kLatest);
+    table.read("time", event.time, 0, kLatestTime);
     table.read("body", event.body);
     table.read("to", event.to_world, -kFarthestEvent, kFarthestEvent);
     event.place = table.place();
@@ -261,7 +233,7 @@ class TimelineReader {
   Result<void> read_edit_event(TomlTable& table) {
     EditEvent event;
     for (const char* name : {"low", "high", "solid"}) table.require(name);
-    table.read("time", event.time, 0, kLatest);
+    table.read("time", event.time, 0, kLatestTime);
     table.read("low", event.low_world, -kFarthestEvent, kFarthestEvent);
     table.read("high", event.high_world, -kFarthestEvent, kFarthestEvent);
     table.read("solid", event.solid);
@@ -274,7 +246,7 @@ class TimelineReader {
   Result<void> read_door_event(TomlTable& table) {
     DoorEvent event;
     for (const char* name : {"object", "open"}) table.require(name);
-    table.read("time", event.time, 0, kLatest);
+    table.read("time", event.time, 0, kLatestTime);
     table.read("object", event.object);
     table.read("open", event.open);
     event.place = table.place("object");

@@ -14,38 +14,41 @@
 
 namespace brume::scene {
 
+// Units, ranges and meanings of all settings: scene/options.hpp.
+
 /// Where the voxels are. Without size and origin the grid covers the scene's bounds.
 struct GridOptions {
-  float voxel = 0.25f;                    ///< Edge of a voxel [m], [1/64, 10].
-  std::optional<glm::ivec3> size;         ///< Voxels per axis, [1, 4096].
-  std::optional<glm::vec3> origin_world;  ///< The grid's low corner [m].
+  float voxel = 0.25f;
+  std::optional<glm::ivec3> size;
+  std::optional<glm::vec3> origin_world;
 };
 
 struct SmokeOptions {
-  std::uint32_t voxels = 1800;    ///< How many voxels a grown smoke fills, [1, 16777216].
-  float bloom = 1.0f;             ///< From going off to full size [s], [0.05, 60].
-  float hold = 18.0f;             ///< From there until it begins to dissolve [s], [0, 3600].
-  float dissolve = 3.0f;          ///< From there until nothing is left [s], [0.05, 60].
-  float extinction = 3.0f;        ///< In dense smoke [1/m], [0.01, 100].
-  glm::vec3 albedo{0.92f};        ///< Share of light that is scattered, per channel, [0, 1].
-  float anisotropy = 0.2f;        ///< Henyey-Greenstein's g, [-0.9, 0.9]; above 0: forward.
-  std::optional<float> droplet;   ///< Instead of anisotropy: diameter of its droplets [um], [0.1, 50].
-  float multiple_scattering = 1;  ///< Share of the light scattered more than once, [0, 1].
-  float noise = 0.5f;             ///< How deep the noise cuts into the density, [0, 1].
-  float noise_size = 1.5f;        ///< Edge of a noise cell [m], [0.05, 100].
-  float rim = 0.06f;              ///< How far noise moves the rims of holes at most [m], [0, 10].
-  float swirl = 0.2f;             ///< How far the noise rolls around its place [m], [0, 10].
-  float swirl_time = 12.0f;       ///< How long one roll takes [s], [0.1, 3600].
-  float rise = 0.12f;             ///< How fast the noise rises [m/s], [-10, 10].
+  std::uint32_t voxels = 1800;
+  float bloom = 1.0f;
+  float hold = 18.0f;
+  float dissolve = 3.0f;
+  float extinction = 3.0f;
+  glm::vec3 albedo{0.92f};
+  float anisotropy = 0.2f;
+  std::optional<float> droplet;  ///< Where it is, anisotropy does not count.
+  float multiple_scattering = 1;
+  float noise = 0.5f;
+  float noise_size = 1.5f;
+  float rim = 0.06f;
+  float swirl = 0.2f;
+  float swirl_time = 12.0f;
+  float rise = 0.12f;
+  bool operator==(const SmokeOptions&) const = default;
 };
 
-/// Linear radiance of what no surface covers, and of the light from everywhere, [0, 1000].
+/// Linear radiance of what no surface covers, and of the light from everywhere.
 struct SkyOptions {
   glm::vec3 zenith{0.20f, 0.36f, 0.70f};
   glm::vec3 horizon{0.55f, 0.65f, 0.78f};
   glm::vec3 ambient{0.25f, 0.29f, 0.35f};
-  float stars = 0;      ///< Radiance of the brightest star, [0, 1000].
-  float bounce = 0.2f;  ///< Share of ambient that comes to where no sky is seen, [0, 1].
+  float stars = 0;
+  float bounce = 0.2f;
 };
 
 struct CameraKey {
@@ -65,10 +68,10 @@ struct SmokeEvent {
 
 /// How a hole opens and closes.
 struct HoleTimes {
-  float reach = 0.25f;   ///< Until the front is at the far end [s], [0, 60].
-  float expand = 0.05f;  ///< Growing at each depth [s], [0, 60].
-  float stay = 0.6f;     ///< Open [s], [0, 600].
-  float fade = 0.35f;    ///< Closing [s], [0, 60].
+  float reach = 0.25f;
+  float expand = 0.05f;
+  float stay = 0.6f;
+  float fade = 0.35f;
 };
 
 enum class ShotShape { cylinder, box, mask };
@@ -78,13 +81,13 @@ struct ShotEvent {
   double time = 0;  ///< [s], [0, 3600].
   glm::vec3 from_world{0};
   glm::vec3 toward_world{0, 0, -1};  ///< A point that the shot passes through; not `from_world`.
-  float radius = 0.25f;              ///< Of the hole, half the edge of a box or mask [m], [0.01, 10].
+  float radius = 0.25f;
   HoleTimes times = {};
   ShotShape shape = ShotShape::cylinder;
   std::filesystem::path mask = {};  ///< Picture of the cross-section, ready to open; for masks.
-  float roll = 0;                   ///< Turns a box or mask clockwise as the shooter sees it, [-2 pi, 2 pi].
+  float roll = 0;                   ///< [-2 pi, 2 pi]
   std::string place = {};
-  float flash = 25.0f;  ///< Intensity of the muzzle's light [W/sr], [0, 10^6].
+  float flash = 25.0f;
 };
 
 /// A row of letters is shot through the smoke, each a hole: parallel shots, side by side, that read from
@@ -94,12 +97,12 @@ struct TextEvent {
   std::string text;  ///< One line, UTF-8, 1 to 1024 bytes.
   glm::vec3 from_world{0};
   glm::vec3 toward_world{0, 0, -1};  ///< Where the middle of the row passes; not `from_world`.
-  float size = 0.5f;                 ///< Height of capital letters [m], [0.02, 10].
-  std::filesystem::path font = {};   ///< Ready to open; empty: image::default_font().
-  float spacing = 0;                 ///< More room between letters [cap heights], [-0.5, 10].
-  float interval = 0;                ///< From letter to letter [s], [0, 10].
+  float size = 0.5f;
+  std::filesystem::path font = {};  ///< Ready to open; empty: image::default_font().
+  float spacing = 0;
+  float interval = 0;
   HoleTimes times = {};
-  float roll = 0;  ///< As that of a shot; the row turns with its letters.
+  float roll = 0;  ///< [-2 pi, 2 pi]; the row turns with its letters.
   std::string place = {};
 };
 
@@ -107,13 +110,13 @@ struct TextEvent {
 struct BlastEvent {
   double time = 0;  ///< [s], [0, 3600].
   glm::vec3 at_world{0};
-  float radius = 5.0f;         ///< [m], [0.1, 100].
-  float speed = 32.0f;         ///< Of the front [m/s], [1, 10000].
-  float left = 0.02f;          ///< Share of the density that stays, [0, 1].
-  float refill_rim = 0.5f;     ///< Until the rim is full again [s], [0.01, 60].
-  float refill_middle = 5.0f;  ///< Until the middle is [s], [refill_rim, 60].
+  float radius = 5.0f;
+  float speed = 32.0f;
+  float left = 0.02f;
+  float refill_rim = 0.5f;
+  float refill_middle = 5.0f;  ///< [refill_rim, 60]
   std::string place = {};
-  float flash = 250.0f;  ///< Intensity of its light [W/sr], [0, 10^6].
+  float flash = 250.0f;
 };
 
 /// A body is at a place now; its first move puts it there.
@@ -141,8 +144,8 @@ struct DoorEvent {
 
 struct Timeline {
   std::filesystem::path scene;  ///< Ready to open: what the file says, from the timeline's own folder.
-  float duration = 4.0f;        ///< [s], [0.01, 3600].
-  float exposure = 0.0f;        ///< [EV], [-20, 20]: the picture is multiplied by 2^exposure.
+  float duration = 4.0f;
+  float exposure = 0.0f;
   GridOptions grid;
   SmokeOptions smoke;
   SkyOptions sky;

@@ -1,0 +1,164 @@
+#include "scene/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/file.hpp"
+
+namespace brume::scene {
+namespace {
+
+std::string shown(double value) {
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr;
+  return {text, end};
+}
+
+/// The shortest decimal that is this float.
+std::string shown(float value) {
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr;
+  return {text, end};
+}
+
+std::string default_text(const OptionInfo& info, float member) {
+  return is_angle(info) ? shown(std::round(double{member} / kRadiansOfDegree * 100) / 100) : shown(member);
+}
+std::string default_text(const OptionInfo&, std::uint32_t member) {
+  return std::to_string(member);
+}
+std::string default_text(const OptionInfo&, const glm::vec3& member) {
+  if (member == glm::vec3(member.x)) return shown(member.x) + " each";
+  return shown(member.x) + ", " + shown(member.y) + ", " + shown(member.z);
+}
+
+/// The rows of docs/timeline.md, each up to where its text may go on.
+class RowMaker {
+ public:
+  explicit RowMaker(std::string table) : table_(std::move(table)) {}
+
+  template <typename Member>
+  void operator()(const OptionInfo& info, const Member& member) {
+    add(info, " | " + default_text(info, member) + " | ");
+  }
+  /// What happens where the key is missing is said in words.
+  template <typename Member>
+  void operator()(const OptionInfo& info, const std::optional<Member>& member) {
+    EXPECT_FALSE(member) << info.key;
+    add(info, " | ");
+  }
+  struct Row {
+    std::string start, end;
+  };
+  std::vector<Row> rows;
+
+ private:
+  void add(const OptionInfo& info, const std::string& defaults) {
+    std::string range = shown(info.low) + " .. " + shown(info.high);
+    if (*info.unit != '\0') range += std::string(" ") + info.unit;
+    rows.push_back({"| " + table_ + "`" + info.key + "`" + defaults, range + " | " + info.about});
+  }
+  std::string table_;
+};
+
+/// Rows between a line that begins with `after` (empty: the first) and the next such.
+std::string part_of(const std::string& text, const std::string& after) {
+  const auto begin = text.find(after);
+  EXPECT_NE(begin, std::string::npos) << after;
+  const auto end = text.find("\n| `[[event]]`", begin + 1);
+  return text.substr(begin, end - begin) + "\n";
+}
+
+void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows) {
+  for (const auto& row : rows) {
+    bool found = false;
+    for (auto at = text.find("\n" + row.start); at != std::string::npos && !found;
+         at = text.find("\n" + row.start, at + 1)) {
+      const std::string line = text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+      const auto range = line.find("| " + row.end);
+      found = range != std::string::npos && range + 2 >= row.start.size();
+    }
+    EXPECT_TRUE(found) << "docs/timeline.md lacks: " << row.start << "..." << row.end;
+  }
+}
+
+TEST(Options, AreThoseOfTheTableInTheDocs) {
+  const auto text =
+      read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/timeline.md").value_or_throw();
+  RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), camera("`[[camera]]` ");
+  visit_timeline_options(static_cast<const Timeline&>(Timeline()), top);
+  visit_grid_options(static_cast<const GridOptions&>(GridOptions()), grid);
+  visit_smoke_options(static_cast<const SmokeOptions&>(SmokeOptions()), smoke);
+  visit_sky_options(static_cast<const SkyOptions&>(SkyOptions()), sky);
+  visit_camera_options(static_cast<const Camera&>(Camera()), camera);
+  const std::string head = part_of(text, "| key |");
+  for (const RowMaker* maker : {&top, &grid, &smoke, &sky, &camera}) expect_rows(head, maker->rows);
+
+  RowMaker shot("... "), letters("... "), blast("... ");
+  visit_shot_options(static_cast<const ShotEvent&>(ShotEvent()), shot);
+  visit_text_options(static_cast<const TextEvent&>(TextEvent()), letters);
+  visit_blast_options(static_cast<const BlastEvent&>(BlastEvent()), blast);
+  expect_rows(part_of(text, "| `[[event]]` `type = \"shot\"`"), shot.rows);
+  expect_rows(part_of(text, "| `[[event]]` `type = \"text\"`"), letters.rows);
+  expect_rows(part_of(text, "| `[[event]]` `type = \"blast\"`"), blast.rows);
+}
+
+/// That the default is in range, and no key is there twice.
+struct Checker {
+  std::set<std::string> keys;
+
+  void in_range(const OptionInfo& info, double value) const {
+    EXPECT_GE(value, info.low) << info.key;
+    EXPECT_LE(value, info.high) << info.key;
+  }
+  void meet(const OptionInfo& info) {
+    EXPECT_LT(info.low, info.high) << info.key;
+    EXPECT_TRUE(keys.insert(info.key).second) << info.key << " is there twice";
+  }
+  void operator()(const OptionInfo& info, float& member) {
+    meet(info);
+    in_range(info, is_angle(info) ? double{member} / kRadiansOfDegree : double{member});
+  }
+  void operator()(const OptionInfo& info, std::uint32_t& member) {
+    meet(info);
+    in_range(info, member);
+  }
+  void operator()(const OptionInfo& info, glm::vec3& member) {
+    meet(info);
+    for (int axis = 0; axis < 3; ++axis) in_range(info, member[axis]);
+  }
+  template <typename Member>
+  void operator()(const OptionInfo& info, std::optional<Member>&) {
+    meet(info);
+  }
+};
+
+/// How many members of a struct the visitor must meet: none is forgotten.
+template <typename Options, typename Visit>
+std::size_t met(Options options, Visit visit) {
+  Checker checker;
+  visit(options, checker);
+  return checker.keys.size();
+}
+
+TEST(Options, AreAllThereWithDefaultsInRange) {
+#define MET(options, visit) met(options, [](auto& o, auto& v) { visit(o, v); })
+  EXPECT_EQ(MET(Timeline(), visit_timeline_options), 2u);
+  EXPECT_EQ(MET(GridOptions(), visit_grid_options), 3u);
+  EXPECT_EQ(MET(SmokeOptions(), visit_smoke_options), 15u);
+  EXPECT_EQ(MET(SkyOptions(), visit_sky_options), 5u);
+  EXPECT_EQ(MET(Camera(), visit_camera_options), 1u);
+  EXPECT_EQ(MET(ShotEvent(), visit_shot_options), 7u);
+  EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);
+  EXPECT_EQ(MET(BlastEvent(), visit_blast_options), 6u);
+#undef MET
+}
+
+}  // namespace
+}  // namespace brume::scene
