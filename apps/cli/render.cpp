@@ -26,6 +26,7 @@ struct Options {
   std::optional<double> time;
   std::uint32_t fps = 24;
   bool temporal = false;
+  float step = 1;
 };
 
 // What the options say, checked before any file is read.
@@ -152,6 +153,7 @@ void render(const Options& options, const CommonOptions& common) {
   gpu::Context context({options.device, false});
   render::Playback playback(context, stage, plan.renderer);
   playback.set_camera(plan.camera);
+  playback.set_step_scale(options.step);
   Draughtsman draughtsman(playback);
   write(options, plan, common, stage.timeline, draughtsman);
   if (options.json.empty()) return;
@@ -199,6 +201,11 @@ Command add_render(CLI::App& program) {
       ->check(CLI::IsMember({"full", "half", "quarter"}))
       ->type_name("full|half|quarter");
   parser.add_flag("--temporal", options->temporal, "Gather the smoke of a film over its frames");
+  parser
+      .add_option("--step", options->step,
+                  "Length of the steps through smoke, of the usual: 0.25 to 4; longer is faster; default 1")
+      ->check(CLI::Range(0.25f, 4.0f))
+      ->type_name("X");
   parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
       ->type_name("CAMERA");
   parser.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")

@@ -28,6 +28,8 @@ class Playback {
   image::Image8 draw(double seconds, std::uint32_t frame_index);
   /// Where the camera is instead of on the timeline's path; empty: on the path.
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
+  /// FrameInput::step_scale of the frames that follow.
+  void set_step_scale(float scale) { step_scale_ = scale; }
   /// GPU times of the passes of the last frame.
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
   /// Share of the pixels of the last frame whose rays were marched one by one, in [0, 1].
@@ -42,6 +44,7 @@ class Playback {
   gpu::Buffer pixels_;
   gpu::Buffer list_;  ///< shared::MarchList of the last frame.
   std::optional<scene::Camera> camera_;
+  float step_scale_ = 1;
   std::optional<std::uint32_t> last_frame_index_;
 };
 

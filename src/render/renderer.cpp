@@ -11,7 +11,8 @@ namespace brume::render {
 namespace {
 
 constexpr VkBufferUsageFlags kBufferUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
 gpu::Image storage_image(gpu::Context& context, glm::uvec2 size, VkFormat format) {
   gpu::ImageInfo info;
@@ -124,6 +125,7 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.camera = device_camera(input.camera, size_px_);
   frame.sky = input.sky;
   frame.look = input.look;
+  frame.look.step_length *= input.step_scale;
   if (input.volume && input.volume->slot_count() > 0) frame.volume = input.volume->frame();
   frame.volume.bounds_min = needs_.seen_bounds.low;
   frame.volume.bounds_max = needs_.seen_bounds.high;

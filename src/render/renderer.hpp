@@ -41,6 +41,9 @@ struct FrameInput {
   bool continues = false;
   bool force_light =
       false;  ///< Light smoke and surfaces anew even when nothing changed since the last frame.
+  /// Multiplies look.step_length, for devices that the usual steps are too much for; > 0. Light in the smoke
+  /// is the same with any.
+  float step_scale = 1;
 };
 
 struct RendererOptions {

@@ -52,6 +52,19 @@ TEST_F(Render, APictureTwiceTheSameAndFromElsewhereAnother) {
   EXPECT_NE(picture("c.png").rgba, picture("a.png").rgba);
 }
 
+TEST_F(Render, LongerStepsMakeAnotherPictureAndOnlyWithinTheirRange) {
+  for (const char* step : {"1", "2"}) {
+    const Outcome run =
+        render({"-o", std::string(step) + ".png", "--size", "64x36", "--time", "0.8", "--step", step});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+  }
+  ASSERT_EQ(render({"-o", "usual.png", "--size", "64x36", "--time", "0.8"}).exit_code, 0);
+  EXPECT_EQ(picture("1.png").rgba, picture("usual.png").rgba);
+  EXPECT_NE(picture("2.png").rgba, picture("usual.png").rgba);
+  for (const char* step : {"0.2", "4.5", "nan"})
+    EXPECT_EQ(render({"-o", "no.png", "--step", step}).exit_code, 2) << step;
+}
+
 TEST_F(Render, NumberedPicturesAndAFilm) {
   const Outcome pictures = render({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
   ASSERT_EQ(pictures.exit_code, 0) << pictures.error;
