@@ -50,6 +50,10 @@ Plan make_plan(const Options& options) {
     plan.smokes.push_back({0, place, place});
   }
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
+  // Not by CLI::Range, which takes what is not a number.
+  if (!(options.step >= 0.25f && options.step <= 4)) {
+    throw Error(ErrorCode::usage, "--step: expected a number from 0.25 to 4, such as 2");
+  }
   if (plan.kind == TargetKind::picture && plan.frames) {
     throw Error(ErrorCode::usage, options.output + ": --frames needs a film (.mp4) or a %04d in the name");
   }
@@ -204,7 +208,6 @@ Command add_render(CLI::App& program) {
   parser
       .add_option("--step", options->step,
                   "Length of the steps through smoke, of the usual: 0.25 to 4; longer is faster; default 1")
-      ->check(CLI::Range(0.25f, 4.0f))
       ->type_name("X");
   parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
       ->type_name("CAMERA");
