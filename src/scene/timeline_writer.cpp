@@ -1,0 +1,340 @@
+#include "scene/timeline_writer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/file.hpp"
+#include "scene/files.hpp"
+#include "scene/options.hpp"
+
+namespace brume::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A number as TOML takes it for one that is not whole.
+template <typename Number>
+std::string decimal(Number value) {
+  const double size = std::abs(double{value});
+  const bool plain = size == 0 || (size >= 1e-5 && size < 1e15);
+  std::array<char, 64> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 plain ? std::chars_format::fixed : std::chars_format::scientific);
+  std::string text(buffer.data(), end.ptr);
+  if (plain && text.find('.') == std::string::npos) text += ".0";
+  return text;
+}
+
+double read_back(const std::string& text) {
+  return std::strtod(text.c_str(), nullptr);
+}
+
+std::string text_of(double value) {
+  return decimal(value);
+}
+
+std::string text_of(float value) {
+  // The reader rounds to double first, and in rare cases not to the same float then.
+  std::string text = decimal(value);
+  return static_cast<float>(read_back(text)) == value ? text : decimal(double{value});
+}
+
+/// Degrees of which the reader makes the same radians: as few digits as will do, within the angle's range.
+std::string degrees_text(const OptionInfo& info, float radians) {
+  const double degrees = double{radians} / kRadiansOfDegree;
+  for (int digits = 1; digits < 17; ++digits) {
+    std::array<char, 64> buffer;
+    const int length = std::snprintf(buffer.data(), buffer.size(), "%.*e", digits - 1, degrees);
+    const double rounded = read_back({buffer.data(), static_cast<std::size_t>(length)});
+    if (rounded < info.low || rounded > info.high) continue;
+    if (static_cast<float>(rounded * kRadiansOfDegree) == radians) return decimal(rounded);
+  }
+  return decimal(degrees);
+}
+
+std::string text_of(int value) {
+  return std::to_string(value);
+}
+
+std::string text_of(std::uint32_t value) {
+  return std::to_string(value);
+}
+
+template <typename Vector>
+std::string triple(const Vector& v) {
+  std::string text = "[";
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis > 0) text += ", ";
+    text += text_of(v[axis]);
+  }
+  text += ']';
+  return text;
+}
+
+std::string text_of(const glm::vec3& v) {
+  return triple(v);
+}
+
+std::string text_of(const glm::ivec3& v) {
+  return triple(v);
+}
+
+std::string text_of(bool value) {
+  return value ? "true" : "false";
+}
+
+std::string text_of(const std::string& value) {
+  std::string text = "\"";
+  for (const char c : value) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      text += '\\';
+      text += c;
+    } else if (byte < 0x20 || byte == 0x7f) {
+      std::array<char, 8> escape;
+      std::snprintf(escape.data(), escape.size(), "\\u%04X", unsigned{byte});
+      text += escape.data();
+    } else {
+      text += c;
+    }
+  }
+  text += '"';
+  return text;
+}
+
+/// Settings and their texts; none for one that is not there.
+class OptionTexts {
+ public:
+  void operator()(const OptionInfo& info, const float& member) {
+    add(info, is_angle(info) ? degrees_text(info, member) : text_of(member));
+  }
+  template <typename Member>
+  void operator()(const OptionInfo& info, const Member& member) {
+    add(info, text_of(member));
+  }
+  template <typename Member>
+  void operator()(const OptionInfo& info, const std::optional<Member>& member) {
+    add(info, member ? text_of(*member) : "");
+  }
+  std::vector<std::pair<const char*, std::string>> texts;
+
+ private:
+  void add(const OptionInfo& info, std::string text) { texts.emplace_back(info.key, std::move(text)); }
+};
+
+/// `path` from a folder: spelled as it is where it begins with the folder's name.
+fs::path path_from(const fs::path& path, const fs::path& folder) {
+  const fs::path below = path.lexically_relative(folder);
+  if (is_safe_relative(below.generic_string())) return below;
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
+  const fs::path base = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder, error), error);
+  if (error || whole.empty() || base.empty()) return path;
+  const bool have_a_folder_in_common = std::next(whole.begin()) != whole.end() &&
+                                       std::next(base.begin()) != base.end() &&
+                                       *std::next(whole.begin()) == *std::next(base.begin());
+  return have_a_folder_in_common ? whole.lexically_relative(base) : whole;
+}
+
+class Writer {
+ public:
+  explicit Writer(const fs::path& folder) : folder_(folder) {}
+
+  std::string write(const Timeline& timeline) {
+    write_head(timeline);
+    for (const CameraKey& key : timeline.camera) {
+      text_ += "\n[[camera]]\n";
+      line("time", key.time);
+      line("position", key.camera.position_world);
+      line("target", key.camera.target_world);
+      OptionTexts fov;
+      visit_camera_options(key.camera, fov);
+      text_ += std::string(fov.texts[0].first) + " = " + fov.texts[0].second + "\n";
+    }
+    write_events(timeline);
+    return std::move(text_);
+  }
+
+ private:
+  void write_head(const Timeline& timeline) {
+    text_ += "version = 1\n";
+    line("scene", path_from(timeline.scene, folder_).generic_string());
+    options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_timeline_options(o, v); });
+    options(timeline.grid, GridOptions(), "\n[grid]\n", [](auto& o, auto& v) { visit_grid_options(o, v); });
+    SmokeOptions smoke = timeline.smoke;
+    if (smoke.droplet) smoke.anisotropy = SmokeOptions().anisotropy;
+    options(smoke, SmokeOptions(), "\n[smoke]\n", [](auto& o, auto& v) { visit_smoke_options(o, v); });
+    options(timeline.sky, SkyOptions(), "\n[sky]\n", [](auto& o, auto& v) { visit_sky_options(o, v); });
+  }
+
+  /// All events by time; of the same time in the order in which they happen.
+  void write_events(const Timeline& timeline) {
+    std::vector<std::pair<double, std::string>> events;
+    const auto add = [&](const char* type, const auto& list) {
+      for (const auto& event : list) {
+        text_.clear();
+        text_ += "\n[[event]]\ntype = \"" + std::string(type) + "\"\n";
+        line("time", event.time);
+        write_event(event);
+        events.emplace_back(event.time, std::move(text_));
+      }
+    };
+    std::string head = std::move(text_);
+    add("edit", timeline.edits);
+    add("door", timeline.doors);
+    add("smoke", timeline.smokes);
+    add("shot", timeline.shots);
+    add("text", timeline.texts);
+    add("blast", timeline.blasts);
+    add("move", timeline.moves);
+    std::stable_sort(events.begin(), events.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    text_ = std::move(head);
+    for (const auto& [time, text] : events) text_ += text;
+  }
+
+  void write_event(const SmokeEvent& event) {
+    line("from", event.from_world);
+    line("at", event.at_world);
+  }
+  void write_event(const ShotEvent& event) {
+    line("from", event.from_world);
+    line("toward", event.toward_world);
+    if (event.shape == ShotShape::box) text_ += "shape = \"box\"\n";
+    if (event.shape == ShotShape::mask) {
+      text_ += "shape = \"mask\"\n";
+      line("mask", path_from(event.mask, folder_).generic_string());
+    }
+    options(event, ShotEvent(), "", [](auto& o, auto& v) { visit_shot_options(o, v); });
+  }
+  void write_event(const TextEvent& event) {
+    line("text", event.text);
+    line("from", event.from_world);
+    line("toward", event.toward_world);
+    if (!event.font.empty()) line("font", path_from(event.font, folder_).generic_string());
+    options(event, TextEvent(), "", [](auto& o, auto& v) { visit_text_options(o, v); });
+  }
+  void write_event(const BlastEvent& event) {
+    line("at", event.at_world);
+    options(event, BlastEvent(), "", [](auto& o, auto& v) { visit_blast_options(o, v); });
+  }
+  void write_event(const MoveEvent& event) {
+    line("body", event.body);
+    line("to", event.to_world);
+  }
+  void write_event(const EditEvent& event) {
+    line("low", event.low_world);
+    line("high", event.high_world);
+    line("solid", event.solid);
+  }
+  void write_event(const DoorEvent& event) {
+    line("object", event.object);
+    line("open", event.open);
+  }
+
+  template <typename Value>
+  void line(const char* key, const Value& value) {
+    text_ += std::string(key) + " = " + text_of(value) + "\n";
+  }
+
+  /// What differs from the usual, under a title.
+  template <typename Options, typename Visit>
+  void options(const Options& chosen, const Options& usual, const char* title, Visit visit) {
+    OptionTexts texts, usual_texts;
+    visit(chosen, texts);
+    visit(usual, usual_texts);
+    bool titled = false;
+    for (std::size_t i = 0; i < texts.texts.size(); ++i) {
+      const auto& [key, text] = texts.texts[i];
+      if (text == usual_texts.texts[i].second) continue;
+      if (!std::exchange(titled, true)) text_ += title;
+      text_ += std::string(key) + " = " + text + "\n";
+    }
+  }
+
+  const fs::path& folder_;
+  std::string text_;
+};
+
+/// Brings the files that a timeline names below the folder of its own.
+class FileKeeper {
+ public:
+  FileKeeper(fs::path folder, fs::path own) : folder_(std::move(folder)), own_(std::move(own)) {}
+
+  /// Names the file's place below the folder, where `copy_files` puts it.
+  Result<void> keep(fs::path& file) {
+    if (file.empty() || is_safe_relative(path_from(file, folder_).generic_string())) return {};
+    const auto known = kept_.find(file);
+    if (known != kept_.end()) {
+      file = known->second;
+      return {};
+    }
+    auto bytes = read_file(file);
+    if (!bytes) return bytes.failure();
+    const fs::path copy = place_for(file, *bytes);
+    copies_[copy] = std::move(*bytes);
+    kept_[file] = copy;
+    file = copy;
+    return {};
+  }
+
+  Result<void> copy_files() const {
+    std::error_code error;
+    if (!copies_.empty()) fs::create_directories(own_, error);
+    if (error) return Failure{ErrorCode::bad_input, own_.string() + ": cannot be made: " + error.message()};
+    for (const auto& [place, bytes] : copies_)
+      if (!fs::exists(place, error))
+        if (auto written = write_file_atomic(place, bytes); !written) return written;
+    return {};
+  }
+
+ private:
+  /// A name that is free, or is that of the same bytes.
+  fs::path place_for(const fs::path& file, const std::vector<std::byte>& bytes) const {
+    fs::path place = own_ / file.filename();
+    for (int number = 2; !is_free_for(place, bytes); ++number)
+      place = own_ / (file.stem().string() + "-" + std::to_string(number) + file.extension().string());
+    return place;
+  }
+  bool is_free_for(const fs::path& place, const std::vector<std::byte>& bytes) const {
+    if (const auto planned = copies_.find(place); planned != copies_.end()) return planned->second == bytes;
+    std::error_code error;
+    if (!fs::exists(place, error)) return true;
+    const auto there = read_file(place);
+    return there && *there == bytes;
+  }
+
+  fs::path folder_, own_;
+  std::map<fs::path, fs::path> kept_;                  // by their own places
+  std::map<fs::path, std::vector<std::byte>> copies_;  // by their new ones
+};
+
+}  // namespace
+
+std::string format_timeline(const Timeline& timeline, const fs::path& folder) {
+  return Writer(folder).write(timeline);
+}
+
+Result<void> save_timeline(const fs::path& path, const Timeline& timeline) {
+  Timeline kept = timeline;
+  FileKeeper keeper(path.parent_path(), path.parent_path() / (path.stem().string() + "_files"));
+  for (ShotEvent& shot : kept.shots)
+    if (auto done = keeper.keep(shot.mask); !done) return done;
+  for (TextEvent& text : kept.texts)
+    if (auto done = keeper.keep(text.font); !done) return done;
+  const std::string text = format_timeline(kept, path.parent_path());
+  // What could not be read again is not written.
+  if (const auto read = parse_timeline(text, path); !read) return read.failure();
+  if (auto copied = keeper.copy_files(); !copied) return copied;
+  return write_file_atomic(path, text);
+}
+
+}  // namespace brume::scene

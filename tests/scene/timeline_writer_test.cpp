@@ -1,0 +1,410 @@
+#include "scene/timeline_writer.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "core/file.hpp"
+#include "scene/options.hpp"
+
+namespace brume::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a timeline is, as bits: of two equal ones the same, number for number.
+class Bits {
+ public:
+  template <typename Member>
+  void operator()(const OptionInfo&, const Member& member) {
+    add(member);
+  }
+  void add(float v) { bits.push_back(std::bit_cast<std::uint32_t>(v)); }
+  void add(double v) { bits.push_back(std::bit_cast<std::uint64_t>(v)); }
+  void add(std::uint32_t v) { bits.push_back(v); }
+  void add(bool v) { bits.push_back(v); }
+  void add(const glm::vec3& v) { add(v.x), add(v.y), add(v.z); }
+  void add(const glm::ivec3& v) {
+    for (int axis = 0; axis < 3; ++axis) bits.push_back(static_cast<std::uint64_t>(v[axis]));
+  }
+  void add(const std::string& text) {
+    bits.push_back(text.size());
+    for (const char c : text) bits.push_back(static_cast<unsigned char>(c));
+  }
+  template <typename T>
+  void add(const std::optional<T>& v) {
+    add(v.has_value());
+    if (v) add(*v);
+  }
+  std::vector<std::uint64_t> bits;
+};
+
+void add_event(Bits& b, const SmokeEvent& e) {
+  b.add(e.from_world), b.add(e.at_world);
+}
+void add_event(Bits& b, const ShotEvent& e) {
+  b.add(e.from_world), b.add(e.toward_world), b.add(e.mask.string()), b.add(e.shape == ShotShape::box);
+  b.add(e.shape == ShotShape::mask);
+  visit_shot_options(e, b);
+}
+void add_event(Bits& b, const TextEvent& e) {
+  b.add(e.text), b.add(e.from_world), b.add(e.toward_world), b.add(e.font.string());
+  visit_text_options(e, b);
+}
+void add_event(Bits& b, const BlastEvent& e) {
+  b.add(e.at_world);
+  visit_blast_options(e, b);
+}
+void add_event(Bits& b, const MoveEvent& e) {
+  b.add(e.body), b.add(e.to_world);
+}
+void add_event(Bits& b, const EditEvent& e) {
+  b.add(e.low_world), b.add(e.high_world), b.add(e.solid);
+}
+void add_event(Bits& b, const DoorEvent& e) {
+  b.add(e.object), b.add(e.open);
+}
+
+std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
+  Bits b;
+  b.add(timeline.scene.string());
+  visit_timeline_options(timeline, b);
+  visit_grid_options(timeline.grid, b);
+  visit_smoke_options(timeline.smoke, b);
+  visit_sky_options(timeline.sky, b);
+  const auto add_all = [&](const auto& list) {
+    b.add(static_cast<std::uint32_t>(list.size()));
+    for (const auto& event : list) b.add(event.time), add_event(b, event);
+  };
+  b.add(static_cast<std::uint32_t>(timeline.camera.size()));
+  for (const CameraKey& key : timeline.camera) {
+    b.add(key.time), b.add(key.camera.position_world), b.add(key.camera.target_world);
+    visit_camera_options(key.camera, b);
+  }
+  add_all(timeline.smokes), add_all(timeline.shots), add_all(timeline.texts), add_all(timeline.blasts);
+  add_all(timeline.moves), add_all(timeline.edits), add_all(timeline.doors);
+  return b.bits;
+}
+
+/// Draws settings over their whole ranges, ends, tiny numbers and -0 included; some stay as they are.
+class Drawing {
+ public:
+  explicit Drawing(std::uint32_t seed) : random_(seed) {}
+
+  std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(random_() % count); }
+  double share() { return static_cast<double>(random_()) / 4294967296.0; }
+  double number(double low, double high) {
+    switch (below(6)) {
+      case 0:
+        return low;
+      case 1:
+        return high;
+      case 2:
+        return std::clamp(-0.0, low, high);
+      case 3:
+        return std::clamp(std::ldexp(share() - 0.5, -static_cast<int>(below(160))), low, high);
+      default:
+        return low + (high - low) * share();
+    }
+  }
+  float real(double low, double high) {
+    auto value = static_cast<float>(number(low, high));
+    if (double{value} > high) value = std::nextafter(value, -INFINITY);
+    if (double{value} < low) value = std::nextafter(value, INFINITY);
+    return value;
+  }
+  glm::vec3 point(double low, double high) { return {real(low, high), real(low, high), real(low, high)}; }
+  glm::vec3 place() { return point(-kFarthestEvent, kFarthestEvent); }
+  double time() { return below(4) == 0 ? below(8) * 0.125 : number(0, kLatestTime); }
+  std::string text() {
+    const char* const letters[] = {"a",  "Z",    " ",    "\"",       "\\",           "\n",
+                                   "\t", "\x01", "\x7f", "\xc9\x8c", "\xe6\xbc\xa2", "#"};
+    std::string text = letters[below(12)];
+    for (std::uint32_t more = below(12); more > 0; --more) text += letters[below(12)];
+    return text;
+  }
+
+  void operator()(const OptionInfo& info, float& member) {
+    if (below(4) == 0) return;
+    // An angle is what the reader makes of some degrees, or the next float.
+    if (!is_angle(info)) return void(member = real(info.low, info.high));
+    member = static_cast<float>(number(info.low, info.high) * kRadiansOfDegree);
+    const double degrees = double{member} / kRadiansOfDegree;
+    if (degrees > info.low + 1 && degrees < info.high - 1 && below(2) == 0)
+      member = std::nextafter(member, below(2) == 0 ? -INFINITY : INFINITY);
+  }
+  void operator()(const OptionInfo& info, std::uint32_t& member) {
+    member = static_cast<std::uint32_t>(std::lround(number(info.low, info.high)));
+  }
+  void operator()(const OptionInfo& info, glm::vec3& member) {
+    if (below(4) != 0) member = point(info.low, info.high);
+  }
+  void operator()(const OptionInfo& info, std::optional<float>& member) {
+    if (below(2) == 0) member = real(info.low, info.high);
+  }
+  void operator()(const OptionInfo& info, std::optional<glm::vec3>& member) {
+    if (below(2) == 0) member = point(info.low, info.high);
+  }
+  void operator()(const OptionInfo& info, std::optional<glm::ivec3>& member) {
+    if (below(2) == 0) member = glm::ivec3(point(info.low, info.high));
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+template <typename Event>
+std::vector<Event> some(Drawing& draw, const std::function<Event()>& make) {
+  std::vector<Event> events;
+  for (std::uint32_t count = draw.below(6); count > 0; --count) {
+    events.push_back(make());
+    events.back().time = draw.time();
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
+  return events;
+}
+
+ShotEvent random_shot(Drawing& draw) {
+  ShotEvent shot;
+  shot.from_world = draw.place();
+  shot.toward_world = shot.from_world.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
+  visit_shot_options(shot, draw);
+  shot.shape = std::array{ShotShape::cylinder, ShotShape::box, ShotShape::mask}[draw.below(3)];
+  if (shot.shape == ShotShape::mask) shot.mask = "scenes/masks/" + std::to_string(draw.below(3)) + ".png";
+  return shot;
+}
+
+TextEvent random_letters(Drawing& draw) {
+  TextEvent text;
+  text.text = draw.text();
+  text.from_world = draw.place();
+  text.toward_world = text.from_world.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
+  if (draw.below(2) == 0) text.font = "scenes/fonts/a b.ttf";
+  visit_text_options(text, draw);
+  return text;
+}
+
+BlastEvent random_blast(Drawing& draw) {
+  BlastEvent blast;
+  blast.at_world = draw.place();
+  visit_blast_options(blast, draw);
+  blast.refill_middle = std::max(blast.refill_middle, blast.refill_rim);
+  return blast;
+}
+
+EditEvent random_edit(Drawing& draw) {
+  EditEvent edit;
+  edit.low_world = draw.point(-16384, -0.001);
+  edit.high_world = draw.point(0, 16384);
+  edit.solid = draw.below(2) == 0;
+  return edit;
+}
+
+Timeline random_timeline(std::uint32_t seed) {
+  Drawing draw(seed);
+  Timeline timeline;
+  timeline.scene = "scenes/" + std::string(draw.below(2) == 0 ? "demo.gltf" : "level \"1\"/Scene.txt");
+  visit_timeline_options(timeline, draw);
+  visit_grid_options(timeline.grid, draw);
+  visit_smoke_options(timeline.smoke, draw);
+  if (timeline.smoke.droplet) timeline.smoke.anisotropy = SmokeOptions().anisotropy;
+  visit_sky_options(timeline.sky, draw);
+  double time = draw.share();
+  for (std::uint32_t keys = draw.below(4); keys > 0; --keys, time += 0.01 + draw.share()) {
+    CameraKey key{time, {draw.place(), draw.place(), 1}};
+    visit_camera_options(key.camera, draw);
+    if (key.camera.position_world != key.camera.target_world) timeline.camera.push_back(key);
+  }
+  timeline.smokes = some<SmokeEvent>(draw, [&] { return SmokeEvent{0, draw.place(), draw.place()}; });
+  timeline.shots = some<ShotEvent>(draw, [&] { return random_shot(draw); });
+  timeline.texts = some<TextEvent>(draw, [&] { return random_letters(draw); });
+  timeline.blasts = some<BlastEvent>(draw, [&] { return random_blast(draw); });
+  timeline.moves = some<MoveEvent>(draw, [&] { return MoveEvent{0, draw.text(), draw.place()}; });
+  timeline.edits = some<EditEvent>(draw, [&] { return random_edit(draw); });
+  timeline.doors = some<DoorEvent>(draw, [&] { return DoorEvent{0, draw.text(), draw.below(2) == 0}; });
+  return timeline;
+}
+
+TEST(TimelineWriter, RandomTimelinesComeBackBitForBit) {
+  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
+    const Timeline timeline = random_timeline(seed);
+    const std::string text = format_timeline(timeline, "scenes");
+    const auto read = parse_timeline(text, "scenes/t.toml");
+    ASSERT_TRUE(read) << read.failure().message << "\n" << text;
+    ASSERT_EQ(bits_of(*read), bits_of(timeline)) << "seed " << seed << "\n" << text;
+    ASSERT_EQ(format_timeline(*read, "scenes"), text);
+  }
+}
+
+TEST(TimelineWriter, EveryAngleComesBackBitForBit) {
+  // Whole degrees and their neighbours, and floats all over the range.
+  Timeline timeline;
+  timeline.scene = "a.obj";
+  Drawing draw(1);
+  for (int degrees = -360; degrees <= 360; degrees += 5) {
+    const auto radians = static_cast<float>(degrees * kRadiansOfDegree);
+    for (const float roll : {radians, std::nextafter(radians, 0.0f), std::nextafter(0.5f * radians, 9.0f)}) {
+      ShotEvent shot;
+      shot.roll = roll;
+      timeline.shots.push_back(shot);
+    }
+  }
+  for (int i = 0; i < 20000; ++i) {
+    ShotEvent shot;
+    shot.roll = static_cast<float>((draw.share() - 0.5) * 12.56);
+    timeline.shots.push_back(shot);
+  }
+  const auto read = parse_timeline(format_timeline(timeline, ""), "t.toml");
+  ASSERT_TRUE(read) << read.failure().message;
+  ASSERT_EQ(read->shots.size(), timeline.shots.size());
+  for (std::size_t i = 0; i < timeline.shots.size(); ++i)
+    ASSERT_EQ(read->shots[i].roll, timeline.shots[i].roll) << i;
+}
+
+TEST(TimelineWriter, WritesAsAPersonWould) {
+  Timeline timeline;
+  timeline.scene = "scenes/demo.glb";
+  timeline.duration = 6;
+  timeline.smoke.voxels = 24000;
+  timeline.smoke.bloom = 2.8f;
+  timeline.camera = {{0, {{-6, 1.45f, 11.4f}, {0, 1, 0}, static_cast<float>(50 * kRadiansOfDegree)}}};
+  ShotEvent shot;
+  shot.time = 3.3;
+  shot.from_world = {0, 1, 0};
+  shot.radius = 0.26f;
+  shot.roll = static_cast<float>(12.5 * kRadiansOfDegree);
+  timeline.shots = {shot};
+  timeline.smokes = {{0.3, {1, 2, 3}, {-1000, 0.1f, 0}}};
+  timeline.doors = {{3.3, "front \"door\"", true}};
+  EXPECT_EQ(format_timeline(timeline, "scenes"), R"(version = 1
+scene = "demo.glb"
+duration = 6.0
+
+[smoke]
+voxels = 24000
+bloom = 2.8
+
+[[camera]]
+time = 0.0
+position = [-6.0, 1.45, 11.4]
+target = [0.0, 1.0, 0.0]
+fov = 50.0
+
+[[event]]
+type = "smoke"
+time = 0.3
+from = [1.0, 2.0, 3.0]
+at = [-1000.0, 0.1, 0.0]
+
+[[event]]
+type = "door"
+time = 3.3
+object = "front \"door\""
+open = true
+
+[[event]]
+type = "shot"
+time = 3.3
+from = [0.0, 1.0, 0.0]
+toward = [0.0, 0.0, -1.0]
+radius = 0.26
+roll = 12.5
+)");
+}
+
+/// A folder of its own that goes when the test does.
+class TimelineFile : public testing::Test {
+ protected:
+  TimelineFile()
+      : folder(fs::canonical(fs::temp_directory_path()) / ("brume_timelines_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder / "out");
+    fs::create_directories(folder / "one");
+    fs::create_directories(folder / "two");
+    put(folder / "one/star.png", "first");
+    put(folder / "two/star.png", "second");
+    put(folder / "out/near.png", "third");
+  }
+  ~TimelineFile() override { fs::remove_all(folder); }
+  static void put(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+  static std::string contents(const fs::path& path) { return read_text_file(path).value_or_throw(); }
+  static ShotEvent masked(const fs::path& mask) {
+    ShotEvent shot;
+    shot.shape = ShotShape::mask;
+    shot.mask = mask;
+    return shot;
+  }
+  fs::path folder;
+};
+
+TEST_F(TimelineFile, BringsItsPicturesAndFontsAlong) {
+  Timeline timeline;
+  timeline.scene = folder / "one/level.glb";
+  timeline.shots = {masked(folder / "one/star.png"), masked(folder / "two/star.png"),
+                    masked(folder / "one/star.png"), masked(folder / "out/near.png")};
+  timeline.texts.resize(1);
+  timeline.texts[0].text = "x";
+  timeline.texts[0].font = folder / "two/star.png";
+  const fs::path file = folder / "out/take 1.toml";
+  for (int times = 0; times < 2; ++times) {  // again: over the first
+    ASSERT_TRUE(save_timeline(file, timeline));
+    const Timeline read = load_timeline(file).value_or_throw();
+    EXPECT_TRUE(read.scene.lexically_normal() == folder / "one/level.glb");
+    ASSERT_EQ(read.shots.size(), 4u);
+    EXPECT_EQ(read.shots[0].mask, folder / "out/take 1_files/star.png");
+    EXPECT_EQ(contents(read.shots[0].mask), "first");
+    EXPECT_EQ(contents(read.shots[1].mask), "second");
+    EXPECT_EQ(read.shots[2].mask, read.shots[0].mask);
+    EXPECT_EQ(read.shots[3].mask, folder / "out/near.png");
+    EXPECT_EQ(read.texts[0].font, read.shots[1].mask);
+    // One that was read is written as it was, in another folder too.
+    ASSERT_TRUE(save_timeline(folder / "again.toml", read));
+    const Timeline moved = load_timeline(folder / "again.toml").value_or_throw();
+    EXPECT_EQ(moved.shots[0].mask, folder / "out/take 1_files/star.png");
+    EXPECT_EQ(contents(folder / "again.toml").find("../"), std::string::npos);
+  }
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder / "out/take 1_files")) ++files;
+  EXPECT_EQ(files, 2);
+
+  // What is there already stays: another picture of the name goes beside it.
+  put(folder / "one/star.png", "other");
+  ASSERT_TRUE(save_timeline(file, timeline));
+  EXPECT_EQ(contents(folder / "out/take 1_files/star.png"), "first");
+  EXPECT_EQ(contents(load_timeline(file).value_or_throw().shots[0].mask), "other");
+}
+
+TEST_F(TimelineFile, RefusesWhatCouldNotBeReadAgain) {
+  Timeline timeline;
+  timeline.scene = "level.glb";
+  const fs::path file = folder / "out/t.toml";
+  const auto refused = [&] {
+    const auto saved = save_timeline(file, timeline);
+    EXPECT_FALSE(fs::exists(file)) << "nothing half-written";
+    EXPECT_FALSE(fs::exists(folder / "out/t_files"));
+    return saved ? std::string() : saved.failure().message;
+  };
+  timeline.shots = {masked(folder / "one/no.png")};
+  EXPECT_EQ(refused().find((folder / "one/no.png").string()), 0u);
+  timeline.shots = {masked(folder / "one/star.png")};
+  timeline.doors = {{1, "\xff", true}};  // no UTF-8
+  EXPECT_EQ(refused().find(file.string() + ":"), 0u);
+  timeline.doors.clear();
+  timeline.smoke.noise = 2;
+  EXPECT_NE(refused().find("\"noise\": expected a number from 0 to 1, found 2"), std::string::npos);
+  timeline.smoke.noise = std::nanf("");
+  EXPECT_NE(refused().find("\"noise\""), std::string::npos);
+  timeline.smoke.noise = 0.5f;
+  EXPECT_TRUE(save_timeline(file, timeline)) << "and is written without";
+}
+
+}  // namespace
+}  // namespace brume::scene
