@@ -8,25 +8,31 @@ namespace {
 
 constexpr std::uint64_t kWaitNanoseconds = 600'000'000'000;  // Ten minutes: a software device may be slow.
 
-std::uint32_t find_queue_family(const Functions& vk, VkPhysicalDevice device) {
+std::uint32_t find_queue_family(const Functions& vk, VkInstance instance, VkPhysicalDevice device,
+                                const Presentation& presentation) {
   std::uint32_t count = 0;
   vk.GetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vk.GetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
   constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   for (std::uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & kNeeded) == kNeeded) return i;
+    if ((families[i].queueFlags & kNeeded) != kNeeded) continue;
+    if (!presentation.supported || presentation.supported(instance, device, i)) return i;
   }
+  if (presentation.supported)
+    throw Error(ErrorCode::no_device,
+                "the Vulkan device cannot show pictures in this window system's windows");
   throw Error(ErrorCode::no_device, "the Vulkan device has no queue for graphics and compute");
 }
 
 }  // namespace
 
 Context::Context(const ContextOptions& options)
-    : instance_(std::make_unique<Instance>(options.validation)), vk_(instance_->vk()) {
+    : instance_(std::make_unique<Instance>(options.validation, options.presentation.instance_extensions)),
+      vk_(instance_->vk()) {
   const auto devices = list_devices(vk_, instance_->handle());
   info_ = choose_device(devices, options.device);
-  create_device();
+  create_device(options.presentation);
   read_properties();
 }
 
@@ -41,8 +47,8 @@ Context::Context(const HostDevice& host) : device_(host.device), queue_family_(h
   read_properties();
 }
 
-void Context::create_device() {
-  queue_family_ = find_queue_family(vk_, info_.handle);
+void Context::create_device(const Presentation& presentation) {
+  queue_family_ = find_queue_family(vk_, instance_->handle(), info_.handle, presentation);
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{};
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -56,8 +62,13 @@ void Context::create_device() {
   info.pNext = features.chain();
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
+  const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  const bool shows = !presentation.instance_extensions.empty();
+  info.enabledExtensionCount = shows ? 1 : 0;
+  info.ppEnabledExtensionNames = &swapchain;
   check(vk_.CreateDevice(info_.handle, &info, nullptr, &device_), "vkCreateDevice");
   vk_.load_device(device_);
+  if (shows) vk_.load_swapchain(device_);
   vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);
 
   const VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO, nullptr,
@@ -84,25 +95,33 @@ Context::~Context() {
   vk_.DestroyDevice(device_, nullptr);
 }
 
-void Context::submit_and_wait(VkCommandBuffer commands) {
+void Context::submit(VkCommandBuffer commands, const WindowSemaphores& window) {
   BRUME_ASSERT(owns_device(), "a host submits itself");
-  const std::uint64_t value = ++submitted_;
   const VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands, 0};
-  const VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, done_, value,
-                                     VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,    0};
+  const auto semaphore = [](VkSemaphore handle, std::uint64_t value, VkPipelineStageFlags2 stages) {
+    return VkSemaphoreSubmitInfo{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, handle, value, stages, 0};
+  };
+  const VkSemaphoreSubmitInfo wait = semaphore(window.wait, 0, VK_PIPELINE_STAGE_2_BLIT_BIT);
+  const VkSemaphoreSubmitInfo signals[] = {
+      semaphore(done_, ++submitted_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT),
+      semaphore(window.signal, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT)};
   VkSubmitInfo2 submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+  submit.waitSemaphoreInfoCount = window.wait ? 1 : 0;
+  submit.pWaitSemaphoreInfos = &wait;
   submit.commandBufferInfoCount = 1;
   submit.pCommandBufferInfos = &buffer;
-  submit.signalSemaphoreInfoCount = 1;
-  submit.pSignalSemaphoreInfos = &signal;
+  submit.signalSemaphoreInfoCount = window.signal ? 2 : 1;
+  submit.pSignalSemaphoreInfos = signals;
   check(vk_.QueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
+}
 
+void Context::wait() {
   VkSemaphoreWaitInfo wait{};
   wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
   wait.semaphoreCount = 1;
   wait.pSemaphores = &done_;
-  wait.pValues = &value;
+  wait.pValues = &submitted_;
   const VkResult result = vk_.WaitSemaphores(device_, &wait, kWaitNanoseconds);
   if (result == VK_TIMEOUT)
     throw Error(ErrorCode::no_device, "the Vulkan device did not finish within ten minutes");

@@ -1,6 +1,7 @@
 // The device that everything runs on: our own, or a host's.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,9 +13,17 @@
 
 namespace brume::gpu {
 
+/// What showing pictures in a window asks of instance and device.
+struct Presentation {
+  std::vector<const char*> instance_extensions;  ///< Of the window system.
+  /// Whether a queue family of a device can show pictures.
+  std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t family)> supported;
+};
+
 struct ContextOptions {
-  std::string device;       ///< As choose_device takes it.
-  bool validation = false;  ///< Validation and synchronization layers; their messages are kept.
+  std::string device;           ///< As choose_device takes it.
+  bool validation = false;      ///< Validation and synchronization layers; their messages are kept.
+  Presentation presentation{};  ///< Without extensions: no windows.
 };
 
 /// What a host lends. Everything must outlive the Context. The device needs Vulkan 1.3 with the features of
@@ -25,6 +34,12 @@ struct HostDevice {
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   std::uint32_t queue_family = 0;  ///< Graphics and compute. The queue itself stays the host's.
+};
+
+/// Semaphores of a submission besides the device's own: null, or what the commands wait for before they write
+/// a window's image, and what is signalled when they are done.
+struct WindowSemaphores {
+  VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
 
 class Context {
@@ -47,15 +62,19 @@ class Context {
   Memory& memory() { return *memory_; }
   bool owns_device() const { return instance_ != nullptr; }
 
-  /// Submits a command buffer that has ended, and waits until the device is done with it. Only with a device
-  /// of our own. Throws no_device when the device is lost.
-  void submit_and_wait(VkCommandBuffer commands);
+  // Only with a device of our own:
+  VkInstance instance() const { return instance_->handle(); }
+  VkQueue queue() const { return queue_; }
+  /// Submits a command buffer that has ended. Throws DeviceLost.
+  void submit(VkCommandBuffer commands, const WindowSemaphores& window = {});
+  /// Until the device is done with all that was submitted. Throws DeviceLost.
+  void wait();
 
   /// What the validation layers said since the last call.
   std::vector<std::string> take_validation_messages() const;
 
  private:
-  void create_device();
+  void create_device(const Presentation& presentation);
   void read_properties();
 
   std::unique_ptr<Instance> instance_;  // null: the device is the host's

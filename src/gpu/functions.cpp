@@ -32,6 +32,22 @@ void Functions::load_device(VkDevice device) {
 #undef X
 }
 
+void Functions::load_surface(PFN_vkGetInstanceProcAddr get, VkInstance instance) {
+#define X(name)                                                     \
+  name = reinterpret_cast<PFN_vk##name>(get(instance, "vk" #name)); \
+  if (!name) missing(#name);
+  BRUME_VK_SURFACE_FUNCTIONS(X)
+#undef X
+}
+
+void Functions::load_swapchain(VkDevice device) {
+#define X(name)                                                                 \
+  name = reinterpret_cast<PFN_vk##name>(GetDeviceProcAddr(device, "vk" #name)); \
+  if (!name) missing(#name);
+  BRUME_VK_SWAPCHAIN_FUNCTIONS(X)
+#undef X
+}
+
 PFN_vkGetInstanceProcAddr system_loader() {
   // Never closed: drivers do not survive being unloaded.
   static void* const library = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
@@ -76,6 +92,12 @@ const char* result_name(VkResult result) {
       return "VK_ERROR_FORMAT_NOT_SUPPORTED";
     case VK_ERROR_OUT_OF_POOL_MEMORY:
       return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    case VK_ERROR_SURFACE_LOST_KHR:
+      return "VK_ERROR_SURFACE_LOST_KHR";
+    case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR:
+      return "VK_ERROR_NATIVE_WINDOW_IN_USE_KHR";
+    case VK_ERROR_OUT_OF_DATE_KHR:
+      return "VK_ERROR_OUT_OF_DATE_KHR";
     default:
       return "an unnamed VkResult";
   }
@@ -85,13 +107,15 @@ void check(VkResult result, const char* what) {
   if (result == VK_SUCCESS) return;
   const bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY ||
                       result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_TOO_MANY_OBJECTS;
-  const bool device = result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_INCOMPATIBLE_DRIVER ||
-                      result == VK_ERROR_INITIALIZATION_FAILED;
+  const bool device = result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_INITIALIZATION_FAILED;
+  const std::string message = std::string(what) + " failed with " + result_name(result) + " (" +
+                              std::to_string(result) + ")" +
+                              (memory ? "; a smaller picture or grid needs less memory" : "");
+  if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(ErrorCode::no_device, message);
   throw Error(memory   ? ErrorCode::resource_limit
               : device ? ErrorCode::no_device
                        : ErrorCode::internal,
-              std::string(what) + " failed with " + result_name(result) + " (" + std::to_string(result) +
-                  ")" + (memory ? "; a smaller picture or grid needs less memory" : ""));
+              message);
 }
 
 }  // namespace brume::gpu

@@ -5,6 +5,8 @@
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan.h>
 
+#include "core/error.hpp"
+
 // clang-format off
 #define BRUME_VK_INSTANCE_FUNCTIONS(X) \
   X(DestroyInstance) X(EnumeratePhysicalDevices) X(GetPhysicalDeviceProperties2) X(GetPhysicalDeviceFeatures2) \
@@ -28,6 +30,14 @@
   X(CmdCopyBuffer) X(CmdCopyBufferToImage) X(CmdCopyImageToBuffer) X(CmdUpdateBuffer) X(CmdFillBuffer) \
   X(CmdClearColorImage) X(CmdBlitImage) X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) \
   X(CmdSetCullMode) X(CmdBindIndexBuffer) X(CmdDrawIndexed) X(CmdDraw) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
+
+// Only where pictures are shown in a window.
+#define BRUME_VK_SURFACE_FUNCTIONS(X) \
+  X(DestroySurfaceKHR) X(GetPhysicalDeviceSurfaceSupportKHR) X(GetPhysicalDeviceSurfaceCapabilitiesKHR) \
+  X(GetPhysicalDeviceSurfaceFormatsKHR) X(GetPhysicalDeviceSurfacePresentModesKHR)
+
+#define BRUME_VK_SWAPCHAIN_FUNCTIONS(X) \
+  X(CreateSwapchainKHR) X(DestroySwapchainKHR) X(GetSwapchainImagesKHR) X(AcquireNextImageKHR) X(QueuePresentKHR)
 // clang-format on
 
 namespace brume::gpu {
@@ -36,11 +46,16 @@ struct Functions {
 #define X(name) PFN_vk##name name = nullptr;
   BRUME_VK_INSTANCE_FUNCTIONS(X)
   BRUME_VK_DEVICE_FUNCTIONS(X)
+  BRUME_VK_SURFACE_FUNCTIONS(X)
+  BRUME_VK_SWAPCHAIN_FUNCTIONS(X)
 #undef X
 
   /// Throws no_device when a function is missing.
   void load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance);
   void load_device(VkDevice device);
+  /// The same for an instance and a device that show pictures.
+  void load_surface(PFN_vkGetInstanceProcAddr get, VkInstance instance);
+  void load_swapchain(VkDevice device);
 };
 
 /// vkGetInstanceProcAddr of the system's loader. Throws no_device when there is none.
@@ -49,7 +64,14 @@ PFN_vkGetInstanceProcAddr system_loader();
 /// "VK_ERROR_DEVICE_LOST" and so on.
 const char* result_name(VkResult result);
 
-/// Throws Error with the code that fits when `result` is not VK_SUCCESS; `what` is the failed call.
+/// The device is gone, and with it all that was on it; another may be made.
+class DeviceLost : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Throws Error with the code that fits when `result` is not VK_SUCCESS, DeviceLost for a lost device; `what`
+/// is the failed call.
 void check(VkResult result, const char* what);
 
 }  // namespace brume::gpu

@@ -15,7 +15,7 @@ VkBool32 VKAPI_PTR Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
   return VK_FALSE;
 }
 
-Instance::Instance(bool validation) {
+Instance::Instance(bool validation, const std::vector<const char*>& wanted) {
   const auto get = system_loader();
   const auto create = reinterpret_cast<PFN_vkCreateInstance>(get(nullptr, "vkCreateInstance"));
   if (!create)
@@ -36,7 +36,8 @@ Instance::Instance(bool validation) {
   const VkValidationFeaturesEXT features{
       VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messenger, 1, enabled, 0, nullptr};
   const char* const layers[] = {"VK_LAYER_KHRONOS_validation"};
-  const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+  std::vector<const char*> extensions = wanted;
+  if (validation) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pApplicationInfo = &application;
@@ -44,10 +45,14 @@ Instance::Instance(bool validation) {
     info.pNext = &features;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = layers;
-    info.enabledExtensionCount = 1;
-    info.ppEnabledExtensionNames = extensions;
   }
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   const VkResult result = create(&info, nullptr, &handle_);
+  if (result == VK_ERROR_EXTENSION_NOT_PRESENT && !wanted.empty()) {
+    throw Error(ErrorCode::no_device,
+                "the Vulkan loader cannot show pictures in this window system's windows");
+  }
   if (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT) {
     throw Error(ErrorCode::no_device, "no Vulkan validation layer; install vulkan-validationlayers");
   }
@@ -57,6 +62,7 @@ Instance::Instance(bool validation) {
   }
   check(result, "vkCreateInstance");
   vk_.load_instance(get, handle_);
+  if (!wanted.empty()) vk_.load_surface(get, handle_);
   if (!validation) return;
   const auto create_messenger =
       reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(get(handle_, "vkCreateDebugUtilsMessengerEXT"));

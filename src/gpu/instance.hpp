@@ -11,9 +11,10 @@ namespace brume::gpu {
 
 class Instance {
  public:
-  /// With `validation`, the Khronos layer with synchronization checks, whose messages are kept.
-  /// Throws no_device when there is no loader, no driver or (asked for) no layer.
-  explicit Instance(bool validation);
+  /// With `validation`, the Khronos layer with synchronization checks, whose messages are kept. `extensions`
+  /// are those that the window system needs. Throws no_device when there is no loader, no driver or (asked
+  /// for) no layer or extension.
+  explicit Instance(bool validation, const std::vector<const char*>& extensions = {});
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;

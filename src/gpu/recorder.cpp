@@ -320,6 +320,53 @@ void Recorder::read_back(const Buffer& from, const Buffer& to, VkDeviceSize byte
   flush_barriers();
 }
 
+namespace {
+
+VkImageBlit whole_blit(glm::uvec2 from, glm::uvec2 to) {
+  VkImageBlit blit{};
+  blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  blit.srcOffsets[1] = {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y), 1};
+  blit.dstOffsets[1] = {static_cast<std::int32_t>(to.x), static_cast<std::int32_t>(to.y), 1};
+  return blit;
+}
+
+}  // namespace
+
+void Recorder::blit(const Image& from, const Image& to, VkFilter filter) {
+  use(from, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_GENERAL);
+  use(to, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL);
+  flush_barriers();
+  const VkImageBlit blit = whole_blit(glm::uvec2(from.info().size), glm::uvec2(to.info().size));
+  context_.vk().CmdBlitImage(commands_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(),
+                             VK_IMAGE_LAYOUT_GENERAL, 1, &blit, filter);
+}
+
+void Recorder::blit(const Image& from, const WindowImage& to) {
+  use(from, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_GENERAL);
+  const auto change = [&](VkAccessFlags2 before, VkAccessFlags2 after, VkImageLayout old_layout,
+                          VkImageLayout new_layout) {
+    image_barriers_.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                               nullptr,
+                               VK_PIPELINE_STAGE_2_BLIT_BIT,
+                               before,
+                               VK_PIPELINE_STAGE_2_BLIT_BIT,
+                               after,
+                               old_layout,
+                               new_layout,
+                               VK_QUEUE_FAMILY_IGNORED,
+                               VK_QUEUE_FAMILY_IGNORED,
+                               to.handle,
+                               {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}});
+    flush_barriers();
+  };
+  change(0, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  const VkImageBlit blit = whole_blit(glm::uvec2(from.info().size), to.size_px);
+  context_.vk().CmdBlitImage(commands_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle,
+                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
+  change(VK_ACCESS_2_TRANSFER_WRITE_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+         VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+}
+
 void Recorder::make_mip_levels(const Image& image) {
   use(image, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
       VK_IMAGE_LAYOUT_GENERAL);
@@ -343,28 +390,33 @@ void Recorder::make_mip_levels(const Image& image) {
 }
 
 void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_px) {
-  const auto attachment = [](VkImageView view, VkImageLayout layout) {
+  const auto attachment = [&](VkImageView view, VkImageLayout layout) {
     VkRenderingAttachmentInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
     info.imageView = view;
     info.imageLayout = layout;
-    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.loadOp = attachments.keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     return info;
   };
   std::vector<VkRenderingAttachmentInfo> colours;
   for (const Image* image : attachments.colours) {
-    use(*image, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
+    use(*image, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+        VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+            (attachments.keep ? VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT : 0),
         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     colours.push_back(attachment(image->view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
   }
-  use(*attachments.depth,
-      VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
-      VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+  VkRenderingAttachmentInfo depth{};
+  if (attachments.depth) {
+    use(*attachments.depth,
+        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+        VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    depth = attachment(attachments.depth_view ? attachments.depth_view : attachments.depth->view(),
+                       VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+  }
   flush_barriers();
-  const VkImageView depth_view = attachments.depth_view ? attachments.depth_view : attachments.depth->view();
-  const auto depth = attachment(depth_view, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
 
   VkRenderingInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
@@ -372,7 +424,7 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
   info.layerCount = 1;
   info.colorAttachmentCount = static_cast<std::uint32_t>(colours.size());
   info.pColorAttachments = colours.data();
-  info.pDepthAttachment = &depth;
+  info.pDepthAttachment = attachments.depth ? &depth : nullptr;
   const Functions& vk = context_.vk();
   vk.CmdBeginRendering(commands_, &info);
   const VkViewport viewport{0, 0, static_cast<float>(size_px.x), static_cast<float>(size_px.y), 0, 1};
@@ -395,6 +447,11 @@ void Recorder::set_culling(bool back_faces) {
   context_.vk().CmdSetCullMode(commands_, back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
 }
 
+void Recorder::set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px) {
+  const VkRect2D rectangle{{offset_px.x, offset_px.y}, {size_px.x, size_px.y}};
+  context_.vk().CmdSetScissor(commands_, 0, 1, &rectangle);
+}
+
 CommandRunner::CommandRunner(Context& context) : context_(context), slot_(context) {
   VkCommandPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -414,6 +471,11 @@ CommandRunner::~CommandRunner() {
 }
 
 void CommandRunner::run(const std::function<void(Recorder&)>& record) {
+  start(record, {});
+  context_.wait();
+}
+
+void CommandRunner::start(const std::function<void(Recorder&)>& record, const WindowSemaphores& window) {
   const Functions& vk = context_.vk();
   check(vk.ResetCommandPool(context_.device(), pool_, 0), "vkResetCommandPool");
   const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
@@ -422,7 +484,7 @@ void CommandRunner::run(const std::function<void(Recorder&)>& record) {
   Recorder recorder(context_, slot_, commands_);
   record(recorder);
   check(vk.EndCommandBuffer(commands_), "vkEndCommandBuffer");
-  context_.submit_and_wait(commands_);
+  context_.submit(commands_, window);
 }
 
 }  // namespace brume::gpu

@@ -105,6 +105,14 @@ class Recorder {
   /// Copies the first level and layer of an image into a buffer, tightly packed, ready for the CPU.
   void read_back(const Image& image, const Buffer& buffer);
   void read_back(const Buffer& from, const Buffer& to, VkDeviceSize bytes);
+  /// Copies a 2D image to one of another size or format.
+  void blit(const Image& from, const Image& to, VkFilter filter);
+  /// The same to an image that is not ours, whole, whatever was in it; it is left ready to be shown.
+  struct WindowImage {
+    VkImage handle = VK_NULL_HANDLE;
+    glm::uvec2 size_px{0};
+  };
+  void blit(const Image& from, const WindowImage& to);
   /// Fills the mip levels of a 2D image from its first.
   void make_mip_levels(const Image& image);
 
@@ -112,13 +120,15 @@ class Recorder {
     std::vector<const Image*> colours;
     const Image* depth = nullptr;
     VkImageView depth_view = VK_NULL_HANDLE;  ///< Of one layer; null: the image's own view.
+    bool keep = false;                        ///< What is there stays.
   };
-  /// Attachments are cleared to 0 (reverse depth: infinitely far).
+  /// Attachments are cleared to 0 (reverse depth: infinitely far) unless they are kept.
   void begin_rendering(const Attachments& attachments, glm::uvec2 size_px);
   void end_rendering();
   void draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,
                     std::int32_t first_vertex);
   void set_culling(bool back_faces);
+  void set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px);
   /// Barriers for a resource that draws read, before begin_rendering.
   void prepare_for_draws(std::initializer_list<Binding> bindings);
   void prepare_indices(const Buffer& indices);
@@ -170,8 +180,10 @@ class CommandRunner {
   CommandRunner(const CommandRunner&) = delete;
   CommandRunner& operator=(const CommandRunner&) = delete;
 
-  /// Records, submits and waits. Throws what `record` throws, or no_device when the device is lost.
+  /// Records, submits and waits. Throws what `record` throws, or DeviceLost.
   void run(const std::function<void(Recorder&)>& record);
+  /// The same without the wait: Context::wait comes before the next recording.
+  void start(const std::function<void(Recorder&)>& record, const WindowSemaphores& window);
   std::vector<Timings::Scope> timings() const { return slot_.timings().read(); }
 
  private:

@@ -101,6 +101,10 @@ OpenHoles::OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const si
       words_taken_(context, sizeof(std::uint32_t),
                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
   reserve({}, 0, 0, {}, 0, {1, 1});
+  set_masks(context, runner, masks);
+}
+
+void OpenHoles::set_masks(gpu::Context& context, gpu::CommandRunner& runner, const sim::MaskAtlas& masks) {
   runner.run([&](gpu::Recorder& recorder) { resources_.masks = make_hole_masks(context, recorder, masks); });
 }
 

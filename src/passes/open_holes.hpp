@@ -45,6 +45,8 @@ class OpenHoles {
  public:
   /// Uploads the masks.
   OpenHoles(gpu::Context& context, gpu::CommandRunner& runner, const sim::MaskAtlas& masks);
+  /// Other masks instead. When the device is done with what was recorded before.
+  void set_masks(gpu::Context& context, gpu::CommandRunner& runner, const sim::MaskAtlas& masks);
 
   /// Plans the frame and makes room. Not between the begin and the end of a recording, and only when the
   /// device is done with what it recorded before. Throws resource_limit.

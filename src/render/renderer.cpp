@@ -81,6 +81,24 @@ void Renderer::set_march_scale(std::uint32_t scale) {
   if (scale > 1) blocks_.emplace(context_, size_px_, scale);
 }
 
+void Renderer::resize(glm::uvec2 size_px) {
+  size_px_ = size_px;
+  gbuffer_ = passes::GBuffer(context_, size_px_);
+  smoke_shadows_ =
+      smoke_shadow_pass_.make_shadows(context_, size_px_, scene_.light_list.size() + passes::kMaxFlashes);
+  smoke_shadow_plan_ = {};
+  smoke_image_ = storage_image(context_, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT);
+  picture_ = storage_image(context_, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT);
+  display_image_ = storage_image(context_, size_px_, VK_FORMAT_R8G8B8A8_UNORM);
+  if (accumulate_pass_) accumulate_pass_.emplace(context_, size_px_);
+  set_march_scale(march_scale_);
+  smoke_changed_ = true;  // other smoke may be in view
+}
+
+void Renderer::set_masks(const sim::MaskAtlas& masks) {
+  open_holes_.set_masks(context_, runner_, masks);
+}
+
 void Renderer::find_needs(const FrameInput& input) {
   const passes::ViewVolume view(device_camera(input.camera, size_px_));
   std::vector<shared::Light> lights = scene_.light_list;

@@ -66,6 +66,12 @@ class Renderer {
   /// what was recorded before. Throws resource_limit.
   void set_march_scale(std::uint32_t scale);
 
+  /// Pictures of another size from the next frame on, each side in [1, 16384]; a film begins anew. When the
+  /// device is done with what was recorded before. Throws resource_limit.
+  void resize(glm::uvec2 size_px);
+  /// Other masks of the holes; uploads them. When the device is done with what was recorded before.
+  void set_masks(const sim::MaskAtlas& masks);
+
   /// Makes room for the frame's smoke, and draws the shadows anew where other objects are hidden than before:
   /// call before record_frame, outside of a recording, when the device is done with the frame before. Throws
   /// resource_limit.
