@@ -8,7 +8,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "core/error.hpp"
-#include "stage/simulation.hpp"
+#include "stage/events.hpp"
 #include "wire/packet.hpp"
 #include "wire/replay.hpp"
 

@@ -91,27 +91,48 @@ Result<void> World::append(Event event) {
 
 Result<void> World::append(std::vector<Event> events) {
   std::uint32_t first = kNever;
+  for (const Event& event : events) first = std::min(first, tick_of(event));
+  if (auto ok = check(events, first); !ok) return ok;
+  take_from(first, log_.size(), std::move(events));
+  return {};
+}
+
+Result<void> World::replace_from(std::uint32_t tick, std::vector<Event> events) {
+  for (const Event& event : events)
+    if (tick_of(event) < tick)
+      return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(tick_of(event)) +
+                                               ": expected tick " + std::to_string(tick) + " or later"};
+  if (auto ok = check(events, tick); !ok) return ok;
+  const auto from = std::lower_bound(log_.begin(), log_.end(), tick,
+                                     [](const Event& e, std::uint32_t t) { return tick_of(e) < t; });
+  take_from(tick, static_cast<std::size_t>(from - log_.begin()), std::move(events));
+  return {};
+}
+
+/// `first`: the first tick whose events change.
+Result<void> World::check(const std::vector<Event>& events, std::uint32_t first) const {
   for (const Event& event : events) {
     if (auto ok = check_event(event, level_.frame()); !ok) return ok;
     if (auto ok = check_mask(event, settings_.masks); !ok) return ok;
-    first = std::min(first, tick_of(event));
   }
-  if (first < first_free_tick_)
-    return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(first) + ": expected tick " +
-                                             std::to_string(first_free_tick_) +
-                                             " or later, what was before is forgotten"};
+  if (first >= first_free_tick_) return {};
+  return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(first) + ": expected tick " +
+                                           std::to_string(first_free_tick_) +
+                                           " or later, what was before is forgotten"};
+}
+
+/// Takes events from tick `first` on behind the first `kept` of the log, which lets those go that are after.
+void World::take_from(std::uint32_t first, std::size_t kept, std::vector<Event> events) {
   const std::uint32_t present = state_.tick;
-  if (first <= present) {
-    std::erase_if(checkpoints_, [&](const State& kept) { return kept.tick >= first; });
-    go_back_before(first);
-  }
+  std::erase_if(checkpoints_, [&](const State& state) { return state.tick >= first; });
+  if (first <= present) go_back_before(first);
   const auto by_tick = [](const Event& a, const Event& b) { return tick_of(a) < tick_of(b); };
-  const auto kept = static_cast<std::ptrdiff_t>(log_.size());
+  const auto middle = static_cast<std::ptrdiff_t>(kept);
+  log_.erase(log_.begin() + middle, log_.end());
   std::move(events.begin(), events.end(), std::back_inserter(log_));
-  std::stable_sort(log_.begin() + kept, log_.end(), by_tick);
-  std::inplace_merge(log_.begin(), log_.begin() + kept, log_.end(), by_tick);
+  std::stable_sort(log_.begin() + middle, log_.end(), by_tick);
+  std::inplace_merge(log_.begin(), log_.begin() + middle, log_.end(), by_tick);
   if (first <= present) advance_to(present);
-  return {};
 }
 
 void World::advance_to(std::uint32_t tick) {
@@ -128,7 +149,7 @@ void World::advance_to(std::uint32_t tick) {
 
 void World::play_tick(std::uint32_t tick) {
   previous_ = state_;
-  state_.tick = tick;
+  state_.tick = changed_at_ = tick;
   for (; next_event_ < log_.size() && tick_of(log_[next_event_]) == tick; ++next_event_) {
     std::visit([&](const auto& event) { apply(event); }, log_[next_event_]);
     ++state_.events;
@@ -148,8 +169,12 @@ void World::play_tick(std::uint32_t tick) {
   checkpoints_.resize(kept);
 }
 
-/// Becomes the last state kept of before a tick.
+/// Becomes the last state kept of before a tick; where nothing has happened since, the present one.
 void World::go_back_before(std::uint32_t tick) {
+  if (tick > changed_at_) {
+    state_.tick = std::min(state_.tick, tick - 1);
+    return;
+  }
   const auto after = std::lower_bound(checkpoints_.begin(), checkpoints_.end(), tick,
                                       [](const State& kept, std::uint32_t t) { return kept.tick < t; });
   const bool is_kept = after != checkpoints_.begin();
@@ -160,6 +185,7 @@ void World::go_back_before(std::uint32_t tick) {
   previous_.reset();
   change_edits(target.edits);
   state_ = target;
+  changed_at_ = target.tick;
   // The log holds no event that first_ has taken in.
   next_event_ = 0;
   if (!is_first)
@@ -200,6 +226,7 @@ Result<void> World::restore(const State& state) {
   change_edits(state.edits);
   state_ = first_ = state;
   first_free_tick_ = state.tick + 1;
+  changed_at_ = state.tick;
   next_event_ = 0;
   next_end_ = next_end(state_);
   return {};

@@ -41,6 +41,9 @@ class World {
   Result<void> append(Event event);
   /// The same for many at once: the past is played again only once. All or none are taken.
   Result<void> append(std::vector<Event> events);
+  /// Takes events into the place of those of the log at or after a tick, as if they had been appended in
+  /// their stead; each must be of that tick or later. Fails as `append` does; the world is then as before.
+  Result<void> replace_from(std::uint32_t tick, std::vector<Event> events);
 
   /// Moves to a tick, forwards or, down to earliest_tick(), backwards.
   void advance_to(std::uint32_t tick);
@@ -67,6 +70,8 @@ class World {
   std::span<const Event> log() const { return log_; }
 
  private:
+  Result<void> check(const std::vector<Event>& events, std::uint32_t first) const;
+  void take_from(std::uint32_t first, std::size_t kept, std::vector<Event> events);
   void go_back_before(std::uint32_t tick);
   void change_edits(const std::shared_ptr<const EditBlocks>& edits);
   void play_tick(std::uint32_t tick);
@@ -89,6 +94,7 @@ class World {
   std::vector<State> checkpoints_;     // by tick, each with the events of its tick
   std::optional<State> previous_;      // before the last tick that was played: for events of the present
   std::uint32_t next_end_ = 0;         // the next tick at which something in state_ goes off or ends
+  std::uint32_t changed_at_ = 0;       // no tick after this one has changed state_, but for its number
 };
 
 }  // namespace brume::sim

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sim/world.hpp"
-#include "stage/simulation.hpp"
+#include "stage/events.hpp"
 
 namespace brume::stage {
 namespace {

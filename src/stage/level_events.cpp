@@ -62,16 +62,13 @@ voxel::IntBox voxels_in(const voxel::GridFrame& frame, glm::vec3 low_world, glm:
   return {first_centre_from(low_world), first_centre_from(high_world)};
 }
 
-Result<std::vector<LevelEvent>> level_events(const Stage& stage) {
-  const scene::Timeline& timeline = stage.timeline;
-  if (auto checked = scene::check_doors(timeline, stage.scene); !checked) return checked.failure();
+std::vector<LevelEvent> apply_level_events(const scene::Timeline& timeline, const scene::Scene& scene,
+                                           ObjectLevel& objects) {
   std::vector<LevelEvent> events;
-  if (timeline.edits.empty() && timeline.doors.empty()) return events;
-  ObjectLevel objects = make_level(stage);
   auto door = timeline.doors.begin();
   const auto doors_before = [&](double time) {
     for (; door != timeline.doors.end() && door->time < time; ++door)
-      events.push_back(apply(*door, stage.scene, objects));
+      events.push_back(apply(*door, scene, objects));
   };
   for (const scene::EditEvent& edit : timeline.edits) {
     doors_before(edit.time);
@@ -79,6 +76,14 @@ Result<std::vector<LevelEvent>> level_events(const Stage& stage) {
   }
   doors_before(INFINITY);
   return events;
+}
+
+Result<std::vector<LevelEvent>> level_events(const Stage& stage) {
+  const scene::Timeline& timeline = stage.timeline;
+  if (auto checked = scene::check_doors(timeline, stage.scene); !checked) return checked.failure();
+  if (timeline.edits.empty() && timeline.doors.empty()) return std::vector<LevelEvent>();
+  ObjectLevel objects = make_level(stage);
+  return apply_level_events(timeline, stage.scene, objects);
 }
 
 }  // namespace brume::stage

@@ -35,8 +35,12 @@ sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::BitGrid& 
 /// The voxels whose centres lie in a box [m].
 voxel::IntBox voxels_in(const voxel::GridFrame& frame, glm::vec3 low_world, glm::vec3 high_world);
 
-/// All edits and doors of the stage's timeline, by time; of the same time the edits first. Fails as
-/// check_doors does.
+/// Makes all edits and doors of a timeline happen to a level, by time; of the same time the edits first. The
+/// doors must pass check_doors.
+std::vector<LevelEvent> apply_level_events(const scene::Timeline& timeline, const scene::Scene& scene,
+                                           ObjectLevel& objects);
+
+/// All of the stage's timeline. Fails as check_doors does.
 Result<std::vector<LevelEvent>> level_events(const Stage& stage);
 
 }  // namespace brume::stage

@@ -55,9 +55,12 @@ class Collector {
     std::map<char32_t, LoadedGlyph> glyphs;
   };
 
+  /// Numbers a mask; those that look alike are one, from whichever file they come.
   std::uint32_t take(sim::Mask mask) {
-    masks_.push_back(std::move(mask));
-    return static_cast<std::uint32_t>(masks_.size() - 1);
+    const auto number = static_cast<std::uint32_t>(masks_.size());
+    const auto [known, is_new] = numbers_.emplace(std::pair(mask.width, mask.texels), number);
+    if (is_new) masks_.push_back(std::move(mask));
+    return known->second;
   }
 
   Result<LoadedFont*> font_at(const std::filesystem::path& file) {
@@ -107,6 +110,7 @@ class Collector {
   }
 
   std::vector<sim::Mask> masks_;
+  std::map<std::pair<std::uint32_t, std::vector<std::uint8_t>>, std::uint32_t> numbers_;
   std::string last_place_;  // of an event that brought one
   std::map<std::string, LoadedFont> fonts_;
   ShotMasks of_shots_;

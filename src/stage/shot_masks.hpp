@@ -41,8 +41,9 @@ struct LoadedMasks {
 /// the middle of one. Fails with resource_limit for a picture larger than an atlas holds.
 Result<sim::Mask> mask_of(const image::Image8& picture, const std::string& name);
 
-/// Reads the pictures and fonts that the timeline names; each picture, and each glyph of a font, is one mask.
-/// The same atlas for the same files and timeline. Fails with bad_input for a file that is missing or cannot
+/// Reads the pictures and fonts that the timeline names; each picture, and each glyph of a font, is one mask,
+/// and those that are the same texel for texel are one together. The same atlas for the same pictures,
+/// letters and timeline, wherever the files lie. Fails with bad_input for a file that is missing or cannot
 /// be read, a character that its font lacks, a text of blanks, naming the event's place, and with
 /// resource_limit as MaskAtlas::pack, naming the last event's that brings a mask.
 Result<LoadedMasks> load_masks(const scene::Timeline& timeline);

@@ -1,4 +1,4 @@
-// A stage's timeline as the simulation takes it: integer events, and the world and smoke that they make.
+// The world and the smoke of a stage's timeline, at any time.
 #pragma once
 
 #include <memory>
@@ -7,44 +7,52 @@
 
 #include "sim/smoke_volume.hpp"
 #include "sim/world.hpp"
+#include "stage/events.hpp"
 #include "stage/level_events.hpp"
 #include "stage/stage.hpp"
 
 namespace brume::stage {
 
-/// The tick at or before a time [s]; 0 for times before 0. The only place where seconds become ticks.
-std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
-
-/// The timeline's events in the order in which a world takes them: by tick, and within one tick the edits and
-/// doors, the smokes, the shots, the letters of texts, the blasts, the moves. Bodies are numbered in the
-/// order of their names' first appearance. Fails with bad_input for an event that is out of the simulation's
-/// range, and as level_events.
-Result<std::vector<sim::Event>> events_of(
-    const Stage& stage, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
-
-/// The simulation of a stage at any time.
 class Simulation {
  public:
-  /// `stage` must outlive it. Fails with bad_input when an event cannot be.
+  /// `stage` must outlive it, its voxels at their place. Fails with bad_input when an event cannot be.
   static Result<std::unique_ptr<Simulation>> create(const Stage& stage);
 
   /// Moves to the tick at or before a time [s], and the smoke with it.
   void advance_to(double seconds);
-  const sim::World& world() const { return world_; }
+  /// Valid until other masks come.
+  const sim::World& world() const { return *world_; }
   const sim::SmokeVolume& volume() const { return volume_; }
   /// The surfaces of the level at the present tick.
   const voxel::PatchedPlanes& planes() const { return planes_; }
   /// Objects of the scene that are open doors at the present tick, rising.
   std::span<const std::uint32_t> hidden_objects() const { return hidden_objects_; }
+  /// All changes of the level, by time.
+  const std::vector<LevelEvent>& level_events() const { return level_events_; }
+
+  // What a timeline that goes on changes, at any time, past or to come. The world has it at once; the smoke
+  // volume, the planes and the hidden objects have it when advance_to is called next.
+
+  /// Takes more events, each to its place among those that there are, and changes of the level that come
+  /// after all that there are. Fails with bad_input for an event that the world does not take: nothing is
+  /// taken then.
+  Result<void> add(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes);
+  /// Becomes the simulation of other events, changes and masks. Only what differs is played again. Fails as
+  /// `add` does.
+  Result<void> replace(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes,
+                       const sim::MaskKey& masks);
 
  private:
   Simulation(const Stage& stage, std::vector<LevelEvent> level_events);
   void follow_level();
+  void replace_level(std::vector<LevelEvent> changes);
 
+  const voxel::BitGrid& level_;
   std::vector<LevelEvent> level_events_;
   std::size_t in_effect_ = 0;  // of level_events_
   std::vector<std::uint32_t> hidden_objects_;
-  sim::World world_;
+  std::unique_ptr<sim::World> world_;
+  std::vector<EventOrder> orders_;  // of the world's log
   voxel::PatchedPlanes planes_;
   sim::SmokeVolume volume_;
 };

@@ -323,6 +323,64 @@ TEST_F(BusyWorld, TakesEventsOfThePresentTickAsAServerHearsOfThem) {
   }
 }
 
+TEST_F(BusyWorld, WentBackAndTookAnEventThatIsToCome) {
+  // The states kept of the future do not have it.
+  const auto late = std::find_if(events_.begin(), events_.end(), [](const Event& e) {
+    return std::holds_alternative<Blast>(e);  // tick 60
+  });
+  std::vector<Event> others = events_;
+  others.erase(others.begin() + (late - events_.begin()));
+  World world(grid_);
+  world.append(others).value_or_throw();
+  world.advance_to(kBusyTicks - 1);
+  world.advance_to(10);
+  world.append(*late).value_or_throw();
+  World told(grid_);
+  told.append(others).value_or_throw();
+  told.append(*late).value_or_throw();
+  for (const std::uint32_t tick : {70u, kBusyTicks - 1, 150u}) {
+    world.advance_to(tick);
+    told.advance_to(tick);
+    EXPECT_EQ(world.state_hash(), told.state_hash()) << tick;
+  }
+}
+
+TEST_F(BusyWorld, TakesOtherEventsInThePlaceOfThoseFromATickOn) {
+  std::mt19937 random(7);
+  World world(grid_);
+  world.append(events_).value_or_throw();
+  for (int i = 0; i < 30; ++i) {
+    const auto from = static_cast<std::uint32_t>(random() % kBusyTicks);
+    std::vector<Event> tail;
+    for (const Event& event : events_)
+      if (tick_of(event) >= from && random() % 3 != 0) tail.push_back(event);
+    World told(grid_);
+    for (const Event& event : world.log())
+      if (tick_of(event) < from) told.append(event).value_or_throw();
+    told.append(tail).value_or_throw();
+    world.advance_to(static_cast<std::uint32_t>(random() % kBusyTicks));
+    const std::uint32_t tick = world.tick();
+    world.replace_from(from, tail).value_or_throw();
+    EXPECT_EQ(world.tick(), tick);
+    EXPECT_TRUE(std::equal(world.log().begin(), world.log().end(), told.log().begin(), told.log().end()));
+    for (const std::uint32_t at : {tick, from, static_cast<std::uint32_t>(random() % kBusyTicks)}) {
+      world.advance_to(at);
+      told.advance_to(at);
+      ASSERT_EQ(world.state_hash(), told.state_hash()) << i << ", tick " << at;
+    }
+    // And those that there were again.
+    std::vector<Event> all;
+    for (const Event& event : events_)
+      if (tick_of(event) >= from) all.push_back(event);
+    if (i % 2 == 0) world.replace_from(from, all).value_or_throw();
+  }
+  const std::uint64_t hash = world.state_hash();
+  const auto refused = world.replace_from(30, {Shot{29, {0, 0, 0}, {5, 5, 5}}});
+  EXPECT_EQ(refused.failure().message, "event at tick 29: expected tick 30 or later");
+  EXPECT_FALSE(world.replace_from(30, {Shot{30, {5, 5, 5}, {5, 5, 5}}}));
+  EXPECT_EQ(world.state_hash(), hash);
+}
+
 TEST_F(BusyWorld, TakesAllOfManyEventsOrNone) {
   World told(grid_);
   told.advance_to(kBusyTicks - 1);
