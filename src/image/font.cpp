@@ -10,6 +10,7 @@
 #include FT_OUTLINE_H
 
 #include "core/file.hpp"
+#include "core/utf8.hpp"
 
 namespace brume::image {
 namespace {
@@ -24,28 +25,6 @@ std::string name_of(char32_t character) {
   char text[16];
   std::snprintf(text, sizeof text, "U+%04X", static_cast<unsigned>(character));
   return text;
-}
-
-/// The first character of a text, taken off it; nothing when it is no UTF-8 (RFC 3629).
-std::optional<char32_t> take_character(std::string_view& text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned first = byte(0);
-  const std::size_t length = first < 0x80       ? 1
-                             : first >> 5 == 6  ? 2
-                             : first >> 4 == 14 ? 3
-                             : first >> 3 == 30 ? 4
-                                                : 0;
-  if (length == 0 || length > text.size()) return std::nullopt;
-  char32_t character = length == 1 ? first : first & (0x7fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if (byte(i) >> 6 != 2) return std::nullopt;
-    character = character << 6 | (byte(i) & 0x3f);
-  }
-  constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-  if (character < kLeast[length] || character > 0x10ffff || (character >= 0xd800 && character <= 0xdfff))
-    return std::nullopt;
-  text.remove_prefix(length);
-  return character;
 }
 
 /// Puts a bitmap of FreeType in the middle of a square.

@@ -13,8 +13,6 @@
 namespace brume::scene {
 namespace {
 
-constexpr std::size_t kMaxTextBytes = 1024;
-
 /// Reads settings from a table: the visitor of scene/options.hpp.
 struct OptionReader {
   TomlTable& table;
@@ -68,15 +66,7 @@ class TimelineReader {
     for (std::size_t i = 0; i < events.size() && outcome; ++i) outcome = read_event(*events[i]);
     if (!outcome) return outcome.failure();
 
-    const auto earlier = [](const auto& a, const auto& b) { return a.time < b.time; };
-    const auto sort = [&](auto& list) { std::stable_sort(list.begin(), list.end(), earlier); };
-    sort(timeline_.smokes);
-    sort(timeline_.shots);
-    sort(timeline_.texts);
-    sort(timeline_.blasts);
-    sort(timeline_.moves);
-    sort(timeline_.edits);
-    sort(timeline_.doors);
+    sort_events(timeline_);
     return std::move(timeline_);
   }
 
@@ -260,6 +250,18 @@ class TimelineReader {
 };
 
 }  // namespace
+
+void sort_events(Timeline& timeline) {
+  const auto earlier = [](const auto& a, const auto& b) { return a.time < b.time; };
+  const auto sort = [&](auto& list) { std::stable_sort(list.begin(), list.end(), earlier); };
+  sort(timeline.smokes);
+  sort(timeline.shots);
+  sort(timeline.texts);
+  sort(timeline.blasts);
+  sort(timeline.moves);
+  sort(timeline.edits);
+  sort(timeline.doors);
+}
 
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path) {
   const auto document = parse_toml(text, path.string());

@@ -90,6 +90,9 @@ struct ShotEvent {
   float flash = 25.0f;
 };
 
+/// Longest text of a TextEvent.
+constexpr std::size_t kMaxTextBytes = 1024;
+
 /// A row of letters is shot through the smoke, each a hole: parallel shots, side by side, that read from
 /// where they are fired.
 struct TextEvent {
@@ -158,6 +161,9 @@ struct Timeline {
   std::vector<EditEvent> edits;
   std::vector<DoorEvent> doors;
 };
+
+/// Puts the events of each list in order of time; those of the same time stay as they stood.
+void sort_events(Timeline& timeline);
 
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, the tables [grid] (voxel,
 /// size, origin), [smoke] and [sky] with the members above as keys, and [[camera]] (time, position, target,

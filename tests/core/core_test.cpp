@@ -12,6 +12,7 @@
 #include "core/hash.hpp"
 #include "core/progress.hpp"
 #include "core/tasks.hpp"
+#include "core/utf8.hpp"
 
 namespace brume {
 namespace {
@@ -104,6 +105,18 @@ TEST(Progress, TellsRateAndTimeLeft) {
   EXPECT_DOUBLE_EQ(state.seconds_left(), 30.0);
   EXPECT_EQ(progress_line(state), "frames     [######..................] 30/120  3/s  30 s left");
   EXPECT_LT((Progress::State{"x", 0, 10, 0}.seconds_left()), 0);
+}
+
+TEST(Utf8, IsWhatTheStandardSays) {
+  for (const char* good : {"", "plain", "\xc3\xa9", "\xe6\xbc\xa2 \xf0\x9f\x92\xa8", "\xf4\x8f\xbf\xbf"})
+    EXPECT_TRUE(is_utf8(good)) << good;
+  // A lone tail, a lone head, a cut one, too long a form, half a surrogate pair, beyond the last.
+  for (const char* bad :
+       {"\x80", "\xc3", "a\xe6\xbc", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"})
+    EXPECT_FALSE(is_utf8(bad)) << bad;
+  std::string_view text = "\xc3\xa9z";
+  EXPECT_EQ(take_character(text), U'\u00e9');
+  EXPECT_EQ(text, "z");
 }
 
 TEST(Hash, DependsOnBytesAndSeed) {

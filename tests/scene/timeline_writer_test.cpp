@@ -3,17 +3,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <fstream>
-#include <functional>
-#include <limits>
-#include <random>
 
 #include "core/file.hpp"
 #include "scene/options.hpp"
+#include "tests/scene/random_timeline.hpp"
 
 namespace brume::scene {
 namespace {
@@ -92,146 +88,6 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   add_all(timeline.smokes), add_all(timeline.shots), add_all(timeline.texts), add_all(timeline.blasts);
   add_all(timeline.moves), add_all(timeline.edits), add_all(timeline.doors);
   return b.bits;
-}
-
-/// Draws settings over their whole ranges, ends, tiny numbers and -0 included; some stay as they are.
-class Drawing {
- public:
-  explicit Drawing(std::uint32_t seed) : random_(seed) {}
-
-  std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(random_() % count); }
-  double share() { return static_cast<double>(random_()) / 4294967296.0; }
-  double number(double low, double high) {
-    switch (below(6)) {
-      case 0:
-        return low;
-      case 1:
-        return high;
-      case 2:
-        return std::clamp(-0.0, low, high);
-      case 3:
-        return std::clamp(std::ldexp(share() - 0.5, -static_cast<int>(below(160))), low, high);
-      default:
-        return low + (high - low) * share();
-    }
-  }
-  float real(double low, double high) {
-    auto value = static_cast<float>(number(low, high));
-    if (double{value} > high) value = std::nextafter(value, -INFINITY);
-    if (double{value} < low) value = std::nextafter(value, INFINITY);
-    return value;
-  }
-  glm::vec3 point(double low, double high) { return {real(low, high), real(low, high), real(low, high)}; }
-  glm::vec3 place() { return point(-kFarthestEvent, kFarthestEvent); }
-  double time() { return below(4) == 0 ? below(8) * 0.125 : number(0, kLatestTime); }
-  std::string text() {
-    const char* const letters[] = {"a",  "Z",    " ",    "\"",       "\\",           "\n",
-                                   "\t", "\x01", "\x7f", "\xc9\x8c", "\xe6\xbc\xa2", "#"};
-    std::string text = letters[below(12)];
-    for (std::uint32_t more = below(12); more > 0; --more) text += letters[below(12)];
-    return text;
-  }
-
-  void operator()(const OptionInfo& info, float& member) {
-    if (below(4) == 0) return;
-    // An angle is what the reader makes of some degrees, or the next float.
-    if (!is_angle(info)) return void(member = real(info.low, info.high));
-    member = static_cast<float>(number(info.low, info.high) * kRadiansOfDegree);
-    const double degrees = double{member} / kRadiansOfDegree;
-    if (degrees > info.low + 1 && degrees < info.high - 1 && below(2) == 0)
-      member = std::nextafter(member, below(2) == 0 ? -INFINITY : INFINITY);
-  }
-  void operator()(const OptionInfo& info, std::uint32_t& member) {
-    member = static_cast<std::uint32_t>(std::lround(number(info.low, info.high)));
-  }
-  void operator()(const OptionInfo& info, glm::vec3& member) {
-    if (below(4) != 0) member = point(info.low, info.high);
-  }
-  void operator()(const OptionInfo& info, std::optional<float>& member) {
-    if (below(2) == 0) member = real(info.low, info.high);
-  }
-  void operator()(const OptionInfo& info, std::optional<glm::vec3>& member) {
-    if (below(2) == 0) member = point(info.low, info.high);
-  }
-  void operator()(const OptionInfo& info, std::optional<glm::ivec3>& member) {
-    if (below(2) == 0) member = glm::ivec3(point(info.low, info.high));
-  }
-
- private:
-  std::mt19937 random_;
-};
-
-template <typename Event>
-std::vector<Event> some(Drawing& draw, const std::function<Event()>& make) {
-  std::vector<Event> events;
-  for (std::uint32_t count = draw.below(6); count > 0; --count) {
-    events.push_back(make());
-    events.back().time = draw.time();
-  }
-  std::stable_sort(events.begin(), events.end(),
-                   [](const Event& a, const Event& b) { return a.time < b.time; });
-  return events;
-}
-
-ShotEvent random_shot(Drawing& draw) {
-  ShotEvent shot;
-  shot.from_world = draw.place();
-  shot.toward_world = shot.from_world.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
-  visit_shot_options(shot, draw);
-  shot.shape = std::array{ShotShape::cylinder, ShotShape::box, ShotShape::mask}[draw.below(3)];
-  if (shot.shape == ShotShape::mask) shot.mask = "scenes/masks/" + std::to_string(draw.below(3)) + ".png";
-  return shot;
-}
-
-TextEvent random_letters(Drawing& draw) {
-  TextEvent text;
-  text.text = draw.text();
-  text.from_world = draw.place();
-  text.toward_world = text.from_world.x > 0 ? glm::vec3(-1.5f, 0, 0) : glm::vec3(1.5f, 0, 0);
-  if (draw.below(2) == 0) text.font = "scenes/fonts/a b.ttf";
-  visit_text_options(text, draw);
-  return text;
-}
-
-BlastEvent random_blast(Drawing& draw) {
-  BlastEvent blast;
-  blast.at_world = draw.place();
-  visit_blast_options(blast, draw);
-  blast.refill_middle = std::max(blast.refill_middle, blast.refill_rim);
-  return blast;
-}
-
-EditEvent random_edit(Drawing& draw) {
-  EditEvent edit;
-  edit.low_world = draw.point(-16384, -0.001);
-  edit.high_world = draw.point(0, 16384);
-  edit.solid = draw.below(2) == 0;
-  return edit;
-}
-
-Timeline random_timeline(std::uint32_t seed) {
-  Drawing draw(seed);
-  Timeline timeline;
-  timeline.scene = "scenes/" + std::string(draw.below(2) == 0 ? "demo.gltf" : "level \"1\"/Scene.txt");
-  visit_timeline_options(timeline, draw);
-  visit_grid_options(timeline.grid, draw);
-  visit_smoke_options(timeline.smoke, draw);
-  if (timeline.smoke.droplet) timeline.smoke.anisotropy = SmokeOptions().anisotropy;
-  visit_sky_options(timeline.sky, draw);
-  double time = draw.share();
-  for (std::uint32_t keys = draw.below(4); keys > 0; --keys, time += 0.01 + draw.share()) {
-    CameraKey key{time, {draw.place(), draw.place(), 1}};
-    visit_camera_options(key.camera, draw);
-    if (key.camera.position_world != key.camera.target_world) timeline.camera.push_back(key);
-  }
-  timeline.smokes = some<SmokeEvent>(draw, [&] { return SmokeEvent{0, draw.place(), draw.place()}; });
-  timeline.shots = some<ShotEvent>(draw, [&] { return random_shot(draw); });
-  timeline.texts = some<TextEvent>(draw, [&] { return random_letters(draw); });
-  timeline.blasts = some<BlastEvent>(draw, [&] { return random_blast(draw); });
-  timeline.moves = some<MoveEvent>(draw, [&] { return MoveEvent{0, draw.text(), draw.place()}; });
-  timeline.edits = some<EditEvent>(draw, [&] { return random_edit(draw); });
-  timeline.doors = some<DoorEvent>(draw, [&] { return DoorEvent{0, draw.text(), draw.below(2) == 0}; });
-  return timeline;
 }
 
 TEST(TimelineWriter, RandomTimelinesComeBackBitForBit) {

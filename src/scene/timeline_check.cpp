@@ -1,0 +1,181 @@
+#include "scene/timeline_check.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "core/utf8.hpp"
+#include "scene/options.hpp"
+
+namespace brume::scene {
+namespace {
+
+std::string shown(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// Looks at the members of one thing; the first failure is kept. A visitor of scene/options.hpp.
+class Checker {
+ public:
+  explicit Checker(std::string thing) : thing_(std::move(thing)) {}
+  template <typename Event>
+  Checker(const char* kind, const Event& event) : thing_(kind) {
+    number("time", event.time, 0, kLatestTime);
+    thing_ += " at " + shown(event.time) + " s";
+  }
+
+  void operator()(const OptionInfo& info, const float& member) {
+    const double unit = is_angle(info) ? kRadiansOfDegree : 1;
+    // As floats: the least number of the file may be a float that is less.
+    if (member >= static_cast<float>(info.low * unit) && member <= static_cast<float>(info.high * unit))
+      return;
+    out_of_range(info.key, double{member} / unit, info.low, info.high);
+  }
+  void operator()(const OptionInfo& info, const std::uint32_t& member) {
+    number(info.key, member, info.low, info.high);
+  }
+  template <typename Vector>
+  requires(Vector::length() == 3) void operator()(const OptionInfo& info, const Vector& member) {
+    for (int axis = 0; axis < 3; ++axis) number(info.key, double(member[axis]), info.low, info.high);
+  }
+  template <typename Member>
+  void operator()(const OptionInfo& info, const std::optional<Member>& member) {
+    if (member) (*this)(info, *member);
+  }
+
+  void number(const char* key, double value, double low, double high) {
+    if (!(value >= low && value <= high)) out_of_range(key, value, low, high);
+  }
+  void point(const char* key, glm::vec3 point, double farthest) {
+    for (int axis = 0; axis < 3; ++axis) number(key, double{point[axis]}, -farthest, farthest);
+  }
+  void place(const char* key, glm::vec3 place) { point(key, place, kFarthestEvent); }
+  void direction(const char* key, glm::vec3 from, glm::vec3 to, const char* other) {
+    if (from == to) fail(key, "expected a point other than " + std::string(other));
+  }
+  void text(const char* key, const std::string& text) {
+    if (!is_utf8(text)) fail(key, "expected UTF-8");
+  }
+  void fail(const char* key, const std::string& what) {
+    if (failed_) return;
+    failed_ = true;
+    failure_ = {ErrorCode::bad_input, thing_ + ": \"" + key + "\": " + what};
+  }
+  Result<void> done() const { return failed_ ? Result<void>(failure_) : Result<void>(); }
+
+ private:
+  void out_of_range(const char* key, double value, double low, double high) {
+    fail(key, "expected a number from " + shown(low) + " to " + shown(high) + ", found " + shown(value));
+  }
+
+  std::string thing_;
+  bool failed_ = false;
+  Failure failure_;
+};
+
+Result<void> check(const SmokeEvent& event) {
+  Checker look("smoke", event);
+  look.place("from", event.from_world);
+  look.place("at", event.at_world);
+  return look.done();
+}
+
+Result<void> check(const ShotEvent& event) {
+  Checker look("shot", event);
+  look.place("from", event.from_world);
+  look.place("toward", event.toward_world);
+  look.direction("toward", event.from_world, event.toward_world, "\"from\"");
+  visit_shot_options(event, look);
+  if ((event.shape == ShotShape::mask) == event.mask.empty())
+    look.fail("mask", "expected a picture where the shape is a mask, and only there");
+  look.text("mask", event.mask.string());
+  return look.done();
+}
+
+Result<void> check(const TextEvent& event) {
+  Checker look("text", event);
+  if (event.text.empty() || event.text.size() > kMaxTextBytes) look.fail("text", "expected 1 to 1024 bytes");
+  look.text("text", event.text);
+  look.text("font", event.font.string());
+  look.place("from", event.from_world);
+  look.place("toward", event.toward_world);
+  look.direction("toward", event.from_world, event.toward_world, "\"from\"");
+  visit_text_options(event, look);
+  return look.done();
+}
+
+Result<void> check(const BlastEvent& event) {
+  Checker look("blast", event);
+  look.place("at", event.at_world);
+  visit_blast_options(event, look);
+  if (event.refill_middle < event.refill_rim)
+    look.fail("refill_middle", "expected no less than \"refill_rim\"");
+  return look.done();
+}
+
+Result<void> check(const MoveEvent& event) {
+  Checker look("move", event);
+  look.text("body", event.body);
+  look.place("to", event.to_world);
+  return look.done();
+}
+
+Result<void> check(const EditEvent& event) {
+  Checker look("edit", event);
+  look.place("low", event.low_world);
+  look.place("high", event.high_world);
+  if (!glm::all(glm::lessThan(event.low_world, event.high_world)))
+    look.fail("high", "expected more than \"low\" along every axis");
+  return look.done();
+}
+
+Result<void> check(const DoorEvent& event) {
+  Checker look("door", event);
+  look.text("object", event.object);
+  return look.done();
+}
+
+}  // namespace
+
+Result<void> check_events(const Timeline& timeline) {
+  Result<void> outcome;
+  const auto check_all = [&](const auto& events) {
+    for (auto event = events.begin(); event != events.end() && outcome; ++event) outcome = check(*event);
+  };
+  check_all(timeline.smokes);
+  check_all(timeline.shots);
+  check_all(timeline.texts);
+  check_all(timeline.blasts);
+  check_all(timeline.moves);
+  check_all(timeline.edits);
+  check_all(timeline.doors);
+  return outcome;
+}
+
+Result<void> check_settings(const Timeline& timeline) {
+  Checker look("the timeline");
+  visit_timeline_options(timeline, look);
+  if (auto done = look.done(); !done) return done;
+  Checker grid("[grid]"), smoke("[smoke]"), sky("[sky]");
+  visit_grid_options(timeline.grid, grid);
+  visit_smoke_options(timeline.smoke, smoke);
+  visit_sky_options(timeline.sky, sky);
+  for (const Checker* checker : {&grid, &smoke, &sky})
+    if (auto done = checker->done(); !done) return done;
+  double last = -1;
+  for (const CameraKey& key : timeline.camera) {
+    Checker camera("camera", key);
+    camera.point("position", key.camera.position_world, kFarthestPoint);
+    camera.point("target", key.camera.target_world, kFarthestPoint);
+    camera.direction("target", key.camera.position_world, key.camera.target_world, "the position");
+    visit_camera_options(key.camera, camera);
+    if (!(key.time > last)) camera.fail("time", "expected a later time than that of the key before");
+    last = key.time;
+    if (auto done = camera.done(); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace brume::scene

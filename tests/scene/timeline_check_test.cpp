@@ -1,0 +1,130 @@
+#include "scene/timeline_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "scene/timeline_writer.hpp"
+#include "tests/scene/random_timeline.hpp"
+
+namespace brume::scene {
+namespace {
+
+/// Puts a few numbers of a timeline near and beyond the ends of their ranges.
+class Spoiler {
+ public:
+  Spoiler(Drawing& draw, std::uint32_t one_in) : draw_(draw), one_in_(one_in) {}
+
+  void operator()(const OptionInfo& info, float& member) {
+    const double unit = is_angle(info) ? kRadiansOfDegree : 1;
+    if (draw_.below(one_in_) == 0) member = odd(info.low * unit, info.high * unit);
+  }
+  void operator()(const OptionInfo& info, std::uint32_t& member) {
+    if (draw_.below(one_in_) == 0)
+      member = draw_.below(2) == 0 ? 0 : static_cast<std::uint32_t>(info.high) + 1;
+  }
+  template <typename Vector>
+  requires(Vector::length() == 3) void operator()(const OptionInfo& info, Vector& member) {
+    if (draw_.below(one_in_) == 0)
+      member[1] = static_cast<typename Vector::value_type>(draw_.below(2) == 0 ? info.high * 1.5 + 1
+                                                                               : info.low * 0.99 - 0.5);
+  }
+  template <typename Member>
+  void operator()(const OptionInfo& info, std::optional<Member>& member) {
+    if (member) (*this)(info, *member);
+  }
+  void place(glm::vec3& place) {
+    if (draw_.below(one_in_) == 0) place.z = odd(-kFarthestEvent, kFarthestEvent);
+  }
+  void time(double& time) {
+    if (draw_.below(one_in_) == 0) time = double{odd(0, kLatestTime)};
+  }
+
+ private:
+  float odd(double low, double high) {
+    const auto first = static_cast<float>(low), last = static_cast<float>(high);
+    switch (draw_.below(6)) {
+      case 0:
+        return std::nextafter(first, -INFINITY);
+      case 1:
+        return first;
+      case 2:
+        return last;
+      case 3:
+        return std::nextafter(last, INFINITY);
+      case 4:
+        return std::numeric_limits<float>::quiet_NaN();
+      default:
+        return std::numeric_limits<float>::infinity();
+    }
+  }
+  Drawing& draw_;
+  std::uint32_t one_in_;
+};
+
+void spoil(Timeline& t, Spoiler& s) {
+  visit_timeline_options(t, s);
+  visit_grid_options(t.grid, s);
+  visit_smoke_options(t.smoke, s);
+  visit_sky_options(t.sky, s);
+  for (CameraKey& key : t.camera) s.time(key.time), visit_camera_options(key.camera, s);
+  for (SmokeEvent& e : t.smokes) s.time(e.time), s.place(e.from_world), s.place(e.at_world);
+  for (ShotEvent& e : t.shots) s.time(e.time), s.place(e.toward_world), visit_shot_options(e, s);
+  for (TextEvent& e : t.texts) s.time(e.time), s.place(e.from_world), visit_text_options(e, s);
+  for (BlastEvent& e : t.blasts) s.time(e.time), s.place(e.at_world), visit_blast_options(e, s);
+  for (MoveEvent& e : t.moves) s.time(e.time), s.place(e.to_world);
+  for (EditEvent& e : t.edits) s.time(e.time), s.place(e.low_world), s.place(e.high_world);
+  for (DoorEvent& e : t.doors) s.time(e.time);
+}
+
+TEST(TimelineCheck, TakesWhatTheFileTakesAndNothingElse) {
+  int good = 0, bad = 0;
+  for (std::uint32_t seed = 0; seed < 3000; ++seed) {
+    Timeline timeline = random_timeline(seed);
+    timeline.smoke.droplet.reset();  // with it the anisotropy is not written
+    Drawing draw(seed);
+    Spoiler spoiler(draw, 150);
+    spoil(timeline, spoiler);
+    const auto settings = check_settings(timeline), events = check_events(timeline);
+    const auto read = parse_timeline(format_timeline(timeline, "scenes"), "scenes/t.toml");
+    ASSERT_EQ(settings && events, static_cast<bool>(read))
+        << "seed " << seed << ": " << settings.failure().message << events.failure().message
+        << (read ? "" : read.failure().message);
+    ++(read ? good : bad);
+  }
+  EXPECT_GT(good, 500);
+  EXPECT_GT(bad, 500);
+}
+
+TEST(TimelineCheck, NamesTheEventAndTheNumber) {
+  Timeline timeline;
+  const auto message = [&] { return check_events(timeline).failure().message; };
+  timeline.shots.resize(1);
+  timeline.shots[0].time = 1.5;
+  timeline.shots[0].radius = 11;
+  EXPECT_EQ(message(), "shot at 1.5 s: \"radius\": expected a number from 0.01 to 10, found 11");
+  timeline.shots[0] = {};
+  timeline.shots[0].roll = 7;
+  EXPECT_EQ(message(), "shot at 0 s: \"roll\": expected a number from -360 to 360, found 401.07");
+  timeline.shots[0] = {};
+  timeline.shots[0].toward_world = timeline.shots[0].from_world;
+  EXPECT_EQ(message(), "shot at 0 s: \"toward\": expected a point other than \"from\"");
+  timeline.shots[0] = {};
+  timeline.shots[0].shape = ShotShape::mask;
+  EXPECT_EQ(message(), "shot at 0 s: \"mask\": expected a picture where the shape is a mask, and only there");
+  timeline.shots.clear();
+  timeline.texts.resize(1);
+  EXPECT_EQ(message(), "text at 0 s: \"text\": expected 1 to 1024 bytes");
+  timeline.texts[0].text = "\xff";
+  EXPECT_EQ(message(), "text at 0 s: \"text\": expected UTF-8");
+  timeline.texts.clear();
+  timeline.blasts.resize(1);
+  timeline.blasts[0].time = std::nan("");
+  EXPECT_EQ(message(), "blast: \"time\": expected a number from 0 to 3600, found nan");
+  timeline.camera = {{1, {}}, {1, {}}};
+  EXPECT_EQ(check_settings(timeline).failure().message,
+            "camera at 1 s: \"time\": expected a later time than that of the key before");
+}
+
+}  // namespace
+}  // namespace brume::scene
