@@ -17,7 +17,7 @@
 #include "shared/resolve.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kCountSamples = 0u;
+layout(constant_id = 0) const uint kCount = kCountNothing;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
 layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
@@ -27,7 +27,10 @@ layout(binding = 7) uniform sampler3D noise_tile;
 layout(binding = 8) uniform sampler2D depth;
 layout(binding = 9) uniform sampler2D blue_noise_tile;
 layout(binding = 11, rgba16f) uniform writeonly image2D smoke;
-layout(scalar, binding = 12) buffer Counters { uint texture_samples; };
+layout(scalar, binding = 12) buffer Counters {
+  uint texture_samples;
+  uint ray_steps[];  // of each pixel's ray
+};
 layout(scalar, binding = 13) readonly buffer Ends { RayEnds ends[]; };
 layout(binding = 14, rgba16f) uniform writeonly image2D smoke_near;
 layout(scalar, binding = 17) readonly buffer List {
@@ -80,7 +83,7 @@ struct Ray {
 struct Gathered {
   vec3 radiance;
   float transmittance;
-  uint samples;
+  uint samples, steps;  // of textures, of the ray
 };
 
 /// A brick, or the cube without smoke around it, on the way of a ray.
@@ -137,6 +140,7 @@ void march(Ray ray, float begin, float end, inout Gathered got) {
       if (medium.r < 0.0) here = boundary_sample(stay.slot, (p_world - volume.origin_world) / volume.voxel_size - stay.low);
       float density = here.density;
       ++got.samples;
+      ++got.steps;
       if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
         const vec4 noise = textureLod(noise_tile, (p_world + medium.gba) * periods_per_metre - risen, 0.0);
         ++got.samples;
@@ -160,6 +164,15 @@ void march(Ray ray, float begin, float end, inout Gathered got) {
   }
 }
 
+/// Writes the steps of a ray for each of its pixels.
+void note_steps(ivec2 texel, uint steps) {
+  const uint edge = kRays == kRaysOfBlocks ? frame.march_scale : 1u;
+  for (uint i = 0u; i < edge * edge; ++i) {
+    const uvec2 px = uvec2(texel) * edge + uvec2(i % edge, i / edge);
+    if (all(lessThan(px, frame.size_px))) ray_steps[px.x + frame.size_px.x * px.y] = steps;
+  }
+}
+
 void main() {
   Way way;
   if (!find_way(way)) return;
@@ -178,7 +191,7 @@ void main() {
   const vec3 near = min(low * inverse, high * inverse), far = max(low * inverse, high * inverse);
   const float t_begin = max(max(near.x, near.y), max(near.z, 0.0));
   const float t_last = min(min(far.x, far.y), min(far.z, way.far * length(along)));
-  Gathered got = Gathered(vec3(0.0), 1.0, 0u);
+  Gathered got = Gathered(vec3(0.0), 1.0, 0u, 0u);
   vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
   if (t_begin < t_last) {
     if (kRays == kRaysOfBlocks) {
@@ -192,5 +205,6 @@ void main() {
   }
   imageStore(smoke, way.texel, vec4(got.radiance * frame.look.albedo, got.transmittance));
   if (kRays == kRaysOfBlocks) imageStore(smoke_near, way.texel, at_near);
-  if (kCountSamples != 0u) atomicAdd(texture_samples, got.samples);
+  if (kCount != kCountNothing) atomicAdd(texture_samples, got.samples);
+  if (kCount == kCountSteps) note_steps(way.texel, got.steps);
 }

@@ -95,6 +95,14 @@ scene::Camera parse_camera(const std::string& option, const std::string& text) {
          "\"0,1.7,5 0,1.5,0 60\"");
 }
 
+passes::ViewSlice parse_slice(const std::string& option, const std::string& text) {
+  const std::size_t axis = std::string_view("xyz").find(text.empty() ? '?' : text[0]);
+  const bool begins = axis != std::string_view::npos && text.size() > 2 && text[1] == '=';
+  const auto at = begins ? number<float>(std::string_view(text).substr(2)) : std::nullopt;
+  if (!at || !std::isfinite(*at)) refuse(option, text, "an axis and a place in metres, as in y=1.5");
+  return {static_cast<std::uint32_t>(axis), *at};
+}
+
 FrameRange parse_frames(const std::string& option, const std::string& text) {
   constexpr std::uint32_t kMaxFrame = 1'000'000;
   const auto values = numbers<std::uint32_t>(text, '-', 2);

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
+#include "passes/debug_view.hpp"
 #include "scene/scene.hpp"
 
 namespace brume::cli {
@@ -21,6 +22,9 @@ glm::vec3 parse_point(const std::string& option, const std::string& text);
 
 /// "px,py,pz tx,ty,tz fov": position, target [m] and the vertical field of view [degrees, (0, 180)].
 scene::Camera parse_camera(const std::string& option, const std::string& text);
+
+/// "y=1.5": across x, y or z, and where along it [m].
+passes::ViewSlice parse_slice(const std::string& option, const std::string& text);
 
 /// "0-119": the first and the last frame, each in [0, 10^6], the first not above the last.
 struct FrameRange {

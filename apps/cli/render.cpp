@@ -21,7 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json;
+  std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
+                                               view = "none", slice;
   std::vector<std::string> smokes;
   std::optional<double> time;
   std::uint32_t fps = 24;
@@ -36,6 +37,8 @@ struct Plan {
   std::optional<scene::Camera> camera;
   std::vector<scene::SmokeEvent> smokes;
   std::optional<FrameRange> frames;
+  passes::DebugView view = passes::DebugView::none;
+  std::optional<passes::ViewSlice> slice;
 };
 
 Plan make_plan(const Options& options) {
@@ -45,6 +48,10 @@ Plan make_plan(const Options& options) {
   plan.renderer.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
   plan.renderer.temporal = options.temporal;
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
+  plan.view = *passes::find_debug_view(options.view);
+  if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);
+  if (plan.slice && !passes::has_slice(plan.view))
+    throw Error(ErrorCode::usage, "--slice: needs --view density, light or distance");
   for (const std::string& text : options.smokes) {
     const glm::vec3 place = parse_point("--smoke", text);
     plan.smokes.push_back({0, place, place});
@@ -89,6 +96,13 @@ stage::Stage load(const Options& options, const Plan& plan) {
   stage::Stage stage = stage::load_stage(input, {}).value_or_throw();
   if (!plan.smokes.empty()) stage.timeline.smokes = plan.smokes;
   return stage;
+}
+
+std::string view_names() {
+  std::string names;
+  for (const std::string_view name : std::span(passes::kDebugViewNames).subspan(1))
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
 }
 
 double cpu_seconds() {
@@ -158,6 +172,7 @@ void render(const Options& options, const CommonOptions& common) {
   render::Playback playback(context, stage, plan.renderer);
   playback.set_camera(plan.camera);
   playback.set_step_scale(options.step);
+  playback.set_view(plan.view, plan.slice);
   Draughtsman draughtsman(playback);
   write(options, plan, common, stage.timeline, draughtsman);
   if (options.json.empty()) return;
@@ -211,6 +226,14 @@ Command add_render(CLI::App& program) {
       ->type_name("X");
   parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
       ->type_name("CAMERA");
+  parser.add_option("--view", options->view, "What the picture is made from: " + view_names())
+      ->check(CLI::IsMember(
+          std::vector<std::string>(passes::kDebugViewNames.begin(), passes::kDebugViewNames.end())))
+      ->type_name("VIEW");
+  parser
+      .add_option("--slice", options->slice,
+                  "Where --view density, light and distance cut; default: in the smoke")
+      ->type_name("AXIS=M");
   parser.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -9,6 +9,11 @@ SHARED_CONST uint kRaysOfPixels = 0u;
 SHARED_CONST uint kRaysOfBlocks = 1u;
 SHARED_CONST uint kRaysOfList = 2u;
 
+/// What the march counts: nothing; the samples of textures, all together; these and each ray's steps.
+SHARED_CONST uint kCountNothing = 0u;
+SHARED_CONST uint kCountSamples = 1u;
+SHARED_CONST uint kCountSteps = 2u;
+
 /// Where the ray of a block runs, and where the surfaces of the block's pixels lie [m along the view axis]. They fall
 /// into two groups at the middle of near and far:
 ///

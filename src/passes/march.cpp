@@ -29,7 +29,10 @@ gpu::ComputePipeline pipeline(gpu::Context& context, const MarchPass::Options& o
            gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
           0,
           {8, 8, 1},
-          {options.count_samples ? 1u : 0u, rays, holes}};
+          {options.count_steps     ? shared::kCountSteps
+           : options.count_samples ? shared::kCountSamples
+                                   : shared::kCountNothing,
+           rays, holes}};
 }
 
 /// For frames without holes, and for those with.

@@ -23,7 +23,9 @@ class MarchPass {
  public:
   struct Options {
     bool count_samples = false;  ///< record adds the texture samples taken to the first word of `counters`.
-    bool plain_holes = false;    ///< Every sample asks every hole: what the usual way is measured against.
+    /// The same, and the steps of each pixel's ray behind it, rows in order: room for a word and one a pixel.
+    bool count_steps = false;
+    bool plain_holes = false;  ///< Every sample asks every hole: what the usual way is measured against.
   };
   MarchPass(gpu::Context& context, const Options& options);
 

@@ -85,6 +85,8 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   input.continues = last_frame_index_ && frame_index == *last_frame_index_ + 1;
   last_frame_index_ = frame_index;
   if (camera_) input.camera = *camera_;
+  input.view = view_;
+  input.view_slice = slice_;
   renderer_.prepare(input);
   runner_.run([&](gpu::Recorder& recorder) {
     renderer_.record_frame(recorder, input);

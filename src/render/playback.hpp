@@ -30,6 +30,11 @@ class Playback {
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
   /// FrameInput::step_scale of the frames that follow.
   void set_step_scale(float scale) { step_scale_ = scale; }
+  /// FrameInput::view and view_slice from now on.
+  void set_view(passes::DebugView view, const std::optional<passes::ViewSlice>& slice) {
+    view_ = view;
+    slice_ = slice;
+  }
   /// GPU times of the passes of the last frame.
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
   /// Share of the pixels of the last frame whose rays were marched one by one, in [0, 1].
@@ -45,6 +50,8 @@ class Playback {
   gpu::Buffer list_;  ///< shared::MarchList of the last frame.
   std::optional<scene::Camera> camera_;
   float step_scale_ = 1;
+  passes::DebugView view_ = passes::DebugView::none;
+  std::optional<passes::ViewSlice> slice_;
   std::optional<std::uint32_t> last_frame_index_;
 };
 

@@ -34,6 +34,12 @@ const sim::State& state_of(const FrameInput& input) {
   return input.state ? *input.state : kNothing;
 }
 
+passes::DebugSubject subject_of(const FrameInput& input) {
+  const passes::ViewSlice slice = input.view_slice.value_or(
+      passes::slice_through_smoke(input.volume, input.camera.position_world, input.camera.target_world));
+  return {input.view, slice, input.level, input.volume, input.state};
+}
+
 }  // namespace
 
 Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
@@ -41,13 +47,14 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
     : context_(context),
       runner_(runner),
       size_px_(options.size_px),
+      plain_holes_(options.plain_holes),
       scene_(passes::upload_scene(context, runner, scene)),
       gbuffer_pass_(context),
       shadow_pass_(context),
       smoke_shadow_pass_(context),
       shade_pass_(context),
       smoke_light_pass_(context),
-      march_pass_(context, {options.count_samples, options.plain_holes}),
+      march_pass_(context, {options.count_samples, false, options.plain_holes}),
       resolve_pass_(context),
       display_pass_(context),
       smoke_upload_(context),
@@ -127,6 +134,19 @@ void Renderer::prepare(const FrameInput& input) {
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
   smoke_light_pass_.reserve({input.volume, &needs_, lights_, input.holes, input.time, input.look, input.sky,
                              input.camera.position_world, walls_changed || input.force_light});
+  if (input.view != passes::DebugView::none) reserve_view(input);
+}
+
+void Renderer::reserve_view(const FrameInput& input) {
+  if (!debug_view_) debug_view_.emplace(context_);
+  debug_view_->reserve(subject_of(input), size_px_);
+  if (input.view == passes::DebugView::steps && !counting_march_)
+    counting_march_.emplace(context_, passes::MarchPass::Options{false, true, plain_holes_});
+}
+
+void Renderer::record_view(gpu::Recorder& recorder, const FrameInput& input) {
+  debug_view_->record(recorder, subject_of(input),
+                      {frame_, gbuffer_, smoke_upload_.resources(), open_holes_.resources()}, display_image_);
 }
 
 void Renderer::follow_hidden_objects(const FrameInput& input) {
@@ -160,7 +180,7 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.march_scale = march_scale_;
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
   recorder.upload(scene_.lights, 0, std::as_bytes(std::span(lights_)));
-  recorder.fill(counters_, 0);
+  recorder.fill(march_of(input).counters, 0);
 }
 
 void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
@@ -193,13 +213,18 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
   stage("smoke_light", [&] {
     smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, {solid_, sky_light_}});
   });
-  stage("march", [&] { record_march(recorder); });
-  if (blocks_) stage("resolve", [&] { record_resolve(recorder); });
+  const March march = march_of(input);
+  stage("march", [&] { record_march(recorder, march); });
+  if (blocks_) stage("resolve", [&] { record_resolve(recorder, march); });
   if (accumulate_pass_)
     stage("accumulate", [&] {
       accumulate_pass_->record(recorder, frame_, device_camera(input.camera, size_px_), gbuffer_.depth,
                                smoke_image_, input.continues);
     });
+  if (input.view != passes::DebugView::none) {
+    stage("debug_view", [&] { record_view(recorder, input); });
+    return;
+  }
   stage("shade", [&] {
     shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, {solid_, sky_light_}, gbuffer_,
                        this->smoke(), picture_);
@@ -224,19 +249,24 @@ passes::MarchPass::Inputs Renderer::march_inputs() const {
   return {frame_, smoke_upload_.resources(), noise_, gbuffer_.depth, blue_noise_, open_holes_.resources()};
 }
 
-void Renderer::record_march(gpu::Recorder& recorder) {
+Renderer::March Renderer::march_of(const FrameInput& input) const {
+  if (input.view == passes::DebugView::steps) return {*counting_march_, debug_view_->counters()};
+  return {march_pass_, counters_};
+}
+
+void Renderer::record_march(gpu::Recorder& recorder, const March& march) {
   if (!blocks_) {
-    march_pass_.record(recorder, march_inputs(), smoke_image_, counters_);
+    march.pass.record(recorder, march_inputs(), smoke_image_, march.counters);
     return;
   }
   resolve_pass_.record_ends(recorder, frame_, gbuffer_.depth, *blocks_);
-  march_pass_.record_blocks(recorder, march_inputs(), *blocks_, counters_);
+  march.pass.record_blocks(recorder, march_inputs(), *blocks_, march.counters);
 }
 
-void Renderer::record_resolve(gpu::Recorder& recorder) {
+void Renderer::record_resolve(gpu::Recorder& recorder, const March& march) {
   resolve_pass_.record_select(recorder, frame_, gbuffer_.emission, *blocks_);
   resolve_pass_.record(recorder, frame_, gbuffer_.depth, *blocks_, smoke_image_);
-  march_pass_.record_list(recorder, march_inputs(), *blocks_, smoke_image_, counters_);
+  march.pass.record_list(recorder, march_inputs(), *blocks_, smoke_image_, march.counters);
 }
 
 bool Renderer::needs_light(const FrameInput& input) {

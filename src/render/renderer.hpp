@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "passes/accumulate.hpp"
+#include "passes/debug_view.hpp"
 #include "passes/display.hpp"
 #include "passes/drift.hpp"
 #include "passes/march.hpp"
@@ -44,6 +45,9 @@ struct FrameInput {
   /// Multiplies look.step_length, for devices that the usual steps are too much for; > 0. Light in the smoke
   /// is the same with any.
   float step_scale = 1;
+  passes::DebugView view = passes::DebugView::none;  ///< What is shown; `display` alone has it.
+  /// Where views of density, light and distance cut; empty: passes::slice_through_smoke.
+  std::optional<passes::ViewSlice> view_slice;
 };
 
 struct RendererOptions {
@@ -102,16 +106,25 @@ class Renderer {
   bool needs_light(const FrameInput& input);
 
   passes::MarchPass::Inputs march_inputs() const;
+  /// What marches the frame's rays, and where it counts.
+  struct March {
+    const passes::MarchPass& pass;
+    const gpu::Buffer& counters;
+  };
+  March march_of(const FrameInput& input) const;
   /// The rays of pixels or of blocks.
-  void record_march(gpu::Recorder& recorder);
+  void record_march(gpu::Recorder& recorder, const March& march);
   /// From the rays of blocks to the smoke of every pixel.
-  void record_resolve(gpu::Recorder& recorder);
+  void record_resolve(gpu::Recorder& recorder, const March& march);
 
   void follow_hidden_objects(const FrameInput& input);
+  void reserve_view(const FrameInput& input);
+  void record_view(gpu::Recorder& recorder, const FrameInput& input);
 
   gpu::Context& context_;
   gpu::CommandRunner& runner_;
   glm::uvec2 size_px_;
+  bool plain_holes_;
   std::uint32_t march_scale_ = 1;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;
@@ -120,6 +133,8 @@ class Renderer {
   passes::ShadePass shade_pass_;
   passes::SmokeLightPass smoke_light_pass_;
   passes::MarchPass march_pass_;
+  std::optional<passes::MarchPass> counting_march_;  ///< For the view of steps.
+  std::optional<passes::DebugViewPass> debug_view_;  ///< From the first frame that is not the picture on.
   passes::ResolvePass resolve_pass_;
   passes::DisplayPass display_pass_;
   passes::SmokeUpload smoke_upload_;

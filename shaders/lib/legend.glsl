@@ -1,0 +1,50 @@
+// A ramp with three numbers in the lower left corner of a view. The includer has `frame` and `params`.
+#ifndef LEGEND_GLSL
+#define LEGEND_GLSL
+#include "shared/debug_view.h"
+#include "shared/frame.h"
+
+// 0 to 9, a point, m, +: rows of three pixels, the top one in the highest bits.
+const uint kGlyphRows[13] = {0x7b6fu, 0x2c97u, 0x73e7u, 0x73cfu, 0x5bc9u, 0x79cfu, 0x79efu, 0x7252u, 0x7befu, 0x7bcfu,
+                             0x0002u, 0x0fedu, 0x05d0u};
+
+/// Whether a pixel of a label is inked; `at` from its left upper corner, in pixels of the glyphs, four across each.
+bool inked(uint label, ivec2 at) {
+  if (at.x < 0 || at.y < 0 || at.x >= 4 * int(kLabelGlyphs) || at.y >= 5 || at.x % 4 == 3) return false;
+  const uint glyph = label >> uint(5 * (at.x / 4)) & 31u;
+  return glyph != kGlyphNone && (kGlyphRows[min(glyph, 12u)] >> uint(14 - 3 * at.y - at.x % 4) & 1u) != 0u;
+}
+
+/// Glyphs of a label.
+int label_length(uint label) {
+  int length = 0;
+  while (length < int(kLabelGlyphs) && (label >> uint(5 * length) & 31u) != kGlyphNone) ++length;
+  return length;
+}
+
+/// The picture with the legend over it; none in pictures too small for one.
+vec3 with_legend(vec3 colour, ivec2 px, uint ramp) {
+  const ivec2 size = ivec2(frame.size_px);
+  if (params.labels == uvec3(0u) || size.x < 200 || size.y < 100) return colour;
+  const int scale = max(1, size.y / 180);
+  const ivec2 bar = ivec2(88, 5) * scale, margin = ivec2(12, 5) * scale;
+  const ivec2 panel = bar + 2 * margin + ivec2(0, 8 * scale);
+  const ivec2 at = px - ivec2(6 * scale, size.y - 6 * scale - panel.y);
+  if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, panel))) return colour;
+  colour = mix(colour, vec3(0.03, 0.035, 0.045), 0.78);
+  const ivec2 in_bar = at - margin;
+  if (all(greaterThanEqual(in_bar, ivec2(0))) && all(lessThan(in_bar, bar)))
+    return ramp_colour(ramp, (float(in_bar.x) + 0.5) / float(bar.x));
+  for (int i = 0; i < 3; ++i) {
+    const uint label = params.labels[i];
+    const int left = i * (bar.x - 1) / 2 - (4 * label_length(label) - 1) * scale / 2;
+    const ivec2 in_label = in_bar - ivec2(left, bar.y + 3 * scale);
+    if (all(greaterThanEqual(in_label, ivec2(0))) && inked(label, in_label / scale)) return vec3(0.86, 0.88, 0.9);
+    // A tick above each number.
+    const int tick = abs(in_bar.x - i * (bar.x - 1) / 2);
+    if (tick < scale && in_bar.y >= bar.y && in_bar.y < bar.y + 2 * scale) return vec3(0.6, 0.62, 0.65);
+  }
+  return colour;
+}
+
+#endif

@@ -1,0 +1,110 @@
+// Pictures of what the picture is made from: voxels, distances, slices, numbers of rays, surfaces
+// (docs/debug-views.md).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "passes/gbuffer.hpp"
+#include "passes/open_holes.hpp"
+#include "passes/solid_volume.hpp"
+#include "shared/debug_view.h"
+#include "sim/smoke_volume.hpp"
+#include "sim/state.hpp"
+
+namespace brume::passes {
+
+enum class DebugView : std::uint32_t {
+  none = shared::kViewNone,  ///< The picture itself.
+  solid = shared::kViewSolid,
+  distance = shared::kViewDistance,
+  density = shared::kViewDensity,
+  light = shared::kViewLight,
+  holes = shared::kViewHoles,
+  steps = shared::kViewSteps,
+  bricks = shared::kViewBricks,
+  normals = shared::kViewNormals,
+  albedo = shared::kViewAlbedo,
+  depth = shared::kViewDepth,
+};
+
+/// The names of all views by their number, that of `none` first.
+constexpr std::array<std::string_view, shared::kViewCount> kDebugViewNames{
+    "none",  "solid",  "distance", "density", "light", "holes",
+    "steps", "bricks", "normals",  "albedo",  "depth"};
+
+constexpr std::string_view debug_view_name(DebugView view) {
+  return kDebugViewNames[static_cast<std::size_t>(view)];
+}
+/// Nothing where no view has the name.
+std::optional<DebugView> find_debug_view(std::string_view name);
+
+/// Whether a view depends on where its slice is.
+constexpr bool has_slice(DebugView view) {
+  return view == DebugView::density || view == DebugView::light || view == DebugView::distance;
+}
+
+/// A plane across an axis of the world: on it density and light are shown, on its far side distances.
+struct ViewSlice {
+  std::uint32_t axis = 1;  ///< 0, 1 or 2: x, y or z.
+  float at_world = 1.2f;   ///< [m]
+  bool operator==(const ViewSlice&) const = default;
+};
+
+/// The slice that faces the eye most of those across x and z, through the middle of the smoke and of its
+/// voxels; without smoke (null: none) through the target.
+ViewSlice slice_through_smoke(const sim::SmokeVolume* volume, glm::vec3 eye_world, glm::vec3 target_world);
+
+/// The number at the end of a view's ramp: of distance, from what the clouds may fill [m], of holes [m], of
+/// steps.
+float ramp_end(DebugView view, const sim::State& state);
+
+/// What a view is of.
+struct DebugSubject {
+  DebugView view = DebugView::none;  ///< Not `none`.
+  ViewSlice slice;
+  LevelView level;
+  const sim::SmokeVolume* volume = nullptr;  ///< null: no smoke.
+  const sim::State* state = nullptr;         ///< Whose clouds have distances; null: there are none.
+};
+
+class DebugViewPass {
+ public:
+  /// Makes next to nothing: what a view needs is made when it is reserved first.
+  explicit DebugViewPass(gpu::Context& context);
+
+  /// Makes the view's pipeline and room for what it needs. Outside of a recording, when the device is done
+  /// with the one before. Throws resource_limit.
+  void reserve(const DebugSubject& subject, glm::uvec2 size_px);
+
+  struct Inputs {
+    const gpu::Buffer& frame;
+    const GBuffer& gbuffer;
+    const SmokeResources& smoke;
+    const HoleResources& holes;
+  };
+  /// Writes the view to `display` (RGBA8). The subject is as `reserve` saw it.
+  void record(gpu::Recorder& recorder, const DebugSubject& subject, const Inputs& inputs,
+              const gpu::Image& display);
+
+  /// Where MarchPass counts for the view of steps: the frame's samples, then the steps of each pixel. There
+  /// after `reserve` with that view.
+  const gpu::Buffer& counters() const { return counters_; }
+
+ private:
+  void find_level(const LevelView& level);
+  void find_ways(const DebugSubject& subject);
+
+  gpu::Context& context_;
+  gpu::Sampler nearest_, linear_;
+  std::array<std::optional<gpu::ComputePipeline>, shared::kViewCount> pipelines_;
+  gpu::Buffer level_, ways_, counters_;
+  gpu::Buffer nothing_;  ///< Bound where a view does without.
+  glm::ivec3 root_size_{0};
+  // What is to be uploaded, and what it was made from.
+  std::vector<std::uint32_t> level_words_, way_words_;
+  std::optional<LevelView> seen_level_;
+};
+
+}  // namespace brume::passes
