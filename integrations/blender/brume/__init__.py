@@ -1,0 +1,28 @@
+"""Brume for Blender: exports levels, writes timelines, shows what Brume renders.
+
+Runs as an add-on of Blender 3.4 to 4.1 (bl_info) and as an extension from 4.2 on (blender_manifest.toml).
+"""
+
+bl_info = {
+    "name": "Brume",
+    "description": "Exports levels for volumetric smoke and renders them with Brume",
+    "author": "The Brume authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "3D View > Sidebar > Brume, File > Export > Brume Level, Add > Brume",
+    "category": "Import-Export",
+}
+
+from . import export_level, panels, preferences, properties, render, voxels  # noqa: E402
+
+_MODULES = (preferences, properties, export_level, render, voxels, panels)
+
+
+def register():
+    for module in _MODULES:
+        module.register()
+
+
+def unregister():
+    for module in reversed(_MODULES):
+        module.unregister()

@@ -1,0 +1,70 @@
+"""From Blender's axes and units to Brume's: Z up to Y up, scene units to metres. Matrices are numpy arrays of doubles."""
+
+import math
+
+import numpy as np
+
+from .messages import BrumeError
+
+# (x, y, z) of Blender is (x, z, -y) of Brume: both right-handed, a turn by -90 degrees about x.
+BRUME_FROM_BLENDER = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+
+_TINY = 1e-6
+
+
+def metres_per_unit(scene):
+    """The length of one Blender unit; without a unit system Blender does not apply its scale."""
+    settings = scene.unit_settings
+    return settings.scale_length if settings.system != "NONE" else 1.0
+
+
+def point(blender_point, metres):
+    """A point of Blender's world in Brume's [m]."""
+    return BRUME_FROM_BLENDER @ np.array(blender_point, dtype=float)[:3] * metres
+
+
+def matrix(blender_matrix, metres):
+    """world_from_mesh in Brume's axes and metres, for mesh points that were turned by BRUME_FROM_BLENDER."""
+    source = np.array(blender_matrix, dtype=float)
+    result = np.identity(4)
+    result[:3, :3] = BRUME_FROM_BLENDER @ source[:3, :3] @ BRUME_FROM_BLENDER.T * metres
+    result[:3, 3] = point(source[:3, 3], metres)
+    return result
+
+
+def has_orthogonal_columns(linear):
+    """Whether a 3x3 matrix is a rotation times a scale along the mesh's own axes, none of them nothing."""
+    lengths = np.linalg.norm(linear, axis=0)
+    if lengths.min() <= _TINY * lengths.max():
+        return False
+    unit = linear / lengths
+    return np.abs(unit.T @ unit - np.identity(3)).max() <= _TINY
+
+
+def scale_and_angles(linear):
+    """The scale and the angles of a Scene.txt line, or None for a matrix that they cannot say.
+
+    Scene.txt scales after it turns: linear = diag(scale) * Rx(-x) * Ry(-y) * Rz(-z). That needs rows at right
+    angles, which a rotated object has only with a uniform scale.
+    """
+    if not has_orthogonal_columns(linear.T):
+        return None
+    scale = np.linalg.norm(linear, axis=1)
+    if np.linalg.det(linear) < 0:
+        scale = -scale
+    turn = linear / scale[:, None]
+    across = math.hypot(turn[0, 0], turn[0, 1])
+    y = math.atan2(turn[0, 2], across)
+    if across > 1e-7:
+        x, z = math.atan2(-turn[1, 2], turn[2, 2]), math.atan2(-turn[0, 1], turn[0, 0])
+    else:  # Turned by 90 degrees about y: x and z turn about the same axis.
+        x, z = math.atan2(turn[2, 1], turn[1, 1]), 0.0
+    return scale, -np.array([x, y, z])
+
+
+def number(value):
+    """A number as text: the shortest that is the same float, in a form that TOML takes for a float."""
+    rounded = np.float32(value) + np.float32(0)  # -0 becomes 0.
+    if not np.isfinite(rounded):
+        raise BrumeError("a place or a setting of the scene is not a finite number; look for broken matrices")
+    return np.format_float_positional(rounded, unique=True, trim="0")

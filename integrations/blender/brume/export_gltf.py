@@ -1,0 +1,188 @@
+"""glTF by Blender's own exporter, run on a scene of its own: what stands there has plain transforms in metres."""
+
+import json
+import os
+import struct
+import tempfile
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from . import conversion, files, meshes
+from .level import WIDEST_SPOT, spot_for_area
+from .messages import BrumeError
+
+# Every setting that the result depends on; versions of the exporter know some under another name, or not at all.
+_SETTINGS = {
+    "export_format": "GLB",
+    "check_existing": False,
+    "will_save_settings": False,
+    "use_selection": False,
+    "use_visible": False,
+    "use_renderable": False,
+    "use_active_collection": False,
+    "use_active_scene": True,
+    "export_yup": True,
+    "export_apply": False,  # The meshes are evaluated already.
+    "export_materials": "EXPORT",
+    "export_image_format": "AUTO",
+    "export_texcoords": True,
+    "export_normals": True,
+    "export_tangents": False,
+    "export_cameras": True,
+    "export_lights": True,
+    # W / (4 pi) is the intensity in W/sr that Brume takes a candela for; the other modes multiply by 683 lm/W.
+    "convert_lighting_mode": "COMPAT",
+    "export_import_convert_lighting_mode": "COMPAT",
+    "export_extras": False,
+    "export_animations": False,
+    "export_skins": False,
+    "export_morph": False,
+    "export_draco_mesh_compression_enable": False,
+}
+
+
+def _blender_matrix(world_from_mesh):
+    """Back to Blender's axes, still in metres."""
+    turn = np.identity(4)
+    turn[:3, :3] = conversion.BRUME_FROM_BLENDER
+    return Matrix((turn.T @ world_from_mesh @ turn).tolist())
+
+
+class _Stand:
+    """A scene with copies of what is exported, for the time of the export."""
+
+    def __init__(self, scene):
+        self._made = []
+        self.scene = bpy.data.scenes.new("brume export")
+        self.names, self.passable = {}, set()
+        render, own = self.scene.render, scene.render
+        for setting in ("resolution_x", "resolution_y", "pixel_aspect_x", "pixel_aspect_y"):
+            setattr(render, setting, getattr(own, setting))
+
+    def remove(self):
+        bpy.data.scenes.remove(self.scene)
+        for collection, made in reversed(self._made):
+            collection.remove(made)
+
+    def _add(self, data, matrix, name):
+        made = bpy.data.objects.new(f"brume {len(self._made)}", data)
+        self._made.append((bpy.data.objects, made))
+        self.scene.collection.objects.link(made)
+        made.rotation_mode = "QUATERNION"
+        made.matrix_world = matrix
+        self.names[made.name] = name
+        return made
+
+    def add_piece(self, piece, thing):
+        mesh, matrix = piece.mesh, _blender_matrix(piece.world_from_mesh)
+        linear = np.array(matrix)[:3, :3]
+        if not conversion.has_orthogonal_columns(linear):
+            # Sheared by a parent: a node's scale and rotation cannot say it, the points can.
+            # A mirrored one stays mirrored by its node, so that its faces keep their order.
+            mesh = mesh.copy()
+            self._made.append((bpy.data.meshes, mesh))
+            side = Matrix.Scale(-1 if np.linalg.det(linear) < 0 else 1, 4, (1, 0, 0))
+            meshes.bend(mesh, side @ matrix)
+            matrix = side
+        made = self._add(mesh, matrix, thing.name)
+        for slot, material in zip(made.material_slots, piece.materials):
+            if slot.material != material:
+                slot.link = "OBJECT"
+                slot.material = material
+        if thing.role == "PASSABLE":
+            self.passable.add(made.name)
+
+    def add_lamp(self, lamp):
+        data = lamp.data.copy()
+        self._made.append((bpy.data.lights, data))
+        data.use_nodes = False
+        data.energy = lamp.power
+        if data.type == "AREA":
+            data.type = "SPOT"
+            data = bpy.data.lights[data.name]  # Its class follows its type.
+            data.spot_size, data.spot_blend = WIDEST_SPOT, 1.0
+            data.energy = spot_for_area(lamp.power)
+        if data.type == "SPOT":
+            data.spot_size = min(data.spot_size, WIDEST_SPOT)
+        self._add(data, _blender_matrix(lamp.world_from_lamp), lamp.data.name)
+
+    def add_camera(self, camera, metres):
+        data = camera.data.copy()
+        self._made.append((bpy.data.cameras, data))
+        matrix = conversion.matrix(camera.matrix_world, metres)
+        self.scene.camera = self._add(data, _blender_matrix(matrix), camera.name)
+
+
+def _run_exporter(context, scene, path):
+    operator = getattr(bpy.ops.export_scene, "gltf", None)
+    try:
+        known = set(operator.get_rna_type().properties.keys())
+    except (AttributeError, KeyError) as error:
+        raise BrumeError('the add-on "glTF 2.0 format" is off; switch it on in the preferences') from error
+    window, before = context.window, context.scene
+    if window:
+        window.scene = scene
+    try:
+        with context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
+            scene.view_layers[0].update()
+            settings = {key: value for key, value in _SETTINGS.items() if key in known}
+            operator("EXEC_DEFAULT", filepath=path, **settings)
+    except RuntimeError as error:
+        raise BrumeError(f"Blender's glTF exporter failed: {str(error).strip().splitlines()[-1]}") from error
+    finally:
+        if window:
+            window.scene = before
+
+
+def _json_and_rest(data):
+    """The two chunks of a GLB (glTF 2.0, section 4.4)."""
+    length, kind = struct.unpack_from("<II", data, 12)
+    if data[:4] != b"glTF" or kind != 0x4E4F534A:
+        raise BrumeError("Blender's glTF exporter wrote no GLB")
+    return json.loads(data[20 : 20 + length]), data[20 + length :]
+
+
+def _glb(document, rest):
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    size = 20 + len(text) + len(rest)
+    return struct.pack("<4sIIII", b"glTF", 2, size, len(text), 0x4E4F534A) + text + rest
+
+
+def _name_nodes(document, stand):
+    """The names that things have in Brume, and the mark of what smoke passes through."""
+    shapes = document.get("meshes", [])
+    for node in document.get("nodes", []):
+        made = node.get("name", "")
+        if made not in stand.names:
+            continue
+        node["name"] = stand.names[made]
+        if made in stand.passable:
+            node["extras"] = {"brume_ignore": True}
+        if "mesh" in node:
+            # A mesh's own name could mark it as passable, or as the grenade, for all that share it.
+            shapes[node["mesh"]]["name"] = "mesh of " + stand.names[made]
+
+
+def export(context, path, level, camera):
+    """Writes a GLB: meshes, materials, textures, lamps (KHR_lights_punctual), the camera."""
+    stand = _Stand(context.scene)
+    try:
+        for thing in level.things:
+            for piece in thing.pieces:
+                stand.add_piece(piece, thing)
+        for lamp in level.lamps:
+            stand.add_lamp(lamp)
+        if camera:
+            stand.add_camera(camera, level.metres)
+        with tempfile.TemporaryDirectory(prefix="brume_") as folder:
+            written = os.path.join(folder, "level.glb")
+            _run_exporter(context, stand.scene, written)
+            with open(written, "rb") as file:
+                document, rest = _json_and_rest(file.read())
+    finally:
+        stand.remove()
+    _name_nodes(document, stand)
+    files.write(path, _glb(document, rest))

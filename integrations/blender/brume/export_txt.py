@@ -1,0 +1,186 @@
+"""Scene.txt with Meshes/*.obj and Textures/*_diffuse.png: a line an object or a lamp."""
+
+import os
+
+import numpy as np
+
+from . import conversion, files, meshes, names, textures
+from .conversion import number
+
+
+class _Part:
+    """The triangles of a piece that have one material, as arrays, corner by corner."""
+
+    def __init__(self, positions, normals, uvs, material):
+        self.positions, self.normals, self.uvs, self.material = positions, normals, uvs, material
+
+    def turned(self, linear):
+        """Under a 3x3 matrix; faces look out of what they looked out of, mirrored or not."""
+        normals = self.normals @ meshes.cofactors(linear).T
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        normals = np.where(lengths > 1e-30, normals / np.maximum(lengths, 1e-30), self.normals)
+        positions, uvs = self.positions @ linear.T, self.uvs
+        if np.linalg.det(linear) < 0:
+            order = np.arange(len(positions)).reshape(-1, 3)[:, ::-1].ravel()
+            positions, normals, uvs = positions[order], normals[order], uvs[order]
+        return _Part(positions, normals, uvs, self.material)
+
+    def key(self):
+        return tuple(array.astype(np.float32).tobytes() for array in (self.positions, self.normals, self.uvs))
+
+
+def _parts(piece):
+    """The mesh of a piece by material, in Brume's axes, in the mesh's own space."""
+    mesh = piece.mesh
+    mesh.calc_loop_triangles()
+    count = len(mesh.loop_triangles)
+    corners, slots = np.empty(3 * count, dtype=np.int32), np.empty(count, dtype=np.int32)
+    mesh.loop_triangles.foreach_get("loops", corners)
+    mesh.loop_triangles.foreach_get("material_index", slots)
+    points = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", points)
+    of_corner = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.loops.foreach_get("vertex_index", of_corner)
+    uvs = np.zeros((len(mesh.loops), 2), dtype=np.float32)
+    layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
+    if layer:
+        flat = np.empty(2 * len(mesh.loops), dtype=np.float32)
+        layer.data.foreach_get("uv", flat)
+        uvs = flat.reshape(-1, 2)
+
+    turn = conversion.BRUME_FROM_BLENDER.T
+    positions = points.reshape(-1, 3).astype(float)[of_corner] @ turn
+    normals = meshes.corner_normals(mesh).astype(float) @ turn
+    materials = piece.materials or [None]
+    slots = np.clip(slots, 0, len(materials) - 1)
+    parts = {}
+    for slot in np.unique(slots):
+        taken = corners.reshape(-1, 3)[slots == slot].ravel()
+        material = materials[slot]
+        part = _Part(positions[taken], normals[taken], uvs[taken].astype(float), material)
+        parts.setdefault(material, []).append(part)
+    return [_joined(same, material) for material, same in parts.items()]
+
+
+def _joined(parts, material):
+    if len(parts) == 1:
+        return parts[0]
+    arrays = (np.concatenate([getattr(part, name) for part in parts]) for name in ("positions", "normals", "uvs"))
+    return _Part(*arrays, material)
+
+
+def _obj_text(part):
+    """Positions, texture coordinates and normals, each once."""
+    lines, columns = ["# Metres or units of the scene file, Y up"], []
+    for keyword, values in (("v", part.positions), ("vt", part.uvs), ("vn", part.normals)):
+        unique, index = np.unique(values.astype(np.float32), axis=0, return_inverse=True)
+        lines += [keyword + "".join(f" {value:.9g}" for value in row) for row in unique.tolist()]
+        columns.append(index.ravel() + 1)
+    for face in np.stack(columns, axis=1).reshape(-1, 9).tolist():
+        lines.append("f {}/{}/{} {}/{}/{} {}/{}/{}".format(*face))
+    return "\n".join(lines) + "\n"
+
+
+class _Writer:
+    def __init__(self, folder, level, warnings):
+        self._folder, self._level, self._warnings = folder, level, warnings
+        self._mesh_names, self._written, self._materials = {}, {}, {}
+        # Names of parts must not meet those of things.
+        self._part_names = names.UniqueNames(thing.name for thing in level.things)
+        self._material_names = names.UniqueNames()
+        self.lines = ["# Name\tPosition\tRotation\tScale\tMaterial\tRoughness"]
+
+    def add(self, thing):
+        if thing.role == "DOOR":
+            self._add_door(thing)
+            return
+        parts = _parts(thing.pieces[0])
+        for part in parts:
+            name = thing.name
+            if len(parts) > 1:
+                name = f"{thing.name}.{names.safe(part.material.name if part.material else 'plain')}"
+                name = self._part_names.take(name)
+            if thing.role == "PASSABLE" and not name.startswith("IGNORE_"):
+                name = "IGNORE_" + name
+            self._place(part, thing.pieces[0].world_from_mesh, name, shared=thing.name != "Grenade")
+
+    def _add_door(self, door):
+        """One mesh, one material: a line's name is that of its mesh, and a door is what has its name."""
+        origin = door.pieces[0].world_from_mesh.copy()
+        parts = []
+        for piece in door.pieces:
+            offset = piece.world_from_mesh[:3, 3] - origin[:3, 3]
+            for part in _parts(piece):
+                turned = part.turned(piece.world_from_mesh[:3, :3])
+                turned.positions = turned.positions + offset
+                parts.append(turned)
+        origin[:3, :3] = np.identity(3)
+        found = list({part.material: None for part in parts})
+        if len(found) == 1:
+            self._place(_joined(parts, found[0]), origin, door.name, shared=False)
+            return
+        looks = [textures.look_of(material) for material in found]
+        if any(look.image for look in looks):
+            self._warnings.add(f'the door "{door.name}" has several materials: Scene.txt shows their mean colours')
+        for part in parts:
+            tile = found.index(part.material)
+            part.uvs = np.tile([(tile + 0.5) / len(found), 0.5], (len(part.uvs), 1))
+        material = self._material_names.take(door.name + "_colours")
+        tiles = textures.plain_png([look.mean_color() for look in looks])
+        files.write(os.path.join(self._folder, "Textures", material + "_diffuse.png"), tiles)
+        roughness = sum(look.roughness for look in looks) / len(looks)
+        self._place(_joined(parts, None), origin, door.name, shared=False, look=(material, roughness))
+
+    def _place(self, part, world_from_mesh, name, shared, look=None):
+        linear = world_from_mesh[:3, :3]
+        said = conversion.scale_and_angles(linear)
+        if said is None:
+            part, said = part.turned(linear), (np.ones(3), np.zeros(3))
+        if shared:
+            key = (part.key(), name.startswith("IGNORE_"))
+            name = self._mesh_names.setdefault(key, name)
+        if name not in self._written:
+            self._written[name] = True
+            files.write(os.path.join(self._folder, "Meshes", name + ".obj"), _obj_text(part))
+        material, roughness = look or self._material(part.material)
+        vectors = (world_from_mesh[:3, 3], said[1], said[0])
+        fields = [name] + [" ".join(number(value) for value in vector) for vector in vectors]
+        self.lines.append("\t".join(fields + [material, number(roughness)]))
+
+    def _material(self, material):
+        """The name and roughness of a material; its picture is written when it comes up first."""
+        if material in self._materials:
+            return self._materials[material]
+        look = textures.look_of(material)
+        name = self._material_names.take(names.safe(material.name if material else "plain", "material"))
+        stored = textures.image_file(look.image) if look.image else None
+        if look.image and not stored:
+            self._warnings.add(f'the image "{look.image.name}" has no pixels; its material is exported plain')
+        extension, data = stored or (".png", textures.plain_png([look.color]))
+        files.write(os.path.join(self._folder, "Textures", f"{name}_diffuse{extension}"), data)
+        if extension == ".jpg":  # A PNG of an earlier export would be taken first.
+            files.remove(os.path.join(self._folder, "Textures", f"{name}_diffuse.png"))
+        self._materials[material] = (name, look.roughness)
+        return self._materials[material]
+
+    def add_lamp(self, lamp):
+        """A point that gives off `power` watts evenly: what Blender's point lamps are, and all Scene.txt knows."""
+        kind = lamp.data.type
+        if kind == "SUN":
+            self._warnings.add(f'the sun "{lamp.data.name}" is left out: Scene.txt has none, glTF has')
+            return
+        if kind != "POINT":
+            self._warnings.add(f'the lamp "{lamp.data.name}" shines all around in Scene.txt; glTF keeps its cone')
+        values = [lamp.world_from_lamp[:3, 3], lamp.data.color, [lamp.power]]
+        fields = [" ".join(number(value) for value in vector) for vector in values]
+        self.lines.append("\t".join(["LIGHT_SOURCE"] + fields))
+
+
+def export(path, level, warnings):
+    """Writes the scene file and, beside it, the folders Meshes and Textures."""
+    writer = _Writer(os.path.dirname(path), level, warnings)
+    for thing in level.things:
+        writer.add(thing)
+    for lamp in level.lamps:
+        writer.add_lamp(lamp)
+    files.write(path, "\n".join(writer.lines) + "\n")

@@ -1,0 +1,73 @@
+"""Render with Brume: exports the scene, renders the current frame, shows the picture in an Image Editor."""
+
+import os
+
+import bpy
+
+from . import timeline
+from .export_level import EXTENSIONS, export
+from .job_operator import JobOperator
+from .messages import BrumeError
+
+IMAGE_NAME = "Brume Render"
+
+
+def _image(path):
+    """The picture of this render, in place of the one before; packed, for its file does not last."""
+    before = bpy.data.images.get(IMAGE_NAME)
+    image = bpy.data.images.load(path)
+    image.pack()
+    if before:
+        before.user_remap(image)
+        bpy.data.images.remove(before)
+    image.name = IMAGE_NAME
+    return image
+
+
+def _show(context, image):
+    """In the Image Editors that are open, or in a window of its own."""
+    windows = context.window_manager.windows
+    editors = [area for window in windows for area in window.screen.areas if area.type == "IMAGE_EDITOR"]
+    if not editors and context.window:
+        bpy.ops.wm.window_new()
+        area = windows[-1].screen.areas[0]
+        area.type = "IMAGE_EDITOR"
+        editors = [area]
+    for area in editors:
+        area.spaces.active.image = image
+
+
+class BRUME_OT_render(JobOperator, bpy.types.Operator):
+    """Render the current frame with Brume"""
+
+    bl_idname = "brume.render"
+    bl_label = "Render with Brume"
+
+    def arguments(self, context, folder):
+        scene = context.scene
+        options, render = scene.brume, scene.render
+        level = os.path.join(folder, "level" + EXTENSIONS[options.format])
+        written = export(context, level, options.format, self._warnings)
+        time = timeline.seconds(scene, scene.frame_current_final)
+        if not 0 <= time <= 3600:
+            raise BrumeError(f"frame {scene.frame_current} is at {time:g} s; Brume takes 0 to 3600 s")
+        width, height = (
+            max(1, side * render.resolution_percentage // 100) for side in (render.resolution_x, render.resolution_y)
+        )
+        return ["render", written, "-o", "render.png", "--time", f"{time:.6f}", "--size", f"{width}x{height}"] + [
+            "--march",
+            options.march,
+        ]
+
+    def finish(self, context, folder, _out):
+        image = _image(os.path.join(folder, "render.png"))
+        if not bpy.app.background:
+            _show(context, image)
+
+
+def register():
+    bpy.utils.register_class(BRUME_OT_render)
+
+
+def unregister():
+    bpy.utils.unregister_class(BRUME_OT_render)

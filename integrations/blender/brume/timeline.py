@@ -1,0 +1,259 @@
+"""The timeline: what stands as empties becomes events, the scene's camera becomes keys. TOML, docs/timeline.md."""
+
+import math
+import os
+
+import bpy
+from mathutils import Vector
+
+from . import conversion, files, names
+from .conversion import number
+from .messages import BrumeError
+from .properties import HOLE_TIMES
+
+_KEYS_PER_SECOND = 8
+_LONGEST = 3600.0
+_AHEAD = 5.0  # Metres from the camera to the point that it looks at.
+
+
+def quoted(text):
+    """A basic string of TOML."""
+    result = ""
+    for character in text:
+        if character in '"\\':
+            result += "\\" + character
+        elif ord(character) < 0x20 or ord(character) == 0x7F:
+            result += f"\\u{ord(character):04x}"
+        else:
+            result += character
+    return f'"{result}"'
+
+
+def _vector(values):
+    return "[" + ", ".join(number(value) for value in values) + "]"
+
+
+def seconds(scene, frame):
+    """The time of a frame, from the scene's first."""
+    return (frame - scene.frame_start) * scene.render.fps_base / scene.render.fps
+
+
+def frame_of(scene, time):
+    return scene.frame_start + time * scene.render.fps / scene.render.fps_base
+
+
+def moves(thing):
+    """Whether an object's place or lens may change from frame to frame."""
+    while thing is not None:
+        for block in (thing, thing.data):
+            animation = getattr(block, "animation_data", None)
+            if animation and (animation.action or animation.nla_tracks or animation.drivers):
+                return True
+        if thing.constraints:
+            return True
+        thing = thing.parent
+    return False
+
+
+class _Clock:
+    """Goes to frames, and back to where the scene was."""
+
+    def __init__(self, context):
+        self._context, self._scene = context, context.scene
+        self._before = self._scene.frame_current, self._scene.frame_subframe
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._set(*self._before)
+
+    def _set(self, frame, subframe):
+        if (self._scene.frame_current, self._scene.frame_subframe) != (frame, subframe):
+            self._scene.frame_set(frame, subframe=subframe)
+
+    def matrix_at(self, thing, time):
+        """world_from_object at a time [s]."""
+        return self.evaluated_at(thing, time).matrix_world.copy()
+
+    def evaluated_at(self, thing, time):
+        if moves(thing):
+            frame = frame_of(self._scene, time)
+            self._set(math.floor(frame), frame - math.floor(frame))
+        return thing.evaluated_get(self._context.evaluated_depsgraph_get())
+
+
+class Writer:
+    """Gathers the lines of a timeline. `level` knows what doors are called in the scene file."""
+
+    def __init__(self, context, level, folder, warnings):
+        self._context, self._scene, self._level = context, context.scene, level
+        self._folder, self._warnings = folder, warnings
+        self._copied = names.UniqueNames()
+
+    def write(self, path, scene_file):
+        with _Clock(self._context) as clock:
+            lines = self._head(scene_file) + self._camera(clock)
+            for thing, event in self._events():
+                lines += self._event(clock, thing, event)
+        files.write(path, "\n".join(lines) + "\n")
+
+    def _head(self, scene_file):
+        scene, options = self._scene, self._scene.brume
+        duration = seconds(scene, scene.frame_end + 1)
+        if not 0.01 <= duration <= _LONGEST:
+            raise BrumeError(f"the scene lasts {duration:g} s; a timeline takes 0.01 to 3600 s: change its frames")
+        exposure = min(max(scene.view_settings.exposure, -20.0), 20.0)
+        lines = ["version = 1", f"scene = {quoted(scene_file)}"]
+        lines += [f"duration = {number(duration)}", f"exposure = {number(exposure)}"]
+        lines += ["", "[grid]", f"voxel = {number(options.voxel)}"]
+        lines += ["", "[smoke]", f"voxels = {options.smoke_voxels}"]
+        lines += [f"{key} = {number(getattr(options, 'smoke_' + key))}" for key in ("bloom", "hold", "dissolve")]
+        lines += [f"extinction = {number(options.smoke_extinction)}"]
+        if options.sky == "WORLD":
+            color = _vector(min(max(value, 0.0), 1000.0) for value in _world_color(scene.world))
+            lines += ["", "[sky]"] + [f"{key} = {color}" for key in ("zenith", "horizon", "ambient")]
+        return lines
+
+    def _camera(self, clock):
+        camera, scene = self._scene.camera, self._scene
+        if camera is None or camera.type != "CAMERA":
+            self._warnings.add("the scene has no camera: Brume takes one that has all in view")
+            return []
+        if camera.data.type != "PERSP":
+            self._warnings.add(f'the camera "{camera.name}" is not a perspective one, and is left out')
+            return []
+        if any(marker.camera for marker in scene.timeline_markers):
+            self._warnings.add("markers that switch cameras are not exported")
+        times = [0.0]
+        if moves(camera):
+            last = seconds(scene, scene.frame_end)
+            count = max(1, math.ceil(last * _KEYS_PER_SECOND))
+            times = sorted({last * i / count for i in range(count + 1)})
+        keys = [(time, self._camera_key(clock, camera, time)) for time in times]
+        if all(key == keys[0][1] for _, key in keys):
+            keys = keys[:1]
+        lines = []
+        for time, (position, target, fov) in keys:
+            lines += ["", "[[camera]]", f"time = {number(time)}"]
+            lines += [f"position = {position}", f"target = {target}", f"fov = {number(fov)}"]
+        return lines
+
+    def _camera_key(self, clock, camera, time):
+        evaluated = clock.evaluated_at(camera, time)
+        matrix = evaluated.matrix_world
+        metres = self._level.metres
+        forward = -matrix.col[2].to_3d().normalized()
+        # A roll, or an axis out of the lens's middle, is more than position, target and field of view say.
+        if abs(matrix.col[0].to_3d().normalized().z) > 0.01:
+            self._warnings.add(f'the camera "{camera.name}" is rolled; Brume keeps the horizon level')
+        if evaluated.data.shift_x or evaluated.data.shift_y:
+            self._warnings.add(f'the shift of the camera "{camera.name}" is left out')
+        position = matrix.translation
+        target = position + forward * (_AHEAD / metres)
+        return (
+            _vector(conversion.point(position, metres)),
+            _vector(conversion.point(target, metres)),
+            min(max(math.degrees(vertical_fov(evaluated.data, self._scene)), 1.0), 170.0),
+        )
+
+    def _events(self):
+        found = []
+        for thing in self._scene.objects:
+            event = thing.brume_event
+            if thing.type == "EMPTY" and event.type != "NONE":
+                found.append((event.time, thing.name, thing, event))
+        return [entry[2:] for entry in sorted(found, key=lambda entry: entry[:2])]
+
+    def _event(self, clock, thing, event):
+        if event.type == "DOOR":
+            return self._door(thing, event)
+        place = clock.matrix_at(thing, event.time)
+        here = place.translation
+        keys = {"type": quoted(event.type.lower()), "time": number(event.time)}
+        if event.type == "SMOKE":
+            start = clock.matrix_at(event.thrown_from, event.time).translation if event.thrown_from else here
+            keys |= {"from": self._point(thing, start), "at": self._point(thing, here)}
+        elif event.type == "BLAST":
+            keys["at"] = self._point(thing, here)
+            keys |= {"radius": number(event.blast_radius), "flash": number(event.blast_flash)}
+            keys |= {key: number(getattr(event, key)) for key in ("speed", "left", "refill_rim")}
+            keys["refill_middle"] = number(max(event.refill_middle, event.refill_rim))
+        else:
+            keys |= self._aimed(clock, thing, event, place)
+        return ["", "[[event]]"] + [f"{key} = {value}" for key, value in keys.items()]
+
+    def _point(self, thing, blender_point):
+        values = conversion.point(blender_point, self._level.metres)
+        if abs(values).max() > 16384:
+            raise BrumeError(f'the event "{thing.name}" is farther than 16384 m from the origin; move it closer')
+        return _vector(values)
+
+    def _aimed(self, clock, thing, event, place):
+        """A shot or a text: from the empty along its arrow, its z axis, or to what it aims at."""
+        here = place.translation
+        toward = here + place.col[2].to_3d().normalized() * (10 / self._level.metres)
+        if event.aim:
+            toward = clock.matrix_at(event.aim, event.time).translation
+        if (Vector(toward) - here).length < 1e-6:
+            raise BrumeError(f'the event "{thing.name}" aims at where it is; move it or what it aims at')
+        keys = {"from": self._point(thing, here), "toward": self._point(thing, toward)}
+        keys["roll"] = number(math.degrees(event.roll))
+        keys |= {key: number(getattr(event, key)) for key in HOLE_TIMES}
+        if event.type == "TEXT":
+            if not 1 <= len(event.text.encode("utf-8")) <= 1024:
+                raise BrumeError(f'the text of "{thing.name}" has to be 1 to 1024 bytes long')
+            keys["text"] = quoted(event.text)
+            keys |= {key: number(getattr(event, key)) for key in ("size", "spacing", "interval")}
+            if event.font:
+                keys["font"] = self._copy_of(thing, event.font, "Fonts")
+            return keys
+        keys |= {"radius": number(event.radius), "flash": number(event.flash)}
+        keys["shape"] = quoted(event.shape.lower())
+        if event.shape == "MASK":
+            keys["mask"] = self._copy_of(thing, event.mask, "Masks")
+        return keys
+
+    def _copy_of(self, thing, file, kind):
+        """Copies a file below the timeline's folder, where timelines may name it."""
+        path = bpy.path.abspath(file)
+        try:
+            with open(path, "rb") as source:
+                data = source.read()
+        except OSError as error:
+            raise BrumeError(f'the event "{thing.name}" names {path}: {error.strerror}; choose another file') from error
+        stem, extension = os.path.splitext(os.path.basename(path))
+        name = f"{kind}/{self._copied.take(names.safe(stem, 'file'))}{names.safe(extension, '')}"
+        files.write(os.path.join(self._folder, name), data)
+        return quoted(name)
+
+    def _door(self, thing, event):
+        door = event.door
+        found = self._level.door_names.get(door.name, []) if door else []
+        if not found:
+            what = f'"{door.name}" is not marked as a door' if door else "it names no door"
+            self._warnings.add(f'the door event "{thing.name}" is left out: {what}')
+        lines = []
+        for name in found:
+            lines += ["", "[[event]]", 'type = "door"', f"time = {number(event.time)}"]
+            lines += [f"object = {quoted(name)}", f"open = {'true' if event.open else 'false'}"]
+        return lines
+
+
+def _world_color(world):
+    """The background's colour times its strength."""
+    if world is None:
+        return (0.0, 0.0, 0.0)
+    if world.use_nodes and world.node_tree:
+        for node in world.node_tree.nodes:
+            if node.type == "BACKGROUND":
+                strength = node.inputs["Strength"].default_value
+                return tuple(value * strength for value in node.inputs["Color"].default_value[:3])
+    return tuple(world.color)
+
+
+def vertical_fov(camera, scene):
+    """The angle between the upper and the lower edge of the picture [radians]."""
+    frame = camera.view_frame(scene=scene)
+    height = max(corner.y for corner in frame) - min(corner.y for corner in frame)
+    return 2 * math.atan(height / 2 / -frame[0].z)

@@ -1,0 +1,24 @@
+// One run of Blender with the add-on, for all tests of this folder.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace brume::blender {
+
+/// What make_level.py left: folders `courtyard`, `small` and `box`, each with txt/level.txt, gltf/level.glb
+/// and their timelines, and the JSON files of what Blender says.
+struct BlenderRun {
+  bool blender_is_there = false;
+  int exit_code = -1;
+  std::string log;
+  std::filesystem::path folder;
+};
+
+/// Runs Blender the first time that it is asked; the folder lasts until the program ends.
+const BlenderRun& blender_run();
+
+nlohmann::json read_json(const std::filesystem::path& path);
+
+}  // namespace brume::blender

@@ -1,0 +1,372 @@
+// A level made in Blender comes out where Blender has it, in both formats; docs/blender.md.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/file.hpp"
+#include "image/decode.hpp"
+#include "scene/load.hpp"
+#include "scene/timeline.hpp"
+#include "tests/blender/blender_run.hpp"
+#include "tests/cli/run_program.hpp"
+#include "tests/reference/triangle_box.hpp"
+
+namespace brume::blender {
+namespace {
+
+using Json = nlohmann::json;
+
+// The bound that the add-on answers for [m]. A float of a level within 10 m is rounded by at most 5e-7 m, a
+// few times on the way.
+constexpr double kNear = 1e-4;
+
+struct Corner {
+  glm::dvec3 point, normal;
+  glm::dvec2 uv{0};
+};
+
+struct Triangle {
+  std::array<Corner, 3> corners;
+  std::string object;  // Blender's name, or Brume's.
+  bool passable = false, has_uv = false;
+};
+
+// Blender is Z up: its x, z and -y are x, y and z here.
+glm::dvec3 turned(const Json& p) {
+  return {p[0].get<double>(), p[2].get<double>(), -p[1].get<double>()};
+}
+
+std::vector<Triangle> blenders_triangles(const Json& expected) {
+  const double metres = expected["metres"];
+  std::vector<Triangle> triangles;
+  for (const Json& entry : expected["triangles"]) {
+    Triangle t;
+    t.object = entry["object"];
+    t.passable = entry["passable"];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Json& corner = entry["corners"][i];
+      t.corners[i] = {turned(corner["point"]) * metres, turned(corner["normal"]), {}};
+      t.has_uv = !corner["uv"].is_null();
+      // Pictures run down in Brume.
+      if (t.has_uv) t.corners[i].uv = {corner["uv"][0].get<double>(), 1 - corner["uv"][1].get<double>()};
+    }
+    triangles.push_back(std::move(t));
+  }
+  return triangles;
+}
+
+std::vector<Triangle> brumes_triangles(const scene::Scene& scene) {
+  std::vector<Triangle> triangles;
+  for (const scene::Object& object : scene.objects) {
+    const scene::Mesh& mesh = scene.meshes[object.mesh];
+    const glm::dmat4 world(object.world_from_mesh);
+    const glm::dmat3 normal_world = glm::transpose(glm::inverse(glm::dmat3(world)));
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+      Triangle t;
+      t.object = object.name;
+      t.passable = !object.voxelized;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const scene::Vertex& v = mesh.vertices[mesh.indices[i + k]];
+        t.corners[k] = {glm::dvec3(world * glm::dvec4(glm::dvec3(v.position), 1)),
+                        glm::normalize(normal_world * glm::dvec3(v.normal)), glm::dvec2(v.uv)};
+      }
+      triangles.push_back(std::move(t));
+    }
+  }
+  return triangles;
+}
+
+// How the corners of `b` follow those of `a`, turned round, where they are the same points; else -1.
+int same_points(const Triangle& a, const Triangle& b) {
+  for (std::size_t turn = 0; turn < 3; ++turn) {
+    double farthest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      farthest = std::max(farthest, glm::distance(a.corners[k].point, b.corners[(k + turn) % 3].point));
+    if (farthest <= kNear) return static_cast<int>(turn);
+  }
+  return -1;
+}
+
+void expect_same_look(const Triangle& blender, const Triangle& brume, std::size_t turn, bool with_uv) {
+  EXPECT_EQ(blender.passable, brume.passable) << blender.object << " as " << brume.object;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Corner &a = blender.corners[k], &b = brume.corners[(k + turn) % 3];
+    // Blender's exporter rounds normals to four decimals; so does its 16-bit storage of own normals.
+    EXPECT_GT(glm::dot(a.normal, b.normal), 0.9999) << blender.object << " as " << brume.object;
+    if (with_uv && blender.has_uv) {
+      EXPECT_LT(glm::distance(a.uv, b.uv), 1e-5) << blender.object << " as " << brume.object;
+    }
+  }
+}
+
+class Blender : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const BlenderRun& run = blender_run();
+    if (!run.blender_is_there) GTEST_SKIP() << "blender is not installed; script/bootstrap test installs it";
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+  }
+  static std::filesystem::path level(const std::string& name, const std::string& kind) {
+    return blender_run().folder / name / kind / (kind == "txt" ? "level.txt" : "level.glb");
+  }
+  static std::filesystem::path timeline(const std::string& name, const std::string& kind) {
+    return blender_run().folder / name / kind / "level.toml";
+  }
+};
+
+class BlenderFormats : public Blender {};
+INSTANTIATE_TEST_SUITE_P(, BlenderFormats, testing::Values("txt", "gltf"),
+                         [](const auto& kind) { return std::string(kind.param); });
+
+TEST_P(BlenderFormats, EveryTriangleIsWhereBlenderHasIt) {
+  for (const char* name : {"courtyard", "small"}) {
+    SCOPED_TRACE(name);
+    const Json expected = read_json(blender_run().folder / name / "expected.json");
+    const std::vector<Triangle> blender = blenders_triangles(expected);
+    const std::vector<Triangle> brume =
+        brumes_triangles(scene::load_scene(level(name, GetParam())).value_or_throw());
+    ASSERT_GT(blender.size(), 800u);
+    EXPECT_EQ(blender.size(), brume.size());
+    std::vector<bool> taken(brume.size());
+    for (const Triangle& t : blender) {
+      std::size_t at = 0;
+      int turn = -1;
+      for (; at < brume.size(); ++at) {
+        if (!taken[at] && (turn = same_points(t, brume[at])) >= 0) break;
+      }
+      ASSERT_LT(at, brume.size()) << "a triangle of " << t.object << " is not there";
+      taken[at] = true;
+      // A door of several materials has its colours in a palette in Scene.txt.
+      const bool is_door = t.object == "entrance" || t.object == "handle";
+      expect_same_look(t, brume[at], static_cast<std::size_t>(turn), !is_door);
+      if (HasFailure()) return;
+    }
+  }
+}
+
+// Voxels that Blender's own triangles touch, by the obvious test, a voxel of the grid grown by `more` voxels
+// each way.
+std::size_t voxels_touched(const std::vector<Triangle>& triangles, const voxel::GridFrame& frame,
+                           double more) {
+  std::set<std::array<int, 3>> touched;
+  for (const Triangle& t : triangles) {
+    if (t.passable) continue;
+    std::array<glm::dvec3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = (t.corners[k].point - glm::dvec3(frame.origin_world)) / double{frame.voxel_size};
+    const glm::dvec3 low = glm::min(glm::min(p[0], p[1]), p[2]) - more,
+                     high = glm::max(glm::max(p[0], p[1]), p[2]) + more;
+    const double size = 1 + 2 * more;
+    for (int z = static_cast<int>(std::floor(low.z)); z <= static_cast<int>(std::floor(high.z)); ++z)
+      for (int y = static_cast<int>(std::floor(low.y)); y <= static_cast<int>(std::floor(high.y)); ++y)
+        for (int x = static_cast<int>(std::floor(low.x)); x <= static_cast<int>(std::floor(high.x)); ++x) {
+          const glm::dvec3 corner = glm::dvec3(x, y, z) - more;
+          // In units of the grown voxel, whose low corner is the origin.
+          const std::array<glm::dvec3, 3> in_box{(p[0] - corner) / size, (p[1] - corner) / size,
+                                                 (p[2] - corner) / size};
+          if (reference::touches(in_box, glm::dvec3(0))) touched.insert({x, y, z});
+        }
+  }
+  return touched.size();
+}
+
+TEST_P(BlenderFormats, VoxelizesToWhatBlendersTrianglesTouch) {
+  const voxel::GridFrame frame{{66, 22, 52}, 0.2f, {-6.53f, -0.47f, -5.37f}};
+  const auto triangles = blenders_triangles(read_json(blender_run().folder / "courtyard" / "expected.json"));
+  const cli::Outcome run = cli::run_brume(
+      blender_run().folder, {"voxelize", level("courtyard", GetParam()).string(), "--grid", "66x22x52",
+                             "--voxel", "0.2", "--origin", "-6.53,-0.47,-5.37", "--json", "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const std::size_t solid = Json::parse(run.out)["solid"];
+  // Points may be off by kNear, and voxels that they then touch or miss may differ.
+  EXPECT_GE(solid, voxels_touched(triangles, frame, -kNear / 0.2));
+  EXPECT_LE(solid, voxels_touched(triangles, frame, kNear / 0.2));
+}
+
+// The box stands from 0.1 - 1.5 to 0.1 (turned by a quarter), 0.1 to 1.1 and -2.1 to -0.1: at voxels of 0.25
+// it touches 7 x 5 x 9 voxels, and holds 5 x 3 x 7 that its surface does not touch.
+TEST_P(BlenderFormats, ABoxHasTheVoxelsThatOneCounts) {
+  const cli::Outcome run = cli::run_brume(
+      blender_run().folder, {"voxelize", level("box", GetParam()).string(), "--grid", "16x16x16", "--voxel",
+                             "0.25", "--origin", "-2,-1,-3", "--json", "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_EQ(Json::parse(run.out)["solid"], 7 * 5 * 9 - 5 * 3 * 7);
+}
+
+TEST_P(BlenderFormats, NamesAreUniqueAndDoorsAreWhole) {
+  const scene::Scene scene = scene::load_scene(level("courtyard", GetParam())).value_or_throw();
+  std::map<std::string, int> count;
+  for (const scene::Object& object : scene.objects) ++count[object.name];
+  EXPECT_EQ(count["Wall"], 1);
+  EXPECT_EQ(count["wall_2"], 1);
+  EXPECT_EQ(count["Wall.lintel"], 1);
+  EXPECT_EQ(count["Crate_tipped"], 1);
+  EXPECT_EQ(count.count("measure") + count.count("not_rendered") + count.count("hidden"), 0u);
+  // The leaf and its handle: one mesh in Scene.txt, two nodes of one name in glTF.
+  EXPECT_EQ(count["door_entrance"], std::string(GetParam()) == "txt" ? 1 : 2);
+  EXPECT_EQ(count.count("handle"), 0u);
+}
+
+// Radiant intensities [W/sr]: power / (4 pi) of points and spots; power / pi of an area lamp along its axis.
+TEST_P(BlenderFormats, LampsShineAsInBlender) {
+  const double pi = std::acos(-1.0);
+  for (const auto& [name, metres] : {std::pair{"courtyard", 1.0}, std::pair{"small", 0.25}}) {
+    const scene::Scene scene = scene::load_scene(level(name, GetParam())).value_or_throw();
+    const bool is_txt = std::string(GetParam()) == "txt";
+    ASSERT_EQ(scene.lights.size(), is_txt ? 3u : 4u);
+    const auto expect_light = [&](glm::dvec3 blender, double red, scene::LightKind kind) {
+      const glm::dvec3 at = glm::dvec3(blender.x, blender.z, -blender.y) * metres;
+      const auto found = std::find_if(scene.lights.begin(), scene.lights.end(), [&](const scene::Light& l) {
+        return glm::distance(glm::dvec3(l.position_world), at) < kNear;
+      });
+      ASSERT_NE(found, scene.lights.end()) << at.x << ' ' << at.y << ' ' << at.z;
+      EXPECT_NEAR(double{found->intensity.r}, red, 1e-4 * red);
+      EXPECT_EQ(found->kind, is_txt ? scene::LightKind::point : kind);
+      if (found->kind != scene::LightKind::spot) return;
+      // All lamps with a cone look from where they are to where build_lights() says.
+      const glm::dvec3 aim = blender.z > 3 ? glm::dvec3(0.3, 0.4, -1.3) : glm::dvec3(0, 0.5, -2);
+      const glm::dvec3 direction = glm::normalize(aim * metres - at);
+      EXPECT_LT(glm::distance(glm::dvec3(found->direction_world), direction), 1e-4);
+    };
+    const double area = metres * metres;
+    expect_light({-2.2, 0.9, 2.3}, 260 * area / (4 * pi), scene::LightKind::point);
+    expect_light({5.1, -3.1, 3.8}, 0.75 * 1500 * area / (4 * pi), scene::LightKind::spot);
+    expect_light({0, 3.9, 2.6}, 90 * area / (is_txt ? 4 * pi : pi), scene::LightKind::spot);
+    if (!is_txt) expect_light({0, 0, 9}, 0.55 * 0.12, scene::LightKind::directional);
+  }
+}
+
+TEST_P(BlenderFormats, TheTimelineSaysWhatTheSceneDoes) {
+  const scene::Timeline timeline =
+      scene::load_timeline(this->timeline("courtyard", GetParam())).value_or_throw();
+  const scene::Scene scene = scene::load_scene(timeline.scene).value_or_throw();
+  EXPECT_TRUE(scene::check_doors(timeline, scene));
+  EXPECT_FLOAT_EQ(timeline.duration, 4);
+  EXPECT_EQ(timeline.smoke.voxels, 900u);
+  EXPECT_FLOAT_EQ(timeline.sky.ambient.b, 0.035f);
+
+  ASSERT_EQ(timeline.smokes.size(), 1u);
+  EXPECT_LT(glm::distance(timeline.smokes[0].at_world, glm::vec3(0.2f, 0.2f, -0.7f)), kNear);
+  EXPECT_LT(glm::distance(timeline.smokes[0].from_world,
+                          scene::camera_at(timeline, {}, timeline.smokes[0].time).position_world),
+            1e-3);
+  ASSERT_EQ(timeline.texts.size(), 1u);
+  EXPECT_EQ(timeline.texts[0].text, "HI");
+  EXPECT_LT(glm::distance(timeline.texts[0].toward_world, glm::vec3(-0.5f, 1, -1)), kNear);
+  ASSERT_EQ(timeline.shots.size(), 1u);
+  EXPECT_EQ(timeline.shots[0].shape, scene::ShotShape::box);
+  EXPECT_NEAR(timeline.shots[0].roll, std::acos(-1.0) / 4, 1e-6);
+  // Its arrow, z, laid flat by a quarter about x (to -y of Blender) and turned by 200 degrees about Blender's
+  // z.
+  const double turn = 200 * std::acos(-1.0) / 180;
+  const glm::dvec3 arrow =
+      glm::normalize(glm::dvec3(timeline.shots[0].toward_world) - glm::dvec3(timeline.shots[0].from_world));
+  EXPECT_LT(glm::distance(arrow, glm::dvec3(std::sin(turn), 0, std::cos(turn))), 1e-5);
+  ASSERT_EQ(timeline.blasts.size(), 1u);
+  EXPECT_FLOAT_EQ(timeline.blasts[0].radius, 1.5f);
+  ASSERT_EQ(timeline.doors.size(), 1u);
+  EXPECT_EQ(timeline.doors[0].object, "door_entrance");
+  EXPECT_TRUE(timeline.doors[0].open);
+}
+
+// Blender's own view of frame 49, which is 2 s in: the eye, and the corners of the picture one focal length
+// ahead.
+TEST_P(BlenderFormats, TheCameraSeesWhatBlendersSees) {
+  const scene::Timeline timeline =
+      scene::load_timeline(this->timeline("courtyard", GetParam())).value_or_throw();
+  EXPECT_GT(timeline.camera.size(), 8u);
+  const scene::Camera camera = scene::camera_at(timeline, {}, 2);
+  const Json view = read_json(blender_run().folder / "courtyard" / "expected.json")["frame_49"];
+  const glm::dvec3 eye = turned(view["eye"]);
+  // Keys stand an eighth of a second apart; between them Brume's curve is not Blender's.
+  EXPECT_LT(glm::distance(glm::dvec3(camera.position_world), eye), 1e-3);
+  glm::dvec3 middle(0), top(0), bottom(0);
+  for (const Json& corner : view["corners"]) {
+    const glm::dvec3 p = turned(corner) - eye;
+    middle += p / 4.0;
+    (p.y > (turned(view["corners"][0]).y + turned(view["corners"][2]).y) / 2 - eye.y ? top : bottom) +=
+        p / 2.0;
+  }
+  const glm::dvec3 forward =
+      glm::normalize(glm::dvec3(camera.target_world) - glm::dvec3(camera.position_world));
+  EXPECT_GT(glm::dot(forward, glm::normalize(middle)), 1 - 1e-6);
+  const double fov = std::acos(glm::dot(glm::normalize(top), glm::normalize(bottom)));
+  EXPECT_NEAR(double{camera.vertical_fov}, fov, 1e-4);
+}
+
+TEST_F(Blender, TheExportLeavesTheFileAsItWas) {
+  const Json expected = read_json(blender_run().folder / "courtyard" / "expected.json");
+  EXPECT_EQ(expected["left_behind"], Json::array());
+  EXPECT_EQ(expected["frame_after"], 49);
+}
+
+TEST_F(Blender, TheCameraOfAGltfIsInTheFile) {
+  const scene::Scene scene = scene::load_scene(level("courtyard", "gltf")).value_or_throw();
+  ASSERT_TRUE(scene.camera.has_value());
+  const scene::Timeline timeline = scene::load_timeline(this->timeline("courtyard", "gltf")).value_or_throw();
+  EXPECT_NEAR(scene.camera->vertical_fov, scene::camera_at(timeline, {}, 2).vertical_fov, 1e-4f);
+}
+
+TEST_F(Blender, RenderWithBrumeShowsThePicture) {
+  const image::Image8 picture = image::load_image(blender_run().folder / "render.png").value_or_throw();
+  EXPECT_EQ(picture.width, 640u);
+  EXPECT_EQ(picture.height, 360u);
+  std::set<std::uint32_t> colors;
+  double sum = 0, squares = 0;
+  const std::size_t count = picture.rgba.size() / 4;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto* p = &picture.rgba[4 * i];
+    colors.insert(static_cast<std::uint32_t>(p[0] << 16 | p[1] << 8 | p[2]));
+    sum += p[1];
+    squares += p[1] * p[1];
+  }
+  const double mean = sum / static_cast<double>(count);
+  const double deviation = std::sqrt(squares / static_cast<double>(count) - mean * mean);
+  // Neither one colour nor noise: lit smoke and bricks before a night sky.
+  EXPECT_GT(colors.size(), 2000u);
+  EXPECT_GT(mean, 20);
+  EXPECT_LT(mean, 200);
+  EXPECT_GT(deviation, 20);
+}
+
+TEST_F(Blender, VoxelsComeBackWhereTheyAre) {
+  const Json voxels = read_json(blender_run().folder / "voxels.json");
+  EXPECT_EQ(voxels["role"], "LEFT_OUT");
+  const cli::Outcome run =
+      cli::run_brume(blender_run().folder,
+                     {"voxelize", level("courtyard", "gltf").string(), "--voxel", "0.2", "--json", "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const Json told = Json::parse(run.out);
+  EXPECT_EQ(voxels["solid"], told["solid"]);
+  // Corners stand on the grid, in Blender's axes; the surface looks outward and encloses the voxels.
+  for (const Json& point : voxels["points"]) {
+    const glm::dvec3 p = turned(point);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = (p[axis] - told["origin"][static_cast<std::size_t>(axis)].get<double>()) / 0.2;
+      ASSERT_NEAR(at, std::round(at), 1e-4);
+    }
+  }
+  const double volume = voxels["outward"].get<double>() / 3;
+  EXPECT_NEAR(volume / (0.2 * 0.2 * 0.2), told["solid"].get<double>(), 0.5);
+}
+
+TEST_F(Blender, SaysInOneLineWhatIsWrong) {
+  const Json lines = read_json(blender_run().folder / "failures.json");
+  const auto expect_line = [&](const char* what, const char* part) {
+    const std::string line = lines[what];
+    EXPECT_NE(line.find(part), std::string::npos) << what << ": " << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  };
+  expect_line("no program", "no brume here is no program; choose brume in Preferences > Add-ons > Brume");
+  expect_line("program fails", "brume ended with code 1");
+  expect_line("no voxels", "scene.obj:2: expected the voxels");
+  expect_line("no folder", "cannot be written");
+  expect_line("empty scene", "the scene has no visible mesh");
+}
+
+}  // namespace
+}  // namespace brume::blender

@@ -1,0 +1,226 @@
+"""A courtyard behind a wall, made of everything that an export can get wrong: rotated, scaled, mirrored, parented,
+sheared, instanced and modified objects, curves and letters, names that clash. Units are Blender's."""
+
+import math
+
+import bmesh
+import bpy
+from mathutils import Matrix
+
+
+def material(name, color, roughness=0.8, image=None):
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    node = made.node_tree.nodes["Principled BSDF"]
+    node.inputs["Base Color"].default_value = (*color, 1)
+    node.inputs["Roughness"].default_value = roughness
+    if image:
+        texture = made.node_tree.nodes.new("ShaderNodeTexImage")
+        texture.image = image
+        made.node_tree.links.new(node.inputs["Base Color"], texture.outputs["Color"])
+    return made
+
+
+def brick_image():
+    """Courses of bricks, generated: no file lies behind it."""
+    width, height = 128, 128
+    image = bpy.data.images.new("bricks", width, height)
+    pixels = []
+    for y in range(height):
+        course = y // 16
+        for x in range(width):
+            along = (x + 16 * (course % 2)) % 32
+            joint = y % 16 < 2 or along < 2
+            shade = 0.75 + 0.25 * math.sin(12.9898 * (course + 17 * ((x + 16 * (course % 2)) // 32)))
+            pixels += (0.55, 0.52, 0.48, 1) if joint else (0.52 * shade, 0.27 * shade, 0.2 * shade, 1)
+    image.pixels = pixels
+    return image
+
+
+def add(name, data, parent=None, collection=None, location=(0, 0, 0), rotation=(0, 0, 0), scale=(1, 1, 1)):
+    made = bpy.data.objects.new(name, data)
+    made.location, made.rotation_euler, made.scale = location, rotation, scale
+    made.parent = parent
+    (collection or bpy.context.scene.collection).objects.link(made)
+    return made
+
+
+def box_mesh(name, low, high, *materials):
+    """A box with texture coordinates in units of length."""
+    corners = [[(high if i >> axis & 1 else low)[axis] for axis in range(3)] for i in range(8)]
+    faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(corners, [], faces)
+    uvs = mesh.uv_layers.new()
+    for face in mesh.polygons:
+        across = [axis for axis in range(3) if abs(face.normal[axis]) < 0.5]
+        for loop in face.loop_indices:
+            point = mesh.vertices[mesh.loops[loop].vertex_index].co
+            uvs.data[loop].uv = (point[across[0]] / 2, point[across[1]] / 2)
+    for entry in materials:
+        mesh.materials.append(entry)
+    return mesh
+
+
+def wedge_mesh(name, entry):
+    """A ramp: no mirror image of itself looks the same."""
+    mesh = bpy.data.meshes.new(name)
+    points = [(0, 0, 0), (2, 0, 0), (0, 1, 0), (2, 1, 0), (0, 0, 1), (0, 0.6, 1)]
+    mesh.from_pydata(points, [], [(0, 2, 3, 1), (0, 1, 4), (2, 5, 3), (0, 4, 5, 2), (1, 3, 5, 4)])
+    mesh.materials.append(entry)
+    return mesh
+
+
+def ball_mesh(name, entry):
+    """Smooth: its corners' normals are not those of its faces."""
+    mesh = bpy.data.meshes.new(name)
+    ball = bmesh.new()
+    bmesh.ops.create_uvsphere(ball, u_segments=12, v_segments=8, radius=1)
+    ball.to_mesh(mesh)
+    ball.free()
+    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+    mesh.materials.append(entry)
+    return mesh
+
+
+def build_courtyard():
+    bricks = material("Old bricks", (1, 1, 1), 0.9, brick_image())
+    ground = material("ground", (0.23, 0.21, 0.19), 0.95)
+    wood = material("Wood / oak", (0.36, 0.2, 0.09), 0.6)
+    metal = material("metal", (0.45, 0.47, 0.5), 0.35)
+    leaf = material("leaf", (0.08, 0.22, 0.05), 0.9)
+    paint = material("paint", (0.65, 0.12, 0.06), 0.5)
+
+    add("Ground", box_mesh("ground", (-6.13, -4.07, -0.21), (6.11, 5.09, 0), ground))
+    # The wall with its doorway is one mesh of boxes; "wall" and "Wall" are two objects.
+    add("Wall", box_mesh("left", (-6.13, 2, 0), (-0.61, 2.33, 3.17), bricks))
+    add("wall", box_mesh("right", (0.61, 2, 0), (6.11, 2.33, 3.17), bricks))
+    add("Wall.lintel", box_mesh("lintel", (-0.61, 2, 2.23), (0.61, 2.33, 3.17), bricks))
+
+    # A door: its handle is parented to it and has another material.
+    door = add("entrance", box_mesh("leaf of the door", (0, -0.04, 0.02), (1.18, 0.04, 2.19), wood))
+    door.location, door.rotation_euler = (-0.59, 2.16, 0), (0, 0, 0.05)
+    door.brume.role = "DOOR"
+    add("handle", box_mesh("handle", (-0.02, -0.11, -0.02), (0.14, -0.04, 0.02), metal), door, location=(1, 0, 1.05))
+
+    # Rotated about all axes and scaled unevenly; mirrored; mirrored by a parent that is itself rotated.
+    crate = box_mesh("crate", (-0.5, -0.5, -0.5), (0.5, 0.5, 0.5), wood)
+    add("Crate", crate, location=(2.6, -0.4, 0.43), rotation=(0, 0, 0.4), scale=(0.85, 0.85, 0.85))
+    add("Crate.001", crate, location=(2.75, -0.35, 1.16), rotation=(0, 0, -0.3), scale=(0.6, 0.6, 0.6))
+    add("Crate tipped", crate, location=(3.55, -1.13, 0.55), rotation=(0.5, 0.3, 1.1), scale=(0.9, 0.6, 0.7))
+    ramp = wedge_mesh("ramp", metal)
+    add("Ramp", ramp, location=(-5.2, -0.63, 0.01), scale=(1.1, 1.3, 0.9))
+    add("Ramp mirrored", ramp, location=(-1.9, -0.63, 0.01), rotation=(0, 0, 0.1), scale=(-0.5, 1.3, 0.9))
+    turned = add("turned", None, location=(4.63, 1.02, 0.3), rotation=(0.2, 0.1, 0.7), scale=(1.2, -0.5, 0.8))
+    inner = add("inner", None, turned, rotation=(0.3, 0.6, 0.2))
+    add("Ramp sheared", ramp, inner, location=(-0.4, 0.2, 0), rotation=(0.1, 0.4, 0.9), scale=(0.7, 0.6, 1))
+    add("Ball sheared", ball_mesh("ball", metal), inner, location=(0.9, 1.2, 0.3), scale=(0.5, 0.3, 0.4))
+    add("Ramp upside down", ramp, location=(-3.1, 1.37, 2.05), rotation=(math.pi, 0, 0), scale=(0.4, 0.4, 0.4))
+
+    # Modifiers, a curve, letters.
+    steps = add("Steps", box_mesh("step", (-0.61, -0.3, -0.02), (0.61, 0, 0.17), ground), location=(0.003, 1.98, 0))
+    steps.scale.z = 0.9
+    repeat = steps.modifiers.new("array", "ARRAY")
+    repeat.count, repeat.use_relative_offset, repeat.use_constant_offset = 3, False, True
+    repeat.constant_offset_displace = (0, -0.27, -0.05)
+    pipe = bpy.data.curves.new("pipe", "CURVE")
+    pipe.dimensions, pipe.bevel_depth, pipe.bevel_resolution, pipe.resolution_u = "3D", 0.06, 1, 3
+    spline = pipe.splines.new("BEZIER")
+    spline.bezier_points.add(2)
+    for point, place in zip(spline.bezier_points, ((-4.5, 1.85, 0.05), (-4.4, 1.8, 2.6), (-2.2, 1.85, 2.9))):
+        point.co, point.handle_left_type, point.handle_right_type = place, "AUTO", "AUTO"
+    pipe.materials.append(metal)
+    add("Pipe", pipe)
+    sign = bpy.data.curves.new("sign", "FONT")
+    sign.body, sign.size, sign.extrude, sign.resolution_u = "BRUME", 0.7, 0.05, 2
+    sign.materials.append(paint)
+    add("Sign", sign, location=(1.4, 1.94, 2.2), rotation=(math.pi / 2, 0, 0))
+
+    # A collection of bushes, instanced twice: turned, and mirrored. Smoke passes through them.
+    bushes = bpy.data.collections.new("bushes")
+    bush = bpy.data.meshes.new("bush")
+    blades = 14
+    points, faces = [(0, 0, 0.9)], []
+    for i in range(blades):
+        angle = 2 * math.pi * i / blades
+        reach = 0.45 + 0.12 * math.sin(3 * i)
+        points.append((reach * math.cos(angle), reach * math.sin(angle), 0.25 + 0.2 * (i % 2)))
+        faces.append((0, 1 + i, 1 + (i + 1) % blades))
+    bush.from_pydata(points, [], faces)
+    bush.materials.append(leaf)
+    made = add("Bush", bush, collection=bushes, location=(0.4, 0, 0))
+    made.brume.role = "PASSABLE"
+    add("Pot", box_mesh("pot", (-0.2, -0.2, 0), (0.2, 0.2, 0.3), paint), collection=bushes, location=(0.4, 0, 0))
+    for name, location, turn, scale in (
+        ("bushes left", (-1.63, 1.44, 0.01), 0.8, (1, 1, 1)),
+        ("bushes right", (2.31, 1.41, 0.01), 2.0, (-1.2, 1.2, 1.1)),
+    ):
+        instance = add(name, None, location=location, rotation=(0, 0, turn), scale=scale)
+        instance.instance_type, instance.instance_collection = "COLLECTION", bushes
+
+    # One mesh in two materials, the second by its object; and what must not come out.
+    post = box_mesh("post", (-0.1, -0.1, 0), (0.1, 0.1, 1.1), metal, metal)
+    post.polygons[1].material_index = 1
+    cap = add("Post", post, location=(-0.93, -0.71, 0.01))
+    cap.material_slots[1].link, cap.material_slots[1].material = "OBJECT", paint
+    add("measure", crate, location=(0, 0, 5)).brume.role = "LEFT_OUT"
+    add("not rendered", crate, location=(0, 0, 6)).hide_render = True
+    add("hidden", crate, location=(0, 0, 7)).hide_viewport = True
+
+
+def build_lights():
+    scene = bpy.context.scene
+
+    def lamp(name, kind, energy, color, location, target=None):
+        data = bpy.data.lights.new(name, kind)
+        data.energy, data.color = energy, color
+        made = add(name, data, location=location)
+        if target:
+            direction = Matrix.Translation(target).translation - made.location
+            made.rotation_euler = direction.to_track_quat("-Z", "Y").to_euler()
+        return data
+
+    lamp("lantern", "POINT", 260, (1, 0.62, 0.3), (-2.2, 0.9, 2.3))
+    spot = lamp("floodlight", "SPOT", 1500, (0.75, 0.85, 1), (5.1, -3.1, 3.8), (0.3, 1.3, 0.4))
+    spot.spot_size, spot.spot_blend = math.radians(48), 0.3
+    area = lamp("window", "AREA", 90, (1, 0.8, 0.55), (0, 3.9, 2.6), (0, 2, 0.5))
+    area.size = 1
+    lamp("moon", "SUN", 0.12, (0.55, 0.7, 1), (0, 0, 9), (-2, 3, 0))
+    world = bpy.data.worlds.new("night")
+    world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.012, 0.018, 0.035, 1)
+    scene.world = world
+
+
+def build_camera():
+    """A dolly: the camera rides on an empty that moves."""
+    scene = bpy.context.scene
+    dolly = add("dolly", None, location=(-0.6, -6.4, 2.25), rotation=(0, 0, -0.06))
+    dolly.keyframe_insert("location", frame=1)
+    dolly.location = (0.5, -6.0, 2.1)
+    dolly.keyframe_insert("location", frame=97)
+    data = bpy.data.cameras.new("camera")
+    data.lens = 24
+    camera = add("camera", data, dolly, rotation=(math.radians(83), 0, 0))
+    scene.camera = camera
+    return camera
+
+
+def build_events():
+    """A grenade before the door, a word and a shot through its smoke, a blast, the door that opens."""
+
+    def event(name, kind, time, location, rotation=(0, 0, 0)):
+        made = add(name, None, location=location, rotation=rotation)
+        made.brume_event.type, made.brume_event.time = kind, time
+        return made.brume_event
+
+    grenade = event("Grenade at the steps", "SMOKE", 0.25, (0.2, 0.7, 0.2))
+    grenade.thrown_from = bpy.data.objects["camera"]
+    word = event("word", "TEXT", 3.1, (-0.7, -4.4, 1.0))
+    word.text, word.size, word.stay = "HI", 0.8, 2.0
+    word.aim = event("aim", "NONE", 0, (-0.5, 1.0, 1.0)).id_data
+    shot = event("shot", "SHOT", 3.2, (2.5, -3.5, 1.2), (math.radians(90), 0, math.radians(200)))
+    shot.shape, shot.roll, shot.radius, shot.stay = "BOX", math.radians(45), 0.3, 1.5
+    event("blast", "BLAST", 3.75, (-4.7, 0.6, 0.8)).blast_radius = 1.5
+    opens = event("door opens", "DOOR", 1.5, (0, 2, 2.5))
+    opens.door = bpy.data.objects["entrance"]

@@ -1,0 +1,170 @@
+"""Run by Blender: blender -b --factory-startup -P make_level.py -- ADDON.zip BRUME FOLDER
+
+Installs the add-on, makes a level, exports it, renders and voxelizes it, and writes what Blender itself says of it
+(expected.json: triangles in Blender's axes and units) for blender_test.cpp to compare.
+"""
+
+import json
+import os
+import sys
+
+import bpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import level_parts  # noqa: E402
+
+
+def install(addon):
+    bpy.ops.preferences.addon_install(filepath=addon)
+    bpy.ops.preferences.addon_enable(module="brume")
+
+
+def empty_scene():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.preferences.addon_enable(module="brume")
+    bpy.context.scene.render.fps = 24
+
+
+def corners_of(mesh, world, mirrored):
+    """Triangles as Blender shows them, counter-clockwise from outside: position, normal, texture coordinate."""
+    mesh.calc_normals_split()
+    mesh.calc_loop_triangles()
+    uvs = mesh.uv_layers.active
+    normal_matrix = world.to_3x3().inverted().transposed()
+    for triangle in mesh.loop_triangles:
+        corners = []
+        for loop in triangle.loops:
+            point = world @ mesh.vertices[mesh.loops[loop].vertex_index].co
+            normal = (normal_matrix @ mesh.loops[loop].normal).normalized()
+            uv = tuple(uvs.data[loop].uv) if uvs else None
+            corners.append({"point": tuple(point), "normal": tuple(normal), "uv": uv})
+        yield corners[::-1] if mirrored else corners
+
+
+def expected_triangles():
+    """Of all that renders and is not left out, with the names of Blender's objects."""
+    found = []
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    for instance in depsgraph.object_instances:
+        source = instance.object.original
+        if instance.object.type != "MESH" or source.hide_render or source.brume.role == "LEFT_OUT":
+            continue
+        world = instance.matrix_world.copy()
+        passable = source.brume.role == "PASSABLE"
+        for corners in corners_of(instance.object.data, world, world.determinant() < 0):
+            found.append({"object": source.name, "passable": passable, "corners": corners})
+    return found
+
+
+def write_json(path, value):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(value, file)
+
+
+def export_both(folder, name):
+    for kind, extension in (("TXT", ".txt"), ("GLTF", ".glb")):
+        path = os.path.join(folder, name, kind.lower(), "level" + extension)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        bpy.ops.brume.export_level(filepath=path, format=kind)
+
+
+def left_behind():
+    """What the export must not leave in the file."""
+    return sorted(block.name for kind in ("scenes", "objects", "meshes") for block in getattr(bpy.data, kind))
+
+
+def make_courtyard(folder):
+    empty_scene()
+    scene = bpy.context.scene
+    level_parts.build_courtyard()
+    level_parts.build_lights()
+    camera = level_parts.build_camera()
+    level_parts.build_events()
+    scene.frame_start, scene.frame_end = 1, 96
+    scene.brume.sky, scene.brume.smoke_voxels = "WORLD", 900
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 1280, 720, 50
+    scene.frame_set(49)
+    triangles = expected_triangles()
+    frame = camera.data.view_frame(scene=scene)
+    view = [tuple(camera.matrix_world @ corner) for corner in frame]
+    before = left_behind()
+    export_both(folder, "courtyard")
+    facts = {"triangles": triangles, "metres": 1.0, "frame_49": {"eye": tuple(camera.matrix_world.translation)}}
+    facts["frame_49"]["corners"] = view
+    facts["left_behind"] = [name for name in left_behind() if name not in before]
+    facts["frame_after"] = scene.frame_current
+    write_json(os.path.join(folder, "courtyard", "expected.json"), facts)
+    # The same in units of a quarter of a metre.
+    scene.unit_settings.scale_length = 0.25
+    export_both(folder, "small")
+    write_json(os.path.join(folder, "small", "expected.json"), {"triangles": triangles, "metres": 0.25})
+    scene.unit_settings.scale_length = 1.0
+
+
+def render_and_voxelize(folder, brume):
+    scene = bpy.context.scene
+    bpy.context.preferences.addons["brume"].preferences.program = brume
+    scene.frame_set(1 + 24 * 7 // 2)
+    scene.brume.march = "half"
+    bpy.ops.brume.render()
+    image = bpy.data.images["Brume Render"]
+    with open(os.path.join(folder, "render.png"), "wb") as file:
+        file.write(image.packed_file.data)
+    scene.brume.voxel = 0.2
+    bpy.ops.brume.voxels()
+    voxels = bpy.data.objects["Brume voxels"]
+    facts = {
+        "solid": voxels["solid"],
+        "points": [tuple(voxels.matrix_world @ vertex.co) for vertex in voxels.data.vertices],
+        "outward": sum(
+            face.area * face.center.dot(face.normal) for face in voxels.data.polygons
+        ),  # Three times the volume inside.
+        "role": voxels.brume.role,
+    }
+    write_json(os.path.join(folder, "voxels.json"), facts)
+
+
+def says(operator, **arguments):
+    """The one line that an operator fails with."""
+    try:
+        operator(**arguments)
+    except RuntimeError as error:
+        return str(error).strip()
+    return ""
+
+
+def make_failures(folder):
+    preferences = bpy.context.preferences.addons["brume"].preferences
+    lines = {}
+    preferences.program = os.path.join(folder, "no brume here")
+    lines["no program"] = says(bpy.ops.brume.render)
+    preferences.program = "/bin/false"
+    lines["program fails"] = says(bpy.ops.brume.render)
+    with open(os.path.join(folder, "scene.obj"), "w", encoding="ascii") as file:
+        file.write("v 0 0 0\nvn 0 0 1\n")
+    lines["no voxels"] = says(bpy.ops.brume.import_voxels, filepath=os.path.join(folder, "scene.obj"))
+    target = os.path.join(folder, "missing", "\0", "level.glb") if os.name == "nt" else "/dev/null/level.glb"
+    lines["no folder"] = says(bpy.ops.brume.export_level, filepath=target)
+    empty_scene()
+    lines["empty scene"] = says(bpy.ops.brume.export_level, filepath=os.path.join(folder, "empty.glb"))
+    write_json(os.path.join(folder, "failures.json"), lines)
+
+
+def make_box(folder):
+    """One box of 2.0 x 1.5 x 1.0, turned by a quarter: its voxels can be counted by hand."""
+    empty_scene()
+    mesh = level_parts.box_mesh("box", (0, 0, 0), (2, 1.5, 1))
+    level_parts.add("box", mesh, location=(0.1, 0.1, 0.1), rotation=(0, 0, 1.5707963267948966))
+    export_both(folder, "box")
+
+
+def main():
+    addon, brume, folder = sys.argv[sys.argv.index("--") + 1 :]
+    install(addon)
+    make_courtyard(folder)
+    render_and_voxelize(folder, brume)
+    make_failures(folder)
+    make_box(folder)
+
+
+main()

@@ -1,0 +1,83 @@
+// The package is what Blender 3.4 takes as an add-on and 4.2 as an extension; needs no Blender.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "core/file.hpp"
+#include "scene/toml_table.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::blender {
+namespace {
+
+const std::filesystem::path kAddon = BRUME_SOURCE_DIR "/integrations/blender/brume";
+
+std::string manifest_text() {
+  return read_text_file(kAddon / "blender_manifest.toml").value_or_throw();
+}
+
+// The fields and their forms as "Blender 4.2 manual, Extensions: getting started" lists them.
+TEST(BlenderPackage, TheManifestHasWhatBlender42AsksFor) {
+  const std::string text = manifest_text();
+  const auto parsed = scene::parse_toml(text, "blender_manifest.toml");
+  ASSERT_TRUE(parsed) << parsed.failure().message;
+  const toml::table& manifest = *parsed;
+  const auto field = [&](const char* name) { return manifest[name].value_or(std::string()); };
+  const std::regex version("[0-9]+\\.[0-9]+\\.[0-9]+");
+  EXPECT_EQ(field("schema_version"), "1.0.0");
+  EXPECT_EQ(field("id"), kAddon.filename().string());
+  EXPECT_TRUE(std::regex_match(field("version"), version));
+  EXPECT_NE(field("name"), "");
+  EXPECT_NE(field("maintainer"), "");
+  EXPECT_EQ(field("type"), "add-on");
+  EXPECT_EQ(field("blender_version_min"), "4.2.0");
+  EXPECT_LE(field("tagline").size(), 64u);
+  EXPECT_TRUE(std::isalnum(static_cast<unsigned char>(field("tagline").back())));
+  const toml::array* licenses = manifest["license"].as_array();
+  ASSERT_NE(licenses, nullptr);
+  ASSERT_FALSE(licenses->empty());
+  for (const toml::node& license : *licenses)
+    EXPECT_EQ(license.value_or(std::string()).rfind("SPDX:", 0), 0u);
+  const toml::table* permissions = manifest["permissions"].as_table();
+  ASSERT_NE(permissions, nullptr);
+  for (const auto& [name, why] : *permissions) {
+    EXPECT_TRUE((std::set<std::string>{"files", "network", "clipboard", "camera", "microphone"}.contains(
+        std::string(name.str()))));
+    EXPECT_LE(why.value_or(std::string(99, ' ')).size(), 64u);
+    EXPECT_NE(why.value_or(std::string(".")).back(), '.');
+  }
+}
+
+TEST(BlenderPackage, BothVersionsAreTheSame) {
+  std::smatch in_manifest, in_code;
+  const std::string manifest = manifest_text();
+  const std::string code = read_text_file(kAddon / "__init__.py").value_or_throw();
+  ASSERT_TRUE(
+      std::regex_search(manifest, in_manifest, std::regex("\nversion = \"(\\d+)\\.(\\d+)\\.(\\d+)\"")));
+  ASSERT_TRUE(std::regex_search(code, in_code, std::regex("\"version\": \\((\\d+), (\\d+), (\\d+)\\)")));
+  for (std::size_t part = 1; part <= 3; ++part) EXPECT_EQ(in_manifest[part], in_code[part]);
+}
+
+// One folder with the package's name, as 3.4 wants it; the manifest in it, where 4.2 looks.
+TEST(BlenderPackage, TheZipHoldsTheSourcesAlone) {
+  const cli::WorkFolder folder;
+  const std::string zip = (folder.path() / "brume.zip").string(), list = (folder.path() / "list").string();
+  std::ostringstream command;
+  command << "'" BRUME_SOURCE_DIR "/script/blender-addon' '" << zip << "' > /dev/null && cmake -E tar tf '"
+          << zip << "' > '" << list << "'";
+  ASSERT_EQ(std::system(command.str().c_str()), 0);
+  std::set<std::string> packed, wanted{"brume/blender_manifest.toml"};
+  std::istringstream lines(read_text_file(list).value_or_throw());
+  for (std::string line; std::getline(lines, line);) packed.insert(line);
+  for (const auto& entry : std::filesystem::directory_iterator(kAddon)) {
+    if (entry.path().extension() == ".py") wanted.insert("brume/" + entry.path().filename().string());
+  }
+  EXPECT_EQ(packed, wanted);
+  EXPECT_TRUE(packed.contains("brume/__init__.py"));
+}
+
+}  // namespace
+}  // namespace brume::blender
