@@ -1,0 +1,75 @@
+// A stage that is written while it plays: what a player does goes into its timeline.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "scene/timeline.hpp"
+#include "stage/simulation.hpp"
+#include "stage/stage.hpp"
+
+namespace brume::stage {
+
+/// At every moment its simulation equals, state hash for state hash, the one of the timeline when it is saved
+/// and loaded again, whatever was done, at whichever times, in whichever order.
+class LiveStage {
+ public:
+  /// Plays the stage's own timeline, at time 0. The timeline now names the grid that it plays on, so that it
+  /// stays the same grid when it is loaded again. Fails as Simulation::create does.
+  static Result<std::unique_ptr<LiveStage>> create(Stage stage);
+  LiveStage(const LiveStage&) = delete;
+  LiveStage& operator=(const LiveStage&) = delete;
+
+  /// Its timeline has all that was done. Scene and voxels stay as they were; masks may become others, which
+  /// MaskAtlas::key of its `masks` tells.
+  const Stage& stage() const { return stage_; }
+  const Simulation& simulation() const { return *simulation_; }
+
+  /// Moves to the tick at or before a time [s], forwards or backwards.
+  void advance_to(double seconds) { simulation_->advance_to(seconds); }
+
+  // What follows takes all that it is given, or nothing and says why in one line. The world of the simulation
+  // has it at once; smoke volume, planes and hidden objects follow when advance_to is called next.
+
+  /// Does what the event lists of `deeds` say; its other members do not count. Times may be past, present and
+  /// to come. What is to come, or present, costs next to nothing; the past is played again from there on, and
+  /// so is all of it when a picture or letter comes that no shot before had. Fails with bad_input as
+  /// check_events, check_doors and load_masks, and for an event that the simulation cannot take.
+  Result<void> add(const scene::Timeline& deeds);
+
+  /// Of all smokes, those that are there too: what changes them plays them again from the first.
+  Result<void> set_smoke(const scene::SmokeOptions& smoke);
+  Result<void> set_sky(const scene::SkyOptions& sky);
+  /// [EV]
+  Result<void> set_exposure(float exposure);
+  /// Length of the film [s].
+  Result<void> set_duration(float duration);
+  /// The path of the camera; by time, no two keys alike.
+  Result<void> set_camera(std::vector<scene::CameraKey> keys);
+
+  /// Back to another timeline, of the same scene and the same grid or none, at the present tick. Fails with
+  /// bad_input for another scene or grid, and as `add` does.
+  Result<void> reset(scene::Timeline timeline);
+
+ private:
+  explicit LiveStage(Stage stage) : stage_(std::move(stage)) {}
+  /// What of a stage stays when its timeline becomes another.
+  struct Staying {
+    bool masks = false, level = false;
+  };
+  bool knows_masks_of(const scene::Timeline& deeds) const;
+  bool moves_are_last(const scene::Timeline& deeds) const;
+  bool changes_are_last(const scene::Timeline& deeds) const;
+  Result<void> add_in_place(const scene::Timeline& deeds);
+  Result<void> play_anew(scene::Timeline timeline, const Staying& staying);
+  ObjectLevel& last_level();
+
+  Stage stage_;
+  std::unique_ptr<Simulation> simulation_;
+  BodyNumbers bodies_;
+  std::optional<ObjectLevel> last_level_;  // after all changes; made when a door is first used
+};
+
+}  // namespace brume::stage
