@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "core/file.hpp"
 #include "image/decode.hpp"
@@ -206,6 +207,8 @@ TEST_P(BlenderFormats, NamesAreUniqueAndDoorsAreWhole) {
   EXPECT_EQ(count["Wall.lintel"], 1);
   EXPECT_EQ(count["Crate_tipped"], 1);
   EXPECT_EQ(count.count("measure") + count.count("not_rendered") + count.count("hidden"), 0u);
+  for (const char* name : {"Kafig_grun_", "_con", "object", "_one", "_LIGHT_SOURCE"})
+    EXPECT_EQ(count[name], 1) << name;
   // The leaf and its handle: one mesh in Scene.txt, two nodes of one name in glTF.
   EXPECT_EQ(count["door_entrance"], std::string(GetParam()) == "txt" ? 1 : 2);
   EXPECT_EQ(count.count("handle"), 0u);
@@ -257,7 +260,7 @@ TEST_P(BlenderFormats, TheTimelineSaysWhatTheSceneDoes) {
   ASSERT_EQ(timeline.texts.size(), 1u);
   EXPECT_EQ(timeline.texts[0].text, "HI");
   EXPECT_LT(glm::distance(timeline.texts[0].toward_world, glm::vec3(-0.5f, 1, -1)), kNear);
-  ASSERT_EQ(timeline.shots.size(), 1u);
+  ASSERT_EQ(timeline.shots.size(), 2u);
   EXPECT_EQ(timeline.shots[0].shape, scene::ShotShape::box);
   EXPECT_NEAR(timeline.shots[0].roll, std::acos(-1.0) / 4, 1e-6);
   // Its arrow, z, laid flat by a quarter about x (to -y of Blender) and turned by 200 degrees about Blender's
@@ -266,6 +269,9 @@ TEST_P(BlenderFormats, TheTimelineSaysWhatTheSceneDoes) {
   const glm::dvec3 arrow =
       glm::normalize(glm::dvec3(timeline.shots[0].toward_world) - glm::dvec3(timeline.shots[0].from_world));
   EXPECT_LT(glm::distance(arrow, glm::dvec3(std::sin(turn), 0, std::cos(turn))), 1e-5);
+  EXPECT_EQ(timeline.shots[1].shape, scene::ShotShape::mask);
+  EXPECT_EQ(read_text_file(timeline.shots[1].mask).value_or_throw(),
+            read_text_file(blender_run().folder / "a star.png").value_or_throw());
   ASSERT_EQ(timeline.blasts.size(), 1u);
   EXPECT_FLOAT_EQ(timeline.blasts[0].radius, 1.5f);
   ASSERT_EQ(timeline.doors.size(), 1u);
@@ -298,10 +304,58 @@ TEST_P(BlenderFormats, TheCameraSeesWhatBlendersSees) {
   EXPECT_NEAR(double{camera.vertical_fov}, fov, 1e-4);
 }
 
+// What the panels take at most and at least, a timeline takes; what they say unasked is what it means unsaid.
+TEST_F(Blender, SettingsHaveTheRangesAndDefaultsOfTimelines) {
+  for (const char* setting : {"least", "usual", "most"}) {
+    const auto read = scene::load_timeline(blender_run().folder / (setting + std::string(".toml")));
+    ASSERT_TRUE(read) << setting << ": " << read.failure().message;
+    ASSERT_EQ(read->smokes.size() + read->shots.size() + read->texts.size() + read->blasts.size(), 4u);
+    if (setting != std::string("usual")) continue;
+    const scene::SmokeOptions smoke;
+    EXPECT_EQ(read->smoke.voxels, smoke.voxels);
+    EXPECT_EQ(read->smoke.bloom, smoke.bloom);
+    EXPECT_EQ(read->smoke.hold, smoke.hold);
+    EXPECT_EQ(read->smoke.dissolve, smoke.dissolve);
+    EXPECT_EQ(read->smoke.extinction, smoke.extinction);
+    EXPECT_EQ(read->grid.voxel, scene::GridOptions{}.voxel);
+    const scene::ShotEvent shot;
+    const scene::TextEvent text;
+    const scene::BlastEvent blast;
+    const auto expect_times = [](const scene::HoleTimes& a, const scene::HoleTimes& b) {
+      EXPECT_EQ(std::tie(a.reach, a.expand, a.stay, a.fade), std::tie(b.reach, b.expand, b.stay, b.fade));
+    };
+    expect_times(read->shots[0].times, shot.times);
+    EXPECT_EQ(read->shots[0].radius, shot.radius);
+    EXPECT_EQ(read->shots[0].flash, shot.flash);
+    EXPECT_EQ(read->shots[0].shape, shot.shape);
+    EXPECT_EQ(read->shots[0].roll, shot.roll);
+    expect_times(read->texts[0].times, text.times);
+    EXPECT_EQ(read->texts[0].size, text.size);
+    EXPECT_EQ(read->texts[0].spacing, text.spacing);
+    EXPECT_EQ(read->texts[0].interval, text.interval);
+    EXPECT_EQ(read->blasts[0].radius, blast.radius);
+    EXPECT_EQ(read->blasts[0].speed, blast.speed);
+    EXPECT_EQ(read->blasts[0].left, blast.left);
+    EXPECT_EQ(read->blasts[0].refill_rim, blast.refill_rim);
+    EXPECT_EQ(read->blasts[0].refill_middle, blast.refill_middle);
+    EXPECT_EQ(read->blasts[0].flash, blast.flash);
+  }
+}
+
 TEST_F(Blender, TheExportLeavesTheFileAsItWas) {
   const Json expected = read_json(blender_run().folder / "courtyard" / "expected.json");
   EXPECT_EQ(expected["left_behind"], Json::array());
   EXPECT_EQ(expected["frame_after"], 49);
+}
+
+TEST_F(Blender, PicturesOfFilesAreCopiedAsTheyAre) {
+  const auto textures = blender_run().folder / "courtyard/txt/Textures";
+  EXPECT_EQ(read_text_file(textures / "ground_diffuse.jpg").value_or_throw(),
+            read_text_file(blender_run().folder / "paving stones.jpg").value_or_throw());
+  EXPECT_FALSE(std::filesystem::exists(textures / "ground_diffuse.png"));
+  // Brume's own reader takes them all: no stand-in is in the scene.
+  const scene::Scene scene = scene::load_scene(level("courtyard", "txt")).value_or_throw();
+  for (const scene::Image& image : scene.images) EXPECT_NE(image.name, "stand-in checker");
 }
 
 TEST_F(Blender, TheCameraOfAGltfIsInTheFile) {

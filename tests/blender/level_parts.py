@@ -2,6 +2,7 @@
 sheared, instanced and modified objects, curves and letters, names that clash. Units are Blender's."""
 
 import math
+import os
 
 import bmesh
 import bpy
@@ -21,20 +22,27 @@ def material(name, color, roughness=0.8, image=None):
     return made
 
 
-def brick_image():
+def brick_image(name, joint, brick, contrast, length):
     """Courses of bricks, generated: no file lies behind it."""
     width, height = 128, 128
-    image = bpy.data.images.new("bricks", width, height)
+    image = bpy.data.images.new(name, width, height)
     pixels = []
     for y in range(height):
         course = y // 16
         for x in range(width):
-            along = (x + 16 * (course % 2)) % 32
-            joint = y % 16 < 2 or along < 2
-            shade = 0.75 + 0.25 * math.sin(12.9898 * (course + 17 * ((x + 16 * (course % 2)) // 32)))
-            pixels += (0.55, 0.52, 0.48, 1) if joint else (0.52 * shade, 0.27 * shade, 0.2 * shade, 1)
+            along = x + length // 2 * (course % 2)
+            shade = 1 + contrast * math.sin(12.9898 * (course + 17 * (along // length % (width // length))))
+            color = joint if y % 16 < 2 or along % length < 2 else [value * shade for value in brick]
+            pixels += (*color, 1)
     image.pixels = pixels
     return image
+
+
+def save(image, path, kind):
+    """Makes it a picture of a file."""
+    image.filepath_raw, image.file_format = path, kind
+    image.save()
+    return bpy.data.images.load(path)
 
 
 def add(name, data, parent=None, collection=None, location=(0, 0, 0), rotation=(0, 0, 0), scale=(1, 1, 1)):
@@ -83,9 +91,28 @@ def ball_mesh(name, entry):
     return mesh
 
 
-def build_courtyard():
-    bricks = material("Old bricks", (1, 1, 1), 0.9, brick_image())
-    ground = material("ground", (0.23, 0.21, 0.19), 0.95)
+def instancing_nodes(thing):
+    """Geometry nodes that set an instance of an object on every point, in its own scale (Blender 3.4's groups)."""
+    group = bpy.data.node_groups.new("scatter", "GeometryNodeTree")
+    group.inputs.new("NodeSocketGeometry", "Geometry")
+    group.outputs.new("NodeSocketGeometry", "Geometry")
+    start, end = group.nodes.new("NodeGroupInput"), group.nodes.new("NodeGroupOutput")
+    place, info = group.nodes.new("GeometryNodeInstanceOnPoints"), group.nodes.new("GeometryNodeObjectInfo")
+    info.inputs["Object"].default_value = thing
+    info.inputs["As Instance"].default_value = True
+    place.inputs["Scale"].default_value = (0.3, 0.2, 0.25)
+    place.inputs["Rotation"].default_value = (0.2, 0.4, 1.0)
+    group.links.new(place.inputs["Points"], start.outputs["Geometry"])
+    group.links.new(place.inputs["Instance"], info.outputs["Geometry"])
+    group.links.new(end.inputs["Geometry"], place.outputs["Instances"])
+    return group
+
+
+def build_courtyard(folder):
+    wall = brick_image("bricks", (0.5, 0.47, 0.43), (0.46, 0.24, 0.17), 0.22, 32)
+    bricks = material("Old bricks", (1, 1, 1), 0.9, wall)
+    paving = brick_image("paving", (0.17, 0.16, 0.15), (0.36, 0.34, 0.32), 0.15, 16)
+    ground = material("ground", (1, 1, 1), 0.95, save(paving, os.path.join(folder, "paving stones.jpg"), "JPEG"))
     wood = material("Wood / oak", (0.36, 0.2, 0.09), 0.6)
     metal = material("metal", (0.45, 0.47, 0.5), 0.35)
     leaf = material("leaf", (0.08, 0.22, 0.05), 0.9)
@@ -158,6 +185,23 @@ def build_courtyard():
         instance = add(name, None, location=location, rotation=(0, 0, turn), scale=scale)
         instance.instance_type, instance.instance_collection = "COLLECTION", bushes
 
+    # Instances on the corners of a mesh, which replace the child that is instanced; and by geometry nodes.
+    rail = bpy.data.meshes.new("rail")
+    rail.from_pydata([(-5.6, -2.2, 0), (-5.6, -1.4, 0), (-5.5, -0.6, 0)], [(0, 1), (1, 2)], [])
+    posts = add("Rail", rail)
+    posts.instance_type, posts.show_instancer_for_render = "VERTS", False
+    add("Bollard", ball_mesh("bollard", metal), posts, scale=(0.15, 0.15, 0.5))
+    stone = add("Stone", ball_mesh("stone", ground), location=(0, 0, -9), scale=(1, 0.7, 0.5))
+    stone.hide_render = True
+    ground_points = bpy.data.meshes.new("points")
+    ground_points.from_pydata([(4.2, -2.2, 0.05), (4.9, -1.9, 0.07), (4.6, -2.7, 0.1)], [], [])
+    add("Stones", ground_points).modifiers.new("scatter", "NODES").node_group = instancing_nodes(stone)
+
+    # Names that no file system or no Scene.txt takes as they are.
+    for number, name in enumerate(("Käfig (grün)", "con", "\u6728\u7bb1", "# one", "LIGHT_SOURCE")):
+        size = 0.2 + 0.01 * number
+        add(name, box_mesh(name, (0, 0, 0), (size, size, size), wood), location=(5.2, 1.6 - 0.3 * number, 0.01))
+
     # One mesh in two materials, the second by its object; and what must not come out.
     post = box_mesh("post", (-0.1, -0.1, 0), (0.1, 0.1, 1.1), metal, metal)
     post.polygons[1].material_index = 1
@@ -206,8 +250,21 @@ def build_camera():
     return camera
 
 
-def build_events():
-    """A grenade before the door, a word and a shot through its smoke, a blast, the door that opens."""
+def star_image():
+    """White where a star of five rays is."""
+    size = 64
+    image = bpy.data.images.new("star", size, size)
+    pixels = []
+    for i in range(size * size):
+        x, y = 2 * (i % size) / size - 1, 2 * (i // size) / size - 1
+        turn = math.atan2(x, y) * 5
+        pixels += [1.0 if math.hypot(x, y) < 0.62 + 0.36 * math.cos(turn) else 0.0] * 3 + [1.0]
+    image.pixels = pixels
+    return image
+
+
+def build_events(folder):
+    """A grenade before the door, a word, a star and a shot through its smoke, a blast, the door that opens."""
 
     def event(name, kind, time, location, rotation=(0, 0, 0)):
         made = add(name, None, location=location, rotation=rotation)
@@ -221,6 +278,10 @@ def build_events():
     word.aim = event("aim", "NONE", 0, (-0.5, 1.0, 1.0)).id_data
     shot = event("shot", "SHOT", 3.2, (2.5, -3.5, 1.2), (math.radians(90), 0, math.radians(200)))
     shot.shape, shot.roll, shot.radius, shot.stay = "BOX", math.radians(45), 0.3, 1.5
+    star = event("star", "SHOT", 3.3, (0.4, -5, 1.9))
+    star.shape, star.radius, star.stay, star.aim = "MASK", 0.5, 1.5, event("star's aim", "NONE", 0, (0.9, 1, 1.2)).id_data
+    star.mask = os.path.join(folder, "a star.png")
+    save(star_image(), star.mask, "PNG")
     event("blast", "BLAST", 3.75, (-4.7, 0.6, 0.8)).blast_radius = 1.5
     opens = event("door opens", "DOOR", 1.5, (0, 2, 2.5))
     opens.door = bpy.data.objects["entrance"]

@@ -47,8 +47,12 @@ def expected_triangles():
     depsgraph = bpy.context.evaluated_depsgraph_get()
     for instance in depsgraph.object_instances:
         source = instance.object.original
-        if instance.object.type != "MESH" or source.hide_render or source.brume.role == "LEFT_OUT":
+        if instance.object.type != "MESH" or source.brume.role == "LEFT_OUT":
             continue
+        if not instance.is_instance:
+            # An object that is instanced on corners is not rendered where it stands itself.
+            if source.hide_render or source.name in ("Rail", "Bollard"):
+                continue
         world = instance.matrix_world.copy()
         passable = source.brume.role == "PASSABLE"
         for corners in corners_of(instance.object.data, world, world.determinant() < 0):
@@ -76,10 +80,10 @@ def left_behind():
 def make_courtyard(folder):
     empty_scene()
     scene = bpy.context.scene
-    level_parts.build_courtyard()
+    level_parts.build_courtyard(folder)
     level_parts.build_lights()
     camera = level_parts.build_camera()
-    level_parts.build_events()
+    level_parts.build_events(folder)
     scene.frame_start, scene.frame_end = 1, 96
     scene.brume.sky, scene.brume.smoke_voxels = "WORLD", 900
     scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 1280, 720, 50
@@ -99,6 +103,31 @@ def make_courtyard(folder):
     export_both(folder, "small")
     write_json(os.path.join(folder, "small", "expected.json"), {"triangles": triangles, "metres": 0.25})
     scene.unit_settings.scale_length = 1.0
+
+
+def empty_with(kind, number, setting):
+    """An event of a kind whose every number is its least, its most, or what it is when nobody set it."""
+    made = level_parts.add(f"{kind} {number}", None, location=(number, 0, 0))
+    event = made.brume_event
+    event.type = kind
+    for name, field in event.bl_rna.properties.items():
+        if setting != "usual" and field.type == "FLOAT":
+            setattr(event, name, field.hard_min if setting == "least" else field.hard_max)
+    return event
+
+
+def make_ranges(folder):
+    """Timelines whose every number is at an end of what the panels take."""
+    for setting in ("least", "usual", "most"):
+        empty_scene()
+        level_parts.add("floor", level_parts.box_mesh("floor", (-1, -1, -1), (1, 1, 0)))
+        for number, kind in enumerate(("SMOKE", "SHOT", "TEXT", "BLAST")):
+            empty_with(kind, number, setting)
+        options = bpy.context.scene.brume
+        for name, field in options.bl_rna.properties.items():
+            if setting != "usual" and field.type in {"FLOAT", "INT"}:
+                setattr(options, name, field.hard_min if setting == "least" else field.hard_max)
+        bpy.ops.brume.export_level(filepath=os.path.join(folder, setting + ".glb"), format="GLTF")
 
 
 def render_and_voxelize(folder, brume):
@@ -165,6 +194,7 @@ def main():
     render_and_voxelize(folder, brume)
     make_failures(folder)
     make_box(folder)
+    make_ranges(folder)
 
 
 main()

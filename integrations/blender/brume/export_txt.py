@@ -91,8 +91,8 @@ class _Writer:
         self.lines = ["# Name\tPosition\tRotation\tScale\tMaterial\tRoughness"]
 
     def add(self, thing):
-        if thing.role == "DOOR":
-            self._add_door(thing)
+        if thing.role == "DOOR" or thing.name == "Grenade":
+            self._add_as_one(thing)
             return
         parts = _parts(thing.pieces[0])
         for part in parts:
@@ -102,13 +102,13 @@ class _Writer:
                 name = self._part_names.take(name)
             if thing.role == "PASSABLE" and not name.startswith("IGNORE_"):
                 name = "IGNORE_" + name
-            self._place(part, thing.pieces[0].world_from_mesh, name, shared=thing.name != "Grenade")
+            self._place(part, thing.pieces[0].world_from_mesh, name, shared=True)
 
-    def _add_door(self, door):
+    def _add_as_one(self, thing):
         """One mesh, one material: a line's name is that of its mesh, and a door is what has its name."""
-        origin = door.pieces[0].world_from_mesh.copy()
+        origin = thing.pieces[0].world_from_mesh.copy()
         parts = []
-        for piece in door.pieces:
+        for piece in thing.pieces:
             offset = piece.world_from_mesh[:3, 3] - origin[:3, 3]
             for part in _parts(piece):
                 turned = part.turned(piece.world_from_mesh[:3, :3])
@@ -117,19 +117,19 @@ class _Writer:
         origin[:3, :3] = np.identity(3)
         found = list({part.material: None for part in parts})
         if len(found) == 1:
-            self._place(_joined(parts, found[0]), origin, door.name, shared=False)
+            self._place(_joined(parts, found[0]), origin, thing.name, shared=False)
             return
         looks = [textures.look_of(material) for material in found]
         if any(look.image for look in looks):
-            self._warnings.add(f'the door "{door.name}" has several materials: Scene.txt shows their mean colours')
+            self._warnings.add(f'"{thing.name}" has several materials: Scene.txt shows their mean colours')
         for part in parts:
             tile = found.index(part.material)
             part.uvs = np.tile([(tile + 0.5) / len(found), 0.5], (len(part.uvs), 1))
-        material = self._material_names.take(door.name + "_colours")
+        material = self._material_names.take(thing.name + "_colours")
         tiles = textures.plain_png([look.mean_color() for look in looks])
         files.write(os.path.join(self._folder, "Textures", material + "_diffuse.png"), tiles)
         roughness = sum(look.roughness for look in looks) / len(looks)
-        self._place(_joined(parts, None), origin, door.name, shared=False, look=(material, roughness))
+        self._place(_joined(parts, None), origin, thing.name, shared=False, look=(material, roughness))
 
     def _place(self, part, world_from_mesh, name, shared, look=None):
         linear = world_from_mesh[:3, :3]

@@ -42,13 +42,19 @@ class Level:
     metres: float = 1.0  # One unit of Blender's.
 
 
+# What renders in Blender and is no mesh there.
+_NO_MESH = {"VOLUME": "volume", "POINTCLOUD": "point cloud", "CURVES": "hair", "GPENCIL": "drawing", "GREASEPENCIL": "drawing"}
+
+
 def _hidden_from_renders(instance):
     """What Blender's renders leave out of what its depsgraph lists."""
     source = instance.object.original
-    if source.hide_render or (instance.parent and instance.parent.original.hide_render):
-        return True
     if instance.is_instance:
-        return False
+        # Geometry nodes show instances of what is hidden itself.
+        parent = instance.parent.original
+        return parent.hide_render or (parent.instance_type == "COLLECTION" and source.hide_render)
+    if source.hide_render:
+        return True
     # The instance on vertices and faces replaces the child; the instancer shows itself where it says so.
     if source.parent and source.parent.instance_type in {"VERTS", "FACES"}:
         return True
@@ -105,6 +111,9 @@ class Gathered:
                     self._add_mesh(instance)
                 elif instance.object.type == "LIGHT":
                     self._add_lamp(instance)
+                elif instance.object.type in _NO_MESH:
+                    what = _NO_MESH[instance.object.type]
+                    self._warnings.add(f'"{instance.object.name}" is a {what}, and is left out')
         except BaseException:
             self.__exit__()
             raise
