@@ -21,6 +21,7 @@ layout(binding = 6, rgba16f) uniform writeonly image3D inscatter;
 layout(binding = 9) uniform sampler3D share_atlas;
 layout(scalar, binding = 10) readonly buffer BrickLamps { uvec2 brick_lamps[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
+#include "lib/row_texels.glsl"
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
 
@@ -62,9 +63,8 @@ void main() {
   const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z, i = gl_GlobalInvocationID.x;
   if (number >= params.count) return;
   const LightBrick brick = bricks[params.first + number];
-  const uint row = brick.row * kLightRow;
-  if (i >= rows[row]) return;
-  const uint local = rows[row + 1u + i];
+  const uint local = row_texel(brick.row, brick.texels, i);
+  if (local == kNoTexel) return;
   const ivec3 at = texel_in_atlas(brick.slot, local);
   const vec3 p_world = world_from_voxel(texel_position(brick.slot, local));
   const float escape = escape_of(brick.sky_block, local);

@@ -26,6 +26,7 @@ layout(scalar, binding = 14) writeonly buffer Blocks { uint blocks[]; };
 layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 #include "lib/light_share.glsl"
 #include "lib/optical_depth.glsl"
+#include "lib/row_texels.glsl"
 #include "lib/smoke_texels.glsl"
 
 /// Share of a lamp's light that the scene lets through to a point; 0 too where the lamp is too weak to be seen
@@ -54,9 +55,8 @@ void main() {
   const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z, i = gl_GlobalInvocationID.x;
   if (number >= params.count) return;
   const LightPair pair = pairs[params.first + number];
-  const uint row = pair.row * kLightRow;
-  if (i >= rows[row]) return;
-  const uint local = rows[row + 1u + i];
+  const uint local = row_texel(pair.row, pair.texels, i);
+  if (local == kNoTexel) return;
   const bool sky = pair.lamp >= kTowardSky;
   // Loops that run at most once: a software rasteriser pays for branches that it does not take, not for loops.
   for (bool now = !sky; now; now = false) to_lamp(pair, local);

@@ -1,7 +1,9 @@
 // Light in the smoke: rays from the texels of its bricks to the lamps and to the sky.
 //
-//   rows     per brick kLightRow words: how many of its texels a sample of the march can meet, then these texels,
-//            x + 10 (y + 10 z)
+//   rows     per brick kLightRow words that list the texels that a sample of the march can meet, phase by phase:
+//            where each phase begins, where the last ends, and how many texels are new; then a word an entry: in the
+//            low half a texel, x + 10 (y + 10 z), in the high half a new one, one that the list before did not have or whose smoke
+//            changed at once
 //   blocks   per brick and lamp that reaches it kTexelsPerBrick words, one a texel: two half floats, optical depth of the
 //            smoke on the way, share of the light that the scene lets through. For the sky kSkyBlocks blocks one
 //            after the other, of two rays each: their depths
@@ -12,26 +14,49 @@ SHARED_BEGIN
 
 SHARED_CONST uint kSkyRays = 6u;
 SHARED_CONST uint kSkyBlocks = 3u;
-SHARED_CONST uint kLightRow = 1001u;
+/// Parts of a brick's texels that can be lit in frames of their own.
+SHARED_CONST uint kLightPhases = 16u;
+/// At most as many texels of a brick are in one.
+SHARED_CONST uint kTexelsPerPhase = 64u;
+SHARED_CONST uint kLightRowHead = 18u;
+SHARED_CONST uint kLightRow = 1018u;
 SHARED_CONST uint kTowardSky = 0xfffffff0u;
 /// Workgroups along an axis of a dispatch, after which the next axis begins.
 SHARED_CONST uint kLightGroups = 32768u;
 
-/// A brick and the row of its texels.
+/// Which of a row's texels: those of phases from a first one up to an end, or the new ones.
+SHARED_FUNCTION uint light_phases(uint first, uint end) { return first | end << 8u; }
+SHARED_CONST uint kAllTexels = 0x1000u;  // light_phases(0, kLightPhases)
+SHARED_CONST uint kNewTexels = 0xffffu;
+
+/// A brick whose texels are to be listed.
 struct LightRow {
   uint slot;
   uint row;
+  uint by_phase;  // 0: all texels in phase 0
+  uint had_list;  // 0: none before, no texel is new
+  uint first_change, change_count;  // new are also the texels within these changes
 };
-SHARED_SIZE(LightRow, 8);
+SHARED_SIZE(LightRow, 24);
 
-/// Rays of all texels of a brick to one lamp, or two of each to the sky.
+/// All that is nearer than `radius` to a stretch of a line [m].
+struct LightChange {
+  vec3 from_world;
+  float radius;
+  vec3 to_world;
+  float padding;
+};
+SHARED_SIZE(LightChange, 32);
+
+/// Rays of texels of a brick to one lamp, or two of each to the sky.
 struct LightPair {
   uint slot;
   uint row;
-  uint lamp;   // of the frame's lights, or kTowardSky + number of the sky's block
-  uint block;  // where they go
+  uint lamp;    // of the frame's lights, or kTowardSky + number of the sky's block
+  uint block;   // where they go
+  uint texels;  // which
 };
-SHARED_SIZE(LightPair, 16);
+SHARED_SIZE(LightPair, 20);
 
 /// A brick whose light is to be put together.
 struct LightBrick {
@@ -40,8 +65,9 @@ struct LightBrick {
   uint sky_block;   // the first of kSkyBlocks
   uint first_lamp;  // into the list of (lamp, block)
   uint lamp_count;
+  uint texels;  // which
 };
-SHARED_SIZE(LightBrick, 20);
+SHARED_SIZE(LightBrick, 24);
 
 /// Which part of its list a dispatch works on.
 struct SmokeLightParams {
@@ -49,6 +75,13 @@ struct SmokeLightParams {
   uint count;
 };
 SHARED_SIZE(SmokeLightParams, 8);
+
+/// The phase of a texel: texels side by side are of different ones, and two bricks that hold the same voxel, each at its
+/// rim, agree on its phase, so that light of different times shows no edges of bricks.
+SHARED_FUNCTION uint light_phase(uvec3 texel) {
+  uint x = texel.x, y = texel.y, z = texel.z;
+  return ((x ^ y ^ z) & 1u) << 3u | ((y ^ z) & 1u) << 2u | (z & 1u) << 1u | ((x ^ y ^ z) >> 1u & 1u);
+}
 
 /// Directions of the sky rays: the corners of an octahedron, askew, so that none runs along a floor or a wall.
 SHARED_FUNCTION vec3 sky_ray(uint i) {

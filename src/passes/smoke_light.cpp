@@ -25,7 +25,8 @@ void upload(gpu::Recorder& recorder, const gpu::Buffer& buffer, const std::vecto
 SmokeLightPass::SmokeLightPass(gpu::Context& context)
     : context_(context),
       texels_pass_(context, shaders::light_texels_comp,
-                   {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer},
+                   {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
+                    gpu::kBuffer},
                    sizeof(shared::SmokeLightParams), {256, 1, 1}),
       rays_pass_(context, shaders::light_rays_comp,
                  {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
@@ -39,15 +40,20 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
       plan_(&kept_.plan({})) {
-  for (gpu::Buffer* buffer : {&rows_, &blocks_, &listed_rows_, &pairs_, &bricks_, &brick_lamps_})
+  for (gpu::Buffer* buffer : {&rows_, &blocks_, &listed_rows_, &changes_, &pairs_, &bricks_, &brick_lamps_})
     gpu::grow(context, *buffer, 1);
 }
 
 void SmokeLightPass::reserve(const SmokeLightMoment& moment) {
   const auto make_room = [&] {
     constexpr std::size_t kWord = sizeof(std::uint32_t);
-    const bool rows = gpu::grow(context_, rows_, plan_->row_count * shared::kLightRow * kWord);
-    const bool blocks = gpu::grow(context_, blocks_, plan_->block_count * shared::kTexelsPerBrick * kWord);
+    const std::size_t most = context_.limits().maxStorageBufferRange;
+    // Twice what is needed, so that it is seldom: what was kept is lost then.
+    const auto grow = [&](gpu::Buffer& buffer, std::size_t bytes) {
+      return buffer.size() < bytes && gpu::grow(context_, buffer, std::min(2 * bytes, std::max(most, bytes)));
+    };
+    const bool rows = grow(rows_, plan_->row_count * shared::kLightRow * kWord);
+    const bool blocks = grow(blocks_, plan_->block_count * shared::kTexelsPerBrick * kWord);
     return rows || blocks;
   };
   plan_ = &kept_.plan(moment);
@@ -56,6 +62,7 @@ void SmokeLightPass::reserve(const SmokeLightMoment& moment) {
     plan_ = &kept_.plan(moment);
   }
   gpu::grow(context_, listed_rows_, plan_->rows.size() * sizeof(shared::LightRow));
+  gpu::grow(context_, changes_, plan_->changes.size() * sizeof(shared::LightChange));
   gpu::grow(context_, pairs_, plan_->pairs.size() * sizeof(shared::LightPair));
   gpu::grow(context_, bricks_, plan_->bricks.size() * sizeof(shared::LightBrick));
   gpu::grow(context_, brick_lamps_, plan_->lamps.size() * sizeof(glm::uvec2));
@@ -63,6 +70,7 @@ void SmokeLightPass::reserve(const SmokeLightMoment& moment) {
 
 void SmokeLightPass::record(gpu::Recorder& recorder, const Inputs& in) {
   upload(recorder, listed_rows_, plan_->rows);
+  upload(recorder, changes_, plan_->changes);
   upload(recorder, pairs_, plan_->pairs);
   upload(recorder, bricks_, plan_->bricks);
   upload(recorder, brick_lamps_, plan_->lamps);
@@ -77,12 +85,18 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   if (part.rows.count > 0) {
     recorder.bind(texels_pass_,
                   {gpu::uniform(in.frame), gpu::read(listed_rows_), gpu::sampled(in.smoke.density, linear_),
-                   gpu::write(rows_), gpu::read(in.smoke.cells)},
+                   gpu::read_write(rows_), gpu::read(in.smoke.cells), gpu::read(in.smoke.slot_bricks),
+                   gpu::read(changes_)},
                   params(part.rows));
     const Groups groups = groups_of(part.rows.count);
     recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
   }
-  if (part.pairs.count > 0) {
+  // First what asks for texels of every phase, then what asks for those of some.
+  const auto each = [&](const sim::IndexRange& range, std::uint32_t few, auto record) {
+    if (range.count > few) record({range.first, range.count - few}, shared::kTexelsPerBrick);
+    if (few > 0) record({range.first + range.count - few, few}, part.phases * shared::kTexelsPerPhase);
+  };
+  each(part.pairs, part.few_pairs, [&](const sim::IndexRange& range, std::uint32_t texels) {
     recorder.bind(rays_pass_,
                   {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                    gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
@@ -90,18 +104,21 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
                    gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
                    gpu::read(in.holes.cells), gpu::sampled(in.level.solid.texels(), linear_),
                    gpu::read(pairs_), gpu::read(rows_), gpu::write(blocks_)},
-                  params(part.pairs));
-    const Groups groups = groups_of(part.pairs.count);
-    recorder.dispatch_threads(rays_pass_, shared::kTexelsPerBrick, groups.y, groups.z);
-  }
-  recorder.bind(inscatter_pass_,
-                {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
-                 gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
-                 gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
-                 gpu::sampled(in.smoke.share, linear_), gpu::read(brick_lamps_)},
-                params(part.bricks));
-  const Groups groups = groups_of(part.bricks.count);
-  recorder.dispatch_threads(inscatter_pass_, shared::kTexelsPerBrick, groups.y, groups.z);
+                  params(range));
+    const Groups groups = groups_of(range.count);
+    recorder.dispatch_threads(rays_pass_, texels, groups.y, groups.z);
+  });
+  each(part.bricks, part.few_bricks, [&](const sim::IndexRange& range, std::uint32_t texels) {
+    recorder.bind(
+        inscatter_pass_,
+        {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
+         gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
+         gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
+         gpu::sampled(in.smoke.share, linear_), gpu::read(brick_lamps_)},
+        params(range));
+    const Groups groups = groups_of(range.count);
+    recorder.dispatch_threads(inscatter_pass_, texels, groups.y, groups.z);
+  });
 }
 
 }  // namespace brume::passes

@@ -39,8 +39,8 @@ class SmokeLightPass {
   gpu::Sampler linear_, compare_;
   KeptSmokeLight kept_;
   const SmokeLightPlan* plan_;
-  gpu::Buffer rows_, blocks_;                               // what is kept
-  gpu::Buffer listed_rows_, pairs_, bricks_, brick_lamps_;  // the lists of a plan
+  gpu::Buffer rows_, blocks_;                                         // what is kept
+  gpu::Buffer listed_rows_, changes_, pairs_, bricks_, brick_lamps_;  // the lists of a plan
 };
 
 }  // namespace brume::passes

@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "core/hash.hpp"
+#include "passes/light_reach.hpp"
 
 namespace brume::passes {
 namespace {
@@ -26,42 +27,11 @@ bool same_bytes(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-float brightest(const shared::Light& light) {
-  return std::max({light.intensity.r, light.intensity.g, light.intensity.b});
-}
-
 /// Whether rays to one lamp are those to the other, as far as both reach.
 bool same_rays(shared::Light a, const shared::Light& b) {
   a.intensity = b.intensity;
   a.range = b.range;
   return same_bytes(a, b);
-}
-
-/// Whether a lamp reaches anything within a sphere. Spots: Wronski 2017, "Cull that cone!".
-bool reaches(const shared::Light& light, glm::vec3 centre, float radius) {
-  if (brightest(light) <= 0) return false;
-  if (light.kind == shared::kLightDirectional) return true;
-  const glm::vec3 way = centre - light.position_world;
-  const float far = light.range + radius, d2 = glm::dot(way, way);
-  if (d2 >= far * far) return false;
-  if (light.kind == shared::kLightPoint || light.cos_outer <= 0) return true;
-  const float along = glm::dot(way, light.direction), aside = std::sqrt(std::max(d2 - along * along, 0.0f));
-  const float sin_outer = std::sqrt(1 - light.cos_outer * light.cos_outer);
-  return light.cos_outer * aside - sin_outer * along <= 1.001f * radius && along >= -1.001f * radius;
-}
-
-/// Square of the least distance between two stretches (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
-float distance2(glm::vec3 a, glm::vec3 to_a, glm::vec3 b, glm::vec3 to_b) {
-  const glm::vec3 along_a = to_a - a, along_b = to_b - b, apart = a - b;
-  const float aa = glm::dot(along_a, along_a), bb = glm::dot(along_b, along_b);
-  const float ab = glm::dot(along_a, along_b), at_a = glm::dot(along_a, apart),
-              at_b = glm::dot(along_b, apart);
-  const float slanted = aa * bb - ab * ab;
-  float s = slanted > 1e-6f * aa * bb ? std::clamp((ab * at_b - at_a * bb) / slanted, 0.0f, 1.0f) : 0.0f;
-  const float t = bb > 0 ? std::clamp((ab * s + at_b) / bb, 0.0f, 1.0f) : 0.0f;
-  s = aa > 0 ? std::clamp((ab * t - at_a) / aa, 0.0f, 1.0f) : 0.0f;
-  const glm::vec3 between = apart + s * along_a - t * along_b;
-  return glm::dot(between, between);
 }
 
 glm::vec3 world_of(const shared::SmokeVolumeFrame& frame, glm::vec3 voxel) {
@@ -95,13 +65,18 @@ void KeptSmokeLight::forget() {
 }
 
 bool KeptSmokeLight::must_forget(const SmokeLightMoment& moment) const {
-  if (!last_ || moment.anew || moment.volume != last_->volume) return true;
+  if (!last_ || moment.volume != last_->volume || (!shares() && is_other(moment))) return true;
   const shared::SmokeVolumeFrame& frame = moment.volume->frame();
   if (frame.origin_world != frame_.origin_world || frame.voxel_size != frame_.voxel_size ||
-      frame.atlas_bricks != frame_.atlas_bricks || !same_bytes(moment.look, last_->look))
+      frame.atlas_bricks != frame_.atlas_bricks)
     return true;
   // What is dirty is only that since the revision before.
   return moment.volume->revision() != revision_ && moment.volume->revision() != revision_ + 1;
+}
+
+/// Whether no ray holds, wherever it runs.
+bool KeptSmokeLight::is_other(const SmokeLightMoment& moment) const {
+  return moment.anew || !same_bytes(moment.look, last_->look);
 }
 
 void KeptSmokeLight::remember(const SmokeLightMoment& moment) {
@@ -118,11 +93,12 @@ void KeptSmokeLight::remember(const SmokeLightMoment& moment) {
     brick_of_slot_[slot] = moment.volume->brick_of(slot);
 }
 
-void KeptSmokeLight::add_hole_changes(const SmokeLightMoment& moment, std::vector<Capsule>& changes) const {
+void KeptSmokeLight::add_hole_changes(const SmokeLightMoment& moment,
+                                      std::vector<shared::LightChange>& changes) const {
   const float slack = frame_.voxel_size;  // holes are averaged over cells of half a voxel
   const auto add = [&](const shared::Hole& hole) {
-    changes.push_back({hole.origin_world, hole.origin_world + hole.distance_to_far * hole.forward,
-                       hole.radius * shared::kHoleWidest + slack});
+    changes.push_back({hole.origin_world, hole.radius * shared::kHoleWidest + slack,
+                       hole.origin_world + hole.distance_to_far * hole.forward, 0});
   };
   const auto bytes = [](const shared::Hole& hole) {
     return std::string_view(reinterpret_cast<const char*>(&hole), sizeof hole);
@@ -135,7 +111,20 @@ void KeptSmokeLight::add_hole_changes(const SmokeLightMoment& moment, std::vecto
     if (gone.count(bytes(hole)) > 0) add(hole);
 }
 
-void KeptSmokeLight::add_smoke_changes(const SmokeLightMoment& moment, std::vector<Capsule>& changes) {
+/// Lists the changes of holes that a row's texels may be in.
+sim::IndexRange KeptSmokeLight::changes_in(const Row& row) {
+  const auto first = static_cast<std::uint32_t>(plan_.changes.size());
+  // A brick has one texel around it.
+  const glm::vec3 low = world_of(frame_, glm::vec3(row.brick) * float{shared::kBrickVoxels} - 1.0f);
+  const glm::vec3 high = world_of(frame_, glm::vec3(row.brick + 1) * float{shared::kBrickVoxels} + 1.0f);
+  for (const shared::LightChange& cut : cuts_)
+    if (meets_box(cut.from_world, cut.to_world, low - cut.radius, high + cut.radius))
+      plan_.changes.push_back(cut);
+  return {first, static_cast<std::uint32_t>(plan_.changes.size()) - first};
+}
+
+void KeptSmokeLight::add_smoke_changes(const SmokeLightMoment& moment,
+                                       std::vector<shared::LightChange>& changes) {
   if (moment.volume->revision() == revision_) return;
   // Cubes of four bricks, what changed in each as one.
   std::map<std::tuple<int, int, int>, voxel::IntBox> cubes;
@@ -156,20 +145,21 @@ void KeptSmokeLight::add_smoke_changes(const SmokeLightMoment& moment, std::vect
     const glm::vec3 low = world_of(frame_, glm::vec3(bricks.low - 1) * float{shared::kBrickVoxels});
     const glm::vec3 high = world_of(frame_, glm::vec3(bricks.high + 1) * float{shared::kBrickVoxels});
     const glm::vec3 middle = 0.5f * (low + high);
-    changes.push_back({middle, middle, 0.5f * glm::length(high - low)});
+    changes.push_back({middle, 0.5f * glm::length(high - low), middle, 0});
   }
 }
 
 /// Drops all rays; which texels have any stays known.
 void KeptSmokeLight::drop_rays() {
   for (Row& row : std::span(rows_).first(row_count_)) {
-    row.sky.valid = false;
-    for (Kept& kept : row.lamps) kept.valid = false;
+    row.sky.stale = kEveryPhase;
+    for (Kept& kept : row.lamps) kept.stale = kEveryPhase;
   }
 }
 
 /// Drops the rays that changes may lie on; false where there is too much to ask.
-bool KeptSmokeLight::drop_crossed(const SmokeLightMoment& moment, std::span<const Capsule> changes) {
+bool KeptSmokeLight::drop_crossed(const SmokeLightMoment& moment,
+                                  std::span<const shared::LightChange> changes) {
   if (changes.empty()) return true;
   std::size_t rays = 0;
   for (const Row& row : std::span(rows_).first(row_count_)) rays += shared::kSkyRays + row.lamps.size();
@@ -181,17 +171,18 @@ bool KeptSmokeLight::drop_crossed(const SmokeLightMoment& moment, std::span<cons
   for (Row& row : std::span(rows_).first(row_count_)) {
     const glm::vec3 from = middle_of(frame_, row.brick);
     const auto crossed = [&](glm::vec3 to) {
-      return std::any_of(changes.begin(), changes.end(), [&](const Capsule& change) {
+      return std::any_of(changes.begin(), changes.end(), [&](const shared::LightChange& change) {
         const float reach = radius + change.radius;
-        return distance2(from, to, change.from, change.to) < reach * reach;
+        return distance2(from, to, change.from_world, change.to_world) < reach * reach;
       });
     };
-    for (std::uint32_t i = 0; i < shared::kSkyRays && row.sky.valid; ++i)
-      row.sky.valid = !crossed(from + far * shared::sky_ray(i));
+    for (std::uint32_t i = 0; i < shared::kSkyRays && row.sky.stale != kEveryPhase; ++i)
+      if (crossed(from + far * shared::sky_ray(i))) row.sky.stale = kEveryPhase;
     for (Kept& kept : row.lamps) {
       const shared::Light& light = lamps_[kept.lamp].light;
       const bool sun = light.kind == shared::kLightDirectional;
-      if (kept.valid) kept.valid = !crossed(sun ? from - far * light.direction : light.position_world);
+      if (kept.stale != kEveryPhase && crossed(sun ? from - far * light.direction : light.position_world))
+        kept.stale = kEveryPhase;
     }
   }
   return true;
@@ -212,7 +203,7 @@ KeptSmokeLight::Lamp& KeptSmokeLight::known_lamp(const shared::Light& light, std
   const auto number = static_cast<std::uint32_t>(oldest - lamps_.begin());
   for (Row& row : std::span(rows_).first(row_count_))
     for (Kept& kept : row.lamps)
-      if (kept.lamp == number) kept.valid = false;
+      if (kept.lamp == number) kept.listing = 0;
   *oldest = {};
   return *oldest;
 }
@@ -285,9 +276,9 @@ KeptSmokeLight::Row& KeptSmokeLight::row_of(const SmokeLightMoment& moment, std:
     row.slot = slot;
     row.number = row_of_slot_[slot];
     row.brick = brick;
-    row.listed = row.sky.valid = false;
-    row.put_together = 0;
-    for (Kept& kept : row.lamps) kept.valid = false;
+    row.listed = false;
+    row.listing = row.sky.listing = row.lamps_made = 0;
+    for (Kept& kept : row.lamps) kept.listing = 0;
   }
   return row;
 }
@@ -299,9 +290,9 @@ void KeptSmokeLight::take_blocks(Kept& kept, std::uint32_t count) {
 }
 
 std::uint64_t KeptSmokeLight::made_of(std::span<const std::uint32_t> lamps) const {
-  std::uint64_t made = hash_values(std::span(&epoch_, 1));
+  std::uint64_t made = 0;
   for (const std::uint32_t lamp : lamps) made = hash_values(std::span(&lamps_[lamp].version, 1), made);
-  return std::max<std::uint64_t>(made, 1);
+  return made;
 }
 
 /// What is kept of a lamp in a row, most likely at a place.
@@ -314,43 +305,134 @@ KeptSmokeLight::Kept& KeptSmokeLight::kept_of(Row& row, std::uint32_t lamp, std:
   return row.lamps.back();
 }
 
-void KeptSmokeLight::plan_row(Row& row, std::span<const std::uint32_t> lamps) {
-  const std::size_t pairs_before = plan_.pairs.size();
-  if (!row.listed) plan_.rows.push_back({row.slot, row.number});
+void KeptSmokeLight::choose_phases(float share) {
+  phases_ = shared::kLightPhases;
+  while (phases_ > 1 && static_cast<float>(phases_ / 2) >= share * float{shared::kLightPhases}) phases_ /= 2;
+  // The bits of the turn from behind, so that turns one after the other are in different halves, quarters,
+  // ...
+  first_phase_ = 0;
+  for (std::uint32_t bit = shared::kLightPhases / 2, turn = turns_++ % shared::kLightPhases; bit >= phases_;
+       bit /= 2, turn /= 2)
+    first_phase_ += turn % 2 * bit;
+}
+
+KeptSmokeLight::Run KeptSmokeLight::run_of(const Row& row) const {
+  const std::uint32_t count = row.hurry > 0 ? hurried() : phases_;
+  const std::uint32_t first = first_phase_ / count * count;
+  return {first, first + count};
+}
+
+/// Lists a row's texels where the list is not what it must be; whether it may have texels without light.
+bool KeptSmokeLight::list_texels(Row& row) {
+  const bool had_list = shares() && row.listing != 0;
+  const sim::IndexRange changes = had_list ? changes_in(row) : sim::IndexRange{};
+  if (row.listed && (row.by_phase || !shares()) && changes.count == 0) return false;
+  const bool is_fresh = had_list && (!row.listed || changes.count > 0);
+  plan_.rows.push_back({row.slot, row.number, shares(), had_list, changes.first, changes.count});
+  if (!row.listed || is_fresh) row.listing = ++listings_;
   row.listed = true;
-  take_blocks(row.sky, shared::kSkyBlocks);
-  for (std::uint32_t i = 0; i < shared::kSkyBlocks && !row.sky.valid; ++i)
-    plan_.pairs.push_back({row.slot, row.number, shared::kTowardSky + i, row.sky.block + i});
-  row.sky.valid = true;
+  row.by_phase = shares();
+  return is_fresh;
+}
+
+/// What is to be done of rays that a row has; `before` is the listing that it had.
+KeptSmokeLight::Task KeptSmokeLight::task_of(const Row& row, const Kept& kept, std::uint64_t before,
+                                             Run run) const {
+  const bool fresh = kept.listing != row.listing;
+  if (kept.listing == 0 || kept.listing != before || (fresh && !shares())) return {.all = true};
+  if (kept.stale == 0) return {.fresh = fresh};
+  // Rays to a lamp that the brick's last frame did not have are of any age.
+  if (!shares() || kept.planned != row.planned) return {.all = true};
+  return {false, fresh, (kept.stale & run.mask()) != 0};
+}
+
+template <typename Item>
+void KeptSmokeLight::ask(const Task& task, Run run, Item item, std::vector<Item>& list,
+                         std::vector<Item>& few) {
+  item.texels = task.all ? shared::kAllTexels : shared::kNewTexels;
+  if (task.all || task.fresh) list.push_back(item);
+  if (task.all || !task.run) return;
+  item.texels = run.texels();
+  few.push_back(item);
+  most_phases_ = std::max(most_phases_, run.end - run.first);
+}
+
+/// Asks for `blocks` blocks of rays, `lamp` of the first.
+void KeptSmokeLight::follow(const Row& row, Kept& kept, std::uint32_t lamp, std::uint32_t blocks,
+                            const Task& task, Run run) {
+  for (std::uint32_t i = 0; i < blocks; ++i)
+    ask(task, run, shared::LightPair{row.slot, row.number, lamp + i, kept.block + i, 0}, plan_.pairs,
+        few_pairs_);
+  kept.stale &= ~(task.all ? kEveryPhase : task.run ? run.mask() : 0);
+  kept.listing = row.listing;
+  kept.planned = frames_;
+}
+
+void KeptSmokeLight::plan_row(Row& row, std::span<const std::uint32_t> lamps) {
+  const std::uint64_t before = row.listing;
+  Task put{.fresh = list_texels(row)};
+  if (row.planned + 1 != frames_) row.hurry = shared::kLightPhases / hurried();
+  const Run run = run_of(row);
+  const auto follow_kept = [&](Kept& kept, std::uint32_t lamp, std::uint32_t blocks, const Task& task) {
+    take_blocks(kept, blocks);
+    follow(row, kept, lamp, blocks, task, run);
+    put.all |= task.all;
+    put.run |= task.run;
+  };
+  follow_kept(row.sky, shared::kTowardSky, shared::kSkyBlocks, task_of(row, row.sky, before, run));
   const auto first = static_cast<std::uint32_t>(plan_.lamps.size());
   for (std::size_t i = 0; i < lamps.size(); ++i) {
     const Lamp& lamp = lamps_[lamps[i]];
     Kept& kept = kept_of(row, lamps[i], i);
-    take_blocks(kept, 1);
+    const bool beyond = lamp.light.range > kept.range || brightest(lamp.light) > kept.intensity;
+    const Task task = beyond ? Task{.all = true} : task_of(row, kept, before, run);
+    follow_kept(kept, lamp.in_frame, 1, task);
+    if (task.all) {
+      kept.range = lamp.light.range;
+      kept.intensity = brightest(lamp.light);
+    }
     plan_.lamps.push_back({lamp.in_frame, kept.block});
-    if (kept.valid && lamp.light.range <= kept.range && brightest(lamp.light) <= kept.intensity) continue;
-    plan_.pairs.push_back({row.slot, row.number, lamp.in_frame, kept.block});
-    kept = {kept.lamp, kept.block, true, lamp.light.range, brightest(lamp.light)};
   }
+  put_together(row, lamps, first, put, run);
+  row.planned = frames_;
+  row.hurry -= row.hurry > 0;
+}
+
+/// Asks for the light of a row: what `put` says, and what else of it is not as it was.
+void KeptSmokeLight::put_together(Row& row, std::span<const std::uint32_t> lamps, std::uint32_t first_lamp,
+                                  Task put, Run run) {
+  if (row.epoch != epoch_) row.stale = kEveryPhase;
+  row.epoch = epoch_;
   const std::uint64_t made = made_of(lamps);
-  if (row.put_together == made && plan_.pairs.size() == pairs_before) {
-    plan_.lamps.resize(first);
-    return;
-  }
-  row.put_together = made;
-  plan_.bricks.push_back(
-      {row.slot, row.number, row.sky.block, first, static_cast<std::uint32_t>(lamps.size())});
+  put.all |= row.lamps_made != made || (!shares() && row.stale != 0);
+  put.run |= (row.stale & run.mask()) != 0;
+  row.lamps_made = made;
+  row.stale &= ~(put.all ? kEveryPhase : put.run ? run.mask() : 0);
+  if (!put.all && !put.fresh && !put.run) plan_.lamps.resize(first_lamp);
+  ask(put, run,
+      shared::LightBrick{row.slot, row.number, row.sky.block, first_lamp,
+                         static_cast<std::uint32_t>(lamps.size()), 0},
+      plan_.bricks, few_bricks_);
 }
 
 void KeptSmokeLight::plan_kept(const SmokeLightMoment& moment) {
+  few_pairs_.clear();
+  few_bricks_.clear();
+  most_phases_ = 0;
   for (std::uint32_t i = 0; i < moment.needs->seen; ++i)
     plan_row(row_of(moment, moment.needs->slots[i]), reaching(i));
   plan_.row_count = row_count_;
   plan_.block_count = block_end_;
-  const auto all = [](const auto& list) {
-    return sim::IndexRange{0, static_cast<std::uint32_t>(list.size())};
-  };
-  if (!plan_.bricks.empty()) plan_.parts = {{all(plan_.rows), all(plan_.pairs), all(plan_.bricks)}};
+  plan_.pairs.insert(plan_.pairs.end(), few_pairs_.begin(), few_pairs_.end());
+  plan_.bricks.insert(plan_.bricks.end(), few_bricks_.begin(), few_bricks_.end());
+  if (plan_.rows.empty() && plan_.bricks.empty()) return;
+  const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+  plan_.parts = {{{0, count(plan_.rows)},
+                  {0, count(plan_.pairs)},
+                  {0, count(plan_.bricks)},
+                  count(few_pairs_),
+                  count(few_bricks_),
+                  most_phases_}};
 }
 
 /// As many bricks at a time as their blocks fit, nothing kept.
@@ -363,7 +445,7 @@ void KeptSmokeLight::plan_parts(const SmokeLightMoment& moment) {
       return sim::IndexRange{static_cast<std::uint32_t>(begin[i]),
                              static_cast<std::uint32_t>(end[i] - begin[i])};
     };
-    plan_.parts.push_back({range(0), range(1), range(2)});
+    plan_.parts.push_back({range(0), range(1), range(2), 0, 0, 0});
     plan_.row_count = std::max(plan_.row_count, row_count_);
     plan_.block_count = std::max(plan_.block_count, block_end_);
     begin = end;
@@ -383,23 +465,27 @@ const SmokeLightPlan& KeptSmokeLight::plan(const SmokeLightMoment& moment) {
     forget();
     return plan_;
   }
+  choose_phases(moment.share);
+  cuts_.clear();
   if (must_forget(moment)) {
     forget_rays();
   } else {
-    std::vector<Capsule> changes;
+    std::vector<shared::LightChange> changes;
     add_smoke_changes(moment, changes);
     // Rays end where the box around the smoke does.
     const bool other_box =
         bounds_.low != moment.needs->bounds.low || bounds_.high != moment.needs->bounds.high;
     const bool noise_drifts = moment.look.erosion > 0 && moment.time != last_->time;
+    if (shares()) add_hole_changes(moment, cuts_);
     if (!noise_drifts) add_hole_changes(moment, changes);
-    if (noise_drifts || other_box || !drop_crossed(moment, changes)) drop_rays();
+    if (noise_drifts || other_box || is_other(moment) || !drop_crossed(moment, changes)) drop_rays();
   }
   if (!last_ || last_->eye_world != moment.eye_world || !same_bytes(last_->sky, moment.sky)) ++epoch_;
   follow_lamps(moment.lights);
   find_reaching(moment);
   if (block_end_ + blocks_missing(moment) > most_blocks_) forget_rays();
   if (block_end_ == 0 && blocks_missing(moment) > most_blocks_) {
+    choose_phases(1);
     plan_parts(moment);
     last_.reset();
   } else {

@@ -16,13 +16,16 @@ namespace brume::passes {
 
 /// Work for the device, in lists as shaders/shared/smoke_light.h reads them.
 struct SmokeLightPlan {
-  std::vector<shared::LightRow> rows;      ///< Bricks whose texels are to be listed.
-  std::vector<shared::LightPair> pairs;    ///< Rays to be followed.
-  std::vector<shared::LightBrick> bricks;  ///< Whose light is to be put together.
-  std::vector<glm::uvec2> lamps;           ///< Of those bricks: (lamp of the frame, block).
+  std::vector<shared::LightRow> rows;        ///< Bricks whose texels are to be listed.
+  std::vector<shared::LightPair> pairs;      ///< Rays to be followed.
+  std::vector<shared::LightBrick> bricks;    ///< Whose light is to be put together.
+  std::vector<shared::LightChange> changes;  ///< That rows refer to.
+  std::vector<glm::uvec2> lamps;             ///< Of those bricks: (lamp of the frame, block).
   /// What is done in one go. More than one only where the blocks of all would not fit.
   struct Part {
     sim::IndexRange rows, pairs, bricks;
+    /// How many of these pairs and bricks, the last ones, ask for no more than `phases` phases.
+    std::uint32_t few_pairs = 0, few_bricks = 0, phases = 0;
   };
   std::vector<Part> parts;
   std::uint32_t row_count = 0, block_count = 0;  ///< That there must be room for.
@@ -39,6 +42,8 @@ struct SmokeLightMoment {
   shared::Sky sky{};
   glm::vec3 eye_world{0};
   bool anew = false;  ///< Something else changed, walls for instance: nothing is kept.
+  /// Of what is not as it was, about how much is made anew in this frame; in (0, 1].
+  float share = 1;
 };
 
 /// Most blocks of rays at a time; of shared::kTexelsPerBrick words: 128 MB.
@@ -47,6 +52,12 @@ constexpr std::uint32_t kMostLightBlocks = 1u << 15;
 /// Remembers what the device holds. A ray is followed anew when its lamp, or anything that may lie on its
 /// way, is not what it was; a brick's light is put together anew when a ray of its own was, or the eye, the
 /// sky or a lamp of it changed. Where noise drifts every moment changes all smoke, and all rays with it.
+///
+/// With a share below 1 that is spread over frames: the texels of all bricks are in kLightPhases phases
+/// (shared::light_phase), and a frame makes anew those of some. 1 / share, rounded up, frames later all that
+/// is in view was made anew once. Done at once nevertheless: texels that have no light yet, as smoke grew;
+/// texels in holes that open or close; lamps that come, go or change. Bricks that come into view are made
+/// anew four times as fast as the others.
 class KeptSmokeLight {
  public:
   explicit KeptSmokeLight(std::uint32_t most_blocks = kMostLightBlocks) : most_blocks_(most_blocks) {}
@@ -58,18 +69,27 @@ class KeptSmokeLight {
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kHurry = 4;  // times as fast
+  static constexpr std::uint32_t kEveryPhase = (1u << shared::kLightPhases) - 1;
   struct Kept {
     std::uint32_t lamp = kNone;  // its number here
     std::uint32_t block = kNone;
-    bool valid = false;
+    std::uint64_t listing = 0;          // of the row, whose texels all have rays; 0: none has
+    std::uint32_t stale = kEveryPhase;  // phases whose rays no longer hold
+    std::uint64_t planned = 0;          // the last frame that asked for it
     // Where the lamp reached when the rays were followed: beyond they say nothing.
     float range = 0, intensity = 0;
   };
   struct Row {
     std::uint32_t slot = 0, number = 0;
     glm::ivec3 brick{0};
-    bool listed = false;
-    std::uint64_t put_together = 0;  // hash of what its light was put together from; 0: nothing
+    bool listed = false, by_phase = false;
+    std::uint64_t listing = 0;          // of its texels, never the same twice; 0: none
+    std::uint32_t stale = kEveryPhase;  // phases that must be put together
+    std::uint64_t lamps_made = 0;       // hash of the lamps that its light was put together from
+    std::uint64_t epoch = 0;            // when it was, or became stale
+    std::uint64_t planned = 0;          // the last frame that had it in view
+    std::uint32_t hurry = 0;            // frames in which it is made anew faster
     Kept sky;
     std::vector<Kept> lamps;
   };
@@ -79,19 +99,15 @@ class KeptSmokeLight {
     std::uint64_t last_frame = 0;    // that had it
     std::uint32_t in_frame = kNone;  // its number there
   };
-  /// Around a stretch of a line, in the world [m].
-  struct Capsule {
-    glm::vec3 from{0}, to{0};
-    float radius = 0;
-  };
 
   bool must_forget(const SmokeLightMoment& moment) const;
+  bool is_other(const SmokeLightMoment& moment) const;
   void remember(const SmokeLightMoment& moment);
   void forget_rays();
   void drop_rays();
-  void add_hole_changes(const SmokeLightMoment& moment, std::vector<Capsule>& changes) const;
-  void add_smoke_changes(const SmokeLightMoment& moment, std::vector<Capsule>& changes);
-  bool drop_crossed(const SmokeLightMoment& moment, std::span<const Capsule> changes);
+  void add_hole_changes(const SmokeLightMoment& moment, std::vector<shared::LightChange>& changes) const;
+  void add_smoke_changes(const SmokeLightMoment& moment, std::vector<shared::LightChange>& changes);
+  bool drop_crossed(const SmokeLightMoment& moment, std::span<const shared::LightChange> changes);
   void follow_lamps(std::span<const shared::Light> lights);
   Lamp& known_lamp(const shared::Light& light, std::size_t hint, std::size_t most);
   void find_reaching(const SmokeLightMoment& moment);
@@ -101,6 +117,29 @@ class KeptSmokeLight {
   Row& row_of(const SmokeLightMoment& moment, std::uint32_t slot);
   void take_blocks(Kept& kept, std::uint32_t count);
   Kept& kept_of(Row& row, std::uint32_t lamp, std::size_t hint);
+  /// Phases one after the other.
+  struct Run {
+    std::uint32_t first = 0, end = 0;
+    std::uint32_t mask() const { return (1u << end) - (1u << first); }
+    std::uint32_t texels() const { return shared::light_phases(first, end); }
+  };
+  /// What of a brick is done in a frame.
+  struct Task {
+    bool all = false, fresh = false, run = false;
+  };
+  bool shares() const { return phases_ < shared::kLightPhases; }
+  std::uint32_t hurried() const { return std::min(kHurry * phases_, shared::kLightPhases); }
+  void choose_phases(float share);
+  Run run_of(const Row& row) const;
+  sim::IndexRange changes_in(const Row& row);
+  bool list_texels(Row& row);
+  Task task_of(const Row& row, const Kept& kept, std::uint64_t before, Run run) const;
+  template <typename Item>
+  void ask(const Task& task, Run run, Item item, std::vector<Item>& list, std::vector<Item>& few);
+  void follow(const Row& row, Kept& kept, std::uint32_t lamp, std::uint32_t blocks, const Task& task,
+              Run run);
+  void put_together(Row& row, std::span<const std::uint32_t> lamps, std::uint32_t first_lamp, Task put,
+                    Run run);
   void plan_row(Row& row, std::span<const std::uint32_t> lamps);
   void plan_kept(const SmokeLightMoment& moment);
   void plan_parts(const SmokeLightMoment& moment);
@@ -114,9 +153,15 @@ class KeptSmokeLight {
   std::vector<glm::ivec3> brick_of_slot_;  // of all slots, as of the last frame
   std::vector<Lamp> lamps_;
   std::uint32_t block_end_ = 0;
+  // Of the frame: how many phases are made anew and where they begin; lists of what takes no more than some.
+  std::uint32_t phases_ = shared::kLightPhases, first_phase_ = 0, most_phases_ = 0;
+  std::vector<shared::LightChange> cuts_;  // where holes changed
+  std::vector<shared::LightPair> few_pairs_;
+  std::vector<shared::LightBrick> few_bricks_;
   // The lamps that reach each slot in view: their list, and where each slot's begin.
   std::vector<std::uint32_t> reaching_, reaching_first_;
   std::uint64_t versions_ = 0, frames_ = 0, epoch_ = 0;  // epoch: of eye and sky
+  std::uint64_t listings_ = 0, turns_ = 0;               // turns: frames that made a share anew
   std::optional<SmokeLightMoment> last_;                 // its pointers are not followed
   std::vector<shared::Hole> holes_;                      // its
   std::uint64_t revision_ = 0, generation_ = 0;

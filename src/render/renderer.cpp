@@ -133,7 +133,8 @@ void Renderer::prepare(const FrameInput& input) {
   lit_level_ = input.level;
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
   smoke_light_pass_.reserve({input.volume, &needs_, lights_, input.holes, input.time, input.look, input.sky,
-                             input.camera.position_world, walls_changed || input.force_light});
+                             input.camera.position_world, walls_changed || input.force_light,
+                             input.light_share});
   if (input.view != passes::DebugView::none) reserve_view(input);
 }
 

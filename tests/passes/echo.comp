@@ -60,9 +60,9 @@ void main() {
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));
   noise = NoiseParams(1u, 2u, 3u);
   smoke_light = SmokeLightParams(1u, 2u);
-  light_row = LightRow(1u, 2u);
-  light_pair = LightPair(1u, 2u, 3u, 4u);
-  light_brick = LightBrick(1u, 2u, 3u, 4u, 5u);
+  light_row = LightRow(1u, 2u, 3u, 4u, 5u, 6u);
+  light_pair = LightPair(1u, 2u, 3u, 4u, 5u);
+  light_brick = LightBrick(1u, 2u, 3u, 4u, 5u, 6u);
   smoke_shadow = SmokeShadowParams(1u, 2.0);
   smoke_face = SmokeShadowFace(1.0, vec2(2.0, 3.0), 4u, uvec2(5u, 6u), uvec2(7u, 8u));
   view = ShadowView(m4(1.0), m4(17.0));

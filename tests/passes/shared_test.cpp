@@ -158,17 +158,23 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   const auto light_row = one<shared::LightRow>(out[15]);
   EXPECT_EQ(light_row.slot, 1u);
   EXPECT_EQ(light_row.row, 2u);
+  EXPECT_EQ(light_row.by_phase, 3u);
+  EXPECT_EQ(light_row.had_list, 4u);
+  EXPECT_EQ(light_row.first_change, 5u);
+  EXPECT_EQ(light_row.change_count, 6u);
   const auto light_pair = one<shared::LightPair>(out[16]);
   EXPECT_EQ(light_pair.slot, 1u);
   EXPECT_EQ(light_pair.row, 2u);
   EXPECT_EQ(light_pair.lamp, 3u);
   EXPECT_EQ(light_pair.block, 4u);
+  EXPECT_EQ(light_pair.texels, 5u);
   const auto light_brick = one<shared::LightBrick>(out[17]);
   EXPECT_EQ(light_brick.slot, 1u);
   EXPECT_EQ(light_brick.row, 2u);
   EXPECT_EQ(light_brick.sky_block, 3u);
   EXPECT_EQ(light_brick.first_lamp, 4u);
   EXPECT_EQ(light_brick.lamp_count, 5u);
+  EXPECT_EQ(light_brick.texels, 6u);
 
   const auto smoke_shadow = one<shared::SmokeShadowParams>(out[8]);
   EXPECT_EQ(smoke_shadow.face_count, 1u);

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <map>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "passes/view_volume.hpp"
 #include "sim/world.hpp"
@@ -121,7 +125,9 @@ TEST_F(SmokeLightPlanTest, AHoleMakesAnewOnlyWhatMayCrossIt) {
   EXPECT_GT(plan.pairs.size(), 0u);
   EXPECT_LT(plan.pairs.size(), all);
   // All the lamps' rays of the smoke that it goes through.
-  const auto in_first = [&](std::uint32_t slot) { return static_cast<float>(8 * volume_.brick_of(slot).x) * kVoxel < 12; };
+  const auto in_first = [&](std::uint32_t slot) {
+    return static_cast<float>(8 * volume_.brick_of(slot).x) * kVoxel < 12;
+  };
   const SmokeLightPlan whole = KeptSmokeLight().plan(moment());
   std::multiset<std::uint32_t> lamps, whole_lamps;
   for (const auto& pair : plan.pairs)
@@ -133,6 +139,161 @@ TEST_F(SmokeLightPlanTest, AHoleMakesAnewOnlyWhatMayCrossIt) {
   bool far_lamp = false;
   for (const auto& pair : plan.pairs) far_lamp |= !in_first(pair.slot) && pair.lamp == 8;
   EXPECT_FALSE(far_lamp);
+}
+
+/// When each phase of each brick was made anew by all of its pairs, as plans say.
+class Ages {
+ public:
+  /// Takes a frame's plan; how many pairs it asks for, those of some phases in parts.
+  double take(const SmokeLightPlan& plan, std::uint32_t frame) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> times;  // of (slot, phase)
+    for (const shared::LightPair& pair : plan.pairs) {
+      if (pair.texels == shared::kNewTexels) continue;
+      for (std::uint32_t phase = pair.texels & 255; phase < pair.texels >> 8; ++phase)
+        ++times[{pair.slot, phase}];
+      asked_ += (pair.texels >> 8) - (pair.texels & 255);
+    }
+    for (const shared::LightBrick& brick : plan.bricks) {
+      if (brick.texels == shared::kNewTexels) continue;
+      for (std::uint32_t phase = brick.texels & 255; phase < brick.texels >> 8; ++phase)
+        if (times[{brick.slot, phase}] == brick.lamp_count + shared::kSkyBlocks)
+          made_[{brick.slot, phase}] = frame;
+    }
+    return static_cast<double>(std::exchange(asked_, 0)) / shared::kLightPhases;
+  }
+  std::uint32_t oldest(std::uint32_t frame) const {
+    std::uint32_t oldest = 0;
+    for (const auto& [what, made] : made_) oldest = std::max(oldest, frame - made);
+    return oldest;
+  }
+  std::size_t size() const { return made_.size(); }
+
+ private:
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made_;
+  std::uint64_t asked_ = 0;
+};
+
+TEST_F(SmokeLightPlanTest, AShareMakesEveryPhaseAnewInTime) {
+  for (const float share : {0.5f, 0.3f, 0.25f, 0.125f, 0.0625f, 0.01f}) {
+    KeptSmokeLight kept;
+    Ages ages;
+    SmokeLightMoment now = moment();
+    now.look.erosion = 0.5f;
+    now.share = share;
+    const double all = ages.take(kept.plan(now), 0);
+    EXPECT_EQ(ages.size(), needs_.seen * shared::kLightPhases) << "at first all is made";
+    // What there is of it: 1/2, 1/4, ... 1/16.
+    const double part = std::max(std::exp2(std::floor(std::log2(double{share}))), 1.0 / 16);
+    const double more = std::max(std::exp2(std::ceil(std::log2(double{share}))), 1.0 / 16);
+    std::uint32_t oldest = 0;
+    for (std::uint32_t frame = 1; frame < 100; ++frame) {
+      now.time += 0.01f;
+      now.eye_world.x += 0.1f;
+      const double asked = ages.take(kept.plan(now), frame);
+      oldest = std::max(oldest, ages.oldest(frame));
+      // Every brick was new in the first frame, and is made anew four times as fast until all of it was.
+      if (frame < 4) continue;
+      EXPECT_GE(asked, part * all);
+      EXPECT_LE(asked, more * all);
+    }
+    EXPECT_LE(oldest, std::ceil(1 / std::max(share, 1.0f / 16)) + 1);
+    EXPECT_GT(oldest, 0u);
+    // And then nothing happens.
+    const auto left = static_cast<int>(std::ceil(1 / std::max(share, 1.0f / 16)));
+    for (int i = 0; i < left; ++i) kept.plan(now);
+    EXPECT_TRUE(kept.plan(now).parts.empty());
+  }
+}
+
+TEST_F(SmokeLightPlanTest, TexelsSideBySideAreOfOtherPhasesAndBricksAgreeOnThem) {
+  std::array<std::uint32_t, shared::kLightPhases> texels{};
+  for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
+    const glm::uvec3 texel(i % 10, i / 10 % 10, i / 100);
+    const std::uint32_t phase = shared::light_phase(texel);
+    ASSERT_LT(phase, shared::kLightPhases);
+    ++texels[phase];
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::uvec3 beside = texel;
+      beside[axis] += 1;
+      // In the other half, so that it is never made anew in the same frame.
+      EXPECT_NE(shared::light_phase(beside) >> 3, phase >> 3);
+      // The same voxel in the next brick.
+      beside[axis] = texel[axis] + shared::kBrickVoxels;
+      EXPECT_EQ(shared::light_phase(beside), phase);
+    }
+  }
+  for (const std::uint32_t count : texels) EXPECT_LE(count, shared::kTexelsPerPhase);
+}
+
+TEST_F(SmokeLightPlanTest, ALampThatComesOrGoesIsNeverLate) {
+  KeptSmokeLight kept;
+  SmokeLightMoment now = moment();
+  now.look.erosion = 0.5f;
+  now.share = 0.125f;
+  for (int i = 0; i < 12; ++i, now.time += 0.1f) kept.plan(now);
+  std::vector<shared::Light> with = lights_;
+  with.push_back(lights_[4]);
+  with.back().position_world.y = 3;
+  now.lights = with;
+  const auto bricks_of = [&](const SmokeLightPlan& plan) {
+    std::set<std::uint32_t> slots;
+    for (const shared::LightBrick& brick : plan.bricks)
+      if (brick.texels == shared::kAllTexels) slots.insert(brick.slot);
+    return slots;
+  };
+  const SmokeLightPlan come = kept.plan(now);
+  std::set<std::uint32_t> reached;
+  for (const shared::LightPair& pair : come.pairs)
+    if (pair.lamp == 9) {
+      EXPECT_EQ(pair.texels, shared::kAllTexels);
+      EXPECT_TRUE(reached.insert(pair.slot).second);
+    }
+  EXPECT_FALSE(reached.empty());
+  EXPECT_LT(reached.size(), needs_.seen);
+  EXPECT_EQ(bricks_of(come), reached);
+  now.time += 0.1f;
+  now.lights = lights_;
+  EXPECT_EQ(bricks_of(kept.plan(now)), reached);
+}
+
+TEST_F(SmokeLightPlanTest, TexelsInAHoleThatChangesAreNeverLate) {
+  KeptSmokeLight kept;
+  SmokeLightMoment now = moment();
+  now.look.erosion = 0.5f;
+  now.share = 0.125f;
+  for (int i = 0; i < 12; ++i, now.time += 0.1f) kept.plan(now);
+  shared::Hole hole{};
+  hole.origin_world = {6, 1, 4};
+  hole.forward = {0, 0, 1};
+  hole.distance_to_far = 8;
+  hole.radius = 0.2f;
+  hole.time_start = now.time - 0.01f;
+  hole.time_to_stay_open = 10;
+  holes_ = {hole};
+  now.holes = holes_;
+  const SmokeLightPlan plan = kept.plan(now);
+  std::set<std::uint32_t> listed;
+  for (const shared::LightRow& row : plan.rows) {
+    listed.insert(row.slot);
+    EXPECT_TRUE(row.had_list);
+    ASSERT_EQ(row.change_count, 1u);
+    EXPECT_EQ(plan.changes[row.first_change].from_world, hole.origin_world);
+    EXPECT_GE(plan.changes[row.first_change].radius, hole.radius);
+  }
+  // All bricks that hold a point of its axis, and few others.
+  for (float z = 4; z < 12; z += 0.1f) {
+    const std::uint32_t slot = volume_.slot_at(glm::ivec3(glm::floor(glm::vec3(6, 1, z) / (8 * kVoxel))));
+    EXPECT_TRUE(slot == sim::SmokeVolume::kNoSlot || listed.count(slot) > 0);
+  }
+  EXPECT_LT(listed.size(), needs_.seen / 2);
+  // Each with all of its pairs.
+  std::map<std::uint32_t, std::uint32_t> pairs, wanted;
+  for (const shared::LightPair& pair : plan.pairs)
+    if (pair.texels == shared::kNewTexels) ++pairs[pair.slot];
+  for (const shared::LightBrick& brick : plan.bricks)
+    if (brick.texels == shared::kNewTexels) wanted[brick.slot] = brick.lamp_count + shared::kSkyBlocks;
+  EXPECT_EQ(pairs, wanted);
+  EXPECT_EQ(wanted.size(), listed.size());
 }
 
 TEST(SameCut, IsOnlySaidWhereNothingDiffers) {

@@ -1,4 +1,5 @@
 // Light in smoke that is kept from frame to frame is the light that would be made anew, bit for bit.
+#include <cmath>
 #include <set>
 
 #include "render/playback.hpp"
@@ -68,8 +69,7 @@ class KeptLightTest : public gpu::GpuTest {
     std::size_t rays = 0, bricks = 0;          // blocks of rays followed, bricks put together
     std::size_t all_rays = 0, all_bricks = 0;  // of the frame made anew
   };
-  /// Draws a moment by both, which must be equal.
-  Work draw(double seconds) {
+  FrameInput input_at(double seconds) {
     simulation_->advance_to(seconds);
     FrameInput input = frame_input(*stage_, *simulation_, seconds, holes_);
     input.camera = camera_;
@@ -82,14 +82,19 @@ class KeptLightTest : public gpu::GpuTest {
       light.shadow_layer = shared::kShadowByVoxels;
       input.flashes = {light};
     }
-    const auto smoke_of = [&](Renderer& renderer) {
-      renderer.prepare(input);
-      runner().run([&](gpu::Recorder& recorder) { renderer.record_frame(recorder, input); });
-      return read_back<std::uint64_t>(renderer.smoke());
-    };
-    const auto kept = smoke_of(*kept_);
+    return input;
+  }
+  static std::vector<std::uint64_t> smoke_of(Renderer& renderer, const FrameInput& input) {
+    renderer.prepare(input);
+    runner().run([&](gpu::Recorder& recorder) { renderer.record_frame(recorder, input); });
+    return read_back<std::uint64_t>(renderer.smoke());
+  }
+  /// Draws a moment by both, which must be equal.
+  Work draw(double seconds) {
+    FrameInput input = input_at(seconds);
+    const auto kept = smoke_of(*kept_, input);
     input.force_light = true;
-    const auto anew = smoke_of(*anew_);
+    const auto anew = smoke_of(*anew_, input);
     EXPECT_GT(std::set<std::uint64_t>(anew.begin(), anew.end()).size(), 60u) << "smoke is in view";
     EXPECT_EQ(kept, anew) << "at " << seconds;
     return {kept_->light_plan().pairs.size(), kept_->light_plan().bricks.size(),
@@ -172,6 +177,83 @@ TEST_F(KeptLightTest, WhereNoiseDriftsOnlyAMomentKeepsItsLight) {
   EXPECT_EQ(work.bricks, work.all_bricks);
   work = draw(2.05);
   EXPECT_EQ(work.rays, work.all_rays);
+}
+
+/// Draws with a share of the light, by two renderers. In one of them all light glares before its first frame.
+class SharedLightTest : public KeptLightTest {
+ protected:
+  /// The smoke; expects that nothing glares.
+  std::vector<std::uint64_t> draw_share(double seconds, float share) {
+    FrameInput input = input_at(seconds);
+    input.light_share = share;
+    anew_->prepare(input);
+    const gpu::Image& light = anew_->smoke_resources().inscatter;
+    const glm::uvec3 size = light.info().size;
+    if (size != lit_size_) {
+      const std::vector<std::uint16_t> glare(std::size_t{4} * size.x * size.y * size.z, 0x7bff);  // 65,504
+      const gpu::Recorder::Region all{std::as_bytes(std::span(glare)), glm::ivec3(0), size};
+      runner().run([&](gpu::Recorder& recorder) { recorder.upload(light, {&all, 1}); });
+      lit_size_ = size;
+    }
+    runner().run([&](gpu::Recorder& recorder) { anew_->record_frame(recorder, input); });
+    const auto smoke = smoke_of(*kept_, input);
+    EXPECT_EQ(read_back<std::uint64_t>(anew_->smoke()), smoke) << "light that was never made, at " << seconds;
+    return smoke;
+  }
+  void expect_share(float share);
+
+  glm::uvec3 lit_size_{0};
+};
+
+/// Whatever happens nothing without light is seen, and a moment that is drawn again gets its light.
+void SharedLightTest::expect_share(float share) {
+  const auto still = [&](double seconds) {
+    const int frames = static_cast<int>(std::ceil(1 / share));
+    std::vector<std::uint64_t> smoke;
+    for (int i = 0; i < frames; ++i) smoke = draw_share(seconds, share);
+    draw_share(seconds, share);
+    EXPECT_TRUE(kept_->light_plan().parts.empty());
+    Renderer fresh(context(), runner(), stage_->scene, {kSize});
+    EXPECT_EQ(smoke, smoke_of(fresh, input_at(seconds))) << "at " << seconds;
+  };
+  // It grows, another comes, the eye walks.
+  for (const double seconds : {0.5, 0.6, 0.7, 2.0, 3.1, 3.3, 3.5}) {
+    camera_.position_world.x += 0.1f;
+    draw_share(seconds, share);
+  }
+  still(4.9);
+  // A shot, its flash and its hole.
+  for (const double seconds : {5.01, 5.1, 5.2}) draw_share(seconds, share);
+  still(6.5);
+  // Eyes that turn away and back, a lamp that comes and goes, a door.
+  camera_.target_world = {-12, 0.5f, 0};
+  draw_share(7.3, share);
+  flash_ = 2;
+  draw_share(7.6, share);
+  camera_.target_world = {0, 0.5f, 0};
+  draw_share(7.7, share);
+  flash_ = 0;
+  draw_share(9.1, share);
+  still(9.2);
+}
+
+TEST_F(SharedLightTest, IsNeverUnlitAndComesToRestAsAllOfIt) {
+  begin(0.5f);
+  expect_share(0.5f);
+}
+
+TEST_F(SharedLightTest, WithoutNoiseToo) {
+  begin(0);
+  expect_share(0.25f);
+}
+
+TEST_F(SharedLightTest, AllOfItAfterAShareIsAllOfIt) {
+  begin(0.5f);
+  draw_share(2, 0.125f);
+  draw_share(2.1, 0.125f);
+  draw(2.2);
+  draw_share(2.3, 0.5f);
+  draw(2.3);
 }
 
 }  // namespace
