@@ -72,6 +72,7 @@ Measurement summarize(const std::string& name, const std::string& unit, const st
 std::vector<Case> all_cases() {
   std::vector<Case> cases = cpu_cases();
   for (Case& one : edit_cases()) cases.push_back(std::move(one));
+  for (Case& one : live_cases()) cases.push_back(std::move(one));
   for (Case& one : volume_cases()) cases.push_back(std::move(one));
   for (Case& one : sight_cases()) cases.push_back(std::move(one));
   for (Case& one : sim_cases()) cases.push_back(std::move(one));

@@ -72,6 +72,7 @@ struct Case {
 std::vector<Case> cpu_cases();
 std::vector<Case> volume_cases();
 std::vector<Case> edit_cases();
+std::vector<Case> live_cases();
 std::vector<Case> sight_cases();
 std::vector<Case> sim_cases();
 std::vector<Case> gpu_cases();

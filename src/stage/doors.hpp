@@ -16,8 +16,8 @@ struct Door {
   scene::Bounds bounds_world;          ///< Around all of them, shut.
 };
 
-/// Whether an object of this name is taken for a door: "door" is a word of it, in any case, alone or before
-/// digits or an underscore, or the end of a word as in "FrontDoor"; frames are none.
+/// Whether an object of this name is taken for a door: "door" is a word of it, in any case ("front door",
+/// "door_2"), also in names run together ("FrontDoor", "DoorRoom"); frames of doors are none.
 bool is_door_name(std::string_view name);
 
 /// The doors of a scene, in the order of their first objects.

@@ -8,8 +8,9 @@ namespace brume::stage {
 namespace {
 
 TEST(Doors, AreWhatIsCalledSo) {
-  for (const char* name : {"door", "Door", "DOOR_2", "front door", "door2", "door.001", "door-leaf",
-                           "door_leaf", "FrontDoor", "garage_door 3", "outdoor door"})
+  for (const char* name :
+       {"door", "Door", "DOOR_2", "front door", "door2", "door.001", "door-leaf", "door_leaf", "FrontDoor",
+        "DoorRoom_E", "DumpsterDoorLeft_A", "garage_door 3", "outdoor door"})
     EXPECT_TRUE(is_door_name(name)) << name;
   for (const char* name : {"", "doo", "outdoor", "Outdoor", "doors", "doorway", "indoor_lamp",
                            "frame_front_door", "DoorFrame", "door frame", "LadderOutdoor"})

@@ -295,6 +295,49 @@ TEST_F(Live, GoesBackToWhatItWas) {
             "the timeline has another grid than the stage; load it anew");
 }
 
+TEST_F(Live, ARecordingOfTheDemoLoadsAsItWasPlayed) {
+  // From the files of the demo to files of our own: a throw, twenty shots, a word, a blast, a door, a path.
+  const fs::path demo = fs::path(BRUME_SOURCE_DIR) / "scenes/demo.toml";
+  const auto live = LiveStage::create(load_stage(demo, {}).value_or_throw()).value_or_throw();
+  const auto play = [&](double time, const std::function<void(scene::Timeline&)>& make) {
+    scene::Timeline deeds;
+    make(deeds);
+    live->advance_to(time);
+    live->add(deeds).value_or_throw();
+  };
+  const vec3 eye(-5.2f, 1.35f, 10.8f), door(-2.75f, 1.55f, 0);
+  play(0.2, [&](auto& t) { t.smokes = {{0.2, eye, door + vec3(2, 0, 0)}}; });
+  for (int i = 0; i < 20; ++i)
+    play(1 + 0.1 * i, [&](auto& t) {
+      t.shots.resize(1);
+      t.shots[0].time = 1 + 0.1 * i;
+      t.shots[0].from_world = eye;
+      t.shots[0].toward_world = door + vec3(0.1f * static_cast<float>(i), 0, 0);
+    });
+  play(2, [&](auto& t) { t.doors = {{2, "door_leaf", true}}; });
+  play(3.1, [&](auto& t) {
+    t.texts.resize(1);
+    t.texts[0].time = 3.1;
+    t.texts[0].text = "BRUME";
+    t.texts[0].from_world = eye;
+    t.texts[0].toward_world = door;
+  });
+  play(3.5, [&](auto& t) { t.blasts = {{3.5, door}}; });
+  live->set_camera({{0, {eye, door, 1}}, {4, {eye + vec3(3, 0, 0), door, 1}}}).value_or_throw();
+
+  const fs::path file = folder / "out/take.toml";
+  scene::save_timeline(file, live->stage().timeline).value_or_throw();
+  const Stage stage = load_stage(file, {}).value_or_throw();
+  EXPECT_EQ(scene::format_timeline(stage.timeline, folder / "out"),
+            scene::format_timeline(live->stage().timeline, folder / "out"));
+  const auto played = Simulation::create(stage).value_or_throw();
+  for (const double time : {4.0, 3.2, 1.5}) {
+    live->advance_to(time);
+    played->advance_to(time);
+    EXPECT_EQ(live->simulation().world().state_hash(), played->world().state_hash()) << time;
+  }
+}
+
 TEST_F(Live, KeepsItsGridWhenItIsLoadedAgain) {
   const auto live = rooms();
   const scene::GridOptions& grid = live->stage().timeline.grid;
