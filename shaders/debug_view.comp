@@ -141,9 +141,8 @@ vec3 distance_view(Look look) {
   const vec3 at = eye_voxel() + look.direction * hit.t - vec3(hit.voxel);
   const vec2 f = clamp(vec2(dot(at, vec3(u)), dot(at, vec3(v))), 0.0, 1.0);
   const float width = pixel_voxels(look, distance_m, abs(dot(vec3(normal), look.direction)));
-  const float tone = 0.45 + 0.62 * face_tone(normal).g;
   const float lines = max(0.18 * grid_line(f, width), 0.75 * iso_line(hit, normal, f, width));
-  const vec3 colour = min(way_colour(hit.what, way_metres(hit.what), params.full) * tone, vec3(1.0)) * (1.0 - lines);
+  const vec3 colour = min(way_colour(hit.what, way_metres(hit.what), params.full) * way_tone(normal), vec3(1.0)) * (1.0 - lines);
   return distance_m > look.surface_m ? mix(behind, colour, kSeenThrough) : colour;
 }
 
@@ -163,12 +162,12 @@ vec3 slice_view(Look look) {
   const float width = pixel_voxels(look, t, abs(look.direction[axis]));
   const vec2 f = fract(axis == 0 ? p_voxel.yz : axis == 1 ? p_voxel.xz : p_voxel.xy);
   const float line = grid_line(f, width);
-  vec3 colour = mix(behind, vec3(0.3, 0.36, 0.44), 0.10 + 0.14 * line);
+  vec3 colour = slice_air(line, behind);
   const ivec3 brick = voxel >> 3;
   int empty_edge;
   const uint slot = slot_at(frame.volume, brick, empty_edge);
   if (voxel_at(voxel) != 0u) {
-    colour = vec3(0.012, 0.014, 0.02) + 0.05 * line;
+    colour = slice_wall(line);
   } else if (slot != kNoSlot) {
     const vec3 local = p_voxel - vec3(brick * kBrickVoxels), texel = atlas_texel(frame.volume);
     const vec3 uvw = (atlas_corner(frame.volume, slot) + local) * texel;

@@ -112,9 +112,22 @@ SHARED_FUNCTION vec3 solid_colour(ivec3 normal, float light, float line, float d
   return mix(backdrop(), colour, exp(-distance_m / 60.0f));
 }
 
+/// How light a face of the smoke's voxels is, so that its colour can still be read.
+SHARED_FUNCTION float way_tone(ivec3 normal) {
+  return 0.45f + 0.62f * face_tone(normal).y;
+}
+
 /// A voxel of the smoke, by how far its smoke came; `way` as in the entries, not 0.
 SHARED_FUNCTION vec3 way_colour(uint way, float metres, float full) {
   return way == kNoWay ? vec3(0.5f) : ramp_colour(kRampViridis, metres / full);
+}
+
+/// A slice where there is no smoke, and where it cuts what is solid; `line`: of the voxels' edges.
+SHARED_FUNCTION vec3 slice_air(float line, vec3 behind) {
+  return mix(behind, vec3(0.3f, 0.36f, 0.44f), 0.10f + 0.14f * line);
+}
+SHARED_FUNCTION vec3 slice_wall(float line) {
+  return vec3(0.012f, 0.014f, 0.02f) + vec3(0.05f * line);
 }
 
 /// Density on a slice, over what is behind it.

@@ -65,6 +65,37 @@ TEST_F(Render, LongerStepsMakeAnotherPictureAndOnlyWithinTheirRange) {
     EXPECT_EQ(render({"-o", "no.png", "--step", step}).exit_code, 2) << step;
 }
 
+TEST_F(Render, WhatThePictureIsMadeFrom) {
+  const Arguments small{"--size", "48x27", "--time", "0.8"};
+  const auto draw = [&](const std::string& name, Arguments more) {
+    more.insert(more.end(), {"-o", name});
+    more.insert(more.end(), small.begin(), small.end());
+    const Outcome run = render(more);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return picture(name).rgba;
+  };
+  const auto depth = draw("depth.png", {"--view", "depth"});
+  EXPECT_NE(depth, draw("solid.png", {"--view", "solid"}));
+  const auto low = draw("low.png", {"--view", "density", "--slice", "y=0.4"});
+  EXPECT_NE(low, draw("high.png", {"--view", "density", "--slice", "y=1.1"}));
+  EXPECT_EQ(low, draw("again.png", {"--view", "density", "--slice", "y=0.4"}));
+}
+
+TEST_F(Render, ViewsAndSlicesThatCannotBe) {
+  const auto refused = [&](const Arguments& more, const std::string& part) {
+    Arguments arguments{"-o", "a.png", "--size", "32x18"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome run = render(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
+  };
+  refused({"--view", "voxels"}, "solid");
+  refused({"--slice", "y=1"}, "--view density");
+  refused({"--view", "depth", "--slice", "y=1"}, "--view density");
+  for (const char* slice : {"y", "w=1", "y=", "y=1m", "=1", "y=nan"})
+    refused({"--view", "density", "--slice", slice}, "--slice '" + std::string(slice) + "'");
+}
+
 TEST_F(Render, NumberedPicturesAndAFilm) {
   const Outcome pictures = render({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
   ASSERT_EQ(pictures.exit_code, 0) << pictures.error;

@@ -1,121 +1,15 @@
 #include "passes/debug_view.hpp"
 
-#include <cmath>
+#include <map>
 #include <random>
 
-#include "shared/frame.h"
-#include "tests/passes/half.hpp"
-#include "tests/passes/smoke_room.hpp"
+#include "tests/passes/debug_view_room.hpp"
 #include "voxel/traverse.hpp"
 
 namespace brume::passes {
 namespace {
 
 using shared::FrameConstants;
-
-/// A room with a wall of its own in the middle, smoke in it.
-std::vector<voxel::Triangle> walls() {
-  std::vector<voxel::Triangle> out;
-  add_quad(out, {-4.1f, -0.1f, -4.1f}, {4.1f, -0.1f, -4.1f}, {4.1f, -0.1f, 4.1f}, {-4.1f, -0.1f, 4.1f});
-  add_quad(out, {-4.1f, -0.1f, -4.1f}, {4.1f, -0.1f, -4.1f}, {4.1f, 3.1f, -4.1f}, {-4.1f, 3.1f, -4.1f});
-  add_quad(out, {-4.1f, -0.1f, -4.1f}, {-4.1f, -0.1f, 4.1f}, {-4.1f, 3.1f, 4.1f}, {-4.1f, 3.1f, -4.1f});
-  add_quad(out, {1.1f, -0.1f, -4.1f}, {1.1f, -0.1f, 1.1f}, {1.1f, 2.1f, 1.1f}, {1.1f, 2.1f, -4.1f});
-  return out;
-}
-
-class DebugViewTest : public gpu::GpuTest {
- protected:
-  DebugViewTest()
-      : room_(context(), runner(), walls(), {{37, 15, 37}, 0.25f, {-4.6f, -0.5f, -4.6f}}, {-1, 0.6, -1}, 2500,
-              200),
-        holes_(context(), runner(), {}) {}
-
-  /// A view of the room from a corner.
-  FrameConstants frame_of(glm::uvec2 size) const {
-    FrameConstants frame{};
-    frame.camera.eye_world = {4.4f, 2.6f, 5.2f};
-    frame.camera.near_z = 0.05f;
-    frame.camera.forward = glm::normalize(glm::vec3(-0.62f, -0.23f, -0.75f));
-    const glm::vec3 right = glm::normalize(glm::cross(frame.camera.forward, glm::vec3(0, 1, 0)));
-    frame.camera.right = 0.8f * right;
-    frame.camera.up = 0.45f * glm::cross(right, frame.camera.forward);
-    frame.volume = room_.volume.frame();
-    frame.look.albedo = glm::vec3(0.9f);
-    frame.look.extinction = 0.7f;
-    frame.look.step_length = 0.1f;
-    frame.look.noise_period = 1;
-    frame.exposure = 1;
-    frame.size_px = size;
-    return frame;
-  }
-  static glm::vec3 along(const FrameConstants& frame, glm::vec2 position_px) {
-    const glm::vec2 ndc = position_px / glm::vec2(frame.size_px) * 2.0f - 1.0f;
-    return frame.camera.forward + ndc.x * frame.camera.right - ndc.y * frame.camera.up;
-  }
-  static glm::vec2 middle(const FrameConstants& frame, std::size_t pixel) {
-    const auto i = static_cast<std::uint32_t>(pixel);
-    return glm::vec2(i % frame.size_px.x, i / frame.size_px.x) + 0.5f;
-  }
-
-  /// What the G-buffer holds, pixel by pixel.
-  struct Surfaces {
-    std::vector<glm::u8vec4> albedo;  // as sRGB
-    std::vector<Half4> normal;
-    std::vector<float> depth;
-    explicit Surfaces(glm::uvec2 size)
-        : albedo(std::size_t{size.x} * size.y),
-          normal(albedo.size(), to_half({0, 0, 1, 0})),
-          depth(albedo.size()) {}
-  };
-  static gpu::Image sampled_image(glm::uvec2 size, VkFormat format, std::span<const std::byte> texels) {
-    gpu::ImageInfo info;
-    info.format = format;
-    info.size = {size, 1};
-    info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    gpu::Image image(context(), info);
-    const gpu::Recorder::Region all{texels, glm::ivec3(0), {size, 1}};
-    runner().run([&](gpu::Recorder& recorder) { recorder.upload(image, {&all, 1}); });
-    return image;
-  }
-
-  std::vector<glm::u8vec4> show(DebugView view, FrameConstants frame, const Surfaces& surfaces,
-                                ViewSlice slice = {}) {
-    const glm::uvec2 size = frame.size_px;
-    GBuffer gbuffer(context(), size);
-    gbuffer.albedo_roughness =
-        sampled_image(size, VK_FORMAT_R8G8B8A8_SRGB, std::as_bytes(std::span(surfaces.albedo)));
-    gbuffer.normal_metallic =
-        sampled_image(size, VK_FORMAT_R16G16B16A16_SFLOAT, std::as_bytes(std::span(surfaces.normal)));
-    gbuffer.depth = sampled_image(size, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(surfaces.depth)));
-    holes_.reserve(open_, frame.time, 0, frame.volume, room_.volume.slot_count(), size);
-    frame.holes = holes_.frame();
-    const auto frame_buffer = upload(std::vector{frame});
-    const auto display = test_image(context(), size, VK_FORMAT_R8G8B8A8_UNORM);
-    const DebugSubject subject{view, slice, {&room_.grid, nullptr}, &room_.volume, &room_.world.state()};
-    pass_.reserve(subject, size);
-    runner().run([&](gpu::Recorder& recorder) {
-      holes_.record(recorder, frame_buffer, room_.upload.resources());
-      pass_.record(recorder, subject, {frame_buffer, gbuffer, room_.upload.resources(), holes_.resources()},
-                   display);
-    });
-    return read_back<glm::u8vec4>(display);
-  }
-
-  SmokeRoom room_;
-  OpenHoles holes_;
-  DebugViewPass pass_{context()};
-  std::vector<shared::Hole> open_;
-};
-
-/// How far a shown colour is from one in [0, 1], in steps of 255.
-float apart(glm::u8vec4 shown, glm::vec3 expected) {
-  const glm::vec3 d = glm::abs(glm::vec3(shown) - 255.0f * glm::clamp(expected, 0.0f, 1.0f));
-  return std::max({d.x, d.y, d.z});
-}
-
-// A step of 255 is rounded to the nearest; powers and logarithms of a device are good for far more than a
-// tenth of one.
-constexpr float kRounded = 0.6f;
 
 TEST(DebugViewNames, GoThereAndBack) {
   for (std::uint32_t i = 0; i < shared::kViewCount; ++i) {
@@ -159,57 +53,189 @@ TEST_F(DebugViewTest, NormalsAlbedoAndDepthAreThoseOfTheSurfaces) {
   }
 }
 
-/// A picture of what a ray shows against the shown one. At the edges of voxels a ray may see either side:
-/// there one of those close by must agree.
-template <typename Expected>
-void expect_rays(const std::vector<glm::u8vec4>& shown, glm::uvec2 size, float tolerance, Expected expected) {
-  std::size_t off = 0;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const auto pixel = static_cast<std::uint32_t>(i);
-    const glm::vec2 middle = glm::vec2(pixel % size.x, pixel / size.x) + 0.5f;
-    float least = apart(shown[i], expected(middle));
-    for (int k = 0; k < 8 && least > tolerance; ++k) {
-      // Rounding moves a ray by some 1e-6 of its way, less than a thousandth of a pixel here.
-      const float angle = 0.785398f * static_cast<float>(k);
-      least = std::min(
-          least, apart(shown[i], expected(middle + 1e-3f * glm::vec2(std::cos(angle), std::sin(angle)))));
-    }
-    EXPECT_LE(least, tolerance) << "pixel " << i;
-    off += least > tolerance;
-    if (off > 10) return;
-  }
-}
-
 TEST_F(DebugViewTest, SolidVoxelsAreThoseThatRaysMeet) {
   for (const glm::uvec2 size : {glm::uvec2(65, 37), glm::uvec2(3, 50)}) {
     const FrameConstants frame = frame_of(size);
-    const auto shown = show(DebugView::solid, frame, Surfaces(size));
-    const voxel::GridFrame& grid = room_.grid.frame();
-    int seen = 0;
-    expect_rays(shown, size, kRounded, [&](glm::vec2 position_px) {
-      const glm::vec3 way = along(frame, position_px), direction = glm::normalize(way);
-      const glm::vec3 eye = voxel::voxel_from_world(grid, frame.camera.eye_world);
-      const auto hit = voxel::first_solid(room_.grid, eye, direction);
-      if (!hit) return shared::backdrop();
-      ++seen;
+    const Surfaces nothing(size);
+    const auto shown = show(DebugView::solid, frame, nothing);
+    int met = 0;
+    expect_rays(shown, size, kRounded, [&](glm::vec2 position_px, glm::u8vec4 pixel) {
+      const Ray ray = ray_of(frame, nothing, position_px);
+      const auto hit = voxel::first_solid(room_.grid, ray.eye_voxel, ray.direction);
+      if (!hit) return apart(pixel, shared::backdrop());
+      ++met;
       const int axis = hit->normal.x != 0 ? 0 : hit->normal.y != 0 ? 1 : 2;
-      const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+      const glm::ivec2 axes = face_axes(axis);
       std::uint32_t around = 0;
       for (int i = 0; i < 9; ++i) {
         glm::ivec3 beside = hit->voxel + hit->normal;
-        beside[u] += i % 3 - 1;
-        beside[v] += i / 3 - 1;
+        beside[axes.x] += i % 3 - 1;
+        beside[axes.y] += i / 3 - 1;
         if (i != 4 && room_.grid.solid(beside)) around |= 1u << i;
       }
-      const glm::vec3 at = eye + direction * hit->t - glm::vec3(hit->voxel);
-      const glm::vec2 f = glm::clamp(glm::vec2(at[u], at[v]), 0.0f, 1.0f);
-      const float metres = hit->t * grid.voxel_size, facing = std::abs(direction[axis]);
-      const float width = 2 * glm::length(frame.camera.up) / static_cast<float>(size.y) / glm::length(way) *
-                          metres / grid.voxel_size / std::max(facing, 0.1f);
-      return shared::solid_colour(hit->normal, shared::face_light(around, f), shared::grid_line(f, width),
-                                  metres);
+      const glm::vec3 at = ray.eye_voxel + ray.direction * hit->t - glm::vec3(hit->voxel);
+      const glm::vec2 f = glm::clamp(glm::vec2(at[axes.x], at[axes.y]), 0.0f, 1.0f);
+      const float metres = hit->t * room_.grid.frame().voxel_size;
+      const float line = shared::grid_line(f, ray.pixel_voxels(metres, std::abs(ray.direction[axis])));
+      return apart(pixel, shared::solid_colour(hit->normal, shared::face_light(around, f), line, metres));
     });
-    EXPECT_GT(seen, static_cast<int>(size.x * size.y / 4));
+    EXPECT_GT(met, static_cast<int>(size.x * size.y / 4));
+  }
+}
+
+/// Voxels that hold smoke, and the way that it came to each, in tenths of a voxel.
+std::map<std::array<int, 3>, std::uint32_t> ways_of(const sim::State& state) {
+  std::map<std::array<int, 3>, std::uint32_t> ways;
+  for (const sim::LiveCloud& live : state.clouds)
+    live.cloud->voxels().for_each([&](glm::ivec3 v, std::uint32_t rank) {
+      if (state.density(v) > 0) ways[{v.x, v.y, v.z}] = live.cloud->distances()[rank];
+    });
+  return ways;
+}
+
+TEST_F(DebugViewTest, DistancesAreThoseOfTheCloudBeyondTheSlice) {
+  const auto ways = ways_of(room_.world.state());
+  ASSERT_GT(ways.size(), 1500u);
+  const auto way_at = [&](glm::ivec3 v) {
+    const auto found = ways.find({v.x, v.y, v.z});
+    return found == ways.end() ? -1.0f
+                               : static_cast<float>(found->second) * 0.1f * room_.grid.frame().voxel_size;
+  };
+  float farthest = 0;
+  for (const std::uint32_t distance : room_.world.state().clouds[0].cloud->distances())
+    farthest = std::max(farthest, static_cast<float>(distance) * 0.025f);
+  const glm::uvec2 size(65, 37);
+  const FrameConstants frame = frame_of(size);
+  const Surfaces surfaces = half_a_wall(frame);
+  for (const ViewSlice slice : {ViewSlice{2, 5.0f}, ViewSlice{2, -0.975f}, ViewSlice{0, -1.22f}}) {
+    const auto shown = show(DebugView::distance, frame, surfaces, slice);
+    const int across = static_cast<int>(slice.axis);
+    int met = 0, cut = 0;
+    expect_rays(shown, size, kRounded, [&](glm::vec2 position_px, glm::u8vec4 pixel) {
+      const Ray ray = ray_of(frame, surfaces, position_px);
+      const float voxel_size = room_.grid.frame().voxel_size;
+      const float t_slice = (slice.at_world - frame.camera.eye_world[across]) / ray.direction[across];
+      if (!(t_slice > 0)) return apart(pixel, ray.behind);
+      const float t_begin = std::max(1.0f, t_slice) / voxel_size;
+      glm::ivec3 voxel(-1), before(-1);
+      float t = 0;
+      voxel::visit_voxels(room_.grid.frame(), ray.eye_voxel, ray.direction, 1e6f,
+                          [&](glm::ivec3 v, float enter, float leave) {
+                            if (leave > t_begin && way_at(v) >= 0) {
+                              voxel = v;
+                              t = std::max(enter, t_begin);
+                              return false;
+                            }
+                            before = v;
+                            return true;
+                          });
+      if (voxel.x < 0) return apart(pixel, ray.behind);
+      ++met;
+      glm::ivec3 normal = before - voxel;
+      if (t == t_begin) {  // it begins inside
+        normal = glm::ivec3(0);
+        normal[across] = ray.direction[across] > 0 ? -1 : 1;
+        ++cut;
+      }
+      const int axis = normal.x != 0 ? 0 : normal.y != 0 ? 1 : 2;
+      const glm::ivec2 axes = face_axes(axis);
+      const glm::vec3 at = ray.eye_voxel + ray.direction * t - glm::vec3(voxel);
+      const glm::vec2 f = glm::clamp(glm::vec2(at[axes.x], at[axes.y]), 0.0f, 1.0f);
+      const float metres = t * voxel_size, width = ray.pixel_voxels(metres, std::abs(ray.direction[axis]));
+      const float way = way_at(voxel);
+      float line = 0.18f * shared::grid_line(f, width);
+      for (int side = 0; side < 4; ++side) {
+        glm::ivec3 beside(0);
+        beside[side < 2 ? axes.x : axes.y] = side % 2 == 0 ? -1 : 1;
+        const float other = way_at(voxel + beside), x = side < 2 ? f.x : f.y;
+        if (other >= 0 && std::floor(other) != std::floor(way))
+          line = std::max(line, 0.75f * shared::line_share(side % 2 == 0 ? x : 1 - x, 1.5f * width));
+      }
+      const glm::vec3 colour = shared::ramp_colour(shared::kRampViridis, way / std::ceil(farthest));
+      const glm::vec3 lit = glm::min(colour * shared::way_tone(normal), 1.0f) * (1 - line);
+      return apart(pixel, seen(ray, lit, metres));
+    });
+    EXPECT_GT(met, 150);
+    EXPECT_EQ(cut > 100, slice.at_world < 4) << cut;
+    EXPECT_EQ(cut == 0, slice.at_world > 4) << cut;
+  }
+}
+
+TEST_F(DebugViewTest, BricksShowWhereTheyAreAndNothingElsewhere) {
+  const glm::uvec2 size(65, 37);
+  const FrameConstants frame = frame_of(size);
+  const Surfaces surfaces = half_a_wall(frame);
+  const auto shown = show(DebugView::bricks, frame, surfaces);
+  int through = 0, past = 0;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const Ray ray = ray_of(frame, surfaces, middle(frame, i));
+    const float t_end = ray.surface_m / room_.grid.frame().voxel_size;
+    // The longest way through one brick's filled cells; -1 where the ray is in no brick.
+    float filled = -1;
+    for (std::uint32_t slot = 0; slot < room_.volume.slot_count(); ++slot) {
+      const glm::vec3 low(room_.volume.brick_of(slot) * 8);
+      const std::uint32_t cells = filled_cells(room_.volume, slot);
+      const glm::vec3 cells_low(shared::cells_low(cells)), cells_end(shared::cells_end(cells));
+      const auto way_in = [&](glm::vec3 from, glm::vec3 to) {
+        const glm::vec3 a = (from - ray.eye_voxel) / ray.direction, b = (to - ray.eye_voxel) / ray.direction;
+        const glm::vec3 enter = glm::min(a, b), leave = glm::max(a, b);
+        return std::min({leave.x, leave.y, leave.z, t_end}) - std::max({enter.x, enter.y, enter.z, 0.0f});
+      };
+      if (way_in(low - 0.02f, low + 8.02f) <= 0) continue;
+      filled = std::max(filled, 0.0f);
+      if (cells_end.x > cells_low.x)
+        filled = std::max(
+            filled, way_in(low + glm::max(cells_low - 0.5f, 0.0f), low + glm::min(cells_end - 0.5f, 8.0f)));
+    }
+    if (filled < 0) {
+      EXPECT_LE(apart(shown[i], ray.behind), kRounded) << i;
+      ++past;
+    } else if (filled > 2) {
+      // Two voxels of a filled brick cover 7 %, in a colour that is far from grey.
+      EXPECT_GT(apart(shown[i], ray.behind), 3) << i;
+      ++through;
+    }
+  }
+  EXPECT_GT(through, 200);
+  EXPECT_GT(past, 200);
+}
+
+TEST_F(DebugViewTest, TheLegendSaysWhatTheColoursAre) {
+  const glm::uvec2 size(320, 180);
+  const FrameConstants frame = frame_of(size);
+  const auto at = [&](const std::vector<glm::u8vec4>& shown, std::uint32_t x, std::uint32_t y) {
+    return shown[x + std::size_t{size.x} * y];
+  };
+  const auto depth = show(DebugView::depth, frame, Surfaces(size));
+  for (std::uint32_t x = 0; x < 88; ++x)
+    for (std::uint32_t y = 156; y < 161; ++y) {
+      const float share = (static_cast<float>(x) + 0.5f) / 88;
+      EXPECT_LE(apart(at(depth, 18 + x, y), shared::ramp_colour(shared::kRampViridis, share)), kRounded);
+    }
+  // 64m, 8m and 1m: in the rows of the digits so many pixels are inked.
+  int inked = 0;
+  for (std::uint32_t x = 0; x < size.x; ++x)
+    for (std::uint32_t y = 164; y < 169; ++y) inked += at(depth, x, y).g > 200;
+  constexpr int kSix = 12, kFour = 9, kM = 10, kEight = 13, kOne = 8;
+  EXPECT_EQ(inked, kSix + kFour + kM + kEight + kM + kOne + kM);
+  // Elsewhere nothing, and nothing at all in a picture too small.
+  for (std::uint32_t y = 0; y < 150; ++y) EXPECT_LE(apart(at(depth, 20, y), shared::backdrop()), kRounded);
+  for (const glm::u8vec4 pixel : show(DebugView::depth, frame_of({199, 180}), Surfaces({199, 180})))
+    EXPECT_LE(apart(pixel, shared::backdrop()), kRounded);
+}
+
+TEST(Ramps, BeginDarkEndLightAndNeverGetDarker) {
+  for (std::uint32_t ramp = 0; ramp < 4; ++ramp) {
+    double last = -1;
+    for (int i = 0; i <= 256; ++i) {
+      const glm::dvec3 c(shared::ramp_colour(ramp, static_cast<float>(i) / 256));
+      const double lightness = glm::dot(glm::pow(c, glm::dvec3(2.2)), glm::dvec3(0.2126, 0.7152, 0.0722));
+      EXPECT_GE(lightness, last) << ramp << " at " << i;
+      last = lightness;
+    }
+    EXPECT_GT(last, 0.6);
+    EXPECT_EQ(shared::ramp_colour(ramp, -1), shared::ramp_colour(ramp, 0));
+    EXPECT_EQ(shared::ramp_colour(ramp, 2), shared::ramp_colour(ramp, 1));
   }
 }
 

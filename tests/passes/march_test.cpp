@@ -1,9 +1,11 @@
 #include "passes/march.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "passes/blue_noise.hpp"
 #include "passes/noise.hpp"
+#include "passes/resolve.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/passes/smoke_room.hpp"
 
@@ -103,6 +105,54 @@ TEST_F(MarchConstantTest, IsBeerLambertAtFiveStepLengths) {
       // Constant in-scatter: what is not let through is scattered light.
       EXPECT_NEAR(pixels[i].x, 0.5 * (1 - expected), 0.01 * 0.5);
       EXPECT_NEAR(pixels[i].z, 1 - expected, 0.01);
+    }
+  }
+}
+
+TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
+  auto frame = frame_at(room_, {0, 0, -0.5f});
+  constexpr float kDistance = 4;
+  const auto plain = march(room_, frame, kDistance);
+  const std::uint32_t all = samples_;
+
+  const MarchPass counting(context(), {false, true, false});
+  const ResolvePass resolve(context());
+  const auto depth = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT,
+                                  std::vector<float>(kSize.x * kSize.y, frame.camera.near_z / kDistance));
+  const auto counters = upload(std::vector<std::uint32_t>(1 + kSize.x * kSize.y));
+  const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
+  const OpenHoles no_holes(context(), runner(), {});
+  for (const std::uint32_t scale : {1u, 2u, 4u}) {
+    frame.march_scale = scale;
+    const auto frame_buffer = upload(std::vector{frame});
+    std::optional<MarchBlocks> blocks;
+    if (scale > 1) blocks.emplace(context(), kSize, scale);
+    runner().run([&](gpu::Recorder& recorder) {
+      recorder.clear(room_.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
+      recorder.fill(counters, 0);
+      const MarchPass::Inputs in{frame_buffer, room_.upload.resources(), noise_tile_, depth,
+                                 blue_noise_,  no_holes.resources()};
+      if (scale == 1) return counting.record(recorder, in, target, counters);
+      resolve.record_ends(recorder, frame_buffer, depth, *blocks);
+      counting.record_blocks(recorder, in, *blocks, counters);
+    });
+    const auto counted = read_back<std::uint32_t>(counters, 1 + kSize.x * kSize.y);
+    // Where all is smoke, each step takes two samples: of the smoke, and of its light.
+    std::uint32_t steps = 0;
+    for (std::uint32_t i = 0; i < kSize.x * kSize.y; ++i) {
+      const std::uint32_t x = i % kSize.x, y = i / kSize.x;
+      if (x % scale == 0 && y % scale == 0) steps += counted[1 + i];
+      EXPECT_EQ(counted[1 + i], counted[1 + x / scale * scale + kSize.x * (y / scale * scale)]);
+      if (scale > 1) continue;
+      const float way = kDistance * glm::length(ray(frame, i));
+      EXPECT_EQ(counted[1 + i], static_cast<std::uint32_t>(std::ceil(way / frame.look.step_length))) << i;
+    }
+    EXPECT_EQ(counted[0], 2 * steps) << "scale " << scale;
+    if (scale == 1) {
+      EXPECT_EQ(counted[0], all);
+      std::vector<glm::vec4> same;
+      for (const Half4& texel : read_back<Half4>(target)) same.push_back(from_half(texel));
+      EXPECT_EQ(same, plain);
     }
   }
 }

@@ -1,0 +1,140 @@
+// Debug views of a whole frame: each says something of its own, and none leaves a trace in the picture.
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "render/playback.hpp"
+#include "tests/gpu/gpu_test.hpp"
+#include "tests/render/truth_scenes.hpp"
+
+namespace brume::render {
+namespace {
+
+using passes::DebugView;
+
+constexpr glm::uvec2 kSize{97, 55};
+
+/// A yard with a wall and a box that breaks at 2 s; smoke, two shots through it.
+stage::Stage yard() {
+  scene::Scene scene;
+  scene::Mesh mesh, ball;
+  add_box(mesh, {-5, -0.3f, -5}, {5, -0.05f, 5});
+  add_box(mesh, {-3, -0.05f, -3.2f}, {3, 2.5f, -3});
+  add_box(mesh, {1.5f, -0.05f, -1}, {1.8f, 1.5f, 1});
+  add_box(ball, glm::vec3(-0.05f), glm::vec3(0.05f));
+  scene.meshes = {mesh, ball};
+  scene.materials.resize(1);
+  scene.materials[0].base_color = {0.6f, 0.45f, 0.3f};
+  scene.objects.push_back({"yard", 0, 0, glm::mat4(1), true});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene::Light lamp;
+  lamp.position_world = {-2, 2.2f, 2};
+  lamp.intensity = glm::vec3(6);
+  scene.lights.push_back(lamp);
+  scene.camera = scene::Camera{{0.5f, 1.7f, 5.5f}, {0, 1, 0}, 0.9f};
+  scene::Timeline timeline;
+  timeline.smoke.voxels = 700;
+  timeline.smoke.noise = 0.7f;
+  timeline.smokes = {{0.1, {0, 2, 0}, {0, 0.4f, 0}}};
+  for (const float x : {-0.4f, 0.5f}) {
+    scene::ShotEvent shot;
+    shot.time = 1;
+    shot.from_world = {x, 1.2f, 5};
+    shot.toward_world = {x, 0.8f, -2};
+    shot.radius = 0.25f;
+    shot.times.stay = 5;
+    timeline.shots.push_back(shot);
+  }
+  timeline.edits.push_back({2, {1.3f, -0.02f, -1.2f}, {2.1f, 1.8f, 1.2f}, false});
+  return stage_of(std::move(scene), std::move(timeline), {{45, 16, 45}, 0.25f, {-5.6f, -0.6f, -5.6f}});
+}
+
+class DebugViewsTest : public gpu::GpuTest {
+ protected:
+  static const stage::Stage& stage() {
+    static const stage::Stage instance = yard();
+    return instance;
+  }
+  /// One for all tests, which makes each view's pipeline once.
+  static Playback& playback() {
+    static Playback instance(context(), stage(), kSize);
+    return instance;
+  }
+  RendererOptions options(std::uint32_t march_scale, bool temporal) const {
+    RendererOptions options{kSize};
+    options.march_scale = march_scale;
+    options.temporal = temporal;
+    return options;
+  }
+};
+
+TEST_F(DebugViewsTest, EachIsThereAndDiffersFromAllOthers) {
+  std::vector<std::vector<std::uint8_t>> pictures;
+  for (std::uint32_t i = 0; i < shared::kViewCount; ++i) {
+    const auto view = static_cast<DebugView>(i);
+    playback().set_view(view, {});
+    const auto picture = playback().draw(1.6, 3).rgba;
+    EXPECT_EQ(std::count(pictures.begin(), pictures.end(), picture), 0) << passes::debug_view_name(view);
+    pictures.push_back(picture);
+    EXPECT_EQ(playback().draw(1.6, 3).rgba, picture) << passes::debug_view_name(view);
+    std::set<std::uint32_t> colours;
+    for (std::size_t p = 0; p < picture.size(); p += 4)
+      colours.insert(picture[p] | std::uint32_t{picture[p + 1]} << 8 | std::uint32_t{picture[p + 2]} << 16);
+    EXPECT_GE(colours.size(), 2u) << passes::debug_view_name(view);
+  }
+  // A slice elsewhere is another picture.
+  for (const DebugView view : {DebugView::density, DebugView::light, DebugView::distance}) {
+    playback().set_view(view, passes::ViewSlice{1, 0.5f});
+    EXPECT_EQ(std::count(pictures.begin(), pictures.end(), playback().draw(1.6, 3).rgba), 0)
+        << passes::debug_view_name(view);
+  }
+}
+
+TEST_F(DebugViewsTest, ThePictureIsTheSameWhateverWasShownBefore) {
+  for (const std::uint32_t scale : {1u, 4u}) {
+    Playback plain(context(), stage(), options(scale, false));
+    std::optional<Playback> of_blocks;
+    if (scale > 1) of_blocks.emplace(context(), stage(), options(scale, false));
+    Playback& other = of_blocks ? *of_blocks : playback();
+    for (std::uint32_t i = 1; i < shared::kViewCount; i += scale) {  // of the lower resolution a few
+      const double seconds = 1.6 + 0.1 * i;                          // over the moment when a wall breaks
+      other.set_view(static_cast<DebugView>(i), {});
+      other.draw(seconds - 0.05, 2 * i);
+      if (i % 3 != 0) continue;
+      other.set_view(DebugView::none, {});
+      EXPECT_EQ(other.draw(seconds, i).rgba, plain.draw(seconds, i).rgba) << "after view " << i;
+    }
+  }
+}
+
+TEST_F(DebugViewsTest, AFilmGoesOnAfterAView) {
+  Playback plain(context(), stage(), options(4, true)), other(context(), stage(), options(4, true));
+  for (std::uint32_t frame = 0; frame < 4; ++frame) {
+    const double seconds = 1.2 + frame / 24.0;
+    other.set_view(frame == 1 ? DebugView::steps : frame == 2 ? DebugView::holes : DebugView::none, {});
+    const auto shown = other.draw(seconds, frame).rgba, expected = plain.draw(seconds, frame).rgba;
+    EXPECT_EQ(shown == expected, frame == 0 || frame == 3) << frame;
+  }
+}
+
+TEST_F(DebugViewsTest, SolidVoxelsFollowTheLevel) {
+  playback().set_view(DebugView::solid, {});
+  const auto whole = playback().draw(1.9, 0).rgba, broken = playback().draw(2.1, 0).rgba;
+  EXPECT_NE(whole, broken);
+  EXPECT_EQ(playback().draw(1.9, 0).rgba, whole);
+  EXPECT_EQ(playback().draw(2.1, 0).rgba, broken);
+}
+
+TEST_F(DebugViewsTest, WithoutSmokeTheSceneIsThere) {
+  // Before the first smoke goes off.
+  for (std::uint32_t i = 1; i < shared::kViewCount; ++i) {
+    playback().set_view(static_cast<DebugView>(i), {});
+    const auto picture = playback().draw(0, 0).rgba;
+    std::set<std::uint8_t> greens;
+    for (std::size_t p = 1; p < picture.size(); p += 4) greens.insert(picture[p]);
+    EXPECT_GE(greens.size(), 2u) << passes::debug_view_name(static_cast<DebugView>(i));
+  }
+}
+
+}  // namespace
+}  // namespace brume::render
