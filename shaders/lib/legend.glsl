@@ -26,7 +26,7 @@ int label_length(uint label) {
 vec3 with_legend(vec3 colour, ivec2 px, uint ramp) {
   const ivec2 size = ivec2(frame.size_px);
   if (params.labels == uvec3(0u) || size.x < 200 || size.y < 100) return colour;
-  const int scale = max(1, size.y / 180);
+  const int scale = max(1, (size.y + 90) / 180);
   const ivec2 bar = ivec2(88, 5) * scale, margin = ivec2(12, 5) * scale;
   const ivec2 panel = bar + 2 * margin + ivec2(0, 8 * scale);
   const ivec2 at = px - ivec2(6 * scale, size.y - 6 * scale - panel.y);

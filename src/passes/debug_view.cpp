@@ -58,6 +58,10 @@ glm::uvec3 labels_of(DebugView view, float full) {
   }
 }
 
+bool needs_level(DebugView view) {
+  return view == DebugView::solid || view == DebugView::density || view == DebugView::light;
+}
+
 /// The level as lib/voxel_rays.glsl reads it.
 std::vector<std::uint32_t> words_of_level(const voxel::BitGrid& grid, glm::ivec3 root_size) {
   std::vector<std::uint32_t> words(static_cast<std::size_t>(root_size.x) *
@@ -133,7 +137,7 @@ void DebugViewPass::reserve(const DebugSubject& subject, glm::uvec2 size_px) {
         std::uint32_t{sizeof(shared::DebugViewParams)}, std::array<std::uint32_t, 3>{8, 8, 1},
         std::vector<std::uint32_t>{static_cast<std::uint32_t>(subject.view)});
   }
-  find_level(subject.level);
+  if (needs_level(subject.view)) find_level(subject.level);
   if (subject.view == DebugView::distance) find_ways(subject);
   if (subject.view == DebugView::steps)
     gpu::grow(context_, counters_, sizeof(std::uint32_t) * (1 + std::uint64_t{size_px.x} * size_px.y));
@@ -184,6 +188,7 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
   params.slice_world = subject.slice.at_world;
   params.full = ramp_end(subject.view, subject.state ? *subject.state : sim::State());
   params.labels = labels_of(subject.view, params.full);
+  const gpu::Buffer& level = level_ ? level_ : nothing_;
   const gpu::Buffer& ways = ways_ ? ways_ : nothing_;
   const gpu::Buffer& counters = counters_ ? counters_ : nothing_;
   const gpu::ComputePipeline& pipeline = *pipelines_[static_cast<std::size_t>(subject.view)];
@@ -194,7 +199,7 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
        gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.gbuffer.albedo_roughness, nearest_),
        gpu::sampled(in.gbuffer.normal_metallic, nearest_), gpu::sampled(in.gbuffer.depth, nearest_),
        gpu::read(in.holes.holes), gpu::read(in.holes.lists), gpu::sampled(in.holes.masks, nearest_),
-       gpu::read(in.smoke.filled), gpu::read(level_), gpu::read(ways), gpu::read(counters),
+       gpu::read(in.smoke.filled), gpu::read(level), gpu::read(ways), gpu::read(counters),
        gpu::stored(display)},
       params);
   recorder.dispatch_threads(pipeline, display.info().size.x, display.info().size.y);
