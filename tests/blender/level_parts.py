@@ -120,9 +120,9 @@ def build_courtyard(folder):
 
     add("Ground", box_mesh("ground", (-6.13, -4.07, -0.21), (6.11, 5.09, 0), ground))
     # The wall with its doorway is one mesh of boxes; "wall" and "Wall" are two objects.
-    add("Wall", box_mesh("left", (-6.13, 2, 0), (-0.61, 2.33, 3.17), bricks))
-    add("wall", box_mesh("right", (0.61, 2, 0), (6.11, 2.33, 3.17), bricks))
-    add("Wall.lintel", box_mesh("lintel", (-0.61, 2, 2.23), (0.61, 2.33, 3.17), bricks))
+    add("Wall", box_mesh("left", (-6.13, 2, 0), (-0.61, 2.33, 4.17), bricks))
+    add("wall", box_mesh("right", (0.61, 2, 0), (6.11, 2.33, 4.17), bricks))
+    add("Wall.lintel", box_mesh("lintel", (-0.61, 2, 2.23), (0.61, 2.33, 4.17), bricks))
 
     # A door: its handle is parented to it and has another material.
     door = add("entrance", box_mesh("leaf of the door", (0, -0.04, 0.02), (1.18, 0.04, 2.19), wood))
@@ -136,13 +136,13 @@ def build_courtyard(folder):
     add("Crate.001", crate, location=(2.75, -0.35, 1.16), rotation=(0, 0, -0.3), scale=(0.6, 0.6, 0.6))
     add("Crate tipped", crate, location=(3.55, -1.13, 0.55), rotation=(0.5, 0.3, 1.1), scale=(0.9, 0.6, 0.7))
     ramp = wedge_mesh("ramp", metal)
-    add("Ramp", ramp, location=(-5.2, -0.63, 0.01), scale=(1.1, 1.3, 0.9))
-    add("Ramp mirrored", ramp, location=(-1.9, -0.63, 0.01), rotation=(0, 0, 0.1), scale=(-0.5, 1.3, 0.9))
+    add("Ramp", ramp, location=(-3.7, -1.2, 0.01), rotation=(0, 0, 0.3), scale=(0.5, 1.3, 0.5))
+    add("Ramp mirrored", ramp, location=(-3.7, -1.2, 0.01), rotation=(0, 0, 0.3), scale=(-0.5, 1.3, 0.5))
     turned = add("turned", None, location=(4.63, 1.02, 0.3), rotation=(0.2, 0.1, 0.7), scale=(1.2, -0.5, 0.8))
     inner = add("inner", None, turned, rotation=(0.3, 0.6, 0.2))
     add("Ramp sheared", ramp, inner, location=(-0.4, 0.2, 0), rotation=(0.1, 0.4, 0.9), scale=(0.7, 0.6, 1))
     add("Ball sheared", ball_mesh("ball", metal), inner, location=(0.9, 1.2, 0.3), scale=(0.5, 0.3, 0.4))
-    add("Ramp upside down", ramp, location=(-3.1, 1.37, 2.05), rotation=(math.pi, 0, 0), scale=(0.4, 0.4, 0.4))
+    add("Ramp upside down", ramp, location=(-0.83, 1.99, 2.73), rotation=(math.pi, 0, 0), scale=(0.82, 0.7, 0.2))
 
     # Modifiers, a curve, letters.
     steps = add("Steps", box_mesh("step", (-0.61, -0.3, -0.02), (0.61, 0, 0.17), ground), location=(0.003, 1.98, 0))
@@ -161,7 +161,7 @@ def build_courtyard(folder):
     sign = bpy.data.curves.new("sign", "FONT")
     sign.body, sign.size, sign.extrude, sign.resolution_u = "BRUME", 0.7, 0.05, 2
     sign.materials.append(paint)
-    add("Sign", sign, location=(1.4, 1.94, 2.2), rotation=(math.pi / 2, 0, 0))
+    add("Sign", sign, location=(1.13, 1.94, 2.62), rotation=(math.pi / 2, 0, 0))
 
     # A collection of bushes, instanced twice: turned, and mirrored. Smoke passes through them.
     bushes = bpy.data.collections.new("bushes")
@@ -179,7 +179,7 @@ def build_courtyard(folder):
     made.brume.role = "PASSABLE"
     add("Pot", box_mesh("pot", (-0.2, -0.2, 0), (0.2, 0.2, 0.3), paint), collection=bushes, location=(0.4, 0, 0))
     for name, location, turn, scale in (
-        ("bushes left", (-1.63, 1.44, 0.01), 0.8, (1, 1, 1)),
+        ("bushes left", (-1.93, 1.34, 0.01), 0.8, (1, 1, 1)),
         ("bushes right", (2.31, 1.41, 0.01), 2.0, (-1.2, 1.2, 1.1)),
     ):
         instance = add(name, None, location=location, rotation=(0, 0, turn), scale=scale)
@@ -205,11 +205,11 @@ def build_courtyard(folder):
     # One mesh in two materials, the second by its object; and what must not come out.
     post = box_mesh("post", (-0.1, -0.1, 0), (0.1, 0.1, 1.1), metal, metal)
     post.polygons[1].material_index = 1
-    cap = add("Post", post, location=(-0.93, -0.71, 0.01))
+    cap = add("Post", post, location=(-2.33, -2.11, 0.01))
     cap.material_slots[1].link, cap.material_slots[1].material = "OBJECT", paint
-    add("measure", crate, location=(0, 0, 5)).brume.role = "LEFT_OUT"
-    add("not rendered", crate, location=(0, 0, 6)).hide_render = True
-    add("hidden", crate, location=(0, 0, 7)).hide_viewport = True
+    add("measure", crate, location=(0, 0, 15)).brume.role = "LEFT_OUT"
+    add("not rendered", crate, location=(0, 0, 16)).hide_render = True
+    add("hidden", crate, location=(0, 0, 17)).hide_viewport = True
 
 
 def build_lights():
@@ -224,30 +224,28 @@ def build_lights():
             made.rotation_euler = direction.to_track_quat("-Z", "Y").to_euler()
         return data
 
-    lamp("lantern", "POINT", 260, (1, 0.62, 0.3), (-2.2, 0.9, 2.3))
-    spot = lamp("floodlight", "SPOT", 1500, (0.75, 0.85, 1), (5.1, -3.1, 3.8), (0.3, 1.3, 0.4))
-    spot.spot_size, spot.spot_blend = math.radians(48), 0.3
-    area = lamp("window", "AREA", 90, (1, 0.8, 0.55), (0, 3.9, 2.6), (0, 2, 0.5))
+    lamp("lantern", "POINT", 300, (1, 0.6, 0.28), (2.3, 0.9, 3.3))
+    spot = lamp("floodlight", "SPOT", 2600, (0.62, 0.78, 1), (-5.6, -1.4, 3.9), (0.2, 0.9, 0.6))
+    spot.spot_size, spot.spot_blend = math.radians(40), 0.4
+    area = lamp("window", "AREA", 300, (1, 0.75, 0.45), (0, 3.9, 2.6), (0, 2, 0.5))
     area.size = 1
-    lamp("moon", "SUN", 0.12, (0.55, 0.7, 1), (0, 0, 9), (-2, 3, 0))
+    lamp("moon", "SUN", 0.3, (0.55, 0.7, 1), (0, 0, 9), (-2, 3, 0))
     world = bpy.data.worlds.new("night")
     world.use_nodes = True
-    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.012, 0.018, 0.035, 1)
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.02, 0.03, 0.055, 1)
     scene.world = world
 
 
 def build_camera():
     """A dolly: the camera rides on an empty that moves."""
     scene = bpy.context.scene
-    dolly = add("dolly", None, location=(-0.6, -6.4, 2.25), rotation=(0, 0, -0.06))
+    dolly = add("dolly", None, location=(-0.6, -6.4, 1.85), rotation=(0, 0, -0.06))
     dolly.keyframe_insert("location", frame=1)
-    dolly.location = (0.5, -6.0, 2.1)
+    dolly.location = (0.5, -5.6, 1.7)
     dolly.keyframe_insert("location", frame=97)
     data = bpy.data.cameras.new("camera")
     data.lens = 24
-    camera = add("camera", data, dolly, rotation=(math.radians(83), 0, 0))
-    scene.camera = camera
-    return camera
+    scene.camera = add("camera", data, dolly, rotation=(math.radians(88), 0, 0))
 
 
 def star_image():
@@ -273,15 +271,29 @@ def build_events(folder):
 
     grenade = event("Grenade at the steps", "SMOKE", 0.25, (0.2, 0.7, 0.2))
     grenade.thrown_from = bpy.data.objects["camera"]
-    word = event("word", "TEXT", 3.1, (-0.7, -4.4, 1.0))
-    word.text, word.size, word.stay = "HI", 0.8, 2.0
-    word.aim = event("aim", "NONE", 0, (-0.5, 1.0, 1.0)).id_data
+    word = event("word", "TEXT", 3.1, (0.33, -5.5, 1.7))
+    word.text, word.size, word.stay = "HI", 0.7, 2.0
+    word.aim = event("aim", "NONE", 0, (-0.3, 0.6, 1.15)).id_data
     shot = event("shot", "SHOT", 3.2, (2.5, -3.5, 1.2), (math.radians(90), 0, math.radians(200)))
     shot.shape, shot.roll, shot.radius, shot.stay = "BOX", math.radians(45), 0.3, 1.5
-    star = event("star", "SHOT", 3.3, (0.4, -5, 1.9))
-    star.shape, star.radius, star.stay, star.aim = "MASK", 0.5, 1.5, event("star's aim", "NONE", 0, (0.9, 1, 1.2)).id_data
+    star = event("star", "SHOT", 3.2, (0.33, -5.5, 1.7))
+    star.shape, star.radius, star.stay, star.aim = "MASK", 0.4, 1.5, event("star's aim", "NONE", 0, (1.0, 0.6, 1.2)).id_data
     star.mask = os.path.join(folder, "a star.png")
     save(star_image(), star.mask, "PNG")
     event("blast", "BLAST", 3.75, (-4.7, 0.6, 0.8)).blast_radius = 1.5
     opens = event("door opens", "DOOR", 1.5, (0, 2, 2.5))
     opens.door = bpy.data.objects["entrance"]
+
+
+def build_all(folder):
+    """The courtyard with its lamps, camera and events, at a moment when much happens. Files are written to `folder`."""
+    build_courtyard(folder)
+    build_lights()
+    build_camera()
+    build_events(folder)
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 1, 96
+    scene.brume.sky, scene.brume.smoke_voxels = "WORLD", 1500
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 1920, 1080, 50
+    scene.brume.march = "half"
+    scene.frame_set(86)

@@ -80,13 +80,8 @@ def left_behind():
 def make_courtyard(folder):
     empty_scene()
     scene = bpy.context.scene
-    level_parts.build_courtyard(folder)
-    level_parts.build_lights()
-    camera = level_parts.build_camera()
-    level_parts.build_events(folder)
-    scene.frame_start, scene.frame_end = 1, 96
-    scene.brume.sky, scene.brume.smoke_voxels = "WORLD", 900
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 1280, 720, 50
+    level_parts.build_all(folder)
+    camera = scene.camera
     scene.frame_set(49)
     triangles = expected_triangles()
     frame = camera.data.view_frame(scene=scene)
@@ -133,8 +128,7 @@ def make_ranges(folder):
 def render_and_voxelize(folder, brume):
     scene = bpy.context.scene
     bpy.context.preferences.addons["brume"].preferences.program = brume
-    scene.frame_set(1 + 24 * 7 // 2)
-    scene.brume.march = "half"
+    scene.frame_set(86)
     bpy.ops.brume.render()
     image = bpy.data.images["Brume Render"]
     with open(os.path.join(folder, "render.png"), "wb") as file:

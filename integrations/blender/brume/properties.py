@@ -34,12 +34,12 @@ EVENTS = (
 )
 
 
-def _seconds(default, most, what, least=0.0):
-    return FloatProperty(default=default, min=least, max=most, description=what + " [s]")
+def _seconds(name, default, most, what, least=0.0):
+    return FloatProperty(name=name, default=default, min=least, max=most, description=what + " [s]")
 
 
-def _metres(default, least, most, what):
-    return FloatProperty(default=default, min=least, max=most, description=what + " [m]")
+def _metres(name, default, least, most, what):
+    return FloatProperty(name=name, default=default, min=least, max=most, description=what + " [m]")
 
 
 class BrumeObject(bpy.types.PropertyGroup):
@@ -48,14 +48,14 @@ class BrumeObject(bpy.types.PropertyGroup):
 
 class BrumeEvent(bpy.types.PropertyGroup):
     type: EnumProperty(items=EVENTS, name="Event", description="What happens at this empty")
-    time: _seconds(1.0, 3600.0, "When it happens, from the scene's first frame")
+    time: _seconds("Time", 1.0, 3600.0, "When it happens, from the scene's first frame")
     thrown_from: PointerProperty(
         type=bpy.types.Object, name="Thrown From", description="Where the grenade is thrown; nothing: it goes off here"
     )
     aim: PointerProperty(
         type=bpy.types.Object, name="Aim", description="What the shot passes through; nothing: along the arrow"
     )
-    radius: _metres(0.25, 0.01, 10.0, "Radius of the hole, half the edge of a box or mask")
+    radius: _metres("Radius", 0.25, 0.01, 10.0, "Radius of the hole, half the edge of a box or mask")
     shape: EnumProperty(
         items=(
             ("CYLINDER", "Cylinder", "A round hole"),
@@ -73,26 +73,30 @@ class BrumeEvent(bpy.types.PropertyGroup):
         max=2 * math.pi,
         subtype="ANGLE",
     )
-    flash: FloatProperty(default=25.0, min=0.0, max=1e6, description="Of the muzzle: light for 0.06 s [W/sr]")
-    reach: _seconds(0.25, 60.0, "The front's way to the far end")
-    expand: _seconds(0.05, 60.0, "Opening at each depth")
-    stay: _seconds(0.6, 600.0, "Open")
-    fade: _seconds(0.35, 60.0, "Closing")
+    flash: FloatProperty(
+        name="Flash", default=25.0, min=0.0, max=1e6, description="Of the muzzle: light for 0.06 s [W/sr]"
+    )
+    reach: _seconds("Reach", 0.25, 60.0, "The front's way to the far end")
+    expand: _seconds("Expand", 0.05, 60.0, "Opening at each depth")
+    stay: _seconds("Stay", 0.6, 600.0, "Open")
+    fade: _seconds("Fade", 0.35, 60.0, "Closing")
     text: StringProperty(name="Text", description="One line of letters", default="SMOKE")
-    size: _metres(0.5, 0.02, 10.0, "Height of a capital letter")
+    size: _metres("Size", 0.5, 0.02, 10.0, "Height of a capital letter")
     font: StringProperty(name="Font", description="A font file; nothing: DejaVu Sans Bold", subtype="FILE_PATH")
-    spacing: FloatProperty(default=0.0, min=-0.5, max=10.0, description="More room between letters, in capital heights")
-    interval: _seconds(0.0, 10.0, "From letter to letter")
+    spacing: FloatProperty(
+        name="Spacing", default=0.0, min=-0.5, max=10.0, description="More room between letters, in capital heights"
+    )
+    interval: _seconds("Interval", 0.0, 10.0, "From letter to letter")
     blast_radius: FloatProperty(
         name="Radius", default=5.0, min=0.1, max=100.0, description="Of the cavity that it opens [m]"
     )
     blast_flash: FloatProperty(
         name="Flash", default=250.0, min=0.0, max=1e6, description="Of the fire: light for 0.3 s [W/sr]"
     )
-    speed: FloatProperty(default=32.0, min=1.0, max=10000.0, description="Of the blast's front [m/s]")
-    left: FloatProperty(default=0.02, min=0.0, max=1.0, description="Share of the density that stays")
-    refill_rim: _seconds(0.5, 60.0, "Until the rim is full again", least=0.01)
-    refill_middle: _seconds(5.0, 60.0, "Until the middle is full again; no less than the rim", least=0.01)
+    speed: FloatProperty(name="Speed", default=32.0, min=1.0, max=10000.0, description="Of the front [m/s]")
+    left: FloatProperty(name="Left", default=0.02, min=0.0, max=1.0, description="Share of the density that stays")
+    refill_rim: _seconds("Refill Rim", 0.5, 60.0, "Until the rim is full again", least=0.01)
+    refill_middle: _seconds("Refill Middle", 5.0, 60.0, "Until the middle is full again; no less than the rim", least=0.01)
     door: PointerProperty(
         type=bpy.types.Object, name="Door", description="The door that opens or shuts; its role is Door"
     )
@@ -110,7 +114,7 @@ class BrumeScene(bpy.types.PropertyGroup):
     )
     voxel: FloatProperty(name="Voxel", default=0.25, min=1 / 64, max=10.0, description="Edge of a voxel [m]")
     smoke_voxels: IntProperty(
-        name="Smoke Voxels", default=1800, min=1, max=16777216, description="How many voxels a grown smoke fills"
+        name="Smoke", default=1800, min=1, max=16777216, description="How many voxels a grown smoke fills"
     )
     smoke_bloom: FloatProperty(
         name="Bloom", default=1.0, min=0.05, max=60.0, description="From going off to full size [s]"

@@ -1,0 +1,158 @@
+"""Run by Blender in a window: blender --factory-startup -P window.py -- ADDON.zip BRUME FOLDER
+
+Draws the panels, renders while Blender goes on, shows the picture, stops a render by Esc. Leaves window.json and
+window.png.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+import traceback
+
+import bpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import level_parts  # noqa: E402
+
+bpy.context.preferences.view.show_splash = False
+
+
+def areas(kind):
+    return [area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == kind]
+
+
+def region(area, kind="WINDOW"):
+    return next(region for region in area.regions if region.type == kind)
+
+
+def inside(area):
+    window = bpy.context.window_manager.windows[0]
+    return bpy.context.temp_override(window=window, area=area, region=region(area))
+
+
+def lay_out():
+    """The 3D view beside an Image Editor."""
+    view = areas("VIEW_3D")[0]
+    with inside(view):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
+    view, other = sorted(areas("VIEW_3D"), key=lambda area: area.x)
+    other.type = "IMAGE_EDITOR"
+    space = view.spaces.active
+    space.show_region_ui, space.shading.color_type = True, "TEXTURE"
+    space.overlay.show_relationship_lines = False
+    space.region_3d.view_perspective = "CAMERA"
+    return view, other
+
+
+def invoke_render():
+    with inside(areas("VIEW_3D")[0]):
+        return sorted(bpy.ops.brume.render("INVOKE_DEFAULT"))
+
+
+def show(thing):
+    for other in bpy.context.selected_objects:
+        other.select_set(False)
+    thing.select_set(True)
+    bpy.context.view_layer.objects.active = thing
+
+
+def point_at(x, y):
+    """Puts the mouse there, from the window's lower left corner; X counts from the upper left one."""
+    height = bpy.context.window_manager.windows[0].height
+    subprocess.run(["xdotool", "mousemove", str(x), str(height - 1 - y)], check=True)
+
+
+def choose_tab(view):
+    """Clicks where the fourth tab of the sidebar is, at Blender's own size: behind Item, Tool and View."""
+    sidebar = region(view, "UI")
+    point_at(sidebar.x + sidebar.width - 10, sidebar.y + sidebar.height - 164)
+    yield 0.5
+    subprocess.run(["xdotool", "click", "1"], check=True)
+    yield 0.5
+
+
+def press_escape(view):
+    point_at(view.x + 50, view.y + 50)
+    subprocess.run(["xdotool", "key", "Escape"], check=True)
+
+
+def steps(addon, brume, folder):
+    """Does what a person does; yields how long it waits [s]."""
+    bpy.ops.preferences.addon_install(filepath=addon)
+    bpy.ops.preferences.addon_enable(module="brume")
+    preferences = bpy.context.preferences.addons["brume"].preferences
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    level_parts.build_all(folder)
+    view, editor = lay_out()
+    bpy.context.scene.render.resolution_percentage = 35
+    facts = {}
+    show(bpy.data.objects["star"])  # Without it there is no tab Item.
+    yield 1.0
+    yield from choose_tab(view)
+    for name in ("entrance", "bushes left", "word", "blast", "door opens", "Grenade at the steps", "word"):
+        show(bpy.data.objects[name])
+        yield 0.1
+
+    # A render, in the time of which Blender's own timers go on.
+    preferences.program = brume
+    facts["started"] = invoke_render()
+    ticks, deadline = 0, time.monotonic() + 60
+    while "Brume Render" not in bpy.data.images and time.monotonic() < deadline:
+        ticks += 1
+        yield 0.05
+    facts["ticks"] = ticks
+    shown = editor.spaces.active.image
+    facts["shown"] = shown.name if shown else ""
+    yield 0.5
+    with inside(editor):
+        bpy.ops.image.view_all(fit_view=True)
+    with inside(view):
+        bpy.ops.view3d.view_center_camera()
+    yield 0.5
+    with inside(view):
+        bpy.ops.screen.screenshot(filepath=os.path.join(folder, "window.png"))
+
+    # A program that does not end by itself is ended by Esc.
+    mark = os.path.join(folder, "pid")
+    preferences.program = os.path.join(folder, "endless")
+    with open(preferences.program, "w", encoding="ascii") as script:
+        script.write(f"#!/bin/sh\necho $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep 600\n")
+    os.chmod(preferences.program, 0o700)
+    invoke_render()
+    while not os.path.exists(mark) and time.monotonic() < deadline:
+        yield 0.1
+    with open(mark, encoding="ascii") as file:
+        child = int(file.read())
+    press_escape(view)
+    yield 1.0
+    facts["ended"] = not os.path.exists(f"/proc/{child}")
+
+    # A program that fails says so, and all is as before.
+    preferences.program = "/bin/false"
+    invoke_render()
+    yield 1.0
+    facts["image_after"] = editor.spaces.active.image.name
+    with open(os.path.join(folder, "window.json"), "w", encoding="utf-8") as file:
+        json.dump(facts, file)
+
+
+RUN = steps(*sys.argv[sys.argv.index("--") + 1 :])
+
+
+def step():
+    try:
+        return next(RUN)
+    except StopIteration:
+        bpy.ops.wm.quit_blender()
+    except BaseException:
+        traceback.print_exc()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(1)
+    return None
+
+
+bpy.app.timers.register(step, first_interval=1.0)
