@@ -109,7 +109,7 @@ SHARED_FUNCTION float grid_line(vec2 f, float width) {
 /// A level's voxel: `distance_m` from the eye.
 SHARED_FUNCTION vec3 solid_colour(ivec3 normal, float light, float line, float distance_m) {
   vec3 colour = face_tone(normal) * light * (1.0f - 0.22f * line);
-  return mix(backdrop(), colour, exp(-distance_m / 60.0f));
+  return mix(backdrop(), colour, 0.55f + 0.45f * exp(-distance_m / 30.0f));
 }
 
 /// How light a face of the smoke's voxels is, so that its colour can still be read.
