@@ -92,28 +92,40 @@ Result<void> World::append(Event event) {
 Result<void> World::append(std::vector<Event> events) {
   std::uint32_t first = kNever;
   for (const Event& event : events) first = std::min(first, tick_of(event));
-  if (auto ok = check(events, first); !ok) return ok;
+  if (auto ok = check(events, first, settings_.masks); !ok) return ok;
   take_from(first, log_.size(), std::move(events));
   return {};
 }
 
-Result<void> World::replace_from(std::uint32_t tick, std::vector<Event> events) {
+Result<void> World::replace_from(std::uint32_t tick, std::vector<Event> events, const MaskKey& masks) {
   for (const Event& event : events)
     if (tick_of(event) < tick)
       return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(tick_of(event)) +
                                                ": expected tick " + std::to_string(tick) + " or later"};
-  if (auto ok = check(events, tick); !ok) return ok;
+  if (auto ok = check(events, tick, masks); !ok) return ok;
   const auto from = std::lower_bound(log_.begin(), log_.end(), tick,
                                      [](const Event& e, std::uint32_t t) { return tick_of(e) < t; });
+  if (masks != settings_.masks) {
+    for (auto event = log_.begin(); event != from; ++event)
+      if (auto ok = check_mask(*event, masks); !ok) return ok;
+    set_masks(masks);
+  }
   take_from(tick, static_cast<std::size_t>(from - log_.begin()), std::move(events));
   return {};
 }
 
+/// States name masks by their numbers alone.
+void World::set_masks(const MaskKey& masks) {
+  settings_.masks = state_.masks = first_.masks = masks;
+  if (previous_) previous_->masks = masks;
+  for (State& kept : checkpoints_) kept.masks = masks;
+}
+
 /// `first`: the first tick whose events change.
-Result<void> World::check(const std::vector<Event>& events, std::uint32_t first) const {
+Result<void> World::check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const {
   for (const Event& event : events) {
     if (auto ok = check_event(event, level_.frame()); !ok) return ok;
-    if (auto ok = check_mask(event, settings_.masks); !ok) return ok;
+    if (auto ok = check_mask(event, masks); !ok) return ok;
   }
   if (first >= first_free_tick_) return {};
   return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(first) + ": expected tick " +

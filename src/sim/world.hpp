@@ -43,7 +43,12 @@ class World {
   Result<void> append(std::vector<Event> events);
   /// Takes events into the place of those of the log at or after a tick, as if they had been appended in
   /// their stead; each must be of that tick or later. Fails as `append` does; the world is then as before.
-  Result<void> replace_from(std::uint32_t tick, std::vector<Event> events);
+  Result<void> replace_from(std::uint32_t tick, std::vector<Event> events) {
+    return replace_from(tick, std::move(events), settings_.masks);
+  }
+  /// The same, and the world's shots have other masks from now on, those before the tick too. Fails with
+  /// bad_input also when one of those names a mask that there is no more.
+  Result<void> replace_from(std::uint32_t tick, std::vector<Event> events, const MaskKey& masks);
 
   /// Moves to a tick, forwards or, down to earliest_tick(), backwards.
   void advance_to(std::uint32_t tick);
@@ -70,8 +75,9 @@ class World {
   std::span<const Event> log() const { return log_; }
 
  private:
-  Result<void> check(const std::vector<Event>& events, std::uint32_t first) const;
+  Result<void> check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const;
   void take_from(std::uint32_t first, std::size_t kept, std::vector<Event> events);
+  void set_masks(const MaskKey& masks);
   void go_back_before(std::uint32_t tick);
   void change_edits(const std::shared_ptr<const EditBlocks>& edits);
   void play_tick(std::uint32_t tick);

@@ -34,8 +34,8 @@ class LiveStage {
   // has it at once; smoke volume, planes and hidden objects follow when advance_to is called next.
 
   /// Does what the event lists of `deeds` say; its other members do not count. Times may be past, present and
-  /// to come. What is to come, or present, costs next to nothing; the past is played again from there on, and
-  /// so is all of it when a picture or letter comes that no shot before had. Fails with bad_input as
+  /// to come. What is to come, or present, costs next to nothing; the past is played again from there on. A
+  /// picture or a text that is new makes all masks anew. Fails with bad_input as
   /// check_events, check_doors and load_masks, and for an event that the simulation cannot take.
   Result<void> add(const scene::Timeline& deeds);
 

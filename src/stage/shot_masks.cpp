@@ -1,6 +1,7 @@
 #include "stage/shot_masks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "image/decode.hpp"
@@ -141,10 +142,17 @@ Result<sim::Mask> mask_of(const image::Image8& picture, const std::string& name)
 
 Result<LoadedMasks> load_masks(const scene::Timeline& timeline) {
   Collector collector;
-  for (const scene::ShotEvent& shot : timeline.shots)
+  auto text = timeline.texts.begin();
+  const auto add_texts_before = [&](double time) {
+    Result<void> added;
+    for (; text != timeline.texts.end() && text->time < time && added; ++text) added = collector.add(*text);
+    return added;
+  };
+  for (const scene::ShotEvent& shot : timeline.shots) {
+    if (auto added = add_texts_before(shot.time); !added) return added.failure();
     if (auto added = collector.add(shot); !added) return added.failure();
-  for (const scene::TextEvent& text : timeline.texts)
-    if (auto added = collector.add(text); !added) return added.failure();
+  }
+  if (auto added = add_texts_before(INFINITY); !added) return added.failure();
   return std::move(collector).finish();
 }
 

@@ -42,7 +42,8 @@ struct LoadedMasks {
 Result<sim::Mask> mask_of(const image::Image8& picture, const std::string& name);
 
 /// Reads the pictures and fonts that the timeline names; each picture, and each glyph of a font, is one mask,
-/// and those that are the same texel for texel are one together. The same atlas for the same pictures,
+/// and those that are the same texel for texel are one together. They are numbered by the time of their first
+/// use: what is shot later changes no number of what was before. The same atlas for the same pictures,
 /// letters and timeline, wherever the files lie. Fails with bad_input for a file that is missing or cannot
 /// be read, a character that its font lacks, a text of blanks, naming the event's place, and with
 /// resource_limit as MaskAtlas::pack, naming the last event's that brings a mask.

@@ -7,10 +7,6 @@
 namespace brume::stage {
 namespace {
 
-std::unique_ptr<sim::World> make_world(const voxel::BitGrid& level, const sim::MaskKey& masks) {
-  return std::make_unique<sim::World>(level, sim::WorldSettings{.masks = masks});
-}
-
 std::vector<EventOrder> orders_of(std::span<const OrderedEvent> events) {
   std::vector<EventOrder> orders;
   orders.reserve(events.size());
@@ -21,11 +17,10 @@ std::vector<EventOrder> orders_of(std::span<const OrderedEvent> events) {
 }  // namespace
 
 Simulation::Simulation(const Stage& stage, std::vector<LevelEvent> level_events)
-    : level_(stage.voxels.grid),
-      level_events_(std::move(level_events)),
-      world_(make_world(level_, stage.masks.key())),
+    : level_events_(std::move(level_events)),
+      world_(stage.voxels.grid, {.masks = stage.masks.key()}),
       planes_(stage.voxels.planes),
-      volume_(level_, [this](glm::ivec3 cell) { return planes_.at(cell); }) {}
+      volume_(stage.voxels.grid, [this](glm::ivec3 cell) { return planes_.at(cell); }) {}
 
 Result<std::unique_ptr<Simulation>> Simulation::create(const Stage& stage) {
   auto changes = stage::level_events(stage);
@@ -41,15 +36,15 @@ Result<std::unique_ptr<Simulation>> Simulation::create(const Stage& stage) {
 }
 
 void Simulation::advance_to(double seconds) {
-  world_->advance_to(tick_at(seconds, world_->settings().ticks_per_second));
+  world_.advance_to(tick_at(seconds, world_.settings().ticks_per_second));
   follow_level();
-  volume_.update(*world_);
+  volume_.update(world_);
 }
 
 Result<void> Simulation::add(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes) {
   if (!events.empty()) {
     // What is in the log from the first of them on, and they in between.
-    const auto log = world_->log();
+    const auto log = world_.log();
     const EventOrder first{events.front().order.tick, EventKind{}, -1};
     const auto from =
         static_cast<std::size_t>(std::lower_bound(orders_.begin(), orders_.end(), first) - orders_.begin());
@@ -61,7 +56,7 @@ Result<void> Simulation::add(std::vector<OrderedEvent> events, std::vector<Level
     std::inplace_merge(tail.begin(), tail.begin() + kept, tail.end(),
                        [](const OrderedEvent& a, const OrderedEvent& b) { return a.order < b.order; });
     const std::vector<EventOrder> orders = orders_of(tail);
-    if (auto done = world_->replace_from(first.tick, without_order(std::move(tail))); !done) return done;
+    if (auto done = world_.replace_from(first.tick, without_order(std::move(tail))); !done) return done;
     orders_.resize(from);
     orders_.insert(orders_.end(), orders.begin(), orders.end());
   }
@@ -73,24 +68,15 @@ Result<void> Simulation::replace(std::vector<OrderedEvent> events, std::vector<L
                                  const sim::MaskKey& masks) {
   std::vector<EventOrder> orders = orders_of(events);
   std::vector<sim::Event> log = without_order(std::move(events));
-  if (masks != world_->settings().masks) {
-    auto world = make_world(level_, masks);
-    if (auto done = world->append(std::move(log)); !done) return done;
-    world->advance_to(world_->tick());
-    world_ = std::move(world);
-  } else {
-    const auto before = world_->log();
-    const auto [was, is] = std::mismatch(before.begin(), before.end(), log.begin(), log.end());
-    if (was != before.end() || is != log.end()) {
-      std::uint32_t first = sim::kMaxTick;
-      if (was != before.end()) first = sim::tick_of(*was);
-      if (is != log.end()) first = std::min(first, sim::tick_of(*is));
-      const auto from = std::partition_point(
-          log.begin(), log.end(), [&](const sim::Event& event) { return sim::tick_of(event) < first; });
-      std::vector<sim::Event> tail(std::make_move_iterator(from), std::make_move_iterator(log.end()));
-      if (auto done = world_->replace_from(first, std::move(tail)); !done) return done;
-    }
-  }
+  const auto before = world_.log();
+  const auto [was, is] = std::mismatch(before.begin(), before.end(), log.begin(), log.end());
+  std::uint32_t first = sim::kMaxTick + 1;
+  if (was != before.end()) first = sim::tick_of(*was);
+  if (is != log.end()) first = std::min(first, sim::tick_of(*is));
+  const auto from = std::partition_point(
+      log.begin(), log.end(), [&](const sim::Event& event) { return sim::tick_of(event) < first; });
+  std::vector<sim::Event> tail(std::make_move_iterator(from), std::make_move_iterator(log.end()));
+  if (auto done = world_.replace_from(first, std::move(tail), masks); !done) return done;
   orders_ = std::move(orders);
   replace_level(std::move(changes));
   return {};
@@ -111,7 +97,7 @@ void Simulation::replace_level(std::vector<LevelEvent> changes) {
 
 void Simulation::follow_level() {
   const auto later = std::partition_point(level_events_.begin(), level_events_.end(), [&](const auto& event) {
-    return tick_at(event.time, world_->settings().ticks_per_second) <= world_->tick();
+    return tick_at(event.time, world_.settings().ticks_per_second) <= world_.tick();
   });
   const auto count = static_cast<std::size_t>(later - level_events_.begin());
   if (count == in_effect_) return;

@@ -20,8 +20,7 @@ class Simulation {
 
   /// Moves to the tick at or before a time [s], and the smoke with it.
   void advance_to(double seconds);
-  /// Valid until other masks come.
-  const sim::World& world() const { return *world_; }
+  const sim::World& world() const { return world_; }
   const sim::SmokeVolume& volume() const { return volume_; }
   /// The surfaces of the level at the present tick.
   const voxel::PatchedPlanes& planes() const { return planes_; }
@@ -30,8 +29,8 @@ class Simulation {
   /// All changes of the level, by time.
   const std::vector<LevelEvent>& level_events() const { return level_events_; }
 
-  // What a timeline that goes on changes, at any time, past or to come. The world has it at once; the smoke
-  // volume, the planes and the hidden objects have it when advance_to is called next.
+  // What changes in a timeline that is written on, at any time, past or to come. The world has it at once;
+  // the smoke volume, the planes and the hidden objects have it when advance_to is called next.
 
   /// Takes more events, each to its place among those that there are, and changes of the level that come
   /// after all that there are. Fails with bad_input for an event that the world does not take: nothing is
@@ -47,11 +46,10 @@ class Simulation {
   void follow_level();
   void replace_level(std::vector<LevelEvent> changes);
 
-  const voxel::BitGrid& level_;
   std::vector<LevelEvent> level_events_;
   std::size_t in_effect_ = 0;  // of level_events_
   std::vector<std::uint32_t> hidden_objects_;
-  std::unique_ptr<sim::World> world_;
+  sim::World world_;
   std::vector<EventOrder> orders_;  // of the world's log
   voxel::PatchedPlanes planes_;
   sim::SmokeVolume volume_;

@@ -381,6 +381,31 @@ TEST_F(BusyWorld, TakesOtherEventsInThePlaceOfThoseFromATickOn) {
   EXPECT_EQ(world.state_hash(), hash);
 }
 
+TEST_F(BusyWorld, HasOtherMasksAsIfItAlwaysHad) {
+  const MaskKey few{2, 17}, many{5, 99};
+  Shot shot{90, metres(1, 1, 4), metres(9, 1.5, 8)};
+  shot.shape = HoleShape::mask;
+  shot.mask = 1;
+  World world(grid_, {.masks = few}), told(grid_, {.masks = many});
+  for (World* one : {&world, &told}) one->append(events_).value_or_throw();
+  for (World* one : {&world, &told}) one->append(shot).value_or_throw();
+  world.advance_to(400);
+  shot.tick = 300;
+  shot.mask = 4;
+  const std::uint64_t hash = world.state_hash();
+  EXPECT_FALSE(world.append(shot));
+  EXPECT_FALSE(world.replace_from(300, {shot}, MaskKey{1, 3})) << "the first shot has mask 1";
+  EXPECT_EQ(world.state_hash(), hash);
+  EXPECT_EQ(world.settings().masks, few);
+  world.replace_from(300, {shot}, many).value_or_throw();
+  told.replace_from(300, {shot}).value_or_throw();
+  for (const std::uint32_t tick : {400u, 299u, 100u, 64u, 10u, 350u}) {
+    world.advance_to(tick);
+    told.advance_to(tick);
+    EXPECT_EQ(world.state_hash(), told.state_hash()) << tick;
+  }
+}
+
 TEST_F(BusyWorld, TakesAllOfManyEventsOrNone) {
   World told(grid_);
   told.advance_to(kBusyTicks - 1);

@@ -222,6 +222,18 @@ TEST(ShotMasks, AreLoadedOnceEach) {
   timeline.texts = {text_event("ANNA"), text_event("NAN")};
   const LoadedMasks masks = load_masks(timeline).value_or_throw();
   EXPECT_EQ(masks.atlas.count(), 4u) << "two pictures, A and N";
+  // By the time of their first use, shots before texts, and what is alike is one.
+  ASSERT_TRUE(image::save_png(folder / "like_a.png", {8, 8, std::vector<std::uint8_t>(256, 255)}));
+  scene::Timeline later = timeline;
+  later.shots[0].time = later.shots[1].time = later.shots[2].time = 3;
+  later.shots.push_back(later.shots[0]);
+  later.shots.back().mask = folder / "like_a.png";
+  const LoadedMasks others = load_masks(later).value_or_throw();
+  EXPECT_EQ(others.atlas.count(), 4u);
+  EXPECT_EQ(others.of_shots.texts.begin()->second[0].mask, 0u) << "the texts are at 2 s";
+  EXPECT_EQ(others.of_shots.pictures.at((folder / "a.png").string()), 2u);
+  EXPECT_EQ(others.of_shots.pictures.at((folder / "b.png").string()), 3u);
+  EXPECT_EQ(others.of_shots.pictures.at((folder / "like_a.png").string()), 2u);
   timeline.shots[1].mask = folder / "c.png";
   const auto failed = load_masks(timeline);
   EXPECT_EQ(failed.failure().code, ErrorCode::bad_input);

@@ -258,7 +258,7 @@ TEST(Walker, IsNeverInAnythingSolidAndNeverThroughAWall) {
     return low + (high - low) * static_cast<float>(random() % 4096) / 4095.0f;
   };
   int moved = 0;
-  for (int world = 0; world < 60; ++world) {
+  for (unsigned world = 0; world < 60; ++world) {
     // The body in voxels is what matters: from a twentieth of one to many.
     const float voxel = std::array{0.015625f, 0.0625f, 0.25f, 0.5f, 2.0f, 10.0f}[world % 6];
     const float scale = voxel < 0.25f ? 4 * voxel : 1.0f;  // a smaller body for small voxels
