@@ -214,6 +214,32 @@ TEST_P(BlenderFormats, NamesAreUniqueAndDoorsAreWhole) {
   EXPECT_EQ(count.count("handle"), 0u);
 }
 
+TEST_P(BlenderFormats, WhatIsBeingEditedIsExportedAsItIsShown) {
+  const scene::Bounds bounds =
+      scene::world_bounds(scene::load_scene(level("edited", GetParam())).value_or_throw());
+  EXPECT_LT(glm::distance(bounds.max, glm::vec3(5, 5, 1)), kNear);
+  EXPECT_LT(glm::distance(bounds.min, glm::vec3(-1, -1, -5)), kNear);
+  EXPECT_EQ(read_json(blender_run().folder / "edited/facts.json")["mode"], "EDIT_MESH");
+}
+
+TEST_P(BlenderFormats, WhatCannotBeCarriedIsLeftOutAndSaid) {
+  const scene::Scene scene = scene::load_scene(level("odd", GetParam())).value_or_throw();
+  EXPECT_EQ(scene.grenade.name, "Grenade");
+  EXPECT_FALSE(scene.camera.has_value());
+  EXPECT_TRUE(scene.lights.empty());
+  std::set<std::string> first_words;
+  for (const scene::Object& object : scene.objects)
+    first_words.insert(object.name.substr(0, object.name.find('.')));
+  EXPECT_EQ(first_words, (std::set<std::string>{"cube", "flat"}));
+  // A plane that Blender shows, though its box has no volume.
+  EXPECT_FLOAT_EQ(scene::world_bounds(scene).min.y, -3);
+  for (const char* said :
+       {"the lamp \"dark\" takes light away", "the camera \"flat view\" is not a perspective one",
+        "the image \"gone\" has no pixels"}) {
+    EXPECT_NE(blender_run().log.find(std::string("Brume: warning: ") + said), std::string::npos) << said;
+  }
+}
+
 // Radiant intensities [W/sr]: power / (4 pi) of points and spots; power / pi of an area lamp along its axis.
 TEST_P(BlenderFormats, LampsShineAsInBlender) {
   const double pi = std::acos(-1.0);
@@ -395,7 +421,9 @@ TEST_F(Blender, RendersBesideAWindowThatGoesOn) {
   EXPECT_GT(window["ticks"], 5);
   EXPECT_EQ(window["shown"], "Brume Render");
   EXPECT_EQ(window["ended"], true);
-  EXPECT_EQ(window["image_after"], "Brume Render");
+  EXPECT_EQ(window["own_window"], Json({"Brume Render"}));
+  EXPECT_EQ(window["images"], Json({"Brume Render"}));
+  EXPECT_EQ(window["image_after"], true);
   // Panels that fail to draw say so on the console.
   EXPECT_EQ(blender_run().log.find("Traceback"), std::string::npos) << blender_run().log;
 }

@@ -8,6 +8,7 @@ import json
 import os
 import sys
 
+import bmesh
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -125,6 +126,44 @@ def make_ranges(folder):
         bpy.ops.brume.export_level(filepath=os.path.join(folder, setting + ".glb"), format="GLTF")
 
 
+def make_odd(folder):
+    """What is not as an export likes it: a mesh that is being edited, flat, empty, of many materials, dark lamps."""
+    empty_scene()
+    cube = level_parts.add("cube", level_parts.box_mesh("cube", (-1, -1, -1), (1, 1, 1)))
+    bpy.context.view_layer.objects.active = cube
+    bpy.ops.object.mode_set(mode="EDIT")
+    edited = bmesh.from_edit_mesh(cube.data)
+    edited.verts.ensure_lookup_table()
+    edited.verts[7].co = (5, 5, 5)
+    bmesh.update_edit_mesh(cube.data)
+    export_both(folder, "edited")
+    write_json(os.path.join(folder, "edited", "facts.json"), {"mode": bpy.context.mode})
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+    image = bpy.data.images.new("gone", 4, 4)
+    image.source, image.filepath = "FILE", os.path.join(folder, "no such picture.png")
+    cube.data.materials.append(level_parts.material("pictureless", (1, 1, 1), 0.5, image))
+    cube.data.materials.append(None)
+    cube.data.polygons[0].material_index = 1
+    level_parts.add("flat", cube.data, location=(0, 0, -3), scale=(2, 2, 0))
+    level_parts.add("a point", cube.data, scale=(0, 0, 0))
+    edge = bpy.data.meshes.new("edge")
+    edge.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
+    level_parts.add("an edge", edge)
+    level_parts.add("Grenade", level_parts.box_mesh("can", (0, 0, 0), (0.1, 0.1, 0.2)), location=(3, 0, 0))
+    two = bpy.data.objects["Grenade"].data
+    for name in ("olive", "rust"):
+        two.materials.append(level_parts.material(name, (0.2, 0.2, 0.1)))
+    two.polygons[0].material_index = 1
+    lamp = bpy.data.lights.new("dark", "POINT")
+    lamp.energy = -5
+    level_parts.add("dark", lamp)
+    camera = bpy.data.cameras.new("flat view")
+    camera.type = "ORTHO"
+    bpy.context.scene.camera = level_parts.add("flat view", camera)
+    export_both(folder, "odd")
+
+
 def render_and_voxelize(folder, brume):
     scene = bpy.context.scene
     bpy.context.preferences.addons["brume"].preferences.program = brume
@@ -189,6 +228,7 @@ def main():
     make_failures(folder)
     make_box(folder)
     make_ranges(folder)
+    make_odd(folder)
 
 
 main()

@@ -78,6 +78,14 @@ def press_escape(view):
     subprocess.run(["xdotool", "key", "Escape"], check=True)
 
 
+def write_program(folder, name, commands):
+    path = os.path.join(folder, name)
+    with open(path, "w", encoding="ascii") as script:
+        script.write(f"#!/bin/sh\n{commands}\n")
+    os.chmod(path, 0o700)
+    return path
+
+
 def steps(addon, brume, folder):
     """Does what a person does; yields how long it waits [s]."""
     bpy.ops.preferences.addon_install(filepath=addon)
@@ -104,6 +112,7 @@ def steps(addon, brume, folder):
         ticks += 1
         yield 0.05
     facts["ticks"] = ticks
+    yield 0.3
     shown = editor.spaces.active.image
     facts["shown"] = shown.name if shown else ""
     yield 0.5
@@ -115,12 +124,27 @@ def steps(addon, brume, folder):
     with inside(view):
         bpy.ops.screen.screenshot(filepath=os.path.join(folder, "window.png"))
 
+    # Without an Image Editor, a window of its own; the program is one that is quick.
+    image = bpy.data.images["Brume Render"]
+    with open(os.path.join(folder, "first.png"), "wb") as file:
+        file.write(image.packed_file.data)
+    preferences.program = write_program(folder, "quick", f"cp '{folder}/first.png' render.png")
+    editor.type = "CONSOLE"
+    invoke_render()
+    windows = bpy.context.window_manager.windows
+    while len(windows) < 2 and time.monotonic() < deadline:
+        yield 0.1
+    yield 0.3
+    areas_of_new = windows[-1].screen.areas
+    facts["own_window"] = [area.spaces.active.image.name for area in areas_of_new if area.type == "IMAGE_EDITOR"]
+    facts["images"] = [block.name for block in bpy.data.images if block.name.startswith("Brume")]
+    with bpy.context.temp_override(window=windows[-1]):
+        bpy.ops.wm.window_close()
+    yield 0.5
+
     # A program that does not end by itself is ended by Esc.
     mark = os.path.join(folder, "pid")
-    preferences.program = os.path.join(folder, "endless")
-    with open(preferences.program, "w", encoding="ascii") as script:
-        script.write(f"#!/bin/sh\necho $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep 600\n")
-    os.chmod(preferences.program, 0o700)
+    preferences.program = write_program(folder, "endless", f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep 600")
     invoke_render()
     while not os.path.exists(mark) and time.monotonic() < deadline:
         yield 0.1
@@ -134,7 +158,7 @@ def steps(addon, brume, folder):
     preferences.program = "/bin/false"
     invoke_render()
     yield 1.0
-    facts["image_after"] = editor.spaces.active.image.name
+    facts["image_after"] = "Brume Render" in bpy.data.images
     with open(os.path.join(folder, "window.json"), "w", encoding="utf-8") as file:
         json.dump(facts, file)
 

@@ -93,14 +93,15 @@ class Gathered:
 
     def __init__(self, context, warnings):
         self._context, self._warnings = context, warnings
-        self._copies = {}
-        self._doors = {}
+        self._copies, self._doors, self._mode = {}, {}, None
         self._level = Level(metres=conversion.metres_per_unit(context.scene))
         self._names = names.UniqueNames()
 
     def __enter__(self):
-        for edited in self._context.objects_in_mode_unique_data if self._context.mode.startswith("EDIT") else ():
-            edited.update_from_editmode()
+        # What is being edited has no faces in the depsgraph.
+        if self._context.mode.startswith("EDIT"):
+            self._mode = self._context.object.mode
+            bpy.ops.object.mode_set(mode="OBJECT")
         try:
             depsgraph = self._context.evaluated_depsgraph_get()
             depsgraph.update()
@@ -123,6 +124,9 @@ class Gathered:
         for mesh in self._copies.values():
             bpy.data.meshes.remove(mesh)
         self._copies = {}
+        if self._mode:
+            bpy.ops.object.mode_set(mode=self._mode)
+            self._mode = None
 
     def _add_mesh(self, instance):
         evaluated, source = instance.object, instance.object.original
@@ -139,6 +143,8 @@ class Gathered:
         if not np.isfinite(matrix).all():
             self._warnings.add(f'"{source.name}" has a matrix that is not finite, and is left out')
             return
+        if not matrix[:3, :3].any():
+            return  # Scaled to a point, in Blender too.
         piece = Piece(self._copies[key], matrix, _materials(evaluated))
         door = _door_of(source) if role in {"SOLID", "DOOR"} else None
         if door:

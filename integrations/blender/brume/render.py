@@ -12,7 +12,7 @@ from .messages import BrumeError
 IMAGE_NAME = "Brume Render"
 
 
-def _image(path):
+def _take_image(path):
     """The picture of this render, in place of the one before; packed, for its file does not last."""
     before = bpy.data.images.get(IMAGE_NAME)
     image = bpy.data.images.load(path)
@@ -21,15 +21,17 @@ def _image(path):
         before.user_remap(image)
         bpy.data.images.remove(before)
     image.name = IMAGE_NAME
-    return image
 
 
-def _show(context, image):
-    """In the Image Editors that are open, or in a window of its own."""
-    windows = context.window_manager.windows
+def _show():
+    """In the Image Editors that are open, or in a window of its own. Called by a timer: an operator that runs on
+    would not end where a window opens under it."""
+    image = bpy.data.images.get(IMAGE_NAME)
+    windows = bpy.context.window_manager.windows
     editors = [area for window in windows for area in window.screen.areas if area.type == "IMAGE_EDITOR"]
-    if not editors and context.window:
-        bpy.ops.wm.window_new()
+    if not editors:
+        with bpy.context.temp_override(window=windows[0]):
+            bpy.ops.wm.window_new()
         area = windows[-1].screen.areas[0]
         area.type = "IMAGE_EDITOR"
         editors = [area]
@@ -59,10 +61,13 @@ class BRUME_OT_render(JobOperator, bpy.types.Operator):
             options.march,
         ]
 
-    def finish(self, context, folder, _out):
-        image = _image(os.path.join(folder, "render.png"))
+    def finish(self, _context, folder, _out):
+        path = os.path.join(folder, "render.png")
+        if not os.path.isfile(path):
+            raise BrumeError("brume ended without a picture; is the program of the preferences Brume?")
+        _take_image(path)
         if not bpy.app.background:
-            _show(context, image)
+            bpy.app.timers.register(_show, first_interval=0)
 
 
 def register():
