@@ -59,12 +59,7 @@ vec3 scattered_lamps(LightBrick brick, uint local, vec3 p_world, ManyScatterings
   return sum;
 }
 
-void main() {
-  const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z, i = gl_GlobalInvocationID.x;
-  if (number >= params.count) return;
-  const LightBrick brick = bricks[params.first + number];
-  const uint local = row_texel(brick.row, brick.texels, i);
-  if (local == kNoTexel) return;
+void light_texel(LightBrick brick, uint local) {
   const ivec3 at = texel_in_atlas(brick.slot, local);
   const vec3 p_world = world_from_voxel(texel_position(brick.slot, local));
   const float escape = escape_of(brick.sky_block, local);
@@ -76,4 +71,17 @@ void main() {
   const vec3 lamps = scattered_lamps(brick, local, p_world, many);
   const vec3 sky = frame.sky.ambient * sky_visibility(p_world) * scattered_sky(escape);
   imageStore(inscatter, at, vec4(sky + lamps / excess, 1.0));
+}
+
+void main() {
+  const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z;
+  if (number >= params.count) return;
+  const LightBrick brick = bricks[params.first + number];
+  const uvec2 entries = row_entries(brick.row, brick.texels);
+  uint entry = entries.x + gl_GlobalInvocationID.x;
+  if (entry >= entries.y) return;
+  do {
+    light_texel(brick, row_texel(brick.row, brick.texels, entry));
+    entry += params.threads;
+  } while (entry < entries.y);
 }

@@ -52,13 +52,18 @@ void to_sky(LightPair pair, uint local) {
 }
 
 void main() {
-  const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z, i = gl_GlobalInvocationID.x;
+  const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z;
   if (number >= params.count) return;
   const LightPair pair = pairs[params.first + number];
-  const uint local = row_texel(pair.row, pair.texels, i);
-  if (local == kNoTexel) return;
+  const uvec2 entries = row_entries(pair.row, pair.texels);
   const bool sky = pair.lamp >= kTowardSky;
-  // Loops that run at most once: a software rasteriser pays for branches that it does not take, not for loops.
-  for (bool now = !sky; now; now = false) to_lamp(pair, local);
-  for (bool now = sky; now; now = false) to_sky(pair, local);
+  uint entry = entries.x + gl_GlobalInvocationID.x;
+  if (entry >= entries.y) return;
+  do {
+    const uint local = row_texel(pair.row, pair.texels, entry);
+    // Loops that run at most once: a software rasteriser pays for branches that it does not take, not for loops.
+    for (bool now = !sky; now; now = false) to_lamp(pair, local);
+    for (bool now = sky; now; now = false) to_sky(pair, local);
+    entry += params.threads;
+  } while (entry < entries.y);
 }

@@ -3,16 +3,16 @@
 #define ROW_TEXELS_GLSL
 #include "shared/smoke_light.h"
 
-const uint kNoTexel = 0xffffffffu;
-
-/// Texel i of those of a row that are asked for; kNoTexel behind the last.
-uint row_texel(uint row, uint texels, uint i) {
-  const bool fresh = texels == kNewTexels;
+/// Entries of a row that are asked for: the first one, and the one after the last.
+uvec2 row_entries(uint row, uint texels) {
   const uint head = row * kLightRow;
-  const uint at = i + (fresh ? 0u : rows[head + (texels & 0xffu)]);
-  if (at >= rows[head + (fresh ? kLightPhases + 1u : texels >> 8u)]) return kNoTexel;
-  const uint word = rows[head + kLightRowHead + at];
-  return fresh ? word >> 16u : word & 0xffffu;
+  if (texels == kNewTexels) return uvec2(0u, rows[head + kLightPhases + 1u]);
+  return uvec2(rows[head + (texels & 0xffu)], rows[head + (texels >> 8u)]);
+}
+
+uint row_texel(uint row, uint texels, uint entry) {
+  const uint word = rows[row * kLightRow + kLightRowHead + entry];
+  return texels == kNewTexels ? word >> 16u : word & 0xffffu;
 }
 
 #endif

@@ -73,8 +73,9 @@ SHARED_SIZE(LightBrick, 24);
 struct SmokeLightParams {
   uint first;
   uint count;
+  uint threads;  // for each entry of the list, that share its texels
 };
-SHARED_SIZE(SmokeLightParams, 8);
+SHARED_SIZE(SmokeLightParams, 12);
 
 /// The phase of a texel: texels side by side are of different ones, and two bricks that hold the same voxel, each at its
 /// rim, agree on its phase, so that light of different times shows no edges of bricks.

@@ -7,6 +7,8 @@
 namespace brume::passes {
 namespace {
 
+constexpr std::uint32_t kThreads = 64;
+
 /// Workgroups of y and z for a list.
 struct Groups {
   std::uint32_t y, z;
@@ -32,11 +34,12 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
                  {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
                   gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
                   gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                 sizeof(shared::SmokeLightParams), {64, 1, 1}),
+                 sizeof(shared::SmokeLightParams), {kThreads, 1, 1}),
       inscatter_pass_(context, shaders::inscatter_comp,
                       {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
                        gpu::kStored, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer},
-                      sizeof(shared::SmokeLightParams), {64, 1, 1}),
+                      sizeof(shared::SmokeLightParams), {kThreads, 1, 1}),
+      one_group_(context.info().kind == "cpu"),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
       plan_(&kept_.plan({})) {
@@ -79,24 +82,29 @@ void SmokeLightPass::record(gpu::Recorder& recorder, const Inputs& in) {
 
 void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
                                  const SmokeLightPlan::Part& part) {
-  const auto params = [](const sim::IndexRange& range) {
-    return shared::SmokeLightParams{range.first, range.count};
+  const auto params = [](const sim::IndexRange& range, std::uint32_t threads) {
+    return shared::SmokeLightParams{range.first, range.count, threads};
   };
   if (part.rows.count > 0) {
     recorder.bind(texels_pass_,
                   {gpu::uniform(in.frame), gpu::read(listed_rows_), gpu::sampled(in.smoke.density, linear_),
                    gpu::read_write(rows_), gpu::read(in.smoke.cells), gpu::read(in.smoke.slot_bricks),
                    gpu::read(changes_)},
-                  params(part.rows));
+                  params(part.rows, 256));
     const Groups groups = groups_of(part.rows.count);
     recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
   }
-  // First what asks for texels of every phase, then what asks for those of some.
-  const auto each = [&](const sim::IndexRange& range, std::uint32_t few, auto record) {
-    if (range.count > few) record({range.first, range.count - few}, shared::kTexelsPerBrick);
-    if (few > 0) record({range.first + range.count - few, few}, part.phases * shared::kTexelsPerPhase);
+  // First what asks for texels of every phase, then what asks for those of some. A thread a texel; without a
+  // GPU one group for all of them, since there threads that have none cost as much as those that have.
+  const auto threads_for = [&](std::uint32_t texels) {
+    return one_group_ ? kThreads : (texels + kThreads - 1) / kThreads * kThreads;
   };
-  each(part.pairs, part.few_pairs, [&](const sim::IndexRange& range, std::uint32_t texels) {
+  const auto each = [&](const sim::IndexRange& range, std::uint32_t few, auto record) {
+    if (range.count > few) record({range.first, range.count - few}, threads_for(shared::kTexelsPerBrick));
+    if (few > 0)
+      record({range.first + range.count - few, few}, threads_for(part.phases * shared::kTexelsPerPhase));
+  };
+  each(part.pairs, part.few_pairs, [&](const sim::IndexRange& range, std::uint32_t threads) {
     recorder.bind(rays_pass_,
                   {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                    gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
@@ -104,20 +112,20 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
                    gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
                    gpu::read(in.holes.cells), gpu::sampled(in.level.solid.texels(), linear_),
                    gpu::read(pairs_), gpu::read(rows_), gpu::write(blocks_)},
-                  params(range));
+                  params(range, threads));
     const Groups groups = groups_of(range.count);
-    recorder.dispatch_threads(rays_pass_, texels, groups.y, groups.z);
+    recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
   });
-  each(part.bricks, part.few_bricks, [&](const sim::IndexRange& range, std::uint32_t texels) {
+  each(part.bricks, part.few_bricks, [&](const sim::IndexRange& range, std::uint32_t threads) {
     recorder.bind(
         inscatter_pass_,
         {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
          gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
          gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
          gpu::sampled(in.smoke.share, linear_), gpu::read(brick_lamps_)},
-        params(range));
+        params(range, threads));
     const Groups groups = groups_of(range.count);
-    recorder.dispatch_threads(inscatter_pass_, texels, groups.y, groups.z);
+    recorder.dispatch_threads(inscatter_pass_, threads, groups.y, groups.z);
   });
 }
 

@@ -36,6 +36,7 @@ class SmokeLightPass {
 
   gpu::Context& context_;
   gpu::ComputePipeline texels_pass_, rays_pass_, inscatter_pass_;
+  const bool one_group_;  // of threads for each entry of a list
   gpu::Sampler linear_, compare_;
   KeptSmokeLight kept_;
   const SmokeLightPlan* plan_;

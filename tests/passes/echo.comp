@@ -59,7 +59,7 @@ void main() {
   draw = DrawConstants(v4(1.0), v4(5.0), v4(9.0), MaterialConstants(v3(13.0), 16.0, v3(17.0), 20.0, 21.0));
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));
   noise = NoiseParams(1u, 2u, 3u);
-  smoke_light = SmokeLightParams(1u, 2u);
+  smoke_light = SmokeLightParams(1u, 2u, 3u);
   light_row = LightRow(1u, 2u, 3u, 4u, 5u, 6u);
   light_pair = LightPair(1u, 2u, 3u, 4u, 5u);
   light_brick = LightBrick(1u, 2u, 3u, 4u, 5u, 6u);

@@ -155,6 +155,7 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   const auto smoke_light = one<shared::SmokeLightParams>(out[7]);
   EXPECT_EQ(smoke_light.first, 1u);
   EXPECT_EQ(smoke_light.count, 2u);
+  EXPECT_EQ(smoke_light.threads, 3u);
   const auto light_row = one<shared::LightRow>(out[15]);
   EXPECT_EQ(light_row.slot, 1u);
   EXPECT_EQ(light_row.row, 2u);
