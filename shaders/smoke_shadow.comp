@@ -153,14 +153,15 @@ void main() {
   const SmokeShadowFace face = faces[face_index];
   const Light light = lights[face_index / kFacesPerLight];
   const uint side = face_index % kFacesPerLight;
-  const uint block = gl_WorkGroupID.x - face.first_block, row = smoke_shadow_blocks(face.size).x;
-  const uvec2 first = face.first_texel + kSmokeShadowBlock * uvec2(block % row, block / row);
+  const uint block = gl_WorkGroupID.x - face.first_block, row = smoke_shadow_blocks(face.size, params.spread).x;
+  const uint edge = kSmokeShadowBlock * params.spread;
+  const uvec2 first = face.first_texel + edge * uvec2(block % row, block / row);
   if (frame.holes.count > 0u) {
     const vec2 low_uv = (vec2(first) - face.offset) / face.scale;
-    find_block_holes(cone_of_block(light, side, low_uv, low_uv + float(kSmokeShadowBlock) / face.scale));
+    find_block_holes(cone_of_block(light, side, low_uv, low_uv + float(edge) / face.scale));
   }
   const uint ray = gl_LocalInvocationIndex / kRayParts, part = gl_LocalInvocationIndex % kRayParts;
-  const uvec2 at = first + uvec2(ray % kSmokeShadowBlock, ray / kSmokeShadowBlock);
+  const uvec2 at = first + params.first + params.spread * uvec2(ray % kSmokeShadowBlock, ray / kSmokeShadowBlock);
   const Way way = light_way(light, side, (vec2(at) + 0.5 - face.offset) / face.scale);
   part_depths[gl_LocalInvocationIndex] = part_depth(steps_of_way(way, part));
   barrier();

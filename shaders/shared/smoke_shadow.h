@@ -26,12 +26,15 @@ SHARED_SIZE(SmokeShadowFace, 32);
 struct SmokeShadowParams {
   uint face_count;
   float step_length;  // through the smoke [m]; longer where more than 64 would be needed
+  // Of each rectangle every `spread`th texel along both axes is marched, from its texel `first` on.
+  uint spread;
+  uvec2 first;
 };
-SHARED_SIZE(SmokeShadowParams, 8);
+SHARED_SIZE(SmokeShadowParams, 20);
 
-/// Blocks of a rectangle.
-SHARED_FUNCTION uvec2 smoke_shadow_blocks(uvec2 texels) {
-  return (texels + uvec2(kSmokeShadowBlock - 1u)) / kSmokeShadowBlock;
+/// Blocks of a rectangle of which every `spread`th texel is marched.
+SHARED_FUNCTION uvec2 smoke_shadow_blocks(uvec2 texels, uint spread) {
+  return (texels + uvec2(kSmokeShadowBlock * spread - 1u)) / (kSmokeShadowBlock * spread);
 }
 
 SHARED_END

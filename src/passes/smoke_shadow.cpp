@@ -39,13 +39,16 @@ SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 pic
   return shadows;
 }
 
-void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const SmokeShadowPlan& plan,
-                             const SmokeShadows& shadows) const {
+void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const SmokeShadowPlan& all,
+                             const SmokeShadows& shadows, const Texels& texels) const {
+  const SmokeShadowPlan plan = all.spread_by(texels.spread);
   recorder.upload(shadows.faces, 0, std::as_bytes(std::span(plan.faces)));
   if (plan.blocks == 0) return;
   shared::SmokeShadowParams params{};
   params.face_count = static_cast<std::uint32_t>(plan.faces.size());
   params.step_length = kStepMetres;
+  params.spread = texels.spread;
+  params.first = texels.first;
   recorder.bind(
       pipeline_,
       {gpu::uniform(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),

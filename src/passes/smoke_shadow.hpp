@@ -30,9 +30,14 @@ class SmokeShadowPass {
     const SmokeResources& smoke;
     const HoleResources& holes;
   };
-  /// Marches the rays of a plan for the atlas; the plan's lights are those of the scene's buffer.
+  /// Every `spread`th texel of each rectangle along both axes, from the texel `first` below `spread` on.
+  struct Texels {
+    std::uint32_t spread = 1;
+    glm::uvec2 first{0};
+  };
+  /// Marches rays of a plan for the atlas; the plan's lights are those of the scene's buffer.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const SmokeShadowPlan& plan,
-              const SmokeShadows& shadows) const;
+              const SmokeShadows& shadows, const Texels& texels) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -136,6 +136,16 @@ bool SmokeShadowPlan::operator==(const SmokeShadowPlan& other) const {
           std::memcmp(faces.data(), other.faces.data(), faces.size() * sizeof faces[0]) == 0);
 }
 
+SmokeShadowPlan SmokeShadowPlan::spread_by(std::uint32_t spread) const {
+  SmokeShadowPlan plan{faces, 0};
+  for (shared::SmokeShadowFace& face : plan.faces) {
+    face.first_block = plan.blocks;
+    const glm::uvec2 face_blocks = shared::smoke_shadow_blocks(face.size, spread);
+    plan.blocks += face_blocks.x * face_blocks.y;
+  }
+  return plan;
+}
+
 SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const WorldBox> smoke,
                                    glm::uvec2 atlas_size) {
   SmokeShadowPlan plan;
@@ -152,12 +162,7 @@ SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<cons
     else
       parts.pop_back();
   }
-  for (shared::SmokeShadowFace& face : plan.faces) {
-    face.first_block = plan.blocks;
-    const glm::uvec2 blocks = shared::smoke_shadow_blocks(face.size);
-    plan.blocks += blocks.x * blocks.y;
-  }
-  return plan;
+  return plan.spread_by(1);
 }
 
 }  // namespace brume::passes

@@ -15,6 +15,8 @@ struct SmokeShadowPlan {
   std::vector<shared::SmokeShadowFace> faces;  ///< kFacesPerLight for each light, in their order.
   std::uint32_t blocks = 0;                    ///< Of all faces together.
   bool operator==(const SmokeShadowPlan& other) const;
+  /// The same with blocks of every `spread`th texel along both axes.
+  SmokeShadowPlan spread_by(std::uint32_t spread) const;
 };
 
 /// Where the lights are and what they are for.

@@ -1,6 +1,7 @@
 #include "render/renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <iterator>
 
@@ -239,11 +240,19 @@ void Renderer::record_smoke_shadows(gpu::Recorder& recorder, const FrameInput& i
   auto plan = passes::plan_smoke_shadows(
       {lights_, shadows_.sun_clip_from_world, device_camera(input.camera, size_px_)}, boxes,
       glm::uvec2(smoke_shadows_.atlas.info().size));
-  if (!anew && plan == smoke_shadow_plan_) return;
+  const bool same_plan = plan == smoke_shadow_plan_;
   smoke_shadow_plan_ = std::move(plan);
+  // In four frames; texels of every frame lie beside each other.
+  constexpr std::array<glm::uvec2, 4> kTurns{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
+  const bool in_turns = same_plan && input.light_share <= 0.25f;
+  if (anew || !same_plan) smoke_shadow_turns_ = kTurns.size();
+  if (smoke_shadow_turns_ == 0) return;
+  passes::SmokeShadowPass::Texels texels;
+  if (in_turns) texels = {2, kTurns[++smoke_shadow_turn_ % kTurns.size()]};
+  smoke_shadow_turns_ = in_turns ? smoke_shadow_turns_ - 1 : 0;
   smoke_shadow_pass_.record(
       recorder, {frame_, scene_, shadows_, solid_, smoke_upload_.resources(), open_holes_.resources()},
-      smoke_shadow_plan_, smoke_shadows_);
+      smoke_shadow_plan_, smoke_shadows_, texels);
 }
 
 passes::MarchPass::Inputs Renderer::march_inputs() const {

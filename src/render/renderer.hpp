@@ -48,6 +48,7 @@ struct FrameInput {
   /// Of the light in the smoke that is not as it was, about how much is made anew in this frame; in (0, 1],
   /// 1: all. Below, light is as old as ceil(1 / light_share) frames where it changes slowly, and 1/16 is the
   /// least (passes::KeptSmokeLight); such a picture depends on the frames before.
+  /// Up to 1/4 shadows of smoke on surfaces are made anew in four frames.
   float light_share = 1;
   passes::DebugView view = passes::DebugView::none;  ///< What is shown; `display` alone has it.
   /// Where views of density, light and distance cut; empty: passes::slice_through_smoke.
@@ -149,6 +150,8 @@ class Renderer {
   passes::GBuffer gbuffer_;
   passes::SmokeShadows smoke_shadows_;
   passes::SmokeShadowPlan smoke_shadow_plan_;  ///< That they were made by.
+  /// Frames until they are all made anew, and how many were part of that.
+  std::size_t smoke_shadow_turns_ = 0, smoke_shadow_turn_ = 0;
   gpu::Image noise_, blue_noise_, smoke_image_, picture_, display_image_;
   std::optional<passes::AccumulatePass> accumulate_pass_;  ///< Where smoke is gathered over frames.
   std::optional<passes::MarchBlocks> blocks_;              ///< Where march_scale_ is above 1.

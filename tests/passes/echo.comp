@@ -63,7 +63,7 @@ void main() {
   light_row = LightRow(1u, 2u, 3u, 4u, 5u, 6u);
   light_pair = LightPair(1u, 2u, 3u, 4u, 5u);
   light_brick = LightBrick(1u, 2u, 3u, 4u, 5u, 6u);
-  smoke_shadow = SmokeShadowParams(1u, 2.0);
+  smoke_shadow = SmokeShadowParams(1u, 2.0, 3u, uvec2(4u, 5u));
   smoke_face = SmokeShadowFace(1.0, vec2(2.0, 3.0), 4u, uvec2(5u, 6u), uvec2(7u, 8u));
   view = ShadowView(m4(1.0), m4(17.0));
   ends = RayEnds(vec2(1.0, 2.0), 3.0, 4.0, 5.0, 6.0);

@@ -180,6 +180,8 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   const auto smoke_shadow = one<shared::SmokeShadowParams>(out[8]);
   EXPECT_EQ(smoke_shadow.face_count, 1u);
   EXPECT_EQ(smoke_shadow.step_length, 2);
+  EXPECT_EQ(smoke_shadow.spread, 3u);
+  expect_counted(smoke_shadow.first, 4);
 
   const auto face = one<shared::SmokeShadowFace>(out[11]);
   EXPECT_EQ(face.scale, 1);

@@ -107,18 +107,26 @@ TEST(SmokeShadowPlan, EveryDirectionToSmokeHasATexelOfItsOwn) {
                   glm::all(glm::lessThan(texel, glm::vec2(f.first_texel + f.size) - 0.99f)));
     }
 
+  for (const std::uint32_t spread : {1u, 2u}) {
+    const SmokeShadowPlan spread_plan = plan.spread_by(spread);
+    std::uint32_t blocks = 0;
+    for (const shared::SmokeShadowFace& face : spread_plan.faces) {
+      EXPECT_EQ(face.first_block, blocks);
+      const glm::uvec2 count = shared::smoke_shadow_blocks(face.size, spread);
+      EXPECT_TRUE(glm::all(glm::greaterThanEqual(8 * spread * count, face.size)));
+      blocks += count.x * count.y;
+    }
+    EXPECT_EQ(spread_plan.blocks, blocks);
+  }
+  EXPECT_EQ(plan.spread_by(1), plan);
+
   std::vector<int> owners(kAtlas.x * kAtlas.y);
-  std::uint32_t blocks = 0;
   for (const shared::SmokeShadowFace& face : plan.faces) {
-    EXPECT_EQ(face.first_block, blocks);
-    const glm::uvec2 count = shared::smoke_shadow_blocks(face.size);
-    blocks += count.x * count.y;
     ASSERT_TRUE(glm::all(glm::lessThanEqual(face.first_texel + face.size, kAtlas)));
     for (std::uint32_t y = 0; y < face.size.y; ++y)
       for (std::uint32_t x = 0; x < face.size.x; ++x)
         EXPECT_EQ(owners[face.first_texel.x + x + kAtlas.x * (face.first_texel.y + y)]++, 0);
   }
-  EXPECT_EQ(plan.blocks, blocks);
 }
 
 TEST(SmokeShadowPlan, TexelsAreAsFineAsTheAtlasAllows) {
