@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <random>
 #include <set>
 
 #include "stage/body_sweep.hpp"
+#include "stage/stage.hpp"
 
 namespace brume::stage {
 namespace {
@@ -133,6 +135,22 @@ TEST(Walker, ClimbsStairsAndGoesDownThemWithItsFeetOnThem) {
     }
     EXPECT_NEAR(walker.feet_world().y, 0, 2e-5);
   }
+}
+
+TEST(Walker, GoesUpTheStairOfTheDemoAndDownAgain) {
+  const auto demo = std::filesystem::path(BRUME_SOURCE_DIR) / "scenes/demo.toml";
+  const Stage stage = load_stage(demo, {}).value_or_throw();
+  const BitGrid& grid = stage.voxels.grid;
+  Walker walker = at(grid, {6.15f, 0.2f, 1.2f});
+  walk(walker, grid, vec3(0), 0.3);
+  const float low = walker.feet_world().y;
+  walk(walker, grid, vec3(0, 0, -1), 1.6);
+  EXPECT_NEAR(walker.feet_world().y, low + 3, 1e-4) << "in the loft";
+  for (int i = 0; i < 96; ++i) {
+    walker.move(grid, {vec3(0, 0, 1), false, false}, 1.0 / 60);
+    ASSERT_TRUE(walker.on_ground()) << i;
+  }
+  EXPECT_NEAR(walker.feet_world().y, low, 1e-4);
 }
 
 TEST(Walker, ClimbsNoHigherThanAStepAndFallsFromWhatIs) {
