@@ -75,7 +75,7 @@ def export_both(folder, name):
 
 def left_behind():
     """What the export must not leave in the file."""
-    return sorted(block.name for kind in ("scenes", "objects", "meshes") for block in getattr(bpy.data, kind))
+    return sorted(block.name for kind in ("scenes", "objects", "meshes", "lights", "cameras") for block in getattr(bpy.data, kind))
 
 
 def make_courtyard(folder):

@@ -63,12 +63,11 @@ class _Stand:
 
     def remove(self):
         bpy.data.scenes.remove(self.scene)
-        for collection, made in reversed(self._made):
-            collection.remove(made)
+        bpy.data.batch_remove(self._made)
 
     def _add(self, data, matrix, name):
         made = bpy.data.objects.new(f"brume {len(self._made)}", data)
-        self._made.append((bpy.data.objects, made))
+        self._made.append(made)
         self.scene.collection.objects.link(made)
         made.rotation_mode = "QUATERNION"
         made.matrix_world = matrix
@@ -82,7 +81,7 @@ class _Stand:
             # Sheared by a parent: a node's scale and rotation cannot say it, the points can.
             # A mirrored one stays mirrored by its node, so that its faces keep their order.
             mesh = mesh.copy()
-            self._made.append((bpy.data.meshes, mesh))
+            self._made.append(mesh)
             side = Matrix.Scale(-1 if np.linalg.det(linear) < 0 else 1, 4, (1, 0, 0))
             meshes.bend(mesh, side @ matrix)
             matrix = side
@@ -96,7 +95,7 @@ class _Stand:
 
     def add_lamp(self, lamp):
         data = lamp.data.copy()
-        self._made.append((bpy.data.lights, data))
+        self._made.append(data)
         data.use_nodes = False
         data.energy = lamp.power
         if data.type == "AREA":
@@ -110,7 +109,7 @@ class _Stand:
 
     def add_camera(self, camera, metres):
         data = camera.data.copy()
-        self._made.append((bpy.data.cameras, data))
+        self._made.append(data)
         matrix = conversion.matrix(camera.matrix_world, metres)
         self.scene.camera = self._add(data, _blender_matrix(matrix), camera.name)
 

@@ -1,5 +1,6 @@
 """Scene.txt with Meshes/*.obj and Textures/*_diffuse.png: a line an object or a lamp."""
 
+import hashlib
 import os
 
 import numpy as np
@@ -13,6 +14,7 @@ class _Part:
 
     def __init__(self, positions, normals, uvs, material):
         self.positions, self.normals, self.uvs, self.material = positions, normals, uvs, material
+        self._key = None
 
     def turned(self, linear):
         """Under a 3x3 matrix; faces look out of what they looked out of, mirrored or not."""
@@ -26,10 +28,14 @@ class _Part:
         return _Part(positions, normals, uvs, self.material)
 
     def key(self):
-        return tuple(array.astype(np.float32).tobytes() for array in (self.positions, self.normals, self.uvs))
+        """What equal parts have in common."""
+        if self._key is None:
+            arrays = (array.astype(np.float32).tobytes() for array in (self.positions, self.normals, self.uvs))
+            self._key = hashlib.sha256(b"".join(arrays)).digest()
+        return self._key
 
 
-def _parts(piece):
+def _parts_of(piece):
     """The mesh of a piece by material, in Brume's axes, in the mesh's own space."""
     mesh = piece.mesh
     mesh.calc_loop_triangles()
@@ -69,13 +75,26 @@ def _joined(parts, material):
     return _Part(*arrays, material)
 
 
+def _unique_rows(values):
+    """The rows of an array as floats, each once and sorted, and which of them each row is."""
+    values = values.astype(np.float32)
+    order = np.lexsort(values.T[::-1])
+    in_order = values[order]
+    is_first = np.ones(len(values), dtype=bool)
+    is_first[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
+    index = np.empty(len(values), dtype=np.int64)
+    index[order] = np.cumsum(is_first) - 1
+    return in_order[is_first], index
+
+
 def _obj_text(part):
     """Positions, texture coordinates and normals, each once."""
     lines, columns = ["# Metres or units of the scene file, Y up"], []
     for keyword, values in (("v", part.positions), ("vt", part.uvs), ("vn", part.normals)):
-        unique, index = np.unique(values.astype(np.float32), axis=0, return_inverse=True)
-        lines += [keyword + "".join(f" {value:.9g}" for value in row) for row in unique.tolist()]
-        columns.append(index.ravel() + 1)
+        unique, index = _unique_rows(values)
+        form = keyword + " {:.9g}" * unique.shape[1]
+        lines += [form.format(*row) for row in unique.tolist()]
+        columns.append(index + 1)
     for face in np.stack(columns, axis=1).reshape(-1, 9).tolist():
         lines.append("f {}/{}/{} {}/{}/{} {}/{}/{}".format(*face))
     return "\n".join(lines) + "\n"
@@ -84,7 +103,7 @@ def _obj_text(part):
 class _Writer:
     def __init__(self, folder, level, warnings):
         self._folder, self._level, self._warnings = folder, level, warnings
-        self._mesh_names, self._written, self._materials = {}, {}, {}
+        self._mesh_names, self._written, self._materials, self._known_parts = {}, {}, {}, {}
         # Names of parts must not meet those of things.
         self._part_names = names.UniqueNames(thing.name for thing in level.things)
         self._material_names = names.UniqueNames()
@@ -94,7 +113,7 @@ class _Writer:
         if thing.role == "DOOR" or thing.name == "Grenade":
             self._add_as_one(thing)
             return
-        parts = _parts(thing.pieces[0])
+        parts = self._parts(thing.pieces[0])
         for part in parts:
             name = thing.name
             if len(parts) > 1:
@@ -104,13 +123,19 @@ class _Writer:
                 name = "IGNORE_" + name
             self._place(part, thing.pieces[0].world_from_mesh, name, shared=True)
 
+    def _parts(self, piece):
+        key = (piece.mesh, tuple(piece.materials))
+        if key not in self._known_parts:
+            self._known_parts[key] = _parts_of(piece)
+        return self._known_parts[key]
+
     def _add_as_one(self, thing):
         """One mesh, one material: a line's name is that of its mesh, and a door is what has its name."""
         origin = thing.pieces[0].world_from_mesh.copy()
         parts = []
         for piece in thing.pieces:
             offset = piece.world_from_mesh[:3, 3] - origin[:3, 3]
-            for part in _parts(piece):
+            for part in self._parts(piece):
                 turned = part.turned(piece.world_from_mesh[:3, :3])
                 turned.positions = turned.positions + offset
                 parts.append(turned)

@@ -121,8 +121,7 @@ class Gathered:
         return self._level
 
     def __exit__(self, *_):
-        for mesh in self._copies.values():
-            bpy.data.meshes.remove(mesh)
+        bpy.data.batch_remove(self._copies.values())
         self._copies = {}
         if self._mode:
             bpy.ops.object.mode_set(mode=self._mode)
@@ -133,8 +132,8 @@ class Gathered:
         role = _role(instance)
         if role == "LEFT_OUT" or len(evaluated.data.polygons) == 0:
             return
-        # Evaluated meshes live as long as the depsgraph is not evaluated anew.
-        key = (source.name_full, evaluated.data.as_pointer())
+        # Objects without modifiers share the evaluated mesh. All live as long as the depsgraph is not evaluated anew.
+        key = evaluated.data.as_pointer()
         if key not in self._copies:
             # Of an evaluated object this is its evaluated mesh. Asked to evaluate it again, with all layers,
             # Blender 3.4 crashes on instances of letters.
