@@ -27,7 +27,7 @@ class LiveStage {
   const Stage& stage() const { return stage_; }
   const Simulation& simulation() const { return *simulation_; }
 
-  /// Moves to the tick at or before a time [s], forwards or backwards.
+  /// Moves to the tick at or before a time [s], forwards or backwards. Throws as SmokeVolume::update.
   void advance_to(double seconds) { simulation_->advance_to(seconds); }
 
   // What follows takes all that it is given, or nothing and says why in one line. The world of the simulation

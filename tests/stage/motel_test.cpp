@@ -7,6 +7,7 @@
 
 #include "scene/load.hpp"
 #include "stage/level_events.hpp"
+#include "stage/walker.hpp"
 #include "stage/world_triangles.hpp"
 #include "tests/reference/triangle_box.hpp"
 #include "voxel/surface_planes.hpp"
@@ -105,6 +106,28 @@ TEST(Motel, ADoorThatOpensLeavesWhatAFullRebuildWithoutItMakes) {
     const voxel::LevelChange change = objects.level.show({&part, 1}, shown);
     planes.add(std::make_shared<const voxel::PlanePatch>(voxel::PlanePatch{change.cells, change.planes}));
     expect_same(shown ? stage.voxels : open);
+  }
+}
+
+TEST(Motel, ABodyOnFootGoesUpItsStairsAndComesDown) {
+  if (!std::filesystem::exists(motel()))
+    GTEST_SKIP() << motel() << " is not there; set BRUME_MOTEL to its folder";
+  const auto triangles = world_triangles(scene::load_scene(motel()).value_or_throw());
+  for (const GridFrame& frame : {GridFrame{{120, 20, 120}, 0.5f, glm::vec3(-30, 0, -30)},
+                                 GridFrame{{240, 40, 240}, 0.25f, glm::vec3(-30, 0, -30)}}) {
+    const BitGrid grid = voxel::voxelize(triangles, frame).value_or_throw();
+    Walker walker;
+    walker.put(grid, {-29.3f, 2.6f, 7.5f});
+    for (int i = 0; i < 30; ++i) walker.move(grid, {}, 1.0 / 60);
+    const float low = walker.feet_world().y;
+    for (int i = 0; i < 110; ++i) walker.move(grid, {{1, 0, 0}, false, false}, 1.0 / 60);
+    EXPECT_GT(walker.feet_world().x, -23.5f);
+    EXPECT_GT(walker.feet_world().y, low + 3.9f) << "nine steps of half a metre";
+    for (int i = 0; i < 110; ++i) {
+      walker.move(grid, {{-1, 0, 0}, false, false}, 1.0 / 60);
+      EXPECT_TRUE(walker.on_ground()) << i;
+    }
+    EXPECT_NEAR(walker.feet_world().y, low, 1e-4);
   }
 }
 
