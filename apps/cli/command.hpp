@@ -34,5 +34,8 @@ Command add_diff(CLI::App& program);
 Command add_query(CLI::App& program);
 Command add_devices(CLI::App& program);
 Command add_bench(CLI::App& program);
+#ifdef BRUME_VIEWER
+Command add_view(CLI::App& program);
+#endif
 
 }  // namespace brume::cli

@@ -17,6 +17,7 @@ constexpr const char* kAbout =
     "Real-time volumetric smoke that floods real scenes.\n\n"
     "Examples:\n"
     "  brume demo                                        # a picture and a film: out/demo.png, out/demo.mp4\n"
+    "  brume view                                        # walk in, throw smoke, shoot through it\n"
     "  brume render room.glb -o room.png --smoke 0,1,0   # a picture of a scene with smoke in it\n"
     "  brume sim scenes/demo.toml --hash                 # the same smoke on every machine\n"
     "  brume voxelize room.glb -o room.vxl --json -      # which voxels of a scene are solid\n"
@@ -70,7 +71,11 @@ int parse_and_run(int argc, char** argv) {
   program.require_subcommand(1);
   const std::array commands{add_demo(program),     add_render(program),  add_sim(program),
                             add_voxelize(program), add_info(program),    add_query(program),
-                            add_diff(program),     add_devices(program), add_bench(program)};
+                            add_diff(program),     add_devices(program), add_bench(program),
+#ifdef BRUME_VIEWER
+                            add_view(program)
+#endif
+  };
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

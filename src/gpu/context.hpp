@@ -42,6 +42,8 @@ struct WindowSemaphores {
   VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
 
+class Pipeline;
+
 class Context {
  public:
   /// Owns its instance and device. Throws no_device when nothing fits.
@@ -60,6 +62,9 @@ class Context {
   /// Nanoseconds a timestamp tick.
   double timestamp_period() const { return static_cast<double>(limits_.timestampPeriod); }
   Memory& memory() { return *memory_; }
+  const Memory& memory() const { return *memory_; }
+  /// All that live on it; they enter and leave it themselves.
+  std::vector<Pipeline*>& pipelines() { return pipelines_; }
   bool owns_device() const { return instance_ != nullptr; }
 
   // Only with a device of our own:
@@ -87,6 +92,7 @@ class Context {
   std::uint32_t queue_family_ = 0;
   VkPhysicalDeviceLimits limits_{};
   std::unique_ptr<Memory> memory_;
+  std::vector<Pipeline*> pipelines_;
 };
 
 }  // namespace brume::gpu

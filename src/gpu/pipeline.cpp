@@ -1,5 +1,9 @@
 #include "gpu/pipeline.hpp"
 
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
 #include "core/error.hpp"
 
 namespace brume::gpu {
@@ -61,13 +65,35 @@ Pipeline::Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderSta
   const VkResult result = vk.CreatePipelineLayout(context.device(), &layout, nullptr, &layout_);
   if (result != VK_SUCCESS) vk.DestroyDescriptorSetLayout(context.device(), set_layout_, nullptr);
   check(result, "vkCreatePipelineLayout");
+  context.pipelines().push_back(this);
 }
 
 Pipeline::~Pipeline() {
+  std::erase(context_.pipelines(), this);
   const Functions& vk = context_.vk();
   vk.DestroyPipeline(context_.device(), handle_, nullptr);
   vk.DestroyPipelineLayout(context_.device(), layout_, nullptr);
   vk.DestroyDescriptorSetLayout(context_.device(), set_layout_, nullptr);
+}
+
+void Pipeline::make_first(std::vector<ShaderCode> shaders) {
+  check(make(shaders, &handle_), shaders.front().name);
+  shaders_ = std::move(shaders);
+}
+
+Result<void> Pipeline::replace_shader(const ShaderCode& code) {
+  std::vector<ShaderCode> shaders = shaders_;
+  for (ShaderCode& shader : shaders)
+    if (std::string_view(shader.name) == code.name) shader = code;
+  VkPipeline made = VK_NULL_HANDLE;
+  const VkResult result = make(shaders, &made);
+  if (result != VK_SUCCESS)
+    return Failure{ErrorCode::bad_input,
+                   std::string(code.name) + ": the driver refuses it with " + result_name(result)};
+  context_.vk().DestroyPipeline(context_.device(), handle_, nullptr);
+  handle_ = made;
+  shaders_ = std::move(shaders);
+  return {};
 }
 
 ComputePipeline::ComputePipeline(Context& context, const ShaderCode& shader,
@@ -75,29 +101,41 @@ ComputePipeline::ComputePipeline(Context& context, const ShaderCode& shader,
                                  std::array<std::uint32_t, 3> group,
                                  const std::vector<std::uint32_t>& constants)
     : Pipeline(context, VK_PIPELINE_BIND_POINT_COMPUTE, VK_SHADER_STAGE_COMPUTE_BIT, bindings, push_bytes),
-      group_(group) {
+      group_(group),
+      constants_(constants) {
+  make_first({shader});
+}
+
+VkResult ComputePipeline::make(std::span<const ShaderCode> shaders, VkPipeline* made) const {
   std::vector<VkSpecializationMapEntry> entries;
-  for (std::uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, i * 4, 4});
+  for (std::uint32_t i = 0; i < constants_.size(); ++i) entries.push_back({i, i * 4, 4});
   const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                            constants.size() * 4, constants.data()};
-  const Module module(context, shader);
+                                            constants_.size() * 4, constants_.data()};
+  const Module module(context_, shaders[0]);
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage = module.stage(VK_SHADER_STAGE_COMPUTE_BIT, &specialization);
   info.layout = layout();
-  check(context.vk().CreateComputePipelines(context.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle_),
-        shader.name);
+  return context_.vk().CreateComputePipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr, made);
 }
 
 GraphicsPipeline::GraphicsPipeline(Context& context, const GraphicsInfo& wanted,
                                    std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes)
     : Pipeline(context, VK_PIPELINE_BIND_POINT_GRAPHICS,
-               VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, bindings, push_bytes) {
-  const Module vertex(context, *wanted.vertex);
+               VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, bindings, push_bytes),
+      info_(wanted) {
+  std::vector<ShaderCode> shaders{*wanted.vertex};
+  if (wanted.fragment) shaders.push_back(*wanted.fragment);
+  make_first(std::move(shaders));
+}
+
+VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline* made) const {
+  const GraphicsInfo& wanted = info_;
+  const Module vertex(context_, shaders[0]);
   std::vector<VkPipelineShaderStageCreateInfo> stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, nullptr)};
-  std::unique_ptr<Module> fragment;
-  if (wanted.fragment) {
-    fragment = std::make_unique<Module>(context, *wanted.fragment);
+  std::optional<Module> fragment;
+  if (shaders.size() > 1) {
+    fragment.emplace(context_, shaders[1]);
     stages.push_back(fragment->stage(VK_SHADER_STAGE_FRAGMENT_BIT, nullptr));
   }
 
@@ -161,8 +199,7 @@ GraphicsPipeline::GraphicsPipeline(Context& context, const GraphicsInfo& wanted,
   info.pColorBlendState = &blend;
   info.pDynamicState = &dynamics;
   info.layout = layout();
-  check(context.vk().CreateGraphicsPipelines(context.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle_),
-        wanted.vertex->name);
+  return context_.vk().CreateGraphicsPipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr, made);
 }
 
 }  // namespace brume::gpu

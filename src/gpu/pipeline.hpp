@@ -3,6 +3,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "gpu/context.hpp"
@@ -29,15 +30,27 @@ class Pipeline {
   VkShaderStageFlags stages() const { return stages_; }
   const std::vector<VkDescriptorType>& bindings() const { return bindings_; }
   std::uint32_t push_bytes() const { return push_bytes_; }
+  /// Its stages, in order.
+  std::span<const ShaderCode> shaders() const { return shaders_; }
+
+  /// Takes another version of the stage of the same name, whose interface is the same, when the device is
+  /// done with what was recorded before. Its words stay where they are while the pipeline lives. Fails when
+  /// the driver refuses it; the pipeline is then as before.
+  Result<void> replace_shader(const ShaderCode& code);
 
  protected:
   Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderStageFlags stages,
            std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
-  ~Pipeline();
+  virtual ~Pipeline();
+  /// The pipeline of these stages.
+  virtual VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const = 0;
+  /// The same as its first.
+  void make_first(std::vector<ShaderCode> shaders);
   Context& context_;
-  VkPipeline handle_ = VK_NULL_HANDLE;
 
  private:
+  VkPipeline handle_ = VK_NULL_HANDLE;
+  std::vector<ShaderCode> shaders_;
   VkPipelineBindPoint bind_point_;
   VkShaderStageFlags stages_;
   std::vector<VkDescriptorType> bindings_;
@@ -56,7 +69,9 @@ class ComputePipeline : public Pipeline {
   const std::array<std::uint32_t, 3>& group() const { return group_; }
 
  private:
+  VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const override;
   std::array<std::uint32_t, 3> group_;
+  std::vector<std::uint32_t> constants_;
 };
 
 struct GraphicsInfo {
@@ -75,6 +90,10 @@ class GraphicsPipeline : public Pipeline {
  public:
   GraphicsPipeline(Context& context, const GraphicsInfo& info,
                    std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
+
+ private:
+  VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const override;
+  GraphicsInfo info_;
 };
 
 }  // namespace brume::gpu

@@ -1,0 +1,163 @@
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "apps/cli/parse.hpp"
+#include "apps/viewer/quality.hpp"
+#include "apps/viewer/viewer.hpp"
+#include "core/error.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word, picture,
+                           folder = ".", screenshot, record, json;
+  std::string shaders = BRUME_SHADERS_DIR;
+  double frames_per_second = 60;
+  std::optional<double> exit_after, lose_device, lose_surface;
+  bool panels = false, bare = false, no_vertical_sync = false, validation = false;
+};
+
+std::vector<std::string> quality_names() {
+  std::vector<std::string> names{"auto"};
+  for (const viewer::Quality& quality : viewer::quality_levels()) names.emplace_back(quality.name);
+  return names;
+}
+
+std::vector<std::string> view_names() {
+  return {passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()};
+}
+
+viewer::ViewerOptions viewer_options(const Options& options) {
+  viewer::ViewerOptions viewer;
+  viewer.size_px = parse_size("--size", options.size);
+  viewer.device = options.device;
+  viewer.validation = options.validation;
+  viewer.vertical_sync = !options.no_vertical_sync;
+  viewer.frames_per_second = options.frames_per_second;
+  const auto levels = viewer::quality_levels();
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    if (options.quality == levels[i].name) viewer.level = i;
+  viewer.view = passes::find_debug_view(options.view).value_or(passes::DebugView::none);
+  viewer.panels = options.panels;
+  viewer.overlay = !options.bare;
+  viewer.weapons.text.text = options.word.empty() ? "BRUME" : options.word;
+  viewer.weapons.picture = options.picture;
+  viewer.folder = options.folder;
+  viewer.shaders = options.shaders;
+  viewer.exit_after = options.exit_after;
+  viewer.screenshot = options.screenshot;
+  viewer.record = options.record;
+  viewer.check_signals = stop_if_interrupted;
+  viewer.lose_device = options.lose_device;
+  viewer.lose_surface = options.lose_surface;
+  return viewer;
+}
+
+void write_report(const std::string& target, const viewer::ViewerReport& report) {
+  if (target.empty()) return;
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(report.state_hash));
+  Json passes = Json::object();
+  for (const auto& [name, milliseconds] : report.passes_ms) passes[name] = milliseconds;
+  write_json(target, Json{{"device", report.device},
+                          {"frames", report.frames},
+                          {"seconds", report.seconds},
+                          {"frames_per_second", report.frames_per_second},
+                          {"work_ms", report.work_ms},
+                          {"latency_ms", report.latency_ms},
+                          {"simulation_ms", report.tick_ms},
+                          {"passes_ms", passes},
+                          {"quality", report.quality},
+                          {"tick", report.tick},
+                          {"state_hash", hash},
+                          {"process_bytes", report.process_bytes},
+                          {"device_bytes", report.device_bytes},
+                          {"shader_reloads", report.shader_reloads},
+                          {"devices_lost", report.devices_lost},
+                          {"validation_messages", report.validation_messages}});
+}
+
+void view(const Options& options) {
+  if (!options.input.empty() && !options.play.empty())
+    throw Error(ErrorCode::usage, "--play: names the timeline that is shown; leave INPUT out");
+  if (options.exit_after.has_value() != !options.screenshot.empty() && !options.screenshot.empty())
+    throw Error(ErrorCode::usage, "--screenshot: is taken at the time of --exit-after; name one");
+  const bool plays = !options.play.empty();
+  const std::filesystem::path input = plays                   ? options.play
+                                      : options.input.empty() ? BRUME_SCENES_DIR "/demo.toml"
+                                                              : options.input;
+  viewer::ViewerOptions viewer = viewer_options(options);
+  viewer.title = "Brume - " + input.filename().string();
+  for (const std::string& file : {options.screenshot, options.record, options.json}) check_output(file);
+  stage::Stage stage = stage::load_stage(input, {}).value_or_throw();
+  stop_if_interrupted();
+  const viewer::ViewerReport report = viewer::run_viewer(std::move(stage), plays, viewer);
+  write_report(options.json, report);
+  if (report.validation_messages.empty()) return;
+  throw Error(ErrorCode::internal, "the validation layers found " +
+                                       std::to_string(report.validation_messages.size()) +
+                                       " faults; the first: " + report.validation_messages.front());
+}
+
+void declare_tests(CLI::App& parser, Options& options) {
+  // What tests of the window need; not part of the help.
+  parser.add_option("--lose-device", options.lose_device)->group("")->check(CLI::Range(0.0, 3600.0));
+  parser.add_option("--lose-surface", options.lose_surface)->group("")->check(CLI::Range(0.0, 3600.0));
+}
+
+}  // namespace
+
+Command add_view(CLI::App& program) {
+  Command command =
+      declare(program, "view", "Opens a window to walk through a scene, throw smoke and shoot through it.",
+              "  brume view                              # the demo's house at night; H shows the keys\n"
+              "  brume view room.glb --quality half\n"
+              "  brume view --play scenes/demo.toml      # what the timeline says happens\n"
+              "  brume view --play scenes/demo.toml --exit-after 3 --screenshot end.png --size 640x360");
+  auto options = std::make_shared<Options>();
+  CLI::App& parser = *command.parser;
+  parser.add_option("INPUT", options->input, "A timeline (.toml), whose events do not happen, or a scene")
+      ->type_name("");
+  parser.add_option("--play", options->play, "A timeline whose events happen")->type_name("FILE");
+  parser.add_option("--size", options->size, "Of the window [px]; default 1280x720")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+      ->type_name("WxH");
+  parser.add_option("--quality", options->quality, "How the smoke is drawn; default auto: as --fps allows")
+      ->check(CLI::IsMember(quality_names()))
+      ->type_name("NAME");
+  parser.add_option("--fps", options->frames_per_second, "Frames a second that auto holds; default 60")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->type_name("F");
+  parser.add_option("--view", options->view, "A debug view to begin with; see docs/debug-views.md")
+      ->check(CLI::IsMember(view_names()))
+      ->type_name("NAME");
+  parser.add_option("--word", options->word, "What letters are shot; default BRUME")->type_name("TEXT");
+  parser.add_option("--shot", options->picture, "A picture whose shape is shot")->type_name("FILE");
+  parser.add_option("--folder", options->folder, "Where screenshots and recordings go; default: here")
+      ->type_name("FOLDER");
+  parser.add_option("--record", options->record, "Write what was done as a timeline at the end")
+      ->type_name("FILE");
+  parser.add_option("--exit-after", options->exit_after, "Close the window at this time of its clock [s]")
+      ->check(CLI::Range(0.01, 3600.0))
+      ->type_name("S");
+  parser.add_option("--screenshot", options->screenshot, "Save the picture of that time")->type_name("FILE");
+  parser.add_flag("--panels", options->panels, "Begin with the panels open");
+  parser.add_flag("--bare", options->bare, "Begin with nothing over the picture");
+  parser.add_flag("--no-vsync", options->no_vertical_sync, "Do not wait for the screen");
+  parser.add_option("--shaders", options->shaders, "Shader files that are watched for changes")
+      ->type_name("FOLDER");
+  parser.add_flag("--validation", options->validation, "Let Vulkan's validation layers watch every call");
+  parser.add_option("--device", options->device, "Number or part of the name; see brume devices")
+      ->type_name("N|NAME");
+  parser.add_option("--json", options->json, "Write what was measured as JSON; -: to standard output")
+      ->type_name("FILE");
+  declare_tests(parser, *options);
+  command.run = [options] { view(*options); };
+  return command;
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,55 @@
+#include "apps/viewer/figures.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace brume::viewer {
+namespace {
+
+double middle_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void Figures::add(FrameFigures frame) {
+  for (const auto& pass : frame.passes)
+    if (std::find(pass_names_.begin(), pass_names_.end(), pass.name) == pass_names_.end())
+      pass_names_.push_back(pass.name);
+  frames_.push_back(std::move(frame));
+  if (frames_.size() > kKept) frames_.pop_front();
+  ++count_;
+}
+
+double Figures::median(double FrameFigures::*member) const {
+  std::vector<double> values;
+  for (const FrameFigures& frame : frames_) values.push_back(frame.*member);
+  return middle_of(std::move(values));
+}
+
+double Figures::pass_median(const std::string& name) const {
+  std::vector<double> values;
+  for (const FrameFigures& frame : frames_)
+    for (const auto& pass : frame.passes)
+      if (pass.name == name) values.push_back(pass.milliseconds);
+  return middle_of(std::move(values));
+}
+
+double Figures::frames_per_second() const {
+  const double milliseconds = median(&FrameFigures::frame_ms);
+  return milliseconds > 0 ? 1000 / milliseconds : 0;
+}
+
+std::uint64_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t all = 0, resident = 0;
+  if (!(file >> all >> resident)) return 0;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace brume::viewer

@@ -1,0 +1,36 @@
+#include "apps/viewer/probe.hpp"
+
+#include <cmath>
+
+namespace brume::viewer {
+
+void Probe::pick(glm::vec3 place_world) {
+  if (b_world) {
+    *this = {};
+  } else if (a_world) {
+    b_world = place_world;
+  } else {
+    a_world = place_world;
+  }
+}
+
+Result<ProbeAnswer> ask(const Probe& probe, const stage::Stage& stage, const stage::Simulation& simulation,
+                        double seconds) {
+  const auto holes = sim::holes_of(simulation.world().state(), &stage.masks);
+  sim::SightSettings settings;
+  settings.extinction = stage.timeline.smoke.extinction;
+  settings.masks = &stage.masks;
+  const sim::Sight sight(simulation.volume(), simulation.world().grid(), holes, static_cast<float>(seconds),
+                         settings);
+  const auto depth = sight.optical_depth(*probe.a_world, *probe.b_world);
+  if (!depth) return depth.failure();
+  const auto wall = sight.first_wall(*probe.a_world, *probe.b_world);
+  if (!wall) return wall.failure();
+  ProbeAnswer answer;
+  answer.optical_depth = *depth;
+  answer.transmittance = *wall ? 0 : std::exp(-*depth);
+  if (*wall) answer.wall_m = (*wall)->distance;
+  return answer;
+}
+
+}  // namespace brume::viewer

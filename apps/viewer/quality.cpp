@@ -1,0 +1,66 @@
+#include "apps/viewer/quality.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace brume::viewer {
+namespace {
+
+constexpr std::array kLevels{
+    Quality{"full", 1, 1, 1, 1},
+    Quality{"half", 1, 2, 1, 1},
+    Quality{"quarter", 1, 4, 1, 1.0f / 2},
+    Quality{"coarse", 1, 4, 1.5f, 1.0f / 8},
+    Quality{"small", 0.5f, 2, 1.5f, 1.0f / 16},
+    Quality{"smallest", 0.5f, 4, 2, 1.0f / 32},
+};
+
+// Frames at a level that still pay for the change, and those after which it is judged.
+constexpr int kFramesOfChange = 2, kFramesToJudge = 4;
+constexpr double kSmoothing = 0.25;  // weight of the newest frame
+// A better level costs about twice as much as the next one (quality_levels): it is tried when
+// there is that much room.
+constexpr double kRoomForBetter = 0.5;
+
+}  // namespace
+
+std::span<const Quality> quality_levels() {
+  return kLevels;
+}
+
+void QualityControl::change_level(std::size_t level) {
+  level_ = level;
+  frames_ = 0;
+  mean_seconds_ = 0;
+  since_change_ = 0;
+}
+
+void QualityControl::fix(std::size_t level) {
+  automatic_ = false;
+  change_level(std::min(level, kLevels.size() - 1));
+}
+
+void QualityControl::add_frame(double work_seconds, double frame_seconds) {
+  since_change_ += frame_seconds;
+  ++frames_;
+  if (frames_ <= kFramesOfChange) return;
+  mean_seconds_ = frames_ == kFramesOfChange + 1
+                      ? work_seconds
+                      : mean_seconds_ + kSmoothing * (work_seconds - mean_seconds_);
+  if (!automatic_ || frames_ < kFramesToJudge) return;
+  if (mean_seconds_ > wanted_seconds_ && level_ + 1 < kLevels.size()) {
+    // Too slow soon after it was tried: that was too early.
+    const bool too_early = tried_better_ && since_change_ < kShortestRest;
+    rest_ = too_early ? std::min(2 * rest_, kLongestRest) : kShortestRest;
+    tried_better_ = false;
+    // Far too slow: a slow machine does not have the time to go step by step.
+    const double excess = mean_seconds_ / wanted_seconds_;
+    const std::size_t steps = excess > 6 ? 3 : excess > 3 ? 2 : 1;
+    change_level(std::min(level_ + steps, kLevels.size() - 1));
+  } else if (level_ > 0 && mean_seconds_ < kRoomForBetter * wanted_seconds_ && since_change_ > rest_) {
+    tried_better_ = true;
+    change_level(level_ - 1);
+  }
+}
+
+}  // namespace brume::viewer

@@ -1,0 +1,111 @@
+#include "apps/viewer/screen.hpp"
+
+#include <imgui.h>
+
+#include <chrono>
+#include <cstring>
+
+namespace brume::viewer {
+namespace {
+
+gpu::Image make_canvas(gpu::Context& context, glm::uvec2 size_px) {
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R8G8B8A8_UNORM;  // as the renderer's display: encoded for the screen
+  info.size = {size_px, 1};
+  info.usage =
+      VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  return gpu::Image(context, info);
+}
+
+render::RendererOptions renderer_options(const stage::Stage& stage, glm::uvec2 size_px) {
+  render::RendererOptions options{size_px};
+  options.temporal = true;
+  options.masks = &stage.masks;
+  return options;
+}
+
+glm::uvec2 scaled(glm::uvec2 size_px, float scale) {
+  return glm::max(glm::uvec2(glm::round(glm::vec2(size_px) * scale)), glm::uvec2(1));
+}
+
+}  // namespace
+
+Screen::Screen(const Window& window, const stage::Stage& stage, const ScreenOptions& options)
+    : context_({options.device, options.validation, window.presentation()}) {
+  const glm::uvec2 size_px = glm::max(window.size_px(), glm::uvec2(1));
+  runner_.emplace(context_);
+  swapchain_.emplace(context_, window.surface(), options.vertical_sync);
+  renderer_.emplace(context_, *runner_, stage.scene, renderer_options(stage, size_px));
+  ui_.emplace(context_, *runner_, VK_FORMAT_R8G8B8A8_UNORM);
+  canvas_ = make_canvas(context_, size_px);
+}
+
+Screen::~Screen() {
+  // Of a lost device nothing is waited for; it lets go of what it used.
+  context_.vk().DeviceWaitIdle(context_.device());
+}
+
+void Screen::wait() {
+  context_.wait();
+}
+
+void Screen::follow(glm::uvec2 picture_px, std::uint32_t march_scale) {
+  if (picture_px != renderer_->size_px()) {
+    renderer_->resize(picture_px);
+    is_fresh_ = true;
+  }
+  if (march_scale != march_scale_) renderer_->set_march_scale(march_scale);
+  march_scale_ = march_scale;
+}
+
+bool Screen::show(const render::FrameInput* input, const Quality& quality, const ImDrawData& ui) {
+  const auto image = swapchain_->acquire();
+  if (!image) return false;
+  const auto begin = std::chrono::steady_clock::now();
+  if (image->size_px != glm::uvec2(canvas_.info().size)) canvas_ = make_canvas(context_, image->size_px);
+  render::FrameInput frame;
+  if (input) {
+    follow(scaled(image->size_px, quality.picture_scale), quality.march_scale);
+    frame = *input;
+    frame.continues = input->continues && !is_fresh_;
+    is_fresh_ = false;
+    renderer_->prepare(frame);
+  }
+  ui_->reserve(ui);
+  const bool same_size = renderer_->size_px() == image->size_px;
+  const auto record = [&](gpu::Recorder& recorder) {
+    if (input) renderer_->record_frame(recorder, frame);
+    const gpu::Scope scope(recorder, "window");
+    recorder.blit(renderer_->display(), canvas_, same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+    ui_->record(recorder, ui, canvas_);
+    recorder.blit(canvas_, *image);
+  };
+  runner_->start(record, swapchain_->semaphores());
+  record_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  swapchain_->present();
+  return true;
+}
+
+image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
+  follow(size_px, 1);
+  is_fresh_ = true;
+  input.continues = false;
+  input.frame_index = 0;
+  input.step_scale = 1;
+  input.light_share = 1;
+  renderer_->prepare(input);
+  const gpu::Buffer pixels(context_, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                           gpu::MemoryUse::readback);
+  runner_->run([&](gpu::Recorder& recorder) {
+    renderer_->record_frame(recorder, input);
+    recorder.read_back(renderer_->display(), pixels);
+  });
+  image::Image8 picture;
+  picture.width = size_px.x;
+  picture.height = size_px.y;
+  picture.rgba.resize(pixels.size());
+  std::memcpy(picture.rgba.data(), pixels.mapped(), picture.rgba.size());
+  return picture;
+}
+
+}  // namespace brume::viewer

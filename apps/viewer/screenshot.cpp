@@ -1,0 +1,29 @@
+#include "apps/viewer/screenshot.hpp"
+
+#include <cstdio>
+
+#include "image/png.hpp"
+#include "scene/timeline_writer.hpp"
+
+namespace brume::viewer {
+
+std::filesystem::path free_name(const std::filesystem::path& folder, const std::string& name,
+                                const std::string& extension) {
+  std::filesystem::path path;
+  for (int number = 1; number < 100000; ++number) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "_%04d", number);
+    path = folder / (name + digits + extension);
+    if (std::error_code error; !std::filesystem::exists(path, error)) break;
+  }
+  return path;
+}
+
+Result<void> save_moment(const std::filesystem::path& picture, const image::Image8& image,
+                         const scene::Timeline& moment) {
+  const auto timeline = std::filesystem::path(picture).replace_extension(".toml");
+  if (auto done = scene::save_timeline(timeline, moment); !done) return done;
+  return image::save_png(picture, image);
+}
+
+}  // namespace brume::viewer

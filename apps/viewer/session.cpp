@@ -1,0 +1,233 @@
+#include "apps/viewer/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/options.hpp"
+#include "stage/aim.hpp"
+#include "stage/doors.hpp"
+
+namespace brume::viewer {
+namespace {
+
+constexpr float kReach = 100;       // [m]: how far away one aims
+constexpr float kBlastBack = 0.3f;  // [m]: an explosion is in front of what it hits
+
+/// Bytes of the UTF-8 character that begins here; a broken one counts as one byte.
+std::size_t character_bytes(const std::string& text, std::size_t at) {
+  const auto lead = static_cast<unsigned char>(text[at]);
+  const std::size_t bytes = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+  return std::min(bytes, text.size() - at);
+}
+
+/// The latest time of anything that a timeline says [s].
+double last_event(const scene::Timeline& timeline) {
+  double last = timeline.camera.empty() ? 0 : timeline.camera.back().time;
+  const auto take = [&](const auto& events) {
+    if (!events.empty()) last = std::max(last, events.back().time);
+  };
+  take(timeline.smokes);
+  take(timeline.shots);
+  take(timeline.texts);
+  take(timeline.blasts);
+  take(timeline.moves);
+  take(timeline.edits);
+  take(timeline.doors);
+  return last;
+}
+
+void forget_events(scene::Timeline& timeline) {
+  timeline.smokes.clear();
+  timeline.shots.clear();
+  timeline.texts.clear();
+  timeline.blasts.clear();
+  timeline.moves.clear();
+  timeline.edits.clear();
+  timeline.doors.clear();
+}
+
+Failure nothing_there(const char* deed) {
+  return {ErrorCode::bad_input, std::string("nothing to ") + deed + " there: look at something solid"};
+}
+
+}  // namespace
+
+const char* name_of(ShotKind kind) {
+  switch (kind) {
+    case ShotKind::bullet:
+      return "bullet";
+    case ShotKind::glyph:
+      return "letter";
+    case ShotKind::word:
+      return "word";
+    case ShotKind::picture:
+      return "picture";
+  }
+  return "";
+}
+
+Result<std::unique_ptr<Session>> Session::create(stage::Stage stage, bool play) {
+  if (!play) forget_events(stage.timeline);
+  scene::Timeline initial = stage.timeline;
+  auto live = stage::LiveStage::create(std::move(stage));
+  if (!live) return live.failure();
+  return std::unique_ptr<Session>(new Session(std::move(*live), std::move(initial), play));
+}
+
+Session::Session(std::unique_ptr<stage::LiveStage> live, scene::Timeline initial, bool play)
+    : live_(std::move(live)), initial_(std::move(initial)), keys_(initial_.camera), follows_path_(play) {
+  if (play) end_seconds_ = std::max(double{initial_.duration}, last_event(initial_));
+  // Without play only the first key counts: it is where the person begins.
+  if (!play) keys_.clear();
+  seek(kFirstMoment);
+}
+
+void Session::advance(double frame_seconds) {
+  if (paused_) return;
+  seek(seconds_ + std::min(frame_seconds, kLongestFrame));
+}
+
+void Session::seek(double seconds) {
+  // A float, as the duration of the timeline that a moment is saved as.
+  seconds_ = static_cast<double>(static_cast<float>(std::clamp(seconds, kFirstMoment, scene::kLatestTime)));
+  end_seconds_ = std::max(end_seconds_, seconds_);
+  live_->advance_to(seconds_);
+}
+
+void Session::step(int ticks) {
+  paused_ = true;
+  seek((std::floor(seconds_ / kTick + 1e-9) + ticks) * kTick);
+}
+
+Result<void> Session::reset() {
+  if (auto done = live_->reset(initial_); !done) return done;
+  keys_.clear();
+  end_seconds_ = kFirstMoment;
+  next_letter_ = 0;
+  follows_path_ = false;
+  seek(kFirstMoment);
+  return {};
+}
+
+void Session::play() {
+  follows_path_ = !keys_.empty();
+  paused_ = false;
+  seek(kFirstMoment);
+}
+
+scene::Camera Session::path_camera() const {
+  scene::Timeline timeline;
+  timeline.camera = keys_;
+  return scene::camera_at(timeline, live_->stage().camera, seconds_);
+}
+
+void Session::record_camera(const scene::Camera& camera) {
+  // What comes later was another way.
+  while (!keys_.empty() && keys_.back().time > seconds_) keys_.pop_back();
+  if (!keys_.empty() && seconds_ - keys_.back().time < kCameraKeyEvery) return;
+  keys_.push_back({seconds_, camera});
+}
+
+double Session::next_tick_seconds() const {
+  return (std::floor(seconds_ / kTick + 1e-9) + 1) * kTick;
+}
+
+Result<void> Session::add(const scene::Timeline& deeds) {
+  if (last_event(deeds) > scene::kLatestTime)
+    return Failure{ErrorCode::resource_limit, "the hour of this recording is over; R begins anew"};
+  end_seconds_ = std::max(end_seconds_, last_event(deeds));
+  return live_->add(deeds);
+}
+
+Result<void> Session::throw_smoke(glm::vec3 from_world, glm::vec3 direction_world) {
+  const stage::Aim aim = stage::aim(simulation().world().grid(), from_world, direction_world, kReach);
+  if (!aim.meets || !aim.landing_world) return nothing_there("hit");
+  scene::Timeline deeds;
+  deeds.smokes.push_back({next_tick_seconds(), from_world, aim.at_world});
+  return add(deeds);
+}
+
+Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons) {
+  scene::Timeline deeds;
+  const glm::vec3 toward_world = from_world + kReach * direction_world;
+  if (weapons.kind == ShotKind::bullet || weapons.kind == ShotKind::picture) {
+    scene::ShotEvent shot = weapons.shot;
+    shot.time = next_tick_seconds();
+    shot.from_world = from_world;
+    shot.toward_world = toward_world;
+    if (weapons.kind == ShotKind::picture) {
+      if (weapons.picture.empty())
+        return Failure{ErrorCode::usage,
+                       "no picture to shoot: name one in the panel of holes, or with --shot"};
+      shot.shape = scene::ShotShape::mask;
+      shot.mask = weapons.picture;
+    }
+    deeds.shots.push_back(std::move(shot));
+    return add(deeds);
+  }
+  scene::TextEvent text = weapons.text;
+  text.time = next_tick_seconds();
+  text.from_world = from_world;
+  text.toward_world = toward_world;
+  if (weapons.kind == ShotKind::glyph && !text.text.empty()) {
+    // Blanks are no letters.
+    const std::string word = text.text;
+    for (std::size_t tries = 0; tries < word.size(); ++tries) {
+      if (next_letter_ >= word.size()) next_letter_ = 0;
+      const std::size_t bytes = character_bytes(word, next_letter_);
+      text.text = word.substr(next_letter_, bytes);
+      next_letter_ += bytes;
+      if (text.text != " ") break;
+    }
+  }
+  deeds.texts.push_back(std::move(text));
+  return add(deeds);
+}
+
+Result<void> Session::blast(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons) {
+  const stage::Aim aim = stage::aim(simulation().world().grid(), from_world, direction_world, kReach);
+  if (!aim.meets) return nothing_there("blow up");
+  scene::Timeline deeds;
+  scene::BlastEvent blast = weapons.blast;
+  blast.time = next_tick_seconds();
+  blast.at_world = from_world + std::max(*aim.meets - kBlastBack, 0.0f) * direction_world;
+  deeds.blasts.push_back(blast);
+  return add(deeds);
+}
+
+Result<std::string> Session::use_door(glm::vec3 at_world) {
+  const stage::Stage& stage = live_->stage();
+  const std::vector<stage::Door> doors = stage::doors_of(stage.scene);
+  if (doors.empty())
+    return Failure{ErrorCode::bad_input, "there is no door: no object of the scene has \"door\" in its name"};
+  const auto distance = [&](const stage::Door& door) {
+    return glm::length(at_world - glm::clamp(at_world, door.bounds_world.min, door.bounds_world.max));
+  };
+  const auto nearest = std::min_element(
+      doors.begin(), doors.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  scene::Timeline deeds;
+  scene::DoorEvent event;
+  event.time = next_tick_seconds();
+  event.object = nearest->name;
+  event.open = !stage::is_open(stage.timeline, nearest->name, event.time);
+  deeds.doors.push_back(event);
+  if (auto done = add(deeds); !done) return done.failure();
+  return (event.open ? "opened: " : "shut: ") + nearest->name;
+}
+
+scene::Timeline Session::recording() const {
+  scene::Timeline timeline = live_->stage().timeline;
+  timeline.camera = keys_;
+  const double length = std::max({seconds_, end_seconds_, last_event(timeline)});
+  timeline.duration = static_cast<float>(std::min(length, scene::kLatestTime));
+  return timeline;
+}
+
+scene::Timeline Session::moment(const scene::Camera& camera) const {
+  scene::Timeline timeline = recording();
+  timeline.camera = {{seconds_, camera}};
+  timeline.duration = static_cast<float>(seconds_);
+  return timeline;
+}
+
+}  // namespace brume::viewer

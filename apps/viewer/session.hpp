@@ -1,0 +1,91 @@
+// What is played in the window: a stage, its clock, and what a person does on it. Everything that is done
+// becomes part of the stage's timeline at the tick that comes next, so that the timeline, saved and played,
+// makes the same again bit for bit.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "stage/live_stage.hpp"
+
+namespace brume::viewer {
+
+enum class ShotKind { bullet, glyph, word, picture };
+const char* name_of(ShotKind kind);
+
+/// What the next shots and blasts are like.
+struct Weapons {
+  ShotKind kind = ShotKind::bullet;
+  scene::ShotEvent shot;  ///< Of bullets and pictures; where from and when do not count.
+  scene::TextEvent text;  ///< Of letters and words; text is the word.
+  scene::BlastEvent blast;
+  std::filesystem::path picture;  ///< PNG or JPEG; empty: none is chosen.
+};
+
+class Session {
+ public:
+  static constexpr double kTick = 1.0 / 64;         // [s], of the default sim::WorldSettings
+  static constexpr double kFirstMoment = 1.0 / 64;  // [s]: the shortest timeline is longer than nothing
+  static constexpr double kCameraKeyEvery = 0.125;  // [s]
+  static constexpr double kLongestFrame = 0.25;     // [s]: a slower frame lets the clock go slower
+
+  /// A stage as it is before anything happens; with `play` what its timeline says happens, and the camera
+  /// goes its way.
+  static Result<std::unique_ptr<Session>> create(stage::Stage stage, bool play);
+
+  const stage::LiveStage& live() const { return *live_; }
+  stage::LiveStage& live() { return *live_; }
+  const stage::Simulation& simulation() const { return live_->simulation(); }
+  double seconds() const { return seconds_; }
+  /// Where the last thing happens or ends on the bar of time: at least the duration that was recorded.
+  double end_seconds() const { return end_seconds_; }
+  bool paused() const { return paused_; }
+  void set_paused(bool paused) { paused_ = paused; }
+
+  /// Lets time pass unless paused.
+  void advance(double frame_seconds);
+  /// To any time, forwards or backwards [s].
+  void seek(double seconds);
+  void step(int ticks);
+  /// Back to the beginning, without what was done.
+  Result<void> reset();
+  /// From the beginning, with what was done, on the camera's way.
+  void play();
+
+  // The camera's way.
+  bool follows_path() const { return follows_path_; }
+  void leave_path() { follows_path_ = false; }
+  /// The camera at the present time on its way.
+  scene::Camera path_camera() const;
+  /// Where the camera is now, when it is not on its way: becomes part of the way.
+  void record_camera(const scene::Camera& camera);
+
+  // Deeds: at the next tick. Fail in one line when they cannot be.
+  Result<void> throw_smoke(glm::vec3 from_world, glm::vec3 direction_world);
+  Result<void> shoot(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons);
+  Result<void> blast(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons);
+  /// The door nearest to a point; its name.
+  Result<std::string> use_door(glm::vec3 at_world);
+
+  /// The timeline with all that was done, as long as until now at least.
+  scene::Timeline recording() const;
+  /// The timeline of this moment: the picture of its end is what `camera` sees now.
+  scene::Timeline moment(const scene::Camera& camera) const;
+
+ private:
+  Session(std::unique_ptr<stage::LiveStage> live, scene::Timeline initial, bool play);
+  double next_tick_seconds() const;
+  Result<void> add(const scene::Timeline& deeds);
+
+  std::unique_ptr<stage::LiveStage> live_;
+  scene::Timeline initial_;  ///< What reset goes back to.
+  std::vector<scene::CameraKey> keys_;
+  double seconds_ = kFirstMoment, end_seconds_ = kFirstMoment;
+  bool paused_ = false, follows_path_ = false;
+  std::size_t next_letter_ = 0;  ///< In bytes of the word.
+};
+
+}  // namespace brume::viewer

@@ -1,0 +1,214 @@
+#include "apps/viewer/shader_reload.hpp"
+
+#include <set>
+#include <shaderc/shaderc.hpp>
+#include <spirv_cross/spirv_cross.hpp>
+
+#include "core/file.hpp"
+
+namespace brume::viewer {
+namespace {
+
+constexpr std::uint64_t kMaxSourceBytes = 1 << 22;
+
+/// Files that `text` includes, as they are written.
+std::vector<std::string> includes_of(const std::string& text) {
+  constexpr std::string_view kWord = "#include \"";
+  std::vector<std::string> names;
+  for (std::size_t at = text.find(kWord); at != std::string::npos; at = text.find(kWord, at)) {
+    at += kWord.size();
+    const std::size_t end = text.find('"', at);
+    if (end == std::string::npos) break;
+    names.push_back(text.substr(at, end - at));
+  }
+  return names;
+}
+
+/// When a file, or one that it includes, was changed last; nothing when the file is not there.
+std::optional<std::filesystem::file_time_type> newest_change(const std::filesystem::path& folder,
+                                                             const std::string& name,
+                                                             std::set<std::string>& seen) {
+  std::error_code error;
+  auto newest = std::filesystem::last_write_time(folder / name, error);
+  if (error) return std::nullopt;
+  if (!seen.insert(name).second) return newest;
+  const auto text = read_text_file(folder / name, kMaxSourceBytes);
+  if (!text) return newest;
+  for (const std::string& included : includes_of(*text))
+    if (const auto time = newest_change(folder, included, seen)) newest = std::max(newest, *time);
+  return newest;
+}
+
+/// Includes from the shaders' folder, as the build's -I has them.
+class FolderIncluder : public shaderc::CompileOptions::IncluderInterface {
+ public:
+  explicit FolderIncluder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  shaderc_include_result* GetInclude(const char* requested, shaderc_include_type, const char*,
+                                     std::size_t) override {
+    auto* const include = new Include;
+    const auto text = read_text_file(folder_ / requested, kMaxSourceBytes);
+    // Without a name the content is the compiler's message.
+    include->name = text ? requested : "";
+    include->text = text ? *text : text.failure().message;
+    include->result = {include->name.data(), include->name.size(), include->text.data(), include->text.size(),
+                       include};
+    return &include->result;
+  }
+  void ReleaseInclude(shaderc_include_result* result) override {
+    delete static_cast<Include*>(result->user_data);
+  }
+
+ private:
+  struct Include {
+    std::string name, text;
+    shaderc_include_result result{};
+  };
+  std::filesystem::path folder_;
+};
+
+std::optional<shaderc_shader_kind> kind_of(const std::string& name) {
+  const std::string extension = std::filesystem::path(name).extension().string();
+  if (extension == ".comp") return shaderc_compute_shader;
+  if (extension == ".vert") return shaderc_vertex_shader;
+  if (extension == ".frag") return shaderc_fragment_shader;
+  return std::nullopt;
+}
+
+Failure misfit(const std::string& name, const std::string& what) {
+  return {ErrorCode::bad_input, name + ": " + what + "; build the program again for that"};
+}
+
+}  // namespace
+
+Result<std::vector<std::uint32_t>> compile_shader(const std::filesystem::path& folder,
+                                                  const std::string& name) {
+  const auto text = read_text_file(folder / name, kMaxSourceBytes);
+  if (!text) return text.failure();
+  const auto kind = kind_of(name);
+  if (!kind) return Failure{ErrorCode::bad_input, name + ": expected .comp, .vert or .frag"};
+  shaderc::CompileOptions options;
+  options.SetTargetEnvironment(shaderc_target_env_vulkan, shaderc_env_version_vulkan_1_2);
+  options.SetOptimizationLevel(shaderc_optimization_level_performance);
+  options.SetWarningsAsErrors();
+  options.SetIncluder(std::make_unique<FolderIncluder>(folder));
+  const auto result = shaderc::Compiler().CompileGlslToSpv(*text, *kind, name.c_str(), options);
+  if (result.GetCompilationStatus() != shaderc_compilation_status_success)
+    return Failure{ErrorCode::bad_input, result.GetErrorMessage()};
+  return std::vector<std::uint32_t>(result.cbegin(), result.cend());
+}
+
+Result<void> check_fit(const std::vector<std::uint32_t>& words, const gpu::Pipeline& pipeline,
+                       const std::string& name) {
+  const spirv_cross::Compiler compiler(words);
+  const auto resources = compiler.get_shader_resources(compiler.get_active_interface_variables());
+  const auto& bindings = pipeline.bindings();
+  const auto fits = [&](const auto& list, VkDescriptorType type) -> Result<void> {
+    for (const spirv_cross::Resource& resource : list) {
+      const std::uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
+      const std::uint32_t set = compiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
+      if (set != 0 || binding >= bindings.size() || bindings[binding] != type)
+        return misfit(name, "the program binds nothing of that kind at binding " + std::to_string(binding) +
+                                " (" + resource.name + ")");
+    }
+    return {};
+  };
+  for (const auto& done :
+       {fits(resources.storage_buffers, gpu::kBuffer), fits(resources.uniform_buffers, gpu::kUniform),
+        fits(resources.sampled_images, gpu::kSampled), fits(resources.storage_images, gpu::kStored)})
+    if (!done) return done.failure();
+  if (!resources.separate_images.empty() || !resources.separate_samplers.empty())
+    return misfit(name, "the program binds no separate images and samplers");
+  for (const spirv_cross::Resource& block : resources.push_constant_buffers)
+    if (compiler.get_declared_struct_size(compiler.get_type(block.base_type_id)) > pipeline.push_bytes())
+      return misfit(name, "the program pushes only " + std::to_string(pipeline.push_bytes()) + " bytes");
+  if (const auto* compute = dynamic_cast<const gpu::ComputePipeline*>(&pipeline)) {
+    for (std::uint32_t axis = 0; axis < 3; ++axis)
+      if (compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, axis) != compute->group()[axis])
+        return misfit(name, "the program counts on another local size");
+  }
+  return {};
+}
+
+ShaderReload::ShaderReload(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+void ShaderReload::look(gpu::Context& context) {
+  std::set<std::string> names;
+  for (const gpu::Pipeline* pipeline : context.pipelines())
+    for (const gpu::ShaderCode& shader : pipeline->shaders()) names.insert(shader.name);
+  for (const std::string& name : names) {
+    std::set<std::string> seen;
+    const auto newest = newest_change(folder_, name, seen);
+    if (!newest) continue;
+    const auto [known, is_new] = newest_.emplace(name, *newest);
+    if (is_new || known->second == *newest) continue;  // at first: what was built in
+    known->second = *newest;
+    if (std::find(changed_.begin(), changed_.end(), name) == changed_.end()) changed_.push_back(name);
+  }
+}
+
+bool ShaderReload::take(gpu::Context& context, Compiled compiled) {
+  errors_.erase(compiled.name);
+  if (!compiled.words) {
+    errors_[compiled.name] = compiled.words.failure().message;
+    return false;
+  }
+  kept_.push_back(std::move(*compiled.words));
+  const Words& words = kept_.back();
+  const auto users = [&] {
+    std::vector<gpu::Pipeline*> found;
+    for (gpu::Pipeline* pipeline : context.pipelines())
+      for (const gpu::ShaderCode& shader : pipeline->shaders())
+        if (shader.name == compiled.name) found.push_back(pipeline);
+    return found;
+  }();
+  for (const gpu::Pipeline* pipeline : users) {
+    if (const auto fits = check_fit(words, *pipeline, compiled.name); !fits) {
+      errors_[compiled.name] = fits.failure().message;
+      return false;
+    }
+  }
+  const std::string& name = in_use_.emplace(compiled.name, nullptr).first->first;
+  for (gpu::Pipeline* pipeline : users) {
+    if (const auto done = pipeline->replace_shader({name.c_str(), words}); !done) {
+      errors_[compiled.name] = done.failure().message;
+      return false;
+    }
+  }
+  in_use_[compiled.name] = &words;
+  ++reloads_;
+  return true;
+}
+
+bool ShaderReload::follow(gpu::Context& context) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - looked_at_ > kLookEvery) {
+    looked_at_ = now;
+    look(context);
+  }
+  bool changed = false;
+  if (compiling_.valid() && compiling_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    changed = take(context, compiling_.get());
+  // One at a time, beside the frames.
+  if (!compiling_.valid() && !changed_.empty()) {
+    compiling_ = std::async(std::launch::async, [folder = folder_, name = changed_.front()] {
+      return Compiled{name, compile_shader(folder, name)};
+    });
+    changed_.pop_front();
+  }
+  return changed;
+}
+
+void ShaderReload::apply_all(gpu::Context& context) {
+  for (gpu::Pipeline* pipeline : context.pipelines()) {
+    const std::vector<gpu::ShaderCode> shaders(pipeline->shaders().begin(), pipeline->shaders().end());
+    for (const gpu::ShaderCode& shader : shaders) {
+      const auto known = in_use_.find(shader.name);
+      if (known == in_use_.end() || !known->second) continue;
+      if (const auto done = pipeline->replace_shader({known->first.c_str(), *known->second}); !done)
+        errors_[known->first] = done.failure().message;
+    }
+  }
+}
+
+}  // namespace brume::viewer

@@ -1,0 +1,125 @@
+#include <imgui.h>
+
+#include <cstdio>
+#include <string>
+
+#include "apps/viewer/screen.hpp"
+#include "apps/viewer/ui_parts.hpp"
+#include "render/device_camera.hpp"
+
+namespace brume::viewer {
+namespace {
+
+constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+constexpr ImU32 kMark = IM_COL32(255, 190, 90, 255), kShade = IM_COL32(0, 0, 0, 160);
+constexpr ImU32 kSees = IM_COL32(110, 220, 130, 255), kBlind = IM_COL32(240, 90, 80, 255);
+constexpr float kMargin = 8;
+
+glm::vec2 display_size() {
+  return {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
+}
+
+/// Where a point is on the display; nothing behind the eye.
+std::optional<ImVec2> on_display(const scene::Camera& camera, glm::vec3 world) {
+  const glm::vec2 size = display_size();
+  const auto device = render::device_camera(camera, glm::uvec2(glm::max(size, glm::vec2(1))));
+  const glm::vec4 clip = device.clip_from_world * glm::vec4(world, 1);
+  if (clip.w < render::kNearPlane) return std::nullopt;
+  return ImVec2((0.5f + 0.5f * clip.x / clip.w) * size.x, (0.5f + 0.5f * clip.y / clip.w) * size.y);
+}
+
+void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& text) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  list.AddRectFilled(ImVec2(at.x - 4, at.y - 2), ImVec2(at.x + size.x + 4, at.y + size.y + 2), kShade, 3);
+  list.AddText(at, colour, text.c_str());
+}
+
+std::string answer_text(const ProbeAnswer& answer) {
+  char text[128];
+  if (answer.wall_m) {
+    std::snprintf(text, sizeof text, "a wall after %.2f m", static_cast<double>(*answer.wall_m));
+  } else {
+    std::snprintf(text, sizeof text, "%.1f %% comes through, optical depth %.2f",
+                  100 * static_cast<double>(answer.transmittance), static_cast<double>(answer.optical_depth));
+  }
+  return text;
+}
+
+void lay_out_probe(const Choices& choices, const Session& session, const scene::Camera& camera) {
+  const Probe& probe = choices.probe;
+  if (!probe.a_world) return;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto a = on_display(camera, *probe.a_world);
+  if (a) list.AddCircleFilled(*a, 5, kMark);
+  if (!probe.b_world) {
+    if (a) label(list, ImVec2(a->x + 9, a->y - 8), kMark, "L again: the other end");
+    return;
+  }
+  const auto answer = ask(probe, session.live().stage(), session.simulation(), session.seconds());
+  const auto b = on_display(camera, *probe.b_world);
+  const bool sees = answer && answer->transmittance > 0.05f;
+  if (b) list.AddCircleFilled(*b, 5, kMark);
+  if (a && b) list.AddLine(*a, *b, sees ? kSees : kBlind, 2.5f);
+  const auto at = b ? b : a;
+  if (at)
+    label(list, ImVec2(at->x + 9, at->y - 8), sees ? kSees : kBlind,
+          answer ? answer_text(*answer) : answer.failure().message);
+}
+
+}  // namespace
+
+void lay_out_marks(const Choices& choices, const Session& session, const Player& player) {
+  const glm::vec2 middle = 0.5f * display_size();
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  if (!choices.panels && !choices.help && choices.overlay) {
+    const ImVec2 at(middle.x, middle.y);
+    list.AddCircle(at, 4.5f, IM_COL32(0, 0, 0, 140), 0, 2.5f);
+    list.AddCircle(at, 4.5f, IM_COL32(255, 255, 255, 190), 0, 1.2f);
+  }
+  lay_out_probe(choices, session, player.camera());
+}
+
+void lay_out_overlay(const Choices& choices, const Session& session, const Player& player,
+                     const Figures& figures, const Notices& notices) {
+  ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin));
+  ImGui::SetNextWindowBgAlpha(0.55f);
+  ImGui::Begin("figures", nullptr, kPlain);
+  const Quality& quality = *notices.quality;
+  ImGui::Text("%.0f fps  %.1f ms  %s%s", figures.frames_per_second(), figures.median(&FrameFigures::work_ms),
+              choices.level ? "" : "auto: ", quality.name);
+  ImGui::Text("%d frame in flight, input to picture %.1f ms", Screen::kFramesInFlight,
+              figures.median(&FrameFigures::latency_ms));
+  ImGui::Text("%.2f s%s  %s  shot: %s%s", session.seconds(), session.paused() ? " (paused)" : "",
+              player.flying() ? "flying" : "walking", name_of(choices.weapons.kind),
+              session.follows_path() ? "  on the camera's way" : "");
+  if (choices.view != passes::DebugView::none)
+    ImGui::Text("view: %s", std::string(passes::debug_view_name(choices.view)).c_str());
+  if (!notices.shader_errors.empty())
+    ImGui::TextColored(ImVec4(1, 0.45f, 0.4f, 1), "a shader does not compile: see the panels");
+  for (const std::string& line : notices.lines)
+    ImGui::TextColored(ImVec4(1, 0.8f, 0.5f, 1), "%s", line.c_str());
+  if (figures.count() < 600) ImGui::TextDisabled("H: help   Tab: panels");
+  ImGui::End();
+}
+
+void lay_out_help() {
+  const glm::vec2 size = display_size();
+  ImGui::SetNextWindowPos(ImVec2(0.5f * size.x, 0.5f * size.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowBgAlpha(0.9f);
+  ImGui::Begin("help", nullptr, kPlain);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const KeyBinding& binding : key_bindings()) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextColored(ImVec4(1, 0.8f, 0.5f, 1), "%s", binding.name);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(binding.does);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace brume::viewer

@@ -1,0 +1,472 @@
+#include "apps/viewer/viewer.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+
+#include "apps/viewer/screen.hpp"
+#include "apps/viewer/screenshot.hpp"
+#include "apps/viewer/shader_reload.hpp"
+#include "apps/viewer/ui.hpp"
+#include "render/playback.hpp"
+#include "scene/timeline_writer.hpp"
+#include "stage/aim.hpp"
+
+namespace brume::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kNoticeSeconds = 4;
+constexpr std::size_t kMostNotices = 4;
+// A device that is lost again and again is broken.
+constexpr std::size_t kMostLostDevices = 5;
+// While nothing moves the window sleeps between events.
+constexpr double kIdleSeconds = 0.05;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+/// All that a picture shows: equal ones need not be drawn again.
+struct PictureKey {
+  double seconds = -1;
+  glm::vec3 eye{0}, target{0};
+  float vertical_fov = 0;
+  glm::uvec2 size_px{0};
+  std::uint64_t changes = 0;
+  bool operator==(const PictureKey&) const = default;
+};
+
+class Viewer {
+ public:
+  Viewer(stage::Stage stage, bool play, const ViewerOptions& options)
+      : options_(options),
+        session_(Session::create(std::move(stage), play).value_or_throw()),
+        window_(options.size_px, options.title),
+        ui_(window_),
+        quality_(options.frames_per_second),
+        shaders_(options.shaders) {
+    choices_.weapons = options.weapons;
+    choices_.view = options.view;
+    choices_.panels = options.panels;
+    choices_.overlay = options.overlay;
+    choices_.level = options.level;
+    choices_.frames_per_second = options.frames_per_second;
+    choices_.vertical_sync = options.vertical_sync;
+    go_to_beginning();
+    make_screen();
+  }
+
+  ViewerReport run() {
+    while (!window_.should_close() && !done_) {
+      if (options_.check_signals) options_.check_signals();
+      try {
+        frame();
+      } catch (const gpu::DeviceLost&) {
+        recover();
+      }
+    }
+    return report();
+  }
+
+ private:
+  void make_screen() {
+    screen_ =
+        std::make_unique<Screen>(window_, session_->live().stage(),
+                                 ScreenOptions{options_.device, options_.validation, choices_.vertical_sync});
+    masks_ = session_->live().stage().masks.key();
+    continues_ = false;
+    shown_ = {};
+  }
+
+  // The device is gone with all that was on it; what is played is not.
+  void recover() {
+    take_messages();
+    if (++devices_lost_ > kMostLostDevices)
+      throw gpu::DeviceLost(ErrorCode::no_device, "the device is lost again and again");
+    ImGui::EndFrame();  // which the loss may have cut off
+    screen_.reset();
+    make_screen();
+    shaders_.apply_all(screen_->context());
+    say("the device was lost; it was made anew");
+  }
+
+  void say(const std::string& line) {
+    notices_.push_back({line, Clock::now()});
+    if (notices_.size() > kMostNotices) notices_.pop_front();
+  }
+  void say_failure(const Result<void>& done) {
+    if (!done) say(done.failure().message);
+  }
+
+  const voxel::BitGrid& grid() const { return session_->simulation().world().grid(); }
+  void go_to_beginning() {
+    const stage::Stage& stage = session_->live().stage();
+    player_.go_to(grid(), scene::camera_at(stage.timeline, stage.camera, 0));
+  }
+
+  void frame();
+  void play_frame(const Input& input, double frame_seconds);
+  void act(Action action);
+  void shoot_or_throw(Action action);
+  void hold_mouse(const Input& input);
+  void grant(const Wishes& wishes);
+  void follow_quality();
+  bool draw();
+  bool is_still();
+  render::FrameInput frame_input(std::vector<shared::Hole>& holes) const;
+  void lose_for_tests();
+  void finish_frame(Clock::time_point begin, double frame_seconds, double tick_seconds);
+  void save_screenshot(const std::filesystem::path& picture);
+  void save_recording(const std::filesystem::path& path);
+  glm::vec3 aim() const;
+  void take_messages();
+  Notices notices();
+  ViewerReport report();
+
+  struct Notice {
+    std::string line;
+    Clock::time_point said;
+  };
+
+  ViewerOptions options_;
+  std::unique_ptr<Session> session_;
+  Window window_;
+  Ui ui_;
+  Player player_;
+  QualityControl quality_;
+  ShaderReload shaders_;
+  Choices choices_;
+  Figures figures_;
+  std::unique_ptr<Screen> screen_;
+  sim::MaskKey masks_{};  ///< Those that the screen has.
+
+  std::optional<Clock::time_point> last_frame_;
+  std::uint32_t frame_index_ = 0;
+  bool continues_ = false;  ///< The frame before was of the same film.
+  PictureKey shown_;
+  int still_frames_ = 0;        ///< Since the picture changed.
+  bool still_is_best_ = false;  ///< The still picture is the one of `brume render`.
+  std::uint64_t changes_ = 0;
+  bool done_ = false;
+  std::deque<Notice> notices_;
+  std::vector<std::string> messages_;  ///< Of the validation layers.
+  std::size_t devices_lost_ = 0;
+};
+
+void Viewer::take_messages() {
+  for (std::string& message : screen_->context().take_validation_messages())
+    messages_.push_back(std::move(message));
+}
+
+// The mouse turns the view unless something else needs the cursor.
+void Viewer::hold_mouse(const Input& input) {
+  window_.hold_mouse(!choices_.panels && !choices_.help && !input.is_held(Action::free_cursor));
+}
+
+glm::vec3 Viewer::aim() const {
+  const glm::vec2 size(glm::max(window_.size_px(), glm::uvec2(1)));
+  const glm::vec2 place = window_.holds_mouse() ? glm::vec2(0.5f) : window_.cursor_px() / size;
+  return direction_through(player_.camera(), size.x / size.y, glm::clamp(place, glm::vec2(0), glm::vec2(1)));
+}
+
+void Viewer::shoot_or_throw(Action action) {
+  const glm::vec3 eye = player_.camera().position_world;
+  if (action == Action::throw_smoke) say_failure(session_->throw_smoke(eye, aim()));
+  if (action == Action::shoot) say_failure(session_->shoot(eye, aim(), choices_.weapons));
+  if (action == Action::blast) say_failure(session_->blast(eye, aim(), choices_.weapons));
+}
+
+void Viewer::act(Action action) {
+  const auto choose = [&](ShotKind kind) { choices_.weapons.kind = kind; };
+  switch (action) {
+    case Action::throw_smoke:
+    case Action::shoot:
+    case Action::blast:
+      shoot_or_throw(action);
+      break;
+    case Action::fly:
+      player_.set_flying(grid(), !player_.flying());
+      break;
+    case Action::shape_bullet:
+      choose(ShotKind::bullet);
+      break;
+    case Action::shape_glyph:
+      choose(ShotKind::glyph);
+      break;
+    case Action::shape_word:
+      choose(ShotKind::word);
+      break;
+    case Action::shape_picture:
+      choose(ShotKind::picture);
+      break;
+    case Action::door: {
+      const auto door = session_->use_door(player_.camera().position_world);
+      say(door ? *door : door.failure().message);
+      break;
+    }
+    case Action::probe: {
+      const glm::vec3 eye = player_.camera().position_world, direction = aim();
+      const stage::Aim aimed = stage::aim(grid(), eye, direction);
+      // Just before the wall, which would be in the way.
+      const float back = 0.5f * grid().frame().voxel_size;
+      choices_.probe.pick(eye + std::max(aimed.meets.value_or(10) - back, 0.0f) * direction);
+      break;
+    }
+    case Action::reset:
+      say_failure(session_->reset());
+      go_to_beginning();
+      choices_.probe = {};
+      break;
+    case Action::pause:
+      session_->set_paused(!session_->paused());
+      break;
+    case Action::step_back:
+      session_->step(-1);
+      break;
+    case Action::step_on:
+      session_->step(1);
+      break;
+    case Action::next_view:
+      choices_.view = static_cast<passes::DebugView>((static_cast<std::size_t>(choices_.view) + 1) %
+                                                     passes::kDebugViewNames.size());
+      ++changes_;
+      break;
+    case Action::screenshot:
+      save_screenshot(free_name(options_.folder, "brume", ".png"));
+      break;
+    case Action::save_recording:
+      save_recording(free_name(options_.folder, "recording", ".toml"));
+      break;
+    case Action::panels:
+      choices_.panels = !choices_.panels;
+      break;
+    case Action::overlay:
+      choices_.overlay = !choices_.overlay;
+      break;
+    case Action::help:
+      choices_.help = !choices_.help;
+      break;
+    default:  // those that are held
+      break;
+  }
+}
+
+// What the keys say, then what time does.
+void Viewer::play_frame(const Input& input, double frame_seconds) {
+  for (const Action action : input.pressed) act(action);
+  const bool turned = input.look_px != glm::dvec2(0);
+  if (session_->follows_path()) {
+    constexpr std::array kMoves{Action::forward, Action::back, Action::left,
+                                Action::right,   Action::up,   Action::down};
+    const bool moved = std::any_of(kMoves.begin(), kMoves.end(), [&](Action a) { return input.is_held(a); });
+    if (turned || moved) session_->leave_path();
+  }
+  const double until = options_.exit_after ? *options_.exit_after - session_->seconds() : frame_seconds;
+  const bool ends = options_.exit_after && !session_->paused() && until <= frame_seconds;
+  if (ends) {
+    session_->seek(*options_.exit_after);
+    done_ = true;
+  } else {
+    session_->advance(frame_seconds);
+  }
+  if (session_->follows_path()) {
+    player_.ride(session_->path_camera());
+    return;
+  }
+  player_.turn(input.look_px);
+  if (input.wheel != 0) player_.change_fly_speed(grid(), input.wheel);
+  player_.move(input, grid(), std::min(frame_seconds, Session::kLongestFrame));
+  if (!session_->paused()) session_->record_camera(player_.camera());
+}
+
+render::FrameInput Viewer::frame_input(std::vector<shared::Hole>& holes) const {
+  render::FrameInput input =
+      render::frame_input(session_->live().stage(), session_->simulation(), session_->seconds(), holes);
+  input.camera = player_.camera();
+  input.view = choices_.view;
+  input.view_slice = choices_.slice.value_or(passes::slice_through_smoke(
+      &session_->simulation().volume(), input.camera.position_world, input.camera.target_world));
+  return input;
+}
+
+// Whether the picture is the one that is there. A picture that stays is drawn once more as good as can be: it
+// is then the one that `brume render` makes of this moment.
+bool Viewer::is_still() {
+  const scene::Camera camera = player_.camera();
+  const PictureKey now{session_->seconds(), camera.position_world, camera.target_world,
+                       camera.vertical_fov, window_.size_px(),     changes_};
+  if (now != shown_) {
+    shown_ = now;
+    still_frames_ = 0;
+    still_is_best_ = false;
+    return false;
+  }
+  ++still_frames_;
+  return session_->paused();
+}
+
+bool Viewer::draw() {
+  constexpr int kFramesUntilBest = 3;
+  const bool still = is_still();
+  const bool best = still && still_frames_ >= kFramesUntilBest && !still_is_best_;
+  if (still && !best) return screen_->show(nullptr, quality_.quality(), *ImGui::GetDrawData());
+  std::vector<shared::Hole> holes;
+  render::FrameInput input = frame_input(holes);
+  const Quality& quality = best ? quality_levels().front() : quality_.quality();
+  input.continues = continues_ && choices_.gather && !best;
+  input.frame_index = best ? 0 : ++frame_index_;
+  input.step_scale = quality.step_scale;
+  input.light_share = best ? 1 : quality.light_share;
+  continues_ = !best;
+  still_is_best_ = best;
+  return screen_->show(&input, quality, *ImGui::GetDrawData());
+}
+
+void Viewer::follow_quality() {
+  quality_.set_frame_rate(choices_.frames_per_second);
+  if (!choices_.level) {
+    quality_.set_automatic();
+  } else if (quality_.automatic() || quality_.level() != *choices_.level) {
+    quality_.fix(*choices_.level);
+  }
+}
+
+void Viewer::lose_for_tests() {
+  const auto due = [&](std::optional<double>& at) {
+    if (!at || session_->seconds() < *at) return false;
+    at.reset();
+    return true;
+  };
+  if (due(options_.lose_surface)) screen_->lose_surface();
+  if (due(options_.lose_device)) throw gpu::DeviceLost(ErrorCode::no_device, "lost for a test");
+}
+
+void Viewer::grant(const Wishes& wishes) {
+  if (wishes.changed_picture) ++changes_;
+  if (wishes.play) session_->play();
+  if (wishes.seek) {
+    session_->set_paused(true);
+    session_->seek(*wishes.seek);
+  }
+  for (const Action action : wishes.actions) act(action);
+}
+
+Notices Viewer::notices() {
+  while (!notices_.empty() && seconds_between(notices_.front().said, Clock::now()) > kNoticeSeconds)
+    notices_.pop_front();
+  Notices told;
+  for (const Notice& notice : notices_) told.lines.push_back(notice.line);
+  told.device = screen_->context().info().name;
+  told.device_bytes = screen_->context().memory().bytes_in_use();
+  told.quality = &quality_.quality();
+  told.picture_px = screen_->picture_px();
+  for (const auto& [name, text] : shaders_.errors()) told.shader_errors += text;
+  return told;
+}
+
+void Viewer::frame() {
+  const bool asleep = still_is_best_ && session_->paused();
+  window_.poll(asleep ? kIdleSeconds : 0);
+  const Clock::time_point begin = Clock::now();
+  Input input = window_.take_input();
+  hold_mouse(input);
+  ui_.begin_frame();
+  // What the panels take does not reach the game.
+  if (ui_.takes_keys()) input = {};
+  if (ui_.takes_mouse())
+    std::erase_if(input.pressed, [](Action a) { return a == Action::throw_smoke || a == Action::shoot; });
+
+  const double frame_seconds = last_frame_ ? seconds_between(*last_frame_, begin) : 0;
+  last_frame_ = begin;
+  play_frame(input, frame_seconds);
+  const double tick_seconds = seconds_between(begin, Clock::now());
+  grant(ui_.lay_out(choices_, *session_, player_, figures_, notices()));
+
+  if (const sim::MaskKey key = session_->live().stage().masks.key(); !(key == masks_)) {
+    screen_->set_masks(session_->live().stage().masks);
+    masks_ = key;
+  }
+  if (shaders_.follow(screen_->context())) ++changes_;
+  follow_quality();
+  screen_->set_vertical_sync(choices_.vertical_sync);
+  lose_for_tests();
+  if (draw()) {
+    finish_frame(begin, frame_seconds, tick_seconds);
+  } else {
+    window_.poll(kIdleSeconds);  // nothing to be seen
+  }
+  if (done_ && !options_.screenshot.empty()) save_screenshot(options_.screenshot);
+}
+
+void Viewer::finish_frame(Clock::time_point begin, double frame_seconds, double tick_seconds) {
+  screen_->wait();
+  if (frame_seconds == 0) return;  // the first has none before it
+  const double latency = seconds_between(begin, Clock::now());
+  FrameFigures figures;
+  figures.frame_ms = 1e3 * frame_seconds;
+  figures.tick_ms = 1e3 * tick_seconds;
+  figures.latency_ms = 1e3 * latency;
+  figures.passes = screen_->timings();
+  double device_ms = 0;
+  for (const auto& pass : figures.passes) device_ms += pass.milliseconds;
+  // Without what was spent waiting for the screen.
+  figures.work_ms = device_ms + 1e3 * (tick_seconds + screen_->record_seconds());
+  quality_.add_frame(1e-3 * figures.work_ms, frame_seconds);
+  figures_.add(std::move(figures));
+}
+
+void Viewer::save_screenshot(const std::filesystem::path& picture) {
+  std::vector<shared::Hole> holes;
+  const glm::uvec2 size = glm::max(window_.size_px(), glm::uvec2(1));
+  screen_->wait();
+  const image::Image8 image = screen_->picture(frame_input(holes), size);
+  continues_ = false;
+  still_is_best_ = false;
+  const auto saved = save_moment(picture, image, session_->moment(player_.camera()));
+  say(saved ? "saved: " + picture.string() : saved.failure().message);
+  if (!saved && done_) throw Error(saved.failure());
+}
+
+void Viewer::save_recording(const std::filesystem::path& path) {
+  const auto saved = scene::save_timeline(path, session_->recording());
+  say(saved ? "saved: " + path.string() : saved.failure().message);
+  if (!saved && done_) throw Error(saved.failure());
+}
+
+ViewerReport Viewer::report() {
+  done_ = true;
+  if (!options_.record.empty()) save_recording(options_.record);
+  ViewerReport report;
+  report.device = screen_->context().info().name;
+  report.quality = quality_.quality().name;
+  report.frames = figures_.count();
+  report.seconds = session_->seconds();
+  report.frames_per_second = figures_.frames_per_second();
+  report.work_ms = figures_.median(&FrameFigures::work_ms);
+  report.latency_ms = figures_.median(&FrameFigures::latency_ms);
+  report.tick_ms = figures_.median(&FrameFigures::tick_ms);
+  for (const std::string& name : figures_.pass_names())
+    report.passes_ms.emplace_back(name, figures_.pass_median(name));
+  report.tick = session_->simulation().world().tick();
+  report.state_hash = session_->simulation().world().state_hash();
+  report.process_bytes = resident_bytes();
+  report.device_bytes = screen_->context().memory().bytes_in_use();
+  report.shader_reloads = shaders_.reloads();
+  report.devices_lost = devices_lost_;
+  screen_->wait();
+  take_messages();
+  report.validation_messages = std::move(messages_);
+  return report;
+}
+
+}  // namespace
+
+ViewerReport run_viewer(stage::Stage stage, bool play, const ViewerOptions& options) {
+  return Viewer(std::move(stage), play, options).run();
+}
+
+}  // namespace brume::viewer

@@ -1,0 +1,162 @@
+#include "apps/viewer/window.hpp"
+
+// vulkan.h comes first so that GLFW declares its functions for it.
+#include "gpu/functions.hpp"
+// GLFW after it.
+#include <GLFW/glfw3.h>
+
+#include "core/error.hpp"
+
+namespace brume::viewer {
+namespace {
+
+std::string glfw_message() {
+  const char* text = nullptr;
+  ::glfwGetError(&text);
+  std::string message = text ? text : "";
+  while (!message.empty() && (message.back() == '\n' || message.back() == '.')) message.pop_back();
+  return message;
+}
+
+[[noreturn]] void no_window(const std::string& why) {
+  throw Error(ErrorCode::no_device, "cannot open a window" + (why.empty() ? "" : " (" + why + ")") +
+                                        "; without a display use brume render");
+}
+
+}  // namespace
+
+Window::Window(glm::uvec2 size_px, const std::string& title) {
+  if (!::glfwInit()) no_window(glfw_message());
+  if (!::glfwVulkanSupported()) {
+    ::glfwTerminate();
+    throw Error(
+        ErrorCode::no_device,
+        "no Vulkan loader that can show pictures in a window; install libvulkan1 and a driver such as "
+        "mesa-vulkan-drivers");
+  }
+  ::glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  handle_ = ::glfwCreateWindow(static_cast<int>(size_px.x), static_cast<int>(size_px.y), title.c_str(),
+                               nullptr, nullptr);
+  if (!handle_) {
+    const std::string why = glfw_message();
+    ::glfwTerminate();
+    no_window(why);
+  }
+  ::glfwSetWindowUserPointer(handle_, this);
+  ::glfwSetKeyCallback(handle_, on_key);
+  ::glfwSetMouseButtonCallback(handle_, on_button);
+  ::glfwSetCursorPosCallback(handle_, on_cursor);
+  ::glfwSetScrollCallback(handle_, on_wheel);
+  ::glfwSetWindowFocusCallback(handle_, on_focus);
+}
+
+Window::~Window() {
+  ::glfwDestroyWindow(handle_);
+  ::glfwTerminate();
+}
+
+gpu::Presentation Window::presentation() const {
+  gpu::Presentation presentation;
+  std::uint32_t count = 0;
+  const char** const names = ::glfwGetRequiredInstanceExtensions(&count);
+  presentation.instance_extensions.assign(names, names + count);
+  presentation.supported = [](VkInstance instance, VkPhysicalDevice device, std::uint32_t family) {
+    return ::glfwGetPhysicalDevicePresentationSupport(instance, device, family) == GLFW_TRUE;
+  };
+  return presentation;
+}
+
+gpu::SurfaceMaker Window::surface() const {
+  const auto make = [window = handle_](VkInstance instance) {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    gpu::check(::glfwCreateWindowSurface(instance, window, nullptr, &surface), "glfwCreateWindowSurface");
+    return surface;
+  };
+  return {make, [this] { return size_px(); }};
+}
+
+glm::uvec2 Window::size_px() const {
+  int width = 0, height = 0;
+  ::glfwGetFramebufferSize(handle_, &width, &height);
+  return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
+
+bool Window::should_close() const {
+  return ::glfwWindowShouldClose(handle_) == GLFW_TRUE;
+}
+
+void Window::poll(double wait_seconds) {
+  if (wait_seconds > 0) {
+    ::glfwWaitEventsTimeout(wait_seconds);
+  } else {
+    ::glfwPollEvents();
+  }
+}
+
+Input Window::take_input() {
+  Input taken = input_;
+  input_.pressed.clear();
+  input_.look_px = glm::dvec2(0);
+  input_.wheel = 0;
+  return taken;
+}
+
+void Window::hold_mouse(bool hold) {
+  if (hold == holds_mouse_) return;
+  holds_mouse_ = hold;
+  knows_cursor_ = false;
+  ::glfwSetInputMode(handle_, GLFW_CURSOR, hold ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+}
+
+glm::vec2 Window::cursor_px() const {
+  double x = 0, y = 0;
+  int width = 1, height = 1;
+  ::glfwGetCursorPos(handle_, &x, &y);
+  ::glfwGetWindowSize(handle_, &width, &height);
+  // The cursor is in the units of the desktop, pictures are in pixels.
+  const glm::dvec2 scale = glm::dvec2(size_px()) / glm::dvec2(std::max(width, 1), std::max(height, 1));
+  return glm::vec2(glm::dvec2(x, y) * scale);
+}
+
+void Window::set_title(const std::string& title) {
+  ::glfwSetWindowTitle(handle_, title.c_str());
+}
+
+void Window::change(bool mouse, int code, bool pressed) {
+  for (const KeyBinding& binding : key_bindings()) {
+    if (binding.mouse != mouse || binding.code != code) continue;
+    input_.held[static_cast<std::size_t>(binding.action)] = pressed;
+    if (pressed) input_.pressed.push_back(binding.action);
+  }
+}
+
+void Window::on_key(GLFWwindow* window, int key, int, int change, int) {
+  auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
+  if (change == GLFW_REPEAT) return;
+  self->change(false, key, change == GLFW_PRESS);
+}
+
+void Window::on_button(GLFWwindow* window, int button, int change, int) {
+  static_cast<Window*>(::glfwGetWindowUserPointer(window))->change(true, button, change == GLFW_PRESS);
+}
+
+void Window::on_cursor(GLFWwindow* window, double x, double y) {
+  auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
+  const glm::dvec2 now(x, y);
+  if (self->holds_mouse_ && self->knows_cursor_) self->input_.look_px += now - self->last_cursor_;
+  self->last_cursor_ = now;
+  self->knows_cursor_ = true;
+}
+
+void Window::on_wheel(GLFWwindow* window, double, double y) {
+  static_cast<Window*>(::glfwGetWindowUserPointer(window))->input_.wheel += y;
+}
+
+// What was held when the window lost the keyboard will not be heard of again.
+void Window::on_focus(GLFWwindow* window, int focused) {
+  auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
+  if (!focused) self->input_.held.fill(false);
+  self->knows_cursor_ = false;
+}
+
+}  // namespace brume::viewer

@@ -1,0 +1,18 @@
+// Panels, text and lines over a picture.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/ui.h"
+
+layout(scalar, binding = 0) readonly buffer Vertices { UiVertex vertices[]; };
+layout(push_constant, scalar) uniform Push { UiConstants ui; };
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out vec2 uv;
+
+void main() {
+  const UiVertex vertex = vertices[gl_VertexIndex];
+  colour = unpackUnorm4x8(vertex.colour);
+  uv = vertex.uv;
+  gl_Position = vec4(2.0 * (vertex.position - ui.origin) / ui.size - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,257 @@
+#include "tests/viewer/desktop.hpp"
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/extensions/XTest.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace brume::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int kPollMs = 20;
+
+/// Starts a program whose environment is the test's own with a DISPLAY; standard error goes to a file.
+pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+            const std::string& display, const std::filesystem::path& error_file, int inherited) {
+  std::vector<char*> words;
+  for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  if (!display.empty()) ::setenv("DISPLAY", display.c_str(), 1);
+  ::unsetenv("WAYLAND_DISPLAY");
+  const int file = ::open(error_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  ::dup2(file, 2);
+  ::dup2(file, 1);
+  if (inherited >= 0) ::fcntl(inherited, F_SETFD, 0);
+  if (::chdir(folder.c_str()) != 0) ::_exit(126);
+  ::execvp(words[0], words.data());
+  ::_exit(127);
+}
+
+// Windows come and go while they are looked at.
+int ignore_errors(Display*, XErrorEvent*) {
+  return 0;
+}
+
+/// The largest window that can be seen on the desktop; 0: none.
+Window find_window(Display* display) {
+  Window root = 0, parent = 0, *children = nullptr;
+  unsigned count = 0;
+  Window found = 0;
+  if (!::XQueryTree(display, DefaultRootWindow(display), &root, &parent, &children, &count)) return 0;
+  int largest = 1;  // GLFW keeps a helper window of one pixel
+  for (unsigned i = 0; i < count; ++i) {
+    XWindowAttributes attributes{};
+    if (!::XGetWindowAttributes(display, children[i], &attributes)) continue;
+    if (attributes.map_state != IsViewable || attributes.width * attributes.height <= largest) continue;
+    largest = attributes.width * attributes.height;
+    found = children[i];
+  }
+  if (children) ::XFree(children);
+  return found;
+}
+
+bool has_picture(const image::Image8& picture) {
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+    if (picture.rgba[i] > 8 || picture.rgba[i + 1] > 8 || picture.rgba[i + 2] > 8) return true;
+  return false;
+}
+
+}  // namespace
+
+void sleep_ms(int milliseconds) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+Desktop::Desktop() {
+  ::XSetErrorHandler(ignore_errors);
+  int ends[2];
+  if (::pipe(ends) != 0) return;
+  // The server picks a free number and says it.
+  server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x720x24", "-nolisten",
+                   "tcp", "+extension", "XTEST"},
+                  "/", "", "/dev/null", ends[1]);
+  ::close(ends[1]);
+  char text[16] = {};
+  ssize_t got = 0;
+  std::string said;
+  while (said.find('\n') == std::string::npos && (got = ::read(ends[0], text, sizeof text - 1)) > 0)
+    said.append(text, static_cast<std::size_t>(got));
+  ::close(ends[0]);
+  if (said.empty()) {
+    ADD_FAILURE() << "Xvfb does not start; install xvfb";
+    return;
+  }
+  name_.push_back(':');
+  name_.append(said.data(), said.find('\n'));
+  display_ = ::XOpenDisplay(name_.c_str());
+  EXPECT_NE(display_, nullptr) << name_;
+}
+
+Desktop::~Desktop() {
+  if (display_) ::XCloseDisplay(display_);
+  if (server_ <= 0) return;
+  ::kill(server_, SIGTERM);
+  ::waitpid(server_, nullptr, 0);
+}
+
+Program::Program(const Desktop& desktop, const std::filesystem::path& folder,
+                 const std::vector<std::string>& arguments)
+    : desktop_(desktop), error_file_(folder / "standard_error.txt") {
+  std::vector<std::string> words{BRUME_PROGRAM, "view"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  process_ = start(words, folder, desktop.name(), error_file_, -1);
+}
+
+Program::~Program() {
+  if (runs()) wait(0);
+}
+
+bool Program::runs() {
+  if (process_ <= 0) return false;
+  if (::waitpid(process_, &status_, WNOHANG) == 0) return true;
+  process_ = -1;
+  return false;
+}
+
+std::uint64_t Program::resident_bytes() const {
+  std::ifstream file("/proc/" + std::to_string(process_) + "/statm");
+  std::uint64_t all = 0, resident = 0;
+  if (!(file >> all >> resident)) return 0;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+int Program::wait(int seconds) {
+  const auto end = Clock::now() + std::chrono::seconds(seconds);
+  while (runs() && Clock::now() < end) sleep_ms(kPollMs);
+  if (runs()) {
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, &status_, 0);
+    process_ = -1;
+  }
+  return WIFSIGNALED(status_) ? 128 + WTERMSIG(status_) : WEXITSTATUS(status_);
+}
+
+std::string Program::error() const {
+  std::ostringstream text;
+  text << std::ifstream(error_file_).rdbuf();
+  return text.str();
+}
+
+bool Program::wait_for_window() {
+  const auto end = Clock::now() + std::chrono::seconds(60);
+  while (runs() && Clock::now() < end) {
+    window_ = find_window(desktop_.display());
+    if (window_ && has_picture(picture())) {
+      ::XSetInputFocus(desktop_.display(), window_, RevertToParent, CurrentTime);
+      ::XSync(desktop_.display(), False);
+      return true;
+    }
+    sleep_ms(kPollMs);
+  }
+  return false;
+}
+
+void Program::key(unsigned long symbol, bool down) {
+  ::XTestFakeKeyEvent(desktop_.display(), ::XKeysymToKeycode(desktop_.display(), symbol), down ? True : False,
+                      0);
+  ::XSync(desktop_.display(), False);
+}
+
+void Program::tap(unsigned long symbol) {
+  key(symbol, true);
+  key(symbol, false);
+}
+
+void Program::button(unsigned number, bool down) {
+  ::XTestFakeButtonEvent(desktop_.display(), number, down ? True : False, 0);
+  ::XSync(desktop_.display(), False);
+}
+
+void Program::click(unsigned number) {
+  button(number, true);
+  button(number, false);
+}
+
+void Program::move_mouse(int x, int y) {
+  ::XTestFakeRelativeMotionEvent(desktop_.display(), x, y, 0);
+  ::XSync(desktop_.display(), False);
+}
+
+void Program::place_mouse(int x, int y) {
+  ::XWarpPointer(desktop_.display(), 0, window_, 0, 0, 0, 0, x, y);
+  ::XSync(desktop_.display(), False);
+}
+
+void Program::resize(unsigned width, unsigned height) {
+  ::XResizeWindow(desktop_.display(), window_, width, height);
+  ::XSync(desktop_.display(), False);
+}
+
+void Program::hide() {
+  ::XUnmapWindow(desktop_.display(), window_);
+  ::XSync(desktop_.display(), False);
+}
+
+void Program::show() {
+  ::XMapWindow(desktop_.display(), window_);
+  ::XSync(desktop_.display(), False);
+  sleep_ms(100);
+  ::XSetInputFocus(desktop_.display(), window_, RevertToParent, CurrentTime);
+  ::XSync(desktop_.display(), False);
+}
+
+void Program::close() {
+  Display* const display = desktop_.display();
+  XEvent event{};
+  event.xclient.type = ClientMessage;
+  event.xclient.window = window_;
+  event.xclient.message_type = ::XInternAtom(display, "WM_PROTOCOLS", False);
+  event.xclient.format = 32;
+  event.xclient.data.l[0] = static_cast<long>(::XInternAtom(display, "WM_DELETE_WINDOW", False));
+  ::XSendEvent(display, window_, False, NoEventMask, &event);
+  ::XSync(display, False);
+}
+
+image::Image8 Program::picture() {
+  image::Image8 picture;
+  XWindowAttributes attributes{};
+  if (!::XGetWindowAttributes(desktop_.display(), window_, &attributes)) return picture;
+  const auto width = static_cast<unsigned>(attributes.width),
+             height = static_cast<unsigned>(attributes.height);
+  XImage* const image = ::XGetImage(desktop_.display(), window_, 0, 0, width, height, AllPlanes, ZPixmap);
+  if (!image) return picture;
+  picture.width = width;
+  picture.height = height;
+  picture.rgba.reserve(std::size_t{4} * width * height);
+  for (unsigned y = 0; y < height; ++y) {
+    for (unsigned x = 0; x < width; ++x) {
+      const unsigned long pixel = XGetPixel(image, static_cast<int>(x), static_cast<int>(y));
+      for (const int shift : {16, 8, 0}) picture.rgba.push_back(static_cast<std::uint8_t>(pixel >> shift));
+      picture.rgba.push_back(255);
+    }
+  }
+  XDestroyImage(image);
+  return picture;
+}
+
+bool Program::wait_for_picture(const std::function<bool(const image::Image8&)>& wanted, int seconds) {
+  const auto end = Clock::now() + std::chrono::seconds(seconds);
+  while (runs() && Clock::now() < end) {
+    if (wanted(picture())) return true;
+    sleep_ms(50);
+  }
+  return false;
+}
+
+}  // namespace brume::viewer

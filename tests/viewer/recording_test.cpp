@@ -1,0 +1,108 @@
+// What is done at the window is recorded, and what is recorded plays back bit for bit.
+#include <X11/keysym.h>
+
+#include "image/decode.hpp"
+#include "scene/timeline.hpp"
+#include "tests/viewer/room.hpp"
+
+namespace brume::viewer {
+namespace {
+
+class RecordingTest : public testing::Test {
+ protected:
+  RecordingTest() { write_room(folder_); }
+
+  std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
+  image::Image8 png(const std::string& name) const { return image::load_image(file(name)).value_or_throw(); }
+
+  cli::WorkFolder folder_;
+  Desktop desktop_;
+};
+
+TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndPictures) {
+  {
+    Program program(desktop_, folder_.path(),
+                    {"room.toml", "--size", "192x128", "--quality", "quarter", "--word", "HI", "--record",
+                     "made.toml", "--json", "made.json"});
+    ASSERT_TRUE(program.wait_for_window()) << program.error();
+    program.click(1);  // throw
+    sleep_ms(1200);
+    for (int shot = 0; shot < 20; ++shot) {
+      program.move_mouse(shot % 5 * 6 - 12, shot / 5 * 4 - 6);
+      program.click(3);
+      sleep_ms(40);
+    }
+    program.tap(XK_3);
+    program.click(3);  // the word
+    program.tap(XK_e);
+    sleep_ms(200);
+    program.tap(XK_f);
+    // An orbit: sidewards, turning back.
+    program.key(XK_a, true);
+    for (int i = 0; i < 10; ++i) {
+      program.move_mouse(20, 0);
+      sleep_ms(50);
+    }
+    program.key(XK_a, false);
+    sleep_ms(300);
+    program.close();
+    ASSERT_EQ(program.wait(), 0) << program.error();
+  }
+  const auto made = scene::load_timeline(file("made.toml"));
+  ASSERT_TRUE(made) << made.failure().message;
+  EXPECT_EQ(made->smokes.size(), 1u);
+  EXPECT_EQ(made->shots.size(), 20u);
+  EXPECT_EQ(made->texts.size(), 1u);
+  EXPECT_EQ(made->blasts.size(), 1u);
+  EXPECT_EQ(made->doors.size(), 1u);
+  EXPECT_GT(made->camera.size(), 4u);
+
+  std::vector<std::string> hashes;
+  std::vector<image::Image8> pictures;
+  for (const std::string name : {"first", "second"}) {
+    Program program(desktop_, folder_.path(),
+                    {"--play", "made.toml", "--size", "192x128", "--exit-after",
+                     std::to_string(static_cast<double>(made->duration)), "--screenshot", name + ".png",
+                     "--json", name + ".json"});
+    ASSERT_EQ(program.wait(), 0) << program.error();
+    hashes.push_back(read_json(file(name + ".json")).at("state_hash"));
+    pictures.push_back(png(name + ".png"));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(pictures[0].rgba, pictures[1].rgba);
+  EXPECT_GT(count_colours(pictures[0]), 100u);
+  // And what was played live ended in the same state.
+  const auto live = read_json(file("made.json")), played = read_json(file("first.json"));
+  ASSERT_EQ(live.at("tick"), played.at("tick"));
+  EXPECT_EQ(live.at("state_hash"), played.at("state_hash"));
+}
+
+TEST_F(RecordingTest, AScreenshotIsWhatRenderDrawsAndWhatTheWindowShows) {
+  Program program(desktop_, folder_.path(),
+                  {"room.toml", "--size", "200x120", "--bare", "--quality", "full"});
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  program.click(1);
+  sleep_ms(1500);
+  program.click(3);
+  sleep_ms(200);
+  program.tap(XK_p);
+  program.tap(XK_F12);
+  const auto is_there = [&] { return std::filesystem::exists(file("brume_0001.png")); };
+  for (int i = 0; i < 300 && !is_there(); ++i) sleep_ms(50);
+  ASSERT_TRUE(is_there()) << program.error();
+  const image::Image8 screenshot = png("brume_0001.png");
+
+  const cli::Outcome rendered =
+      cli::run_brume(folder_.path(), {"render", "brume_0001.toml", "-o", "again.png", "--size", "200x120"});
+  ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
+  EXPECT_LE(largest_difference(screenshot, png("again.png")), 1);
+  // The window shows the same once nothing moves.
+  EXPECT_TRUE(program.wait_for_picture([&](const image::Image8& shown) {
+    return largest_difference(shown, screenshot) <= 1;
+  })) << largest_difference(program.picture(), screenshot);
+  program.close();
+  EXPECT_EQ(program.wait(), 0) << program.error();
+}
+
+}  // namespace
+}  // namespace brume::viewer

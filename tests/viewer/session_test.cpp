@@ -1,0 +1,132 @@
+// A session without a window: its clock, its deeds, its recording.
+#include "apps/viewer/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scene/timeline_writer.hpp"
+#include "tests/viewer/room.hpp"
+
+namespace brume::viewer {
+namespace {
+
+class SessionTest : public testing::Test {
+ protected:
+  SessionTest() {
+    write_room(folder_);
+    session_ = open("room.toml", false);
+  }
+  std::unique_ptr<Session> open(const std::string& name, bool play) const {
+    return Session::create(stage::load_stage(folder_.path() / name, {}).value_or_throw(), play)
+        .value_or_throw();
+  }
+
+  cli::WorkFolder folder_;
+  std::unique_ptr<Session> session_;
+  const glm::vec3 eye_{0.5f, 1.6f, 3.2f};
+  const glm::vec3 ahead_ = glm::normalize(glm::vec3(-0.05f, -0.1f, -1));
+};
+
+TEST_F(SessionTest, DeedsHappenAtTheNextTick) {
+  session_->advance(0.1);
+  const double now = session_->seconds();
+  ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
+  const auto& smokes = session_->live().stage().timeline.smokes;
+  ASSERT_EQ(smokes.size(), 1u);
+  EXPECT_GT(smokes[0].time, now);
+  EXPECT_LE(smokes[0].time, now + Session::kTick);
+  EXPECT_EQ(std::fmod(smokes[0].time, Session::kTick), 0);
+}
+
+TEST_F(SessionTest, TimeStandsStillWhilePausedAndSlowsForLongFrames) {
+  session_->set_paused(true);
+  const double before = session_->seconds();
+  session_->advance(0.1);
+  EXPECT_EQ(session_->seconds(), before);
+  session_->step(3);
+  EXPECT_EQ(session_->simulation().world().tick(), 4u);
+  session_->step(-2);
+  EXPECT_EQ(session_->simulation().world().tick(), 2u);
+  session_->set_paused(false);
+  session_->advance(10);
+  EXPECT_NEAR(session_->seconds(), 2 * Session::kTick + Session::kLongestFrame, 1e-6);
+}
+
+TEST_F(SessionTest, WhatIsDoneIsRecordedAndPlaysToTheSameState) {
+  Weapons weapons;
+  weapons.text.text = "HI";
+  ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
+  for (int i = 0; i < 90; ++i) session_->advance(1.0 / 60);
+  ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
+  ASSERT_TRUE(session_->blast(eye_, ahead_, weapons));  // of the same tick
+  weapons.kind = ShotKind::word;
+  ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
+  session_->advance(0.2);
+  weapons.kind = ShotKind::glyph;
+  ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
+  ASSERT_TRUE(session_->use_door(eye_));
+  scene::Camera camera;
+  for (int i = 0; i < 60; ++i) {
+    session_->advance(1.0 / 60);
+    camera.position_world.x += 0.01f;
+    session_->record_camera(camera);
+  }
+  const auto path = folder_.path() / "made.toml";
+  ASSERT_TRUE(scene::save_timeline(path, session_->recording()));
+  const auto again = open("made.toml", true);
+  again->seek(session_->seconds());
+  EXPECT_EQ(again->simulation().world().tick(), session_->simulation().world().tick());
+  EXPECT_EQ(again->simulation().world().state_hash(), session_->simulation().world().state_hash());
+  EXPECT_GT(session_->simulation().world().state().clouds.size(), 0u);
+  // About eight keys a second, and none of them lies.
+  const scene::Timeline recording = session_->recording();
+  EXPECT_GE(recording.camera.size(), 6u);
+  EXPECT_LE(recording.camera.size(), 10u);
+}
+
+TEST_F(SessionTest, LettersComeOneAfterTheOther) {
+  Weapons weapons;
+  weapons.kind = ShotKind::glyph;
+  weapons.text.text =
+      "A \xc3\x84"
+      "B";
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
+  std::vector<std::string> letters;
+  for (const auto& text : session_->live().stage().timeline.texts) letters.push_back(text.text);
+  EXPECT_EQ(letters, (std::vector<std::string>{"A", "\xc3\x84", "B", "A"}));
+}
+
+TEST_F(SessionTest, DoorsOpenAndShut) {
+  const auto hidden = [&] { return session_->simulation().hidden_objects().size(); };
+  EXPECT_EQ(hidden(), 0u);
+  EXPECT_EQ(session_->use_door(eye_).value_or_throw(), "opened: Door");
+  session_->advance(0.1);
+  EXPECT_EQ(hidden(), 1u);
+  EXPECT_EQ(session_->use_door(eye_).value_or_throw(), "shut: Door");
+  session_->advance(0.1);
+  EXPECT_EQ(hidden(), 0u);
+}
+
+TEST_F(SessionTest, ResetForgetsWhatWasDone) {
+  const std::uint64_t before = session_->simulation().world().state_hash();
+  ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
+  session_->advance(0.25);
+  ASSERT_NE(session_->simulation().world().state_hash(), before);
+  ASSERT_TRUE(session_->reset());
+  EXPECT_EQ(session_->simulation().world().state_hash(), before);
+  EXPECT_EQ(session_->recording().smokes.size(), 0u);
+}
+
+TEST_F(SessionTest, WhatCannotBeIsSaidInOneLine) {
+  const auto thrown = session_->throw_smoke(glm::vec3(0, 50, 0), glm::vec3(0, 1, 0));
+  ASSERT_FALSE(thrown);
+  EXPECT_EQ(thrown.failure().message.find('\n'), std::string::npos);
+  Weapons weapons;
+  weapons.kind = ShotKind::picture;
+  EXPECT_FALSE(session_->shoot(eye_, ahead_, weapons));
+  weapons.picture = folder_.path() / "none.png";
+  EXPECT_FALSE(session_->shoot(eye_, ahead_, weapons));
+  EXPECT_EQ(session_->recording().shots.size(), 0u);
+}
+
+}  // namespace
+}  // namespace brume::viewer

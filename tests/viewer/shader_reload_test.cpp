@@ -1,0 +1,67 @@
+#include "apps/viewer/shader_reload.hpp"
+
+#include <fstream>
+
+#include "brume_shaders.hpp"
+#include "tests/cli/run_program.hpp"
+#include "tests/gpu/gpu_test.hpp"
+
+namespace brume::viewer {
+namespace {
+
+const std::filesystem::path kShaders = BRUME_SOURCE_DIR "/shaders";
+
+class ShaderReloadTest : public gpu::GpuTest {
+ protected:
+  /// Compiles display.comp with a part of it replaced.
+  static Result<std::vector<std::uint32_t>> compile(const cli::WorkFolder& folder, const std::string& from,
+                                                    const std::string& to) {
+    std::filesystem::copy(kShaders, folder.path() / "shaders", std::filesystem::copy_options::recursive);
+    const auto path = folder.path() / "shaders" / "display.comp";
+    std::ifstream in(path);
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(path, std::ios::trunc) << text;
+    return compile_shader(folder.path() / "shaders", "display.comp");
+  }
+};
+
+TEST_F(ShaderReloadTest, CompilesWhatTheBuildCompiles) {
+  for (const gpu::ShaderCode* built : {&shaders::display_comp, &shaders::march_comp, &shaders::ui_vert}) {
+    const auto words = compile_shader(kShaders, built->name);
+    ASSERT_TRUE(words) << words.failure().message;
+    EXPECT_TRUE(std::equal(words->begin(), words->end(), built->words.begin(), built->words.end()))
+        << built->name;
+  }
+}
+
+TEST_F(ShaderReloadTest, SaysWhereAFaultIs) {
+  const cli::WorkFolder folder;
+  const auto words = compile(folder, "srgb_from_linear(", "no_such_function(");
+  ASSERT_FALSE(words);
+  EXPECT_NE(words.failure().message.find("display.comp:"), std::string::npos) << words.failure().message;
+  EXPECT_NE(words.failure().message.find("no_such_function"), std::string::npos);
+}
+
+TEST_F(ShaderReloadTest, RefusesAnotherInterface) {
+  const gpu::ComputePipeline pipeline(context(), shaders::display_comp,
+                                      {gpu::kUniform, gpu::kSampled, gpu::kStored, gpu::kStored}, 0,
+                                      {8, 8, 1});
+  const std::vector<std::pair<std::string, std::string>> changes{
+      {"binding = 3", "binding = 4"},
+      {"local_size_x = 8", "local_size_x = 16"},
+      {"layout(binding = 1) uniform sampler2D blue_noise_tile",
+       "layout(binding = 0) uniform sampler2D blue_noise_tile"}};
+  for (const auto& [from, to] : changes) {
+    const cli::WorkFolder folder;
+    const auto words = compile(folder, from, to);
+    ASSERT_TRUE(words) << words.failure().message;
+    EXPECT_FALSE(check_fit(*words, pipeline, "display.comp")) << to;
+  }
+  const auto same = compile_shader(kShaders, "display.comp");
+  ASSERT_TRUE(same);
+  EXPECT_TRUE(check_fit(*same, pipeline, "display.comp"));
+}
+
+}  // namespace
+}  // namespace brume::viewer

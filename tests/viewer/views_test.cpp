@@ -1,0 +1,42 @@
+// Every debug view shows something, and something of its own.
+#include <X11/keysym.h>
+
+#include "passes/debug_view.hpp"
+#include "tests/viewer/room.hpp"
+
+namespace brume::viewer {
+namespace {
+
+TEST(ViewsTest, EachIsNotBlankAndUnlikeTheOthers) {
+  const cli::WorkFolder folder;
+  write_room(folder);
+  const Desktop desktop;
+  Program program(desktop, folder.path(),
+                  {"room.toml", "--size", "192x128", "--quality", "half", "--bare", "--validation"});
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  program.click(1);
+  sleep_ms(1500);
+  program.click(3);
+  sleep_ms(300);
+  program.tap(XK_p);
+  sleep_ms(1500);  // the still picture at its best
+  std::vector<image::Image8> pictures{program.picture()};
+  for (std::size_t view = 1; view < passes::kDebugViewNames.size(); ++view) {
+    program.tap(XK_v);
+    const bool changed = program.wait_for_picture(
+        [&](const auto& now) { return mean_difference(now, pictures.back()) > 1; }, 20);
+    EXPECT_TRUE(changed) << passes::kDebugViewNames[view];
+    sleep_ms(1000);
+    pictures.push_back(program.picture());
+    EXPECT_GT(count_colours(pictures.back()), 2u) << passes::kDebugViewNames[view];
+  }
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT(mean_difference(pictures[i], pictures[j]), 1)
+          << passes::kDebugViewNames[i] << " and " << passes::kDebugViewNames[j];
+  program.close();
+  EXPECT_EQ(program.wait(), 0) << program.error();
+}
+
+}  // namespace
+}  // namespace brume::viewer

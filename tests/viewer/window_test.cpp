@@ -1,0 +1,141 @@
+// The window itself: keys and mouse, panels, sizes, what may be lost, shaders that change.
+#include <X11/keysym.h>
+
+#include "tests/viewer/room.hpp"
+
+namespace brume::viewer {
+namespace {
+
+class WindowTest : public testing::Test {
+ protected:
+  WindowTest() { write_room(folder_); }
+
+  std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
+  std::vector<std::string> arguments(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words{"room.toml", "--size", "192x128", "--quality", "quarter", "--validation"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  static void expect_end(Program& program) {
+    program.close();
+    EXPECT_EQ(program.wait(), 0) << program.error();
+  }
+
+  cli::WorkFolder folder_;
+  Desktop desktop_;
+};
+
+TEST(NoDisplayTest, SaysSoAndNamesRender) {
+  const cli::WorkFolder folder;
+  cli::RunOptions options;
+  options.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+  cli::expect_failure(folder, {"view", BRUME_SOURCE_DIR "/scenes/demo.toml"}, 5,
+                      {"cannot open a window", "brume render"}, options);
+}
+
+TEST_F(WindowTest, ThrowsAndShoots) {
+  Program program(desktop_, folder_.path(), arguments({"--bare"}));
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  const image::Image8 empty = program.picture();
+  program.click(1);
+  // Smoke fills what is seen.
+  ASSERT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, empty) > 8; }))
+      << mean_difference(program.picture(), empty);
+  sleep_ms(1500);
+  // A hole where it is aimed, and nowhere else.
+  const auto part = [](const image::Image8& picture, unsigned left, unsigned top) {
+    image::Image8 cut;
+    for (unsigned y = top; y < top + 12; ++y)
+      for (unsigned x = 4 * left; x < 4 * (left + 12); ++x)
+        cut.rgba.push_back(picture.rgba[std::size_t{4} * picture.width * y + x]);
+    return cut;
+  };
+  const auto middle = [&](const image::Image8& picture) { return part(picture, 192 / 2 - 6, 128 / 2 - 6); };
+  const auto corner = [&](const image::Image8& picture) { return part(picture, 4, 4); };
+  const image::Image8 thick = program.picture();
+  program.click(3);
+  const auto is_pierced = [&](const image::Image8& now) {
+    return mean_difference(middle(now), middle(thick)) > 10 &&
+           mean_difference(corner(now), corner(thick)) < 3;
+  };
+  EXPECT_TRUE(program.wait_for_picture(is_pierced, 5))
+      << mean_difference(middle(program.picture()), middle(thick));
+  expect_end(program);
+}
+
+TEST_F(WindowTest, OpensPanelsAndHelp) {
+  Program program(desktop_, folder_.path(), arguments({"--size", "800x500", "--bare"}));
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  program.tap(XK_p);
+  sleep_ms(500);
+  const image::Image8 bare = program.picture();
+  program.tap(XK_Tab);
+  EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, bare) > 3; }));
+  program.tap(XK_Tab);
+  EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, bare) < 1; }));
+  program.tap(XK_h);
+  EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, bare) > 3; }));
+  expect_end(program);
+}
+
+TEST_F(WindowTest, SurvivesOtherSizesAndBeingHidden) {
+  Program program(desktop_, folder_.path(), arguments());
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  for (const glm::uvec2 size : {glm::uvec2(333, 77), glm::uvec2(16, 200), glm::uvec2(640, 360),
+                                glm::uvec2(1, 1), glm::uvec2(192, 128)}) {
+    program.resize(size.x, size.y);
+    EXPECT_TRUE(program.wait_for_picture(
+        [&](const auto& now) { return now.width == size.x && now.height == size.y; }));
+    sleep_ms(150);
+  }
+  program.hide();
+  sleep_ms(300);
+  program.show();
+  EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return count_colours(now) > 20; }));
+  expect_end(program);
+}
+
+TEST_F(WindowTest, SurvivesTheLossOfSurfaceAndDevice) {
+  Program program(
+      desktop_, folder_.path(),
+      arguments({"--lose-surface", "0.4", "--lose-device", "0.8", "--exit-after", "2", "--json", "r.json"}));
+  ASSERT_EQ(program.wait(), 0) << program.error();
+  const auto report = read_json(file("r.json"));
+  EXPECT_EQ(report.at("devices_lost"), 1);
+  EXPECT_TRUE(report.at("validation_messages").empty());
+}
+
+TEST_F(WindowTest, TakesShadersThatChangeAndRefusesBrokenOnes) {
+  std::filesystem::copy(BRUME_SHADERS_DIR, file("shaders"), std::filesystem::copy_options::recursive);
+  Program program(desktop_, folder_.path(),
+                  arguments({"--bare", "--shaders", "shaders", "--json", "r.json"}));
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  sleep_ms(600);  // it has looked at the files once
+  const auto rewrite = [&](const std::string& from, const std::string& to) {
+    std::ifstream in(file("shaders/display.comp"));
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, from.size(), to);
+    std::ofstream(file("shaders/display.comp"), std::ios::trunc) << text;
+  };
+  const std::string colour = "vec4(clamp(shown + noise / 255.0, 0.0, 1.0), 1.0)";
+  const std::string red = "vec4(1.0, 0.0, 0.0, 1.0)";
+  const auto is_red = [](const image::Image8& now) {
+    return count_colours(now) == 1 && now.rgba[0] == 255 && now.rgba[1] == 0;
+  };
+  rewrite(colour, red);
+  EXPECT_TRUE(program.wait_for_picture(is_red));
+  // Broken: the red one goes on.
+  rewrite(red, "vec4(1.0, 0.0, 0.0, unknown)");
+  sleep_ms(1500);
+  EXPECT_TRUE(program.runs());
+  EXPECT_TRUE(is_red(program.picture()));
+  rewrite("vec4(1.0, 0.0, 0.0, unknown)", colour);
+  EXPECT_TRUE(program.wait_for_picture([](const auto& now) { return count_colours(now) > 20; }));
+  expect_end(program);
+  EXPECT_EQ(read_json(file("r.json")).at("shader_reloads"), 2);
+}
+
+}  // namespace
+}  // namespace brume::viewer
