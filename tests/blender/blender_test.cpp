@@ -270,9 +270,11 @@ TEST_P(BlenderFormats, LampsShineAsInBlender) {
       ASSERT_NE(found, scene.lights.end()) << at.x << ' ' << at.y << ' ' << at.z;
       EXPECT_NEAR(double{found->intensity.r}, red, 1e-4 * red);
       EXPECT_EQ(found->kind, is_txt ? scene::LightKind::point : kind);
-      if (found->kind != scene::LightKind::spot) return;
-      // All lamps with a cone look from where they are to where build_lights() says.
-      const glm::dvec3 aim = blender.z > 3 ? glm::dvec3(0.2, 0.6, -0.9) : glm::dvec3(0, 0.5, -2);
+      if (found->kind == scene::LightKind::point) return;
+      // All lamps with a direction look from where they are to where build_lights() says.
+      const glm::dvec3 aim = blender.z > 8   ? glm::dvec3(-2, 0, -3)
+                             : blender.z > 3 ? glm::dvec3(0.2, 0.6, -0.9)
+                                             : glm::dvec3(0, 0.5, -2);
       const glm::dvec3 direction = glm::normalize(aim * metres - at);
       EXPECT_LT(glm::distance(glm::dvec3(found->direction_world), direction), 1e-4);
     };

@@ -3,6 +3,7 @@ sheared, instanced and modified objects, curves and letters, names that clash. U
 
 import math
 import os
+import types
 
 import bmesh
 import bpy
@@ -108,7 +109,8 @@ def instancing_nodes(thing):
     return group
 
 
-def build_courtyard(folder):
+def looks(folder):
+    """The materials, two with pictures: one of a file, one of none."""
     wall = brick_image("bricks", (0.5, 0.47, 0.43), (0.46, 0.24, 0.17), 0.22, 32)
     bricks = material("Old bricks", (1, 1, 1), 0.9, wall)
     paving = brick_image("paving", (0.17, 0.16, 0.15), (0.36, 0.34, 0.32), 0.15, 16)
@@ -117,36 +119,43 @@ def build_courtyard(folder):
     metal = material("metal", (0.45, 0.47, 0.5), 0.35)
     leaf = material("leaf", (0.08, 0.22, 0.05), 0.9)
     paint = material("paint", (0.65, 0.12, 0.06), 0.5)
+    return types.SimpleNamespace(bricks=bricks, ground=ground, wood=wood, metal=metal, leaf=leaf, paint=paint)
 
-    add("Ground", box_mesh("ground", (-6.13, -4.07, -0.21), (6.11, 5.09, 0), ground))
-    # The wall with its doorway is one mesh of boxes; "wall" and "Wall" are two objects.
-    add("Wall", box_mesh("left", (-6.13, 2, 0), (-0.61, 2.33, 4.17), bricks))
-    add("wall", box_mesh("right", (0.61, 2, 0), (6.11, 2.33, 4.17), bricks))
-    add("Wall.lintel", box_mesh("lintel", (-0.61, 2, 2.23), (0.61, 2.33, 4.17), bricks))
+
+def add_walls(look):
+    add("Ground", box_mesh("ground", (-6.13, -4.07, -0.21), (6.11, 5.09, 0), look.ground))
+    # Names that a file system may take for the same.
+    add("Wall", box_mesh("left", (-6.13, 2, 0), (-0.61, 2.33, 4.17), look.bricks))
+    add("wall", box_mesh("right", (0.61, 2, 0), (6.11, 2.33, 4.17), look.bricks))
+    add("Wall.lintel", box_mesh("lintel", (-0.61, 2, 2.23), (0.61, 2.33, 4.17), look.bricks))
 
     # A door: its handle is parented to it and has another material.
-    door = add("entrance", box_mesh("leaf of the door", (0, -0.04, 0.02), (1.18, 0.04, 2.19), wood))
+    door = add("entrance", box_mesh("leaf of the door", (0, -0.04, 0.02), (1.18, 0.04, 2.19), look.wood))
     door.location, door.rotation_euler = (-0.59, 2.16, 0), (0, 0, 0.05)
     door.brume.role = "DOOR"
-    add("handle", box_mesh("handle", (-0.02, -0.11, -0.02), (0.14, -0.04, 0.02), metal), door, location=(1, 0, 1.05))
+    handle = box_mesh("handle", (-0.02, -0.11, -0.02), (0.14, -0.04, 0.02), look.metal)
+    add("handle", handle, door, location=(1, 0, 1.05))
 
-    # Rotated about all axes and scaled unevenly; mirrored; mirrored by a parent that is itself rotated.
-    crate = box_mesh("crate", (-0.5, -0.5, -0.5), (0.5, 0.5, 0.5), wood)
+
+def add_blocks(look, crate):
+    """Rotated about all axes and scaled unevenly; mirrored; mirrored by a parent that is itself rotated."""
     add("Crate", crate, location=(2.6, -0.4, 0.43), rotation=(0, 0, 0.4), scale=(0.85, 0.85, 0.85))
     add("Crate.001", crate, location=(2.75, -0.35, 1.16), rotation=(0, 0, -0.3), scale=(0.6, 0.6, 0.6))
     add("Crate tipped", crate, location=(3.55, -1.13, 0.55), rotation=(0.5, 0.3, 1.1), scale=(0.9, 0.6, 0.7))
-    ramp = wedge_mesh("ramp", metal)
+    ramp = wedge_mesh("ramp", look.metal)
     add("Ramp", ramp, location=(-3.7, -1.2, 0.01), rotation=(0, 0, 0.3), scale=(0.5, 1.3, 0.5))
     add("Ramp mirrored", ramp, location=(-3.7, -1.2, 0.01), rotation=(0, 0, 0.3), scale=(-0.5, 1.3, 0.5))
     turned = add("turned", None, location=(4.63, 1.02, 0.3), rotation=(0.2, 0.1, 0.7), scale=(1.2, -0.5, 0.8))
     inner = add("inner", None, turned, rotation=(0.3, 0.6, 0.2))
     add("Ramp sheared", ramp, inner, location=(-0.4, 0.2, 0), rotation=(0.1, 0.4, 0.9), scale=(0.7, 0.6, 1))
-    add("Ball sheared", ball_mesh("ball", metal), inner, location=(0.9, 1.2, 0.3), scale=(0.5, 0.3, 0.4))
+    add("Ball sheared", ball_mesh("ball", look.metal), inner, location=(0.9, 1.2, 0.3), scale=(0.5, 0.3, 0.4))
     add("Ramp upside down", ramp, location=(-0.83, 1.99, 2.73), rotation=(math.pi, 0, 0), scale=(0.82, 0.7, 0.2))
 
-    # Modifiers, a curve, letters.
-    steps = add("Steps", box_mesh("step", (-0.61, -0.3, -0.02), (0.61, 0, 0.17), ground), location=(0.003, 1.98, 0))
-    steps.scale.z = 0.9
+
+def add_shapes(look):
+    """Modifiers, a curve, letters."""
+    step = box_mesh("step", (-0.61, -0.3, -0.02), (0.61, 0, 0.17), look.ground)
+    steps = add("Steps", step, location=(0.003, 1.98, 0), scale=(1, 1, 0.9))
     repeat = steps.modifiers.new("array", "ARRAY")
     repeat.count, repeat.use_relative_offset, repeat.use_constant_offset = 3, False, True
     repeat.constant_offset_displace = (0, -0.27, -0.05)
@@ -156,14 +165,16 @@ def build_courtyard(folder):
     spline.bezier_points.add(2)
     for point, place in zip(spline.bezier_points, ((-4.5, 1.85, 0.05), (-4.4, 1.8, 2.6), (-2.2, 1.85, 2.9))):
         point.co, point.handle_left_type, point.handle_right_type = place, "AUTO", "AUTO"
-    pipe.materials.append(metal)
+    pipe.materials.append(look.metal)
     add("Pipe", pipe)
     sign = bpy.data.curves.new("sign", "FONT")
     sign.body, sign.size, sign.extrude, sign.resolution_u = "BRUME", 0.7, 0.05, 2
-    sign.materials.append(paint)
+    sign.materials.append(look.paint)
     add("Sign", sign, location=(1.13, 1.94, 2.62), rotation=(math.pi / 2, 0, 0))
 
-    # A collection of bushes, instanced twice: turned, and mirrored. Smoke passes through them.
+
+def add_bushes(look):
+    """A collection of bushes, instanced twice: turned, and mirrored. Smoke passes through them."""
     bushes = bpy.data.collections.new("bushes")
     bush = bpy.data.meshes.new("bush")
     blades = 14
@@ -174,10 +185,10 @@ def build_courtyard(folder):
         points.append((reach * math.cos(angle), reach * math.sin(angle), 0.25 + 0.2 * (i % 2)))
         faces.append((0, 1 + i, 1 + (i + 1) % blades))
     bush.from_pydata(points, [], faces)
-    bush.materials.append(leaf)
+    bush.materials.append(look.leaf)
     made = add("Bush", bush, collection=bushes, location=(0.4, 0, 0))
     made.brume.role = "PASSABLE"
-    add("Pot", box_mesh("pot", (-0.2, -0.2, 0), (0.2, 0.2, 0.3), paint), collection=bushes, location=(0.4, 0, 0))
+    add("Pot", box_mesh("pot", (-0.2, -0.2, 0), (0.2, 0.2, 0.3), look.paint), collection=bushes, location=(0.4, 0, 0))
     for name, location, turn, scale in (
         ("bushes left", (-1.93, 1.34, 0.01), 0.8, (1, 1, 1)),
         ("bushes right", (2.31, 1.41, 0.01), 2.0, (-1.2, 1.2, 1.1)),
@@ -185,31 +196,49 @@ def build_courtyard(folder):
         instance = add(name, None, location=location, rotation=(0, 0, turn), scale=scale)
         instance.instance_type, instance.instance_collection = "COLLECTION", bushes
 
-    # Instances on the corners of a mesh, which replace the child that is instanced; and by geometry nodes.
+
+def add_instances(look):
+    """Instances on the corners of a mesh, which replace the child that is instanced; and by geometry nodes."""
     rail = bpy.data.meshes.new("rail")
     rail.from_pydata([(-5.6, -2.2, 0), (-5.6, -1.4, 0), (-5.5, -0.6, 0)], [(0, 1), (1, 2)], [])
     posts = add("Rail", rail)
     posts.instance_type, posts.show_instancer_for_render = "VERTS", False
-    add("Bollard", ball_mesh("bollard", metal), posts, scale=(0.15, 0.15, 0.5))
-    stone = add("Stone", ball_mesh("stone", ground), location=(0, 0, -9), scale=(1, 0.7, 0.5))
+    add("Bollard", ball_mesh("bollard", look.metal), posts, scale=(0.15, 0.15, 0.5))
+    stone = add("Stone", ball_mesh("stone", look.ground), location=(0, 0, -9), scale=(1, 0.7, 0.5))
     stone.hide_render = True
     ground_points = bpy.data.meshes.new("points")
     ground_points.from_pydata([(4.2, -2.2, 0.05), (4.9, -1.9, 0.07), (4.6, -2.7, 0.1)], [], [])
     add("Stones", ground_points).modifiers.new("scatter", "NODES").node_group = instancing_nodes(stone)
 
-    # Names that no file system or no Scene.txt takes as they are.
+
+def add_names(look):
+    """Names that no file system or no Scene.txt takes as they are."""
     for number, name in enumerate(("Käfig (grün)", "con", "\u6728\u7bb1", "# one", "LIGHT_SOURCE")):
         size = 0.2 + 0.01 * number
-        add(name, box_mesh(name, (0, 0, 0), (size, size, size), wood), location=(5.2, 1.6 - 0.3 * number, 0.01))
+        add(name, box_mesh(name, (0, 0, 0), (size, size, size), look.wood), location=(5.2, 1.6 - 0.3 * number, 0.01))
 
-    # One mesh in two materials, the second by its object; and what must not come out.
-    post = box_mesh("post", (-0.1, -0.1, 0), (0.1, 0.1, 1.1), metal, metal)
+
+def add_exceptions(look, crate):
+    """One mesh in two materials, the second by its object; and what must not come out."""
+    post = box_mesh("post", (-0.1, -0.1, 0), (0.1, 0.1, 1.1), look.metal, look.metal)
     post.polygons[1].material_index = 1
     cap = add("Post", post, location=(-2.33, -2.11, 0.01))
-    cap.material_slots[1].link, cap.material_slots[1].material = "OBJECT", paint
+    cap.material_slots[1].link, cap.material_slots[1].material = "OBJECT", look.paint
     add("measure", crate, location=(0, 0, 15)).brume.role = "LEFT_OUT"
     add("not rendered", crate, location=(0, 0, 16)).hide_render = True
     add("hidden", crate, location=(0, 0, 17)).hide_viewport = True
+
+
+def build_courtyard(folder):
+    look = looks(folder)
+    crate = box_mesh("crate", (-0.5, -0.5, -0.5), (0.5, 0.5, 0.5), look.wood)
+    add_walls(look)
+    add_blocks(look, crate)
+    add_shapes(look)
+    add_bushes(look)
+    add_instances(look)
+    add_names(look)
+    add_exceptions(look, crate)
 
 
 def build_lights():
@@ -277,7 +306,8 @@ def build_events(folder):
     shot = event("shot", "SHOT", 3.2, (2.5, -3.5, 1.2), (math.radians(90), 0, math.radians(200)))
     shot.shape, shot.roll, shot.radius, shot.stay = "BOX", math.radians(45), 0.3, 1.5
     star = event("star", "SHOT", 3.2, (0.33, -5.5, 1.7))
-    star.shape, star.radius, star.stay, star.aim = "MASK", 0.4, 1.5, event("star's aim", "NONE", 0, (1.0, 0.6, 1.2)).id_data
+    star.shape, star.radius, star.stay = "MASK", 0.4, 1.5
+    star.aim = event("star's aim", "NONE", 0, (1.0, 0.6, 1.2)).id_data
     star.mask = os.path.join(folder, "a star.png")
     save(star_image(), star.mask, "PNG")
     event("blast", "BLAST", 3.75, (-4.7, 0.6, 0.8)).blast_radius = 1.5

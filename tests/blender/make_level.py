@@ -75,7 +75,8 @@ def export_both(folder, name):
 
 def left_behind():
     """What the export must not leave in the file."""
-    return sorted(block.name for kind in ("scenes", "objects", "meshes", "lights", "cameras") for block in getattr(bpy.data, kind))
+    kinds = ("scenes", "objects", "meshes", "lights", "cameras")
+    return sorted(block.name for kind in kinds for block in getattr(bpy.data, kind))
 
 
 def make_courtyard(folder):

@@ -16,6 +16,8 @@ import bpy
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import level_parts  # noqa: E402
 
+IMAGE = "Brume Render"
+
 bpy.context.preferences.view.show_splash = False
 
 
@@ -86,17 +88,16 @@ def write_program(folder, name, commands):
     return path
 
 
-def steps(addon, brume, folder):
-    """Does what a person does; yields how long it waits [s]."""
+def set_up(addon, folder):
     bpy.ops.preferences.addon_install(filepath=addon)
     bpy.ops.preferences.addon_enable(module="brume")
-    preferences = bpy.context.preferences.addons["brume"].preferences
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
     level_parts.build_all(folder)
-    view, editor = lay_out()
     bpy.context.scene.render.resolution_percentage = 35
-    facts = {}
+
+
+def draw_panels(view):
     show(bpy.data.objects["star"])  # Without it there is no tab Item.
     yield 1.0
     yield from choose_tab(view)
@@ -104,17 +105,22 @@ def steps(addon, brume, folder):
         show(bpy.data.objects[name])
         yield 0.1
 
-    # A render, in the time of which Blender's own timers go on.
+
+def render(preferences, brume, editor, facts):
+    """A render, in the time of which Blender's own timers go on."""
     preferences.program = brume
     facts["started"] = invoke_render()
     ticks, deadline = 0, time.monotonic() + 60
-    while "Brume Render" not in bpy.data.images and time.monotonic() < deadline:
+    while IMAGE not in bpy.data.images and time.monotonic() < deadline:
         ticks += 1
         yield 0.05
     facts["ticks"] = ticks
     yield 0.3
     shown = editor.spaces.active.image
     facts["shown"] = shown.name if shown else ""
+
+
+def take_picture(view, editor, path):
     yield 0.5
     with inside(editor):
         bpy.ops.image.view_all(fit_view=True)
@@ -122,16 +128,17 @@ def steps(addon, brume, folder):
         bpy.ops.view3d.view_center_camera()
     yield 0.5
     with inside(view):
-        bpy.ops.screen.screenshot(filepath=os.path.join(folder, "window.png"))
+        bpy.ops.screen.screenshot(filepath=path)
 
-    # Without an Image Editor, a window of its own; the program is one that is quick.
-    image = bpy.data.images["Brume Render"]
+
+def render_without_editor(preferences, folder, editor, facts):
+    """The picture opens a window of its own; the program is one that is quick."""
     with open(os.path.join(folder, "first.png"), "wb") as file:
-        file.write(image.packed_file.data)
+        file.write(bpy.data.images[IMAGE].packed_file.data)
     preferences.program = write_program(folder, "quick", f"cp '{folder}/first.png' render.png")
     editor.type = "CONSOLE"
     invoke_render()
-    windows = bpy.context.window_manager.windows
+    windows, deadline = bpy.context.window_manager.windows, time.monotonic() + 30
     while len(windows) < 2 and time.monotonic() < deadline:
         yield 0.1
     yield 0.3
@@ -142,9 +149,12 @@ def steps(addon, brume, folder):
         bpy.ops.wm.window_close()
     yield 0.5
 
-    # A program that does not end by itself is ended by Esc.
-    mark = os.path.join(folder, "pid")
-    preferences.program = write_program(folder, "endless", f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep 600")
+
+def stop_by_escape(preferences, folder, view, facts):
+    """A program that does not end by itself."""
+    mark, deadline = os.path.join(folder, "pid"), time.monotonic() + 30
+    commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep 600"
+    preferences.program = write_program(folder, "endless", commands)
     invoke_render()
     while not os.path.exists(mark) and time.monotonic() < deadline:
         yield 0.1
@@ -154,11 +164,23 @@ def steps(addon, brume, folder):
     yield 1.0
     facts["ended"] = not os.path.exists(f"/proc/{child}")
 
-    # A program that fails says so, and all is as before.
+
+def steps(addon, brume, folder):
+    """Does what a person does; yields how long it waits [s]."""
+    set_up(addon, folder)
+    view, editor = lay_out()
+    preferences = bpy.context.preferences.addons["brume"].preferences
+    facts = {}
+    yield from draw_panels(view)
+    yield from render(preferences, brume, editor, facts)
+    yield from take_picture(view, editor, os.path.join(folder, "window.png"))
+    yield from render_without_editor(preferences, folder, editor, facts)
+    yield from stop_by_escape(preferences, folder, view, facts)
+    # A program that fails leaves the picture that was there.
     preferences.program = "/bin/false"
     invoke_render()
     yield 1.0
-    facts["image_after"] = "Brume Render" in bpy.data.images
+    facts["image_after"] = IMAGE in bpy.data.images
     with open(os.path.join(folder, "window.json"), "w", encoding="utf-8") as file:
         json.dump(facts, file)
 

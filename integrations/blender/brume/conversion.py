@@ -1,4 +1,4 @@
-"""From Blender's axes and units to Brume's: Z up to Y up, scene units to metres. Matrices are numpy arrays of doubles."""
+"""From Blender's axes and units to Brume's: Z up to Y up, scene units to metres. Matrices are arrays of doubles."""
 
 import math
 

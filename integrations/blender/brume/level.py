@@ -43,7 +43,13 @@ class Level:
 
 
 # What renders in Blender and is no mesh there.
-_NO_MESH = {"VOLUME": "volume", "POINTCLOUD": "point cloud", "CURVES": "hair", "GPENCIL": "drawing", "GREASEPENCIL": "drawing"}
+_NO_MESH = {
+    "VOLUME": "volume",
+    "POINTCLOUD": "point cloud",
+    "CURVES": "hair",
+    "GPENCIL": "drawing",
+    "GREASEPENCIL": "drawing",
+}
 
 
 def _hidden_from_renders(instance):

@@ -96,7 +96,7 @@ class BrumeEvent(bpy.types.PropertyGroup):
     speed: FloatProperty(name="Speed", default=32.0, min=1.0, max=10000.0, description="Of the front [m/s]")
     left: FloatProperty(name="Left", default=0.02, min=0.0, max=1.0, description="Share of the density that stays")
     refill_rim: _seconds("Refill Rim", 0.5, 60.0, "Until the rim is full again", least=0.01)
-    refill_middle: _seconds("Refill Middle", 5.0, 60.0, "Until the middle is full again; no less than the rim", least=0.01)
+    refill_middle: _seconds("Refill Middle", 5.0, 60.0, "Until the middle is full; no less than the rim", least=0.01)
     door: PointerProperty(
         type=bpy.types.Object, name="Door", description="The door that opens or shuts; its role is Door"
     )
