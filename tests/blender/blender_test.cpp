@@ -408,10 +408,7 @@ TEST_F(Blender, TheCameraOfAGltfIsInTheFile) {
   EXPECT_NEAR(scene.camera->vertical_fov, scene::camera_at(timeline, {}, 2).vertical_fov, 1e-4f);
 }
 
-TEST_F(Blender, RenderWithBrumeShowsThePicture) {
-  const image::Image8 picture = image::load_image(blender_run().folder / "render.png").value_or_throw();
-  EXPECT_EQ(picture.width, 960u);
-  EXPECT_EQ(picture.height, 540u);
+void expect_a_picture(const image::Image8& picture) {
   std::set<std::uint32_t> colors;
   double sum = 0, squares = 0;
   const std::size_t count = picture.rgba.size() / 4;
@@ -430,6 +427,13 @@ TEST_F(Blender, RenderWithBrumeShowsThePicture) {
   EXPECT_GT(deviation, 20);
 }
 
+TEST_F(Blender, RenderWithBrumeShowsThePicture) {
+  const image::Image8 picture = image::load_image(blender_run().folder / "render.png").value_or_throw();
+  EXPECT_EQ(picture.width, 960u);
+  EXPECT_EQ(picture.height, 540u);
+  expect_a_picture(picture);
+}
+
 // In a window: Blender's timers go on while Brume renders, the picture comes up in the Image Editor, Esc ends
 // the program, a program that fails leaves the picture that was there.
 TEST_F(Blender, RendersBesideAWindowThatGoesOn) {
@@ -441,6 +445,8 @@ TEST_F(Blender, RendersBesideAWindowThatGoesOn) {
   EXPECT_EQ(window["own_window"], Json({"Brume Render"}));
   EXPECT_EQ(window["images"], Json({"Brume Render"}));
   EXPECT_EQ(window["image_after"], true);
+  ASSERT_EQ(window["viewed"], true);
+  expect_a_picture(image::load_image(blender_run().folder / "view.png").value_or_throw());
   // Panels that fail to draw say so on the console.
   EXPECT_EQ(blender_run().log.find("Traceback"), std::string::npos) << blender_run().log;
 }

@@ -165,6 +165,18 @@ def stop_by_escape(preferences, folder, view, facts):
     facts["ended"] = not os.path.exists(f"/proc/{child}")
 
 
+def walk_in(preferences, brume, folder, facts):
+    """Brume's own window beside Blender's, with the events of the scene; it closes by itself here."""
+    picture, deadline = os.path.join(folder, "view.png"), time.monotonic() + 30
+    options = f"--exit-after 3.5 --screenshot '{picture}' --size 320x180 --bare"
+    preferences.program = write_program(folder, "viewer", f"exec '{brume}' \"$@\" {options}")
+    with inside(areas("VIEW_3D")[0]):
+        bpy.ops.brume.view("INVOKE_DEFAULT", play=True)
+    while not os.path.exists(picture) and time.monotonic() < deadline:
+        yield 0.1
+    facts["viewed"] = os.path.exists(picture)
+
+
 def steps(addon, brume, folder):
     """Does what a person does; yields how long it waits [s]."""
     set_up(addon, folder)
@@ -176,6 +188,7 @@ def steps(addon, brume, folder):
     yield from take_picture(view, editor, os.path.join(folder, "window.png"))
     yield from render_without_editor(preferences, folder, editor, facts)
     yield from stop_by_escape(preferences, folder, view, facts)
+    yield from walk_in(preferences, brume, folder, facts)
     # A program that fails leaves the picture that was there.
     preferences.program = "/bin/false"
     invoke_render()

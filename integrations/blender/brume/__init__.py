@@ -13,9 +13,9 @@ bl_info = {
     "category": "Import-Export",
 }
 
-from . import export_level, panels, preferences, properties, render, voxels  # noqa: E402
+from . import export_level, panels, preferences, properties, render, view, voxels  # noqa: E402
 
-_MODULES = (preferences, properties, export_level, render, voxels, panels)
+_MODULES = (preferences, properties, export_level, render, view, voxels, panels)
 
 
 def register():

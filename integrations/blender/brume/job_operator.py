@@ -14,6 +14,7 @@ class JobOperator:
     finish(context, folder, out): takes what came out.
     """
 
+    stopped_by_escape = True
     _timer = None
 
     def _start(self, context):
@@ -36,8 +37,9 @@ class JobOperator:
     def _clean(self, context):
         if self._timer:
             context.window_manager.event_timer_remove(self._timer)
-            context.workspace.status_text_set(None)
             self._timer = None
+            if self.stopped_by_escape:
+                context.workspace.status_text_set(None)
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def _failed(self, error):
@@ -62,12 +64,13 @@ class JobOperator:
             return self._failed(error)
         manager = context.window_manager
         self._timer = manager.event_timer_add(0.1, window=context.window)
-        context.workspace.status_text_set(self.bl_label + ": Esc to stop")
+        if self.stopped_by_escape:
+            context.workspace.status_text_set(self.bl_label + ": Esc to stop")
         manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if event.type == "ESC" and event.value == "PRESS":
+        if self.stopped_by_escape and (event.type, event.value) == ("ESC", "PRESS"):
             self.cancel(context)
             return {"CANCELLED"}
         if event.type != "TIMER" or self._job.running():

@@ -78,6 +78,9 @@ class BRUME_PT_level(_Panel, bpy.types.Panel):
             column.prop(options, "smoke_" + name)
         column = layout.column()
         column.operator("brume.render", icon="RENDER_STILL")
+        row = column.row(align=True)
+        row.operator("brume.view", icon="VIEW_PERSPECTIVE").play = False
+        row.operator("brume.view", text="Play", icon="PLAY").play = True
         column.operator("brume.voxels", icon="VIEW3D")
         column.operator("brume.export_level", icon="EXPORT").format = options.format
 
