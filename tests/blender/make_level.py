@@ -15,6 +15,10 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import level_parts  # noqa: E402
 
 
+# What TOML has to write with escapes, or as UTF-8.
+LETTERS = 'a "b" \\ é \U0001f32b'
+
+
 def install(addon):
     bpy.ops.preferences.addon_install(filepath=addon)
     bpy.ops.preferences.addon_enable(module="brume")
@@ -119,7 +123,7 @@ def make_ranges(folder):
         empty_scene()
         level_parts.add("floor", level_parts.box_mesh("floor", (-1, -1, -1), (1, 1, 0)))
         for number, kind in enumerate(("SMOKE", "SHOT", "TEXT", "BLAST")):
-            empty_with(kind, number, setting)
+            empty_with(kind, number, setting).text = LETTERS
         options = bpy.context.scene.brume
         for name, field in options.bl_rna.properties.items():
             if setting != "usual" and field.type in {"FLOAT", "INT"}:
@@ -151,6 +155,7 @@ def make_odd(folder):
     edge = bpy.data.meshes.new("edge")
     edge.from_pydata([(0, 0, 0), (1, 0, 0)], [(0, 1)], [])
     level_parts.add("an edge", edge)
+    level_parts.add("Outdoor stone", level_parts.box_mesh("stone", (4, 0, 0), (4.2, 0.2, 0.2)))
     level_parts.add("Grenade", level_parts.box_mesh("can", (0, 0, 0), (0.1, 0.1, 0.2)), location=(3, 0, 0))
     two = bpy.data.objects["Grenade"].data
     for name in ("olive", "rust"):

@@ -154,11 +154,11 @@ class Gathered:
         door = _door_of(source) if role in {"SOLID", "DOOR"} else None
         if door:
             self._add_to_door(instance, door, piece)
-        else:
-            self._level.things.append(Thing(self._free_name(source.name), role, [piece]))
-
-    def _free_name(self, wanted):
-        return self._names.take(names.safe(wanted))
+            return
+        name = self._names.take(names.safe(source.name))
+        if "door" in name.lower():
+            self._warnings.add(f'"{source.name}" is no door, but the viewer opens it for its name; rename or mark it')
+        self._level.things.append(Thing(name, role, [piece]))
 
     def _add_to_door(self, instance, door, piece):
         """A door and what is parented to it are one thing, once for each instance of their collection."""
@@ -189,16 +189,16 @@ class Gathered:
         self._level.lamps.append(Lamp(lamp, conversion.matrix(instance.matrix_world, metres), power))
 
 
-# Blender's lamps give off their power as if evenly in all directions: intensity = power / (4 pi), which is also
-# what a spot has inside its cone (Blender manual, "Light Objects"; KHR_lights_punctual, "Light Types").
+# Blender's lamps of P watts, as its renderers show them (tests/blender/lamps.py measures it): points, and spots inside
+# their cone, have the intensity P / (4 pi) W/sr; area lamps have P / 4 along their axis, and cos times that beside it.
 def spot_for_area(power):
     """The power of a spot of 180 degrees, faded from its axis on, that lights as an area lamp does.
 
-    A Lambert emitter of `power` has the intensity power / pi along its axis, and cos times that beside it.
-    A spot of power q has q / (4 pi) there; faded by Brume's smoothstep(0, 1, cos) it gives off
-    2 pi * q / (4 pi) * integral of (3 c^2 - 2 c^3) from 0 to 1 = q / 4. Both ask for q = 4 * power.
+    A spot of power q has q / (4 pi) along its axis. Faded by Brume's smoothstep(0, 1, cos) it gives off
+    2 pi * q / (4 pi) * integral of (3 c^2 - 2 c^3) from 0 to 1 = q / 4; the area lamp pi * power / 4. Both ask for
+    q = pi * power.
     """
-    return 4.0 * power
+    return math.pi * power
 
 
 # Of a spot, side to side [radians]: a float nearest to pi would be more than the half circle that glTF allows.
