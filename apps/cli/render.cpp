@@ -27,7 +27,7 @@ struct Options {
   std::optional<double> time;
   std::uint32_t fps = 24;
   bool temporal = false;
-  float step = 1, light_share = 1;
+  float step = 1, light_share = 1, seen = 1;
 };
 
 // What the options say, checked before any file is read.
@@ -60,6 +60,9 @@ Plan make_plan(const Options& options) {
   // Not by CLI::Range, which takes what is not a number.
   if (!(options.step >= 0.25f && options.step <= 4)) {
     throw Error(ErrorCode::usage, "--step: expected a number from 0.25 to 4, such as 2");
+  }
+  if (!(options.seen >= 0.25f && options.seen <= 16)) {
+    throw Error(ErrorCode::usage, "--seen: expected a number from 0.25 to 16, such as 4");
   }
   if (!(options.light_share >= 0.0625f && options.light_share <= 1)) {
     throw Error(ErrorCode::usage, "--light-share: expected a number from 0.0625 to 1, such as 0.125");
@@ -176,6 +179,7 @@ void render(const Options& options, const CommonOptions& common) {
   playback.set_camera(plan.camera);
   playback.set_step_scale(options.step);
   playback.set_light_share(options.light_share);
+  playback.set_seen_scale(options.seen);
   playback.set_view(plan.view, plan.slice);
   Draughtsman draughtsman(playback);
   write(options, plan, common, stage.timeline, draughtsman);
@@ -227,6 +231,11 @@ Command add_render(CLI::App& program) {
   parser
       .add_option("--step", options->step,
                   "Length of the steps through smoke, of the usual: 0.25 to 4; longer is faster; default 1")
+      ->type_name("X");
+  parser
+      .add_option(
+          "--seen", options->seen,
+          "Error up to which --march half and quarter interpolate, of the usual: 0.25 to 16; default 1")
       ->type_name("X");
   parser
       .add_option("--light-share", options->light_share,

@@ -61,8 +61,9 @@ struct FrameConstants {
   float time;        // [s]
   float exposure;    // multiplies radiance before the tone curve
   uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
+  float seen_error;  // of a pixel, between 0 and 1 on the screen: more is not left to interpolation
 };
-SHARED_SIZE(FrameConstants, 400);
+SHARED_SIZE(FrameConstants, 404);
 
 SHARED_END
 #endif

@@ -43,7 +43,7 @@ SHARED_CONST float kDoubt = 0.008f;
 /// How far off it may be for the rays of neighbours to be compared at that depth.
 SHARED_CONST float kKnown = 0.05f;
 
-/// Error of a pixel, between 0 and 1 on the screen, above which it is not left to interpolation.
+/// FrameConstants::seen_error of a picture that hides what the full one does.
 SHARED_CONST float kSeenError = 3.0f / 255.0f;
 
 /// Radiance times exposure of a surface in bright light.

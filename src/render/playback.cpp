@@ -83,6 +83,7 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   input.frame_index = frame_index;
   input.step_scale = step_scale_;
   input.light_share = light_share_;
+  input.seen_scale = seen_scale_;
   input.continues = last_frame_index_ && frame_index == *last_frame_index_ + 1;
   last_frame_index_ = frame_index;
   if (camera_) input.camera = *camera_;

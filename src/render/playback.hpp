@@ -30,6 +30,8 @@ class Playback {
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
   /// FrameInput::step_scale of the frames that follow.
   void set_step_scale(float scale) { step_scale_ = scale; }
+  /// FrameInput::seen_scale of the frames that follow.
+  void set_seen_scale(float scale) { seen_scale_ = scale; }
   /// FrameInput::light_share of the frames that follow; below 1 they depend on those before.
   void set_light_share(float share) { light_share_ = share; }
   /// FrameInput::view and view_slice from now on.
@@ -51,7 +53,7 @@ class Playback {
   gpu::Buffer pixels_;
   gpu::Buffer list_;  ///< shared::MarchList of the last frame.
   std::optional<scene::Camera> camera_;
-  float step_scale_ = 1, light_share_ = 1;
+  float step_scale_ = 1, light_share_ = 1, seen_scale_ = 1;
   passes::DebugView view_ = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice_;
   std::optional<std::uint32_t> last_frame_index_;

@@ -180,6 +180,7 @@ void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput&
   frame.time = input.time;
   frame.exposure = input.exposure;
   frame.march_scale = march_scale_;
+  frame.seen_error = shared::kSeenError * input.seen_scale;
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
   recorder.upload(scene_.lights, 0, std::as_bytes(std::span(lights_)));
   recorder.fill(march_of(input).counters, 0);

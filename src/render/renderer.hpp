@@ -45,6 +45,10 @@ struct FrameInput {
   /// Multiplies look.step_length, for devices that the usual steps are too much for; > 0. Light in the smoke
   /// is the same with any.
   float step_scale = 1;
+  /// Multiplies the error up to which pixels of a reduced march are left to interpolation, three steps of a
+  /// display's 255; > 0. Above 1 fewer pixels are marched one by one, and the picture may show what that of
+  /// the full march hides.
+  float seen_scale = 1;
   /// Of the light in the smoke that is not as it was, about how much is made anew in this frame; in (0, 1],
   /// 1: all. Below, light is as old as ceil(1 / light_share) frames where it changes slowly, and 1/16 is the
   /// least (passes::KeptSmokeLight); such a picture depends on the frames before.

@@ -53,6 +53,7 @@ void main() {
   frame.time = 195.0;
   frame.exposure = 196.0;
   frame.march_scale = 197u;
+  frame.seen_error = 201.0;
   light = Light(v3(1.0), 4.0, v3(5.0), 8u, v3(9.0), 12.0, 13.0, 14u, vec2(15.0, 16.0));
   hole = Hole(v3(1.0), 4.0, v3(5.0), 8.0, v3(9.0), 12.0, v3(13.0), 16.0, 17.0, 18.0, 19.0, 20u, v2(21.0), v2(23.0));
   cell = BoundaryCell(1u, 2u, 3u, 4u);

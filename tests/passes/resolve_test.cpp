@@ -39,6 +39,7 @@ class ResolveTest : public gpu::GpuTest {
     frame.volume = room.volume.frame();
     frame.size_px = size;
     frame.march_scale = scale;
+    frame.seen_error = shared::kSeenError;
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.7f;
     frame.look.step_length = 0.1f;

@@ -97,6 +97,7 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(frame.time, 195);
   EXPECT_EQ(frame.exposure, 196);
   EXPECT_EQ(frame.march_scale, 197u);
+  EXPECT_EQ(frame.seen_error, 201);
 
   const auto light = one<shared::Light>(out[1]);
   expect_counted(light.position_world, 1);
