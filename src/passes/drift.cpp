@@ -71,6 +71,13 @@ class GrowthAround {
   std::array<glm::vec4, kEdge * kEdge * kEdge> voxels_{};
 };
 
+std::vector<shared::CloudMotion> motions_of(const sim::State& state, double seconds, double roll_seconds) {
+  std::vector<shared::CloudMotion> motions;
+  for (const sim::LiveCloud& live : state.clouds)
+    motions.push_back(cloud_motion(*live.cloud, state.ticks_per_second, seconds, roll_seconds));
+  return motions;
+}
+
 }  // namespace
 
 bool CloudGrowth::update(const sim::State& state, const sim::SmokeVolume& volume) {
@@ -160,7 +167,7 @@ DriftPass::DriftPass(gpu::Context& context)
                 sizeof(shared::DriftParams), {kGroup, 1, 1}),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
-  for (gpu::Buffer* buffer : {&parts_, &travel_, &motions_}) gpu::grow(context, *buffer, 1);
+  for (gpu::Buffer* buffer : {&parts_, &travel_, &motions_, &due_slots_}) gpu::grow(context, *buffer, 1);
   gpu::grow(context, pushes_, kMaxPushes * sizeof(shared::Push));
 }
 
@@ -169,6 +176,15 @@ void DriftPass::reserve(const sim::State& state, const sim::SmokeVolume& volume)
   parts_stale_ |= gpu::grow(context_, parts_, growth_.parts().size_bytes());
   travel_stale_ |= gpu::grow(context_, travel_, growth_.travel().size_bytes());
   gpu::grow(context_, motions_, state.clouds.size() * sizeof(shared::CloudMotion));
+}
+
+bool DriftPass::take_turn(const sim::State& state, const sim::SmokeVolume& volume, const SmokeNeeds& needs,
+                          const shared::SmokeLook& look, double seconds, double roll_seconds) {
+  const auto motions = motions_of(state, seconds, roll_seconds);
+  const std::vector<shared::Push> pushes = pushes_of(state, seconds);
+  due_ = turns_.due({&volume, needs.slots, motions, pushes, look, static_cast<float>(seconds)});
+  gpu::grow(context_, due_slots_, due_->size_bytes());
+  return !due_->empty();
 }
 
 void DriftPass::upload(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Push> pushes) {
@@ -184,9 +200,7 @@ void DriftPass::upload(gpu::Recorder& recorder, const Inputs& in, std::span<cons
   }
   growth_.forget_new();
   parts_stale_ = travel_stale_ = false;
-  std::vector<shared::CloudMotion> motions;
-  for (const sim::LiveCloud& live : in.state.clouds)
-    motions.push_back(cloud_motion(*live.cloud, in.state.ticks_per_second, in.seconds, in.roll_seconds));
+  const auto motions = motions_of(in.state, in.seconds, in.roll_seconds);
   recorder.upload(motions_, 0, std::as_bytes(std::span(motions)));
   recorder.upload(pushes_, 0, std::as_bytes(pushes));
 }
@@ -194,14 +208,18 @@ void DriftPass::upload(gpu::Recorder& recorder, const Inputs& in, std::span<cons
 void DriftPass::record(gpu::Recorder& recorder, const Inputs& in) {
   const std::vector<shared::Push> pushes = pushes_of(in.state, in.seconds);
   upload(recorder, in, pushes);
-  for (std::uint32_t first = 0; first < in.smoke.needed; first += kSlotsPerDispatch) {
-    const std::uint32_t count = std::min(kSlotsPerDispatch, in.smoke.needed - first);
+  if (!due_) turns_.forget();
+  const auto all = due_ ? static_cast<std::uint32_t>(due_->size()) : in.smoke.needed;
+  if (due_ && all > 0) recorder.upload(due_slots_, 0, std::as_bytes(*due_));
+  const gpu::Buffer& slots = due_ ? due_slots_ : in.smoke.slots;
+  due_.reset();
+  for (std::uint32_t first = 0; first < all; first += kSlotsPerDispatch) {
+    const std::uint32_t count = std::min(kSlotsPerDispatch, all - first);
     recorder.bind(
         pipeline_,
         {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
          gpu::sampled(in.noise, repeat_), gpu::read(parts_), gpu::read(travel_), gpu::read(motions_),
-         gpu::read(pushes_), gpu::stored(in.smoke.medium), gpu::stored(in.smoke.share),
-         gpu::read(in.smoke.slots)},
+         gpu::read(pushes_), gpu::stored(in.smoke.medium), gpu::stored(in.smoke.share), gpu::read(slots)},
         shared::DriftParams{first, count, in.smoke.slot_count, static_cast<std::uint32_t>(pushes.size())});
     recorder.dispatch_threads(pipeline_, count * shared::kTexelsPerBrick);
   }

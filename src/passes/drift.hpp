@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "passes/drift_turns.hpp"
 #include "passes/smoke_upload.hpp"
 #include "shared/drift.h"
 #include "sim/state.hpp"
@@ -57,8 +58,13 @@ class DriftPass {
   };
   /// Makes room for the clouds. As SmokeUpload::reserve, and after it.
   void reserve(const sim::State& state, const sim::SmokeVolume& volume);
+  /// Chooses the bricks of the next record by turns; every record in a row must have its own. After
+  /// `reserve`, outside of a recording. False: none has a turn.
+  bool take_turn(const sim::State& state, const sim::SmokeVolume& volume, const SmokeNeeds& needs,
+                 const shared::SmokeLook& look, double seconds, double roll_seconds);
   /// Fills smoke.medium (shaders/shared/smoke_volume.h; the noise at a point is that of point + GBA) and
-  /// smoke.share for the needed slots. Depends on the inputs alone.
+  /// smoke.share for the needed slots. Depends on the inputs alone; after `take_turn`, which fills only those
+  /// that have a turn, on the frames before.
   void record(gpu::Recorder& recorder, const Inputs& inputs);
 
  private:
@@ -68,6 +74,9 @@ class DriftPass {
   gpu::ComputePipeline pipeline_;
   gpu::Sampler linear_, repeat_;
   CloudGrowth growth_;
+  DriftTurns turns_;
+  std::optional<std::span<const std::uint32_t>> due_;  // of the next record
+  gpu::Buffer due_slots_;
   gpu::Buffer parts_, travel_, motions_, pushes_;
   bool parts_stale_ = true, travel_stale_ = true;
 };

@@ -475,7 +475,7 @@ const SmokeLightPlan& KeptSmokeLight::plan(const SmokeLightMoment& moment) {
     // Rays end where the box around the smoke does.
     const bool other_box =
         bounds_.low != moment.needs->bounds.low || bounds_.high != moment.needs->bounds.high;
-    const bool noise_drifts = moment.look.erosion > 0 && moment.time != last_->time;
+    const bool noise_drifts = moment.look.erosion > 0 && (moment.time != last_->time || moment.noise_moved);
     if (shares()) add_hole_changes(moment, cuts_);
     if (!noise_drifts) add_hole_changes(moment, changes);
     if (noise_drifts || other_box || is_other(moment) || !drop_crossed(moment, changes)) drop_rays();

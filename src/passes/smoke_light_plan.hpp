@@ -44,6 +44,7 @@ struct SmokeLightMoment {
   bool anew = false;  ///< Something else changed, walls for instance: nothing is kept.
   /// Of what is not as it was, about how much is made anew in this frame; in (0, 1].
   float share = 1;
+  bool noise_moved = false;  ///< The noise is not as it was, though the time may be.
 };
 
 /// Most blocks of rays at a time; of shared::kTexelsPerBrick words: 128 MB.

@@ -11,6 +11,8 @@
 namespace brume::render {
 namespace {
 
+// The share of light up to which shadows of smoke and its noise take turns, too.
+constexpr float kTurnsFrom = 0.25f;
 constexpr VkBufferUsageFlags kBufferUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
@@ -125,6 +127,9 @@ void Renderer::prepare(const FrameInput& input) {
   const std::uint32_t slots = input.volume ? input.volume->slot_count() : 0;
   if (input.volume) smoke_upload_.reserve(*input.volume);
   if (input.volume) drift_pass_.reserve(state_of(input), *input.volume);
+  const bool in_turns = input.volume && input.light_share <= kTurnsFrom;
+  noise_moved_ = in_turns && drift_pass_.take_turn(state_of(input), *input.volume, needs_, input.look,
+                                                   input.time, input.roll_seconds);
   solid_.reserve(input.level);
   sky_light_.reserve(solid_);
   open_holes_.reserve(input.holes, input.time, input.look.hole_rim,
@@ -135,7 +140,7 @@ void Renderer::prepare(const FrameInput& input) {
   if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
   smoke_light_pass_.reserve({input.volume, &needs_, lights_, input.holes, input.time, input.look, input.sky,
                              input.camera.position_world, walls_changed || input.force_light,
-                             input.light_share});
+                             input.light_share, noise_moved_});
   if (input.view != passes::DebugView::none) reserve_view(input);
 }
 
@@ -211,7 +216,7 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
     if (input.volume)
       drift_pass_.record(recorder, {frame_, smoke, noise_, state_of(input), input.time, input.roll_seconds});
   });
-  const bool light_smoke = input.volume && needs_light(input);
+  const bool light_smoke = input.volume && (needs_light(input) || noise_moved_);
   stage("smoke_shadow", [&] { record_smoke_shadows(recorder, input, light_smoke); });
   stage("smoke_light", [&] {
     smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, {solid_, sky_light_}});
@@ -245,7 +250,7 @@ void Renderer::record_smoke_shadows(gpu::Recorder& recorder, const FrameInput& i
   smoke_shadow_plan_ = std::move(plan);
   // In four frames; texels of every frame lie beside each other.
   constexpr std::array<glm::uvec2, 4> kTurns{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
-  const bool in_turns = same_plan && input.light_share <= 0.25f;
+  const bool in_turns = same_plan && input.light_share <= kTurnsFrom;
   if (anew || !same_plan) smoke_shadow_turns_ = kTurns.size();
   if (smoke_shadow_turns_ == 0) return;
   passes::SmokeShadowPass::Texels texels;

@@ -52,7 +52,8 @@ struct FrameInput {
   /// Of the light in the smoke that is not as it was, about how much is made anew in this frame; in (0, 1],
   /// 1: all. Below, light is as old as ceil(1 / light_share) frames where it changes slowly, and 1/16 is the
   /// least (passes::KeptSmokeLight); such a picture depends on the frames before.
-  /// Up to 1/4 shadows of smoke on surfaces are made anew in four frames.
+  /// Up to 1/4 shadows of smoke on surfaces are made anew in four frames, and noise that hardly moves is
+  /// carried anew in four (passes::DriftTurns).
   float light_share = 1;
   passes::DebugView view = passes::DebugView::none;  ///< What is shown; `display` alone has it.
   /// Where views of density, light and distance cut; empty: passes::slice_through_smoke.
@@ -171,6 +172,7 @@ class Renderer {
   scene::Camera lit_camera_;
   float lit_time_ = 0;
   bool lit_holes_ = false;
+  bool noise_moved_ = false;  ///< By the frame, though its moment may be that of the last one.
   bool smoke_changed_ = false;
 };
 
