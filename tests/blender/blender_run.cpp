@@ -15,8 +15,8 @@ BlenderRun run_blender(const std::filesystem::path& folder) {
   run.blender_is_there = std::system("command -v blender > /dev/null 2>&1") == 0;
   if (!run.blender_is_there) return run;
   std::ostringstream command;
-  command << "'" BRUME_SOURCE_DIR "/tests/blender/run_blender' '" BRUME_PROGRAM "' '" << folder.string()
-          << "' > '" << (folder / "log").string() << "' 2>&1";
+  command << "'" BRUME_SOURCE_DIR "/tests/blender/run_blender' " BRUME_BLENDER_PART " '" BRUME_PROGRAM "' '"
+          << folder.string() << "' > '" << (folder / "log").string() << "' 2>&1";
   run.exit_code = std::system(command.str().c_str());
   run.log = read_text_file(folder / "log").value_or_throw();
   return run;

@@ -12,7 +12,7 @@
 #include "image/decode.hpp"
 #include "scene/load.hpp"
 #include "scene/timeline.hpp"
-#include "tests/blender/blender_run.hpp"
+#include "tests/blender/blender_fixture.hpp"
 #include "tests/cli/run_program.hpp"
 #include "tests/reference/triangle_box.hpp"
 
@@ -103,21 +103,6 @@ void expect_same_look(const Triangle& blender, const Triangle& brume, std::size_
     }
   }
 }
-
-class Blender : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    const BlenderRun& run = blender_run();
-    if (!run.blender_is_there) GTEST_SKIP() << "blender is not installed; script/bootstrap test installs it";
-    ASSERT_EQ(run.exit_code, 0) << run.log;
-  }
-  static std::filesystem::path level(const std::string& name, const std::string& kind) {
-    return blender_run().folder / name / kind / (kind == "txt" ? "level.txt" : "level.glb");
-  }
-  static std::filesystem::path timeline(const std::string& name, const std::string& kind) {
-    return blender_run().folder / name / kind / "level.toml";
-  }
-};
 
 class BlenderFormats : public Blender {};
 INSTANTIATE_TEST_SUITE_P(, BlenderFormats, testing::Values("txt", "gltf"),
@@ -347,22 +332,6 @@ TEST_P(BlenderFormats, TheCameraSeesWhatBlendersSees) {
   EXPECT_NEAR(double{camera.vertical_fov}, fov, 1e-4);
 }
 
-// EEVEE's picture of a plane two metres below each lamp, against the light that Brume reads: radiance is 0.8
-// / pi of what falls in. EEVEE fits the power of area lamps to Cycles' by a factor of 0.8 for pi / 4, 1.9 %
-// more, and the lamps have a size.
-TEST_F(Blender, LampsLightAsBlendersOwnRendererShows) {
-  const Json measured = read_json(blender_run().folder / "lamps.json");
-  ASSERT_EQ(measured.size(), 4u);
-  for (const auto& [kind, radiance] : measured.items()) {
-    const scene::Scene scene =
-        scene::load_scene(blender_run().folder / ("lamp_" + kind + ".glb")).value_or_throw();
-    ASSERT_EQ(scene.lights.size(), 1u) << kind;
-    const double falls_in = double{scene.lights[0].intensity.g} / (kind == "SUN" ? 1 : 2 * 2);
-    const double expected = 0.8 / std::acos(-1.0) * falls_in;
-    EXPECT_NEAR(radiance.get<double>(), expected, 0.025 * expected) << kind;
-  }
-}
-
 // What the panels take at most and at least, a timeline takes; what they say unasked is what it means unsaid.
 TEST_F(Blender, SettingsHaveTheRangesAndDefaultsOfTimelines) {
   for (const char* setting : {"least", "usual", "most"}) {
@@ -425,47 +394,11 @@ TEST_F(Blender, TheCameraOfAGltfIsInTheFile) {
   EXPECT_NEAR(scene.camera->vertical_fov, scene::camera_at(timeline, {}, 2).vertical_fov, 1e-4f);
 }
 
-void expect_a_picture(const image::Image8& picture) {
-  std::set<std::uint32_t> colors;
-  double sum = 0, squares = 0;
-  const std::size_t count = picture.rgba.size() / 4;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto* p = &picture.rgba[4 * i];
-    colors.insert(static_cast<std::uint32_t>(p[0] << 16 | p[1] << 8 | p[2]));
-    sum += p[1];
-    squares += p[1] * p[1];
-  }
-  const double mean = sum / static_cast<double>(count);
-  const double deviation = std::sqrt(squares / static_cast<double>(count) - mean * mean);
-  // Neither one colour nor noise: lit smoke and bricks before a night sky.
-  EXPECT_GT(colors.size(), 2000u);
-  EXPECT_GT(mean, 20);
-  EXPECT_LT(mean, 200);
-  EXPECT_GT(deviation, 20);
-}
-
 TEST_F(Blender, RenderWithBrumeShowsThePicture) {
   const image::Image8 picture = image::load_image(blender_run().folder / "render.png").value_or_throw();
   EXPECT_EQ(picture.width, 960u);
   EXPECT_EQ(picture.height, 540u);
   expect_a_picture(picture);
-}
-
-// In a window: Blender's timers go on while Brume renders, the picture comes up in the Image Editor, Esc ends
-// the program, a program that fails leaves the picture that was there.
-TEST_F(Blender, RendersBesideAWindowThatGoesOn) {
-  const Json window = read_json(blender_run().folder / "window.json");
-  EXPECT_EQ(window["started"], Json({"RUNNING_MODAL"}));
-  EXPECT_GT(window["ticks"], 5);
-  EXPECT_EQ(window["shown"], "Brume Render");
-  EXPECT_EQ(window["ended"], true);
-  EXPECT_EQ(window["own_window"], Json({"Brume Render"}));
-  EXPECT_EQ(window["images"], Json({"Brume Render"}));
-  EXPECT_EQ(window["image_after"], true);
-  ASSERT_EQ(window["viewed"], true);
-  expect_a_picture(image::load_image(blender_run().folder / "view.png").value_or_throw());
-  // Panels that fail to draw say so on the console.
-  EXPECT_EQ(blender_run().log.find("Traceback"), std::string::npos) << blender_run().log;
 }
 
 TEST_F(Blender, VoxelsComeBackWhereTheyAre) {

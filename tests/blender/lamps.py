@@ -29,12 +29,18 @@ def diffuse():
     return material
 
 
-def build(kind):
-    """No shadows, no highlights, small lamps: what is left is the lamp's power and the distance."""
+def build_plane():
     plane = bpy.data.meshes.new("plane")
     plane.from_pydata([(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)], [], [(0, 1, 2, 3)])
     plane.materials.append(diffuse())
     level_parts.add("plane", plane)
+    camera = bpy.data.cameras.new("camera")
+    camera.type, camera.ortho_scale = "ORTHO", 0.1
+    bpy.context.scene.camera = level_parts.add("camera", camera, location=(0, 0, 9))
+
+
+def add_lamp(kind):
+    """No shadows, no highlights, small lamps: what is left is the lamp's power and the distance."""
     lamp = bpy.data.lights.new("lamp", kind)
     lamp.energy, lamp.use_shadow, lamp.specular_factor = LAMPS[kind], False, 0
     if kind in {"POINT", "SPOT"}:
@@ -43,10 +49,7 @@ def build(kind):
         lamp.size = 0.05
     if kind == "SPOT":
         lamp.spot_size, lamp.spot_blend = math.radians(90), 0
-    level_parts.add("lamp", lamp, location=(0, 0, 2))
-    camera = bpy.data.cameras.new("camera")
-    camera.type, camera.ortho_scale = "ORTHO", 0.1
-    bpy.context.scene.camera = level_parts.add("camera", camera, location=(0, 0, 9))
+    return level_parts.add("lamp", lamp, location=(0, 0, 2))
 
 
 def radiance(path):
@@ -65,13 +68,15 @@ def radiance(path):
 def main():
     addon, _, folder = sys.argv[sys.argv.index("--") + 1 :]
     bpy.ops.preferences.addon_install(filepath=addon)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.preferences.addon_enable(module="brume")
+    build_plane()
     measured = {}
     for kind in LAMPS:
-        bpy.ops.wm.read_factory_settings(use_empty=True)
-        bpy.ops.preferences.addon_enable(module="brume")
-        build(kind)
+        lamp = add_lamp(kind)
         bpy.ops.brume.export_level(filepath=os.path.join(folder, f"lamp_{kind}.glb"), format="GLTF")
         measured[kind] = radiance(os.path.join(folder, f"lamp_{kind}.exr"))
+        bpy.data.objects.remove(lamp)
     with open(os.path.join(folder, "lamps.json"), "w", encoding="utf-8") as file:
         json.dump(measured, file)
 

@@ -168,7 +168,7 @@ def stop_by_escape(preferences, folder, view, facts):
 def walk_in(preferences, brume, folder, facts):
     """Brume's own window beside Blender's, with the events of the scene; it closes by itself here."""
     picture, deadline = os.path.join(folder, "view.png"), time.monotonic() + 30
-    options = f"--exit-after 3.5 --screenshot '{picture}' --size 320x180 --bare"
+    options = f"--exit-after 1.5 --screenshot '{picture}' --size 320x180 --bare"
     preferences.program = write_program(folder, "viewer", f"exec '{brume}' \"$@\" {options}")
     with inside(areas("VIEW_3D")[0]):
         bpy.ops.brume.view("INVOKE_DEFAULT", play=True)

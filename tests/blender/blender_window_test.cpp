@@ -1,0 +1,45 @@
+// What needs a screen: Blender's own renderer, and its window.
+#include "image/decode.hpp"
+#include "scene/load.hpp"
+#include "tests/blender/blender_fixture.hpp"
+
+namespace brume::blender {
+namespace {
+
+using Json = nlohmann::json;
+
+// EEVEE's picture of a plane two metres below each lamp, against the light that Brume reads: radiance is 0.8
+// / pi of what falls in. EEVEE fits the power of area lamps to Cycles' by a factor of 0.8 for pi / 4, 1.9 %
+// more, and the lamps have a size.
+TEST_F(Blender, LampsLightAsBlendersOwnRendererShows) {
+  const Json measured = read_json(blender_run().folder / "lamps.json");
+  ASSERT_EQ(measured.size(), 4u);
+  for (const auto& [kind, radiance] : measured.items()) {
+    const scene::Scene scene =
+        scene::load_scene(blender_run().folder / ("lamp_" + kind + ".glb")).value_or_throw();
+    ASSERT_EQ(scene.lights.size(), 1u) << kind;
+    const double falls_in = double{scene.lights[0].intensity.g} / (kind == "SUN" ? 1 : 2 * 2);
+    const double expected = 0.8 / std::acos(-1.0) * falls_in;
+    EXPECT_NEAR(radiance.get<double>(), expected, 0.025 * expected) << kind;
+  }
+}
+
+// In a window: Blender's timers go on while Brume renders, the picture comes up in the Image Editor, Esc ends
+// the program, a program that fails leaves the picture that was there.
+TEST_F(Blender, RendersBesideAWindowThatGoesOn) {
+  const Json window = read_json(blender_run().folder / "window.json");
+  EXPECT_EQ(window["started"], Json({"RUNNING_MODAL"}));
+  EXPECT_GT(window["ticks"], 5);
+  EXPECT_EQ(window["shown"], "Brume Render");
+  EXPECT_EQ(window["ended"], true);
+  EXPECT_EQ(window["own_window"], Json({"Brume Render"}));
+  EXPECT_EQ(window["images"], Json({"Brume Render"}));
+  EXPECT_EQ(window["image_after"], true);
+  ASSERT_EQ(window["viewed"], true);
+  expect_a_picture(image::load_image(blender_run().folder / "view.png").value_or_throw());
+  // Panels that fail to draw say so on the console.
+  EXPECT_EQ(blender_run().log.find("Traceback"), std::string::npos) << blender_run().log;
+}
+
+}  // namespace
+}  // namespace brume::blender
