@@ -17,7 +17,7 @@ struct Options {
                            folder = ".", screenshot, record, json;
   std::string shaders = BRUME_SHADERS_DIR;
   double frames_per_second = 60;
-  std::optional<double> exit_after, lose_device, lose_surface;
+  std::optional<double> time, exit_after, lose_device, lose_surface;
   bool panels = false, bare = false, no_vertical_sync = false, validation = false;
 };
 
@@ -48,6 +48,7 @@ viewer::ViewerOptions viewer_options(const Options& options) {
   viewer.weapons.picture = options.picture;
   viewer.folder = options.folder;
   viewer.shaders = options.shaders;
+  viewer.begin_at = options.time;
   viewer.exit_after = options.exit_after;
   viewer.screenshot = options.screenshot;
   viewer.record = options.record;
@@ -84,7 +85,7 @@ void write_report(const std::string& target, const viewer::ViewerReport& report)
 void view(const Options& options) {
   if (!options.input.empty() && !options.play.empty())
     throw Error(ErrorCode::usage, "--play: names the timeline that is shown; leave INPUT out");
-  if (options.exit_after.has_value() != !options.screenshot.empty() && !options.screenshot.empty())
+  if (!options.screenshot.empty() && !options.exit_after)
     throw Error(ErrorCode::usage, "--screenshot: is taken at the time of --exit-after; name one");
   const bool plays = !options.play.empty();
   const std::filesystem::path input = plays                   ? options.play
@@ -116,6 +117,7 @@ Command add_view(CLI::App& program) {
       declare(program, "view", "Opens a window to walk through a scene, throw smoke and shoot through it.",
               "  brume view                              # the demo's house at night; H shows the keys\n"
               "  brume view room.glb --quality half\n"
+              "  brume view --play scenes/demo.toml --time 4.1 --panels\n"
               "  brume view --play scenes/demo.toml      # what the timeline says happens\n"
               "  brume view --play scenes/demo.toml --exit-after 3 --screenshot end.png --size 640x360");
   auto options = std::make_shared<Options>();
@@ -123,10 +125,14 @@ Command add_view(CLI::App& program) {
   parser.add_option("INPUT", options->input, "A timeline (.toml), whose events do not happen, or a scene")
       ->type_name("");
   parser.add_option("--play", options->play, "A timeline whose events happen")->type_name("FILE");
+  parser.add_option("--time", options->time, "Begin at this time, paused [s]")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->type_name("S");
   parser.add_option("--size", options->size, "Of the window [px]; default 1280x720")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->type_name("WxH");
   parser.add_option("--quality", options->quality, "How the smoke is drawn; default auto: as --fps allows")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->check(CLI::IsMember(quality_names()))
       ->type_name("NAME");
   parser.add_option("--fps", options->frames_per_second, "Frames a second that auto holds; default 60")
@@ -142,6 +148,7 @@ Command add_view(CLI::App& program) {
   parser.add_option("--record", options->record, "Write what was done as a timeline at the end")
       ->type_name("FILE");
   parser.add_option("--exit-after", options->exit_after, "Close the window at this time of its clock [s]")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->check(CLI::Range(0.01, 3600.0))
       ->type_name("S");
   parser.add_option("--screenshot", options->screenshot, "Save the picture of that time")->type_name("FILE");

@@ -82,11 +82,6 @@ Session::Session(std::unique_ptr<stage::LiveStage> live, scene::Timeline initial
   seek(kFirstMoment);
 }
 
-void Session::advance(double frame_seconds) {
-  if (paused_) return;
-  seek(seconds_ + std::min(frame_seconds, kLongestFrame));
-}
-
 void Session::seek(double seconds) {
   // A float, as the duration of the timeline that a moment is saved as.
   seconds_ = static_cast<double>(static_cast<float>(std::clamp(seconds, kFirstMoment, scene::kLatestTime)));

@@ -3,6 +3,7 @@
 // makes the same again bit for bit.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -45,8 +46,8 @@ class Session {
   bool paused() const { return paused_; }
   void set_paused(bool paused) { paused_ = paused; }
 
-  /// Lets time pass unless paused.
-  void advance(double frame_seconds);
+  /// How much time passes during a frame that took so long [s].
+  double passing(double frame_seconds) const { return paused_ ? 0 : std::min(frame_seconds, kLongestFrame); }
   /// To any time, forwards or backwards [s].
   void seek(double seconds);
   void step(int ticks);

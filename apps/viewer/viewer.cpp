@@ -57,6 +57,10 @@ class Viewer {
     choices_.frames_per_second = options.frames_per_second;
     choices_.vertical_sync = options.vertical_sync;
     go_to_beginning();
+    if (options.begin_at) {
+      session_->seek(*options.begin_at);
+      session_->set_paused(true);
+    }
     make_screen();
   }
 
@@ -110,6 +114,7 @@ class Viewer {
 
   void frame();
   void play_frame(const Input& input, double frame_seconds);
+  void let_time_pass(double frame_seconds);
   void act(Action action);
   void shoot_or_throw(Action action);
   void hold_mouse(const Input& input);
@@ -149,6 +154,7 @@ class Viewer {
   bool continues_ = false;  ///< The frame before was of the same film.
   PictureKey shown_;
   int still_frames_ = 0;        ///< Since the picture changed.
+  bool drew_picture_ = false;   ///< In this frame: not the one of before again.
   bool still_is_best_ = false;  ///< The still picture is the one of `brume render`.
   std::uint64_t changes_ = 0;
   bool done_ = false;
@@ -255,6 +261,13 @@ void Viewer::act(Action action) {
   }
 }
 
+// Up to the end, which is met exactly.
+void Viewer::let_time_pass(double frame_seconds) {
+  const double next = session_->seconds() + session_->passing(frame_seconds);
+  done_ = options_.exit_after && next >= *options_.exit_after;
+  session_->seek(done_ ? std::max(*options_.exit_after, session_->seconds()) : next);
+}
+
 // What the keys say, then what time does.
 void Viewer::play_frame(const Input& input, double frame_seconds) {
   for (const Action action : input.pressed) act(action);
@@ -265,14 +278,7 @@ void Viewer::play_frame(const Input& input, double frame_seconds) {
     const bool moved = std::any_of(kMoves.begin(), kMoves.end(), [&](Action a) { return input.is_held(a); });
     if (turned || moved) session_->leave_path();
   }
-  const double until = options_.exit_after ? *options_.exit_after - session_->seconds() : frame_seconds;
-  const bool ends = options_.exit_after && !session_->paused() && until <= frame_seconds;
-  if (ends) {
-    session_->seek(*options_.exit_after);
-    done_ = true;
-  } else {
-    session_->advance(frame_seconds);
-  }
+  let_time_pass(frame_seconds);
   if (session_->follows_path()) {
     player_.ride(session_->path_camera());
     return;
@@ -313,7 +319,8 @@ bool Viewer::draw() {
   constexpr int kFramesUntilBest = 3;
   const bool still = is_still();
   const bool best = still && still_frames_ >= kFramesUntilBest && !still_is_best_;
-  if (still && !best) return screen_->show(nullptr, quality_.quality(), *ImGui::GetDrawData());
+  drew_picture_ = !still || best;
+  if (!drew_picture_) return screen_->show(nullptr, quality_.quality(), *ImGui::GetDrawData());
   std::vector<shared::Hole> holes;
   render::FrameInput input = frame_input(holes);
   const Quality& quality = best ? quality_levels().front() : quality_.quality();
@@ -404,7 +411,8 @@ void Viewer::frame() {
 
 void Viewer::finish_frame(Clock::time_point begin, double frame_seconds, double tick_seconds) {
   screen_->wait();
-  if (frame_seconds == 0) return;  // the first has none before it
+  // The first has none before it; one that shows the same picture again says nothing of the picture's cost.
+  if (frame_seconds == 0 || !drew_picture_) return;
   const double latency = seconds_between(begin, Clock::now());
   FrameFigures figures;
   figures.frame_ms = 1e3 * frame_seconds;

@@ -24,6 +24,7 @@ struct ViewerOptions {
   Weapons weapons;
   std::filesystem::path folder = ".";   ///< Where screenshots and recordings go.
   std::filesystem::path shaders;        ///< Watched for changes.
+  std::optional<double> begin_at;       ///< Begins at this time of its clock, paused [s].
   std::optional<double> exit_after;     ///< The window closes at this time of its clock [s].
   std::filesystem::path screenshot;     ///< Of the end; empty: none.
   std::filesystem::path record;         ///< The timeline of all that was done, at the end; empty: none.

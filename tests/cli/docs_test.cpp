@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <regex>
 #include <sstream>
 
@@ -9,6 +10,9 @@
 #include "core/file.hpp"
 #include "image/png.hpp"
 #include "tests/cli/run_program.hpp"
+#ifdef BRUME_VIEWER
+#include "tests/viewer/desktop.hpp"
+#endif
 
 namespace brume::cli {
 namespace {
@@ -82,6 +86,16 @@ class Documents : public testing::Test {
     if (call.empty() || call[0] == "demo" || call[0] == "bench") return;
     if (call.size() > 1) provide(call[1]);
     if (call[0] == "diff" && call.size() > 2) provide(call[2]);
+    RunOptions options;
+    if (call[0] == "view") {
+#ifdef BRUME_VIEWER
+      if (!desktop_) desktop_.emplace();
+      options.environment = {{ "DISPLAY", desktop_->name() }};
+      call.insert(call.end(), {"--size", "64x40", "--quality", "smallest", "--exit-after", "0.05"});
+#else
+      return;
+#endif
+    }
     if (call[0] == "render") {
       call.insert(call.end(), {"--size", "32x18"});
       const bool film = std::any_of(call.begin(), call.end(), [](const std::string& word) {
@@ -89,10 +103,13 @@ class Documents : public testing::Test {
       });
       if (film) call.insert(call.end(), {"--frames", "0-1"});
     }
-    const Outcome run = run_brume(folder_.path(), call);
+    const Outcome run = run_brume(folder_.path(), call, options);
     EXPECT_EQ(run.exit_code, 0) << run.error;
   }
   WorkFolder folder_;
+#ifdef BRUME_VIEWER
+  mutable std::optional<viewer::Desktop> desktop_;  ///< For windows.
+#endif
 };
 
 TEST_F(Documents, TheirCommandsRun) {
@@ -116,15 +133,20 @@ TEST_F(Documents, TheExamplesOfTheHelpRun) {
   const Outcome help = run_brume(folder_.path(), {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
-  for (const char* command : {"demo", "render", "voxelize", "info", "query", "diff", "devices", "bench"}) {
-    EXPECT_NE(help.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
+  std::vector<std::string> commands{"demo",  "render", "voxelize", "info",
+                                    "query", "diff",   "devices",  "bench"};
+#ifdef BRUME_VIEWER
+  commands.push_back("view");
+#endif
+  for (const std::string& command : commands) {
+    EXPECT_NE(help.out.find("\n  " + command + " "), std::string::npos) << command;
     const Outcome text = run_brume(folder_.path(), {command, "--help"});
     EXPECT_EQ(text.exit_code, 0) << command;
     // The examples come before the options.
     const std::string examples = text.out.substr(0, text.out.find("Usage:"));
     const auto calls = calls_in(examples);
     EXPECT_FALSE(calls.empty()) << command;
-    for (const Arguments& call : calls) expect_works(std::string(command) + " --help", call);
+    for (const Arguments& call : calls) expect_works(command + " --help", call);
   }
 }
 

@@ -20,6 +20,10 @@ class SessionTest : public testing::Test {
         .value_or_throw();
   }
 
+  void advance(double frame_seconds) {
+    session_->seek(session_->seconds() + session_->passing(frame_seconds));
+  }
+
   cli::WorkFolder folder_;
   std::unique_ptr<Session> session_;
   const glm::vec3 eye_{0.5f, 1.6f, 3.2f};
@@ -27,7 +31,7 @@ class SessionTest : public testing::Test {
 };
 
 TEST_F(SessionTest, DeedsHappenAtTheNextTick) {
-  session_->advance(0.1);
+  advance(0.1);
   const double now = session_->seconds();
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
   const auto& smokes = session_->live().stage().timeline.smokes;
@@ -40,14 +44,14 @@ TEST_F(SessionTest, DeedsHappenAtTheNextTick) {
 TEST_F(SessionTest, TimeStandsStillWhilePausedAndSlowsForLongFrames) {
   session_->set_paused(true);
   const double before = session_->seconds();
-  session_->advance(0.1);
+  advance(0.1);
   EXPECT_EQ(session_->seconds(), before);
   session_->step(3);
   EXPECT_EQ(session_->simulation().world().tick(), 4u);
   session_->step(-2);
   EXPECT_EQ(session_->simulation().world().tick(), 2u);
   session_->set_paused(false);
-  session_->advance(10);
+  advance(10);
   EXPECT_NEAR(session_->seconds(), 2 * Session::kTick + Session::kLongestFrame, 1e-6);
 }
 
@@ -55,18 +59,18 @@ TEST_F(SessionTest, WhatIsDoneIsRecordedAndPlaysToTheSameState) {
   Weapons weapons;
   weapons.text.text = "HI";
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
-  for (int i = 0; i < 90; ++i) session_->advance(1.0 / 60);
+  for (int i = 0; i < 90; ++i) advance(1.0 / 60);
   ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
   ASSERT_TRUE(session_->blast(eye_, ahead_, weapons));  // of the same tick
   weapons.kind = ShotKind::word;
   ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
-  session_->advance(0.2);
+  advance(0.2);
   weapons.kind = ShotKind::glyph;
   ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
   ASSERT_TRUE(session_->use_door(eye_));
   scene::Camera camera;
   for (int i = 0; i < 60; ++i) {
-    session_->advance(1.0 / 60);
+    advance(1.0 / 60);
     camera.position_world.x += 0.01f;
     session_->record_camera(camera);
   }
@@ -99,17 +103,17 @@ TEST_F(SessionTest, DoorsOpenAndShut) {
   const auto hidden = [&] { return session_->simulation().hidden_objects().size(); };
   EXPECT_EQ(hidden(), 0u);
   EXPECT_EQ(session_->use_door(eye_).value_or_throw(), "opened: Door");
-  session_->advance(0.1);
+  advance(0.1);
   EXPECT_EQ(hidden(), 1u);
   EXPECT_EQ(session_->use_door(eye_).value_or_throw(), "shut: Door");
-  session_->advance(0.1);
+  advance(0.1);
   EXPECT_EQ(hidden(), 0u);
 }
 
 TEST_F(SessionTest, ResetForgetsWhatWasDone) {
   const std::uint64_t before = session_->simulation().world().state_hash();
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
-  session_->advance(0.25);
+  advance(0.25);
   ASSERT_NE(session_->simulation().world().state_hash(), before);
   ASSERT_TRUE(session_->reset());
   EXPECT_EQ(session_->simulation().world().state_hash(), before);

@@ -1,0 +1,65 @@
+// The pictures of docs/viewer.md: made anew where BRUME_PICTURES names a folder, and held to show what they
+// should.
+#include <X11/keysym.h>
+
+#include <cstdlib>
+
+#include "tests/viewer/room.hpp"
+
+namespace brume::viewer {
+namespace {
+
+class PicturesTest : public testing::Test {
+ protected:
+  static void keep(const image::Image8& picture, const char* name) {
+    if (const char* folder = std::getenv("BRUME_PICTURES"))
+      image::save_png(std::filesystem::path(folder) / name, picture).value_or_throw();
+  }
+  /// The picture once it stays as it is.
+  static image::Image8 settled(Program& program) {
+    image::Image8 last = program.picture();
+    int same = 0;
+    program.wait_for_picture([&](const image::Image8& now) {
+      same = mean_difference(now, last) == 0 ? same + 1 : 0;
+      last = now;
+      return same > 40;
+    });
+    return last;
+  }
+
+  cli::WorkFolder folder_;
+  Desktop desktop_;
+};
+
+TEST_F(PicturesTest, TheDemoWithItsPanelsItsHelpAndAProbe) {
+  Program program(desktop_, folder_.path(),
+                  {"--play", BRUME_SOURCE_DIR "/scenes/demo.toml", "--time", "4.1", "--size", "1120x630"});
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  const image::Image8 plain = settled(program);
+  keep(plain, "viewer.png");
+
+  program.place_mouse(470, 330);
+  program.tap(XK_h);
+  const image::Image8 help = settled(program);
+  keep(help, "viewer_help.png");
+  EXPECT_GT(mean_difference(help, plain), 5);
+  program.tap(XK_h);
+
+  // With the panels open the cursor is free: the probe's ends go where it points.
+  program.tap(XK_Tab);
+  settled(program);
+  program.place_mouse(330, 470);
+  sleep_ms(300);
+  program.tap(XK_l);
+  program.place_mouse(425, 330);
+  sleep_ms(300);
+  program.tap(XK_l);
+  const image::Image8 panels = settled(program);
+  keep(panels, "viewer_panels.png");
+  EXPECT_GT(mean_difference(panels, plain), 5);
+  program.close();
+  EXPECT_EQ(program.wait(), 0) << program.error();
+}
+
+}  // namespace
+}  // namespace brume::viewer
