@@ -7,12 +7,12 @@ namespace brume::viewer {
 namespace {
 
 constexpr std::array kLevels{
-    Quality{"full", 1, 1, 1, 1},
-    Quality{"half", 1, 2, 1, 1},
-    Quality{"quarter", 1, 4, 1, 1.0f / 2},
-    Quality{"coarse", 1, 4, 1.5f, 1.0f / 8},
-    Quality{"small", 0.5f, 2, 1.5f, 1.0f / 16},
-    Quality{"smallest", 0.5f, 4, 2, 1.0f / 32},
+    Quality{"full", 1, 1, 1, 1, 1},
+    Quality{"half", 1, 2, 1, 1, 1},
+    Quality{"quarter", 1, 4, 1, 1, 1.0f / 2},
+    Quality{"coarse", 1, 4, 1.5f, 4, 1.0f / 8},
+    Quality{"small", 0.5f, 2, 1.5f, 4, 1.0f / 16},
+    Quality{"smallest", 0.5f, 4, 2, 4, 1.0f / 16},
 };
 
 // Frames at a level that still pay for the change, and those after which it is judged.

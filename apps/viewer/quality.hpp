@@ -13,6 +13,7 @@ struct Quality {
   float picture_scale = 1;        ///< Pixels of the picture for each of the window, along each axis, (0, 1].
   std::uint32_t march_scale = 1;  ///< render::RendererOptions::march_scale.
   float step_scale = 1;           ///< render::FrameInput::step_scale.
+  float seen_scale = 1;           ///< render::FrameInput::seen_scale.
   float light_share = 1;          ///< render::FrameInput::light_share.
 };
 

@@ -92,6 +92,7 @@ image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
   input.continues = false;
   input.frame_index = 0;
   input.step_scale = 1;
+  input.seen_scale = 1;
   input.light_share = 1;
   renderer_->prepare(input);
   const gpu::Buffer pixels(context_, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,

@@ -10,7 +10,7 @@
 namespace brume::viewer {
 namespace {
 
-constexpr float kPanelWidth = 380, kTimeBarHeight = 64;
+constexpr float kPanelWidth = 400, kTimeBarHeight = 64;
 // Of the passes in the graph, by their order in a frame.
 constexpr std::array kPassColours{
     IM_COL32(94, 129, 172, 255),  IM_COL32(136, 192, 208, 255), IM_COL32(163, 190, 140, 255),
@@ -197,7 +197,7 @@ void lay_out_graph(const Figures& figures) {
 void lay_out_times(const Figures& figures) {
   ImGui::TextUnformatted("time of the device by pass [ms]");
   lay_out_graph(figures);
-  if (figures.frames().empty() || !ImGui::BeginTable("passes", 2)) return;
+  if (figures.frames().empty() || !ImGui::BeginTable("passes", 4, ImGuiTableFlags_SizingFixedFit)) return;
   for (const auto& pass : figures.frames().back().passes) {
     const auto& names = figures.pass_names();
     const auto index =
@@ -205,8 +205,8 @@ void lay_out_times(const Figures& figures) {
     ImGui::TableNextColumn();
     const ImVec4 colour = ImGui::ColorConvertU32ToFloat4(pass_colour(index));
     ImGui::TextColored(colour, "%s", pass.name.c_str());
-    ImGui::SameLine(ImGui::GetColumnOffset() + 100);
-    ImGui::Text("%.3g", pass.milliseconds);
+    ImGui::TableNextColumn();
+    ImGui::Text("%7.2f  ", pass.milliseconds);
   }
   ImGui::EndTable();
 }

@@ -153,9 +153,9 @@ class Viewer {
   std::uint32_t frame_index_ = 0;
   bool continues_ = false;  ///< The frame before was of the same film.
   PictureKey shown_;
-  int still_frames_ = 0;        ///< Since the picture changed.
-  bool drew_picture_ = false;   ///< In this frame: not the one of before again.
-  bool still_is_best_ = false;  ///< The still picture is the one of `brume render`.
+  int still_frames_ = 0;         ///< Since the picture changed.
+  bool is_of_the_film_ = false;  ///< This frame: its picture is neither the one of before nor a still.
+  bool still_is_best_ = false;   ///< The still picture is the one of `brume render`.
   std::uint64_t changes_ = 0;
   bool done_ = false;
   std::deque<Notice> notices_;
@@ -294,8 +294,7 @@ render::FrameInput Viewer::frame_input(std::vector<shared::Hole>& holes) const {
       render::frame_input(session_->live().stage(), session_->simulation(), session_->seconds(), holes);
   input.camera = player_.camera();
   input.view = choices_.view;
-  input.view_slice = choices_.slice.value_or(passes::slice_through_smoke(
-      &session_->simulation().volume(), input.camera.position_world, input.camera.target_world));
+  input.view_slice = choices_.slice;
   return input;
 }
 
@@ -319,14 +318,15 @@ bool Viewer::draw() {
   constexpr int kFramesUntilBest = 3;
   const bool still = is_still();
   const bool best = still && still_frames_ >= kFramesUntilBest && !still_is_best_;
-  drew_picture_ = !still || best;
-  if (!drew_picture_) return screen_->show(nullptr, quality_.quality(), *ImGui::GetDrawData());
+  is_of_the_film_ = !still;
+  if (still && !best) return screen_->show(nullptr, quality_.quality(), *ImGui::GetDrawData());
   std::vector<shared::Hole> holes;
   render::FrameInput input = frame_input(holes);
   const Quality& quality = best ? quality_levels().front() : quality_.quality();
   input.continues = continues_ && choices_.gather && !best;
   input.frame_index = best ? 0 : ++frame_index_;
   input.step_scale = quality.step_scale;
+  input.seen_scale = quality.seen_scale;
   input.light_share = best ? 1 : quality.light_share;
   continues_ = !best;
   still_is_best_ = best;
@@ -411,8 +411,8 @@ void Viewer::frame() {
 
 void Viewer::finish_frame(Clock::time_point begin, double frame_seconds, double tick_seconds) {
   screen_->wait();
-  // The first has none before it; one that shows the same picture again says nothing of the picture's cost.
-  if (frame_seconds == 0 || !drew_picture_) return;
+  // The first has none before it, and still ones say nothing of what it costs to go on.
+  if (frame_seconds == 0 || !is_of_the_film_) return;
   const double latency = seconds_between(begin, Clock::now());
   FrameFigures figures;
   figures.frame_ms = 1e3 * frame_seconds;
