@@ -97,7 +97,9 @@ void KeptSmokeLight::add_hole_changes(const SmokeLightMoment& moment,
                                       std::vector<shared::LightChange>& changes) const {
   const float slack = frame_.voxel_size;  // holes are averaged over cells of half a voxel
   const auto add = [&](const shared::Hole& hole) {
-    changes.push_back({hole.origin_world, hole.radius * shared::kHoleWidest + slack,
+    // A rim moves by a quarter of the radius at most; only boxes and masks have corners.
+    const float reach = hole.shape == shared::kHoleCylinder ? 1.25f : shared::kHoleWidest;
+    changes.push_back({hole.origin_world, hole.radius * reach + slack,
                        hole.origin_world + hole.distance_to_far * hole.forward, 0});
   };
   const auto bytes = [](const shared::Hole& hole) {
@@ -477,6 +479,8 @@ const SmokeLightPlan& KeptSmokeLight::plan(const SmokeLightMoment& moment) {
         bounds_.low != moment.needs->bounds.low || bounds_.high != moment.needs->bounds.high;
     const bool noise_drifts = moment.look.erosion > 0 && (moment.time != last_->time || moment.noise_moved);
     if (shares()) add_hole_changes(moment, cuts_);
+    // Texels in them and beside them, not rays that graze them.
+    for (shared::LightChange& cut : cuts_) cut.radius -= 0.5f * frame_.voxel_size;
     if (!noise_drifts) add_hole_changes(moment, changes);
     if (noise_drifts || other_box || is_other(moment) || !drop_crossed(moment, changes)) drop_rays();
   }
