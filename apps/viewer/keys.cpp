@@ -20,6 +20,7 @@ constexpr std::array kBindings{
     KeyBinding{Action::shoot, true, GLFW_MOUSE_BUTTON_RIGHT, "Mouse right", "shoot"},
     KeyBinding{Action::free_cursor, true, GLFW_MOUSE_BUTTON_MIDDLE, "Mouse middle",
                "held: frees the cursor; what is thrown or shot then goes where it points"},
+    KeyBinding{Action::let_cursor_go, false, GLFW_KEY_ESCAPE, "Esc", "frees the cursor, and holds it again"},
     KeyBinding{Action::shape_bullet, false, GLFW_KEY_1, "1", "shoot bullets"},
     KeyBinding{Action::shape_glyph, false, GLFW_KEY_2, "2", "shoot letters, one a shot"},
     KeyBinding{Action::shape_word, false, GLFW_KEY_3, "3", "shoot the whole word"},
@@ -38,6 +39,7 @@ constexpr std::array kBindings{
     KeyBinding{Action::save_recording, false, GLFW_KEY_F5, "F5", "save what was done as a timeline"},
     KeyBinding{Action::panels, false, GLFW_KEY_TAB, "Tab", "the panels"},
     KeyBinding{Action::overlay, false, GLFW_KEY_O, "O", "the line of figures"},
+    KeyBinding{Action::full_screen, false, GLFW_KEY_F11, "F11", "the whole screen, and back"},
     KeyBinding{Action::help, false, GLFW_KEY_H, "H", "this help"},
 };
 

@@ -17,6 +17,7 @@ enum class Action {
   throw_smoke,
   shoot,
   free_cursor,
+  let_cursor_go,
   fly,
   shape_bullet,
   shape_glyph,
@@ -34,6 +35,7 @@ enum class Action {
   save_recording,
   panels,
   overlay,
+  full_screen,
   help,
   count,
 };

@@ -17,6 +17,7 @@ namespace brume::viewer {
 /// What the person has chosen. The panels change it.
 struct Choices {
   bool panels = false, help = false, overlay = true;
+  bool free_cursor = false;  ///< The mouse moves the cursor instead of the view.
   passes::DebugView view = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice;  ///< Empty: through the middle of the smoke.
   Weapons weapons;

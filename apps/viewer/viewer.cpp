@@ -170,7 +170,8 @@ void Viewer::take_messages() {
 
 // The mouse turns the view unless something else needs the cursor.
 void Viewer::hold_mouse(const Input& input) {
-  window_.hold_mouse(!choices_.panels && !choices_.help && !input.is_held(Action::free_cursor));
+  window_.hold_mouse(!choices_.panels && !choices_.help && !choices_.free_cursor &&
+                     !input.is_held(Action::free_cursor));
 }
 
 glm::vec3 Viewer::aim() const {
@@ -252,6 +253,12 @@ void Viewer::act(Action action) {
       break;
     case Action::overlay:
       choices_.overlay = !choices_.overlay;
+      break;
+    case Action::let_cursor_go:
+      choices_.free_cursor = !choices_.free_cursor;
+      break;
+    case Action::full_screen:
+      window_.toggle_full_screen();
       break;
     case Action::help:
       choices_.help = !choices_.help;

@@ -118,8 +118,18 @@ glm::vec2 Window::cursor_px() const {
   return glm::vec2(glm::dvec2(x, y) * scale);
 }
 
-void Window::set_title(const std::string& title) {
-  ::glfwSetWindowTitle(handle_, title.c_str());
+void Window::toggle_full_screen() {
+  if (::glfwGetWindowMonitor(handle_)) {
+    ::glfwSetWindowMonitor(handle_, nullptr, windowed_.x, windowed_.y, windowed_.z, windowed_.w,
+                           GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* const monitor = ::glfwGetPrimaryMonitor();
+  const GLFWvidmode* const mode = monitor ? ::glfwGetVideoMode(monitor) : nullptr;
+  if (!mode) return;
+  ::glfwGetWindowPos(handle_, &windowed_.x, &windowed_.y);
+  ::glfwGetWindowSize(handle_, &windowed_.z, &windowed_.w);
+  ::glfwSetWindowMonitor(handle_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 void Window::change(bool mouse, int code, bool pressed) {

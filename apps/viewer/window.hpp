@@ -46,7 +46,8 @@ class Window {
   bool holds_mouse() const { return holds_mouse_; }
   /// Of the cursor while it is free [px].
   glm::vec2 cursor_px() const;
-  void set_title(const std::string& title);
+  /// The screen that it is on as a whole, or the window as it was before.
+  void toggle_full_screen();
 
  private:
   static void on_key(GLFWwindow* window, int key, int scancode, int change, int modifiers);
@@ -61,6 +62,7 @@ class Window {
   bool holds_mouse_ = false;
   bool knows_cursor_ = false;  ///< last_cursor_ is of the same mode of the cursor.
   glm::dvec2 last_cursor_{0};
+  glm::ivec4 windowed_{0};  ///< Place and size before it took the whole screen.
 };
 
 }  // namespace brume::viewer
