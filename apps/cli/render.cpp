@@ -192,6 +192,27 @@ void render(const Options& options, const CommonOptions& common) {
   write_json(options.json, statistics);
 }
 
+void declare_quality(CLI::App& parser, Options& options) {
+  parser
+      .add_option("--march", options.march, "Rays of the smoke: one for each pixel, 2x2 or 4x4; default full")
+      ->check(CLI::IsMember({"full", "half", "quarter"}))
+      ->type_name("full|half|quarter");
+  parser.add_flag("--temporal", options.temporal, "Gather the smoke of a film over its frames");
+  parser
+      .add_option("--step", options.step,
+                  "Length of the steps through smoke, of the usual: 0.25 to 4; longer is faster; default 1")
+      ->type_name("X");
+  parser
+      .add_option(
+          "--seen", options.seen,
+          "Error up to which --march half and quarter interpolate, of the usual: 0.25 to 16; default 1")
+      ->type_name("X");
+  parser
+      .add_option("--light-share", options.light_share,
+                  "How much of the light in smoke each frame of a film makes anew: 0.0625 to 1; default 1")
+      ->type_name("X");
+}
+
 }  // namespace
 
 Command add_render(CLI::App& program) {
@@ -222,25 +243,7 @@ Command add_render(CLI::App& program) {
   parser.add_option("--size", options->size, "Pixels; default 1280x720")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
       ->type_name("WxH");
-  parser
-      .add_option("--march", options->march,
-                  "Rays of the smoke: one for each pixel, 2x2 or 4x4; default full")
-      ->check(CLI::IsMember({"full", "half", "quarter"}))
-      ->type_name("full|half|quarter");
-  parser.add_flag("--temporal", options->temporal, "Gather the smoke of a film over its frames");
-  parser
-      .add_option("--step", options->step,
-                  "Length of the steps through smoke, of the usual: 0.25 to 4; longer is faster; default 1")
-      ->type_name("X");
-  parser
-      .add_option(
-          "--seen", options->seen,
-          "Error up to which --march half and quarter interpolate, of the usual: 0.25 to 16; default 1")
-      ->type_name("X");
-  parser
-      .add_option("--light-share", options->light_share,
-                  "How much of the light in smoke each frame of a film makes anew: 0.0625 to 1; default 1")
-      ->type_name("X");
+  declare_quality(parser, *options);
   parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
       ->type_name("CAMERA");
   parser.add_option("--view", options->view, "What the picture is made from: " + view_names())

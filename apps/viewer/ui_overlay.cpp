@@ -1,5 +1,7 @@
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -105,17 +107,41 @@ void lay_out_overlay(const Choices& choices, const Session& session, const Playe
 }
 
 void lay_out_help() {
-  const glm::vec2 size = display_size();
-  ImGui::SetNextWindowPos(ImVec2(0.5f * size.x, 0.5f * size.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  const auto bindings = key_bindings();
+  glm::vec2 name(0), does(0);
+  for (const KeyBinding& binding : bindings) {
+    const ImVec2 a = ImGui::CalcTextSize(binding.name), b = ImGui::CalcTextSize(binding.does);
+    name = glm::max(name, glm::vec2(a.x, a.y));
+    does = glm::max(does, glm::vec2(b.x, b.y));
+  }
+  // One list or two beside each other, whichever is larger where it fits the window.
+  const glm::vec2 room = display_size() - 4 * kMargin;
+  const glm::vec2 padding(2 * ImGui::GetStyle().CellPadding.x, 2 * ImGui::GetStyle().CellPadding.y + 1);
+  const auto scale_of = [&](int lists) {
+    const float pairs = static_cast<float>(lists);
+    const float rows = std::ceil(static_cast<float>(bindings.size()) / pairs);
+    const glm::vec2 text((room.x / pairs - 3 * padding.x) / (name.x + does.x),
+                         (room.y / rows - padding.y) / name.y);
+    return std::clamp(std::min(text.x, text.y), 0.3f, 1.0f);
+  };
+  const int lists = scale_of(2) > scale_of(1) ? 2 : 1;
+  const std::size_t rows =
+      (bindings.size() + static_cast<std::size_t>(lists) - 1) / static_cast<std::size_t>(lists);
+
+  const glm::vec2 middle = 0.5f * display_size();
+  ImGui::SetNextWindowPos(ImVec2(middle.x, middle.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowBgAlpha(0.9f);
   ImGui::Begin("help", nullptr, kPlain);
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const KeyBinding& binding : key_bindings()) {
+  ImGui::SetWindowFontScale(scale_of(lists));
+  if (ImGui::BeginTable("keys", 2 * lists, ImGuiTableFlags_SizingFixedFit)) {
+    for (std::size_t row = 0; row < rows; ++row) {
       ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextColored(ImVec4(1, 0.8f, 0.5f, 1), "%s", binding.name);
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(binding.does);
+      for (std::size_t i = row; i < bindings.size(); i += rows) {
+        ImGui::TableNextColumn();
+        ImGui::TextColored(ImVec4(1, 0.8f, 0.5f, 1), "%s", bindings[i].name);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(bindings[i].does);
+      }
     }
     ImGui::EndTable();
   }

@@ -6,6 +6,7 @@
 
 #include "apps/viewer/option_panel.hpp"
 #include "apps/viewer/ui_parts.hpp"
+#include "sim/cloud.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -220,7 +221,10 @@ void lay_out_state(const Session& session, const Figures& figures, const Notices
               static_cast<double>(resident_bytes()) / kMiB);
   ImGui::Text("tick %u, %zu clouds, %zu holes, %zu blasts", state.tick, state.clouds.size(),
               state.holes.size(), state.blasts.size());
-  ImGui::Text("%u bricks of smoke", session.simulation().volume().slot_count());
+  std::uint64_t amount = 0;  // in voxels / 2^20
+  for (const sim::LiveCloud& cloud : state.clouds) amount += cloud.cloud->amount(state.tick);
+  ImGui::Text("%llu voxels of smoke in %u bricks", static_cast<unsigned long long>(amount >> 20),
+              session.simulation().volume().slot_count());
 }
 
 }  // namespace

@@ -116,7 +116,8 @@ class Viewer {
   void play_frame(const Input& input, double frame_seconds);
   void let_time_pass(double frame_seconds);
   void act(Action action);
-  void shoot_or_throw(Action action);
+  void do_deed(Action action);
+  void choose(Action action);
   void hold_mouse(const Input& input);
   void grant(const Wishes& wishes);
   void follow_quality();
@@ -180,92 +181,57 @@ glm::vec3 Viewer::aim() const {
   return direction_through(player_.camera(), size.x / size.y, glm::clamp(place, glm::vec2(0), glm::vec2(1)));
 }
 
-void Viewer::shoot_or_throw(Action action) {
+// What happens in the level.
+void Viewer::do_deed(Action action) {
   const glm::vec3 eye = player_.camera().position_world;
   if (action == Action::throw_smoke) say_failure(session_->throw_smoke(eye, aim()));
   if (action == Action::shoot) say_failure(session_->shoot(eye, aim(), choices_.weapons));
   if (action == Action::blast) say_failure(session_->blast(eye, aim(), choices_.weapons));
+  if (action == Action::door) {
+    const auto door = session_->use_door(eye);
+    say(door ? *door : door.failure().message);
+  }
+  if (action == Action::reset) {
+    say_failure(session_->reset());
+    go_to_beginning();
+    choices_.probe = {};
+  }
+}
+
+// What the next deeds are like, and how the picture is shown.
+void Viewer::choose(Action action) {
+  if (action == Action::shape_bullet) choices_.weapons.kind = ShotKind::bullet;
+  if (action == Action::shape_glyph) choices_.weapons.kind = ShotKind::glyph;
+  if (action == Action::shape_word) choices_.weapons.kind = ShotKind::word;
+  if (action == Action::shape_picture) choices_.weapons.kind = ShotKind::picture;
+  if (action == Action::fly) player_.set_flying(grid(), !player_.flying());
+  if (action == Action::panels) choices_.panels = !choices_.panels;
+  if (action == Action::overlay) choices_.overlay = !choices_.overlay;
+  if (action == Action::help) choices_.help = !choices_.help;
+  if (action == Action::let_cursor_go) choices_.free_cursor = !choices_.free_cursor;
+  if (action == Action::full_screen) window_.toggle_full_screen();
+  if (action == Action::next_view) {
+    const auto next = (static_cast<std::size_t>(choices_.view) + 1) % passes::kDebugViewNames.size();
+    choices_.view = static_cast<passes::DebugView>(next);
+    ++changes_;
+  }
+  if (action == Action::probe) {
+    const glm::vec3 eye = player_.camera().position_world, direction = aim();
+    const stage::Aim aimed = stage::aim(grid(), eye, direction);
+    // Just before the wall, which would be in the way.
+    const float back = 0.5f * grid().frame().voxel_size;
+    choices_.probe.pick(eye + std::max(aimed.meets.value_or(10) - back, 0.0f) * direction);
+  }
 }
 
 void Viewer::act(Action action) {
-  const auto choose = [&](ShotKind kind) { choices_.weapons.kind = kind; };
-  switch (action) {
-    case Action::throw_smoke:
-    case Action::shoot:
-    case Action::blast:
-      shoot_or_throw(action);
-      break;
-    case Action::fly:
-      player_.set_flying(grid(), !player_.flying());
-      break;
-    case Action::shape_bullet:
-      choose(ShotKind::bullet);
-      break;
-    case Action::shape_glyph:
-      choose(ShotKind::glyph);
-      break;
-    case Action::shape_word:
-      choose(ShotKind::word);
-      break;
-    case Action::shape_picture:
-      choose(ShotKind::picture);
-      break;
-    case Action::door: {
-      const auto door = session_->use_door(player_.camera().position_world);
-      say(door ? *door : door.failure().message);
-      break;
-    }
-    case Action::probe: {
-      const glm::vec3 eye = player_.camera().position_world, direction = aim();
-      const stage::Aim aimed = stage::aim(grid(), eye, direction);
-      // Just before the wall, which would be in the way.
-      const float back = 0.5f * grid().frame().voxel_size;
-      choices_.probe.pick(eye + std::max(aimed.meets.value_or(10) - back, 0.0f) * direction);
-      break;
-    }
-    case Action::reset:
-      say_failure(session_->reset());
-      go_to_beginning();
-      choices_.probe = {};
-      break;
-    case Action::pause:
-      session_->set_paused(!session_->paused());
-      break;
-    case Action::step_back:
-      session_->step(-1);
-      break;
-    case Action::step_on:
-      session_->step(1);
-      break;
-    case Action::next_view:
-      choices_.view = static_cast<passes::DebugView>((static_cast<std::size_t>(choices_.view) + 1) %
-                                                     passes::kDebugViewNames.size());
-      ++changes_;
-      break;
-    case Action::screenshot:
-      save_screenshot(free_name(options_.folder, "brume", ".png"));
-      break;
-    case Action::save_recording:
-      save_recording(free_name(options_.folder, "recording", ".toml"));
-      break;
-    case Action::panels:
-      choices_.panels = !choices_.panels;
-      break;
-    case Action::overlay:
-      choices_.overlay = !choices_.overlay;
-      break;
-    case Action::let_cursor_go:
-      choices_.free_cursor = !choices_.free_cursor;
-      break;
-    case Action::full_screen:
-      window_.toggle_full_screen();
-      break;
-    case Action::help:
-      choices_.help = !choices_.help;
-      break;
-    default:  // those that are held
-      break;
-  }
+  do_deed(action);
+  choose(action);
+  if (action == Action::pause) session_->set_paused(!session_->paused());
+  if (action == Action::step_back) session_->step(-1);
+  if (action == Action::step_on) session_->step(1);
+  if (action == Action::screenshot) save_screenshot(free_name(options_.folder, "brume", ".png"));
+  if (action == Action::save_recording) save_recording(free_name(options_.folder, "recording", ".toml"));
 }
 
 // Up to the end, which is met exactly.

@@ -34,6 +34,30 @@ class Module {
   VkShaderModule handle_ = VK_NULL_HANDLE;
 };
 
+VkPipelineRasterizationStateCreateInfo raster_state(const GraphicsInfo& wanted) {
+  VkPipelineRasterizationStateCreateInfo raster{};
+  raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+  raster.polygonMode = VK_POLYGON_MODE_FILL;
+  raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+  raster.lineWidth = 1;
+  raster.depthBiasEnable =
+      wanted.depth_bias_slope != 0 || wanted.depth_bias_constant != 0 ? VK_TRUE : VK_FALSE;
+  raster.depthBiasSlopeFactor = -wanted.depth_bias_slope;
+  raster.depthBiasConstantFactor = -wanted.depth_bias_constant;
+  return raster;
+}
+
+VkPipelineColorBlendAttachmentState colour_state(const GraphicsInfo& wanted) {
+  VkPipelineColorBlendAttachmentState colour{};
+  colour.colorWriteMask = 0xf;
+  colour.blendEnable = wanted.blend ? VK_TRUE : VK_FALSE;
+  colour.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  colour.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  colour.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  colour.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  return colour;
+}
+
 }  // namespace
 
 Pipeline::Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderStageFlags stages,
@@ -130,7 +154,6 @@ GraphicsPipeline::GraphicsPipeline(Context& context, const GraphicsInfo& wanted,
 }
 
 VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline* made) const {
-  const GraphicsInfo& wanted = info_;
   const Module vertex(context_, shaders[0]);
   std::vector<VkPipelineShaderStageCreateInfo> stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, nullptr)};
   std::optional<Module> fragment;
@@ -147,30 +170,16 @@ VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline*
   VkPipelineViewportStateCreateInfo viewport{};
   viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
   viewport.viewportCount = viewport.scissorCount = 1;
-  VkPipelineRasterizationStateCreateInfo raster{};
-  raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-  raster.polygonMode = VK_POLYGON_MODE_FILL;
-  raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-  raster.lineWidth = 1;
-  raster.depthBiasEnable =
-      wanted.depth_bias_slope != 0 || wanted.depth_bias_constant != 0 ? VK_TRUE : VK_FALSE;
-  raster.depthBiasSlopeFactor = -wanted.depth_bias_slope;
-  raster.depthBiasConstantFactor = -wanted.depth_bias_constant;
+  const VkPipelineRasterizationStateCreateInfo raster = raster_state(info_);
   VkPipelineMultisampleStateCreateInfo samples{};
   samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   VkPipelineDepthStencilStateCreateInfo depth{};
   depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-  depth.depthTestEnable = depth.depthWriteEnable = wanted.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
+  depth.depthTestEnable = depth.depthWriteEnable = info_.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
   depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
-  VkPipelineColorBlendAttachmentState colour{};
-  colour.colorWriteMask = 0xf;
-  colour.blendEnable = wanted.blend ? VK_TRUE : VK_FALSE;
-  colour.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-  colour.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-  colour.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-  colour.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-  const std::vector<VkPipelineColorBlendAttachmentState> attachments(wanted.colours.size(), colour);
+  const std::vector<VkPipelineColorBlendAttachmentState> attachments(info_.colours.size(),
+                                                                     colour_state(info_));
   VkPipelineColorBlendStateCreateInfo blend{};
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
@@ -181,9 +190,9 @@ VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline*
                                                   nullptr, 0, 3, dynamic};
   VkPipelineRenderingCreateInfo rendering{};
   rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
-  rendering.colorAttachmentCount = static_cast<std::uint32_t>(wanted.colours.size());
-  rendering.pColorAttachmentFormats = wanted.colours.data();
-  rendering.depthAttachmentFormat = wanted.depth;
+  rendering.colorAttachmentCount = static_cast<std::uint32_t>(info_.colours.size());
+  rendering.pColorAttachmentFormats = info_.colours.data();
+  rendering.depthAttachmentFormat = info_.depth;
 
   VkGraphicsPipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
