@@ -70,7 +70,7 @@ TEST_F(MaskErrors, MorePicturesThanFit) {
   write_picture("0.png", 2000, 2000);
   for (int i = 1; i < 5; ++i) {
     const std::string name = std::to_string(i) + ".png";
-    std::filesystem::copy(folder_.path() / "0.png", folder_.path() / name);
+    write_picture(name, 2000, 2000 - i);  // equal ones would be one mask
     lines +=
         "\n[[event]]\ntype = \"shot\"\ntime = 0.1\nfrom = [0, 1, 1]\ntoward = [0, 1, -1]\nshape = "
         "\"mask\"\nmask = \"" +
