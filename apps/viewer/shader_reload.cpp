@@ -1,5 +1,6 @@
 #include "apps/viewer/shader_reload.hpp"
 
+#include <algorithm>
 #include <set>
 #include <shaderc/shaderc.hpp>
 #include <spirv_cross/spirv_cross.hpp>
@@ -132,11 +133,11 @@ Result<void> check_fit(const std::vector<std::uint32_t>& words, const gpu::Pipel
 
 ShaderReload::ShaderReload(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-void ShaderReload::look(gpu::Context& context) {
-  std::set<std::string> names;
-  for (const gpu::Pipeline* pipeline : context.pipelines())
-    for (const gpu::ShaderCode& shader : pipeline->shaders()) names.insert(shader.name);
-  for (const std::string& name : names) {
+void ShaderReload::look() {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!kind_of(name)) continue;
     std::set<std::string> seen;
     const auto newest = newest_change(folder_, name, seen);
     if (!newest) continue;
@@ -147,6 +148,15 @@ void ShaderReload::look(gpu::Context& context) {
   }
 }
 
+Result<void> ShaderReload::replace(gpu::Pipeline& pipeline, const std::string& name, const Words& words) {
+  for (const gpu::ShaderCode& shader : pipeline.shaders()) {
+    if (shader.name != name || shader.words.data() == words.data()) continue;
+    if (auto fits = check_fit(words, pipeline, name); !fits) return fits;
+    return pipeline.replace_shader({name.c_str(), words});
+  }
+  return {};
+}
+
 bool ShaderReload::take(gpu::Context& context, Compiled compiled) {
   errors_.erase(compiled.name);
   if (!compiled.words) {
@@ -155,27 +165,15 @@ bool ShaderReload::take(gpu::Context& context, Compiled compiled) {
   }
   kept_.push_back(std::move(*compiled.words));
   const Words& words = kept_.back();
-  const auto users = [&] {
-    std::vector<gpu::Pipeline*> found;
-    for (gpu::Pipeline* pipeline : context.pipelines())
-      for (const gpu::ShaderCode& shader : pipeline->shaders())
-        if (shader.name == compiled.name) found.push_back(pipeline);
-    return found;
-  }();
-  for (const gpu::Pipeline* pipeline : users) {
-    if (const auto fits = check_fit(words, *pipeline, compiled.name); !fits) {
-      errors_[compiled.name] = fits.failure().message;
-      return false;
-    }
-  }
-  const std::string& name = in_use_.emplace(compiled.name, nullptr).first->first;
-  for (gpu::Pipeline* pipeline : users) {
-    if (const auto done = pipeline->replace_shader({name.c_str(), words}); !done) {
+  // The key lives as long as the pipelines that are given it as their shader's name.
+  const auto in_use = in_use_.emplace(compiled.name, nullptr).first;
+  for (gpu::Pipeline* pipeline : context.pipelines()) {
+    if (const auto done = replace(*pipeline, in_use->first, words); !done) {
       errors_[compiled.name] = done.failure().message;
       return false;
     }
   }
-  in_use_[compiled.name] = &words;
+  in_use->second = &words;
   ++reloads_;
   return true;
 }
@@ -184,7 +182,7 @@ bool ShaderReload::follow(gpu::Context& context) {
   const auto now = std::chrono::steady_clock::now();
   if (now - looked_at_ > kLookEvery) {
     looked_at_ = now;
-    look(context);
+    look();
   }
   bool changed = false;
   if (compiling_.valid() && compiling_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
@@ -196,19 +194,14 @@ bool ShaderReload::follow(gpu::Context& context) {
     });
     changed_.pop_front();
   }
-  return changed;
-}
-
-void ShaderReload::apply_all(gpu::Context& context) {
+  // Pipelines may be made later than the shader was changed: those of a debug view, those of a new device.
   for (gpu::Pipeline* pipeline : context.pipelines()) {
-    const std::vector<gpu::ShaderCode> shaders(pipeline->shaders().begin(), pipeline->shaders().end());
-    for (const gpu::ShaderCode& shader : shaders) {
-      const auto known = in_use_.find(shader.name);
-      if (known == in_use_.end() || !known->second) continue;
-      if (const auto done = pipeline->replace_shader({known->first.c_str(), *known->second}); !done)
-        errors_[known->first] = done.failure().message;
+    for (const auto& [name, words] : in_use_) {
+      if (!words) continue;
+      if (const auto done = replace(*pipeline, name, *words); !done) errors_[name] = done.failure().message;
     }
   }
+  return changed;
 }
 
 }  // namespace brume::viewer

@@ -33,11 +33,9 @@ class ShaderReload {
   /// Watches the shader files of a folder; one that is not there is watched in vain.
   explicit ShaderReload(std::filesystem::path folder);
 
-  /// Looks after the files every now and then, and puts in what was compiled since. When the device is done
-  /// with the frame before. True when a pipeline changed.
+  /// Looks after the files every now and then, and puts what was compiled so far into the pipelines that do
+  /// not have it yet. When the device is done with the frame before. True when there is a new version.
   bool follow(gpu::Context& context);
-  /// Puts all that was changed so far into the pipelines of another context.
-  void apply_all(gpu::Context& context);
 
   /// What is wrong with shaders now, by file: what the compiler says.
   const std::map<std::string, std::string>& errors() const { return errors_; }
@@ -49,8 +47,10 @@ class ShaderReload {
     std::string name;
     Result<Words> words;
   };
-  void look(gpu::Context& context);
+  void look();
   bool take(gpu::Context& context, Compiled compiled);
+  /// Gives a pipeline this version of its shader, unless it has it or another shader.
+  static Result<void> replace(gpu::Pipeline& pipeline, const std::string& name, const Words& words);
 
   std::filesystem::path folder_;
   std::chrono::steady_clock::time_point looked_at_{};

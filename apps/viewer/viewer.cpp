@@ -94,7 +94,6 @@ class Viewer {
     ImGui::EndFrame();  // which the loss may have cut off
     screen_.reset();
     make_screen();
-    shaders_.apply_all(screen_->context());
     say("the device was lost; it was made anew");
   }
 

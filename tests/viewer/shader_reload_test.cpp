@@ -63,5 +63,27 @@ TEST_F(ShaderReloadTest, RefusesAnotherInterface) {
   EXPECT_TRUE(check_fit(*same, pipeline, "display.comp"));
 }
 
+TEST_F(ShaderReloadTest, APipelineThatIsMadeLaterGetsTheChangedShader) {
+  const cli::WorkFolder folder;
+  const auto copy = folder.path() / "shaders";
+  std::filesystem::copy(kShaders, copy, std::filesystem::copy_options::recursive);
+  ShaderReload reload(copy);
+  EXPECT_FALSE(reload.follow(context()));
+  // Another time than that of the copy, whatever the clock of the file system can tell apart.
+  std::filesystem::last_write_time(
+      copy / "display.comp",
+      std::filesystem::last_write_time(copy / "display.comp") + std::chrono::seconds(2));
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (reload.reloads() == 0 && std::chrono::steady_clock::now() < end) reload.follow(context());
+  ASSERT_EQ(reload.reloads(), 1u);
+  const gpu::ComputePipeline pipeline(context(), shaders::display_comp,
+                                      {gpu::kUniform, gpu::kSampled, gpu::kStored, gpu::kStored}, 0,
+                                      {8, 8, 1});
+  ASSERT_EQ(pipeline.shaders()[0].words.data(), shaders::display_comp.words.data());
+  reload.follow(context());
+  EXPECT_NE(pipeline.shaders()[0].words.data(), shaders::display_comp.words.data());
+  EXPECT_TRUE(reload.errors().empty());
+}
+
 }  // namespace
 }  // namespace brume::viewer
