@@ -13,8 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word, picture,
-                           folder = ".", screenshot, record, json;
+  std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
+                           picture, folder = ".", screenshot, record, json;
   std::string shaders = BRUME_SHADERS_DIR;
   double frames_per_second = 60;
   std::optional<double> time, exit_after, lose_device, lose_surface;
@@ -44,7 +44,7 @@ viewer::ViewerOptions viewer_options(const Options& options) {
   viewer.view = passes::find_debug_view(options.view).value_or(passes::DebugView::none);
   viewer.panels = options.panels;
   viewer.overlay = !options.bare;
-  viewer.weapons.text.text = options.word.empty() ? "BRUME" : options.word;
+  viewer.weapons.text.text = options.word;
   viewer.weapons.picture = options.picture;
   viewer.folder = options.folder;
   viewer.shaders = options.shaders;

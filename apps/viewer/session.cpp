@@ -89,6 +89,12 @@ void Session::seek(double seconds) {
   live_->advance_to(seconds_);
 }
 
+void Session::scrub(double seconds) {
+  paused_ = true;
+  follows_path_ = !keys_.empty();
+  seek(seconds);
+}
+
 void Session::step(int ticks) {
   paused_ = true;
   seek((std::floor(seconds_ / kTick + 1e-9) + ticks) * kTick);

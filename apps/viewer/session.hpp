@@ -50,6 +50,8 @@ class Session {
   double passing(double frame_seconds) const { return paused_ ? 0 : std::min(frame_seconds, kLongestFrame); }
   /// To any time, forwards or backwards [s].
   void seek(double seconds);
+  /// The same as the bar of time does it: paused, and on the camera's way, which is so not overwritten.
+  void scrub(double seconds);
   void step(int ticks);
   /// Back to the beginning, without what was done.
   Result<void> reset();

@@ -299,7 +299,7 @@ bool Viewer::draw() {
   input.frame_index = best ? 0 : ++frame_index_;
   input.step_scale = quality.step_scale;
   input.seen_scale = quality.seen_scale;
-  input.light_share = best ? 1 : quality.light_share;
+  input.light_share = quality.light_share;
   continues_ = !best;
   still_is_best_ = best;
   return screen_->show(&input, quality, *ImGui::GetDrawData());
@@ -327,10 +327,7 @@ void Viewer::lose_for_tests() {
 void Viewer::grant(const Wishes& wishes) {
   if (wishes.changed_picture) ++changes_;
   if (wishes.play) session_->play();
-  if (wishes.seek) {
-    session_->set_paused(true);
-    session_->seek(*wishes.seek);
-  }
+  if (wishes.seek) session_->scrub(*wishes.seek);
   for (const Action action : wishes.actions) act(action);
 }
 
@@ -376,7 +373,8 @@ void Viewer::frame() {
   if (draw()) {
     finish_frame(begin, frame_seconds, tick_seconds);
   } else {
-    window_.poll(kIdleSeconds);  // nothing to be seen
+    shown_ = {};  // nothing was seen, so what comes to be seen is new
+    window_.poll(kIdleSeconds);
   }
   if (done_ && !options_.screenshot.empty()) save_screenshot(options_.screenshot);
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace brume::scene {
 namespace {
@@ -83,6 +84,12 @@ Result<float> TextReader::number_from(std::string_view word, const std::string& 
     return expected("a finite number for " + what, word);
   }
   return static_cast<float>(value);
+}
+
+std::string shown(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 std::string in_quotes(std::string_view text) {

@@ -53,6 +53,8 @@ class TextReader {
 /// The text between quotes, cut at 40 bytes, with control bytes shown as '?'; "the end of the line" for
 /// an empty one.
 std::string in_quotes(std::string_view text);
+/// A number as messages show it: six digits at most.
+std::string shown(double value);
 
 /// Line and column, both from 1, of a byte of the text.
 struct LineColumn {

@@ -1,20 +1,14 @@
 #include "scene/timeline_check.hpp"
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "core/utf8.hpp"
 #include "scene/options.hpp"
+#include "scene/text_reader.hpp"
 
 namespace brume::scene {
 namespace {
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 /// Looks at the members of one thing; the first failure is kept. A visitor of scene/options.hpp.
 class Checker {

@@ -2,18 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
-#include <sstream>
 
 #include "scene/text_reader.hpp"
 
 namespace brume::scene {
 namespace {
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 /// The start of a message on a key's value.
 std::string expected(std::string_view key, const char* what) {

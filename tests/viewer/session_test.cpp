@@ -87,6 +87,21 @@ TEST_F(SessionTest, WhatIsDoneIsRecordedAndPlaysToTheSameState) {
   EXPECT_LE(recording.camera.size(), 10u);
 }
 
+TEST_F(SessionTest, TheBarOfTimeKeepsTheCamerasWay) {
+  scene::Camera camera;
+  for (int i = 0; i < 120; ++i) {
+    advance(1.0 / 60);
+    camera.position_world.x += 0.01f;
+    session_->record_camera(camera);
+  }
+  const std::size_t keys = session_->recording().camera.size();
+  session_->scrub(0.5);
+  EXPECT_TRUE(session_->paused());
+  ASSERT_TRUE(session_->follows_path());
+  EXPECT_NEAR(session_->path_camera().position_world.x, 0.3f, 0.02f);
+  EXPECT_EQ(session_->recording().camera.size(), keys);
+}
+
 TEST_F(SessionTest, LettersComeOneAfterTheOther) {
   Weapons weapons;
   weapons.kind = ShotKind::glyph;
