@@ -4,26 +4,26 @@
 #include "core/tasks.hpp"
 #include "scene/load.hpp"
 #include "sim/fill.hpp"
-#include "stage/world_triangles.hpp"
+#include "scenario/world_triangles.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"
 
 namespace brume::bench {
 namespace {
 
-constexpr voxel::GridFrame kMotelFrame{{120, 20, 120}, 0.5f, {-30, 0, -30}};
+constexpr voxel::GridLayout kMotelFrame{{120, 20, 120}, 0.5f, {-30, 0, -30}};
 
 Result<std::vector<voxel::Triangle>> motel_triangles() {
   const auto path = motel_scene();
   if (!path) return path.failure();
   auto scene = scene::load_scene(*path);
   if (!scene) return scene.failure();
-  return stage::world_triangles(*scene);
+  return scenario::world_triangles(*scene);
 }
 
 Result<std::vector<Measurement>> voxelize_triangles(const Bench& bench, const std::string& name,
                                                     std::span<const voxel::Triangle> triangles,
-                                                    const voxel::GridFrame& frame, unsigned repetitions) {
+                                                    const voxel::GridLayout& frame, unsigned repetitions) {
   std::uint64_t solid = 0;
   auto m = bench.time_calls(
       name, repetitions, [&] { solid = voxel::voxelize(triangles, frame).value_or_throw().count_solid(); });
@@ -41,8 +41,8 @@ Result<std::vector<Measurement>> voxelize_demo(Bench& bench) {
   const auto scene = scene::load_scene(BRUME_SCENES_DIR "/demo.glb");
   if (!scene) return scene.failure();
   // The timeline's box, 512 voxels along its longer sides.
-  const voxel::GridFrame frame{{512, 171, 512}, 28.5f / 512, {-14.1f, -0.35f, -12.1f}};
-  return voxelize_triangles(bench, "voxelize/demo@512", stage::world_triangles(*scene), frame, 15);
+  const voxel::GridLayout frame{{512, 171, 512}, 28.5f / 512, {-14.1f, -0.35f, -12.1f}};
+  return voxelize_triangles(bench, "voxelize/demo@512", scenario::world_triangles(*scene), frame, 15);
 }
 
 /// Fills on one core, in the open and in the motel where that is there.

@@ -2,23 +2,23 @@
 
 #include "bench/bench.hpp"
 #include "scene/load.hpp"
-#include "stage/level_events.hpp"
+#include "scenario/level_events.hpp"
 
 namespace brume::bench {
 namespace {
 
 /// A door opens, or shuts, each time: voxels and planes made anew, and the edit that the event log takes.
 Result<Measurement> swing_door(const Bench& bench, const std::string& name, const std::string& path,
-                               const voxel::GridFrame& frame, const std::string& door) {
+                               const voxel::GridLayout& frame, const std::string& door) {
   auto scene = scene::load_scene(path);
   if (!scene) return scene.failure();
-  auto voxels = stage::load_or_voxelize(*scene, frame, {});
+  auto voxels = scenario::load_or_voxelize(*scene, frame, {});
   if (!voxels) return voxels.failure();
-  const stage::Stage stage{{}, std::move(*scene), {}, std::move(*voxels)};
-  stage::ObjectLevel objects = stage::make_level(stage);
+  const scenario::Scenario scenario{{}, std::move(*scene), {}, std::move(*voxels)};
+  scenario::ObjectLevel objects = scenario::make_level(scenario);
   std::vector<std::uint32_t> parts;
-  for (std::size_t i = 0; i < stage.scene.objects.size(); ++i)
-    if (stage.scene.objects[i].name == door) parts.push_back(objects.part_of[i]);
+  for (std::size_t i = 0; i < scenario.scene.objects.size(); ++i)
+    if (scenario.scene.objects[i].name == door) parts.push_back(objects.part_of[i]);
   if (parts.empty()) return Failure{ErrorCode::bad_input, path + ": no object \"" + door + "\""};
 
   bool shut = true;
@@ -27,11 +27,11 @@ Result<Measurement> swing_door(const Bench& bench, const std::string& name, cons
     shut = !shut;
     const voxel::LevelChange change = objects.level.show(parts, shut);
     changed = 0;
-    for (const sim::EditBlock& block : stage::edit_of(change, objects.level.grid()))
+    for (const sim::EditBlock& block : scenario::edit_of(change, objects.level.grid()))
       changed += static_cast<std::size_t>(std::popcount(block.make_solid | block.make_free));
     planes = change.planes.plane_count();
   });
-  m.details = {{"triangles", static_cast<double>(stage.voxels.triangles)},
+  m.details = {{"triangles", static_cast<double>(scenario.voxels.triangles)},
                {"changed_voxels", static_cast<double>(changed)},
                {"planes", static_cast<double>(planes)}};
   return m;
@@ -39,13 +39,13 @@ Result<Measurement> swing_door(const Bench& bench, const std::string& name, cons
 
 Result<std::vector<Measurement>> doors(Bench& bench) {
   std::vector<Measurement> all;
-  const voxel::GridFrame demo{{114, 38, 114}, 0.25f, {-14.1f, -0.35f, -12.1f}};
+  const voxel::GridLayout demo{{114, 38, 114}, 0.25f, {-14.1f, -0.35f, -12.1f}};
   const auto in_demo = swing_door(bench, "edit/door/demo", BRUME_SCENES_DIR "/demo.glb", demo, "door_leaf");
   if (!in_demo) return in_demo.failure();
   all.push_back(*in_demo);
   const auto motel = motel_scene();
   if (!motel) return all;
-  const std::pair<const char*, voxel::GridFrame> frames[] = {
+  const std::pair<const char*, voxel::GridLayout> frames[] = {
       {"edit/door/motel", {{120, 20, 120}, 0.5f, {-30, 0, -30}}},
       {"edit/door/motel@0.25", {{240, 40, 240}, 0.25f, {-30, 0, -30}}}};
   for (const auto& [name, frame] : frames) {

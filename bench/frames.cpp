@@ -4,15 +4,15 @@
 
 namespace brume::bench {
 
-RepeatedFrame::RepeatedFrame(gpu::Context& context, const stage::Stage& stage,
+RepeatedFrame::RepeatedFrame(gpu::Context& context, const scenario::Scenario& scenario,
                              const render::RendererOptions& options, double seconds)
-    : simulation_(stage::Simulation::create(stage).value_or_throw()),
+    : simulation_(scenario::Simulation::create(scenario).value_or_throw()),
       runner_(context),
-      renderer_(context, runner_, stage.scene, options),
+      renderer_(context, runner_, scenario.scene, options),
       counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
   simulation_->advance_to(seconds);
-  input_ = render::frame_input(stage, *simulation_, seconds, holes_);
-  input_.force_light = true;
+  input_ = render::frame_input(scenario, *simulation_, seconds, holes_);
+  input_.rebuild_light = true;
 }
 
 FrameCost RepeatedFrame::draw() {
@@ -37,12 +37,12 @@ std::uint32_t RepeatedFrame::texture_samples() const {
   return count;
 }
 
-FrameTimes time_frames(Bench& bench, const std::string& name, const stage::Stage& stage,
+FrameTimes time_frames(Bench& bench, const std::string& name, const scenario::Scenario& scenario,
                        const render::RendererOptions& options, double seconds) {
   const bool slow = bench.context().info().kind == "cpu";
   const unsigned count = bench.repetitions(slow ? 3 : 200);
   const VkDeviceSize before = bench.context().memory().bytes_in_use();
-  RepeatedFrame frame(bench.context(), stage, options, seconds);
+  RepeatedFrame frame(bench.context(), scenario, options, seconds);
   for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame.draw();
   std::map<std::string, std::vector<double>> details;
   std::vector<double> sums;

@@ -1,4 +1,4 @@
-// A frame of a stage that is drawn again and again, and the time that each of its passes takes.
+// A frame of a scenario that is drawn again and again, and the time that each of its passes takes.
 #pragma once
 
 #include "bench/bench.hpp"
@@ -12,11 +12,11 @@ struct FrameCost {
   double prepare_cpu = 0, record_cpu = 0;  ///< Of this thread's processor time: making room, recording.
 };
 
-/// The moment `seconds` of a stage, its smoke lit anew in each drawing.
+/// The moment `seconds` of a scenario, its smoke lit anew in each drawing.
 class RepeatedFrame {
  public:
-  /// `stage` must outlive it.
-  RepeatedFrame(gpu::Context& context, const stage::Stage& stage, const render::RendererOptions& options,
+  /// `scenario` must outlive it.
+  RepeatedFrame(gpu::Context& context, const scenario::Scenario& scenario, const render::RendererOptions& options,
                 double seconds);
 
   FrameCost draw();
@@ -25,10 +25,10 @@ class RepeatedFrame {
   const render::Renderer& renderer() const { return renderer_; }
   /// Texture samples that the last march took, with RendererOptions::count_samples.
   std::uint32_t texture_samples() const;
-  const stage::Simulation& simulation() const { return *simulation_; }
+  const scenario::Simulation& simulation() const { return *simulation_; }
 
  private:
-  std::unique_ptr<stage::Simulation> simulation_;
+  std::unique_ptr<scenario::Simulation> simulation_;
   gpu::CommandRunner runner_;
   render::Renderer renderer_;
   gpu::Buffer counter_;
@@ -43,8 +43,8 @@ struct FrameTimes {
   Measurement march;
 };
 
-/// Draws a moment of a stage until its times are known: some 200 times on a GPU, three times on a processor.
-FrameTimes time_frames(Bench& bench, const std::string& name, const stage::Stage& stage,
+/// Draws a moment of a scenario until its times are known: some 200 times on a GPU, three times on a processor.
+FrameTimes time_frames(Bench& bench, const std::string& name, const scenario::Scenario& scenario,
                        const render::RendererOptions& options, double seconds);
 
 }  // namespace brume::bench

@@ -12,7 +12,7 @@ constexpr double kGrown = 4;  // [s]: when the smoke has bloomed, and the holes 
 /// What a frame of the yard is measured with.
 struct Yard {
   bool from_all_around = false;  ///< Where the shots come from: else from around the camera.
-  std::uint32_t lamps = 0;       ///< Besides those of the demo scene.
+  std::uint32_t lights = 0;       ///< Besides those of the demo scene.
   std::uint32_t holes = 0;       ///< Shots and boxes from all around.
 };
 
@@ -38,7 +38,7 @@ std::vector<scene::ShotEvent> shots_through_smoke(std::uint32_t count, bool from
 
 /// One grown smoke of 1,800 voxels of half a metre in the yard of the demo scene, seen from 6 m away: it
 /// fills the view.
-Result<stage::Stage> smoke_in_the_yard(const Yard& yard) {
+Result<scenario::Scenario> smoke_in_the_yard(const Yard& yard) {
   auto timeline = scene::load_timeline(BRUME_SCENES_DIR "/demo.toml");
   if (!timeline) return timeline.failure();
   timeline->grid = {0.5f, glm::ivec3(57, 19, 57), glm::vec3(-14.1f, -0.35f, -12.1f)};
@@ -48,56 +48,56 @@ Result<stage::Stage> smoke_in_the_yard(const Yard& yard) {
   timeline->smokes = {{0, {0, 3, 7}, {0, 0.3f, 6}}};
   timeline->shots = shots_through_smoke(yard.holes, yard.from_all_around);
   timeline->camera = {{0, {{0, 1.8f, 12}, {0, 2.2f, 6}, 1.0472f}}};
-  auto stage = stage::make_stage(std::move(*timeline), {});
-  if (!stage) return stage.failure();
-  for (std::uint32_t i = 0; i < yard.lamps; ++i) {
-    scene::Light lamp;
+  auto scenario = scenario::make_scenario(std::move(*timeline), {});
+  if (!scenario) return scenario.failure();
+  for (std::uint32_t i = 0; i < yard.lights; ++i) {
+    scene::Light light;
     const float angle = 2.39996f * static_cast<float>(i),
                 far = 1.6f * std::sqrt(static_cast<float>(i) + 0.5f);
-    lamp.position_world = {far * std::cos(angle), 0.6f + 0.35f * static_cast<float>(i % 9),
+    light.position_world = {far * std::cos(angle), 0.6f + 0.35f * static_cast<float>(i % 9),
                            5 + far * std::sin(angle)};
-    lamp.intensity = 0.5f + 0.5f * glm::vec3(std::cos(angle), std::cos(angle + 2), std::cos(angle + 4));
-    stage->scene.lights.push_back(lamp);
+    light.intensity = 0.5f + 0.5f * glm::vec3(std::cos(angle), std::cos(angle + 2), std::cos(angle + 4));
+    scenario->scene.lights.push_back(light);
   }
-  return stage;
+  return scenario;
 }
 
 /// Texture samples that the march takes for a frame.
-double count_texture_samples(gpu::Context& context, const stage::Stage& stage,
+double count_texture_samples(gpu::Context& context, const scenario::Scenario& scenario,
                              render::RendererOptions options) {
   options.count_samples = true;
-  RepeatedFrame frame(context, stage, options, kGrown);
+  RepeatedFrame frame(context, scenario, options, kGrown);
   frame.draw();
   return frame.texture_samples();
 }
 
 Result<std::vector<Measurement>> march(Bench& bench) {
-  const auto stage = smoke_in_the_yard({});
-  if (!stage) return stage.failure();
+  const auto scenario = smoke_in_the_yard({});
+  if (!scenario) return scenario.failure();
   render::RendererOptions options;
   options.size_px = {1920, 1080};
-  Measurement m = time_frames(bench, "march/1080p", *stage, options, kGrown).march;
-  const double samples = count_texture_samples(bench.context(), *stage, options);
+  Measurement m = time_frames(bench, "march/1080p", *scenario, options, kGrown).march;
+  const double samples = count_texture_samples(bench.context(), *scenario, options);
   m.details = {{"texture_samples", samples}, {"gsamples_per_second", samples / m.median * 1e-6}};
   return std::vector{m};
 }
 
-/// 51 lamps and 64 open holes.
+/// 51 lights and 64 open holes.
 Result<std::vector<Measurement>> frames(Bench& bench, const std::string& name, glm::uvec2 size_px,
                                         std::uint32_t march_scale) {
   Yard yard;
-  yard.lamps = 42;
+  yard.lights = 42;
   yard.holes = 64;
-  const auto stage = smoke_in_the_yard(yard);
-  if (!stage) return stage.failure();
+  const auto scenario = smoke_in_the_yard(yard);
+  if (!scenario) return scenario.failure();
   render::RendererOptions options;
   options.size_px = size_px;
   options.march_scale = march_scale;
-  options.masks = &stage->masks;
-  return std::vector{time_frames(bench, name, *stage, options, kGrown).all};
+  options.masks = &scenario->masks;
+  return std::vector{time_frames(bench, name, *scenario, options, kGrown).all};
 }
 
-/// The motel at half resolution: its 51 lamps, one grown smoke of 1,800 voxels 6 m ahead, and shots through
+/// The motel at half resolution: its 51 lights, one grown smoke of 1,800 voxels 6 m ahead, and shots through
 /// it.
 Result<std::vector<Measurement>> motel_frames(Bench& bench) {
   const auto path = motel_scene();
@@ -120,14 +120,14 @@ Result<std::vector<Measurement>> motel_frames(Bench& bench) {
       shot.flash = 0;
       timeline.shots.push_back(shot);
     }
-    const auto stage = stage::make_stage(std::move(timeline), {});
-    if (!stage) return stage.failure();
+    const auto scenario = scenario::make_scenario(std::move(timeline), {});
+    if (!scenario) return scenario.failure();
     render::RendererOptions options;
     options.size_px = {1920, 1080};
     options.march_scale = bench.context().info().kind == "cpu" ? 4 : 2;
-    options.masks = &stage->masks;
+    options.masks = &scenario->masks;
     const std::string name = holes > 0 ? "frame/motel_holes" : "frame/motel";
-    results.push_back(time_frames(bench, name, *stage, options, kGrown).all);
+    results.push_back(time_frames(bench, name, *scenario, options, kGrown).all);
   }
   return results;
 }
@@ -144,14 +144,14 @@ Result<std::vector<Measurement>> holes(Bench& bench, const std::string& base, bo
       Yard yard;
       yard.holes = count;
       yard.from_all_around = from_all_around;
-      const auto stage = smoke_in_the_yard(yard);
-      if (!stage) return stage.failure();
+      const auto scenario = smoke_in_the_yard(yard);
+      if (!scenario) return scenario.failure();
       render::RendererOptions options;
       options.size_px = slow ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
-      options.plain_holes = plain;
-      options.masks = &stage->masks;
+      options.brute_force_holes = plain;
+      options.masks = &scenario->masks;
       const std::string name = (plain ? base + "/plain/" : base + "/") + std::to_string(count);
-      Measurement m = time_frames(bench, name, *stage, options, kGrown).all;
+      Measurement m = time_frames(bench, name, *scenario, options, kGrown).all;
       if (count == 0) none = m.median;
       if (plain) none = results.front().median;
       m.details["times_none"] = m.median / none;
@@ -176,15 +176,15 @@ shared::Light flash_beside(float intensity) {
 /// changes.
 Result<std::vector<Measurement>> kept_light(Bench& bench) {
   Yard yard;
-  yard.lamps = 42;
+  yard.lights = 42;
   yard.holes = 16;
-  auto stage = smoke_in_the_yard(yard);
-  if (!stage) return stage.failure();
-  stage->timeline.smoke.noise = 0;
+  auto scenario = smoke_in_the_yard(yard);
+  if (!scenario) return scenario.failure();
+  scenario->timeline.smoke.erosion = 0;
   const bool slow = bench.context().info().kind == "cpu";
   render::RendererOptions options;
   options.size_px = slow ? glm::uvec2(96, 54) : glm::uvec2(1920, 1080);
-  RepeatedFrame frame(bench.context(), *stage, options, kGrown);
+  RepeatedFrame frame(bench.context(), *scenario, options, kGrown);
   const std::vector<shared::Hole> holes(frame.input().holes.begin(), frame.input().holes.end());
   std::vector<shared::Hole> changing = holes;
   std::vector<Measurement> results;
@@ -205,14 +205,14 @@ Result<std::vector<Measurement>> kept_light(Bench& bench) {
                               {"bricks", static_cast<double>(bricks) / count}};
   };
   time("all", [](unsigned) {});
-  frame.input().force_light = false;
+  frame.input().rebuild_light = false;
   time("nothing", [](unsigned) {});
   time("eye", [&](unsigned i) { frame.input().camera.position_world.x = 0.01f * static_cast<float>(i); });
   time("hole", [&](unsigned i) {
     changing.back().radius = holes.back().radius * (i % 2 == 0 ? 1 : 0.9f);
     frame.input().holes = changing;
   });
-  // A lamp that was as bright before, and one that comes.
+  // A light that was as bright before, and one that comes.
   time("flicker", [&](unsigned i) { frame.input().flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
   time("flash", [&](unsigned i) {
     frame.input().flashes = {flash_beside(2)};
@@ -226,7 +226,7 @@ Result<std::vector<Measurement>> kept_light(Bench& bench) {
 std::vector<Case> gpu_cases() {
   return {
       {"march/1080p", "the march through one grown smoke that fills the view", march},
-      {"frame/1080p", "all passes but the raster: that smoke with 51 lamps and 64 holes",
+      {"frame/1080p", "all passes but the raster: that smoke with 51 lights and 64 holes",
        [](Bench& b) {
          return frames(b, "frame/1080p", {1920, 1080}, 1);
        }},

@@ -1,37 +1,37 @@
 #include <filesystem>
 
 #include "bench/bench.hpp"
-#include "stage/live_stage.hpp"
-#include "stage/walker.hpp"
+#include "scenario/editable_scenario.hpp"
+#include "scenario/walker.hpp"
 
 namespace brume::bench {
 namespace {
 
-using stage::LiveStage;
+using scenario::EditableScenario;
 
 /// The demo at a moment at which its smoke is grown.
 constexpr double kStart = 4;
-Result<std::unique_ptr<LiveStage>> demo() {
-  auto stage = stage::load_stage(std::filesystem::path(BRUME_SCENES_DIR) / "demo.toml", {});
-  if (!stage) return stage.failure();
-  auto live = LiveStage::create(std::move(*stage));
+Result<std::unique_ptr<EditableScenario>> demo() {
+  auto scenario = scenario::load_scenario(std::filesystem::path(BRUME_SCENES_DIR) / "demo.toml", {});
+  if (!scenario) return scenario.failure();
+  auto live = EditableScenario::create(std::move(*scenario));
   if (live) (*live)->advance_to(kStart);
   return live;
 }
 
-/// Processor time of deeds [ms], each at a tick of its own.
+/// Processor time of actions [ms], each at a tick of its own.
 template <typename Make>
-Result<Measurement> time_deeds(const Bench& bench, const std::string& name, unsigned repetitions, Make make) {
+Result<Measurement> time_actions(const Bench& bench, const std::string& name, unsigned repetitions, Make make) {
   auto live = demo();
   if (!live) return live.failure();
   std::vector<double> times;
   for (unsigned i = 0; i < bench.repetitions(repetitions); ++i) {
     const double now = kStart + i / 64.0;
     (*live)->advance_to(now);
-    scene::Timeline deeds;
-    make(deeds, now, i);
+    scene::Timeline actions;
+    make(actions, now, i);
     const double before = thread_cpu_ms();
-    if (auto done = (*live)->add(deeds); !done) return done.failure();
+    if (auto done = (*live)->add(actions); !done) return done.failure();
     times.push_back(thread_cpu_ms() - before);
   }
   return summarize(name, "ms", "cpu", std::move(times));
@@ -45,19 +45,19 @@ scene::ShotEvent shot_at(double time) {
   return shot;
 }
 
-Result<std::vector<Measurement>> deeds(Bench& bench) {
+Result<std::vector<Measurement>> actions(Bench& bench) {
   std::vector<Result<Measurement>> measured;
-  measured.push_back(time_deeds(bench, "live/shot", 200,
-                                [](auto& deeds, double now, unsigned) { deeds.shots = {shot_at(now)}; }));
-  measured.push_back(time_deeds(bench, "live/past_shot", 20,
-                                [](auto& deeds, double now, unsigned) { deeds.shots = {shot_at(now - 1)}; }));
-  measured.push_back(time_deeds(bench, "live/door", 40, [](auto& deeds, double now, unsigned i) {
-    deeds.doors = {{now, "door_leaf", i % 2 == 0, ""}};
+  measured.push_back(time_actions(bench, "live/shot", 200,
+                                [](auto& actions, double now, unsigned) { actions.shots = {shot_at(now)}; }));
+  measured.push_back(time_actions(bench, "live/past_shot", 20,
+                                [](auto& actions, double now, unsigned) { actions.shots = {shot_at(now - 1)}; }));
+  measured.push_back(time_actions(bench, "live/door", 40, [](auto& actions, double now, unsigned i) {
+    actions.doors = {{now, "door_leaf", i % 2 == 0, ""}};
   }));
-  measured.push_back(time_deeds(bench, "live/new_word", 10, [](auto& deeds, double now, unsigned i) {
-    deeds.texts.resize(1);
-    deeds.texts[0].time = now;
-    deeds.texts[0].text = std::string("WORD ") + static_cast<char>('a' + i % 26);
+  measured.push_back(time_actions(bench, "live/new_word", 10, [](auto& actions, double now, unsigned i) {
+    actions.texts.resize(1);
+    actions.texts[0].time = now;
+    actions.texts[0].text = std::string("WORD ") + static_cast<char>('a' + i % 26);
   }));
   std::vector<Measurement> all;
   for (Result<Measurement>& one : measured) {
@@ -72,7 +72,7 @@ Result<std::vector<Measurement>> walk(Bench& bench) {
   auto live = demo();
   if (!live) return live.failure();
   const voxel::BitGrid& grid = (*live)->simulation().world().grid();
-  stage::Walker walker;
+  scenario::Walker walker;
   walker.put(grid, {-6.0f, 1.7f, 11.4f});
   std::vector<Measurement> all;
   all.push_back(bench.time_calls("live/walk", 1000, [&] {
@@ -84,8 +84,8 @@ Result<std::vector<Measurement>> walk(Bench& bench) {
 }  // namespace
 
 std::vector<Case> live_cases() {
-  return {{"live/deeds",
-           "shots, doors and words into the running demo: processor time until the world has them", deeds},
+  return {{"live/actions",
+           "shots, doors and words into the running demo: processor time until the world has them", actions},
           {"live/walk", "a sixtieth of a second of a body on foot in the demo", walk}};
 }
 

@@ -19,7 +19,7 @@ void add_box(scene::Scene& scene, glm::vec3 low, glm::vec3 high) {
   scene.objects.push_back({"box", 0, 0, place, true});
 }
 
-/// A piece of the world: ground, two walls, crates, eight lamps.
+/// A piece of the world: ground, two walls, crates, eight lights.
 void add_court(scene::Scene& scene, glm::vec3 corner) {
   add_box(scene, corner - glm::vec3(0, 0.3f, 0), corner + glm::vec3(kCourt, 0, kCourt));
   add_box(scene, corner + glm::vec3(1, 0, 2), corner + glm::vec3(1.4f, 3, 20));
@@ -29,10 +29,10 @@ void add_court(scene::Scene& scene, glm::vec3 corner) {
     add_box(scene, at, at + glm::vec3(0.7f, 0.5f + 0.1f * static_cast<float>(i), 0.7f));
   }
   for (int i = 0; i < 8; ++i) {
-    scene::Light lamp;
-    lamp.position_world = corner + glm::vec3(3 + 6 * (i % 4), 2.6f, 6 + 12 * (i / 4));
-    lamp.intensity = glm::vec3(1.0f, 0.8f, 0.5f + 0.05f * static_cast<float>(i));
-    scene.lights.push_back(lamp);
+    scene::Light light;
+    light.position_world = corner + glm::vec3(3 + 6 * (i % 4), 2.6f, 6 + 12 * (i / 4));
+    light.intensity = glm::vec3(1.0f, 0.8f, 0.5f + 0.05f * static_cast<float>(i));
+    scene.lights.push_back(light);
   }
 }
 
@@ -52,8 +52,8 @@ scene::Scene world_of_courts(int count, int across) {
   return scene;
 }
 
-/// The stage of a scene with a grown smoke at each of some places; half-metre voxels, from low to high.
-Result<stage::Stage> stage_of(scene::Scene scene, const std::vector<glm::vec3>& smokes, glm::vec3 low,
+/// The scenario of a scene with a grown smoke at each of some places; half-metre voxels, from low to high.
+Result<scenario::Scenario> scenario_of(scene::Scene scene, const std::vector<glm::vec3>& smokes, glm::vec3 low,
                               glm::vec3 high, const scene::Camera& camera) {
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0.01f), glm::vec3(0.02f), glm::vec3(0.01f)};
@@ -61,21 +61,21 @@ Result<stage::Stage> stage_of(scene::Scene scene, const std::vector<glm::vec3>& 
   for (const glm::vec3 place : smokes) timeline.smokes.push_back({0, place + glm::vec3(0, 2, 0), place});
   constexpr float kVoxel = 0.5f;
   // Off the surfaces, which lie on whole and half metres.
-  const voxel::GridFrame frame{glm::ivec3(glm::ceil((high - low) / kVoxel)), kVoxel, low - 0.1f};
-  auto voxels = stage::load_or_voxelize(scene, frame, {});
+  const voxel::GridLayout frame{glm::ivec3(glm::ceil((high - low) / kVoxel)), kVoxel, low - 0.1f};
+  auto voxels = scenario::load_or_voxelize(scene, frame, {});
   if (!voxels) return voxels.failure();
-  return stage::Stage{std::move(timeline), std::move(scene), camera, std::move(*voxels)};
+  return scenario::Scenario{std::move(timeline), std::move(scene), camera, std::move(*voxels)};
 }
 
-Result<Measurement> time_stage(Bench& bench, const std::string& name, const Result<stage::Stage>& stage) {
-  if (!stage) return stage.failure();
+Result<Measurement> time_stage(Bench& bench, const std::string& name, const Result<scenario::Scenario>& scenario) {
+  if (!scenario) return scenario.failure();
   const bool slow = bench.context().info().kind == "cpu";
   render::RendererOptions options;
   options.size_px = slow ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
-  Measurement m = time_frames(bench, name, *stage, options, kGrown).all;
-  m.details["smokes"] = static_cast<double>(stage->timeline.smokes.size());
-  m.details["lamps"] = static_cast<double>(stage->scene.lights.size());
-  m.details["objects"] = static_cast<double>(stage->scene.objects.size());
+  Measurement m = time_frames(bench, name, *scenario, options, kGrown).all;
+  m.details["smokes"] = static_cast<double>(scenario->timeline.smokes.size());
+  m.details["lights"] = static_cast<double>(scenario->scene.lights.size());
+  m.details["objects"] = static_cast<double>(scenario->scene.objects.size());
   return m;
 }
 
@@ -104,9 +104,9 @@ Result<std::vector<Measurement>> in_view(Bench& bench) {
     for (int i = 0; i < count; ++i)
       places.push_back(
           {kApart * (static_cast<float>(i % 8) - 3.5f), 0.3f, -30 - kApart * static_cast<float>(i / 8)});
-    const auto stage =
-        stage_of(std::move(scene), places, {-120, -1, -148}, {120, 15, 8}, {{0, 40, 40}, {0, 0, -70}, 1.1f});
-    if (auto done = row.add(time_stage(bench, "scaling/in_view/" + std::to_string(count), stage)); !done)
+    const auto scenario =
+        scenario_of(std::move(scene), places, {-120, -1, -148}, {120, 15, 8}, {{0, 40, 40}, {0, 0, -70}, 1.1f});
+    if (auto done = row.add(time_stage(bench, "scaling/in_view/" + std::to_string(count), scenario)); !done)
       return done.failure();
   }
   return row.take();
@@ -122,24 +122,24 @@ Result<std::vector<Measurement>> out_of_view(Bench& bench) {
       places.push_back(
           {kApart * (static_cast<float>(column) + 0.5f), 0.3f, 20 + kApart * static_cast<float>(line)});
     }
-    const auto stage = stage_of(world_of_courts(1, 1), places, {-240, -1, -32}, {240, 15, 480},
+    const auto scenario = scenario_of(world_of_courts(1, 1), places, {-240, -1, -32}, {240, 15, 480},
                                 {{0, 1.8f, 1}, {0, 1.8f, -12}, 1.0472f});
-    if (auto done = row.add(time_stage(bench, "scaling/out_of_view/" + std::to_string(count), stage)); !done)
+    if (auto done = row.add(time_stage(bench, "scaling/out_of_view/" + std::to_string(count), scenario)); !done)
       return done.failure();
   }
   return row.take();
 }
 
-/// One smoke before the camera; the rest of the world, with its walls, things and lamps, behind it.
+/// One smoke before the camera; the rest of the world, with its walls, things and lights, behind it.
 Result<std::vector<Measurement>> world(Bench& bench) {
   Row row;
   for (const int count : {1, 10, 100}) {
     const int across = count > 10 ? 11 : 3, rows = (count - 1 + across - 1) / across;
     const float half = kCourt * 0.5f * static_cast<float>(across) + 4;
-    const auto stage =
-        stage_of(world_of_courts(count, across), {{0, 0.3f, -12}}, {-half, -1, -kCourt - 8},
+    const auto scenario =
+        scenario_of(world_of_courts(count, across), {{0, 0.3f, -12}}, {-half, -1, -kCourt - 8},
                  {half, 15, kCourt * static_cast<float>(rows) + 8}, {{0, 1.8f, 1}, {0, 1.8f, -12}, 1.0472f});
-    if (auto done = row.add(time_stage(bench, "scaling/world/" + std::to_string(count), stage)); !done)
+    if (auto done = row.add(time_stage(bench, "scaling/world/" + std::to_string(count), scenario)); !done)
       return done.failure();
   }
   return row.take();

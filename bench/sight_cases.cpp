@@ -5,9 +5,10 @@
 #include "core/tasks.hpp"
 #include "image/font.hpp"
 #include "scene/load.hpp"
-#include "sim/sight.hpp"
+#include "smoke/holes.hpp"
+#include "smoke/sight.hpp"
 #include "sim/world.hpp"
-#include "stage/world_triangles.hpp"
+#include "scenario/world_triangles.hpp"
 #include "voxel/voxelize.hpp"
 
 namespace brume::bench {
@@ -21,16 +22,16 @@ constexpr std::uint32_t kLetterRadius = sim::kUnitsPerMetre / 2;  // of a letter
 struct SmokyLevel {
   voxel::BitGrid grid;
   voxel::SurfacePlanes planes;
-  sim::MaskAtlas masks;
+  smoke::MaskAtlas masks;
   sim::World world;
-  sim::SmokeVolume volume;
+  smoke::SmokeVolume volume;
   std::vector<glm::vec3> places;  // centres of its voxels
 
-  SmokyLevel(const std::vector<voxel::Triangle>& triangles, const voxel::GridFrame& frame, glm::dvec3 source,
-             std::span<const sim::Mask> pictures = {})
+  SmokyLevel(const std::vector<voxel::Triangle>& triangles, const voxel::GridLayout& frame, glm::dvec3 source,
+             std::span<const smoke::Mask> pictures = {})
       : grid(voxel::voxelize(triangles, frame).value_or_throw()),
         planes(voxel::SurfacePlanes::build(triangles, grid)),
-        masks(sim::MaskAtlas::pack(pictures).value_or_throw()),
+        masks(smoke::MaskAtlas::pack(pictures).value_or_throw()),
         world(grid, {.masks = masks.key()}),
         volume(grid, planes) {
     sim::ThrowSmoke thrown;
@@ -63,10 +64,10 @@ struct SmokyLevel {
   }
 };
 
-std::vector<sim::Segment> segments_through(const std::vector<glm::vec3>& places, std::mt19937& random) {
+std::vector<smoke::Segment> segments_through(const std::vector<glm::vec3>& places, std::mt19937& random) {
   std::normal_distribution<float> normal;
-  std::vector<sim::Segment> segments(kSegments);
-  for (sim::Segment& s : segments) {
+  std::vector<smoke::Segment> segments(kSegments);
+  for (smoke::Segment& s : segments) {
     const glm::vec3 middle = places[random() % places.size()];
     const float x = normal(random), y = normal(random), z = normal(random);
     const glm::vec3 half = 0.5f * kMetres * glm::normalize(glm::vec3(x, y, z));
@@ -79,10 +80,10 @@ std::vector<sim::Segment> segments_through(const std::vector<glm::vec3>& places,
 Measurement measure(const Bench& bench, const std::string& name, SmokyLevel& level, std::size_t holes) {
   std::mt19937 random(7);
   level.shoot(holes, random);
-  const std::vector<shared::Hole> open = sim::holes_of(level.world.state(), &level.masks);
-  const sim::Sight sight(level.volume, level.grid, open, level.world.state().seconds(level.world.tick()),
+  const std::vector<shared::Hole> open = smoke::holes_of(level.world.state(), &level.masks);
+  const smoke::Sight sight(level.volume, level.grid, open, level.world.state().seconds(level.world.tick()),
                          {.masks = &level.masks});
-  const std::vector<sim::Segment> segments = segments_through(level.places, random);
+  const std::vector<smoke::Segment> segments = segments_through(level.places, random);
   std::vector<float> depths(kBatch);
   const unsigned threads = thread_count(), count = bench.repetitions(200);
   set_thread_count(1);
@@ -105,10 +106,10 @@ Measurement measure(const Bench& bench, const std::string& name, SmokyLevel& lev
 }
 
 /// The letters of a word, as text events shoot them.
-Result<std::vector<sim::Mask>> letters(const std::string& word) {
+Result<std::vector<smoke::Mask>> letters(const std::string& word) {
   auto font = image::Font::load(image::default_font());
   if (!font) return font.failure();
-  std::vector<sim::Mask> masks;
+  std::vector<smoke::Mask> masks;
   for (const char letter : word) {
     auto glyph = font->glyph(static_cast<unsigned char>(letter));
     if (!glyph) return glyph.failure();
@@ -132,14 +133,14 @@ Result<std::vector<Measurement>> sight_1800(Bench& bench) {
 
   const auto demo = scene::load_scene(BRUME_SCENES_DIR "/demo.glb");
   if (!demo) return demo.failure();
-  SmokyLevel rooms(stage::world_triangles(*demo), {{57, 19, 57}, 0.5f, {-14.1f, -0.35f, -12.1f}},
+  SmokyLevel rooms(scenario::world_triangles(*demo), {{57, 19, 57}, 0.5f, {-14.1f, -0.35f, -12.1f}},
                    {-2.6, 1, -3});
   both("sight/1800/demo", rooms);
 
   if (const auto path = motel_scene()) {
     const auto scene = scene::load_scene(*path);
     if (!scene) return scene.failure();
-    SmokyLevel motel(stage::world_triangles(*scene), {{120, 20, 120}, 0.5f, {-30, 0, -30}},
+    SmokyLevel motel(scenario::world_triangles(*scene), {{120, 20, 120}, 0.5f, {-30, 0, -30}},
                      {10.25, 1.75, 10.25});
     both("sight/1800/motel", motel);
   }

@@ -2,9 +2,9 @@
 
 #include "bench/bench.hpp"
 #include "scene/load.hpp"
-#include "sim/smoke_volume.hpp"
+#include "smoke/smoke_volume.hpp"
 #include "sim/world.hpp"
-#include "stage/world_triangles.hpp"
+#include "scenario/world_triangles.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -23,7 +23,7 @@ Result<Motel> motel() {
   if (!path) return path.failure();
   const auto scene = scene::load_scene(*path);
   if (!scene) return scene.failure();
-  const std::vector<voxel::Triangle> triangles = stage::world_triangles(*scene);
+  const std::vector<voxel::Triangle> triangles = scenario::world_triangles(*scene);
   auto grid = voxel::voxelize(triangles, {{120, 20, 120}, 0.5f, {-30, 0, -30}});
   if (!grid) return grid.failure();
   auto planes = voxel::SurfacePlanes::build(triangles, *grid);
@@ -40,7 +40,7 @@ double processor_ms(Body body) {
 
 /// A smoke that goes off in the voxel below or at the place, at the first tick.
 sim::ThrowSmoke smoke_at(const Motel& level, glm::ivec3 voxel, std::uint32_t voxels) {
-  const auto metres = glm::dvec3(voxel::world_from_voxel(level.grid.frame(), glm::vec3(voxel) + 0.5f));
+  const auto metres = glm::dvec3(voxel::world_from_voxel(level.grid.layout(), glm::vec3(voxel) + 0.5f));
   sim::ThrowSmoke event;
   event.from = sim::position_from_metres(metres);
   event.at = event.from;
@@ -60,7 +60,7 @@ Result<std::vector<Measurement>> detonation(Bench& bench) {
     std::vector<double> times;
     double slots = 0, cells = 0;
     for (unsigned i = 0; i < bench.repetitions(voxels < 10000 ? 50 : 10); ++i) {
-      sim::SmokeVolume volume(level->grid, level->planes);
+      smoke::SmokeVolume volume(level->grid, level->planes);
       times.push_back(processor_ms([&] { volume.update(world); }));
       slots = volume.slot_count();
       cells = static_cast<double>(volume.boundary_cells().size());
@@ -87,7 +87,7 @@ Result<std::vector<Measurement>> ticks(Bench& bench, const std::string& name, st
   std::vector<double> means;
   double most = 0;
   for (unsigned i = 0; i < bench.repetitions(5); ++i) {
-    sim::SmokeVolume volume(level->grid, level->planes);
+    smoke::SmokeVolume volume(level->grid, level->planes);
     world.advance_to(begin);
     volume.update(world);
     double sum = 0;

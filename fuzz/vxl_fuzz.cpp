@@ -1,5 +1,5 @@
 // A `.vxl` file from anywhere: refused, or a sound grid. The checksum is made right, for else nothing behind
-// it is ever reached; and where the bytes are no frame of zstd, they are packed into one as the payload.
+// it is ever reached; and where the bytes are no layout of zstd, they are packed into one as the payload.
 #include <zstd.h>
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/hash.hpp"
-#include "stage/vxl_file.hpp"
+#include "scenario/vxl_file.hpp"
 
 namespace {
 
@@ -20,10 +20,10 @@ void read(std::vector<std::byte> bytes) {
   const std::uint64_t checksum = brume::hash_bytes(bytes);
   const auto* raw = reinterpret_cast<const std::byte*>(&checksum);
   bytes.insert(bytes.end(), raw, raw + kChecksumBytes);
-  const auto contents = brume::stage::decode_vxl(bytes, std::nullopt);
+  const auto contents = brume::scenario::decode_vxl(bytes, std::nullopt);
   if (!contents || !*contents) return;
   // What was accepted must hold together: written again it is read again.
-  const auto again = brume::stage::decode_vxl(brume::stage::encode_vxl(**contents, 1), 1);
+  const auto again = brume::scenario::decode_vxl(brume::scenario::encode_vxl(**contents, 1), 1);
   if (!again || !*again || !((*again)->planes == (*contents)->planes)) std::abort();
 }
 
@@ -31,7 +31,7 @@ void read(std::vector<std::byte> bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto* bytes = reinterpret_cast<const std::byte*>(data);
-  static_cast<void>(brume::stage::decode_vxl({bytes, size}, std::nullopt));
+  static_cast<void>(brume::scenario::decode_vxl({bytes, size}, std::nullopt));
   if (size < kHeaderBytes) return 0;
   read({bytes, bytes + size});
 

@@ -14,7 +14,7 @@
 #include "wire/receiver.hpp"
 #include "wire/replay.hpp"
 #include "wire/state_coding.hpp"
-#include "wire/world_form.hpp"
+#include "wire/world_archive.hpp"
 
 namespace brume::wire {
 
@@ -31,7 +31,7 @@ inline const voxel::BitGrid& fuzz_level() {
                                            std::tuple(glm::ivec3(6, 0, 0), glm::ivec3(7, 7, 10), true),
                                            std::tuple(glm::ivec3(6, 1, 4), glm::ivec3(7, 4, 6), false),
                                            std::tuple(glm::ivec3(2, 1, 2), glm::ivec3(3, 5, 3), true)})
-      sim::apply_edits(grid, sim::edit_box(grid.frame(), low, high, solid));
+      sim::apply_edits(grid, sim::edit_box(grid.layout(), low, high, solid));
     return grid;
   }();
   return level;
@@ -44,7 +44,7 @@ inline Result<sim::State> state_of(const PacketHead& head, const sim::State& bas
   const auto world = read_world(in);
   if (!world) return world.failure();
   sim::State empty;
-  empty.frame = world->frame;
+  empty.layout = world->layout;
   empty.ticks_per_second = world->ticks_per_second;
   empty.masks = world->masks;
   return read_body(in.rest(), empty, head.tick, kFuzzLimits);
@@ -57,14 +57,14 @@ inline void check_state(const sim::State& base, const sim::State& state) {
     for (const glm::ivec3 voxel : {low, high, (low + high) / 2}) static_cast<void>(state.density(voxel));
   }
   BRUME_ASSERT(sim::grenades_of(state).size() == state.flights.size(), "grenades");
-  // Masks do not travel: only who has them can ask for holes.
-  if (state.masks == sim::MaskKey{}) BRUME_ASSERT(sim::holes_of(state).size() == state.holes.size(), "holes");
+  // Masks do not displacements: only who has them can ask for holes.
+  if (state.masks == sim::MaskKey{}) BRUME_ASSERT(smoke::holes_of(state).size() == state.holes.size(), "holes");
 
   Receiver receiver;
   const auto received = receiver.receive(write_keyframe(state));
   BRUME_ASSERT(received, received.failure().message);
   BRUME_ASSERT(receiver.state()->hash() == state.hash(), "a keyframe makes another state");
-  if (base.tick >= state.tick || base.events > state.events || base.frame != state.frame ||
+  if (base.tick >= state.tick || base.events > state.events || base.layout != state.layout ||
       base.ticks_per_second != state.ticks_per_second || base.masks != state.masks)
     return;
   const std::vector<std::byte> delta = write_delta(base, state);
@@ -91,7 +91,7 @@ inline void receive_all(const std::vector<Input>& packets) {
 /// The same packets as if their checksums were right.
 inline void decode_all(const std::vector<Input>& packets) {
   sim::State base, state;
-  base.frame = state.frame = fuzz_level().frame();
+  base.layout = state.layout = fuzz_level().layout();
   for (const Input packet : packets) {
     const auto head = read_head(packet, kFuzzLimits);
     if (!head || (head->kind == PacketKind::delta && head->tick <= state.tick)) continue;
@@ -139,13 +139,13 @@ inline std::vector<std::byte> as_event_log(Input body) {
 /// The body of an event log; what comes before it is made to fit.
 inline void check_event_log(Input body) {
   const voxel::BitGrid& level = fuzz_level();
-  static_cast<void>(read_events(body, level.frame(), kFuzzLimits));
-  const auto read = read_events(as_event_log(body), level.frame(), kFuzzLimits);
+  static_cast<void>(read_events(body, level.layout(), kFuzzLimits));
+  const auto read = read_events(as_event_log(body), level.layout(), kFuzzLimits);
   if (!read) return;
-  const auto again = read_events(write_events(*read, level.frame()), level.frame());
+  const auto again = read_events(write_events(*read, level.layout()), level.layout());
   BRUME_ASSERT(again && *again == *read, "events written again are others");
 
-  const std::vector<sim::Event> events = made_small(*read, level.frame().voxel_size);
+  const std::vector<sim::Event> events = made_small(*read, level.layout().voxel_size);
   std::uint32_t end = 0;
   for (const sim::Event& event : events) end = std::max(end, sim::tick_of(event) + 70);
   // As many masks as a shot may name.
@@ -200,7 +200,7 @@ inline void check_replay(Input bytes) {
                "a replay written again is another");
   const glm::u64vec3 size(read->level.size());
   if (size.x * size.y * size.z > 4096 || read->events.size() > 16) return;
-  Replay small{read->level, read->settings, made_small(read->events, read->level.frame().voxel_size),
+  Replay small{read->level, read->settings, made_small(read->events, read->level.layout().voxel_size),
                read->checksums};
   if (small.checksums.size() > 32) small.checksums.resize(32);
   static_cast<void>(play(small));

@@ -91,7 +91,7 @@ def porch(scene):
     canopy = Solid()
     canopy.prism({"side": "trim", 1: "corrugated"}, [(-3.65, 2.72, 1.25), (-3.65, 2.80, 1.25), (-3.65, 3.10, 0.0),
                                                      (-3.65, 3.02, 0.0)], (2.3, 0, 0))
-    # Keeps the lamp's light a voxel away from the smoke above the canopy's edge.
+    # Keeps the light's light a voxel away from the smoke above the canopy's edge.
     canopy.box("trim", (-3.65, 2.50, 1.25), (-1.35, 2.82, 1.33))
     scene.add("canopy", canopy)
     struts = Solid()

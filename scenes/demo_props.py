@@ -1,4 +1,4 @@
-"""The yard, the furniture, the lamps' housings and bulbs, and the grenade."""
+"""The yard, the furniture, the lights' housings and bulbs, and the grenade."""
 import numpy as np
 
 from demo_geometry import Solid, rotation_y
@@ -178,7 +178,7 @@ def furniture(scene):
 
 
 def shade(solid, at, radius, drop):
-    """A hanging lamp's rod and conical shade around a bulb at `at`."""
+    """A hanging light's rod and conical shade around a bulb at `at`."""
     x, y, z = at
     solid.lathe("dark_metal", [(0, .05), (.03, .05), (radius, -.065), (radius, -.05), (.035, .075), (0, .085)], 24,
                 (x, y + 0.06, z))
@@ -191,14 +191,14 @@ def bulb(solid, glow, at, radius):
     solid.lathe(glow, profile, 16, at)
 
 
-def lamps(scene):
+def lights(scene):
     housings, glow = Solid(), Solid()
     for name, at, radius, drop in (("glow_tungsten", (-4.45, 2.42, -4.55), 0.22, 0.55),
                                    ("glow_violet", (3.50, 4.85, -5.20), 0.24, 0.60),
                                    ("glow_white", (5.20, 2.50, -6.35), 0.16, 0.38)):
         shade(housings, at, radius, drop)
         bulb(glow, name, at, 0.055)
-    # Work lamp in room A: a tripod whose head looks at the front door.
+    # Work light in room A: a tripod whose head looks at the front door.
     head = np.array([-1.42, 1.62, -5.55])
     for dx, dz in ((0.36, 0.18), (-0.36, 0.18), (0.0, -0.34)):
         housings.tube("dark_metal", [head - (0, 0.1, 0), (head[0] + dx, FLOOR, head[2] + dz)], 0.014, 8)
@@ -210,11 +210,11 @@ def lamps(scene):
         housings.box("trim", (x - 0.07, 3.23, -1.85), (x + 0.07, 3.29, -0.05))
         for z in (-1.6, -0.3):
             housings.tube("dark_metal", [(x, 3.29, z), (x, 5.45, z)], 0.006, 6)
-    # Red bulkhead lamp over the front door.
+    # Red bulkhead light over the front door.
     housings.lathe("dark_metal", [(0, 0), (.10, 0), (.10, .03), (.03, .05), (0, .05)], 20, (-2.5, 2.78, 0.16))
     housings.beam("dark_metal", (-2.5, 2.80, 0.0), (-2.5, 2.80, 0.2), 0.05, 0.04)
     bulb(glow, "glow_red", (-2.5, 2.70, 0.16), 0.075)
-    # Sodium lamp on a pole at the right of the yard.
+    # Sodium light on a pole at the right of the yard.
     housings.lathe("concrete", [(0, 0), (.2, 0), (.17, .3), (0, .3)], 16, (6.7, 0, 4.4))
     housings.tube("dark_metal", [(6.7, 0.25, 4.4), (6.7, 4.5, 4.4), (6.65, 4.72, 4.4), (6.5, 4.82, 4.4),
                                  (5.9, 4.84, 4.4)], 0.055, 12)
@@ -279,5 +279,5 @@ def build(scene):
     trees(scene)
     stacks(scene)
     furniture(scene)
-    lamps(scene)
+    lights(scene)
     sign(scene)

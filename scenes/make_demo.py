@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes scenes/demo.glb: a roadhouse at night, textures, lamps, camera and grenade included.
+"""Makes scenes/demo.glb: a roadhouse at night, textures, lights, camera and grenade included.
 
     make_demo.py                     writes demo.glb beside this file
     make_demo.py --check             makes it in memory, checks it, and compares it with the file

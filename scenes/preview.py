@@ -1,4 +1,4 @@
-"""A small software picture of the demo scene, to judge its composition: z-buffer, textures, lamps with shadows."""
+"""A small software picture of the demo scene, to judge its composition: z-buffer, textures, lights with shadows."""
 import numpy as np
 
 from demo_geometry import look_rotation
@@ -132,7 +132,7 @@ def sky(directions):
 
 
 def light_at(points, voxels, lights, normals=None):
-    """Irradiance (with normals) or fluence/4 (without) from all lamps."""
+    """Irradiance (with normals) or fluence/4 (without) from all lights."""
     total = np.zeros((len(points), 3))
     for kind, color, power, position, target, cone in lights.values():
         position = np.array(position)

@@ -15,13 +15,13 @@ layout(binding = 3) uniform sampler2D past_smoke;
 layout(scalar, binding = 4) readonly buffer Past { AccumulatedPixel past[]; };
 layout(binding = 5, rgba16f) uniform writeonly image2D gathered;
 layout(scalar, binding = 6) writeonly buffer Kept { AccumulatedPixel kept[]; };
-layout(push_constant, scalar) uniform Push { AccumulateParams params; };
+layout(push_constant, scalar) uniform Impulse { AccumulateParams params; };
 
 /// Where the smoke of a pixel is, as a distance along the view axis: as far as light of an even medium between where
 /// the ray enters the smoke's bounds and the surface comes from on average. Smoke moves slowly; its parallax is that of
 /// this place, not that of the surface behind.
 float smoke_distance(vec3 ray, float z_surface, float transmittance) {
-  const SmokeVolumeFrame volume = frame.volume;
+  const VolumeLayout volume = frame.volume;
   const vec3 inverse = 1.0 / (ray + vec3(equal(ray, vec3(0.0))) * 1e-9);
   const vec3 to_low = volume.origin_world + volume.bounds_min * volume.voxel_size - frame.camera.eye_world;
   const vec3 to_high = volume.origin_world + volume.bounds_max * volume.voxel_size - frame.camera.eye_world;
@@ -31,7 +31,7 @@ float smoke_distance(vec3 ray, float z_surface, float transmittance) {
   const float leave = min(min(high.x, high.y), min(high.z, z_surface));
   if (leave <= enter) return z_surface;
   // What is opaque is dense.
-  const bool opaque = transmittance <= max(frame.look.stop, 1e-3);
+  const bool opaque = transmittance <= max(frame.look.opaque_transmittance, 1e-3);
   const float tau = opaque ? max(frame.look.extinction * (leave - enter), 7.0) : -log(transmittance);
   // The mean of a truncated exponential distribution.
   const float share = tau > 0.01 ? 1.0 / tau - exp(-tau) / (1.0 - exp(-tau)) : 0.5;

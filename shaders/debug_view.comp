@@ -20,7 +20,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kView = kViewNone;
-const uint kHoles = kHolesListed;
+const uint kHoles = kHolesClustered;
 layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(binding = 6) uniform sampler3D inscatter_atlas;
 layout(binding = 7) uniform sampler2D albedo_roughness;
@@ -32,7 +32,7 @@ layout(scalar, binding = 16) readonly buffer Counters {
   uint ray_steps[];
 };
 layout(binding = 17, rgba8) uniform writeonly image2D display;
-layout(scalar, push_constant) uniform Push { DebugViewParams params; };
+layout(scalar, push_constant) uniform Impulse { DebugViewParams params; };
 #include "lib/legend.glsl"
 #include "lib/ray_holes.glsl"
 #include "lib/voxel_rays.glsl"
@@ -187,7 +187,7 @@ vec3 slice_view(Look look) {
 
 /// Where a ray is within the smoke's bounds, up to the surface [m].
 vec2 in_smoke(Look look) {
-  const SmokeVolumeFrame volume = frame.volume;
+  const VolumeLayout volume = frame.volume;
   const vec3 inverse = 1.0 / (look.direction + vec3(equal(look.direction, vec3(0.0))) * 1e-9);
   const vec3 low = volume.origin_world + volume.bounds_min * volume.voxel_size - frame.camera.eye_world;
   const vec3 high = volume.origin_world + volume.bounds_max * volume.voxel_size - frame.camera.eye_world;
@@ -204,7 +204,7 @@ vec3 holes_view(Look look) {
   float cleared_m = 0.0;
   for (float i = 0.5; i < count; i += 1.0) {
     const float t = reach.x + i * ds;
-    cleared_m += ds * (1.0 - left_by_holes(holes, t, frame.camera.eye_world + look.direction * t, 0.0, true));
+    cleared_m += ds * (1.0 - remaining_after_holes(holes, t, frame.camera.eye_world + look.direction * t, 0.0, true));
   }
   return heat_colour(ramp_of_view(kView), cleared_m / params.full, dimmed_scene(look));
 }

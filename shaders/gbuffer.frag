@@ -7,7 +7,7 @@
 layout(binding = 2) uniform sampler2D base_color_map;
 layout(binding = 3) uniform sampler2D normal_map;
 layout(binding = 4) uniform sampler2D roughness_map;
-layout(push_constant, scalar) uniform Push { DrawConstants draw; };
+layout(push_constant, scalar) uniform Impulse { DrawConstants draw; };
 
 layout(location = 0) in vec3 normal_world;
 layout(location = 1) in vec4 tangent_world;

@@ -7,7 +7,7 @@
 
 layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Vertices { Vertex vertices[]; };
-layout(push_constant, scalar) uniform Push { DrawConstants draw; };
+layout(push_constant, scalar) uniform Impulse { DrawConstants draw; };
 
 layout(location = 0) out vec3 normal_world;
 layout(location = 1) out vec4 tangent_world;

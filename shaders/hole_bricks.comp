@@ -13,7 +13,7 @@ layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
 layout(scalar, binding = 3) buffer HoleCells { uint hole_cells[]; };
 layout(scalar, binding = 4) writeonly buffer Pairs { uvec2 pairs[]; };
 layout(scalar, binding = 5) buffer Counters { HoleCounters counters; };
-layout(push_constant, scalar) uniform Push { HoleCellsParams params; };
+layout(push_constant, scalar) uniform Impulse { HoleCellsParams params; };
 #include "lib/hole_rows.glsl"
 
 shared bool reached;
@@ -41,6 +41,6 @@ void main() {
   }
   barrier();
   if (block >= params.block_capacity) return;
-  const uint first = frame.holes.cells_at + kHoleCellsPerBlock * block;
-  for (uint i = lane; i < kHoleCellsPerBlock; i += 64u) hole_cells[first + i] = 0u;
+  const uint first = frame.holes.cells_at + kHoleCellsPerChunk * block;
+  for (uint i = lane; i < kHoleCellsPerChunk; i += 64u) hole_cells[first + i] = 0u;
 }

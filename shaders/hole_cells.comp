@@ -13,7 +13,7 @@ layout(scalar, binding = 3) buffer HoleCells { uint hole_cells[]; };
 layout(scalar, binding = 4) readonly buffer Pairs { uvec2 pairs[]; };
 layout(scalar, binding = 5) readonly buffer Counters { HoleCounters counters; };
 layout(binding = 6) uniform sampler2D hole_masks;
-layout(push_constant, scalar) uniform Push { HoleCellsParams params; };
+layout(push_constant, scalar) uniform Impulse { HoleCellsParams params; };
 #include "lib/hole_mask.glsl"
 #include "lib/hole_rows.glsl"
 
@@ -61,7 +61,7 @@ void main() {
         const vec3 low_world = low + vec3(at) * cell;
         if (!hole_reaches_box(reach, low_world, cell)) continue;
         const float left = max(1.0 - mean_strength(hole, low_world, cell), 1.0 / 4096.0);
-        const uint number = kHoleCellsPerBlock * (block - 1u) + uint(at.x + kHoleCellsPerEdge * (at.y + kHoleCellsPerEdge * at.z));
+        const uint number = kHoleCellsPerChunk * (block - 1u) + uint(at.x + kHoleCellsPerEdge * (at.y + kHoleCellsPerEdge * at.z));
         atomicAdd(hole_cells[frame.holes.cells_at + number], uint(-log2(left) * kHoleCellStep + 0.5));
       }
     }

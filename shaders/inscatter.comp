@@ -1,5 +1,5 @@
 // In-scattered radiance at every listed texel of a brick: what each ray brings, scattered towards the eye. The march then
-// pays one fetch a sample, however many lamps there are.
+// pays one fetch a sample, however many lights there are.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -16,11 +16,11 @@ layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(scalar, binding = 2) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 3) readonly buffer Rows { uint rows[]; };
 layout(scalar, binding = 4) readonly buffer Blocks { uint blocks[]; };
-layout(scalar, binding = 5) readonly buffer Bricks { LightBrick bricks[]; };
+layout(scalar, binding = 5) readonly buffer Bricks { LightGather bricks[]; };
 layout(binding = 6, rgba16f) uniform writeonly image3D inscatter;
-layout(binding = 9) uniform sampler3D share_atlas;
-layout(scalar, binding = 10) readonly buffer BrickLamps { uvec2 brick_lamps[]; };
-layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
+layout(binding = 9) uniform sampler3D filtered_density_atlas;
+layout(scalar, binding = 10) readonly buffer BrickLights { uvec2 brick_lights[]; };
+layout(push_constant, scalar) uniform Impulse { SmokeLightParams params; };
 #include "lib/row_texels.glsl"
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
@@ -28,7 +28,7 @@ layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
 /// Mean transmittance out of the smoke, over all directions.
 float escape_of(uint block, uint local) {
   float escape = 0.0;
-  for (uint k = 0u; k < kSkyBlocks; ++k) {
+  for (uint k = 0u; k < kSkyPages; ++k) {
     const vec2 depths = unpackHalf2x16(blocks[(block + k) * kTexelsPerBrick + local]);
     escape += (exp(-depths.x) + exp(-depths.y)) / float(kSkyRays);
   }
@@ -44,39 +44,39 @@ vec3 scattered_sky(float p) { return vec3(p) / (1.0 - frame.look.albedo * (1.0 -
 /// depth of `step` apart: (x / 2) coth(x / 2) along an axis, x = k step; to the second order 1 + x^2 / 12 in every direction.
 vec3 interpolation_excess(vec3 k, float step) { return 1.0 + k * k * (step * step / 12.0); }
 
-/// Light of the lamps of a brick at a texel, scattered towards the eye.
-vec3 scattered_lamps(LightBrick brick, uint local, vec3 p_world, ManyScatterings many) {
+/// Light of the lights of a brick at a texel, scattered towards the eye.
+vec3 scattered_lights(LightGather brick, uint local, vec3 p_world, ManyScatterings many) {
   const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
   vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < brick.lamp_count; ++k) {
-    const uvec2 lamp = brick_lamps[brick.first_lamp + k];
-    const vec2 depth_lit = unpackHalf2x16(blocks[lamp.y * kTexelsPerBrick + local]);
+  for (uint k = 0u; k < brick.light_count; ++k) {
+    const uvec2 light = brick_lights[brick.first_light + k];
+    const vec2 depth_lit = unpackHalf2x16(blocks[light.y * kTexelsPerBrick + local]);
     if (depth_lit.y <= 0.0) continue;
-    const Incident incident = light_at(lights[lamp.x], p_world);
+    const Incident incident = light_at(lights[light.x], p_world);
     if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
     sum += incident.irradiance * (depth_lit.y * scattered(frame.look.phase, many, depth_lit.x, -dot(incident.to_light, to_eye)));
   }
   return sum;
 }
 
-void light_texel(LightBrick brick, uint local) {
+void light_texel(LightGather brick, uint local) {
   const ivec3 at = texel_in_atlas(brick.slot, local);
   const vec3 p_world = world_from_voxel(texel_position(brick.slot, local));
-  const float escape = escape_of(brick.sky_block, local);
-  const float density = max(texelFetch(share_atlas, at, 0).r, 0.0);
+  const float escape = escape_of(brick.sky_page, local);
+  const float density = max(texelFetch(filtered_density_atlas, at, 0).r, 0.0);
   const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
   const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
-  ManyScatterings many = many_scatterings(frame.look, escape);
+  ManyScatterings many = multiple_scattering(frame.look, escape);
   many.share *= excess / interpolation_excess(many.decay, texel_depth);
-  const vec3 lamps = scattered_lamps(brick, local, p_world, many);
+  const vec3 lights = scattered_lights(brick, local, p_world, many);
   const vec3 sky = frame.sky.ambient * sky_visibility(p_world) * scattered_sky(escape);
-  imageStore(inscatter, at, vec4(sky + lamps / excess, 1.0));
+  imageStore(inscatter, at, vec4(sky + lights / excess, 1.0));
 }
 
 void main() {
   const uint number = gl_WorkGroupID.y + kLightGroups * gl_WorkGroupID.z;
   if (number >= params.count) return;
-  const LightBrick brick = bricks[params.first + number];
+  const LightGather brick = bricks[params.first + number];
   const uvec2 entries = row_entries(brick.row, brick.texels);
   uint entry = entries.x + gl_GlobalInvocationID.x;
   if (entry >= entries.y) return;

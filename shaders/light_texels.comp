@@ -7,13 +7,13 @@
 
 layout(local_size_x = 256) in;
 layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Bricks { LightRow bricks[]; };
+layout(scalar, binding = 1) readonly buffer Bricks { TexelList bricks[]; };
 layout(binding = 2) uniform sampler3D density_atlas;
 layout(scalar, binding = 3) buffer Rows { uint rows[]; };
 layout(scalar, binding = 4) readonly buffer Cells { uint cells[]; };
 layout(scalar, binding = 5) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
 layout(scalar, binding = 6) readonly buffer Changes { LightChange changes[]; };
-layout(push_constant, scalar) uniform Push { SmokeLightParams params; };
+layout(push_constant, scalar) uniform Impulse { SmokeLightParams params; };
 #include "lib/smoke_texels.glsl"
 
 // What samples may take from a texel: from smoke in it, or from a cell at a wall that it is a corner of.
@@ -54,7 +54,7 @@ uint around(bool of_grown, uint i, uint stride) {
 
 uint phase_of(bool by_phase, uint texel) { return by_phase ? light_phase(uvec3(local_texel(texel))) : 0u; }
 
-bool in_change(LightRow brick, uint texel) {
+bool in_change(TexelList brick, uint texel) {
   const vec3 p = world_from_voxel(texel_position(brick.slot, texel));
   bool within = false;
   for (uint i = brick.first_change; i < brick.first_change + brick.change_count; ++i) {
@@ -67,8 +67,8 @@ bool in_change(LightRow brick, uint texel) {
 }
 
 /// Writes the list of the texels that `grown` marks. All threads of the workgroup take part.
-void write_list(LightRow brick, uint lane) {
-  const uint head = brick.row * kLightRow;
+void write_list(TexelList brick, uint lane) {
+  const uint head = brick.row * kTexelListWords;
   const bool by_phase = brick.by_phase != 0u;
   if (lane < kLightPhases) phase_count[lane] = 0u;
   if (lane == 0u) new_count = 0u;
@@ -96,13 +96,13 @@ void write_list(LightRow brick, uint lane) {
   }
   barrier();
   if (lane == 0u) rows[head + kLightPhases + 1u] = new_count;
-  for (uint i = lane; i < kTexelsPerBrick; i += 256u) rows[head + kLightRowHead + i] = needed[i];
+  for (uint i = lane; i < kTexelsPerBrick; i += 256u) rows[head + kTexelListHead + i] = needed[i];
 }
 
 void main() {
   const uint number = gl_WorkGroupID.x + kLightGroups * gl_WorkGroupID.y;
   if (number >= params.count) return;
-  const LightRow brick = bricks[params.first + number];
+  const TexelList brick = bricks[params.first + number];
   const uint lane = gl_LocalInvocationID.x;
   const uvec3 atlas = uvec3(frame.volume.atlas_bricks);
   const ivec3 corner = ivec3(brick.slot % atlas.x, brick.slot / atlas.x % atlas.y, brick.slot / (atlas.x * atlas.y)) * kBrickTexels;
@@ -118,10 +118,10 @@ void main() {
   barrier();
   for (uint i = lane; i < kTexelsPerBrick; i += 256u) grown[i] = around(false, i, 100u) > 0u ? kListed : 0u;
   barrier();
-  const uint head = brick.row * kLightRow;
+  const uint head = brick.row * kTexelListWords;
   const uint before = brick.had_list != 0u ? rows[head + kLightPhases] : 0u;
   for (uint i = lane; i < before; i += 256u) {
-    const uint texel = rows[head + kLightRowHead + i] & 0xffffu;
+    const uint texel = rows[head + kTexelListHead + i] & 0xffffu;
     if (!in_change(brick, texel)) atomicOr(grown[texel], kWasListed);
   }
   barrier();

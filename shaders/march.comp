@@ -21,7 +21,7 @@ layout(constant_id = 0) const uint kCount = kCountNothing;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
 layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(binding = 2) uniform sampler3D medium_atlas;
+layout(binding = 2) uniform sampler3D density_displacement_atlas;
 layout(binding = 6) uniform sampler3D inscatter_atlas;
 layout(binding = 7) uniform sampler3D noise_tile;
 layout(binding = 8) uniform sampler2D depth;
@@ -48,9 +48,9 @@ struct Way {
 };
 
 /// False where there is no ray.
-bool find_way(out Way way) {
+bool find_ray(out Way way) {
   way.texel = ivec2(gl_GlobalInvocationID.xy);
-  if (kRays == kRaysOfBlocks) {
+  if (kRays == kRaysOfTiles) {
     const uvec2 blocks = blocks_of(frame.size_px, frame.march_scale);
     if (any(greaterThanEqual(uvec2(way.texel), blocks))) return false;
     const RayEnds e = ends[uint(way.texel.x) + blocks.x * uint(way.texel.y)];
@@ -87,17 +87,17 @@ struct Gathered {
 };
 
 /// A brick, or the cube without smoke around it, on the way of a ray.
-struct Stay {
+struct BrickSpan {
   vec3 low;  // low corner [voxels]
   uint slot;
   float t_first, t_stop;  // samples from the first on, up to the second, may find smoke
   float t_next;           // the first sample behind the brick
 };
 
-Stay find_stay(Ray ray, float t, float ds) {
-  const SmokeVolumeFrame volume = frame.volume;
+BrickSpan find_brick_span(Ray ray, float t, float ds) {
+  const VolumeLayout volume = frame.volume;
   const vec3 origin = (ray.origin_world - volume.origin_world) / volume.voxel_size, per_metre = ray.direction / volume.voxel_size;
-  Stay stay;
+  BrickSpan stay;
   const vec3 brick = floor((origin + per_metre * t) / float(kBrickVoxels));
   int edge;
   stay.slot = slot_at(volume, ivec3(brick), edge);
@@ -121,21 +121,21 @@ Stay find_stay(Ray ray, float t, float ds) {
 /// the same share of it. Brick by brick, so that what a brick's samples share is found once; little is kept from step to
 /// step, for every register is taken from other rays.
 void march(Ray ray, float begin, float end, inout Gathered got) {
-  const SmokeVolumeFrame volume = frame.volume;
+  const VolumeLayout volume = frame.volume;
   const float count = ceil((end - begin) / frame.look.step_length), ds = (end - begin) / max(count, 1.0);
   const float after_last = begin + (count - 0.5 + ray.jitter) * ds;
   const vec3 texel = atlas_texel(volume), texels_per_metre = texel / volume.voxel_size;
   const float per_density = -1.44269504 * frame.look.extinction * ds;  // for exp2
   const float periods_per_metre = 1.0 / frame.look.noise_period;
-  const vec3 risen = vec3(0.0, frame.look.noise_drift * frame.time * periods_per_metre, 0.0);
+  const vec3 risen = vec3(0.0, frame.look.rise * frame.time * periods_per_metre, 0.0);
   for (float t = begin + ray.jitter * ds; t < after_last;) {
-    const Stay stay = find_stay(ray, t, ds);
+    const BrickSpan stay = find_brick_span(ray, t, ds);
     const vec3 uvw_of_world = (atlas_corner(volume, stay.slot) - stay.low) * texel - volume.origin_world * texels_per_metre;
     const float t_stop = min(stay.t_stop, after_last);
     for (t = stay.t_first; t < t_stop; t += ds) {
       const vec3 p_world = ray.origin_world + ray.direction * t;
       const vec3 uvw = p_world * texels_per_metre + uvw_of_world;
-      const vec4 medium = textureLod(medium_atlas, uvw, 0.0);
+      const vec4 medium = textureLod(density_displacement_atlas, uvw, 0.0);
       SmokeSample here = SmokeSample(medium.r, vec3(0.0));
       if (medium.r < 0.0) here = boundary_sample(stay.slot, (p_world - volume.origin_world) / volume.voxel_size - stay.low);
       float density = here.density;
@@ -145,7 +145,7 @@ void march(Ray ray, float begin, float end, inout Gathered got) {
         const vec4 noise = textureLod(noise_tile, (p_world + medium.gba) * periods_per_metre - risen, 0.0);
         ++got.samples;
         if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
-        if (kHoles != kHolesNone) density *= left_by_holes(ray.holes, t, p_world, 2.0 * noise.g - 1.0, density > 0.0);
+        if (kHoles != kHolesNone) density *= remaining_after_holes(ray.holes, t, p_world, 2.0 * noise.g - 1.0, density > 0.0);
       }
       if (density > 0.0) {
         // In-scatter is constant over the step, so its integral is exact: no step length changes the energy.
@@ -154,7 +154,7 @@ void march(Ray ray, float begin, float end, inout Gathered got) {
         ++got.samples;
         got.radiance += got.transmittance * (1.0 - passed) * light;
         got.transmittance *= passed;
-        if (got.transmittance < frame.look.stop) {
+        if (got.transmittance < frame.look.opaque_transmittance) {
           got.transmittance = 0.0;
           return;
         }
@@ -166,7 +166,7 @@ void march(Ray ray, float begin, float end, inout Gathered got) {
 
 /// Writes the steps of a ray for each of its pixels.
 void note_steps(ivec2 texel, uint steps) {
-  const uint edge = kRays == kRaysOfBlocks ? frame.march_scale : 1u;
+  const uint edge = kRays == kRaysOfTiles ? frame.march_scale : 1u;
   for (uint i = 0u; i < edge * edge; ++i) {
     const uvec2 px = uvec2(texel) * edge + uvec2(i % edge, i / edge);
     if (all(lessThan(px, frame.size_px))) ray_steps[px.x + frame.size_px.x * px.y] = steps;
@@ -175,8 +175,8 @@ void note_steps(ivec2 texel, uint steps) {
 
 void main() {
   Way way;
-  if (!find_way(way)) return;
-  const SmokeVolumeFrame volume = frame.volume;
+  if (!find_ray(way)) return;
+  const VolumeLayout volume = frame.volume;
 
   // The part of the ray inside the smoke's bounds, t in metres; it ends at the surface behind.
   const vec3 along = camera_ray(frame.camera, way.position_px, frame.size_px);
@@ -194,7 +194,7 @@ void main() {
   Gathered got = Gathered(vec3(0.0), 1.0, 0u, 0u);
   vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
   if (t_begin < t_last) {
-    if (kRays == kRaysOfBlocks) {
+    if (kRays == kRaysOfTiles) {
       const float t_near = clamp(way.near * length(along), t_begin, t_last);
       march(ray, t_begin, t_near, got);
       at_near = vec4(got.radiance * frame.look.albedo, got.transmittance);
@@ -204,7 +204,7 @@ void main() {
     }
   }
   imageStore(smoke, way.texel, vec4(got.radiance * frame.look.albedo, got.transmittance));
-  if (kRays == kRaysOfBlocks) imageStore(smoke_near, way.texel, at_near);
+  if (kRays == kRaysOfTiles) imageStore(smoke_near, way.texel, at_near);
   if (kCount != kCountNothing) atomicAdd(texture_samples, got.samples);
   if (kCount == kCountSteps) note_steps(way.texel, got.steps);
 }

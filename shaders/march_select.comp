@@ -74,7 +74,7 @@ bool is_seen(vec4 smoke, vec4 error, vec3 behind) {
   const vec3 right = (smoke.rgb + smoke.a * behind) * frame.exposure;
   const vec3 wrong = right + (error.rgb + error.a * behind) * frame.exposure;
   const vec3 apart = abs(srgb_from_linear(tone_curve(wrong)) - srgb_from_linear(tone_curve(right)));
-  return max(apart.r, max(apart.g, apart.b)) > frame.seen_error;
+  return max(apart.r, max(apart.g, apart.b)) > frame.resolve_error;
 }
 
 bool must_march(ivec2 block, ivec2 blocks) {

@@ -9,7 +9,7 @@
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(binding = 0, rgba8) uniform writeonly image3D tile;
-layout(push_constant, scalar) uniform Push { NoiseParams params; };
+layout(push_constant, scalar) uniform Impulse { NoiseParams params; };
 
 void main() {
   const uvec3 texel = gl_GlobalInvocationID;

@@ -1,4 +1,4 @@
-// Lights the G-buffer and puts the smoke over it: every lamp within reach, with its shadow, the sky where nothing
+// Lights the G-buffer and puts the smoke over it: every light within reach, with its shadow, the sky where nothing
 // stands. What the smoke hides is not lit at all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -32,10 +32,10 @@ layout(binding = 9) uniform sampler2D smoke;
 layout(binding = 12) readonly buffer Faces { vec4 face_rows[]; };
 layout(binding = 13, rgba16f) uniform writeonly image2D picture;
 #include "lib/light_rows.glsl"
-#include "lib/light_share.glsl"
+#include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
 
-/// What the surfaces of a tile have in common. A tile is a subgroup: its threads ask a lamp each, and no barrier is met.
+/// What the surfaces of a tile have in common. A tile is a subgroup: its threads ask a light each, and no barrier is met.
 struct TileSurfaces {
   vec3 low_world, high_world;    // bounds of the places
   vec3 low_normal, high_normal;  // and of the normals
@@ -72,17 +72,17 @@ float smoke_share(uint index, vec4 on_face) {
   return textureLod(smoke_shadows, texel / vec2(textureSize(smoke_shadows, 0)), 0.0).r;
 }
 
-/// What the surface reflects of a lamp's light, after the scene's shadow and the smoke in between.
-vec3 lamp_radiance(uint index, Surface surface, vec3 view) {
+/// What the surface reflects of a light's light, after the scene's shadow and the smoke in between.
+vec3 light_radiance(uint index, Surface surface, vec3 view) {
   const Light light = light_from_rows(index);
   const Incident incident = light_at(light, surface.position_world);
   // A surface must not shadow itself: it is looked up a texel of the shadow off its plane.
   const float off = light.shadow_layer == kShadowByVoxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
   const vec3 off_world = surface.position_world + off * surface.normal;
   const vec4 on_face = face_coordinates(light, sun.clip_from_world, off_world);
-  const float share = light_share(light, on_face, off_world);
+  const float share = light_visibility(light, on_face, off_world);
   vec3 radiance = vec3(0.0);
-  // A loop that runs at most once: a software rasteriser skips those, not branches, and most lamps are behind walls.
+  // A loop that runs at most once: a software rasteriser skips those, not branches, and most lights are behind walls.
   for (bool lit = share > 0.0; lit; lit = false) {
     radiance = reflect_light(surface, view, incident.to_light) * incident.irradiance *
                (share * smoke_share(index, on_face));
@@ -90,8 +90,8 @@ vec3 lamp_radiance(uint index, Surface surface, vec3 view) {
   return radiance;
 }
 
-/// The light of all lamps, in their order, whatever the size of a subgroup is.
-vec3 lamps_radiance(bool lit, Surface surface, vec3 view) {
+/// The light of all lights, in their order, whatever the size of a subgroup is.
+vec3 lights_radiance(bool lit, Surface surface, vec3 view) {
   const TileSurfaces tile = surfaces_of_tile(lit, surface.position_world, surface.normal);
   const uint light_count = subgroupAny(lit) ? frame.light_count : 0u;
   vec3 radiance = vec3(0.0);
@@ -100,7 +100,7 @@ vec3 lamps_radiance(bool lit, Surface surface, vec3 view) {
     const uvec4 reaching = subgroupBallot(mine < light_count && reaches_tile(light_from_rows(min(mine, light_count - 1u)), tile));
     for (uint word = 0u; 32u * word < gl_SubgroupSize; ++word) {
       for (uint bits = reaching[word]; bits != 0u; bits &= bits - 1u)
-        radiance += lamp_radiance(first + 32u * word + uint(findLSB(bits)), surface, view);
+        radiance += light_radiance(first + 32u * word + uint(findLSB(bits)), surface, view);
     }
   }
   return radiance;
@@ -119,7 +119,7 @@ void main() {
 
   const vec4 a = texelFetch(albedo_roughness, px, 0), n = texelFetch(normal_metallic, px, 0);
   const Surface surface = Surface(frame.camera.eye_world + view_distance(frame.camera, d) * ray, normalize(n.xyz), a.rgb, a.a, n.a);
-  vec3 radiance = lamps_radiance(lit, surface, -normalize(ray));
+  vec3 radiance = lights_radiance(lit, surface, -normalize(ray));
   if (lit) {
     radiance += texelFetch(emission, px, 0).rgb +
                 surface.albedo * frame.sky.ambient * sky_irradiance(surface.position_world, surface.normal);

@@ -5,6 +5,6 @@
 #include "shared/gbuffer.h"
 
 layout(scalar, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
-layout(push_constant, scalar) uniform Push { ShadowDraw draw; };
+layout(push_constant, scalar) uniform Impulse { ShadowDraw draw; };
 
 void main() { gl_Position = draw.clip_from_mesh * vec4(vertices[gl_VertexIndex].position, 1.0); }

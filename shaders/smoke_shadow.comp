@@ -20,10 +20,10 @@ layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
 layout(binding = 3) uniform sampler2DArray shadows;
-layout(binding = 5) uniform sampler3D share_atlas;
+layout(binding = 5) uniform sampler3D filtered_density_atlas;
 layout(binding = 9, r16f) uniform writeonly image2D smoke_shadows;
 layout(scalar, binding = 11) readonly buffer Faces { SmokeShadowFace faces[]; };
-layout(push_constant, scalar) uniform Push { SmokeShadowParams params; };
+layout(push_constant, scalar) uniform Impulse { SmokeShadowParams params; };
 layout(binding = 13) readonly buffer Holes { vec4 hole_rows[]; };
 layout(binding = 14) uniform sampler2D hole_masks;
 #include "lib/hole_reach.glsl"
@@ -34,7 +34,7 @@ layout(binding = 14) uniform sampler2D hole_masks;
 // Holes that the rays of a block may meet; where there are more, their averages over cells do.
 const uint kBlockHoles = 64u;
 shared uint found_holes[kBlockHoles], block_holes[kBlockHoles];
-shared uint block_count;
+shared uint page_count;
 shared float part_depths[kWindowThreads];
 
 struct Way {
@@ -52,7 +52,7 @@ uint face_of(uint block) {
   return low;
 }
 
-/// Direction from a lamp through a point of one of its faces, one unit along the face's axis.
+/// Direction from a light through a point of one of its faces, one unit along the face's axis.
 vec3 face_ray(uint face, vec2 uv) {
   const vec2 ndc = uv * 2.0 - 1.0;
   return cube_forward(face) + ndc.x * cube_right(face) - ndc.y * cube_up(face);
@@ -90,16 +90,16 @@ RayCone cone_of_block(Light light, uint face, vec2 low_uv, vec2 high_uv) {
 /// Finds the holes of the block. All threads of the workgroup take part.
 void find_block_holes(RayCone cone) {
   const uint thread = gl_LocalInvocationIndex;
-  if (thread == 0u) block_count = 0u;
+  if (thread == 0u) page_count = 0u;
   barrier();
   for (uint i = thread; i < frame.holes.count; i += kWindowThreads) {
     if (!cone_meets_hole(cone, reach_from_rows(i))) continue;
-    const uint at = atomicAdd(block_count, 1u);
+    const uint at = atomicAdd(page_count, 1u);
     if (at < kBlockHoles) found_holes[at] = i;
   }
   barrier();
   // In order, so that equal frames multiply in the same order.
-  const uint count = min(block_count, kBlockHoles);
+  const uint count = min(page_count, kBlockHoles);
   if (thread < count) {
     uint before = 0u;
     for (uint i = 0u; i < count; ++i) before += found_holes[i] < found_holes[thread] ? 1u : 0u;
@@ -110,14 +110,14 @@ void find_block_holes(RayCone cone) {
 
 /// The steps of a way inside the smoke's bounds.
 RaySteps steps_of_way(Way way, uint part) {
-  const SmokeVolumeFrame volume = frame.volume;
+  const VolumeLayout volume = frame.volume;
   const float distance = length(way.to - way.from);
   RaySteps ray;
   ray.origin_world = way.from;
   ray.direction = (way.to - way.from) / max(distance, 1e-6);
   const vec3 inverse = 1.0 / (ray.direction + vec3(equal(ray.direction, vec3(0.0))) * 1e-6);
-  const vec3 low = volume.origin_world + frame.shading_min * volume.voxel_size - way.from;
-  const vec3 high = volume.origin_world + frame.shading_max * volume.voxel_size - way.from;
+  const vec3 low = volume.origin_world + frame.caster_bounds_min * volume.voxel_size - way.from;
+  const vec3 high = volume.origin_world + frame.caster_bounds_max * volume.voxel_size - way.from;
   const vec3 near = min(low * inverse, high * inverse), far = max(low * inverse, high * inverse);
   ray.begin = max(max(near.x, near.y), max(near.z, 0.0));
   const float inside = max(min(min(far.x, far.y), min(far.z, distance)) - ray.begin, 0.0);
@@ -129,11 +129,11 @@ RaySteps steps_of_way(Way way, uint part) {
 
 /// Optical depth of the thread's part of the steps.
 float part_depth(RaySteps ray) {
-  const bool holes_near = frame.holes.count > 0u && block_count > 0u, by_cells = holes_near && block_count > kBlockHoles;
+  const bool holes_near = frame.holes.count > 0u && page_count > 0u, by_cells = holes_near && page_count > kBlockHoles;
   const bool by_window = holes_near && !by_cells;
   if (by_window) {
     fill_window();
-    for (uint i = 0u; i < block_count; ++i) cut_hole(ray, block_holes[i]);
+    for (uint i = 0u; i < page_count; ++i) cut_hole(ray, block_holes[i]);
   }
   const float per_sample = ray.ds * frame.look.extinction;
   const vec3 origin = (ray.origin_world - frame.volume.origin_world) / frame.volume.voxel_size;
@@ -142,7 +142,7 @@ float part_depth(RaySteps ray) {
   for (uint i = 0u; kRayParts * i + ray.part < ray.count && depth < 10.0; ++i) {
     const vec3 p_voxel = origin + per_metre * (ray.begin + (float(kRayParts * i + ray.part) + 0.5) * ray.ds);
     float density = by_cells ? seen_smoke_at(p_voxel).density : mean_smoke_at(p_voxel).density;
-    if (by_window) density *= left_at(i);
+    if (by_window) density *= remaining_at(i);
     depth += per_sample * density;
   }
   return depth;

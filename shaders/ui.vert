@@ -5,7 +5,7 @@
 #include "shared/ui.h"
 
 layout(scalar, binding = 0) readonly buffer Vertices { UiVertex vertices[]; };
-layout(push_constant, scalar) uniform Push { UiConstants ui; };
+layout(push_constant, scalar) uniform Impulse { UiConstants ui; };
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec2 uv;

@@ -37,7 +37,7 @@ void write_json(const std::string& target, const nlohmann::ordered_json& object)
 /// Nothing is left behind. An empty name and "-" are fine.
 void check_output(const std::filesystem::path& path);
 
-/// Pushes standard output out; throws Error when it could not be written.
+/// Impulses standard output out; throws Error when it could not be written.
 void finish_output();
 
 }  // namespace brume::cli

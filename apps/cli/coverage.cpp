@@ -1,4 +1,5 @@
 #include "apps/cli/coverage.hpp"
+#include "smoke/holes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,14 +38,14 @@ std::vector<scene::ShotEvent> shots_of(const SightLine& line, const Volley& voll
   return shots;
 }
 
-double tick_seconds(const stage::Simulation& simulation) {
+double tick_seconds(const scenario::Simulation& simulation) {
   return 1.0 / simulation.world().settings().ticks_per_second;
 }
 
 /// Calls visit(simulation, time) at every tick whose time is in [begin, end).
 template <typename Visit>
-void at_every_tick(const stage::Stage& stage, double begin, double end, const Visit& visit) {
-  const auto simulation = stage::Simulation::create(stage).value_or_throw();
+void at_every_tick(const scenario::Scenario& scenario, double begin, double end, const Visit& visit) {
+  const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   const double step = tick_seconds(*simulation);
   for (auto tick = static_cast<std::uint64_t>(std::ceil(begin / step - 1e-9));
        static_cast<double>(tick) * step < end - 1e-9; ++tick) {
@@ -60,38 +61,38 @@ const char* name_of(HiddenBy by) {
   return by == HiddenBy::wall ? "wall" : by == HiddenBy::smoke ? "smoke" : "nothing";
 }
 
-Moment look(const stage::Stage& stage, const stage::Simulation& simulation, const SightLine& line) {
+SightSample look(const scenario::Scenario& scenario, const scenario::Simulation& simulation, const SightLine& line) {
   const sim::State& state = simulation.world().state();
-  const std::vector<shared::Hole> holes = sim::holes_of(state, &stage.masks);
-  const sim::Sight sight(simulation.volume(), simulation.world().grid(), holes, state.seconds(state.tick),
-                         {stage.timeline.smoke.extinction, stage.timeline.smoke.albedo, &stage.masks});
-  Moment moment;
-  moment.optical_depth = sight.optical_depth(line.from_world, line.to_world).value_or_throw();
-  moment.wall = sight.first_wall(line.from_world, line.to_world).value_or_throw();
-  moment.hidden_by = moment.wall                             ? HiddenBy::wall
-                     : moment.optical_depth > line.threshold ? HiddenBy::smoke
+  const std::vector<shared::Hole> holes = smoke::holes_of(state, &scenario.masks);
+  const smoke::Sight sight(simulation.volume(), simulation.world().grid(), holes, state.seconds(state.tick),
+                         {scenario.timeline.smoke.extinction, scenario.timeline.smoke.albedo, &scenario.masks});
+  SightSample sample;
+  sample.optical_depth = sight.optical_depth(line.from_world, line.to_world).value_or_throw();
+  sample.wall = sight.first_wall(line.from_world, line.to_world).value_or_throw();
+  sample.hidden_by = sample.wall                             ? HiddenBy::wall
+                     : sample.optical_depth > line.threshold ? HiddenBy::smoke
                                                              : HiddenBy::nothing;
-  return moment;
+  return sample;
 }
 
-Coverage coverage_of(const stage::Stage& stage, const SightLine& line, const TimeRange& times) {
+Coverage coverage_of(const scenario::Scenario& scenario, const SightLine& line, const TimeRange& times) {
   Coverage coverage;
-  at_every_tick(stage, times.begin, times.end, [&](const stage::Simulation& simulation, double time) {
-    const Moment moment = look(stage, simulation, line);
-    if (moment.hidden_by == HiddenBy::nothing) return;
+  at_every_tick(scenario, times.begin, times.end, [&](const scenario::Simulation& simulation, double time) {
+    const SightSample sample = look(scenario, simulation, line);
+    if (sample.hidden_by == HiddenBy::nothing) return;
     const double next = std::min(time + tick_seconds(simulation), times.end);
     coverage.hidden_seconds += next - time;
     auto& intervals = coverage.intervals;
-    const bool goes_on = !intervals.empty() && intervals.back().by == moment.hidden_by &&
+    const bool goes_on = !intervals.empty() && intervals.back().by == sample.hidden_by &&
                          std::abs(intervals.back().end - time) < 1e-9;
-    if (!goes_on) intervals.push_back({time, next, moment.hidden_by, 0});
+    if (!goes_on) intervals.push_back({time, next, sample.hidden_by, 0});
     intervals.back().end = next;
-    intervals.back().most_depth = std::max(intervals.back().most_depth, moment.optical_depth);
+    intervals.back().most_depth = std::max(intervals.back().most_depth, sample.optical_depth);
   });
   return coverage;
 }
 
-std::vector<ShotResult> fire(const stage::Stage& stage, const SightLine& line, const Volley& volley,
+std::vector<ShotResult> fire(const scenario::Scenario& scenario, const SightLine& line, const Volley& volley,
                              double end) {
   const std::vector<scene::ShotEvent> shots = shots_of(line, volley);
   const auto closed = [](const scene::ShotEvent& s) {
@@ -99,27 +100,27 @@ std::vector<ShotResult> fire(const stage::Stage& stage, const SightLine& line, c
            double{s.times.fade};
   };
   std::vector<bool> hidden;
-  at_every_tick(stage, volley.first_time, std::min(end, closed(shots.back())),
-                [&](const stage::Simulation& simulation, double) {
-                  hidden.push_back(look(stage, simulation, line).hidden_by != HiddenBy::nothing);
+  at_every_tick(scenario, volley.first_time, std::min(end, closed(shots.back())),
+                [&](const scenario::Simulation& simulation, double) {
+                  hidden.push_back(look(scenario, simulation, line).hidden_by != HiddenBy::nothing);
                 });
   std::vector<ShotResult> results;
   if (std::find(hidden.begin(), hidden.end(), true) == hidden.end()) return results;
 
-  stage::Stage shot_at = stage;
+  scenario::Scenario shot_at = scenario;
   auto& all = shot_at.timeline.shots;
   for (const scene::ShotEvent& shot : shots) {
-    // Among the stage's own, by time.
+    // Among the scenario's own, by time.
     const auto later = [&](const scene::ShotEvent& other) { return other.time > shot.time; };
     all.insert(std::find_if(all.begin(), all.end(), later), shot);
     ShotResult result{shot.time, std::numeric_limits<float>::max(), false};
     std::size_t tick = 0;
     at_every_tick(shot_at, volley.first_time, std::min(end, closed(shot)),
-                  [&](const stage::Simulation& simulation, double) {
+                  [&](const scenario::Simulation& simulation, double) {
                     if (!hidden[tick++]) return;
-                    const Moment moment = look(stage, simulation, line);
-                    result.least_depth = std::min(result.least_depth, moment.optical_depth);
-                    result.seen |= moment.hidden_by == HiddenBy::nothing;
+                    const SightSample sample = look(scenario, simulation, line);
+                    result.least_depth = std::min(result.least_depth, sample.optical_depth);
+                    result.seen |= sample.hidden_by == HiddenBy::nothing;
                   });
     if (shot.time < end) results.push_back(result);
     if (result.seen) break;

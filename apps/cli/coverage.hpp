@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "apps/cli/parse.hpp"
-#include "sim/sight.hpp"
-#include "stage/simulation.hpp"
+#include "smoke/sight.hpp"
+#include "scenario/simulation.hpp"
 
 namespace brume::cli {
 
@@ -21,14 +21,14 @@ enum class HiddenBy { nothing, wall, smoke };
 /// "nothing", "wall" or "smoke".
 const char* name_of(HiddenBy by);
 
-/// What the line is at one moment.
-struct Moment {
+/// What the line is at one sample.
+struct SightSample {
   HiddenBy hidden_by = HiddenBy::nothing;
   float optical_depth = 0;
-  std::optional<sim::SightWall> wall;
+  std::optional<smoke::SightWall> wall;
 };
 
-Moment look(const stage::Stage& stage, const stage::Simulation& simulation, const SightLine& line);
+SightSample look(const scenario::Scenario& scenario, const scenario::Simulation& simulation, const SightLine& line);
 
 /// Ticks one after the other at which the same hides, as times [s]: from the first of them to the next tick
 /// after the last.
@@ -43,9 +43,9 @@ struct Coverage {
   double hidden_seconds = 0;
 };
 
-/// Looks at every tick in [times.begin, times.end). Throws Error as stage::Simulation::create fails, and
+/// Looks at every tick in [times.begin, times.end). Throws Error as scenario::Simulation::create fails, and
 /// Interrupted.
-Coverage coverage_of(const stage::Stage& stage, const SightLine& line, const TimeRange& times);
+Coverage coverage_of(const scenario::Scenario& scenario, const SightLine& line, const TimeRange& times);
 
 /// Shots from one end of the line towards the other, besides those of the timeline.
 struct Volley {
@@ -64,7 +64,7 @@ struct ShotResult {
 
 /// One shot, two shots, and so on until it is seen or all are fired; looks no later than `end` [s]. Nothing
 /// where it is not hidden in that time anyway.
-std::vector<ShotResult> fire(const stage::Stage& stage, const SightLine& line, const Volley& volley,
+std::vector<ShotResult> fire(const scenario::Scenario& scenario, const SightLine& line, const Volley& volley,
                              double end);
 
 }  // namespace brume::cli

@@ -33,16 +33,16 @@ void demo(const Options& options, const CommonOptions& common) {
   check_output(picture);
   check_output(film);
 
-  const stage::Stage stage = stage::load_stage(BRUME_SCENES_DIR "/demo.toml", {}).value_or_throw();
+  const scenario::Scenario scenario = scenario::load_scenario(BRUME_SCENES_DIR "/demo.toml", {}).value_or_throw();
   stop_if_interrupted();
   gpu::Context context({options.device, false});
-  const double seconds = static_cast<double>(stage.timeline.duration);
+  const double seconds = static_cast<double>(scenario.timeline.duration);
   {
-    render::Playback playback(context, stage, kPictureSize);
-    image::save_png(picture, playback.draw(kPictureMoment, 0)).value_or_throw();
+    render::Playback playback(context, scenario, kPictureSize);
+    image::save_png(picture, playback.draw(kPictureTime, 0)).value_or_throw();
     stop_if_interrupted();
   }
-  render::Playback playback(context, stage, kFilmSize);
+  render::Playback playback(context, scenario, kFilmSize);
   const auto frames = static_cast<std::uint32_t>(std::ceil(seconds * kFramesPerSecond));
   write_film(film, {kFilmSize, kFramesPerSecond, common.threads}, 0, frames - 1,
              [&](std::uint32_t i) { return playback.draw(static_cast<double>(i) / kFramesPerSecond, i); });

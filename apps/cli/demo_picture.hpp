@@ -4,6 +4,6 @@
 namespace brume::cli {
 
 /// Of scenes/demo.toml [s].
-inline constexpr double kPictureMoment = 4.95;
+inline constexpr double kPictureTime = 4.95;
 
 }  // namespace brume::cli

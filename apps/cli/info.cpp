@@ -8,7 +8,7 @@
 #include "image/decode.hpp"
 #include "scene/load.hpp"
 #include "scene/timeline.hpp"
-#include "stage/vxl_file.hpp"
+#include "scenario/vxl_file.hpp"
 
 namespace brume::cli {
 namespace {
@@ -66,9 +66,9 @@ Json image_info(const std::filesystem::path& path) {
 }
 
 Json voxel_info(const std::filesystem::path& path) {
-  const auto contents = stage::load_vxl(path, std::nullopt).value_or_throw();
+  const auto contents = scenario::load_vxl(path, std::nullopt).value_or_throw();
   BRUME_ASSERT(contents.has_value(), "any key is taken");
-  const voxel::GridFrame& frame = contents->grid.frame();
+  const voxel::GridLayout& frame = contents->grid.layout();
   return {{"kind", "voxels"},
           {"size", {frame.size.x, frame.size.y, frame.size.z}},
           {"voxel_size", frame.voxel_size},

@@ -7,7 +7,7 @@
 #include "apps/cli/coverage.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/error.hpp"
-#include "sim/sight.hpp"
+#include "smoke/sight.hpp"
 
 namespace brume::cli {
 namespace {
@@ -35,7 +35,7 @@ std::string number(const char* format, double value) {
 glm::vec3 parse_end(const std::string& option, const std::string& text) {
   const glm::vec3 p = parse_point(option, text);
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(p[axis]) > sim::kMaxSightMetres)
+    if (std::abs(p[axis]) > smoke::kMaxSightMetres)
       throw Error(ErrorCode::usage, option + " '" + text + "': expected coordinates within 16384 m");
   }
   return p;
@@ -44,7 +44,7 @@ glm::vec3 parse_end(const std::string& option, const std::string& text) {
 void check_options(const Options& options) {
   if (options.report && options.time >= 0)
     throw Error(ErrorCode::usage,
-                "--time asks for one moment; with --report give --times, such as --times 0-6");
+                "--time asks for one sample; with --report give --times, such as --times 0-6");
   const std::pair<const char*, double> finite[] = {{"--time", options.time},
                                                    {"--threshold", double{options.threshold}},
                                                    {"--shots-at", options.shots_at},
@@ -65,15 +65,15 @@ void print_fields(const std::vector<std::pair<std::string, std::string>>& fields
   for (const auto& [name, value] : fields) print(name + std::string(16 - name.size(), ' ') + value + "\n");
 }
 
-void tell_moment(const Options& options, const stage::Stage& stage, const SightLine& line) {
-  const auto simulation = stage::Simulation::create(stage).value_or_throw();
+void print_sample(const Options& options, const scenario::Scenario& scenario, const SightLine& line) {
+  const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   simulation->advance_to(options.time);
-  const Moment moment = look(stage, *simulation, line);
-  const double transmittance = std::exp(-double{moment.optical_depth});
+  const SightSample sample = look(scenario, *simulation, line);
+  const double transmittance = std::exp(-double{sample.optical_depth});
   const float distance = glm::length(line.to_world - line.from_world);
   if (!options.json.empty()) {
     Json first = nullptr;
-    if (const auto& wall = moment.wall)
+    if (const auto& wall = sample.wall)
       first = {{"voxel", {wall->voxel.x, wall->voxel.y, wall->voxel.z}}, {"distance", wall->distance}};
     write_json(options.json, {{"timeline", options.timeline},
                               {"time", options.time},
@@ -81,22 +81,22 @@ void tell_moment(const Options& options, const stage::Stage& stage, const SightL
                               {"from", point(line.from_world)},
                               {"to", point(line.to_world)},
                               {"threshold", line.threshold},
-                              {"extinction", stage.timeline.smoke.extinction},
-                              {"visible", moment.hidden_by == HiddenBy::nothing},
-                              {"hidden_by", name_of(moment.hidden_by)},
-                              {"optical_depth", moment.optical_depth},
+                              {"extinction", scenario.timeline.smoke.extinction},
+                              {"visible", sample.hidden_by == HiddenBy::nothing},
+                              {"hidden_by", name_of(sample.hidden_by)},
+                              {"optical_depth", sample.optical_depth},
                               {"transmittance", transmittance},
                               {"distance", distance},
                               {"first_solid", first}});
   }
   if (options.json == "-") return;
-  const bool seen = moment.hidden_by == HiddenBy::nothing;
+  const bool seen = sample.hidden_by == HiddenBy::nothing;
   print_fields(
-      {{"visible", seen ? "yes" : std::string("no, hidden by ") + name_of(moment.hidden_by)},
-       {"optical depth", number("%.3f", double{moment.optical_depth})},
+      {{"visible", seen ? "yes" : std::string("no, hidden by ") + name_of(sample.hidden_by)},
+       {"optical depth", number("%.3f", double{sample.optical_depth})},
        {"transmittance", number("%.4g", transmittance)},
        {"distance", number("%.2f m", double{distance})},
-       {"first solid", moment.wall ? number("after %.2f m", double{moment.wall->distance}) : "none"}});
+       {"first solid", sample.wall ? number("after %.2f m", double{sample.wall->distance}) : "none"}});
 }
 
 Json coverage_json(const Coverage& coverage) {
@@ -141,19 +141,19 @@ void print_shots(const std::vector<ShotResult>& shots, unsigned count) {
   }
 }
 
-void tell_coverage(const Options& options, const stage::Stage& stage, const SightLine& line) {
-  const TimeRange times = options.times.empty() ? TimeRange{0, double{stage.timeline.duration}}
+void tell_coverage(const Options& options, const scenario::Scenario& scenario, const SightLine& line) {
+  const TimeRange times = options.times.empty() ? TimeRange{0, double{scenario.timeline.duration}}
                                                 : parse_times("--times", options.times);
-  const Coverage coverage = coverage_of(stage, line, times);
+  const Coverage coverage = coverage_of(scenario, line, times);
   std::vector<ShotResult> shots;
   if (options.shots > 0) {
     const double at = options.shots_at < 0 ? times.begin : options.shots_at;
-    shots = fire(stage, line, {options.shots, at, options.shots_every, options.spread}, times.end);
+    shots = fire(scenario, line, {options.shots, at, options.shots_every, options.spread}, times.end);
   }
   if (!options.json.empty()) {
     Json report{{"timeline", options.timeline},   {"times", {times.begin, times.end}},
                 {"from", point(line.from_world)}, {"to", point(line.to_world)},
-                {"threshold", line.threshold},    {"extinction", stage.timeline.smoke.extinction}};
+                {"threshold", line.threshold},    {"extinction", scenario.timeline.smoke.extinction}};
     report.update(coverage_json(coverage));
     if (options.shots > 0) report["shots"] = shots_json(shots);
     write_json(options.json, report);
@@ -169,12 +169,12 @@ void query(const Options& options) {
   if (!options.times.empty()) parse_times("--times", options.times);
   if (options.shots > 0 && line.from_world == line.to_world)
     throw Error(ErrorCode::usage, "--shots: --from and --to are the same point; give two");
-  const stage::Stage stage = stage::load_stage(options.timeline, {}).value_or_throw();
+  const scenario::Scenario scenario = scenario::load_scenario(options.timeline, {}).value_or_throw();
   stop_if_interrupted();
   if (options.report) {
-    tell_coverage(options, stage, line);
+    tell_coverage(options, scenario, line);
   } else {
-    tell_moment(options, stage, line);
+    print_sample(options, scenario, line);
   }
 }
 
@@ -197,7 +197,7 @@ Command add_query(CLI::App& program) {
   parser.add_option("--from", options->from, "Who looks [m]")->required()->type_name("X,Y,Z");
   parser.add_option("--to", options->to, "What is looked at [m]")->required()->type_name("X,Y,Z");
   const CLI::Range seconds(0.0, 3600.0);
-  parser.add_option("--time", options->time, "The moment [s]")->check(seconds)->type_name("S");
+  parser.add_option("--time", options->time, "The sample [s]")->check(seconds)->type_name("S");
   parser
       .add_option("--threshold", options->threshold,
                   "Optical depth from which smoke hides; default 3: 5 % come through")

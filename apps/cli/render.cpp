@@ -27,7 +27,7 @@ struct Options {
   std::optional<double> time;
   std::uint32_t fps = 24;
   bool temporal = false;
-  float step = 1, light_share = 1, seen = 1;
+  float step = 1, light_update_fraction = 1, seen = 1;
 };
 
 // What the options say, checked before any file is read.
@@ -64,7 +64,7 @@ Plan make_plan(const Options& options) {
   if (!(options.seen >= 0.25f && options.seen <= 16)) {
     throw Error(ErrorCode::usage, "--seen: expected a number from 0.25 to 16, such as 4");
   }
-  if (!(options.light_share >= 0.0625f && options.light_share <= 1)) {
+  if (!(options.light_update_fraction >= 0.0625f && options.light_update_fraction <= 1)) {
     throw Error(ErrorCode::usage, "--light-share: expected a number from 0.0625 to 1, such as 0.125");
   }
   if (plan.kind == TargetKind::picture && plan.frames) {
@@ -86,7 +86,7 @@ Plan make_plan(const Options& options) {
   return plan;
 }
 
-stage::Stage load(const Options& options, const Plan& plan) {
+scenario::Scenario load(const Options& options, const Plan& plan) {
   const std::filesystem::path input = options.input;
   const bool is_timeline = input.extension() == ".toml";
   if (is_timeline && !options.timeline.empty()) {
@@ -97,11 +97,11 @@ stage::Stage load(const Options& options, const Plan& plan) {
         scene::load_timeline(is_timeline ? options.input : options.timeline).value_or_throw();
     if (!is_timeline) timeline.scene = input;
     timeline.smokes.insert(timeline.smokes.begin(), plan.smokes.begin(), plan.smokes.end());
-    return stage::make_stage(std::move(timeline), {}).value_or_throw();
+    return scenario::make_scenario(std::move(timeline), {}).value_or_throw();
   }
-  stage::Stage stage = stage::load_stage(input, {}).value_or_throw();
-  if (!plan.smokes.empty()) stage.timeline.smokes = plan.smokes;
-  return stage;
+  scenario::Scenario scenario = scenario::load_scenario(input, {}).value_or_throw();
+  if (!plan.smokes.empty()) scenario.timeline.smokes = plan.smokes;
+  return scenario;
 }
 
 std::string view_names() {
@@ -121,9 +121,9 @@ double cpu_seconds() {
 }
 
 // Draws, and keeps the books for --json.
-class Draughtsman {
+class TimedRenderer {
  public:
-  explicit Draughtsman(render::Playback& playback) : playback_(playback) {}
+  explicit TimedRenderer(render::Playback& playback) : playback_(playback) {}
   image::Image8 draw(double seconds, std::uint32_t frame_index) {
     const double cpu = cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
@@ -150,7 +150,7 @@ class Draughtsman {
 };
 
 void write(const Options& options, const Plan& plan, const CommonOptions& common,
-           const scene::Timeline& timeline, Draughtsman& draughtsman) {
+           const scene::Timeline& timeline, TimedRenderer& draughtsman) {
   const double fps = options.fps;
   if (plan.kind == TargetKind::picture) {
     const double time = options.time.value_or(static_cast<double>(timeline.duration));
@@ -172,17 +172,17 @@ void write(const Options& options, const Plan& plan, const CommonOptions& common
 
 void render(const Options& options, const CommonOptions& common) {
   const Plan plan = make_plan(options);
-  const stage::Stage stage = load(options, plan);
+  const scenario::Scenario scenario = load(options, plan);
   stop_if_interrupted();
   gpu::Context context({options.device, false});
-  render::Playback playback(context, stage, plan.renderer);
+  render::Playback playback(context, scenario, plan.renderer);
   playback.set_camera(plan.camera);
   playback.set_step_scale(options.step);
-  playback.set_light_share(options.light_share);
-  playback.set_seen_scale(options.seen);
+  playback.set_light_update_fraction(options.light_update_fraction);
+  playback.set_resolve_error_scale(options.seen);
   playback.set_view(plan.view, plan.slice);
-  Draughtsman draughtsman(playback);
-  write(options, plan, common, stage.timeline, draughtsman);
+  TimedRenderer draughtsman(playback);
+  write(options, plan, common, scenario.timeline, draughtsman);
   if (options.json.empty()) return;
   Json statistics{
       {"output", options.output},      {"size", {plan.renderer.size_px.x, plan.renderer.size_px.y}},
@@ -208,7 +208,7 @@ void declare_quality(CLI::App& parser, Options& options) {
           "Error up to which --march half and quarter interpolate, of the usual: 0.25 to 16; default 1")
       ->type_name("X");
   parser
-      .add_option("--light-share", options.light_share,
+      .add_option("--light-share", options.light_update_fraction,
                   "How much of the light in smoke each frame of a film makes anew: 0.0625 to 1; default 1")
       ->type_name("X");
 }

@@ -8,7 +8,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "core/error.hpp"
-#include "stage/events.hpp"
+#include "scenario/events.hpp"
 #include "wire/packet.hpp"
 #include "wire/replay.hpp"
 
@@ -74,14 +74,14 @@ void say(const Options& options, const Run& run, std::uint32_t rate, bool compar
 
 void simulate(const Options& options) {
   const std::uint32_t rate = options.rate.value_or(sim::WorldSettings{}.ticks_per_second);
-  const stage::Stage stage = stage::load_stage(options.timeline, {}).value_or_throw();
-  const std::vector<sim::Event> events = stage::events_of(stage, rate).value_or_throw();
+  const scenario::Scenario scenario = scenario::load_scenario(options.timeline, {}).value_or_throw();
+  const std::vector<sim::Event> events = scenario::events_of(scenario, rate).value_or_throw();
   const std::uint32_t ticks = options.ticks.value_or(
-      std::clamp(stage::tick_at(double{stage.timeline.duration}, rate), 1u, kMaxTicks));
+      std::clamp(scenario::tick_at(double{scenario.timeline.duration}, rate), 1u, kMaxTicks));
 
-  const sim::WorldSettings settings{rate, stage.masks.key()};
-  wire::Replay replay = wire::replay_of(stage.voxels.grid, settings, events);
-  sim::World world(stage.voxels.grid, settings);
+  const sim::WorldSettings settings{rate, scenario.masks.key()};
+  wire::Replay replay = wire::replay_of(scenario.voxels.grid, settings, events);
+  sim::World world(scenario.voxels.grid, settings);
   world.append(events).value_or_throw();
   Run run;
   for (std::uint32_t tick = 0; tick < ticks; ++tick) {

@@ -94,9 +94,9 @@ void view(const Options& options) {
   viewer::ViewerOptions viewer = viewer_options(options);
   viewer.title = "Brume - " + input.filename().string();
   for (const std::string& file : {options.screenshot, options.record, options.json}) check_output(file);
-  stage::Stage stage = stage::load_stage(input, {}).value_or_throw();
+  scenario::Scenario scenario = scenario::load_scenario(input, {}).value_or_throw();
   stop_if_interrupted();
-  const viewer::ViewerReport report = viewer::run_viewer(std::move(stage), plays, viewer);
+  const viewer::ViewerReport report = viewer::run_viewer(std::move(scenario), plays, viewer);
   write_report(options.json, report);
   if (report.validation_messages.empty()) return;
   throw Error(ErrorCode::internal, "the validation layers found " +

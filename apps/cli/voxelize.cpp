@@ -6,7 +6,7 @@
 #include "apps/cli/parse.hpp"
 #include "core/error.hpp"
 #include "scene/load.hpp"
-#include "stage/vxl_file.hpp"
+#include "scenario/vxl_file.hpp"
 #include "voxel/obj_export.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -29,11 +29,11 @@ void check_options(const Options& options) {
 }
 
 // The frame that the options ask for: around the scene where they leave it open.
-voxel::GridFrame choose_frame(const Options& options, const scene::Scene& scene) {
+voxel::GridLayout choose_frame(const Options& options, const scene::Scene& scene) {
   const scene::Bounds bounds = scene::world_bounds(scene);
   if (options.grid.empty())
     return voxel::frame_around(bounds.min, bounds.max, options.voxel, 1).value_or_throw();
-  voxel::GridFrame frame{parse_grid("--grid", options.grid), options.voxel, {}};
+  voxel::GridLayout frame{parse_grid("--grid", options.grid), options.voxel, {}};
   frame.origin_world = options.origin.empty() ? glm::floor(bounds.min / options.voxel) * options.voxel
                                               : parse_point("--origin", options.origin);
   return frame;
@@ -45,8 +45,8 @@ void voxelize(const Options& options) {
 
   const scene::Scene scene = scene::load_scene(options.scene).value_or_throw();
   stop_if_interrupted();
-  const voxel::GridFrame frame = choose_frame(options, scene);
-  const stage::Voxels voxels = stage::load_or_voxelize(scene, frame, options.output).value_or_throw();
+  const voxel::GridLayout frame = choose_frame(options, scene);
+  const scenario::Voxels voxels = scenario::load_or_voxelize(scene, frame, options.output).value_or_throw();
   stop_if_interrupted();
   if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, options.obj).value_or_throw();
 

@@ -39,7 +39,7 @@ void Player::set_flying(const voxel::BitGrid& grid, bool flying) {
 }
 
 void Player::change_fly_speed(const voxel::BitGrid& grid, double notches) {
-  stage::WalkerOptions options = walker_.options();
+  scenario::WalkerOptions options = walker_.options();
   options.fly_speed =
       std::clamp(options.fly_speed * static_cast<float>(std::pow(1.25, notches)), 0.5f, 100.0f);
   walker_.set_options(grid, options);
@@ -51,7 +51,7 @@ void Player::move(const Input& input, const voxel::BitGrid& grid, double seconds
     return (input.is_held(positive) ? 1.0f : 0.0f) - (input.is_held(negative) ? 1.0f : 0.0f);
   };
   const glm::vec3 ahead(std::sin(yaw_), 0, -std::cos(yaw_)), right(std::cos(yaw_), 0, std::sin(yaw_));
-  stage::WalkerInput wish;
+  scenario::WalkerInput wish;
   wish.direction_world = axis(Action::forward, Action::back) * (flying() ? direction_world() : ahead) +
                          axis(Action::right, Action::left) * right;
   if (flying()) wish.direction_world.y += axis(Action::up, Action::down);

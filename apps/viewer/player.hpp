@@ -5,7 +5,7 @@
 
 #include "apps/viewer/window.hpp"
 #include "scene/scene.hpp"
-#include "stage/walker.hpp"
+#include "scenario/walker.hpp"
 
 namespace brume::viewer {
 
@@ -28,15 +28,15 @@ class Player {
   scene::Camera camera() const;
   glm::vec3 direction_world() const;
   void set_vertical_fov(float radians) { vertical_fov_ = radians; }
-  const stage::WalkerOptions& options() const { return walker_.options(); }
-  void set_options(const voxel::BitGrid& grid, const stage::WalkerOptions& options) {
+  const scenario::WalkerOptions& options() const { return walker_.options(); }
+  void set_options(const voxel::BitGrid& grid, const scenario::WalkerOptions& options) {
     walker_.set_options(grid, options);
   }
 
  private:
   void look_along(const scene::Camera& camera);
 
-  stage::Walker walker_;
+  scenario::Walker walker_;
   float yaw_ = 0, pitch_ = 0;  ///< [rad]; 0: along -z, level. Pitch rises upwards.
   float vertical_fov_ = 1;
   std::optional<scene::Camera> ridden_;

@@ -1,5 +1,7 @@
 #include "apps/viewer/probe.hpp"
 
+#include "smoke/holes.hpp"
+
 #include <cmath>
 
 namespace brume::viewer {
@@ -14,13 +16,13 @@ void Probe::pick(glm::vec3 place_world) {
   }
 }
 
-Result<ProbeAnswer> ask(const Probe& probe, const stage::Stage& stage, const stage::Simulation& simulation,
+Result<ProbeAnswer> ask(const Probe& probe, const scenario::Scenario& scenario, const scenario::Simulation& simulation,
                         double seconds) {
-  const auto holes = sim::holes_of(simulation.world().state(), &stage.masks);
-  sim::SightSettings settings;
-  settings.extinction = stage.timeline.smoke.extinction;
-  settings.masks = &stage.masks;
-  const sim::Sight sight(simulation.volume(), simulation.world().grid(), holes, static_cast<float>(seconds),
+  const auto holes = smoke::holes_of(simulation.world().state(), &scenario.masks);
+  smoke::SightSettings settings;
+  settings.extinction = scenario.timeline.smoke.extinction;
+  settings.masks = &scenario.masks;
+  const smoke::Sight sight(simulation.volume(), simulation.world().grid(), holes, static_cast<float>(seconds),
                          settings);
   const auto depth = sight.optical_depth(*probe.a_world, *probe.b_world);
   if (!depth) return depth.failure();

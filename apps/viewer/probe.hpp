@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "sim/sight.hpp"
-#include "stage/simulation.hpp"
-#include "stage/stage.hpp"
+#include "smoke/sight.hpp"
+#include "scenario/simulation.hpp"
+#include "scenario/scenario.hpp"
 
 namespace brume::viewer {
 
@@ -24,7 +24,7 @@ struct ProbeAnswer {
 };
 
 /// What a probe with both ends sees at the simulation's tick, with the holes of `seconds`.
-Result<ProbeAnswer> ask(const Probe& probe, const stage::Stage& stage, const stage::Simulation& simulation,
+Result<ProbeAnswer> ask(const Probe& probe, const scenario::Scenario& scenario, const scenario::Simulation& simulation,
                         double seconds);
 
 }  // namespace brume::viewer

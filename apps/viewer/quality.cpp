@@ -50,8 +50,8 @@ void QualityControl::add_frame(double work_seconds, double frame_seconds) {
   if (!automatic_ || frames_ < kFramesToJudge) return;
   if (mean_seconds_ > wanted_seconds_ && level_ + 1 < kLevels.size()) {
     // Too slow soon after it was tried: that was too early.
-    const bool too_early = tried_better_ && since_change_ < kShortestRest;
-    rest_ = too_early ? std::min(2 * rest_, kLongestRest) : kShortestRest;
+    const bool too_early = tried_better_ && since_change_ < kMinCooldown;
+    rest_ = too_early ? std::min(2 * rest_, kMaxCooldown) : kMinCooldown;
     tried_better_ = false;
     // Far too slow: a slow machine does not have the time to go step by step.
     const double excess = mean_seconds_ / wanted_seconds_;

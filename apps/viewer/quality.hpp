@@ -13,19 +13,19 @@ struct Quality {
   float picture_scale = 1;        ///< Pixels of the picture for each of the window, along each axis, (0, 1].
   std::uint32_t march_scale = 1;  ///< render::RendererOptions::march_scale.
   float step_scale = 1;           ///< render::FrameInput::step_scale.
-  float seen_scale = 1;           ///< render::FrameInput::seen_scale.
-  float light_share = 1;          ///< render::FrameInput::light_share.
+  float resolve_error_scale = 1;           ///< render::FrameInput::resolve_error_scale.
+  float light_update_fraction = 1;          ///< render::FrameInput::light_update_fraction.
 };
 
 /// From the best to the fastest; the first is what `brume render` draws.
 std::span<const Quality> quality_levels();
 
 /// Picks a level by how long frames take. It gives way as soon as frames are too long, and tries the better
-/// level again only after a while, which doubles (up to kLongestRest) each time that level was too slow
+/// level again only after a while, which doubles (up to kMaxCooldown) each time that level was too slow
 /// again.
 class QualityControl {
  public:
-  static constexpr double kShortestRest = 2, kLongestRest = 32;  // [s]
+  static constexpr double kMinCooldown = 2, kMaxCooldown = 32;  // [s]
 
   explicit QualityControl(double frames_per_second) : wanted_seconds_(1 / frames_per_second) {}
 
@@ -50,7 +50,7 @@ class QualityControl {
   double mean_seconds_ = 0;  ///< Of work, smoothed, at this level.
   int frames_ = 0;           ///< At this level.
   double since_change_ = 0;  ///< [s]
-  double rest_ = kShortestRest;
+  double rest_ = kMinCooldown;
   bool tried_better_ = false;  ///< This level is a try that has not failed.
 };
 

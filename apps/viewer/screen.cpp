@@ -17,10 +17,10 @@ gpu::Image make_canvas(gpu::Context& context, glm::uvec2 size_px) {
   return gpu::Image(context, info);
 }
 
-render::RendererOptions renderer_options(const stage::Stage& stage, glm::uvec2 size_px) {
+render::RendererOptions renderer_options(const scenario::Scenario& scenario, glm::uvec2 size_px) {
   render::RendererOptions options{size_px};
   options.temporal = true;
-  options.masks = &stage.masks;
+  options.masks = &scenario.masks;
   return options;
 }
 
@@ -30,12 +30,12 @@ glm::uvec2 scaled(glm::uvec2 size_px, float scale) {
 
 }  // namespace
 
-Screen::Screen(const Window& window, const stage::Stage& stage, const ScreenOptions& options)
+Screen::Screen(const Window& window, const scenario::Scenario& scenario, const ScreenOptions& options)
     : context_({options.device, options.validation, window.presentation()}) {
   const glm::uvec2 size_px = glm::max(window.size_px(), glm::uvec2(1));
   runner_.emplace(context_);
   swapchain_.emplace(context_, window.surface(), options.vertical_sync);
-  renderer_.emplace(context_, *runner_, stage.scene, renderer_options(stage, size_px));
+  renderer_.emplace(context_, *runner_, scenario.scene, renderer_options(scenario, size_px));
   ui_.emplace(context_, *runner_, VK_FORMAT_R8G8B8A8_UNORM);
   canvas_ = make_canvas(context_, size_px);
 }
@@ -92,8 +92,8 @@ image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
   input.continues = false;
   input.frame_index = 0;
   input.step_scale = 1;
-  input.seen_scale = 1;
-  input.light_share = 1;
+  input.resolve_error_scale = 1;
+  input.light_update_fraction = 1;
   renderer_->prepare(input);
   const gpu::Buffer pixels(context_, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            gpu::MemoryUse::readback);

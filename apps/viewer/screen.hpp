@@ -11,7 +11,7 @@
 #include "apps/viewer/window.hpp"
 #include "image/image.hpp"
 #include "render/renderer.hpp"
-#include "stage/stage.hpp"
+#include "scenario/scenario.hpp"
 
 struct ImDrawData;
 
@@ -29,8 +29,8 @@ class Screen {
   /// never older than one frame.
   static constexpr int kFramesInFlight = 1;
 
-  /// The ImGui context is there. Window and stage outlive the screen. Throws what Context and Renderer throw.
-  Screen(const Window& window, const stage::Stage& stage, const ScreenOptions& options);
+  /// The ImGui context is there. Window and scenario outlive the screen. Throws what Context and Renderer throw.
+  Screen(const Window& window, const scenario::Scenario& scenario, const ScreenOptions& options);
   ~Screen();
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
@@ -44,7 +44,7 @@ class Screen {
   /// The same moment as `brume render` draws it, in a size of its own.
   image::Image8 picture(render::FrameInput input, glm::uvec2 size_px);
 
-  void set_masks(const sim::MaskAtlas& masks) { renderer_->set_masks(masks); }
+  void set_masks(const smoke::MaskAtlas& masks) { renderer_->set_masks(masks); }
   void set_vertical_sync(bool wanted) { swapchain_->set_vertical_sync(wanted); }
   bool vertical_sync() const { return swapchain_->vertical_sync(); }
   void lose_surface() { swapchain_->lose_surface(); }

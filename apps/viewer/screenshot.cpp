@@ -19,10 +19,10 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const std::
   return path;
 }
 
-Result<void> save_moment(const std::filesystem::path& picture, const image::Image8& image,
-                         const scene::Timeline& moment) {
+Result<void> save_snapshot(const std::filesystem::path& picture, const image::Image8& image,
+                         const scene::Timeline& snapshot) {
   const auto timeline = std::filesystem::path(picture).replace_extension(".toml");
-  if (auto done = scene::save_timeline(timeline, moment); !done) return done;
+  if (auto done = scene::save_timeline(timeline, snapshot); !done) return done;
   return image::save_png(picture, image);
 }
 

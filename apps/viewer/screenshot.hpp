@@ -14,7 +14,7 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const std::
                                 const std::string& extension);
 
 /// Saves the picture, and beside it under the same name (.toml) the timeline whose end it shows.
-Result<void> save_moment(const std::filesystem::path& picture, const image::Image8& image,
-                         const scene::Timeline& moment);
+Result<void> save_snapshot(const std::filesystem::path& picture, const image::Image8& image,
+                         const scene::Timeline& snapshot);
 
 }  // namespace brume::viewer

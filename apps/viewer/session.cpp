@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "scene/options.hpp"
-#include "stage/aim.hpp"
-#include "stage/doors.hpp"
+#include "scenario/aim.hpp"
+#include "scenario/doors.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -46,8 +46,8 @@ void forget_events(scene::Timeline& timeline) {
   timeline.doors.clear();
 }
 
-Failure nothing_there(const char* deed) {
-  return {ErrorCode::bad_input, std::string("nothing to ") + deed + " there: look at something solid"};
+Failure nothing_there(const char* action) {
+  return {ErrorCode::bad_input, std::string("nothing to ") + action + " there: look at something solid"};
 }
 
 }  // namespace
@@ -66,25 +66,25 @@ const char* name_of(ShotKind kind) {
   return "";
 }
 
-Result<std::unique_ptr<Session>> Session::create(stage::Stage stage, bool play) {
-  if (!play) forget_events(stage.timeline);
-  scene::Timeline initial = stage.timeline;
-  auto live = stage::LiveStage::create(std::move(stage));
+Result<std::unique_ptr<Session>> Session::create(scenario::Scenario scenario, bool play) {
+  if (!play) forget_events(scenario.timeline);
+  scene::Timeline initial = scenario.timeline;
+  auto live = scenario::EditableScenario::create(std::move(scenario));
   if (!live) return live.failure();
   return std::unique_ptr<Session>(new Session(std::move(*live), std::move(initial), play));
 }
 
-Session::Session(std::unique_ptr<stage::LiveStage> live, scene::Timeline initial, bool play)
+Session::Session(std::unique_ptr<scenario::EditableScenario> live, scene::Timeline initial, bool play)
     : live_(std::move(live)), initial_(std::move(initial)), keys_(initial_.camera), follows_path_(play) {
   if (play) end_seconds_ = std::max(double{initial_.duration}, last_event(initial_));
   // Without play only the first key counts: it is where the person begins.
   if (!play) keys_.clear();
-  seek(kFirstMoment);
+  seek(kFirstTime);
 }
 
 void Session::seek(double seconds) {
   // A float, as the duration of the timeline that a moment is saved as.
-  seconds_ = static_cast<double>(static_cast<float>(std::clamp(seconds, kFirstMoment, scene::kLatestTime)));
+  seconds_ = static_cast<double>(static_cast<float>(std::clamp(seconds, kFirstTime, scene::kLatestTime)));
   end_seconds_ = std::max(end_seconds_, seconds_);
   live_->advance_to(seconds_);
 }
@@ -103,23 +103,23 @@ void Session::step(int ticks) {
 Result<void> Session::reset() {
   if (auto done = live_->reset(initial_); !done) return done;
   keys_.clear();
-  end_seconds_ = kFirstMoment;
+  end_seconds_ = kFirstTime;
   next_letter_ = 0;
   follows_path_ = false;
-  seek(kFirstMoment);
+  seek(kFirstTime);
   return {};
 }
 
 void Session::play() {
   follows_path_ = !keys_.empty();
   paused_ = false;
-  seek(kFirstMoment);
+  seek(kFirstTime);
 }
 
 scene::Camera Session::path_camera() const {
   scene::Timeline timeline;
   timeline.camera = keys_;
-  return scene::camera_at(timeline, live_->stage().camera, seconds_);
+  return scene::camera_at(timeline, live_->scenario().camera, seconds_);
 }
 
 void Session::record_camera(const scene::Camera& camera) {
@@ -133,23 +133,23 @@ double Session::next_tick_seconds() const {
   return (std::floor(seconds_ / kTick + 1e-9) + 1) * kTick;
 }
 
-Result<void> Session::add(const scene::Timeline& deeds) {
-  if (last_event(deeds) > scene::kLatestTime)
+Result<void> Session::add(const scene::Timeline& actions) {
+  if (last_event(actions) > scene::kLatestTime)
     return Failure{ErrorCode::resource_limit, "the hour of this recording is over; R begins anew"};
-  end_seconds_ = std::max(end_seconds_, last_event(deeds));
-  return live_->add(deeds);
+  end_seconds_ = std::max(end_seconds_, last_event(actions));
+  return live_->add(actions);
 }
 
 Result<void> Session::throw_smoke(glm::vec3 from_world, glm::vec3 direction_world) {
-  const stage::Aim aim = stage::aim(simulation().world().grid(), from_world, direction_world, kReach);
+  const scenario::Aim aim = scenario::aim(simulation().world().grid(), from_world, direction_world, kReach);
   if (!aim.meets || !aim.landing_world) return nothing_there("hit");
-  scene::Timeline deeds;
-  deeds.smokes.push_back({next_tick_seconds(), from_world, aim.at_world});
-  return add(deeds);
+  scene::Timeline actions;
+  actions.smokes.push_back({next_tick_seconds(), from_world, aim.at_world});
+  return add(actions);
 }
 
 Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons) {
-  scene::Timeline deeds;
+  scene::Timeline actions;
   const glm::vec3 toward_world = from_world + kReach * direction_world;
   if (weapons.kind == ShotKind::bullet || weapons.kind == ShotKind::picture) {
     scene::ShotEvent shot = weapons.shot;
@@ -163,8 +163,8 @@ Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, con
       shot.shape = scene::ShotShape::mask;
       shot.mask = weapons.picture;
     }
-    deeds.shots.push_back(std::move(shot));
-    return add(deeds);
+    actions.shots.push_back(std::move(shot));
+    return add(actions);
   }
   scene::TextEvent text = weapons.text;
   text.time = next_tick_seconds();
@@ -181,50 +181,50 @@ Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, con
       if (text.text != " ") break;
     }
   }
-  deeds.texts.push_back(std::move(text));
-  return add(deeds);
+  actions.texts.push_back(std::move(text));
+  return add(actions);
 }
 
 Result<void> Session::blast(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons) {
-  const stage::Aim aim = stage::aim(simulation().world().grid(), from_world, direction_world, kReach);
+  const scenario::Aim aim = scenario::aim(simulation().world().grid(), from_world, direction_world, kReach);
   if (!aim.meets) return nothing_there("blow up");
-  scene::Timeline deeds;
+  scene::Timeline actions;
   scene::BlastEvent blast = weapons.blast;
   blast.time = next_tick_seconds();
   blast.at_world = from_world + std::max(*aim.meets - kBlastBack, 0.0f) * direction_world;
-  deeds.blasts.push_back(blast);
-  return add(deeds);
+  actions.blasts.push_back(blast);
+  return add(actions);
 }
 
 Result<std::string> Session::use_door(glm::vec3 at_world) {
-  const stage::Stage& stage = live_->stage();
-  const std::vector<stage::Door> doors = stage::doors_of(stage.scene);
+  const scenario::Scenario& scenario = live_->scenario();
+  const std::vector<scenario::Door> doors = scenario::doors_of(scenario.scene);
   if (doors.empty())
     return Failure{ErrorCode::bad_input, "there is no door: no object of the scene has \"door\" in its name"};
-  const auto distance = [&](const stage::Door& door) {
+  const auto distance = [&](const scenario::Door& door) {
     return glm::length(at_world - glm::clamp(at_world, door.bounds_world.min, door.bounds_world.max));
   };
   const auto nearest = std::min_element(
       doors.begin(), doors.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-  scene::Timeline deeds;
+  scene::Timeline actions;
   scene::DoorEvent event;
   event.time = next_tick_seconds();
   event.object = nearest->name;
-  event.open = !stage::is_open(stage.timeline, nearest->name, event.time);
-  deeds.doors.push_back(event);
-  if (auto done = add(deeds); !done) return done.failure();
+  event.open = !scenario::is_open(scenario.timeline, nearest->name, event.time);
+  actions.doors.push_back(event);
+  if (auto done = add(actions); !done) return done.failure();
   return (event.open ? "opened: " : "shut: ") + nearest->name;
 }
 
 scene::Timeline Session::recording() const {
-  scene::Timeline timeline = live_->stage().timeline;
+  scene::Timeline timeline = live_->scenario().timeline;
   timeline.camera = keys_;
   const double length = std::max({seconds_, end_seconds_, last_event(timeline)});
   timeline.duration = static_cast<float>(std::min(length, scene::kLatestTime));
   return timeline;
 }
 
-scene::Timeline Session::moment(const scene::Camera& camera) const {
+scene::Timeline Session::snapshot(const scene::Camera& camera) const {
   scene::Timeline timeline = recording();
   timeline.camera = {{seconds_, camera}};
   timeline.duration = static_cast<float>(seconds_);

@@ -1,5 +1,5 @@
-// What is played in the window: a stage, its clock, and what a person does on it. Everything that is done
-// becomes part of the stage's timeline at the tick that comes next, so that the timeline, saved and played,
+// What is played in the window: a scenario, its clock, and what a person does on it. Everything that is done
+// becomes part of the scenario's timeline at the tick that comes next, so that the timeline, saved and played,
 // makes the same again bit for bit.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "stage/live_stage.hpp"
+#include "scenario/editable_scenario.hpp"
 
 namespace brume::viewer {
 
@@ -29,17 +29,17 @@ struct Weapons {
 class Session {
  public:
   static constexpr double kTick = 1.0 / 64;         // [s], of the default sim::WorldSettings
-  static constexpr double kFirstMoment = 1.0 / 64;  // [s]: the shortest timeline is longer than nothing
+  static constexpr double kFirstTime = 1.0 / 64;  // [s]: the shortest timeline is longer than nothing
   static constexpr double kCameraKeyEvery = 0.125;  // [s]
   static constexpr double kLongestFrame = 0.25;     // [s]: a slower frame lets the clock go slower
 
-  /// A stage as it is before anything happens; with `play` what its timeline says happens, and the camera
+  /// A scenario as it is before anything happens; with `play` what its timeline says happens, and the camera
   /// goes its way.
-  static Result<std::unique_ptr<Session>> create(stage::Stage stage, bool play);
+  static Result<std::unique_ptr<Session>> create(scenario::Scenario scenario, bool play);
 
-  const stage::LiveStage& live() const { return *live_; }
-  stage::LiveStage& live() { return *live_; }
-  const stage::Simulation& simulation() const { return live_->simulation(); }
+  const scenario::EditableScenario& live() const { return *live_; }
+  scenario::EditableScenario& live() { return *live_; }
+  const scenario::Simulation& simulation() const { return live_->simulation(); }
   double seconds() const { return seconds_; }
   /// Where the last thing happens or ends on the bar of time: at least the duration that was recorded.
   double end_seconds() const { return end_seconds_; }
@@ -66,7 +66,7 @@ class Session {
   /// Where the camera is now, when it is not on its way: becomes part of the way.
   void record_camera(const scene::Camera& camera);
 
-  // Deeds: at the next tick. Fail in one line when they cannot be.
+  // Actions: at the next tick. Fail in one line when they cannot be.
   Result<void> throw_smoke(glm::vec3 from_world, glm::vec3 direction_world);
   Result<void> shoot(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons);
   Result<void> blast(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons);
@@ -76,17 +76,17 @@ class Session {
   /// The timeline with all that was done, as long as until now at least.
   scene::Timeline recording() const;
   /// The timeline of this moment: the picture of its end is what `camera` sees now.
-  scene::Timeline moment(const scene::Camera& camera) const;
+  scene::Timeline snapshot(const scene::Camera& camera) const;
 
  private:
-  Session(std::unique_ptr<stage::LiveStage> live, scene::Timeline initial, bool play);
+  Session(std::unique_ptr<scenario::EditableScenario> live, scene::Timeline initial, bool play);
   double next_tick_seconds() const;
-  Result<void> add(const scene::Timeline& deeds);
+  Result<void> add(const scene::Timeline& actions);
 
-  std::unique_ptr<stage::LiveStage> live_;
+  std::unique_ptr<scenario::EditableScenario> live_;
   scene::Timeline initial_;  ///< What reset goes back to.
   std::vector<scene::CameraKey> keys_;
-  double seconds_ = kFirstMoment, end_seconds_ = kFirstMoment;
+  double seconds_ = kFirstTime, end_seconds_ = kFirstTime;
   bool paused_ = false, follows_path_ = false;
   std::size_t next_letter_ = 0;  ///< In bytes of the word.
 };

@@ -53,18 +53,18 @@ void Ui::begin_frame() {
   ImGui::NewFrame();
 }
 
-Wishes Ui::lay_out(Choices& choices, Session& session, Player& player, const Figures& figures,
+UiRequests Ui::lay_out(Choices& choices, Session& session, Player& player, const Figures& figures,
                    const Notices& notices) {
-  Wishes wishes;
+  UiRequests requests;
   lay_out_marks(choices, session, player);
   if (choices.overlay) lay_out_overlay(choices, session, player, figures, notices);
   if (choices.panels) {
-    lay_out_panels(choices, session, player, figures, notices, wishes);
-    lay_out_time_bar(session, wishes);
+    lay_out_panels(choices, session, player, figures, notices, requests);
+    lay_out_time_bar(session, requests);
   }
   if (choices.help) lay_out_help();
   ImGui::Render();
-  return wishes;
+  return requests;
 }
 
 bool Ui::takes_mouse() const {

@@ -29,7 +29,7 @@ struct Choices {
 };
 
 /// What the panels and the bar of time ask for.
-struct Wishes {
+struct UiRequests {
   std::optional<double> seek;  ///< [s]
   std::vector<Action> actions;
   bool play = false;             ///< From the beginning.
@@ -56,7 +56,7 @@ class Ui {
 
   void begin_frame();
   /// Lays everything out; what is to be drawn is in ImGui::GetDrawData() until the next frame begins.
-  Wishes lay_out(Choices& choices, Session& session, Player& player, const Figures& figures,
+  UiRequests lay_out(Choices& choices, Session& session, Player& player, const Figures& figures,
                  const Notices& notices);
   /// Whether the mouse or the keyboard are the panels' now.
   bool takes_mouse() const;

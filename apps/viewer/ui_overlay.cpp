@@ -59,7 +59,7 @@ void lay_out_probe(const Choices& choices, const Session& session, const scene::
     if (a) label(list, ImVec2(a->x + 9, a->y - 8), kMark, "L again: the other end");
     return;
   }
-  const auto answer = ask(probe, session.live().stage(), session.simulation(), session.seconds());
+  const auto answer = ask(probe, session.live().scenario(), session.simulation(), session.seconds());
   const auto b = on_display(camera, *probe.b_world);
   const bool sees = answer && answer->transmittance > 0.05f;
   if (b) list.AddCircleFilled(*b, 5, kMark);

@@ -25,7 +25,7 @@ ImU32 pass_colour(std::size_t pass) {
 }
 
 bool is_noise(const std::string& key) {
-  return key.starts_with("noise") || key.starts_with("swirl") || key == "rise";
+  return key.starts_with("noise") || key == "erosion" || key.starts_with("swirl") || key == "rise";
 }
 bool is_of_light(const std::string& key) {
   return key == "albedo" || key == "anisotropy" || key == "droplet" || key == "multiple_scattering";
@@ -36,23 +36,23 @@ void keep(const Result<void>& done, std::vector<std::string>& failures) {
 }
 
 // Settings of the smoke; those that the simulation stands on play it anew.
-void smoke_rows(Session& session, Wishes& wishes, std::vector<std::string>& failures,
+void smoke_rows(Session& session, UiRequests& requests, std::vector<std::string>& failures,
                 const std::function<bool(const std::string&)>& wanted) {
-  scene::SmokeOptions smoke = session.live().stage().timeline.smoke;
+  scene::SmokeOptions smoke = session.live().scenario().timeline.smoke;
   const auto visit = [](auto& options, auto&& visitor) { scene::visit_smoke_options(options, visitor); };
   if (!option_rows(smoke, visit, wanted)) return;
-  wishes.changed_picture = true;
+  requests.changed_picture = true;
   keep(session.live().set_smoke(smoke), failures);
 }
 
-void lay_out_light(Session& session, Wishes& wishes, std::vector<std::string>& failures) {
-  smoke_rows(session, wishes, failures, is_of_light);
-  const scene::Timeline& timeline = session.live().stage().timeline;
+void lay_out_light(Session& session, UiRequests& requests, std::vector<std::string>& failures) {
+  smoke_rows(session, requests, failures, is_of_light);
+  const scene::Timeline& timeline = session.live().scenario().timeline;
   scene::SkyOptions sky = timeline.sky;
   const auto visit = [](auto& options, auto&& visitor) { scene::visit_sky_options(options, visitor); };
   if (option_rows(sky, visit)) {
     keep(session.live().set_sky(sky), failures);
-    wishes.changed_picture = true;
+    requests.changed_picture = true;
   }
   scene::Timeline exposed;
   exposed.exposure = timeline.exposure;
@@ -61,7 +61,7 @@ void lay_out_light(Session& session, Wishes& wishes, std::vector<std::string>& f
   };
   if (option_rows(exposed, visit_timeline, [](const std::string& key) { return key == "exposure"; })) {
     keep(session.live().set_exposure(exposed.exposure), failures);
-    wishes.changed_picture = true;
+    requests.changed_picture = true;
   }
 }
 
@@ -106,49 +106,49 @@ void lay_out_quality(Choices& choices, const Notices& notices) {
   ImGui::Text("  picture %ux%u", notices.picture_px.x, notices.picture_px.y);
   ImGui::Text("  a ray for %ux%u pixels, steps %.1f times as long", now.march_scale, now.march_scale,
               static_cast<double>(now.step_scale));
-  ImGui::Text("  1/%.0f of the light made anew each frame", 1 / static_cast<double>(now.light_share));
+  ImGui::Text("  1/%.0f of the light made anew each frame", 1 / static_cast<double>(now.light_update_fraction));
 }
 
-void lay_out_views(Choices& choices, const Session& session, Wishes& wishes) {
+void lay_out_views(Choices& choices, const Session& session, UiRequests& requests) {
   for (std::size_t i = 0; i < passes::kDebugViewNames.size(); ++i) {
     const auto view = static_cast<passes::DebugView>(i);
     if (i % 4 != 0) ImGui::SameLine(static_cast<float>(i % 4) * 92);
     if (ImGui::RadioButton(std::string(passes::kDebugViewNames[i]).c_str(), choices.view == view)) {
       choices.view = view;
-      wishes.changed_picture = true;
+      requests.changed_picture = true;
     }
   }
   bool chosen = choices.slice.has_value();
   if (ImGui::Checkbox("slice", &chosen)) {
     choices.slice.reset();
     if (chosen) choices.slice.emplace();
-    wishes.changed_picture = true;
+    requests.changed_picture = true;
   }
   if (!choices.slice) {
     ImGui::SameLine();
     ImGui::TextDisabled("through the middle of the smoke");
     return;
   }
-  const voxel::GridFrame& frame = session.live().stage().voxels.grid.frame();
+  const voxel::GridLayout& frame = session.live().scenario().voxels.grid.layout();
   auto axis = static_cast<int>(choices.slice->axis);
   ImGui::SameLine();
-  if (ImGui::Combo("##axis", &axis, "x\0y\0z\0")) wishes.changed_picture = true;
+  if (ImGui::Combo("##axis", &axis, "x\0y\0z\0")) requests.changed_picture = true;
   choices.slice->axis = static_cast<std::uint32_t>(axis);
   const float low = frame.origin_world[axis];
   const float high = low + static_cast<float>(frame.size[axis]) * frame.voxel_size;
-  if (ImGui::SliderFloat("at", &choices.slice->at_world, low, high, "%.2f m")) wishes.changed_picture = true;
+  if (ImGui::SliderFloat("at", &choices.slice->at_world, low, high, "%.2f m")) requests.changed_picture = true;
 }
 
-void lay_out_camera(Session& session, Player& player, Wishes& wishes) {
+void lay_out_camera(Session& session, Player& player, UiRequests& requests) {
   scene::Camera camera = player.camera();
   if (option_rows(camera, [](auto& o, auto&& visitor) { scene::visit_camera_options(o, visitor); })) {
     player.set_vertical_fov(camera.vertical_fov);
     session.leave_path();
-    wishes.changed_picture = true;
+    requests.changed_picture = true;
   }
-  stage::WalkerOptions walker = player.options();
+  scenario::WalkerOptions walker = player.options();
   if (ImGui::TreeNode("body")) {
-    if (option_rows(walker, [](auto& o, auto&& visitor) { stage::visit_walker_options(o, visitor); })) {
+    if (option_rows(walker, [](auto& o, auto&& visitor) { scenario::visit_walker_options(o, visitor); })) {
       walker.eye = std::min(walker.eye, walker.height);
       player.set_options(session.simulation().world().grid(), walker);
     }
@@ -159,7 +159,7 @@ void lay_out_camera(Session& session, Player& player, Wishes& wishes) {
               static_cast<double>(p.z));
   ImGui::Text("looks along %.2f %.2f %.2f", static_cast<double>(d.x), static_cast<double>(d.y),
               static_cast<double>(d.z));
-  if (ImGui::Button(player.flying() ? "walk (G)" : "fly (G)")) wishes.actions.push_back(Action::fly);
+  if (ImGui::Button(player.flying() ? "walk (G)" : "fly (G)")) requests.actions.push_back(Action::fly);
 }
 
 // The last frames as stacked bars, scaled to the slowest.
@@ -230,7 +230,7 @@ void lay_out_state(const Session& session, const Figures& figures, const Notices
 }  // namespace
 
 void lay_out_panels(Choices& choices, Session& session, Player& player, const Figures& figures,
-                    const Notices& notices, Wishes& wishes) {
+                    const Notices& notices, UiRequests& requests) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float width = std::min(kPanelWidth, 0.9f * display.x);
   ImGui::SetNextWindowPos(ImVec2(display.x - width - 8, 8), ImGuiCond_Always);
@@ -248,17 +248,17 @@ void lay_out_panels(Choices& choices, Session& session, Player& player, const Fi
     lay_out_state(session, figures, notices);
   }
   if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen))
-    lay_out_views(choices, session, wishes);
+    lay_out_views(choices, session, requests);
   if (ImGui::CollapsingHeader("Smoke"))
-    smoke_rows(session, wishes, failures,
+    smoke_rows(session, requests, failures,
                [](const std::string& key) { return !is_noise(key) && !is_of_light(key); });
   if (ImGui::CollapsingHeader("Holes")) lay_out_holes(choices);
-  if (ImGui::CollapsingHeader("Light")) lay_out_light(session, wishes, failures);
-  if (ImGui::CollapsingHeader("Noise")) smoke_rows(session, wishes, failures, is_noise);
+  if (ImGui::CollapsingHeader("Light")) lay_out_light(session, requests, failures);
+  if (ImGui::CollapsingHeader("Noise")) smoke_rows(session, requests, failures, is_noise);
   if (ImGui::CollapsingHeader("March")) lay_out_quality(choices, notices);
   if (ImGui::CollapsingHeader("Resolve"))
     ImGui::Checkbox("gather the smoke over the frames", &choices.gather);
-  if (ImGui::CollapsingHeader("Camera")) lay_out_camera(session, player, wishes);
+  if (ImGui::CollapsingHeader("Camera")) lay_out_camera(session, player, requests);
   for (const std::string& failure : failures) ImGui::TextWrapped("%s", failure.c_str());
   ImGui::End();
 }
@@ -284,21 +284,21 @@ void mark_events(const scene::Timeline& timeline, ImVec2 at, ImVec2 size, double
 
 }  // namespace
 
-void lay_out_time_bar(Session& session, Wishes& wishes) {
+void lay_out_time_bar(Session& session, UiRequests& requests) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(8, display.y - kTimeBarHeight - 8), ImGuiCond_Always);
   ImGui::SetNextWindowSize(ImVec2(std::max(display.x - 16, 100.0f), kTimeBarHeight), ImGuiCond_Always);
   ImGui::Begin("time", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
-  if (ImGui::Button(session.paused() ? "go on" : "pause")) wishes.actions.push_back(Action::pause);
+  if (ImGui::Button(session.paused() ? "go on" : "pause")) requests.actions.push_back(Action::pause);
   ImGui::SameLine();
-  if (ImGui::Button("play")) wishes.play = true;
+  if (ImGui::Button("play")) requests.play = true;
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("from the beginning, with what was done, on the camera's way");
   ImGui::SameLine();
-  if (ImGui::Button("save")) wishes.actions.push_back(Action::save_recording);
+  if (ImGui::Button("save")) requests.actions.push_back(Action::save_recording);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("what was done, as a timeline (F5)");
   ImGui::SameLine();
-  if (ImGui::Button("reset")) wishes.actions.push_back(Action::reset);
+  if (ImGui::Button("reset")) requests.actions.push_back(Action::reset);
   ImGui::SameLine();
   ImGui::Text("%.2f / %.2f s, tick %u", session.seconds(), session.end_seconds(),
               session.simulation().world().tick());
@@ -308,8 +308,8 @@ void lay_out_time_bar(Session& session, Wishes& wishes) {
   ImGui::SetNextItemWidth(-1);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, ImGui::GetFrameHeight());
-  if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &now, &zero, &end, "")) wishes.seek = now;
-  mark_events(session.live().stage().timeline, at, size, end);
+  if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &now, &zero, &end, "")) requests.seek = now;
+  mark_events(session.live().scenario().timeline, at, size, end);
   ImGui::End();
 }
 

@@ -13,9 +13,9 @@ void lay_out_help();
 /// The cross in the middle, the probe's ends and what it sees.
 void lay_out_marks(const Choices& choices, const Session& session, const Player& player);
 /// The bar of time.
-void lay_out_time_bar(Session& session, Wishes& wishes);
+void lay_out_time_bar(Session& session, UiRequests& requests);
 /// Settings and figures.
 void lay_out_panels(Choices& choices, Session& session, Player& player, const Figures& figures,
-                    const Notices& notices, Wishes& wishes);
+                    const Notices& notices, UiRequests& requests);
 
 }  // namespace brume::viewer

@@ -12,7 +12,7 @@
 #include "apps/viewer/ui.hpp"
 #include "render/playback.hpp"
 #include "scene/timeline_writer.hpp"
-#include "stage/aim.hpp"
+#include "scenario/aim.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -42,9 +42,9 @@ struct PictureKey {
 
 class Viewer {
  public:
-  Viewer(stage::Stage stage, bool play, const ViewerOptions& options)
+  Viewer(scenario::Scenario scenario, bool play, const ViewerOptions& options)
       : options_(options),
-        session_(Session::create(std::move(stage), play).value_or_throw()),
+        session_(Session::create(std::move(scenario), play).value_or_throw()),
         window_(options.size_px, options.title),
         ui_(window_),
         quality_(options.frames_per_second),
@@ -79,9 +79,9 @@ class Viewer {
  private:
   void make_screen() {
     screen_ =
-        std::make_unique<Screen>(window_, session_->live().stage(),
+        std::make_unique<Screen>(window_, session_->live().scenario(),
                                  ScreenOptions{options_.device, options_.validation, choices_.vertical_sync});
-    masks_ = session_->live().stage().masks.key();
+    masks_ = session_->live().scenario().masks.key();
     continues_ = false;
     shown_ = {};
   }
@@ -107,18 +107,18 @@ class Viewer {
 
   const voxel::BitGrid& grid() const { return session_->simulation().world().grid(); }
   void go_to_beginning() {
-    const stage::Stage& stage = session_->live().stage();
-    player_.go_to(grid(), scene::camera_at(stage.timeline, stage.camera, 0));
+    const scenario::Scenario& scenario = session_->live().scenario();
+    player_.go_to(grid(), scene::camera_at(scenario.timeline, scenario.camera, 0));
   }
 
   void frame();
   void play_frame(const Input& input, double frame_seconds);
-  void let_time_pass(double frame_seconds);
+  void advance_time(double frame_seconds);
   void act(Action action);
-  void do_deed(Action action);
+  void perform(Action action);
   void choose(Action action);
   void hold_mouse(const Input& input);
-  void grant(const Wishes& wishes);
+  void grant(const UiRequests& requests);
   void follow_quality();
   bool draw();
   bool is_still();
@@ -181,7 +181,7 @@ glm::vec3 Viewer::aim() const {
 }
 
 // What happens in the level.
-void Viewer::do_deed(Action action) {
+void Viewer::perform(Action action) {
   const glm::vec3 eye = player_.camera().position_world;
   if (action == Action::throw_smoke) say_failure(session_->throw_smoke(eye, aim()));
   if (action == Action::shoot) say_failure(session_->shoot(eye, aim(), choices_.weapons));
@@ -197,7 +197,7 @@ void Viewer::do_deed(Action action) {
   }
 }
 
-// What the next deeds are like, and how the picture is shown.
+// What the next actions are like, and how the picture is shown.
 void Viewer::choose(Action action) {
   if (action == Action::shape_bullet) choices_.weapons.kind = ShotKind::bullet;
   if (action == Action::shape_glyph) choices_.weapons.kind = ShotKind::glyph;
@@ -216,15 +216,15 @@ void Viewer::choose(Action action) {
   }
   if (action == Action::probe) {
     const glm::vec3 eye = player_.camera().position_world, direction = aim();
-    const stage::Aim aimed = stage::aim(grid(), eye, direction);
+    const scenario::Aim aimed = scenario::aim(grid(), eye, direction);
     // Just before the wall, which would be in the way.
-    const float back = 0.5f * grid().frame().voxel_size;
+    const float back = 0.5f * grid().layout().voxel_size;
     choices_.probe.pick(eye + std::max(aimed.meets.value_or(10) - back, 0.0f) * direction);
   }
 }
 
 void Viewer::act(Action action) {
-  do_deed(action);
+  perform(action);
   choose(action);
   if (action == Action::pause) session_->set_paused(!session_->paused());
   if (action == Action::step_back) session_->step(-1);
@@ -234,7 +234,7 @@ void Viewer::act(Action action) {
 }
 
 // Up to the end, which is met exactly.
-void Viewer::let_time_pass(double frame_seconds) {
+void Viewer::advance_time(double frame_seconds) {
   const double next = session_->seconds() + session_->passing(frame_seconds);
   done_ = options_.exit_after && next >= *options_.exit_after;
   session_->seek(done_ ? std::max(*options_.exit_after, session_->seconds()) : next);
@@ -250,7 +250,7 @@ void Viewer::play_frame(const Input& input, double frame_seconds) {
     const bool moved = std::any_of(kMoves.begin(), kMoves.end(), [&](Action a) { return input.is_held(a); });
     if (turned || moved) session_->leave_path();
   }
-  let_time_pass(frame_seconds);
+  advance_time(frame_seconds);
   if (session_->follows_path()) {
     player_.ride(session_->path_camera());
     return;
@@ -263,7 +263,7 @@ void Viewer::play_frame(const Input& input, double frame_seconds) {
 
 render::FrameInput Viewer::frame_input(std::vector<shared::Hole>& holes) const {
   render::FrameInput input =
-      render::frame_input(session_->live().stage(), session_->simulation(), session_->seconds(), holes);
+      render::frame_input(session_->live().scenario(), session_->simulation(), session_->seconds(), holes);
   input.camera = player_.camera();
   input.view = choices_.view;
   input.view_slice = choices_.slice;
@@ -298,8 +298,8 @@ bool Viewer::draw() {
   input.continues = continues_ && choices_.gather && !best;
   input.frame_index = best ? 0 : ++frame_index_;
   input.step_scale = quality.step_scale;
-  input.seen_scale = quality.seen_scale;
-  input.light_share = quality.light_share;
+  input.resolve_error_scale = quality.resolve_error_scale;
+  input.light_update_fraction = quality.light_update_fraction;
   continues_ = !best;
   still_is_best_ = best;
   return screen_->show(&input, quality, *ImGui::GetDrawData());
@@ -324,11 +324,11 @@ void Viewer::lose_for_tests() {
   if (due(options_.lose_device)) throw gpu::DeviceLost(ErrorCode::no_device, "lost for a test");
 }
 
-void Viewer::grant(const Wishes& wishes) {
-  if (wishes.changed_picture) ++changes_;
-  if (wishes.play) session_->play();
-  if (wishes.seek) session_->scrub(*wishes.seek);
-  for (const Action action : wishes.actions) act(action);
+void Viewer::grant(const UiRequests& requests) {
+  if (requests.changed_picture) ++changes_;
+  if (requests.play) session_->play();
+  if (requests.seek) session_->scrub(*requests.seek);
+  for (const Action action : requests.actions) act(action);
 }
 
 Notices Viewer::notices() {
@@ -362,8 +362,8 @@ void Viewer::frame() {
   const double tick_seconds = seconds_between(begin, Clock::now());
   grant(ui_.lay_out(choices_, *session_, player_, figures_, notices()));
 
-  if (const sim::MaskKey key = session_->live().stage().masks.key(); !(key == masks_)) {
-    screen_->set_masks(session_->live().stage().masks);
+  if (const sim::MaskKey key = session_->live().scenario().masks.key(); !(key == masks_)) {
+    screen_->set_masks(session_->live().scenario().masks);
     masks_ = key;
   }
   if (shaders_.follow(screen_->context())) ++changes_;
@@ -404,7 +404,7 @@ void Viewer::save_screenshot(const std::filesystem::path& picture) {
   const image::Image8 image = screen_->picture(frame_input(holes), size);
   continues_ = false;
   still_is_best_ = false;
-  const auto saved = save_moment(picture, image, session_->moment(player_.camera()));
+  const auto saved = save_snapshot(picture, image, session_->snapshot(player_.camera()));
   say(saved ? "saved: " + picture.string() : saved.failure().message);
   if (!saved && done_) throw Error(saved.failure());
 }
@@ -443,8 +443,8 @@ ViewerReport Viewer::report() {
 
 }  // namespace
 
-ViewerReport run_viewer(stage::Stage stage, bool play, const ViewerOptions& options) {
-  return Viewer(std::move(stage), play, options).run();
+ViewerReport run_viewer(scenario::Scenario scenario, bool play, const ViewerOptions& options) {
+  return Viewer(std::move(scenario), play, options).run();
 }
 
 }  // namespace brume::viewer

@@ -48,8 +48,8 @@ struct ViewerReport {
   std::vector<std::string> validation_messages;
 };
 
-/// Opens a window on a stage until it is closed. With `play` what the stage's timeline says happens, too.
+/// Opens a window on a scenario until it is closed. With `play` what the scenario's timeline says happens, too.
 /// Throws no_device when there is no display or no device, bad_input for a timeline that cannot be.
-ViewerReport run_viewer(stage::Stage stage, bool play, const ViewerOptions& options);
+ViewerReport run_viewer(scenario::Scenario scenario, bool play, const ViewerOptions& options);
 
 }  // namespace brume::viewer

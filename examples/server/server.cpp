@@ -17,8 +17,9 @@
 #include <vector>
 
 #include "sim/level_edit.hpp"
-#include "sim/sight.hpp"
-#include "sim/smoke_volume.hpp"
+#include "smoke/holes.hpp"
+#include "smoke/sight.hpp"
+#include "smoke/smoke_volume.hpp"
 #include "sim/world.hpp"
 
 namespace {
@@ -54,16 +55,16 @@ void take_input(sim::World& world, std::uint32_t tick) {
   if (tick % 640 == 500) world.append(sim::Blast{tick, {14000, 1024, 15872}}).value_or_throw();
   if (tick % 320 == 0) {
     const bool shut = tick % 640 == 320;
-    const sim::EditBlocks door = sim::edit_box(world.state().frame, {32, 0, 14}, {33, 5, 18}, shut);
+    const sim::EditBlocks door = sim::edit_box(world.state().layout, {32, 0, 14}, {33, 5, 18}, shut);
     world.append(sim::LevelEdit{tick, door}).value_or_throw();
   }
 }
 
 /// Pairs of bots that see each other through walls and smoke as they are now.
-std::size_t count_seen(const sim::World& world, const sim::SmokeVolume& smoke) {
-  const auto holes = sim::holes_of(world.state());
-  const sim::Sight sight(smoke, world.grid(), holes, world.state().seconds(world.tick()));
-  std::vector<sim::Segment> pairs;
+std::size_t count_seen(const sim::World& world, const smoke::SmokeVolume& smoke) {
+  const auto holes = smoke::holes_of(world.state());
+  const smoke::Sight sight(smoke, world.grid(), holes, world.state().seconds(world.tick()));
+  std::vector<smoke::Segment> pairs;
   const auto metres = [&](std::uint32_t bot) {
     return glm::vec3(sim::metres_from_position(bot_at(bot, world.tick()) + kEyes));
   };
@@ -77,7 +78,7 @@ std::size_t count_seen(const sim::World& world, const sim::SmokeVolume& smoke) {
 void run_match(std::uint32_t seconds, bool realtime) {
   const voxel::BitGrid level = make_level();
   sim::World world(level);
-  sim::SmokeVolume smoke(level, [](glm::ivec3) { return std::span<const voxel::Plane>(); });
+  smoke::SmokeVolume smoke(level, [](glm::ivec3) { return std::span<const voxel::Plane>(); });
   const std::uint32_t rate = world.settings().ticks_per_second;
   const auto start = std::chrono::steady_clock::now();
   for (std::uint32_t tick = 0; tick <= seconds * rate; ++tick) {

@@ -19,7 +19,7 @@ struct RaySteps {
 
 // What is left at each thread's samples: four numbers of 8 bits a word. Little memory, for it is taken from the
 // textures' cache.
-shared uint left_words[kPartSteps / 4u * kWindowThreads];
+shared uint remaining_words[kPartSteps / 4u * kWindowThreads];
 
 /// Where along the ray a hole can take anything away, as numbers of samples: the first, and one past the last.
 uvec2 samples_in(Hole hole, RaySteps ray) {
@@ -49,11 +49,11 @@ uvec2 samples_in(Hole hole, RaySteps ray) {
 }
 
 /// Share of the density that the holes leave at the thread's sample i.
-float left_at(uint i) { return unpackUnorm4x8(left_words[(i >> 2u) * kWindowThreads + gl_LocalInvocationIndex])[i & 3u]; }
+float remaining_at(uint i) { return unpackUnorm4x8(remaining_words[(i >> 2u) * kWindowThreads + gl_LocalInvocationIndex])[i & 3u]; }
 
 /// Before the first hole.
 void fill_window() {
-  for (uint i = 0u; i < kPartSteps / 4u; ++i) left_words[i * kWindowThreads + gl_LocalInvocationIndex] = 0xffffffffu;
+  for (uint i = 0u; i < kPartSteps / 4u; ++i) remaining_words[i * kWindowThreads + gl_LocalInvocationIndex] = 0xffffffffu;
 }
 
 /// Whether the ray passes a hole by: the lines of the two are too far apart.
@@ -71,9 +71,9 @@ void cut_hole(RaySteps ray, uint index) {
   for (uint i = (run.x + kRayParts - 1u - ray.part) / kRayParts; kRayParts * i + ray.part < run.y; ++i) {
     const vec3 p_world = ray.origin_world + (ray.begin + (float(kRayParts * i + ray.part) + 0.5) * ray.ds) * ray.direction;
     const uint at = (i >> 2u) * kWindowThreads + gl_LocalInvocationIndex;
-    vec4 four = unpackUnorm4x8(left_words[at]);
+    vec4 four = unpackUnorm4x8(remaining_words[at]);
     four[i & 3u] *= 1.0 - hole_strength_masked(hole, p_world, frame.time, 0.0);
-    left_words[at] = packUnorm4x8(four);
+    remaining_words[at] = packUnorm4x8(four);
   }
 }
 

@@ -1,4 +1,4 @@
-// How much smoke stands between two points. Needs `frame`, `share_atlas` and the bindings of
+// How much smoke stands between two points. Needs `frame`, `filtered_density_atlas` and the bindings of
 // lib/smoke_bricks.glsl and lib/cell_holes.glsl.
 #ifndef OPTICAL_DEPTH_GLSL
 #define OPTICAL_DEPTH_GLSL
@@ -22,7 +22,7 @@ MeanSmoke mean_smoke_at(vec3 p_voxel) {
   smoke.slot = slot_at(frame.volume, ivec3(brick), smoke.empty_edge);
   if (smoke.slot != kNoSlot) {
     const vec3 uvw = (atlas_corner(frame.volume, smoke.slot) + smoke.local_voxel) * atlas_texel(frame.volume);
-    const vec2 left = textureLod(share_atlas, uvw, 0.0).rg;
+    const vec2 left = textureLod(filtered_density_atlas, uvw, 0.0).rg;
     smoke.density = left.r;
     if (left.r < 0.0) smoke.density = boundary_sample(smoke.slot, smoke.local_voxel).density * left.g;
   }
@@ -32,7 +32,7 @@ MeanSmoke mean_smoke_at(vec3 p_voxel) {
 /// The same with what holes leave of it.
 MeanSmoke seen_smoke_at(vec3 p_voxel) {
   MeanSmoke smoke = mean_smoke_at(p_voxel);
-  if (smoke.density > 0.0) smoke.density *= left_in_cell(smoke.slot, smoke.local_voxel);
+  if (smoke.density > 0.0) smoke.density *= remaining_in_cell(smoke.slot, smoke.local_voxel);
   return smoke;
 }
 
@@ -47,9 +47,9 @@ float leaves_cube(vec3 p_voxel, vec3 inverse, float edge) {
 /// near decides most, and fill the way to its end or to that of the box around what may dim it: a voxel each in the mean up
 /// to 24 / coarse voxels, then ever longer.
 float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
-  const SmokeVolumeFrame volume = frame.volume;
+  const VolumeLayout volume = frame.volume;
   const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
-  const vec3 t0 = (frame.shading_min - p_voxel) * inverse, t1 = (frame.shading_max - p_voxel) * inverse;
+  const vec3 t0 = (frame.caster_bounds_min - p_voxel) * inverse, t1 = (frame.caster_bounds_max - p_voxel) * inverse;
   const vec3 near = min(t0, t1), far = max(t0, t1);
   const float begin = max(max(near.x, near.y), max(near.z, 0.0));
   const float reach = min(min(far.x, far.y), min(far.z, distance_m / volume.voxel_size)) - begin;

@@ -5,13 +5,13 @@
 
 /// Entries of a row that are asked for: the first one, and the one after the last.
 uvec2 row_entries(uint row, uint texels) {
-  const uint head = row * kLightRow;
+  const uint head = row * kTexelListWords;
   if (texels == kNewTexels) return uvec2(0u, rows[head + kLightPhases + 1u]);
   return uvec2(rows[head + (texels & 0xffu)], rows[head + (texels >> 8u)]);
 }
 
 uint row_texel(uint row, uint texels, uint entry) {
-  const uint word = rows[row * kLightRow + kLightRowHead + entry];
+  const uint word = rows[row * kTexelListWords + kTexelListHead + entry];
   return texels == kNewTexels ? word >> 16u : word & 0xffffu;
 }
 

@@ -13,7 +13,7 @@ const uint kNoSlot = 0xffffffffu;
 
 /// The slot of a brick, or kNoSlot where there is no smoke; then `empty_edge` is the edge [voxels] of the aligned cube
 /// around the brick that has none.
-uint slot_at(SmokeVolumeFrame volume, ivec3 brick, out int empty_edge) {
+uint slot_at(VolumeLayout volume, ivec3 brick, out int empty_edge) {
   empty_edge = kBrickVoxels * kNodeBricks;
   const ivec3 n = (brick >> 3) - volume.window_origin, size = volume.window_size;
   if (any(lessThan(n, ivec3(0))) || any(greaterThanEqual(n, size))) return kNoSlot;
@@ -26,14 +26,14 @@ uint slot_at(SmokeVolumeFrame volume, ivec3 brick, out int empty_edge) {
 }
 
 /// Where a brick's low corner lies in the atlas, in texels.
-vec3 atlas_corner(SmokeVolumeFrame volume, uint slot) {
+vec3 atlas_corner(VolumeLayout volume, uint slot) {
   const uvec3 bricks = uvec3(volume.atlas_bricks);
   const uvec3 at = uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y));
   return vec3(at * uint(kBrickTexels)) + 1.0;
 }
 
 /// One over the atlas's size in texels.
-vec3 atlas_texel(SmokeVolumeFrame volume) { return 1.0 / vec3(volume.atlas_bricks * kBrickTexels); }
+vec3 atlas_texel(VolumeLayout volume) { return 1.0 / vec3(volume.atlas_bricks * kBrickTexels); }
 
 /// What a point of a brick holds.
 struct SmokeSample {

@@ -22,7 +22,7 @@ struct SmokePoint {
   vec3 local_voxel;
 };
 
-SmokePoint smoke_at(SmokeVolumeFrame volume, vec3 p_voxel) {
+SmokePoint smoke_at(VolumeLayout volume, vec3 p_voxel) {
   const ivec3 brick = ivec3(floor(p_voxel / float(kBrickVoxels)));
   int empty_edge;
   SmokePoint point;

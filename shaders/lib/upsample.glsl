@@ -42,7 +42,7 @@ Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, SmokeLook look, fl
   const float fallen = ratio < 0.999 ? (1.0 - pow(ratio, share)) / (1.0 - ratio) : share;
   result.smoke = mix(near, far, fallen);
   const float least = max(far.a, near.a * exp(-sigma * (z - e.near)));
-  const float most = min(near.a, max(far.a, look.stop) * exp(min(sigma * (e.far - z), 20.0)));
+  const float most = min(near.a, max(far.a, look.opaque_transmittance) * exp(min(sigma * (e.far - z), 20.0)));
   result.doubt = max(most - least, 0.0) * min(span / voxel_size, 1.0);
   return result;
 }

@@ -65,13 +65,13 @@ SHARED_FUNCTION vec3 backdrop() {
   return vec3(0.055f, 0.062f, 0.078f);
 }
 
-/// A surface below what a view shows: grey, seen as by a lamp at the eye. `luminance` and `facing`, the cosine between normal and
+/// A surface below what a view shows: grey, seen as by a light at the eye. `luminance` and `facing`, the cosine between normal and
 /// ray, in [0, 1].
 SHARED_FUNCTION vec3 dimmed_surface(float luminance, float facing) {
   return mix(backdrop(), vec3(0.42f, 0.45f, 0.5f), (0.25f + 0.75f * sqrt(luminance)) * (0.2f + 0.8f * facing));
 }
 
-/// Of the face of a voxel: every direction has its own tone, so that shapes read without a lamp. 0: the eye is in the voxel.
+/// Of the face of a voxel: every direction has its own tone, so that shapes read without a light. 0: the eye is in the voxel.
 SHARED_FUNCTION vec3 face_tone(ivec3 normal) {
   if (normal.y > 0) return vec3(0.88f, 0.89f, 0.86f);
   if (normal.y < 0) return vec3(0.36f, 0.35f, 0.38f);

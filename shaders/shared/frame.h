@@ -1,7 +1,7 @@
 // What every pass of a frame may know: camera, sky, smoke look. One buffer, written once a frame.
 #ifndef BRUME_FRAME_H
 #define BRUME_FRAME_H
-#include "shared/open_holes.h"
+#include "shared/hole_clusters.h"
 #include "shared/phase.h"
 #include "shared/shim.h"
 #include "shared/smoke_volume.h"
@@ -19,7 +19,7 @@ struct Camera {
 };
 SHARED_SIZE(Camera, 116);
 
-/// Light from far away: a gradient from horizon to zenith, and what surfaces get where no lamp shines.
+/// Light from far away: a gradient from horizon to zenith, and what surfaces get where no light shines.
 struct Sky {
   vec3 zenith;   // radiance
   vec3 horizon;  // radiance
@@ -34,13 +34,13 @@ struct SmokeLook {
   vec3 albedo;             // single-scattering albedo, [0, 1]
   float extinction;        // at density 1 [1/m]
   float step_length;       // of the march [m]
-  float stop;              // transmittance at which a ray is opaque
+  float opaque_transmittance;              // transmittance at which a ray is opaque
   float erosion;           // how much noise eats from the rim inwards, [0, 1]
   float noise_period;      // edge of one tile of the noise [m]
-  float noise_drift;       // upward [m/s]
-  float roll;              // how far the noise rolls around its place [m]
-  float roll_width;        // of one roll [m], > 0
-  float many_scatterings;  // share of the light scattered more than once, 1: all of it, 0: single scattering
+  float rise;       // upward [m/s]
+  float swirl;             // how far the noise rolls around its place [m]
+  float swirl_width;        // of one roll [m], > 0
+  float multiple_scattering;  // share of the light scattered more than once, 1: all of it, 0: single scattering
   float hole_rim;          // how far noise moves the rim of a hole [m]
   Phase phase;             // where scattered light goes
 };
@@ -50,18 +50,18 @@ struct FrameConstants {
   Camera camera;
   Sky sky;
   SmokeLook look;
-  SmokeVolumeFrame volume;
-  vec3 shading_min;  // where the smoke may be that dims light on its way to what is in view [voxel space]
-  vec3 shading_max;
-  SolidFrame solid;
+  VolumeLayout volume;
+  vec3 caster_bounds_min;  // where the smoke may be that dims light on its way to what is in view [voxel space]
+  vec3 caster_bounds_max;
+  SolidLayout solid;
   uvec2 size_px;
   uint light_count;
-  OpenHolesFrame holes;
+  HoleClusterLayout holes;
   uint frame_index;  // moves the dither and the jitter
   float time;        // [s]
   float exposure;    // multiplies radiance before the tone curve
   uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
-  float seen_error;  // of a pixel, between 0 and 1 on the screen: more is not left to interpolation
+  float resolve_error;  // of a pixel, between 0 and 1 on the screen: more is not left to interpolation
 };
 SHARED_SIZE(FrameConstants, 404);
 

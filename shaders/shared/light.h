@@ -24,7 +24,7 @@ struct Light {
 };
 SHARED_SIZE(Light, 64);
 
-/// Where what a lamp sends is below 1/100 of unit irradiance, from the greatest of its intensities [m].
+/// Where what a light sends is below 1/100 of unit irradiance, from the greatest of its intensities [m].
 SHARED_FUNCTION float light_range(float intensity) {
   return sqrt(100.0f * intensity);
 }
@@ -36,7 +36,7 @@ struct ShadowView {
 };
 SHARED_SIZE(ShadowView, 128);
 
-/// Of a lamp in smoke: less is not seen.
+/// Of a light in smoke: less is not seen.
 SHARED_CONST float kLeastIrradiance = 1e-4f;
 
 SHARED_CONST float kShadowNear = 0.05f;  // [m]

@@ -6,7 +6,7 @@ SHARED_BEGIN
 
 /// Whose rays the march follows.
 SHARED_CONST uint kRaysOfPixels = 0u;
-SHARED_CONST uint kRaysOfBlocks = 1u;
+SHARED_CONST uint kRaysOfTiles = 1u;
 SHARED_CONST uint kRaysOfList = 2u;
 
 /// What the march counts: nothing; the samples of textures, all together; these and each ray's steps.
@@ -43,8 +43,8 @@ SHARED_CONST float kDoubt = 0.008f;
 /// How far off it may be for the rays of neighbours to be compared at that depth.
 SHARED_CONST float kKnown = 0.05f;
 
-/// FrameConstants::seen_error of a picture that hides what the full one does.
-SHARED_CONST float kSeenError = 3.0f / 255.0f;
+/// FrameConstants::resolve_error of a picture that hides what the full one does.
+SHARED_CONST float kResolveError = 3.0f / 255.0f;
 
 /// Radiance times exposure of a surface in bright light.
 SHARED_CONST float kBrightSurface = 0.3f;

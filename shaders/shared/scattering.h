@@ -36,7 +36,7 @@ struct ManyScatterings {
 SHARED_SIZE(ManyScatterings, 28);
 
 /// `g`: the mean cosine, [0, 1); below 0 as 0. `escape`: mean over all directions of the transmittance out of the smoke.
-SHARED_FUNCTION ManyScatterings many_scatterings(ManyFit fit, vec3 albedo, float g, float escape) {
+SHARED_FUNCTION ManyScatterings multiple_scattering(ManyFit fit, vec3 albedo, float g, float escape) {
   float forward = max(g, 0.0f);
   vec3 again = albedo * (1.0f - escape);
   ManyScatterings many;
@@ -46,10 +46,10 @@ SHARED_FUNCTION ManyScatterings many_scatterings(ManyFit fit, vec3 albedo, float
   return many;
 }
 
-/// The same for the smoke of a frame; nothing where look.many_scatterings is 0.
-SHARED_FUNCTION ManyScatterings many_scatterings(SmokeLook look, float escape) {
-  ManyScatterings many = many_scatterings(many_fit(), look.albedo, mean_cosine(look.phase), escape);
-  many.share *= look.many_scatterings;
+/// The same for the smoke of a frame; nothing where look.multiple_scattering is 0.
+SHARED_FUNCTION ManyScatterings multiple_scattering(SmokeLook look, float escape) {
+  ManyScatterings many = multiple_scattering(many_fit(), look.albedo, mean_cosine(look.phase), escape);
+  many.share *= look.multiple_scattering;
   return many;
 }
 

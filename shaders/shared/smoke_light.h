@@ -1,11 +1,11 @@
-// Light in the smoke: rays from the texels of its bricks to the lamps and to the sky.
+// Light in the smoke: rays from the texels of its bricks to the lights and to the sky.
 //
-//   rows     per brick kLightRow words that list the texels that a sample of the march can meet, phase by phase:
+//   rows     per brick kTexelListWords words that list the texels that a sample of the march can meet, phase by phase:
 //            where each phase begins, where the last ends, and how many texels are new; then a word an entry: in the
 //            low half a texel, x + 10 (y + 10 z), in the high half a new one, one that the list before did not have or whose smoke
 //            changed at once
-//   blocks   per brick and lamp that reaches it kTexelsPerBrick words, one a texel: two half floats, optical depth of the
-//            smoke on the way, share of the light that the scene lets through. For the sky kSkyBlocks blocks one
+//   blocks   per brick and light that reaches it kTexelsPerBrick words, one a texel: two half floats, optical depth of the
+//            smoke on the way, share of the light that the scene lets through. For the sky kSkyPages blocks one
 //            after the other, of two rays each: their depths
 #ifndef BRUME_SMOKE_LIGHT_H
 #define BRUME_SMOKE_LIGHT_H
@@ -13,31 +13,31 @@
 SHARED_BEGIN
 
 SHARED_CONST uint kSkyRays = 6u;
-SHARED_CONST uint kSkyBlocks = 3u;
+SHARED_CONST uint kSkyPages = 3u;
 /// Parts of a brick's texels that can be lit in frames of their own.
 SHARED_CONST uint kLightPhases = 16u;
 /// At most as many texels of a brick are in one.
 SHARED_CONST uint kTexelsPerPhase = 64u;
-SHARED_CONST uint kLightRowHead = 18u;
-SHARED_CONST uint kLightRow = 1018u;
-SHARED_CONST uint kTowardSky = 0xfffffff0u;
+SHARED_CONST uint kTexelListHead = 18u;
+SHARED_CONST uint kTexelListWords = 1018u;
+SHARED_CONST uint kSkyTarget = 0xfffffff0u;
 /// Workgroups along an axis of a dispatch, after which the next axis begins.
 SHARED_CONST uint kLightGroups = 32768u;
 
 /// Which of a row's texels: those of phases from a first one up to an end, or the new ones.
-SHARED_FUNCTION uint light_phases(uint first, uint end) { return first | end << 8u; }
-SHARED_CONST uint kAllTexels = 0x1000u;  // light_phases(0, kLightPhases)
+SHARED_FUNCTION uint phase_range(uint first, uint end) { return first | end << 8u; }
+SHARED_CONST uint kAllTexels = 0x1000u;  // phase_range(0, kLightPhases)
 SHARED_CONST uint kNewTexels = 0xffffu;
 
 /// A brick whose texels are to be listed.
-struct LightRow {
+struct TexelList {
   uint slot;
   uint row;
   uint by_phase;  // 0: all texels in phase 0
   uint had_list;  // 0: none before, no texel is new
   uint first_change, change_count;  // new are also the texels within these changes
 };
-SHARED_SIZE(LightRow, 24);
+SHARED_SIZE(TexelList, 24);
 
 /// All that is nearer than `radius` to a stretch of a line [m].
 struct LightChange {
@@ -48,26 +48,26 @@ struct LightChange {
 };
 SHARED_SIZE(LightChange, 32);
 
-/// Rays of texels of a brick to one lamp, or two of each to the sky.
-struct LightPair {
+/// Rays of texels of a brick to one light, or two of each to the sky.
+struct ShadowRays {
   uint slot;
   uint row;
-  uint lamp;    // of the frame's lights, or kTowardSky + number of the sky's block
+  uint light;    // of the frame's lights, or kSkyTarget + number of the sky's block
   uint block;   // where they go
   uint texels;  // which
 };
-SHARED_SIZE(LightPair, 20);
+SHARED_SIZE(ShadowRays, 20);
 
 /// A brick whose light is to be put together.
-struct LightBrick {
+struct LightGather {
   uint slot;
   uint row;
-  uint sky_block;   // the first of kSkyBlocks
-  uint first_lamp;  // into the list of (lamp, block)
-  uint lamp_count;
+  uint sky_page;   // the first of kSkyPages
+  uint first_light;  // into the list of (light, block)
+  uint light_count;
   uint texels;  // which
 };
-SHARED_SIZE(LightBrick, 24);
+SHARED_SIZE(LightGather, 24);
 
 /// Which part of its list a dispatch works on.
 struct SmokeLightParams {

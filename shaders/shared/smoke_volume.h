@@ -52,7 +52,7 @@ struct BoundaryCell {
 SHARED_SIZE(BoundaryCell, 16);
 
 /// Where the window and the bricks lie.
-struct SmokeVolumeFrame {
+struct VolumeLayout {
   vec3 origin_world;    // low corner of voxel (0, 0, 0) [m]
   float voxel_size;     // [m]
   ivec3 window_origin;  // first node of the page table, in nodes of kNodeBricks^3 bricks
@@ -61,7 +61,7 @@ struct SmokeVolumeFrame {
   vec3 bounds_min;      // where density can be above 0 [voxel space]
   vec3 bounds_max;
 };
-SHARED_SIZE(SmokeVolumeFrame, 76);
+SHARED_SIZE(VolumeLayout, 76);
 
 /// Plane in 32 bits: octahedral normal 2 x 10 bits, offset 12 bits over [-1, 1]. Never 0.
 /// Octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".

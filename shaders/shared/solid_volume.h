@@ -12,12 +12,12 @@
 SHARED_BEGIN
 
 /// Where the texels lie.
-struct SolidFrame {
+struct SolidLayout {
   vec3 origin_world;  // low corner of texel (0, 0, 0) [m]
   float texel_size;   // [m]
   ivec3 size;         // texels
 };
-SHARED_SIZE(SolidFrame, 28);
+SHARED_SIZE(SolidLayout, 28);
 
 /// How much of both ends of a way from one surface to another does not count as blocked [texels]: a texel's longest way.
 SHARED_CONST float kSolidEnds = 1.7320508f;

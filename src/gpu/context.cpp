@@ -14,9 +14,9 @@ std::uint32_t find_queue_family(const Functions& vk, VkInstance instance, VkPhys
   vk.GetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vk.GetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  constexpr VkQueueFlags kVisible = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   for (std::uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & kNeeded) != kNeeded) continue;
+    if ((families[i].queueFlags & kVisible) != kVisible) continue;
     if (!presentation.supported || presentation.supported(instance, device, i)) return i;
   }
   if (presentation.supported)

@@ -52,18 +52,18 @@ Memory::Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice d
 }
 
 Memory::~Memory() {
-  for (const Block& block : blocks_) vk_.FreeMemory(device_, block.memory, nullptr);
+  for (const MemoryBlock& block : blocks_) vk_.FreeMemory(device_, block.memory, nullptr);
 }
 
 std::uint32_t Memory::find_type(std::uint32_t type_bits, MemoryUse use) const {
   constexpr VkMemoryPropertyFlags kHost =
       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   // The first that fits wins: what is wanted most comes first.
-  std::vector<VkMemoryPropertyFlags> wishes;
-  if (use == MemoryUse::device) wishes = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
-  if (use == MemoryUse::upload) wishes = {kHost};
-  if (use == MemoryUse::readback) wishes = {kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kHost};
-  for (const VkMemoryPropertyFlags wish : wishes) {
+  std::vector<VkMemoryPropertyFlags> requests;
+  if (use == MemoryUse::device) requests = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+  if (use == MemoryUse::upload) requests = {kHost};
+  if (use == MemoryUse::readback) requests = {kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kHost};
+  for (const VkMemoryPropertyFlags wish : requests) {
     for (std::uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
       if ((type_bits >> i & 1) && (properties_.memoryTypes[i].propertyFlags & wish) == wish) return i;
     }
@@ -71,8 +71,8 @@ std::uint32_t Memory::find_type(std::uint32_t type_bits, MemoryUse use) const {
   throw Error(ErrorCode::resource_limit, "the Vulkan device has no memory of the kind that is needed");
 }
 
-Memory::Block& Memory::add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled) {
-  Block block;
+Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled) {
+  MemoryBlock block;
   block.size = size;
   block.type = type;
   block.tiled = tiled;
@@ -93,14 +93,14 @@ Memory::Range Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use,
   const std::lock_guard lock(mutex_);
   const std::uint32_t type = find_type(needs.memoryTypeBits, use);
   const bool mapped = use != MemoryUse::device;
-  const auto range_in = [&](Block& block) -> std::optional<Range> {
+  const auto range_in = [&](MemoryBlock& block) -> std::optional<Range> {
     const auto offset = take(block.holes, needs.size, needs.alignment);
     if (!offset) return std::nullopt;
     bytes_in_use_ += needs.size;
     return Range{&block, block.memory, *offset, needs.size, block.mapped ? block.mapped + *offset : nullptr};
   };
   if (needs.size < kDedicatedBytes) {
-    for (Block& block : blocks_) {
+    for (MemoryBlock& block : blocks_) {
       if (block.type != type || block.tiled != tiled || (block.mapped != nullptr) != mapped) continue;
       if (const auto range = range_in(block)) return *range;
     }
@@ -112,12 +112,12 @@ void Memory::free(const Range& range) noexcept {
   if (!range.block) return;
   const std::lock_guard lock(mutex_);
   bytes_in_use_ -= range.size;
-  Block& block = *range.block;
+  MemoryBlock& block = *range.block;
   give(block.holes, range.offset, range.size);
   const bool empty = block.holes.size() == 1 && block.holes.begin()->second == block.size;
   if (!empty || block.size == kBlockBytes) return;  // Shared blocks are kept for the next one.
   vk_.FreeMemory(device_, block.memory, nullptr);
-  blocks_.remove_if([&](const Block& other) { return &other == &block; });
+  blocks_.remove_if([&](const MemoryBlock& other) { return &other == &block; });
 }
 
 VkDeviceSize Memory::bytes_in_use() const {

@@ -22,10 +22,10 @@ class Memory {
   static constexpr VkDeviceSize kBlockBytes = 64ull << 20;
   static constexpr VkDeviceSize kDedicatedBytes = 16ull << 20;
 
-  struct Block;
+  struct MemoryBlock;
   /// A range of memory, owned by whoever holds it until `free`.
   struct Range {
-    Block* block = nullptr;
+    MemoryBlock* block = nullptr;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
     VkDeviceSize size = 0;
@@ -47,17 +47,17 @@ class Memory {
 
  private:
   std::uint32_t find_type(std::uint32_t type_bits, MemoryUse use) const;
-  Block& add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled);
+  MemoryBlock& add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled);
 
   const Functions& vk_;
   VkDevice device_;
   VkPhysicalDeviceMemoryProperties properties_{};
   mutable std::mutex mutex_;
-  std::list<Block> blocks_;
+  std::list<MemoryBlock> blocks_;
   VkDeviceSize bytes_in_use_ = 0;
 };
 
-struct Memory::Block {
+struct Memory::MemoryBlock {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   VkDeviceSize size = 0;
   std::uint32_t type = 0;

@@ -79,7 +79,7 @@ struct GraphicsInfo {
   const ShaderCode* fragment = nullptr;  ///< null: depth only.
   std::vector<VkFormat> colours;
   VkFormat depth = VK_FORMAT_D32_SFLOAT;  ///< VK_FORMAT_UNDEFINED: no depth.
-  float depth_bias_slope = 0;             ///< Pushes surfaces away from the eye (reverse depth) by the slope.
+  float depth_bias_slope = 0;             ///< Impulses surfaces away from the eye (reverse depth) by the slope.
   float depth_bias_constant = 0;
   bool blend = false;  ///< Colour over what is there, by its alpha.
 };

@@ -73,8 +73,8 @@ class Recorder {
   /// need.
   void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings,
             std::span<const std::byte> push = {});
-  template <typename Push>
-  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings, const Push& push) {
+  template <typename Impulse>
+  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings, const Impulse& push) {
     bind(pipeline, bindings, std::as_bytes(std::span(&push, 1)));
   }
   /// Runs the bound compute pipeline over at least this many threads.

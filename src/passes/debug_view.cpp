@@ -96,14 +96,14 @@ std::optional<DebugView> find_debug_view(std::string_view name) {
   return static_cast<DebugView>(found - kDebugViewNames.begin());
 }
 
-ViewSlice slice_through_smoke(const sim::SmokeVolume* volume, glm::vec3 eye_world, glm::vec3 target_world) {
+ViewSlice slice_through_smoke(const smoke::SmokeVolume* volume, glm::vec3 eye_world, glm::vec3 target_world) {
   const glm::vec3 toward = glm::abs(target_world - eye_world);
   ViewSlice slice{toward.x > toward.z ? 0u : 2u, 0};
   const int axis = static_cast<int>(slice.axis);
   if (!volume || volume->slot_count() == 0) return {slice.axis, target_world[axis]};
-  const shared::SmokeVolumeFrame& frame = volume->frame();
-  const float middle = std::floor(0.5f * (frame.bounds_min[axis] + frame.bounds_max[axis])) + 0.5f;
-  slice.at_world = frame.origin_world[axis] + middle * frame.voxel_size;
+  const shared::VolumeLayout& layout = volume->layout();
+  const float middle = std::floor(0.5f * (layout.bounds_min[axis] + layout.bounds_max[axis])) + 0.5f;
+  slice.at_world = layout.origin_world[axis] + middle * layout.voxel_size;
   return slice;
 }
 
@@ -116,7 +116,7 @@ float ramp_end(DebugView view, const sim::State& state) {
     for (const std::uint32_t distance : live.cloud->distances())
       if (distance != sim::Cloud::kNoDistance) farthest = std::max(farthest, distance);
   const float voxels = static_cast<float>(farthest) / static_cast<float>(sim::kFaceStep);
-  return std::max(std::ceil(voxels * state.frame.voxel_size), 1.0f);
+  return std::max(std::ceil(voxels * state.layout.voxel_size), 1.0f);
 }
 
 DebugViewPass::DebugViewPass(gpu::Context& context)
@@ -154,16 +154,16 @@ void DebugViewPass::find_level(const LevelView& level) {
 void DebugViewPass::find_ways(const DebugSubject& subject) {
   way_words_.assign(1, 0);
   if (subject.volume && subject.state) {
-    way_words_.assign(std::max<std::size_t>(subject.volume->slot_count(), 1) * sim::kVoxelsPerBrick, 0);
+    way_words_.assign(std::max<std::size_t>(subject.volume->slot_count(), 1) * smoke::kVoxelsPerBrick, 0);
     for (const sim::LiveCloud& live : subject.state->clouds) {
       const sim::Cloud& cloud = *live.cloud;
-      const sim::CloudMoment moment = cloud.moment(subject.state->tick);
+      const sim::CloudPhase phase = cloud.phase(subject.state->tick);
       cloud.voxels().for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
         const std::uint32_t slot = subject.volume->slot_at(voxel >> 3);
-        if (slot == sim::SmokeVolume::kNoSlot || cloud.density(rank, moment) == 0) return;
+        if (slot == smoke::SmokeVolume::kNoSlot || cloud.density(rank, phase) == 0) return;
         const std::uint32_t distance = cloud.distances()[rank];
         const std::uint32_t way = distance == sim::Cloud::kNoDistance ? shared::kNoWay : distance + 1;
-        std::uint32_t& entry = way_words_[std::size_t{slot} * sim::kVoxelsPerBrick + sim::local_voxel(voxel)];
+        std::uint32_t& entry = way_words_[std::size_t{slot} * smoke::kVoxelsPerBrick + smoke::local_voxel(voxel)];
         entry = entry == 0 ? way : std::min(entry, way);
       });
     }
@@ -179,7 +179,7 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
   way_words_ = {};
 
   shared::DebugViewParams params{};
-  const voxel::GridFrame grid = subject.level.grid ? subject.level.grid->frame() : voxel::GridFrame();
+  const voxel::GridLayout grid = subject.level.grid ? subject.level.grid->layout() : voxel::GridLayout();
   params.grid_size = grid.size;
   params.voxel_size = grid.voxel_size;
   params.grid_origin_world = grid.origin_world;

@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "passes/gbuffer.hpp"
-#include "passes/open_holes.hpp"
+#include "passes/hole_clusters.hpp"
 #include "passes/solid_volume.hpp"
 #include "shared/debug_view.h"
-#include "sim/smoke_volume.hpp"
+#include "smoke/smoke_volume.hpp"
 #include "sim/state.hpp"
 
 namespace brume::passes {
@@ -54,7 +54,7 @@ struct ViewSlice {
 
 /// The slice that faces the eye most of those across x and z, through the middle of the smoke and of its
 /// voxels; without smoke (null: none) through the target.
-ViewSlice slice_through_smoke(const sim::SmokeVolume* volume, glm::vec3 eye_world, glm::vec3 target_world);
+ViewSlice slice_through_smoke(const smoke::SmokeVolume* volume, glm::vec3 eye_world, glm::vec3 target_world);
 
 /// The number at the end of a view's ramp: of distance, from what the clouds may fill [m], of holes [m], of
 /// steps.
@@ -65,7 +65,7 @@ struct DebugSubject {
   DebugView view = DebugView::none;  ///< Not `none`.
   ViewSlice slice;
   LevelView level;
-  const sim::SmokeVolume* volume = nullptr;  ///< null: no smoke.
+  const smoke::SmokeVolume* volume = nullptr;  ///< null: no smoke.
   const sim::State* state = nullptr;         ///< Whose clouds have distances; null: there are none.
 };
 

@@ -38,7 +38,7 @@ GBufferPass::GBufferPass(gpu::Context& context)
       sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}) {}
 
 void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
-                         HiddenObjects hidden, const ViewVolume& view, const gpu::Buffer& frame,
+                         HiddenObjects hidden, const planning::ViewFrustum& view, const gpu::Buffer& frame,
                          const GBuffer& target) const {
   recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
   for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});
@@ -61,7 +61,7 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
     recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
   };
   for (const Draw& draw : scene.draws)
-    if (view.may_see({draw.centre_world, draw.radius}) && !is_hidden(draw, hidden)) draw_one(draw);
+    if (view.may_intersect({draw.centre_world, draw.radius}) && !is_hidden(draw, hidden)) draw_one(draw);
   for (const Draw& draw : moving) draw_one(draw);
   recorder.end_rendering();
 }

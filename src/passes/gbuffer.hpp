@@ -4,7 +4,7 @@
 #include <span>
 
 #include "passes/scene_upload.hpp"
-#include "passes/view_volume.hpp"
+#include "planning/view_frustum.hpp"
 
 namespace brume::passes {
 
@@ -23,7 +23,7 @@ class GBufferPass {
   /// `moving` are drawn with the scene's own draws; `hidden` are left out, and what `view` cannot see.
   /// `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
-              HiddenObjects hidden, const ViewVolume& view, const gpu::Buffer& frame,
+              HiddenObjects hidden, const planning::ViewFrustum& view, const gpu::Buffer& frame,
               const GBuffer& target) const;
 
  private:

@@ -2,7 +2,7 @@
 
 namespace brume::passes {
 
-gpu::Image make_hole_masks(gpu::Context& context, gpu::Recorder& recorder, const sim::MaskAtlas& masks) {
+gpu::Image make_hole_masks(gpu::Context& context, gpu::Recorder& recorder, const smoke::MaskAtlas& masks) {
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R8_UNORM;
   info.size = {masks.width(), masks.height(), 1};

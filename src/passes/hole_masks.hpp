@@ -2,11 +2,11 @@
 #pragma once
 
 #include "gpu/recorder.hpp"
-#include "sim/mask_atlas.hpp"
+#include "smoke/mask_atlas.hpp"
 
 namespace brume::passes {
 
 /// The atlas as an R8 image for lib/hole_mask.glsl. Throws resource_limit when there is no memory.
-gpu::Image make_hole_masks(gpu::Context& context, gpu::Recorder& recorder, const sim::MaskAtlas& masks);
+gpu::Image make_hole_masks(gpu::Context& context, gpu::Recorder& recorder, const smoke::MaskAtlas& masks);
 
 }  // namespace brume::passes

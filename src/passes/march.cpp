@@ -40,12 +40,12 @@ std::array<gpu::ComputePipeline, 2> pipelines(gpu::Context& context, const March
                                               std::uint32_t rays) {
   return {
       pipeline(context, options, rays, shared::kHolesNone),
-      pipeline(context, options, rays, options.plain_holes ? shared::kHolesAllAsked : shared::kHolesListed)};
+      pipeline(context, options, rays, options.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered)};
 }
 
 }  // namespace
 
-MarchBlocks::MarchBlocks(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale)
+MarchTiles::MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale)
     : ends(block_buffer(context, shared::blocks_of(size_px, scale), 0, sizeof(shared::RayEnds))),
       near(block_image(context, shared::blocks_of(size_px, scale))),
       far(block_image(context, shared::blocks_of(size_px, scale))),
@@ -54,7 +54,7 @@ MarchBlocks::MarchBlocks(gpu::Context& context, glm::uvec2 size_px, std::uint32_
 
 MarchPass::MarchPass(gpu::Context& context, const Options& options)
     : pixels_(pipelines(context, options, shared::kRaysOfPixels)),
-      blocks_(pipelines(context, options, shared::kRaysOfBlocks)),
+      blocks_(pipelines(context, options, shared::kRaysOfTiles)),
       list_(pipelines(context, options, shared::kRaysOfList)),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
@@ -67,14 +67,14 @@ void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Ima
   recorder.dispatch_threads(pipeline, smoke.info().size.x, smoke.info().size.y);
 }
 
-void MarchPass::record_blocks(gpu::Recorder& recorder, const Inputs& in, const MarchBlocks& blocks,
+void MarchPass::record_tiles(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& blocks,
                               const gpu::Buffer& counters) const {
   const auto& pipeline = blocks_[in.holes.any ? 1 : 0];
   bind(recorder, pipeline, in, {blocks.ends, in.frame, blocks.near, blocks.far}, counters);
   recorder.dispatch_threads(pipeline, blocks.far.info().size.x, blocks.far.info().size.y);
 }
 
-void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const MarchBlocks& blocks,
+void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& blocks,
                             const gpu::Image& smoke, const gpu::Buffer& counters) const {
   bind(recorder, list_[in.holes.any ? 1 : 0], in, {in.frame, blocks.list, smoke, smoke}, counters);
   recorder.dispatch_indirect(blocks.list);
@@ -83,7 +83,7 @@ void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const Mar
 void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const Inputs& in,
                      const Rays& rays, const gpu::Buffer& counters) const {
   recorder.bind(pipeline,
-                {gpu::uniform(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.medium, linear_),
+                {gpu::uniform(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.density_displacement, linear_),
                  gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
                  gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.noise, repeat_),
                  gpu::sampled(in.depth, nearest_), gpu::sampled(in.blue_noise, nearest_),

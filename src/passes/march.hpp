@@ -3,20 +3,20 @@
 
 #include <array>
 
-#include "passes/open_holes.hpp"
+#include "passes/hole_clusters.hpp"
 #include "passes/smoke_upload.hpp"
 #include "shared/resolve.h"
 
 namespace brume::passes {
 
 /// Blocks of scale x scale pixels that are marched by one ray each.
-struct MarchBlocks {
+struct MarchTiles {
   gpu::Buffer ends;  ///< shared::RayEnds, rows in order.
   gpu::Image near;   ///< Half floats, a texel a block: the smoke up to the block's nearest surface.
   gpu::Image far;    ///< The same up to its farthest.
   gpu::Buffer list;  ///< shared::MarchList and the numbers of the blocks whose pixels are marched one by one.
   /// `scale` is 2 or 4. Throws resource_limit.
-  MarchBlocks(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale);
+  MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale);
 };
 
 class MarchPass {
@@ -25,7 +25,7 @@ class MarchPass {
     bool count_samples = false;  ///< record adds the texture samples taken to the first word of `counters`.
     /// The same, and the steps of each pixel's ray behind it, rows in order: room for a word and one a pixel.
     bool count_steps = false;
-    bool plain_holes = false;  ///< Every sample asks every hole: what the usual way is measured against.
+    bool brute_force_holes = false;  ///< Every sample asks every hole: what the usual way is measured against.
   };
   MarchPass(gpu::Context& context, const Options& options);
 
@@ -41,10 +41,10 @@ class MarchPass {
   void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Image& smoke,
               const gpu::Buffer& counters) const;
   /// Marches one ray a block of pixels, and writes the same for its nearest and its farthest surface.
-  void record_blocks(gpu::Recorder& recorder, const Inputs& inputs, const MarchBlocks& blocks,
+  void record_tiles(gpu::Recorder& recorder, const Inputs& inputs, const MarchTiles& blocks,
                      const gpu::Buffer& counters) const;
   /// Marches the pixels of the blocks that are listed, into `smoke`.
-  void record_list(gpu::Recorder& recorder, const Inputs& inputs, const MarchBlocks& blocks,
+  void record_list(gpu::Recorder& recorder, const Inputs& inputs, const MarchTiles& blocks,
                    const gpu::Image& smoke, const gpu::Buffer& counters) const;
 
  private:

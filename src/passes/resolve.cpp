@@ -14,13 +14,13 @@ ResolvePass::ResolvePass(gpu::Context& context)
       nearest_(context, {VK_FILTER_NEAREST}) {}
 
 void ResolvePass::record_ends(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& depth,
-                              const MarchBlocks& blocks) const {
+                              const MarchTiles& blocks) const {
   recorder.bind(ends_, {gpu::uniform(frame), gpu::sampled(depth, nearest_), gpu::write(blocks.ends)});
   recorder.dispatch_threads(ends_, blocks.far.info().size.x, blocks.far.info().size.y);
 }
 
 void ResolvePass::record_select(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& emission,
-                                const MarchBlocks& blocks) const {
+                                const MarchTiles& blocks) const {
   const shared::MarchList empty{{0, 0, 1}, 0};
   recorder.upload(blocks.list, 0, std::as_bytes(std::span(&empty, 1)));
   recorder.bind(select_, {gpu::uniform(frame), gpu::read(blocks.ends), gpu::sampled(blocks.near, nearest_),
@@ -30,7 +30,7 @@ void ResolvePass::record_select(gpu::Recorder& recorder, const gpu::Buffer& fram
 }
 
 void ResolvePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& depth,
-                         const MarchBlocks& blocks, const gpu::Image& smoke) const {
+                         const MarchTiles& blocks, const gpu::Image& smoke) const {
   recorder.bind(resolve_, {gpu::uniform(frame), gpu::sampled(depth, nearest_), gpu::read(blocks.ends),
                            gpu::sampled(blocks.near, nearest_), gpu::sampled(blocks.far, nearest_),
                            gpu::stored(smoke)});

@@ -14,15 +14,15 @@ class ResolvePass {
   /// Finds where the ray of each block runs, and the depths of its surfaces. `frame` holds FrameConstants,
   /// `depth` is the G-buffer's.
   void record_ends(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& depth,
-                   const MarchBlocks& blocks) const;
+                   const MarchTiles& blocks) const;
   /// Lists the blocks where interpolation between rays would be seen: off by more than 2/255 on the screen,
   /// in front of a surface that shines as `emission` (the G-buffer's) says or that stands in bright light.
   void record_select(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& emission,
-                     const MarchBlocks& blocks) const;
+                     const MarchTiles& blocks) const;
   /// Writes premultiplied radiance and transmittance of every pixel to `smoke` (half floats) from the marched
   /// blocks.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& depth,
-              const MarchBlocks& blocks, const gpu::Image& smoke) const;
+              const MarchTiles& blocks, const gpu::Image& smoke) const;
 
  private:
   gpu::ComputePipeline ends_, select_, resolve_;

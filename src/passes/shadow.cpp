@@ -18,7 +18,7 @@ std::uint32_t layer_count(const SceneResources& scene) {
   return count;
 }
 
-/// A lamp's face: reverse depth with the far plane at infinity.
+/// A light's face: reverse depth with the far plane at infinity.
 glm::mat4 face_clip_from_world(const shared::Light& light, std::uint32_t face) {
   const glm::vec3 right = shared::cube_right(face), down = -shared::cube_up(face),
                   forward = shared::cube_forward(face);
@@ -45,7 +45,7 @@ glm::mat4 sun_view(const SceneResources& scene, glm::vec3 direction) {
   return glm::transpose(rows);
 }
 
-/// Whether a bounding sphere can be seen by a lamp's face within its reach.
+/// Whether a bounding sphere can be seen by a light's face within its reach.
 bool face_sees(const shared::Light& light, std::uint32_t face, const Draw& draw) {
   const glm::vec3 d = draw.centre_world - light.position_world;
   if (glm::length(d) > light.range + draw.radius) return false;

@@ -1,4 +1,4 @@
-// Depth of the scene as each light sees it: six faces around a lamp, one view along a sun.
+// Depth of the scene as each light sees it: six faces around a light, one view along a sun.
 #pragma once
 
 #include <functional>

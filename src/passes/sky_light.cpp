@@ -17,7 +17,7 @@ void SkyLightPass::reserve(const SolidVolume& solid) {
   if (!rays_ || rays_.size() != bytes)
     rays_ =
         gpu::Buffer(context_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-  const glm::uvec3 size(solid.frame().size);
+  const glm::uvec3 size(solid.layout().size);
   if (light_ && light_.info().size == size) return;
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R16G16B16A16_SFLOAT;

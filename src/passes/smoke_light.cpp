@@ -43,11 +43,11 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
       plan_(&kept_.plan({})) {
-  for (gpu::Buffer* buffer : {&rows_, &blocks_, &listed_rows_, &changes_, &pairs_, &bricks_, &brick_lamps_})
+  for (gpu::Buffer* buffer : {&rows_, &blocks_, &listed_rows_, &changes_, &pairs_, &bricks_, &brick_lights_})
     gpu::grow(context, *buffer, 1);
 }
 
-void SmokeLightPass::reserve(const SmokeLightMoment& moment) {
+void SmokeLightPass::reserve(const planning::SmokeLightInputs& inputs) {
   const auto make_room = [&] {
     constexpr std::size_t kWord = sizeof(std::uint32_t);
     const std::size_t most = context_.limits().maxStorageBufferRange;
@@ -55,20 +55,20 @@ void SmokeLightPass::reserve(const SmokeLightMoment& moment) {
     const auto grow = [&](gpu::Buffer& buffer, std::size_t bytes) {
       return buffer.size() < bytes && gpu::grow(context_, buffer, std::min(2 * bytes, std::max(most, bytes)));
     };
-    const bool rows = grow(rows_, plan_->row_count * shared::kLightRow * kWord);
-    const bool blocks = grow(blocks_, plan_->block_count * shared::kTexelsPerBrick * kWord);
+    const bool rows = grow(rows_, plan_->row_count * shared::kTexelListWords * kWord);
+    const bool blocks = grow(blocks_, plan_->page_count * shared::kTexelsPerBrick * kWord);
     return rows || blocks;
   };
-  plan_ = &kept_.plan(moment);
+  plan_ = &kept_.plan(inputs);
   if (make_room()) {
     kept_.forget();
-    plan_ = &kept_.plan(moment);
+    plan_ = &kept_.plan(inputs);
   }
-  gpu::grow(context_, listed_rows_, plan_->rows.size() * sizeof(shared::LightRow));
+  gpu::grow(context_, listed_rows_, plan_->rows.size() * sizeof(shared::TexelList));
   gpu::grow(context_, changes_, plan_->changes.size() * sizeof(shared::LightChange));
-  gpu::grow(context_, pairs_, plan_->pairs.size() * sizeof(shared::LightPair));
-  gpu::grow(context_, bricks_, plan_->bricks.size() * sizeof(shared::LightBrick));
-  gpu::grow(context_, brick_lamps_, plan_->lamps.size() * sizeof(glm::uvec2));
+  gpu::grow(context_, pairs_, plan_->pairs.size() * sizeof(shared::ShadowRays));
+  gpu::grow(context_, bricks_, plan_->bricks.size() * sizeof(shared::LightGather));
+  gpu::grow(context_, brick_lights_, plan_->lights.size() * sizeof(glm::uvec2));
 }
 
 void SmokeLightPass::record(gpu::Recorder& recorder, const Inputs& in) {
@@ -76,13 +76,13 @@ void SmokeLightPass::record(gpu::Recorder& recorder, const Inputs& in) {
   upload(recorder, changes_, plan_->changes);
   upload(recorder, pairs_, plan_->pairs);
   upload(recorder, bricks_, plan_->bricks);
-  upload(recorder, brick_lamps_, plan_->lamps);
-  for (const SmokeLightPlan::Part& part : plan_->parts) record_part(recorder, in, part);
+  upload(recorder, brick_lights_, plan_->lights);
+  for (const planning::SmokeLightPlan::Part& part : plan_->parts) record_part(recorder, in, part);
 }
 
 void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
-                                 const SmokeLightPlan::Part& part) {
-  const auto params = [](const sim::IndexRange& range, std::uint32_t threads) {
+                                 const planning::SmokeLightPlan::Part& part) {
+  const auto params = [](const volume::IndexRange& range, std::uint32_t threads) {
     return shared::SmokeLightParams{range.first, range.count, threads};
   };
   if (part.rows.count > 0) {
@@ -99,16 +99,16 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   const auto threads_for = [&](std::uint32_t texels) {
     return one_group_ ? kThreads : (texels + kThreads - 1) / kThreads * kThreads;
   };
-  const auto each = [&](const sim::IndexRange& range, std::uint32_t few, auto record) {
+  const auto each = [&](const volume::IndexRange& range, std::uint32_t few, auto record) {
     if (range.count > few) record({range.first, range.count - few}, threads_for(shared::kTexelsPerBrick));
     if (few > 0)
       record({range.first + range.count - few, few}, threads_for(part.phases * shared::kTexelsPerPhase));
   };
-  each(part.pairs, part.few_pairs, [&](const sim::IndexRange& range, std::uint32_t threads) {
+  each(part.pairs, part.few_pairs, [&](const volume::IndexRange& range, std::uint32_t threads) {
     recorder.bind(rays_pass_,
                   {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                    gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
-                   gpu::read(in.smoke.pages), gpu::sampled(in.smoke.share, linear_),
+                   gpu::read(in.smoke.pages), gpu::sampled(in.smoke.filtered_density, linear_),
                    gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
                    gpu::read(in.holes.cells), gpu::sampled(in.level.solid.texels(), linear_),
                    gpu::read(pairs_), gpu::read(rows_), gpu::write(blocks_)},
@@ -116,13 +116,13 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
     const Groups groups = groups_of(range.count);
     recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
   });
-  each(part.bricks, part.few_bricks, [&](const sim::IndexRange& range, std::uint32_t threads) {
+  each(part.bricks, part.few_bricks, [&](const volume::IndexRange& range, std::uint32_t threads) {
     recorder.bind(
         inscatter_pass_,
         {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
          gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
          gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
-         gpu::sampled(in.smoke.share, linear_), gpu::read(brick_lamps_)},
+         gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(brick_lights_)},
         params(range, threads));
     const Groups groups = groups_of(range.count);
     recorder.dispatch_threads(inscatter_pass_, threads, groups.y, groups.z);

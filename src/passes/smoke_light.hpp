@@ -1,11 +1,11 @@
-// Light from every lamp and from the sky at every texel of the smoke's bricks that may be in view
+// Light from every light and from the sky at every texel of the smoke's bricks that may be in view
 // (shared/smoke_light.h).
 #pragma once
 
-#include "passes/open_holes.hpp"
+#include "passes/hole_clusters.hpp"
 #include "passes/shade.hpp"
 #include "passes/shadow.hpp"
-#include "passes/smoke_light_plan.hpp"
+#include "planning/smoke_light_cache.hpp"
 #include "passes/smoke_upload.hpp"
 
 namespace brume::passes {
@@ -24,24 +24,24 @@ class SmokeLightPass {
   };
   /// Plans a frame, which must then be recorded, and makes room. Not between the begin and the end of a
   /// recording, and only when the device is done with what it recorded before. Throws resource_limit.
-  void reserve(const SmokeLightMoment& moment);
-  /// Brings smoke.inscatter to the moment of `reserve`, where a ray of the frame's camera can meet smoke.
+  void reserve(const planning::SmokeLightInputs& inputs);
+  /// Brings smoke.inscatter to the inputs of `reserve`, where a ray of the frame's camera can meet smoke.
   void record(gpu::Recorder& recorder, const Inputs& inputs);
 
   /// What the next record does, or the last one did.
-  const SmokeLightPlan& plan() const { return *plan_; }
+  const planning::SmokeLightPlan& plan() const { return *plan_; }
 
  private:
-  void record_part(gpu::Recorder& recorder, const Inputs& inputs, const SmokeLightPlan::Part& part);
+  void record_part(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeLightPlan::Part& part);
 
   gpu::Context& context_;
   gpu::ComputePipeline texels_pass_, rays_pass_, inscatter_pass_;
   const bool one_group_;  // of threads for each entry of a list
   gpu::Sampler linear_, compare_;
-  KeptSmokeLight kept_;
-  const SmokeLightPlan* plan_;
+  planning::SmokeLightCache kept_;
+  const planning::SmokeLightPlan* plan_;
   gpu::Buffer rows_, blocks_;                                         // what is kept
-  gpu::Buffer listed_rows_, changes_, pairs_, bricks_, brick_lamps_;  // the lists of a plan
+  gpu::Buffer listed_rows_, changes_, pairs_, bricks_, brick_lights_;  // the lists of a plan
 };
 
 }  // namespace brume::passes

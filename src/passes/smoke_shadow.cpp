@@ -39,9 +39,9 @@ SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 pic
   return shadows;
 }
 
-void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const SmokeShadowPlan& all,
+void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const planning::SmokeShadowPlan& all,
                              const SmokeShadows& shadows, const Texels& texels) const {
-  const SmokeShadowPlan plan = all.spread_by(texels.spread);
+  const planning::SmokeShadowPlan plan = all.spread_by(texels.spread);
   recorder.upload(shadows.faces, 0, std::as_bytes(std::span(plan.faces)));
   if (plan.blocks == 0) return;
   shared::SmokeShadowParams params{};
@@ -53,7 +53,7 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const Sm
       pipeline_,
       {gpu::uniform(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
        gpu::sampled(in.shadows.layers, nearest_), gpu::read(in.smoke.pages),
-       gpu::sampled(in.smoke.share, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
+       gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
        gpu::read(in.smoke.corners), gpu::stored(shadows.atlas), gpu::read(in.holes.cells),
        gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_), gpu::read(in.holes.holes),
        gpu::sampled(in.holes.masks, nearest_)},

@@ -1,9 +1,9 @@
 // How much the smoke dims what each light sends to the surfaces.
 #pragma once
 
-#include "passes/open_holes.hpp"
+#include "passes/hole_clusters.hpp"
 #include "passes/shadow.hpp"
-#include "passes/smoke_shadow_plan.hpp"
+#include "planning/smoke_shadow_plan.hpp"
 #include "passes/smoke_upload.hpp"
 #include "passes/solid_volume.hpp"
 
@@ -36,7 +36,7 @@ class SmokeShadowPass {
     glm::uvec2 first{0};
   };
   /// Marches rays of a plan for the atlas; the plan's lights are those of the scene's buffer.
-  void record(gpu::Recorder& recorder, const Inputs& inputs, const SmokeShadowPlan& plan,
+  void record(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeShadowPlan& plan,
               const SmokeShadows& shadows, const Texels& texels) const;
 
  private:

@@ -46,7 +46,7 @@ std::vector<SlotRun> runs_of(std::span<const std::uint32_t> slots) {
   return runs;
 }
 
-std::vector<std::uint32_t> all_slots(const sim::SmokeVolume& volume) {
+std::vector<std::uint32_t> all_slots(const smoke::SmokeVolume& volume) {
   std::vector<std::uint32_t> slots(volume.slot_count());
   std::iota(slots.begin(), slots.end(), 0u);
   return slots;
@@ -54,15 +54,15 @@ std::vector<std::uint32_t> all_slots(const sim::SmokeVolume& volume) {
 
 template <typename Value>
 void upload_ranges(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span<const Value> values,
-                   std::span<const sim::IndexRange> ranges) {
-  for (const sim::IndexRange& range : ranges)
+                   std::span<const volume::IndexRange> ranges) {
+  for (const volume::IndexRange& range : ranges)
     recorder.upload(buffer, range.first * sizeof(Value),
                     std::as_bytes(values.subspan(range.first, range.count)));
 }
 
 }  // namespace
 
-std::uint32_t filled_cells(const sim::SmokeVolume& volume, std::uint32_t slot) {
+std::uint32_t filled_cells(const smoke::SmokeVolume& volume, std::uint32_t slot) {
   glm::uvec3 low(shared::kBrickCells), end(0);
   const auto add = [&](glm::uvec3 first, glm::uvec3 last) {
     low = glm::min(low, first);
@@ -94,7 +94,7 @@ SmokeUpload::SmokeUpload(gpu::Context& context) : context_(context) {
   make_written_atlases(glm::ivec3(1));
 }
 
-void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
+void SmokeUpload::reserve(const smoke::SmokeVolume& volume) {
   if (volume.structure_generation() == reserved_generation_ || volume.slot_count() == 0) return;
   reserved_generation_ = volume.structure_generation();
   const std::size_t slots = volume.slot_count();
@@ -107,7 +107,7 @@ void SmokeUpload::reserve(const sim::SmokeVolume& volume) {
   everything_ |= gpu::grow(context_, resources_.slot_bricks, slots * sizeof(glm::ivec3));
   everything_ |= gpu::grow(context_, resources_.filled, slots * sizeof(std::uint32_t));
   gpu::grow(context_, resources_.slots, slots * sizeof(std::uint32_t));
-  const glm::ivec3 bricks = volume.frame().atlas_bricks;
+  const glm::ivec3 bricks = volume.layout().atlas_bricks;
   if (resources_.density.info().size == glm::uvec3(bricks) * static_cast<std::uint32_t>(shared::kBrickTexels))
     return;
   everything_ = true;
@@ -119,17 +119,17 @@ void SmokeUpload::make_written_atlases(glm::ivec3 bricks) {
   constexpr VkImageUsageFlags kUses =
       VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   resources_.inscatter = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
-  resources_.medium = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
-  resources_.share = make_atlas(context_, bricks, VK_FORMAT_R16G16_SFLOAT, kUses);
+  resources_.density_displacement = make_atlas(context_, bricks, VK_FORMAT_R16G16B16A16_SFLOAT, kUses);
+  resources_.filtered_density = make_atlas(context_, bricks, VK_FORMAT_R16G16_SFLOAT, kUses);
 }
 
-void SmokeUpload::record_needs(gpu::Recorder& recorder, const SmokeNeeds& needs) {
+void SmokeUpload::record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& needs) {
   recorder.upload(resources_.slots, 0, std::as_bytes(std::span(needs.slots)));
   resources_.needed = static_cast<std::uint32_t>(needs.slots.size());
   resources_.seen = needs.seen;
 }
 
-void SmokeUpload::record_pages(gpu::Recorder& recorder, const sim::PageTable& pages, bool all) {
+void SmokeUpload::record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all) {
   const std::size_t root_bytes = pages.root().size_bytes();
   if (all || pages.root_changed()) recorder.upload(resources_.pages, 0, std::as_bytes(pages.root()));
   // Another window moves all nodes.
@@ -145,7 +145,7 @@ void SmokeUpload::record_pages(gpu::Recorder& recorder, const sim::PageTable& pa
   root_entries_ = pages.root().size();
 }
 
-void SmokeUpload::record_cells(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+void SmokeUpload::record_cells(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
                                std::span<const std::uint32_t> slots) {
   std::vector<std::uint32_t> cells;
   std::vector<glm::ivec3> bricks;
@@ -163,7 +163,7 @@ void SmokeUpload::record_cells(gpu::Recorder& recorder, const sim::SmokeVolume& 
   }
 }
 
-void SmokeUpload::record_filled(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+void SmokeUpload::record_filled(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
                                 std::span<const std::uint32_t> slots) {
   std::vector<std::uint32_t> filled;
   for (const SlotRun& run : runs_of(slots)) {
@@ -174,19 +174,19 @@ void SmokeUpload::record_filled(gpu::Recorder& recorder, const sim::SmokeVolume&
   }
 }
 
-void SmokeUpload::record_texels(gpu::Recorder& recorder, const sim::SmokeVolume& volume,
+void SmokeUpload::record_texels(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
                                 std::span<const std::uint32_t> slots) {
   std::vector<gpu::Recorder::Region> regions;
   regions.reserve(slots.size());
   for (const std::uint32_t slot : slots) {
     regions.push_back({std::as_bytes(volume.texels(slot)),
-                       slot_position(volume.frame().atlas_bricks, slot) * shared::kBrickTexels,
+                       slot_position(volume.layout().atlas_bricks, slot) * shared::kBrickTexels,
                        glm::uvec3(static_cast<std::uint32_t>(shared::kBrickTexels))});
   }
   recorder.upload(resources_.density, regions);
 }
 
-bool SmokeUpload::record(gpu::Recorder& recorder, const sim::SmokeVolume& volume) {
+bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeVolume& volume) {
   const bool had_smoke = resources_.slot_count > 0;
   resources_.slot_count = volume.slot_count();
   if (volume.slot_count() == 0) return had_smoke;

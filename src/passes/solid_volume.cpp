@@ -40,11 +40,11 @@ int voxels_per_solid_texel(glm::ivec3 voxels) {
 
 SolidVolume::SolidVolume(gpu::Context& context) : context_(context) {
   make({glm::ivec3(1), 1.0f, glm::vec3(0)});
-  grid_frame_ = {};  // no level's
+  grid_layout_ = {};  // no level's
 }
 
-void SolidVolume::make(const voxel::GridFrame& grid) {
-  grid_frame_ = grid;
+void SolidVolume::make(const voxel::GridLayout& grid) {
+  grid_layout_ = grid;
   voxels_per_texel_ = voxels_per_solid_texel(grid.size);
   frame_.origin_world = grid.origin_world;
   frame_.texel_size = grid.voxel_size * static_cast<float>(voxels_per_texel_);
@@ -67,7 +67,7 @@ void SolidVolume::make(const voxel::GridFrame& grid) {
 }
 
 void SolidVolume::reserve(const LevelView& level) {
-  if (level.grid && !(level.grid->frame() == grid_frame_)) make(level.grid->frame());
+  if (level.grid && !(level.grid->layout() == grid_layout_)) make(level.grid->layout());
 }
 
 bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {

@@ -38,22 +38,22 @@ class SolidVolume {
   /// it.
   bool record(gpu::Recorder& recorder, const LevelView& level);
 
-  const shared::SolidFrame& frame() const { return frame_; }
+  const shared::SolidLayout& layout() const { return frame_; }
   /// R8, see shared/solid_volume.h; clamped at its edges.
   const gpu::Image& texels() const { return texels_; }
   const gpu::Buffer& words() const { return words_; }
   std::uint32_t word_count() const { return static_cast<std::uint32_t>(bits_.size()); }
 
  private:
-  void make(const voxel::GridFrame& grid);
+  void make(const voxel::GridLayout& grid);
   /// The bits of the texels in a box, anew from the level.
   void fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& texels);
   void upload(gpu::Recorder& recorder, const voxel::IntBox& texels) const;
 
   gpu::Context& context_;
-  voxel::GridFrame grid_frame_;
+  voxel::GridLayout grid_layout_;
   int voxels_per_texel_ = 1;
-  shared::SolidFrame frame_{};
+  shared::SolidLayout frame_{};
   std::vector<std::uint32_t> bits_;  // as in words_
   std::shared_ptr<const sim::EditBlocks> edits_;
   bool everything_ = true;  // the resources are new and empty

@@ -4,7 +4,8 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "stage/flashes.hpp"
+#include "scenario/flashes.hpp"
+#include "smoke/holes.hpp"
 
 namespace brume::render {
 namespace {
@@ -15,18 +16,18 @@ glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
   return glm::rotate(moved, 9.0f * grenade.flight_seconds, glm::normalize(glm::vec3(1.0f, 0.35f, 0.2f)));
 }
 
-RendererOptions with_masks(RendererOptions options, const stage::Stage& stage) {
-  options.masks = &stage.masks;
+RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
+  options.masks = &scenario.masks;
   return options;
 }
 
 }  // namespace
 
-FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simulation, double seconds,
+FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation, double seconds,
                        std::vector<shared::Hole>& holes) {
-  const scene::Timeline& timeline = stage.timeline;
+  const scene::Timeline& timeline = scenario.timeline;
   FrameInput input;
-  input.camera = scene::camera_at(timeline, stage.camera, seconds);
+  input.camera = scene::camera_at(timeline, scenario.camera, seconds);
   input.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient, timeline.sky.stars,
                timeline.sky.bounce};
   const scene::SmokeOptions& smoke = timeline.smoke;
@@ -34,24 +35,24 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   input.look.extinction = smoke.extinction;
   input.look.phase =
       smoke.droplet ? shared::phase_of_droplet(*smoke.droplet) : shared::phase_of_hg(smoke.anisotropy);
-  input.look.step_length = 0.4f * stage.voxels.grid.frame().voxel_size;
-  input.look.stop = 0.004f;
-  input.look.erosion = smoke.noise;
+  input.look.step_length = 0.4f * scenario.voxels.grid.layout().voxel_size;
+  input.look.opaque_transmittance = 0.004f;
+  input.look.erosion = smoke.erosion;
   input.look.noise_period = static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size;
-  input.look.noise_drift = smoke.rise;
-  input.look.roll = smoke.swirl;
-  input.look.roll_width = 2.0f * smoke.noise_size;
-  input.roll_seconds = double{smoke.swirl_time};
+  input.look.rise = smoke.rise;
+  input.look.swirl = smoke.swirl;
+  input.look.swirl_width = 2.0f * smoke.noise_size;
+  input.swirl_period = double{smoke.swirl_period};
   input.state = &simulation.world().state();
-  input.look.many_scatterings = smoke.multiple_scattering;
-  input.look.hole_rim = smoke.rim;
+  input.look.multiple_scattering = smoke.multiple_scattering;
+  input.look.hole_rim = smoke.hole_rim;
   input.exposure = std::exp2(timeline.exposure);
   input.time = static_cast<float>(seconds);
   input.level = {&simulation.world().grid(), simulation.world().state().edits};
   input.volume = &simulation.volume();
-  holes = sim::holes_of(simulation.world().state(), &stage.masks);
+  holes = smoke::holes_of(simulation.world().state(), &scenario.masks);
   input.holes = holes;
-  input.flashes = stage::flashes_of(timeline, seconds);
+  input.flashes = scenario::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
     input.grenades.push_back(grenade_matrix(grenade));
   const auto hidden = simulation.hidden_objects();
@@ -59,31 +60,31 @@ FrameInput frame_input(const stage::Stage& stage, const stage::Simulation& simul
   return input;
 }
 
-Playback::Playback(gpu::Context& context, const stage::Stage& stage, const RendererOptions& options)
-    : stage_(stage),
-      simulation_(stage::Simulation::create(stage).value_or_throw()),
+Playback::Playback(gpu::Context& context, const scenario::Scenario& scenario, const RendererOptions& options)
+    : scenario_(scenario),
+      simulation_(scenario::Simulation::create(scenario).value_or_throw()),
       runner_(context),
-      renderer_(context, runner_, stage.scene, with_masks(options, stage)),
+      renderer_(context, runner_, scenario.scene, with_masks(options, scenario)),
       pixels_(context, std::size_t{4} * options.size_px.x * options.size_px.y,
               VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback),
       list_(context, sizeof(shared::MarchList), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
 
 double Playback::share_marched() const {
-  if (!renderer_.march_blocks()) return 1;
+  if (!renderer_.march_tiles()) return 1;
   shared::MarchList list{};
   std::memcpy(&list, list_.mapped(), sizeof list);
-  const glm::uvec2 blocks(renderer_.march_blocks()->far.info().size);
+  const glm::uvec2 blocks(renderer_.march_tiles()->far.info().size);
   return static_cast<double>(list.count) / (static_cast<double>(blocks.x) * blocks.y);
 }
 
 image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
-  FrameInput input = frame_input(stage_, *simulation_, seconds, holes);
+  FrameInput input = frame_input(scenario_, *simulation_, seconds, holes);
   input.frame_index = frame_index;
   input.step_scale = step_scale_;
-  input.light_share = light_share_;
-  input.seen_scale = seen_scale_;
+  input.light_update_fraction = light_update_fraction_;
+  input.resolve_error_scale = resolve_error_scale_;
   input.continues = last_frame_index_ && frame_index == *last_frame_index_ + 1;
   last_frame_index_ = frame_index;
   if (camera_) input.camera = *camera_;
@@ -93,8 +94,8 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   runner_.run([&](gpu::Recorder& recorder) {
     renderer_.record_frame(recorder, input);
     recorder.read_back(renderer_.display(), pixels_);
-    if (renderer_.march_blocks())
-      recorder.read_back(renderer_.march_blocks()->list, list_, sizeof(shared::MarchList));
+    if (renderer_.march_tiles())
+      recorder.read_back(renderer_.march_tiles()->list, list_, sizeof(shared::MarchList));
   });
   image::Image8 picture;
   picture.width = renderer_.size_px().x;

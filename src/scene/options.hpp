@@ -58,13 +58,13 @@ void visit_smoke_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"multiple_scattering", "",
                    "share of the light that is scattered more than once: 0 shows single scattering", 0, 1},
         o.multiple_scattering);
-  visit(OptionInfo{"noise", "", "how deep the noise eats into the rim", 0, 1}, o.noise);
+  visit(OptionInfo{"erosion", "", "how deep the noise eats into the rim", 0, 1}, o.erosion);
   visit(OptionInfo{"noise_size", "m", "edge of a noise cell", 0.05, 100}, o.noise_size);
   visit(OptionInfo{"swirl", "m", "how far the noise rolls around its place", 0, 10}, o.swirl);
-  visit(OptionInfo{"swirl_time", "s", "how long one roll takes; the first goes faster", 0.1, kLatestTime},
-        o.swirl_time);
+  visit(OptionInfo{"swirl_period", "s", "how long one roll takes; the first goes faster", 0.1, kLatestTime},
+        o.swirl_period);
   visit(OptionInfo{"rise", "m/s", "how fast the noise rises", -10, 10}, o.rise);
-  visit(OptionInfo{"rim", "m", "how far noise moves the rims of holes at most", 0, 10}, o.rim);
+  visit(OptionInfo{"hole_rim", "m", "how far noise moves the rims of holes at most", 0, 10}, o.hole_rim);
 }
 
 template <typename Options, typename Visitor>
@@ -116,7 +116,7 @@ template <typename Options, typename Visitor>
 void visit_blast_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"radius", "m", "of the cavity that it opens", 0.1, 100}, o.radius);
   visit(OptionInfo{"speed", "m/s", "of its front", 1, 10000}, o.speed);
-  visit(OptionInfo{"left", "", "share of the density that stays", 0, 1}, o.left);
+  visit(OptionInfo{"remaining", "", "fraction of the density that remains", 0, 1}, o.remaining);
   visit(OptionInfo{"refill_rim", "s", "until the rim is full again", 0.01, 60}, o.refill_rim);
   visit(OptionInfo{"refill_middle", "s", "until the middle is; no less than `refill_rim`", 0.01, 60},
         o.refill_middle);

@@ -33,11 +33,11 @@ struct SmokeOptions {
   float anisotropy = 0.2f;
   std::optional<float> droplet;  ///< Where it is, anisotropy does not count.
   float multiple_scattering = 1;
-  float noise = 0.5f;
+  float erosion = 0.5f;
   float noise_size = 1.5f;
-  float rim = 0.06f;
+  float hole_rim = 0.06f;
   float swirl = 0.2f;
-  float swirl_time = 12.0f;
+  float swirl_period = 12.0f;
   float rise = 0.12f;
   bool operator==(const SmokeOptions&) const = default;
 };
@@ -115,7 +115,7 @@ struct BlastEvent {
   glm::vec3 at_world{0};
   float radius = 5.0f;
   float speed = 32.0f;
-  float left = 0.02f;
+  float remaining = 0.02f;
   float refill_rim = 0.5f;
   float refill_middle = 5.0f;  ///< [refill_rim, 60]
   std::string place = {};
@@ -170,7 +170,7 @@ void sort_events(Timeline& timeline);
 /// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
 /// from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text,
 /// from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius,
-/// speed, left, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid)
+/// speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid)
 /// or "door" (time, object, open). Points in metres, [-10^6, 10^6]; those of events [-16384, 16384]. Whether
 /// a door's object exists, is seen by check_doors. Fails with bad_input and file:line:column for broken TOML,
 /// a key that is not known (naming the nearest that is), a value of the wrong type or out of its range.

@@ -93,12 +93,12 @@ bool in_sight(const SolidBox& box, glm::i64vec3 from, glm::ivec3 target) {
 
 BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint32_t ticks_per_second)
     : blast_(blast), centre_(blast.at), ticks_per_second_(ticks_per_second) {
-  const VoxelRuler ruler(grid.frame());
+  const VoxelRuler ruler(grid.layout());
   glm::i64vec3 from = ruler.subvoxel(centre_);
   if (grid.solid(glm::ivec3(from >> std::int64_t{10}))) {
     const auto nearest = nearest_free_voxel(grid, glm::ivec3(from >> std::int64_t{10}));
     if (!nearest) {
-      finish(grid.frame());
+      finish(grid.layout());
       return;
     }
     centre_ = ruler.centre(*nearest);
@@ -124,14 +124,14 @@ BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint
   std::vector<glm::ivec3> voxels;
   for (const auto& slice : slices) voxels.insert(voxels.end(), slice.begin(), slice.end());
   reached_ = BlockSet(voxels);
-  finish(grid.frame());
+  finish(grid.layout());
 }
 
-Result<BlastField> BlastField::from_parts(const voxel::GridFrame& frame, const Blast& blast, Position centre,
+Result<BlastField> BlastField::from_parts(const voxel::GridLayout& layout, const Blast& blast, Position centre,
                                           BlockSet reached, std::uint32_t ticks_per_second) {
-  if (auto ok = check_event(blast, frame); !ok) return ok.failure();
-  if (auto ok = check_event(MoveBody{blast.tick, 0, centre}, frame); !ok) return ok.failure();
-  const VoxelRuler ruler(frame);
+  if (auto ok = check_event(blast, layout); !ok) return ok.failure();
+  if (auto ok = check_event(MoveBody{blast.tick, 0, centre}, layout); !ok) return ok.failure();
+  const VoxelRuler ruler(layout);
   const glm::i64vec3 from = ruler.subvoxel(centre);
   const std::int64_t limit = ruler.subvoxels(blast.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen};
   bool within = true;
@@ -145,13 +145,13 @@ Result<BlastField> BlastField::from_parts(const voxel::GridFrame& frame, const B
   field.centre_ = centre;
   field.ticks_per_second_ = ticks_per_second;
   field.reached_ = std::move(reached);
-  field.finish(frame);
+  field.finish(layout);
   return field;
 }
 
 /// Computes from what the blast reached how far each voxel lies, when all is over, and the hash.
-void BlastField::finish(const voxel::GridFrame& frame) {
-  const VoxelRuler ruler(frame);
+void BlastField::finish(const voxel::GridLayout& layout) {
+  const VoxelRuler ruler(layout);
   const glm::i64vec3 from = ruler.subvoxel(centre_);
   const std::int64_t limit = std::max<std::int64_t>(
       1, ruler.subvoxels(blast_.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen});
@@ -170,7 +170,7 @@ void BlastField::finish(const voxel::GridFrame& frame) {
   }
 
   std::vector<std::uint64_t> words{blast_.tick, blast_.radius,        blast_.speed,
-                                   blast_.left, blast_.refill_rim_ms, blast_.refill_middle_ms};
+                                   blast_.remaining, blast_.refill_rim_ms, blast_.refill_middle_ms};
   for (const Position p : {blast_.at, centre_})
     for (int axis = 0; axis < 3; ++axis) words.push_back(static_cast<std::uint64_t>(std::int64_t{p[axis]}));
   for (const VoxelBlock& block : reached_.blocks()) {
@@ -193,9 +193,9 @@ std::uint64_t BlastField::refill_ms(std::uint32_t reach) const {
          kFullReach;
 }
 
-BlastMoment BlastField::moment(std::uint32_t tick) const {
-  BlastMoment m;
-  m.left.fill(255);
+BlastProfile BlastField::profile(std::uint32_t tick) const {
+  BlastProfile m;
+  m.remaining.fill(255);
   if (tick <= blast_.tick || tick >= end_tick_) return m;
   const std::uint64_t age_us = std::uint64_t{tick - blast_.tick} * 1'000'000 / ticks_per_second_;
   for (std::uint32_t reach = 0; reach < 256; ++reach) {
@@ -211,7 +211,7 @@ BlastMoment BlastField::moment(std::uint32_t tick) const {
     }
     if (reach > kFullReach)
       cleared = cleared * smoothstep((255 - reach) * kWhole / (255 - kFullReach)) / kWhole;
-    m.left[reach] = static_cast<std::uint8_t>(255 - ((255 - blast_.left) * cleared + kWhole / 2) / kWhole);
+    m.remaining[reach] = static_cast<std::uint8_t>(255 - ((255 - blast_.remaining) * cleared + kWhole / 2) / kWhole);
   }
   return m;
 }

@@ -15,9 +15,9 @@
 namespace brume::sim {
 
 /// How much density a blast leaves at one tick, of 255, by reach. Equal moments, equal effect.
-struct BlastMoment {
-  std::array<std::uint8_t, 256> left;
-  bool operator==(const BlastMoment&) const = default;
+struct BlastProfile {
+  std::array<std::uint8_t, 256> remaining;
+  bool operator==(const BlastProfile&) const = default;
 };
 
 class BlastField {
@@ -26,7 +26,7 @@ class BlastField {
   /// voxel between. A blast inside a solid voxel goes off in the free voxel nearest to it.
   BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint32_t ticks_per_second);
   /// From what travelled. Fails with bad_input when a voxel lies beyond the radius.
-  static Result<BlastField> from_parts(const voxel::GridFrame& frame, const Blast& blast, Position centre,
+  static Result<BlastField> from_parts(const voxel::GridLayout& layout, const Blast& blast, Position centre,
                                        BlockSet reached, std::uint32_t ticks_per_second);
 
   const Blast& blast() const { return blast_; }
@@ -38,11 +38,11 @@ class BlastField {
   /// When all has refilled.
   std::uint32_t end_tick() const { return end_tick_; }
 
-  BlastMoment moment(std::uint32_t tick) const;
-  /// Density that is left in a voxel, of 255; 255 where the blast does not reach.
-  std::uint8_t left(glm::ivec3 voxel, const BlastMoment& moment) const {
+  BlastProfile profile(std::uint32_t tick) const;
+  /// Density that is remaining in a voxel, of 255; 255 where the blast does not reach.
+  std::uint8_t remaining(glm::ivec3 voxel, const BlastProfile& profile) const {
     const std::uint32_t rank = reached_.rank(voxel);
-    return rank == BlockSet::kNone ? 255 : moment.left[reach_[rank]];
+    return rank == BlockSet::kNone ? 255 : profile.remaining[reach_[rank]];
   }
 
   std::uint64_t hash() const { return hash_; }
@@ -50,7 +50,7 @@ class BlastField {
 
  private:
   BlastField() = default;
-  void finish(const voxel::GridFrame& frame);
+  void finish(const voxel::GridLayout& layout);
   std::uint64_t arrival_ms(std::uint32_t reach) const;
   std::uint64_t refill_ms(std::uint32_t reach) const;
 

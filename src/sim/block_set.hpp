@@ -1,5 +1,5 @@
 // A set of voxels as 64-bit masks of 4^3 blocks: what clouds, blasts and edits are made of, and how they
-// travel. Each voxel of the set has a rank, so that data of the voxels are plain arrays beside it.
+// displacements. Each voxel of the set has a rank, so that data of the voxels are plain arrays beside it.
 //
 //   blocks  sorted by (z, y, x):  | at | mask | first |     mask bit x + 4 y + 16 z of the voxel in its block
 //   rank of a voxel = first of its block + set bits below its own

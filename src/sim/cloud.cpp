@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kAmountBits = 20;
 constexpr std::uint32_t kWhole = 65536;
-/// Share of the dissolve in which one voxel fades.
+/// Fraction of the dissolve in which one voxel fades.
 constexpr std::uint32_t kDissolveSoft = kWhole * 3 / 10;
 /// Of a voxel's survival: what its distance decides and what noise does; together 255.
 constexpr std::uint32_t kSurvivalByDistance = 165, kSurvivalByNoise = 90;
@@ -102,19 +102,19 @@ Result<void> check_parts(const CloudParts& p) {
     return bad_parts("settings of a smoke");
   if (p.origin.detonation_tick > kMaxTick + kMaxTick / 8)
     return bad_parts("a detonation that an event can cause");
-  for (const BlockSet* set : {&p.fill, &p.rest})
+  for (const BlockSet* set : {&p.fill, &p.detached})
     if (!set->empty() && (glm::any(glm::lessThan(set->low(), glm::ivec3(0))) ||
                           glm::any(glm::greaterThanEqual(set->high(), glm::ivec3(voxel::kMaxAxis)))))
       return bad_parts("voxels within a grid");
   if (p.fill.size() > s.voxels) return bad_parts("no more voxels than its amount");
-  if (count_common(p.fill, p.rest) != 0) return bad_parts("each voxel once");
+  if (count_common(p.fill, p.detached) != 0) return bad_parts("each voxel once");
   const std::size_t flowing = p.flow_tick == 0 ? 0 : p.fill.size();
   if (p.fill_base.size() != flowing || p.fill_delay.size() != flowing ||
-      p.rest_base.size() != p.rest.size() || p.rest_delay.size() != p.rest.size() ||
-      p.rest_survival.size() != p.rest.size())
+      p.detached_base.size() != p.detached.size() || p.detached_delay.size() != p.detached.size() ||
+      p.detached_survival.size() != p.detached.size())
     return bad_parts("one number for each voxel that flows");
   const auto any_leaving = [&] {
-    return std::any_of(p.rest_delay.begin(), p.rest_delay.end(), [](auto d) { return d != 0; });
+    return std::any_of(p.detached_delay.begin(), p.detached_delay.end(), [](auto d) { return d != 0; });
   };
   if (p.flow_tick == 0 && any_leaving()) return bad_parts("smoke at rest to stay");
   return {};
@@ -145,7 +145,7 @@ Result<Cloud> Cloud::from_parts(CloudParts parts) {
 /// Computes from the parts, and from the flood in the order of its distances, what every question needs.
 void Cloud::finish(std::span<const FilledVoxel> filled) {
   const CloudParts& p = parts_;
-  if (!p.rest.empty()) both_ = unite(p.fill, p.rest);
+  if (!p.detached.empty()) both_ = unite(p.fill, p.detached);
   for (const FilledVoxel& one : filled) {
     if (levels_.empty() || levels_.back().distance != one.distance) levels_.push_back({one.distance, 0});
     levels_.back().count = static_cast<std::uint64_t>(&one - filled.data()) + 1;
@@ -167,7 +167,7 @@ void Cloud::finish(std::span<const FilledVoxel> filled) {
     fill_lag[i] = lag_of(voxel - source, fill_distances[i], seed);
   });
 
-  if (p.rest.empty() && p.flow_tick == 0) {
+  if (p.detached.empty() && p.flow_tick == 0) {
     distances_ = std::move(fill_distances);
     lag_ = std::move(fill_lag);
     survival_ = std::move(fill_survival);
@@ -187,12 +187,12 @@ void Cloud::finish(std::span<const FilledVoxel> filled) {
       base_[rank] = p.fill_base[i];
       delay_[rank] = p.fill_delay[i];
     });
-    p.rest.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
+    p.detached.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
       const std::uint32_t rank = all.rank(voxel);
-      survival_[rank] = p.rest_survival[i];
-      base_[rank] = p.rest_base[i];
-      delay_[rank] = p.rest_delay[i];
-      if (p.rest_delay[i] == 0) ++trapped_;
+      survival_[rank] = p.detached_survival[i];
+      base_[rank] = p.detached_base[i];
+      delay_[rank] = p.detached_delay[i];
+      if (p.detached_delay[i] == 0) ++trapped_;
     });
   }
   if (p.flow_tick != 0) {
@@ -209,7 +209,7 @@ std::uint64_t Cloud::content_hash() const {
   std::vector<std::uint64_t> words{whole(o.source.x),         whole(o.source.y),      whole(o.source.z),
                                    o.settings.voxels,         o.settings.bloom_ticks, o.settings.hold_ticks,
                                    o.settings.dissolve_ticks, o.detonation_tick,      parts_.flow_tick};
-  for (const BlockSet* set : {&parts_.fill, &parts_.rest}) {
+  for (const BlockSet* set : {&parts_.fill, &parts_.detached}) {
     words.push_back(set->size());
     for (const VoxelBlock& block : set->blocks())
       words.insert(words.end(), {whole(block.at.x), whole(block.at.y), whole(block.at.z), block.mask});
@@ -224,7 +224,7 @@ std::uint64_t Cloud::content_hash() const {
 
 std::uint64_t Cloud::bytes() const {
   const std::uint64_t parts =
-      parts_.fill.bytes() + parts_.rest.bytes() + 3 * parts_.fill_base.size() + 4 * parts_.rest.size();
+      parts_.fill.bytes() + parts_.detached.bytes() + 3 * parts_.fill_base.size() + 4 * parts_.detached.size();
   return sizeof(Cloud) + parts + both_.bytes() + 4 * distances_.size() + survival_.size() + lag_.size() +
          base_.size() + 2 * delay_.size() + sizeof(Level) * levels_.size();
 }
@@ -234,7 +234,7 @@ std::uint32_t Cloud::end_tick() const {
   return parts_.origin.detonation_tick + s.bloom_ticks + s.hold_ticks + s.dissolve_ticks;
 }
 
-std::optional<std::uint32_t> Cloud::rest_tick() const {
+std::optional<std::uint32_t> Cloud::settle_tick() const {
   if (parts_.flow_tick == 0) return std::nullopt;
   return parts_.flow_tick + flow_length_;
 }
@@ -243,7 +243,7 @@ std::uint64_t Cloud::amount(std::uint32_t tick) const {
   const CloudOrigin& o = parts_.origin;
   if (tick <= o.detonation_tick) return 0;
   const std::uint64_t age = std::min(tick - o.detonation_tick, o.settings.bloom_ticks);
-  // Share (1 - (1 - x)^3)^2: a few voxels in the first tick, then fast, then ebbing.
+  // Fraction (1 - (1 - x)^3)^2: a few voxels in the first tick, then fast, then ebbing.
   constexpr std::uint64_t kOne = std::uint64_t{1} << kAmountBits;
   const std::uint64_t left = (o.settings.bloom_ticks - age) * kOne / o.settings.bloom_ticks;
   const std::uint64_t out = kOne - (((left * left) >> kAmountBits) * left >> kAmountBits);
@@ -278,17 +278,17 @@ Front Cloud::front(std::uint32_t tick) const {
   return level->distance * kFrontUnit + (due / (level->count - before) * gap >> kAmountBits);
 }
 
-CloudMoment Cloud::undissolved_moment(std::uint32_t tick) const {
-  CloudMoment m;
+CloudPhase Cloud::undissolved_phase(std::uint32_t tick) const {
+  CloudPhase m;
   m.front = front(tick);
   if (parts_.flow_tick != 0 && tick > parts_.flow_tick)
     m.flowed = std::min(tick - parts_.flow_tick, flow_length_);
   return m;
 }
 
-CloudMoment Cloud::moment(std::uint32_t tick) const {
+CloudPhase Cloud::phase(std::uint32_t tick) const {
   const CloudOrigin& o = parts_.origin;
-  CloudMoment m = undissolved_moment(tick);
+  CloudPhase m = undissolved_phase(tick);
   const std::uint32_t dissolve = o.detonation_tick + o.settings.bloom_ticks + o.settings.hold_ticks;
   if (tick > dissolve)
     m.dissolved = static_cast<std::uint32_t>(
@@ -304,7 +304,7 @@ std::uint8_t Cloud::profile(std::uint32_t distance, Front front) {
   return static_cast<std::uint8_t>((x * 255 + kWhole / 2) >> 16);
 }
 
-std::uint8_t Cloud::density(std::uint32_t rank, const CloudMoment& m) const {
+std::uint8_t Cloud::density(std::uint32_t rank, const CloudPhase& m) const {
   const std::uint32_t distance = distances_[rank];
   std::uint32_t density = distance == kNoDistance ? 0u : profile(reach(rank), m.front);
   if (!base_.empty()) {
@@ -326,7 +326,7 @@ std::uint8_t Cloud::density(std::uint32_t rank, const CloudMoment& m) const {
   return static_cast<std::uint8_t>((density * left + kDissolveSoft / 2) / kDissolveSoft);
 }
 
-std::uint8_t Cloud::density(glm::ivec3 voxel, const CloudMoment& m) const {
+std::uint8_t Cloud::density(glm::ivec3 voxel, const CloudPhase& m) const {
   const std::uint32_t rank = voxels().rank(voxel);
   return rank == BlockSet::kNone ? std::uint8_t{0} : density(rank, m);
 }

@@ -41,7 +41,7 @@ struct CloudOrigin {
 struct CloudParts {
   CloudOrigin origin;
   BlockSet fill;  ///< Voxels that the flood from the source reached: connected, with the source.
-  BlockSet rest;  ///< Other voxels that hold smoke of before an edit: trapped, or flowing off.
+  BlockSet detached;  ///< Other voxels that hold smoke of before an edit: trapped, or flowing off.
   /// When it began to flow on; 0 when it never did or has come to rest.
   std::uint32_t flow_tick = 0;
   /// By rank in `fill`, empty when flow_tick = 0: density at flow_tick, and ticks after flow_tick until the
@@ -50,18 +50,18 @@ struct CloudParts {
   std::vector<std::uint16_t> fill_delay;
   /// By rank in `rest`: density at flow_tick; ticks until it begins to leave, + 1, or 0: it is trapped and
   /// stays; Cloud::survival.
-  std::vector<std::uint8_t> rest_base;
-  std::vector<std::uint16_t> rest_delay;
-  std::vector<std::uint8_t> rest_survival;
+  std::vector<std::uint8_t> detached_base;
+  std::vector<std::uint16_t> detached_delay;
+  std::vector<std::uint8_t> detached_survival;
   bool operator==(const CloudParts&) const = default;
 };
 
 /// What a cloud's densities depend on besides its voxels, at one tick: equal moments, equal densities.
-struct CloudMoment {
+struct CloudPhase {
   Front front = 0;              ///< 0: nothing is out.
-  std::uint32_t dissolved = 0;  ///< Share of the dissolve that is over, of 65536.
+  std::uint32_t dissolved = 0;  ///< Fraction of the dissolve that is over, of 65536.
   std::uint32_t flowed = 0;     ///< Ticks since flow_tick, at most until it has come to rest.
-  bool operator==(const CloudMoment&) const = default;
+  bool operator==(const CloudPhase&) const = default;
 };
 
 class Cloud {
@@ -80,31 +80,31 @@ class Cloud {
   /// The cloud after an edit of the level that is in effect from `tick` on. Where it gains voxels it flows in
   /// at half the mean pace of its bloom, from the first one gained on.
   Cloud flowed(const voxel::BitGrid& grid, std::uint32_t tick) const;
-  /// The same cloud at rest: what flowed off is forgotten. Equal densities from rest_tick() on.
-  Cloud rested() const;
+  /// The same cloud at rest: what flowed off is forgotten. Equal densities from settle_tick() on.
+  Cloud settled() const;
 
   const CloudParts& parts() const { return parts_; }
   const CloudOrigin& origin() const { return parts_.origin; }
   /// Every voxel in which there may be smoke at some tick: fill and rest.
-  const BlockSet& voxels() const { return parts_.rest.empty() ? parts_.fill : both_; }
+  const BlockSet& voxels() const { return parts_.detached.empty() ? parts_.fill : both_; }
   /// Low corner of the lowest and high corner of the highest voxel; empty clouds: low > high.
   glm::ivec3 low() const { return voxels().low(); }
   glm::ivec3 high() const { return voxels().high(); }
   /// When the last smoke is gone.
   std::uint32_t end_tick() const;
   /// When it has come to rest after an edit; nothing when it is at rest.
-  std::optional<std::uint32_t> rest_tick() const;
+  std::optional<std::uint32_t> settle_tick() const;
 
   /// Amount of smoke that is out at a tick, in voxels / 2^20. Rises from the detonation, fastest after a
   /// quarter of the bloom, to the whole budget after bloom_ticks, then stays.
   std::uint64_t amount(std::uint32_t tick) const;
-  CloudMoment moment(std::uint32_t tick) const;
+  CloudPhase phase(std::uint32_t tick) const;
   /// The same as if it never dissolved.
-  CloudMoment undissolved_moment(std::uint32_t tick) const;
+  CloudPhase undissolved_phase(std::uint32_t tick) const;
   /// Density in [0, 255] of the voxel with this rank in voxels().
-  std::uint8_t density(std::uint32_t rank, const CloudMoment& moment) const;
+  std::uint8_t density(std::uint32_t rank, const CloudPhase& phase) const;
   /// The density of any voxel; 0 where the cloud never is.
-  std::uint8_t density(glm::ivec3 voxel, const CloudMoment& moment) const;
+  std::uint8_t density(glm::ivec3 voxel, const CloudPhase& phase) const;
 
   /// Density in [0, 255] where smoke arrives with a front at this distance: 0 at and beyond the front, 255
   /// from a taper before it, even between them. The taper is a third of the front, at least two voxels, so
@@ -113,13 +113,13 @@ class Cloud {
 
   static constexpr std::uint32_t kNoDistance = ~std::uint32_t{0};
   /// How far the front must have come for a voxel's smoke to be there, by rank in voxels(): its distance and
-  /// up to a quarter more, so that the cloud bulges in lobes. kNoDistance for those of parts().rest.
+  /// up to a quarter more, so that the cloud bulges in lobes. kNoDistance for those of parts().detached.
   std::uint32_t reach(std::uint32_t rank) const {
     const std::uint32_t distance = distances_[rank];
     if (distance == kNoDistance) return kNoDistance;
     return distance + static_cast<std::uint32_t>((std::uint64_t{distance} * lag_[rank]) >> kLagBits);
   }
-  /// Distance from the source by rank in voxels(); kNoDistance for those of parts().rest.
+  /// Distance from the source by rank in voxels(); kNoDistance for those of parts().detached.
   std::span<const std::uint32_t> distances() const { return distances_; }
   /// How long a voxel's smoke withstands the dissolve, of 255, by rank in voxels(): less far from the source,
   /// and by noise.

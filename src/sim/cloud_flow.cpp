@@ -17,11 +17,11 @@ struct Before {
 
 Before look_at(const Cloud& cloud, const voxel::BitGrid& grid, std::uint32_t tick) {
   Before before;
-  const CloudMoment moment = cloud.undissolved_moment(tick);
+  const CloudPhase phase = cloud.undissolved_phase(tick);
   cloud.voxels().for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
     if (!grid.free(voxel)) return;
     before.voxels.push_back(voxel);
-    before.densities.push_back(cloud.density(rank, moment));
+    before.densities.push_back(cloud.density(rank, phase));
     before.survival.push_back(cloud.survival()[rank]);
     before.distances.push_back(cloud.distances()[rank]);
   });
@@ -78,7 +78,7 @@ std::vector<std::uint16_t> fill_delays(const Cloud& after, const Before& before,
 
 /// Enters the smoke outside of the fill: what is trapped stays, the i-th of those lost, farthest first,
 /// leaves when the voxel gained that takes its smoke is due.
-void enter_rest(CloudParts& parts, const Before& before, Rest rest, std::span<const std::uint32_t> gained) {
+void settle(CloudParts& parts, const Before& before, Rest rest, std::span<const std::uint32_t> gained) {
   std::stable_sort(rest.lost.begin(), rest.lost.end(), [&](std::uint32_t a, std::uint32_t b) {
     return before.distances[a] > before.distances[b];
   });
@@ -90,12 +90,12 @@ void enter_rest(CloudParts& parts, const Before& before, Rest rest, std::span<co
   std::vector<glm::ivec3> voxels;
   for (const auto* list : {&rest.trapped, &rest.lost})
     for (const std::uint32_t i : *list) voxels.push_back(before.voxels[i]);
-  parts.rest = BlockSet(voxels);
-  parts.rest.for_each([&](glm::ivec3 voxel, std::uint32_t) {
+  parts.detached = BlockSet(voxels);
+  parts.detached.for_each([&](glm::ivec3 voxel, std::uint32_t) {
     const std::uint32_t i = before.set.rank(voxel);
-    parts.rest_base.push_back(before.densities[i]);
-    parts.rest_delay.push_back(delay_of[i]);
-    parts.rest_survival.push_back(before.survival[i]);
+    parts.detached_base.push_back(before.densities[i]);
+    parts.detached_delay.push_back(delay_of[i]);
+    parts.detached_survival.push_back(before.survival[i]);
   });
 }
 
@@ -138,19 +138,19 @@ Cloud Cloud::flowed(const voxel::BitGrid& grid, std::uint32_t tick) const {
 
   // The new fill as if nothing flowed tells which voxels have to change, and when.
   CloudParts settled = parts;
-  enter_rest(settled, before, {rest.trapped, {}}, {});
+  settle(settled, before, {rest.trapped, {}}, {});
   Cloud after;
   after.parts_ = std::move(settled);
   after.finish(filled);
   std::vector<std::uint32_t> gained;
   if (!parts.fill.empty())
-    parts.fill_delay = fill_delays(after, before, after.undissolved_moment(tick).front, gained);
+    parts.fill_delay = fill_delays(after, before, after.undissolved_phase(tick).front, gained);
   parts.flow_tick = std::max(tick, 1u);
   parts.fill.for_each([&](glm::ivec3 voxel, std::uint32_t) {
     const std::uint32_t old = before.set.rank(voxel);
     parts.fill_base.push_back(old == BlockSet::kNone ? std::uint8_t{0} : before.densities[old]);
   });
-  enter_rest(parts, before, rest, gained);
+  settle(parts, before, rest, gained);
 
   Cloud flowing;
   flowing.parts_ = std::move(parts);
@@ -158,19 +158,19 @@ Cloud Cloud::flowed(const voxel::BitGrid& grid, std::uint32_t tick) const {
   return flowing;
 }
 
-Cloud Cloud::rested() const {
+Cloud Cloud::settled() const {
   CloudParts parts;
   parts.origin = parts_.origin;
   parts.fill = parts_.fill;
   std::vector<glm::ivec3> trapped;
-  parts_.rest.for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
-    if (parts_.rest_delay[rank] != 0) return;
+  parts_.detached.for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
+    if (parts_.detached_delay[rank] != 0) return;
     trapped.push_back(voxel);
-    parts.rest_base.push_back(parts_.rest_base[rank]);
-    parts.rest_delay.push_back(0);
-    parts.rest_survival.push_back(parts_.rest_survival[rank]);
+    parts.detached_base.push_back(parts_.detached_base[rank]);
+    parts.detached_delay.push_back(0);
+    parts.detached_survival.push_back(parts_.detached_survival[rank]);
   });
-  parts.rest = BlockSet(trapped);  // the order of ranks is kept
+  parts.detached = BlockSet(trapped);  // the order of ranks is kept
 
   std::vector<FilledVoxel> filled;
   parts.fill.for_each([&](glm::ivec3 voxel, std::uint32_t) {

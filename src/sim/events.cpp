@@ -42,7 +42,7 @@ Result<void> all_of(Results... results) {
   return first;
 }
 
-Result<void> check(const ThrowSmoke& e, const voxel::GridFrame&) {
+Result<void> check(const ThrowSmoke& e, const voxel::GridLayout&) {
   const Check check("smoke", e.tick);
   return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("`from`", e.from),
                 check.position("`at`", e.at), check.number("voxels", e.smoke.voxels, 1, kMaxFillVoxels),
@@ -51,7 +51,7 @@ Result<void> check(const ThrowSmoke& e, const voxel::GridFrame&) {
                 check.number("dissolve ticks", e.smoke.dissolve_ticks, 1, kMaxTick));
 }
 
-Result<void> check(const Shot& e, const voxel::GridFrame&) {
+Result<void> check(const Shot& e, const voxel::GridLayout&) {
   const Check check("shot", e.tick);
   if (e.origin == e.toward) return check.expected("a point to shoot toward that is not the muzzle");
   if (e.shape > HoleShape::mask) return check.expected("a cylinder, a box or a mask");
@@ -66,27 +66,27 @@ Result<void> check(const Shot& e, const voxel::GridFrame&) {
                 check.number("milliseconds", e.timing.fade, 0, kMaxMilliseconds));
 }
 
-Result<void> check(const Blast& e, const voxel::GridFrame& frame) {
+Result<void> check(const Blast& e, const voxel::GridLayout& layout) {
   const Check check("blast", e.tick);
   const auto max_radius =
-      static_cast<std::uint64_t>(static_cast<double>(frame.voxel_size) * kMaxBlastVoxels * kUnitsPerMetre);
+      static_cast<std::uint64_t>(static_cast<double>(layout.voxel_size) * kMaxBlastVoxels * kUnitsPerMetre);
   return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("`at`", e.at),
                 check.number("a radius", e.radius, 1, max_radius),
                 check.number("a speed", e.speed, kUnitsPerMetre, 1u << 24),
-                check.number("a share left", e.left, 0, 255),
+                check.number("a share left", e.remaining, 0, 255),
                 check.number("milliseconds to refill the rim", e.refill_rim_ms, 1, kMaxMilliseconds),
                 check.number("milliseconds to refill the middle", e.refill_middle_ms, e.refill_rim_ms,
                              kMaxMilliseconds));
 }
 
-Result<void> check(const MoveBody& e, const voxel::GridFrame&) {
+Result<void> check(const MoveBody& e, const voxel::GridLayout&) {
   const Check check("move", e.tick);
   return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("`to`", e.to));
 }
 
-Result<void> check(const LevelEdit& e, const voxel::GridFrame& frame) {
+Result<void> check(const LevelEdit& e, const voxel::GridLayout& layout) {
   const Check check("edit", e.tick);
-  const glm::ivec3 blocks = (frame.size + kBlockSize - 1) / kBlockSize;
+  const glm::ivec3 blocks = (layout.size + kBlockSize - 1) / kBlockSize;
   for (std::size_t i = 0; i < e.blocks.size(); ++i) {
     const EditBlock& block = e.blocks[i];
     const glm::ivec3 at(block.at);
@@ -102,8 +102,8 @@ Result<void> check(const LevelEdit& e, const voxel::GridFrame& frame) {
 
 }  // namespace
 
-Result<void> check_event(const Event& event, const voxel::GridFrame& frame) {
-  return std::visit([&](const auto& e) { return check(e, frame); }, event);
+Result<void> check_event(const Event& event, const voxel::GridLayout& layout) {
+  return std::visit([&](const auto& e) { return check(e, layout); }, event);
 }
 
 }  // namespace brume::sim

@@ -6,9 +6,10 @@
 #include <variant>
 
 #include "core/error.hpp"
+#include "shared/hole.h"
 #include "sim/fill.hpp"
 #include "sim/level_edit.hpp"
-#include "sim/mask_atlas.hpp"
+#include "sim/mask_key.hpp"
 #include "sim/walk.hpp"
 
 namespace brume::sim {
@@ -74,7 +75,7 @@ struct Blast {
   Position at{0};                         ///< 1/1024 m
   std::uint32_t radius = 5 * 1024;        ///< 1/1024 m, at least 1, at most kMaxBlastVoxels voxels
   std::uint32_t speed = 32 * 1024;        ///< of the front, 1/1024 m a second, [1024, 2^24]
-  std::uint32_t left = 5;                 ///< density that stays, of 255, [0, 255]
+  std::uint32_t remaining = 5;                 ///< density that stays, of 255, [0, 255]
   std::uint32_t refill_rim_ms = 500;      ///< until the rim is full again, [1, kMaxMilliseconds]
   std::uint32_t refill_middle_ms = 5000;  ///< until the middle is, [refill_rim_ms, kMaxMilliseconds]
   bool operator==(const Blast&) const = default;
@@ -104,6 +105,6 @@ inline std::uint32_t tick_of(const Event& event) {
 
 /// Fails with bad_input, in one line, when a number of the event is out of the range that is named above, a
 /// position is out of the world, or the blocks of an edit are out of the grid or out of order.
-Result<void> check_event(const Event& event, const voxel::GridFrame& frame);
+Result<void> check_event(const Event& event, const voxel::GridLayout& layout);
 
 }  // namespace brume::sim

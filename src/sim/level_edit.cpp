@@ -45,9 +45,9 @@ std::uint64_t solid_bits(const voxel::BitGrid& grid, glm::ivec3 block) {
   return bits;
 }
 
-EditBlocks edit_box(const voxel::GridFrame& frame, glm::ivec3 low, glm::ivec3 high, bool solid) {
+EditBlocks edit_box(const voxel::GridLayout& layout, glm::ivec3 low, glm::ivec3 high, bool solid) {
   low = glm::max(low, glm::ivec3(0));
-  high = glm::min(high, frame.size);
+  high = glm::min(high, layout.size);
   EditBlocks edits;
   for_each_block(low, high, [&](glm::ivec3 block) {
     const std::uint64_t bits = bits_within(block, low, high);

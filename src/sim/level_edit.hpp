@@ -23,9 +23,9 @@ struct EditBlock {
 using EditBlocks = std::vector<EditBlock>;
 
 /// Makes every voxel in [low, high) solid or free; what lies outside the grid is left out.
-EditBlocks edit_box(const voxel::GridFrame& frame, glm::ivec3 low, glm::ivec3 high, bool solid);
+EditBlocks edit_box(const voxel::GridLayout& layout, glm::ivec3 low, glm::ivec3 high, bool solid);
 
-/// The edits that turn `from` into `to` within [low, high) voxels; both of the same frame.
+/// The edits that turn `from` into `to` within [low, high) voxels; both of the same layout.
 EditBlocks difference(const voxel::BitGrid& from, const voxel::BitGrid& to, glm::ivec3 low, glm::ivec3 high);
 
 /// `later` after `earlier`, as one.

@@ -8,7 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "shared/hole.h"
 #include "sim/blast.hpp"
 #include "sim/cloud.hpp"
 #include "sim/events.hpp"
@@ -37,11 +36,11 @@ struct LiveBlast {
 };
 
 /// A hole that is open somewhere.
-struct OpenHole {
+struct BulletHole {
   std::uint32_t id = 0;
   Shot shot;
   std::uint64_t distance = 0;  ///< How deep it goes, 1/1024 m, > 0.
-  bool operator==(const OpenHole&) const = default;
+  bool operator==(const BulletHole&) const = default;
 };
 
 /// Where a body is, and where it was before its last move: the way that its wake follows.
@@ -53,7 +52,7 @@ struct Body {
 };
 
 struct State {
-  voxel::GridFrame frame;
+  voxel::GridLayout layout;
   std::uint32_t ticks_per_second = 64;
   MaskKey masks = {};  ///< Those that its holes name.
   std::uint32_t tick = 0;
@@ -63,7 +62,7 @@ struct State {
   std::vector<Flight> flights;  ///< By id, like all lists here;
   std::vector<LiveCloud> clouds;
   std::vector<LiveBlast> blasts;
-  std::vector<OpenHole> holes;
+  std::vector<BulletHole> holes;
   std::vector<Body> bodies;  ///< but these, by body.
 
   /// Seconds from tick 0 to a tick: the clock of shared::Hole.
@@ -88,18 +87,5 @@ struct Grenade {
   float flight_seconds = 0;  ///< Since the throw: what its spin is drawn from.
 };
 std::vector<Grenade> grenades_of(const State& state);
-
-/// Axes of a shot's hole, with its roll: unit vectors, right x up = -forward.
-struct ShotAxes {
-  glm::dvec3 right{0}, up{0}, forward{0};
-};
-ShotAxes axes_of(const Shot& shot);
-
-/// A hole as points in space ask for it (shared/hole.h), but for the rectangle of a mask: the same bits on
-/// every machine.
-shared::Hole hole_of(const OpenHole& open, const State& state);
-/// All of them, with the rectangles. `masks` are those that the state was made with; null: it has none.
-/// Throws Error(bad_input) where one is a mask and `masks` are others.
-std::vector<shared::Hole> holes_of(const State& state, const MaskAtlas* masks = nullptr);
 
 }  // namespace brume::sim

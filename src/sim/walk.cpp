@@ -20,7 +20,7 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }
 
 /// a < b, exact: the products need more than 64 bits.
-bool less(Share a, Share b) {
+bool less(Fraction a, Fraction b) {
   return static_cast<__int128>(a.num) * b.den < static_cast<__int128>(b.num) * a.den;
 }
 
@@ -84,14 +84,14 @@ std::uint64_t ceil_distance(Position from, Position to) {
   return ceil_sqrt(static_cast<std::uint64_t>(d.x * d.x + d.y * d.y + d.z * d.z));
 }
 
-VoxelRuler::VoxelRuler(const voxel::GridFrame& frame)
-    : origin_(0), voxel_size_(std::llround(static_cast<double>(frame.voxel_size) * kFrameUnitsPerMetre)) {
-  const bool size_ok = frame.voxel_size >= 1.0f / 64 && frame.voxel_size <= 64;
+VoxelRuler::VoxelRuler(const voxel::GridLayout& layout)
+    : origin_(0), voxel_size_(std::llround(static_cast<double>(layout.voxel_size) * kFrameUnitsPerMetre)) {
+  const bool size_ok = layout.voxel_size >= 1.0f / 64 && layout.voxel_size <= 64;
   if (!size_ok)
     throw Error(ErrorCode::bad_input,
-                "voxel size " + std::to_string(frame.voxel_size) + " m: the simulation takes 1/64 m to 64 m");
+                "voxel size " + std::to_string(layout.voxel_size) + " m: the simulation takes 1/64 m to 64 m");
   for (int axis = 0; axis < 3; ++axis) {
-    const double metres = frame.origin_world[axis];
+    const double metres = layout.origin_world[axis];
     if (!(std::abs(metres) <= double{kMaxCoordinate} / kUnitsPerMetre))
       throw Error(ErrorCode::bad_input,
                   "grid origin " + std::to_string(metres) +
@@ -135,7 +135,7 @@ void walk_ray(const voxel::BitGrid& grid, const VoxelRuler& ruler, Position from
   for (;;) {
     // The next face on each axis, and the nearest of them.
     int nearest = -1;
-    Share exit;
+    Fraction exit;
     for (int axis = 0; axis < 3; ++axis) {
       if (way[axis] == 0) {
         if (voxel[axis] < 0 || voxel[axis] >= size[axis]) return;
@@ -144,7 +144,7 @@ void walk_ray(const voxel::BitGrid& grid, const VoxelRuler& ruler, Position from
       const bool up = way[axis] > 0;
       if (up ? voxel[axis] >= size[axis] : voxel[axis] < 0) return;
       const std::int64_t face = (voxel[axis] + up) * (1 << kSubvoxelBits);
-      const Share here{up ? face - start[axis] : start[axis] - face, std::abs(way[axis])};
+      const Fraction here{up ? face - start[axis] : start[axis] - face, std::abs(way[axis])};
       if (nearest < 0 || less(here, exit)) {
         nearest = axis;
         exit = here;
@@ -190,7 +190,7 @@ std::optional<glm::ivec3> nearest_free_voxel(const voxel::BitGrid& grid, glm::iv
 
 std::optional<glm::ivec3> landing_voxel(const voxel::BitGrid& grid, glm::vec3 from_world,
                                         glm::vec3 at_world) {
-  return landing_voxel(grid, VoxelRuler(grid.frame()), position_from_metres(glm::dvec3(from_world)),
+  return landing_voxel(grid, VoxelRuler(grid.layout()), position_from_metres(glm::dvec3(from_world)),
                        position_from_metres(glm::dvec3(at_world)));
 }
 

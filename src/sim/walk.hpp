@@ -31,9 +31,9 @@ std::uint64_t ceil_distance(Position from, Position to);
 /// The voxels of a grid as the simulation measures them: 1/1024 of a voxel edge.
 class VoxelRuler {
  public:
-  /// Throws Error(bad_input) when the frame's voxel is not in [1/64, 64] m or its origin not within
+  /// Throws Error(bad_input) when the layout's voxel is not in [1/64, 64] m or its origin not within
   /// kMaxCoordinate.
-  explicit VoxelRuler(const voxel::GridFrame& frame);
+  explicit VoxelRuler(const voxel::GridLayout& layout);
   /// The position in 1/1024 voxel, rounded down, for |position| <= kMaxCoordinate + 1.
   glm::i64vec3 subvoxel(Position position) const;
   /// A length of 1/1024 m in 1/1024 voxel, rounded down; at most 2^32 units long.
@@ -46,15 +46,15 @@ class VoxelRuler {
   std::int64_t voxel_size_;
 };
 
-/// Share of the way along a ray, num / den, den > 0.
-struct Share {
+/// Fraction of the way along a ray, num / den, den > 0.
+struct Fraction {
   std::int64_t num = 0, den = 1;
 };
 
 /// A voxel on a ray, and where the ray leaves it (at or beyond 1: past the second point).
 struct WalkStep {
   glm::ivec3 voxel;
-  Share exit;
+  Fraction exit;
 };
 
 /// Visits each voxel of the grid that the ray from `from` through `to` and on beyond it passes, in order,

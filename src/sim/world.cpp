@@ -23,7 +23,7 @@ bool inside(glm::ivec3 v, glm::ivec3 low, glm::ivec3 high) {
 }
 
 /// The tick at which the last of a hole has closed.
-std::uint32_t end_of(const OpenHole& hole, std::uint32_t ticks_per_second) {
+std::uint32_t end_of(const BulletHole& hole, std::uint32_t ticks_per_second) {
   const HoleTiming& t = hole.shot.timing;
   const std::uint64_t life = std::uint64_t{t.reach_far} + t.expand + t.stay_open + t.fade;
   const std::uint64_t ticks = (life * ticks_per_second + 999) / 1000;
@@ -53,10 +53,10 @@ std::uint32_t next_end(const State& state) {
   for (const Flight& flight : state.flights) next = std::min(next, flight.detonation_tick);
   for (const LiveCloud& live : state.clouds) {
     next = std::min(next, live.cloud->end_tick());
-    if (const auto rest = live.cloud->rest_tick()) next = std::min(next, *rest);
+    if (const auto rest = live.cloud->settle_tick()) next = std::min(next, *rest);
   }
   for (const LiveBlast& live : state.blasts) next = std::min(next, live.field->end_tick());
-  for (const OpenHole& hole : state.holes) next = std::min(next, end_of(hole, state.ticks_per_second));
+  for (const BulletHole& hole : state.holes) next = std::min(next, end_of(hole, state.ticks_per_second));
   return next;
 }
 
@@ -64,19 +64,19 @@ void remove_ended(State& state) {
   const std::uint32_t tick = state.tick;
   std::erase_if(state.clouds, [&](const LiveCloud& live) { return live.cloud->end_tick() <= tick; });
   for (LiveCloud& live : state.clouds)
-    if (const auto rest = live.cloud->rest_tick(); rest && *rest <= tick)
-      live.cloud = std::make_shared<const Cloud>(live.cloud->rested());
+    if (const auto rest = live.cloud->settle_tick(); rest && *rest <= tick)
+      live.cloud = std::make_shared<const Cloud>(live.cloud->settled());
   std::erase_if(state.blasts, [&](const LiveBlast& live) { return live.field->end_tick() <= tick; });
   std::erase_if(state.holes,
-                [&](const OpenHole& hole) { return end_of(hole, state.ticks_per_second) <= tick; });
+                [&](const BulletHole& hole) { return end_of(hole, state.ticks_per_second) <= tick; });
 }
 
 World::World(const voxel::BitGrid& level, const WorldSettings& settings)
-    : level_(level), settings_(settings), ruler_(level.frame()) {
+    : level_(level), settings_(settings), ruler_(level.layout()) {
   if (settings.ticks_per_second < 1 || settings.ticks_per_second > 1000)
     throw Error(ErrorCode::bad_input,
                 std::to_string(settings.ticks_per_second) + " ticks a second: expected 1 to 1000");
-  state_.frame = level.frame();
+  state_.layout = level.layout();
   state_.ticks_per_second = settings.ticks_per_second;
   state_.masks = settings.masks;
   first_ = state_;
@@ -124,7 +124,7 @@ void World::set_masks(const MaskKey& masks) {
 /// `first`: the first tick whose events change.
 Result<void> World::check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const {
   for (const Event& event : events) {
-    if (auto ok = check_event(event, level_.frame()); !ok) return ok;
+    if (auto ok = check_event(event, level_.layout()); !ok) return ok;
     if (auto ok = check_mask(event, masks); !ok) return ok;
   }
   if (first >= first_free_tick_) return {};
@@ -222,7 +222,7 @@ void World::change_edits(const std::shared_ptr<const EditBlocks>& edits) {
 }
 
 Result<void> World::restore(const State& state) {
-  if (state.frame != level_.frame() || state.ticks_per_second != settings_.ticks_per_second)
+  if (state.layout != level_.layout() || state.ticks_per_second != settings_.ticks_per_second)
     return Failure{ErrorCode::bad_input,
                    "state: expected one of a world of the same grid and ticks a second"};
   if (state.masks != settings_.masks)
@@ -231,7 +231,7 @@ Result<void> World::restore(const State& state) {
   if (next_end(state) <= state.tick)
     return Failure{ErrorCode::bad_input, "state: expected nothing in it that has ended before its tick"};
   if (state.edits)
-    if (auto ok = check_event(LevelEdit{0, *state.edits}, level_.frame()); !ok) return ok;
+    if (auto ok = check_event(LevelEdit{0, *state.edits}, level_.layout()); !ok) return ok;
   std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= state.tick; });
   checkpoints_.clear();
   previous_.reset();
@@ -311,7 +311,7 @@ std::uint64_t World::hole_distance(const Shot& shot) const {
       there.push_back(live.cloud.get());
 
   const auto length = static_cast<__int128>(ceil_distance(shot.origin, shot.toward));
-  const auto distance_at = [&](Share share) { return length * share.num / share.den; };
+  const auto distance_at = [&](Fraction share) { return length * share.num / share.den; };
   __int128 far = 0;
   for (std::size_t i = 0; i < way.size(); ++i) {
     const bool in_smoke = std::any_of(there.begin(), there.end(), [&](const Cloud* cloud) {
@@ -326,7 +326,7 @@ std::uint64_t World::hole_distance(const Shot& shot) const {
 }
 
 void World::apply(const Shot& event) {
-  OpenHole hole{state_.events, event, hole_distance(event)};
+  BulletHole hole{state_.events, event, hole_distance(event)};
   if (hole.distance > 0) state_.holes.push_back(std::move(hole));
 }
 

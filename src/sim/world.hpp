@@ -31,7 +31,7 @@ void remove_ended(State& state);
 /// ended goes. Between the ticks at which something begins or ends nothing is computed.
 class World {
  public:
-  /// `level` must outlive the world and keep its voxels. Throws Error(bad_input) for a frame that VoxelRuler
+  /// `level` must outlive the world and keep its voxels. Throws Error(bad_input) for a layout that VoxelRuler
   /// refuses or ticks_per_second out of range.
   explicit World(const voxel::BitGrid& level, const WorldSettings& settings = {});
 
@@ -63,7 +63,7 @@ class World {
 
   /// Becomes the world of a state: what another world's state() was, or what travelled. Events of the log up
   /// to the state's tick are dropped, later ones stay. Fails with bad_input when the state is of another
-  /// frame or ticks_per_second, or was made with other masks.
+  /// layout or ticks_per_second, or was made with other masks.
   Result<void> restore(const State& state);
   /// The first tick that can be gone back to: 0, or that of the state restored or kept.
   std::uint32_t earliest_tick() const { return first_.tick; }

@@ -6,9 +6,9 @@
 
 namespace brume::voxel {
 
-BitGrid::BitGrid(const GridFrame& frame) : frame_(frame), root_size_((frame.size + 63) >> 6) {
+BitGrid::BitGrid(const GridLayout& layout) : layout_(layout), root_size_((layout.size + 63) >> 6) {
   for (int axis = 0; axis < 3; ++axis) {
-    BRUME_ASSERT(frame.size[axis] >= 1 && frame.size[axis] <= kMaxAxis, std::to_string(frame.size[axis]));
+    BRUME_ASSERT(layout.size[axis] >= 1 && layout.size[axis] <= kMaxAxis, std::to_string(layout.size[axis]));
   }
   root_.resize(root_index(root_size_ - 1) + 1);
 }

@@ -16,34 +16,34 @@ namespace brume::voxel {
 
 /// Where a grid lies in the world. Voxel i covers [i, i+1) in voxel space, its centre is i + 0.5;
 /// position_voxel = (position_world - origin_world) / voxel_size.
-struct GridFrame {
+struct GridLayout {
   glm::ivec3 size{0};         ///< Voxels per axis, each in [1, kMaxAxis].
   float voxel_size = 0.5f;    ///< Edge of a voxel [m], > 0.
   glm::vec3 origin_world{0};  ///< The low corner of voxel (0, 0, 0).
-  bool operator==(const GridFrame&) const = default;
+  bool operator==(const GridLayout&) const = default;
 };
 
 constexpr int kMaxAxis = 4096;
 constexpr int kBrickSize = 8;
 
-inline glm::vec3 voxel_from_world(const GridFrame& frame, glm::vec3 position_world) {
-  return (position_world - frame.origin_world) / frame.voxel_size;
+inline glm::vec3 voxel_from_world(const GridLayout& layout, glm::vec3 position_world) {
+  return (position_world - layout.origin_world) / layout.voxel_size;
 }
-inline glm::vec3 world_from_voxel(const GridFrame& frame, glm::vec3 position_voxel) {
-  return position_voxel * frame.voxel_size + frame.origin_world;
+inline glm::vec3 world_from_voxel(const GridLayout& layout, glm::vec3 position_voxel) {
+  return position_voxel * layout.voxel_size + layout.origin_world;
 }
 
 class BitGrid {
  public:
   using Brick = std::array<std::uint64_t, kBrickSize>;
 
-  explicit BitGrid(const GridFrame& frame);
+  explicit BitGrid(const GridLayout& layout);
 
-  const GridFrame& frame() const { return frame_; }
-  glm::ivec3 size() const { return frame_.size; }
+  const GridLayout& layout() const { return layout_; }
+  glm::ivec3 size() const { return layout_.size; }
   bool contains(glm::ivec3 v) const {
-    return v.x >= 0 && v.y >= 0 && v.z >= 0 && v.x < frame_.size.x && v.y < frame_.size.y &&
-           v.z < frame_.size.z;
+    return v.x >= 0 && v.y >= 0 && v.z >= 0 && v.x < layout_.size.x && v.y < layout_.size.y &&
+           v.z < layout_.size.z;
   }
 
   /// True when the voxel is solid; false outside the grid.
@@ -90,7 +90,7 @@ class BitGrid {
     return in_node.x + 8u * in_node.y + 64u * in_node.z;
   }
 
-  GridFrame frame_;
+  GridLayout layout_;
   glm::ivec3 root_size_;
   std::vector<std::uint32_t> root_;                    // node number + 1, 0: none
   std::vector<std::array<std::uint32_t, 512>> nodes_;  // brick number + 1, 0: none

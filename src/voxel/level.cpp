@@ -42,7 +42,7 @@ void fill_box(BitGrid& grid, const IntBox& voxels, bool solid) {
 }
 
 BitGrid copy_of(const BitGrid& grid, const IntBox& voxels) {
-  BitGrid copy(grid.frame());
+  BitGrid copy(grid.layout());
   for_each_in(bricks_of(voxels), [&](ivec3 at) {
     const BitGrid::Brick* brick = grid.find_brick(at);
     if (!brick) return;
@@ -94,22 +94,22 @@ bool Level::Reach::misses(const Run& run) const {
 Level::Reach Level::reach_of(const dvec3& low_voxel, const dvec3& high_voxel) const {
   constexpr double kMargin = 1e-3;
   // What touches them counts. Doubles are wrong by far less than the margin.
-  const GridFrame& frame = grid_.frame();
-  const dvec3 origin(frame.origin_world);
-  const double size = frame.voxel_size;
+  const GridLayout& layout = grid_.layout();
+  const dvec3 origin(layout.origin_world);
+  const double size = layout.voxel_size;
   return {origin + (low_voxel - kMargin) * size, origin + (high_voxel + kMargin) * size};
 }
 
 IntBox Level::voxels_of(const Part& part) const {
-  const GridFrame& frame = grid_.frame();
+  const GridLayout& layout = grid_.layout();
   IntBox box;  // As voxelize sees it: a voxel that is touched with a face is in it.
   for (int axis = 0; axis < 3; ++axis) {
-    const double origin = frame.origin_world[axis], size = frame.voxel_size;
+    const double origin = layout.origin_world[axis], size = layout.voxel_size;
     const double low = (part.bounds.low[axis] - origin) / size,
                  high = (part.bounds.high[axis] - origin) / size;
     // One voxel outside of the grid stays: planes of the border's cells depend on what is there.
     const auto clamped = [&](double v) {
-      return static_cast<int>(std::clamp(v, -2.0, frame.size[axis] + 2.0));
+      return static_cast<int>(std::clamp(v, -2.0, layout.size[axis] + 2.0));
     };
     box.low[axis] = clamped(std::ceil(low) - 1);
     box.high[axis] = clamped(std::floor(high) + 1);
@@ -214,7 +214,7 @@ void Level::add_faces(const Box& box, std::vector<Triangle>& out) const {
     v[axis] = side ? box.voxels.high[axis] : box.voxels.low[axis];
     v[(axis + 1) % 3] = u ? box.voxels.high[(axis + 1) % 3] : box.voxels.low[(axis + 1) % 3];
     v[(axis + 2) % 3] = w ? box.voxels.high[(axis + 2) % 3] : box.voxels.low[(axis + 2) % 3];
-    return world_from_voxel(grid_.frame(), glm::vec3(v));
+    return world_from_voxel(grid_.layout(), glm::vec3(v));
   };
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {0, 1}) {

@@ -118,13 +118,13 @@ class Writer {
   std::string buffer_;
 };
 
-Result<void> write_lines(Writer& writer, const GridFrame& frame, const std::vector<std::uint64_t>& corners,
+Result<void> write_lines(Writer& writer, const GridLayout& layout, const std::vector<std::uint64_t>& corners,
                          const std::vector<FaceRectangle>& rectangles) {
   writer.word("# Surface of the solid voxels: quads, metres, Y up");
   if (auto written = writer.end_line(); !written) return written;
   for (const std::uint64_t corner : corners) {
     const glm::dvec3 at(corner & 0xffff, corner >> 16 & 0xffff, corner >> 32);
-    const glm::dvec3 world = at * double{frame.voxel_size} + glm::dvec3(frame.origin_world);
+    const glm::dvec3 world = at * double{layout.voxel_size} + glm::dvec3(layout.origin_world);
     writer.word("v");
     for (int axis = 0; axis < 3; ++axis) writer.number(static_cast<float>(world[axis]));
     if (auto written = writer.end_line(); !written) return written;
@@ -165,7 +165,7 @@ Result<ObjCounts> export_obj(const BitGrid& grid, const std::filesystem::path& p
   counts.quads = rectangles.size();
 
   Writer writer(*file);
-  if (auto written = write_lines(writer, grid.frame(), corners, rectangles); !written)
+  if (auto written = write_lines(writer, grid.layout(), corners, rectangles); !written)
     return written.failure();
   if (auto committed = file->commit(); !committed) return committed.failure();
   return counts;

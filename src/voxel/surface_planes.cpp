@@ -25,8 +25,8 @@ constexpr std::size_t kTrianglesPerTask = 2048;
 constexpr std::int64_t kCellsForThreads = 32768;
 
 // Space of this file: cell space = voxel space - 0.5, so that cell c covers [c, c + 1).
-dvec3 cell_from_world(const GridFrame& frame, glm::vec3 p) {
-  return (dvec3(p) - dvec3(frame.origin_world)) / double{frame.voxel_size} - 0.5;
+dvec3 cell_from_world(const GridLayout& layout, glm::vec3 p) {
+  return (dvec3(p) - dvec3(layout.origin_world)) / double{layout.voxel_size} - 0.5;
 }
 
 std::uint64_t key_of(ivec3 size, ivec3 cell) {
@@ -191,12 +191,12 @@ class SlabBuilder {
 
  private:
   void add(const Triangle& t, int z) {
-    const GridFrame& frame = grid_.frame();
+    const GridLayout& layout = grid_.layout();
     Polygon triangle;
     triangle.count = 3;
-    triangle.corners[0] = cell_from_world(frame, t.a);
-    triangle.corners[1] = cell_from_world(frame, t.b);
-    triangle.corners[2] = cell_from_world(frame, t.c);
+    triangle.corners[0] = cell_from_world(layout, t.a);
+    triangle.corners[1] = cell_from_world(layout, t.b);
+    triangle.corners[2] = cell_from_world(layout, t.c);
     const dvec3 cross =
         glm::cross(triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]);
     const double length = glm::length(cross);
@@ -277,13 +277,13 @@ struct Members {
   std::vector<std::size_t> first;
   std::vector<std::uint32_t> triangles;
 
-  Members(std::span<const Triangle> all, const GridFrame& frame, int low_z, int high_z) {
+  Members(std::span<const Triangle> all, const GridLayout& layout, int low_z, int high_z) {
     const auto slabs = static_cast<std::size_t>(high_z - low_z);
     std::vector<std::pair<int, int>> range(all.size(), {0, -1});
     parallel_for(all.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const double a = cell_from_world(frame, all[i].a).z, b = cell_from_world(frame, all[i].b).z,
-                     c = cell_from_world(frame, all[i].c).z;
+        const double a = cell_from_world(layout, all[i].a).z, b = cell_from_world(layout, all[i].b).z,
+                     c = cell_from_world(layout, all[i].c).z;
         auto& [low, high] = range[i];
         if (!std::isfinite(a + b + c) ||
             !cell_range(std::min({a, b, c}), std::max({a, b, c}), low_z, high_z - 1, low, high))
@@ -326,7 +326,7 @@ SurfacePlanes SurfacePlanes::build_in(std::span<const Triangle> triangles, const
   BRUME_ASSERT((IntBox{ivec3(-1), grid.size()}.contains(cells)), "the cells are the grid's");
   std::vector<Slab> slabs;
   if (!cells.empty()) {
-    const Members members(triangles, grid.frame(), cells.low.z, cells.high.z);
+    const Members members(triangles, grid.layout(), cells.low.z, cells.high.z);
     slabs.resize(static_cast<std::size_t>(cells.high.z - cells.low.z));
     // A few cells are done before another thread has begun.
     const glm::i64vec3 size(cells.high - cells.low);

@@ -16,7 +16,7 @@ namespace brume::voxel {
 /// direction (voxel space, any length but 0). Ties as in shared/dda.h. A ray that is not finite visits
 /// nothing.
 template <typename Visit>
-void visit_voxels(const GridFrame& frame, glm::vec3 origin_voxel, glm::vec3 direction, float t_max,
+void visit_voxels(const GridLayout& layout, glm::vec3 origin_voxel, glm::vec3 direction, float t_max,
                   Visit visit);
 
 struct RayHit {
@@ -39,10 +39,10 @@ inline bool is_ray(glm::vec3 origin, glm::vec3 direction) {
 }
 
 template <typename Visit>
-void visit_voxels(const GridFrame& frame, glm::vec3 origin_voxel, glm::vec3 direction, float t_max,
+void visit_voxels(const GridLayout& layout, glm::vec3 origin_voxel, glm::vec3 direction, float t_max,
                   Visit visit) {
   if (!is_ray(origin_voxel, direction)) return;
-  shared::Dda d = shared::dda_begin(origin_voxel, direction, glm::ivec3(0), frame.size, 1, 0, t_max);
+  shared::Dda d = shared::dda_begin(origin_voxel, direction, glm::ivec3(0), layout.size, 1, 0, t_max);
   while (d.t < d.t_end) {
     const float leave = std::min(shared::dda_min(shared::dda_leave(d)), d.t_end);
     if (!visit(d.cell, d.t, leave)) return;

@@ -207,9 +207,9 @@ bool within_reach(const VoxelTriangle& t) {
   return true;
 }
 
-void draw(const Triangle& t, const GridFrame& frame, const IntBox& box, Pen& pen) {
-  const dvec3 origin(frame.origin_world);
-  const double voxel_size = frame.voxel_size;
+void draw(const Triangle& t, const GridLayout& layout, const IntBox& box, Pen& pen) {
+  const dvec3 origin(layout.origin_world);
+  const double voxel_size = layout.voxel_size;
   VoxelTriangle in_voxels({(dvec3(t.a) - origin) / voxel_size, (dvec3(t.b) - origin) / voxel_size,
                            (dvec3(t.c) - origin) / voxel_size});
   if (within_reach(in_voxels)) TriangleScan(in_voxels, box, pen).run();
@@ -224,27 +224,27 @@ void merge(BitGrid& into, const BitGrid& from) {
 
 }  // namespace
 
-Result<void> check_frame(const GridFrame& frame) {
+Result<void> check_frame(const GridLayout& layout) {
   constexpr const char* kAxes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string given = "grid: " + std::to_string(frame.size[axis]) + " voxels along " + kAxes[axis];
-    if (frame.size[axis] < 1) return Failure{ErrorCode::usage, given + "; give 1 to 4096 per axis"};
-    if (frame.size[axis] > kMaxAxis)
+    const std::string given = "grid: " + std::to_string(layout.size[axis]) + " voxels along " + kAxes[axis];
+    if (layout.size[axis] < 1) return Failure{ErrorCode::usage, given + "; give 1 to 4096 per axis"};
+    if (layout.size[axis] > kMaxAxis)
       return Failure{ErrorCode::resource_limit,
                      given + "; at most 4096 per axis: make the voxels larger or the grid smaller"};
-    if (!std::isfinite(frame.origin_world[axis]))
+    if (!std::isfinite(layout.origin_world[axis]))
       return Failure{ErrorCode::usage, std::string("grid: the origin's ") + kAxes[axis] + " is not finite"};
   }
-  if (!std::isfinite(frame.voxel_size) || frame.voxel_size <= 0)
-    return Failure{ErrorCode::usage, "grid: voxel size " + std::to_string(frame.voxel_size) +
+  if (!std::isfinite(layout.voxel_size) || layout.voxel_size <= 0)
+    return Failure{ErrorCode::usage, "grid: voxel size " + std::to_string(layout.voxel_size) +
                                          " m; give a finite number above 0"};
   return {};
 }
 
-Result<GridFrame> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
+Result<GridLayout> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
                                int margin_voxels) {
-  GridFrame frame{ivec3(1), voxel_size, glm::vec3(0)};
-  if (auto checked = check_frame(frame); !checked) return checked.failure();
+  GridLayout layout{ivec3(1), voxel_size, glm::vec3(0)};
+  if (auto checked = check_frame(layout); !checked) return checked.failure();
   if (margin_voxels < 0)
     return Failure{ErrorCode::usage,
                    "grid: margin " + std::to_string(margin_voxels) + "; give 0 or more voxels"};
@@ -260,26 +260,26 @@ Result<GridFrame> frame_around(glm::vec3 low_world, glm::vec3 high_world, float 
       return Failure{ErrorCode::resource_limit,
                      "grid: the scene would need " + std::to_string(size) +
                          " voxels along an axis; at most 4096: make the voxels larger"};
-    frame.size[axis] = static_cast<int>(size);
-    frame.origin_world[axis] = static_cast<float>(low * voxel_size);
+    layout.size[axis] = static_cast<int>(size);
+    layout.origin_world[axis] = static_cast<float>(low * voxel_size);
   }
-  return frame;
+  return layout;
 }
 
-Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridFrame& frame) {
-  if (auto checked = check_frame(frame); !checked) return checked.failure();
+Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& layout) {
+  if (auto checked = check_frame(layout); !checked) return checked.failure();
   const std::size_t tasks = (triangles.size() + kTrianglesPerTask - 1) / kTrianglesPerTask;
   const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(thread_count(), tasks));
-  std::vector<BitGrid> grids(workers, BitGrid(frame));
+  std::vector<BitGrid> grids(workers, BitGrid(layout));
   std::atomic<std::size_t> next{0};
-  const IntBox all{ivec3(0), frame.size};
+  const IntBox all{ivec3(0), layout.size};
 
   // Each worker draws triangles into a grid of its own. Or-ing the grids forgets who drew what.
   parallel_for(workers, 1, [&](std::size_t worker, std::size_t) {
     Pen pen(grids[worker]);
     for (std::size_t task; (task = next.fetch_add(1)) < tasks;) {
       const std::size_t end = std::min(triangles.size(), (task + 1) * kTrianglesPerTask);
-      for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) draw(triangles[i], frame, all, pen);
+      for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) draw(triangles[i], layout, all, pen);
     }
   });
   for (std::size_t worker = 1; worker < workers; ++worker) merge(grids[0], grids[worker]);
@@ -290,7 +290,7 @@ void draw_triangles(std::span<const Triangle> triangles, const IntBox& box, BitG
   BRUME_ASSERT((IntBox{ivec3(0), grid.size()}.contains(box)), "the box lies in the grid");
   if (box.empty()) return;
   Pen pen(grid);
-  for (const Triangle& t : triangles) draw(t, grid.frame(), box, pen);
+  for (const Triangle& t : triangles) draw(t, grid.layout(), box, pen);
 }
 
 }  // namespace brume::voxel

@@ -10,14 +10,14 @@
 
 namespace brume::voxel {
 
-/// Succeeds for a frame that a BitGrid can have: every axis in [1, kMaxAxis], a finite voxel size above 0, a
+/// Succeeds for a layout that a BitGrid can have: every axis in [1, kMaxAxis], a finite voxel size above 0, a
 /// finite origin. Otherwise `usage` (resource_limit for an axis above kMaxAxis), in one line.
-Result<void> check_frame(const GridFrame& frame);
+Result<void> check_frame(const GridLayout& layout);
 
-/// The frame of whole voxels around the box from `low` to `high` [m] with `margin_voxels` (>= 0) more on
+/// The layout of whole voxels around the box from `low` to `high` [m] with `margin_voxels` (>= 0) more on
 /// every side; its origin is a multiple of the voxel size. Fails with bad_input for an empty or infinite box,
 /// usage for a bad voxel size or margin, resource_limit when an axis would pass kMaxAxis.
-Result<GridFrame> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
+Result<GridLayout> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
                                int margin_voxels);
 
 /// The voxels that a triangle touches. Voxels are closed boxes and triangles closed sets here: touching with
@@ -32,7 +32,7 @@ Result<GridFrame> frame_around(glm::vec3 low_world, glm::vec3 high_world, float 
 /// triangle's extent do not count.
 ///
 /// Runs on all threads; the bits do not depend on their number. Fails as check_frame does.
-Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridFrame& frame);
+Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& layout);
 
 /// Makes those voxels of the box solid that voxelize would make solid, and changes no other: what voxelize
 /// does, for a part of the grid, on one thread. The box must lie in the grid.

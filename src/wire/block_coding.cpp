@@ -126,7 +126,7 @@ std::uint64_t code_mask(Coder& coder, BlockModels& models, std::span<const Voxel
 // there.
 template <typename Coder>
 std::uint64_t code_mask_like(Coder& coder, BlockModels& models, std::span<const VoxelBlock> known, ivec3 at,
-                             const Likeness& like, std::uint64_t mask) {
+                             const Prediction& like, std::uint64_t mask) {
   constexpr std::uint32_t kAllNeighbours = 511;
   const std::uint64_t before = find_mask(like.set->blocks(), at);
   Window window(known, at), window_before(like.set->blocks(), at);
@@ -140,7 +140,7 @@ std::uint64_t code_mask_like(Coder& coder, BlockModels& models, std::span<const 
     const unsigned context =
         16 * like.kind + 8 * was + 4 * at_rim + static_cast<unsigned>(std::min(changed, 3));
     if (was) window_before.set(v);
-    if (!coder.bit(models.like_mask[context], mask >> i & 1)) continue;
+    if (!coder.bit(models.predicted_mask[context], mask >> i & 1)) continue;
     window.set(v);
     coded |= std::uint64_t{1} << i;
   }
@@ -157,7 +157,7 @@ bool allowed(const BlockBounds& bounds, ivec3 at, std::uint64_t mask) {
 
 template <typename Coder>
 void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, ivec3 near,
-                 const Likeness& like, std::vector<VoxelBlock>& blocks) {
+                 const Prediction& like, std::vector<VoxelBlock>& blocks) {
   const std::uint64_t count = coder.number(models.count, blocks.size());
   std::uint64_t voxels = 0;
   ivec3 row(0), slice(0);
@@ -189,13 +189,13 @@ void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, i
 }
 
 template <typename Coder>
-void code_steps(Coder& coder, StepModels& models, const sim::BlockSet& set,
-                std::span<const std::uint8_t> expected, std::vector<std::uint8_t>& steps) {
-  if constexpr (Coder::kReads) steps.assign(set.size(), 0);
+void code_densities(Coder& coder, DensityModels& models, const sim::BlockSet& set,
+                std::span<const std::uint8_t> expected, std::vector<std::uint8_t>& densities) {
+  if constexpr (Coder::kReads) densities.assign(set.size(), 0);
   const auto code = [&](NumberModel& model, std::uint32_t rank, std::uint8_t near) {
-    const auto difference = static_cast<std::int8_t>(static_cast<std::uint8_t>(steps[rank] - near));
+    const auto difference = static_cast<std::int8_t>(static_cast<std::uint8_t>(densities[rank] - near));
     const std::int64_t coded = unfolded(coder.number(model, folded(difference)));
-    steps[rank] = static_cast<std::uint8_t>(near + static_cast<std::uint8_t>(coded));
+    densities[rank] = static_cast<std::uint8_t>(near + static_cast<std::uint8_t>(coded));
   };
   set.for_each([&](ivec3 voxel, std::uint32_t rank) {
     if (!coder.ok()) return;
@@ -204,26 +204,26 @@ void code_steps(Coder& coder, StepModels& models, const sim::BlockSet& set,
     const std::array ranks{set.rank(voxel - ivec3(1, 0, 0)), set.rank(voxel - ivec3(0, 1, 0)),
                            set.rank(voxel - ivec3(0, 0, 1))};
     int found = 0, agreeing = 0;
-    std::uint8_t near = rank > 0 ? steps[rank - 1] : std::uint8_t{0};
+    std::uint8_t near = rank > 0 ? densities[rank - 1] : std::uint8_t{0};
     for (const std::uint32_t other : ranks) {
       if (other == sim::BlockSet::kNone) continue;
-      if (found++ == 0) near = steps[other];
-      agreeing += steps[other] == near;
+      if (found++ == 0) near = densities[other];
+      agreeing += densities[other] == near;
     }
     code(models.step[found == 0 ? 0u : agreeing == found ? 1u : 2u], rank, near);
   });
 }
 
 template <typename Coder>
-void code_waits(Coder& coder, WaitModels& models, std::span<const std::uint32_t> order,
-                std::span<const std::uint8_t> group, std::vector<std::uint16_t>& waits) {
-  if constexpr (Coder::kReads) waits.assign(order.size(), 0);
+void code_delays(Coder& coder, DelayModels& models, std::span<const std::uint32_t> order,
+                std::span<const std::uint8_t> group, std::vector<std::uint16_t>& delays) {
+  if constexpr (Coder::kReads) delays.assign(order.size(), 0);
   std::array<std::uint16_t, 2> last{};
   std::array<bool, 2> none{};
   for (const std::uint32_t rank : order) {
     if (!coder.ok()) return;
     const std::size_t g = group[rank] != 0;
-    std::uint16_t& wait = waits[rank];
+    std::uint16_t& wait = delays[rank];
     none[g] = coder.bit(models.none[2 * g + none[g]], wait == 0);
     if (none[g]) continue;
     const auto difference = static_cast<std::int16_t>(static_cast<std::uint16_t>(wait - last[g]));
@@ -232,17 +232,17 @@ void code_waits(Coder& coder, WaitModels& models, std::span<const std::uint32_t>
   }
 }
 
-template void code_blocks(Encoder&, BlockModels&, const BlockBounds&, ivec3, const Likeness&,
+template void code_blocks(Encoder&, BlockModels&, const BlockBounds&, ivec3, const Prediction&,
                           std::vector<VoxelBlock>&);
-template void code_blocks(Decoder&, BlockModels&, const BlockBounds&, ivec3, const Likeness&,
+template void code_blocks(Decoder&, BlockModels&, const BlockBounds&, ivec3, const Prediction&,
                           std::vector<VoxelBlock>&);
-template void code_steps(Encoder&, StepModels&, const sim::BlockSet&, std::span<const std::uint8_t>,
+template void code_densities(Encoder&, DensityModels&, const sim::BlockSet&, std::span<const std::uint8_t>,
                          std::vector<std::uint8_t>&);
-template void code_steps(Decoder&, StepModels&, const sim::BlockSet&, std::span<const std::uint8_t>,
+template void code_densities(Decoder&, DensityModels&, const sim::BlockSet&, std::span<const std::uint8_t>,
                          std::vector<std::uint8_t>&);
-template void code_waits(Encoder&, WaitModels&, std::span<const std::uint32_t>, std::span<const std::uint8_t>,
+template void code_delays(Encoder&, DelayModels&, std::span<const std::uint32_t>, std::span<const std::uint8_t>,
                          std::vector<std::uint16_t>&);
-template void code_waits(Decoder&, WaitModels&, std::span<const std::uint32_t>, std::span<const std::uint8_t>,
+template void code_delays(Decoder&, DelayModels&, std::span<const std::uint32_t>, std::span<const std::uint8_t>,
                          std::vector<std::uint16_t>&);
 
 }  // namespace brume::wire

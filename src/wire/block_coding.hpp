@@ -22,21 +22,21 @@ struct BlockModels {
   std::array<NumberModel, 3> first;     // signed, from a point that both sides know
   NumberModel row_x, slice_x, slice_y;  // signed, from where the row or slice before began
   std::array<BitModel, 512> mask;       // by the known neighbours
-  std::array<BitModel, 32> like_mask;   // by likeness, what the voxel was like, how the neighbours changed
+  std::array<BitModel, 32> predicted_mask;   // by prediction, what the voxel was like, how the neighbours changed
 };
 
 /// What numbers of voxels have in common so far.
-struct StepModels {
+struct DensityModels {
   std::array<NumberModel, 3> step;  // by how well the neighbours agree
   NumberModel against_expected;
 };
-struct WaitModels {
+struct DelayModels {
   std::array<BitModel, 4> none;  // by group, and whether the one before had none
   std::array<NumberModel, 2> step;
 };
 
 /// A set that both sides know and that the coded one is like: voxels of one are mostly in the other.
-struct Likeness {
+struct Prediction {
   const sim::BlockSet* set = nullptr;
   unsigned kind = 0;  ///< 0 or 1: likenesses of one kind share what was learnt.
 };
@@ -59,19 +59,19 @@ inline std::uint64_t cost_of(const sim::VoxelBlock& block) {
 /// is bounded by the bytes read.
 template <typename Coder>
 void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, glm::ivec3 near,
-                 const Likeness& like, std::vector<sim::VoxelBlock>& blocks);
+                 const Prediction& like, std::vector<sim::VoxelBlock>& blocks);
 
 /// Codes a number for each voxel of a set, by rank: near `expected`, or where that is empty near those of its
-/// neighbours. A decoder finds `steps` empty and sizes it to the set.
+/// neighbours. A decoder finds `densities` empty and sizes it to the set.
 template <typename Coder>
-void code_steps(Coder& coder, StepModels& models, const sim::BlockSet& set,
-                std::span<const std::uint8_t> expected, std::vector<std::uint8_t>& steps);
+void code_densities(Coder& coder, DensityModels& models, const sim::BlockSet& set,
+                std::span<const std::uint8_t> expected, std::vector<std::uint8_t>& densities);
 
 /// Codes a number for each rank, in this order of ranks, which both sides know: 0, or near the last that was
 /// not 0. Ranks whose `group` is 0 mostly have alike numbers, and those of others. All of the same length.
 template <typename Coder>
-void code_waits(Coder& coder, WaitModels& models, std::span<const std::uint32_t> order,
-                std::span<const std::uint8_t> group, std::vector<std::uint16_t>& waits);
+void code_delays(Coder& coder, DelayModels& models, std::span<const std::uint32_t> order,
+                std::span<const std::uint8_t> group, std::vector<std::uint16_t>& delays);
 
 /// 0, -1, 1, -2, ... to 0, 1, 2, 3, ...
 constexpr std::uint64_t folded(std::int64_t value) {

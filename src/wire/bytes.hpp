@@ -73,7 +73,7 @@ class ByteReader {
   }
   std::span<const std::byte> section() { return raw(varint(~std::uint64_t{0})); }
 
-  std::span<const std::byte> rest() const { return bytes_; }
+  std::span<const std::byte> remaining() const { return bytes_; }
   bool ok() const { return ok_; }
 
  private:

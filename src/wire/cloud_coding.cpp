@@ -24,7 +24,7 @@ BlockSet without(const BlockSet& set, const BlockSet& other) {
 
 // The densities that voxels had before, or how long their smoke withstands.
 std::vector<std::uint8_t> densities_of(const Cloud& before, std::uint32_t tick, const BlockSet& set) {
-  const sim::CloudMoment moment = before.undissolved_moment(tick);
+  const sim::CloudPhase moment = before.undissolved_phase(tick);
   std::vector<std::uint8_t> densities;
   set.for_each([&](glm::ivec3 voxel, std::uint32_t) { densities.push_back(before.density(voxel, moment)); });
   return densities;
@@ -62,58 +62,58 @@ std::vector<std::uint32_t> farthest_first(const BlockSet& rest, const Cloud* bef
 }
 
 template <typename Coder>
-void code_fill_flow(Form<Coder>& form, const Cloud* before, CloudParts& parts) {
+void code_fill_flow(Archive<Coder>& archive, const Cloud* before, CloudParts& parts) {
   std::vector<std::uint8_t> expected;
   if (before) expected = densities_of(*before, parts.flow_tick, parts.fill);
-  form.steps(kFill, parts.fill, expected, parts.fill_base);
+  archive.densities(kFill, parts.fill, expected, parts.fill_base);
   const std::vector<std::uint32_t> order = nearest_first(parts.fill, parts.origin.source);
-  if (order.size() != parts.fill.size()) return form.refuse("a cloud that is not connected flows on");
-  form.waits(kFill, order, parts.fill_base, parts.fill_delay);
+  if (order.size() != parts.fill.size()) return archive.refuse("a cloud that is not connected flows on");
+  archive.delays(kFill, order, parts.fill_base, parts.fill_delay);
 }
 
 template <typename Coder>
-void code_rest(Form<Coder>& form, const Cloud* before, std::uint32_t tick, CloudParts& parts) {
+void code_rest(Archive<Coder>& archive, const Cloud* before, std::uint32_t tick, CloudParts& parts) {
   std::vector<std::uint8_t> densities, survival;
   if (before) {
-    densities = densities_of(*before, parts.flow_tick != 0 ? parts.flow_tick : tick, parts.rest);
-    survival = survival_of(*before, parts.rest);
+    densities = densities_of(*before, parts.flow_tick != 0 ? parts.flow_tick : tick, parts.detached);
+    survival = survival_of(*before, parts.detached);
   }
-  form.steps(kRest, parts.rest, densities, parts.rest_base);
-  form.steps(kSurvival, parts.rest, survival, parts.rest_survival);
-  form.waits(kRest, farthest_first(parts.rest, before), parts.rest_base, parts.rest_delay);
+  archive.densities(kRest, parts.detached, densities, parts.detached_base);
+  archive.densities(kSurvival, parts.detached, survival, parts.detached_survival);
+  archive.delays(kRest, farthest_first(parts.detached, before), parts.detached_base, parts.detached_delay);
 }
 
 }  // namespace
 
 template <typename Coder>
-void code_cloud(Form<Coder>& form, const Cloud* before, std::uint32_t tick, CloudParts& parts) {
-  describe(form, parts.origin);
+void code_cloud(Archive<Coder>& archive, const Cloud* before, std::uint32_t tick, CloudParts& parts) {
+  serialize(archive, parts.origin);
   const glm::ivec3 source = parts.origin.source;
-  if (parts.origin.detonation_tick > tick) form.refuse("a cloud is there before it begins");
+  if (parts.origin.detonation_tick > tick) archive.refuse("a cloud is there before it begins");
   if (glm::any(glm::lessThan(source, glm::ivec3(0))) ||
-      glm::any(glm::greaterThanEqual(source, form.frame().size)))
-    form.refuse("a cloud comes from outside of the grid");
+      glm::any(glm::greaterThanEqual(source, archive.layout().size)))
+    archive.refuse("a cloud comes from outside of the grid");
 
-  Likeness like;
+  Prediction like;
   BlockSet left;
   if (before) like = {&before->voxels(), 0};
-  form.set(source, like, parts.fill);
+  archive.set(source, like, parts.fill);
   if (before) {
     left = without(before->voxels(), parts.fill);
     like = {&left, 1};
   }
-  form.set(source, like, parts.rest);
+  archive.set(source, like, parts.detached);
 
-  if (form.flag(Flag::flows, parts.flow_tick != 0)) {
-    form.memory.at(Field::flow_tick) = tick;
-    form.field(Field::flow_tick, parts.flow_tick);
-    if (parts.flow_tick > tick) form.refuse("a cloud flows before it begins to");
-    if (form.ok()) code_fill_flow(form, before, parts);
+  if (archive.flag(Flag::flows, parts.flow_tick != 0)) {
+    archive.memory.at(Field::flow_tick) = tick;
+    archive.field(Field::flow_tick, parts.flow_tick);
+    if (parts.flow_tick > tick) archive.refuse("a cloud flows before it begins to");
+    if (archive.ok()) code_fill_flow(archive, before, parts);
   }
-  if (form.ok()) code_rest(form, before, tick, parts);
+  if (archive.ok()) code_rest(archive, before, tick, parts);
 }
 
-template void code_cloud(Form<Encoder>&, const Cloud*, std::uint32_t, CloudParts&);
-template void code_cloud(Form<Decoder>&, const Cloud*, std::uint32_t, CloudParts&);
+template void code_cloud(Archive<Encoder>&, const Cloud*, std::uint32_t, CloudParts&);
+template void code_cloud(Archive<Decoder>&, const Cloud*, std::uint32_t, CloudParts&);
 
 }  // namespace brume::wire

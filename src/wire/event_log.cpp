@@ -6,31 +6,31 @@
 
 #include "core/hash.hpp"
 #include "wire/bytes.hpp"
-#include "wire/form.hpp"
+#include "wire/archive.hpp"
 #include "wire/packet.hpp"
 
 namespace brume::wire {
 namespace {
 
 template <typename Coder>
-void describe(Form<Coder>& form, sim::ThrowSmoke& smoke) {
-  form.field(Field::throw_tick, smoke.tick);
-  describe_position(form, Field::from, smoke.from);
-  describe_position(form, Field::toward, smoke.at);
-  describe(form, smoke.smoke);
+void serialize(Archive<Coder>& archive, sim::ThrowSmoke& smoke) {
+  archive.field(Field::throw_tick, smoke.tick);
+  describe_position(archive, Field::from, smoke.from);
+  describe_position(archive, Field::toward, smoke.at);
+  serialize(archive, smoke.smoke);
 }
 
 template <typename Coder>
-void describe(Form<Coder>& form, sim::MoveBody& move) {
-  form.field(Field::body_tick, move.tick);
-  form.field(Field::body, move.body);
-  describe_position(form, Field::body_at, move.to);
+void serialize(Archive<Coder>& archive, sim::MoveBody& move) {
+  archive.field(Field::body_tick, move.tick);
+  archive.field(Field::body, move.body);
+  describe_position(archive, Field::body_at, move.to);
 }
 
 template <typename Coder>
-void describe(Form<Coder>& form, sim::LevelEdit& edit) {
-  form.field(Field::edit_tick, edit.tick);
-  describe(form, edit.blocks);
+void serialize(Archive<Coder>& archive, sim::LevelEdit& edit) {
+  archive.field(Field::edit_tick, edit.tick);
+  serialize(archive, edit.blocks);
 }
 
 constexpr auto kFirstByte = static_cast<std::uint8_t>(kVersion << 4 | static_cast<int>(PacketKind::events));
@@ -44,27 +44,27 @@ sim::Event event_of_kind(std::size_t kind, std::index_sequence<kIndices...>) {
 }
 
 template <typename Coder>
-void code_event(Form<Coder>& form, sim::Event& event) {
+void code_event(Archive<Coder>& archive, sim::Event& event) {
   constexpr std::size_t kKinds = std::variant_size_v<sim::Event>;
   std::size_t kind = event.index();
-  form.field(Field::kind, kind);
-  if (kind >= kKinds) form.refuse("an event of a kind that is not known");
-  if (!form.ok()) return;
+  archive.field(Field::kind, kind);
+  if (kind >= kKinds) archive.refuse("an event of a kind that is not known");
+  if (!archive.ok()) return;
   if constexpr (Coder::kReads) event = event_of_kind(kind, std::make_index_sequence<kKinds>());
-  std::visit([&](auto& e) { describe(form, e); }, event);
+  std::visit([&](auto& e) { serialize(archive, e); }, event);
   if constexpr (Coder::kReads) {
-    const Result<void> checked = sim::check_event(event, form.frame());
-    if (!checked) form.refuse(checked.failure().message);
+    const Result<void> checked = sim::check_event(event, archive.layout());
+    if (!checked) archive.refuse(checked.failure().message);
   }
 }
 
 }  // namespace
 
-std::vector<std::byte> write_events(std::span<const sim::Event> events, const voxel::GridFrame& frame) {
+std::vector<std::byte> write_events(std::span<const sim::Event> events, const voxel::GridLayout& layout) {
   Encoder coder;
-  const auto form = std::make_unique<Form<Encoder>>(coder, frame, 0, Limits{});
-  form->count(events.size());
-  for (sim::Event event : events) code_event(*form, event);
+  const auto archive = std::make_unique<Archive<Encoder>>(coder, layout, 0, Limits{});
+  archive->count(events.size());
+  for (sim::Event event : events) code_event(*archive, event);
   const std::vector<std::byte> body = coder.finish();
   ByteWriter out;
   out.number(kFirstByte);
@@ -73,25 +73,25 @@ std::vector<std::byte> write_events(std::span<const sim::Event> events, const vo
   return out.take();
 }
 
-Result<std::vector<sim::Event>> read_events(std::span<const std::byte> bytes, const voxel::GridFrame& frame,
+Result<std::vector<sim::Event>> read_events(std::span<const std::byte> bytes, const voxel::GridLayout& layout,
                                             const Limits& limits) {
   ByteReader in(bytes);
   const auto first = in.number<std::uint8_t>();
   const auto checksum = in.number<std::uint32_t>();
   if (!in.ok() || first != kFirstByte)
     return Failure{ErrorCode::bad_input, "event log: not one of version " + std::to_string(kVersion)};
-  if (checksum != static_cast<std::uint32_t>(hash_bytes(in.rest())))
+  if (checksum != static_cast<std::uint32_t>(hash_bytes(in.remaining())))
     return Failure{ErrorCode::bad_input, "event log: damaged, its checksum is wrong"};
-  Decoder coder(in.rest());
-  const auto form = std::make_unique<Form<Decoder>>(coder, frame, 0, limits);
-  const std::uint64_t count = form->count(0);
+  Decoder coder(in.remaining());
+  const auto archive = std::make_unique<Archive<Decoder>>(coder, layout, 0, limits);
+  const std::uint64_t count = archive->count(0);
   std::vector<sim::Event> events;
-  for (std::uint64_t i = 0; i < count && form->ok(); ++i) {
+  for (std::uint64_t i = 0; i < count && archive->ok(); ++i) {
     sim::Event event;
-    code_event(*form, event);
+    code_event(*archive, event);
     events.push_back(std::move(event));
   }
-  if (!form->reason().empty()) return Failure{ErrorCode::bad_input, "event log: " + form->reason()};
+  if (!archive->reason().empty()) return Failure{ErrorCode::bad_input, "event log: " + archive->reason()};
   if (!coder.at_end())
     return Failure{ErrorCode::bad_input,
                    "event log: expected whole events, as many as are told; write it anew"};

@@ -4,7 +4,7 @@
 
 #include "wire/bytes.hpp"
 #include "wire/state_coding.hpp"
-#include "wire/world_form.hpp"
+#include "wire/world_archive.hpp"
 
 namespace brume::wire {
 namespace {
@@ -35,13 +35,13 @@ std::vector<std::byte> write_keyframe(const sim::State& state) {
   out.number(first_byte(PacketKind::keyframe));
   out.varint(state.tick);
   out.number(checksum_of(state));
-  write_world(out, {state.frame, state.ticks_per_second, state.masks});
+  write_world(out, {state.layout, state.ticks_per_second, state.masks});
   out.raw(write_body(sim::State{}, state));
   return out.take();
 }
 
 std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now) {
-  BRUME_ASSERT(base.tick < now.tick && base.events <= now.events && base.frame == now.frame &&
+  BRUME_ASSERT(base.tick < now.tick && base.events <= now.events && base.layout == now.layout &&
                    base.ticks_per_second == now.ticks_per_second && base.masks == now.masks,
                std::to_string(base.tick) + " to " + std::to_string(now.tick));
   ByteWriter out;
@@ -78,7 +78,7 @@ Result<PacketHead> read_head(std::span<const std::byte> packet, const Limits& li
     head.base_tick = head.tick - static_cast<std::uint32_t>(back);
   }
   head.checksum = in.number<std::uint32_t>();
-  head.body = in.rest();
+  head.body = in.remaining();
   if (!in.ok()) return refused("the bytes are cut short");
   return head;
 }
@@ -92,7 +92,7 @@ Result<Request> read_request(std::span<const std::byte> packet) {
     request.tick = static_cast<std::uint32_t>(tick - 1);
     request.checksum = in.number<std::uint32_t>();
   }
-  if (!in.ok() || first != first_byte(PacketKind::request) || !in.rest().empty())
+  if (!in.ok() || first != first_byte(PacketKind::request) || !in.remaining().empty())
     return refused("not a request of version " + std::to_string(kVersion));
   return request;
 }
@@ -102,10 +102,10 @@ Result<sim::State> read_keyframe(const PacketHead& head, const Limits& limits) {
   const auto world = read_world(in);
   if (!world) return refused(world.failure().message);
   sim::State empty;
-  empty.frame = world->frame;
+  empty.layout = world->layout;
   empty.ticks_per_second = world->ticks_per_second;
   empty.masks = world->masks;
-  return checked(read_body(in.rest(), empty, head.tick, limits), head);
+  return checked(read_body(in.remaining(), empty, head.tick, limits), head);
 }
 
 Result<sim::State> read_delta(const PacketHead& head, const sim::State& base, const Limits& limits) {

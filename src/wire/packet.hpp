@@ -19,7 +19,7 @@ namespace brume::wire {
 
 constexpr std::uint8_t kVersion = 2;
 
-/// Later ticks do not travel: a year at 64 a second.
+/// Later ticks do not displacements: a year at 64 a second.
 constexpr std::uint32_t kMaxPacketTick = (1u << 31) - 1;
 
 /// The lower half of the first byte; the version is the upper half.
@@ -46,7 +46,7 @@ std::uint32_t checksum_of(const sim::State& state);
 
 /// state.tick <= kMaxPacketTick.
 std::vector<std::byte> write_keyframe(const sim::State& state);
-/// base.tick < now.tick <= kMaxPacketTick, base.events <= now.events; both of the same frame,
+/// base.tick < now.tick <= kMaxPacketTick, base.events <= now.events; both of the same layout,
 /// ticks_per_second and masks.
 std::vector<std::byte> write_delta(const sim::State& base, const sim::State& now);
 std::vector<std::byte> write_request(const Request& request);

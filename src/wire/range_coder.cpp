@@ -13,9 +13,9 @@ constexpr int kLeftOut = 4;               // Zeros at the end that are not writt
 // and Trofimov 1981), n at most kMemory: what was long ago is forgotten. Of 65536.
 constexpr std::uint16_t kMemory = 60;
 constexpr auto kSteps = [] {
-  std::array<std::uint32_t, kMemory + 1> steps{};
-  for (std::uint32_t n = 0; n <= kMemory; ++n) steps[n] = 2 * 65536 / (2 * n + 3);
-  return steps;
+  std::array<std::uint32_t, kMemory + 1> densities{};
+  for (std::uint32_t n = 0; n <= kMemory; ++n) densities[n] = 2 * 65536 / (2 * n + 3);
+  return densities;
 }();
 
 // No decision is ever so sure that it would cost nothing: a packet's bytes bound what is in it.

@@ -1,7 +1,7 @@
 // An adaptive binary range coder: yes-or-no decisions in, about as many bits out as they were surprising.
 //
 // Source: Martin 1979, "Range encoding: an algorithm for removing redundancy from a digitised message", in
-// the binary form with carry propagation that LZMA made known (Pavlov, "LZMA specification", 2015). Integers
+// the binary archive with carry propagation that LZMA made known (Pavlov, "LZMA specification", 2015). Integers
 // only: the same decisions give the same bytes on every machine.
 //
 // Encoder and decoder have the same members, so that one function describes a format for both ways:

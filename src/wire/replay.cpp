@@ -11,7 +11,7 @@
 #include "wire/bytes.hpp"
 #include "wire/event_log.hpp"
 #include "wire/packet.hpp"
-#include "wire/world_form.hpp"
+#include "wire/world_archive.hpp"
 
 namespace brume::wire {
 namespace {
@@ -60,13 +60,13 @@ Result<std::vector<std::byte>> encode_level(const voxel::BitGrid& level) {
   return coder.finish();
 }
 
-Result<voxel::BitGrid> decode_level(std::span<const std::byte> bytes, const voxel::GridFrame& frame) {
+Result<voxel::BitGrid> decode_level(std::span<const std::byte> bytes, const voxel::GridLayout& layout) {
   Decoder coder(bytes);
   const auto models = std::make_unique<BlockModels>();
   std::vector<sim::VoxelBlock> blocks;
-  code_blocks(coder, *models, {frame.size, false, kMaxLevelVoxels}, ivec3(0), {}, blocks);
+  code_blocks(coder, *models, {layout.size, false, kMaxLevelVoxels}, ivec3(0), {}, blocks);
   if (!coder.at_end()) return damaged("a replay with an impossible level");
-  voxel::BitGrid level(frame);
+  voxel::BitGrid level(layout);
   for (const sim::VoxelBlock& block : blocks) {
     const sim::EditBlock edit{block.at, block.mask, 0};
     sim::apply_edits(level, {&edit, 1});
@@ -87,9 +87,9 @@ Result<std::vector<std::byte>> encode_replay(const Replay& replay) {
   ByteWriter out;
   out.raw(kMagic);
   out.varint(kVersion);
-  write_world(out, {replay.level.frame(), replay.settings.ticks_per_second, replay.settings.masks});
+  write_world(out, {replay.level.layout(), replay.settings.ticks_per_second, replay.settings.masks});
   out.section(*level);
-  out.section(write_events(replay.events, replay.level.frame()));
+  out.section(write_events(replay.events, replay.level.layout()));
   out.varint(replay.checksums.size());
   for (const std::uint32_t checksum : replay.checksums) out.number(checksum);
   out.number(hash_bytes(out.bytes()));
@@ -104,7 +104,7 @@ Result<Replay> decode_replay(std::span<const std::byte> bytes) {
   const std::uint64_t version = in.varint(~std::uint64_t{0});
   if (!in.ok() || version != kVersion)
     return damaged("a replay of another version than " + std::to_string(kVersion));
-  if (in.rest().size() < kHashBytes) return damaged("a replay that is cut short");
+  if (in.remaining().size() < kHashBytes) return damaged("a replay that is cut short");
   const std::size_t hashed = bytes.size() - kHashBytes;
   if (ByteReader(bytes.subspan(hashed)).number<std::uint64_t>() != hash_bytes(bytes.first(hashed)))
     return damaged("a damaged replay: its hash is wrong");
@@ -114,13 +114,13 @@ Result<Replay> decode_replay(std::span<const std::byte> bytes) {
   if (!world) return damaged("replay: " + world.failure().message);
   const auto level_bytes = in.section();
   const auto event_bytes = in.section();
-  if (!in.ok() || in.rest().size() < kHashBytes) return damaged("a replay that is cut short");
-  const std::uint64_t ticks = in.varint(in.rest().size() / sizeof(std::uint32_t));
-  if (!in.ok() || in.rest().size() != ticks * sizeof(std::uint32_t) + kHashBytes)
+  if (!in.ok() || in.remaining().size() < kHashBytes) return damaged("a replay that is cut short");
+  const std::uint64_t ticks = in.varint(in.remaining().size() / sizeof(std::uint32_t));
+  if (!in.ok() || in.remaining().size() != ticks * sizeof(std::uint32_t) + kHashBytes)
     return damaged("a replay with another number of ticks than it tells");
-  auto level = decode_level(level_bytes, world->frame);
+  auto level = decode_level(level_bytes, world->layout);
   if (!level) return level.failure();
-  auto events = read_events(event_bytes, world->frame);
+  auto events = read_events(event_bytes, world->layout);
   if (!events) return damaged("replay: " + events.failure().message);
   Replay replay{std::move(*level), {world->ticks_per_second, world->masks}, std::move(*events), {}};
   for (std::uint64_t tick = 0; tick < ticks; ++tick) replay.checksums.push_back(in.number<std::uint32_t>());
@@ -141,7 +141,7 @@ Result<Replay> load_replay(const std::filesystem::path& path) {
   return replay;
 }
 
-Result<std::optional<Departure>> play(const Replay& replay,
+Result<std::optional<Divergence>> play(const Replay& replay,
                                       const std::function<void(const sim::State&)>& visit) {
   sim::World world(replay.level, replay.settings);
   if (auto taken = world.append(replay.events); !taken) return taken.failure();
@@ -149,9 +149,9 @@ Result<std::optional<Departure>> play(const Replay& replay,
     world.advance_to(tick);
     if (visit) visit(world.state());
     const std::uint32_t got = checksum_of(world.state());
-    if (got != replay.checksums[tick]) return std::optional(Departure{tick, replay.checksums[tick], got});
+    if (got != replay.checksums[tick]) return std::optional(Divergence{tick, replay.checksums[tick], got});
   }
-  return std::optional<Departure>();
+  return std::optional<Divergence>();
 }
 
 }  // namespace brume::wire

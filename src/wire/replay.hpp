@@ -44,14 +44,14 @@ Result<void> save_replay(const std::filesystem::path& path, const Replay& replay
 Result<Replay> load_replay(const std::filesystem::path& path);
 
 /// Where a simulation left the replay.
-struct Departure {
+struct Divergence {
   std::uint32_t tick = 0;
   std::uint32_t recorded = 0, got = 0;  ///< Checksums.
 };
 
 /// Simulates all ticks anew and compares each; stops at the first that differs. `visit` is called with each
 /// state before it is compared. Fails as World does for an event that it refuses.
-Result<std::optional<Departure>> play(const Replay& replay,
+Result<std::optional<Divergence>> play(const Replay& replay,
                                       const std::function<void(const sim::State&)>& visit = {});
 
 }  // namespace brume::wire

@@ -24,7 +24,7 @@ class Sender {
   /// Takes the state of a tick and returns the packet to send to every receiver: what is different since the
   /// state pushed before, or a keyframe for the first one and for one of fewer events than the last (another
   /// world goes on). Fails with bad_input when the tick is not above the last one's or above kMaxPacketTick,
-  /// or frame, ticks_per_second or masks are others.
+  /// or layout, ticks_per_second or masks are others.
   Result<std::vector<std::byte>> push(const sim::State& state);
 
   /// What to send to the one receiver that asked: a delta from the state that it has, a keyframe where that

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "wire/cloud_coding.hpp"
-#include "wire/form.hpp"
+#include "wire/archive.hpp"
 
 namespace brume::wire {
 namespace {
@@ -16,7 +16,7 @@ using sim::EditBlocks;
 using sim::Flight;
 using sim::LiveBlast;
 using sim::LiveCloud;
-using sim::OpenHole;
+using sim::BulletHole;
 using sim::State;
 
 std::uint32_t key_of(const Flight& flight) {
@@ -28,7 +28,7 @@ std::uint32_t key_of(const LiveCloud& cloud) {
 std::uint32_t key_of(const LiveBlast& blast) {
   return blast.id;
 }
-std::uint32_t key_of(const OpenHole& hole) {
+std::uint32_t key_of(const BulletHole& hole) {
   return hole.id;
 }
 std::uint32_t key_of(const Body& body) {
@@ -47,26 +47,26 @@ bool same(const LiveBlast& a, const LiveBlast& b) {
 }
 
 template <typename F>
-void describe_numbers(F& form, Flight& flight) {
-  form.field(Field::throw_tick, flight.throw_tick);
-  form.field(Field::detonation_tick, flight.detonation_tick);
-  describe_position(form, Field::from, flight.from);
-  describe_position(form, Field::voxel, flight.landing);
-  describe(form, flight.smoke);
+void describe_numbers(F& archive, Flight& flight) {
+  archive.field(Field::throw_tick, flight.throw_tick);
+  archive.field(Field::detonation_tick, flight.detonation_tick);
+  describe_position(archive, Field::from, flight.from);
+  describe_position(archive, Field::voxel, flight.landing);
+  serialize(archive, flight.smoke);
 }
 
 template <typename F>
-void describe_numbers(F& form, OpenHole& hole) {
-  describe(form, hole.shot);
-  form.field(Field::distance, hole.distance);
+void describe_numbers(F& archive, BulletHole& hole) {
+  serialize(archive, hole.shot);
+  archive.field(Field::distance, hole.distance);
 }
 
 template <typename F>
-void describe_numbers(F& form, Body& body) {
-  describe_position(form, Field::body_at, body.position);
-  describe_position(form, Field::body_was, body.previous);
-  form.field(Field::body_tick, body.tick);
-  form.field(Field::body_tick_before, body.previous_tick);
+void describe_numbers(F& archive, Body& body) {
+  describe_position(archive, Field::body_at, body.position);
+  describe_position(archive, Field::body_was, body.previous);
+  archive.field(Field::body_tick, body.tick);
+  archive.field(Field::body_tick_before, body.previous_tick);
 }
 
 // One State as the difference from another.
@@ -75,13 +75,13 @@ class StateCoder {
  public:
   static constexpr bool kReads = Coder::kReads;
 
-  StateCoder(Form<Coder>& form, const State& base, State& now) : form_(form), base_(base), now_(now) {}
+  StateCoder(Archive<Coder>& archive, const State& base, State& now) : archive_(archive), base_(base), now_(now) {}
 
   void code() {
-    form_.memory.at(Field::events) = form_.memory.at(Field::id) = base_.events;
-    form_.field(Field::events, now_.events);
+    archive_.memory.at(Field::events) = archive_.memory.at(Field::id) = base_.events;
+    archive_.field(Field::events, now_.events);
     // What stays is not looked at again: it is of an earlier event still.
-    if (now_.events < base_.events) form_.refuse("events were taken back");
+    if (now_.events < base_.events) archive_.refuse("events were taken back");
     code_edits();
     code_list(base_.flights, now_.flights);
     code_list(base_.clouds, now_.clouds);
@@ -91,22 +91,22 @@ class StateCoder {
   }
 
  private:
-  // An edit that is there before and after costs nothing: only bits that differ travel.
+  // An edit that is there before and after costs nothing: only bits that differ displacements.
   void code_edits() {
     const EditBlocks none;
     const EditBlocks& before = base_.edits ? *base_.edits : none;
     EditBlocks changed;
     if constexpr (!kReads)
       if (base_.edits != now_.edits) changed = flipped(before, now_.edits ? *now_.edits : none);
-    if (!form_.flag(Flag::edits, !changed.empty())) {
+    if (!archive_.flag(Flag::edits, !changed.empty())) {
       if constexpr (kReads) now_.edits = base_.edits;
       return;
     }
-    describe(form_, changed);
+    serialize(archive_, changed);
     if constexpr (kReads) {
       EditBlocks after = flipped(before, changed);
       for (const EditBlock& edit : after)
-        if (edit.make_solid & edit.make_free) form_.refuse("an edit makes a voxel both solid and free");
+        if (edit.make_solid & edit.make_free) archive_.refuse("an edit makes a voxel both solid and free");
       now_.edits = after.empty() ? nullptr : std::make_shared<const EditBlocks>(std::move(after));
     }
   }
@@ -138,14 +138,14 @@ class StateCoder {
                 !std::equal(base.begin(), base.end(), now.begin(), [](const Item& a, const Item& b) {
                   return key_of(a) == key_of(b) && same(a, b);
                 });
-    if (!form_.flag(Flag::list, differs)) {
+    if (!archive_.flag(Flag::list, differs)) {
       if constexpr (kReads) now = base;
       return;
     }
     std::vector<Item> kept, added;
     auto next = now.begin();
     for (const Item& before : base) {
-      if (!form_.ok()) return;
+      if (!archive_.ok()) return;
       Item after = before;
       bool stays = false;
       if constexpr (!kReads) {
@@ -153,42 +153,42 @@ class StateCoder {
         stays = next != now.end() && key_of(*next) == key_of(before);
         if (stays) after = *next++;
       }
-      if (!form_.flag(Flag::kept, stays)) continue;
-      if (form_.flag(Flag::replaced, !same(before, after))) code_item(&before, after);
+      if (!archive_.flag(Flag::kept, stays)) continue;
+      if (archive_.flag(Flag::replaced, !same(before, after))) code_item(&before, after);
       if constexpr (kReads) kept.push_back(std::move(after));
     }
     if constexpr (!kReads) added.insert(added.end(), next, now.end());
     code_added(added);
-    if constexpr (kReads) put_together(std::move(kept), std::move(added), now);
+    if constexpr (kReads) schedule_gather(std::move(kept), std::move(added), now);
   }
 
   template <typename Item>
   void code_added(std::vector<Item>& added) {
-    const std::uint64_t count = form_.count(added.size());
-    for (std::uint64_t i = 0; i < count && form_.ok(); ++i) {
+    const std::uint64_t count = archive_.count(added.size());
+    for (std::uint64_t i = 0; i < count && archive_.ok(); ++i) {
       Item item{};
       if constexpr (!kReads) item = added[i];
       std::uint32_t key = key_of(item);
-      form_.field(std::is_same_v<Item, Body> ? Field::body : Field::id, key);
+      archive_.field(std::is_same_v<Item, Body> ? Field::body : Field::id, key);
       set_key(item, key);
       code_item(static_cast<const Item*>(nullptr), item);
       if constexpr (kReads)
-        if (form_.ok()) added.push_back(std::move(item));
+        if (archive_.ok()) added.push_back(std::move(item));
     }
   }
 
   template <typename Item>
-  void put_together(std::vector<Item> kept, std::vector<Item> added, std::vector<Item>& now) {
-    if (!form_.ok()) return;
+  void schedule_gather(std::vector<Item> kept, std::vector<Item> added, std::vector<Item>& now) {
+    if (!archive_.ok()) return;
     const auto before = [](const Item& a, const Item& b) { return key_of(a) < key_of(b); };
     now.clear();
     std::merge(std::make_move_iterator(kept.begin()), std::make_move_iterator(kept.end()),
                std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()),
                std::back_inserter(now), before);
     for (std::size_t i = 0; i < now.size(); ++i) {
-      if (i > 0 && !before(now[i - 1], now[i])) form_.refuse("numbers of things are out of order");
+      if (i > 0 && !before(now[i - 1], now[i])) archive_.refuse("numbers of things are out of order");
       if (!std::is_same_v<Item, Body> && key_of(now[i]) >= now_.events)
-        form_.refuse("a thing is of an event that was not yet");
+        archive_.refuse("a thing is of an event that was not yet");
     }
   }
 
@@ -202,9 +202,9 @@ class StateCoder {
   void code_item(const Item* before, Item& item) {
     if (before) {
       Item expected = *before;
-      describe_numbers(form_.memory, expected);
+      describe_numbers(archive_.memory, expected);
     }
-    describe_numbers(form_, item);
+    describe_numbers(archive_, item);
     if constexpr (kReads) check(item);
   }
 
@@ -215,15 +215,15 @@ class StateCoder {
       expected.previous = before->position;
       expected.previous_tick = before->tick;
       expected.tick = now_.tick;
-      describe_numbers(form_.memory, expected);
+      describe_numbers(archive_.memory, expected);
     }
-    describe_numbers(form_, body);
+    describe_numbers(archive_, body);
     if constexpr (kReads) check(body);
   }
 
   void code_item(const LiveCloud* before, LiveCloud& live) {
-    if (before && form_.flag(Flag::rested, is_rested(*before, live))) {
-      if constexpr (kReads) live.cloud = std::make_shared<const sim::Cloud>(before->cloud->rested());
+    if (before && archive_.flag(Flag::settled, is_settled(*before, live))) {
+      if constexpr (kReads) live.cloud = std::make_shared<const sim::Cloud>(before->cloud->settled());
       return;
     }
     // Its grenade told most of it.
@@ -231,29 +231,29 @@ class StateCoder {
                                      [&](const Flight& f) { return f.id == live.id; });
     if (flight != base_.flights.end()) {
       Flight expected = *flight;
-      describe_numbers(form_.memory, expected);
+      describe_numbers(archive_.memory, expected);
     }
     if (before) {
       sim::CloudOrigin expected = before->cloud->origin();
-      describe(form_.memory, expected);
+      serialize(archive_.memory, expected);
     }
     sim::CloudParts parts;
     if constexpr (!kReads) parts = live.cloud->parts();
-    code_cloud(form_, before ? before->cloud.get() : nullptr, now_.tick, parts);
+    code_cloud(archive_, before ? before->cloud.get() : nullptr, now_.tick, parts);
     if constexpr (kReads) {
-      if (!form_.ok()) return;
+      if (!archive_.ok()) return;
       auto cloud = sim::Cloud::from_parts(std::move(parts));
       if (cloud)
         live.cloud = std::make_shared<const sim::Cloud>(std::move(*cloud));
       else
-        form_.refuse(cloud.failure().message);
+        archive_.refuse(cloud.failure().message);
     }
   }
 
-  static bool is_rested(const LiveCloud& before, const LiveCloud& now) {
+  static bool is_settled(const LiveCloud& before, const LiveCloud& now) {
     if constexpr (kReads) return false;
-    return before.cloud->rest_tick() && !now.cloud->rest_tick() &&
-           before.cloud->rested().hash() == now.cloud->hash();
+    return before.cloud->settle_tick() && !now.cloud->settle_tick() &&
+           before.cloud->settled().hash() == now.cloud->hash();
   }
 
   void code_item(const LiveBlast* before, LiveBlast& live) {
@@ -267,93 +267,93 @@ class StateCoder {
     }
     if (before) {
       sim::Blast expected = before->field->blast();
-      describe(form_.memory, expected);
+      serialize(archive_.memory, expected);
     }
-    describe(form_, blast);
-    describe_position(form_, Field::centre, centre);
-    if (!form_.ok()) return;
-    const sim::VoxelRuler ruler(form_.frame());
+    serialize(archive_, blast);
+    describe_position(archive_, Field::centre, centre);
+    if (!archive_.ok()) return;
+    const sim::VoxelRuler ruler(archive_.layout());
     if constexpr (kReads) {
       check_event(blast);
       check_begun(blast.tick);
       check_event(sim::MoveBody{0, 0, centre});
-      if (!form_.ok()) return;
+      if (!archive_.ok()) return;
     }
-    form_.set(glm::ivec3(ruler.subvoxel(centre) >> std::int64_t{10}), {}, reached);
+    archive_.set(glm::ivec3(ruler.subvoxel(centre) >> std::int64_t{10}), {}, reached);
     if constexpr (kReads) {
-      if (!form_.ok()) return;
-      auto field = sim::BlastField::from_parts(form_.frame(), blast, centre, std::move(reached),
+      if (!archive_.ok()) return;
+      auto field = sim::BlastField::from_parts(archive_.layout(), blast, centre, std::move(reached),
                                                now_.ticks_per_second);
       if (field)
         live.field = std::make_shared<const sim::BlastField>(std::move(*field));
       else
-        form_.refuse(field.failure().message);
+        archive_.refuse(field.failure().message);
     }
   }
 
   void check_event(const sim::Event& event) {
-    const Result<void> checked = sim::check_event(event, form_.frame());
-    if (!checked) form_.refuse(checked.failure().message);
+    const Result<void> checked = sim::check_event(event, archive_.layout());
+    if (!checked) archive_.refuse(checked.failure().message);
   }
   void check_inside(glm::ivec3 voxel, const char* otherwise) {
     if (glm::any(glm::lessThan(voxel, glm::ivec3(0))) ||
-        glm::any(glm::greaterThanEqual(voxel, form_.frame().size)))
-      form_.refuse(otherwise);
+        glm::any(glm::greaterThanEqual(voxel, archive_.layout().size)))
+      archive_.refuse(otherwise);
   }
   void check_begun(std::uint32_t tick) {
-    if (tick > now_.tick) form_.refuse("a thing is there before it begins");
+    if (tick > now_.tick) archive_.refuse("a thing is there before it begins");
   }
   void check(const Flight& flight) {
     check_event(sim::ThrowSmoke{flight.throw_tick, flight.from, flight.from, flight.smoke});
     check_inside(flight.landing, "a grenade lands outside of the grid");
     check_begun(flight.throw_tick);
     if (flight.detonation_tick <= flight.throw_tick || flight.detonation_tick > 2 * sim::kMaxTick)
-      form_.refuse("a grenade goes off before it is thrown, or never");
+      archive_.refuse("a grenade goes off before it is thrown, or never");
   }
-  void check(const OpenHole& hole) {
+  void check(const BulletHole& hole) {
     check_event(hole.shot);
     check_begun(hole.shot.tick);
     if (hole.shot.shape == sim::HoleShape::mask && hole.shot.mask >= now_.masks.count)
-      form_.refuse("a hole of a mask that is not there");
-    if (hole.distance == 0 || hole.distance > kMaxDistance) form_.refuse("a hole of no depth, or too deep");
+      archive_.refuse("a hole of a mask that is not there");
+    if (hole.distance == 0 || hole.distance > kMaxDistance) archive_.refuse("a hole of no depth, or too deep");
   }
   void check(const Body& body) {
     check_event(sim::MoveBody{body.tick, body.body, body.position});
     check_event(sim::MoveBody{body.previous_tick, body.body, body.previous});
     check_begun(body.tick);
-    if (body.previous_tick > body.tick) form_.refuse("a body moved before it was where it came from");
+    if (body.previous_tick > body.tick) archive_.refuse("a body moved before it was where it came from");
   }
 
   // Longer than any way through the world.
   static constexpr std::uint64_t kMaxDistance = std::uint64_t{8} * sim::kMaxCoordinate;
 
-  Form<Coder>& form_;
+  Archive<Coder>& archive_;
   const State& base_;
   State& now_;
 };
 
 }  // namespace
 
-// A Form is large; it lives on the heap.
+// A Archive is large; it lives on the heap.
 std::vector<std::byte> write_body(const sim::State& base, const sim::State& now) {
   Encoder coder;
-  const auto form = std::make_unique<Form<Encoder>>(coder, now.frame, now.tick, Limits{});
+  const auto archive = std::make_unique<Archive<Encoder>>(coder, now.layout, now.tick, Limits{});
   sim::State copy = now;
-  StateCoder<Encoder>(*form, base, copy).code();
+  StateCoder<Encoder>(*archive, base, copy).code();
   return coder.finish();
 }
 
 Result<sim::State> read_body(std::span<const std::byte> body, const sim::State& base, std::uint32_t tick,
                              const Limits& limits) {
   sim::State now;
-  now.frame = base.frame;
+  now.layout = base.layout;
   now.ticks_per_second = base.ticks_per_second;
   now.masks = base.masks;
   now.tick = tick;
   Decoder coder(body);
-  const auto form = std::make_unique<Form<Decoder>>(coder, now.frame, now.tick, limits);
-  StateCoder<Decoder>(*form, base, now).code();
-  if (!form->reason().empty()) return Failure{ErrorCode::bad_input, form->reason()};
+  const auto archive = std::make_unique<Archive<Decoder>>(coder, now.layout, now.tick, limits);
+  StateCoder<Decoder>(*archive, base, now).code();
+  if (!archive->reason().empty()) return Failure{ErrorCode::bad_input, archive->reason()};
   if (!coder.at_end())
     return Failure{ErrorCode::bad_input, "the bytes are cut short, too many, or out of range"};
   return now;

@@ -12,7 +12,7 @@
 
 namespace brume::wire {
 
-/// What is different in `now` from `base`, which has no more events, and the same frame,
+/// What is different in `now` from `base`, which has no more events, and the same layout,
 /// ticks_per_second and masks or nothing at all.
 std::vector<std::byte> write_body(const sim::State& base, const sim::State& now);
 

@@ -136,7 +136,7 @@ TEST_P(BlenderFormats, EveryTriangleIsWhereBlenderHasIt) {
 
 // Voxels that Blender's own triangles touch, by the obvious test, a voxel of the grid grown by `more` voxels
 // each way.
-std::size_t voxels_touched(const std::vector<Triangle>& triangles, const voxel::GridFrame& frame,
+std::size_t voxels_touched(const std::vector<Triangle>& triangles, const voxel::GridLayout& frame,
                            double more) {
   std::set<std::array<int, 3>> touched;
   for (const Triangle& t : triangles) {
@@ -161,7 +161,7 @@ std::size_t voxels_touched(const std::vector<Triangle>& triangles, const voxel::
 }
 
 TEST_P(BlenderFormats, VoxelizesToWhatBlendersTrianglesTouch) {
-  const voxel::GridFrame frame{{66, 26, 52}, 0.2f, {-6.53f, -0.67f, -5.37f}};
+  const voxel::GridLayout frame{{66, 26, 52}, 0.2f, {-6.53f, -0.67f, -5.37f}};
   const auto triangles = blenders_triangles(read_json(blender_run().folder / "courtyard" / "expected.json"));
   const cli::Outcome run = cli::run_brume(
       blender_run().folder, {"voxelize", level("courtyard", GetParam()).string(), "--grid", "66x26x52",
@@ -233,13 +233,13 @@ TEST_P(BlenderFormats, WhatCannotBeCarriedIsLeftOutAndSaid) {
   // A plane that Blender shows, though its box has no volume.
   EXPECT_FLOAT_EQ(scene::world_bounds(scene).min.y, -3);
   for (const char* said :
-       {"the lamp \"dark\" takes light away", "the camera \"flat view\" is not a perspective one",
+       {"the light \"dark\" takes light away", "the camera \"flat view\" is not a perspective one",
         "the image \"gone\" has no pixels", "\"Outdoor stone\" is no door, but the viewer opens it"}) {
     EXPECT_NE(blender_run().log.find(std::string("Brume: warning: ") + said), std::string::npos) << said;
   }
 }
 
-// Radiant intensities [W/sr]: power / (4 pi) of points and spots; power / 4 of an area lamp along its axis.
+// Radiant intensities [W/sr]: power / (4 pi) of points and spots; power / 4 of an area light along its axis.
 TEST_P(BlenderFormats, LampsShineAsInBlender) {
   const double pi = std::acos(-1.0);
   for (const auto& sample : {std::pair{"courtyard", 1.0}, std::pair{"small", 0.25}}) {
@@ -256,7 +256,7 @@ TEST_P(BlenderFormats, LampsShineAsInBlender) {
       EXPECT_NEAR(double{found->intensity.r}, red, 1e-4 * red);
       EXPECT_EQ(found->kind, is_txt ? scene::LightKind::point : kind);
       if (found->kind == scene::LightKind::point) return;
-      // All lamps with a direction look from where they are to where build_lights() says.
+      // All lights with a direction look from where they are to where build_lights() says.
       const glm::dvec3 aim = blender.z > 8   ? glm::dvec3(-2, 0, -3)
                              : blender.z > 3 ? glm::dvec3(0.2, 0.6, -0.9)
                                              : glm::dvec3(0, 0.5, -2);
@@ -364,7 +364,7 @@ TEST_F(Blender, SettingsHaveTheRangesAndDefaultsOfTimelines) {
     EXPECT_EQ(read->texts[0].interval, text.interval);
     EXPECT_EQ(read->blasts[0].radius, blast.radius);
     EXPECT_EQ(read->blasts[0].speed, blast.speed);
-    EXPECT_EQ(read->blasts[0].left, blast.left);
+    EXPECT_EQ(read->blasts[0].remaining, blast.remaining);
     EXPECT_EQ(read->blasts[0].refill_rim, blast.refill_rim);
     EXPECT_EQ(read->blasts[0].refill_middle, blast.refill_middle);
     EXPECT_EQ(read->blasts[0].flash, blast.flash);

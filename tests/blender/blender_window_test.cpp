@@ -8,11 +8,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-// EEVEE's picture of a plane two metres below each lamp, against the light that Brume reads: radiance is 0.8
-// / pi of what falls in. EEVEE fits the power of area lamps to Cycles' by a factor of 0.8 for pi / 4, 1.9 %
-// more, and the lamps have a size.
+// EEVEE's picture of a plane two metres below each light, against the light that Brume reads: radiance is 0.8
+// / pi of what falls in. EEVEE fits the power of area lights to Cycles' by a factor of 0.8 for pi / 4, 1.9 %
+// more, and the lights have a size.
 TEST_F(Blender, LampsLightAsBlendersOwnRendererShows) {
-  const Json measured = read_json(blender_run().folder / "lamps.json");
+  const Json measured = read_json(blender_run().folder / "lights.json");
   ASSERT_EQ(measured.size(), 4u);
   for (const auto& [kind, radiance] : measured.items()) {
     const scene::Scene scene =

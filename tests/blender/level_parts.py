@@ -244,7 +244,7 @@ def build_courtyard(folder):
 def build_lights():
     scene = bpy.context.scene
 
-    def lamp(name, kind, energy, color, location, target=None):
+    def light(name, kind, energy, color, location, target=None):
         data = bpy.data.lights.new(name, kind)
         data.energy, data.color = energy, color
         made = add(name, data, location=location)
@@ -253,12 +253,12 @@ def build_lights():
             made.rotation_euler = direction.to_track_quat("-Z", "Y").to_euler()
         return data
 
-    lamp("lantern", "POINT", 300, (1, 0.6, 0.28), (2.3, 0.9, 3.3))
-    spot = lamp("floodlight", "SPOT", 2600, (0.62, 0.78, 1), (-5.6, -1.4, 3.9), (0.2, 0.9, 0.6))
+    light("lantern", "POINT", 300, (1, 0.6, 0.28), (2.3, 0.9, 3.3))
+    spot = light("floodlight", "SPOT", 2600, (0.62, 0.78, 1), (-5.6, -1.4, 3.9), (0.2, 0.9, 0.6))
     spot.spot_size, spot.spot_blend = math.radians(40), 0.4
-    area = lamp("window", "AREA", 300, (1, 0.75, 0.45), (0, 3.9, 2.6), (0, 2, 0.5))
+    area = light("window", "AREA", 300, (1, 0.75, 0.45), (0, 3.9, 2.6), (0, 2, 0.5))
     area.size = 1
-    lamp("moon", "SUN", 0.3, (0.55, 0.7, 1), (0, 0, 9), (-2, 3, 0))
+    light("moon", "SUN", 0.3, (0.55, 0.7, 1), (0, 0, 9), (-2, 3, 0))
     world = bpy.data.worlds.new("night")
     world.use_nodes = True
     world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.02, 0.03, 0.055, 1)
@@ -316,7 +316,7 @@ def build_events(folder):
 
 
 def build_all(folder):
-    """The courtyard with its lamps, camera and events, at a moment when much happens. Files are written to `folder`."""
+    """The courtyard with its lights, camera and events, at a moment when much happens. Files are written to `folder`."""
     build_courtyard(folder)
     build_lights()
     build_camera()

@@ -132,7 +132,7 @@ def make_ranges(folder):
 
 
 def make_odd(folder):
-    """What is not as an export likes it: a mesh that is being edited, flat, empty, of many materials, dark lamps."""
+    """What is not as an export likes it: a mesh that is being edited, flat, empty, of many materials, dark lights."""
     empty_scene()
     cube = level_parts.add("cube", level_parts.box_mesh("cube", (-1, -1, -1), (1, 1, 1)))
     bpy.context.view_layer.objects.active = cube
@@ -161,9 +161,9 @@ def make_odd(folder):
     for name in ("olive", "rust"):
         two.materials.append(level_parts.material(name, (0.2, 0.2, 0.1)))
     two.polygons[0].material_index = 1
-    lamp = bpy.data.lights.new("dark", "POINT")
-    lamp.energy = -5
-    level_parts.add("dark", lamp)
+    light = bpy.data.lights.new("dark", "POINT")
+    light.energy = -5
+    level_parts.add("dark", light)
     camera = bpy.data.cameras.new("flat view")
     camera.type = "ORTHO"
     bpy.context.scene.camera = level_parts.add("flat view", camera)

@@ -152,7 +152,7 @@ TEST_F(Documents, TheExamplesOfTheHelpRun) {
 
 TEST(DocumentRules, TheGalleryShowsTheMomentOfTheDemo) {
   std::ostringstream call;
-  call << "`brume render scenes/demo.toml -o demo.png --time " << kPictureMoment << ' ';
+  call << "`brume render scenes/demo.toml -o demo.png --time " << kPictureTime << ' ';
   const auto gallery = read_text_file(BRUME_SOURCE_DIR "/docs/gallery.md");
   EXPECT_NE(gallery->find(call.str()), std::string::npos) << call.str();
 }

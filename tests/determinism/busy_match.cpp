@@ -23,8 +23,9 @@
 
 #include "core/hash.hpp"
 #include "core/tasks.hpp"
-#include "sim/sight.hpp"
-#include "sim/smoke_volume.hpp"
+#include "smoke/holes.hpp"
+#include "smoke/sight.hpp"
+#include "smoke/smoke_volume.hpp"
 #include "sim/world.hpp"
 #include "tests/determinism/match.hpp"
 
@@ -116,16 +117,16 @@ std::uint64_t hash_densities(const sim::State& state) {
   return hash;
 }
 
-std::uint64_t hash_sight(const sim::SmokeVolume& volume, const sim::World& world,
-                         const sim::MaskAtlas& masks) {
+std::uint64_t hash_sight(const smoke::SmokeVolume& volume, const sim::World& world,
+                         const smoke::MaskAtlas& masks) {
   Random random(world.tick());
-  std::vector<sim::Segment> segments(256);
+  std::vector<smoke::Segment> segments(256);
   const auto metres = [&] {
     return glm::vec3(sim::metres_from_position(random.position(kLowCorner, kHighCorner)));
   };
-  for (sim::Segment& segment : segments) segment = {metres(), metres()};
-  const auto holes = sim::holes_of(world.state(), &masks);
-  const sim::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()), {.masks = &masks});
+  for (smoke::Segment& segment : segments) segment = {metres(), metres()};
+  const auto holes = smoke::holes_of(world.state(), &masks);
+  const smoke::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()), {.masks = &masks});
   std::vector<float> depths(segments.size());
   std::vector<std::uint8_t> seen(segments.size());
   sight.optical_depths(segments, depths).value_or_throw();
@@ -166,10 +167,10 @@ class Match {
 
  private:
   const MatchLevel& level_;
-  const sim::MaskAtlas masks_ = make_masks();
+  const smoke::MaskAtlas masks_ = make_masks();
   Report& report_;
   std::unique_ptr<sim::World> world_;
-  sim::SmokeVolume volume_;
+  smoke::SmokeVolume volume_;
   std::uint32_t next_ = 0;  // ticks before it are in second_ or reported
   std::uint32_t last_ = ~0u;
   std::uint64_t second_ = 0;
@@ -228,7 +229,7 @@ void play_snapshot(Match& match, const std::vector<sim::Event>& events) {
 int play(const Options& options) {
   set_thread_count(options.threads);
   const MatchLevel level = make_level();
-  const std::vector<sim::Event> events = make_events(level.grid.frame());
+  const std::vector<sim::Event> events = make_events(level.grid.layout());
   Report report(options.expect);
   report.add(0, "level", hash_level(level));
   Match match(level, report);

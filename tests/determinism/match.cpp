@@ -8,7 +8,7 @@
 namespace brume::determinism {
 namespace {
 
-constexpr voxel::GridFrame kFrame{{97, 15, 97}, 0.5f, {-24.25f, -0.75f, -24.25f}};
+constexpr voxel::GridLayout kFrame{{97, 15, 97}, 0.5f, {-24.25f, -0.75f, -24.25f}};
 
 /// From tenths of a metre, the unit of the plan below.
 glm::vec3 metres(glm::ivec3 tenths) {
@@ -114,13 +114,13 @@ void add_moves(std::vector<sim::Event>& events, Random& random) {
   }
 }
 
-void add_doors(std::vector<sim::Event>& events, const voxel::GridFrame& frame) {
+void add_doors(std::vector<sim::Event>& events, const voxel::GridLayout& layout) {
   // Shut at first; open, shut and open again while smoke stands before them.
   for (std::uint32_t i = 0; i < 2; ++i)
     for (const std::uint32_t tick : {0u, 200u, 560u, 900u}) {
       const bool shut = tick == 0 || tick == 560;
       events.emplace_back(
-          sim::LevelEdit{tick + 37 * i, sim::edit_box(frame, kDoors[i].low, kDoors[i].high, shut)});
+          sim::LevelEdit{tick + 37 * i, sim::edit_box(layout, kDoors[i].low, kDoors[i].high, shut)});
     }
 }
 
@@ -168,26 +168,26 @@ MatchLevel make_level() {
   return {std::move(grid), std::move(planes)};
 }
 
-sim::MaskAtlas make_masks() {
+smoke::MaskAtlas make_masks() {
   Random random(5);
-  std::vector<sim::Mask> masks;
+  std::vector<smoke::Mask> masks;
   for (std::uint32_t i = 0; i < kMaskCount; ++i) {
-    sim::Mask mask{7 + 3 * i, 5 + 2 * i, {}};
+    smoke::Mask mask{7 + 3 * i, 5 + 2 * i, {}};
     for (std::uint32_t t = 0; t < mask.width * mask.height; ++t)
       mask.texels.push_back(static_cast<std::uint8_t>(std::clamp(random.between(-128, 384), 0, 255)));
     masks.push_back(std::move(mask));
   }
-  return sim::MaskAtlas::pack(masks).value_or_throw();
+  return smoke::MaskAtlas::pack(masks).value_or_throw();
 }
 
-std::vector<sim::Event> make_events(const voxel::GridFrame& frame) {
+std::vector<sim::Event> make_events(const voxel::GridLayout& layout) {
   Random random(3);
   std::vector<sim::Event> events;
   add_smokes(events, random);
   add_shots(events, random);
   add_blasts(events, random);
   add_moves(events, random);
-  add_doors(events, frame);
+  add_doors(events, layout);
   std::stable_sort(events.begin(), events.end(), [](const sim::Event& a, const sim::Event& b) {
     return sim::tick_of(a) < sim::tick_of(b);
   });

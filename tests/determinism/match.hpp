@@ -40,10 +40,10 @@ extern const glm::ivec3 kLowCorner, kHighCorner;
 constexpr std::uint32_t kMatchTicks = 30 * 64;
 
 /// Of its shots.
-sim::MaskAtlas make_masks();
+smoke::MaskAtlas make_masks();
 
 /// 8 smokes, 200 shots of all shapes, 5 blasts, 2 doors that open and shut while smoke is there, 4 bodies; by
 /// tick.
-std::vector<sim::Event> make_events(const voxel::GridFrame& frame);
+std::vector<sim::Event> make_events(const voxel::GridLayout& layout);
 
 }  // namespace brume::determinism

@@ -101,9 +101,9 @@ TEST(ManyFit, ComesCloserToRandomWalksThanOctavesDo) {
 
 TEST(ManyFit, IsNothingWhereNothingScattersAgain) {
   const shared::ManyScatterings many =
-      shared::many_scatterings(shared::many_fit(), glm::vec3(0.9f), 0.3f, 1.0f);
+      shared::multiple_scattering(shared::many_fit(), glm::vec3(0.9f), 0.3f, 1.0f);
   EXPECT_EQ(many.share, glm::vec3(0));
-  EXPECT_EQ(shared::many_scatterings(shared::many_fit(), glm::vec3(0), 0.3f, 0.2f).share, glm::vec3(0));
+  EXPECT_EQ(shared::multiple_scattering(shared::many_fit(), glm::vec3(0), 0.3f, 0.2f).share, glm::vec3(0));
   const shared::Phase phase = shared::phase_of_hg(0.3f);
   EXPECT_EQ(shared::scattered(phase, many, 0.5f, 0.1f),
             glm::vec3(std::exp(-0.5f) * shared::phase_value(phase, 0.1f)));
@@ -114,7 +114,7 @@ TEST(ManyFit, StaysFiniteAndSteady) {
   for (const float g : {-0.9f, 0.0f, 0.5f, 0.9f, 0.99f}) {
     float before = 0;
     for (const float escape : {1.0f, 0.7f, 0.3f, 0.1f, 0.0f}) {
-      const auto many = shared::many_scatterings(shared::many_fit(), {0.5f, 0.9f, 1.0f}, g, escape);
+      const auto many = shared::multiple_scattering(shared::many_fit(), {0.5f, 0.9f, 1.0f}, g, escape);
       EXPECT_TRUE(std::isfinite(many.share.z) && std::isfinite(many.decay.z));
       EXPECT_GE(many.share.y, many.share.x);
       EXPECT_GE(many.share.z, many.share.y);

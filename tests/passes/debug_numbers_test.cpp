@@ -1,7 +1,7 @@
 // Views of numbers: what a slice shows, and what is counted or measured along rays.
 #include <cmath>
 
-#include "sim/sight_holes.hpp"
+#include "smoke/sight_holes.hpp"
 #include "tests/passes/debug_view_room.hpp"
 
 namespace brume::passes {
@@ -20,7 +20,7 @@ class DebugNumbersTest : public DebugViewTest {
     float metres = 0;
   };
   OnSlice on_slice(const Ray& ray, ViewSlice slice) const {
-    const voxel::GridFrame& grid = room_.grid.frame();
+    const voxel::GridLayout& grid = room_.grid.layout();
     const int axis = static_cast<int>(slice.axis);
     const float at = (slice.at_world - grid.origin_world[axis]) / grid.voxel_size;
     OnSlice on;
@@ -55,7 +55,7 @@ TEST_F(DebugNumbersTest, ASliceShowsTheDensityThatTheProcessorReads) {
         const Ray ray = ray_of(frame, surfaces, position_px);
         const OnSlice on = on_slice(ray, slice);
         if (!on.inside) return apart(pixel, ray.behind);
-        const float density = on.solid ? 0 : sim::sample_density(room_.volume, on.p_voxel);
+        const float density = on.solid ? 0 : smoke::sample_density(room_.volume, on.p_voxel);
         smoky += density > 0.1f;
         return apart_within(pixel, density, density > 0 ? kDensitySlack : 0, [&](float d) {
           return seen(ray, on.solid ? on.empty : shared::density_colour(d, on.empty), on.metres);
@@ -70,7 +70,7 @@ TEST_F(DebugNumbersTest, ASliceShowsTheDensityThatTheProcessorReads) {
     bool open = true;
     voxel::for_each_in({v - 1, v + 2}, [&](glm::ivec3 beside) { open = open && !room_.grid.solid(beside); });
     if (!open) return;
-    EXPECT_NEAR(sim::sample_density(room_.volume, glm::vec3(v) + 0.5f),
+    EXPECT_NEAR(smoke::sample_density(room_.volume, glm::vec3(v) + 0.5f),
                 room_.world.state().density(v) / 255.0f, 1e-5f);
     ++compared;
   });
@@ -96,7 +96,7 @@ TEST_F(DebugNumbersTest, ASliceShowsTheLightThatTheSmokeSends) {
     const Ray ray = ray_of(frame, surfaces, position_px);
     const OnSlice on = on_slice(ray, slice);
     if (!on.inside) return apart(pixel, ray.behind);
-    const float density = on.solid ? 0 : sim::sample_density(room_.volume, on.p_voxel);
+    const float density = on.solid ? 0 : smoke::sample_density(room_.volume, on.p_voxel);
     lit += density > 0.1f;
     return apart_within(pixel, density, density > 0 ? kDensitySlack : 0, [&](float d) {
       return seen(ray, glm::mix(on.empty, light, glm::smoothstep(0.0f, 0.06f, d)), on.metres);
@@ -128,8 +128,8 @@ TEST_F(DebugNumbersTest, HolesShowHowMuchOfARayTheyClear) {
   }
   const Surfaces surfaces = half_a_wall(frame);
   const auto shown = show(DebugView::holes, frame, surfaces);
-  const sim::HoleSet holes(open_, frame.time, nullptr);
-  const voxel::GridFrame& grid = room_.grid.frame();
+  const smoke::HoleSet holes(open_, frame.time, nullptr);
+  const voxel::GridLayout& grid = room_.grid.layout();
   int cleared = 0;
   expect_rays(shown, size, kRounded, [&](glm::vec2 position_px, glm::u8vec4 pixel) {
     const Ray ray = ray_of(frame, surfaces, position_px);
@@ -141,17 +141,17 @@ TEST_F(DebugNumbersTest, HolesShowHowMuchOfARayTheyClear) {
     const float end = std::min({std::min({leave.x, leave.y, leave.z}) * grid.voxel_size, ray.surface_m});
     double length = 0;
     if (begin < end) {
-      sim::HolesOnRay met;
+      smoke::HolesOnRay met;
       const glm::vec3 origin = frame.camera.eye_world + ray.direction * begin;
       holes.find(origin, ray.direction, end - begin, met);
-      for (const sim::HolePiece& piece : met.pieces) {
+      for (const smoke::HolePiece& piece : met.pieces) {
         constexpr int kParts = 64;  // of a piece without kinks, four samples each
         const float width = (piece.end - piece.begin) / kParts;
         for (int i = 0; i < kParts; ++i) {
-          sim::Float4 t;
+          smoke::Float4 t;
           for (int k = 0; k < 4; ++k)
             t[k] = piece.begin + (static_cast<float>(i) + 0.125f + 0.25f * static_cast<float>(k)) * width;
-          const sim::Float4 left = piece.gone ? sim::Float4{} : met.left(piece, t);
+          const smoke::Float4 left = piece.gone ? smoke::Float4{} : met.left(piece, t);
           for (int k = 0; k < 4; ++k) length += 0.25 * static_cast<double>(width * (1 - left[k]));
         }
       }

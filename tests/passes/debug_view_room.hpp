@@ -40,7 +40,7 @@ class DebugViewTest : public gpu::GpuTest {
     const glm::vec3 right = glm::normalize(glm::cross(frame.camera.forward, glm::vec3(0, 1, 0)));
     frame.camera.right = 0.8f * right;
     frame.camera.up = 0.45f * glm::cross(right, frame.camera.forward);
-    frame.volume = room_.volume.frame();
+    frame.volume = room_.volume.layout();
     frame.look.albedo = glm::vec3(0.9f);
     frame.look.extinction = 0.7f;
     frame.look.step_length = 0.1f;
@@ -70,7 +70,7 @@ class DebugViewTest : public gpu::GpuTest {
   };
   struct Surfaces;
   Ray ray_of(const FrameConstants& frame, const Surfaces& surfaces, glm::vec2 position_px) const {
-    const voxel::GridFrame& grid = room_.grid.frame();
+    const voxel::GridLayout& grid = room_.grid.layout();
     const glm::vec3 way = along(frame, position_px);
     Ray ray{voxel::voxel_from_world(grid, frame.camera.eye_world), glm::normalize(way), 1e9f,
             shared::backdrop(), 0};
@@ -145,7 +145,7 @@ class DebugViewTest : public gpu::GpuTest {
         sampled_image(size, VK_FORMAT_R16G16B16A16_SFLOAT, std::as_bytes(std::span(surfaces.normal)));
     gbuffer.depth = sampled_image(size, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(surfaces.depth)));
     holes_.reserve(open_, frame.time, 0, frame.volume, room_.volume.slot_count(), size);
-    frame.holes = holes_.frame();
+    frame.holes = holes_.layout();
     const auto frame_buffer = upload(std::vector{frame});
     const auto display = test_image(context(), size, VK_FORMAT_R8G8B8A8_UNORM);
     const DebugSubject subject{view, slice, {&room_.grid, nullptr}, &room_.volume, &room_.world.state()};
@@ -159,7 +159,7 @@ class DebugViewTest : public gpu::GpuTest {
   }
 
   SmokeRoom room_;
-  OpenHoles holes_;
+  HoleClusters holes_;
   DebugViewPass pass_{context()};
   std::vector<shared::Hole> open_;
 };

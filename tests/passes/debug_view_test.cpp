@@ -75,7 +75,7 @@ TEST_F(DebugViewTest, SolidVoxelsAreThoseThatRaysMeet) {
       }
       const glm::vec3 at = ray.eye_voxel + ray.direction * hit->t - glm::vec3(hit->voxel);
       const glm::vec2 f = glm::clamp(glm::vec2(at[axes.x], at[axes.y]), 0.0f, 1.0f);
-      const float metres = hit->t * room_.grid.frame().voxel_size;
+      const float metres = hit->t * room_.grid.layout().voxel_size;
       const float line = shared::grid_line(f, ray.pixel_voxels(metres, std::abs(ray.direction[axis])));
       return apart(pixel, shared::solid_colour(hit->normal, shared::face_light(around, f), line, metres));
     });
@@ -99,7 +99,7 @@ TEST_F(DebugViewTest, DistancesAreThoseOfTheCloudBeyondTheSlice) {
   const auto way_at = [&](glm::ivec3 v) {
     const auto found = ways.find({v.x, v.y, v.z});
     return found == ways.end() ? -1.0f
-                               : static_cast<float>(found->second) * 0.1f * room_.grid.frame().voxel_size;
+                               : static_cast<float>(found->second) * 0.1f * room_.grid.layout().voxel_size;
   };
   float farthest = 0;
   for (const std::uint32_t distance : room_.world.state().clouds[0].cloud->distances())
@@ -113,13 +113,13 @@ TEST_F(DebugViewTest, DistancesAreThoseOfTheCloudBeyondTheSlice) {
     int met = 0, cut = 0;
     expect_rays(shown, size, kRounded, [&](glm::vec2 position_px, glm::u8vec4 pixel) {
       const Ray ray = ray_of(frame, surfaces, position_px);
-      const float voxel_size = room_.grid.frame().voxel_size;
+      const float voxel_size = room_.grid.layout().voxel_size;
       const float t_slice = (slice.at_world - frame.camera.eye_world[across]) / ray.direction[across];
       if (!(t_slice > 0)) return apart(pixel, ray.behind);
       const float t_begin = std::max(1.0f, t_slice) / voxel_size;
       glm::ivec3 voxel(-1), before(-1);
       float t = 0;
-      voxel::visit_voxels(room_.grid.frame(), ray.eye_voxel, ray.direction, 1e6f,
+      voxel::visit_voxels(room_.grid.layout(), ray.eye_voxel, ray.direction, 1e6f,
                           [&](glm::ivec3 v, float enter, float leave) {
                             if (leave > t_begin && way_at(v) >= 0) {
                               voxel = v;
@@ -169,7 +169,7 @@ TEST_F(DebugViewTest, BricksShowWhereTheyAreAndNothingElsewhere) {
   int through = 0, past = 0;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const Ray ray = ray_of(frame, surfaces, middle(frame, i));
-    const float t_end = ray.surface_m / room_.grid.frame().voxel_size;
+    const float t_end = ray.surface_m / room_.grid.layout().voxel_size;
     // The longest way through one brick's filled cells; -1 where the ray is in no brick.
     float filled = -1;
     for (std::uint32_t slot = 0; slot < room_.volume.slot_count(); ++slot) {

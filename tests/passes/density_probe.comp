@@ -12,7 +12,7 @@
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Points { vec3 points_voxel[]; };
 layout(scalar, binding = 6) writeonly buffer Densities { float densities[]; };
-layout(push_constant, scalar) uniform Push { SmokeVolumeFrame volume; };
+layout(push_constant, scalar) uniform Impulse { VolumeLayout volume; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;

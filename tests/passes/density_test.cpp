@@ -12,7 +12,7 @@ class DensityTest : public gpu::GpuTest {
     const gpu::ComputePipeline pipeline(
         context(), shaders::density_probe_comp,
         {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-        sizeof(shared::SmokeVolumeFrame), {64, 1, 1});
+        sizeof(shared::VolumeLayout), {64, 1, 1});
     const gpu::Sampler linear(context(), {});
     const gpu::Buffer in = upload(points);
     const gpu::Buffer out(context(), points.size() * sizeof(float),
@@ -23,7 +23,7 @@ class DensityTest : public gpu::GpuTest {
           pipeline,
           {gpu::read(in), gpu::read(smoke.pages), gpu::sampled(smoke.density, linear), gpu::read(smoke.cells),
            gpu::read(smoke.boundary), gpu::read(smoke.corners), gpu::write(out)},
-          room.volume.frame());
+          room.volume.layout());
       recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(points.size()));
     });
     return read_back<float>(out, points.size());
@@ -46,7 +46,7 @@ TEST_F(DensityTest, ShadersReadWhatTheProcessorReads) {
   const auto densities = probe(room, points);
   int inside = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const float expected = sim::sample_density(room.volume, points[i]);
+    const float expected = smoke::sample_density(room.volume, points[i]);
     // Texture units weigh with 8 bits in each of three axes (half a step each) and may round to 8 bits after
     // each.
     EXPECT_NEAR(densities[i], expected, 3 * 0.5 / 256 + 3 * 0.5 / 255)
@@ -85,7 +85,7 @@ TEST_F(DensityTest, WhatWasUploadedInPartsReadsAsTheProcessorReads) {
     const auto densities = probe(room, points);
     int smoky = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const float expected = sim::sample_density(room.volume, points[i]);
+      const float expected = smoke::sample_density(room.volume, points[i]);
       EXPECT_NEAR(densities[i], expected, 3 * 0.5 / 256 + 3 * 0.5 / 255) << "tick " << tick;
       smoky += expected > 0;
     }

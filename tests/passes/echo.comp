@@ -28,9 +28,9 @@ layout(scalar, binding = 10) buffer Out10 { RayEnds ends; };
 layout(scalar, binding = 12) buffer Out12 { MarchList march_list; };
 layout(scalar, binding = 13) buffer Out13 { AccumulateParams accumulate; };
 layout(scalar, binding = 14) buffer Out14 { AccumulatedPixel pixel; };
-layout(scalar, binding = 15) buffer Out15 { LightRow light_row; };
-layout(scalar, binding = 16) buffer Out16 { LightPair light_pair; };
-layout(scalar, binding = 17) buffer Out17 { LightBrick light_brick; };
+layout(scalar, binding = 15) buffer Out15 { TexelList light_row; };
+layout(scalar, binding = 16) buffer Out16 { ShadowRays light_pair; };
+layout(scalar, binding = 17) buffer Out17 { LightGather light_brick; };
 
 vec2 v2(float first) { return vec2(first, first + 1.0); }
 vec3 v3(float first) { return vec3(first, first + 1.0, first + 2.0); }
@@ -42,18 +42,18 @@ void main() {
   frame.camera = Camera(m4(100.0), v3(120.0), 123.0, v3(124.0), v3(127.0), v3(130.0));
   frame.sky = Sky(v3(140.0), v3(143.0), v3(146.0), 149.0, 189.0);
   frame.look = SmokeLook(v3(150.0), 153.0, 154.0, 155.0, 156.0, 157.0, 158.0, 159.0, 160.0, 161.0, 162.0, Phase(163.0, 164.0, 165.0, 166.0));
-  frame.volume = SmokeVolumeFrame(v3(170.0), 173.0, i3(174), i3(177), i3(180), v3(183.0), v3(186.0));
-  frame.shading_min = v3(210.0);
-  frame.shading_max = v3(213.0);
-  frame.solid = SolidFrame(v3(200.0), 203.0, i3(204));
+  frame.volume = VolumeLayout(v3(170.0), 173.0, i3(174), i3(177), i3(180), v3(183.0), v3(186.0));
+  frame.caster_bounds_min = v3(210.0);
+  frame.caster_bounds_max = v3(213.0);
+  frame.solid = SolidLayout(v3(200.0), 203.0, i3(204));
   frame.size_px = uvec2(190u, 191u);
   frame.light_count = 192u;
-  frame.holes = OpenHolesFrame(193u, 198u, 199u, 200u);
+  frame.holes = HoleClusterLayout(193u, 198u, 199u, 200u);
   frame.frame_index = 194u;
   frame.time = 195.0;
   frame.exposure = 196.0;
   frame.march_scale = 197u;
-  frame.seen_error = 201.0;
+  frame.resolve_error = 201.0;
   light = Light(v3(1.0), 4.0, v3(5.0), 8u, v3(9.0), 12.0, 13.0, 14u, vec2(15.0, 16.0));
   hole = Hole(v3(1.0), 4.0, v3(5.0), 8.0, v3(9.0), 12.0, v3(13.0), 16.0, 17.0, 18.0, 19.0, 20u, v2(21.0), v2(23.0));
   cell = BoundaryCell(1u, 2u, 3u, 4u);
@@ -61,9 +61,9 @@ void main() {
   vertex = Vertex(v3(1.0), v3(4.0), v4(7.0), vec2(11.0, 12.0));
   noise = NoiseParams(1u, 2u, 3u);
   smoke_light = SmokeLightParams(1u, 2u, 3u);
-  light_row = LightRow(1u, 2u, 3u, 4u, 5u, 6u);
-  light_pair = LightPair(1u, 2u, 3u, 4u, 5u);
-  light_brick = LightBrick(1u, 2u, 3u, 4u, 5u, 6u);
+  light_row = TexelList(1u, 2u, 3u, 4u, 5u, 6u);
+  light_pair = ShadowRays(1u, 2u, 3u, 4u, 5u);
+  light_brick = LightGather(1u, 2u, 3u, 4u, 5u, 6u);
   smoke_shadow = SmokeShadowParams(1u, 2.0, 3u, uvec2(4u, 5u));
   smoke_face = SmokeShadowFace(1.0, vec2(2.0, 3.0), 4u, uvec2(5u, 6u), uvec2(7u, 8u));
   view = ShadowView(m4(1.0), m4(17.0));

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Noises { vec4 noises[]; };
 layout(scalar, binding = 1) writeonly buffer Densities { float densities[]; };
-layout(push_constant, scalar) uniform Push { float density, erosion; };
+layout(push_constant, scalar) uniform Impulse { float density, erosion; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;

@@ -12,13 +12,13 @@ namespace {
 class ErosionTest : public gpu::GpuTest {
  protected:
   std::vector<float> erode(const gpu::Buffer& noises, std::size_t count, float density, float erosion) {
-    struct Push {
+    struct Impulse {
       float density, erosion;
     };
     const gpu::Buffer out(context(), count * sizeof(float),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.bind(probe_, {gpu::read(noises), gpu::write(out)}, Push{density, erosion});
+      recorder.bind(probe_, {gpu::read(noises), gpu::write(out)}, Impulse{density, erosion});
       recorder.dispatch_threads(probe_, static_cast<std::uint32_t>(count));
     });
     return read_back<float>(out, count);

@@ -1,8 +1,8 @@
 #include "brume_test_shaders.hpp"
 #include "passes/hole_masks.hpp"
-#include "passes/open_holes.hpp"
+#include "passes/hole_clusters.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/sim/hole_pairs.hpp"
+#include "tests/smoke/hole_pairs.hpp"
 
 namespace brume::passes {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 using HoleStrength = gpu::GpuTest;
 
 TEST_F(HoleStrength, EqualsTheModelInDoubleAt1000PointsAndTimes) {
-  const sim::HolePairs questions = sim::make_hole_pairs(1000, 5);
+  const smoke::HolePairs questions = sim::make_hole_pairs(1000, 5);
   const gpu::ComputePipeline pipeline(context(), shaders::hole_probe_comp,
                                       {gpu::kBuffer, gpu::kSampled, gpu::kBuffer}, 0, {64, 1, 1});
   const gpu::Sampler nearest(context(), {VK_FILTER_NEAREST});
@@ -31,7 +31,7 @@ TEST_F(HoleStrength, EqualsTheModelInDoubleAt1000PointsAndTimes) {
     EXPECT_GE(strengths[i], allowed.low) << "pair " << i;
     EXPECT_LE(strengths[i], allowed.high) << "pair " << i;
     removed += strengths[i] > 0;
-    const sim::HolePair& q = questions.pairs[i];
+    const smoke::HolePair& q = questions.pairs[i];
     const float on_cpu = hole_strength_masked(q.hole, q.p_world, q.time, q.rim, questions.atlas);
     apart = std::max(apart, std::abs(double{strengths[i]} - double{on_cpu}));
   }
@@ -46,12 +46,12 @@ struct LeftQuestion {
 };
 
 TEST_F(HoleStrength, TheMarchLeavesWhatTheModelDoesNotRemove) {
-  sim::HolePairs pairs = sim::make_hole_pairs(1000, 6);
+  smoke::HolePairs pairs = sim::make_hole_pairs(1000, 6);
   for (std::size_t i = 0; i < 1000; i += 2) pairs.pairs[i].hole.time_to_stay_open += 10;  // more wide open
   std::vector<LeftQuestion> questions;
   std::vector<glm::vec4> rows;
   std::size_t steady = 0;
-  for (const sim::HolePair& q : pairs.pairs) {
+  for (const smoke::HolePair& q : pairs.pairs) {
     const float rim = 0.25f * q.hole.radius;
     questions.push_back({q.p_world, q.time, q.rim / rim, rim});
     HolePlan plan;
@@ -63,7 +63,7 @@ TEST_F(HoleStrength, TheMarchLeavesWhatTheModelDoesNotRemove) {
   EXPECT_GT(steady, 100u);
   EXPECT_LT(steady, 900u);
   const gpu::ComputePipeline pipeline(
-      context(), shaders::left_probe_comp,
+      context(), shaders::remaining_probe_comp,
       {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer}, 0, {64, 1, 1});
   const gpu::Sampler nearest(context(), {VK_FILTER_NEAREST});
   const gpu::Buffer frame = upload(std::vector<shared::FrameConstants>(1));

@@ -12,14 +12,14 @@ namespace brume::passes {
 namespace {
 
 using voxel::BitGrid;
-using voxel::GridFrame;
+using voxel::GridLayout;
 
 void fill(BitGrid& grid, glm::ivec3 low, glm::ivec3 high, bool solid) {
   voxel::for_each_in({low, high}, [&](glm::ivec3 v) { grid.set(v, solid); });
 }
 
 /// A hollow box with walls of one voxel, and a window in its wall of high x.
-BitGrid room(const GridFrame& frame, glm::ivec3 low, glm::ivec3 high, bool window) {
+BitGrid room(const GridLayout& frame, glm::ivec3 low, glm::ivec3 high, bool window) {
   BitGrid grid(frame);
   fill(grid, low, high, true);
   fill(grid, low + 1, high - 1, false);
@@ -34,7 +34,7 @@ class LevelLightTest : public gpu::GpuTest {
     solid_.reserve(level);
     sky_.reserve(solid_);
     shared::FrameConstants frame{};
-    frame.solid = solid_.frame();
+    frame.solid = solid_.layout();
     frame_ = upload(std::vector{frame});
     bool changed = false;
     runner().run([&](gpu::Recorder& recorder) {
@@ -70,7 +70,7 @@ class LevelLightTest : public gpu::GpuTest {
   std::vector<bool> solid_texels() {
     const auto texels = read_back<std::uint8_t>(solid_.texels());
     const auto words = read_back<std::uint32_t>(solid_.words(), solid_.word_count());
-    const glm::ivec3 size = solid_.frame().size;
+    const glm::ivec3 size = solid_.layout().size;
     std::vector<bool> solid;
     voxel::for_each_in({glm::ivec3(0), size}, [&](glm::ivec3 t) {
       const int word = t.x / 32 + shared::solid_row_words(size.x) * (t.y + size.y * t.z);
@@ -104,13 +104,13 @@ TEST_F(LevelLightTest, TheVolumeIsTheGridAndFollowsItsEdits) {
     // A door in the middle opens; it shuts while another one opens.
     BitGrid later = grid;
     const auto one = std::make_shared<const sim::EditBlocks>(
-        sim::effective_edits(grid, sim::edit_box(grid.frame(), size / 3, size / 2 + 1, false)));
+        sim::effective_edits(grid, sim::edit_box(grid.layout(), size / 3, size / 2 + 1, false)));
     sim::apply_edits(later, *one);
     show({&later, one});
     EXPECT_EQ(solid_texels(), solid_voxels(later));
     BitGrid last = grid;
     const auto other = std::make_shared<const sim::EditBlocks>(sim::effective_edits(
-        grid, sim::edit_box(grid.frame(), glm::ivec3(0), glm::ivec3(1), !grid.solid({0, 0, 0}))));
+        grid, sim::edit_box(grid.layout(), glm::ivec3(0), glm::ivec3(1), !grid.solid({0, 0, 0}))));
     sim::apply_edits(last, *other);
     EXPECT_TRUE(show({&last, other}));
     EXPECT_EQ(solid_texels(), solid_voxels(last));
@@ -127,11 +127,11 @@ TEST_F(LevelLightTest, ATexelOfManyVoxelsIsSolidWhereAWallRunsThrough) {
   fill(grid, {0, 0, 7}, {300, 10, 8}, true);
   fill(grid, {151, 0, 0}, {152, 10, 20}, true);
   ASSERT_TRUE(show({&grid, nullptr}));
-  ASSERT_EQ(solid_.frame().size, glm::ivec3(150, 5, 10));
-  EXPECT_EQ(solid_.frame().texel_size, 1.0f);
+  ASSERT_EQ(solid_.layout().size, glm::ivec3(150, 5, 10));
+  EXPECT_EQ(solid_.layout().texel_size, 1.0f);
   const auto solid = solid_texels();
   std::size_t i = 0;
-  voxel::for_each_in({glm::ivec3(0), solid_.frame().size}, [&](glm::ivec3 t) {
+  voxel::for_each_in({glm::ivec3(0), solid_.layout().size}, [&](glm::ivec3 t) {
     EXPECT_EQ(solid[i++], t.z == 3 || t.x == 75) << t.x << " " << t.z;
   });
 }
@@ -143,7 +143,7 @@ TEST_F(LevelLightTest, AWayIsFreeWhereTheTraversalMeetsNothing) {
   show({&grid, nullptr});
   std::uniform_real_distribution<float> place(-0.2f, 1.2f);
   const auto point = [&] {
-    return grid.frame().origin_world + glm::vec3(place(random), place(random), place(random)) * 10.0f;
+    return grid.layout().origin_world + glm::vec3(place(random), place(random), place(random)) * 10.0f;
   };
   std::vector<glm::vec3> pairs;
   for (int i = 0; i < 4000; ++i) pairs.push_back(point());
@@ -151,12 +151,12 @@ TEST_F(LevelLightTest, AWayIsFreeWhereTheTraversalMeetsNothing) {
 
   std::size_t free = 0, unsure = 0;
   for (std::size_t i = 0; i < answers.free.size(); ++i) {
-    const glm::vec3 from = voxel_from_world(grid.frame(), pairs[2 * i]),
-                    to = voxel_from_world(grid.frame(), pairs[2 * i + 1]);
+    const glm::vec3 from = voxel_from_world(grid.layout(), pairs[2 * i]),
+                    to = voxel_from_world(grid.layout(), pairs[2 * i + 1]);
     const float way = glm::length(to - from);
     // Blocked surely, or perhaps: rounding may take a voxel's end across the limit.
     bool surely = false, perhaps = false;
-    voxel::visit_voxels(grid.frame(), from, (to - from) / way, way,
+    voxel::visit_voxels(grid.layout(), from, (to - from) / way, way,
                         [&](glm::ivec3 v, float enter, float leave) {
                           if (!grid.solid(v)) return true;
                           const float inside =
@@ -232,7 +232,7 @@ TEST_F(LevelLightTest, RaysAreThoseOfTheReference) {
 }
 
 TEST_F(LevelLightTest, NothingOfTheSkyComesThroughThinWalls) {
-  const GridFrame frame{{40, 24, 40}, 0.5f, {}};
+  const GridLayout frame{{40, 24, 40}, 0.5f, {}};
   const BitGrid sealed = room(frame, {10, 4, 10}, {30, 20, 30}, false);
   show({&sealed, nullptr});
   std::mt19937 random(8);
@@ -248,7 +248,7 @@ TEST_F(LevelLightTest, NothingOfTheSkyComesThroughThinWalls) {
 }
 
 TEST_F(LevelLightTest, AWindowLetsInItsShareOfTheSky) {
-  const GridFrame frame{{40, 24, 40}, 0.5f, {}};
+  const GridLayout frame{{40, 24, 40}, 0.5f, {}};
   const BitGrid open = room(frame, {10, 4, 10}, {30, 20, 30}, true);
   show({&open, nullptr});
   // At voxel centres, where nothing is interpolated. A place counts whole rays, 1/32 of all directions each,

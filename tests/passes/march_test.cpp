@@ -33,7 +33,7 @@ class MarchTest : public gpu::GpuTest {
     frame.camera.forward = {0, 0, -1};
     frame.camera.right = {0.8f, 0, 0};
     frame.camera.up = {0, 0.4f, 0};
-    frame.volume = room.volume.frame();
+    frame.volume = room.volume.layout();
     frame.size_px = kSize;
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.7f;
@@ -52,18 +52,18 @@ class MarchTest : public gpu::GpuTest {
                                const std::vector<shared::Hole>& holes = {}) {
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / distance);
     const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
-    OpenHoles open_holes(context(), runner(), {});
-    open_holes.reserve(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
-    frame.holes = open_holes.frame();
+    HoleClusters hole_clusters(context(), runner(), {});
+    hole_clusters.reserve(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
+    frame.holes = hole_clusters.layout();
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
-      open_holes.record(recorder, frame_buffer, room.upload.resources());
+      hole_clusters.record(recorder, frame_buffer, room.upload.resources());
       march_.record(recorder,
                     {frame_buffer, room.upload.resources(), noise_tile_, depth_image, blue_noise_,
-                     open_holes.resources()},
+                     hole_clusters.resources()},
                     target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
@@ -88,7 +88,7 @@ class MarchConstantTest : public MarchTest {
 TEST_F(MarchConstantTest, DensityIsOneEverywhere) {
   for (const glm::vec3 p :
        {glm::vec3(0.6f, 0.6f, 0.6f), glm::vec3(12, 8, 16), glm::vec3(23.4f, 16.4f, 32.4f)}) {
-    EXPECT_EQ(sim::sample_density(room_.volume, p), 1.0f);
+    EXPECT_EQ(smoke::sample_density(room_.volume, p), 1.0f);
   }
 }
 
@@ -121,11 +121,11 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
                                   std::vector<float>(kSize.x * kSize.y, frame.camera.near_z / kDistance));
   const auto counters = upload(std::vector<std::uint32_t>(1 + kSize.x * kSize.y));
   const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
-  const OpenHoles no_holes(context(), runner(), {});
+  const HoleClusters no_holes(context(), runner(), {});
   for (const std::uint32_t scale : {1u, 2u, 4u}) {
     frame.march_scale = scale;
     const auto frame_buffer = upload(std::vector{frame});
-    std::optional<MarchBlocks> blocks;
+    std::optional<MarchTiles> blocks;
     if (scale > 1) blocks.emplace(context(), kSize, scale);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room_.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
@@ -134,7 +134,7 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
                                  blue_noise_,  no_holes.resources()};
       if (scale == 1) return counting.record(recorder, in, target, counters);
       resolve.record_ends(recorder, frame_buffer, depth, *blocks);
-      counting.record_blocks(recorder, in, *blocks, counters);
+      counting.record_tiles(recorder, in, *blocks, counters);
     });
     const auto counted = read_back<std::uint32_t>(counters, 1 + kSize.x * kSize.y);
     // Where all is smoke, each step takes two samples: of the smoke, and of its light.
@@ -162,7 +162,7 @@ TEST_F(MarchConstantTest, StopsWhereItIsOpaque) {
   frame.look.extinction = 10;
   const auto pixels = march(room_, frame, 12);
   const std::uint32_t all = samples_;
-  frame.look.stop = 0.01f;
+  frame.look.opaque_transmittance = 0.01f;
   const auto stopped = march(room_, frame, 12);
   EXPECT_LT(samples_, all / 5);
   for (std::uint32_t i = 0; i < pixels.size(); ++i) {

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Points { vec3 points[]; };
 layout(scalar, binding = 1) writeonly buffer Values { float values[]; };
-layout(push_constant, scalar) uniform Push { int cells; uint seed; };
+layout(push_constant, scalar) uniform Impulse { int cells; uint seed; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;

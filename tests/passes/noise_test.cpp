@@ -34,7 +34,7 @@ class NoiseKinds : public GpuTest {
   static_assert(sizeof(Values) == 40);
 
   std::vector<Values> at(const std::vector<glm::vec3>& points, int cells, std::uint32_t seed) {
-    struct Push {
+    struct Impulse {
       int cells;
       std::uint32_t seed;
     };
@@ -42,7 +42,7 @@ class NoiseKinds : public GpuTest {
     const gpu::Buffer out(context(), points.size() * sizeof(Values),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.bind(probe_, {gpu::read(in), gpu::write(out)}, Push{cells, seed});
+      recorder.bind(probe_, {gpu::read(in), gpu::write(out)}, Impulse{cells, seed});
       recorder.dispatch_threads(probe_, static_cast<std::uint32_t>(points.size()));
     });
     return read_back<Values>(out, points.size());

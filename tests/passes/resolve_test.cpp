@@ -36,10 +36,10 @@ class ResolveTest : public gpu::GpuTest {
     frame.camera.forward = {0, 0, -1};
     frame.camera.right = {0.1f, 0, 0};
     frame.camera.up = {0, 0.05f, 0};
-    frame.volume = room.volume.frame();
+    frame.volume = room.volume.layout();
     frame.size_px = size;
     frame.march_scale = scale;
-    frame.seen_error = shared::kSeenError;
+    frame.resolve_error = shared::kResolveError;
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.7f;
     frame.look.step_length = 0.1f;
@@ -61,9 +61,9 @@ class ResolveTest : public gpu::GpuTest {
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), size, VK_FORMAT_R16G16B16A16_SFLOAT);
-    OpenHoles holes(context(), runner(), {});
+    HoleClusters holes(context(), runner(), {});
     holes.reserve({}, 0, 0, frame.volume, room.volume.slot_count(), size);
-    const MarchBlocks blocks(context(), size, std::max(frame.march_scale, 2u));
+    const MarchTiles blocks(context(), size, std::max(frame.march_scale, 2u));
     const MarchPass::Inputs in{frame_buffer, room.upload.resources(), noise_tile_, depth,
                                blue_noise_,  holes.resources()};
     runner().run([&](gpu::Recorder& recorder) {
@@ -74,7 +74,7 @@ class ResolveTest : public gpu::GpuTest {
         return;
       }
       resolve_.record_ends(recorder, frame_buffer, depth, blocks);
-      march_.record_blocks(recorder, in, blocks, counters);
+      march_.record_tiles(recorder, in, blocks, counters);
       resolve_.record_select(recorder, frame_buffer, emission, blocks);
       resolve_.record(recorder, frame_buffer, depth, blocks, target);
       if (way == Way::blocks) return;
@@ -85,7 +85,7 @@ class ResolveTest : public gpu::GpuTest {
     for (const Half4& texel : read_back<Half4>(target)) out.push_back(from_half(texel));
     return out;
   }
-  static void list_all(gpu::Recorder& recorder, const MarchBlocks& blocks,
+  static void list_all(gpu::Recorder& recorder, const MarchTiles& blocks,
                        const shared::FrameConstants& frame) {
     const glm::uvec2 count = shared::blocks_of(frame.size_px, frame.march_scale);
     const std::uint32_t all = count.x * count.y, per_block = frame.march_scale * frame.march_scale;
@@ -223,7 +223,7 @@ TEST_F(ResolveTest, RaysOfUnevenBlocksPassThroughAFarPixel) {
       std::vector<float> reverse;
       for (const float d : distances) reverse.push_back(frame.camera.near_z / d);
       const auto depth = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, reverse);
-      const MarchBlocks blocks(context(), kSize, scale);
+      const MarchTiles blocks(context(), kSize, scale);
       runner().run([&](gpu::Recorder& r) { resolve_.record_ends(r, frame_buffer, depth, blocks); });
       const auto ends = read_back<RayEnds>(blocks.ends, count.x * count.y);
       for (std::uint32_t i = 0; i < ends.size(); ++i) {
@@ -262,7 +262,7 @@ class SelectTest : public ResolveTest {
     const glm::uvec2 size = kBlocks * 4u;
     const auto frame = frame_at(room, {0, 0, -0.5f}, size, 4);
     const auto frame_buffer = upload(std::vector{frame});
-    MarchBlocks blocks(context(), size, 4);
+    MarchTiles blocks(context(), size, 4);
     std::vector<Half4> texels;
     for (std::uint32_t i = 0; i < kBlocks.x * kBlocks.y; ++i)
       texels.push_back(to_half(seen(glm::vec2(i % kBlocks.x, i / kBlocks.x))));
@@ -296,7 +296,7 @@ TEST_F(SelectTest, ListsBothSidesOfAnEdgeThatIsSeen) {
   for (std::uint32_t y = 0; y < kBlocks.y; ++y)
     for (const std::uint32_t x : {5u, 6u}) beside.insert(x + kBlocks.x * y);
   EXPECT_EQ(listed(edge(0.6f), glm::vec3(0)), beside);
-  // In front of a lamp a small edge is seen, in front of a wall it is not.
+  // In front of a light a small edge is seen, in front of a wall it is not.
   EXPECT_EQ(listed(edge(0.13f), glm::vec3(0)), std::set<std::uint32_t>{});
   EXPECT_EQ(listed(edge(0.13f), glm::vec3(3)), beside);
 }

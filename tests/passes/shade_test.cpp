@@ -12,7 +12,7 @@ namespace {
 
 constexpr VkFormat kHalf4 = VK_FORMAT_R16G16B16A16_SFLOAT;
 
-/// Lamps, spots and a sun over a G-buffer of random surfaces: each tile has near and far ones, and holes to
+/// Lights, spots and a sun over a G-buffer of random surfaces: each tile has near and far ones, and holes to
 /// the sky.
 class ShadeTest : public gpu::GpuTest {
  protected:
@@ -30,7 +30,7 @@ class ShadeTest : public gpu::GpuTest {
       light.cos_outer = light.cos_inner - 0.9f * share(random_);
     }
     lights[5].intensity = glm::vec3(0);
-    scene_.light_list = device_lights(lights, 12);  // the first two lamps have shadows
+    scene_.light_list = device_lights(lights, 12);  // the first two lights have shadows
     scene_.lights = upload(scene_.light_list);
     scene_.vertices = upload(std::vector<shared::Vertex>(3));  // nothing is drawn of them
     scene_.indices = upload(std::vector<std::uint32_t>(3), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
@@ -72,7 +72,7 @@ class ShadeTest : public gpu::GpuTest {
     frame.camera.right = {1, 0, 0};
     frame.camera.up = {0, 0.5f, 0};
     frame.sky = {glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.05f), 0.3f, 0.0f};
-    frame.solid = solid_.frame();
+    frame.solid = solid_.layout();
     frame.size_px = size_;
     frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());
     const auto frame_buffer = upload(std::vector{frame});
@@ -106,7 +106,7 @@ TEST_F(ShadeTest, LightsThatATileLeavesOutAreThoseThatDoNotReachIt) {
   EXPECT_EQ(culled, shade(no_smoke(), false));
   float brightest = 0;
   for (const glm::vec4& pixel : culled) brightest = std::max(brightest, pixel.g);
-  EXPECT_GT(brightest, 0.1f) << "some lamp is seen";
+  EXPECT_GT(brightest, 0.1f) << "some light is seen";
 }
 
 TEST_F(ShadeTest, SmokeIsOverTheSurfacesAndTheSky) {

@@ -43,7 +43,7 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
         sizeof(shared::NoiseParams), sizeof(shared::SmokeLightParams), sizeof(shared::SmokeShadowParams),
         sizeof(shared::ShadowView), sizeof(shared::RayEnds), sizeof(shared::SmokeShadowFace),
         sizeof(shared::MarchList), sizeof(shared::AccumulateParams), sizeof(shared::AccumulatedPixel),
-        sizeof(shared::LightRow), sizeof(shared::LightPair), sizeof(shared::LightBrick)}) {
+        sizeof(shared::TexelList), sizeof(shared::ShadowRays), sizeof(shared::LightGather)}) {
     out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   }
   runner().run([&](gpu::Recorder& recorder) {
@@ -69,9 +69,9 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(frame.sky.stars, 149);
   EXPECT_EQ(frame.sky.bounce, 189);
   expect_counted(frame.look.albedo, 150);
-  const float look[] = {frame.look.extinction,  frame.look.step_length,        frame.look.stop,
-                        frame.look.erosion,     frame.look.noise_period,       frame.look.noise_drift,
-                        frame.look.roll,        frame.look.roll_width,         frame.look.many_scatterings,
+  const float look[] = {frame.look.extinction,  frame.look.step_length,        frame.look.opaque_transmittance,
+                        frame.look.erosion,     frame.look.noise_period,       frame.look.rise,
+                        frame.look.swirl,        frame.look.swirl_width,         frame.look.multiple_scattering,
                         frame.look.hole_rim,    frame.look.phase.g_hg,         frame.look.phase.g_draine,
                         frame.look.phase.alpha, frame.look.phase.draine_weight};
   for (int i = 0; i < 14; ++i) EXPECT_EQ(look[i], 153.0f + static_cast<float>(i));
@@ -82,22 +82,22 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   expect_counted(frame.volume.atlas_bricks, 180);
   expect_counted(frame.volume.bounds_min, 183);
   expect_counted(frame.volume.bounds_max, 186);
-  expect_counted(frame.shading_min, 210);
-  expect_counted(frame.shading_max, 213);
+  expect_counted(frame.caster_bounds_min, 210);
+  expect_counted(frame.caster_bounds_max, 213);
   expect_counted(frame.solid.origin_world, 200);
   EXPECT_EQ(frame.solid.texel_size, 203);
   expect_counted(frame.solid.size, 204);
   expect_counted(frame.size_px, 190);
   EXPECT_EQ(frame.light_count, 192u);
   EXPECT_EQ(frame.holes.count, 193u);
-  EXPECT_EQ(frame.holes.groups_across, 198u);
+  EXPECT_EQ(frame.holes.tiles_across, 198u);
   EXPECT_EQ(frame.holes.entries_at, 199u);
   EXPECT_EQ(frame.holes.cells_at, 200u);
   EXPECT_EQ(frame.frame_index, 194u);
   EXPECT_EQ(frame.time, 195);
   EXPECT_EQ(frame.exposure, 196);
   EXPECT_EQ(frame.march_scale, 197u);
-  EXPECT_EQ(frame.seen_error, 201);
+  EXPECT_EQ(frame.resolve_error, 201);
 
   const auto light = one<shared::Light>(out[1]);
   expect_counted(light.position_world, 1);
@@ -157,25 +157,25 @@ TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
   EXPECT_EQ(smoke_light.first, 1u);
   EXPECT_EQ(smoke_light.count, 2u);
   EXPECT_EQ(smoke_light.threads, 3u);
-  const auto light_row = one<shared::LightRow>(out[15]);
+  const auto light_row = one<shared::TexelList>(out[15]);
   EXPECT_EQ(light_row.slot, 1u);
   EXPECT_EQ(light_row.row, 2u);
   EXPECT_EQ(light_row.by_phase, 3u);
   EXPECT_EQ(light_row.had_list, 4u);
   EXPECT_EQ(light_row.first_change, 5u);
   EXPECT_EQ(light_row.change_count, 6u);
-  const auto light_pair = one<shared::LightPair>(out[16]);
+  const auto light_pair = one<shared::ShadowRays>(out[16]);
   EXPECT_EQ(light_pair.slot, 1u);
   EXPECT_EQ(light_pair.row, 2u);
-  EXPECT_EQ(light_pair.lamp, 3u);
+  EXPECT_EQ(light_pair.light, 3u);
   EXPECT_EQ(light_pair.block, 4u);
   EXPECT_EQ(light_pair.texels, 5u);
-  const auto light_brick = one<shared::LightBrick>(out[17]);
+  const auto light_brick = one<shared::LightGather>(out[17]);
   EXPECT_EQ(light_brick.slot, 1u);
   EXPECT_EQ(light_brick.row, 2u);
-  EXPECT_EQ(light_brick.sky_block, 3u);
-  EXPECT_EQ(light_brick.first_lamp, 4u);
-  EXPECT_EQ(light_brick.lamp_count, 5u);
+  EXPECT_EQ(light_brick.sky_page, 3u);
+  EXPECT_EQ(light_brick.first_light, 4u);
+  EXPECT_EQ(light_brick.light_count, 5u);
   EXPECT_EQ(light_brick.texels, 6u);
 
   const auto smoke_shadow = one<shared::SmokeShadowParams>(out[8]);

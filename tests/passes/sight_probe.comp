@@ -20,8 +20,8 @@ layout(scalar, binding = 6) readonly buffer Holes { Hole holes[]; };
 layout(scalar, binding = 7) writeonly buffer Depths { float depths[]; };
 layout(binding = 8) uniform sampler2D hole_masks;
 #include "lib/hole_mask.glsl"
-layout(push_constant, scalar) uniform Push {
-  SmokeVolumeFrame volume;
+layout(push_constant, scalar) uniform Impulse {
+  VolumeLayout volume;
   float time;
   uint hole_count;   // at most 32
   float step_voxel;  // at most

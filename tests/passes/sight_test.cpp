@@ -1,5 +1,5 @@
 // What bots see through is what is drawn: the march's own density and holes, without noise.
-#include "sim/sight.hpp"
+#include "smoke/sight.hpp"
 
 #include <random>
 
@@ -7,7 +7,7 @@
 #include "passes/hole_masks.hpp"
 #include "passes/smoke_upload.hpp"
 #include "tests/gpu/gpu_test.hpp"
-#include "tests/sim/sight_scene.hpp"
+#include "tests/smoke/sight_scene.hpp"
 
 namespace brume::passes {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::size_t kHoles = 32;
 constexpr float kStep = 1.0f / 64;  // voxels
 
 struct ProbeConstants {
-  shared::SmokeVolumeFrame volume;
+  shared::VolumeLayout volume;
   float time;
   std::uint32_t hole_count;
   float step_voxel;
@@ -25,8 +25,8 @@ struct ProbeConstants {
 class SightTest : public gpu::GpuTest {
  protected:
   /// Integrals of density along the segments [voxels].
-  static std::vector<float> probe(const sim::SightScene& scene, const std::vector<shared::Hole>& open,
-                                  const std::vector<sim::Segment>& segments) {
+  static std::vector<float> probe(const smoke::SightScene& scene, const std::vector<shared::Hole>& open,
+                                  const std::vector<smoke::Segment>& segments) {
     SmokeUpload smoke(context());
     smoke.reserve(scene.volume());
     runner().run([&](gpu::Recorder& recorder) { smoke.record(recorder, scene.volume()); });
@@ -43,7 +43,7 @@ class SightTest : public gpu::GpuTest {
     const gpu::Buffer out(context(), segments.size() * sizeof(float),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     const SmokeResources& on_device = smoke.resources();
-    const ProbeConstants constants{scene.volume().frame(), scene.time(),
+    const ProbeConstants constants{scene.volume().layout(), scene.time(),
                                    static_cast<std::uint32_t>(open.size()), kStep};
     runner().run([&](gpu::Recorder& recorder) {
       recorder.bind(pipeline,
@@ -58,19 +58,19 @@ class SightTest : public gpu::GpuTest {
 };
 
 TEST_F(SightTest, MarchAndLineOfSightSeeTheSameSmoke) {
-  const sim::SightScene scene(2, 64);
+  const smoke::SightScene scene(2, 64);
   ASSERT_GE(scene.holes().size(), kHoles);
   const std::vector<shared::Hole> holes(scene.holes().begin(), scene.holes().begin() + kHoles);
   ASSERT_FALSE(scene.volume().boundary_cells().empty());
 
   std::mt19937 random(12);
-  std::vector<sim::Segment> segments(10000);
-  for (sim::Segment& s : segments) s = sim::SightScene::segment(random);
+  std::vector<smoke::Segment> segments(10000);
+  for (smoke::Segment& s : segments) s = smoke::SightScene::segment(random);
   const std::vector<float> marched = probe(scene, holes, segments);
 
-  const sim::Sight plain(scene.volume(), scene.grid(), {}, 0, {1 / sim::SightScene::kVoxel});
-  const sim::Sight sight(scene.volume(), scene.grid(), holes, scene.time(),
-                         {.extinction = 1 / sim::SightScene::kVoxel, .masks = &scene.masks()});
+  const smoke::Sight plain(scene.volume(), scene.grid(), {}, 0, {1 / smoke::SightScene::kVoxel});
+  const smoke::Sight sight(scene.volume(), scene.grid(), holes, scene.time(),
+                         {.extinction = 1 / smoke::SightScene::kVoxel, .masks = &scene.masks()});
   std::vector<float> depths(segments.size()), without(segments.size());
   sight.optical_depths(segments, depths).value_or_throw();
   plain.optical_depths(segments, without).value_or_throw();
@@ -93,13 +93,13 @@ TEST_F(SightTest, MarchAndLineOfSightSeeTheSameSmoke) {
 
 TEST(FilledCells, HoldAllThatLinesOfSightFind) {
   for (const std::uint32_t seed : {1u, 2u}) {
-    const sim::SightScene scene(seed, 0);
-    const sim::Sight sight(scene.volume(), scene.grid(), {}, 0, {});
-    const shared::SmokeVolumeFrame& frame = scene.volume().frame();
+    const smoke::SightScene scene(seed, 0);
+    const smoke::Sight sight(scene.volume(), scene.grid(), {}, 0, {});
+    const shared::VolumeLayout& frame = scene.volume().layout();
     std::mt19937 random(seed);
-    std::vector<sim::Segment> points(20000);  // as good as
-    for (sim::Segment& p : points) {
-      p = sim::SightScene::segment(random);
+    std::vector<smoke::Segment> points(20000);  // as good as
+    for (smoke::Segment& p : points) {
+      p = smoke::SightScene::segment(random);
       p.b_world = p.a_world + glm::vec3(1e-4f);
     }
     std::vector<float> depths(points.size());
@@ -109,7 +109,7 @@ TEST(FilledCells, HoldAllThatLinesOfSightFind) {
       const glm::vec3 p = (points[i].a_world + 0.5e-4f - frame.origin_world) / frame.voxel_size;
       const glm::ivec3 brick(glm::floor(p / 8.0f));
       const std::uint32_t slot = scene.volume().slot_at(brick);
-      if (slot == sim::SmokeVolume::kNoSlot) continue;
+      if (slot == smoke::SmokeVolume::kNoSlot) continue;
       const glm::uvec3 cell(glm::floor(p - 8.0f * glm::vec3(brick) + 0.5f));
       const std::uint32_t filled = filled_cells(scene.volume(), slot);
       const bool inside = glm::all(glm::greaterThanEqual(cell, shared::cells_low(filled))) &&

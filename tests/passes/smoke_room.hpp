@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "passes/drift.hpp"
+#include "passes/noise_advection.hpp"
 #include "passes/noise.hpp"
 #include "passes/smoke_upload.hpp"
 #include "shared/frame.h"
-#include "sim/smoke_volume.hpp"
+#include "smoke/smoke_volume.hpp"
 #include "sim/world.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "voxel/voxelize.hpp"
@@ -18,13 +18,13 @@ struct SmokeRoom {
   voxel::BitGrid grid;
   voxel::SurfacePlanes planes;
   sim::World world;
-  sim::SmokeVolume volume;
+  smoke::SmokeVolume volume;
   SmokeUpload upload;
 
   /// Floods the grid with `voxels` of smoke from `source_world` and shows it `tick` ticks later.
   SmokeRoom(gpu::Context& context, gpu::CommandRunner& runner, const std::vector<voxel::Triangle>& walls,
-            const voxel::GridFrame& frame, glm::dvec3 source_world, std::uint32_t voxels, std::uint32_t tick)
-      : grid(voxel::voxelize(walls, frame).value_or_throw()),
+            const voxel::GridLayout& layout, glm::dvec3 source_world, std::uint32_t voxels, std::uint32_t tick)
+      : grid(voxel::voxelize(walls, layout).value_or_throw()),
         planes(voxel::SurfacePlanes::build(walls, grid)),
         world(grid),
         volume(grid, [this](glm::ivec3 cell) { return planes.at(cell); }),
@@ -39,7 +39,7 @@ struct SmokeRoom {
     upload.reserve(volume);
     runner.run([&](gpu::Recorder& recorder) {
       upload.record(recorder, volume);
-      upload.record_needs(recorder, all_of_smoke(volume));
+      upload.record_visibility(recorder, planning::all_smoke_visible(volume));
     });
     make_still_medium(context, runner);
   }
@@ -48,18 +48,18 @@ struct SmokeRoom {
   /// The medium of smoke that no noise eats from.
   void make_still_medium(gpu::Context& context, gpu::CommandRunner& runner) {
     shared::FrameConstants constants{};
-    constants.volume = volume.frame();
-    constants.look.roll_width = 1;
+    constants.volume = volume.layout();
+    constants.look.swirl_width = 1;
     const gpu::Buffer frame(context, sizeof constants,
                             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     const gpu::Image noise = make_noise_tile(context, 8);
     const NoisePass noise_pass(context);
-    DriftPass drift(context);
-    drift.reserve({}, volume);
+    NoiseAdvectionPass advection(context);
+    advection.reserve({}, volume);
     runner.run([&](gpu::Recorder& recorder) {
       recorder.upload(frame, 0, std::as_bytes(std::span(&constants, 1)));
       noise_pass.record(recorder, noise, {8, 2, 1});
-      drift.record(recorder, {frame, upload.resources(), noise, {}, 0, 1});
+      advection.record(recorder, {frame, upload.resources(), noise, {}, 0, 1});
     });
   }
 };

@@ -23,7 +23,7 @@ inline double blast_left(const sim::Blast& blast, double distance, double age) {
   double cleared = smooth(since / 0.05);
   if (since > 0.05) cleared = 1 - std::pow(smooth((since - 0.05) / refill), 1.8);
   if (share > 1) cleared *= smooth((1.2 - share) / 0.2);
-  return 255 - (255.0 - blast.left) * cleared;
+  return 255 - (255.0 - blast.remaining) * cleared;
 }
 
 }  // namespace brume::reference

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "shared/hole.h"
-#include "sim/mask_atlas.hpp"
+#include "smoke/mask_atlas.hpp"
 
 namespace brume::reference {
 
 /// An image at u to the right and v down, each from 0 to 1: linear between the centres of its texels, and
 /// beyond the outermost what they are. [0, 1].
-inline double mask_at(const sim::Mask& mask, double u, double v) {
+inline double mask_at(const smoke::Mask& mask, double u, double v) {
   double sum = 0;
   for (std::uint32_t y = 0; y < mask.height; ++y)
     for (std::uint32_t x = 0; x < mask.width; ++x) {
@@ -27,7 +27,7 @@ inline double mask_at(const sim::Mask& mask, double u, double v) {
 
 /// `mask`: the image of a hole that is one.
 inline double hole_strength(const shared::Hole& h, glm::dvec3 p, double time, double rim,
-                            const sim::Mask* mask = nullptr) {
+                            const smoke::Mask* mask = nullptr) {
   const glm::dmat3 world_from_hole(glm::dvec3(h.right), glm::dvec3(h.up), glm::dvec3(h.forward));
   const glm::dvec3 local = glm::transpose(world_from_hole) * (p - glm::dvec3(h.origin_world));
   if (local.z < 0 || local.z > h.distance_to_far) return 0;
@@ -63,7 +63,7 @@ struct StrengthRange {
 /// The strengths at the point and at those up to `metres` away along each axis of the hole, at times up to
 /// `seconds` apart: what a computation may answer whose point and time are off by that much.
 inline StrengthRange strengths_within(const shared::Hole& h, glm::dvec3 p, double time, double rim,
-                                      const sim::Mask* mask, double metres, double seconds) {
+                                      const smoke::Mask* mask, double metres, double seconds) {
   StrengthRange range;
   for (int i = 0; i < 81; ++i) {
     const glm::dvec3 off(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 - 1);

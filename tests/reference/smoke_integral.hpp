@@ -4,16 +4,16 @@
 #include <cmath>
 #include <span>
 
-#include "sim/sight.hpp"
+#include "smoke/sight.hpp"
 
 namespace brume::reference {
 
 /// Density [0, 1] at a point by the rule of docs/smoke-volume.md: trilinear, and by the side of the planes in
 /// every cell that has them.
-inline double smoke_density(const sim::SmokeVolume& volume, glm::dvec3 p_voxel) {
+inline double smoke_density(const smoke::SmokeVolume& volume, glm::dvec3 p_voxel) {
   const glm::ivec3 brick(glm::floor(p_voxel / 8.0));
   const std::uint32_t slot = volume.slot_at(brick);
-  if (slot == sim::SmokeVolume::kNoSlot) return 0;
+  if (slot == smoke::SmokeVolume::kNoSlot) return 0;
   const glm::ivec3 cell(glm::floor(p_voxel - 0.5)), local = cell - 8 * brick + 1;
   const glm::dvec3 f = p_voxel - 0.5 - glm::dvec3(cell);
   const std::uint32_t entry =
@@ -50,9 +50,9 @@ struct SmokeIntegral {
 
 /// Density by `density(p_voxel)`, in steps of `step` voxels; `masks` of the holes that are such.
 template <typename Density>
-SmokeIntegral integrate_smoke(const shared::SmokeVolumeFrame& frame, std::span<const shared::Hole> holes,
-                              float time, const sim::Segment& s, double step, const Density& density,
-                              const sim::MaskAtlas& masks = {}) {
+SmokeIntegral integrate_smoke(const shared::VolumeLayout& frame, std::span<const shared::Hole> holes,
+                              float time, const smoke::Segment& s, double step, const Density& density,
+                              const smoke::MaskAtlas& masks = {}) {
   const glm::dvec3 a(s.a_world), way = glm::dvec3(s.b_world) - a;
   const double length = glm::length(way) / frame.voxel_size;
   const auto count = static_cast<std::int64_t>(std::ceil(length / step));
@@ -64,7 +64,7 @@ SmokeIntegral integrate_smoke(const shared::SmokeVolumeFrame& frame, std::span<c
     double holed = plain;
     if (plain > 0)
       for (const shared::Hole& hole : holes)
-        holed *= 1 - double{sim::hole_strength_masked(hole, glm::vec3(p), time, 0, masks)};
+        holed *= 1 - double{smoke::hole_strength_masked(hole, glm::vec3(p), time, 0, masks)};
     sum.plain += plain;
     sum.holed += holed;
     if (i > 0) sum.error += std::max(std::abs(plain - before_plain), std::abs(holed - before_holed));

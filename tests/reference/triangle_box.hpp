@@ -48,14 +48,14 @@ inline bool touches(const std::array<glm::dvec3, 3>& t, const glm::dvec3& low, d
 
 /// One flag per voxel, x fastest: every triangle against every voxel.
 inline std::vector<bool> brute_force_voxels(const std::vector<voxel::Triangle>& triangles,
-                                            const voxel::GridFrame& frame, double slack = 0) {
+                                            const voxel::GridLayout& layout, double slack = 0) {
   const auto to_voxel = [&](glm::vec3 p) {
-    return (glm::dvec3(p) - glm::dvec3(frame.origin_world)) / double{frame.voxel_size};
+    return (glm::dvec3(p) - glm::dvec3(layout.origin_world)) / double{layout.voxel_size};
   };
   std::vector<bool> solid;
-  for (int z = 0; z < frame.size.z; ++z)
-    for (int y = 0; y < frame.size.y; ++y)
-      for (int x = 0; x < frame.size.x; ++x)
+  for (int z = 0; z < layout.size.z; ++z)
+    for (int y = 0; y < layout.size.y; ++y)
+      for (int x = 0; x < layout.size.x; ++x)
         solid.push_back(std::any_of(triangles.begin(), triangles.end(), [&](const voxel::Triangle& t) {
           return touches({to_voxel(t.a), to_voxel(t.b), to_voxel(t.c)}, glm::dvec3(x, y, z), slack);
         }));

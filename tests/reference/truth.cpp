@@ -37,12 +37,12 @@ glm::dvec4 noise_at(const NoiseTile& tile, glm::dvec3 p_tile) {
 }
 
 /// How far the noise was carried to a point of the smoke.
-glm::dvec3 drift_at(const TruthScene& scene, glm::dvec3 p_voxel) {
+glm::dvec3 advection_at(const TruthScene& scene, glm::dvec3 p_voxel) {
   if (scene.drift == nullptr) return glm::dvec3(0);
   const glm::ivec3 brick(glm::floor(p_voxel / 8.0));
   const std::uint32_t slot = scene.volume->slot_at(brick);
-  if (slot == sim::SmokeVolume::kNoSlot) return glm::dvec3(0);
-  const glm::uvec3 bricks(scene.volume->frame().atlas_bricks);
+  if (slot == smoke::SmokeVolume::kNoSlot) return glm::dvec3(0);
+  const glm::uvec3 bricks(scene.volume->layout().atlas_bricks);
   const glm::ivec3 corner(
       glm::uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * 10u);
   const glm::dvec3 at = p_voxel - glm::dvec3(8 * brick) + 0.5;  // a texel of apron before the brick
@@ -61,9 +61,9 @@ glm::dvec3 drift_at(const TruthScene& scene, glm::dvec3 p_voxel) {
 
 glm::dvec4 smoke_noise(const TruthScene& scene, glm::dvec3 p_world, glm::dvec3 p_voxel) {
   if (scene.noise == nullptr) return glm::dvec4(0.5);
-  const glm::dvec3 rise(0, double{scene.look.noise_drift} * scene.time, 0);
+  const glm::dvec3 rise(0, double{scene.look.rise} * scene.time, 0);
   return noise_at(*scene.noise,
-                  (p_world + drift_at(scene, p_voxel) - rise) / double{scene.look.noise_period});
+                  (p_world + advection_at(scene, p_voxel) - rise) / double{scene.look.noise_period});
 }
 
 /// Share of the smoke that a hole takes away: the rule of shaders/shared/hole.h.
@@ -99,8 +99,8 @@ std::optional<double> hit(const TruthTriangle& t, glm::dvec3 from, glm::dvec3 di
 struct Interval {
   double begin, end;
 };
-Interval inside(const sim::SmokeVolume& volume, glm::dvec3 from, glm::dvec3 direction, double end) {
-  const shared::SmokeVolumeFrame& frame = volume.frame();
+Interval inside(const smoke::SmokeVolume& volume, glm::dvec3 from, glm::dvec3 direction, double end) {
+  const shared::VolumeLayout& frame = volume.layout();
   const glm::dvec3 origin(frame.origin_world);
   Interval way{0, end};
   for (int axis = 0; axis < 3; ++axis) {
@@ -152,7 +152,7 @@ std::optional<Incident> light_at(const TruthScene& scene, const shared::Light& l
     if (at && *at < incident.distance) return {};
   }
   double depth = 0;
-  const double voxel = double{scene.volume->frame().voxel_size}, sigma = double{scene.look.extinction};
+  const double voxel = double{scene.volume->layout().voxel_size}, sigma = double{scene.look.extinction};
   walk(inside(*scene.volume, p, incident.to_light, incident.distance), scene.light_step * voxel,
        [&](double t, double length) {
          depth += sigma * truth_density(scene, p + t * incident.to_light) * length;
@@ -205,7 +205,7 @@ TruthPixel trace(const TruthScene& scene, glm::dvec2 position_px) {
   }
   // The smoke before it. In-scatter is taken as even within a step, and what the step lets through of it is
   // exact.
-  const double voxel = double{scene.volume->frame().voxel_size}, sigma = double{scene.look.extinction};
+  const double voxel = double{scene.volume->layout().voxel_size}, sigma = double{scene.look.extinction};
   walk(inside(*scene.volume, eye, direction, t_surface), scene.view_step * voxel,
        [&](double t, double length) {
          const glm::dvec3 p = eye + t * direction;
@@ -245,7 +245,7 @@ std::vector<TruthTriangle> truth_triangles(const scene::Scene& scene) {
 }
 
 double truth_density(const TruthScene& scene, glm::dvec3 p_world) {
-  const shared::SmokeVolumeFrame& frame = scene.volume->frame();
+  const shared::VolumeLayout& frame = scene.volume->layout();
   const glm::dvec3 p_voxel = (p_world - glm::dvec3(frame.origin_world)) / double{frame.voxel_size};
   double density = smoke_density(*scene.volume, p_voxel);
   if (density <= 0) return 0;

@@ -12,7 +12,7 @@
 #include "shared/frame.h"
 #include "shared/hole.h"
 #include "shared/light.h"
-#include "sim/smoke_volume.hpp"
+#include "smoke/smoke_volume.hpp"
 
 namespace brume::reference {
 
@@ -24,7 +24,7 @@ struct NoiseTile {
 
 /// Where the noise is carried as the device holds it: xyz of the texels of all bricks [m], laid out as the
 /// density.
-struct DriftField {
+struct NoiseAdvectionField {
   glm::ivec3 size{0};  ///< Texels per axis.
   std::vector<glm::vec3> texels;
 };
@@ -42,14 +42,14 @@ std::vector<TruthTriangle> truth_triangles(const scene::Scene& scene);
 struct TruthScene {
   shared::Camera camera{};
   glm::uvec2 size_px{0};
-  shared::SmokeLook look{};  ///< Its step_length, stop and many_scatterings play no part here.
+  shared::SmokeLook look{};  ///< Its step_length, stop and multiple_scattering play no part here.
   double time = 0;           ///< [s]
-  const sim::SmokeVolume* volume = nullptr;
+  const smoke::SmokeVolume* volume = nullptr;
   std::span<const shared::Hole> holes;  ///< Without masks.
   std::span<const shared::Light> lights;
   std::span<const TruthTriangle> triangles;
   const NoiseTile* noise = nullptr;   ///< Needed where look.erosion or look.hole_rim is not 0.
-  const DriftField* drift = nullptr;  ///< Null: the noise is not carried.
+  const NoiseAdvectionField* drift = nullptr;  ///< Null: the noise is not carried.
   double view_step = 0.2;             ///< Of the rays of the pixels [voxels].
   double light_step = 0.4;            ///< Of the rays to the lights [voxels].
 };

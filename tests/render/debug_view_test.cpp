@@ -15,7 +15,7 @@ using passes::DebugView;
 constexpr glm::uvec2 kSize{97, 55};
 
 /// A yard with a wall and a box that breaks at 2 s; smoke, two shots through it.
-stage::Stage yard() {
+scenario::Scenario yard() {
   scene::Scene scene;
   scene::Mesh mesh, ball;
   add_box(mesh, {-5, -0.3f, -5}, {5, -0.05f, 5});
@@ -27,14 +27,14 @@ stage::Stage yard() {
   scene.materials[0].base_color = {0.6f, 0.45f, 0.3f};
   scene.objects.push_back({"yard", 0, 0, glm::mat4(1), true});
   scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
-  scene::Light lamp;
-  lamp.position_world = {-2, 2.2f, 2};
-  lamp.intensity = glm::vec3(6);
-  scene.lights.push_back(lamp);
+  scene::Light light;
+  light.position_world = {-2, 2.2f, 2};
+  light.intensity = glm::vec3(6);
+  scene.lights.push_back(light);
   scene.camera = scene::Camera{{0.5f, 1.7f, 5.5f}, {0, 1, 0}, 0.9f};
   scene::Timeline timeline;
   timeline.smoke.voxels = 700;
-  timeline.smoke.noise = 0.7f;
+  timeline.smoke.erosion = 0.7f;
   timeline.smokes = {{0.1, {0, 2, 0}, {0, 0.4f, 0}}};
   for (const float x : {-0.4f, 0.5f}) {
     scene::ShotEvent shot;
@@ -46,18 +46,18 @@ stage::Stage yard() {
     timeline.shots.push_back(shot);
   }
   timeline.edits.push_back({2, {1.3f, -0.02f, -1.2f}, {2.1f, 1.8f, 1.2f}, false});
-  return stage_of(std::move(scene), std::move(timeline), {{45, 16, 45}, 0.25f, {-5.6f, -0.6f, -5.6f}});
+  return scenario_of(std::move(scene), std::move(timeline), {{45, 16, 45}, 0.25f, {-5.6f, -0.6f, -5.6f}});
 }
 
 class DebugViewsTest : public gpu::GpuTest {
  protected:
-  static const stage::Stage& stage() {
-    static const stage::Stage instance = yard();
+  static const scenario::Scenario& scenario() {
+    static const scenario::Scenario instance = yard();
     return instance;
   }
   /// One for all tests, which makes each view's pipeline once.
   static Playback& playback() {
-    static Playback instance(context(), stage(), kSize);
+    static Playback instance(context(), scenario(), kSize);
     return instance;
   }
   RendererOptions options(std::uint32_t march_scale, bool temporal) const {
@@ -92,9 +92,9 @@ TEST_F(DebugViewsTest, EachIsThereAndDiffersFromAllOthers) {
 
 TEST_F(DebugViewsTest, ThePictureIsTheSameWhateverWasShownBefore) {
   for (const std::uint32_t scale : {1u, 4u}) {
-    Playback plain(context(), stage(), options(scale, false));
+    Playback plain(context(), scenario(), options(scale, false));
     std::optional<Playback> of_blocks;
-    if (scale > 1) of_blocks.emplace(context(), stage(), options(scale, false));
+    if (scale > 1) of_blocks.emplace(context(), scenario(), options(scale, false));
     Playback& other = of_blocks ? *of_blocks : playback();
     for (std::uint32_t i = 1; i < shared::kViewCount; i += scale) {  // of the lower resolution a few
       const double seconds = 1.6 + 0.1 * i;                          // over the moment when a wall breaks
@@ -108,7 +108,7 @@ TEST_F(DebugViewsTest, ThePictureIsTheSameWhateverWasShownBefore) {
 }
 
 TEST_F(DebugViewsTest, AFilmGoesOnAfterAView) {
-  Playback plain(context(), stage(), options(4, true)), other(context(), stage(), options(4, true));
+  Playback plain(context(), scenario(), options(4, true)), other(context(), scenario(), options(4, true));
   for (std::uint32_t frame = 0; frame < 4; ++frame) {
     const double seconds = 1.2 + frame / 24.0;
     other.set_view(frame == 1 ? DebugView::steps : frame == 2 ? DebugView::holes : DebugView::none, {});

@@ -32,10 +32,10 @@ struct Shot {
 /// One moment, seen by many.
 class Eye {
  public:
-  Eye(gpu::Context& context, gpu::CommandRunner& runner, const stage::Stage& stage,
-      const stage::Simulation& simulation)
-      : runner_(runner), renderer_(context, runner, stage.scene, options(stage)) {
-    input_ = frame_input(stage, simulation, kSeconds, holes_);
+  Eye(gpu::Context& context, gpu::CommandRunner& runner, const scenario::Scenario& scenario,
+      const scenario::Simulation& simulation)
+      : runner_(runner), renderer_(context, runner, scenario.scene, options(scenario)) {
+    input_ = frame_input(scenario, simulation, kSeconds, holes_);
   }
   const Renderer& look(const Pair& pair, std::uint32_t scale) {
     const glm::vec3 back = glm::normalize(pair.eye - pair.target);
@@ -52,10 +52,10 @@ class Eye {
   }
 
  private:
-  static RendererOptions options(const stage::Stage& stage) {
+  static RendererOptions options(const scenario::Scenario& scenario) {
     RendererOptions options;
     options.size_px = kSize;
-    options.masks = &stage.masks;
+    options.masks = &scenario.masks;
     return options;
   }
   gpu::CommandRunner& runner_;
@@ -121,10 +121,10 @@ class FairnessTest : public gpu::GpuTest {
     }
   }
 
-  void expect_fair(const stage::Stage& stage, const std::vector<Pair>& pairs) {
-    const auto simulation = stage::Simulation::create(stage).value_or_throw();
+  void expect_fair(const scenario::Scenario& scenario, const std::vector<Pair>& pairs) {
+    const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
     simulation->advance_to(kSeconds);
-    Eye eye(context(), runner(), stage, *simulation);
+    Eye eye(context(), runner(), scenario, *simulation);
     std::array<Findings, 2> at_scale;
     for (const Pair& pair : pairs) {
       const Shot truth = shot(eye, pair, 1);
@@ -155,7 +155,7 @@ class FairnessTest : public gpu::GpuTest {
   }
 
   /// Eyes and targets in free voxels between 2 and `reach` metres apart, with no wall between.
-  static std::vector<Pair> random_pairs(const stage::Stage& stage, glm::vec3 low, glm::vec3 high, float reach,
+  static std::vector<Pair> random_pairs(const scenario::Scenario& scenario, glm::vec3 low, glm::vec3 high, float reach,
                                         std::size_t count) {
     std::mt19937 random(11);
     const auto between = [&](float a, float b) {
@@ -167,8 +167,8 @@ class FairnessTest : public gpu::GpuTest {
       return glm::vec3(x, y, z);
     };
     const auto free = [&](glm::vec3 p) {
-      return stage.voxels.grid.free(
-          glm::ivec3(glm::floor(voxel::voxel_from_world(stage.voxels.grid.frame(), p))));
+      return scenario.voxels.grid.free(
+          glm::ivec3(glm::floor(voxel::voxel_from_world(scenario.voxels.grid.layout(), p))));
     };
     std::vector<Pair> pairs;
     while (pairs.size() < count) {

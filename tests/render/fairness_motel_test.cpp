@@ -8,7 +8,7 @@ namespace brume::render {
 namespace {
 
 /// One grown smoke in the yard, and the sign in place of the grenade.
-stage::Stage motel(const std::filesystem::path& path) {
+scenario::Scenario motel(const std::filesystem::path& path) {
   scene::Scene scene = scene::load_scene(path).value_or_throw();
   scene::Mesh sign;
   add_box(sign, glm::vec3(-0.5f), glm::vec3(0.5f));
@@ -21,7 +21,7 @@ stage::Stage motel(const std::filesystem::path& path) {
   scene::Timeline timeline;
   timeline.smokes = {{0, {0, 2, -6}, {0, 1.2f, -6}}};
   timeline.smoke.extinction = 1.5f;
-  return stage_of(std::move(scene), std::move(timeline), {{120, 20, 120}, 0.5f, {-30, 0, -30}});
+  return scenario_of(std::move(scene), std::move(timeline), {{120, 20, 120}, 0.5f, {-30, 0, -30}});
 }
 
 TEST_F(FairnessTest, TwoHundredPairsInTheMotel) {
@@ -29,8 +29,8 @@ TEST_F(FairnessTest, TwoHundredPairsInTheMotel) {
   const std::filesystem::path path =
       std::filesystem::path(folder ? folder : BRUME_SOURCE_DIR "/../shared/data/motel") / "Scene.txt";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there; set BRUME_MOTEL to its folder";
-  const stage::Stage stage = motel(path);
-  expect_fair(stage, random_pairs(stage, {-9, 0.3f, -15}, {9, 3.5f, 3}, 15, 200));
+  const scenario::Scenario scenario = motel(path);
+  expect_fair(scenario, random_pairs(scenario, {-9, 0.3f, -15}, {9, 3.5f, 3}, 15, 200));
 }
 
 }  // namespace

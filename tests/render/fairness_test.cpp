@@ -5,7 +5,7 @@ namespace {
 
 /// A hall with pillars, a door frame, a slatted screen and a fence of thin bars, smoke in its middle, shots
 /// through it.
-stage::Stage hall() {
+scenario::Scenario hall() {
   scene::Scene scene;
   scene::Mesh mesh, bars;
   add_box(mesh, {-6, -0.3f, -6}, {6, -0.05f, 6});
@@ -31,10 +31,10 @@ stage::Stage hall() {
   scene.objects = {{"hall", 0, 0, glm::mat4(1), true}, {"bars", 1, 0, glm::mat4(1), false}};
   scene.grenade = {"sign", 2, 1, glm::mat4(1), false};
   for (const glm::vec3 at : {glm::vec3(-4, 3, 4), glm::vec3(3, 2, -4), glm::vec3(0, 3.5f, 0)}) {
-    scene::Light lamp;
-    lamp.position_world = at;
-    lamp.intensity = {12, 10, 7};
-    scene.lights.push_back(lamp);
+    scene::Light light;
+    light.position_world = at;
+    light.intensity = {12, 10, 7};
+    scene.lights.push_back(light);
   }
   scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
 
@@ -52,12 +52,12 @@ stage::Stage hall() {
     shot.times.stay = 20;
     timeline.shots.push_back(shot);
   }
-  return stage_of(std::move(scene), std::move(timeline), {{52, 18, 52}, 0.25f, {-6.5f, -0.35f, -6.5f}});
+  return scenario_of(std::move(scene), std::move(timeline), {{52, 18, 52}, 0.25f, {-6.5f, -0.35f, -6.5f}});
 }
 
 TEST_F(FairnessTest, NoScaleShowsWhatFullResolutionHides) {
-  const stage::Stage stage = hall();
-  expect_fair(stage, random_pairs(stage, {-5.8f, 0.3f, -5.8f}, {5.8f, 3.5f, 5.8f}, 12, 24));
+  const scenario::Scenario scenario = hall();
+  expect_fair(scenario, random_pairs(scenario, {-5.8f, 0.3f, -5.8f}, {5.8f, 3.5f, 5.8f}, 12, 24));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ constexpr glm::uvec2 kSize{96, 54};
 class FilmTest : public gpu::GpuTest {
  protected:
   /// A bright wall behind dense smoke, and a shot that opens it from 1 s to about 2 s.
-  static stage::Stage stage() {
+  static scenario::Scenario scenario() {
     scene::Scene scene;
     scene.meshes.resize(2);
     add_box(scene.meshes[0], {-6, -0.3f, -3.2f}, {6, -0.1f, 6});
@@ -23,10 +23,10 @@ class FilmTest : public gpu::GpuTest {
     scene.materials[0].emission = glm::vec3(0.6f);
     scene.objects = {{"room", 0, 0, glm::mat4(1), true}};
     scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
-    scene::Light lamp;
-    lamp.position_world = {-2, 3, 3};
-    lamp.intensity = glm::vec3(10);
-    scene.lights = {lamp};
+    scene::Light light;
+    light.position_world = {-2, 3, 3};
+    light.intensity = glm::vec3(10);
+    scene.lights = {light};
     scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
     scene::Timeline timeline;
     timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.001f), 0};
@@ -41,7 +41,7 @@ class FilmTest : public gpu::GpuTest {
     shot.times = {0.05f, 0.05f, 0.3f, 0.1f};
     shot.flash = 0;
     timeline.shots = {shot};
-    return stage_of(std::move(scene), std::move(timeline), {{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}});
+    return scenario_of(std::move(scene), std::move(timeline), {{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}});
   }
   static RendererOptions options(std::uint32_t scale, bool temporal) {
     RendererOptions options;
@@ -64,7 +64,7 @@ class FilmTest : public gpu::GpuTest {
 };
 
 TEST_F(FilmTest, AFrameThatFollowsNoneIsThePictureOfItsMoment) {
-  const stage::Stage scene = stage();
+  const scenario::Scenario scene = scenario();
   for (const std::uint32_t scale : {1u, 4u}) {
     Playback film(context(), scene, options(scale, true)), pictures(context(), scene, options(scale, false));
     EXPECT_EQ(film.draw(2, 48).rgba, pictures.draw(2, 48).rgba);
@@ -106,10 +106,10 @@ double most_apart(const image::Image8& now, std::uint32_t x, std::uint32_t y) {
 TEST_F(FilmTest, AHoleThatHasClosedLeavesNoGhost) {
   // Two films of smoke in front of black walls; through one goes a shot. From the first frame after its hole
   // has closed on, they are as near to each other as their frames' jitter allows, and then nearer.
-  stage::Stage shot = stage();
+  scenario::Scenario shot = scenario();
   shot.scene.materials[0].emission = shot.scene.materials[0].base_color = glm::vec3(0);
-  shot.timeline.smoke.noise = 0;  // which shots push around, for longer than their holes stay open
-  stage::Stage still = shot;
+  shot.timeline.smoke.erosion = 0;  // which shots push around, for longer than their holes stay open
+  scenario::Scenario still = shot;
   still.timeline.shots.clear();
   for (const std::uint32_t scale : {1u, 2u}) {
     Playback had(context(), shot, options(scale, true)), never(context(), still, options(scale, true)),
@@ -161,7 +161,7 @@ double flicker(Playback& playback) {
 }
 
 TEST_F(FilmTest, AReducedMarchFlickersNoMoreThanAFullOne) {
-  const stage::Stage scene = stage();
+  const scenario::Scenario scene = scenario();
   Playback full(context(), scene, options(1, false)), half(context(), scene, options(2, false)),
       gathered(context(), scene, options(2, true));
   const double of_full = flicker(full), of_half = flicker(half), of_gathered = flicker(gathered);

@@ -118,7 +118,7 @@ std::vector<View> views_of(const Wall& wall) {
           view("behind", middle - 3.0 * along - 1.5 * normal, middle + 2.0 * along, false)};
 }
 
-stage::Stage stage_of_wall(const Wall& wall, bool lamp) {
+scenario::Scenario scenario_of_wall(const Wall& wall, bool has_light) {
   scene::Scene scene;
   scene.meshes = {wall.mesh, {}};
   add_box(scene.meshes[1], glm::vec3(-0.1f), glm::vec3(0.1f));
@@ -127,24 +127,24 @@ stage::Stage stage_of_wall(const Wall& wall, bool lamp) {
   scene.objects = {{"wall", 0, 0, glm::mat4(1), true}};
   scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
   scene.camera = scene::Camera{};
-  if (lamp) {
+  if (has_light) {
     scene::Light light;
     light.position_world = {3, 14, 2};
     light.intensity = glm::vec3(400);
     scene.lights = {light};
   }
   scene::Timeline timeline;
-  timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(lamp ? 0.0f : 1.0f), 0, 1};
+  timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(has_light ? 0.0f : 1.0f), 0, 1};
   timeline.smoke.voxels = 200000;
   timeline.smoke.bloom = 0.05f;
   timeline.smoke.hold = 100;
   timeline.smoke.extinction = static_cast<float>(kSigma);
   timeline.smoke.albedo = glm::vec3(1);
   timeline.smoke.anisotropy = 0;
-  timeline.smoke.multiple_scattering = lamp ? 0.0f : 1.0f;
-  timeline.smoke.noise = 0;
+  timeline.smoke.multiple_scattering = has_light ? 0.0f : 1.0f;
+  timeline.smoke.erosion = 0;
   timeline.smokes = {{0, glm::vec3(wall.source) + glm::vec3(0, 0.1f, 0), glm::vec3(wall.source)}};
-  return stage_of(std::move(scene), std::move(timeline), {{24, 12, 24}, kVoxel, glm::vec3(0)});
+  return scenario_of(std::move(scene), std::move(timeline), {{24, 12, 24}, kVoxel, glm::vec3(0)});
 }
 
 /// Green and transmittance of the smoke of each pixel, means over the rows.
@@ -164,13 +164,13 @@ class LitWallsTest : public gpu::GpuTest {
     }
     return profile;
   }
-  /// A stage whose smoke is grown, seen from anywhere.
+  /// A scenario whose smoke is grown, seen from anywhere.
   struct Studio {
-    explicit Studio(const stage::Stage& stage)
-        : simulation(stage::Simulation::create(stage).value_or_throw()),
-          renderer(context(), runner(), stage.scene, {.size_px = kSize}) {
+    explicit Studio(const scenario::Scenario& scenario)
+        : simulation(scenario::Simulation::create(scenario).value_or_throw()),
+          renderer(context(), runner(), scenario.scene, {.size_px = kSize}) {
       simulation->advance_to(kSeconds);
-      input = frame_input(stage, *simulation, kSeconds, holes);
+      input = frame_input(scenario, *simulation, kSeconds, holes);
     }
     Profile draw(const scene::Camera& camera) {
       input.camera = camera;
@@ -183,7 +183,7 @@ class LitWallsTest : public gpu::GpuTest {
         return glm::dvec2(texel.g, texel.a);
       });
     }
-    std::unique_ptr<stage::Simulation> simulation;
+    std::unique_ptr<scenario::Simulation> simulation;
     Renderer renderer;
     std::vector<shared::Hole> holes;
     FrameInput input;
@@ -265,8 +265,8 @@ double smoke_before(const Wall& wall, const shared::Camera& camera, glm::dvec2 p
 // alone.
 TEST_F(LitWallsTest, InEvenLightOnlyTheDistanceToTheWallCounts) {
   for (const Wall& wall : walls()) {
-    const stage::Stage stage = stage_of_wall(wall, false);
-    Studio studio(stage);
+    const scenario::Scenario scenario = scenario_of_wall(wall, false);
+    Studio studio(scenario);
     for (const View& view : views_of(wall)) {
       const Profile drawn = studio.draw(view.camera);
       const shared::Camera camera = device_camera(view.camera, kSize);
@@ -282,16 +282,16 @@ TEST_F(LitWallsTest, InEvenLightOnlyTheDistanceToTheWallCounts) {
 
 TEST_F(LitWallsTest, ByALampTheWallShowsNoLine) {
   for (const Wall& wall : walls()) {
-    const stage::Stage stage = stage_of_wall(wall, true);
-    Studio studio(stage);
+    const scenario::Scenario scenario = scenario_of_wall(wall, true);
+    Studio studio(scenario);
     reference::TruthScene truth;
     truth.size_px = kSize;
     truth.look = studio.input.look;
     truth.time = kSeconds;
     truth.volume = studio.input.volume;
-    const auto lights = passes::device_lights(stage.scene.lights, 64);
+    const auto lights = passes::device_lights(scenario.scene.lights, 64);
     truth.lights = lights;
-    const auto triangles = reference::truth_triangles(stage.scene);
+    const auto triangles = reference::truth_triangles(scenario.scene);
     truth.triangles = triangles;
     for (const View& view : views_of(wall)) {
       const Profile drawn = studio.draw(view.camera);
@@ -301,7 +301,7 @@ TEST_F(LitWallsTest, ByALampTheWallShowsNoLine) {
         const auto& pixel = pixels[x + std::size_t{kSize.x} * y];
         return glm::dvec2(pixel.smoke.g, pixel.transmittance);
       });
-      keep(wall, view, "lamp", drawn, expected);
+      keep(wall, view, "light", drawn, expected);
       expect_no_line(wall, view, drawn, expected);
     }
   }

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "sim/sight.hpp"
+#include "smoke/sight.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/boxes.hpp"
+#include "smoke/holes.hpp"
 
 namespace brume::render {
 namespace {
 
-/// A white floor, a white wall across it at z = -3, a lamp, a camera that looks at the wall along -z.
+/// A white floor, a white wall across it at z = -3, a light, a camera that looks at the wall along -z.
 scene::Scene small_scene(bool with_screen) {
   scene::Scene scene;
   scene::Mesh mesh;
@@ -25,23 +26,23 @@ scene::Scene small_scene(bool with_screen) {
   scene.materials.push_back({});
   scene.objects.push_back({"room", 0, 0, glm::mat4(1), true});
   scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
-  scene::Light lamp;
-  lamp.position_world = {-2, 2, 0};
-  lamp.intensity = glm::vec3(20);
-  scene.lights.push_back(lamp);
+  scene::Light light;
+  light.position_world = {-2, 2, 0};
+  light.intensity = glm::vec3(20);
+  scene.lights.push_back(light);
   scene.camera = scene::Camera{{0, 1.5f, 5.5f}, {0, 1.5f, 0}, 0.9f};
   return scene;
 }
 
-stage::Stage small_stage(scene::Scene scene) {
+scenario::Scenario small_stage(scene::Scene scene) {
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0.001f), 0};
   timeline.smoke.voxels = 3000;
   timeline.smoke.extinction = 4;
-  timeline.smoke.noise = 0;
+  timeline.smoke.erosion = 0;
   timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {0, 0.2f, 0}}};  // from outside of the picture
-  const voxel::GridFrame frame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
-  auto voxels = stage::load_or_voxelize(scene, frame, {}).value_or_throw();
+  const voxel::GridLayout frame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
+  auto voxels = scenario::load_or_voxelize(scene, frame, {}).value_or_throw();
   const scene::Camera camera = *scene.camera;
   return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
 }
@@ -61,20 +62,20 @@ class PlaybackTest : public gpu::GpuTest {
 };
 
 TEST_F(PlaybackTest, TheSameMomentIsTheSamePicture) {
-  const stage::Stage stage = small_stage(small_scene(true));
-  Playback playback(context(), stage, kSize);
+  const scenario::Scenario scenario = small_stage(small_scene(true));
+  Playback playback(context(), scenario, kSize);
   const auto first = playback.draw(0.8, 5).rgba;
   const auto early = playback.draw(0.1, 1).rgba;
   EXPECT_NE(first, early);
   EXPECT_EQ(playback.draw(0.8, 5).rgba, first);
-  Playback other(context(), stage, kSize);
+  Playback other(context(), scenario, kSize);
   EXPECT_EQ(other.draw(0.8, 5).rgba, first);
 }
 
 TEST_F(PlaybackTest, AwkwardSizes) {
-  const stage::Stage stage = small_stage(small_scene(false));
+  const scenario::Scenario scenario = small_stage(small_scene(false));
   for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(7, 5), glm::uvec2(33, 17)}) {
-    Playback playback(context(), stage, size);
+    Playback playback(context(), scenario, size);
     const auto picture = playback.draw(1.2, 0);
     EXPECT_EQ(picture.rgba.size(), std::size_t{4} * size.x * size.y);
   }
@@ -86,28 +87,28 @@ double shown(double radiance) {
   return 255 * (toned <= 0.0031308 ? 12.92 * toned : 1.055 * std::pow(toned, 1 / 2.4) - 0.055);
 }
 
-/// What is shown at least of a white wall at z = -3 that faces the lamp, in the middle of a pixel: what it
-/// scatters of the lamp's light, without the shine of its surface; the ambient light of small_stage.
+/// What is shown at least of a white wall at z = -3 that faces the light, in the middle of a pixel: what it
+/// scatters of the light's light, without the shine of its surface; the ambient light of small_stage.
 double least_shown(const scene::Scene& scene, glm::dvec2 pixel, glm::dvec2 size) {
-  const glm::dvec3 eye(scene.camera->position_world), lamp(scene.lights[0].position_world);
+  const glm::dvec3 eye(scene.camera->position_world), light(scene.lights[0].position_world);
   const double half = std::tan(double{scene.camera->vertical_fov} / 2);
   const glm::dvec2 at((2 * pixel.x / size.x - 1) * half * size.x / size.y, (1 - 2 * pixel.y / size.y) * half);
   const glm::dvec3 point = eye + glm::dvec3(at, -1) * (eye.z + 3);
-  const glm::dvec3 to_lamp = glm::normalize(lamp - point), to_eye = glm::normalize(eye - point);
-  const double d2 = glm::dot(lamp - point, lamp - point);
-  // The window that ends a lamp where it is below 1/100.
+  const glm::dvec3 to_light = glm::normalize(light - point), to_eye = glm::normalize(eye - point);
+  const double d2 = glm::dot(light - point, light - point);
+  // The window that ends a light where it is below 1/100.
   const double brightest = scene.lights[0].intensity.g, x = 0.01 * d2 / brightest;
   const double window = std::max(0.0, 1 - x * x);
-  const double irradiance = brightest * window * window / d2 * to_lamp.z;
-  const double fresnel = 0.04 + 0.96 * std::pow(1 - glm::dot(glm::normalize(to_lamp + to_eye), to_eye), 5);
+  const double irradiance = brightest * window * window / d2 * to_light.z;
+  const double fresnel = 0.04 + 0.96 * std::pow(1 - glm::dot(glm::normalize(to_light + to_eye), to_eye), 5);
   return shown(irradiance * (1 - fresnel) / glm::pi<double>() + 0.75 * 0.001);
 }
 
 TEST_F(PlaybackTest, AWallCastsAShadow) {
-  const stage::Stage open = small_stage(small_scene(false)), screened = small_stage(small_scene(true));
+  const scenario::Scenario open = small_stage(small_scene(false)), screened = small_stage(small_scene(true));
   Playback without(context(), open, kSize), with(context(), screened, kSize);
   const auto a = without.draw(0, 0), b = with.draw(0, 0);
-  // Right of the screen the lamp, which hangs left of it, does not reach the back wall: there is the ambient
+  // Right of the screen the light, which hangs left of it, does not reach the back wall: there is the ambient
   // light alone. A step of 255 for rounding and the noise against bands.
   double least = 0;
   const scene::Scene scene = small_scene(false);
@@ -122,11 +123,11 @@ TEST_F(PlaybackTest, AWallCastsAShadow) {
 TEST_F(PlaybackTest, SmokeHidesTheWallAndAShotOpensIt) {
   scene::Scene scene = small_scene(false);
   scene.materials[0].emission =
-      glm::vec3(0.3f);  // the wall shines by itself: smoke also takes the lamp's light
-  stage::Stage stage = small_stage(std::move(scene));
-  stage.timeline.smoke.albedo = glm::vec3(0);  // black smoke: what is bright is the wall
-  stage.timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, {0.1f, 0.05f, 1.0f, 0.2f}}};
-  Playback playback(context(), stage, kSize);
+      glm::vec3(0.3f);  // the wall shines by itself: smoke also takes the light's light
+  scenario::Scenario scenario = small_stage(std::move(scene));
+  scenario.timeline.smoke.albedo = glm::vec3(0);  // black smoke: what is bright is the wall
+  scenario.timeline.shots = {{3, {0, 1.5f, 5.4f}, {0, 1.5f, 0}, 0.5f, {0.1f, 0.05f, 1.0f, 0.2f}}};
+  Playback playback(context(), scenario, kSize);
   const double clear = brightness(playback.draw(0.1, 0), 0.5, 0.47);
   const double hidden = brightness(playback.draw(2.9, 0), 0.5, 0.47);
   const double open = brightness(playback.draw(3.6, 0), 0.5, 0.47);
@@ -140,13 +141,13 @@ TEST_F(PlaybackTest, SmokeHidesTheWallAndAShotOpensIt) {
 }
 
 TEST_F(PlaybackTest, SmokeDimsTheSurfacesBehindIt) {
-  // A puff on the floor, a low lamp left of it, and a place on the floor to its right.
+  // A puff on the floor, a low light left of it, and a place on the floor to its right.
   scene::Scene scene = small_scene(false);
   scene.lights[0].position_world = {-3, 1, 0};
-  stage::Stage stage = small_stage(std::move(scene));
-  stage.timeline.smoke.voxels = 150;
-  stage.timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {-0.9f, 0, 0}}};
-  Playback playback(context(), stage, kSize);
+  scenario::Scenario scenario = small_stage(std::move(scene));
+  scenario.timeline.smoke.voxels = 150;
+  scenario.timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {-0.9f, 0, 0}}};
+  Playback playback(context(), scenario, kSize);
   const auto before = playback.draw(0, 0), after = playback.draw(2.5, 0);
   EXPECT_GT(brightness(before, 0.585, 0.79), 30);
   EXPECT_LT(brightness(after, 0.585, 0.79), 0.5 * brightness(before, 0.585, 0.79));
@@ -164,9 +165,9 @@ glm::vec3 on_the_wall(const scene::Camera& camera, glm::vec2 pixel, glm::vec2 si
   return camera.position_world + ray * ((-3 - camera.position_world.z) / ray.z);
 }
 
-/// Least and most optical depth between the lamp and what the 3x3 pixels around a place of the picture see of
+/// Least and most optical depth between the light and what the 3x3 pixels around a place of the picture see of
 /// the wall, and `around` metres beside it.
-std::pair<float, float> depths_to_the_wall(const sim::Sight& sight, const stage::Stage& stage,
+std::pair<float, float> depths_to_the_wall(const smoke::Sight& sight, const scenario::Scenario& scenario,
                                            const scene::Camera& camera, glm::vec2 place, glm::uvec2 size,
                                            float around) {
   const glm::vec2 first = glm::floor(place * glm::vec2(size));
@@ -174,25 +175,25 @@ std::pair<float, float> depths_to_the_wall(const sim::Sight& sight, const stage:
   for (int i = 0; i < 81; ++i) {
     const glm::vec3 seen = on_the_wall(camera, first + glm::vec2(i % 3, i / 3 % 3) + 0.5f, glm::vec2(size));
     const glm::vec3 beside = seen + around * glm::vec3(i / 9 % 3 - 1, i / 27 - 1, 0);
-    const float depth = sight.optical_depth(stage.scene.lights[0].position_world, beside).value_or_throw();
+    const float depth = sight.optical_depth(scenario.scene.lights[0].position_world, beside).value_or_throw();
     depths = {std::min(depths.first, depth), std::max(depths.second, depth)};
   }
   return depths;
 }
 
 TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
-  // Black smoke between a lamp and the wall, and an eye beside it that sees the wall alone. A shot from the
-  // lamp's place goes straight away from it.
+  // Black smoke between a light and the wall, and an eye beside it that sees the wall alone. A shot from the
+  // light's place goes straight away from it.
   scene::Scene scene = small_scene(false);
   scene.lights[0].position_world = {0, 1, 4.5f};
   scene.lights[0].intensity = glm::vec3(60);
-  stage::Stage stage = small_stage(std::move(scene));
-  stage.timeline.smoke.albedo = glm::vec3(0);
-  stage.timeline.smoke.voxels = 700;
-  stage.timeline.smokes = {{0.2, {0, 1, 1.5f}, {0, 0.2f, 1.5f}}};
-  stage.timeline.shots = {{3, {0, 1, 4.6f}, {0, 1, 0}, 0.4f, {0.1f, 0.05f, 1.0f, 0.2f}}};
-  stage.timeline.shots[0].flash = 0;
-  Playback playback(context(), stage, kSize);
+  scenario::Scenario scenario = small_stage(std::move(scene));
+  scenario.timeline.smoke.albedo = glm::vec3(0);
+  scenario.timeline.smoke.voxels = 700;
+  scenario.timeline.smokes = {{0.2, {0, 1, 1.5f}, {0, 0.2f, 1.5f}}};
+  scenario.timeline.shots = {{3, {0, 1, 4.6f}, {0, 1, 0}, 0.4f, {0.1f, 0.05f, 1.0f, 0.2f}}};
+  scenario.timeline.shots[0].flash = 0;
+  Playback playback(context(), scenario, kSize);
   const scene::Camera beside{{2, 1.2f, -0.7f}, {0, 1, -3}, 0.9f};
   playback.set_camera(beside);
   // The middle of the picture looks at the wall where the shot hits it.
@@ -200,18 +201,18 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
   const auto seen = [&](glm::vec2 place, double seconds) {
     return brightness(playback.draw(seconds, 0), static_cast<double>(place.x), static_cast<double>(place.y));
   };
-  // What lies between the lamp and the wall, as a line of sight has it. The picture mixes rays of the lamp
+  // What lies between the light and the wall, as a line of sight has it. The picture mixes rays of the light
   // that are a texel apart. There are 2^16 of them or more, which grow by 1.2 until all fit, with half of
-  // them in use at least, for what smoke is seen in: 9.5 m squared at its far end, 4.75 m from the lamp,
+  // them in use at least, for what smoke is seen in: 9.5 m squared at its far end, 4.75 m from the light,
   // and 3.5 m squared on four more faces of the cube around it.
   const float texel = 1.2f * std::sqrt(2 * (9.5f * 9.5f + 4 * 3.5f * 3.5f) / 65536) * 7.5f / 4.75f;
   const auto depths = [&](glm::vec2 place) {
     const sim::World& world = playback.simulation().world();
-    const auto holes = sim::holes_of(world.state());
-    const sim::Sight sight(playback.simulation().volume(), world.grid(), holes,
+    const auto holes = smoke::holes_of(world.state());
+    const smoke::Sight sight(playback.simulation().volume(), world.grid(), holes,
                            world.state().seconds(world.tick()),
-                           {.extinction = stage.timeline.smoke.extinction});
-    return depths_to_the_wall(sight, stage, beside, place, kSize, texel);
+                           {.extinction = scenario.timeline.smoke.extinction});
+    return depths_to_the_wall(sight, scenario, beside, place, kSize, texel);
   };
   const double clear = seen(spot, 0), clear_around = seen(around, 0), most_radiance = 0.4;
   EXPECT_GT(clear, 100);
@@ -238,12 +239,12 @@ TEST_F(PlaybackTest, SmokeShadowsTheSunUnderIt) {
   scene.lights[0].kind = scene::LightKind::directional;
   scene.lights[0].direction_world = {0, -1, 0};
   scene.lights[0].intensity = glm::vec3(1);
-  stage::Stage stage = small_stage(std::move(scene));
-  stage.timeline.smoke.albedo = glm::vec3(0);
-  stage.timeline.smoke.voxels = 700;
-  stage.timeline.smokes = {{0.2, {0, 3, 1.5f}, {0, 3, 1.5f}}};
-  stage.timeline.edits = {{0.0, {-1.3f, 2.4f, 0.2f}, {1.3f, 2.6f, 2.8f}, true}};  // a shelf for it, not drawn
-  Playback playback(context(), stage, kSize);
+  scenario::Scenario scenario = small_stage(std::move(scene));
+  scenario.timeline.smoke.albedo = glm::vec3(0);
+  scenario.timeline.smoke.voxels = 700;
+  scenario.timeline.smokes = {{0.2, {0, 3, 1.5f}, {0, 3, 1.5f}}};
+  scenario.timeline.edits = {{0.0, {-1.3f, 2.4f, 0.2f}, {1.3f, 2.6f, 2.8f}, true}};  // a shelf for it, not drawn
+  Playback playback(context(), scenario, kSize);
   // An eye on the floor that looks at the floor, first under the shelf, then beside.
   const auto floor_at = [&](glm::vec3 target_world, double seconds) {
     playback.set_camera(scene::Camera{target_world + glm::vec3(0, 0.8f, 0.5f), target_world, 0.9f});
@@ -260,10 +261,10 @@ TEST_F(PlaybackTest, AFlashLightsWhatNoWallHides) {
   // Behind the screen it is dark, before it the muzzle shines.
   scene::Scene scene = small_scene(true);
   scene.lights.clear();
-  stage::Stage stage = small_stage(std::move(scene));
-  stage.timeline.smokes.clear();
-  stage.timeline.shots = {{1, {-2, 2, 0.3f}, {-2, 2, -1}}};
-  Playback playback(context(), stage, kSize);
+  scenario::Scenario scenario = small_stage(std::move(scene));
+  scenario.timeline.smokes.clear();
+  scenario.timeline.shots = {{1, {-2, 2, 0.3f}, {-2, 2, -1}}};
+  Playback playback(context(), scenario, kSize);
   const auto before = playback.draw(0.95, 0), flash = playback.draw(1.01, 0), after = playback.draw(1.1, 0);
   EXPECT_LE(brightness(before, 0.2, 0.4), 2);
   EXPECT_GT(brightness(flash, 0.2, 0.4), 50);
@@ -272,16 +273,16 @@ TEST_F(PlaybackTest, AFlashLightsWhatNoWallHides) {
 }
 
 TEST_F(PlaybackTest, TheGrenadeFlies) {
-  stage::Stage stage = small_stage(small_scene(false));
-  stage.timeline.smokes = {{0.5, {-2, 1.5f, 2}, {2, 1.5f, 2}}};
-  Playback playback(context(), stage, kSize);
+  scenario::Scenario scenario = small_stage(small_scene(false));
+  scenario.timeline.smokes = {{0.5, {-2, 1.5f, 2}, {2, 1.5f, 2}}};
+  Playback playback(context(), scenario, kSize);
   const auto before = playback.draw(0.4, 0), flying = playback.draw(0.6, 0);
   EXPECT_NE(before.rgba, flying.rgba);
 }
 
 /// A dark screen across the room, with a door in its middle that hides the bright wall behind; or with the
 /// door taken out for good.
-stage::Stage stage_with_door(bool with_door = true) {
+scenario::Scenario stage_with_door(bool with_door = true) {
   scene::Scene scene = small_scene(false);
   scene.materials[0].emission = glm::vec3(0.3f);
   scene.materials.push_back({});
@@ -293,36 +294,36 @@ stage::Stage stage_with_door(bool with_door = true) {
   scene.objects.push_back({"screen", 2, 1, glm::mat4(1), true});
   if (with_door) scene.objects.push_back({"door", 3, 1, glm::mat4(1), true});
   scene.lights[0].position_world = {0, 2, 3};
-  stage::Stage stage = small_stage(std::move(scene));
-  stage.timeline.smokes.clear();
-  if (with_door) stage.timeline.doors = {{1.0, "door", true, ""}, {2.0, "door", false, ""}};
-  return stage;
+  scenario::Scenario scenario = small_stage(std::move(scene));
+  scenario.timeline.smokes.clear();
+  if (with_door) scenario.timeline.doors = {{1.0, "door", true, ""}, {2.0, "door", false, ""}};
+  return scenario;
 }
 
 TEST_F(PlaybackTest, AnOpenDoorShowsWhatIsBehindItAndLetsTheLightThrough) {
-  const stage::Stage stage = stage_with_door();
-  stage::Stage lightless = stage_with_door();
+  const scenario::Scenario scenario = stage_with_door();
+  scenario::Scenario lightless = stage_with_door();
   lightless.scene.lights.clear();
-  Playback playback(context(), stage, kSize), unlit(context(), lightless, kSize);
+  Playback playback(context(), scenario, kSize), unlit(context(), lightless, kSize);
   const auto shut = playback.draw(0.5, 0), open = playback.draw(1.5, 0), again = playback.draw(2.5, 0);
   EXPECT_LT(brightness(shut, 0.5, 0.47), 30);
   EXPECT_GT(brightness(open, 0.5, 0.47), 60);
   EXPECT_EQ(again.rgba, shut.rgba);
   EXPECT_EQ(playback.draw(1.5, 0).rgba, open.rgba);  // and backwards
-  // The lamp is on this side: what it adds to the wall behind came through the door.
+  // The light is on this side: what it adds to the wall behind came through the door.
   EXPECT_GT(brightness(open, 0.5, 0.47), brightness(unlit.draw(1.5, 0), 0.5, 0.47) + 10);
   // A door that never was is one that is open.
-  const stage::Stage without = stage_with_door(false);
+  const scenario::Scenario without = stage_with_door(false);
   Playback never(context(), without, kSize);
   EXPECT_EQ(never.draw(1.5, 0).rgba, open.rgba);
 }
 
 TEST_F(PlaybackTest, SmokeStaysBehindADoorThatIsShutAndComesThroughWhenItOpens) {
-  stage::Stage stage = stage_with_door();
-  stage.timeline.smokes = {{0.0, {0, 3.5f, -1}, {0, 0, -1}}};  // behind the screen
-  stage.timeline.smoke.voxels = 3000;
-  stage.timeline.doors = {{1.5, "door", true, ""}};
-  Playback playback(context(), stage, kSize);
+  scenario::Scenario scenario = stage_with_door();
+  scenario.timeline.smokes = {{0.0, {0, 3.5f, -1}, {0, 0, -1}}};  // behind the screen
+  scenario.timeline.smoke.voxels = 3000;
+  scenario.timeline.doors = {{1.5, "door", true, ""}};
+  Playback playback(context(), scenario, kSize);
   const auto in_front = [&](double seconds) {
     (void)playback.draw(seconds, 0);
     const sim::State& state = playback.simulation().world().state();
@@ -336,12 +337,12 @@ TEST_F(PlaybackTest, SmokeStaysBehindADoorThatIsShutAndComesThroughWhenItOpens) 
 }
 
 TEST_F(PlaybackTest, MoreHolesThanAreDrawnAreNoError) {
-  stage::Stage stage = small_stage(small_scene(false));
+  scenario::Scenario scenario = small_stage(small_scene(false));
   for (int i = 0; i < 100; ++i) {
-    stage.timeline.shots.push_back(
+    scenario.timeline.shots.push_back(
         {2, {0, 1.5f, 5.4f}, {0.01f * static_cast<float>(i), 1.5f, 0}, 0.1f, {0.1f, 0.05f, 5.0f, 0.2f}});
   }
-  Playback playback(context(), stage, kSize);
+  Playback playback(context(), scenario, kSize);
   EXPECT_EQ(playback.draw(2.5, 0).width, kSize.x);
 }
 

@@ -3,9 +3,9 @@
 namespace brume::render {
 namespace {
 
-const voxel::GridFrame kFrame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
+const voxel::GridLayout kFrame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
 
-scene::Light lamp(glm::vec3 position, glm::vec3 intensity) {
+scene::Light point_light(glm::vec3 position, glm::vec3 intensity) {
   scene::Light light;
   light.position_world = position;
   light.intensity = intensity;
@@ -13,7 +13,7 @@ scene::Light lamp(glm::vec3 position, glm::vec3 intensity) {
 }
 
 scene::Light spot(glm::vec3 position, glm::vec3 at, glm::vec3 intensity) {
-  scene::Light light = lamp(position, intensity);
+  scene::Light light = point_light(position, intensity);
   light.kind = scene::LightKind::spot;
   light.direction_world = glm::normalize(at - position);
   light.cos_inner = 0.95f;
@@ -47,7 +47,7 @@ scene::Timeline smoke_at(glm::vec3 place, std::uint32_t voxels) {
   timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
   timeline.smoke.voxels = voxels;
   timeline.smoke.extinction = 2;
-  timeline.smoke.noise = 0;
+  timeline.smoke.erosion = 0;
   timeline.smokes = {{0.0, place + glm::vec3(0, 0.5f, 0), place}};
   return timeline;
 }
@@ -65,39 +65,39 @@ scene::ShotEvent shot(glm::vec3 from, glm::vec3 toward, float radius) {
 
 }  // namespace
 
-stage::Stage stage_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridFrame& frame) {
-  auto voxels = stage::load_or_voxelize(scene, frame, {}).value_or_throw();
+scenario::Scenario scenario_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridLayout& frame) {
+  auto voxels = scenario::load_or_voxelize(scene, frame, {}).value_or_throw();
   const scene::Camera camera = *scene.camera;
   return {std::move(timeline), std::move(scene), camera, std::move(voxels)};
 }
 
 std::vector<TruthCase> truth_cases() {
   const glm::vec3 white(60), red(40, 8, 5), blue(6, 12, 40), green(10, 40, 10);
-  const scene::Light side = lamp({-2.2f, 2.6f, 2.2f}, white);
+  const scene::Light side = point_light({-2.2f, 2.6f, 2.2f}, white);
   std::vector<TruthCase> cases;
   const auto add = [&](const char* name, scene::Scene scene, scene::Timeline timeline) -> TruthCase& {
-    cases.push_back({name, stage_of(std::move(scene), std::move(timeline), kFrame)});
+    cases.push_back({name, scenario_of(std::move(scene), std::move(timeline), kFrame)});
     return cases.back();
   };
   add("one light", room({}, {side}), smoke_at({0, 0.2f, 0}, 1500));
   add("many lights",
-      room({}, {lamp({-2.5f, 1, 1}, red), lamp({2.6f, 1, 1.4f}, blue), lamp({0, 3.5f, -1}, green),
-                spot({1.6f, 3.5f, 2.4f}, {0.3f, 0.5f, 0}, white), lamp({0.2f, 0.8f, 0.9f}, 0.02f * white)}),
+      room({}, {point_light({-2.5f, 1, 1}, red), point_light({2.6f, 1, 1.4f}, blue), point_light({0, 3.5f, -1}, green),
+                spot({1.6f, 3.5f, 2.4f}, {0.3f, 0.5f, 0}, white), point_light({0.2f, 0.8f, 0.9f}, 0.02f * white)}),
       smoke_at({0, 0.2f, 0}, 1500));
   auto pierced = smoke_at({0, 0.2f, 0}, 1800);
   pierced.shots = {shot({-3, 1.2f, 1}, {3, 1, 0.7f}, 0.4f)};
-  add("hole", room({}, {lamp({-3, 1.25f, 1}, 0.7f * white)}), pierced);
+  add("hole", room({}, {point_light({-3, 1.25f, 1}, 0.7f * white)}), pierced);
   auto riddled = smoke_at({0, 0.2f, 0}, 1800);
   riddled.shots = {shot({0, 1.5f, 5.5f}, {-0.5f, 1, 0}, 0.4f), shot({3, 1.5f, 1}, {-1, 0.8f, 0}, 0.3f)};
-  add("two holes", room({}, {side, lamp({3, 1.5f, 1}, blue)}), riddled);
+  add("two holes", room({}, {side, point_light({3, 1.5f, 1}, blue)}), riddled);
   add("wall edge",
-      room({{{-1.3f, -0.1f, -0.55f}, {0.3f, 2.2f, -0.4f}}}, {lamp({-0.4f, 1.9f, -1.6f}, 2.0f * white)}),
+      room({{{-1.3f, -0.1f, -0.55f}, {0.3f, 2.2f, -0.4f}}}, {point_light({-0.4f, 1.9f, -1.6f}, 2.0f * white)}),
       smoke_at({0.4f, 0.2f, 0.6f}, 1500));
   add("doorway",
       room({{{-6, -0.1f, -0.6f}, {-0.6f, 4, -0.45f}},
             {{0.6f, -0.1f, -0.6f}, {6, 4, -0.45f}},
             {{-0.6f, 2.1f, -0.6f}, {0.6f, 4, -0.45f}}},
-           {lamp({0.7f, 1.5f, -2.2f}, 2.0f * white), lamp({2.5f, 3, 3}, red)}),
+           {point_light({0.7f, 1.5f, -2.2f}, 2.0f * white), point_light({2.5f, 3, 3}, red)}),
       smoke_at({0, 0.2f, 0.6f}, 1500));
   auto blasted = smoke_at({0, 0.2f, 0}, 2400);
   blasted.blasts = {{1.5, {0.6f, 0.8f, 0.9f}}};
@@ -106,10 +106,10 @@ std::vector<TruthCase> truth_cases() {
   add("blast", room({}, {side}), blasted);
   add("wall along the view",
       room({{{-0.05f, -0.1f, -1}, {0.05f, 2.4f, 1.5f}}},
-           {lamp({-2, 2, 2}, blue), lamp({2.2f, 1.2f, 2}, red)}),
+           {point_light({-2, 2, 2}, blue), point_light({2.2f, 1.2f, 2}, red)}),
       smoke_at({0.5f, 0.2f, 0}, 1800));
-  riddled.smoke.noise = 0.5f;
-  TruthCase& noisy = add("noise and holes", room({}, {side, lamp({3, 1.5f, 1}, blue)}), riddled);
+  riddled.smoke.erosion = 0.5f;
+  TruthCase& noisy = add("noise and holes", room({}, {side, point_light({3, 1.5f, 1}, blue)}), riddled);
   noisy.noisy = true;
   // Light in the smoke is as coarse as voxels and knows the noise only in their mean.
   noisy.least_psnr = 32;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "stage/simulation.hpp"
+#include "scenario/simulation.hpp"
 #include "tests/render/boxes.hpp"
 
 namespace brume::render {
@@ -12,7 +12,7 @@ namespace brume::render {
 /// A scene, when it is looked at, and how its smoke looks.
 struct TruthCase {
   std::string name;
-  stage::Stage stage;
+  scenario::Scenario scenario;
   double seconds = 2;
   bool noisy = false;      ///< With the noise of the smoke and of the rims of holes.
   double least_psnr = 38;  ///< Of what is shown [dB].
@@ -23,6 +23,6 @@ struct TruthCase {
 std::vector<TruthCase> truth_cases();
 
 /// Voxels of a scene with its timeline and camera. The scene has a camera.
-stage::Stage stage_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridFrame& frame);
+scenario::Scenario scenario_of(scene::Scene scene, scene::Timeline timeline, const voxel::GridLayout& frame);
 
 }  // namespace brume::render

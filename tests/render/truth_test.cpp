@@ -27,7 +27,7 @@ constexpr glm::uvec2 kSize{64, 36};
 struct Drawn {
   std::vector<glm::dvec4> smoke;  ///< Premultiplied radiance, transmittance.
   std::vector<glm::dvec3> picture;
-  reference::DriftField drift;
+  reference::NoiseAdvectionField drift;
 };
 
 class TruthTest : public gpu::GpuTest {
@@ -38,14 +38,14 @@ class TruthTest : public gpu::GpuTest {
       out.emplace_back(passes::from_half(texel));
     return out;
   }
-  /// A stage at a time, and a renderer for it.
+  /// A scenario at a time, and a renderer for it.
   class Studio {
    public:
-    explicit Studio(const stage::Stage& stage, double seconds = 2)
-        : simulation_(stage::Simulation::create(stage).value_or_throw()),
-          renderer_(context(), runner(), stage.scene, {.size_px = kSize, .masks = &stage.masks}) {
+    explicit Studio(const scenario::Scenario& scenario, double seconds = 2)
+        : simulation_(scenario::Simulation::create(scenario).value_or_throw()),
+          renderer_(context(), runner(), scenario.scene, {.size_px = kSize, .masks = &scenario.masks}) {
       simulation_->advance_to(seconds);
-      input = frame_input(stage, *simulation_, seconds, holes);
+      input = frame_input(scenario, *simulation_, seconds, holes);
     }
     /// What `input` shows.
     Drawn draw() {
@@ -53,7 +53,7 @@ class TruthTest : public gpu::GpuTest {
       runner().run([&](gpu::Recorder& recorder) { renderer_.record_frame(recorder, input); });
       Drawn drawn{texels(renderer_.smoke()), {}, {}};
       for (const glm::dvec4& texel : texels(renderer_.picture())) drawn.picture.emplace_back(texel);
-      const gpu::Image& medium = renderer_.smoke_resources().medium;
+      const gpu::Image& medium = renderer_.smoke_resources().density_displacement;
       drawn.drift.size = glm::ivec3(medium.info().size);
       for (const glm::dvec4& texel : texels(medium)) drawn.drift.texels.emplace_back(texel.y, texel.z, texel.w);
       return drawn;
@@ -62,7 +62,7 @@ class TruthTest : public gpu::GpuTest {
     FrameInput input;
 
    private:
-    std::unique_ptr<stage::Simulation> simulation_;
+    std::unique_ptr<scenario::Simulation> simulation_;
     Renderer renderer_;
   };
   static reference::NoiseTile noise_tile() {
@@ -128,9 +128,9 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
   const reference::NoiseTile noise = noise_tile();
   for (const TruthCase& one : truth_cases()) {
     SCOPED_TRACE(one.name);
-    Studio studio(one.stage, one.seconds);
+    Studio studio(one.scenario, one.seconds);
     FrameInput& input = studio.input;
-    input.look.many_scatterings = 0;
+    input.look.multiple_scattering = 0;
     if (!one.noisy) input.look.hole_rim = 0;
     const Drawn drawn = studio.draw();
 
@@ -141,9 +141,9 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     truth.time = one.seconds;
     truth.volume = input.volume;
     truth.holes = studio.holes;
-    const auto lights = passes::device_lights(one.stage.scene.lights, 64);
+    const auto lights = passes::device_lights(one.scenario.scene.lights, 64);
     truth.lights = lights;
-    const auto triangles = reference::truth_triangles(one.stage.scene);
+    const auto triangles = reference::truth_triangles(one.scenario.scene);
     truth.triangles = triangles;
     if (one.noisy) {
       truth.noise = &noise;
@@ -170,8 +170,8 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     keep(one.name + " smoke", truth_shown, smoke_shown);
     keep(one.name + " picture", truth_shown, picture_shown);
     EXPECT_GE(toned, one.least_psnr);
-    // A ray that is let through by less than look.stop is taken as shut: its mean is off by less than that.
-    EXPECT_LT(transmittance, double{input.look.stop});
+    // A ray that is let through by less than look.opaque_transmittance is taken as shut: its mean is off by less than that.
+    EXPECT_LT(transmittance, double{input.look.opaque_transmittance});
   }
 }
 
@@ -189,8 +189,8 @@ TEST_F(TruthTest, InEvenLightSmokeWithoutAbsorptionIsNotSeen) {
   timeline.smoke.voxels = 2000;
   timeline.smoke.albedo = glm::vec3(1);
   timeline.smokes = {{0.0, {0, 1.5f, 0}, {0, 1, 0}}};
-  const stage::Stage stage = stage_of(scene, timeline, {{52, 24, 40}, 0.25f, {-6.5f, -2, -4.5f}});
-  Studio studio(stage);
+  const scenario::Scenario scenario = scenario_of(scene, timeline, {{52, 24, 40}, 0.25f, {-6.5f, -2, -4.5f}});
+  Studio studio(scenario);
   for (const float noise : {0.0f, 0.5f}) {
     for (const float extinction : {0.1f, 1.0f, 10.0f}) {
       double darkest = 2, brightest = 0, least_left = 1;
@@ -230,12 +230,12 @@ TEST_F(TruthTest, ALightBehindASlabIsDimmedAsBeerAndLambertSay) {
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
   timeline.smoke.voxels = 20000;  // more than there is room for
-  timeline.smoke.noise = 0;
+  timeline.smoke.erosion = 0;
   timeline.smoke.albedo = glm::vec3(0);
   timeline.smokes = {{0.0, {0, 1.5f, 0}, {0, 1, 0}}};
-  const stage::Stage stage = stage_of(scene, timeline, {{24, 20, 32}, 0.25f, {-3, -1, -4}});
-  Studio studio(stage);
-  const sim::SmokeVolume* const volume = std::exchange(studio.input.volume, nullptr);
+  const scenario::Scenario scenario = scenario_of(scene, timeline, {{24, 20, 32}, 0.25f, {-3, -1, -4}});
+  Studio studio(scenario);
+  const smoke::SmokeVolume* const volume = std::exchange(studio.input.volume, nullptr);
   const auto clear = studio.draw().picture;
   studio.input.volume = volume;
   const shared::Camera camera = device_camera(*scene.camera, kSize);
@@ -259,7 +259,7 @@ TEST_F(TruthTest, ALightBehindASlabIsDimmedAsBeerAndLambertSay) {
 TEST_F(TruthTest, StepsOfTheMarchDoNotShow) {
   for (const TruthCase& one : truth_cases()) {
     if (one.name != "hole" && one.name != "noise and holes") continue;
-    Studio studio(one.stage);
+    Studio studio(one.scenario);
     const float length = studio.input.look.step_length;
     const auto at = [&](float share) {
       studio.input.look.step_length = share * length;

@@ -3,7 +3,7 @@
 
 #include "image/font.hpp"
 #include "render/playback.hpp"
-#include "stage/shot_masks.hpp"
+#include "scenario/shot_masks.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/boxes.hpp"
 
@@ -18,13 +18,13 @@ const std::string kWord = "BRUME";
 
 /// Black smoke in front of a white sky on both sides, and a word that is shot through it along -z, as large
 /// and as rough as in scenes/letters.toml, open from about 2.3 s to 3.6 s.
-stage::Stage smoke_and_word() {
+scenario::Scenario smoke_and_word() {
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(1), glm::vec3(1), glm::vec3(0), 0};
   timeline.smoke.albedo = glm::vec3(0);
   timeline.smoke.voxels = 12000;
   timeline.smoke.extinction = 4;
-  timeline.smoke.rim = 0.02f;
+  timeline.smoke.hole_rim = 0.02f;
   timeline.smokes = {{0, {0, 2, 0}, {0, 2, 0}}};
   scene::TextEvent event;
   event.time = 2;
@@ -39,8 +39,8 @@ stage::Stage smoke_and_word() {
   add_box(scene.meshes[0], glm::vec3(-0.2f), glm::vec3(0.2f));
   scene.materials.resize(1);
   scene.grenade = {"grenade", 0, 0, glm::mat4(1), false};
-  const voxel::GridFrame frame{{36, 20, 20}, 0.25f, {-4.5f, -0.5f, -2.5f}};
-  auto masks = stage::load_masks(timeline).value_or_throw();
+  const voxel::GridLayout frame{{36, 20, 20}, 0.25f, {-4.5f, -0.5f, -2.5f}};
+  auto masks = scenario::load_masks(timeline).value_or_throw();
   return {std::move(timeline),         std::move(scene),       {},
           {voxel::BitGrid(frame), {}}, std::move(masks.atlas), std::move(masks.of_shots)};
 }
@@ -129,7 +129,7 @@ class Row {
 class WordTest : public gpu::GpuTest {};
 
 TEST_F(WordTest, ReadsFromTheFrontMirroredFromBehindAndNotAfterItsTime) {
-  const stage::Stage scene = smoke_and_word();
+  const scenario::Scenario scene = smoke_and_word();
   Playback playback(context(), scene, kSize);
   const auto seen = [&](double seconds, bool from_behind) {
     playback.set_camera(camera(from_behind));

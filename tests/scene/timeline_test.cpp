@@ -47,7 +47,7 @@ extinction = 4.5
 albedo = [0.9, 0.8, 0.7]
 anisotropy = -0.5
 multiple_scattering = 0.5
-noise = 0.25
+erosion = 0.25
 noise_size = 2
 [sky]
 zenith = [0, 0.1, 0.2]
@@ -195,7 +195,7 @@ TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
   EXPECT_EQ(timeline->blasts[0].radius, 5.0f);
   EXPECT_EQ(timeline->blasts[0].refill_middle, 2.0f);
   EXPECT_EQ(timeline->blasts[1].at_world, glm::vec3(1, 2, 3));
-  EXPECT_EQ(timeline->blasts[1].left, 0.5f);
+  EXPECT_EQ(timeline->blasts[1].remaining, 0.5f);
   EXPECT_EQ(timeline->blasts[0].flash, 250.0f);
   EXPECT_EQ(timeline->blasts[1].flash, 0.0f);
   ASSERT_EQ(timeline->moves.size(), 1u);
@@ -212,7 +212,7 @@ TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
 
 TEST(Timeline, ShotsHaveShapesAndTextsTheirLetters) {
   const auto timeline = parse(std::string(kHead) + R"([smoke]
-rim = 0.02
+hole_rim = 0.02
 [[event]]
 type = "shot"
 time = 1
@@ -247,7 +247,7 @@ stay = 5
 roll = -45
 )");
   ASSERT_TRUE(timeline) << timeline.failure().message;
-  EXPECT_EQ(timeline->smoke.rim, 0.02f);
+  EXPECT_EQ(timeline->smoke.hole_rim, 0.02f);
   ASSERT_EQ(timeline->shots.size(), 2u);
   EXPECT_EQ(timeline->shots[0].shape, ShotShape::mask);
   EXPECT_EQ(timeline->shots[0].mask, std::filesystem::path("scenes/masks/star.png"));

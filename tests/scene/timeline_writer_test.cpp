@@ -254,11 +254,11 @@ TEST_F(TimelineFile, RefusesWhatCouldNotBeReadAgain) {
   timeline.doors = {{1, "\xff", true}};  // no UTF-8
   EXPECT_EQ(refused().find(file.string() + ":"), 0u);
   timeline.doors.clear();
-  timeline.smoke.noise = 2;
-  EXPECT_NE(refused().find("\"noise\": expected a number from 0 to 1, found 2"), std::string::npos);
-  timeline.smoke.noise = std::nanf("");
-  EXPECT_NE(refused().find("\"noise\""), std::string::npos);
-  timeline.smoke.noise = 0.5f;
+  timeline.smoke.erosion = 2;
+  EXPECT_NE(refused().find("\"erosion\": expected a number from 0 to 1, found 2"), std::string::npos);
+  timeline.smoke.erosion = std::nanf("");
+  EXPECT_NE(refused().find("\"erosion\""), std::string::npos);
+  timeline.smoke.erosion = 0.5f;
   EXPECT_TRUE(save_timeline(file, timeline)) << "and is written without";
 }
 

@@ -11,7 +11,7 @@ namespace brume::sim {
 namespace {
 
 constexpr std::uint32_t kTicks = 64;  // a second
-constexpr voxel::GridFrame kFrame{{48, 40, 44}, 0.25f, {0, 0, 0}};
+constexpr voxel::GridLayout kFrame{{48, 40, 44}, 0.25f, {0, 0, 0}};
 
 Blast random_blast(std::mt19937& random) {
   const auto between = [&](std::uint32_t low, std::uint32_t high) {
@@ -22,7 +22,7 @@ Blast random_blast(std::mt19937& random) {
   for (int axis = 0; axis < 3; ++axis) blast.at[axis] = static_cast<std::int32_t>(between(3000, 8000));
   blast.radius = between(1024, 5 * 1024);
   blast.speed = between(4 * 1024, 64 * 1024);
-  blast.left = between(0, 60);
+  blast.remaining = between(0, 60);
   blast.refill_rim_ms = between(200, 2000);
   blast.refill_middle_ms = blast.refill_rim_ms + between(0, 5000);
   return blast;
@@ -42,7 +42,7 @@ std::pair<double, double> allowed(const Blast& blast, double distance, double ag
                                                 std::max(0.0, age + 0.002 * k / 8));
       range = {std::min(range.first, left), std::max(range.second, left)};
     }
-  const double slack = 0.018 * (255 - blast.left) + 1;
+  const double slack = 0.018 * (255 - blast.remaining) + 1;
   return {range.first - slack, range.second + slack};
 }
 
@@ -67,14 +67,14 @@ TEST(Blasts, EqualTheModelInDoubleAt1000PointsAndTimes) {
       }
       const std::uint32_t after = static_cast<std::uint32_t>(random()) % (field.end_tick() - blast.tick + 10);
       const std::uint32_t since = k % 3 == 0 ? after % 40 : after;
-      const int left = field.left(voxel, field.moment(blast.tick + since));
+      const int left = field.remaining(voxel, field.profile(blast.tick + since));
       const double distance = glm::distance((glm::dvec3(voxel) + 0.5) * 0.25, centre);
       const auto [least, most] = allowed(blast, distance, static_cast<double>(since) / kTicks);
       EXPECT_GE(left, least) << i << " " << distance << " " << since;
       EXPECT_LE(left, most) << i << " " << distance << " " << since;
-      cleared += left <= static_cast<int>(blast.left) + 2;
+      cleared += left <= static_cast<int>(blast.remaining) + 2;
       whole += left == 255;
-      partly += left > static_cast<int>(blast.left) + 2 && left < 255;
+      partly += left > static_cast<int>(blast.remaining) + 2 && left < 255;
     }
   }
   EXPECT_GT(cleared, 50);

@@ -17,7 +17,7 @@ using voxel::BitGrid;
 constexpr SmokeSettings kShort{600, 32, 40, 64};
 
 void set_box(BitGrid& grid, glm::ivec3 low, glm::ivec3 high, bool solid) {
-  apply_edits(grid, edit_box(grid.frame(), low, high, solid));
+  apply_edits(grid, edit_box(grid.layout(), low, high, solid));
 }
 
 /// A solid grid with one hole in it.
@@ -45,12 +45,12 @@ glm::ivec3 first_free(const BitGrid& grid) {
 }
 
 int density_at(const Cloud& cloud, std::uint32_t rank, std::uint32_t tick) {
-  return cloud.density(rank, cloud.moment(tick));
+  return cloud.density(rank, cloud.phase(tick));
 }
 
 std::vector<int> densities(const Cloud& cloud, std::uint32_t tick) {
   std::vector<int> all(cloud.voxels().size());
-  const CloudMoment moment = cloud.moment(tick);
+  const CloudPhase moment = cloud.phase(tick);
   for (std::uint32_t rank = 0; rank < all.size(); ++rank) all[rank] = cloud.density(rank, moment);
   return all;
 }
@@ -79,13 +79,13 @@ TEST(CloudLife, BloomsEveryTickAndMostOfItEarly) {
   EXPECT_GT(cloud.amount(132), cloud.amount(164) / 2);
   for (std::uint32_t tick = 101; tick <= 164; ++tick) {
     EXPECT_GT(cloud.amount(tick), cloud.amount(tick - 1));
-    EXPECT_GT(cloud.moment(tick).front, cloud.moment(tick - 1).front) << tick;
+    EXPECT_GT(cloud.phase(tick).front, cloud.phase(tick - 1).front) << tick;
     // The nearest `amount` voxels lie within the front.
     const auto whole = static_cast<std::size_t>((cloud.amount(tick) + (1u << 20) - 1) >> 20);
     std::vector<std::uint32_t> distances(cloud.distances().begin(), cloud.distances().end());
     std::sort(distances.begin(), distances.end());
     ASSERT_LE(whole, distances.size());
-    EXPECT_LE(distances[whole - 1] * kFrontUnit, cloud.moment(tick).front);
+    EXPECT_LE(distances[whole - 1] * kFrontUnit, cloud.phase(tick).front);
   }
   for (std::uint32_t tick = 164; tick <= 264; tick += 20)
     EXPECT_EQ(densities(cloud, tick), densities(cloud, 164)) << "it holds";
@@ -222,8 +222,8 @@ struct TwoRooms {
   EditBlocks open, shut;
   TwoRooms() {
     set_box(grid, {21, 1, 1}, {22, 9, 17}, true);
-    open = edit_box(grid.frame(), {21, 1, 7}, {22, 5, 10}, false);
-    shut = edit_box(grid.frame(), {21, 1, 7}, {22, 5, 10}, true);
+    open = edit_box(grid.layout(), {21, 1, 7}, {22, 5, 10}, false);
+    shut = edit_box(grid.layout(), {21, 1, 7}, {22, 5, 10}, true);
   }
   static std::uint32_t beyond(const Cloud& cloud) {
     std::uint32_t count = 0;
@@ -245,11 +245,11 @@ TEST(Doors, SmokeFlowsThroughAnOpenedOneAndKeepsItsAmount) {
   EXPECT_EQ(world.state().clouds[0].cloud->voxels().size(), 20u * 8 * 16);
   EXPECT_EQ(TwoRooms::beyond(*world.state().clouds[0].cloud), 0u);
   world.advance_to(200);
-  ASSERT_TRUE(world.state().clouds[0].cloud->rest_tick());
-  world.advance_to(*world.state().clouds[0].cloud->rest_tick());
+  ASSERT_TRUE(world.state().clouds[0].cloud->settle_tick());
+  world.advance_to(*world.state().clouds[0].cloud->settle_tick());
   const Cloud& cloud = *world.state().clouds[0].cloud;
-  EXPECT_FALSE(cloud.rest_tick());
-  EXPECT_EQ(cloud.parts().fill.size() + cloud.parts().rest.size(), 3000u);
+  EXPECT_FALSE(cloud.settle_tick());
+  EXPECT_EQ(cloud.parts().fill.size() + cloud.parts().detached.size(), 3000u);
   EXPECT_GT(TwoRooms::beyond(cloud), 300u);
   // As if the door had always been open.
   BitGrid opened = rooms.grid;
@@ -288,9 +288,9 @@ TEST(Doors, OneThatShutsKeepsSmokeOnBothSides) {
   world.advance_to(1500);
   const Cloud& cloud = *world.state().clouds[0].cloud;
   std::uint32_t trapped = 0;
-  cloud.parts().rest.for_each([&](glm::ivec3 v, std::uint32_t rank) {
+  cloud.parts().detached.for_each([&](glm::ivec3 v, std::uint32_t rank) {
     EXPECT_GT(v.x, 21);
-    EXPECT_EQ(world.state().density(v), cloud.parts().rest_base[rank]);
+    EXPECT_EQ(world.state().density(v), cloud.parts().detached_base[rank]);
     ++trapped;
   });
   EXPECT_EQ(trapped, held);

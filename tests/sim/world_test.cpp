@@ -1,5 +1,7 @@
 #include "sim/world.hpp"
 
+#include "smoke/holes.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,7 +62,7 @@ TEST(Landing, FromASolidVoxelFindsAFreeOneAhead) {
 
 TEST(Walk, VisitsEveryVoxelOfTheRayInOrder) {
   const BitGrid grid({{17, 5, 33}, 0.37f, glm::vec3(-1.3f, 0.2f, 4)});
-  const VoxelRuler ruler(grid.frame());
+  const VoxelRuler ruler(grid.layout());
   std::mt19937 random(1);
   std::uniform_int_distribution<int> coordinate(-8000, 16000);
   for (int i = 0; i < 2000; ++i) {
@@ -189,7 +191,7 @@ std::vector<Event> busy_log(const BitGrid& grid) {
   for (std::uint32_t i = 0; i < 4; ++i) events.emplace_back(Blast{60 + 70 * i, anywhere()});
   for (std::uint32_t i = 0; i < 90; ++i) events.emplace_back(MoveBody{5 * i, i % 3, anywhere()});
   for (std::uint32_t i = 0; i < 5; ++i)
-    events.emplace_back(LevelEdit{30 + 80 * i, edit_box(grid.frame(), {20, 0, 18}, {21, 5, 21}, i % 2 == 0)});
+    events.emplace_back(LevelEdit{30 + 80 * i, edit_box(grid.layout(), {20, 0, 18}, {21, 5, 21}, i % 2 == 0)});
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return tick_of(a) < tick_of(b); });
   return events;
@@ -382,7 +384,7 @@ TEST_F(BusyWorld, TakesOtherEventsInThePlaceOfThoseFromATickOn) {
 }
 
 TEST_F(BusyWorld, HasOtherMasksAsIfItAlwaysHad) {
-  const MaskKey few{2, 17}, many{5, 99};
+  const sim::MaskKey few{2, 17}, many{5, 99};
   Shot shot{90, metres(1, 1, 4), metres(9, 1.5, 8)};
   shot.shape = HoleShape::mask;
   shot.mask = 1;
@@ -394,7 +396,7 @@ TEST_F(BusyWorld, HasOtherMasksAsIfItAlwaysHad) {
   shot.mask = 4;
   const std::uint64_t hash = world.state_hash();
   EXPECT_FALSE(world.append(shot));
-  EXPECT_FALSE(world.replace_from(300, {shot}, MaskKey{1, 3})) << "the first shot has mask 1";
+  EXPECT_FALSE(world.replace_from(300, {shot}, sim::MaskKey{1, 3})) << "the first shot has mask 1";
   EXPECT_EQ(world.state_hash(), hash);
   EXPECT_EQ(world.settings().masks, few);
   world.replace_from(300, {shot}, many).value_or_throw();
@@ -428,7 +430,7 @@ TEST(World, HoleRunsThroughTheSmokeToTheWallAndCloses) {
   EXPECT_TRUE(world.state().holes.empty());
   world.advance_to(200);
   ASSERT_EQ(world.state().holes.size(), 1u);
-  const shared::Hole hole = holes_of(world.state())[0];
+  const shared::Hole hole = smoke::holes_of(world.state())[0];
   EXPECT_NEAR(hole.distance_to_far, 9.25, 0.01);
   EXPECT_NEAR(hole.forward.x, 1, 1e-6);
   EXPECT_NEAR(glm::dot(hole.forward, hole.right), 0, 1e-6);

@@ -68,7 +68,7 @@ TEST(EventsTest, AThousandAtRandom) {
   const auto report = read_json(folder.path() / "r.json");
   ASSERT_TRUE(report.is_object());
   EXPECT_TRUE(report.at("validation_messages").empty()) << report.at("validation_messages").dump();
-  // The log of deeds grows, by some kilobytes. A frame that forgot its smallest picture (160 x 96 pixels of 4
+  // The log of actions grows, by some kilobytes. A frame that forgot its smallest picture (160 x 96 pixels of 4
   // bytes) would be noticed after the 550 of them that any machine draws meanwhile.
   EXPECT_GT(report.at("frames"), 550);
   EXPECT_LT(grown, 550.0 * 160 * 96 * 4) << report.dump();

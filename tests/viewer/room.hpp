@@ -14,7 +14,7 @@
 
 namespace brume::viewer {
 
-/// Writes a room with a door and a lamp into a folder, and room.toml that looks into it.
+/// Writes a room with a door and a light into a folder, and room.toml that looks into it.
 inline void write_room(const cli::WorkFolder& folder) {
   std::filesystem::create_directory(folder.path() / "Meshes");
   const auto box = [](glm::vec3 low, glm::vec3 high, bool inward) {

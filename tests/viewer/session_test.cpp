@@ -1,4 +1,4 @@
-// A session without a window: its clock, its deeds, its recording.
+// A session without a window: its clock, its actions, its recording.
 #include "apps/viewer/session.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ class SessionTest : public testing::Test {
     session_ = open("room.toml", false);
   }
   std::unique_ptr<Session> open(const std::string& name, bool play) const {
-    return Session::create(stage::load_stage(folder_.path() / name, {}).value_or_throw(), play)
+    return Session::create(scenario::load_scenario(folder_.path() / name, {}).value_or_throw(), play)
         .value_or_throw();
   }
 
@@ -34,7 +34,7 @@ TEST_F(SessionTest, DeedsHappenAtTheNextTick) {
   advance(0.1);
   const double now = session_->seconds();
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
-  const auto& smokes = session_->live().stage().timeline.smokes;
+  const auto& smokes = session_->live().scenario().timeline.smokes;
   ASSERT_EQ(smokes.size(), 1u);
   EXPECT_GT(smokes[0].time, now);
   EXPECT_LE(smokes[0].time, now + Session::kTick);
@@ -110,7 +110,7 @@ TEST_F(SessionTest, LettersComeOneAfterTheOther) {
       "B";
   for (int i = 0; i < 4; ++i) ASSERT_TRUE(session_->shoot(eye_, ahead_, weapons));
   std::vector<std::string> letters;
-  for (const auto& text : session_->live().stage().timeline.texts) letters.push_back(text.text);
+  for (const auto& text : session_->live().scenario().timeline.texts) letters.push_back(text.text);
   EXPECT_EQ(letters, (std::vector<std::string>{"A", "\xc3\x84", "B", "A"}));
 }
 

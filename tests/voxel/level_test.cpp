@@ -24,21 +24,21 @@ int whole(Random& random, int low, int high) {
 }
 
 /// A slab of triangles somewhere, partly outside of the grid; often on the voxels' own sides.
-Triangles random_part(Random& random, const GridFrame& frame) {
+Triangles random_part(Random& random, const GridLayout& layout) {
   Triangles part;
-  const vec3 extent = frame.voxel_size * vec3(frame.size);
+  const vec3 extent = layout.voxel_size * vec3(layout.size);
   const bool snapped = random() % 2 == 0;
   const auto corner = [&](vec3 around, float reach) {
     vec3 p;
     for (int axis = 0; axis < 3; ++axis) {
       p[axis] = around[axis] + uniform(random, -reach, reach);
-      if (snapped) p[axis] = std::round(p[axis] / (0.5f * frame.voxel_size)) * (0.5f * frame.voxel_size);
+      if (snapped) p[axis] = std::round(p[axis] / (0.5f * layout.voxel_size)) * (0.5f * layout.voxel_size);
     }
-    return frame.origin_world + p;
+    return layout.origin_world + p;
   };
   const vec3 centre =
       extent * vec3(uniform(random, -0.1f, 1.1f), uniform(random, -0.1f, 1.1f), uniform(random, -0.1f, 1.1f));
-  const float reach = frame.voxel_size * uniform(random, 0.3f, 6);
+  const float reach = layout.voxel_size * uniform(random, 0.3f, 6);
   for (int i = whole(random, 0, 80); i > 0; --i)
     part.push_back({corner(centre, reach), corner(centre, reach), corner(centre, reach)});
   if (random() % 4 == 0) part.push_back({vec3(NAN), vec3(1), vec3(2)});
@@ -69,7 +69,7 @@ struct Slow {
     bool solid;
   };
   static constexpr std::uint32_t kNone = ~0u;
-  GridFrame frame;
+  GridLayout layout;
   std::vector<Triangles> parts;
   std::vector<Layer> layers;
 
@@ -84,15 +84,15 @@ struct Slow {
     layers.push_back({part, {}, false});
   }
   BitGrid grid() const {
-    BitGrid grid(frame);
+    BitGrid grid(layout);
     for (const Layer& layer : layers) {
       if (layer.part == kNone) {
-        for_each_in(intersection(layer.box, {ivec3(0), frame.size}),
+        for_each_in(intersection(layer.box, {ivec3(0), layout.size}),
                     [&](ivec3 v) { grid.set(v, layer.solid); });
         continue;
       }
-      const BitGrid drawn = voxelize(parts[layer.part], frame).value_or_throw();
-      for_each_in({ivec3(0), frame.size}, [&](ivec3 v) {
+      const BitGrid drawn = voxelize(parts[layer.part], layout).value_or_throw();
+      for_each_in({ivec3(0), layout.size}, [&](ivec3 v) {
         if (drawn.solid(v)) grid.set(v, true);
       });
     }
@@ -130,13 +130,13 @@ class RandomLevels : public testing::TestWithParam<ivec3> {};
 TEST_P(RandomLevels, EveryChangeEqualsAFullRebuild) {
   for (const bool with_boxes : {false, true}) {
     Random random(with_boxes ? 5 : 4);
-    const GridFrame frame{GetParam(), 0.25f, vec3(-1.5f, 0.5f, 0)};
-    Slow slow{frame, {}, {}};
+    const GridLayout layout{GetParam(), 0.25f, vec3(-1.5f, 0.5f, 0)};
+    Slow slow{layout, {}, {}};
     for (std::uint32_t i = 0; i < 6; ++i) {
-      slow.parts.push_back(random_part(random, frame));
+      slow.parts.push_back(random_part(random, layout));
       slow.put(i);
     }
-    Level level(voxelize(joined(slow.parts), frame).value_or_throw(), slow.parts);
+    Level level(voxelize(joined(slow.parts), layout).value_or_throw(), slow.parts);
     const SurfacePlanes first = slow.planes(level.grid());
     PatchedPlanes patched(first);
     for (int step = 0; step < 40; ++step) {
@@ -155,21 +155,21 @@ TEST_P(RandomLevels, EveryChangeEqualsAFullRebuild) {
         }
         case 1: {
           const bool was_shown = slow.shown(part);
-          slow.parts[part] = random_part(random, frame);
+          slow.parts[part] = random_part(random, layout);
           take_change(level.replace(part, slow.parts[part]), old, level.grid(), patched);
           if (was_shown) slow.put(part);
           break;
         }
         case 2: {
           const std::uint32_t added = level.add_part();
-          slow.parts.push_back(random_part(random, frame));
+          slow.parts.push_back(random_part(random, layout));
           slow.put(added);
           take_change(level.replace(added, slow.parts.back()), old, level.grid(), patched);
           break;
         }
         default: {
-          const ivec3 low(whole(random, -3, frame.size.x), whole(random, -3, frame.size.y),
-                          whole(random, -3, frame.size.z));
+          const ivec3 low(whole(random, -3, layout.size.x), whole(random, -3, layout.size.y),
+                          whole(random, -3, layout.size.z));
           const IntBox box{low, low + ivec3(whole(random, 0, 6), whole(random, 1, 6), whole(random, 1, 6))};
           const bool solid = random() % 2 == 0;
           take_change(level.set_box(box, solid), old, level.grid(), patched);
@@ -178,8 +178,8 @@ TEST_P(RandomLevels, EveryChangeEqualsAFullRebuild) {
       }
       const BitGrid expected = slow.grid();
       expect_same_voxels(level.grid(), expected, "after a change");
-      expect_same_planes(patched, level.planes_in({ivec3(-1), frame.size}), frame.size);
-      if (!with_boxes) expect_same_planes(patched, slow.planes(expected), frame.size);
+      expect_same_planes(patched, level.planes_in({ivec3(-1), layout.size}), layout.size);
+      if (!with_boxes) expect_same_planes(patched, slow.planes(expected), layout.size);
       if (HasFatalFailure()) return;
     }
   }
@@ -195,9 +195,9 @@ Triangles wall(float z) {
 }
 
 TEST(Level, ADoorThatShutsAgainIsAsItWas) {
-  const GridFrame frame{{8, 8, 8}, 1, vec3(0)};
+  const GridLayout layout{{8, 8, 8}, 1, vec3(0)};
   const std::vector<Triangles> parts{wall(4.5f), {{{2, 0, 2.5f}, {5, 0, 2.5f}, {5, 6, 2.5f}}}};
-  Level level(voxelize(joined(parts), frame).value_or_throw(), parts);
+  Level level(voxelize(joined(parts), layout).value_or_throw(), parts);
   const BitGrid shut = level.grid();
   const SurfacePlanes planes = SurfacePlanes::build(joined(parts), shut);
   const std::uint32_t door = 1;
@@ -210,15 +210,15 @@ TEST(Level, ADoorThatShutsAgainIsAsItWas) {
   EXPECT_TRUE(level.show({&door, 1}, false).voxels.empty());  // it is open already
   level.show({&door, 1}, true);
   expect_same_voxels(level.grid(), shut, "shut again");
-  expect_same_planes(level.planes_in({ivec3(-1), frame.size}), planes, frame.size);
+  expect_same_planes(level.planes_in({ivec3(-1), layout.size}), planes, layout.size);
 }
 
 TEST(Level, ABoxOfSolidVoxelsHasPlanesAtItsSixFaces) {
-  const GridFrame frame{{8, 8, 8}, 0.5f, vec3(-1.1f, 0.3f, 2.7f)};
-  Level level(BitGrid(frame), {});
+  const GridLayout layout{{8, 8, 8}, 0.5f, vec3(-1.1f, 0.3f, 2.7f)};
+  Level level(BitGrid(layout), {});
   level.set_box({{2, 3, 1}, {5, 6, 4}}, true);
   const auto only_plane = [&](ivec3 cell) {
-    const SurfacePlanes planes = level.planes_in({ivec3(-1), frame.size});
+    const SurfacePlanes planes = level.planes_in({ivec3(-1), layout.size});
     const auto at = planes.at(cell);
     EXPECT_EQ(at.size(), 1u);
     return at.empty() ? Plane{} : at[0];
@@ -235,18 +235,18 @@ TEST(Level, ABoxOfSolidVoxelsHasPlanesAtItsSixFaces) {
   }
   level.set_box({{2, 3, 1}, {5, 6, 4}}, false);
   EXPECT_EQ(level.grid().count_solid(), 0u);
-  EXPECT_EQ(level.planes_in({ivec3(-1), frame.size}).cell_count(), 0u);
+  EXPECT_EQ(level.planes_in({ivec3(-1), layout.size}).cell_count(), 0u);
 }
 
 TEST(Level, AHoleInAWallTakesItsSurfaceOutAndLeavesTheRest) {
-  const GridFrame frame{{8, 8, 8}, 1, vec3(0)};
+  const GridLayout layout{{8, 8, 8}, 1, vec3(0)};
   const std::vector<Triangles> parts{wall(4.5f)};
-  Level level(voxelize(parts[0], frame).value_or_throw(), parts);
-  const SurfacePlanes whole_wall = level.planes_in({ivec3(-1), frame.size});
+  Level level(voxelize(parts[0], layout).value_or_throw(), parts);
+  const SurfacePlanes whole_wall = level.planes_in({ivec3(-1), layout.size});
   level.set_box({{2, 2, 3}, {6, 6, 7}}, false);
   EXPECT_TRUE(level.grid().free({3, 3, 4}));
   EXPECT_TRUE(level.grid().solid({1, 3, 4}));
-  const SurfacePlanes planes = level.planes_in({ivec3(-1), frame.size});
+  const SurfacePlanes planes = level.planes_in({ivec3(-1), layout.size});
   EXPECT_TRUE(planes.at({3, 3, 4}).empty());                        // all of its voxels are free
   EXPECT_EQ(planes.at({0, 3, 4}).size(), 1u);                       // none was touched
   EXPECT_EQ(planes.at({0, 3, 4})[0], whole_wall.at({0, 3, 4})[0]);  // and nothing moved
@@ -256,9 +256,9 @@ TEST(Level, AHoleInAWallTakesItsSurfaceOutAndLeavesTheRest) {
 }
 
 TEST(Level, WhatIsShownLaterFillsAHole) {
-  const GridFrame frame{{8, 8, 8}, 1, vec3(0)};
+  const GridLayout layout{{8, 8, 8}, 1, vec3(0)};
   const std::vector<Triangles> parts{wall(4.5f), wall(2.5f)};
-  Level level(voxelize(joined(parts), frame).value_or_throw(), parts);
+  Level level(voxelize(joined(parts), layout).value_or_throw(), parts);
   const std::uint32_t second = 1;
   level.show({&second, 1}, false);
   level.set_box({ivec3(0), ivec3(8)}, false);

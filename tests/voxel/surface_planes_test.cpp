@@ -20,8 +20,8 @@ struct Built {
   SurfacePlanes planes;
 };
 
-Built build(const std::vector<Triangle>& triangles, const GridFrame& frame) {
-  Built built{*voxelize(triangles, frame), {}};
+Built build(const std::vector<Triangle>& triangles, const GridLayout& layout) {
+  Built built{*voxelize(triangles, layout), {}};
   built.planes = SurfacePlanes::build(triangles, built.grid);
   return built;
 }
@@ -38,20 +38,20 @@ vec3 centre(ivec3 cell) {
 
 TEST(SurfacePlanes, AThinWallIsOnePlaneInItsMiddle) {
   // Two faces 0.2 voxels apart (0.1 m at 0.5 m), both within one layer of cells.
-  const GridFrame frame{{12, 6, 9}, 0.5f, vec3(-2, 0, 1)};
+  const GridLayout layout{{12, 6, 9}, 0.5f, vec3(-2, 0, 1)};
   for (int axis = 0; axis < 3; ++axis)
     for (const float at : {3.62f, 3.9f, 4.0f, 4.13f, 4.37f}) {
       vec3 corner(-50), u(0), v(0), step(0);
       u[(axis + 1) % 3] = v[(axis + 2) % 3] = 200;
       step[axis] = 0.1f;
-      corner[axis] = frame.origin_world[axis] + 0.5f * at - 0.05f;
+      corner[axis] = layout.origin_world[axis] + 0.5f * at - 0.05f;
       std::vector<Triangle> wall;
       add_face(wall, corner, u, v);
       add_face(wall, corner + step, v, u);
-      const Built built = build(wall, frame);
+      const Built built = build(wall, layout);
       ivec3 cell(2);
       cell[axis] = 3;  // Spans [3.5, 4.5).
-      for (cell[(axis + 1) % 3] = -1; cell[(axis + 1) % 3] < frame.size[(axis + 1) % 3];
+      for (cell[(axis + 1) % 3] = -1; cell[(axis + 1) % 3] < layout.size[(axis + 1) % 3];
            ++cell[(axis + 1) % 3]) {
         const auto planes = built.planes.at(cell);
         ASSERT_EQ(planes.size(), 1u);
@@ -67,20 +67,20 @@ TEST(SurfacePlanes, AThinWallIsOnePlaneInItsMiddle) {
 }
 
 TEST(SurfacePlanes, ASlantedWallIsItsPlaneInEveryCell) {
-  const GridFrame frame{{17, 9, 13}, 0.5f, vec3(0)};
+  const GridLayout layout{{17, 9, 13}, 0.5f, vec3(0)};
   std::mt19937 random(4);
   std::uniform_real_distribution<float> uniform(-1, 1);
   for (int i = 0; i < 20; ++i) {
     const vec3 n = glm::normalize(vec3(uniform(random), uniform(random), uniform(random)));
     const vec3 u = glm::normalize(glm::cross(n, vec3(0.3f, 0.5f, 0.8f))), v = glm::cross(n, u);
-    const vec3 middle = 0.25f * vec3(frame.size);  // [m]
+    const vec3 middle = 0.25f * vec3(layout.size);  // [m]
     std::vector<Triangle> wall;
     add_face(wall, middle - 40.0f * u - 40.0f * v, 80.0f * u, 80.0f * v);
-    const Built built = build(wall, frame);
+    const Built built = build(wall, layout);
     ASSERT_GT(built.planes.cell_count(), 50u);
-    for (int z = -1; z < frame.size.z; ++z)
-      for (int y = -1; y < frame.size.y; ++y)
-        for (int x = -1; x < frame.size.x; ++x) {
+    for (int z = -1; z < layout.size.z; ++z)
+      for (int y = -1; y < layout.size.y; ++y)
+        for (int x = -1; x < layout.size.x; ++x) {
           const ivec3 cell(x, y, z);
           const auto planes = built.planes.at(cell);
           if (planes.empty()) continue;
@@ -101,10 +101,10 @@ TEST(SurfacePlanes, ASlantedWallIsItsPlaneInEveryCell) {
 }
 
 TEST(SurfacePlanes, EveryCellThatAWallCrossesHasIt) {
-  const GridFrame frame{{9, 9, 9}, 1, vec3(0)};
+  const GridLayout layout{{9, 9, 9}, 1, vec3(0)};
   std::vector<Triangle> wall;
   add_face(wall, {-20, 4.2f, -20}, {0, 0, 60}, {60, 0, 0});
-  const Built built = build(wall, frame);
+  const Built built = build(wall, layout);
   EXPECT_EQ(built.planes.cell_count(), 100u);  // (9 + 1)^2, the border's included.
   for (int z = -1; z < 9; ++z)
     for (int x = -1; x < 9; ++x) EXPECT_EQ(built.planes.at({x, 3, z}).size(), 1u);
@@ -114,7 +114,7 @@ TEST(SurfacePlanes, EveryCellThatAWallCrossesHasIt) {
 }
 
 TEST(SurfacePlanes, ARoundColumnHasItsTangents) {
-  const GridFrame frame{{24, 6, 24}, 0.5f, vec3(0)};
+  const GridLayout layout{{24, 6, 24}, 0.5f, vec3(0)};
   constexpr float kRadius = 6;  // [voxels]
   constexpr int kFacets = 256;
   std::vector<Triangle> column;
@@ -123,7 +123,7 @@ TEST(SurfacePlanes, ARoundColumnHasItsTangents) {
     return 0.5f * vec3(12.2f + kRadius * std::cos(angle), -10, 11.9f + kRadius * std::sin(angle));
   };
   for (int i = 0; i < kFacets; ++i) add_face(column, rim(i), rim(i + 1) - rim(i), {0, 20, 0});
-  const Built built = build(column, frame);
+  const Built built = build(column, layout);
   int cells = 0;
   for (int z = 0; z < 23; ++z)
     for (int x = 0; x < 23; ++x) {
@@ -146,11 +146,11 @@ TEST(SurfacePlanes, ARoundColumnHasItsTangents) {
 }
 
 TEST(SurfacePlanes, ACornerHasAPlaneForEachWall) {
-  const GridFrame frame{{8, 8, 8}, 1, vec3(0)};
+  const GridLayout layout{{8, 8, 8}, 1, vec3(0)};
   std::vector<Triangle> room;
   add_face(room, {3.9f, 0, 3.8f}, {0, 0, 4}, {0, 8, 0});
   add_face(room, {3.9f, 0, 3.8f}, {4, 0, 0}, {0, 8, 0});
-  const Built two = build(room, frame);
+  const Built two = build(room, layout);
   ASSERT_EQ(two.planes.at({3, 2, 3}).size(), 2u);
   EXPECT_NEAR(two.planes.at({3, 2, 3})[0].normal.x, 1, 1e-6);  // 0.7 long, the other 0.6.
   EXPECT_NEAR(two.planes.at({3, 2, 3})[0].offset, -0.1f, 1e-5);
@@ -158,7 +158,7 @@ TEST(SurfacePlanes, ACornerHasAPlaneForEachWall) {
   EXPECT_NEAR(two.planes.at({3, 2, 3})[1].offset, -0.2f, 1e-5);
   EXPECT_EQ(two.planes.at({4, 2, 3}).size(), 1u);
   add_face(room, {3.9f, 3.7f, 3.8f}, {4, 0, 0}, {0, 0, 4});
-  EXPECT_EQ(build(room, frame).planes.at({3, 3, 3}).size(), 3u);
+  EXPECT_EQ(build(room, layout).planes.at({3, 3, 3}).size(), 3u);
 }
 
 TEST(SurfacePlanes, ThreadsDoNotMatterAndPartsGoTogetherAgain) {
@@ -170,11 +170,11 @@ TEST(SurfacePlanes, ThreadsDoNotMatterAndPartsGoTogetherAgain) {
     t.b = t.a + vec3(step(random), step(random), step(random));
     t.c = t.a + vec3(step(random), step(random), step(random));
   }
-  const GridFrame frame{{16, 15, 17}, 1, vec3(0)};
+  const GridLayout layout{{16, 15, 17}, 1, vec3(0)};
   set_thread_count(1);
-  const Built one = build(soup, frame);
+  const Built one = build(soup, layout);
   set_thread_count(4);
-  const Built four = build(soup, frame);
+  const Built four = build(soup, layout);
   set_thread_count(0);
   EXPECT_EQ(one.planes, four.planes);
 
@@ -183,7 +183,7 @@ TEST(SurfacePlanes, ThreadsDoNotMatterAndPartsGoTogetherAgain) {
   std::vector<std::uint8_t> counts;
   for (std::size_t i = 0; i < keys.size(); ++i) counts.push_back(static_cast<std::uint8_t>(planes.count(i)));
   const std::vector<Plane> all(planes.planes().begin(), planes.planes().end());
-  const auto again = SurfacePlanes::from_parts(frame.size, keys, counts, all);
+  const auto again = SurfacePlanes::from_parts(layout.size, keys, counts, all);
   ASSERT_TRUE(again);
   EXPECT_EQ(*again, planes);
   for (const Plane& plane : all) {
@@ -193,16 +193,16 @@ TEST(SurfacePlanes, ThreadsDoNotMatterAndPartsGoTogetherAgain) {
 
   auto wrong_keys = keys;
   std::swap(wrong_keys[0], wrong_keys[1]);
-  EXPECT_FALSE(SurfacePlanes::from_parts(frame.size, wrong_keys, counts, all));
+  EXPECT_FALSE(SurfacePlanes::from_parts(layout.size, wrong_keys, counts, all));
   wrong_keys = keys;
   wrong_keys.back() = 17 * 16 * 18;
-  EXPECT_FALSE(SurfacePlanes::from_parts(frame.size, wrong_keys, counts, all));
+  EXPECT_FALSE(SurfacePlanes::from_parts(layout.size, wrong_keys, counts, all));
   auto wrong_counts = counts;
   wrong_counts[3] = 0;
-  EXPECT_FALSE(SurfacePlanes::from_parts(frame.size, keys, wrong_counts, all));
+  EXPECT_FALSE(SurfacePlanes::from_parts(layout.size, keys, wrong_counts, all));
   auto wrong_planes = all;
   wrong_planes[5].normal.x = std::nanf("");
-  EXPECT_FALSE(SurfacePlanes::from_parts(frame.size, keys, counts, wrong_planes));
+  EXPECT_FALSE(SurfacePlanes::from_parts(layout.size, keys, counts, wrong_planes));
 }
 
 }  // namespace

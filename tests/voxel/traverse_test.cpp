@@ -62,9 +62,9 @@ struct Visit {
   float enter, leave;
 };
 
-std::vector<Visit> walk(const GridFrame& frame, const Ray& ray) {
+std::vector<Visit> walk(const GridLayout& layout, const Ray& ray) {
   std::vector<Visit> visits;
-  visit_voxels(frame, ray.origin, ray.direction, ray.t_max, [&](ivec3 v, float enter, float leave) {
+  visit_voxels(layout, ray.origin, ray.direction, ray.t_max, [&](ivec3 v, float enter, float leave) {
     visits.push_back({v, enter, leave});
     return true;
   });
@@ -102,11 +102,11 @@ TEST(VisitVoxels, EqualsBruteForceForAMillionRays) {
   Random random(1);
   const ivec3 sizes[] = {{1, 1, 1}, {5, 4, 3}, {9, 6, 4}, {7, 1, 2}};
   for (int i = 0; i < 1000000; ++i) {
-    const GridFrame frame{sizes[i % 4], 1, vec3(0)};
-    const Ray ray = random_ray(random, frame.size);
-    const std::vector<Visit> visits = walk(frame, ray);
+    const GridLayout layout{sizes[i % 4], 1, vec3(0)};
+    const Ray ray = random_ray(random, layout.size);
+    const std::vector<Visit> visits = walk(layout, ray);
     std::size_t expected = 0;
-    for_voxels(frame.size, [&](ivec3 v) {
+    for_voxels(layout.size, [&](ivec3 v) {
       const auto [enter, leave] = interval_in<float>(ray, v);
       if (!(enter < leave)) return;
       ++expected;
@@ -124,11 +124,11 @@ TEST(VisitVoxels, EqualsBruteForceForAMillionRays) {
 TEST(VisitVoxels, AgreesWithDoublesBeyondRounding) {
   // A plane's t has three roundings of 2^-24: difference, inverse, product.
   Random random(2);
-  const GridFrame frame{{6, 5, 7}, 1, vec3(0)};
+  const GridLayout layout{{6, 5, 7}, 1, vec3(0)};
   for (int i = 0; i < 100000; ++i) {
-    const Ray ray = random_ray(random, frame.size);
-    const std::vector<Visit> visits = walk(frame, ray);
-    for_voxels(frame.size, [&](ivec3 v) {
+    const Ray ray = random_ray(random, layout.size);
+    const std::vector<Visit> visits = walk(layout, ray);
+    for_voxels(layout.size, [&](ivec3 v) {
       const auto [enter, leave] = interval_in<double>(ray, v);
       const double rounding = 2 * 3 * 0x1p-24 * (std::abs(enter) + (leave < 1e30 ? std::abs(leave) : 0));
       const bool visited =
@@ -140,49 +140,49 @@ TEST(VisitVoxels, AgreesWithDoublesBeyondRounding) {
 }
 
 TEST(VisitVoxels, TiesGoThroughTheCornerAndUpOnAFace) {
-  const GridFrame frame{{4, 4, 4}, 1, vec3(0)};
-  const auto diagonal = walk(frame, {vec3(0), vec3(1), 100});
+  const GridLayout layout{{4, 4, 4}, 1, vec3(0)};
+  const auto diagonal = walk(layout, {vec3(0), vec3(1), 100});
   ASSERT_EQ(diagonal.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(diagonal[static_cast<std::size_t>(i)].voxel, ivec3(i));
-  const auto backwards = walk(frame, {vec3(4), vec3(-1), 100});
+  const auto backwards = walk(layout, {vec3(4), vec3(-1), 100});
   ASSERT_EQ(backwards.size(), 4u);
   EXPECT_EQ(backwards[0].voxel, ivec3(3));
-  const auto on_face = walk(frame, {{-1, 2, 1.5f}, {1, 0, 0}, 100});
+  const auto on_face = walk(layout, {{-1, 2, 1.5f}, {1, 0, 0}, 100});
   ASSERT_EQ(on_face.size(), 4u);
   EXPECT_EQ(on_face[0].voxel, ivec3(0, 2, 1));
-  EXPECT_TRUE(walk(frame, {{-1, 4, 1.5f}, {1, 0, 0}, 100}).empty());
+  EXPECT_TRUE(walk(layout, {{-1, 4, 1.5f}, {1, 0, 0}, 100}).empty());
 }
 
 TEST(VisitVoxels, StopsWhenToldAndIgnoresWhatIsNoRay) {
-  const GridFrame frame{{4, 4, 4}, 1, vec3(0)};
+  const GridLayout layout{{4, 4, 4}, 1, vec3(0)};
   int count = 0;
-  visit_voxels(frame, vec3(0.5f), vec3(1, 0, 0), 100, [&](ivec3, float, float) { return ++count < 2; });
+  visit_voxels(layout, vec3(0.5f), vec3(1, 0, 0), 100, [&](ivec3, float, float) { return ++count < 2; });
   EXPECT_EQ(count, 2);
-  EXPECT_TRUE(walk(frame, {vec3(0.5f), vec3(0), 100}).empty());
-  EXPECT_TRUE(walk(frame, {vec3(std::nanf("")), vec3(1), 100}).empty());
-  EXPECT_TRUE(walk(frame, {vec3(0.5f), vec3(std::numeric_limits<float>::infinity(), 0, 0), 100}).empty());
-  EXPECT_TRUE(walk(frame, {vec3(0.5f), vec3(1, 0, 0), std::nanf("")}).empty());
-  EXPECT_EQ(walk(frame, {vec3(0.5f), vec3(1e-38f, 0, 0), std::numeric_limits<float>::infinity()}).size(), 4u);
-  walk(frame, {vec3(3e38f, -3e38f, 0), vec3(-3e38f, 3e38f, 1e-45f), 100});
+  EXPECT_TRUE(walk(layout, {vec3(0.5f), vec3(0), 100}).empty());
+  EXPECT_TRUE(walk(layout, {vec3(std::nanf("")), vec3(1), 100}).empty());
+  EXPECT_TRUE(walk(layout, {vec3(0.5f), vec3(std::numeric_limits<float>::infinity(), 0, 0), 100}).empty());
+  EXPECT_TRUE(walk(layout, {vec3(0.5f), vec3(1, 0, 0), std::nanf("")}).empty());
+  EXPECT_EQ(walk(layout, {vec3(0.5f), vec3(1e-38f, 0, 0), std::numeric_limits<float>::infinity()}).size(), 4u);
+  walk(layout, {vec3(3e38f, -3e38f, 0), vec3(-3e38f, 3e38f, 1e-45f), 100});
 }
 
 TEST(FirstSolid, IsTheFirstSolidVoxelOfTheWholeWalk) {
   Random random(3);
   const ivec3 sizes[] = {{33, 17, 5}, {64, 64, 64}, {7, 9, 70}};
   for (int scene = 0; scene < 12; ++scene) {
-    const GridFrame frame{sizes[scene % 3], 1, vec3(0)};
-    BitGrid grid(frame);
+    const GridLayout layout{sizes[scene % 3], 1, vec3(0)};
+    BitGrid grid(layout);
     const auto solids = static_cast<int>(random() % 200);
     for (int i = 0; i < solids; ++i) {
       const auto at = [&](int axis) {
-        return static_cast<int>(random() % static_cast<std::uint64_t>(frame.size[axis]));
+        return static_cast<int>(random() % static_cast<std::uint64_t>(layout.size[axis]));
       };
       grid.set({at(0), at(1), at(2)}, true);
     }
     for (int i = 0; i < 5000; ++i) {
-      const Ray ray = random_ray(random, frame.size);
+      const Ray ray = random_ray(random, layout.size);
       std::optional<Visit> expected;
-      visit_voxels(frame, ray.origin, ray.direction, ray.t_max, [&](ivec3 v, float enter, float leave) {
+      visit_voxels(layout, ray.origin, ray.direction, ray.t_max, [&](ivec3 v, float enter, float leave) {
         if (grid.solid(v)) expected = Visit{v, enter, leave};
         return !expected;
       });

@@ -22,22 +22,22 @@ float uniform(Random& random, float low, float high) {
 }
 
 // Where a corner may lie: anywhere, or on multiples of a step, some of it outside of the grid.
-vec3 random_corner(Random& random, const GridFrame& frame, float step) {
+vec3 random_corner(Random& random, const GridLayout& layout, float step) {
   vec3 p;
   for (int axis = 0; axis < 3; ++axis) {
-    const float reach = static_cast<float>(frame.size[axis]);
+    const float reach = static_cast<float>(layout.size[axis]);
     p[axis] = uniform(random, -0.4f * reach, 1.4f * reach);
     if (step > 0) p[axis] = std::round(p[axis] / step) * step;
   }
-  return world_from_voxel(frame, p);
+  return world_from_voxel(layout, p);
 }
 
 // A triangle of one of the shapes that voxelizers get wrong.
-Triangle random_triangle(Random& random, const GridFrame& frame) {
+Triangle random_triangle(Random& random, const GridLayout& layout) {
   const float steps[] = {0, 0, 1, 0.5f, 0.25f};
   const float step = steps[random() % 5];
-  Triangle t{random_corner(random, frame, step), random_corner(random, frame, step),
-             random_corner(random, frame, step)};
+  Triangle t{random_corner(random, layout, step), random_corner(random, layout, step),
+             random_corner(random, layout, step)};
   switch (random() % 8) {
     case 0:
       t.c = t.b;
@@ -73,16 +73,16 @@ Triangle random_triangle(Random& random, const GridFrame& frame) {
 
 // Where the voxel size is a power of two, doubles hold every product of coordinates on a grid and the
 // reference is exact. Elsewhere coordinates are quotients, and the reference may err by what it rounds.
-void expect_equal(const std::vector<Triangle>& triangles, const GridFrame& frame, std::size_t soup) {
-  const auto grid = voxelize(triangles, frame);
+void expect_equal(const std::vector<Triangle>& triangles, const GridLayout& layout, std::size_t soup) {
+  const auto grid = voxelize(triangles, layout);
   ASSERT_TRUE(grid);
-  const double slack = frame.voxel_size == 0.5f || frame.voxel_size == 1 ? 0 : 1;
-  const std::vector<bool> must = reference::brute_force_voxels(triangles, frame, -slack);
-  const std::vector<bool> may = reference::brute_force_voxels(triangles, frame, slack);
+  const double slack = layout.voxel_size == 0.5f || layout.voxel_size == 1 ? 0 : 1;
+  const std::vector<bool> must = reference::brute_force_voxels(triangles, layout, -slack);
+  const std::vector<bool> may = reference::brute_force_voxels(triangles, layout, slack);
   std::size_t i = 0;
-  for (int z = 0; z < frame.size.z; ++z)
-    for (int y = 0; y < frame.size.y; ++y)
-      for (int x = 0; x < frame.size.x; ++x, ++i) {
+  for (int z = 0; z < layout.size.z; ++z)
+    for (int y = 0; y < layout.size.y; ++y)
+      for (int x = 0; x < layout.size.x; ++x, ++i) {
         const bool solid = grid->solid({x, y, z});
         ASSERT_TRUE(solid ? may[i] : !must[i])
             << (solid ? "extra" : "missed") << " in soup " << soup << ": " << x << " " << y << " " << z;
@@ -94,31 +94,31 @@ TEST(Voxelize, EqualsBruteForceOn200Soups) {
   const ivec3 sizes[] = {{1, 1, 1}, {7, 7, 7}, {33, 17, 5}, {2, 19, 11}, {16, 16, 16}};
   const float voxel_sizes[] = {0.5f, 0.1f, 1.0f, 0.37f};
   for (std::size_t soup = 0; soup < 200; ++soup) {
-    GridFrame frame{sizes[soup % 5], voxel_sizes[soup / 5 % 4], vec3(0)};
-    if (soup % 2) frame.origin_world = vec3(uniform(random, -9, 9), -30, uniform(random, -9, 9));
+    GridLayout layout{sizes[soup % 5], voxel_sizes[soup / 5 % 4], vec3(0)};
+    if (soup % 2) layout.origin_world = vec3(uniform(random, -9, 9), -30, uniform(random, -9, 9));
     std::vector<Triangle> triangles(1 + random() % 12);
-    for (Triangle& t : triangles) t = random_triangle(random, frame);
+    for (Triangle& t : triangles) t = random_triangle(random, layout);
     // Single shapes first: in a full grid one could hide the fault of another.
     if (soup % 3 == 0) triangles.resize(1);
-    ASSERT_NO_FATAL_FAILURE(expect_equal(triangles, frame, soup));
+    ASSERT_NO_FATAL_FAILURE(expect_equal(triangles, layout, soup));
   }
 }
 
 TEST(Voxelize, EachShapeAloneEqualsBruteForce) {
   Random random(8);
   for (std::size_t i = 0; i < 3000; ++i) {
-    const GridFrame frame{{9, 6, 7}, i % 2 ? 0.5f : 0.3f, vec3(i % 2 ? -30.0f : 0.7f)};
-    const std::vector<Triangle> one{random_triangle(random, frame)};
-    ASSERT_NO_FATAL_FAILURE(expect_equal(one, frame, i));
+    const GridLayout layout{{9, 6, 7}, i % 2 ? 0.5f : 0.3f, vec3(i % 2 ? -30.0f : 0.7f)};
+    const std::vector<Triangle> one{random_triangle(random, layout)};
+    ASSERT_NO_FATAL_FAILURE(expect_equal(one, layout, i));
   }
 }
 
 TEST(Voxelize, TouchingCountsOnBothSides) {
   // A square exactly between voxels 3 and 4, its rim on the borders of voxels too.
-  const GridFrame frame{{8, 8, 8}, 0.5f, vec3(-1)};
-  const vec3 a = world_from_voxel(frame, {4, 2, 2}), b = world_from_voxel(frame, {4, 5, 2}),
-             c = world_from_voxel(frame, {4, 5, 5}), d = world_from_voxel(frame, {4, 2, 5});
-  const auto grid = voxelize(std::vector<Triangle>{{a, b, c}, {a, c, d}}, frame);
+  const GridLayout layout{{8, 8, 8}, 0.5f, vec3(-1)};
+  const vec3 a = world_from_voxel(layout, {4, 2, 2}), b = world_from_voxel(layout, {4, 5, 2}),
+             c = world_from_voxel(layout, {4, 5, 5}), d = world_from_voxel(layout, {4, 2, 5});
+  const auto grid = voxelize(std::vector<Triangle>{{a, b, c}, {a, c, d}}, layout);
   ASSERT_TRUE(grid);
   for (int z = 0; z < 8; ++z)
     for (int y = 0; y < 8; ++y)
@@ -127,25 +127,25 @@ TEST(Voxelize, TouchingCountsOnBothSides) {
 }
 
 TEST(Voxelize, PointOnACornerTouchesEightVoxels) {
-  const GridFrame frame{{4, 4, 4}, 1, vec3(0)};
-  const auto grid = voxelize(std::vector<Triangle>{{vec3(2), vec3(2), vec3(2)}}, frame);
+  const GridLayout layout{{4, 4, 4}, 1, vec3(0)};
+  const auto grid = voxelize(std::vector<Triangle>{{vec3(2), vec3(2), vec3(2)}}, layout);
   ASSERT_TRUE(grid);
   EXPECT_EQ(grid->count_solid(), 8u);
 }
 
 TEST(Voxelize, ThreadsDoNotMatter) {
   Random random(9);
-  const GridFrame frame{{65, 33, 70}, 0.25f, vec3(-3)};
+  const GridLayout layout{{65, 33, 70}, 0.25f, vec3(-3)};
   std::vector<Triangle> triangles(5000);
   for (Triangle& t : triangles) {
-    t.a = random_corner(random, frame, 0);
+    t.a = random_corner(random, layout, 0);
     t.b = t.a + vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
     t.c = t.a + vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
   }
   set_thread_count(1);
-  const auto one = voxelize(triangles, frame);
+  const auto one = voxelize(triangles, layout);
   set_thread_count(5);
-  const auto five = voxelize(triangles, frame);
+  const auto five = voxelize(triangles, layout);
   set_thread_count(0);
   ASSERT_TRUE(one && five);
   EXPECT_EQ(one->count_solid(), five->count_solid());
@@ -157,13 +157,13 @@ TEST(Voxelize, ThreadsDoNotMatter) {
 
 TEST(Voxelize, TranslationByWholeVoxelsMovesTheVoxels) {
   Random random(10);
-  const GridFrame frame{{20, 20, 20}, 0.5f, vec3(0)};
-  GridFrame moved = frame;
+  const GridLayout layout{{20, 20, 20}, 0.5f, vec3(0)};
+  GridLayout moved = layout;
   moved.origin_world += 0.5f * vec3(3, -2, 1);
   std::vector<Triangle> triangles(40);
   for (Triangle& t : triangles)
-    for (vec3* p : {&t.a, &t.b, &t.c}) *p = vec3(ivec3(random_corner(random, frame, 0) * 64.0f)) / 64.0f;
-  const auto here = voxelize(triangles, frame), there = voxelize(triangles, moved);
+    for (vec3* p : {&t.a, &t.b, &t.c}) *p = vec3(ivec3(random_corner(random, layout, 0) * 64.0f)) / 64.0f;
+  const auto here = voxelize(triangles, layout), there = voxelize(triangles, moved);
   ASSERT_TRUE(here && there);
   for (int z = 0; z < 20; ++z)
     for (int y = 0; y < 20; ++y)
@@ -177,11 +177,11 @@ TEST(Voxelize, TranslationByWholeVoxelsMovesTheVoxels) {
 
 TEST(Voxelize, AGridOf4096PerAxisStaysSparse) {
   // A floor through the whole grid, a diagonal needle from corner to corner.
-  const GridFrame frame{{4096, 4096, 4096}, 1, vec3(0)};
+  const GridLayout layout{{4096, 4096, 4096}, 1, vec3(0)};
   const float end = 4096;
   const auto grid = voxelize(std::vector<Triangle>{{{0, 7.5f, 0}, {end, 7.5f, 0}, {0, 7.5f, 512}},
                                                    {vec3(0.5f), vec3(end - 0.5f), vec3(2048)}},
-                             frame);
+                             layout);
   ASSERT_TRUE(grid);
   EXPECT_LT(grid->bytes(), 64u << 20);
   for (int i = 0; i < 4096; i += 5) EXPECT_TRUE(grid->solid(ivec3(i)));
@@ -190,13 +190,13 @@ TEST(Voxelize, AGridOf4096PerAxisStaysSparse) {
 }
 
 TEST(Voxelize, HostileCornersAreHarmless) {
-  const GridFrame frame{{8, 8, 8}, std::numeric_limits<float>::denorm_min(), vec3(0)};
+  const GridLayout layout{{8, 8, 8}, std::numeric_limits<float>::denorm_min(), vec3(0)};
   const float huge = std::numeric_limits<float>::max(), inf = std::numeric_limits<float>::infinity();
   const std::vector<Triangle> triangles{{{-huge, -huge, -huge}, {huge, -huge, huge}, {huge, huge, -huge}},
                                         {vec3(inf), vec3(0), vec3(1)},
                                         {vec3(std::nanf("")), vec3(0), vec3(1)},
                                         {vec3(-huge), vec3(huge), vec3(0)}};
-  EXPECT_TRUE(voxelize(triangles, frame));
+  EXPECT_TRUE(voxelize(triangles, layout));
   // Far, but within reach: the plane x + y + z = 0 still runs through the grid's first voxel.
   const float far = 1e16f;
   const auto plane = voxelize(std::vector<Triangle>{{{far, -far, 0}, {0, far, -far}, {-far, 0, far}}},
@@ -226,10 +226,10 @@ TEST(Voxelize, RefusesFramesThatAreNone) {
 }
 
 TEST(FrameAround, HoldsTheBoundsAndItsMargin) {
-  const auto frame = frame_around({-1.2f, 0, 3.1f}, {2.6f, 0, 4.9f}, 0.5f, 2);
-  ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->size, ivec3(9 + 4, 1 * 0 + 4, 4 + 4));
-  EXPECT_EQ(frame->origin_world, vec3(-2.5f, -1.0f, 2.0f));
+  const auto layout = frame_around({-1.2f, 0, 3.1f}, {2.6f, 0, 4.9f}, 0.5f, 2);
+  ASSERT_TRUE(layout);
+  EXPECT_EQ(layout->size, ivec3(9 + 4, 1 * 0 + 4, 4 + 4));
+  EXPECT_EQ(layout->origin_world, vec3(-2.5f, -1.0f, 2.0f));
   EXPECT_EQ(frame_around(vec3(1), vec3(0), 0.5f, 2).failure().code, ErrorCode::bad_input);
   EXPECT_EQ(frame_around(vec3(-1e30f), vec3(1e30f), 0.5f, 2).failure().code, ErrorCode::resource_limit);
   EXPECT_EQ(frame_around(vec3(0), vec3(1), 0, 2).failure().code, ErrorCode::usage);

@@ -12,7 +12,7 @@ using glm::ivec3;
 using Blocks = std::vector<sim::VoxelBlock>;
 
 std::vector<std::byte> encoded(const BlockBounds& bounds, ivec3 near, Blocks blocks,
-                               const Likeness& like = {}) {
+                               const Prediction& like = {}) {
   Encoder coder;
   const auto models = std::make_unique<BlockModels>();
   code_blocks(coder, *models, bounds, near, like, blocks);
@@ -24,7 +24,7 @@ struct Decoded {
   Blocks blocks;
 };
 Decoded decoded(const BlockBounds& bounds, ivec3 near, std::span<const std::byte> bytes,
-                const Likeness& like = {}) {
+                const Prediction& like = {}) {
   Decoder coder(bytes);
   const auto models = std::make_unique<BlockModels>();
   Decoded result{false, {}};
@@ -104,7 +104,7 @@ TEST(BlockCoding, DoesNotTrustACount) {
 }
 
 // What is like something known costs little, and returns whatever it is like.
-TEST(BlockCoding, LikenessMakesItSmall) {
+TEST(BlockCoding, PredictionShrinksIt) {
   const ivec3 size(33, 17, 5);
   const BlockBounds bounds{size, false, 1u << 20};
   const sim::BlockSet known = random_set(size, 0.5, 1), other = random_set(size, 0.5, 2);
@@ -119,18 +119,18 @@ TEST(BlockCoding, LikenessMakesItSmall) {
 }
 
 std::size_t steps_size(const sim::BlockSet& set, std::span<const std::uint8_t> expected,
-                       std::vector<std::uint8_t> steps) {
+                       std::vector<std::uint8_t> densities) {
   Encoder encoder;
-  auto models = std::make_unique<StepModels>();
-  const std::vector<std::uint8_t> given = steps;
-  code_steps(encoder, *models, set, expected, steps);
+  auto models = std::make_unique<DensityModels>();
+  const std::vector<std::uint8_t> given = densities;
+  code_densities(encoder, *models, set, expected, densities);
   const auto bytes = encoder.finish();
   Decoder decoder(bytes);
-  models = std::make_unique<StepModels>();
+  models = std::make_unique<DensityModels>();
   std::vector<std::uint8_t> back;
-  code_steps(decoder, *models, set, expected, back);
+  code_densities(decoder, *models, set, expected, back);
   EXPECT_TRUE(decoder.at_end());
-  EXPECT_EQ(steps, given);
+  EXPECT_EQ(densities, given);
   EXPECT_EQ(back, given);
   return bytes.size();
 }
@@ -139,11 +139,11 @@ TEST(BlockCoding, StepsOfAnyValuesReturn) {
   std::mt19937 random(5);
   for (const ivec3 size : {ivec3(1), ivec3(7), ivec3(33, 17, 5)}) {
     const sim::BlockSet set = random_set(size, 0.7, 11);
-    std::vector<std::uint8_t> steps(set.size()), expected(set.size());
-    for (auto& b : steps) b = static_cast<std::uint8_t>(random());
+    std::vector<std::uint8_t> densities(set.size()), expected(set.size());
+    for (auto& b : densities) b = static_cast<std::uint8_t>(random());
     for (auto& b : expected) b = static_cast<std::uint8_t>(random());
-    steps_size(set, {}, steps);
-    steps_size(set, expected, steps);
+    steps_size(set, {}, densities);
+    steps_size(set, expected, densities);
   }
 }
 
@@ -164,19 +164,19 @@ TEST(BlockCoding, WaitsReturn) {
     for (std::uint32_t i = 0; i < length; ++i) order[i] = i;
     std::shuffle(order.begin(), order.end(), random);
     std::vector<std::uint8_t> group(length);
-    std::vector<std::uint16_t> waits(length);
+    std::vector<std::uint16_t> delays(length);
     for (auto& g : group) g = static_cast<std::uint8_t>(random() % 3);
-    for (auto& w : waits) w = static_cast<std::uint16_t>(random() % 2 == 0 ? 0 : random());
+    for (auto& w : delays) w = static_cast<std::uint16_t>(random() % 2 == 0 ? 0 : random());
     Encoder encoder;
-    auto models = std::make_unique<WaitModels>();
-    code_waits(encoder, *models, order, group, waits);
+    auto models = std::make_unique<DelayModels>();
+    code_delays(encoder, *models, order, group, delays);
     const auto bytes = encoder.finish();
     Decoder decoder(bytes);
-    models = std::make_unique<WaitModels>();
+    models = std::make_unique<DelayModels>();
     std::vector<std::uint16_t> back;
-    code_waits(decoder, *models, order, group, back);
+    code_delays(decoder, *models, order, group, back);
     EXPECT_TRUE(decoder.at_end());
-    EXPECT_EQ(back, waits);
+    EXPECT_EQ(back, delays);
   }
 }
 

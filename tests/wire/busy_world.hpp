@@ -15,7 +15,7 @@
 namespace brume::wire {
 
 inline void fill_box(voxel::BitGrid& grid, glm::ivec3 low, glm::ivec3 high, bool solid) {
-  const sim::EditBlocks edits = sim::edit_box(grid.frame(), low, high, solid);
+  const sim::EditBlocks edits = sim::edit_box(grid.layout(), low, high, solid);
   sim::apply_edits(grid, edits);
 }
 
@@ -57,7 +57,7 @@ inline voxel::BitGrid corridors(glm::ivec3 size = {64, 8, 480}) {
 
 /// The Position of a voxel's centre in these levels.
 inline sim::Position centre_of(const voxel::BitGrid& grid, glm::ivec3 voxel) {
-  return sim::VoxelRuler(grid.frame()).centre(voxel);
+  return sim::VoxelRuler(grid.layout()).centre(voxel);
 }
 
 /// A free voxel, from some chosen at random.
@@ -99,8 +99,8 @@ inline std::vector<sim::Event> busy_match(const voxel::BitGrid& level, unsigned 
   for (int door = 0; door < 2; ++door) {
     const glm::ivec3 low = free_voxel(level, random) - glm::ivec3(3);
     const std::uint32_t opens = tick();
-    events.push_back(sim::LevelEdit{opens, sim::edit_box(level.frame(), low, low + 6, false)});
-    events.push_back(sim::LevelEdit{(opens + ticks) / 2, sim::edit_box(level.frame(), low, low + 6, true)});
+    events.push_back(sim::LevelEdit{opens, sim::edit_box(level.layout(), low, low + 6, false)});
+    events.push_back(sim::LevelEdit{(opens + ticks) / 2, sim::edit_box(level.layout(), low, low + 6, true)});
   }
   return events;
 }

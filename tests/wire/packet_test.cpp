@@ -102,7 +102,7 @@ TEST(Packet, AGrownSmokeIsSmall) {
   }
 }
 
-// A door opens under a smoke: its densities travel, and less than one byte a voxel.
+// A door opens under a smoke: its densities displacements, and less than one byte a voxel.
 TEST(Packet, ASmokeThatFlowsOnIsSmallToo) {
   const voxel::BitGrid level = rooms(3);
   std::mt19937 random(3);
@@ -110,7 +110,7 @@ TEST(Packet, ASmokeThatFlowsOnIsSmallToo) {
   const glm::ivec3 low = voxel - glm::ivec3(6, 2, 6);
   sim::World world =
       world_of(level, {sim::ThrowSmoke{0, centre_of(level, voxel), centre_of(level, voxel), {}},
-                       sim::LevelEdit{200, sim::edit_box(level.frame(), low, low + 12, false)}});
+                       sim::LevelEdit{200, sim::edit_box(level.layout(), low, low + 12, false)}});
   world.advance_to(199);
   const sim::State before = world.state();
   world.advance_to(200);
@@ -184,10 +184,10 @@ TEST(Packet, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([](auto& s) { s.tick = 1; }));
   EXPECT_TRUE(refused([](auto& s) { s.ticks_per_second = 0; }));
   EXPECT_TRUE(refused([](auto& s) { s.ticks_per_second = 1001; }));
-  EXPECT_TRUE(refused([](auto& s) { s.frame.voxel_size = 0; }));
-  EXPECT_TRUE(refused([](auto& s) { s.frame.voxel_size = std::numeric_limits<float>::quiet_NaN(); }));
-  EXPECT_TRUE(refused([](auto& s) { s.frame.origin_world.y = std::numeric_limits<float>::infinity(); }));
-  EXPECT_TRUE(refused([](auto& s) { s.frame.size = glm::ivec3(4); }));
+  EXPECT_TRUE(refused([](auto& s) { s.layout.voxel_size = 0; }));
+  EXPECT_TRUE(refused([](auto& s) { s.layout.voxel_size = std::numeric_limits<float>::quiet_NaN(); }));
+  EXPECT_TRUE(refused([](auto& s) { s.layout.origin_world.y = std::numeric_limits<float>::infinity(); }));
+  EXPECT_TRUE(refused([](auto& s) { s.layout.size = glm::ivec3(4); }));
   EXPECT_TRUE(refused([](auto& s) { s.holes[0].distance = 0; }));
   EXPECT_TRUE(refused([](auto& s) { s.holes[0].shot.toward = s.holes[0].shot.origin; }));
   EXPECT_TRUE(refused([](auto& s) { s.holes[0].shot.radius = 0; }));

@@ -145,7 +145,7 @@ TEST(Bytes, ReadWhatWasWritten) {
   EXPECT_EQ(in.number<std::uint32_t>(), 0x12345678u);
   EXPECT_EQ(in.section().size(), 200u);
   EXPECT_TRUE(in.ok());
-  EXPECT_TRUE(in.rest().empty());
+  EXPECT_TRUE(in.remaining().empty());
 }
 
 TEST(Bytes, RefuseWhatIsNotThere) {

@@ -29,21 +29,21 @@ TEST(EventLog, EventsOfABusyMatchReturn) {
   const voxel::BitGrid level = rooms(1);
   for (unsigned seed = 0; seed < 20; ++seed) {
     const auto events = busy_match(level, seed, 1000, 1800);
-    const Bytes bytes = write_events(events, level.frame());
-    const auto back = read_events(bytes, level.frame());
+    const Bytes bytes = write_events(events, level.layout());
+    const auto back = read_events(bytes, level.layout());
     ASSERT_TRUE(back) << back.failure().message;
     EXPECT_EQ(*back, events);
   }
-  const auto none = read_events(write_events({}, level.frame()), level.frame());
+  const auto none = read_events(write_events({}, level.layout()), level.layout());
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->empty());
 }
 
 TEST(EventLog, RefusesWhatTheWorldWouldRefuse) {
-  const voxel::GridFrame frame{glm::ivec3(16), 0.5f, glm::vec3(0)};
+  const voxel::GridLayout layout{glm::ivec3(16), 0.5f, glm::vec3(0)};
   const auto refused = [&](const sim::Event& event) {
-    EXPECT_FALSE(sim::check_event(event, frame));
-    const auto got = read_events(write_events({&event, 1}, frame), frame);
+    EXPECT_FALSE(sim::check_event(event, layout));
+    const auto got = read_events(write_events({&event, 1}, layout), layout);
     return !got && got.failure().code == ErrorCode::bad_input;
   };
   EXPECT_TRUE(refused(sim::ThrowSmoke{sim::kMaxTick + 1, {}, {}, {}}));
@@ -63,12 +63,12 @@ TEST(EventLog, RefusesWhatTheWorldWouldRefuse) {
 TEST(EventLog, RefusesDamage) {
   const voxel::BitGrid level = yard({16, 8, 16});
   const auto events = busy_match(level, 3, 1000, 1800);
-  const Bytes bytes = write_events(events, level.frame());
+  const Bytes bytes = write_events(events, level.layout());
   for (std::size_t length = 0; length < bytes.size(); length += 3) {
-    const auto got = read_events(std::span<const std::byte>(bytes).first(length), level.frame());
+    const auto got = read_events(std::span<const std::byte>(bytes).first(length), level.layout());
     EXPECT_FALSE(got) << length;
   }
-  EXPECT_FALSE(read_events(bytes, level.frame(), {.max_items = events.size() - 1}));
+  EXPECT_FALSE(read_events(bytes, level.layout(), {.max_items = events.size() - 1}));
 }
 
 TEST(Replay, ReturnsAndPlays) {
@@ -81,7 +81,7 @@ TEST(Replay, ReturnsAndPlays) {
     ASSERT_TRUE(back) << back.failure().message;
     EXPECT_EQ(back->events, replay.events);
     EXPECT_EQ(back->checksums, replay.checksums);
-    EXPECT_EQ(back->level.frame(), level.frame());
+    EXPECT_EQ(back->level.layout(), level.layout());
     EXPECT_EQ(back->settings.masks, kBusySettings.masks);
     EXPECT_TRUE(sim::difference(back->level, level, glm::ivec3(0), size).empty());
     std::uint32_t ticks = 0;

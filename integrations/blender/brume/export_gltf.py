@@ -93,19 +93,19 @@ class _Stand:
         if thing.role == "PASSABLE":
             self.passable.add(made.name)
 
-    def add_lamp(self, lamp):
-        data = lamp.data.copy()
+    def add_light(self, light):
+        data = light.data.copy()
         self._made.append(data)
         data.use_nodes = False
-        data.energy = lamp.power
+        data.energy = light.power
         if data.type == "AREA":
             data.type = "SPOT"
             data = bpy.data.lights[data.name]  # Its class follows its type.
             data.spot_size, data.spot_blend = WIDEST_SPOT, 1.0
-            data.energy = spot_for_area(lamp.power)
+            data.energy = spot_for_area(light.power)
         if data.type == "SPOT":
             data.spot_size = min(data.spot_size, WIDEST_SPOT)
-        self._add(data, _blender_matrix(lamp.world_from_lamp), lamp.data.name)
+        self._add(data, _blender_matrix(light.world_from_light), light.data.name)
 
     def add_camera(self, camera, metres):
         data = camera.data.copy()
@@ -166,14 +166,14 @@ def _name_nodes(document, stand):
 
 
 def export(context, path, level, camera):
-    """Writes a GLB: meshes, materials, textures, lamps (KHR_lights_punctual), the camera."""
+    """Writes a GLB: meshes, materials, textures, lights (KHR_lights_punctual), the camera."""
     stand = _Stand(context.scene)
     try:
         for thing in level.things:
             for piece in thing.pieces:
                 stand.add_piece(piece, thing)
-        for lamp in level.lamps:
-            stand.add_lamp(lamp)
+        for light in level.lights:
+            stand.add_light(light)
         if camera:
             stand.add_camera(camera, level.metres)
         with tempfile.TemporaryDirectory(prefix="brume_") as folder:

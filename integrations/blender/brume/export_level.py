@@ -45,7 +45,7 @@ class BRUME_OT_export_level(bpy.types.Operator, ExportHelper):
     filter_glob: StringProperty(default="*.glb;*.txt", options={"HIDDEN"})
     format: EnumProperty(
         items=(
-            ("GLTF", "glTF (.glb)", "One file: all lamps, materials and the camera"),
+            ("GLTF", "glTF (.glb)", "One file: all lights, materials and the camera"),
             ("TXT", "Scene.txt", "A line an object, with the folders Meshes and Textures beside it"),
         ),
         name="Format",

@@ -1,4 +1,4 @@
-"""Scene.txt with Meshes/*.obj and Textures/*_diffuse.png: a line an object or a lamp."""
+"""Scene.txt with Meshes/*.obj and Textures/*_diffuse.png: a line an object or a light."""
 
 import hashlib
 import os
@@ -188,15 +188,15 @@ class _Writer:
         self._materials[material] = (name, look.roughness)
         return self._materials[material]
 
-    def add_lamp(self, lamp):
-        """A point that gives off `power` watts evenly: what Blender's point lamps are, and all Scene.txt knows."""
-        kind = lamp.data.type
+    def add_light(self, light):
+        """A point that gives off `power` watts evenly: what Blender's point lights are, and all Scene.txt knows."""
+        kind = light.data.type
         if kind == "SUN":
-            self._warnings.add(f'the sun "{lamp.data.name}" is left out: Scene.txt has none, glTF has')
+            self._warnings.add(f'the sun "{light.data.name}" is left out: Scene.txt has none, glTF has')
             return
         if kind != "POINT":
-            self._warnings.add(f'the lamp "{lamp.data.name}" shines all around in Scene.txt; glTF keeps its cone')
-        values = [lamp.world_from_lamp[:3, 3], lamp.data.color, [lamp.power]]
+            self._warnings.add(f'the light "{light.data.name}" shines all around in Scene.txt; glTF keeps its cone')
+        values = [light.world_from_light[:3, 3], light.data.color, [light.power]]
         fields = [" ".join(number(value) for value in vector) for vector in values]
         self.lines.append("\t".join(["LIGHT_SOURCE"] + fields))
 
@@ -206,6 +206,6 @@ def export(path, level, warnings):
     writer = _Writer(os.path.dirname(path), level, warnings)
     for thing in level.things:
         writer.add(thing)
-    for lamp in level.lamps:
-        writer.add_lamp(lamp)
+    for light in level.lights:
+        writer.add_light(light)
     files.write(path, "\n".join(writer.lines) + "\n")

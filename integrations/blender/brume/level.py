@@ -30,14 +30,14 @@ class Thing:
 @dataclass
 class Lamp:
     data: bpy.types.Light
-    world_from_lamp: np.ndarray  # In Brume's axes and metres.
+    world_from_light: np.ndarray  # In Brume's axes and metres.
     power: float  # [W]; of a sun [W/m^2].
 
 
 @dataclass
 class Level:
     things: list = field(default_factory=list)
-    lamps: list = field(default_factory=list)
+    lights: list = field(default_factory=list)
     door_names: dict = field(default_factory=dict)  # Name of a door in Blender: those of its doors in Brume.
     metres: float = 1.0  # One unit of Blender's.
 
@@ -117,7 +117,7 @@ class Gathered:
                 if instance.object.type == "MESH":
                     self._add_mesh(instance)
                 elif instance.object.type == "LIGHT":
-                    self._add_lamp(instance)
+                    self._add_light(instance)
                 elif instance.object.type in _NO_MESH:
                     what = _NO_MESH[instance.object.type]
                     self._warnings.add(f'"{instance.object.name}" is a {what}, and is left out')
@@ -177,25 +177,25 @@ class Gathered:
             self._level.door_names.setdefault(door.name, []).append(name)
         self._doors[key].pieces.append(piece)
 
-    def _add_lamp(self, instance):
-        lamp = instance.object.original.data
+    def _add_light(self, instance):
+        light = instance.object.original.data
         metres = self._level.metres
         # Light falls off with the square of Blender's units: in metres it takes metres^2 as much power to
         # light a surface the same.
-        power = lamp.energy * (1.0 if lamp.type == "SUN" else metres * metres)
-        if power < 0 or min(lamp.color) < 0:
-            self._warnings.add(f'the lamp "{instance.object.name}" takes light away, and is left out')
+        power = light.energy * (1.0 if light.type == "SUN" else metres * metres)
+        if power < 0 or min(light.color) < 0:
+            self._warnings.add(f'the light "{instance.object.name}" takes light away, and is left out')
             return
-        self._level.lamps.append(Lamp(lamp, conversion.matrix(instance.matrix_world, metres), power))
+        self._level.lights.append(Lamp(light, conversion.matrix(instance.matrix_world, metres), power))
 
 
-# Blender's lamps of P watts, as its renderers show them (tests/blender/lamps.py measures it): points, and spots inside
-# their cone, have the intensity P / (4 pi) W/sr; area lamps have P / 4 along their axis, and cos times that beside it.
+# Blender's lights of P watts, as its renderers show them (tests/blender/lights.py measures it): points, and spots inside
+# their cone, have the intensity P / (4 pi) W/sr; area lights have P / 4 along their axis, and cos times that beside it.
 def spot_for_area(power):
-    """The power of a spot of 180 degrees, faded from its axis on, that lights as an area lamp does.
+    """The power of a spot of 180 degrees, faded from its axis on, that lights as an area light does.
 
     A spot of power q has q / (4 pi) along its axis. Faded by Brume's smoothstep(0, 1, cos) it gives off
-    2 pi * q / (4 pi) * integral of (3 c^2 - 2 c^3) from 0 to 1 = q / 4; the area lamp pi * power / 4. Both ask for
+    2 pi * q / (4 pi) * integral of (3 c^2 - 2 c^3) from 0 to 1 = q / 4; the area light pi * power / 4. Both ask for
     q = pi * power.
     """
     return math.pi * power

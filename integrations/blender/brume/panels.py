@@ -9,7 +9,7 @@ _FIELDS = {
     "SMOKE": ("thrown_from",),
     "SHOT": ("aim", "shape", "radius", "roll", "flash") + HOLE_TIMES,
     "TEXT": ("text", "aim", "size", "font", "spacing", "interval", "roll") + HOLE_TIMES,
-    "BLAST": ("blast_radius", "speed", "blast_flash", "left", "refill_rim", "refill_middle"),
+    "BLAST": ("blast_radius", "speed", "blast_flash", "remaining", "refill_rim", "refill_middle"),
     "DOOR": ("door", "open"),
 }
 _DISPLAY = {

@@ -78,7 +78,7 @@ class BrumeEvent(bpy.types.PropertyGroup):
     )
     reach: _seconds("Reach", 0.25, 60.0, "The front's way to the far end")
     expand: _seconds("Expand", 0.05, 60.0, "Opening at each depth")
-    stay: _seconds("Stay", 0.6, 600.0, "Open")
+    stay: _seconds("BrickSpan", 0.6, 600.0, "Open")
     fade: _seconds("Fade", 0.35, 60.0, "Closing")
     text: StringProperty(name="Text", description="One line of letters", default="SMOKE")
     size: _metres("Size", 0.5, 0.02, 10.0, "Height of a capital letter")
@@ -94,7 +94,9 @@ class BrumeEvent(bpy.types.PropertyGroup):
         name="Flash", default=250.0, min=0.0, max=1e6, description="Of the fire: light for 0.3 s [W/sr]"
     )
     speed: FloatProperty(name="Speed", default=32.0, min=1.0, max=10000.0, description="Of the front [m/s]")
-    left: FloatProperty(name="Left", default=0.02, min=0.0, max=1.0, description="Share of the density that stays")
+    remaining: FloatProperty(
+        name="Remaining", default=0.02, min=0.0, max=1.0, description="Fraction of the density that remains"
+    )
     refill_rim: _seconds("Refill Rim", 0.5, 60.0, "Until the rim is full again", least=0.01)
     refill_middle: _seconds("Refill Middle", 5.0, 60.0, "Until the middle is full; no less than the rim", least=0.01)
     door: PointerProperty(
@@ -106,8 +108,8 @@ class BrumeEvent(bpy.types.PropertyGroup):
 class BrumeScene(bpy.types.PropertyGroup):
     format: EnumProperty(
         items=(
-            ("GLTF", "glTF", "One .glb file: all lamps, materials and the camera"),
-            ("TXT", "Scene.txt", "Scene.txt with OBJ meshes and textures: point lamps, plain materials"),
+            ("GLTF", "glTF", "One .glb file: all lights, materials and the camera"),
+            ("TXT", "Scene.txt", "Scene.txt with OBJ meshes and textures: point lights, plain materials"),
         ),
         name="Format",
         description="What renders and voxels go through",

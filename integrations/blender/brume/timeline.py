@@ -177,7 +177,7 @@ class Writer:
         elif event.type == "BLAST":
             keys["at"] = self._point(thing, here)
             keys |= {"radius": number(event.blast_radius), "flash": number(event.blast_flash)}
-            keys |= {key: number(getattr(event, key)) for key in ("speed", "left", "refill_rim")}
+            keys |= {key: number(getattr(event, key)) for key in ("speed", "remaining", "refill_rim")}
             keys["refill_middle"] = number(max(event.refill_middle, event.refill_rim))
         else:
             keys |= self._aimed(clock, thing, event, place)

@@ -1,0 +1,202 @@
+#include "planning/smoke_visibility.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <tuple>
+
+#include "shared/smoke_light.h"
+
+namespace brume::planning {
+namespace {
+
+WorldBox join(const WorldBox& a, const WorldBox& b) {
+  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
+bool is_empty(const WorldBox& box) {
+  return glm::any(glm::greaterThan(box.low, box.high));
+}
+
+constexpr WorldBox kNothing{glm::vec3(1e30f), glm::vec3(-1e30f)};
+
+/// Whether smoke at a place can dim light that is on its way to what is in view.
+class LightPaths {
+ public:
+  /// `lit`: a box around all that is lit; `visible_smoke`: around the smoke in view, empty for none; `slack`: so
+  /// far from what is in view light counts, too [m].
+  LightPaths(const ViewFrustum& view, std::span<const shared::Light> lights, const WorldBox& lit,
+            const WorldBox& visible_smoke, float slack)
+      : view_(view), lit_(lit), visible_smoke_(visible_smoke), slack_(slack) {
+    for (const shared::Light& light : lights)
+      if (light.kind == shared::kLightDirectional)
+        suns_.push_back(light.direction);
+      else
+        lamps_.push_back({light.position_world, light.range});
+  }
+
+  bool may_cross(const WorldSphere& smoke) const {
+    const auto near_light = [&](const WorldSphere& light) {
+      const float reach = light.radius + smoke.radius;
+      const glm::vec3 apart = smoke.centre - light.centre;
+      return glm::dot(apart, apart) < reach * reach;
+    };
+    const auto under_sun = [&](glm::vec3 direction) { return may_fall(smoke, direction, lit_); };
+    if (std::any_of(lamps_.begin(), lamps_.end(), near_light) ||
+        std::any_of(suns_.begin(), suns_.end(), under_sun))
+      return true;
+    for (std::uint32_t i = 0; i < shared::kSkyRays && !is_empty(visible_smoke_); ++i)
+      if (may_fall(smoke, -shared::sky_ray(i), visible_smoke_)) return true;
+    return false;
+  }
+
+ private:
+  /// Whether a shadow of the smoke along a direction may be seen on something in a box.
+  bool may_fall(const WorldSphere& smoke, glm::vec3 direction, const WorldBox& on) const {
+    // As far as it stays between the box's lowest and its highest.
+    const float down = smoke.centre.y + smoke.radius - on.low.y,
+                up = on.high.y - (smoke.centre.y - smoke.radius);
+    const float height = direction.y < 0 ? down : up;
+    if (height < 0) return false;
+    const float across =
+        glm::length(glm::max(glm::abs(smoke.centre - on.low), glm::abs(smoke.centre - on.high))) +
+        smoke.radius;
+    const float length = std::min(across, height / std::max(std::abs(direction.y), 1e-3f));
+    return view_.may_intersect({smoke.centre, smoke.radius + slack_}, length * direction);
+  }
+
+  const ViewFrustum& view_;
+  WorldBox lit_, visible_smoke_;
+  float slack_;
+  std::vector<WorldSphere> lamps_;  // as far as they reach
+  std::vector<glm::vec3> suns_;
+};
+
+WorldSphere around(const WorldBox& box) {
+  return {0.5f * (box.low + box.high), 0.5f * glm::length(box.high - box.low)};
+}
+
+voxel::IntBox brick_range(const smoke::SmokeBounds& cloud) {
+  return {glm::ivec3(glm::floor(cloud.low)) >> 3, (glm::ivec3(glm::floor(cloud.high)) >> 3) + 1};
+}
+
+/// Where a volume's voxels lie in the world.
+class VolumeTransform {
+ public:
+  explicit VolumeTransform(const shared::VolumeLayout& layout) : layout_(layout) {}
+  WorldBox box(glm::vec3 low_voxel, glm::vec3 high_voxel) const {
+    return {layout_.origin_world + low_voxel * layout_.voxel_size,
+            layout_.origin_world + high_voxel * layout_.voxel_size};
+  }
+  /// Bricks with the texels around them.
+  WorldBox bricks(const voxel::IntBox& bricks) const {
+    return box(glm::vec3(bricks.low * shared::kBrickVoxels) - 1.0f,
+               glm::vec3(bricks.high * shared::kBrickVoxels) + 1.0f);
+  }
+  WorldBox bricks_of(const smoke::SmokeBounds& cloud) const { return bricks(brick_range(cloud)); }
+  WorldSphere brick(glm::ivec3 brick) const { return around(bricks({brick, brick + 1})); }
+
+ private:
+  const shared::VolumeLayout& layout_;
+};
+
+/// Adds the slots of a cloud that are wanted, and says whether there are any; node by node, so that what is
+/// far costs little.
+bool collect_slots(const smoke::SmokeVolume& volume, const smoke::SmokeBounds& cloud, const VolumeTransform& places,
+                const auto& wanted, std::vector<std::uint32_t>& slots) {
+  const voxel::IntBox all = brick_range(cloud);
+  if (!wanted(around(places.bricks(all)))) return false;
+  const std::size_t before = slots.size();
+  const voxel::IntBox nodes{all.low >> 3, ((all.high - 1) >> 3) + 1};
+  voxel::for_each_in(nodes, [&](glm::ivec3 node) {
+    const voxel::IntBox bricks =
+        voxel::intersection(all, {node * shared::kNodeBricks, (node + 1) * shared::kNodeBricks});
+    if (!wanted(around(places.bricks(bricks)))) return;
+    voxel::for_each_in(bricks, [&](glm::ivec3 brick) {
+      const std::uint32_t slot = volume.slot_at(brick);
+      if (slot != smoke::SmokeVolume::kNoSlot && wanted(places.brick(brick))) slots.push_back(slot);
+    });
+  });
+  return slots.size() > before;
+}
+
+/// Bounds with those of one more cloud.
+smoke::SmokeBounds with(const smoke::SmokeBounds& bounds, const smoke::SmokeBounds& cloud) {
+  if (bounds.low == bounds.high) return cloud;
+  return {glm::min(bounds.low, cloud.low), glm::max(bounds.high, cloud.high)};
+}
+
+void sort_once(std::vector<std::uint32_t>& slots) {
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+}
+
+}  // namespace
+
+std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights, const ViewFrustum& view,
+                                          float slack) {
+  std::vector<shared::Light> seen;
+  for (const shared::Light& light : lights)
+    if (light.kind == shared::kLightDirectional || view.may_intersect({light.position_world, light.range + slack}))
+      seen.push_back(light);
+  return seen;
+}
+
+SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,
+                       std::span<const shared::Light> lights, const WorldBox& scene) {
+  const VolumeTransform places(volume.layout());
+  const auto in_view = [&](const WorldSphere& smoke) { return view.may_intersect(smoke); };
+  // What may be in view.
+  SmokeVisibility needs;
+  WorldBox visible_smoke = kNothing;
+  for (const smoke::SmokeBounds& cloud : volume.cloud_bounds()) {
+    if (!collect_slots(volume, cloud, places, in_view, needs.slots)) continue;
+    needs.visible_bounds = with(needs.visible_bounds, cloud);
+    visible_smoke = join(visible_smoke, places.bricks_of(cloud));
+  }
+  sort_once(needs.slots);
+  needs.seen = static_cast<std::uint32_t>(needs.slots.size());
+
+  // What stands between that and the lights.
+  const LightPaths ways(view, lights, join(scene, visible_smoke), visible_smoke,
+                       light_interpolation_margin(volume.layout().voxel_size));
+  const auto in_the_way = [&](const WorldSphere& smoke) { return ways.may_cross(smoke); };
+  std::vector<std::uint32_t> shading;
+  needs.bounds = needs.visible_bounds;
+  for (const smoke::SmokeBounds& cloud : volume.cloud_bounds())
+    if (collect_slots(volume, cloud, places, in_the_way, shading)) needs.bounds = with(needs.bounds, cloud);
+  sort_once(shading);
+  const std::vector<std::uint32_t> seen = needs.slots;
+  std::set_difference(shading.begin(), shading.end(), seen.begin(), seen.end(),
+                      std::back_inserter(needs.slots));
+  return needs;
+}
+
+SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume) {
+  SmokeVisibility needs;
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
+    if (volume.slot_at(volume.brick_of(slot)) == slot) needs.slots.push_back(slot);
+  needs.seen = static_cast<std::uint32_t>(needs.slots.size());
+  needs.visible_bounds = needs.bounds = {volume.layout().bounds_min, volume.layout().bounds_max};
+  return needs;
+}
+
+std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& needs) {
+  const VolumeTransform places(volume.layout());
+  std::map<std::tuple<int, int, int>, WorldBox> nodes;  // in voxels
+  for (const std::uint32_t slot : needs.slots) {
+    const glm::ivec3 brick = volume.brick_of(slot), node = brick >> 3;
+    const WorldBox box{glm::vec3(brick * shared::kBrickVoxels),
+                       glm::vec3((brick + 1) * shared::kBrickVoxels)};
+    const auto [known, added] = nodes.try_emplace({node.x, node.y, node.z}, box);
+    if (!added) known->second = join(known->second, box);
+  }
+  std::vector<WorldBox> boxes;
+  for (const auto& [node, box] : nodes) {
+    const WorldBox cut{glm::max(box.low, needs.bounds.low), glm::min(box.high, needs.bounds.high)};
+    if (glm::all(glm::lessThan(cut.low, cut.high))) boxes.push_back(places.box(cut.low, cut.high));
+  }
+  return boxes;
+}
+
+}  // namespace brume::planning

@@ -1,0 +1,50 @@
+// Which of the smoke and of the lights a frame needs: what may be in view, and what may stand in the way of
+// light to it. A frame's time follows that, not the world.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planning/view_frustum.hpp"
+#include "shared/light.h"
+#include "smoke/smoke_volume.hpp"
+
+namespace brume::planning {
+
+/// A box in the world [m].
+struct WorldBox {
+  glm::vec3 low{0}, high{0};
+};
+
+struct SmokeVisibility {
+  /// Slots in use whose smoke may be in view, in rising order; after them, likewise, those whose smoke may
+  /// dim light on its way to what is in view.
+  std::vector<std::uint32_t> slots;
+  std::uint32_t seen = 0;        ///< How many of `slots` may be in view.
+  smoke::SmokeBounds visible_bounds;  ///< Around the clouds that may be in view; no volume: none.
+  smoke::SmokeBounds bounds;       ///< Around all that are needed.
+};
+
+/// How far from what is in view light in smoke is still looked up, by interpolation and off walls [m].
+inline float light_interpolation_margin(float voxel_size) {
+  return 4 * voxel_size;
+}
+
+/// The lights that reach anything in view, or within `slack` of it [m].
+std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights, const ViewFrustum& view,
+                                          float slack);
+
+/// `lights` are those that reach anything in view, `scene` is a box around all surfaces. Rays through the
+/// smoke run from what is in view to these lights and, through smoke, to the sky (shared/smoke_light.h): all
+/// slots that they can meet are needed. What one cloud needs does not depend on clouds that are not needed.
+SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,
+                       std::span<const shared::Light> lights, const WorldBox& scene);
+
+/// As if all were in view.
+SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume);
+
+/// Boxes around the needed smoke: one for each node of the page table that holds some.
+std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& needs);
+
+}  // namespace brume::planning

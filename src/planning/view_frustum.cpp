@@ -1,0 +1,19 @@
+#include "planning/view_frustum.hpp"
+
+#include <algorithm>
+
+namespace brume::planning {
+
+ViewFrustum::ViewFrustum(const shared::Camera& camera) : eye_world_(camera.eye_world) {
+  const auto side = [&](glm::vec3 s) { return glm::normalize(camera.forward - s / glm::dot(s, s)); };
+  inward_ = {camera.forward, side(camera.right), side(-camera.right), side(camera.up), side(-camera.up)};
+}
+
+bool ViewFrustum::may_intersect(const WorldSphere& sphere, glm::vec3 way) const {
+  const glm::vec3 from_eye = sphere.centre - eye_world_;
+  return std::all_of(inward_.begin(), inward_.end(), [&](glm::vec3 inward) {
+    return glm::dot(from_eye, inward) + std::max(glm::dot(way, inward), 0.0f) >= -sphere.radius;
+  });
+}
+
+}  // namespace brume::planning

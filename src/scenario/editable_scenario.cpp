@@ -1,0 +1,242 @@
+#include "scenario/editable_scenario.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/timeline_check.hpp"
+
+namespace brume::scenario {
+namespace {
+
+scene::GridOptions grid_of(const voxel::GridLayout& layout) {
+  return {layout.voxel_size, layout.size, layout.origin_world};
+}
+
+/// Each event behind those that are at its time or before.
+template <typename Event>
+void merge(std::vector<Event>& list, const std::vector<Event>& more) {
+  for (const Event& event : more) {
+    const auto place = std::upper_bound(list.begin(), list.end(), event.time,
+                                        [](double time, const Event& other) { return time < other.time; });
+    list.insert(place, event);
+  }
+}
+
+void merge_events(scene::Timeline& timeline, const scene::Timeline& more) {
+  merge(timeline.smokes, more.smokes);
+  merge(timeline.shots, more.shots);
+  merge(timeline.texts, more.texts);
+  merge(timeline.blasts, more.blasts);
+  merge(timeline.moves, more.moves);
+  merge(timeline.edits, more.edits);
+  merge(timeline.doors, more.doors);
+}
+
+bool changes_level(const scene::Timeline& timeline) {
+  return !timeline.edits.empty() || !timeline.doors.empty();
+}
+
+/// Whether some event of a list, of a time or before, is such.
+template <typename Event, typename Is>
+bool is_there_by(const std::vector<Event>& list, double time, Is is) {
+  for (const Event& event : list) {
+    if (event.time > time) return false;
+    if (is(event)) return true;
+  }
+  return false;
+}
+
+bool same_life(const scene::SmokeOptions& a, const scene::SmokeOptions& b) {
+  return a.voxels == b.voxels && a.bloom == b.bloom && a.hold == b.hold && a.dissolve == b.dissolve;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<EditableScenario>> EditableScenario::create(Scenario scenario) {
+  std::unique_ptr<EditableScenario> live(new EditableScenario(std::move(scenario)));
+  live->scenario_.timeline.grid = grid_of(live->scenario_.voxels.grid.layout());
+  scene::sort_events(live->scenario_.timeline);
+  auto simulation = Simulation::create(live->scenario_);
+  if (!simulation) return simulation.failure();
+  live->simulation_ = std::move(*simulation);
+  live->bodies_ = number_bodies(live->scenario_.timeline);
+  return live;
+}
+
+Result<void> EditableScenario::add(const scene::Timeline& actions) {
+  if (auto checked = scene::check_events(actions); !checked) return checked;
+  if (auto checked = scene::check_doors(actions, scenario_.scene); !checked) return checked;
+  scene::Timeline sorted = actions;
+  scene::sort_events(sorted);
+  const bool masks = has_masks_of(sorted), level = changes_are_last(sorted);
+  if (masks && level && moves_are_last(sorted)) return add_in_place(sorted);
+  scene::Timeline timeline = scenario_.timeline;
+  merge_events(timeline, sorted);
+  return replay(std::move(timeline), {masks, !changes_level(sorted)});
+}
+
+/// Whether each mask is known, and from a shot or text that is no later: then all keep their numbers.
+bool EditableScenario::has_masks_of(const scene::Timeline& actions) const {
+  const scene::Timeline& timeline = scenario_.timeline;
+  const auto known_shot = [&](const scene::ShotEvent& shot) {
+    const auto is_same = [&](const scene::ShotEvent& other) {
+      return other.shape == scene::ShotShape::mask && other.mask == shot.mask;
+    };
+    return shot.shape != scene::ShotShape::mask || is_there_by(timeline.shots, shot.time, is_same);
+  };
+  const auto known_text = [&](const scene::TextEvent& text) {
+    const auto is_same = [&](const scene::TextEvent& other) {
+      return ShotMasks::key(other) == ShotMasks::key(text);
+    };
+    return is_there_by(timeline.texts, text.time, is_same);
+  };
+  return std::all_of(actions.shots.begin(), actions.shots.end(), known_shot) &&
+         std::all_of(actions.texts.begin(), actions.texts.end(), known_text);
+}
+
+/// Whether no move is before one that is there: then all bodies keep their numbers.
+bool EditableScenario::moves_are_last(const scene::Timeline& actions) const {
+  const auto& moves = scenario_.timeline.moves;
+  return actions.moves.empty() || moves.empty() || actions.moves.front().time >= moves.back().time;
+}
+
+/// Whether no edit or door comes before one that is there.
+bool EditableScenario::changes_are_last(const scene::Timeline& actions) const {
+  const auto& edits = scenario_.timeline.edits;
+  const auto& doors = scenario_.timeline.doors;
+  const double last_edit = edits.empty() ? -1 : edits.back().time;
+  const double last_door = doors.empty() ? -1 : doors.back().time;
+  // Of the same time edits come before doors.
+  const bool edits_are_last =
+      actions.edits.empty() || (actions.edits.front().time >= last_edit && actions.edits.front().time > last_door);
+  return edits_are_last &&
+         (actions.doors.empty() || actions.doors.front().time >= std::max(last_edit, last_door));
+}
+
+Result<void> EditableScenario::add_in_place(const scene::Timeline& actions) {
+  const EventSettings settings{scenario_.voxels.grid.layout(), scenario_.timeline.smoke, scenario_.shot_masks};
+  BodyNumbers bodies = bodies_;
+  auto events = ordered_events(actions, {}, bodies, settings);
+  if (!events) return events.failure();
+  std::vector<LevelEvent> changes;
+  if (changes_level(actions)) {
+    changes = apply_level_events(actions, scenario_.scene, last_level());
+    events = ordered_events(actions, changes, bodies, settings);
+    if (!events) last_level_.reset();
+    if (!events) return events.failure();
+  }
+  if (auto added = simulation_->add(std::move(*events), std::move(changes)); !added) {
+    last_level_.reset();
+    return added;
+  }
+  bodies_ = std::move(bodies);
+  merge_events(scenario_.timeline, actions);
+  return {};
+}
+
+Result<void> EditableScenario::replay(scene::Timeline timeline, const Kept& staying) {
+  std::optional<LoadedMasks> masks;
+  if (!staying.masks) {
+    auto loaded = load_masks(timeline);
+    if (!loaded) return loaded.failure();
+    masks = std::move(*loaded);
+  }
+  const ShotMasks& shot_masks = masks ? masks->of_shots : scenario_.shot_masks;
+  const sim::MaskKey key = masks ? masks->atlas.key() : scenario_.masks.key();
+
+  std::vector<LevelEvent> changes;
+  std::optional<ObjectLevel> level;
+  if (staying.level) {
+    changes = simulation_->level_events();
+  } else if (changes_level(timeline)) {
+    level = make_level(scenario_);
+    changes = apply_level_events(timeline, scenario_.scene, *level);
+  }
+  BodyNumbers bodies;
+  auto events =
+      ordered_events(timeline, changes, bodies, {scenario_.voxels.grid.layout(), timeline.smoke, shot_masks});
+  if (!events) return events.failure();
+  if (auto done = simulation_->replace(std::move(*events), std::move(changes), key); !done) return done;
+
+  if (!staying.level) last_level_ = std::move(level);
+  if (masks) {
+    scenario_.masks = std::move(masks->atlas);
+    scenario_.shot_masks = std::move(masks->of_shots);
+  }
+  bodies_ = std::move(bodies);
+  scenario_.timeline = std::move(timeline);
+  return {};
+}
+
+ObjectLevel& EditableScenario::last_level() {
+  if (!last_level_) {
+    last_level_ = make_level(scenario_);
+    apply_level_events(scenario_.timeline, scenario_.scene, *last_level_);
+  }
+  return *last_level_;
+}
+
+Result<void> EditableScenario::set_smoke(const scene::SmokeOptions& smoke) {
+  scene::Timeline chosen;
+  chosen.smoke = smoke;
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  if (same_life(smoke, scenario_.timeline.smoke)) {
+    scenario_.timeline.smoke = smoke;
+    return {};
+  }
+  chosen = scenario_.timeline;
+  chosen.smoke = smoke;
+  return replay(std::move(chosen), {true, true});
+}
+
+Result<void> EditableScenario::set_sky(const scene::SkyOptions& sky) {
+  scene::Timeline chosen;
+  chosen.sky = sky;
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  scenario_.timeline.sky = sky;
+  return {};
+}
+
+Result<void> EditableScenario::set_exposure(float exposure) {
+  scene::Timeline chosen;
+  chosen.exposure = exposure;
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  scenario_.timeline.exposure = exposure;
+  return {};
+}
+
+Result<void> EditableScenario::set_duration(float duration) {
+  scene::Timeline chosen;
+  chosen.duration = duration;
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  scenario_.timeline.duration = duration;
+  return {};
+}
+
+Result<void> EditableScenario::set_camera(std::vector<scene::CameraKey> keys) {
+  scene::Timeline chosen;
+  chosen.camera = std::move(keys);
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  scenario_.timeline.camera = std::move(chosen.camera);
+  return {};
+}
+
+Result<void> EditableScenario::reset(scene::Timeline timeline) {
+  const scene::GridOptions grid = grid_of(scenario_.voxels.grid.layout());
+  std::error_code error;
+  if (timeline.scene != scenario_.timeline.scene &&
+      !std::filesystem::equivalent(timeline.scene, scenario_.timeline.scene, error))
+    return Failure{ErrorCode::bad_input, timeline.scene.string() + ": expected the scene that is on scenario, " +
+                                             scenario_.timeline.scene.string()};
+  if (timeline.grid.voxel != grid.voxel || timeline.grid.size.value_or(*grid.size) != *grid.size ||
+      timeline.grid.origin_world.value_or(*grid.origin_world) != *grid.origin_world)
+    return Failure{ErrorCode::bad_input, "the timeline has another grid than the scenario; load it anew"};
+  timeline.grid = grid;
+  if (auto checked = scene::check_settings(timeline); !checked) return checked;
+  if (auto checked = scene::check_events(timeline); !checked) return checked;
+  if (auto checked = scene::check_doors(timeline, scenario_.scene); !checked) return checked;
+  scene::sort_events(timeline);
+  return replay(std::move(timeline), {});
+}
+
+}  // namespace brume::scenario

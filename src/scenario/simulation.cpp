@@ -1,0 +1,124 @@
+#include "scenario/simulation.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+namespace brume::scenario {
+namespace {
+
+std::vector<EventOrder> orders_of(std::span<const OrderedEvent> events) {
+  std::vector<EventOrder> orders;
+  orders.reserve(events.size());
+  for (const OrderedEvent& event : events) orders.push_back(event.order);
+  return orders;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scenario& scenario, std::vector<LevelEvent> level_events)
+    : level_events_(std::move(level_events)),
+      world_(scenario.voxels.grid, {.masks = scenario.masks.key()}),
+      planes_(scenario.voxels.planes),
+      volume_(scenario.voxels.grid, [this](glm::ivec3 cell) { return planes_.at(cell); }) {}
+
+Result<std::unique_ptr<Simulation>> Simulation::create(const Scenario& scenario) {
+  auto changes = scenario::level_events(scenario);
+  if (!changes) return changes.failure();
+  BodyNumbers bodies;
+  auto events = ordered_events(scenario.timeline, *changes, bodies,
+                               {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks});
+  if (!events) return events.failure();
+  std::unique_ptr<Simulation> simulation(new Simulation(scenario, std::move(*changes)));
+  if (auto done = simulation->add(std::move(*events), {}); !done) return done.failure();
+  simulation->advance_to(0);
+  return simulation;
+}
+
+void Simulation::advance_to(double seconds) {
+  world_.advance_to(tick_at(seconds, world_.settings().ticks_per_second));
+  follow_level();
+  volume_.update(world_);
+}
+
+Result<void> Simulation::add(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes) {
+  if (!events.empty()) {
+    // What is in the log from the first of them on, and they in between.
+    const auto log = world_.log();
+    const EventOrder first{events.front().order.tick, EventKind{}, -1};
+    const auto from =
+        static_cast<std::size_t>(std::lower_bound(orders_.begin(), orders_.end(), first) - orders_.begin());
+    std::vector<OrderedEvent> tail;
+    tail.reserve(log.size() - from + events.size());
+    for (std::size_t i = from; i < log.size(); ++i) tail.push_back({orders_[i], log[i]});
+    const auto kept = static_cast<std::ptrdiff_t>(tail.size());
+    std::move(events.begin(), events.end(), std::back_inserter(tail));
+    std::inplace_merge(tail.begin(), tail.begin() + kept, tail.end(),
+                       [](const OrderedEvent& a, const OrderedEvent& b) { return a.order < b.order; });
+    const std::vector<EventOrder> orders = orders_of(tail);
+    if (auto done = world_.replace_from(first.tick, without_order(std::move(tail))); !done) return done;
+    orders_.resize(from);
+    orders_.insert(orders_.end(), orders.begin(), orders.end());
+  }
+  std::move(changes.begin(), changes.end(), std::back_inserter(level_events_));
+  return {};
+}
+
+Result<void> Simulation::replace(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes,
+                                 const sim::MaskKey& masks) {
+  std::vector<EventOrder> orders = orders_of(events);
+  std::vector<sim::Event> log = without_order(std::move(events));
+  const auto before = world_.log();
+  const auto [was, is] = std::mismatch(before.begin(), before.end(), log.begin(), log.end());
+  std::uint32_t first = sim::kMaxTick + 1;
+  if (was != before.end()) first = sim::tick_of(*was);
+  if (is != log.end()) first = std::min(first, sim::tick_of(*is));
+  const auto from = std::partition_point(
+      log.begin(), log.end(), [&](const sim::Event& event) { return sim::tick_of(event) < first; });
+  std::vector<sim::Event> tail(std::make_move_iterator(from), std::make_move_iterator(log.end()));
+  if (auto done = world_.replace_from(first, std::move(tail), masks); !done) return done;
+  orders_ = std::move(orders);
+  replace_level(std::move(changes));
+  return {};
+}
+
+void Simulation::replace_level(std::vector<LevelEvent> changes) {
+  const auto same = [](const LevelEvent& a, const LevelEvent& b) { return a.planes == b.planes; };
+  if (std::equal(changes.begin(), changes.end(), level_events_.begin(), level_events_.end(), same)) return;
+  for (std::size_t i = 0; i < in_effect_; ++i) {
+    const voxel::IntBox& cells = level_events_[i].planes->cells;
+    if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
+  }
+  planes_.clear();
+  hidden_objects_.clear();
+  in_effect_ = 0;
+  level_events_ = std::move(changes);
+}
+
+void Simulation::follow_level() {
+  const auto later = std::partition_point(level_events_.begin(), level_events_.end(), [&](const auto& event) {
+    return tick_at(event.time, world_.settings().ticks_per_second) <= world_.tick();
+  });
+  const auto count = static_cast<std::size_t>(later - level_events_.begin());
+  if (count == in_effect_) return;
+
+  // Planes: on top of those that stay, or all anew when time ran backwards.
+  for (std::size_t i = std::min(count, in_effect_); i < std::max(count, in_effect_); ++i) {
+    const voxel::IntBox& cells = level_events_[i].planes->cells;
+    if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
+  }
+  if (count < in_effect_) planes_.clear();
+  for (std::size_t i = count < in_effect_ ? 0 : in_effect_; i < count; ++i)
+    planes_.add(level_events_[i].planes);
+  in_effect_ = count;
+
+  // The last word on each object.
+  std::map<std::uint32_t, bool> hidden;
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::uint32_t object : level_events_[i].objects) hidden[object] = level_events_[i].hidden;
+  hidden_objects_.clear();
+  for (const auto& [object, is_hidden] : hidden)
+    if (is_hidden) hidden_objects_.push_back(object);
+}
+
+}  // namespace brume::scenario

@@ -1,0 +1,299 @@
+#include "scenario/vxl_file.hpp"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cstring>
+#include <string>
+
+#include "core/checked.hpp"
+#include "core/file.hpp"
+#include "core/hash.hpp"
+#include "core/log.hpp"
+#include "scenario/world_triangles.hpp"
+#include "voxel/voxelize.hpp"
+
+namespace brume::scenario {
+namespace {
+
+using glm::ivec3;
+using voxel::BitGrid;
+using voxel::GridLayout;
+using voxel::kBrickSize;
+using voxel::kMaxPlanes;
+using voxel::Plane;
+using voxel::SurfacePlanes;
+using voxel::Triangle;
+
+static_assert(std::endian::native == std::endian::little, "the format is what memory holds");
+
+constexpr std::array<char, 8> kMagic = {'B', 'R', 'U', 'M', 'E', 'V', 'X', 'L'};
+constexpr std::uint32_t kVersion = 1;
+constexpr int kCompressionLevel = 3;
+constexpr std::uint64_t kMaxPayload = std::uint64_t{8} << 30;
+// zstd's densest block turns 4 bytes into 128 KiB: more than this a payload cannot grow.
+constexpr std::uint64_t kMaxGrowth = 32768;
+
+struct Header {
+  std::array<char, 8> magic;
+  std::uint32_t version;
+  std::uint32_t bricks;
+  std::uint64_t key;
+  std::uint64_t triangles;
+  ivec3 size;
+  float voxel_size;
+  glm::vec3 origin_world;
+  std::uint32_t cells;
+  std::uint64_t planes;
+  std::uint64_t compressed_bytes;
+};
+static_assert(sizeof(Header) == 80 && std::is_trivially_copyable_v<Header>);
+static_assert(sizeof(Plane) == 16 && sizeof(BitGrid::Brick) == 64);
+
+constexpr std::uint64_t kBrickBytes = sizeof(std::uint32_t) + sizeof(BitGrid::Brick);
+constexpr std::uint64_t kCellBytes = sizeof(std::uint64_t) + 1;
+constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
+
+Failure damaged(const std::string& what) {
+  return {ErrorCode::bad_input, what};
+}
+
+template <typename T>
+void append(std::vector<std::byte>& bytes, std::span<const T> values) {
+  const auto raw = std::as_bytes(values);
+  bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+// Takes values off the front. The caller has checked that they are there.
+template <typename T>
+void take(std::span<const std::byte>& bytes, std::span<T> values) {
+  BRUME_ASSERT(bytes.size() >= values.size_bytes(), std::to_string(bytes.size()));
+  if (values.empty()) return;
+  std::memcpy(values.data(), bytes.data(), values.size_bytes());
+  bytes = bytes.subspan(values.size_bytes());
+}
+
+ivec3 brick_count(ivec3 size) {
+  return (size + (kBrickSize - 1)) / kBrickSize;
+}
+
+struct NumberedBrick {
+  std::uint32_t number;  // x + nx (y + ny z)
+  const BitGrid::Brick* brick;
+};
+
+std::vector<NumberedBrick> numbered_bricks(const BitGrid& grid) {
+  const ivec3 n = brick_count(grid.size());
+  std::vector<NumberedBrick> bricks;
+  grid.for_each_brick([&](ivec3 at, const BitGrid::Brick& brick) {
+    if (brick != BitGrid::Brick{})
+      bricks.push_back({static_cast<std::uint32_t>(at.x + n.x * (at.y + n.y * at.z)), &brick});
+  });
+  std::sort(bricks.begin(), bricks.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  return bricks;
+}
+
+std::vector<std::byte> encode_payload(const std::vector<NumberedBrick>& bricks, const SurfacePlanes& planes) {
+  std::vector<std::byte> payload;
+  payload.reserve(bricks.size() * kBrickBytes + planes.cell_count() * kCellBytes +
+                  planes.plane_count() * sizeof(Plane));
+  for (const NumberedBrick& b : bricks) append(payload, std::span(&b.number, 1));
+  for (const NumberedBrick& b : bricks) append(payload, std::span<const std::uint64_t>(*b.brick));
+  std::uint64_t last = 0;
+  for (const std::uint64_t key : planes.keys()) {
+    const std::uint64_t difference = key - last;
+    append(payload, std::span(&difference, 1));
+    last = key;
+  }
+  for (std::size_t i = 0; i < planes.cell_count(); ++i)
+    payload.push_back(static_cast<std::byte>(planes.count(i)));
+  append(payload, planes.planes());
+  return payload;
+}
+
+// The bits of a brick that lie in the grid.
+BitGrid::Brick bits_in_grid(ivec3 size, ivec3 brick) {
+  BitGrid::Brick mask{};
+  const ivec3 inside = glm::min(size - brick * kBrickSize, ivec3(kBrickSize));
+  const std::uint64_t row = (std::uint64_t{1} << inside.x) - 1;
+  for (int z = 0; z < inside.z; ++z)
+    for (int y = 0; y < inside.y; ++y) mask[static_cast<unsigned>(z)] |= row << (8 * y);
+  return mask;
+}
+
+Result<void> decode_bricks(std::span<const std::byte>& payload, std::uint32_t count, BitGrid& grid) {
+  const ivec3 n = brick_count(grid.size());
+  std::vector<std::uint32_t> numbers(count);
+  take(payload, std::span(numbers));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto number = static_cast<std::int64_t>(numbers[i]);
+    if (number >= std::int64_t{n.x} * n.y * n.z) return damaged("a brick lies outside of the grid");
+    if (i > 0 && numbers[i] <= numbers[i - 1]) return damaged("the bricks are not in order");
+    const auto at = static_cast<int>(number);
+    const ivec3 brick(at % n.x, at / n.x % n.y, at / n.x / n.y);
+    BitGrid::Brick bits;
+    take(payload, std::span<std::uint64_t>(bits));
+    const BitGrid::Brick inside = bits_in_grid(grid.size(), brick);
+    for (unsigned z = 0; z < bits.size(); ++z)
+      if (bits[z] & ~inside[z]) return damaged("a voxel lies outside of the grid");
+    grid.ensure_brick(brick) = bits;
+  }
+  return {};
+}
+
+Result<SurfacePlanes> decode_planes(std::span<const std::byte> payload, const Header& header) {
+  std::vector<std::uint64_t> keys(header.cells);
+  take(payload, std::span(keys));
+  for (std::size_t i = 1; i < keys.size(); ++i) keys[i] += keys[i - 1];
+  std::vector<std::uint8_t> counts(header.cells);
+  take(payload, std::span(counts));
+  std::vector<Plane> planes(header.planes);
+  take(payload, std::span(planes));
+  auto result = SurfacePlanes::from_parts(header.size, std::move(keys), counts, std::move(planes));
+  if (!result) return damaged("the surface planes contradict each other");
+  return std::move(*result);
+}
+
+// The length that the payload must have, when the counts are possible for the grid and the file.
+std::optional<std::uint64_t> payload_bytes(const Header& header) {
+  const glm::u64vec3 size(header.size), n(brick_count(header.size));
+  const std::uint64_t cells = (size.x + 1) * (size.y + 1) * (size.z + 1);  // At most 4097^3.
+  if (header.bricks > n.x * n.y * n.z || header.cells > cells) return std::nullopt;
+  if (header.planes > std::uint64_t{header.cells} * kMaxPlanes) return std::nullopt;
+  const std::uint64_t bytes =
+      header.bricks * kBrickBytes + header.cells * kCellBytes + header.planes * sizeof(Plane);
+  if (bytes > kMaxPayload || bytes / kMaxGrowth > header.compressed_bytes) return std::nullopt;
+  return bytes;
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The cache's contents, when it is there, sound, and of this key.
+std::optional<VxlContents> from_cache(const std::filesystem::path& path, std::uint64_t key) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+  auto loaded = load_vxl(path, key);
+  if (!loaded) {
+    log_warning(loaded.failure().message + "; voxelizing anew");
+    return std::nullopt;
+  }
+  if (!*loaded) log_info(path.string() + ": made from another scene or grid; voxelizing anew");
+  return std::move(*loaded);
+}
+
+}  // namespace
+
+std::uint64_t vxl_key(std::span<const Triangle> triangles, const GridLayout& layout) {
+  static_assert(sizeof(Triangle) == 36 && sizeof(GridLayout) == 28, "no padding to hash");
+  std::uint64_t key = hash_values(std::span(&kVersion, 1));
+  key = hash_bytes(std::as_bytes(std::span(&layout, 1)), key);
+  return hash_bytes(std::as_bytes(triangles), key);
+}
+
+std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key) {
+  const GridLayout& layout = contents.grid.layout();
+  const auto bricks = numbered_bricks(contents.grid);
+  const auto payload = encode_payload(bricks, contents.planes);
+  Header header{kMagic,
+                kVersion,
+                static_cast<std::uint32_t>(bricks.size()),
+                key,
+                contents.triangles,
+                layout.size,
+                layout.voxel_size,
+                layout.origin_world,
+                static_cast<std::uint32_t>(contents.planes.cell_count()),
+                contents.planes.plane_count(),
+                0};
+  std::vector<std::byte> bytes(sizeof(Header) + ZSTD_compressBound(payload.size()));
+  const std::size_t compressed = ZSTD_compress(bytes.data() + sizeof(Header), bytes.size() - sizeof(Header),
+                                               payload.data(), payload.size(), kCompressionLevel);
+  if (ZSTD_isError(compressed))
+    throw Error(ErrorCode::internal, std::string("zstd: ") + ZSTD_getErrorName(compressed));
+  header.compressed_bytes = compressed;
+  std::memcpy(bytes.data(), &header, sizeof header);
+  bytes.resize(sizeof(Header) + compressed);
+  const std::uint64_t checksum = hash_bytes(bytes);
+  append(bytes, std::span(&checksum, 1));
+  return bytes;
+}
+
+Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
+                                              std::optional<std::uint64_t> expected_key) {
+  // Is it ours, and whole?
+  Header header;
+  if (bytes.size() < sizeof(Header) + kChecksumBytes) return damaged("not a voxel cache, or cut short");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (header.magic != kMagic) return damaged("not a voxel cache");
+  if (header.version != kVersion)
+    return damaged("a voxel cache of version " + std::to_string(header.version) + ", not " +
+                   std::to_string(kVersion));
+  if (header.compressed_bytes != bytes.size() - sizeof(Header) - kChecksumBytes)
+    return damaged("a voxel cache that is cut short or too long");
+  std::uint64_t checksum = 0;
+  std::memcpy(&checksum, bytes.data() + bytes.size() - kChecksumBytes, kChecksumBytes);
+  if (checksum != hash_bytes(bytes.first(bytes.size() - kChecksumBytes)))
+    return damaged("a damaged voxel cache: its checksum is wrong");
+  if (expected_key && header.key != *expected_key) return std::optional<VxlContents>();
+
+  // Can it be what it says?
+  const GridLayout layout{header.size, header.voxel_size, header.origin_world};
+  if (!voxel::check_frame(layout)) return damaged("a voxel cache with an impossible grid");
+  const auto length = payload_bytes(header);
+  if (!length) return damaged("a voxel cache with impossible counts");
+  std::vector<std::byte> payload(*length);
+  const std::size_t got =
+      ZSTD_decompress(payload.data(), payload.size(), bytes.data() + sizeof(Header), header.compressed_bytes);
+  if (ZSTD_isError(got) || got != payload.size()) return damaged("a voxel cache that does not unpack");
+
+  // Put it together.
+  VxlContents contents{BitGrid(layout), {}, header.triangles};
+  std::span<const std::byte> rest(payload);
+  if (auto decoded = decode_bricks(rest, header.bricks, contents.grid); !decoded) return decoded.failure();
+  auto planes = decode_planes(rest, header);
+  if (!planes) return planes.failure();
+  contents.planes = std::move(*planes);
+  return std::optional<VxlContents>(std::move(contents));
+}
+
+Result<std::optional<VxlContents>> load_vxl(const std::filesystem::path& path,
+                                            std::optional<std::uint64_t> expected_key) {
+  const auto bytes = read_file(path);
+  if (!bytes) return bytes.failure();
+  auto contents = decode_vxl(*bytes, expected_key);
+  if (!contents) return Failure{contents.failure().code, path.string() + ": " + contents.failure().message};
+  return contents;
+}
+
+Result<void> save_vxl(const std::filesystem::path& path, const VxlContents& contents, std::uint64_t key) {
+  return write_file_atomic(path, encode_vxl(contents, key));
+}
+
+Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridLayout& layout,
+                                const std::filesystem::path& cache_path) {
+  if (auto checked = voxel::check_frame(layout); !checked) return checked.failure();
+  const std::vector<Triangle> triangles = world_triangles(scene);
+  const std::uint64_t key = vxl_key(triangles, layout);
+  if (!cache_path.empty()) {
+    if (auto contents = from_cache(cache_path, key))
+      return Voxels{std::move(contents->grid), std::move(contents->planes), true, 0, contents->triangles};
+  }
+
+  const auto start = std::chrono::steady_clock::now();
+  auto grid = voxel::voxelize(triangles, layout);
+  const double milliseconds = milliseconds_since(start);
+  if (!grid) return grid.failure();
+  VxlContents contents{std::move(*grid), {}, triangles.size()};
+  contents.planes = SurfacePlanes::build(triangles, contents.grid);
+  if (!cache_path.empty()) {
+    if (auto saved = save_vxl(cache_path, contents, key); !saved) return saved.failure();
+  }
+  return Voxels{std::move(contents.grid), std::move(contents.planes), false, milliseconds, triangles.size()};
+}
+
+}  // namespace brume::scenario

@@ -1,0 +1,173 @@
+#include "smoke/mask_atlas.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "core/hash.hpp"
+
+namespace brume::smoke {
+namespace {
+
+constexpr std::uint32_t kPad = 1;  // texels around each image
+static_assert(kMaxMaskAxis + 2 * kPad == kMaxMaskAtlasAxis);
+
+struct Layout {
+  std::uint32_t width = 0, height = 0;
+  std::vector<glm::uvec2> corners;  // of the images, without their padding
+};
+
+/// Rows of images, the highest first, in an atlas of this width.
+std::optional<Layout> lay_out(std::span<const Mask> masks, std::span<const std::uint32_t> by_height,
+                              std::uint32_t width) {
+  Layout layout{width, 0, std::vector<glm::uvec2>(masks.size())};
+  std::uint32_t x = 0, y = 0, row_height = 0;
+  for (const std::uint32_t i : by_height) {
+    const std::uint32_t w = masks[i].width + 2 * kPad, h = masks[i].height + 2 * kPad;
+    if (w > width) return std::nullopt;
+    if (x + w > width) {
+      y += row_height;
+      x = row_height = 0;
+    }
+    if (y + h > kMaxMaskAtlasAxis) return std::nullopt;
+    layout.corners[i] = {x + kPad, y + kPad};
+    x += w;
+    row_height = std::max(row_height, h);
+  }
+  layout.height = std::bit_ceil(y + row_height);
+  return layout;
+}
+
+/// The smallest atlas; of two as small, the narrower.
+std::optional<Layout> best_layout(std::span<const Mask> masks) {
+  std::vector<std::uint32_t> by_height(masks.size());
+  std::iota(by_height.begin(), by_height.end(), 0u);
+  std::stable_sort(by_height.begin(), by_height.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return masks[a].height > masks[b].height; });
+  std::optional<Layout> best;
+  for (std::uint32_t width = 4; width <= kMaxMaskAtlasAxis; width *= 2) {
+    auto layout = lay_out(masks, by_height, width);
+    if (!layout) continue;
+    if (!best || std::uint64_t{width} * layout->height < std::uint64_t{best->width} * best->height)
+      best = std::move(layout);
+  }
+  return best;
+}
+
+Result<void> check(std::span<const Mask> masks) {
+  if (masks.size() > sim::kMaxMasks)
+    return Failure{ErrorCode::resource_limit,
+                   "masks: " + std::to_string(masks.size()) + ", at most " + std::to_string(sim::kMaxMasks)};
+  for (const Mask& mask : masks) {
+    const std::uint64_t texels = std::uint64_t{mask.width} * mask.height;
+    if (texels == 0 || texels != mask.texels.size())
+      return Failure{ErrorCode::bad_input, "masks: expected width x height texels, not none"};
+    if (std::max(mask.width, mask.height) > kMaxMaskAxis)
+      return Failure{ErrorCode::resource_limit, "masks: one of " + std::to_string(mask.width) + " x " +
+                                                    std::to_string(mask.height) + " texels, at most " +
+                                                    std::to_string(kMaxMaskAxis) + " an axis"};
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<MaskAtlas> MaskAtlas::pack(std::span<const Mask> masks) {
+  MaskAtlas atlas;
+  if (auto ok = check(masks); !ok) return ok.failure();
+  if (masks.empty()) return atlas;
+  const auto layout = best_layout(masks);
+  if (!layout)
+    return Failure{ErrorCode::resource_limit,
+                   "masks: " + std::to_string(masks.size()) + " do not fit into an atlas of " +
+                       std::to_string(kMaxMaskAtlasAxis) + " x " + std::to_string(kMaxMaskAtlasAxis) +
+                       " texels; use fewer or smaller ones"};
+  atlas.width_ = layout->width;
+  atlas.height_ = layout->height;
+  atlas.texels_.assign(std::size_t{layout->width} * layout->height, 0);
+  const glm::vec2 size(layout->width, layout->height);
+  std::uint64_t hash = 0;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const Mask& mask = masks[i];
+    const glm::uvec2 low = layout->corners[i], extent(mask.width, mask.height);
+    atlas.rectangles_.push_back({glm::vec2(low) / size, glm::vec2(low + extent) / size});
+    for (std::uint32_t y = 0; y < mask.height + 2 * kPad; ++y) {
+      const std::size_t from = std::size_t{std::clamp(y, kPad, mask.height) - kPad} * mask.width;
+      const std::size_t to = std::size_t{low.y + y - kPad} * layout->width + low.x - kPad;
+      for (std::uint32_t x = 0; x < mask.width + 2 * kPad; ++x)
+        atlas.texels_[to + x] = mask.texels[from + std::clamp(x, kPad, mask.width) - kPad];
+    }
+    hash = hash_values(std::span<const std::uint32_t>(std::array{mask.width, mask.height}), hash);
+    hash = hash_values(std::span<const std::uint8_t>(mask.texels), hash);
+  }
+  atlas.key_ = {atlas.count(), hash};
+  return atlas;
+}
+
+float MaskAtlas::at(glm::vec2 uv) const {
+  const glm::vec2 from_centres = uv * glm::vec2(width_, height_) - 0.5f;
+  const glm::ivec2 low(glm::floor(from_centres)), last(glm::uvec2(width_, height_) - 1u);
+  const glm::vec2 f = from_centres - glm::vec2(low);
+  const glm::ivec2 a = glm::clamp(low, glm::ivec2(0), last), b = glm::clamp(low + 1, glm::ivec2(0), last);
+  const auto texel = [&](int x, int y) {
+    const std::size_t at = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
+    return static_cast<float>(texels_[at]) / 255.0f;
+  };
+  const float top = glm::mix(texel(a.x, a.y), texel(b.x, a.y), f.x);
+  const float bottom = glm::mix(texel(a.x, b.y), texel(b.x, b.y), f.x);
+  return glm::mix(top, bottom, f.y);
+}
+
+namespace {
+
+/// The texels around a point, (0, 0) to (1, 1), and how far it is on from the first to the last.
+struct Corners {
+  float f00, f10, f01, f11;
+  glm::vec2 share;
+};
+
+Corners corners_at(const MaskView& mask, glm::vec2 across) {
+  const glm::vec2 from_centres = across * glm::vec2(mask.width, mask.height) - 0.5f;
+  const glm::vec2 at = glm::clamp(from_centres, glm::vec2(0), glm::vec2(mask.width - 1, mask.height - 1));
+  const glm::ivec2 low(at), high = glm::min(low + 1, glm::ivec2(mask.width, mask.height) - 1);
+  const auto texel = [&](int x, int y) {
+    return static_cast<float>(
+        mask.first[static_cast<std::size_t>(y) * mask.stride + static_cast<std::size_t>(x)]);
+  };
+  return {texel(low.x, low.y), texel(high.x, low.y), texel(low.x, high.y), texel(high.x, high.y),
+          at - glm::vec2(low)};
+}
+
+}  // namespace
+
+float MaskView::at(glm::vec2 across) const {
+  const Corners c = corners_at(*this, across);
+  const float top = c.f00 + (c.f10 - c.f00) * c.share.x, bottom = c.f01 + (c.f11 - c.f01) * c.share.x;
+  return top + (bottom - top) * c.share.y;
+}
+
+std::pair<std::uint8_t, std::uint8_t> MaskView::range_around(glm::vec2 across) const {
+  const Corners c = corners_at(*this, across);
+  const auto [least, most] = std::minmax({c.f00, c.f10, c.f01, c.f11});
+  return {static_cast<std::uint8_t>(least), static_cast<std::uint8_t>(most)};
+}
+
+MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole) {
+  const glm::vec2 size(masks.width(), masks.height());
+  const glm::uvec2 low(hole.uv_min * size), high(hole.uv_max * size);  // exact: the sides are powers of two
+  const std::size_t first = std::size_t{low.y} * masks.width() + low.x;
+  return {masks.texels().data() + first, masks.width(), static_cast<int>(high.x - low.x),
+          static_cast<int>(high.y - low.y)};
+}
+
+float hole_strength_masked(const shared::Hole& hole, glm::vec3 p_world, float time, float rim_noise_metres,
+                           const MaskAtlas& masks) {
+  const shared::HoleCut cut = shared::hole_cut(hole, p_world, time, rim_noise_metres);
+  if (hole.shape != shared::kHoleMask || cut.strength <= 0) return cut.strength;
+  return cut.strength * masks.at(cut.uv);
+}
+
+}  // namespace brume::smoke

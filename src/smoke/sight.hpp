@@ -1,0 +1,107 @@
+// Line of sight: how much smoke stands between two points at a tick, with its holes, and whether a wall does.
+//
+// The optical depth of a segment is the integral of extinction * density * (1 - strength of hole 1) * (1 -
+// strength of hole 2)... along it: what the renderer draws without its noise. Density is read as the shaders
+// read it (docs/smoke-volume.md) and integrated exactly; along holes by quadrature, off by at most 0.3 %.
+//
+// The same bits for the same volume, holes and points: on every machine, for any number of threads, and for
+// one segment alone or among many. Segments that pass no smoke and points outside of the grid are fine: there
+// is air. Points that are not finite, or farther than kMaxSightMetres from the origin of the world, are
+// failures (bad_input), and nothing is answered.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "core/error.hpp"
+#include "shared/hole.h"
+#include "smoke/sight_holes.hpp"
+#include "smoke/smoke_volume.hpp"
+#include "voxel/bit_grid.hpp"
+
+namespace brume::smoke {
+
+/// Largest coordinate of a point [m]: that of a Position.
+constexpr float kMaxSightMetres = 16384;
+
+struct SightSettings {
+  float extinction = 3;           ///< Where density is 1 (255 steps) [1/m], [0, 10^6].
+  glm::vec3 smoke_albedo{0.92f};  ///< What sensors report of the smoke.
+  /// Those of holes_of; must outlive the Sight. Needed where a hole is a mask.
+  const MaskAtlas* masks = nullptr;
+};
+
+struct Segment {
+  glm::vec3 a_world{0}, b_world{0};
+};
+
+/// A solid voxel on the way.
+struct SightWall {
+  glm::ivec3 voxel{0};
+  glm::ivec3 normal{0};  ///< Outward normal of the face that the ray enters; 0 where it starts inside.
+  float distance = 0;    ///< From the first point to that face [m].
+};
+
+/// A ray of an RGB-D camera.
+struct SensorRay {
+  glm::vec3 origin_world{0};
+  glm::vec3 direction_world{0, 0, -1};  ///< Any length but 0.
+  float max_distance = 100;             ///< [m], (0, 2 kMaxSightMetres].
+};
+
+struct SensorSample {
+  float distance = 0;                ///< To the first solid voxel, else max_distance [m].
+  std::optional<SightWall> surface;  ///< What it meets; nothing up to max_distance.
+  float optical_depth = 0;           ///< Of the smoke on the way there: it lets exp(-optical_depth) through.
+  glm::vec3 surface_albedo{0};       ///< Black where there is no surface.
+  glm::vec3 smoke_albedo{0};
+};
+
+/// Colour of a surface as a sensor sees it. Called from several threads at once.
+using SurfaceAlbedo = std::function<glm::vec3(const SightWall&)>;
+
+class Sight {
+ public:
+  /// The smoke of `volume` with `holes` at a time on their clock (State::seconds, holes_of), the walls of
+  /// `level`. Volume and level must be those of the same tick, and stay as they are while the Sight is used.
+  /// Throws Error (bad_input) for an extinction out of range, a time that is not finite, or a hole that is a
+  /// mask where there are none.
+  Sight(const SmokeVolume& volume, const voxel::BitGrid& level, std::span<const shared::Hole> holes,
+        float time, const SightSettings& settings = {});
+
+  /// Optical depth between two points; walls do not matter. 0 for a point and itself.
+  Result<float> optical_depth(glm::vec3 a_world, glm::vec3 b_world) const;
+  /// The same for many, over all threads. `out` is as long as `segments`.
+  Result<void> optical_depths(std::span<const Segment> segments, std::span<float> out) const;
+
+  /// Whether b can be seen from a: no solid voxel between them, and an optical depth of at most `threshold`
+  /// (at least 0; infinity: walls only). The solid voxels that a and b lie in themselves do not hide them:
+  /// who leans against a wall is in its voxel. Faster than the depth: it ends at the first reason why not.
+  Result<bool> visible(glm::vec3 a_world, glm::vec3 b_world, float threshold) const;
+  /// The same for many: 1 where visible, else 0.
+  Result<void> visible(std::span<const Segment> segments, float threshold, std::span<std::uint8_t> out) const;
+
+  /// The first solid voxel on the way from a to b, other than those in which a and b lie.
+  Result<std::optional<SightWall>> first_wall(glm::vec3 a_world, glm::vec3 b_world) const;
+
+  /// What a depth camera with colour sees. The voxel in which the ray starts does not count as a surface.
+  Result<SensorSample> sense(const SensorRay& ray, const SurfaceAlbedo& albedo) const;
+  Result<void> sense(std::span<const SensorRay> rays, const SurfaceAlbedo& albedo,
+                     std::span<SensorSample> out) const;
+
+ private:
+  float depth(glm::dvec3 a_world, glm::dvec3 b_world, float enough, HolesOnRay& scratch) const;
+  bool sees(const Segment& segment, float threshold, HolesOnRay& scratch) const;
+  SensorSample sample(const SensorRay& ray, const SurfaceAlbedo& albedo, HolesOnRay& scratch) const;
+  std::optional<SightWall> wall(glm::dvec3 a_world, glm::dvec3 b_world, bool b_hides) const;
+
+  const SmokeVolume& volume_;
+  const voxel::BitGrid& level_;
+  HoleSet holes_;
+  SightSettings settings_;
+};
+
+}  // namespace brume::smoke

@@ -1,0 +1,309 @@
+#include "smoke/smoke_structure.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace brume::smoke {
+namespace {
+
+constexpr int kCorners =
+    shared::kBrickVoxels + 1;  // voxels per axis that are a corner of one of the brick's cells
+
+/// The 3x3x3 voxels around each corner of the cell.
+std::array<Block, 8> blocks_around_corners() {
+  std::array<Block, 8> around{};
+  for (int corner = 0; corner < 8; ++corner)
+    for (int i = 0; i < 27; ++i)
+      around[static_cast<std::size_t>(corner)] |=
+          block_bit(corner_offset(corner) + glm::ivec3(i % 3, i / 3 % 3, i / 9));
+  return around;
+}
+
+/// Nearer voxels say more: 144 / distance^2, whole numbers that fit 8 bits.
+std::uint32_t weight_of(glm::ivec3 offset) {
+  const int square = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
+  return static_cast<std::uint32_t>(144 / square);
+}
+
+/// The side that a side takes its densities from: itself when it sees any air. Else it is the inside of
+/// something and nobody is there to see it; it goes on as the side fewest planes away that sees most smoke,
+/// so that smoke reaches a curved surface also where that bulges through its plane.
+int side_to_follow(int side, int side_count, const std::array<Block, 8>& seen, Block smoke) {
+  int best = side;
+  int best_rank = -1;
+  for (int other = 0; other < side_count; ++other) {
+    const Block sees = seen[static_cast<std::size_t>(other)];
+    if (sees == 0) continue;
+    const int planes_between = std::popcount(static_cast<unsigned>(side ^ other));
+    const int rank = 65 * (3 - planes_between) + std::popcount(sees & smoke);
+    if (other == side || rank > best_rank) {
+      best = other;
+      best_rank = other == side ? 1000 : rank;
+    }
+  }
+  return best;
+}
+
+/// A cell's surroundings.
+struct CellBlock {
+  glm::ivec3 local{0};  // cell - 8 brick
+  Block free = 0;       // outside the grid too: smoke may end there
+  Block smoke = 0;
+};
+
+/// The 4x4x4 voxels around a cell.
+Block block_of(const VoxelWindow& window, glm::ivec3 local) {
+  Block block = 0;
+  const auto x = static_cast<unsigned>(local.x);
+  const auto y = static_cast<std::size_t>(local.y), z = static_cast<std::size_t>(local.z);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < 4; ++j)
+      block |= static_cast<Block>(window[z + k][y + j] >> x & 15) << (4 * j + 16 * k);
+  return block;
+}
+
+/// For each row of a brick's cells, those with any bit set among the 2^3 voxels of their corners, or the 4^3
+/// around them.
+template <std::size_t kFirst, std::size_t kCount>
+std::array<std::array<std::uint8_t, 8>, 8> cells_with_any(const VoxelWindow& window) {
+  std::array<std::array<std::uint8_t, 8>, 8> cells;
+  for (std::size_t z = 0; z < 8; ++z)
+    for (std::size_t y = 0; y < 8; ++y) {
+      unsigned row = 0;
+      for (std::size_t k = kFirst; k < kFirst + kCount; ++k)
+        for (std::size_t j = kFirst; j < kFirst + kCount; ++j) row |= window[z + k][y + j];
+      unsigned any = 0;
+      for (std::size_t i = kFirst; i < kFirst + kCount; ++i) any |= row >> i;
+      cells[z][y] = static_cast<std::uint8_t>(any);
+    }
+  return cells;
+}
+
+}  // namespace
+
+VoxelWindow window_of(const std::array<const BrickBits*, 27>& around) {
+  VoxelWindow window;
+  const auto byte = [&](std::size_t i, int y, int z) -> unsigned {
+    if (!around[i]) return 0;
+    return static_cast<std::uint8_t>((*around[i])[static_cast<std::size_t>(z & 7)] >> (8 * (y & 7)));
+  };
+  for (int z = -1; z < 10; ++z)
+    for (int y = -1; y < 10; ++y) {
+      const auto i = static_cast<std::size_t>(3 * ((y >> 3) + 1) + 9 * ((z >> 3) + 1));
+      window[static_cast<std::size_t>(z + 1)][static_cast<std::size_t>(y + 1)] = static_cast<std::uint16_t>(
+          byte(i, y, z) >> 7 | byte(i + 1, y, z) << 1 | (byte(i + 2, y, z) & 3) << 9);
+    }
+  return window;
+}
+
+std::array<const BrickBits*, 27> solid_around(const voxel::BitGrid& grid, glm::ivec3 brick) {
+  std::array<const BrickBits*, 27> around{};
+  const glm::ivec3 bricks = (grid.size() + 7) >> 3;
+  for (int i = 0; i < 27; ++i) {
+    const glm::ivec3 b = brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+    if (glm::all(glm::greaterThanEqual(b, glm::ivec3(0))) && glm::all(glm::lessThan(b, bricks)))
+      around[static_cast<std::size_t>(i)] = grid.find_brick(b);
+  }
+  return around;
+}
+
+class CellBuilder::Work {
+ public:
+  explicit Work(const PlaneSource& planes) : planes_(planes), sight_(planes_) {}
+  std::unique_ptr<BrickCells> build(const BrickScene& scene, const Sealed& sealed);
+
+ private:
+  void add_cell(const CellBlock& block);
+  Block sealed_voxels(const CellBlock& block, Block among) const;
+  float way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke, Block sealed) const;
+  void reach_bent_surfaces(const CellBlock& block, std::array<Block, 8>& seen, shared::BoundaryCell& record);
+  void add_set(const CellBlock& block, int like, std::uint8_t sides, Block seen);
+  std::uint32_t corner(const CellBlock& block, int corner, Block own_side, Block seen);
+  std::uint32_t mean(const CellBlock& block, int corner, Block from, bool around_corner);
+  std::uint32_t voxel_number(glm::ivec3 local) const;
+
+  PlaneWindow planes_;
+  CellSight sight_;
+  const std::array<Block, 8> around_corner_ = blocks_around_corners();
+  const BrickScene* scene_ = nullptr;
+  const Sealed* sealed_ = nullptr;
+  std::unique_ptr<BrickCells> out_;
+  /// Means of the voxels around a corner are the same for all cells that it is a corner of and that see the
+  /// same: by corner voxel a list of those there are.
+  struct KnownMean {
+    Block from;  // relative to the corner voxel - 1
+    std::uint32_t number, next;
+  };
+  std::vector<KnownMean> known_;
+  std::array<std::uint32_t, kCorners * kCorners * kCorners> first_known_;
+};
+
+/// The number of a smoke voxel, from its place in the brick.
+std::uint32_t CellBuilder::Work::voxel_number(glm::ivec3 local) const {
+  const glm::ivec3 brick = (local >> 3) + 1;
+  return scene_->slots[static_cast<std::size_t>(brick.x + 3 * brick.y + 9 * brick.z)] * kVoxelsPerBrick +
+         local_voxel(local);
+}
+
+/// The mean of voxels of the block, nearer ones weighing more; 0 where none of them holds smoke.
+std::uint32_t CellBuilder::Work::mean(const CellBlock& block, int corner, Block from, bool around_corner) {
+  if ((from & block.smoke) == 0) return kMeanBit;
+  const glm::ivec3 at = corner_offset(corner) + 1;
+  std::uint32_t* list = nullptr;
+  if (around_corner) {
+    const glm::ivec3 voxel = block.local + corner_offset(corner);
+    list = &first_known_[static_cast<std::size_t>(voxel.x + kCorners * (voxel.y + kCorners * voxel.z))];
+    const Block relative = from >> std::countr_zero(block_bit(corner_offset(corner)));
+    for (std::uint32_t i = *list; i != 0; i = known_[i - 1].next)
+      if (known_[i - 1].from == relative) return known_[i - 1].number;
+    known_.push_back({relative, kMeanBit | static_cast<std::uint32_t>(out_->means.size() + 1), *list});
+    *list = static_cast<std::uint32_t>(known_.size());
+  }
+  SmokeMean mean{static_cast<std::uint32_t>(out_->mean_voxels.size()), 0, 0,
+                 static_cast<std::uint16_t>(local_voxel(block.local))};
+  for (; from != 0; from &= from - 1) {
+    const int bit = std::countr_zero(from);
+    const glm::ivec3 offset = block_voxel(bit) - at;
+    const std::uint32_t weight = offset == glm::ivec3(0) ? 1 : weight_of(offset);
+    mean.total = static_cast<std::uint16_t>(mean.total + weight);
+    if ((block.smoke >> bit & 1) == 0) continue;
+    out_->mean_voxels.push_back(voxel_number(block.local - 1 + block_voxel(bit)));
+    out_->mean_weights.push_back(static_cast<std::uint8_t>(weight));
+    ++mean.count;
+  }
+  out_->means.push_back(mean);
+  return kMeanBit | static_cast<std::uint32_t>(out_->means.size());
+}
+
+/// What a corner takes from: itself where it is on the side in question, else the nearest voxels that this
+/// side of the cell sees.
+std::uint32_t CellBuilder::Work::corner(const CellBlock& block, int corner, Block own_side, Block seen) {
+  const glm::ivec3 at = corner_offset(corner) + 1;
+  if (const Block own = block_bit(at) & own_side; own != 0)
+    return (own & block.smoke) != 0 ? voxel_number(block.local + corner_offset(corner)) : kMeanBit;
+  const Block near = seen & around_corner_[static_cast<std::size_t>(corner)];
+  return near != 0 ? mean(block, corner, near, true) : mean(block, corner, seen, false);
+}
+
+/// The voxels of `among` in pockets that no smoke comes into.
+Block CellBuilder::Work::sealed_voxels(const CellBlock& block, Block among) const {
+  Block sealed = 0;
+  for (Block left = among; left != 0; left &= left - 1) {
+    const int bit = std::countr_zero(left);
+    if ((*sealed_)(8 * scene_->brick + block.local - 1 + block_voxel(bit))) sealed |= Block{1} << bit;
+  }
+  return sealed;
+}
+
+/// How far to move a plane along its normal so that smoke on one side of it reaches the surface all over the
+/// cell, where behind it nothing is but sealed pockets: what runs over ends inside of them. 0 where there is
+/// air on both sides.
+float CellBuilder::Work::way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke,
+                                        Block sealed) const {
+  const float way = sight_.deviation(plane);
+  for (const int behind : {0, 1}) {
+    bool fits = true, any_smoke = false, any_sealed = false;
+    for (int side = 0; side < sight_.side_count(); ++side) {
+      if ((side >> plane & 1) != behind) continue;
+      const Block sees = seen[static_cast<std::size_t>(side)];
+      const Block smoke_before = seen[static_cast<std::size_t>(side ^ 1 << plane)] & smoke;
+      any_smoke |= smoke_before != 0;
+      any_sealed |= (sees & ~sealed) == 0;
+      // Air on both sides may only be the same air: the plane ends there.
+      if ((sees & ~sealed) != 0) fits &= smoke_before == 0 || (smoke_before & sees) != 0;
+    }
+    if (fits && any_smoke && any_sealed) return behind == 1 ? way : -way;
+  }
+  return 0;
+}
+
+/// Where a surface bends, a piece of it that only just comes into the cell, and the pieces of the cells
+/// around it, may hide all smoke from the sliver before it: then the planes of the cell alone decide. And
+/// smoke has to reach the surface though that lies off its plane.
+void CellBuilder::Work::reach_bent_surfaces(const CellBlock& block, std::array<Block, 8>& seen,
+                                            shared::BoundaryCell& record) {
+  bool bent = false;
+  for (int plane = 0; plane < sight_.plane_count(); ++plane) bent |= sight_.deviation(plane) > 0;
+  if (!bent) return;
+  Block all = 0;
+  for (const Block sees : seen) all |= sees;
+  const Block sealed = sealed_voxels(block, all & ~block.smoke);
+  if ((all & ~sealed) == 0)
+    for (int side = 0; side < sight_.side_count(); ++side) {
+      Block& sees = seen[static_cast<std::size_t>(side)];
+      if (sees == 0) sees = sight_.on_side(side, block.smoke);
+    }
+  const std::array<std::uint32_t*, voxel::kMaxPlanes> packed{&record.plane0, &record.plane1, &record.plane2};
+  for (int plane = 0; plane < sight_.plane_count(); ++plane) {
+    const float way = way_to_surface(plane, seen, block.smoke, sealed);
+    if (way != 0) *packed[static_cast<std::size_t>(plane)] = sight_.moved_plane(plane, way);
+  }
+}
+
+/// The set of the sides that see what side `like` sees.
+void CellBuilder::Work::add_set(const CellBlock& block, int like, std::uint8_t sides, Block seen) {
+  CornerSource source{{}, out_->set_count, static_cast<std::uint16_t>(local_voxel(block.local)), sides};
+  const Block own_side = sight_.on_side(like, block.free);
+  std::uint32_t all = kMeanBit;
+  for (int i = 0; i < 8; ++i) {
+    const std::uint32_t from = corner(block, i, own_side, seen);
+    source.corners[static_cast<std::size_t>(i)] = from;
+    if (from != kMeanBit) all = from;
+  }
+  if (all != kMeanBit) out_->sources.push_back(source);
+}
+
+void CellBuilder::Work::add_cell(const CellBlock& block) {
+  sight_.look_at(8 * scene_->brick + block.local);
+  shared::BoundaryCell record = sight_.record();
+  record.first_set = out_->set_count;
+  std::array<Block, 8> seen{};
+  for (int side = 0; side < sight_.side_count(); ++side)
+    seen[static_cast<std::size_t>(side)] = sight_.seen(side, block.free);
+  reach_bent_surfaces(block, seen, record);
+  std::array<std::uint8_t, 8> followers{};
+  for (int side = 0; side < sight_.side_count(); ++side) {
+    std::uint8_t& sides =
+        followers[static_cast<std::size_t>(side_to_follow(side, sight_.side_count(), seen, block.smoke))];
+    sides = static_cast<std::uint8_t>(sides | 1u << side);
+  }
+  for (int side = 0; side < sight_.side_count(); ++side)
+    if (const std::uint8_t sides = followers[static_cast<std::size_t>(side)]; sides != 0)
+      add_set(block, side, sides, seen[static_cast<std::size_t>(side)]);
+  out_->cells.push_back(static_cast<std::uint16_t>(local_voxel(block.local)));
+  out_->records.push_back(record);
+  out_->set_count += static_cast<std::uint32_t>(sight_.side_count());
+}
+
+std::unique_ptr<BrickCells> CellBuilder::Work::build(const BrickScene& scene, const Sealed& sealed) {
+  const auto with_solid = cells_with_any<1, 2>(scene.solid);
+  const auto with_smoke = cells_with_any<0, 4>(scene.smoke);
+  out_ = nullptr;
+  for (int i = 0; i < 512; i += 8) {
+    const auto y = static_cast<std::size_t>(i >> 3 & 7), z = static_cast<std::size_t>(i >> 6);
+    unsigned row = static_cast<unsigned>(with_solid[z][y] & with_smoke[z][y]);
+    if (row == 0) continue;
+    if (!out_) {
+      out_ = std::make_unique<BrickCells>();
+      known_.clear();
+      first_known_.fill(0);
+      scene_ = &scene;
+      sealed_ = &sealed;
+      planes_.move_to(scene.brick);
+    }
+    for (; row != 0; row &= row - 1) {
+      const glm::ivec3 local(std::countr_zero(row), i >> 3 & 7, i >> 6);
+      add_cell({local, ~block_of(scene.solid, local), block_of(scene.smoke, local)});
+    }
+  }
+  if (out_) out_->mean_values.assign(out_->means.size() + 1, 0);
+  return std::move(out_);
+}
+
+CellBuilder::CellBuilder(const PlaneSource& planes) : work_(std::make_unique<Work>(planes)) {}
+CellBuilder::~CellBuilder() = default;
+std::unique_ptr<BrickCells> CellBuilder::build(const BrickScene& scene, const Sealed& sealed) {
+  return work_->build(scene, sealed);
+}
+
+}  // namespace brume::smoke

@@ -1,0 +1,78 @@
+#include "volume/page_table.hpp"
+
+namespace brume::volume {
+
+void PageTable::set(glm::ivec3 brick, std::uint32_t slot) {
+  std::uint32_t node = node_at(brick >> 3);
+  if (node == 0) {
+    if (slot == kNoSlot) return;
+    node = take_node(brick >> 3);
+  }
+  Node& info = info_[node - 1];
+  std::uint32_t& entry = nodes_[first_of(node - 1) + local_of(brick)];
+  if (entry == slot + 1) return;
+  info.used += (slot != kNoSlot) - (entry != 0);
+  entry = slot + 1;
+  if (!info.changed) changed_nodes_.push_back(node - 1);
+  info.changed = true;
+  if (info.used == 0) drop_node(node - 1);
+}
+
+/// A node for the place, with its entry in the root; returns its number + 1.
+std::uint32_t PageTable::take_node(glm::ivec3 at) {
+  std::uint32_t node = static_cast<std::uint32_t>(info_.size());
+  if (free_nodes_.empty()) {
+    info_.emplace_back();
+    nodes_.resize(nodes_.size() + shared::kPageEntries);
+  } else {
+    node = free_nodes_.back();
+    free_nodes_.pop_back();
+  }
+  info_[node].at = at;
+  if (size_ == glm::ivec3(0)) {
+    set_window(at, glm::ivec3(1));
+  } else {
+    const glm::ivec3 low = glm::min(origin_, at), high = glm::max(origin_ + size_, at + 1);
+    if (low != origin_ || high != origin_ + size_) set_window(low, high - low);
+  }
+  root_[entry_of(at - origin_)] = node + 1;
+  root_changed_ = true;
+  return node + 1;
+}
+
+void PageTable::drop_node(std::uint32_t node) {
+  const glm::ivec3 at = info_[node].at;
+  root_[entry_of(at - origin_)] = 0;
+  root_changed_ = true;
+  free_nodes_.push_back(node);
+  // Only a node at the window's face may have held it open.
+  if (!glm::any(glm::equal(at, origin_)) && !glm::any(glm::equal(at, origin_ + size_ - 1))) return;
+  glm::ivec3 low(0), high(0);
+  bool any = false;
+  for (const Node& other : info_) {
+    if (other.used == 0) continue;
+    low = any ? glm::min(low, other.at) : other.at;
+    high = any ? glm::max(high, other.at + 1) : other.at + 1;
+    any = true;
+  }
+  if (low != origin_ || high - low != size_) set_window(low, high - low);
+}
+
+void PageTable::set_window(glm::ivec3 origin, glm::ivec3 size) {
+  origin_ = origin;
+  size_ = size;
+  const glm::u64vec3 entries(size);
+  root_.assign(entries.x * entries.y * entries.z, 0);
+  for (std::size_t node = 0; node < info_.size(); ++node)
+    if (info_[node].used > 0)
+      root_[entry_of(info_[node].at - origin_)] = static_cast<std::uint32_t>(node + 1);
+  root_changed_ = true;
+}
+
+void PageTable::forget_changes() {
+  for (const std::uint32_t node : changed_nodes_) info_[node].changed = false;
+  changed_nodes_.clear();
+  root_changed_ = false;
+}
+
+}  // namespace brume::volume

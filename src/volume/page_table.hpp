@@ -1,0 +1,74 @@
+// Which slot a brick has: a table of two levels, so that memory follows the smoke and not the space around
+// it.
+//
+//   root   one entry per node of 8^3 bricks of a window of the world  -> node, or none
+//   node   8^3 entries, one per brick                                 -> slot, or none
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/smoke_volume.h"
+
+namespace brume::volume {
+
+class PageTable {
+ public:
+  static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
+
+  /// The slot of a brick, or kNoSlot.
+  std::uint32_t at(glm::ivec3 brick) const {
+    const std::uint32_t node = node_at(brick >> 3);
+    return node == 0 ? kNoSlot : nodes_[first_of(node - 1) + local_of(brick)] - 1;  // 0 wraps to kNoSlot
+  }
+  /// Gives the brick a slot, or takes it away with kNoSlot. The window becomes the smallest around all nodes
+  /// that hold a brick.
+  void set(glm::ivec3 brick, std::uint32_t slot);
+
+  /// Window, in nodes; without any brick both are 0.
+  glm::ivec3 origin() const { return origin_; }
+  glm::ivec3 size() const { return size_; }
+  /// Node + 1, or 0: x + size.x (y + size.y z).
+  std::span<const std::uint32_t> root() const { return root_; }
+  /// Slot + 1, or 0, kPageEntries a node: x + 8 (y + 8 z). Nodes out of use hold 0.
+  std::span<const std::uint32_t> nodes() const { return nodes_; }
+
+  /// Whether the root changed since the last forget_changes, and which nodes did, in no order.
+  bool root_changed() const { return root_changed_; }
+  std::span<const std::uint32_t> changed_nodes() const { return changed_nodes_; }
+  void forget_changes();
+
+ private:
+  struct Node {
+    glm::ivec3 at{0};
+    std::uint32_t used = 0;  // bricks with a slot; 0: the node is free
+    bool changed = false;
+  };
+  static std::size_t first_of(std::uint32_t node) { return std::size_t{node} * shared::kPageEntries; }
+  static std::size_t local_of(glm::ivec3 brick) {
+    return static_cast<std::size_t>((brick.x & 7) + 8 * (brick.y & 7) + 64 * (brick.z & 7));
+  }
+  std::size_t entry_of(glm::ivec3 n) const {
+    const glm::u64vec3 at(n), size(size_);
+    return at.x + size.x * (at.y + size.y * at.z);
+  }
+  std::uint32_t node_at(glm::ivec3 node) const {
+    const glm::ivec3 n = node - origin_;
+    if (n.x < 0 || n.y < 0 || n.z < 0 || n.x >= size_.x || n.y >= size_.y || n.z >= size_.z) return 0;
+    return root_[entry_of(n)];
+  }
+  std::uint32_t take_node(glm::ivec3 at);
+  void drop_node(std::uint32_t node);
+  void set_window(glm::ivec3 origin, glm::ivec3 size);
+
+  glm::ivec3 origin_{0}, size_{0};
+  std::vector<std::uint32_t> root_, nodes_;
+  std::vector<Node> info_;
+  std::vector<std::uint32_t> free_nodes_;
+  std::vector<std::uint32_t> changed_nodes_;
+  bool root_changed_ = false;
+};
+
+}  // namespace brume::volume

@@ -1,0 +1,220 @@
+// The archive of things on the wire: each struct is described once, by a function that lists its numbers, and
+// the coder behind it writes or reads them. A number travels as its difference from the last one of its kind.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "sim/events.hpp"
+#include "sim/state.hpp"
+#include "wire/block_coding.hpp"
+#include "wire/limits.hpp"
+#include "wire/range_coder.hpp"
+
+namespace brume::wire {
+
+/// Kinds of numbers. Of a position, that of x; y and z follow.
+enum class Field : std::uint8_t {
+  events,
+  id,
+  from,
+  voxel = from + 3,
+  toward = voxel + 3,
+  body_at = toward + 3,
+  body_was = body_at + 3,
+  centre = body_was + 3,
+  throw_tick = centre + 3,
+  detonation_tick,
+  flow_tick,
+  shot_tick,
+  blast_tick,
+  body_tick,
+  body_tick_before,
+  edit_tick,
+  kind,
+  voxels,
+  bloom,
+  hold,
+  dissolve,
+  bullet_radius,
+  reach_far,
+  expand,
+  stay_open,
+  fade,
+  shape,
+  mask,
+  roll,
+  distance,
+  blast_radius,
+  blast_speed,
+  blast_remaining,
+  refill_rim,
+  refill_middle,
+  body,
+  count
+};
+
+/// Decisions of one kind.
+enum class Flag : std::uint8_t { list, kept, replaced, settled, flows, edits, count };
+
+/// The last number of each kind: what the next one is compared with.
+class DeltaContext {
+ public:
+  /// Ticks are near `tick`, settings near their defaults.
+  explicit DeltaContext(std::uint32_t tick);
+
+  std::int64_t& at(Field field) { return last_[static_cast<std::size_t>(field)]; }
+
+  // A describing function given a DeltaContext makes it expect a thing like that one.
+  template <typename Value>
+  void field(Field field, Value& value) {
+    at(field) = static_cast<std::int64_t>(value);
+  }
+
+ private:
+  std::array<std::int64_t, static_cast<std::size_t>(Field::count)> last_{};
+};
+
+template <typename Coder>
+class Archive {
+ public:
+  static constexpr bool kReads = Coder::kReads;
+
+  Archive(Coder& coder, const voxel::GridLayout& layout, std::uint32_t tick, const Limits& limits)
+      : memory(tick), coder_(coder), layout_(layout), limits_(limits), voxels_left_(limits.max_voxels) {}
+
+  DeltaContext memory;
+
+  const voxel::GridLayout& layout() const { return layout_; }
+  bool ok() const { return coder_.ok(); }
+  /// Why reading failed, where more is known than that the bytes make no sense.
+  const std::string& reason() const { return reason_; }
+  void refuse(std::string why) {
+    if constexpr (kReads) {
+      if (coder_.ok()) reason_ = std::move(why);
+      coder_.fail();
+    }
+  }
+
+  /// An integer of at most 64 bits.
+  template <typename Value>
+  void field(Field field, Value& value) {
+    std::int64_t& last = memory.at(field);
+    const auto now = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
+    const std::uint64_t code =
+        coder_.number(numbers_[static_cast<std::size_t>(field)],
+                      folded(static_cast<std::int64_t>(now - static_cast<std::uint64_t>(last))));
+    if constexpr (kReads) {
+      if (!ok()) return;
+      const std::uint64_t read =
+          static_cast<std::uint64_t>(last) + static_cast<std::uint64_t>(unfolded(code));
+      value = static_cast<Value>(read);
+      if (static_cast<std::uint64_t>(static_cast<std::int64_t>(value)) != read) coder_.fail();
+    }
+    last = static_cast<std::int64_t>(value);
+  }
+
+  bool flag(Flag flag, bool value) { return coder_.bit(flags_[static_cast<std::size_t>(flag)], value); }
+
+  /// How many there are of something.
+  std::uint64_t count(std::uint64_t count) {
+    const std::uint64_t coded = coder_.number(counts_, count);
+    if constexpr (kReads) {
+      if (coded > limits_.max_items) coder_.fail();
+    }
+    return ok() ? coded : 0;
+  }
+
+  /// Voxels of clouds and blasts: all in the grid.
+  void set(glm::ivec3 near_voxel, const Prediction& like, sim::BlockSet& set) {
+    std::vector<sim::VoxelBlock> coded =
+        blocks({set.blocks().begin(), set.blocks().end()}, near_voxel, like, false);
+    if constexpr (kReads) set = sim::BlockSet::from_blocks(std::move(coded));
+  }
+  /// Blocks of an edit: their voxels may lie beyond the grid.
+  std::vector<sim::VoxelBlock> edit_blocks(std::vector<sim::VoxelBlock> list) {
+    return blocks(std::move(list), glm::ivec3(0), {}, true);
+  }
+
+  /// Lists beside sets (block_coding.hpp); those of one kind share what was learnt.
+  void densities(std::size_t kind, const sim::BlockSet& set, std::span<const std::uint8_t> expected,
+             std::vector<std::uint8_t>& list) {
+    code_densities(coder_, steps_[kind], set, expected, list);
+  }
+  void delays(std::size_t kind, std::span<const std::uint32_t> order, std::span<const std::uint8_t> group,
+             std::vector<std::uint16_t>& list) {
+    code_delays(coder_, waits_[kind], order, group, list);
+  }
+
+ private:
+  std::vector<sim::VoxelBlock> blocks(std::vector<sim::VoxelBlock> list, glm::ivec3 near_voxel,
+                                      const Prediction& like, bool whole) {
+    if constexpr (kReads) list.clear();
+    code_blocks(coder_, block_models_, {layout_.size, whole, voxels_left_}, near_voxel >> 2, like, list);
+    if constexpr (kReads)
+      for (const sim::VoxelBlock& block : list) voxels_left_ -= cost_of(block);
+    return list;
+  }
+
+  Coder& coder_;
+  const voxel::GridLayout& layout_;
+  Limits limits_;
+  std::uint64_t voxels_left_;
+  std::string reason_;
+  std::array<NumberModel, static_cast<std::size_t>(Field::count)> numbers_;
+  std::array<BitModel, static_cast<std::size_t>(Flag::count)> flags_;
+  NumberModel counts_;
+  BlockModels block_models_;
+  std::array<DensityModels, 3> steps_;
+  std::array<DelayModels, 2> waits_;
+};
+
+template <typename F>
+void describe_position(F& archive, Field x, glm::ivec3& position) {
+  for (int axis = 0; axis < 3; ++axis)
+    archive.field(static_cast<Field>(static_cast<int>(x) + axis), position[axis]);
+}
+
+template <typename F>
+void serialize(F& archive, sim::SmokeSettings& smoke) {
+  archive.field(Field::voxels, smoke.voxels);
+  archive.field(Field::bloom, smoke.bloom_ticks);
+  archive.field(Field::hold, smoke.hold_ticks);
+  archive.field(Field::dissolve, smoke.dissolve_ticks);
+}
+
+template <typename F>
+void serialize(F& archive, sim::Shot& shot) {
+  archive.field(Field::shot_tick, shot.tick);
+  describe_position(archive, Field::from, shot.origin);
+  describe_position(archive, Field::toward, shot.toward);
+  archive.field(Field::bullet_radius, shot.radius);
+  archive.field(Field::reach_far, shot.timing.reach_far);
+  archive.field(Field::expand, shot.timing.expand);
+  archive.field(Field::stay_open, shot.timing.stay_open);
+  archive.field(Field::fade, shot.timing.fade);
+  archive.field(Field::shape, shot.shape);
+  archive.field(Field::mask, shot.mask);
+  archive.field(Field::roll, shot.roll);
+}
+
+template <typename F>
+void serialize(F& archive, sim::Blast& blast) {
+  archive.field(Field::blast_tick, blast.tick);
+  describe_position(archive, Field::centre, blast.at);
+  archive.field(Field::blast_radius, blast.radius);
+  archive.field(Field::blast_speed, blast.speed);
+  archive.field(Field::blast_remaining, blast.remaining);
+  archive.field(Field::refill_rim, blast.refill_rim_ms);
+  archive.field(Field::refill_middle, blast.refill_middle_ms);
+}
+
+/// Codes an edit as the blocks that it makes solid and those that it makes free; what is read is in order.
+template <typename Coder>
+void serialize(Archive<Coder>& archive, sim::EditBlocks& edits);
+
+}  // namespace brume::wire

@@ -1,0 +1,206 @@
+#include "passes/hole_clusters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "passes/blue_noise.hpp"
+#include "passes/march.hpp"
+#include "passes/noise.hpp"
+#include "tests/passes/half.hpp"
+#include "tests/passes/smoke_room.hpp"
+
+namespace brume::passes {
+namespace {
+
+/// Shots of all kinds through a box around the origin, from anywhere.
+std::vector<shared::Hole> random_holes(std::size_t count, std::uint32_t seed, float reach) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> one(-1, 1);
+  const auto point = [&] { return reach * glm::vec3(one(random), one(random), one(random)); };
+  std::vector<shared::Hole> holes(count);
+  for (shared::Hole& hole : holes) {
+    hole.origin_world = point();
+    hole.forward = glm::normalize(point() - hole.origin_world + glm::vec3(0, 0, 1e-3f));
+    const glm::vec3 helper = std::abs(hole.forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    hole.right = glm::normalize(glm::cross(hole.forward, helper));
+    hole.up = glm::cross(hole.right, hole.forward);
+    hole.radius = 0.02f + 0.3f * std::abs(one(random));
+    hole.distance_to_far = 0.1f + 2 * reach * std::abs(one(random));
+    hole.time_start = std::abs(one(random));
+    hole.time_to_reach_far = one(random) > 0 ? 0.5f * std::abs(one(random)) : 0.0f;
+    hole.time_to_expand = 0.1f * std::abs(one(random));
+    hole.time_to_stay_open = std::abs(one(random));
+    hole.time_to_fade = 0.5f * std::abs(one(random));
+    hole.shape = one(random) > 0 ? shared::kHoleBox : shared::kHoleCylinder;
+  }
+  return holes;
+}
+
+/// Smoke of quarter-metre voxels that reaches a hundred metres each way.
+shared::VolumeLayout wide_volume() {
+  shared::VolumeLayout volume{};
+  volume.voxel_size = 0.25f;
+  volume.bounds_min = glm::vec3(-400);
+  volume.bounds_max = glm::vec3(400);
+  return volume;
+}
+
+TEST(HolePlan, LeavesOutWhatIsNotOpen) {
+  std::vector<shared::Hole> holes = random_holes(3, 1, 5);
+  for (shared::Hole& hole : holes) {
+    hole.time_to_reach_far = 0.25f;
+    hole.time_to_expand = 0.05f;
+    hole.time_to_stay_open = 1;
+    hole.time_to_fade = 0.35f;
+  }
+  holes[0].time_start = 2;    // still to come
+  holes[1].time_start = -10;  // long closed
+  holes[2].time_start = 0.125f;
+  const HolePlan plan = plan_holes(holes, 1, 0, wide_volume(), 10);
+  ASSERT_EQ(plan.holes.size(), 1u);
+  EXPECT_EQ(plan.holes[0].time_start, 0.125f);
+}
+
+TEST(HolePlan, HasRoomForEveryBrickThatAHoleReaches) {
+  // Bricks of 2 m: at most those whose middle is within the radius and half their diagonal of the axis.
+  auto holes = random_holes(300, 2, 20);
+  for (shared::Hole& hole : holes) {
+    hole.time_start = 0;
+    hole.time_to_stay_open = 100;
+  }
+  std::size_t met = 0;
+  for (const shared::Hole& hole : holes) {
+    const float reach = hole.radius * 1.4143f + 1.7321f;
+    for (int x = -40; x < 40; ++x)
+      for (int y = -40; y < 40; ++y)
+        for (int z = -40; z < 40; ++z) {
+          const glm::vec3 apart = 2.0f * glm::vec3(x, y, z) + 1.0f - hole.origin_world;
+          const float along = glm::clamp(glm::dot(apart, hole.forward), 0.0f, hole.distance_to_far);
+          met += glm::length(apart - along * hole.forward) <= reach ? 1 : 0;
+        }
+  }
+  EXPECT_GE(plan_holes(holes, 50, 0, wide_volume(), 512000).pair_capacity, met);
+  EXPECT_GT(met, 1000u);
+}
+
+TEST(HolePlan, DrawsTheLastOfTooMany) {
+  std::vector<shared::Hole> holes(shared::kMaxHoles + 5, random_holes(1, 1, 5)[0]);
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    holes[i].time_start = 0;
+    holes[i].time_to_stay_open = 1 + static_cast<float>(i);
+  }
+  const HolePlan plan = plan_holes(holes, 0.5f, 0, wide_volume(), 10);
+  ASSERT_EQ(plan.holes.size(), shared::kMaxHoles);
+  EXPECT_EQ(plan.holes.front().time_to_stay_open, 6);
+}
+
+class HoleClustersTest : public gpu::GpuTest {
+ protected:
+  static constexpr glm::uvec2 kSize{70, 41};
+  HoleClustersTest()
+      : room_(context(), runner(), walls(), {{26, 17, 33}, 0.5f, {-6.5f, -4, -8}}, {0, 0, -1}, 1u << 22,
+              4000),
+        march_(context(), {}),
+        plain_(context(), {false, true}) {
+    noise_tile_ = make_noise_tile(context(), 8);
+    const NoisePass noise(context());
+    runner().run([&](gpu::Recorder& recorder) {
+      noise.record(recorder, noise_tile_, {8, 2, 1});
+      blue_noise_ = make_blue_noise(context(), recorder);
+    });
+  }
+  static std::vector<voxel::Triangle> walls() {
+    std::vector<voxel::Triangle> walls;
+    add_quad(walls, {-3, -3, -2.05f}, {0, -3, -1.05f}, {0, 3, -1.05f}, {-3, 3, -2.05f});
+    return walls;
+  }
+
+  /// Radiance and transmittance as their bytes.
+  std::vector<Half4> march(const std::vector<shared::Hole>& holes, bool plain) {
+    shared::FrameConstants frame{};
+    frame.camera.eye_world = {0.3f, 0.2f, 7};
+    frame.camera.near_z = 0.05f;
+    frame.camera.forward = {0, 0, -1};
+    frame.camera.right = {0.9f, 0, 0};
+    frame.camera.up = {0, 0.55f, 0};
+    frame.volume = room_.volume.layout();
+    frame.size_px = kSize;
+    frame.look.albedo = glm::vec3(1);
+    frame.look.extinction = 0.3f;
+    frame.look.step_length = 0.1f;
+    frame.look.noise_period = 1;
+    frame.look.hole_rim = 0.06f;
+    frame.time = 1;
+    HoleClusters hole_clusters(context(), runner(), {});
+    hole_clusters.reserve(holes, frame.time, frame.look.hole_rim, frame.volume, room_.volume.slot_count(),
+                       kSize);
+    frame.holes = hole_clusters.layout();
+    const auto frame_buffer = upload(std::vector{frame});
+    const auto counters = upload(std::vector<std::uint32_t>{0});
+    const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / 15);
+    const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
+    const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
+    const SmokeResources& smoke = room_.upload.resources();
+    runner().run([&](gpu::Recorder& recorder) {
+      recorder.clear(smoke.inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
+      hole_clusters.record(recorder, frame_buffer, smoke);
+      (plain ? plain_ : march_)
+          .record(recorder,
+                  {frame_buffer, smoke, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
+                  target, counters);
+    });
+    return read_back<Half4>(target);
+  }
+  static double largest_difference(const std::vector<Half4>& a, const std::vector<Half4>& b) {
+    float largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const glm::vec4 apart = glm::abs(from_half(a[i]) - from_half(b[i]));
+      largest = std::max({largest, apart.x, apart.y, apart.z, apart.w});
+    }
+    return static_cast<double>(largest);
+  }
+
+  SmokeRoom room_;
+  MarchPass march_, plain_;
+  gpu::Image noise_tile_, blue_noise_;
+};
+
+TEST_F(HoleClustersTest, GivesThePictureOfAskingEveryHole) {
+  // A sample multiplies what the holes leave that contain it, in the order in which the loop does, and the
+  // others leave exactly 1: the same floats. No more holes: a software rasterizer ends all loops of a ray
+  // after 65,535 rounds, and asking every hole at each of 250 samples takes as many.
+  for (const std::size_t count : {1u, 7u, 63u, 200u}) {
+    const auto holes = random_holes(count, static_cast<std::uint32_t>(count), 8);
+    const auto listed = march(holes, false), plain = march(holes, true);
+    EXPECT_EQ(largest_difference(listed, plain), 0) << count << " holes";
+    if (count < 63) continue;
+    EXPECT_GT(largest_difference(listed, march({}, false)), 0.01) << "the holes are seen";
+  }
+}
+
+TEST_F(HoleClustersTest, SeesHolesFromInsideAndAlongTheirAxes) {
+  std::vector<shared::Hole> holes = random_holes(6, 3, 8);
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    shared::Hole& hole = holes[i];
+    hole.origin_world = {0.3f, 0.2f, 7.5f - 2 * static_cast<float>(i)};  // the eye is at z = 7
+    hole.forward = {0, 0, i % 2 == 0 ? -1.0f : 1.0f};
+    hole.right = {1, 0, 0};
+    hole.up = glm::cross(hole.right, hole.forward);
+    hole.distance_to_far = 11;
+    hole.radius = 0.3f + 0.1f * static_cast<float>(i);
+    hole.time_start = 0;
+    hole.time_to_stay_open = 10;
+  }
+  EXPECT_EQ(largest_difference(march(holes, false), march(holes, true)), 0);
+}
+
+TEST_F(HoleClustersTest, GivesTheSamePictureEachTime) {
+  const auto holes = random_holes(2000, 9, 8);
+  const auto first = march(holes, false), second = march(holes, false);
+  EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(Half4)), 0);
+}
+
+}  // namespace
+}  // namespace brume::passes

@@ -1,0 +1,122 @@
+#include "planning/noise_updates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "planning/smoke_visibility.hpp"
+#include "sim/world.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::planning {
+namespace {
+
+constexpr float kVoxel = 0.5f;
+
+/// Two smokes in an open world that have stopped growing.
+class NoiseUpdatesTest : public ::testing::Test {
+ protected:
+  NoiseUpdatesTest() {
+    for (const double x : {8.0, 30.0}) {
+      sim::ThrowSmoke event;
+      event.from = event.at = sim::position_from_metres(glm::dvec3(x, 1, 8));
+      event.smoke.voxels = 3000;
+      event.smoke.hold_ticks = 10000;
+      world_.append(event).value_or_throw();
+    }
+    world_.advance_to(700);
+    volume_.update(world_);
+    visibility_ = all_smoke_visible(volume_);
+    moment_.volume = &volume_;
+    moment_.slots = visibility_.slots;
+    moment_.motions = motions_;
+    moment_.time = 10;
+  }
+  std::set<std::uint32_t> due() {
+    const auto due = turns_.due(moment_);
+    EXPECT_TRUE(std::is_sorted(due.begin(), due.end()));
+    return {due.begin(), due.end()};
+  }
+  std::set<std::uint32_t> all() const { return {visibility_.slots.begin(), visibility_.slots.end()}; }
+
+  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
+  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
+  sim::World world_{grid_};
+  smoke::SmokeVolume volume_{grid_, planes_};
+  SmokeVisibility visibility_;
+  std::vector<shared::CloudMotion> motions_ = std::vector<shared::CloudMotion>(2, shared::CloudMotion{});
+  NoiseInputs moment_;
+  NoiseUpdates turns_;
+};
+
+TEST_F(NoiseUpdatesTest, EveryBrickHasATurnInFourFramesAndAMomentThatStandsIsDone) {
+  EXPECT_EQ(due(), all());
+  EXPECT_TRUE(due().empty()) << "the same moment again";
+  std::map<std::uint32_t, int> last;
+  for (const std::uint32_t slot : visibility_.slots) last[slot] = 0;
+  for (int frame = 1; frame < 30; ++frame) {
+    moment_.time += 0.1f;
+    const auto now = due();
+    EXPECT_LE(now.size(), (all().size() + 3) / 4 + 1);
+    for (const std::uint32_t slot : now) last[slot] = frame;
+    for (const auto& [slot, when] : last) EXPECT_LE(frame - when, 4);
+  }
+  // What has had no turn yet at this time, and nothing more.
+  moment_.time += 0.1f;
+  const auto first = due();
+  const auto rest = due();
+  std::set<std::uint32_t> both = first;
+  both.insert(rest.begin(), rest.end());
+  EXPECT_FALSE(rest.empty());
+  EXPECT_EQ(both, all());
+  EXPECT_TRUE(due().empty());
+}
+
+TEST_F(NoiseUpdatesTest, WhatMovesOrIsNewIsNeverLate) {
+  due();
+  // A push through the first smoke, in the frames that have it and in the one after.
+  shared::Impulse push{};
+  push.from_world = {2, 1, 8};
+  push.to_world = {14, 1, 8};
+  push.radius = 0.5f;
+  const std::vector<shared::Impulse> impulses{push};
+  std::set<std::uint32_t> near;
+  for (const std::uint32_t slot : visibility_.slots) {
+    const glm::vec3 low = 8 * kVoxel * glm::vec3(volume_.brick_of(slot));
+    const glm::vec3 closest = glm::clamp(glm::vec3(8, 1, 8), low, low + 8 * kVoxel);
+    if (std::abs(closest.y - 1) < 0.5f && std::abs(closest.z - 8) < 0.5f && low.x < 14) near.insert(slot);
+  }
+  ASSERT_FALSE(near.empty());
+  const auto expect_near = [&] {
+    const auto now = due();
+    EXPECT_TRUE(std::includes(now.begin(), now.end(), near.begin(), near.end()));
+    EXPECT_LT(now.size(), all().size());
+  };
+  moment_.impulses = impulses;
+  expect_near();
+  EXPECT_TRUE(due().empty()) << "it stands";
+  moment_.impulses = {};
+  expect_near();
+  EXPECT_TRUE(due().empty());
+  // Out of view and back.
+  const std::vector<std::uint32_t> some(visibility_.slots.begin(), visibility_.slots.begin() + 3);
+  moment_.slots = some;
+  due();
+  moment_.slots = visibility_.slots;
+  std::set<std::uint32_t> back = all();
+  for (const std::uint32_t slot : some) back.erase(slot);
+  EXPECT_EQ(due(), back);
+  // A cloud that blooms.
+  motions_[1].front += 0.1f;
+  EXPECT_EQ(due(), all());
+  // Another look, and somebody else in between.
+  moment_.look.swirl = 1;
+  EXPECT_EQ(due(), all());
+  turns_.forget();
+  EXPECT_EQ(due(), all());
+}
+
+}  // namespace
+}  // namespace brume::planning

@@ -1,0 +1,334 @@
+#include "planning/smoke_light_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <utility>
+
+#include "planning/view_frustum.hpp"
+#include "sim/world.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::planning {
+namespace {
+
+constexpr float kVoxel = 0.5f;
+
+/// Three smokes in an open world, lights between.
+class SmokeLightPlanTest : public ::testing::Test {
+ protected:
+  SmokeLightPlanTest() {
+    for (const double x : {6.0, 20.0, 34.0}) {
+      sim::ThrowSmoke event;
+      event.from = event.at = sim::position_from_metres(glm::dvec3(x, 1, 8));
+      event.smoke.voxels = 400;
+      world_.append(event).value_or_throw();
+    }
+    world_.advance_to(90);
+    volume_.update(world_);
+    visibility_ = all_smoke_visible(volume_);
+    for (int i = 0; i < 9; ++i) {
+      shared::Light light{};
+      light.position_world = {4.5f * static_cast<float>(i), 2, 4};
+      light.intensity = glm::vec3(1);
+      light.range = 10;
+      lights_.push_back(light);
+    }
+  }
+  SmokeLightInputs inputs() const {
+    SmokeLightInputs moment;
+    moment.volume = &volume_;
+    moment.needs = &visibility_;
+    moment.lights = lights_;
+    moment.holes = holes_;
+    moment.time = 1.5f;
+    return moment;
+  }
+
+  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
+  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
+  sim::World world_{grid_};
+  smoke::SmokeVolume volume_{grid_, planes_};
+  SmokeVisibility visibility_;
+  std::vector<shared::Light> lights_;
+  std::vector<shared::Hole> holes_;
+};
+
+TEST_F(SmokeLightPlanTest, AsksForEveryLampOfEveryBrickOnceAndThenForNothing) {
+  SmokeLightCache kept;
+  const SmokeLightPlan first = kept.plan(inputs());
+  ASSERT_EQ(first.parts.size(), 1u);
+  EXPECT_EQ(first.bricks.size(), visibility_.seen);
+  EXPECT_EQ(first.rows.size(), visibility_.seen);
+  std::set<std::uint32_t> blocks;
+  for (const shared::ShadowRays& pair : first.pairs) EXPECT_TRUE(blocks.insert(pair.block).second);
+  EXPECT_EQ(blocks.size(), first.page_count);
+  // Every point of a brick within the range of a light has that light.
+  const shared::VolumeLayout& layout = volume_.layout();
+  for (const shared::LightGather& brick : first.bricks)
+    for (std::uint32_t light = 0; light < lights_.size(); ++light) {
+      const glm::vec3 low =
+          layout.origin_world + kVoxel * (8.0f * glm::vec3(volume_.brick_of(brick.slot)) - 0.5f);
+      const glm::vec3 near = glm::clamp(lights_[light].position_world, low, low + 9 * kVoxel);
+      if (glm::distance(near, lights_[light].position_world) >= lights_[light].range) continue;
+      bool listed = false;
+      for (std::uint32_t i = 0; i < brick.light_count; ++i)
+        listed |= first.lights[brick.first_light + i].x == light;
+      EXPECT_TRUE(listed);
+    }
+  const SmokeLightPlan again = kept.plan(inputs());
+  EXPECT_TRUE(again.parts.empty() && again.pairs.empty() && again.bricks.empty());
+}
+
+TEST_F(SmokeLightPlanTest, WhatDoesNotFitIsDoneInParts) {
+  const std::size_t all = SmokeLightCache().plan(inputs()).pairs.size();
+  const auto most = static_cast<std::uint32_t>(all / 3);
+  SmokeLightCache kept(most);
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    const SmokeLightPlan plan = kept.plan(inputs());
+    EXPECT_GT(plan.parts.size(), 2u);
+    EXPECT_LE(plan.page_count, most);
+    EXPECT_EQ(plan.pairs.size(), all);
+    std::size_t pairs = 0;
+    std::set<std::uint32_t> slots;
+    for (const SmokeLightPlan::Part& part : plan.parts) {
+      EXPECT_EQ(part.pairs.first, pairs);
+      pairs += part.pairs.count;
+      std::set<std::uint32_t> blocks;
+      for (std::uint32_t i = 0; i < part.pairs.count; ++i)
+        EXPECT_TRUE(blocks.insert(plan.pairs[part.pairs.first + i].block).second);
+      for (std::uint32_t i = 0; i < part.bricks.count; ++i)
+        EXPECT_TRUE(slots.insert(plan.bricks[part.bricks.first + i].slot).second);
+    }
+    EXPECT_EQ(pairs, all);
+    EXPECT_EQ(slots.size(), visibility_.seen);
+  }
+}
+
+TEST_F(SmokeLightPlanTest, AHoleMakesAnewOnlyWhatMayCrossIt) {
+  SmokeLightCache kept;
+  const std::size_t all = kept.plan(inputs()).pairs.size();
+  // Along z through the first smoke; the last is 28 m away, and no light reaches from there to here.
+  shared::Hole hole{};
+  hole.origin_world = {6, 1, 4};
+  hole.forward = {0, 0, 1};
+  hole.distance_to_far = 8;
+  hole.radius = 0.2f;
+  hole.time_start = 1;
+  hole.time_to_stay_open = 10;
+  holes_ = {hole};
+  const SmokeLightPlan plan = kept.plan(inputs());
+  EXPECT_GT(plan.pairs.size(), 0u);
+  EXPECT_LT(plan.pairs.size(), all);
+  // All the lights' rays of the smoke that it goes through.
+  const auto in_first = [&](std::uint32_t slot) {
+    return static_cast<float>(8 * volume_.brick_of(slot).x) * kVoxel < 12;
+  };
+  const SmokeLightPlan whole = SmokeLightCache().plan(inputs());
+  std::multiset<std::uint32_t> lights, whole_lights;
+  for (const auto& pair : plan.pairs)
+    if (volume_.brick_of(pair.slot) == glm::ivec3(1, 0, 2)) lights.insert(pair.light);
+  for (const auto& pair : whole.pairs)
+    if (volume_.brick_of(pair.slot) == glm::ivec3(1, 0, 2)) whole_lights.insert(pair.light);
+  EXPECT_FALSE(whole_lights.empty());
+  EXPECT_EQ(lights, whole_lights);
+  bool far_light = false;
+  for (const auto& pair : plan.pairs) far_light |= !in_first(pair.slot) && pair.light == 8;
+  EXPECT_FALSE(far_light);
+}
+
+/// When each phase of each brick was made anew by all of its pairs, as plans say.
+class Ages {
+ public:
+  /// Takes a frame's plan; how many pairs it asks for, those of some phases in parts.
+  double take(const SmokeLightPlan& plan, std::uint32_t frame) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> times;  // of (slot, phase)
+    for (const shared::ShadowRays& pair : plan.pairs) {
+      if (pair.texels == shared::kNewTexels) continue;
+      for (std::uint32_t phase = pair.texels & 255; phase < pair.texels >> 8; ++phase)
+        ++times[{pair.slot, phase}];
+      asked_ += (pair.texels >> 8) - (pair.texels & 255);
+    }
+    for (const shared::LightGather& brick : plan.bricks) {
+      if (brick.texels == shared::kNewTexels) continue;
+      for (std::uint32_t phase = brick.texels & 255; phase < brick.texels >> 8; ++phase)
+        if (times[{brick.slot, phase}] == brick.light_count + shared::kSkyPages)
+          made_[{brick.slot, phase}] = frame;
+    }
+    return static_cast<double>(std::exchange(asked_, 0)) / shared::kLightPhases;
+  }
+  std::uint32_t oldest(std::uint32_t frame) const {
+    std::uint32_t oldest = 0;
+    for (const auto& [what, made] : made_) oldest = std::max(oldest, frame - made);
+    return oldest;
+  }
+  std::size_t size() const { return made_.size(); }
+
+ private:
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made_;
+  std::uint64_t asked_ = 0;
+};
+
+TEST_F(SmokeLightPlanTest, AShareMakesEveryPhaseAnewInTime) {
+  for (const float share : {0.5f, 0.3f, 0.25f, 0.125f, 0.0625f, 0.01f}) {
+    SmokeLightCache kept;
+    Ages ages;
+    SmokeLightInputs now = inputs();
+    now.look.erosion = 0.5f;
+    now.share = share;
+    const double all = ages.take(kept.plan(now), 0);
+    EXPECT_EQ(ages.size(), visibility_.seen * shared::kLightPhases) << "at first all is made";
+    // What there is of it: 1/2, 1/4, ... 1/16.
+    const double part = std::max(std::exp2(std::floor(std::log2(double{share}))), 1.0 / 16);
+    const double more = std::max(std::exp2(std::ceil(std::log2(double{share}))), 1.0 / 16);
+    std::uint32_t oldest = 0;
+    for (std::uint32_t frame = 1; frame < 100; ++frame) {
+      now.time += 0.01f;
+      now.eye_world.x += 0.1f;
+      const double asked = ages.take(kept.plan(now), frame);
+      oldest = std::max(oldest, ages.oldest(frame));
+      // Every brick was new in the first frame, and is made anew four times as fast until all of it was.
+      if (frame < 4) continue;
+      EXPECT_GE(asked, part * all);
+      EXPECT_LE(asked, more * all);
+    }
+    EXPECT_LE(oldest, std::ceil(1 / std::max(share, 1.0f / 16)) + 1);
+    EXPECT_GT(oldest, 0u);
+    // And then nothing happens.
+    const auto left = static_cast<int>(std::ceil(1 / std::max(share, 1.0f / 16)));
+    for (int i = 0; i < left; ++i) kept.plan(now);
+    EXPECT_TRUE(kept.plan(now).parts.empty());
+  }
+}
+
+TEST_F(SmokeLightPlanTest, TexelsSideBySideAreOfOtherPhasesAndBricksAgreeOnThem) {
+  std::array<std::uint32_t, shared::kLightPhases> texels{};
+  for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
+    const glm::uvec3 texel(i % 10, i / 10 % 10, i / 100);
+    const std::uint32_t phase = shared::light_phase(texel);
+    ASSERT_LT(phase, shared::kLightPhases);
+    ++texels[phase];
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::uvec3 beside = texel;
+      beside[axis] += 1;
+      // In the other half, so that it is never made anew in the same frame.
+      EXPECT_NE(shared::light_phase(beside) >> 3, phase >> 3);
+      // The same voxel in the next brick.
+      beside[axis] = texel[axis] + shared::kBrickVoxels;
+      EXPECT_EQ(shared::light_phase(beside), phase);
+    }
+  }
+  for (const std::uint32_t count : texels) EXPECT_LE(count, shared::kTexelsPerPhase);
+}
+
+TEST_F(SmokeLightPlanTest, ALampThatComesOrGoesIsNeverLate) {
+  SmokeLightCache kept;
+  SmokeLightInputs now = inputs();
+  now.look.erosion = 0.5f;
+  now.share = 0.125f;
+  for (int i = 0; i < 12; ++i, now.time += 0.1f) kept.plan(now);
+  std::vector<shared::Light> with = lights_;
+  with.push_back(lights_[4]);
+  with.back().position_world.y = 3;
+  now.lights = with;
+  const auto bricks_of = [&](const SmokeLightPlan& plan) {
+    std::set<std::uint32_t> slots;
+    for (const shared::LightGather& brick : plan.bricks)
+      if (brick.texels == shared::kAllTexels) slots.insert(brick.slot);
+    return slots;
+  };
+  const SmokeLightPlan come = kept.plan(now);
+  std::set<std::uint32_t> reached;
+  for (const shared::ShadowRays& pair : come.pairs)
+    if (pair.light == 9) {
+      EXPECT_EQ(pair.texels, shared::kAllTexels);
+      EXPECT_TRUE(reached.insert(pair.slot).second);
+    }
+  EXPECT_FALSE(reached.empty());
+  EXPECT_LT(reached.size(), visibility_.seen);
+  EXPECT_EQ(bricks_of(come), reached);
+  now.time += 0.1f;
+  now.lights = lights_;
+  EXPECT_EQ(bricks_of(kept.plan(now)), reached);
+}
+
+TEST_F(SmokeLightPlanTest, TexelsInAHoleThatChangesAreNeverLate) {
+  SmokeLightCache kept;
+  SmokeLightInputs now = inputs();
+  now.look.erosion = 0.5f;
+  now.share = 0.125f;
+  for (int i = 0; i < 12; ++i, now.time += 0.1f) kept.plan(now);
+  shared::Hole hole{};
+  hole.origin_world = {6, 1, 4};
+  hole.forward = {0, 0, 1};
+  hole.distance_to_far = 8;
+  hole.radius = 0.2f;
+  hole.time_start = now.time - 0.01f;
+  hole.time_to_stay_open = 10;
+  holes_ = {hole};
+  now.holes = holes_;
+  const SmokeLightPlan plan = kept.plan(now);
+  std::set<std::uint32_t> listed;
+  for (const shared::TexelList& row : plan.rows) {
+    listed.insert(row.slot);
+    EXPECT_TRUE(row.had_list);
+    ASSERT_EQ(row.change_count, 1u);
+    EXPECT_EQ(plan.changes[row.first_change].from_world, hole.origin_world);
+    EXPECT_GE(plan.changes[row.first_change].radius, hole.radius);
+  }
+  // All bricks that hold a point of its axis, and few others.
+  for (float z = 4; z < 12; z += 0.1f) {
+    const std::uint32_t slot = volume_.slot_at(glm::ivec3(glm::floor(glm::vec3(6, 1, z) / (8 * kVoxel))));
+    EXPECT_TRUE(slot == smoke::SmokeVolume::kNoSlot || listed.count(slot) > 0);
+  }
+  EXPECT_LT(listed.size(), visibility_.seen / 2);
+  // Each with all of its pairs.
+  std::map<std::uint32_t, std::uint32_t> pairs, wanted;
+  for (const shared::ShadowRays& pair : plan.pairs)
+    if (pair.texels == shared::kNewTexels) ++pairs[pair.slot];
+  for (const shared::LightGather& brick : plan.bricks)
+    if (brick.texels == shared::kNewTexels) wanted[brick.slot] = brick.light_count + shared::kSkyPages;
+  EXPECT_EQ(pairs, wanted);
+  EXPECT_EQ(wanted.size(), listed.size());
+}
+
+TEST(SameCut, IsOnlySaidWhereNothingDiffers) {
+  std::mt19937 random(5);
+  const auto unit = [&] { return std::uniform_real_distribution<float>(0, 1)(random); };
+  int same = 0, different = 0;
+  for (int i = 0; i < 20000; ++i) {
+    shared::Hole hole{};
+    hole.origin_world = {unit(), unit(), unit()};
+    hole.forward = {0, 0, 1};
+    hole.right = {1, 0, 0};
+    hole.up = {0, 1, 0};
+    hole.radius = 0.2f + unit();
+    hole.distance_to_far = 1 + 4 * unit();
+    hole.time_start = 100 * unit();
+    hole.time_to_reach_far = i % 3 == 0 ? 0 : 0.5f * unit();
+    hole.time_to_expand = i % 5 == 0 ? 0 : 0.3f * unit();
+    hole.time_to_stay_open = 2 * unit();
+    hole.time_to_fade = i % 7 == 0 ? 0 : 0.5f * unit();
+    hole.shape = i % 2 == 0 ? shared::kHoleCylinder : shared::kHoleBox;
+    const float a = hole.time_start - 0.5f + 4 * unit(), b = a + 0.5f * unit();
+    bool equal = true;
+    for (int k = 0; k < 40; ++k) {
+      const glm::vec3 p =
+          hole.origin_world + glm::vec3(2 * unit() - 1, 2 * unit() - 1, hole.distance_to_far * unit());
+      equal &= shared::hole_strength(hole, p, a, 0) == shared::hole_strength(hole, p, b, 0);
+    }
+    const bool said = same_opening(hole, a, b);
+    same += said;
+    different += !equal;
+    EXPECT_TRUE(equal || !said);
+  }
+  EXPECT_GT(same, 3000);
+  EXPECT_GT(different, 3000);
+}
+
+}  // namespace
+}  // namespace brume::planning

@@ -1,0 +1,153 @@
+#include "planning/smoke_visibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "shared/smoke_light.h"
+#include "sim/world.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::planning {
+namespace {
+
+class SmokeVisibilityTest : public ::testing::Test {
+ protected:
+  static constexpr int kAcross = 320, kHigh = 40;  // voxels of the world
+
+  SmokeVisibilityTest() {
+    for (int i = 0; i < 30; ++i) {
+      sim::ThrowSmoke event;
+      event.from = event.at = sim::position_from_metres(glm::dvec3(inside(2)));
+      event.smoke.voxels = 300 + static_cast<std::uint32_t>(random_() % 1500);
+      world_.append(event).value_or_throw();
+    }
+    world_.advance_to(90);
+    volume_.update(world_);
+    for (int i = 0; i < 25; ++i) {
+      shared::Light light{};
+      light.position_world = inside(0);
+      light.range = 3 + 22 * unit(random_);
+      light.kind = i % 3 == 0 ? shared::kLightSpot : shared::kLightPoint;
+      lights_.push_back(light);
+    }
+    shared::Light sun{};
+    sun.kind = shared::kLightDirectional;
+    sun.direction = glm::normalize(glm::vec3(0.5f, -0.6f, 0.3f));
+    lights_.push_back(sun);
+  }
+
+  float unit(std::mt19937& random) { return std::uniform_real_distribution<float>(0, 1)(random); }
+  /// A point of the world, so far from its sides [m].
+  glm::vec3 inside(float margin) {
+    const glm::vec3 size = glm::vec3(kAcross, kHigh, kAcross) * kVoxel - 2 * margin;
+    return glm::vec3(margin) + size * glm::vec3(unit(random_), unit(random_), unit(random_));
+  }
+  shared::Camera camera() {
+    shared::Camera camera{};
+    camera.eye_world = inside(0);
+    const float yaw = 6.2832f * unit(random_), pitch = 1.2f * (unit(random_) - 0.5f);
+    camera.forward = {std::cos(pitch) * std::cos(yaw), std::sin(pitch), std::cos(pitch) * std::sin(yaw)};
+    const float wide = 0.05f + 0.7f * unit(random_);
+    camera.right = wide * glm::normalize(glm::cross(camera.forward, glm::vec3(0, 1, 0)));
+    camera.up = 0.6f * wide * glm::normalize(glm::cross(camera.right, camera.forward));
+    return camera;
+  }
+  SmokeVisibility needs(const shared::Camera& camera) const {
+    const ViewFrustum view(camera);
+    return cull_smoke(volume_, view, visible_lights(lights_, view, light_interpolation_margin(kVoxel)), scene_);
+  }
+  /// Whether all smoke on a way is needed: looked up twice a voxel.
+  bool all_visible(const SmokeVisibility& needs, glm::vec3 from, glm::vec3 way, bool seen) const {
+    const smoke::SmokeBounds& bounds = seen ? needs.visible_bounds : needs.bounds;
+    const std::size_t first_slots = seen ? needs.seen : needs.slots.size();
+    const int count = static_cast<int>(glm::length(way) / (0.5f * kVoxel)) + 1;
+    for (int i = 0; i <= count; ++i) {
+      const glm::vec3 p = (from + way * (static_cast<float>(i) / static_cast<float>(count))) / kVoxel;
+      if (smoke::sample_density(volume_, p) <= 0) continue;
+      const std::uint32_t slot = volume_.slot_at(glm::ivec3(glm::floor(p)) >> 3);
+      const auto end = needs.slots.begin() + static_cast<std::ptrdiff_t>(first_slots);
+      if (std::find(needs.slots.begin(), end, slot) == end) return false;
+      if (glm::any(glm::lessThan(p, bounds.low)) || glm::any(glm::greaterThan(p, bounds.high))) return false;
+    }
+    return true;
+  }
+
+  static constexpr float kVoxel = 0.5f;
+  std::mt19937 random_{8};
+  voxel::BitGrid grid_{{{kAcross, kHigh, kAcross}, kVoxel, glm::vec3(0)}};
+  voxel::SurfacePlanes planes_;
+  sim::World world_{grid_};
+  smoke::SmokeVolume volume_{grid_, planes_};
+  WorldBox scene_{glm::vec3(0), glm::vec3(kAcross, kHigh, kAcross) * kVoxel};
+  std::vector<shared::Light> lights_;
+};
+
+// Every ray that the passes walk for a picture finds its smoke among what was said to be needed.
+TEST_F(SmokeVisibilityTest, NoRayOfAPictureMeetsSmokeThatIsNotNeeded) {
+  std::size_t rays = 0, fewer = 0;
+  const shared::Light sun = lights_.back();
+  for (int i = 0; i < 4000; ++i) {
+    // Every other time there is no sun, which needs much that lights need, too.
+    lights_.resize(25);
+    if (i % 2 == 0) lights_.push_back(sun);
+    const shared::Camera camera = this->camera();
+    const SmokeVisibility needs = this->needs(camera);
+    fewer += needs.slots.size() < all_smoke_visible(volume_).slots.size();
+    for (int k = 0; k < 40; ++k) {
+      // A point in view; smoke may be between it and the eye.
+      const float x = 2 * unit(random_) - 1, y = 2 * unit(random_) - 1, far = 60 * unit(random_);
+      const glm::vec3 to = far * (camera.forward + x * camera.right + y * camera.up),
+                      p = camera.eye_world + to;
+      EXPECT_TRUE(all_visible(needs, camera.eye_world, to, true));
+      if (glm::any(glm::lessThan(p, scene_.low)) || glm::any(glm::greaterThan(p, scene_.high))) continue;
+      // It is lit.
+      for (const shared::Light& light : lights_) {
+        glm::vec3 way = light.position_world - p;
+        if (light.kind == shared::kLightDirectional)
+          way = -200.0f * light.direction;
+        else if (glm::length(way) >= light.range)
+          continue;
+        EXPECT_TRUE(all_visible(needs, p, way, false));
+        ++rays;
+      }
+      if (smoke::sample_density(volume_, p / kVoxel) <= 0) continue;
+      for (std::uint32_t sky = 0; sky < shared::kSkyRays; ++sky, ++rays)
+        EXPECT_TRUE(all_visible(needs, p, 200.0f * shared::sky_ray(sky), false));
+    }
+  }
+  EXPECT_GT(rays, 5000u);
+  EXPECT_GT(fewer, 3000u) << "most pictures need less than all";
+}
+
+TEST_F(SmokeVisibilityTest, WhatIsFarBehindIsNotNeeded) {
+  lights_.pop_back();  // the sun
+  shared::Camera camera{};
+  camera.eye_world = {-100, 10, 80};
+  camera.forward = {-1, 0, 0};
+  camera.right = {0, 0, 0.7f};
+  camera.up = {0, 0.4f, 0};
+  const SmokeVisibility none = needs(camera);
+  EXPECT_TRUE(none.slots.empty());
+  EXPECT_EQ(none.bounds.low, none.bounds.high);
+  EXPECT_TRUE(smoke_boxes(volume_, none).empty());
+  camera.forward = {1, 0, 0};
+  EXPECT_GT(needs(camera).seen, 0u);
+}
+
+// Of all smoke the boxes are what bounds it.
+TEST_F(SmokeVisibilityTest, BoxesHoldWhatIsNeeded) {
+  const SmokeVisibility all = all_smoke_visible(volume_);
+  const auto boxes = smoke_boxes(volume_, all);
+  for (int i = 0; i < 20000; ++i) {
+    const glm::vec3 p = inside(0);
+    if (smoke::sample_density(volume_, p / kVoxel) <= 0) continue;
+    EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const WorldBox& box) {
+      return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
+    }));
+  }
+}
+
+}  // namespace
+}  // namespace brume::planning

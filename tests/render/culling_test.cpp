@@ -1,0 +1,88 @@
+// What is not seen costs nothing, and changes nothing.
+#include <cstdlib>
+
+#include "render/playback.hpp"
+#include "tests/gpu/gpu_test.hpp"
+#include "tests/render/boxes.hpp"
+
+namespace brume::render {
+namespace {
+
+/// A floor of 80 m with walls, two lights by the camera and many elsewhere, a sun; a smoke before the camera.
+scenario::Scenario wide_stage(bool more_smoke, bool more_lights) {
+  scene::Scene scene;
+  scene::Mesh ground, ball;
+  add_box(ground, {-40, -0.3f, -40}, {40, -0.1f, 40});
+  add_box(ground, {-3, -0.1f, -4.2f}, {3, 3, -4});
+  add_box(ball, glm::vec3(-0.2f), glm::vec3(0.2f));
+  scene.meshes = {ground, ball};
+  scene.materials.resize(1);
+  scene.objects.push_back({"ground", 0, 0, glm::mat4(1), true});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  const auto add_light = [&](glm::vec3 place, scene::LightKind kind) {
+    scene::Light light;
+    light.kind = kind;
+    light.position_world = place;
+    light.direction_world = glm::normalize(glm::vec3(0.4f, -1, -0.5f));
+    light.intensity = glm::vec3(kind == scene::LightKind::directional ? 0.3f : 0.8f);
+    scene.lights.push_back(light);
+  };
+  add_light({-2, 2, 2}, scene::LightKind::point);
+  add_light({0, 0, 0}, scene::LightKind::directional);
+  if (more_lights)
+    for (int i = 0; i < 12; ++i)
+      add_light({-35.0f + 6.0f * static_cast<float>(i), 2, 35}, scene::LightKind::point);
+  add_light({2.5f, 1, 1}, scene::LightKind::point);
+
+  scene::Timeline timeline;
+  timeline.smoke.voxels = 400;
+  timeline.smoke.erosion = 0.6f;
+  timeline.smokes = {{0, {0, 2, 0}, {0, 0.2f, 0}}};
+  if (more_smoke)
+    for (int i = 0; i < 6; ++i) {
+      const glm::vec3 place{-30.0f + 12.0f * static_cast<float>(i), 0.2f, 33};
+      timeline.smokes.push_back({0, place + glm::vec3(0, 2, 0), place});
+    }
+  const voxel::GridLayout frame{{162, 20, 162}, 0.5f, {-40.3f, -0.6f, -40.3f}};
+  auto voxels = scenario::load_or_voxelize(scene, frame, {}).value_or_throw();
+  return {std::move(timeline), std::move(scene), {{0, 1.5f, 5.5f}, {0, 1.2f, 0}, 0.9f}, std::move(voxels)};
+}
+
+class CullingTest : public gpu::GpuTest {
+ protected:
+  static constexpr glm::uvec2 kSize{96, 54};
+};
+
+// Atlas coordinates of other sizes round otherwise: a value may fall on the other side of a step of 8 bits,
+// and a ray may end a sample earlier, which is less than a step, too (SmokeLook::stop).
+TEST_F(CullingTest, SmokeAndLampsThatAreNotSeenChangeNothing) {
+  const scenario::Scenario alone = wide_stage(false, false), crowded = wide_stage(true, true);
+  Playback a(context(), alone, kSize), b(context(), crowded, kSize);
+  const image::Image8 with = b.draw(2, 0), without = a.draw(2, 0);
+  int most = 0, others = 0;
+  for (std::size_t i = 0; i < with.rgba.size(); ++i) {
+    const int apart = std::abs(int{with.rgba[i]} - int{without.rgba[i]});
+    most = std::max(most, apart);
+    others += apart > 0;
+  }
+  EXPECT_LE(most, 2);
+  EXPECT_LE(others, static_cast<int>(with.rgba.size() / 100)) << "of " << with.rgba.size();
+  RecordProperty("other_bytes", others);
+}
+
+// What was not drawn for a while is made anew when it comes into view.
+TEST_F(CullingTest, WhatComesIntoViewIsOfItsMoment) {
+  const scenario::Scenario scenario = wide_stage(true, true);
+  const scene::Camera toward{{0, 1.5f, 5.5f}, {0, 1.2f, 0}, 0.9f}, away{{0, 1.5f, 5.5f}, {0, 1.2f, 30}, 0.9f};
+  Playback turning(context(), scenario, kSize), staring(context(), scenario, kSize);
+  turning.set_camera(away);
+  staring.set_camera(toward);
+  EXPECT_NE(turning.draw(0.4, 0).rgba, staring.draw(0.4, 0).rgba);
+  turning.draw(1.5, 1);
+  staring.draw(1.5, 1);
+  turning.set_camera(toward);
+  EXPECT_EQ(turning.draw(3, 2).rgba, staring.draw(3, 2).rgba);
+}
+
+}  // namespace
+}  // namespace brume::render

@@ -1,0 +1,263 @@
+// Light in smoke that is kept from frame to frame is the light that would be made anew, bit for bit.
+#include <cmath>
+#include <set>
+
+#include "render/playback.hpp"
+#include "tests/gpu/gpu_test.hpp"
+#include "tests/render/boxes.hpp"
+
+namespace brume::render {
+namespace {
+
+/// A floor, a wall with a door between two smokes, lights around, one of them a spot, and a sun. Noise 0: the
+/// smokes hold still once they have grown. A shot goes through the left one alone.
+scenario::Scenario two_smokes(float noise) {
+  scene::Scene scene;
+  scene.meshes.resize(3);
+  add_box(scene.meshes[0], {-12, -0.3f, -6}, {12, -0.1f, 6});
+  add_box(scene.meshes[0], {-0.1f, -0.1f, -6}, {0.1f, 3, -1});
+  add_box(scene.meshes[0], {-0.1f, -0.1f, 1}, {0.1f, 3, 6});
+  add_box(scene.meshes[1], glm::vec3(-0.2f), glm::vec3(0.2f));
+  add_box(scene.meshes[2], {-0.1f, -0.1f, -1}, {0.1f, 3, 1});
+  scene.materials.resize(1);
+  scene.objects.push_back({"ground", 0, 0, glm::mat4(1), true});
+  scene.objects.push_back({"door", 2, 0, glm::mat4(1), true});
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  for (const glm::vec3 place :
+       {glm::vec3(-9, 2, 3), glm::vec3(-3, 1, -3), glm::vec3(8, 2, 2), glm::vec3(3, 2, -2)}) {
+    scene::Light light;
+    light.position_world = place;
+    light.intensity = glm::vec3(1.5f);
+    scene.lights.push_back(light);
+  }
+  scene.lights[1].kind = scene::LightKind::spot;
+  scene.lights[1].direction_world = glm::normalize(glm::vec3(-1, 0, 1));
+  scene::Light sun;
+  sun.kind = scene::LightKind::directional;
+  sun.direction_world = glm::normalize(glm::vec3(0.4f, -1, -0.5f));
+  sun.intensity = glm::vec3(0.3f);
+  scene.lights.push_back(sun);
+
+  scene::Timeline timeline;
+  timeline.sky = {glm::vec3(0.1f), glm::vec3(0.2f), glm::vec3(0.1f), 0};
+  timeline.smoke.voxels = 120;
+  timeline.smoke.erosion = noise;
+  timeline.smokes = {{0, {-6, 1, 0}, {-6, 0.2f, 0}}, {3, {6, 1, 0}, {6, 0.2f, 0}}};
+  timeline.shots = {{5, {-10, 1, 0.3f}, {-2, 1, 0.3f}, 0.3f, {0.1f, 0.1f, 2.0f, 0.3f}}};
+  timeline.doors = {{9, "door", true, ""}};
+  const voxel::GridLayout frame{{50, 12, 26}, 0.5f, {-12.4f, -0.6f, -6.4f}};
+  auto voxels = scenario::load_or_voxelize(scene, frame, {}).value_or_throw();
+  return {std::move(timeline), std::move(scene), {{0, 3, 11}, {0, 0.5f, 0}, 1.2f}, std::move(voxels)};
+}
+
+class LightCacheTest : public gpu::GpuTest {
+ protected:
+  static constexpr glm::uvec2 kSize{80, 45};
+
+  void begin(float noise) {
+    scenario_.emplace(two_smokes(noise));
+    simulation_ = scenario::Simulation::create(*scenario_).value_or_throw();
+    RendererOptions options;
+    options.size_px = kSize;
+    kept_.emplace(context(), runner(), scenario_->scene, options);
+    anew_.emplace(context(), runner(), scenario_->scene, options);
+    camera_ = scenario_->camera;
+  }
+
+  /// What a frame asked for.
+  struct Work {
+    std::size_t rays = 0, bricks = 0;          // blocks of rays followed, bricks put together
+    std::size_t all_rays = 0, all_bricks = 0;  // of the frame made anew
+  };
+  FrameInput input_at(double seconds) {
+    simulation_->advance_to(seconds);
+    FrameInput input = frame_input(*scenario_, *simulation_, seconds, holes_);
+    input.camera = camera_;
+    if (flash_ > 0) {
+      shared::Light light{};
+      light.kind = shared::kLightPoint;
+      light.position_world = {9, 1.5f, 1};
+      light.intensity = glm::vec3(flash_);
+      light.range = shared::light_range(flash_);
+      light.shadow_layer = shared::kShadowByVoxels;
+      input.flashes = {light};
+    }
+    return input;
+  }
+  static std::vector<std::uint64_t> smoke_of(Renderer& renderer, const FrameInput& input) {
+    renderer.prepare(input);
+    runner().run([&](gpu::Recorder& recorder) { renderer.record_frame(recorder, input); });
+    return read_back<std::uint64_t>(renderer.smoke());
+  }
+  /// Draws a moment by both, which must be equal.
+  Work draw(double seconds) {
+    FrameInput input = input_at(seconds);
+    const auto kept = smoke_of(*kept_, input);
+    input.rebuild_light = true;
+    const auto anew = smoke_of(*anew_, input);
+    EXPECT_GT(std::set<std::uint64_t>(anew.begin(), anew.end()).size(), 60u) << "smoke is in view";
+    EXPECT_EQ(kept, anew) << "at " << seconds;
+    return {kept_->light_plan().pairs.size(), kept_->light_plan().bricks.size(),
+            anew_->light_plan().pairs.size(), anew_->light_plan().bricks.size()};
+  }
+
+  std::optional<scenario::Scenario> scenario_;
+  std::unique_ptr<scenario::Simulation> simulation_;
+  std::optional<Renderer> kept_, anew_;
+  std::vector<shared::Hole> holes_;
+  scene::Camera camera_;
+  float flash_ = 0;
+};
+
+TEST_F(LightCacheTest, IsThatMadeAnewWhateverHappens) {
+  begin(0);
+  Work work = draw(2);
+  EXPECT_EQ(work.rays, work.all_rays);
+  EXPECT_GT(work.rays, 40u);
+  // Nothing happens.
+  work = draw(2.25);
+  EXPECT_EQ(work.rays + work.bricks, 0u);
+  // The eye moves: light is scattered to another place.
+  camera_.position_world.x += 0.5f;
+  work = draw(2.25);
+  EXPECT_EQ(work.rays, 0u);
+  EXPECT_EQ(work.bricks, work.all_bricks);
+  // A second smoke comes, behind the wall and out of the way.
+  draw(3.1);
+  work = draw(3.5);
+  EXPECT_GT(work.rays, 0u);
+  work = draw(4.9);
+  EXPECT_EQ(draw(4.95).rays, 0u);
+  // A hole opens, with a flash, is open, and closes: rays that do not cross it stay.
+  EXPECT_GT(draw(5.01).rays, 0u);
+  work = draw(5.15);
+  EXPECT_GT(work.rays, 0u);
+  EXPECT_LT(work.rays, work.all_rays);
+  draw(5.4);
+  work = draw(6.5);
+  EXPECT_EQ(work.rays + work.bricks, 0u);
+  draw(7.3);
+  draw(7.8);
+  work = draw(8.5);
+  // A light comes, dims and brightens.
+  flash_ = 2;
+  work = draw(8.5);
+  EXPECT_GT(work.rays, 0u);
+  EXPECT_LT(work.rays, work.all_rays / 4);
+  flash_ = 1;
+  work = draw(8.6);
+  EXPECT_EQ(work.rays, 0u);
+  EXPECT_GT(work.bricks, 0u);
+  EXPECT_LT(work.bricks, work.all_bricks);
+  flash_ = 3;
+  EXPECT_GT(draw(8.6).rays, 0u);
+  flash_ = 0;
+  EXPECT_EQ(draw(8.7).rays, 0u);
+  // A door opens: every light may shine on.
+  work = draw(9.1);
+  EXPECT_EQ(work.rays, work.all_rays);
+  // Eyes that turn away and back, and time that runs back.
+  camera_.target_world = {-12, 0.5f, 0};
+  draw(9.2);
+  camera_.target_world = {12, 0.5f, 0};
+  draw(9.2);
+  camera_.target_world = {0, 0.5f, 0};
+  draw(9.2);
+  work = draw(5.3);
+  draw(2);
+}
+
+TEST_F(LightCacheTest, WhereNoiseDriftsOnlyAMomentKeepsItsLight) {
+  begin(0.5f);
+  Work work = draw(2);
+  EXPECT_EQ(work.rays, work.all_rays);
+  camera_.position_world.y += 0.5f;
+  work = draw(2);
+  EXPECT_EQ(work.rays, 0u);
+  EXPECT_EQ(work.bricks, work.all_bricks);
+  work = draw(2.05);
+  EXPECT_EQ(work.rays, work.all_rays);
+}
+
+/// Draws with a share of the light, by two renderers. In one of them all light glares before its first frame.
+class SharedLightTest : public LightCacheTest {
+ protected:
+  /// The smoke; expects that nothing glares.
+  std::vector<std::uint64_t> draw_share(double seconds, float share) {
+    FrameInput input = input_at(seconds);
+    input.light_update_fraction = share;
+    anew_->prepare(input);
+    const gpu::Image& light = anew_->smoke_resources().inscatter;
+    const glm::uvec3 size = light.info().size;
+    if (size != lit_size_) {
+      const std::vector<std::uint16_t> glare(std::size_t{4} * size.x * size.y * size.z, 0x7bff);  // 65,504
+      const gpu::Recorder::Region all{std::as_bytes(std::span(glare)), glm::ivec3(0), size};
+      runner().run([&](gpu::Recorder& recorder) { recorder.upload(light, {&all, 1}); });
+      lit_size_ = size;
+    }
+    runner().run([&](gpu::Recorder& recorder) { anew_->record_frame(recorder, input); });
+    const auto smoke = smoke_of(*kept_, input);
+    EXPECT_EQ(read_back<std::uint64_t>(anew_->smoke()), smoke) << "light that was never made, at " << seconds;
+    return smoke;
+  }
+  void expect_share(float share);
+
+  glm::uvec3 lit_size_{0};
+};
+
+/// Whatever happens nothing without light is seen, and a moment that is drawn again gets its light.
+void SharedLightTest::expect_share(float share) {
+  const auto still = [&](double seconds) {
+    const int frames = static_cast<int>(std::ceil(1 / share)) + 1;
+    std::vector<std::uint64_t> smoke;
+    for (int i = 0; i < frames; ++i) smoke = draw_share(seconds, share);
+    draw_share(seconds, share);
+    EXPECT_TRUE(kept_->light_plan().parts.empty());
+    Renderer fresh(context(), runner(), scenario_->scene, {kSize});
+    EXPECT_EQ(smoke, smoke_of(fresh, input_at(seconds))) << "at " << seconds;
+    EXPECT_EQ(read_back<std::uint64_t>(kept_->picture()), read_back<std::uint64_t>(fresh.picture()))
+        << "shadows on surfaces, at " << seconds;
+  };
+  // It grows, another comes, the eye walks.
+  for (const double seconds : {0.5, 0.6, 0.7, 2.0, 3.1, 3.3, 3.5}) {
+    camera_.position_world.x += 0.1f;
+    draw_share(seconds, share);
+  }
+  still(4.9);
+  // A shot, its flash and its hole.
+  for (const double seconds : {5.01, 5.1, 5.2}) draw_share(seconds, share);
+  still(6.5);
+  // Eyes that turn away and back, a light that comes and goes, a door.
+  camera_.target_world = {-12, 0.5f, 0};
+  draw_share(7.3, share);
+  flash_ = 2;
+  draw_share(7.6, share);
+  camera_.target_world = {0, 0.5f, 0};
+  draw_share(7.7, share);
+  flash_ = 0;
+  draw_share(9.1, share);
+  still(9.2);
+}
+
+TEST_F(SharedLightTest, IsNeverUnlitAndComesToRestAsAllOfIt) {
+  begin(0.5f);
+  expect_share(0.25f);
+}
+
+TEST_F(SharedLightTest, WithoutNoiseToo) {
+  begin(0);
+  expect_share(0.5f);
+}
+
+TEST_F(SharedLightTest, AllOfItAfterAShareIsAllOfIt) {
+  begin(0.5f);
+  draw_share(2, 0.125f);
+  draw_share(2.1, 0.125f);
+  draw(2.2);
+  draw_share(2.3, 0.25f);
+  draw(2.3);
+  EXPECT_EQ(read_back<std::uint64_t>(kept_->picture()), read_back<std::uint64_t>(anew_->picture()));
+}
+
+}  // namespace
+}  // namespace brume::render

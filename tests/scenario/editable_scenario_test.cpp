@@ -1,0 +1,377 @@
+#include "scenario/editable_scenario.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <random>
+
+#include "image/png.hpp"
+#include "scene/timeline_writer.hpp"
+#include "tests/scenario/two_rooms.hpp"
+
+namespace brume::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using glm::vec3;
+
+/// What a player may do in the two rooms, drawn from a seed.
+class Player {
+ public:
+  Player(std::uint32_t seed, fs::path folder) : random_(seed), folder_(std::move(folder)) {}
+
+  std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(random_() % count); }
+  /// Whole ticks, and times between them; many alike.
+  double time() { return below(40) * 0.125 + (below(3) == 0 ? below(4) * 0.004 : 0.0); }
+  vec3 place() {
+    const auto real = [&](float low, float high) {
+      return low + (high - low) * static_cast<float>(below(1000)) / 1000;
+    };
+    const float x = real(-3.8f, 3.8f), y = real(0.2f, 2.8f);
+    return {x, y, real(-1.8f, 1.8f)};
+  }
+  std::pair<vec3, vec3> aim() {
+    const vec3 from = place();
+    return {from, from + vec3(below(2) == 0 ? 1.5f : -1.5f, 0.1f, 0.3f)};
+  }
+  scene::ShotEvent shot(double time) {
+    scene::ShotEvent shot;
+    shot.time = time;
+    std::tie(shot.from_world, shot.toward_world) = aim();
+    shot.radius = 0.1f + 0.01f * static_cast<float>(below(30));
+    shot.times.stay = 4;
+    if (below(3) == 0) shot.shape = scene::ShotShape::box;
+    if (below(5) == 0) {
+      shot.shape = scene::ShotShape::mask;
+      shot.mask = folder_ / (std::to_string(below(3)) + ".png");
+    }
+    return shot;
+  }
+  scene::TextEvent text(double time) {
+    scene::TextEvent text;
+    text.time = time;
+    text.text = std::vector<const char*>{"AB", "BRUME", "e"}[below(3)];
+    std::tie(text.from_world, text.toward_world) = aim();
+    text.times.stay = 4;
+    text.interval = below(2) == 0 ? 0.0f : 0.25f;
+    return text;
+  }
+
+  /// One action, now and then several at once.
+  scene::Timeline actions() {
+    scene::Timeline actions;
+    for (std::uint32_t count = below(4) == 0 ? 3 : 1; count > 0; --count) {
+      const double now = time();
+      switch (below(12)) {
+        case 0:
+        case 1:
+          actions.smokes.push_back({now, place(), place()});
+          break;
+        case 2:
+          actions.texts.push_back(text(now));
+          break;
+        case 3:
+          actions.blasts.push_back({now, place()});
+          break;
+        case 4:
+        case 5:
+          actions.moves.push_back({now, std::string(1, static_cast<char>('a' + below(4))), place()});
+          break;
+        case 6: {
+          const vec3 low = place();
+          actions.edits.push_back({now, low, low + vec3(0.5f, 0.7f, 0.6f), below(2) == 0});
+          break;
+        }
+        case 7:
+          actions.doors.push_back({now, below(3) == 0 ? "poster" : "door", below(2) == 0});
+          break;
+        default:
+          actions.shots.push_back(shot(now));
+      }
+    }
+    return actions;
+  }
+
+ private:
+  std::mt19937 random_;
+  fs::path folder_;
+};
+
+class Live : public testing::Test {
+ protected:
+  Live() : folder(fs::temp_directory_path() / ("brume_live_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder / "out");
+    for (int i = 0; i < 3; ++i) {
+      image::Image8 picture{6, 6, std::vector<std::uint8_t>(144, 255)};
+      for (int k = 0; k < 4 * (i % 2 + 1); ++k) picture.rgba[static_cast<std::size_t>(k)] = 0;
+      image::save_png(folder / (std::to_string(i) + ".png"), picture).value_or_throw();
+    }
+  }
+  ~Live() override { fs::remove_all(folder); }
+
+  static Scenario empty_rooms() {
+    Scenario scenario = two_rooms();
+    scenario.timeline.smoke.voxels = 1500;
+    scenario.timeline.scene = "rooms.glb";
+    return scenario;
+  }
+  static std::unique_ptr<EditableScenario> rooms() { return EditableScenario::create(empty_rooms()).value_or_throw(); }
+
+  /// The timeline, saved and loaded again, on a scenario of its own.
+  Scenario reloaded(const scene::Timeline& timeline) const {
+    const fs::path file = folder / "out/take.toml";
+    scene::save_timeline(file, timeline).value_or_throw();
+    Scenario scenario = empty_rooms();
+    scenario.timeline = scene::load_timeline(file).value_or_throw();
+    auto masks = load_masks(scenario.timeline).value_or_throw();
+    scenario.masks = std::move(masks.atlas);
+    scenario.shot_masks = std::move(masks.of_shots);
+    return scenario;
+  }
+
+  /// That the live scenario is, now and at other times, what its timeline says.
+  void expect_as_saved(EditableScenario& live, std::initializer_list<double> times) const {
+    const Scenario scenario = reloaded(live.scenario().timeline);
+    EXPECT_EQ(scenario.masks.key(), live.scenario().masks.key());
+    const auto expected = Simulation::create(scenario).value_or_throw();
+    const auto log = live.simulation().world().log(), other = expected->world().log();
+    EXPECT_TRUE(std::equal(log.begin(), log.end(), other.begin(), other.end()));
+    for (const double time : times) {
+      live.advance_to(time);
+      expected->advance_to(time);
+      EXPECT_EQ(live.simulation().world().state_hash(), expected->world().state_hash()) << time << " s";
+      const auto hidden = live.simulation().hidden_objects(), others = expected->hidden_objects();
+      EXPECT_TRUE(std::equal(hidden.begin(), hidden.end(), others.begin(), others.end())) << time << " s";
+      expect_same_picture(live.simulation(), *expected);
+    }
+  }
+  /// Smoke as rays read it, and the surfaces.
+  static void expect_same_picture(const Simulation& a, const Simulation& b) {
+    const glm::ivec3 size = a.world().grid().size();
+    int planes = 0, densities = 0;
+    voxel::for_each_in({glm::ivec3(-1), size}, [&](glm::ivec3 cell) {
+      const auto p = a.planes().at(cell), q = b.planes().at(cell);
+      planes += !std::equal(p.begin(), p.end(), q.begin(), q.end());
+    });
+    for (float z = 0.3f; z < 28; z += 1.7f)
+      for (float y = 0.3f; y < 20; y += 1.7f)
+        for (float x = 0.3f; x < 44; x += 1.1f)
+          densities += sample_density(a.volume(), {x, y, z}) != sample_density(b.volume(), {x, y, z});
+    EXPECT_EQ(planes, 0);
+    EXPECT_EQ(densities, 0);
+  }
+
+  fs::path folder;
+};
+
+TEST_F(Live, IsAtEveryMomentWhatItsTimelineSays) {
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Player player(seed, folder);
+    const auto live = rooms();
+    for (int i = 0; i < 30; ++i) {
+      if (i % 3 == 0) live->advance_to(player.time());
+      const auto done = live->add(player.actions());
+      ASSERT_TRUE(done) << done.failure().message;
+      if (i % 10 == 7) {
+        scene::SmokeOptions smoke = live->scenario().timeline.smoke;
+        smoke.voxels = 800 + player.below(1500);
+        smoke.hold = 0.5f * static_cast<float>(player.below(5));
+        smoke.erosion = 0.25f;
+        ASSERT_TRUE(live->set_smoke(smoke));
+      }
+      if (i % 10 == 9)
+        expect_as_saved(*live, {live->simulation().world().tick() / 64.0, player.time(), player.time()});
+      if (HasFailure()) return;
+    }
+  }
+}
+
+TEST_F(Live, TakesTheSameDeedsInAnyOrder) {
+  // Events of one kind at the same time stay as they were done, so here no two are of the same time.
+  Player player(100, folder);
+  std::vector<scene::Timeline> actions;
+  for (int i = 0; i < 30; ++i) {
+    scene::Timeline one = player.actions();
+    const auto delay = [&](auto& list) {
+      for (auto& event : list) event.time += i * 1e-4 + 1e-6 * static_cast<double>(&event - list.data());
+    };
+    delay(one.smokes), delay(one.shots), delay(one.texts), delay(one.blasts), delay(one.moves);
+    delay(one.edits), delay(one.doors);
+    actions.push_back(std::move(one));
+  }
+  std::uint64_t hash = 0;
+  std::mt19937 random(3);
+  for (int order = 0; order < 3; ++order) {
+    const auto live = rooms();
+    for (const scene::Timeline& one : actions) {
+      live->advance_to(player.time());
+      ASSERT_TRUE(live->add(one));
+    }
+    live->advance_to(4.5);
+    if (order == 0) hash = live->simulation().world().state_hash();
+    EXPECT_EQ(live->simulation().world().state_hash(), hash);
+    EXPECT_GT(live->simulation().world().state().holes.size(), 2u);
+    std::shuffle(actions.begin(), actions.end(), random);
+  }
+}
+
+TEST_F(Live, TakesAllOrNothing) {
+  const auto live = rooms();
+  live->advance_to(1);
+  const std::string before = scene::format_timeline(live->scenario().timeline, "");
+  const std::uint64_t hash = live->simulation().world().state_hash();
+  const auto refused = [&](const std::function<void(scene::Timeline&)>& make) {
+    scene::Timeline actions;
+    actions.shots = {Player(1, folder).shot(0.5)};
+    actions.doors = {{0.5, "door", true}};
+    make(actions);
+    const auto done = live->add(actions);
+    EXPECT_FALSE(done);
+    EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), before);
+    EXPECT_EQ(live->simulation().world().state_hash(), hash);
+    return done.failure().message;
+  };
+  EXPECT_EQ(refused([](auto& t) { t.shots[0].radius = 20; }),
+            "shot at 0.5 s: \"radius\": expected a number from 0.01 to 10, found 20");
+  EXPECT_EQ(refused([](auto& t) { t.doors[0].object = "dor"; }),
+            "the scene has no object \"dor\"; the nearest name is \"door\"");
+  EXPECT_NE(refused([](auto& t) {
+              t.blasts = {{1, vec3(0)}};
+              t.blasts[0].radius = 100;
+            }).find("blast at tick 64: expected a radius"),
+            std::string::npos);
+  EXPECT_NE(refused([&](auto& t) {
+              t.shots[0].shape = scene::ShotShape::mask;
+              t.shots[0].mask = folder / "none.png";
+            }).find("none.png"),
+            std::string::npos);
+  EXPECT_NE(refused([&](auto& t) {
+              t.texts = {Player(1, folder).text(1)};
+              t.texts[0].text = " ";
+            }).find("no letter that can be seen"),
+            std::string::npos);
+  scene::SmokeOptions smoke;
+  smoke.voxels = 0;
+  EXPECT_EQ(live->set_smoke(smoke).failure().message,
+            "[smoke]: \"voxels\": expected a number from 1 to 1.67772e+07, found 0");
+  EXPECT_FALSE(live->set_exposure(21));
+  EXPECT_FALSE(live->set_camera({{1, {}}, {1, {}}}));
+  EXPECT_EQ(scene::format_timeline(live->scenario().timeline, ""), before);
+  EXPECT_TRUE(live->set_exposure(2));
+  EXPECT_TRUE(live->set_duration(9));
+  EXPECT_TRUE(live->set_camera({{1, {}}, {2, {}}}));
+  EXPECT_EQ(reloaded(live->scenario().timeline).timeline.camera.size(), 2u);
+  expect_as_saved(*live, {1, 2});
+}
+
+TEST_F(Live, GoesBackToWhatItWas) {
+  const auto live = rooms();
+  const scene::Timeline first = live->scenario().timeline;
+  live->advance_to(3);
+  const std::uint64_t hash = live->simulation().world().state_hash();
+  Player player(8, folder);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(live->add(player.actions()));
+  EXPECT_NE(live->simulation().world().state_hash(), hash);
+  EXPECT_GT(live->scenario().masks.count(), 0u);
+  ASSERT_TRUE(live->reset(first));
+  live->advance_to(3);
+  EXPECT_EQ(live->simulation().world().state_hash(), hash);
+  EXPECT_EQ(live->scenario().masks.count(), 0u);
+  EXPECT_TRUE(live->simulation().hidden_objects().empty());
+  expect_as_saved(*live, {3, 1});
+
+  scene::Timeline other = first;
+  other.scene = "other.glb";
+  EXPECT_EQ(live->reset(other).failure().message,
+            "other.glb: expected the scene that is on scenario, rooms.glb");
+  other = first;
+  other.grid.voxel = 0.5f;
+  EXPECT_EQ(live->reset(other).failure().message,
+            "the timeline has another grid than the scenario; load it anew");
+}
+
+TEST_F(Live, ARecordingOfTheDemoLoadsAsItWasPlayed) {
+  // From the files of the demo to files of our own: a throw, twenty shots, a word, a blast, a door, a path.
+  const fs::path demo = fs::path(BRUME_SOURCE_DIR) / "scenes/demo.toml";
+  const auto live = EditableScenario::create(load_scenario(demo, {}).value_or_throw()).value_or_throw();
+  const auto play = [&](double time, const std::function<void(scene::Timeline&)>& make) {
+    scene::Timeline actions;
+    make(actions);
+    live->advance_to(time);
+    live->add(actions).value_or_throw();
+  };
+  const vec3 eye(-5.2f, 1.35f, 10.8f), door(-2.75f, 1.55f, 0);
+  play(0.2, [&](auto& t) { t.smokes = {{0.2, eye, door + vec3(2, 0, 0)}}; });
+  for (int i = 0; i < 20; ++i)
+    play(1 + 0.1 * i, [&](auto& t) {
+      t.shots.resize(1);
+      t.shots[0].time = 1 + 0.1 * i;
+      t.shots[0].from_world = eye;
+      t.shots[0].toward_world = door + vec3(0.1f * static_cast<float>(i), 0, 0);
+    });
+  play(2, [&](auto& t) { t.doors = {{2, "door_leaf", true}}; });
+  play(3.1, [&](auto& t) {
+    t.texts.resize(1);
+    t.texts[0].time = 3.1;
+    t.texts[0].text = "BRUME";
+    t.texts[0].from_world = eye;
+    t.texts[0].toward_world = door;
+  });
+  play(3.5, [&](auto& t) { t.blasts = {{3.5, door}}; });
+  live->set_camera({{0, {eye, door, 1}}, {4, {eye + vec3(3, 0, 0), door, 1}}}).value_or_throw();
+
+  const fs::path file = folder / "out/take.toml";
+  scene::save_timeline(file, live->scenario().timeline).value_or_throw();
+  const Scenario scenario = load_scenario(file, {}).value_or_throw();
+  EXPECT_EQ(scene::format_timeline(scenario.timeline, folder / "out"),
+            scene::format_timeline(live->scenario().timeline, folder / "out"));
+  const auto played = Simulation::create(scenario).value_or_throw();
+  for (const double time : {4.0, 3.2, 1.5}) {
+    live->advance_to(time);
+    played->advance_to(time);
+    EXPECT_EQ(live->simulation().world().state_hash(), played->world().state_hash()) << time;
+  }
+}
+
+TEST_F(Live, KeepsItsGridWhenItIsLoadedAgain) {
+  const auto live = rooms();
+  const scene::GridOptions& grid = live->scenario().timeline.grid;
+  const voxel::GridLayout& layout = live->scenario().voxels.grid.layout();
+  EXPECT_EQ(*grid.size, layout.size);
+  EXPECT_EQ(*grid.origin_world, layout.origin_world);
+  EXPECT_EQ(grid.voxel, layout.voxel_size);
+}
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST_F(Live, AShotIntoARunningWorldIsCheap) {
+  // Into a grown smoke, one at each tick. None may play the past again or read files: milliseconds each.
+  const auto live = rooms();
+  live->advance_to(3);
+  Player player(5, folder);
+  std::vector<double> costs;
+  for (int i = 0; i < 300; ++i) {
+    const double now = 3 + i / 64.0;
+    live->advance_to(now);
+    scene::Timeline actions;
+    actions.shots = {player.shot(now)};
+    actions.shots[0].shape = scene::ShotShape::cylinder;
+    actions.shots[0].mask.clear();
+    costs.push_back(seconds_of([&] { ASSERT_TRUE(live->add(actions)); }));
+  }
+  std::sort(costs.begin(), costs.end());
+  RecordProperty("shot_median_ns", static_cast<int>(1e9 * costs[costs.size() / 2]));
+  EXPECT_LT(costs[costs.size() / 2], 0.5e-3);
+}
+
+}  // namespace
+}  // namespace brume::scenario
