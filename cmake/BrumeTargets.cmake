@@ -19,6 +19,40 @@ if(BRUME_PORTABLE)
   target_link_options(brume_options INTERFACE -static-libstdc++ -static-libgcc)
 endif()
 
+# A scene file or a command line is read once: the templates of the readers cost more to optimize than they run.
+# Release builds only; a build without optimization stays one.
+function(brume_cold)
+  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+endfunction()
+
+# Headers of others that nearly every file reads, compiled once for all targets. A source still includes what it uses:
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without. Not with ccache, which would find nothing of such a file again,
+# and not where single targets have flags of their own, as the fuzzers do.
+if(BRUME_FUZZ OR CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+  set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
+endif()
+set(brume_common_headers <algorithm> <array> <bit> <cmath> <cstdint> <cstdio> <cstring> <filesystem> <functional>
+    <limits> <map> <memory> <optional> <span> <string> <utility> <vector> <glm/glm.hpp>)
+
+# brume_precompiled(NAME headers... LINKS libraries...): what brume_precompile then gives to other targets.
+function(brume_precompiled name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS")
+  set(source ${PROJECT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// What CMake compiles the headers for.\n")
+  add_library(${name} OBJECT ${source})
+  target_link_libraries(${name} PRIVATE brume_options ${arg_LINKS})
+  target_precompile_headers(${name} PRIVATE ${arg_UNPARSED_ARGUMENTS})
+  target_compile_options(${name} PRIVATE -fPIC)
+endfunction()
+
+# The property would compile programs with -fPIE, for which there would have to be a second set of headers.
+function(brume_precompile target name)
+  target_compile_options(${target} PRIVATE -fPIC)
+  target_precompile_headers(${target} REUSE_FROM ${name})
+endfunction()
+
+brume_precompiled(brume_headers ${brume_common_headers})
+
 # brume_library(NAME sources... LINKS libraries... PRIVATE_LINKS libraries...): the folder `NAME` as brume::NAME.
 function(brume_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS;PRIVATE_LINKS")
@@ -26,6 +60,7 @@ function(brume_library name)
   add_library(brume::${name} ALIAS brume_${name})
   target_link_libraries(brume_${name} PUBLIC brume_options ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
   set_target_properties(brume_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  brume_precompile(brume_${name} brume_headers)
 endfunction()
 
 # brume_test(NAME sources... LINKS libraries... LABELS labels...): a GoogleTest program that CTest runs.
@@ -39,7 +74,11 @@ function(brume_test name)
   if(NOT arg_COST)
     set(arg_COST 1)
   endif()
+  if(NOT TARGET brume_test_headers)
+    brume_precompiled(brume_test_headers ${brume_common_headers} <random> <gtest/gtest.h> LINKS GTest::gtest)
+  endif()
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+  brume_precompile(${name} brume_test_headers)
   target_link_libraries(${name} PRIVATE brume_options ${arg_LINKS} GTest::gtest GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${name} PRIVATE BRUME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

@@ -1,16 +1,14 @@
 #include "bench/bench.hpp"
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
 #include "core/error.hpp"
 
 namespace brume::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::vector<std::string> names;
@@ -19,12 +17,16 @@ struct Options {
 };
 
 Json to_json(const bench::Report& report) {
-  Json results = Json::array();
+  Json results = Json::list({});
   for (const bench::Measurement& m : report.results) {
     Json result{
         {"name", m.name},   {"median", m.median},          {"min", m.min}, {"max", m.max}, {"unit", m.unit},
         {"clock", m.clock}, {"repetitions", m.repetitions}};
-    if (!m.details.empty()) result["details"] = m.details;
+    if (!m.details.empty()) {
+      Json details = Json::object();
+      for (const auto& [name, value] : m.details) details.set(name, value);
+      result.set("details", details);
+    }
     results.push_back(result);
   }
   return {{"device", report.device},   {"driver", report.driver}, {"processor", report.processor},
@@ -55,22 +57,22 @@ void measure(const Options& options) {
 
 }  // namespace
 
-Command add_bench(CLI::App& program) {
+Command add_bench(CommandLine& program) {
   Command command = declare(program, "bench", "Measures how fast the parts are on this machine.",
                             "  brume bench\n"
                             "  brume bench fill/1800 march --json bench.json --repetitions 31");
   auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser
+  const Arguments& arguments = command.arguments;
+  arguments
       .add_option("NAME", options->names, "What to measure, whole names or their first parts; default: all")
-      ->type_name("");
-  parser.add_option("--json", options->json, "Write the results as JSON; -: to standard output")
-      ->type_name("FILE");
-  parser.add_option("--repetitions", options->bench.repetitions, "Samples of each; default: what suits it")
-      ->check(CLI::Range(1u, 100'000u))
-      ->type_name("N");
-  parser.add_option("--device", options->bench.device, "Number or part of the name; see brume devices")
-      ->type_name("N|NAME");
+      .type_name("");
+  arguments.add_option("--json", options->json, "Write the results as JSON; -: to standard output")
+      .type_name("FILE");
+  arguments.add_option("--repetitions", options->bench.repetitions, "Samples of each; default: what suits it")
+      .range(1u, 100'000u)
+      .type_name("N");
+  arguments.add_option("--device", options->bench.device, "Number or part of the name; see brume devices")
+      .type_name("N|NAME");
   command.run = [options] { measure(*options); };
   return command;
 }

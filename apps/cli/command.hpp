@@ -1,10 +1,11 @@
 // The commands of the program, one file each: how its arguments are declared and what it does with them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 #include <string>
+
+#include "apps/cli/arguments.hpp"
 
 namespace brume::cli {
 
@@ -16,26 +17,26 @@ struct CommonOptions {
 
 /// A command as main runs it. `run` throws Error when it fails and Interrupted when a signal ends it.
 struct Command {
-  CLI::App* parser = nullptr;
+  Arguments arguments;
   std::shared_ptr<CommonOptions> common;
   std::function<void()> run;
 };
 
 /// Declares a command with its common options. Its help begins with `what` and the examples.
-Command declare(CLI::App& program, const std::string& name, const std::string& what,
+Command declare(CommandLine& program, const std::string& name, const std::string& what,
                 const std::string& examples);
 
-Command add_demo(CLI::App& program);
-Command add_render(CLI::App& program);
-Command add_sim(CLI::App& program);
-Command add_voxelize(CLI::App& program);
-Command add_info(CLI::App& program);
-Command add_diff(CLI::App& program);
-Command add_query(CLI::App& program);
-Command add_devices(CLI::App& program);
-Command add_bench(CLI::App& program);
+Command add_demo(CommandLine& program);
+Command add_render(CommandLine& program);
+Command add_sim(CommandLine& program);
+Command add_voxelize(CommandLine& program);
+Command add_info(CommandLine& program);
+Command add_diff(CommandLine& program);
+Command add_query(CommandLine& program);
+Command add_devices(CommandLine& program);
+Command add_bench(CommandLine& program);
 #ifdef BRUME_VIEWER
-Command add_view(CLI::App& program);
+Command add_view(CommandLine& program);
 #endif
 
 }  // namespace brume::cli

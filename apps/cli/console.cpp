@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <nlohmann/json.hpp>
 
+#include "apps/cli/json.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
@@ -89,10 +89,8 @@ void print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
 }
 
-void write_json(const std::string& target, const nlohmann::ordered_json& object) {
-  // Names of files need not be UTF-8: what is not is shown as a replacement character.
-  const std::string text =
-      object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+void write_json(const std::string& target, const Json& object) {
+  const std::string text = object.dump() + "\n";
   if (target == "-") {
     print(text);
   } else {

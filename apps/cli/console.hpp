@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "core/progress.hpp"
 
 namespace brume::cli {
+
+class Json;
 
 /// Thrown where a command notices that SIGINT or SIGTERM has arrived, so that what it holds is cleaned up.
 struct Interrupted {
@@ -31,7 +32,7 @@ void say_failure(const std::string& message);
 void print(const std::string& text);
 
 /// Writes the object to `target`, "-" for standard output. Throws Error.
-void write_json(const std::string& target, const nlohmann::ordered_json& object);
+void write_json(const std::string& target, const Json& object);
 
 /// Throws Error (bad_input) unless a file of this name can be made: asked before any work is done for it.
 /// Nothing is left behind. An empty name and "-" are fine.

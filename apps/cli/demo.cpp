@@ -51,15 +51,15 @@ void demo(const Options& options, const CommonOptions& common) {
 
 }  // namespace
 
-Command add_demo(CLI::App& program) {
+Command add_demo(CommandLine& program) {
   Command command = declare(program, "demo", "Makes a picture and a film of smoke that floods a building.",
                             "  brume demo\n  brume demo --out pictures --device 0");
   auto options = std::make_shared<Options>();
-  command.parser
-      ->add_option("-o,--out", options->folder, "A folder that is there; default: out, made if missing")
-      ->type_name("FOLDER");
-  command.parser->add_option("--device", options->device, "Number or part of the name; see brume devices")
-      ->type_name("N|NAME");
+  command.arguments
+      .add_option("-o,--out", options->folder, "A folder that is there; default: out, made if missing")
+      .type_name("FOLDER");
+  command.arguments.add_option("--device", options->device, "Number or part of the name; see brume devices")
+      .type_name("N|NAME");
   command.run = [options, common = command.common] { demo(*options, *common); };
   return command;
 }

@@ -1,7 +1,7 @@
-#include <nlohmann/json.hpp>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
 #include "gpu/device_list.hpp"
 
 namespace brume::cli {
@@ -14,10 +14,10 @@ std::string version_text(std::uint32_t version) {
 }
 
 void list_devices(const std::string& json) {
-  nlohmann::ordered_json devices = nlohmann::ordered_json::array();
+  Json devices = Json::list({});
   std::string text;
+  int number = 0;
   for (const gpu::DeviceInfo& device : gpu::list_system_devices()) {
-    const std::size_t number = devices.size();
     devices.push_back({{"number", number},
                        {"name", device.name},
                        {"kind", device.kind},
@@ -29,6 +29,7 @@ void list_devices(const std::string& json) {
             ", Vulkan " + version_text(device.api_version) + ", " +
             std::to_string(device.memory_bytes >> 20) + " MiB)" +
             (device.unsupported.empty() ? "" : "  not usable: " + device.unsupported) + "\n";
+    ++number;
   }
   if (!json.empty()) write_json(json, {{"devices", devices}});
   if (json != "-") print(text);
@@ -36,12 +37,12 @@ void list_devices(const std::string& json) {
 
 }  // namespace
 
-Command add_devices(CLI::App& program) {
+Command add_devices(CommandLine& program) {
   Command command = declare(program, "devices", "Lists the devices that can render, as --device takes them.",
                             "  brume devices\n  brume devices --json -");
   auto json = std::make_shared<std::string>();
-  command.parser->add_option("--json", *json, "Write the list as JSON; -: to standard output")
-      ->type_name("FILE");
+  command.arguments.add_option("--json", *json, "Write the list as JSON; -: to standard output")
+      .type_name("FILE");
   command.run = [json] {
     check_output(*json);
     list_devices(*json);

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
 #include "core/error.hpp"
 #include "image/decode.hpp"
 #include "image/metrics.hpp"
@@ -12,8 +12,6 @@
 
 namespace brume::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string reference, test, map, json;
@@ -57,7 +55,7 @@ Json json_of(const Options& options, const image::Image8& picture, const Compari
   // Equal pictures have no finite ratio of signal to noise.
   return {{"reference", options.reference},
           {"test", options.test},
-          {"size", {picture.width, picture.height}},
+          {"size", Json::list({picture.width, picture.height})},
           {"max", c.colours.max},
           {"mean", c.colours.mean},
           {"rmse", c.colours.rmse},
@@ -117,23 +115,23 @@ void diff(const Options& options) {
 
 }  // namespace
 
-Command add_diff(CLI::App& program) {
+Command add_diff(CommandLine& program) {
   Command command =
       declare(program, "diff", "Tells how far two pictures are apart, and shows where one would notice.",
               "  brume diff reference.png test.png\n"
               "  brume diff reference.png test.png -o map.png --json -\n"
               "  brume diff reference.png test.png --psnr-below 38   # exit code 7 if it is");
   auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("REFERENCE", options->reference, "A picture, .png or .jpg")->required()->type_name("");
-  parser.add_option("TEST", options->test, "The one to compare with it")->required()->type_name("");
-  parser.add_option("-o,--output", options->map, "Write the map of FLIP, black to pale yellow: .png")
-      ->type_name("FILE");
-  parser.add_option("--fail-above", options->fail_above, "Fail if any channel differs by more [0, 255]")
-      ->type_name("N");
-  parser.add_option("--psnr-below", options->psnr_below, "Fail if the PSNR is below [dB]")->type_name("DB");
-  parser.add_option("--json", options->json, "Write the numbers as JSON; -: to standard output")
-      ->type_name("FILE");
+  const Arguments& arguments = command.arguments;
+  arguments.add_option("REFERENCE", options->reference, "A picture, .png or .jpg").required().type_name("");
+  arguments.add_option("TEST", options->test, "The one to compare with it").required().type_name("");
+  arguments.add_option("-o,--output", options->map, "Write the map of FLIP, black to pale yellow: .png")
+      .type_name("FILE");
+  arguments.add_option("--fail-above", options->fail_above, "Fail if any channel differs by more [0, 255]")
+      .type_name("N");
+  arguments.add_option("--psnr-below", options->psnr_below, "Fail if the PSNR is below [dB]").type_name("DB");
+  arguments.add_option("--json", options->json, "Write the numbers as JSON; -: to standard output")
+      .type_name("FILE");
   command.run = [options] { diff(*options); };
   return command;
 }

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
 #include "core/error.hpp"
 #include "image/decode.hpp"
 #include "scene/load.hpp"
@@ -13,10 +13,8 @@
 namespace brume::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json point(glm::vec3 p) {
-  return {p.x, p.y, p.z};
+  return Json::list({p.x, p.y, p.z});
 }
 
 Json scene_info(const std::filesystem::path& path) {
@@ -37,8 +35,8 @@ Json scene_info(const std::filesystem::path& path) {
             {"triangles", triangles},
             {"camera", scene.camera.has_value()}};
   if (const scene::Bounds bounds = scene::world_bounds(scene); !bounds.empty()) {
-    info["bounds_min"] = point(bounds.min);
-    info["bounds_max"] = point(bounds.max);
+    info.set("bounds_min", point(bounds.min));
+    info.set("bounds_max", point(bounds.max));
   }
   return info;
 }
@@ -70,7 +68,7 @@ Json voxel_info(const std::filesystem::path& path) {
   BRUME_ASSERT(contents.has_value(), "any key is taken");
   const voxel::GridLayout& frame = contents->grid.layout();
   return {{"kind", "voxels"},
-          {"size", {frame.size.x, frame.size.y, frame.size.z}},
+          {"size", Json::list({frame.size.x, frame.size.y, frame.size.z})},
           {"voxel_size", frame.voxel_size},
           {"origin", point(frame.origin_world)},
           {"solid", contents->grid.count_solid()},
@@ -97,7 +95,7 @@ Json info_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-Command add_info(CLI::App& program) {
+Command add_info(CommandLine& program) {
   struct Options {
     std::string input, json;
   };
@@ -105,19 +103,17 @@ Command add_info(CLI::App& program) {
                             "  brume info room.glb\n"
                             "  brume info room.vxl --json -");
   auto options = std::make_shared<Options>();
-  command.parser->add_option("FILE", options->input, "The file")->required()->type_name("");
-  command.parser->add_option("--json", options->json, "Write it as JSON; -: to standard output")
-      ->type_name("FILE");
+  command.arguments.add_option("FILE", options->input, "The file").required().type_name("");
+  command.arguments.add_option("--json", options->json, "Write it as JSON; -: to standard output")
+      .type_name("FILE");
   command.run = [options] {
     check_output(options->json);
     Json info{{"file", options->input}};
     info.update(info_of(options->input));
     if (!options->json.empty()) write_json(options->json, info);
     if (options->json == "-") return;
-    for (const auto& [key, value] : info.items()) {
-      print(key + std::string(14 - std::min<std::size_t>(13, key.size()), ' ') +
-            (value.is_string() ? value.get<std::string>() : value.dump()) + "\n");
-    }
+    for (const auto& [key, value] : info.fields())
+      print(key + std::string(14 - std::min<std::size_t>(13, key.size()), ' ') + value + "\n");
   };
   return command;
 }

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -26,19 +25,6 @@ constexpr const char* kAbout =
     "  brume diff reference.png test.png                 # how far two pictures are apart\n"
     "  brume devices                                     # what can render";
 
-// In the list of commands, only what each does: its examples are in its own help.
-class BriefFormatter : public CLI::Formatter {
- public:
-  std::string make_subcommand(const CLI::App* command) const override {
-    const std::string text = command->get_description();
-    return "  " + command->get_name() + std::string(12 - command->get_name().size(), ' ') +
-           text.substr(0, text.find('\n')) + "\n";
-  }
-  std::string make_description(const CLI::App* app) const override {
-    return CLI::Formatter::make_description(app) + "\n";
-  }
-};
-
 int fail(const Failure& failure) {
   say_failure(failure.message);
   return static_cast<int>(failure.code);
@@ -65,10 +51,7 @@ int run(const Command& command) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App program(kAbout, "brume");
-  program.formatter(std::make_shared<BriefFormatter>());
-  program.set_version_flag("--version", BRUME_VERSION);
-  program.require_subcommand(1);
+  CommandLine program(kAbout, "brume", BRUME_VERSION);
   const std::array commands{add_demo(program),     add_render(program),  add_sim(program),
                             add_voxelize(program), add_info(program),    add_query(program),
                             add_diff(program),     add_devices(program), add_bench(program),
@@ -77,35 +60,28 @@ int parse_and_run(int argc, char** argv) {
 #endif
   };
   try {
-    program.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
-  } catch (const CLI::ParseError& error) {
-    const auto chosen = program.get_subcommands();
-    const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
-    if (chosen.empty() && !program.remaining().empty()) {
-      return fail(
-          {ErrorCode::usage, "there is no command '" + program.remaining().front() + "'; see brume --help"});
-    }
-    return fail({ErrorCode::usage, std::string(error.what()) + "; see brume" + name + " --help"});
+    if (!program.parse(argc, argv)) return 0;
+  } catch (const Error& error) {
+    return fail(error.failure());
   }
   for (const Command& command : commands) {
-    if (command.parser->parsed()) return run(command);
+    if (command.arguments.parsed()) return run(command);
   }
   return fail({ErrorCode::internal, "no command ran"});
 }
 
 }  // namespace
 
-Command declare(CLI::App& program, const std::string& name, const std::string& what,
+Command declare(CommandLine& program, const std::string& name, const std::string& what,
                 const std::string& examples) {
   Command command;
   command.common = std::make_shared<CommonOptions>();
-  command.parser = program.add_subcommand(name, what + "\n\nExamples:\n" + examples);
-  command.parser->add_option("--threads", command.common->threads, "Threads to use; 0: one a core (default)")
-      ->check(CLI::Range(0u, 1024u))
-      ->type_name("N");
-  command.parser->add_flag("-q,--quiet", command.common->quiet, "No progress and no warnings");
+  command.arguments = program.add_command(name, what + "\n\nExamples:\n" + examples);
+  command.arguments
+      .add_option("--threads", command.common->threads, "Threads to use; 0: one a core (default)")
+      .range(0u, 1024u)
+      .type_name("N");
+  command.arguments.add_flag("-q,--quiet", command.common->quiet, "No progress and no warnings");
   return command;
 }
 

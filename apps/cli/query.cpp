@@ -1,18 +1,16 @@
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/coverage.hpp"
+#include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/error.hpp"
 #include "smoke/sight.hpp"
 
 namespace brume::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string timeline, from, to, times, json;
@@ -23,7 +21,7 @@ struct Options {
 };
 
 Json point(glm::vec3 p) {
-  return {p.x, p.y, p.z};
+  return Json::list({p.x, p.y, p.z});
 }
 
 std::string number(const char* format, double value) {
@@ -35,7 +33,7 @@ std::string number(const char* format, double value) {
 glm::vec3 parse_end(const std::string& option, const std::string& text) {
   const glm::vec3 p = parse_point(option, text);
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(p[axis]) > smoke::kMaxSightMetres)
+    if (std::abs(p[axis]) > sim::kMaxSightMetres)
       throw Error(ErrorCode::usage, option + " '" + text + "': expected coordinates within 16384 m");
   }
   return p;
@@ -74,7 +72,8 @@ void print_sample(const Options& options, const scenario::Scenario& scenario, co
   if (!options.json.empty()) {
     Json first = nullptr;
     if (const auto& wall = sample.wall)
-      first = {{"voxel", {wall->voxel.x, wall->voxel.y, wall->voxel.z}}, {"distance", wall->distance}};
+      first = Json{{"voxel", Json::list({wall->voxel.x, wall->voxel.y, wall->voxel.z})},
+                   {"distance", wall->distance}};
     write_json(options.json, {{"timeline", options.timeline},
                               {"time", options.time},
                               {"tick", simulation->world().tick()},
@@ -100,17 +99,17 @@ void print_sample(const Options& options, const scenario::Scenario& scenario, co
 }
 
 Json coverage_json(const Coverage& coverage) {
-  Json intervals = Json::array();
+  Json intervals = Json::list({});
   for (const HiddenInterval& i : coverage.intervals)
     intervals.push_back(
-        {{"begin", i.begin}, {"end", i.end}, {"by", name_of(i.by)}, {"most_depth", i.most_depth}});
+        Json{{"begin", i.begin}, {"end", i.end}, {"by", name_of(i.by)}, {"most_depth", i.most_depth}});
   return {{"hidden_seconds", coverage.hidden_seconds}, {"intervals", intervals}};
 }
 
 Json shots_json(const std::vector<ShotResult>& shots) {
-  Json each = Json::array();
+  Json each = Json::list({});
   for (const ShotResult& shot : shots)
-    each.push_back({{"time", shot.time}, {"least_depth", shot.least_depth}, {"seen", shot.seen}});
+    each.push_back(Json{{"time", shot.time}, {"least_depth", shot.least_depth}, {"seen", shot.seen}});
   const bool seen = shots.empty() || shots.back().seen;
   return {{"seen_after", seen ? Json(shots.size()) : Json(nullptr)}, {"each", each}};
 }
@@ -151,11 +150,11 @@ void tell_coverage(const Options& options, const scenario::Scenario& scenario, c
     shots = fire(scenario, line, {options.shots, at, options.shots_every, options.spread}, times.end);
   }
   if (!options.json.empty()) {
-    Json report{{"timeline", options.timeline},   {"times", {times.begin, times.end}},
+    Json report{{"timeline", options.timeline},   {"times", Json::list({times.begin, times.end})},
                 {"from", point(line.from_world)}, {"to", point(line.to_world)},
                 {"threshold", line.threshold},    {"extinction", scenario.timeline.smoke.extinction}};
     report.update(coverage_json(coverage));
-    if (options.shots > 0) report["shots"] = shots_json(shots);
+    if (options.shots > 0) report.set("shots", shots_json(shots));
     write_json(options.json, report);
   }
   if (options.json == "-") return;
@@ -180,7 +179,7 @@ void query(const Options& options) {
 
 }  // namespace
 
-Command add_query(CLI::App& program) {
+Command add_query(CommandLine& program) {
   Command command =
       declare(program, "query", "Tells whether one point can be seen from another through the smoke.",
               "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3.2\n"
@@ -190,36 +189,36 @@ Command add_query(CLI::App& program) {
               "--shots 5 "
               "--shots-at 3");
   auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("TIMELINE", options->timeline, "The timeline (.toml), or a scene")
-      ->required()
-      ->type_name("");
-  parser.add_option("--from", options->from, "Who looks [m]")->required()->type_name("X,Y,Z");
-  parser.add_option("--to", options->to, "What is looked at [m]")->required()->type_name("X,Y,Z");
-  const CLI::Range seconds(0.0, 3600.0);
-  parser.add_option("--time", options->time, "The sample [s]")->check(seconds)->type_name("S");
-  parser
+  const Arguments& arguments = command.arguments;
+  arguments.add_option("TIMELINE", options->timeline, "The timeline (.toml), or a scene")
+      .required()
+      .type_name("");
+  arguments.add_option("--from", options->from, "Who looks [m]").required().type_name("X,Y,Z");
+  arguments.add_option("--to", options->to, "What is looked at [m]").required().type_name("X,Y,Z");
+  arguments.add_option("--time", options->time, "The sample [s]").range(0.0, 3600.0).type_name("S");
+  arguments
       .add_option("--threshold", options->threshold,
                   "Optical depth from which smoke hides; default 3: 5 % come through")
-      ->check(CLI::Range(0.0, 1e6))
-      ->type_name("T");
-  parser.add_flag("--report", options->report, "When the two are hidden from each other");
-  parser.add_option("--times", options->times, "From when to when; default: the whole timeline")
-      ->type_name("A-B");
-  parser.add_option("--shots", options->shots, "Fire so many more shots, and tell after how many it is seen")
-      ->check(CLI::Range(0u, 100u))
-      ->type_name("N");
-  parser.add_option("--shots-at", options->shots_at, "When the first is fired [s]; default: A")
-      ->check(seconds)
-      ->type_name("S");
-  parser.add_option("--shots-every", options->shots_every, "Time between two [s]; default 0.1")
-      ->check(CLI::Range(0.02, 60.0))
-      ->type_name("S");
-  parser
+      .range(0.0, 1e6)
+      .type_name("T");
+  arguments.add_flag("--report", options->report, "When the two are hidden from each other");
+  arguments.add_option("--times", options->times, "From when to when; default: the whole timeline")
+      .type_name("A-B");
+  arguments
+      .add_option("--shots", options->shots, "Fire so many more shots, and tell after how many it is seen")
+      .range(0u, 100u)
+      .type_name("N");
+  arguments.add_option("--shots-at", options->shots_at, "When the first is fired [s]; default: A")
+      .range(0.0, 3600.0)
+      .type_name("S");
+  arguments.add_option("--shots-every", options->shots_every, "Time between two [s]; default 0.1")
+      .range(0.02, 60.0)
+      .type_name("S");
+  arguments
       .add_option("--spread", options->spread, "How far from the line they go at most [degrees]; default 0")
-      ->check(CLI::Range(0.0, 45.0))
-      ->type_name("DEG");
-  parser.add_option("--json", options->json, "Write it as JSON; -: to standard output")->type_name("FILE");
+      .range(0.0, 45.0)
+      .type_name("DEG");
+  arguments.add_option("--json", options->json, "Write it as JSON; -: to standard output").type_name("FILE");
   command.run = [options] { query(*options); };
   return command;
 }

@@ -2,12 +2,12 @@
 
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/cli/targets.hpp"
 #include "core/error.hpp"
@@ -17,8 +17,6 @@
 
 namespace brume::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
@@ -57,7 +55,7 @@ Plan make_plan(const Options& options) {
     plan.smokes.push_back({0, place, place});
   }
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
-  // Not by CLI::Range, which takes what is not a number.
+  // Not by range(), which takes what is not a number.
   if (!(options.step >= 0.25f && options.step <= 4)) {
     throw Error(ErrorCode::usage, "--step: expected a number from 0.25 to 4, such as 2");
   }
@@ -135,7 +133,7 @@ class TimedRenderer {
   }
   Json statistics() const {
     Json passes = Json::object();
-    for (const auto& scope : playback_.timings()) passes[scope.name] = scope.milliseconds;
+    for (const auto& scope : playback_.timings()) passes.set(scope.name, scope.milliseconds);
     return {{"frames", frames_},
             {"seconds_per_frame", seconds_ / frames_},
             {"cpu_seconds_per_frame", cpu_seconds_ / frames_},
@@ -184,38 +182,40 @@ void render(const Options& options, const CommonOptions& common) {
   TimedRenderer draughtsman(playback);
   write(options, plan, common, scenario.timeline, draughtsman);
   if (options.json.empty()) return;
-  Json statistics{
-      {"output", options.output},      {"size", {plan.renderer.size_px.x, plan.renderer.size_px.y}},
-      {"march", options.march},        {"temporal", options.temporal},
-      {"device", context.info().name}, {"driver", context.info().driver}};
+  Json statistics{{"output", options.output},
+                  {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})},
+                  {"march", options.march},
+                  {"temporal", options.temporal},
+                  {"device", context.info().name},
+                  {"driver", context.info().driver}};
   statistics.update(draughtsman.statistics());
   write_json(options.json, statistics);
 }
 
-void declare_quality(CLI::App& parser, Options& options) {
-  parser
+void declare_quality(const Arguments& arguments, Options& options) {
+  arguments
       .add_option("--march", options.march, "Rays of the smoke: one for each pixel, 2x2 or 4x4; default full")
-      ->check(CLI::IsMember({"full", "half", "quarter"}))
-      ->type_name("full|half|quarter");
-  parser.add_flag("--temporal", options.temporal, "Gather the smoke of a film over its frames");
-  parser
+      .one_of({"full", "half", "quarter"})
+      .type_name("full|half|quarter");
+  arguments.add_flag("--temporal", options.temporal, "Gather the smoke of a film over its frames");
+  arguments
       .add_option("--step", options.step,
                   "Length of the steps through smoke, of the usual: 0.25 to 4; longer is faster; default 1")
-      ->type_name("X");
-  parser
+      .type_name("X");
+  arguments
       .add_option(
           "--seen", options.seen,
           "Error up to which --march half and quarter interpolate, of the usual: 0.25 to 16; default 1")
-      ->type_name("X");
-  parser
+      .type_name("X");
+  arguments
       .add_option("--light-share", options.light_update_fraction,
                   "How much of the light in smoke each frame of a film makes anew: 0.0625 to 1; default 1")
-      ->type_name("X");
+      .type_name("X");
 }
 
 }  // namespace
 
-Command add_render(CLI::App& program) {
+Command add_render(CommandLine& program) {
   Command command =
       declare(program, "render", "Renders a scene or a timeline to a picture, numbered pictures or a film.",
               "  brume render room.glb -o room.png --smoke 0,1,0\n"
@@ -223,45 +223,41 @@ Command add_render(CLI::App& program) {
               "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
               "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
   auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("INPUT", options->input, "A timeline (.toml) or a scene (.txt, .gltf, .glb, .obj)")
-      ->required()
-      ->type_name("");
-  parser.add_option("-o,--output", options->output, "Where to: .png, .png with %04d, or .mp4")
-      ->required()
-      ->type_name("FILE");
-  parser.add_option("--timeline", options->timeline, "What happens in the scene INPUT")->type_name("FILE");
-  parser.add_option("--time", options->time, "When the picture is taken [s]; default: at the end")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->type_name("S");
-  parser.add_option("--frames", options->frames, "First and last frame; default: the whole timeline")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
-      ->type_name("A-B");
-  parser.add_option("--fps", options->fps, "Frames per second; default 24")
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("F");
-  parser.add_option("--size", options->size, "Pixels; default 1280x720")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
-      ->type_name("WxH");
-  declare_quality(parser, *options);
-  parser.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
-      ->type_name("CAMERA");
-  parser.add_option("--view", options->view, "What the picture is made from: " + view_names())
-      ->check(CLI::IsMember(
-          std::vector<std::string>(passes::kDebugViewNames.begin(), passes::kDebugViewNames.end())))
-      ->type_name("VIEW");
-  parser
+  const Arguments& arguments = command.arguments;
+  arguments.add_option("INPUT", options->input, "A timeline (.toml) or a scene (.txt, .gltf, .glb, .obj)")
+      .required()
+      .type_name("");
+  arguments.add_option("-o,--output", options->output, "Where to: .png, .png with %04d, or .mp4")
+      .required()
+      .type_name("FILE");
+  arguments.add_option("--timeline", options->timeline, "What happens in the scene INPUT").type_name("FILE");
+  arguments.add_option("--time", options->time, "When the picture is taken [s]; default: at the end")
+      .range(0.0, 3600.0)
+      .type_name("S");
+  arguments.add_option("--frames", options->frames, "First and last frame; default: the whole timeline")
+      .take_last()
+      .type_name("A-B");
+  arguments.add_option("--fps", options->fps, "Frames per second; default 24")
+      .range(1u, 1000u)
+      .type_name("F");
+  arguments.add_option("--size", options->size, "Pixels; default 1280x720").take_last().type_name("WxH");
+  declare_quality(arguments, *options);
+  arguments.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
+      .type_name("CAMERA");
+  arguments.add_option("--view", options->view, "What the picture is made from: " + view_names())
+      .one_of({passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()})
+      .type_name("VIEW");
+  arguments
       .add_option("--slice", options->slice,
                   "Where --view density, light and distance cut; default: in the smoke")
-      ->type_name("AXIS=M");
-  parser.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("X,Y,Z");
-  parser.add_option("--device", options->device, "Number or part of the name; see brume devices")
-      ->type_name("N|NAME");
-  parser.add_option("--json", options->json, "Write what it took as JSON; -: to standard output")
-      ->type_name("FILE");
+      .type_name("AXIS=M");
+  arguments.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")
+      .take_all()
+      .type_name("X,Y,Z");
+  arguments.add_option("--device", options->device, "Number or part of the name; see brume devices")
+      .type_name("N|NAME");
+  arguments.add_option("--json", options->json, "Write what it took as JSON; -: to standard output")
+      .type_name("FILE");
   command.run = [options, common = command.common] { render(*options, *common); };
   return command;
 }

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
 #include "core/error.hpp"
 #include "scenario/events.hpp"
 #include "wire/packet.hpp"
@@ -14,8 +14,6 @@
 
 namespace brume::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kMaxTicks = 1u << 22;  // 18 hours at 64 a second.
 
@@ -60,9 +58,12 @@ void say(const Options& options, const Run& run, std::uint32_t rate, bool compar
                 {"ticks_per_second", rate},
                 {"hash", hex(run.hashes.back())},
                 {"milliseconds", took.count()}};
-    if (compared) result["same"] = true;
-    if (options.hash)
-      for (const std::uint64_t hash : run.hashes) result["hashes"].push_back(hex(hash));
+    if (compared) result.set("same", true);
+    if (options.hash) {
+      Json hashes = Json::list({});
+      for (const std::uint64_t hash : run.hashes) hashes.push_back(hex(hash));
+      result.set("hashes", hashes);
+    }
     write_json(options.json, result);
   }
   if (options.json == "-") return;
@@ -109,29 +110,27 @@ void play_again(const Options& options) {
 
 }  // namespace
 
-Command add_sim(CLI::App& program) {
+Command add_sim(CommandLine& program) {
   Command command = declare(
       program, "sim", "Simulates a timeline without drawing it; records it, or plays a recording again.",
       "  brume sim scenes/demo.toml --ticks 64 --hash\n"
       "  brume sim scenes/demo.toml --record demo.brp\n"
       "  brume sim --replay demo.brp");
   auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("TIMELINE", options->timeline, "The timeline (.toml), or a scene")->type_name("");
-  parser.add_option("--ticks", options->ticks, "How many ticks, from tick 0 on; default: the duration")
-      ->check(CLI::Range(1u, kMaxTicks))
-      ->type_name("N");
-  parser.add_option("--rate", options->rate, "Ticks a second; default 64")
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
-  parser.add_flag("--hash", options->hash, "Say the hash of each tick, not of the last one only");
-  parser.add_option("--record", options->record, "Write the level, the events and a checksum a tick")
-      ->type_name("FILE");
-  parser
+  const Arguments& arguments = command.arguments;
+  arguments.add_option("TIMELINE", options->timeline, "The timeline (.toml), or a scene").type_name("");
+  arguments.add_option("--ticks", options->ticks, "How many ticks, from tick 0 on; default: the duration")
+      .range(1u, kMaxTicks)
+      .type_name("N");
+  arguments.add_option("--rate", options->rate, "Ticks a second; default 64").range(1u, 1000u).type_name("N");
+  arguments.add_flag("--hash", options->hash, "Say the hash of each tick, not of the last one only");
+  arguments.add_option("--record", options->record, "Write the level, the events and a checksum a tick")
+      .type_name("FILE");
+  arguments
       .add_option("--replay", options->replay, "Simulate a recording again; exit code 7 where a tick differs")
-      ->type_name("FILE");
-  parser.add_option("--json", options->json, "Write the result as JSON; -: to standard output")
-      ->type_name("FILE");
+      .type_name("FILE");
+  arguments.add_option("--json", options->json, "Write the result as JSON; -: to standard output")
+      .type_name("FILE");
   command.run = [options] {
     check_options(*options);
     options->replay.empty() ? simulate(*options) : play_again(*options);

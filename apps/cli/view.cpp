@@ -1,7 +1,7 @@
-#include <nlohmann/json.hpp>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/viewer/quality.hpp"
 #include "apps/viewer/viewer.hpp"
@@ -9,8 +9,6 @@
 
 namespace brume::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
@@ -63,7 +61,7 @@ void write_report(const std::string& target, const viewer::ViewerReport& report)
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(report.state_hash));
   Json passes = Json::object();
-  for (const auto& [name, milliseconds] : report.passes_ms) passes[name] = milliseconds;
+  for (const auto& [name, milliseconds] : report.passes_ms) passes.set(name, milliseconds);
   write_json(target, Json{{"device", report.device},
                           {"frames", report.frames},
                           {"seconds", report.seconds},
@@ -104,15 +102,15 @@ void view(const Options& options) {
                                        " faults; the first: " + report.validation_messages.front());
 }
 
-void declare_tests(CLI::App& parser, Options& options) {
+void declare_tests(const Arguments& arguments, Options& options) {
   // What tests of the window need; not part of the help.
-  parser.add_option("--lose-device", options.lose_device)->group("")->check(CLI::Range(0.0, 3600.0));
-  parser.add_option("--lose-surface", options.lose_surface)->group("")->check(CLI::Range(0.0, 3600.0));
+  arguments.add_option("--lose-device", options.lose_device, "").hidden().range(0.0, 3600.0);
+  arguments.add_option("--lose-surface", options.lose_surface, "").hidden().range(0.0, 3600.0);
 }
 
 }  // namespace
 
-Command add_view(CLI::App& program) {
+Command add_view(CommandLine& program) {
   Command command =
       declare(program, "view", "Opens a window to walk through a scene, throw smoke and shoot through it.",
               "  brume view                              # the demo's house at night; H shows the keys\n"
@@ -121,48 +119,49 @@ Command add_view(CLI::App& program) {
               "  brume view --play scenes/demo.toml      # what the timeline says happens\n"
               "  brume view --play scenes/demo.toml --exit-after 3 --screenshot end.png --size 640x360");
   auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("INPUT", options->input, "A timeline (.toml), whose events do not happen, or a scene")
-      ->type_name("");
-  parser.add_option("--play", options->play, "A timeline whose events happen")->type_name("FILE");
-  parser.add_option("--time", options->time, "Begin at this time, paused [s]")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->type_name("S");
-  parser.add_option("--size", options->size, "Of the window [px]; default 1280x720")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
-      ->type_name("WxH");
-  parser.add_option("--quality", options->quality, "How the smoke is drawn; default auto: as --fps allows")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
-      ->check(CLI::IsMember(quality_names()))
-      ->type_name("NAME");
-  parser.add_option("--fps", options->frames_per_second, "Frames a second that auto holds; default 60")
-      ->check(CLI::Range(1.0, 1000.0))
-      ->type_name("F");
-  parser.add_option("--view", options->view, "A debug view to begin with; see docs/debug-views.md")
-      ->check(CLI::IsMember(view_names()))
-      ->type_name("NAME");
-  parser.add_option("--word", options->word, "What letters are shot; default BRUME")->type_name("TEXT");
-  parser.add_option("--shot", options->picture, "A picture whose shape is shot")->type_name("FILE");
-  parser.add_option("--folder", options->folder, "Where screenshots and recordings go; default: here")
-      ->type_name("FOLDER");
-  parser.add_option("--record", options->record, "Write what was done as a timeline at the end")
-      ->type_name("FILE");
-  parser.add_option("--exit-after", options->exit_after, "Close the window at this time of its clock [s]")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
-      ->check(CLI::Range(0.01, 3600.0))
-      ->type_name("S");
-  parser.add_option("--screenshot", options->screenshot, "Save the picture of that time")->type_name("FILE");
-  parser.add_flag("--panels", options->panels, "Begin with the panels open");
-  parser.add_flag("--bare", options->bare, "Begin with nothing over the picture");
-  parser.add_flag("--no-vsync", options->no_vertical_sync, "Do not wait for the screen");
-  parser.add_option("--shaders", options->shaders, "Shader files that are watched for changes")
-      ->type_name("FOLDER");
-  parser.add_flag("--validation", options->validation, "Let Vulkan's validation layers watch every call");
-  parser.add_option("--device", options->device, "Number or part of the name; see brume devices")
-      ->type_name("N|NAME");
-  parser.add_option("--json", options->json, "Write what was measured as JSON; -: to standard output")
-      ->type_name("FILE");
-  declare_tests(parser, *options);
+  const Arguments& arguments = command.arguments;
+  arguments.add_option("INPUT", options->input, "A timeline (.toml), whose events do not happen, or a scene")
+      .type_name("");
+  arguments.add_option("--play", options->play, "A timeline whose events happen").type_name("FILE");
+  arguments.add_option("--time", options->time, "Begin at this time, paused [s]")
+      .range(0.0, 3600.0)
+      .type_name("S");
+  arguments.add_option("--size", options->size, "Of the window [px]; default 1280x720")
+      .take_last()
+      .type_name("WxH");
+  arguments.add_option("--quality", options->quality, "How the smoke is drawn; default auto: as --fps allows")
+      .take_last()
+      .one_of(quality_names())
+      .type_name("NAME");
+  arguments.add_option("--fps", options->frames_per_second, "Frames a second that auto holds; default 60")
+      .range(1.0, 1000.0)
+      .type_name("F");
+  arguments.add_option("--view", options->view, "A debug view to begin with; see docs/debug-views.md")
+      .one_of(view_names())
+      .type_name("NAME");
+  arguments.add_option("--word", options->word, "What letters are shot; default BRUME").type_name("TEXT");
+  arguments.add_option("--shot", options->picture, "A picture whose shape is shot").type_name("FILE");
+  arguments.add_option("--folder", options->folder, "Where screenshots and recordings go; default: here")
+      .type_name("FOLDER");
+  arguments.add_option("--record", options->record, "Write what was done as a timeline at the end")
+      .type_name("FILE");
+  arguments.add_option("--exit-after", options->exit_after, "Close the window at this time of its clock [s]")
+      .take_last()
+      .range(0.01, 3600.0)
+      .type_name("S");
+  arguments.add_option("--screenshot", options->screenshot, "Save the picture of that time")
+      .type_name("FILE");
+  arguments.add_flag("--panels", options->panels, "Begin with the panels open");
+  arguments.add_flag("--bare", options->bare, "Begin with nothing over the picture");
+  arguments.add_flag("--no-vsync", options->no_vertical_sync, "Do not wait for the screen");
+  arguments.add_option("--shaders", options->shaders, "Shader files that are watched for changes")
+      .type_name("FOLDER");
+  arguments.add_flag("--validation", options->validation, "Let Vulkan's validation layers watch every call");
+  arguments.add_option("--device", options->device, "Number or part of the name; see brume devices")
+      .type_name("N|NAME");
+  arguments.add_option("--json", options->json, "Write what was measured as JSON; -: to standard output")
+      .type_name("FILE");
+  declare_tests(arguments, *options);
   command.run = [options] { view(*options); };
   return command;
 }

@@ -1,8 +1,8 @@
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/error.hpp"
 #include "scene/load.hpp"
@@ -58,9 +58,9 @@ void voxelize(const Options& options) {
                 {"milliseconds", voxels.milliseconds},
                 {"triangles", voxels.triangles},
                 {"cached", voxels.cached},
-                {"grid", {frame.size.x, frame.size.y, frame.size.z}},
+                {"grid", Json::list({frame.size.x, frame.size.y, frame.size.z})},
                 {"voxel_size", frame.voxel_size},
-                {"origin", {frame.origin_world.x, frame.origin_world.y, frame.origin_world.z}}});
+                {"origin", Json::list({frame.origin_world.x, frame.origin_world.y, frame.origin_world.z})}});
   }
   if (options.json == "-") return;
   char text[200];
@@ -74,27 +74,27 @@ void voxelize(const Options& options) {
 
 }  // namespace
 
-Command add_voxelize(CLI::App& program) {
+Command add_voxelize(CommandLine& program) {
   Command command = declare(
       program, "voxelize", "Finds the voxels of a scene that are solid.",
       "  brume voxelize room.glb -o room.vxl\n"
       "  brume voxelize room.glb --grid 120x20x120 --voxel 0.5 --origin -30,0,-30 --obj cubes.obj --json -");
   auto options = std::make_shared<Options>();
-  CLI::App& parser = *command.parser;
-  parser.add_option("SCENE", options->scene, "The scene (.txt, .gltf, .glb, .obj)")
-      ->required()
-      ->type_name("");
-  parser
+  const Arguments& arguments = command.arguments;
+  arguments.add_option("SCENE", options->scene, "The scene (.txt, .gltf, .glb, .obj)")
+      .required()
+      .type_name("");
+  arguments
       .add_option("-o,--output", options->output, "Voxel file; loaded instead while the scene stays the same")
-      ->type_name("FILE");
-  parser.add_option("--grid", options->grid, "Voxels per axis; default: around the scene")
-      ->type_name("XxYxZ");
-  parser.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25")->type_name("M");
-  parser.add_option("--origin", options->origin, "Low corner of the grid [m]; default: the scene's")
-      ->type_name("X,Y,Z");
-  parser.add_option("--obj", options->obj, "Write the solid voxels as a mesh")->type_name("FILE");
-  parser.add_option("--json", options->json, "Write the result as JSON; -: to standard output")
-      ->type_name("FILE");
+      .type_name("FILE");
+  arguments.add_option("--grid", options->grid, "Voxels per axis; default: around the scene")
+      .type_name("XxYxZ");
+  arguments.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25").type_name("M");
+  arguments.add_option("--origin", options->origin, "Low corner of the grid [m]; default: the scene's")
+      .type_name("X,Y,Z");
+  arguments.add_option("--obj", options->obj, "Write the solid voxels as a mesh").type_name("FILE");
+  arguments.add_option("--json", options->json, "Write the result as JSON; -: to standard output")
+      .type_name("FILE");
   command.run = [options] { voxelize(*options); };
   return command;
 }

@@ -1,5 +1,5 @@
-// What Brume asks of a Vulkan 1.3 device beyond its core: for a host that makes the device itself. What no feature turns
-// on must be there as well: subgroup vote, arithmetic and ballot in compute shaders.
+// What Brume asks of a Vulkan 1.3 device beyond its core: for a host that makes the device itself. What no
+// feature turns on must be there as well: subgroup vote, arithmetic and ballot in compute shaders.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

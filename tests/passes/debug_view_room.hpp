@@ -193,14 +193,15 @@ void expect_rays(const std::vector<glm::u8vec4>& shown, glm::uvec2 size, float t
   }
 }
 
-/// The least distance from a colour of a number within `slack` of x; `colour` changes by less than 60 steps of 255
-/// for each hundredth.
+/// The least distance from a colour of a number within `slack` of x; `colour` changes by less than 60 steps
+/// of 255 for each hundredth.
 template <typename Colour>
 float apart_within(glm::u8vec4 shown, float x, float slack, Colour colour) {
   const int parts = 1 + static_cast<int>(slack * 1e5f);  // each less than a tenth of a step
   float least = apart(shown, colour(x));
   for (int i = -parts; i <= parts && least > kRounded; ++i)
-    least = std::min(least, apart(shown, colour(x + slack * static_cast<float>(i) / static_cast<float>(parts))));
+    least =
+        std::min(least, apart(shown, colour(x + slack * static_cast<float>(i) / static_cast<float>(parts))));
   return least;
 }
 

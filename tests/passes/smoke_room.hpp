@@ -50,16 +50,16 @@ struct SmokeRoom {
     shared::FrameConstants constants{};
     constants.volume = volume.layout();
     constants.look.swirl_width = 1;
-    const gpu::Buffer frame(context, sizeof constants,
+    const gpu::Buffer layout(context, sizeof constants,
                             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     const gpu::Image noise = make_noise_tile(context, 8);
     const NoisePass noise_pass(context);
     NoiseAdvectionPass advection(context);
     advection.reserve({}, volume);
     runner.run([&](gpu::Recorder& recorder) {
-      recorder.upload(frame, 0, std::as_bytes(std::span(&constants, 1)));
+      recorder.upload(layout, 0, std::as_bytes(std::span(&constants, 1)));
       noise_pass.record(recorder, noise, {8, 2, 1});
-      advection.record(recorder, {frame, upload.resources(), noise, {}, 0, 1});
+      advection.record(recorder, {layout, upload.resources(), noise, {}, 0, 1});
     });
   }
 };

@@ -55,7 +55,8 @@ class TruthTest : public gpu::GpuTest {
       for (const glm::dvec4& texel : texels(renderer_.picture())) drawn.picture.emplace_back(texel);
       const gpu::Image& medium = renderer_.smoke_resources().density_displacement;
       drawn.drift.size = glm::ivec3(medium.info().size);
-      for (const glm::dvec4& texel : texels(medium)) drawn.drift.texels.emplace_back(texel.y, texel.z, texel.w);
+      for (const glm::dvec4& texel : texels(medium))
+        drawn.drift.texels.emplace_back(texel.y, texel.z, texel.w);
       return drawn;
     }
     std::vector<shared::Hole> holes;

@@ -183,7 +183,8 @@ TEST(Text, NamesWhatItCannotShoot) {
     timeline.texts[0].place = "t.toml:7:1";
     return load_masks(timeline).failure().message;
   };
-  EXPECT_EQ(failure_of("  ", ""), "t.toml:7:1: the text has no letter that can be seen; expected one at least");
+  EXPECT_EQ(failure_of("  ", ""),
+            "t.toml:7:1: the text has no letter that can be seen; expected one at least");
   EXPECT_EQ(failure_of("\xe6\xbc\xa2", "").rfind("t.toml:7:1: ", 0), 0u);
   EXPECT_EQ(failure_of("A", "/no/such.ttf").rfind("t.toml:7:1: /no/such.ttf: ", 0), 0u);
 }

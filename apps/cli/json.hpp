@@ -1,0 +1,73 @@
+// What --json writes: objects keep the order of their members. nlohmann-json stays behind it, in json.cpp:
+// each file that builds values with it costs two seconds of compiler.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace brume::cli {
+
+class Json {
+ public:
+  struct Member;
+
+  Json(std::nullptr_t);
+  Json(std::same_as<bool> auto value) : Json(Boolean{value}) {}
+  Json(std::signed_integral auto value) : Json(Signed{value}) {}
+  Json(std::unsigned_integral auto value) requires(!std::same_as<decltype(value), bool>)
+      : Json(Unsigned{value}) {}
+  Json(std::floating_point auto value) : Json(Real{value}) {}
+  Json(const char* text);
+  Json(const std::string& text);
+  Json(const std::vector<std::string>& texts);
+  Json(std::initializer_list<Member> members);  ///< An object.
+  static Json object();
+  static Json list(std::initializer_list<Json> values);
+
+  Json(const Json& other);
+  Json(Json&& other) noexcept;
+  Json& operator=(const Json& other);
+  Json& operator=(Json&& other) noexcept;
+  ~Json();
+
+  void set(const std::string& key, const Json& value);  ///< Of an object.
+  void update(const Json& members);                     ///< Sets all of another object.
+  void push_back(const Json& value);                    ///< Of a list.
+
+  std::string dump() const;  ///< Indented by two; what is not UTF-8 becomes replacement characters.
+  std::vector<std::pair<std::string, std::string>> fields() const;  ///< Of an object; texts without quotes.
+
+ private:
+  struct Boolean {
+    bool value;
+  };
+  struct Signed {
+    std::int64_t value;
+  };
+  struct Unsigned {
+    std::uint64_t value;
+  };
+  struct Real {
+    double value;
+  };
+  explicit Json(Boolean boolean);
+  explicit Json(Signed number);
+  explicit Json(Unsigned number);
+  explicit Json(Real number);
+
+  std::unique_ptr<nlohmann::ordered_json> value_;
+};
+
+struct Json::Member {
+  const char* key;
+  Json value;
+};
+
+}  // namespace brume::cli
