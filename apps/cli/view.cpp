@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
-                           picture, folder = ".", screenshot, record, json;
+                           picture, folder = ".", screenshot, record, frame_log, json;
   std::string shaders = BRUME_SHADERS_DIR;
   double frames_per_second = 60;
   std::optional<double> time, exit_after, lose_device, lose_surface;
@@ -52,6 +52,7 @@ viewer::ViewerOptions viewer_options(const Options& options) {
   viewer.exit_after = options.exit_after;
   viewer.screenshot = options.screenshot;
   viewer.record = options.record;
+  viewer.frame_log = options.frame_log;
   viewer.check_signals = stop_if_interrupted;
   viewer.lose_device = options.lose_device;
   viewer.lose_surface = options.lose_surface;
@@ -93,7 +94,8 @@ void view(const Options& options) {
                                                               : options.input;
   viewer::ViewerOptions viewer = viewer_options(options);
   viewer.title = "Brume - " + input.filename().string();
-  for (const std::string& file : {options.screenshot, options.record, options.json}) check_output(file);
+  for (const std::string& file : {options.screenshot, options.record, options.frame_log, options.json})
+    check_output(file);
   stage::Stage stage = stage::load_stage(input, {}).value_or_throw();
   stop_if_interrupted();
   const viewer::ViewerReport report = viewer::run_viewer(std::move(stage), plays, viewer);
@@ -160,6 +162,10 @@ Command add_view(CLI::App& program) {
   parser.add_flag("--validation", options->validation, "Let Vulkan's validation layers watch every call");
   parser.add_option("--device", options->device, "Number or part of the name; see brume devices")
       ->type_name("N|NAME");
+  parser
+      .add_option("--frame-log", options->frame_log,
+                  "Write a line for each frame as CSV, while the window is open: times, memory")
+      ->type_name("FILE");
   parser.add_option("--json", options->json, "Write what was measured as JSON; -: to standard output")
       ->type_name("FILE");
   declare_tests(parser, *options);
