@@ -1,5 +1,5 @@
-// One line of CSV a frame, readable while the window is open: hitches, memory and pictures over time, and how a
-// test knows what was drawn.
+// One line of CSV a frame, readable while the window is open: hitches, memory and pictures over time, and how
+// a test knows what was drawn.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ class FrameLog {
   /// Writes the heading. An empty path: no log. Throws bad_input when the file cannot be written.
   explicit FrameLog(const std::filesystem::path& path);
 
-  /// Adds a line, with the frame's number (from 1) and the memory of the process. Throws resource_limit when the
-  /// disk is full.
+  /// Adds a line, with the frame's number (from 1) and the memory of the process. Throws resource_limit when
+  /// the disk is full.
   void add(const FrameLine& line);
 
  private:

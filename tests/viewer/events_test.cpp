@@ -48,7 +48,7 @@ void show_views(Program& program) {
   tap(program, XK_p);
   for (std::size_t view = 0; view < passes::kDebugViewNames.size(); ++view) {
     program.tap(XK_v);
-    program.wait_for_best();
+    ASSERT_TRUE(program.wait_for_best()) << passes::kDebugViewNames[view] << ": " << program.error();
   }
   tap(program, XK_p);
 }
