@@ -12,7 +12,7 @@ namespace {
 
 struct Options {
   std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
-                           picture, folder = ".", screenshot, record, json;
+                           picture, folder = ".", screenshot, record, frame_log, json;
   std::string shaders = BRUME_SHADERS_DIR;
   double frames_per_second = 60;
   std::optional<double> time, exit_after, lose_device, lose_surface;
@@ -50,6 +50,7 @@ viewer::ViewerOptions viewer_options(const Options& options) {
   viewer.exit_after = options.exit_after;
   viewer.screenshot = options.screenshot;
   viewer.record = options.record;
+  viewer.frame_log = options.frame_log;
   viewer.check_signals = stop_if_interrupted;
   viewer.lose_device = options.lose_device;
   viewer.lose_surface = options.lose_surface;
@@ -91,7 +92,8 @@ void view(const Options& options) {
                                                               : options.input;
   viewer::ViewerOptions viewer = viewer_options(options);
   viewer.title = "Brume - " + input.filename().string();
-  for (const std::string& file : {options.screenshot, options.record, options.json}) check_output(file);
+  for (const std::string& file : {options.screenshot, options.record, options.frame_log, options.json})
+    check_output(file);
   scenario::Scenario scenario = scenario::load_scenario(input, {}).value_or_throw();
   stop_if_interrupted();
   const viewer::ViewerReport report = viewer::run_viewer(std::move(scenario), plays, viewer);
@@ -159,6 +161,10 @@ Command add_view(CommandLine& program) {
   arguments.add_flag("--validation", options->validation, "Let Vulkan's validation layers watch every call");
   arguments.add_option("--device", options->device, "Number or part of the name; see brume devices")
       .type_name("N|NAME");
+  arguments
+      .add_option("--frame-log", options->frame_log,
+                  "Write a line for each frame as CSV, while the window is open: times, memory")
+      .type_name("FILE");
   arguments.add_option("--json", options->json, "Write what was measured as JSON; -: to standard output")
       .type_name("FILE");
   declare_tests(arguments, *options);

@@ -45,4 +45,9 @@ class Figures {
 /// Memory that the process holds [bytes]; 0 where the system does not say.
 std::uint64_t resident_bytes();
 
+/// Memory that the process has allocated and not freed [bytes], wherever it lies; 0 where the C library does
+/// not say. Unlike resident_bytes it does not grow because freed memory is in pieces, or is touched for the
+/// first time.
+std::uint64_t heap_bytes();
+
 }  // namespace brume::viewer

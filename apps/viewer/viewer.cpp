@@ -6,6 +6,7 @@
 #include <chrono>
 #include <deque>
 
+#include "apps/viewer/frame_log.hpp"
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/shader_reload.hpp"
@@ -48,6 +49,7 @@ class Viewer {
         window_(options.size_px, options.title),
         ui_(window_),
         quality_(options.frames_per_second),
+        log_(options.frame_log),
         shaders_(options.shaders) {
     choices_.weapons = options.weapons;
     choices_.view = options.view;
@@ -143,6 +145,7 @@ class Viewer {
   Ui ui_;
   Player player_;
   QualityControl quality_;
+  FrameLog log_;
   ShaderReload shaders_;
   Choices choices_;
   Figures figures_;
@@ -381,9 +384,15 @@ void Viewer::frame() {
 
 void Viewer::finish_frame(Clock::time_point begin, double frame_seconds, double tick_seconds) {
   screen_->wait();
+  const double latency = seconds_between(begin, Clock::now());
+  FrameLine line{session_->seconds(), 1e3 * frame_seconds, 1e3 * tick_seconds, 1e3 * latency,
+                 window_.size_px()};
+  if (!is_of_the_film_) line.picture = still_is_best_ ? PictureKind::best : PictureKind::still;
+  line.device_bytes = screen_->context().memory().bytes_in_use();
+  line.shader_faults = shaders_.errors().size();
+  log_.add(line);
   // The first has none before it, and still ones say nothing of what it costs to go on.
   if (frame_seconds == 0 || !is_of_the_film_) return;
-  const double latency = seconds_between(begin, Clock::now());
   FrameFigures figures;
   figures.frame_ms = 1e3 * frame_seconds;
   figures.tick_ms = 1e3 * tick_seconds;

@@ -27,6 +27,7 @@ struct ViewerOptions {
   std::optional<double> begin_at;       ///< Begins at this time of its clock, paused [s].
   std::optional<double> exit_after;     ///< The window closes at this time of its clock [s].
   std::filesystem::path screenshot;     ///< Of the end; empty: none.
+  std::filesystem::path frame_log;      ///< A line for each frame; empty: none.
   std::filesystem::path record;         ///< The timeline of all that was done, at the end; empty: none.
   std::function<void()> check_signals;  ///< Called every frame; throws to end the program.
   std::optional<double> lose_device, lose_surface;  ///< For tests: at these times of the clock [s].
@@ -41,8 +42,6 @@ struct ViewerReport {
   std::vector<std::pair<std::string, double>> passes_ms;                   ///< Medians, too.
   std::uint32_t tick = 0;
   std::uint64_t state_hash = 0;
-  std::uint64_t warm_bytes = 0,
-                end_bytes = 0;  ///< Memory of the process after kWarmUpFrames, and at the end.
   std::uint64_t process_bytes = 0, device_bytes = 0;  ///< Memory at the end.
   std::size_t shader_reloads = 0, devices_lost = 0;
   std::vector<std::string> validation_messages;

@@ -17,6 +17,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import level_parts  # noqa: E402
 
 IMAGE = "Brume Render"
+# [s]: only what hangs takes so long.
+HANG = 600
 
 bpy.context.preferences.view.show_splash = False
 
@@ -106,13 +108,18 @@ def draw_panels(view):
         yield 0.1
 
 
-def render(preferences, brume, editor, facts):
-    """A render, in the time of which Blender's own timers go on."""
-    preferences.program = brume
+def render(preferences, brume, folder, editor, facts):
+    """A render that begins once Blender's own timers have gone on beside it."""
+    mark = os.path.join(folder, "ticked")
+    commands = f"while [ ! -e '{mark}' ]; do sleep 0.1; done; exec '{brume}' \"$@\""
+    preferences.program = write_program(folder, "waiting", commands)
     facts["started"] = invoke_render()
-    ticks, deadline = 0, time.monotonic() + 60
+    ticks, deadline = 0, time.monotonic() + HANG
     while IMAGE not in bpy.data.images and time.monotonic() < deadline:
         ticks += 1
+        if ticks == 10:
+            with open(mark, "w", encoding="ascii"):
+                pass
         yield 0.05
     facts["ticks"] = ticks
     yield 0.3
@@ -138,7 +145,7 @@ def render_without_editor(preferences, folder, editor, facts):
     preferences.program = write_program(folder, "quick", f"cp '{folder}/first.png' render.png")
     editor.type = "CONSOLE"
     invoke_render()
-    windows, deadline = bpy.context.window_manager.windows, time.monotonic() + 30
+    windows, deadline = bpy.context.window_manager.windows, time.monotonic() + HANG
     while len(windows) < 2 and time.monotonic() < deadline:
         yield 0.1
     yield 0.3
@@ -152,8 +159,8 @@ def render_without_editor(preferences, folder, editor, facts):
 
 def stop_by_escape(preferences, folder, view, facts):
     """A program that does not end by itself."""
-    mark, deadline = os.path.join(folder, "pid"), time.monotonic() + 30
-    commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep 600"
+    mark, deadline = os.path.join(folder, "pid"), time.monotonic() + HANG
+    commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep infinity"
     preferences.program = write_program(folder, "endless", commands)
     invoke_render()
     while not os.path.exists(mark) and time.monotonic() < deadline:
@@ -161,13 +168,14 @@ def stop_by_escape(preferences, folder, view, facts):
     with open(mark, encoding="ascii") as file:
         child = int(file.read())
     press_escape(view)
-    yield 1.0
+    while os.path.exists(f"/proc/{child}") and time.monotonic() < deadline:
+        yield 0.1
     facts["ended"] = not os.path.exists(f"/proc/{child}")
 
 
 def walk_in(preferences, brume, folder, facts):
     """Brume's own window beside Blender's, with the events of the scene; it closes by itself here."""
-    picture, deadline = os.path.join(folder, "view.png"), time.monotonic() + 30
+    picture, deadline = os.path.join(folder, "view.png"), time.monotonic() + HANG
     options = f"--exit-after 1.5 --screenshot '{picture}' --size 320x180 --bare"
     preferences.program = write_program(folder, "viewer", f"exec '{brume}' \"$@\" {options}")
     with inside(areas("VIEW_3D")[0]):
@@ -184,7 +192,7 @@ def steps(addon, brume, folder):
     preferences = bpy.context.preferences.addons["brume"].preferences
     facts = {}
     yield from draw_panels(view)
-    yield from render(preferences, brume, editor, facts)
+    yield from render(preferences, brume, folder, editor, facts)
     yield from take_picture(view, editor, os.path.join(folder, "window.png"))
     yield from render_without_editor(preferences, folder, editor, facts)
     yield from stop_by_escape(preferences, folder, view, facts)

@@ -68,12 +68,17 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) become(folder, arguments, options, out, error);
-  if (options.signal != 0) {
-    ::usleep(static_cast<useconds_t>(options.signal_after_ms) * 1000);
-    ::kill(child, options.signal);
-  }
   int status = 0;
-  ::waitpid(child, &status, 0);
+  bool ended = false;
+  if (options.signal != 0) {
+    constexpr useconds_t kPollMicroseconds = 2000;
+    while (!ended && !options.signal_when()) {
+      ::usleep(kPollMicroseconds);
+      ended = ::waitpid(child, &status, WNOHANG) == child;
+    }
+    if (!ended) ::kill(child, options.signal);
+  }
+  if (!ended) ::waitpid(child, &status, 0);
   Outcome run;
   run.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   if (options.out_file.empty()) run.out = read_text(out);

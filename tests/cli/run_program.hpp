@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,8 +19,8 @@ struct RunOptions {
   std::vector<std::pair<std::string, std::string>> environment;  ///< Added to the test's own.
   std::uint64_t file_bytes = 0;                                  ///< No file may grow past this; 0: any size.
   std::string out_file;                                          ///< Standard output goes there instead.
-  int signal = 0;                                                ///< Sent after `signal_after_ms`.
-  int signal_after_ms = 0;
+  int signal = 0;                                                ///< Sent once `signal_when` holds.
+  std::function<bool()> signal_when;
 };
 
 /// Runs build/.../brume with these arguments in `folder`.

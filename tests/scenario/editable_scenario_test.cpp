@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <random>
@@ -181,7 +181,7 @@ TEST_F(Live, IsAtEveryMomentWhatItsTimelineSays) {
         scene::SmokeOptions smoke = live->scenario().timeline.smoke;
         smoke.voxels = 800 + player.below(1500);
         smoke.hold = 0.5f * static_cast<float>(player.below(5));
-        smoke.erosion = 0.25f;
+        smoke.noise = 0.25f;
         ASSERT_TRUE(live->set_smoke(smoke));
       }
       if (i % 10 == 9)
@@ -347,30 +347,49 @@ TEST_F(Live, KeepsItsGridWhenItIsLoadedAgain) {
   EXPECT_EQ(grid.voxel, layout.voxel_size);
 }
 
-double seconds_of(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
+/// Processor time that this thread spends: what else the machine does meanwhile does not count.
+double cpu_seconds_of(const std::function<void()>& work) {
+  const auto now = [] {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  const double start = now();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return now() - start;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 TEST_F(Live, AShotIntoARunningWorldIsCheap) {
-  // Into a grown smoke, one at each tick. None may play the past again or read files: milliseconds each.
+  // Into a grown smoke, one at each tick. None may play the past again: that is what a shot into the past
+  // does, which is the measure here, taken in between, on whatever machine this is. Nor may it read files:
+  // they are gone.
   const auto live = rooms();
   live->advance_to(3);
   Player player(5, folder);
-  std::vector<double> costs;
-  for (int i = 0; i < 300; ++i) {
-    const double now = 3 + i / 64.0;
-    live->advance_to(now);
+  std::filesystem::remove_all(folder);
+  const auto cost_of = [&](double now) {
     scene::Timeline actions;
     actions.shots = {player.shot(now)};
     actions.shots[0].shape = scene::ShotShape::cylinder;
     actions.shots[0].mask.clear();
-    costs.push_back(seconds_of([&] { ASSERT_TRUE(live->add(actions)); }));
+    return cpu_seconds_of([&] { ASSERT_TRUE(live->add(actions)); });
+  };
+  std::vector<double> present, past;
+  for (int i = 0; i < 300; ++i) {
+    const double now = 3 + i / 64.0;
+    live->advance_to(now);
+    present.push_back(cost_of(now));
+    if (i % 10 == 0) past.push_back(cost_of(0.5));
   }
-  std::sort(costs.begin(), costs.end());
-  RecordProperty("shot_median_ns", static_cast<int>(1e9 * costs[costs.size() / 2]));
-  EXPECT_LT(costs[costs.size() / 2], 0.5e-3);
+  RecordProperty("shot_median_ns", static_cast<int>(1e9 * median(present)));
+  RecordProperty("past_shot_median_ns", static_cast<int>(1e9 * median(past)));
+  EXPECT_LT(median(present), 0.1 * median(past));
 }
 
 }  // namespace

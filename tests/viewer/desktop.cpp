@@ -8,8 +8,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
-#include <fstream>
 #include <sstream>
 #include <thread>
 
@@ -17,7 +18,12 @@ namespace brume::viewer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+// Only what hangs takes so long: a machine that is busy with other things may take a hundred times as long as
+// an idle one.
+constexpr std::chrono::minutes kHang{10};
 constexpr int kPollMs = 20;
+// Frames are looked for more often than they are drawn.
+constexpr int kFramePollMs = 2;
 
 /// Starts a program whose environment is the test's own with a DISPLAY; standard error goes to a file.
 pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
@@ -67,11 +73,17 @@ bool has_picture(const image::Image8& picture) {
   return false;
 }
 
-}  // namespace
-
-void sleep_ms(int milliseconds) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+Frame frame_of(std::string line) {
+  Frame frame;
+  std::replace(line.begin(), line.end(), ',', ' ');
+  double frame_ms = 0, tick_ms = 0, latency_ms = 0;
+  std::istringstream(line) >> frame.number >> frame.seconds >> frame_ms >> tick_ms >> latency_ms >>
+      frame.size_px.x >> frame.size_px.y >> frame.picture >> frame.process_bytes >> frame.heap_bytes >>
+      frame.device_bytes >> frame.shader_faults;
+  return frame;
 }
+
+}  // namespace
 
 Desktop::Desktop() {
   ::XSetErrorHandler(ignore_errors);
@@ -107,14 +119,15 @@ Desktop::~Desktop() {
 
 Program::Program(const Desktop& desktop, const std::filesystem::path& folder,
                  const std::vector<std::string>& arguments)
-    : desktop_(desktop), error_file_(folder / "standard_error.txt") {
-  std::vector<std::string> words{BRUME_PROGRAM, "view"};
+    : desktop_(desktop), error_file_(folder / "standard_error.txt"), log_file_(folder / "frames.csv") {
+  std::filesystem::remove(log_file_);  // of a program before
+  std::vector<std::string> words{BRUME_PROGRAM, "view", "--frame-log", log_file_.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   process_ = start(words, folder, desktop.name(), error_file_, -1);
 }
 
 Program::~Program() {
-  if (runs()) wait(0);
+  if (runs()) kill();
 }
 
 bool Program::runs() {
@@ -124,21 +137,15 @@ bool Program::runs() {
   return false;
 }
 
-std::uint64_t Program::resident_bytes() const {
-  std::ifstream file("/proc/" + std::to_string(process_) + "/statm");
-  std::uint64_t all = 0, resident = 0;
-  if (!(file >> all >> resident)) return 0;
-  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+void Program::kill() {
+  ::kill(process_, SIGKILL);
+  ::waitpid(process_, &status_, 0);
+  process_ = -1;
 }
 
-int Program::wait(int seconds) {
-  const auto end = Clock::now() + std::chrono::seconds(seconds);
-  while (runs() && Clock::now() < end) sleep_ms(kPollMs);
-  if (runs()) {
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, &status_, 0);
-    process_ = -1;
-  }
+int Program::wait() {
+  wait_until([] { return false; }, kPollMs);
+  if (runs()) kill();
   return WIFSIGNALED(status_) ? 128 + WTERMSIG(status_) : WEXITSTATUS(status_);
 }
 
@@ -148,18 +155,24 @@ std::string Program::error() const {
   return text.str();
 }
 
-bool Program::wait_for_window() {
-  const auto end = Clock::now() + std::chrono::seconds(60);
+bool Program::wait_until(const std::function<bool()>& holds, int poll_ms) {
+  const auto end = Clock::now() + kHang;
   while (runs() && Clock::now() < end) {
-    window_ = find_window(desktop_.display());
-    if (window_ && has_picture(picture())) {
-      ::XSetInputFocus(desktop_.display(), window_, RevertToParent, CurrentTime);
-      ::XSync(desktop_.display(), False);
-      return true;
-    }
-    sleep_ms(kPollMs);
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(poll_ms));
   }
   return false;
+}
+
+bool Program::wait_for_window() {
+  const auto shows = [&] {
+    window_ = find_window(desktop_.display());
+    return window_ && has_picture(picture());
+  };
+  if (!wait_until(shows, kPollMs)) return false;
+  ::XSetInputFocus(desktop_.display(), window_, RevertToParent, CurrentTime);
+  ::XSync(desktop_.display(), False);
+  return wait_for_frames(2);
 }
 
 void Program::key(unsigned long symbol, bool down) {
@@ -205,8 +218,6 @@ void Program::hide() {
 
 void Program::show() {
   ::XMapWindow(desktop_.display(), window_);
-  ::XSync(desktop_.display(), False);
-  sleep_ms(100);
   ::XSetInputFocus(desktop_.display(), window_, RevertToParent, CurrentTime);
   ::XSync(desktop_.display(), False);
 }
@@ -245,13 +256,45 @@ image::Image8 Program::picture() {
   return picture;
 }
 
-bool Program::wait_for_picture(const std::function<bool(const image::Image8&)>& wanted, int seconds) {
-  const auto end = Clock::now() + std::chrono::seconds(seconds);
-  while (runs() && Clock::now() < end) {
-    if (wanted(picture())) return true;
-    sleep_ms(50);
-  }
-  return false;
+const std::vector<Frame>& Program::frames() {
+  if (!log_.is_open()) log_.open(log_file_);
+  std::ostringstream more;
+  if (log_.is_open() && log_.peek() != std::ifstream::traits_type::eof()) more << log_.rdbuf();
+  log_.clear();
+  log_rest_ += more.str();
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = log_rest_.find('\n', begin)) != std::string::npos; begin = end + 1)
+    if (std::isdigit(static_cast<unsigned char>(log_rest_[begin])))  // not the heading
+      frames_.push_back(frame_of(log_rest_.substr(begin, end - begin)));
+  log_rest_.erase(0, begin);
+  return frames_;
+}
+
+bool Program::wait_for_picture(const std::function<bool(const image::Image8&)>& wanted) {
+  return wait_until([&] { return wanted(picture()); }, kPollMs);
+}
+
+bool Program::wait_for_frame(const std::function<bool(const Frame&)>& wanted) {
+  return wait_until([&] { return !frames().empty() && wanted(frames().back()); }, kFramePollMs);
+}
+
+bool Program::wait_for_frames(std::size_t count) {
+  const std::size_t end = frames().size() + count;
+  return wait_until([&] { return frames().size() >= end; }, kFramePollMs);
+}
+
+bool Program::wait_for_clock(double seconds) {
+  if (!wait_for_frames(2)) return false;
+  const double end = frames().back().seconds + seconds;
+  return wait_for_frame([&](const Frame& frame) { return frame.seconds >= end; });
+}
+
+bool Program::wait_for_best() {
+  // The window system shows a picture later than the device is done with it, by the images of the swapchain
+  // at most.
+  constexpr std::size_t kImages = 8;
+  return wait_for_frames(2) && wait_for_frame([](const Frame& frame) { return frame.picture == "best"; }) &&
+         wait_for_frames(kImages);
 }
 
 }  // namespace brume::viewer

@@ -6,6 +6,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <glm/glm.hpp>
 #include <string>
@@ -34,7 +35,18 @@ class Desktop {
   _XDisplay* display_ = nullptr;
 };
 
-/// `brume view` on a desktop.
+/// A line of the frame log.
+struct Frame {
+  std::uint64_t number = 0;  ///< From 1.
+  double seconds = 0;        ///< Of the viewer's clock.
+  glm::uvec2 size_px{0};
+  std::string picture;  ///< film, still or best.
+  std::uint64_t process_bytes = 0, heap_bytes = 0, device_bytes = 0;
+  std::size_t shader_faults = 0;
+};
+
+/// `brume view` on a desktop. Tests wait for frames that it drew, for its own clock or for a picture, never
+/// for time to pass: a machine may be as slow as it likes.
 class Program {
  public:
   Program(const Desktop& desktop, const std::filesystem::path& folder,
@@ -46,9 +58,8 @@ class Program {
   /// Waits until the window shows a picture, and gives it the keyboard. False when it never does.
   bool wait_for_window();
   bool runs();
-  std::uint64_t resident_bytes() const;  ///< Memory that it holds; 0 when it does not run.
-  /// Waits for its end; the exit code, 128 + signal where one ended it. Kills it after `seconds`.
-  int wait(int seconds = 120);
+  /// Waits for its end; the exit code, 128 + signal where one ended it.
+  int wait();
   std::string error() const;  ///< What it wrote to standard error.
 
   void key(unsigned long symbol, bool down);
@@ -62,18 +73,33 @@ class Program {
   void show();
   void close();             ///< As the button of the window's frame does.
   image::Image8 picture();  ///< What the window shows now.
-  /// Looks at the window until `wanted` holds, at most so long. Whether it did.
-  bool wait_for_picture(const std::function<bool(const image::Image8&)>& wanted, int seconds = 60);
+
+  /// All frames that it has drawn so far.
+  const std::vector<Frame>& frames();
+  // Each wait fails when the program ends or hangs.
+  /// Looks at the window until `wanted` holds.
+  bool wait_for_picture(const std::function<bool(const image::Image8&)>& wanted);
+  /// Looks at the last frame until `wanted` holds.
+  bool wait_for_frame(const std::function<bool(const Frame&)>& wanted);
+  /// For so many more frames. After two, all that was sent before has been handled.
+  bool wait_for_frames(std::size_t count);
+  /// Until what was sent before has been handled, and the viewer's clock has then gone on by so much.
+  bool wait_for_clock(double seconds);
+  /// Of a paused program: until what was sent before has been handled, and the window shows the picture at
+  /// its best.
+  bool wait_for_best();
 
  private:
+  bool wait_until(const std::function<bool()>& holds, int poll_ms);
+  void kill();
   const Desktop& desktop_;
-  std::filesystem::path error_file_;
+  std::filesystem::path error_file_, log_file_;
+  std::ifstream log_;
+  std::string log_rest_;  ///< The beginning of a line.
+  std::vector<Frame> frames_;
   pid_t process_ = -1;
   int status_ = 0;
   unsigned long window_ = 0;
 };
-
-/// Waits a moment.
-void sleep_ms(int milliseconds);
 
 }  // namespace brume::viewer

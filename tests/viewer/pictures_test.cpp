@@ -15,16 +15,9 @@ class PicturesTest : public testing::Test {
     if (const char* folder = std::getenv("BRUME_PICTURES"))
       image::save_png(std::filesystem::path(folder) / name, picture).value_or_throw();
   }
-  /// The picture once it stays as it is.
   static image::Image8 settled(Program& program) {
-    image::Image8 last = program.picture();
-    int same = 0;
-    program.wait_for_picture([&](const image::Image8& now) {
-      same = mean_difference(now, last) == 0 ? same + 1 : 0;
-      last = now;
-      return same > 40;
-    });
-    return last;
+    EXPECT_TRUE(program.wait_for_best());
+    return program.picture();
   }
 
   cli::WorkFolder folder_;
@@ -38,7 +31,7 @@ TEST_F(PicturesTest, TheDemoWithItsPanelsItsHelpAndAProbe) {
   ASSERT_TRUE(program.wait_for_window()) << program.error();
   for (int tick = 0; tick < 20; ++tick) {  // frames for the graph
     program.tap(XK_period);
-    sleep_ms(500);
+    program.wait_for_best();
   }
   const image::Image8 plain = settled(program);
   keep(plain, "viewer.png");

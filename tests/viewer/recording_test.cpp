@@ -26,25 +26,26 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndPictures) {
                      "made.toml", "--json", "made.json"});
     ASSERT_TRUE(program.wait_for_window()) << program.error();
     program.click(1);  // throw
-    sleep_ms(1200);
+    ASSERT_TRUE(program.wait_for_clock(1.2));
     for (int shot = 0; shot < 20; ++shot) {
       program.move_mouse(shot % 5 * 6 - 12, shot / 5 * 4 - 6);
       program.click(3);
-      sleep_ms(40);
+      program.wait_for_frames(2);
     }
     program.tap(XK_3);
     program.click(3);  // the word
     program.tap(XK_e);
-    sleep_ms(200);
+    ASSERT_TRUE(program.wait_for_clock(0.2));
     program.tap(XK_f);
     // An orbit: sidewards, turning back.
     program.key(XK_a, true);
     for (int i = 0; i < 10; ++i) {
       program.move_mouse(20, 0);
-      sleep_ms(50);
+      program.wait_for_frames(2);
     }
     program.key(XK_a, false);
-    sleep_ms(300);
+    // Past the tick of the last action.
+    ASSERT_TRUE(program.wait_for_clock(0.3));
     program.close();
     ASSERT_EQ(program.wait(), 0) << program.error();
   }
@@ -69,7 +70,7 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndPictures) {
     pictures.push_back(png(name + ".png"));
   }
   EXPECT_EQ(hashes[0], hashes[1]);
-  EXPECT_EQ(pictures[0].rgba, pictures[1].rgba);
+  EXPECT_EQ(largest_difference(pictures[0], pictures[1]), 0);
   EXPECT_GT(count_colours(pictures[0]), 100u);
   // And what was played live ended in the same state.
   const auto live = read_json(file("made.json")), played = read_json(file("first.json"));
@@ -82,14 +83,13 @@ TEST_F(RecordingTest, AScreenshotIsWhatRenderDrawsAndWhatTheWindowShows) {
                   {"room.toml", "--size", "200x120", "--bare", "--quality", "full"});
   ASSERT_TRUE(program.wait_for_window()) << program.error();
   program.click(1);
-  sleep_ms(1500);
+  ASSERT_TRUE(program.wait_for_clock(1.5));
   program.click(3);
-  sleep_ms(200);
+  ASSERT_TRUE(program.wait_for_clock(0.2));
   program.tap(XK_p);
   program.tap(XK_F12);
-  const auto is_there = [&] { return std::filesystem::exists(file("brume_0001.png")); };
-  for (int i = 0; i < 300 && !is_there(); ++i) sleep_ms(50);
-  ASSERT_TRUE(is_there()) << program.error();
+  ASSERT_TRUE(program.wait_for_frames(2));
+  ASSERT_TRUE(std::filesystem::exists(file("brume_0001.png"))) << program.error();
   const image::Image8 screenshot = png("brume_0001.png");
 
   const cli::Outcome rendered =
@@ -97,9 +97,8 @@ TEST_F(RecordingTest, AScreenshotIsWhatRenderDrawsAndWhatTheWindowShows) {
   ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
   EXPECT_LE(largest_difference(screenshot, png("again.png")), 1);
   // The window shows the same once nothing moves.
-  EXPECT_TRUE(program.wait_for_picture([&](const image::Image8& shown) {
-    return largest_difference(shown, screenshot) <= 1;
-  })) << largest_difference(program.picture(), screenshot);
+  ASSERT_TRUE(program.wait_for_best());
+  EXPECT_LE(largest_difference(program.picture(), screenshot), 1);
   program.close();
   EXPECT_EQ(program.wait(), 0) << program.error();
 }

@@ -73,7 +73,7 @@ TEST_F(ShaderReloadTest, APipelineThatIsMadeLaterGetsTheChangedShader) {
   std::filesystem::last_write_time(
       copy / "display.comp",
       std::filesystem::last_write_time(copy / "display.comp") + std::chrono::seconds(2));
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);  // only a hang
   while (reload.reloads() == 0 && std::chrono::steady_clock::now() < end) reload.follow(context());
   ASSERT_EQ(reload.reloads(), 1u);
   const gpu::ComputePipeline pipeline(context(), shaders::display_comp,

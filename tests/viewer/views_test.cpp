@@ -15,18 +15,15 @@ TEST(ViewsTest, EachIsNotBlankAndUnlikeTheOthers) {
                   {"room.toml", "--size", "192x128", "--quality", "half", "--bare", "--validation"});
   ASSERT_TRUE(program.wait_for_window()) << program.error();
   program.click(1);
-  sleep_ms(1500);
+  ASSERT_TRUE(program.wait_for_clock(1.5));
   program.click(3);
-  sleep_ms(300);
+  ASSERT_TRUE(program.wait_for_clock(0.3));
   program.tap(XK_p);
-  sleep_ms(1500);  // the still picture at its best
+  ASSERT_TRUE(program.wait_for_best());
   std::vector<image::Image8> pictures{program.picture()};
   for (std::size_t view = 1; view < passes::kDebugViewNames.size(); ++view) {
     program.tap(XK_v);
-    const bool changed = program.wait_for_picture(
-        [&](const auto& now) { return mean_difference(now, pictures.back()) > 1; }, 20);
-    EXPECT_TRUE(changed) << passes::kDebugViewNames[view];
-    sleep_ms(1000);
+    ASSERT_TRUE(program.wait_for_best()) << passes::kDebugViewNames[view];
     pictures.push_back(program.picture());
     EXPECT_GT(count_colours(pictures.back()), 2u) << passes::kDebugViewNames[view];
   }
