@@ -18,7 +18,7 @@ void PageTable::set(glm::ivec3 brick, std::uint32_t slot) {
   if (info.used == 0) drop_node(node - 1);
 }
 
-/// A node for the place, with its entry in the root; returns its number + 1.
+/// Allocates the node at a place and enters it in the root; returns its number + 1.
 std::uint32_t PageTable::take_node(glm::ivec3 at) {
   std::uint32_t node = static_cast<std::uint32_t>(info_.size());
   if (free_nodes_.empty()) {
@@ -69,7 +69,7 @@ void PageTable::set_window(glm::ivec3 origin, glm::ivec3 size) {
   root_changed_ = true;
 }
 
-void PageTable::forget_changes() {
+void PageTable::clear_changes() {
   for (const std::uint32_t node : changed_nodes_) info_[node].changed = false;
   changed_nodes_.clear();
   root_changed_ = false;

@@ -1,5 +1,5 @@
-// Which slot a brick has: a table of two levels, so that memory follows the smoke and not the space around
-// it.
+// Which slot a brick has: a table of two levels, so that memory follows the bricks and not the space between
+// them.
 //
 //   root   one entry per node of 8^3 bricks of a window of the world  -> node, or none
 //   node   8^3 entries, one per brick                                 -> slot, or none
@@ -23,22 +23,22 @@ class PageTable {
     const std::uint32_t node = node_at(brick >> 3);
     return node == 0 ? kNoSlot : nodes_[first_of(node - 1) + local_of(brick)] - 1;  // 0 wraps to kNoSlot
   }
-  /// Gives the brick a slot, or takes it away with kNoSlot. The window becomes the smallest around all nodes
+  /// Sets the slot of a brick; kNoSlot removes the brick. The window becomes the smallest around all nodes
   /// that hold a brick.
   void set(glm::ivec3 brick, std::uint32_t slot);
 
-  /// Window, in nodes; without any brick both are 0.
+  /// The window [nodes]; without any brick both are 0.
   glm::ivec3 origin() const { return origin_; }
   glm::ivec3 size() const { return size_; }
   /// Node + 1, or 0: x + size.x (y + size.y z).
   std::span<const std::uint32_t> root() const { return root_; }
-  /// Slot + 1, or 0, kPageEntries a node: x + 8 (y + 8 z). Nodes out of use hold 0.
+  /// Slot + 1, or 0, kPageEntries a node: x + 8 (y + 8 z). Free nodes hold 0.
   std::span<const std::uint32_t> nodes() const { return nodes_; }
 
-  /// Whether the root changed since the last forget_changes, and which nodes did, in no order.
+  /// Whether the root changed since the last clear_changes, and which nodes did, in no order.
   bool root_changed() const { return root_changed_; }
   std::span<const std::uint32_t> changed_nodes() const { return changed_nodes_; }
-  void forget_changes();
+  void clear_changes();
 
  private:
   struct Node {

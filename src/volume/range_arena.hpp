@@ -1,4 +1,4 @@
-// Ranges of one long array, given out and taken back: what is freed is used again, nothing is ever moved.
+// Allocates ranges of one long array. Freed ranges are used again; a range never moves.
 #pragma once
 
 #include <array>
@@ -15,27 +15,28 @@ struct IndexRange {
   bool operator==(const IndexRange&) const = default;
 };
 
-/// Hands out ranges of [0, end). A range takes up to a quarter more than was asked for, at least 4, and goes
-/// back to those of its size. Throws resource_limit when an index would not fit 32 bits.
+/// Allocates ranges of [0, end) from free lists by size: a range occupies up to a quarter more than `count`,
+/// and at least 4.
 class RangeArena {
  public:
+  /// Throws resource_limit, with nothing changed, when an index would not fit 32 bits.
   IndexRange take(std::uint32_t count) {
     if (count == 0) return {};
-    std::vector<std::uint32_t>& free = free_[class_of(count)];
     const std::uint32_t size = size_of(count);
-    in_use_ += size;
-    if (!free.empty()) {
+    if (std::vector<std::uint32_t>& free = free_[class_of(count)]; !free.empty()) {
       const IndexRange range{free.back(), count};
       free.pop_back();
+      in_use_ += size;
       return range;
     }
     if (size > ~std::uint32_t{0} - end_)
-      throw Error(ErrorCode::resource_limit,
-                  "smoke at too many walls: its indices must fit 32 bits; use larger voxels");
+      throw Error(ErrorCode::resource_limit, "an array of more than 2^32 entries; use larger voxels");
     const IndexRange range{end_, count};
     end_ += size;
+    in_use_ += size;
     return range;
   }
+  /// A range from `take`, once.
   void give_back(const IndexRange& range) {
     if (range.count == 0) return;
     in_use_ -= size_of(range.count);
@@ -44,7 +45,7 @@ class RangeArena {
     for (std::vector<std::uint32_t>& free : free_) free.clear();
     end_ = 0;
   }
-  /// One past the last index that was ever given out since nothing was in use.
+  /// One past the highest index of any range since the arena was last empty.
   std::uint32_t end() const { return end_; }
 
  private:
