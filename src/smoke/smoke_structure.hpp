@@ -1,5 +1,5 @@
 // The boundary cells of one brick: which voxels each corner takes its density from, past the surfaces in
-// between. All that stays the same from tick to tick.
+// between. None of it changes from tick to tick.
 #pragma once
 
 #include <array>
@@ -7,13 +7,48 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <vector>
 
 #include "smoke/cell_block.hpp"
-#include "smoke/sealed_pockets.hpp"
 #include "smoke/smoke_brick.hpp"
+#include "volume/range_arena.hpp"
+#include "volume/sparse_volume.hpp"
 #include "voxel/bit_grid.hpp"
 
 namespace brume::smoke {
+
+/// Where a boundary corner takes its density from: a voxel of the volume, slot * kVoxelsPerBrick +
+/// local_voxel, or with this bit a mean of its brick.
+constexpr std::uint32_t kMeanBit = 1u << 31;
+
+/// A mean of voxels: the sum of weight * density, divided by total, rounded; voxels
+/// that smoke never reaches count in the total only.
+struct SmokeMean {
+  std::uint32_t first;  ///< Of its voxels and weights.
+  std::uint16_t count, total;
+  std::uint16_t cell;  ///< The first cell, by local index, that has it: all it takes from is around that.
+};
+/// A corner set that smoke can reach.
+struct CornerSource {
+  std::array<std::uint32_t, 8> corners;
+  std::uint32_t first_set;  ///< Of its cell, in the brick.
+  std::uint16_t cell;       ///< Local index of its cell.
+  std::uint8_t sides;       ///< Bit q: the cell's set q has these corners.
+};
+
+/// The boundary cells of a brick, by rising local index.
+struct BrickCells {
+  std::vector<std::uint16_t> cells;           ///< Local index of each: x + 8 y + 64 z.
+  std::vector<shared::BoundaryCell> records;  ///< first_set counted within the brick
+  std::vector<SmokeMean> means;
+  std::vector<std::uint32_t> mean_voxels;  ///< What the means take from, as of a corner,
+  std::vector<std::uint8_t> mean_weights;  ///< and how much.
+  std::vector<CornerSource> sources;
+  std::uint32_t set_count = 0;
+
+  std::vector<std::uint8_t> mean_values{0};  ///< Of means[i] at i + 1; 0 at 0: no smoke.
+  volume::IndexRange cell_range, set_range;  ///< In WallCells::boundary_cells and corner_sets.
+};
 
 /// Voxels -1 to 9 of a brick per axis: all that its cells take from. Row [z + 1][y + 1], bit x + 1.
 using VoxelWindow = std::array<std::array<std::uint16_t, 11>, 11>;
@@ -28,13 +63,13 @@ std::array<const BrickBits*, 27> solid_around(const voxel::BitGrid& grid, glm::i
 struct BrickScene {
   glm::ivec3 brick{0};
   VoxelWindow solid, smoke;
-  std::array<std::uint32_t, 27> slots;  ///< Of the bricks around, as window_of counts them.
+  volume::NeighbourSlots slots;
 };
 
 /// Builds one brick after the other.
 class CellBuilder {
  public:
-  /// Says of a voxel of the grid whether it is free and no smoke comes into its space.
+  /// Whether a voxel of the grid is free and no smoke comes into its space.
   using Sealed = std::function<bool(glm::ivec3 voxel)>;
 
   explicit CellBuilder(const PlaneSource& planes);

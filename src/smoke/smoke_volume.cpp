@@ -1,104 +1,41 @@
 #include "smoke/smoke_volume.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <string>
 
 namespace brume::smoke {
 namespace {
 
 /// Numbers of voxels and means share 32 bits.
-constexpr std::uint32_t kMaxSlots = kMeanBit / kVoxelsPerBrick;
-/// The bricks that a block's voxels are in or within two voxels of: a surface may run that far beyond them.
-void add_bricks_around(const sim::VoxelBlock& block, std::vector<glm::ivec3>& bricks) {
-  constexpr std::array<std::uint64_t, 3> kLowHalf{0x3333333333333333u, 0x00ff00ff00ff00ffu, 0xffffffffu};
-  const glm::ivec3 at(block.at);
-  for (int way = 0; way < 8; ++way) {
-    std::uint64_t mask = block.mask;
-    glm::ivec3 brick = at >> 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      if ((way >> axis & 1) == 0) continue;
-      const bool upper = (at[axis] & 1) != 0;
-      const std::uint64_t low = kLowHalf[static_cast<std::size_t>(axis)];
-      mask &= upper ? ~low : low;
-      brick[axis] += upper ? 1 : -1;
-    }
-    if (mask != 0) bricks.push_back(brick);
-  }
+constexpr std::uint32_t kMaxBricks = kMeanBit / kVoxelsPerBrick;
+
+volume::SparseVolumeInfo volume_info(const voxel::GridLayout& grid) {
+  return {grid.origin_world, grid.voxel_size, {volume::ChannelFormat{sizeof(Texel)}}, kMaxBricks};
 }
 
-bool brick_before(glm::ivec3 a, glm::ivec3 b) {
-  return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
-}
-
-void sort_unique(std::vector<glm::ivec3>& bricks) {
-  std::sort(bricks.begin(), bricks.end(), brick_before);
-  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
-}
-
-BrickBlocks no_blocks() {
-  BrickBlocks blocks;
-  blocks.fill(kNoBlock);
-  return blocks;
-}
-
-/// Which blocks of a set are those of a brick; all kNoBlock when there is none.
-BrickBlocks blocks_in(const sim::BlockSet& set, glm::ivec3 brick) {
-  BrickBlocks blocks = no_blocks();
-  for (std::size_t i = 0; i < 8; ++i) {
-    const glm::ivec3 at = 2 * brick + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
-    if (const sim::VoxelBlock* block = set.find_block(at))
-      blocks[i] = static_cast<std::uint32_t>(block - set.blocks().data());
-  }
-  return blocks;
-}
-
-bool reaches(const sim::BlockSet& set, glm::ivec3 brick) {
-  return glm::all(glm::lessThanEqual(set.low(), 8 * brick + 7)) &&
-         glm::all(glm::greaterThanEqual(set.high(), 8 * brick));
-}
-
-void add_blast_part(SmokeBrick& brick, const SmokeSink& sink) {
-  if (!reaches(sink.field->reached(), brick.at)) return;
-  const BlastPart part{&sink, blocks_in(sink.field->reached(), brick.at)};
-  if (part.blocks == no_blocks()) return;
-  const auto after = std::find_if(brick.blasts.begin(), brick.blasts.end(),
-                                  [&](const BlastPart& other) { return other.sink->id > sink.id; });
-  brick.blasts.insert(after, part);
-}
-
-/// Goes through what is there and what will be, both by id: `add` makes what is new, `keep` says whether a
-/// thing stays as it is. Returns what is no longer there; `held` is then what will be.
-template <typename Held, typename Live, typename Keep, typename Add>
-std::vector<std::unique_ptr<Held>> exchange(std::vector<std::unique_ptr<Held>>& held,
-                                            const std::vector<Live>& live, Keep keep, Add add) {
-  std::vector<std::unique_ptr<Held>> gone, next;
-  next.reserve(live.size());
-  std::size_t i = 0;
-  for (const Live& one : live) {
-    while (i < held.size() && held[i]->id < one.id) gone.push_back(std::move(held[i++]));
-    if (i < held.size() && held[i]->id == one.id) {
-      if (keep(*held[i], one)) {
-        next.push_back(std::move(held[i++]));
-        continue;
-      }
-      gone.push_back(std::move(held[i++]));
-    }
-    next.push_back(add(one));
-  }
-  while (i < held.size()) gone.push_back(std::move(held[i++]));
-  held = std::move(next);
-  return gone;
+/// Along each axis, bricks in which the cells around these voxels lie, cells voxel - 2 to voxel + 1.
+struct Reach {
+  glm::ivec3 low{0}, high{0};
+};
+Reach cells_reach(const BrickBits& voxels) {
+  std::uint64_t flat = 0;
+  for (const std::uint64_t word : voxels) flat |= word;
+  Reach reach;
+  reach.low.x = (flat & 0x0303030303030303u) != 0 ? -1 : 0;
+  reach.high.x = (flat & 0x8080808080808080u) != 0 ? 1 : 0;
+  reach.low.y = (flat & 0xffff) != 0 ? -1 : 0;
+  reach.high.y = flat >> 56 != 0 ? 1 : 0;
+  reach.low.z = (voxels[0] | voxels[1]) != 0 ? -1 : 0;
+  reach.high.z = voxels[7] != 0 ? 1 : 0;
+  return reach;
 }
 
 }  // namespace
 
 SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, PlaneSource planes)
-    : grid_layout_(grid.layout()), planes_(std::move(planes)), builder_(planes_) {
-  layout_.origin_world = grid_layout_.origin_world;
-  layout_.voxel_size = grid_layout_.voxel_size;
-}
+    : grid_layout_(grid.layout()),
+      volume_(volume_info(grid_layout_)),
+      densities_(volume_),
+      walls_(volume_, std::move(planes)) {}
 
 SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, const voxel::SurfacePlanes& planes)
     : SmokeVolume(grid, [&planes](glm::ivec3 cell) { return planes.at(cell); }) {}
@@ -106,176 +43,99 @@ SmokeVolume::SmokeVolume(const voxel::BitGrid& grid, const voxel::SurfacePlanes&
 void SmokeVolume::update(const sim::State& state, const voxel::BitGrid& grid) {
   BRUME_ASSERT(grid.layout() == grid_layout_ && state.layout == grid_layout_, "the state is of another grid");
   grid_ = &grid;
-  pages_.forget_changes();
-  take_edits(state);
-  take_clouds(state);
-  take_blasts(state);
+  volume_.begin_update();
+  walls_.begin_update();
+
+  // What came, went or changed in the state.
+  update_edits(state);
+  update_clouds(state);
+  update_blasts(state);
+
+  // Bricks and boundary cells, then the densities in them.
   update_structure();
-  update_phases(state);
-  refresh();
-  report_changes();
-  ++revision_;
+  update_densities(state.tick);
+
+  walls_.end_update();
+  volume_.end_update();
+  for (const std::uint32_t slot : touched_) {
+    Brick& brick = bricks_[slot];
+    brick.touched = brick.masks_stale = brick.walls_stale = brick.cells_stale = brick.densities_stale = false;
+  }
+  touched_.clear();
+  if (structure_changed_) ++generation_;
+  structure_changed_ = false;
   grid_ = nullptr;
 }
 
-void SmokeVolume::mark(std::uint32_t slot, bool SmokeBrick::*what) {
-  SmokeBrick& brick = *slots_[slot];
+/// Puts a slot on the list of those that have something to do.
+void SmokeVolume::mark(std::uint32_t slot, bool Brick::*what) {
+  Brick& brick = bricks_[slot];
   if (!brick.touched) touched_.push_back(slot);
   brick.touched = true;
   brick.*what = true;
 }
 
-void SmokeVolume::take_clouds(const sim::State& state) {
-  const auto same = [](const sim::LiveCloud& a, const sim::LiveCloud& b) { return a.id == b.id && a.cloud == b.cloud; };
-  if (std::equal(seen_clouds_.begin(), seen_clouds_.end(), state.clouds.begin(), state.clouds.end(), same))
-    return;
-  seen_clouds_ = state.clouds;
-  // What comes is added before what goes is removed: no brick that stays loses its slot in between.
-  const auto gone = exchange(
-      sources_, state.clouds,
-      [](SmokeSource& held, const sim::LiveCloud& live) {
-        if (held.cloud != live.cloud && held.cloud->hash() != live.cloud->hash()) return false;
-        held.cloud = live.cloud;
-        return true;
-      },
-      [&](const sim::LiveCloud& live) {
-        auto source = std::make_unique<SmokeSource>();
-        source->id = live.id;
-        source->cloud = live.cloud;
-        add_cloud(*source);
-        return source;
-      });
-  for (const auto& source : gone) remove_cloud(*source);
-  steady_.clear();
-  for (const auto& source : sources_) steady_.push_back(source->steady);
+void SmokeVolume::update_clouds(const sim::State& state) {
+  // Additions come before removals: no brick that stays loses its slot in between.
+  const auto changes = sources_.take_clouds(state);
+  for (SmokeSource* source : changes.added) add_cloud(*source);
+  for (const auto& source : changes.removed) remove_cloud(*source);
+  structure_changed_ |= changes.any();
 }
 
 void SmokeVolume::add_cloud(SmokeSource& source) {
-  structure_changed_ = true;
+  for (const glm::ivec3 brick : bricks_around(*source.cloud)) source.slots.push_back(take_brick(brick));
   const std::span<const sim::VoxelBlock> blocks = source.cloud->voxels().blocks();
-  std::vector<glm::ivec3> bricks;
-  for (const sim::VoxelBlock& block : blocks) add_bricks_around(block, bricks);
-  sort_unique(bricks);
-  for (const glm::ivec3 brick : bricks) source.slots.push_back(need_brick(brick));
   source.slot_of_block.reserve(blocks.size());
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const glm::ivec3 at(blocks[i].at);
     const std::uint32_t slot = slot_at(at >> 1);
     source.slot_of_block.push_back(slot);
-    std::vector<CloudPart>& parts = slots_[slot]->clouds;
+    std::vector<CloudPart>& parts = bricks_[slot].clouds;
     if (parts.empty() || parts.back().source != &source) parts.push_back({&source, no_blocks()});
     parts.back().blocks[block_in_brick(at)] = static_cast<std::uint32_t>(i);
-    mark(slot, &SmokeBrick::masks_stale);
+    mark(slot, &Brick::masks_stale);
   }
 }
 
-void SmokeVolume::remove_cloud(SmokeSource& source) {
-  structure_changed_ = true;
+void SmokeVolume::remove_cloud(const SmokeSource& source) {
   for (const std::uint32_t slot : source.slots) {
-    SmokeBrick& brick = *slots_[slot];
+    Brick& brick = bricks_[slot];
     std::erase_if(brick.clouds, [&](const CloudPart& part) { return part.source == &source; });
-    mark(slot, &SmokeBrick::masks_stale);
-    mark(slot, &SmokeBrick::densities_stale);
-    --brick.needed;
+    mark(slot, &Brick::masks_stale);
+    mark(slot, &Brick::densities_stale);
+    --brick.cloud_count;
   }
 }
 
-std::array<std::uint32_t, 27> SmokeVolume::slots_around(glm::ivec3 brick) const {
-  std::array<std::uint32_t, 27> slots;
-  for (int i = 0; i < 27; ++i)
-    slots[static_cast<std::size_t>(i)] = slot_at(brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
-  return slots;
+void SmokeVolume::update_blasts(const sim::State& state) {
+  const auto changes = sources_.take_blasts(state);
+  for (const SmokeSink* sink : changes.added) add_blast(*sink);
+  for (const auto& sink : changes.removed) remove_blast(*sink);
 }
 
-/// The slot of the brick, a new one when it has none; counts that one cloud more needs it.
-std::uint32_t SmokeVolume::need_brick(glm::ivec3 at) {
-  std::uint32_t slot = slot_at(at);
-  if (slot == kNoSlot) {
-    slot = slot_count();
-    if (free_slots_.empty()) {
-      if (slot == kMaxSlots)
-        throw Error(ErrorCode::resource_limit, "smoke in more than " + std::to_string(kMaxSlots) +
-                                                   " bricks of 8^3 voxels; use larger voxels");
-      slots_.push_back(std::make_unique<SmokeBrick>());
-      densities_.resize(std::size_t{kVoxelsPerBrick} * slots_.size());
-    } else {
-      slot = free_slots_.top();
-      free_slots_.pop();
-    }
-    SmokeBrick& brick = *slots_[slot];
-    brick.live = true;
-    brick.at = at;
-    for (const auto& sink : sinks_) add_blast_part(brick, *sink);
-    pages_.set(at, slot);
-    mark(slot, &SmokeBrick::fresh);
-    mark(slot, &SmokeBrick::cells_stale);
-  }
-  ++slots_[slot]->needed;
-  return slot;
-}
-
-void SmokeVolume::free_slot(std::uint32_t slot) {
-  SmokeBrick& brick = *slots_[slot];
-  drop_cells(brick);
-  // What was here still shows in the aprons around.
-  std::uint8_t* densities = densities_.data() + std::size_t{slot} * kVoxelsPerBrick;
-  for (std::size_t i = 0; i < kVoxelsPerBrick; ++i)
-    brick.changed[i / 64] |= std::uint64_t{densities[i] != 0} << i % 64;
-  std::fill_n(densities, kVoxelsPerBrick, std::uint8_t{0});
-  if (brick.changed != BrickBits{}) spread_changes(brick);
-  pages_.set(brick.at, kNoSlot);
-  brick = SmokeBrick{};
-  brick.touched = brick.texels_changed = brick.cells_changed = true;
-  free_slots_.push(slot);
-}
-
-void SmokeVolume::take_blasts(const sim::State& state) {
-  const auto same = [](const std::unique_ptr<SmokeSink>& held, const sim::LiveBlast& live) {
-    return held->id == live.id && held->field == live.field;
-  };
-  if (std::equal(sinks_.begin(), sinks_.end(), state.blasts.begin(), state.blasts.end(), same)) return;
-  const auto gone = exchange(
-      sinks_, state.blasts,
-      [](SmokeSink& held, const sim::LiveBlast& live) {
-        if (held.field != live.field && held.field->hash() != live.field->hash()) return false;
-        held.field = live.field;
-        return true;
-      },
-      [&](const sim::LiveBlast& live) {
-        auto sink = std::make_unique<SmokeSink>();
-        sink->id = live.id;
-        sink->field = live.field;
-        sink->profile = live.field->profile(state.tick);
-        for (const sim::VoxelBlock& block : live.field->reached().blocks())
-          sink->bricks.push_back(glm::ivec3(block.at) >> 1);
-        sort_unique(sink->bricks);
-        add_blast(*sink);
-        return sink;
-      });
-  for (const auto& sink : gone) remove_blast(*sink);
-}
-
-void SmokeVolume::add_blast(SmokeSink& sink) {
+void SmokeVolume::add_blast(const SmokeSink& sink) {
   for (const glm::ivec3 at : sink.bricks)
     if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) {
-      add_blast_part(*slots_[slot], sink);
-      mark(slot, &SmokeBrick::densities_stale);
+      add_blast_part(at, sink, bricks_[slot].blasts);
+      mark(slot, &Brick::densities_stale);
     }
 }
 
 void SmokeVolume::remove_blast(const SmokeSink& sink) {
   for (const glm::ivec3 at : sink.bricks)
     if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) {
-      std::erase_if(slots_[slot]->blasts, [&](const BlastPart& part) { return part.sink == &sink; });
-      mark(slot, &SmokeBrick::densities_stale);
+      std::erase_if(bricks_[slot].blasts, [&](const BlastPart& part) { return part.sink == &sink; });
+      mark(slot, &Brick::densities_stale);
     }
 }
 
-void SmokeVolume::take_edits(const sim::State& state) {
+void SmokeVolume::update_edits(const sim::State& state) {
   if (state.edits == edits_) return;
   static const sim::EditBlocks kNone;
   const sim::EditBlocks& was = edits_ ? *edits_ : kNone;
   const sim::EditBlocks& is = state.edits ? *state.edits : kNone;
+  // Both lists are sorted by block: merge them.
   auto a = was.begin(), b = is.begin();
   while (a != was.end() || b != is.end()) {
     const bool take_a = b == is.end() || (a != was.end() && !sim::block_before(b->at, a->at));
@@ -298,57 +158,202 @@ void SmokeVolume::voxels_changed(glm::ivec3 block, std::uint64_t mask) {
 }
 
 void SmokeVolume::planes_changed(glm::ivec3 low_cell, glm::ivec3 high_cell) {
-  // A cell looks at the planes of those next to it; its voxel numbers are its corners' lowest.
+  // A cell reads the planes of those next to it; its voxel numbers are its corners' lowest.
   mark_walls(low_cell - 1, high_cell + 1);
 }
 
-/// What depends on the walls of these voxels is to be built anew.
+/// Whatever depends on the walls of these voxels is stale.
 void SmokeVolume::mark_walls(glm::ivec3 low_voxel, glm::ivec3 high_voxel) {
-  const glm::ivec3 low = glm::max(low_voxel >> 3, 8 * pages_.origin());
-  const glm::ivec3 high = glm::min(high_voxel >> 3, 8 * (pages_.origin() + pages_.size()) - 1);
-  if (glm::any(glm::lessThan(high, low))) return;
-  const auto stale = [&](std::uint32_t slot) {
-    mark(slot, &SmokeBrick::walls_stale);
-    mark(slot, &SmokeBrick::cells_stale);
+  const auto mark_stale = [&](std::uint32_t slot) {
+    mark(slot, &Brick::walls_stale);
+    mark(slot, &Brick::cells_stale);
   };
-  const glm::u64vec3 bricks(high - low + 1);
-  if (bricks.x * bricks.y * bricks.z > slot_count()) {
-    for (std::uint32_t slot = 0; slot < slot_count(); ++slot) {
-      const SmokeBrick& brick = *slots_[slot];
-      if (brick.live && glm::all(glm::greaterThanEqual(brick.at, low)) &&
-          glm::all(glm::lessThanEqual(brick.at, high)))
-        stale(slot);
-    }
+  const glm::ivec3 low = glm::max(low_voxel >> 3, 8 * pages().origin());
+  const glm::ivec3 high = glm::min(high_voxel >> 3, 8 * (pages().origin() + pages().size()) - 1);
+  if (glm::any(glm::lessThan(high, low))) return;
+
+  // Over the slots where they are fewer than the bricks of the box.
+  const glm::u64vec3 box(high - low + 1);
+  if (box.x * box.y * box.z > slot_count()) {
+    for (std::uint32_t slot = 0; slot < slot_count(); ++slot)
+      if (volume_.in_use(slot) && glm::all(glm::greaterThanEqual(brick_of(slot), low)) &&
+          glm::all(glm::lessThanEqual(brick_of(slot), high)))
+        mark_stale(slot);
     return;
   }
   for (int z = low.z; z <= high.z; ++z)
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x)
-        if (const std::uint32_t slot = slot_at({x, y, z}); slot != kNoSlot) stale(slot);
+        if (const std::uint32_t slot = slot_at({x, y, z}); slot != kNoSlot) mark_stale(slot);
 }
 
-std::span<const std::uint32_t> SmokeVolume::cells(std::uint32_t slot) const {
-  static constexpr std::array<std::uint32_t, shared::kCellsPerBrick> kNone{};
-  return slots_[slot]->cells ? *slots_[slot]->cells : kNone;
+/// The slot of the brick, a new one when it has none; one cloud more is in it.
+std::uint32_t SmokeVolume::take_brick(glm::ivec3 at) {
+  std::uint32_t slot = slot_at(at);
+  if (slot == kNoSlot) {
+    slot = volume_.acquire(at);
+    if (slot >= bricks_.size()) bricks_.resize(slot + 1);
+    densities_.add(slot);
+    walls_.add(slot);
+    for (const auto& sink : sources_.blasts()) add_blast_part(at, *sink, bricks_[slot].blasts);
+    mark(slot, &Brick::walls_stale);
+    mark(slot, &Brick::cells_stale);
+  }
+  ++bricks_[slot].cloud_count;
+  return slot;
+}
+
+void SmokeVolume::release_brick(std::uint32_t slot) {
+  walls_.remove(slot);
+  const BrickBits changed = densities_.remove(slot);
+  if (changed != BrickBits{}) walls_.densities_changed(brick_of(slot), changed);
+  volume_.release(slot);
+  bricks_[slot] = {};
+  bricks_[slot].touched = true;
+}
+
+/// Releases the bricks that no cloud is in.
+void SmokeVolume::release_unneeded() {
+  bool any = false;
+  for (const std::uint32_t slot : touched_) {
+    if (!volume_.in_use(slot) || bricks_[slot].cloud_count > 0) continue;
+    release_brick(slot);
+    any = true;
+  }
+  if (!any) return;
+  densities_.shrink();
+  walls_.shrink();
+  bricks_.resize(slot_count());
+  std::erase_if(touched_, [&](std::uint32_t slot) { return slot >= slot_count(); });
+  if (bricks_.empty()) pockets_ = {};
+}
+
+void SmokeVolume::update_structure() {
+  // Masks touch more slots, which have none of their own to update.
+  for (std::size_t i = 0; i < touched_.size(); ++i)
+    if (bricks_[touched_[i]].masks_stale) update_mask(touched_[i]);
+  for (const glm::ivec3 at : stale_bricks_)
+    if (const std::uint32_t slot = slot_at(at); slot != kNoSlot) mark(slot, &Brick::cells_stale);
+  stale_bricks_.clear();
+
+  release_unneeded();
+  for (const std::uint32_t slot : touched_)
+    if (bricks_[slot].cells_stale) {
+      structure_changed_ = true;
+      build_cells(slot);
+    }
+  if (structure_changed_) update_bounds();
+}
+
+/// Which voxels have smoke at some tick; cells that see one more or less are stale.
+void SmokeVolume::update_mask(std::uint32_t slot) {
+  Brick& brick = bricks_[slot];
+  const BrickBits smoke = voxels_of(brick.clouds);
+  if (smoke == brick.smoke) return;
+  BrickBits changed;
+  for (std::size_t z = 0; z < 8; ++z) changed[z] = smoke[z] ^ brick.smoke[z];
+  brick.smoke = smoke;
+
+  const glm::ivec3 at = brick_of(slot);
+  pockets_.changed(at, changed, stale_bricks_);
+  const Reach reach = cells_reach(changed);
+  for (int z = reach.low.z; z <= reach.high.z; ++z)
+    for (int y = reach.low.y; y <= reach.high.y; ++y)
+      for (int x = reach.low.x; x <= reach.high.x; ++x)
+        if (const std::uint32_t other = slot_at(at + glm::ivec3(x, y, z)); other != kNoSlot)
+          mark(other, &Brick::cells_stale);
+}
+
+void SmokeVolume::build_cells(std::uint32_t slot) {
+  // What is solid and where smoke can be, in the brick and around it.
+  const glm::ivec3 at = brick_of(slot);
+  BrickScene scene{at, window_of(solid_around(*grid_, at)), {}, volume_.slots_around(at)};
+  std::array<const BrickBits*, 27> smoke{};
+  for (std::size_t i = 0; i < 27; ++i)
+    if (scene.slots[i] != kNoSlot) smoke[i] = &bricks_[scene.slots[i]].smoke;
+  scene.smoke = window_of(smoke);
+  if (bricks_[slot].walls_stale) densities_.set_solid(slot, scene.solid);
+
+  const auto has_smoke = [this](glm::ivec3 v) {
+    const std::uint32_t other = slot_at(v >> 3);
+    return other != kNoSlot &&
+           (bricks_[other].smoke[static_cast<std::size_t>(v.z & 7)] >> (local_voxel(v) & 63) & 1) != 0;
+  };
+  walls_.build(slot, scene,
+               [&](glm::ivec3 v) { return grid_->free(v) && pockets_.sealed(*grid_, has_smoke, v, at); });
+}
+
+void SmokeVolume::update_bounds() {
+  cloud_bounds_.clear();
+  glm::vec3 low(0), high(0);
+  for (const auto& source : sources_.clouds()) {
+    if (source->cloud->voxels().empty()) continue;
+    // The cells that take from voxel v are v - 2 to v + 1; their points lie in [v - 1.5, v + 2.5].
+    const SmokeBounds cloud{glm::vec3(source->cloud->low()) - 1.5f, glm::vec3(source->cloud->high()) + 2.5f};
+    const bool first = cloud_bounds_.empty();
+    low = first ? cloud.low : glm::min(low, cloud.low);
+    high = first ? cloud.high : glm::max(high, cloud.high);
+    cloud_bounds_.push_back(cloud);
+  }
+  volume_.set_bounds(low, high);
+}
+
+void SmokeVolume::update_densities(std::uint32_t tick) {
+  // Where clouds and blasts changed since the last tick.
+  changed_slots_.clear();
+  changed_bricks_.clear();
+  sources_.advance_to(tick, changed_slots_, changed_bricks_);
+  for (const std::uint32_t slot : changed_slots_) mark(slot, &Brick::densities_stale);
+  for (const glm::ivec3 at : changed_bricks_)
+    if (const std::uint32_t slot = slot_at(at); slot != kNoSlot && !bricks_[slot].clouds.empty())
+      mark(slot, &Brick::densities_stale);
+
+  // Their densities, and what is made from those.
+  for (const std::uint32_t slot : touched_) {
+    const Brick& brick = bricks_[slot];
+    if (!brick.densities_stale) continue;
+    const BrickBits changed = densities_.set_densities(slot, densities_of(brick.clouds, brick.blasts));
+    if (changed != BrickBits{}) walls_.densities_changed(brick_of(slot), changed);
+  }
+  densities_.fill_new();
+  walls_.evaluate(densities_.densities());
 }
 
 std::uint64_t SmokeVolume::bytes() const {
-  std::uint64_t sum = densities_.capacity() + boundary_cells_.capacity() * sizeof(shared::BoundaryCell) +
-                      corner_sets_.capacity() * sizeof(glm::uvec2) + pages_.root().size_bytes() +
-                      pages_.nodes().size_bytes();
-  for (const auto& brick : slots_) {
-    sum += sizeof(SmokeBrick) + brick->clouds.capacity() * sizeof(CloudPart) +
-           brick->blasts.capacity() * sizeof(BlastPart) + (brick->cells ? sizeof(*brick->cells) : 0);
-    if (const BrickCells* home = brick->home.get())
-      sum += sizeof(BrickCells) + home->cells.capacity() * 2 +
-             home->records.capacity() * sizeof(shared::BoundaryCell) +
-             home->means.capacity() * (sizeof(SmokeMean) + 1) + home->mean_voxels.capacity() * 4 +
-             home->mean_weights.capacity() + home->sources.capacity() * sizeof(CornerSource);
-  }
-  for (const auto& source : sources_)
-    sum += sizeof(SmokeSource) + source->densities.capacity() +
-           4 * (source->slot_of_block.capacity() + source->slots.capacity());
+  std::uint64_t sum = volume_.bytes() + densities_.bytes() + walls_.bytes() + sources_.bytes();
+  for (const Brick& brick : bricks_)
+    sum += sizeof(Brick) + brick.clouds.capacity() * sizeof(CloudPart) +
+           brick.blasts.capacity() * sizeof(BlastPart);
   return sum;
+}
+
+float sample_density(const SmokeVolume& volume, glm::vec3 position_voxel) {
+  const glm::ivec3 brick(glm::floor(position_voxel / 8.0f));
+  const std::uint32_t slot = volume.slot_at(brick);
+  if (slot == SmokeVolume::kNoSlot) return 0;
+
+  // Trilinear density and fraction of free corners.
+  const glm::ivec3 cell(glm::floor(position_voxel - 0.5f));
+  const glm::vec3 f = position_voxel - 0.5f - glm::vec3(cell);
+  const glm::ivec3 in_brick = cell - 8 * brick + 1;
+  const std::span<const Texel> texels = volume.texels(slot);
+  glm::uvec2 densities(0), frees(0);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 t = in_brick + corner_offset(corner);
+    const Texel texel = texels[static_cast<std::size_t>(t.x + 10 * (t.y + 10 * t.z))];
+    densities[corner >> 2] |= std::uint32_t{texel.density} << (8 * (corner & 3));
+    frees[corner >> 2] |= std::uint32_t{texel.free} << (8 * (corner & 3));
+  }
+  const float plain = shared::corner_set_density(densities, f);
+  if (shared::corner_set_density(frees, f) >= 1.0f - 1.0f / 512.0f) return plain;
+
+  // A solid corner: the set for the point's side of the surface.
+  const std::uint32_t entry =
+      volume.cells(slot)[static_cast<std::size_t>(in_brick.x + 9 * (in_brick.y + 9 * in_brick.z))];
+  if (entry == 0) return 0;  // no smoke near
+  const shared::BoundaryCell& boundary = volume.boundary_cells()[entry - 1];
+  const std::uint32_t side = shared::boundary_side(boundary, f - 0.5f);
+  return shared::corner_set_density(volume.corner_sets()[boundary.first_set + side], f);
 }
 
 }  // namespace brume::smoke

@@ -1,0 +1,278 @@
+#include "smoke/smoke_sources.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace brume::smoke {
+namespace {
+
+/// The bricks that a block's voxels are in or within two voxels of.
+void add_bricks_around(const sim::VoxelBlock& block, std::vector<glm::ivec3>& bricks) {
+  constexpr std::array<std::uint64_t, 3> kLowHalf{0x3333333333333333u, 0x00ff00ff00ff00ffu, 0xffffffffu};
+  const glm::ivec3 at(block.at);
+  for (int direction = 0; direction < 8; ++direction) {
+    std::uint64_t mask = block.mask;
+    glm::ivec3 brick = at >> 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((direction >> axis & 1) == 0) continue;
+      const bool upper = (at[axis] & 1) != 0;
+      const std::uint64_t low = kLowHalf[static_cast<std::size_t>(axis)];
+      mask &= upper ? ~low : low;
+      brick[axis] += upper ? 1 : -1;
+    }
+    if (mask != 0) bricks.push_back(brick);
+  }
+}
+
+bool brick_before(glm::ivec3 a, glm::ivec3 b) {
+  return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
+void sort_unique(std::vector<glm::ivec3>& bricks) {
+  std::sort(bricks.begin(), bricks.end(), brick_before);
+  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+}
+
+/// Which blocks of a set are those of a brick; all kNoBlock when there is none.
+BrickBlocks blocks_in(const sim::BlockSet& set, glm::ivec3 brick) {
+  BrickBlocks blocks = no_blocks();
+  for (std::size_t i = 0; i < 8; ++i) {
+    const glm::ivec3 at = 2 * brick + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
+    if (const sim::VoxelBlock* block = set.find_block(at))
+      blocks[i] = static_cast<std::uint32_t>(block - set.blocks().data());
+  }
+  return blocks;
+}
+
+bool reaches(const sim::BlockSet& set, glm::ivec3 brick) {
+  return glm::all(glm::lessThanEqual(set.low(), 8 * brick + 7)) &&
+         glm::all(glm::greaterThanEqual(set.high(), 8 * brick));
+}
+
+/// Goes through what is held and what is live, both by id: `keep` decides whether a held one stays, `make`
+/// makes a new one. `held` is then what is live.
+template <typename Held, typename Live, typename Keep, typename Make>
+SmokeSources::Exchange<Held> exchange(std::vector<std::unique_ptr<Held>>& held, const std::vector<Live>& live,
+                                      Keep keep, Make make) {
+  SmokeSources::Exchange<Held> result;
+  std::vector<std::unique_ptr<Held>> next;
+  next.reserve(live.size());
+  std::size_t i = 0;
+  for (const Live& one : live) {
+    while (i < held.size() && held[i]->id < one.id) result.removed.push_back(std::move(held[i++]));
+    if (i < held.size() && held[i]->id == one.id) {
+      if (keep(*held[i], one)) {
+        next.push_back(std::move(held[i++]));
+        continue;
+      }
+      result.removed.push_back(std::move(held[i++]));
+    }
+    next.push_back(make(one));
+    result.added.push_back(next.back().get());
+  }
+  while (i < held.size()) result.removed.push_back(std::move(held[i++]));
+  held = std::move(next);
+  return result;
+}
+
+/// The densities of a whole cloud by rank.
+void densities_of_cloud(const sim::Cloud& cloud, const sim::CloudPhase& phase,
+                        std::vector<std::uint8_t>& out) {
+  out.resize(cloud.voxels().size());
+  const sim::CloudParts& parts = cloud.parts();
+  if (parts.flow_tick != 0 || !parts.detached.empty() || phase.dissolved != 0) {
+    for (std::uint32_t rank = 0; rank < out.size(); ++rank) out[rank] = cloud.density(rank, phase);
+    return;
+  }
+  // Only the reach counts: 0 from the front on, full from the taper inwards; between them a table.
+  const auto end = static_cast<std::uint32_t>(
+      std::min<sim::Front>(phase.front / sim::kFrontUnit + 1, sim::Cloud::kNoDistance));
+  std::vector<std::uint8_t> taper;
+  std::uint32_t begin = end;
+  while (begin > 0 && (taper.empty() || taper.back() < 255))
+    taper.push_back(sim::Cloud::profile(--begin, phase.front));
+  taper.insert(taper.begin(), 0);  // for `end` and beyond
+  const auto last = static_cast<std::uint32_t>(taper.size() - 1);
+  for (std::uint32_t rank = 0; rank < out.size(); ++rank) {
+    const std::uint32_t within = end - std::min(cloud.reach(rank), end);
+    out[rank] = taper[std::min(within, last)];
+  }
+}
+
+/// Index of a brick's voxel from the brick's block and the bit in it.
+constexpr std::size_t first_of_block(std::size_t block) {
+  return 4 * (block & 1) + 32 * (block >> 1 & 1) + 256 * (block >> 2);
+}
+constexpr std::size_t voxel_of_bit(int bit) {
+  return static_cast<std::size_t>((bit & 3) + 8 * (bit >> 2 & 3) + 64 * (bit >> 4));
+}
+
+void add_cloud_part(const CloudPart& part, BrickDensities& sums) {
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (part.blocks[i] == kNoBlock) continue;
+    const sim::VoxelBlock& block = part.source->cloud->voxels().blocks()[part.blocks[i]];
+    const std::uint8_t* density = part.source->densities.data() + block.first;
+    std::uint8_t* sum = sums.data() + first_of_block(i);
+    for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
+      std::uint8_t& here = sum[voxel_of_bit(std::countr_zero(bits))];
+      here = static_cast<std::uint8_t>(std::min(255, here + *density++));
+    }
+  }
+}
+
+void apply_blast_part(const BlastPart& part, BrickDensities& densities) {
+  const sim::BlastField& field = *part.sink->field;
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (part.blocks[i] == kNoBlock) continue;
+    const sim::VoxelBlock& block = field.reached().blocks()[part.blocks[i]];
+    const std::uint8_t* reach = field.reach().data() + block.first;
+    std::uint8_t* density = densities.data() + first_of_block(i);
+    for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
+      std::uint8_t& here = density[voxel_of_bit(std::countr_zero(bits))];
+      here = sim::scaled_density(here, part.sink->profile.remaining[*reach++]);
+    }
+  }
+}
+
+}  // namespace
+
+BrickBlocks no_blocks() {
+  BrickBlocks blocks;
+  blocks.fill(kNoBlock);
+  return blocks;
+}
+
+BrickBits voxels_of(std::span<const CloudPart> clouds) {
+  BrickBits bits{};
+  for (const CloudPart& part : clouds)
+    for (std::size_t i = 0; i < 8; ++i)
+      if (part.blocks[i] != kNoBlock)
+        set_block(bits, i, part.source->cloud->voxels().blocks()[part.blocks[i]].mask);
+  return bits;
+}
+
+BrickDensities densities_of(std::span<const CloudPart> clouds, std::span<const BlastPart> blasts) {
+  BrickDensities densities{};
+  for (const CloudPart& part : clouds) add_cloud_part(part, densities);
+  for (const BlastPart& part : blasts) apply_blast_part(part, densities);
+  return densities;
+}
+
+void add_blast_part(glm::ivec3 brick, const SmokeSink& sink, std::vector<BlastPart>& parts) {
+  if (!reaches(sink.field->reached(), brick)) return;
+  const BlastPart part{&sink, blocks_in(sink.field->reached(), brick)};
+  if (part.blocks == no_blocks()) return;
+  const auto after = std::find_if(parts.begin(), parts.end(),
+                                  [&](const BlastPart& other) { return other.sink->id > sink.id; });
+  parts.insert(after, part);
+}
+
+std::vector<glm::ivec3> bricks_around(const sim::Cloud& cloud) {
+  std::vector<glm::ivec3> bricks;
+  for (const sim::VoxelBlock& block : cloud.voxels().blocks()) add_bricks_around(block, bricks);
+  sort_unique(bricks);
+  return bricks;
+}
+
+SmokeSources::Exchange<SmokeSource> SmokeSources::take_clouds(const sim::State& state) {
+  const auto same = [](const sim::LiveCloud& a, const sim::LiveCloud& b) {
+    return a.id == b.id && a.cloud == b.cloud;
+  };
+  if (std::equal(live_clouds_.begin(), live_clouds_.end(), state.clouds.begin(), state.clouds.end(), same))
+    return {};
+  live_clouds_ = state.clouds;
+  auto result = exchange(
+      clouds_, state.clouds,
+      [](SmokeSource& held, const sim::LiveCloud& live) {
+        if (held.cloud != live.cloud && held.cloud->hash() != live.cloud->hash()) return false;
+        held.cloud = live.cloud;
+        return true;
+      },
+      [](const sim::LiveCloud& live) {
+        auto source = std::make_unique<SmokeSource>();
+        source->id = live.id;
+        source->cloud = live.cloud;
+        return source;
+      });
+  steady_.clear();
+  for (const auto& source : clouds_) steady_.push_back(source->steady);
+  return result;
+}
+
+SmokeSources::Exchange<SmokeSink> SmokeSources::take_blasts(const sim::State& state) {
+  const auto same = [](const std::unique_ptr<SmokeSink>& held, const sim::LiveBlast& live) {
+    return held->id == live.id && held->field == live.field;
+  };
+  if (std::equal(blasts_.begin(), blasts_.end(), state.blasts.begin(), state.blasts.end(), same)) return {};
+  return exchange(
+      blasts_, state.blasts,
+      [](SmokeSink& held, const sim::LiveBlast& live) {
+        if (held.field != live.field && held.field->hash() != live.field->hash()) return false;
+        held.field = live.field;
+        return true;
+      },
+      [&](const sim::LiveBlast& live) {
+        auto sink = std::make_unique<SmokeSink>();
+        sink->id = live.id;
+        sink->field = live.field;
+        sink->profile = live.field->profile(state.tick);
+        for (const sim::VoxelBlock& block : live.field->reached().blocks())
+          sink->bricks.push_back(glm::ivec3(block.at) >> 1);
+        sort_unique(sink->bricks);
+        return sink;
+      });
+}
+
+void SmokeSources::advance_to(std::uint32_t tick, std::vector<std::uint32_t>& slots,
+                              std::vector<glm::ivec3>& bricks) {
+  for (std::size_t i = 0; i < clouds_.size(); ++i) {
+    if (tick >= steady_[i].first && tick <= steady_[i].last) continue;
+    advance_cloud(*clouds_[i], tick, slots);
+    steady_[i] = clouds_[i]->steady;
+  }
+  for (const auto& sink : blasts_) {
+    const sim::BlastProfile profile = sink->field->profile(tick);
+    if (profile == sink->profile) continue;
+    sink->profile = profile;
+    bricks.insert(bricks.end(), sink->bricks.begin(), sink->bricks.end());
+  }
+}
+
+void SmokeSources::advance_cloud(SmokeSource& source, std::uint32_t tick, std::vector<std::uint32_t>& slots) {
+  // How long the phase stays. All of a phase only rises: what is the same at the end of the hold stays so
+  // until then.
+  const sim::Cloud& cloud = *source.cloud;
+  const sim::CloudPhase phase = cloud.phase(tick);
+  const sim::CloudOrigin& origin = cloud.origin();
+  const std::uint32_t hold_end =
+      origin.detonation_tick + origin.settings.bloom_ticks + origin.settings.hold_ticks;
+  const bool steady = tick < hold_end && cloud.phase(hold_end) == phase;
+  source.steady = steady ? TickSpan{tick, hold_end} : TickSpan{};
+
+  const bool first = source.densities.empty();
+  if (!first && phase == source.phase) return;
+  source.phase = phase;
+  std::swap(source.densities, densities_before_);
+  densities_of_cloud(cloud, phase, source.densities);
+
+  // The blocks whose densities differ.
+  const std::span<const sim::VoxelBlock> blocks = cloud.voxels().blocks();
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const std::uint32_t rank = blocks[i].first;
+    const auto count = static_cast<std::size_t>(std::popcount(blocks[i].mask));
+    if (first || std::memcmp(source.densities.data() + rank, densities_before_.data() + rank, count) != 0)
+      slots.push_back(source.slot_of_block[i]);
+  }
+}
+
+std::uint64_t SmokeSources::bytes() const {
+  std::uint64_t sum = 0;
+  for (const auto& source : clouds_)
+    sum += sizeof(SmokeSource) + source->densities.capacity() +
+           4 * (source->slot_of_block.capacity() + source->slots.capacity());
+  return sum;
+}
+
+}  // namespace brume::smoke
