@@ -1,27 +1,29 @@
-// The smoke on the device: bricks, cells and corner sets, uploaded where they changed.
+// The smoke on the device: a BrickAtlas, cells and corner sets, uploaded where they changed.
 #pragma once
 
 #include "gpu/recorder.hpp"
+#include "passes/brick_atlas.hpp"
 #include "planning/smoke_visibility.hpp"
 #include "smoke/smoke_volume.hpp"
 
 namespace brume::passes {
 
-/// What every pass that reads density binds.
+/// What every pass that reads density binds. The references are to resources of the SmokeUpload's BrickAtlas.
 struct SmokeResources {
-  gpu::Buffer pages, cells, boundary, corners;
-  gpu::Buffer slot_bricks;  ///< Per slot its brick, in bricks of the grid.
-  gpu::Image density;       ///< RG8 atlas.
-  gpu::Image inscatter;     ///< Half-float RGBA atlas of the same layout.
-  gpu::Image density_displacement;        ///< Likewise; made by passes/drift.hpp, as the next.
-  gpu::Image filtered_density;         ///< Half-float RG: what the noise leaves of it in the mean of a texel.
-  gpu::Buffer filled;       ///< Per slot the cells in which smoke may be.
-  gpu::Buffer slots;        ///< SmokeVisibility::slots of the frame.
+  const gpu::Buffer& pages;
+  const gpu::Buffer& slot_bricks;          ///< Per slot its brick, in bricks of the grid.
+  const gpu::Image& density;               ///< RG8 atlas: smoke::kDensityChannel.
+  const gpu::Image& inscatter;             ///< Half-float RGBA atlas of the same layout.
+  const gpu::Image& density_displacement;  ///< Likewise; written by NoiseAdvectionPass, as the next.
+  const gpu::Image& filtered_density;  ///< Half-float RG: what noise leaves of the mean density of a texel.
+  gpu::Buffer cells{}, boundary{}, corners{};
+  gpu::Buffer filled{};  ///< Per slot the cells that smoke may be in.
+  gpu::Buffer slots{};   ///< SmokeVisibility::slots of the frame.
   std::uint32_t slot_count = 0;
   std::uint32_t needed = 0, seen = 0;  ///< How many `slots` has, and how many of them may be in view.
 };
 
-/// The cells of a slot in which smoke may be, as shared::pack_cells packs them.
+/// The cells of a slot that smoke may be in, as shared::pack_cells packs them.
 std::uint32_t filled_cells(const smoke::SmokeVolume& volume, std::uint32_t slot);
 
 class SmokeUpload {
@@ -36,27 +38,23 @@ class SmokeUpload {
   /// it.
   bool record(gpu::Recorder& recorder, const smoke::SmokeVolume& volume);
 
-  /// Uploads what the frame needs of the volume that `reserve` saw.
-  void record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& needs);
+  /// Uploads which slots of the volume that `reserve` saw are visible in the frame.
+  void record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& visibility);
 
   const SmokeResources& resources() const { return resources_; }
 
  private:
-  /// Those that passes write.
-  void make_written_atlases(glm::ivec3 bricks);
-  void record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all);
   void record_cells(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
                     std::span<const std::uint32_t> slots);
   void record_filled(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
                      std::span<const std::uint32_t> slots);
-  void record_texels(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,
-                     std::span<const std::uint32_t> slots);
 
   gpu::Context& context_;
+  BrickAtlas atlas_;
   SmokeResources resources_;
+  const smoke::SmokeVolume* volume_ = nullptr;  // that `reserve` saw last
   std::uint64_t reserved_generation_ = 0, uploaded_revision_ = 0;
-  std::size_t root_entries_ = 0;
-  bool everything_ = true;  // a resource is new and empty
+  bool everything_ = true;  // a buffer is new and empty
 };
 
 }  // namespace brume::passes
