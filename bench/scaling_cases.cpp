@@ -40,10 +40,9 @@ void add_court(scene::Scene& scene, glm::vec3 corner) {
 /// camera stands at its far edge and looks over it, along -z.
 scene::Scene world_of_courts(int count, int across) {
   scene::Scene scene;
-  scene.meshes = {scene::unit_cube(), scene::built_in_grenade()};
+  scene.meshes = {scene::unit_cube()};
   scene.materials.resize(1);
   scene.materials[0].base_color = glm::vec3(0.5f);
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
   add_court(scene, {-0.5f * kCourt, 0, -kCourt});
   for (int i = 0; i + 1 < count; ++i) {
     const int column = i % across - across / 2, row = i / across;

@@ -22,9 +22,8 @@ Json scene_info(const std::filesystem::path& path) {
   std::uint64_t triangles = 0;
   for (const scene::Object& object : scene.objects) triangles += scene.meshes[object.mesh].indices.size() / 3;
   // A grenade of the file's own is one of its objects, though it does not stand in the world.
-  const scene::Mesh& grenade = scene.meshes[scene.grenade.mesh];
-  const bool own_grenade = grenade.name != "built-in grenade";
-  if (own_grenade) triangles += grenade.indices.size() / 3;
+  const bool own_grenade = scene.grenade.has_value();
+  if (own_grenade) triangles += scene.meshes[scene.grenade->mesh].indices.size() / 3;
   Json info{{"kind", "scene"},
             {"objects", scene.objects.size() + own_grenade},
             {"grenade", own_grenade ? "of the file" : "built in"},

@@ -32,7 +32,7 @@ void check_options(const Options& options) {
 voxel::GridLayout choose_frame(const Options& options, const scene::Scene& scene) {
   const scene::Bounds bounds = scene::world_bounds(scene);
   if (options.grid.empty())
-    return voxel::frame_around(bounds.min, bounds.max, options.voxel, 1).value_or_throw();
+    return voxel::layout_around(bounds.min, bounds.max, options.voxel, 1).value_or_throw();
   voxel::GridLayout frame{parse_grid("--grid", options.grid), options.voxel, {}};
   frame.origin_world = options.origin.empty() ? glm::floor(bounds.min / options.voxel) * options.voxel
                                               : parse_point("--origin", options.origin);

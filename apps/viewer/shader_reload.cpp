@@ -122,7 +122,7 @@ Result<void> check_fit(const std::vector<std::uint32_t>& words, const gpu::Pipel
     return misfit(name, "the program binds no separate images and samplers");
   for (const spirv_cross::Resource& block : resources.push_constant_buffers)
     if (compiler.get_declared_struct_size(compiler.get_type(block.base_type_id)) > pipeline.push_bytes())
-      return misfit(name, "the program impulses only " + std::to_string(pipeline.push_bytes()) + " bytes");
+      return misfit(name, "the program pushes only " + std::to_string(pipeline.push_bytes()) + " bytes");
   if (const auto* compute = dynamic_cast<const gpu::ComputePipeline*>(&pipeline)) {
     for (std::uint32_t axis = 0; axis < 3; ++axis)
       if (compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, axis) != compute->group()[axis])

@@ -33,7 +33,7 @@ bool has_word(std::string_view name, std::string_view word) {
 }  // namespace
 
 bool is_door_name(std::string_view name) {
-  return has_word(name, "door") && !has_word(name, "layout");
+  return has_word(name, "door") && !has_word(name, "frame");
 }
 
 std::vector<Door> doors_of(const scene::Scene& scene) {

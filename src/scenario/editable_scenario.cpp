@@ -226,11 +226,11 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
   std::error_code error;
   if (timeline.scene != scenario_.timeline.scene &&
       !std::filesystem::equivalent(timeline.scene, scenario_.timeline.scene, error))
-    return Failure{ErrorCode::bad_input, timeline.scene.string() + ": expected the scene that is on scenario, " +
+    return Failure{ErrorCode::bad_input, timeline.scene.string() + ": expected the scenario's scene, " +
                                              scenario_.timeline.scene.string()};
   if (timeline.grid.voxel != grid.voxel || timeline.grid.size.value_or(*grid.size) != *grid.size ||
       timeline.grid.origin_world.value_or(*grid.origin_world) != *grid.origin_world)
-    return Failure{ErrorCode::bad_input, "the timeline has another grid than the scenario; load it anew"};
+    return Failure{ErrorCode::bad_input, "the timeline's grid differs from the scenario's; reload the scenario"};
   timeline.grid = grid;
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;

@@ -241,7 +241,7 @@ Result<void> check_frame(const GridLayout& layout) {
   return {};
 }
 
-Result<GridLayout> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
+Result<GridLayout> layout_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
                                int margin_voxels) {
   GridLayout layout{ivec3(1), voxel_size, glm::vec3(0)};
   if (auto checked = check_frame(layout); !checked) return checked.failure();

@@ -17,7 +17,7 @@ Result<void> check_frame(const GridLayout& layout);
 /// The layout of whole voxels around the box from `low` to `high` [m] with `margin_voxels` (>= 0) more on
 /// every side; its origin is a multiple of the voxel size. Fails with bad_input for an empty or infinite box,
 /// usage for a bad voxel size or margin, resource_limit when an axis would pass kMaxAxis.
-Result<GridLayout> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
+Result<GridLayout> layout_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
                                int margin_voxels);
 
 /// The voxels that a triangle touches. Voxels are closed boxes and triangles closed sets here: touching with

@@ -181,7 +181,7 @@ TEST_F(Live, IsAtEveryMomentWhatItsTimelineSays) {
         scene::SmokeOptions smoke = live->scenario().timeline.smoke;
         smoke.voxels = 800 + player.below(1500);
         smoke.hold = 0.5f * static_cast<float>(player.below(5));
-        smoke.noise = 0.25f;
+        smoke.erosion = 0.25f;
         ASSERT_TRUE(live->set_smoke(smoke));
       }
       if (i % 10 == 9)
@@ -288,11 +288,11 @@ TEST_F(Live, GoesBackToWhatItWas) {
   scene::Timeline other = first;
   other.scene = "other.glb";
   EXPECT_EQ(live->reset(other).failure().message,
-            "other.glb: expected the scene that is on scenario, rooms.glb");
+            "other.glb: expected the scenario's scene, rooms.glb");
   other = first;
   other.grid.voxel = 0.5f;
   EXPECT_EQ(live->reset(other).failure().message,
-            "the timeline has another grid than the scenario; load it anew");
+            "the timeline's grid differs from the scenario's; reload the scenario");
 }
 
 TEST_F(Live, ARecordingOfTheDemoLoadsAsItWasPlayed) {

@@ -78,7 +78,7 @@ class BrumeEvent(bpy.types.PropertyGroup):
     )
     reach: _seconds("Reach", 0.25, 60.0, "The front's way to the far end")
     expand: _seconds("Expand", 0.05, 60.0, "Opening at each depth")
-    stay: _seconds("BrickSpan", 0.6, 600.0, "Open")
+    stay: _seconds("Stay", 0.6, 600.0, "Open")
     fade: _seconds("Fade", 0.35, 60.0, "Closing")
     text: StringProperty(name="Text", description="One line of letters", default="SMOKE")
     size: _metres("Size", 0.5, 0.02, 10.0, "Height of a capital letter")
