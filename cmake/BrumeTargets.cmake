@@ -63,6 +63,25 @@ function(brume_library name)
   brume_precompile(brume_${name} brume_headers)
 endfunction()
 
+# What the sources of tests have in common: Release and RelWithDebInfo builds optimize them little, since to compile
+# them is the longer part. What is tested keeps its optimization.
+function(brume_test_options target)
+  if(NOT TARGET brume_test_headers)
+    brume_precompiled(brume_test_headers ${brume_common_headers} <random> <gtest/gtest.h> LINKS GTest::gtest)
+  endif()
+  brume_precompile(${target} brume_test_headers)
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_options(${target} PRIVATE "$<$<CONFIG:Release,RelWithDebInfo>:-O1;-Wno-maybe-uninitialized>")
+endfunction()
+
+# brume_test_library(NAME sources... LINKS libraries...): what several test programs use, compiled once.
+function(brume_test_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS")
+  add_library(${name} STATIC ${arg_UNPARSED_ARGUMENTS})
+  target_link_libraries(${name} PUBLIC brume_options ${arg_LINKS} GTest::gtest)
+  brume_test_options(${name})
+endfunction()
+
 # brume_test(NAME sources... LINKS libraries... LABELS labels...): a GoogleTest program that CTest runs.
 # The label one_thread is for programs that use no threads but through what others test: the thread sanitizer leaves
 # them out. COST is about how many seconds it takes where that is much: the long ones begin first. TIMEOUT only ends
@@ -75,13 +94,9 @@ function(brume_test name)
   if(NOT arg_COST)
     set(arg_COST 1)
   endif()
-  if(NOT TARGET brume_test_headers)
-    brume_precompiled(brume_test_headers ${brume_common_headers} <random> <gtest/gtest.h> LINKS GTest::gtest)
-  endif()
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
-  brume_precompile(${name} brume_test_headers)
+  brume_test_options(${name})
   target_link_libraries(${name} PRIVATE brume_options ${arg_LINKS} GTest::gtest GTest::gtest_main)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${name} PRIVATE BRUME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
