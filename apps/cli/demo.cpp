@@ -33,12 +33,13 @@ void demo(const Options& options, const CommonOptions& common) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
-      throw Error(ErrorCode::bad_input, options.folder + ": cannot make the folder: " + error.message());
+      throw Error(ErrorCode::bad_input, options.folder + ": cannot create the folder: " + error.message());
   }
   check_output(picture);
   check_output(film);
 
-  const scenario::Scenario scenario = scenario::load_scenario(BRUME_SCENES_DIR "/demo.toml", {}).value_or_throw();
+  const scenario::Scenario scenario =
+      scenario::load_scenario(BRUME_SCENES_DIR "/demo.toml", {}).value_or_throw();
   stop_if_interrupted();
   gpu::Context context({options.device, false});
   const double seconds = static_cast<double>(scenario.timeline.duration);
@@ -62,13 +63,15 @@ void demo(const Options& options, const CommonOptions& common) {
 }  // namespace
 
 Command add_demo(CommandLine& program) {
-  Command command = declare(program, "demo", "Makes a picture and a film of smoke that floods a building.",
+  Command command = declare(program, "demo", "Renders an image and a film of smoke flooding a building.",
                             "  brume demo\n  brume demo --out pictures --device 0");
   auto options = std::make_shared<Options>();
   command.arguments
-      .add_option("-o,--out", options->folder, "A folder that is there; default: out, made if missing")
+      .add_option("-o,--out", options->folder,
+                  "Existing folder to write to; default: out, created if missing")
       .type_name("FOLDER");
-  command.arguments.add_option("--device", options->device, "Number or part of the name; see brume devices")
+  command.arguments
+      .add_option("--device", options->device, "Device by number or part of its name; see brume devices")
       .type_name("N|NAME");
   command.run = [options, common = command.common] { demo(*options, *common); };
   return command;
