@@ -20,30 +20,17 @@ std::size_t character_bytes(const std::string& text, std::size_t at) {
   return std::min(bytes, text.size() - at);
 }
 
-/// The latest time of anything that a timeline says [s].
+/// The time of the last event or camera key [s].
 double last_event(const scene::Timeline& timeline) {
   double last = timeline.camera.empty() ? 0 : timeline.camera.back().time;
-  const auto take = [&](const auto& events) {
+  scene::for_each_event_list(timeline, [&](const char*, const auto& events) {
     if (!events.empty()) last = std::max(last, events.back().time);
-  };
-  take(timeline.smokes);
-  take(timeline.shots);
-  take(timeline.texts);
-  take(timeline.blasts);
-  take(timeline.moves);
-  take(timeline.edits);
-  take(timeline.doors);
+  });
   return last;
 }
 
-void forget_events(scene::Timeline& timeline) {
-  timeline.smokes.clear();
-  timeline.shots.clear();
-  timeline.texts.clear();
-  timeline.blasts.clear();
-  timeline.moves.clear();
-  timeline.edits.clear();
-  timeline.doors.clear();
+void clear_events(scene::Timeline& timeline) {
+  scene::for_each_event_list(timeline, [](const char*, auto& events) { events.clear(); });
 }
 
 Failure nothing_there(const char* action) {
@@ -67,7 +54,7 @@ const char* name_of(ShotKind kind) {
 }
 
 Result<std::unique_ptr<Session>> Session::create(scenario::Scenario scenario, bool play) {
-  if (!play) forget_events(scenario.timeline);
+  if (!play) clear_events(scenario.timeline);
   scene::Timeline initial = scenario.timeline;
   auto live = scenario::EditableScenario::create(std::move(scenario));
   if (!live) return live.failure();

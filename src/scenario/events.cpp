@@ -34,7 +34,7 @@ sim::SmokeSettings smoke_settings(const scene::SmokeOptions& smoke, std::uint32_
   return settings;
 }
 
-sim::HoleTiming timing_of(const scene::HoleTimes& times) {
+sim::HoleTimingMs timing_of(const scene::HoleTimes& times) {
   return {milliseconds(times.reach), milliseconds(times.expand), milliseconds(times.stay),
           milliseconds(times.fade)};
 }
