@@ -108,6 +108,7 @@ bool EditableScenario::changes_are_last(const scene::Timeline& actions) const {
 }
 
 Result<void> EditableScenario::add_in_place(const scene::Timeline& actions) {
+  // Check the events first, because applying level changes is expensive to undo.
   const EventSettings settings{scenario_.voxels.grid.layout(), scenario_.timeline.smoke,
                                scenario_.shot_masks};
   BodyNumbers bodies = bodies_;
@@ -120,6 +121,8 @@ Result<void> EditableScenario::add_in_place(const scene::Timeline& actions) {
     if (!events) last_level_.reset();
     if (!events) return events.failure();
   }
+
+  // Commit.
   if (auto added = simulation_->add(std::move(*events), std::move(changes)); !added) {
     last_level_.reset();
     return added;
@@ -129,9 +132,10 @@ Result<void> EditableScenario::add_in_place(const scene::Timeline& actions) {
   return {};
 }
 
-Result<void> EditableScenario::replay(scene::Timeline timeline, const Kept& staying) {
+Result<void> EditableScenario::replay(scene::Timeline timeline, const Unchanged& unchanged) {
+  // Masks.
   std::optional<LoadedMasks> masks;
-  if (!staying.masks) {
+  if (!unchanged.masks) {
     auto loaded = load_masks(timeline);
     if (!loaded) return loaded.failure();
     masks = std::move(*loaded);
@@ -139,21 +143,25 @@ Result<void> EditableScenario::replay(scene::Timeline timeline, const Kept& stay
   const ShotMasks& shot_masks = masks ? masks->of_shots : scenario_.shot_masks;
   const sim::MaskKey key = masks ? masks->atlas.key() : scenario_.masks.key();
 
+  // Level changes.
   std::vector<LevelEvent> changes;
   std::optional<ObjectLevel> level;
-  if (staying.level) {
+  if (unchanged.level) {
     changes = simulation_->level_events();
   } else if (changes_level(timeline)) {
     level = make_level(scenario_);
     changes = apply_level_events(timeline, scenario_.scene, *level);
   }
+
+  // Events.
   BodyNumbers bodies;
   auto events =
       ordered_events(timeline, changes, bodies, {scenario_.voxels.grid.layout(), timeline.smoke, shot_masks});
   if (!events) return events.failure();
   if (auto done = simulation_->replace(std::move(*events), std::move(changes), key); !done) return done;
 
-  if (!staying.level) last_level_ = std::move(level);
+  // Commit.
+  if (!unchanged.level) last_level_ = std::move(level);
   if (masks) {
     scenario_.masks = std::move(masks->atlas);
     scenario_.shot_masks = std::move(masks->of_shots);
@@ -222,11 +230,11 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
   if (timeline.scene != scenario_.timeline.scene &&
       !std::filesystem::equivalent(timeline.scene, scenario_.timeline.scene, error))
     return Failure{ErrorCode::bad_input, timeline.scene.string() +
-                                             ": expected the scene that is on scenario, " +
+                                             ": expected the scenario's own scene, " +
                                              scenario_.timeline.scene.string()};
   if (timeline.grid.voxel != grid.voxel || timeline.grid.size.value_or(*grid.size) != *grid.size ||
       timeline.grid.origin_world.value_or(*grid.origin_world) != *grid.origin_world)
-    return Failure{ErrorCode::bad_input, "the timeline has another grid than the scenario; load it anew"};
+    return Failure{ErrorCode::bad_input, "the timeline has another grid than the scenario; load it as a new scenario"};
   timeline.grid = grid;
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;

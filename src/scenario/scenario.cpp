@@ -8,8 +8,8 @@
 namespace brume::scenario {
 namespace {
 
-Result<voxel::GridLayout> grid_frame(const scene::Timeline& timeline, const scene::Scene& scene) {
-  // Room around the scene for a whole smoke in open air: a ball of its voxels, and its soft rim.
+Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const scene::Scene& scene) {
+  // The margin holds a whole smoke in open air: a ball of its voxels with its soft rim.
   const auto& grid = timeline.grid;
   const int margin =
       2 + static_cast<int>(std::cbrt(static_cast<float>(timeline.smoke.voxels) * 0.75f / 3.14159f) * 1.2f);
@@ -39,7 +39,8 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   auto scene = scene::load_scene(timeline.scene);
   if (!scene) return scene.failure();
   if (auto checked = scene::check_doors(timeline, *scene); !checked) return checked.failure();
-  // A scene without any light is shown by day.
+
+  // A scene without any light gets a sun.
   if (scene->lights.empty()) {
     scene::Light sun;
     sun.kind = scene::LightKind::directional;
@@ -47,12 +48,16 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
     sun.intensity = {2.6f, 2.4f, 2.1f};
     scene->lights.push_back(sun);
   }
-  const auto layout = grid_frame(timeline, *scene);
+
+  // Voxels, from the cache where possible.
+  const auto layout = grid_layout(timeline, *scene);
   if (!layout) return layout.failure();
   std::filesystem::path cache;
   if (!cache_folder.empty()) cache = cache_folder / timeline.scene.filename().replace_extension(".vxl");
   auto voxels = load_or_voxelize(*scene, *layout, cache);
   if (!voxels) return voxels.failure();
+
+  // Camera and masks.
   const scene::Camera camera = scene->camera ? *scene->camera : scene::default_camera(*scene);
   auto masks = load_masks(timeline);
   if (!masks) return masks.failure();
