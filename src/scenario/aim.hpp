@@ -16,8 +16,8 @@ struct Aim {
   std::optional<glm::vec3> landing_world;
 };
 
-/// Traces the ray from an eye. `at_world` lies between kNearestAim and `reach` [m] from the eye, and within the
-/// range of events if the eye does. A direction of length 0 or with a NaN is replaced by -z.
+/// Traces the ray from an eye. `at_world` lies between kNearestAim and `reach` [m] from the eye, and within
+/// the range of events if the eye does. A direction of length 0 or with a NaN is replaced by -z.
 constexpr float kNearestAim = 0.25f;
 Aim aim(const voxel::BitGrid& grid, glm::vec3 eye_world, glm::vec3 direction_world, float reach = 40);
 

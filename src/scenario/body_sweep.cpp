@@ -74,8 +74,8 @@ class SolidCount {
   std::vector<std::uint32_t> sums_;
 };
 
-/// Offsets along an axis [voxels] at which a body [low, high] touches a voxel face, and 0; shortest first. Each
-/// component of the shortest displacement to free space is one of these: otherwise it could be shorter.
+/// Offsets along an axis [voxels] at which a body [low, high] touches a voxel face, and 0; shortest first.
+/// Each component of the shortest displacement to free space is one of these: otherwise it could be shorter.
 std::vector<double> touching_offsets(double low, double high, double farthest, double skin) {
   std::vector<double> offsets{0};
   for (double face = std::ceil(low - farthest); face <= low + farthest; face += 1)
@@ -118,7 +118,8 @@ double sweep(const BitGrid& grid, const Body& body, int axis, double distance) {
   const double goal = front + distance / edge;
   const int step = distance > 0 ? 1 : -1;
   // Test the voxels ahead of the body layer by layer.
-  for (int layer = static_cast<int>(distance > 0 ? std::ceil(front) : std::floor(front) - 1);; layer += step) {
+  for (int layer = static_cast<int>(distance > 0 ? std::ceil(front) : std::floor(front) - 1);;
+       layer += step) {
     const double face = distance > 0 ? layer : layer + 1;  // towards the body
     if (distance > 0 ? face >= goal + skin : face <= goal - skin) return distance;
     IntBox voxels = across;

@@ -16,8 +16,8 @@ struct Door {
   scene::Bounds bounds_world;          ///< Bounds of all of them, closed.
 };
 
-/// Whether an object of this name counts as a door: the name contains the word "door" in any case ("front door",
-/// "door_2"), also in camel case ("FrontDoor", "DoorRoom"), but not the word "frame".
+/// Whether an object of this name counts as a door: the name contains the word "door" in any case ("front
+/// door", "door_2"), also in camel case ("FrontDoor", "DoorRoom"), but not the word "frame".
 bool is_door_name(std::string_view name);
 
 /// The doors of a scene, in the order of their first objects.

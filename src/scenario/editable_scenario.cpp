@@ -229,12 +229,12 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
   std::error_code error;
   if (timeline.scene != scenario_.timeline.scene &&
       !std::filesystem::equivalent(timeline.scene, scenario_.timeline.scene, error))
-    return Failure{ErrorCode::bad_input, timeline.scene.string() +
-                                             ": expected the scenario's own scene, " +
+    return Failure{ErrorCode::bad_input, timeline.scene.string() + ": expected the scenario's own scene, " +
                                              scenario_.timeline.scene.string()};
   if (timeline.grid.voxel != grid.voxel || timeline.grid.size.value_or(*grid.size) != *grid.size ||
       timeline.grid.origin_world.value_or(*grid.origin_world) != *grid.origin_world)
-    return Failure{ErrorCode::bad_input, "the timeline has another grid than the scenario; load it as a new scenario"};
+    return Failure{ErrorCode::bad_input,
+                   "the timeline has another grid than the scenario; load it as a new scenario"};
   timeline.grid = grid;
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;

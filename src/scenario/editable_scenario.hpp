@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "scene/timeline.hpp"
-#include "scenario/simulation.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/simulation.hpp"
+#include "scene/timeline.hpp"
 
 namespace brume::scenario {
 
@@ -16,8 +16,8 @@ namespace brume::scenario {
 /// regardless of the edits, their times and their order.
 class EditableScenario {
  public:
-  /// Starts the scenario's own timeline at time 0. Stores the current grid in the timeline, so that loading it
-  /// again gives the same grid. Fails as Simulation::create does.
+  /// Starts the scenario's own timeline at time 0. Stores the current grid in the timeline, so that loading
+  /// it again gives the same grid. Fails as Simulation::create does.
   static Result<std::unique_ptr<EditableScenario>> create(Scenario scenario);
   EditableScenario(const EditableScenario&) = delete;
   EditableScenario& operator=(const EditableScenario&) = delete;
@@ -30,13 +30,13 @@ class EditableScenario {
   /// Moves to the tick at or before a time [s], forwards or backwards. Throws as SmokeVolume::update.
   void advance_to(double seconds) { simulation_->advance_to(seconds); }
 
-  // The edits below are atomic: they apply completely, or fail with one line. The simulation's world changes at
-  // once; smoke volume, planes and hidden objects follow at the next advance_to.
+  // The edits below are atomic: they apply completely, or fail with one line. The simulation's world changes
+  // at once; smoke volume, planes and hidden objects follow at the next advance_to.
 
-  /// Adds the events of `actions`; its other members are ignored. Times may be past, present and future. Present
-  /// and future events are cheap; past ones replay the simulation from their time. A new picture or text rebuilds
-  /// all masks. Fails with bad_input as check_events, check_doors and load_masks do, and for an event that the
-  /// simulation rejects.
+  /// Adds the events of `actions`; its other members are ignored. Times may be past, present and future.
+  /// Present and future events are cheap; past ones replay the simulation from their time. A new picture or
+  /// text rebuilds all masks. Fails with bad_input as check_events, check_doors and load_masks do, and for an
+  /// event that the simulation rejects.
   Result<void> add(const scene::Timeline& actions);
 
   /// Changes all smokes, existing ones included; a change of their amount or life replays them all.

@@ -189,9 +189,9 @@ Result<std::vector<sim::Event>> events_of(const Scenario& scenario, std::uint32_
   const auto changes = level_events(scenario);
   if (!changes) return changes.failure();
   BodyNumbers bodies;
-  auto events =
-      ordered_events(scenario.timeline, *changes, bodies,
-                     {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks, ticks_per_second});
+  auto events = ordered_events(
+      scenario.timeline, *changes, bodies,
+      {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks, ticks_per_second});
   if (!events) return events.failure();
   return without_order(std::move(*events));
 }

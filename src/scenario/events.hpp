@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "sim/world.hpp"
 #include "scenario/level_events.hpp"
 #include "scenario/scenario.hpp"
+#include "sim/world.hpp"
 
 namespace brume::scenario {
 
@@ -62,8 +62,8 @@ Result<std::vector<OrderedEvent>> ordered_events(const scene::Timeline& timeline
                                                  const EventSettings& settings);
 
 /// The timeline's events in the order of a world's log: by tick, and within one tick edits and doors, smokes,
-/// shots, letters of texts, blasts, moves. Bodies are numbered in the order of their first appearance. Fails with
-/// bad_input for an event outside the simulation's range, and as level_events.
+/// shots, letters of texts, blasts, moves. Bodies are numbered in the order of their first appearance. Fails
+/// with bad_input for an event outside the simulation's range, and as level_events.
 Result<std::vector<sim::Event>> events_of(
     const Scenario& scenario, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sim/world.hpp"
 #include "scenario/events.hpp"
+#include "sim/world.hpp"
 
 namespace brume::scenario {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "sim/level_edit.hpp"
 #include "scenario/scenario.hpp"
+#include "sim/level_edit.hpp"
 #include "voxel/level.hpp"
 #include "voxel/patched_planes.hpp"
 
@@ -21,8 +21,8 @@ struct LevelEvent {
   bool hidden = false;                              ///< Whether they are hidden from now on.
 };
 
-/// The level of a scenario with one part per voxelized object; `part_of[object]` is its part, or scene::kNone if
-/// it is not voxelized.
+/// The level of a scenario with one part per voxelized object; `part_of[object]` is its part, or scene::kNone
+/// if it is not voxelized.
 struct ObjectLevel {
   voxel::Level level;
   std::vector<std::uint32_t> part_of;
@@ -35,8 +35,8 @@ sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::BitGrid& 
 /// The voxels with centres inside a box [m].
 voxel::IntBox voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world);
 
-/// Applies all edits and doors of a timeline to a level in order of time, edits before doors of the same time.
-/// The doors must pass check_doors.
+/// Applies all edits and doors of a timeline to a level in order of time, edits before doors of the same
+/// time. The doors must pass check_doors.
 std::vector<LevelEvent> apply_level_events(const scene::Timeline& timeline, const scene::Scene& scene,
                                            ObjectLevel& objects);
 

@@ -24,7 +24,8 @@ Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const sce
 
 }  // namespace
 
-Result<Scenario> load_scenario(const std::filesystem::path& input, const std::filesystem::path& cache_folder) {
+Result<Scenario> load_scenario(const std::filesystem::path& input,
+                               const std::filesystem::path& cache_folder) {
   if (input.extension() == ".toml") {
     auto timeline = scene::load_timeline(input);
     if (!timeline) return timeline.failure();
@@ -62,7 +63,7 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   auto masks = load_masks(timeline);
   if (!masks) return masks.failure();
   return Scenario{std::move(timeline), std::move(*scene),       camera,
-               std::move(*voxels),  std::move(masks->atlas), std::move(masks->of_shots)};
+                  std::move(*voxels),  std::move(masks->atlas), std::move(masks->of_shots)};
 }
 
 }  // namespace brume::scenario

@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "scene/timeline.hpp"
-#include "smoke/mask_atlas.hpp"
 #include "scenario/shot_masks.hpp"
 #include "scenario/vxl_file.hpp"
+#include "scene/timeline.hpp"
+#include "smoke/mask_atlas.hpp"
 
 namespace brume::scenario {
 
@@ -20,8 +20,8 @@ struct Scenario {
   ShotMasks shot_masks = {};    ///< Which of them each shot and text uses.
 };
 
-/// Loads a timeline (.toml), or a scene file with its default timeline. Voxels are cached in `cache_folder` under
-/// the scene's name (empty: not cached).
+/// Loads a timeline (.toml), or a scene file with its default timeline. Voxels are cached in `cache_folder`
+/// under the scene's name (empty: not cached).
 Result<Scenario> load_scenario(const std::filesystem::path& input, const std::filesystem::path& cache_folder);
 
 /// The same for a timeline in memory; loads its scene from Timeline::scene.

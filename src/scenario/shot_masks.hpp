@@ -15,8 +15,8 @@
 
 namespace brume::scenario {
 
-/// A letter of a text, in cap heights from the middle of its row: half its length along it and half a cap height
-/// up.
+/// A letter of a text, in cap heights from the middle of its row: half its length along it and half a cap
+/// height up.
 struct Letter {
   std::uint32_t mask = 0;
   float right = 0, up = 0;
@@ -42,11 +42,11 @@ struct LoadedMasks {
 Result<smoke::Mask> mask_of(const image::Image8& picture, const std::string& name);
 
 /// Loads the pictures and fonts that the timeline names. Each picture and each glyph is one mask; masks with
-/// identical texels are shared. They are numbered by the time of their first use, so later shots do not change
-/// earlier numbers. The atlas depends on pictures, letters and timeline only, not on file locations. Fails with
-/// bad_input for a file that is missing or unreadable, a character missing from its font, or a text of blanks,
-/// naming the event's place, and with resource_limit as MaskAtlas::pack, naming the place of the last event that
-/// adds a mask.
+/// identical texels are shared. They are numbered by the time of their first use, so later shots do not
+/// change earlier numbers. The atlas depends on pictures, letters and timeline only, not on file locations.
+/// Fails with bad_input for a file that is missing or unreadable, a character missing from its font, or a
+/// text of blanks, naming the event's place, and with resource_limit as MaskAtlas::pack, naming the place of
+/// the last event that adds a mask.
 Result<LoadedMasks> load_masks(const scene::Timeline& timeline);
 
 }  // namespace brume::scenario

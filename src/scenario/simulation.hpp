@@ -5,17 +5,18 @@
 #include <span>
 #include <vector>
 
-#include "smoke/smoke_volume.hpp"
-#include "sim/world.hpp"
 #include "scenario/events.hpp"
 #include "scenario/level_events.hpp"
 #include "scenario/scenario.hpp"
+#include "sim/world.hpp"
+#include "smoke/smoke_volume.hpp"
 
 namespace brume::scenario {
 
 class Simulation {
  public:
-  /// `scenario` must outlive it, with its voxels at a fixed address. Fails with bad_input for an invalid event.
+  /// `scenario` must outlive it, with its voxels at a fixed address. Fails with bad_input for an invalid
+  /// event.
   static Result<std::unique_ptr<Simulation>> create(const Scenario& scenario);
 
   /// Moves world and smoke to the tick at or before a time [s].
@@ -29,13 +30,14 @@ class Simulation {
   /// All changes of the level, sorted by time.
   const std::vector<LevelEvent>& level_events() const { return level_events_; }
 
-  // Edits of a running timeline, at any past or future time. The world changes at once; smoke volume, planes and
-  // hidden objects follow at the next advance_to.
+  // Edits of a running timeline, at any past or future time. The world changes at once; smoke volume, planes
+  // and hidden objects follow at the next advance_to.
 
-  /// Adds events, merged into the existing ones by their order, and level changes after all existing ones. Fails
-  /// with bad_input for an event that the world rejects; nothing is added then.
+  /// Adds events, merged into the existing ones by their order, and level changes after all existing ones.
+  /// Fails with bad_input for an event that the world rejects; nothing is added then.
   Result<void> add(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes);
-  /// Replaces all events, level changes and masks. Replays only from the first difference. Fails as `add` does.
+  /// Replaces all events, level changes and masks. Replays only from the first difference. Fails as `add`
+  /// does.
   Result<void> replace(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes,
                        const sim::MaskKey& masks);
 

@@ -4,8 +4,8 @@
 //   payload    zstd: bricks (number, 8 words), cells (key differences, plane counts), planes
 //   checksum   XXH3-64 of all bytes before it
 //
-// Files are untrusted: lengths and counts are checked in 64 bits against the grid and the file before anything is
-// allocated, then bricks, cells and planes one by one.
+// Files are untrusted: lengths and counts are checked in 64 bits against the grid and the file before
+// anything is allocated, then bricks, cells and planes one by one.
 #pragma once
 
 #include <cstddef>
@@ -35,9 +35,9 @@ std::uint64_t vxl_key(std::span<const voxel::Triangle> triangles, const voxel::G
 /// The bytes of a `.vxl` file. Equal contents give equal bytes.
 std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key);
 
-/// Reads the output of encode_vxl. Nothing when the bytes are valid but have another key than the expected one;
-/// without an expected key any is accepted. Fails with bad_input when they are truncated, damaged, foreign or of
-/// another version; the message does not name the file.
+/// Reads the output of encode_vxl. Nothing when the bytes are valid but have another key than the expected
+/// one; without an expected key any is accepted. Fails with bad_input when they are truncated, damaged,
+/// foreign or of another version; the message does not name the file.
 Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
                                               std::optional<std::uint64_t> expected_key);
 
@@ -56,9 +56,9 @@ struct Voxels {
   std::uint64_t triangles = 0;
 };
 
-/// The voxels of a scene. Uses the cache at `cache_path` (empty: none) if its key matches this scene and layout;
-/// otherwise voxelizes the scene and writes the cache. An invalid cache file causes a warning and is rewritten.
-/// Fails as check_frame does, and when the cache cannot be written.
+/// The voxels of a scene. Uses the cache at `cache_path` (empty: none) if its key matches this scene and
+/// layout; otherwise voxelizes the scene and writes the cache. An invalid cache file causes a warning and is
+/// rewritten. Fails as check_frame does, and when the cache cannot be written.
 Result<Voxels> load_or_voxelize(const scene::Scene& scene, const voxel::GridLayout& layout,
                                 const std::filesystem::path& cache_path);
 

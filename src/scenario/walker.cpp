@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/timeline.hpp"
 #include "scenario/body_sweep.hpp"
+#include "scene/timeline.hpp"
 
 namespace brume::scenario {
 namespace {

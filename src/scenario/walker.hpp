@@ -37,26 +37,27 @@ void visit_walker_options(Options& o, Visitor&& visit) {
 }
 
 struct WalkerInput {
-  glm::vec3 direction_world{0};  ///< Direction and fraction of the speed, length <= 1; on foot only x and z count.
+  glm::vec3 direction_world{
+      0};  ///< Direction and fraction of the speed, length <= 1; on foot only x and z count.
   bool run = false, jump = false;
 };
 
-/// The body is an upright, axis-aligned box. On foot it is never inside a solid voxel, whatever the speed and the
-/// frame time: its motion is swept. Below the grid's bottom, also beside the grid, everything is solid; elsewhere
-/// outside of the grid everything is free. Equal inputs on equal grids give equal motion.
+/// The body is an upright, axis-aligned box. On foot it is never inside a solid voxel, whatever the speed and
+/// the frame time: its motion is swept. Below the grid's bottom, also beside the grid, everything is solid;
+/// elsewhere outside of the grid everything is free. Equal inputs on equal grids give equal motion.
 class Walker {
  public:
   explicit Walker(const WalkerOptions& options = {}) : options_(options) {}
 
-  /// Places the eye, with zero velocity. On foot, a body that would overlap a solid voxel moves to the nearest free
-  /// position.
+  /// Places the eye, with zero velocity. On foot, a body that would overlap a solid voxel moves to the
+  /// nearest free position.
   void put(const voxel::BitGrid& grid, glm::vec3 eye_world);
   /// Starts or stops flying in place, or on foot at the nearest free position.
   void set_flying(const voxel::BitGrid& grid, bool flying);
   void set_options(const voxel::BitGrid& grid, const WalkerOptions& options);
 
-  /// Moves for some seconds, at most 1; NaN and infinity count as 0. A body that overlaps a voxel that became solid
-  /// first moves to the nearest free position.
+  /// Moves for some seconds, at most 1; NaN and infinity count as 0. A body that overlaps a voxel that became
+  /// solid first moves to the nearest free position.
   void move(const voxel::BitGrid& grid, const WalkerInput& input, double seconds);
 
   /// Follows the body, smoothed on stairs; on foot never in a solid voxel.
