@@ -42,17 +42,15 @@ Json scene_info(const std::filesystem::path& path) {
 
 Json timeline_info(const std::filesystem::path& path) {
   const scene::Timeline timeline = scene::load_timeline(path).value_or_throw();
-  return {{"kind", "timeline"},
-          {"scene", timeline.scene.string()},
-          {"seconds", timeline.duration},
-          {"voxel_size", timeline.grid.voxel},
-          {"camera_keys", timeline.camera.size()},
-          {"smokes", timeline.smokes.size()},
-          {"shots", timeline.shots.size()},
-          {"blasts", timeline.blasts.size()},
-          {"moves", timeline.moves.size()},
-          {"edits", timeline.edits.size()},
-          {"doors", timeline.doors.size()}};
+  Json info{{"kind", "timeline"},
+            {"scene", timeline.scene.string()},
+            {"seconds", timeline.duration},
+            {"voxel_size", timeline.grid.voxel},
+            {"camera_keys", timeline.camera.size()}};
+  scene::for_each_event_list(timeline, [&](const char* type, const auto& events) {
+    info.set(type + std::string("s"), events.size());
+  });
+  return info;
 }
 
 Json image_info(const std::filesystem::path& path) {

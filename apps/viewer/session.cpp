@@ -21,30 +21,17 @@ std::size_t character_bytes(const std::string& text, std::size_t at) {
   return std::min(bytes, text.size() - at);
 }
 
-/// The time of the latest camera key or event of a timeline [s].
+/// The time of the last event or camera key [s].
 double last_event(const scene::Timeline& timeline) {
   double last = timeline.camera.empty() ? 0 : timeline.camera.back().time;
-  const auto take = [&](const auto& events) {
+  scene::for_each_event_list(timeline, [&](const char*, const auto& events) {
     if (!events.empty()) last = std::max(last, events.back().time);
-  };
-  take(timeline.smokes);
-  take(timeline.shots);
-  take(timeline.texts);
-  take(timeline.blasts);
-  take(timeline.moves);
-  take(timeline.edits);
-  take(timeline.doors);
+  });
   return last;
 }
 
 void clear_events(scene::Timeline& timeline) {
-  timeline.smokes.clear();
-  timeline.shots.clear();
-  timeline.texts.clear();
-  timeline.blasts.clear();
-  timeline.moves.clear();
-  timeline.edits.clear();
-  timeline.doors.clear();
+  scene::for_each_event_list(timeline, [](const char*, auto& events) { events.clear(); });
 }
 
 Failure no_target(const char* action) {
