@@ -21,7 +21,7 @@ std::string processor_name() {
   return "unknown";
 }
 
-bool wanted(const std::string& name, const std::vector<std::string>& names) {
+bool matches(const std::string& name, const std::vector<std::string>& names) {
   return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
            return name == n || name.starts_with(n + "/");
          });
@@ -34,10 +34,10 @@ gpu::Context& Bench::context() {
   return *context_;
 }
 
-Measurement Bench::time_calls(const std::string& name, unsigned usual,
+Measurement Bench::time_calls(const std::string& name, unsigned standard,
                               const std::function<void()>& body) const {
   using Clock = std::chrono::steady_clock;
-  const unsigned count = repetitions(usual);
+  const unsigned count = repetitions(standard);
   for (unsigned i = 0; i < std::max(1u, count / 8); ++i) body();
   std::vector<double> milliseconds;
   for (unsigned i = 0; i < count; ++i) {
@@ -85,16 +85,16 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
                    const std::function<void(const std::string&)>& starting) {
   const std::vector<Case> cases = all_cases();
   for (const std::string& name : names) {
-    if (std::any_of(cases.begin(), cases.end(), [&](const Case& one) { return wanted(one.name, {name}); }))
+    if (std::any_of(cases.begin(), cases.end(), [&](const Case& one) { return matches(one.name, {name}); }))
       continue;
-    std::string message = "no benchmark \"" + name + "\"; there are";
+    std::string message = "no benchmark \"" + name + "\"; expected one of";
     for (const Case& one : cases) message.append(" ").append(one.name);
     return Failure{ErrorCode::usage, message};
   }
   Bench bench(options);
   Report report;
   for (const Case& one : cases) {
-    if (!wanted(one.name, names)) continue;
+    if (!matches(one.name, names)) continue;
     if (starting) starting(one.name);
     auto measured = one.run(bench);
     if (!measured) {
@@ -121,7 +121,7 @@ Result<std::string> motel_scene() {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) return path.string();
   return Failure{ErrorCode::bad_input,
-                 path.string() + " is not there; set BRUME_MOTEL to the motel's folder"};
+                 path.string() + ": not found; set BRUME_MOTEL to the folder of the motel"};
 }
 
 }  // namespace brume::bench

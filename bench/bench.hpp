@@ -1,4 +1,5 @@
-// Measures what the project claims: each case by its name, median of many repetitions after a warm-up.
+// Benchmarks behind the performance claims of the project: named cases, median of many repetitions after a
+// warm-up.
 #pragma once
 
 #include <functional>
@@ -13,18 +14,19 @@
 namespace brume::bench {
 
 struct BenchOptions {
-  std::string device;        ///< As gpu::choose_device takes it.
-  unsigned repetitions = 0;  ///< 0: as many as suit the case.
+  std::string device;        ///< As for gpu::choose_device.
+  unsigned repetitions = 0;  ///< 0: the default of each case.
 };
 
 /// One measured quantity.
 struct Measurement {
   std::string name;   ///< "march/1080p"
   std::string unit;   ///< "ms"
-  std::string clock;  ///< "gpu" (timestamp queries), "wall" or "cpu" (seconds of processor time)
+  std::string clock;  ///< "gpu" (timestamp queries), "wall" or "cpu" (CPU time)
   double median = 0, min = 0, max = 0;
   unsigned repetitions = 0;
-  std::map<std::string, double> details;  ///< What was worked on: triangles, texture samples...
+  std::map<std::string, double>
+      details;  ///< Problem size and secondary results: triangles, texture samples...
 };
 
 struct Report {
@@ -33,22 +35,22 @@ struct Report {
   unsigned threads = 1;
   std::string commit;
   std::vector<Measurement> results;
-  std::vector<std::string> skipped;  ///< A line each: which case and why.
+  std::vector<std::string> skipped;  ///< One line per skipped case with the reason.
 };
 
-/// What a case measures with.
+/// Tools for a case: options, timer and device.
 class Bench {
  public:
   explicit Bench(const BenchOptions& options) : options_(options) {}
 
-  /// The device, made at the first call.
+  /// The device, created by the first call.
   gpu::Context& context();
-  /// Calls `body` for warm-up, then `repetitions` times (or as the options say); the seconds that each call
-  /// took on the wall clock become the measurement, in milliseconds.
+  /// Calls `body` for warm-up, then `repetitions` times (the options override it), and measures the
+  /// wall-clock time of each call [ms].
   Measurement time_calls(const std::string& name, unsigned repetitions,
                          const std::function<void()>& body) const;
-  unsigned repetitions(unsigned usual) const {
-    return options_.repetitions > 0 ? options_.repetitions : usual;
+  unsigned repetitions(unsigned standard) const {
+    return options_.repetitions > 0 ? options_.repetitions : standard;
   }
   bool has_context() const { return context_ != nullptr; }
 
@@ -57,16 +59,16 @@ class Bench {
   std::unique_ptr<gpu::Context> context_;
 };
 
-/// Processor time of this thread [ms], from any moment on.
+/// CPU time of this thread [ms], since an arbitrary time.
 double thread_cpu_ms();
 
-/// Median, least and most of `values`, which must not be empty.
+/// Median, minimum and maximum of `values`, which must not be empty.
 Measurement summarize(const std::string& name, const std::string& unit, const std::string& clock,
                       std::vector<double> values);
 
 struct Case {
   std::string name, what;
-  /// What was measured; bad_input when its data is not there: the case is skipped.
+  /// Returns the measurements; bad_input if its data is missing, which skips the case.
   std::function<Result<std::vector<Measurement>>(Bench&)> run;
 };
 std::vector<Case> cpu_cases();
@@ -77,16 +79,17 @@ std::vector<Case> sight_cases();
 std::vector<Case> sim_cases();
 std::vector<Case> gpu_cases();
 std::vector<Case> scaling_cases();
-/// All, in the order in which they run.
+/// All cases in execution order.
 std::vector<Case> all_cases();
 
-/// Runs the cases whose name is, or begins with one of `names` and a slash; all for an empty list. Fails with
-/// usage for a name that fits none, listing what there is. Throws no_device when a GPU case finds none.
+/// Runs the cases whose name equals one of `names` or begins with it and a slash; all cases if the list is
+/// empty. `starting` is called with the name of each case before it runs. Fails with usage, listing all
+/// cases, for a name that matches none. Throws no_device if a GPU case finds no device.
 Result<Report> run(const std::vector<std::string>& names, const BenchOptions& options,
                    const std::function<void(const std::string&)>& starting);
 
-/// The Scene.txt of the motel: $BRUME_MOTEL, else beside the checkout in shared/data/motel; bad_input when
-/// absent.
+/// Path of the motel's Scene.txt, in $BRUME_MOTEL or else in ../shared/data/motel; bad_input if it is
+/// missing.
 Result<std::string> motel_scene();
 
 }  // namespace brume::bench

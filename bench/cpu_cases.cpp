@@ -2,9 +2,9 @@
 
 #include "bench/bench.hpp"
 #include "core/tasks.hpp"
+#include "scenario/world_triangles.hpp"
 #include "scene/load.hpp"
 #include "sim/fill.hpp"
-#include "scenario/world_triangles.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -40,12 +40,12 @@ Result<std::vector<Measurement>> voxelize_motel(Bench& bench) {
 Result<std::vector<Measurement>> voxelize_demo(Bench& bench) {
   const auto scene = scene::load_scene(BRUME_SCENES_DIR "/demo.glb");
   if (!scene) return scene.failure();
-  // The timeline's box, 512 voxels along its longer sides.
+  // The grid of the timeline with 512 voxels along its longer sides.
   const voxel::GridLayout frame{{512, 171, 512}, 28.5f / 512, {-14.1f, -0.35f, -12.1f}};
   return voxelize_triangles(bench, "voxelize/demo@512", scenario::world_triangles(*scene), frame, 15);
 }
 
-/// Fills on one core, in the open and in the motel where that is there.
+/// Flood fill on one thread, in open space and, if it is available, in the motel.
 Result<std::vector<Measurement>> fill(Bench& bench, std::uint32_t budget, unsigned repetitions) {
   const auto measure = [&](const std::string& name, const voxel::BitGrid& grid, glm::ivec3 source) {
     std::size_t filled = 0;

@@ -1,13 +1,13 @@
 #include <bit>
 
 #include "bench/bench.hpp"
-#include "scene/load.hpp"
 #include "scenario/level_events.hpp"
+#include "scene/load.hpp"
 
 namespace brume::bench {
 namespace {
 
-/// A door opens, or shuts, each time: voxels and planes made anew, and the edit that the event log takes.
+/// Opens or closes a door at each call: updates voxels and planes, and builds the edit for the event log.
 Result<Measurement> swing_door(const Bench& bench, const std::string& name, const std::string& path,
                                const voxel::GridLayout& frame, const std::string& door) {
   auto scene = scene::load_scene(path);
@@ -59,7 +59,7 @@ Result<std::vector<Measurement>> doors(Bench& bench) {
 }  // namespace
 
 std::vector<Case> edit_cases() {
-  return {{"edit/door", "a door opens or shuts: voxels, planes and edit, one thread", doors}};
+  return {{"edit/door", "a door opens or closes: voxels, planes and edit, one thread", doors}};
 }
 
 }  // namespace brume::bench

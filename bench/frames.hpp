@@ -1,4 +1,4 @@
-// A frame of a scenario that is drawn again and again, and the time that each of its passes takes.
+// Renders one frame of a scenario repeatedly and measures each of its passes.
 #pragma once
 
 #include "bench/bench.hpp"
@@ -6,24 +6,25 @@
 
 namespace brume::bench {
 
-/// What one drawing took [ms].
+/// Cost of rendering one frame [ms].
 struct FrameCost {
-  std::map<std::string, double> passes;    ///< On the device.
-  double prepare_cpu = 0, record_cpu = 0;  ///< Of this thread's processor time: making room, recording.
+  std::map<std::string, double> passes;    ///< GPU time by pass.
+  double prepare_cpu = 0, record_cpu = 0;  ///< CPU time of this thread in Renderer::prepare and record_frame.
 };
 
-/// The moment `seconds` of a scenario, its smoke lit anew in each drawing.
+/// The frame at `seconds` of a scenario. Each draw recomputes all light in its smoke unless input() changes
+/// that.
 class RepeatedFrame {
  public:
-  /// `scenario` must outlive it.
-  RepeatedFrame(gpu::Context& context, const scenario::Scenario& scenario, const render::RendererOptions& options,
-                double seconds);
+  /// `scenario` must outlive this object.
+  RepeatedFrame(gpu::Context& context, const scenario::Scenario& scenario,
+                const render::RendererOptions& options, double seconds);
 
   FrameCost draw();
-  /// What is drawn: to be changed from drawing to drawing.
+  /// The input of the next draw, for cases that change it between draws.
   render::FrameInput& input() { return input_; }
   const render::Renderer& renderer() const { return renderer_; }
-  /// Texture samples that the last march took, with RendererOptions::count_samples.
+  /// Number of texture samples of the last march; requires RendererOptions::count_samples.
   std::uint32_t texture_samples() const;
   const scenario::Simulation& simulation() const { return *simulation_; }
 
@@ -37,13 +38,13 @@ class RepeatedFrame {
 };
 
 struct FrameTimes {
-  /// All passes but the raster; details: the median of each and of the processor's parts, the memory that the
-  /// device holds for it (device_mb), and that of the smoke's volume (volume_mb).
+  /// All passes except rasterization. Details: the medians of each pass and of the CPU parts, the device
+  /// memory (device_mb) and the size of the smoke volume (volume_mb).
   Measurement all;
   Measurement march;
 };
 
-/// Draws a moment of a scenario until its times are known: some 200 times on a GPU, three times on a processor.
+/// Measures the frame at `seconds` of a scenario: about 200 draws on a GPU, three on a software device.
 FrameTimes time_frames(Bench& bench, const std::string& name, const scenario::Scenario& scenario,
                        const render::RendererOptions& options, double seconds);
 

@@ -7,16 +7,16 @@
 namespace brume::bench {
 namespace {
 
-constexpr double kGrown = 4;  // [s]: when the smoke has bloomed, and the holes are open
+constexpr double kGrown = 4;  // [s]: the smoke has bloomed and the holes are open
 
-/// What a frame of the yard is measured with.
+/// Variants of the yard scenario.
 struct Yard {
-  bool from_all_around = false;  ///< Where the shots come from: else from around the camera.
-  std::uint32_t lights = 0;       ///< Besides those of the demo scene.
-  std::uint32_t holes = 0;       ///< Shots and boxes from all around.
+  bool from_all_around = false;  ///< Shots come from all directions; else from near the camera.
+  std::uint32_t lights = 0;      ///< In addition to those of the demo scene.
+  std::uint32_t holes = 0;       ///< Half round, half square.
 };
 
-/// Shots through the smoke, a tenth of a metre wide, half of them square: all open when it has grown.
+/// Shots of about 0.1 m diameter through the smoke, half of them square: all open when it has grown.
 std::vector<scene::ShotEvent> shots_through_smoke(std::uint32_t count, bool from_all_around) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> one(-1, 1);
@@ -36,14 +36,14 @@ std::vector<scene::ShotEvent> shots_through_smoke(std::uint32_t count, bool from
   return shots;
 }
 
-/// One grown smoke of 1,800 voxels of half a metre in the yard of the demo scene, seen from 6 m away: it
-/// fills the view.
+/// One smoke of 1,800 half-metre voxels in the yard of the demo scene, 6 m from the camera: it fills the
+/// view.
 Result<scenario::Scenario> smoke_in_the_yard(const Yard& yard) {
   auto timeline = scene::load_timeline(BRUME_SCENES_DIR "/demo.toml");
   if (!timeline) return timeline.failure();
   timeline->grid = {0.5f, glm::ivec3(57, 19, 57), glm::vec3(-14.1f, -0.35f, -12.1f)};
   timeline->smoke.voxels = 1800;
-  timeline->smoke.extinction = 1.3f;  // so that figures compare, however the demo looks
+  timeline->smoke.extinction = 1.3f;  // fixed, so that results stay comparable when the demo changes
   timeline->smoke.bloom = 1;
   timeline->smokes = {{0, {0, 3, 7}, {0, 0.3f, 6}}};
   timeline->shots = shots_through_smoke(yard.holes, yard.from_all_around);
@@ -55,14 +55,14 @@ Result<scenario::Scenario> smoke_in_the_yard(const Yard& yard) {
     const float angle = 2.39996f * static_cast<float>(i),
                 far = 1.6f * std::sqrt(static_cast<float>(i) + 0.5f);
     light.position_world = {far * std::cos(angle), 0.6f + 0.35f * static_cast<float>(i % 9),
-                           5 + far * std::sin(angle)};
+                            5 + far * std::sin(angle)};
     light.intensity = 0.5f + 0.5f * glm::vec3(std::cos(angle), std::cos(angle + 2), std::cos(angle + 4));
     scenario->scene.lights.push_back(light);
   }
   return scenario;
 }
 
-/// Texture samples that the march takes for a frame.
+/// Number of texture samples that the march takes per frame.
 double count_texture_samples(gpu::Context& context, const scenario::Scenario& scenario,
                              render::RendererOptions options) {
   options.count_samples = true;
@@ -97,8 +97,8 @@ Result<std::vector<Measurement>> frames(Bench& bench, const std::string& name, g
   return std::vector{time_frames(bench, name, *scenario, options, kGrown).all};
 }
 
-/// The motel at half resolution: its 51 lights, one grown smoke of 1,800 voxels 6 m ahead, and shots through
-/// it.
+/// The motel at half resolution: 51 lights, one grown smoke of 1,800 voxels 6 m ahead, without and with shots
+/// through it.
 Result<std::vector<Measurement>> motel_frames(Bench& bench) {
   const auto path = motel_scene();
   if (!path) return path.failure();
@@ -132,14 +132,14 @@ Result<std::vector<Measurement>> motel_frames(Bench& bench) {
   return results;
 }
 
-/// The frame with ever more holes, with the structure and with the plain loop over all of them.
+/// The frame with increasing numbers of holes, with clustered culling and with a plain loop over all of them.
 Result<std::vector<Measurement>> holes(Bench& bench, const std::string& base, bool from_all_around) {
   const bool slow = bench.context().info().kind == "cpu";
   std::vector<Measurement> results;
   for (const bool plain : {false, true}) {
     double none = 0;
     for (const std::uint32_t count : {0u, 16u, 64u, 256u, 1024u, 4096u}) {
-      // The loop's cost is known by then; on a processor it would be minutes.
+      // The trend is clear by then, and on a software device the loop would take minutes.
       if (plain && (count == 0 || count > (slow ? 64u : 1024u))) continue;
       Yard yard;
       yard.holes = count;
@@ -161,7 +161,7 @@ Result<std::vector<Measurement>> holes(Bench& bench, const std::string& base, bo
   return results;
 }
 
-/// A flash of an intensity beside the smoke of the yard.
+/// A flash next to the smoke of the yard.
 shared::Light flash_beside(float intensity) {
   shared::Light light{};
   light.kind = shared::kLightPoint;
@@ -172,9 +172,8 @@ shared::Light flash_beside(float intensity) {
   return light;
 }
 
-/// Light in a smoke that holds still, without noise: all of it, and what is made anew where one thing
-/// changes.
-Result<std::vector<Measurement>> kept_light(Bench& bench) {
+/// Light in a smoke without noise motion: all of it, and what the cache updates when one thing changes.
+Result<std::vector<Measurement>> light_cache(Bench& bench) {
   Yard yard;
   yard.lights = 42;
   yard.holes = 16;
@@ -200,7 +199,7 @@ Result<std::vector<Measurement>> kept_light(Bench& bench) {
       rays += frame.renderer().light_plan().pairs.size();
       bricks += frame.renderer().light_plan().bricks.size();
     }
-    results.push_back(summarize("kept_light/" + name, "ms", "gpu", milliseconds));
+    results.push_back(summarize("light_cache/" + name, "ms", "gpu", milliseconds));
     results.back().details = {{"blocks_of_rays", static_cast<double>(rays) / count},
                               {"bricks", static_cast<double>(bricks) / count}};
   };
@@ -212,7 +211,7 @@ Result<std::vector<Measurement>> kept_light(Bench& bench) {
     changing.back().radius = holes.back().radius * (i % 2 == 0 ? 1 : 0.9f);
     frame.input().holes = changing;
   });
-  // A light that was as bright before, and one that comes.
+  // A light that changes its intensity, and one that appears.
   time("flicker", [&](unsigned i) { frame.input().flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
   time("flash", [&](unsigned i) {
     frame.input().flashes = {flash_beside(2)};
@@ -226,7 +225,7 @@ Result<std::vector<Measurement>> kept_light(Bench& bench) {
 std::vector<Case> gpu_cases() {
   return {
       {"march/1080p", "the march through one grown smoke that fills the view", march},
-      {"frame/1080p", "all passes but the raster: that smoke with 51 lights and 64 holes",
+      {"frame/1080p", "all passes except rasterization: that smoke with 51 lights and 64 holes",
        [](Bench& b) {
          return frames(b, "frame/1080p", {1920, 1080}, 1);
        }},
@@ -239,13 +238,13 @@ std::vector<Case> gpu_cases() {
          return frames(b, "frame/4k", {3840, 2160}, 1);
        }},
       {"frame/motel",
-       "the motel with its smoke, without and with 30 holes, at half resolution; at a quarter without a GPU",
+       "the motel with smoke, without and with 30 holes, at half resolution; at a quarter without a GPU",
        motel_frames},
-      {"kept_light", "light in smoke that holds still, where all, nothing or one thing changes", kept_light},
+      {"light_cache", "light in static smoke when everything, nothing or one thing changes", light_cache},
       {"holes",
        "that frame with 0 to 4,096 open holes, and with a plain loop over them; 480x270 without a GPU",
        [](Bench& b) { return holes(b, "holes", false); }},
-      {"holes_around", "the same, shot from all around the smoke",
+      {"holes_around", "the same, with shots from all directions",
        [](Bench& b) { return holes(b, "holes_around", true); }},
   };
 }

@@ -9,7 +9,7 @@ namespace {
 
 using scenario::EditableScenario;
 
-/// The demo at a moment at which its smoke is grown.
+/// The demo at a time when its smoke has grown [s].
 constexpr double kStart = 4;
 Result<std::unique_ptr<EditableScenario>> demo() {
   auto scenario = scenario::load_scenario(std::filesystem::path(BRUME_SCENES_DIR) / "demo.toml", {});
@@ -19,9 +19,10 @@ Result<std::unique_ptr<EditableScenario>> demo() {
   return live;
 }
 
-/// Processor time of actions [ms], each at a tick of its own.
+/// CPU time of actions [ms], each at its own tick.
 template <typename Make>
-Result<Measurement> time_actions(const Bench& bench, const std::string& name, unsigned repetitions, Make make) {
+Result<Measurement> time_actions(const Bench& bench, const std::string& name, unsigned repetitions,
+                                 Make make) {
   auto live = demo();
   if (!live) return live.failure();
   std::vector<double> times;
@@ -47,10 +48,11 @@ scene::ShotEvent shot_at(double time) {
 
 Result<std::vector<Measurement>> actions(Bench& bench) {
   std::vector<Result<Measurement>> measured;
-  measured.push_back(time_actions(bench, "live/shot", 200,
-                                [](auto& actions, double now, unsigned) { actions.shots = {shot_at(now)}; }));
-  measured.push_back(time_actions(bench, "live/past_shot", 20,
-                                [](auto& actions, double now, unsigned) { actions.shots = {shot_at(now - 1)}; }));
+  measured.push_back(time_actions(
+      bench, "live/shot", 200, [](auto& actions, double now, unsigned) { actions.shots = {shot_at(now)}; }));
+  measured.push_back(time_actions(bench, "live/past_shot", 20, [](auto& actions, double now, unsigned) {
+    actions.shots = {shot_at(now - 1)};
+  }));
   measured.push_back(time_actions(bench, "live/door", 40, [](auto& actions, double now, unsigned i) {
     actions.doors = {{now, "door_leaf", i % 2 == 0, ""}};
   }));
@@ -67,7 +69,7 @@ Result<std::vector<Measurement>> actions(Bench& bench) {
   return all;
 }
 
-/// A sixtieth of a second on foot, against a wall: every part of the frame tries to climb it.
+/// A sixtieth of a second on foot, against a wall: every substep tries to climb it.
 Result<std::vector<Measurement>> walk(Bench& bench) {
   auto live = demo();
   if (!live) return live.failure();
@@ -85,8 +87,9 @@ Result<std::vector<Measurement>> walk(Bench& bench) {
 
 std::vector<Case> live_cases() {
   return {{"live/actions",
-           "shots, doors and words into the running demo: processor time until the world has them", actions},
-          {"live/walk", "a sixtieth of a second of a body on foot in the demo", walk}};
+           "adding shots, doors and words to the running demo: CPU time until the world has applied them",
+           actions},
+          {"live/walk", "1/60 s of a walking player in the demo", walk}};
 }
 
 }  // namespace brume::bench

@@ -1,15 +1,15 @@
-// Whether a frame's time follows what is seen: ever more smokes in view, ever more out of view, and ever more
-// world.
+// Whether the frame time depends on what is visible only: increasing numbers of smokes in view and out of
+// view, and increasing size of the world.
 #include "bench/frames.hpp"
 #include "scene/stand_ins.hpp"
 
 namespace brume::bench {
 namespace {
 
-constexpr double kGrown = 2;        // [s]: when the smokes have bloomed
-constexpr float kCourt = 24;        // edge of a piece of the world [m]
-constexpr float kApart = 14;        // from smoke to smoke [m]
-constexpr int kUnseenColumns = 32;  // of the smokes behind the camera
+constexpr double kGrown = 2;        // [s]: the smokes have bloomed
+constexpr float kCourt = 24;        // edge of a court [m]
+constexpr float kApart = 14;        // distance between smokes [m]
+constexpr int kHiddenColumns = 32;  // columns of smokes behind the camera
 
 /// Adds a box from low to high.
 void add_box(scene::Scene& scene, glm::vec3 low, glm::vec3 high) {
@@ -19,7 +19,7 @@ void add_box(scene::Scene& scene, glm::vec3 low, glm::vec3 high) {
   scene.objects.push_back({"box", 0, 0, place, true});
 }
 
-/// A piece of the world: ground, two walls, crates, eight lights.
+/// Adds a court, the unit of the world: ground, two walls, crates, eight lights.
 void add_court(scene::Scene& scene, glm::vec3 corner) {
   add_box(scene, corner - glm::vec3(0, 0.3f, 0), corner + glm::vec3(kCourt, 0, kCourt));
   add_box(scene, corner + glm::vec3(1, 0, 2), corner + glm::vec3(1.4f, 3, 20));
@@ -36,14 +36,13 @@ void add_court(scene::Scene& scene, glm::vec3 corner) {
   }
 }
 
-/// So many courts, side by side; the first at the origin, the others behind it (+z), `across` in a row. The
-/// camera stands at its far edge and looks over it, along -z.
+/// `count` courts side by side: the first at the origin, the others behind it (+z) in rows of `across`. The
+/// camera of the cases stands at the far edge of the first one and looks over it along -z.
 scene::Scene world_of_courts(int count, int across) {
   scene::Scene scene;
-  scene.meshes = {scene::unit_cube(), scene::built_in_grenade()};
+  scene.meshes = {scene::unit_cube()};
   scene.materials.resize(1);
   scene.materials[0].base_color = glm::vec3(0.5f);
-  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
   add_court(scene, {-0.5f * kCourt, 0, -kCourt});
   for (int i = 0; i + 1 < count; ++i) {
     const int column = i % across - across / 2, row = i / across;
@@ -52,22 +51,23 @@ scene::Scene world_of_courts(int count, int across) {
   return scene;
 }
 
-/// The scenario of a scene with a grown smoke at each of some places; half-metre voxels, from low to high.
-Result<scenario::Scenario> scenario_of(scene::Scene scene, const std::vector<glm::vec3>& smokes, glm::vec3 low,
-                              glm::vec3 high, const scene::Camera& camera) {
+/// A scenario with a smoke at each of `smokes` and half-metre voxels from `low` to `high`.
+Result<scenario::Scenario> scenario_of(scene::Scene scene, const std::vector<glm::vec3>& smokes,
+                                       glm::vec3 low, glm::vec3 high, const scene::Camera& camera) {
   scene::Timeline timeline;
   timeline.sky = {glm::vec3(0.01f), glm::vec3(0.02f), glm::vec3(0.01f)};
   timeline.smoke.bloom = 1;
   for (const glm::vec3 place : smokes) timeline.smokes.push_back({0, place + glm::vec3(0, 2, 0), place});
   constexpr float kVoxel = 0.5f;
-  // Off the surfaces, which lie on whole and half metres.
+  // Offset from the surfaces, which lie at multiples of half a metre.
   const voxel::GridLayout frame{glm::ivec3(glm::ceil((high - low) / kVoxel)), kVoxel, low - 0.1f};
   auto voxels = scenario::load_or_voxelize(scene, frame, {});
   if (!voxels) return voxels.failure();
   return scenario::Scenario{std::move(timeline), std::move(scene), camera, std::move(*voxels)};
 }
 
-Result<Measurement> time_stage(Bench& bench, const std::string& name, const Result<scenario::Scenario>& scenario) {
+Result<Measurement> time_scenario(Bench& bench, const std::string& name,
+                                  const Result<scenario::Scenario>& scenario) {
   if (!scenario) return scenario.failure();
   const bool slow = bench.context().info().kind == "cpu";
   render::RendererOptions options;
@@ -79,8 +79,8 @@ Result<Measurement> time_stage(Bench& bench, const std::string& name, const Resu
   return m;
 }
 
-/// Collects measurements, and says of each how many times as long it takes as the first.
-class Row {
+/// Collects measurements and adds the ratio of each to the first.
+class Series {
  public:
   Result<void> add(Result<Measurement> measured) {
     if (!measured) return measured.failure();
@@ -94,9 +94,9 @@ class Row {
   std::vector<Measurement> results_;
 };
 
-/// 1 to 64 smokes on open ground before a camera that looks down at them: all are in view whole.
+/// 1 to 64 smokes on open ground, all completely in view of a camera above them.
 Result<std::vector<Measurement>> in_view(Bench& bench) {
-  Row row;
+  Series series;
   for (const int count : {1, 4, 16, 64}) {
     scene::Scene scene = world_of_courts(1, 1);
     add_box(scene, {-120, -0.5f, -140}, {120, -0.31f, 0});
@@ -104,45 +104,49 @@ Result<std::vector<Measurement>> in_view(Bench& bench) {
     for (int i = 0; i < count; ++i)
       places.push_back(
           {kApart * (static_cast<float>(i % 8) - 3.5f), 0.3f, -30 - kApart * static_cast<float>(i / 8)});
-    const auto scenario =
-        scenario_of(std::move(scene), places, {-120, -1, -148}, {120, 15, 8}, {{0, 40, 40}, {0, 0, -70}, 1.1f});
-    if (auto done = row.add(time_stage(bench, "scaling/in_view/" + std::to_string(count), scenario)); !done)
+    const auto scenario = scenario_of(std::move(scene), places, {-120, -1, -148}, {120, 15, 8},
+                                      {{0, 40, 40}, {0, 0, -70}, 1.1f});
+    if (auto done = series.add(time_scenario(bench, "scaling/in_view/" + std::to_string(count), scenario));
+        !done)
       return done.failure();
   }
-  return row.take();
+  return series.take();
 }
 
-/// One smoke before the camera, and none to 1,000 behind it.
+/// One smoke in front of the camera, and 0 to 1,000 behind it.
 Result<std::vector<Measurement>> out_of_view(Bench& bench) {
-  Row row;
+  Series series;
   for (const int count : {0, 10, 100, 1000}) {
     std::vector<glm::vec3> places{{0, 0.3f, -12}};
     for (int i = 0; i < count; ++i) {
-      const int column = i % kUnseenColumns - kUnseenColumns / 2, line = i / kUnseenColumns;
+      const int column = i % kHiddenColumns - kHiddenColumns / 2, line = i / kHiddenColumns;
       places.push_back(
           {kApart * (static_cast<float>(column) + 0.5f), 0.3f, 20 + kApart * static_cast<float>(line)});
     }
     const auto scenario = scenario_of(world_of_courts(1, 1), places, {-240, -1, -32}, {240, 15, 480},
-                                {{0, 1.8f, 1}, {0, 1.8f, -12}, 1.0472f});
-    if (auto done = row.add(time_stage(bench, "scaling/out_of_view/" + std::to_string(count), scenario)); !done)
+                                      {{0, 1.8f, 1}, {0, 1.8f, -12}, 1.0472f});
+    if (auto done =
+            series.add(time_scenario(bench, "scaling/out_of_view/" + std::to_string(count), scenario));
+        !done)
       return done.failure();
   }
-  return row.take();
+  return series.take();
 }
 
-/// One smoke before the camera; the rest of the world, with its walls, things and lights, behind it.
+/// One smoke in front of the camera; the rest of the world, with its walls, crates and lights, behind it.
 Result<std::vector<Measurement>> world(Bench& bench) {
-  Row row;
+  Series series;
   for (const int count : {1, 10, 100}) {
     const int across = count > 10 ? 11 : 3, rows = (count - 1 + across - 1) / across;
     const float half = kCourt * 0.5f * static_cast<float>(across) + 4;
-    const auto scenario =
-        scenario_of(world_of_courts(count, across), {{0, 0.3f, -12}}, {-half, -1, -kCourt - 8},
-                 {half, 15, kCourt * static_cast<float>(rows) + 8}, {{0, 1.8f, 1}, {0, 1.8f, -12}, 1.0472f});
-    if (auto done = row.add(time_stage(bench, "scaling/world/" + std::to_string(count), scenario)); !done)
+    const auto scenario = scenario_of(
+        world_of_courts(count, across), {{0, 0.3f, -12}}, {-half, -1, -kCourt - 8},
+        {half, 15, kCourt * static_cast<float>(rows) + 8}, {{0, 1.8f, 1}, {0, 1.8f, -12}, 1.0472f});
+    if (auto done = series.add(time_scenario(bench, "scaling/world/" + std::to_string(count), scenario));
+        !done)
       return done.failure();
   }
-  return row.take();
+  return series.take();
 }
 
 }  // namespace
@@ -151,7 +155,7 @@ std::vector<Case> scaling_cases() {
   return {
       {"scaling/in_view", "a frame with 1 to 64 smokes in view; 480x270 without a GPU", in_view},
       {"scaling/out_of_view", "a frame with one smoke in view and 0 to 1,000 behind the camera", out_of_view},
-      {"scaling/world", "a frame with one smoke, the world 1, 10 and 100 times as large", world},
+      {"scaling/world", "a frame with one smoke in a world of 1, 10 and 100 courts", world},
   };
 }
 

@@ -4,11 +4,11 @@
 #include "bench/bench.hpp"
 #include "core/tasks.hpp"
 #include "image/font.hpp"
+#include "scenario/world_triangles.hpp"
 #include "scene/load.hpp"
+#include "sim/world.hpp"
 #include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
-#include "sim/world.hpp"
-#include "scenario/world_triangles.hpp"
 #include "voxel/voxelize.hpp"
 
 namespace brume::bench {
@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::size_t kHoles = 32, kSegments = 20000, kBatch = 2000;
 constexpr float kMetres = 10;
-constexpr std::uint32_t kLetterRadius = sim::kUnitsPerMetre / 2;  // of a letter's square
+constexpr std::uint32_t kLetterRadius = sim::kUnitsPerMetre / 2;  // half the edge of a letter
 
-/// A smoke of 1,800 voxels, and the places that it fills.
+/// A level with a smoke of 1,800 voxels.
 struct SmokyLevel {
   voxel::BitGrid grid;
   voxel::SurfacePlanes planes;
@@ -44,8 +44,8 @@ struct SmokyLevel {
       });
   }
 
-  /// Shots from and towards places in the smoke, until so many holes are wide open at once; of its masks by
-  /// turns, where it has any.
+  /// Fires shots between random points of the smoke until `holes` of them are fully open; cycles through the
+  /// masks, if there are any.
   void shoot(std::size_t holes, std::mt19937& random) {
     for (int tries = 0; tries < 1000 && world.state().holes.size() < holes; ++tries) {
       sim::Shot shot;
@@ -76,13 +76,13 @@ std::vector<smoke::Segment> segments_through(const std::vector<glm::vec3>& place
   return segments;
 }
 
-/// Queries per second of processor time, on one thread.
+/// Queries per second of CPU time on one thread.
 Measurement measure(const Bench& bench, const std::string& name, SmokyLevel& level, std::size_t holes) {
   std::mt19937 random(7);
   level.shoot(holes, random);
   const std::vector<shared::Hole> open = smoke::holes_of(level.world.state(), &level.masks);
   const smoke::Sight sight(level.volume, level.grid, open, level.world.state().seconds(level.world.tick()),
-                         {.masks = &level.masks});
+                           {.masks = &level.masks});
   const std::vector<smoke::Segment> segments = segments_through(level.places, random);
   std::vector<float> depths(kBatch);
   const unsigned threads = thread_count(), count = bench.repetitions(200);

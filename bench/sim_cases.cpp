@@ -15,7 +15,7 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// One thread while it lives: what a server gives a match.
+/// Limits the library to one thread in a scope, as a server does for a match.
 class OneThread {
  public:
   OneThread() : before_(thread_count()) { set_thread_count(1); }
@@ -27,13 +27,13 @@ class OneThread {
   unsigned before_;
 };
 
-/// A smoke in the air where it is thrown: it goes off a tick later.
+/// A smoke thrown in mid-air: it goes off one tick later.
 sim::ThrowSmoke smoke_at(std::uint32_t tick, sim::Position at, std::uint32_t hold_ticks) {
   return {tick, at, at + sim::Position(1, 0, 0), {1800, 64, hold_ticks, 192}};
 }
 
-/// Each tick and its hash, from when the first of 16 smokes goes off to when the last begins to dissolve. All
-/// go off within half a second.
+/// Each tick and its hash, from the detonation of the first of 16 smokes until the last begins to dissolve.
+/// All detonate within half a second.
 Result<std::vector<Measurement>> tick16(Bench& bench) {
   const OneThread one;
   const voxel::BitGrid level({{256, 64, 256}, 0.5f, {0, 0, 0}});
@@ -63,7 +63,7 @@ Result<std::vector<Measurement>> tick16(Bench& bench) {
   return std::vector{m};
 }
 
-/// A tick and its hash with that many smokes of 1,800 voxels in a world of 2,048 x 256 x 2,048.
+/// A tick and its hash with `count` smokes of 1,800 voxels in a world of 2,048 x 256 x 2,048 voxels.
 Result<std::vector<Measurement>> smokes(Bench& bench, int count) {
   const OneThread one;
   const voxel::BitGrid level({{2048, 256, 2048}, 0.5f, {0, 0, 0}});
@@ -76,7 +76,7 @@ Result<std::vector<Measurement>> smokes(Bench& bench, int count) {
   world.advance_to(70);
   const double detonated = milliseconds_since(start);
   if (world.state().clouds.size() != static_cast<std::size_t>(count))
-    return Failure{ErrorCode::internal, "smokes: expected all of them to be there"};
+    return Failure{ErrorCode::internal, "smokes: expected all of them to have detonated"};
   std::uint64_t bytes = sizeof(sim::State) + world.state().clouds.capacity() * sizeof(sim::LiveCloud);
   std::uint64_t voxels = 0;
   for (const sim::LiveCloud& live : world.state().clouds) {
@@ -96,7 +96,7 @@ Result<std::vector<Measurement>> smokes(Bench& bench, int count) {
   return std::vector{m};
 }
 
-/// A world in which all is over: 100,000 ticks, without hashes.
+/// A tick without a hash in a world where everything is over, from runs of 100,000.
 Result<std::vector<Measurement>> idle(Bench& bench) {
   constexpr unsigned kTicks = 100000;
   const voxel::BitGrid level({{2048, 256, 2048}, 0.5f, {0, 0, 0}});
@@ -119,9 +119,9 @@ std::vector<Case> sim_cases() {
       {"sim/tick16", "a tick and its hash, 16 smokes of 1,800 voxels, one thread", tick16}};
   for (const int count : {10, 100, 1000, 10000})
     cases.push_back({"smokes/" + std::to_string(count),
-                     "a tick and its hash, so many smokes in 2,048 x 256 x 2,048, one thread",
+                     "a tick and its hash with that many smokes in 2,048 x 256 x 2,048 voxels, one thread",
                      [count](Bench& bench) { return smokes(bench, count); }});
-  cases.push_back({"smokes/idle", "a tick of a world with nothing alive", idle});
+  cases.push_back({"smokes/idle", "a tick of a world without smoke", idle});
   return cases;
 }
 

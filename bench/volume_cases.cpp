@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "bench/bench.hpp"
-#include "scene/load.hpp"
-#include "smoke/smoke_volume.hpp"
-#include "sim/world.hpp"
 #include "scenario/world_triangles.hpp"
+#include "scene/load.hpp"
+#include "sim/world.hpp"
+#include "smoke/smoke_volume.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -30,7 +30,7 @@ Result<Motel> motel() {
   return Motel{std::move(*grid), std::move(planes)};
 }
 
-/// Processor time that a call takes on this thread [ms].
+/// CPU time of a call on this thread [ms].
 template <typename Body>
 double processor_ms(Body body) {
   const double start = thread_cpu_ms();
@@ -38,7 +38,7 @@ double processor_ms(Body body) {
   return thread_cpu_ms() - start;
 }
 
-/// A smoke that goes off in the voxel below or at the place, at the first tick.
+/// A smoke that detonates at the first tick, in this voxel or on the ground below it.
 sim::ThrowSmoke smoke_at(const Motel& level, glm::ivec3 voxel, std::uint32_t voxels) {
   const auto metres = glm::dvec3(voxel::world_from_voxel(level.grid.layout(), glm::vec3(voxel) + 0.5f));
   sim::ThrowSmoke event;
@@ -48,7 +48,7 @@ sim::ThrowSmoke smoke_at(const Motel& level, glm::ivec3 voxel, std::uint32_t vox
   return event;
 }
 
-/// What one more smoke costs when it goes off: cloud known, bricks and boundary cells to build.
+/// Cost of one more smoke at its detonation: the cloud exists, bricks and boundary cells are built.
 Result<std::vector<Measurement>> detonation(Bench& bench) {
   const auto level = motel();
   if (!level) return level.failure();
@@ -72,8 +72,8 @@ Result<std::vector<Measurement>> detonation(Bench& bench) {
   return all;
 }
 
-/// Sixteen smokes spread over the motel that go off at about the same time; the mean of the updates of
-/// `count` ticks after the last one has.
+/// Sixteen smokes spread over the motel that detonate at about the same time; the mean update over `count`
+/// ticks after the last detonation.
 Result<std::vector<Measurement>> ticks(Bench& bench, const std::string& name, std::uint32_t count) {
   const auto level = motel();
   if (!level) return level.failure();
@@ -108,11 +108,11 @@ Result<std::vector<Measurement>> ticks(Bench& bench, const std::string& name, st
 
 std::vector<Case> volume_cases() {
   const sim::SmokeSettings life;
-  // All but the last ticks, in which they go one after the other.
+  // Excludes the last ticks, in which the smokes vanish one by one.
   const std::uint32_t end = life.bloom_ticks + life.hold_ticks + life.dissolve_ticks;
   return {
       {"volume/detonation", "smoke volume: bricks and boundary cells of a smoke in the motel", detonation},
-      {"volume/tick16", "smoke volume: a tick of 16 smokes in the motel, mean over their life",
+      {"volume/tick16", "smoke volume: a tick of 16 smokes in the motel, mean over their lifetime",
        [end](Bench& b) { return ticks(b, "volume/tick16", end - 5); }},
       {"volume/tick16growing", "smoke volume: the same while all 16 bloom",
        [life](Bench& b) { return ticks(b, "volume/tick16growing", life.bloom_ticks); }},

@@ -3,8 +3,8 @@ include_guard(GLOBAL)
 find_program(GLSLC glslc REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# brume_shaders(TARGET files...): a library with one constant a shader, named after its
-# file, that TARGET.hpp declares.
+# brume_shaders(TARGET files...): a library with one constant per shader, named after its file and declared in
+# TARGET.hpp.
 function(brume_shaders target)
   set(sources "")
   foreach(file ${ARGN})
@@ -13,7 +13,7 @@ function(brume_shaders target)
     set(spv ${CMAKE_CURRENT_BINARY_DIR}/${name}.spv)
     set(words ${CMAKE_CURRENT_BINARY_DIR}/${name}.words)
     set(cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
-    # SPIR-V 1.5: newer output would need maintenance4 of a host's device.
+    # SPIR-V 1.5: newer versions would require maintenance4 from the device of a host.
     set(flags -Werror -O --target-env=vulkan1.2 -I ${PROJECT_SOURCE_DIR}/shaders)
     add_custom_command(
       OUTPUT ${spv}
@@ -37,7 +37,7 @@ const gpu::ShaderCode @symbol@{\"@name@\", words};
     set(declarations "${declarations}extern const gpu::ShaderCode ${symbol};\n")
   endforeach()
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/include/${target}.hpp CONTENT
-"// The shaders that are built in, one constant a file.
+"// The embedded shaders, one constant per file.
 #pragma once
 #include \"gpu/shader_code.hpp\"
 namespace brume::shaders {

@@ -25,8 +25,8 @@ inline void check_scene(const Scene& scene) {
   for (const Object& object : scene.objects) {
     if (object.mesh >= scene.meshes.size() || object.material >= scene.materials.size()) __builtin_trap();
   }
-  if (scene.grenade.mesh >= scene.meshes.size()) __builtin_trap();
-  if (scene.grenade.material >= scene.materials.size()) __builtin_trap();
+  if (scene.grenade && scene.grenade->mesh >= scene.meshes.size()) __builtin_trap();
+  if (scene.grenade && scene.grenade->material >= scene.materials.size()) __builtin_trap();
   const Bounds bounds = world_bounds(scene);
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis])) __builtin_trap();

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "sim/world.hpp"
+#include "smoke/holes.hpp"
 #include "wire/bytes.hpp"
 #include "wire/event_log.hpp"
 #include "wire/receiver.hpp"
@@ -47,7 +48,7 @@ inline Result<sim::State> state_of(const PacketHead& head, const sim::State& bas
   empty.layout = world->layout;
   empty.ticks_per_second = world->ticks_per_second;
   empty.masks = world->masks;
-  return read_body(in.rest(), empty, head.tick, kFuzzLimits);
+  return read_body(in.remaining(), empty, head.tick, kFuzzLimits);
 }
 
 /// Whoever holds the state may ask it anything, and may send it on.
@@ -108,10 +109,10 @@ inline void check_packets(Input bytes) {
   ByteReader in(bytes);
   const bool as_they_are = in.number<std::uint8_t>() % 4 == 0;
   std::vector<Input> packets;
-  while (in.ok() && !in.rest().empty() && packets.size() < 4) {
-    const Input rest = in.rest();
+  while (in.ok() && !in.remaining().empty() && packets.size() < 4) {
+    const Input remaining = in.remaining();
     packets.push_back(in.section());
-    if (!in.ok()) packets.back() = rest;
+    if (!in.ok()) packets.back() = remaining;
   }
   as_they_are ? receive_all(packets) : decode_all(packets);
 }
@@ -177,12 +178,12 @@ inline std::vector<std::byte> as_replay(Input bytes) {
   in.varint(kVersion);
   const bool sound = static_cast<bool>(read_world(in));
   in.section();
-  const std::size_t before = bytes.size() - in.rest().size();
+  const std::size_t before = bytes.size() - in.remaining().size();
   const Input events = in.section();
   if (sound && in.ok() && events.size() >= kLogHead) {
     whole.raw(bytes.first(before));
     whole.section(as_event_log(events.subspan(kLogHead)));
-    whole.raw(in.rest());
+    whole.raw(in.remaining());
   } else {
     whole.raw(bytes);
   }

@@ -7,6 +7,7 @@
 namespace brume::cli {
 namespace {
 
+/// Lists commands with the first line of their description only.
 class BriefFormatter : public CLI::Formatter {
  public:
   std::string make_subcommand(const CLI::App* command) const override {
@@ -124,8 +125,7 @@ bool CommandLine::parse(int argc, char** argv) {
     const auto chosen = app_->get_subcommands();
     const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
     if (chosen.empty() && !app_->remaining().empty())
-      throw Error(ErrorCode::usage,
-                  "there is no command '" + app_->remaining().front() + "'; see brume --help");
+      throw Error(ErrorCode::usage, "unknown command '" + app_->remaining().front() + "'; see brume --help");
     throw Error(ErrorCode::usage, std::string(error.what()) + "; see brume" + name + " --help");
   }
 }

@@ -1,5 +1,5 @@
-// What a command takes on the command line. CLI11 stays behind it, in arguments.cpp: its header costs each
-// file that sees it seven seconds of compiler.
+// Declares and parses command-line arguments: a thin wrapper over CLI11, whose header only arguments.cpp
+// includes because it adds seven seconds to the compile time of every file that does.
 #pragma once
 
 #include <cstdint>
@@ -15,26 +15,26 @@ class Option;
 
 namespace brume::cli {
 
-/// An option that was declared: what its value must be and how the help shows it.
+/// A declared option: constrains its value and how --help shows it. Every function returns *this for
+/// chaining.
 class Argument {
  public:
   explicit Argument(CLI::Option* option) : option_(option) {}
 
-  const Argument& type_name(const std::string& name) const;  ///< Of its value, in the help.
+  const Argument& type_name(const std::string& name) const;  ///< Placeholder of the value in --help.
   const Argument& required() const;
-  const Argument& range(double low, double high) const;  ///< Both ends are in it.
+  const Argument& range(double low, double high) const;  ///< Inclusive.
   const Argument& range(std::uint32_t low, std::uint32_t high) const;
   const Argument& one_of(const std::vector<std::string>& values) const;
-  const Argument& take_last() const;  ///< Of several, the last one counts.
-  const Argument& take_all() const;   ///< Given several times, with one value each.
-  const Argument& hidden() const;     ///< Not in the help.
+  const Argument& take_last() const;  ///< May be repeated; the last value wins.
+  const Argument& take_all() const;   ///< May be repeated with one value each; all values are kept.
+  const Argument& hidden() const;     ///< Omitted from --help.
 
  private:
   CLI::Option* option_;
 };
 
-/// The arguments of one command. The values are written when the command line is parsed and have to live
-/// until then.
+/// The arguments of one command. Parsing writes the referenced values, so they must outlive it.
 class Arguments {
  public:
   Arguments() = default;
@@ -51,24 +51,24 @@ class Arguments {
   Argument add_option(const std::string& name, std::optional<double>& value, const std::string& help) const;
   Argument add_flag(const std::string& name, bool& value, const std::string& help) const;
 
-  /// Whether the command line names this command.
+  /// Whether the command line selects this command.
   bool parsed() const;
 
  private:
   CLI::App* app_ = nullptr;
 };
 
-/// The command line: the name of one command and its arguments.
+/// The command line of the program: one command and its arguments.
 class CommandLine {
  public:
   CommandLine(const std::string& about, const std::string& name, const std::string& version);
   ~CommandLine();
 
-  /// In the list of commands, only the first line of the description; all of it in the command's own help.
+  /// The list of commands shows the first line of `description`, the command's own --help all of it.
   Arguments add_command(const std::string& name, const std::string& description);
 
-  /// Whether a command shall run: not where help or the version was asked for, which is said. Throws Error
-  /// (usage).
+  /// Parses the arguments. Returns false after printing help or the version: no command is to run then.
+  /// Throws Error (usage).
   bool parse(int argc, char** argv);
 
  private:

@@ -41,7 +41,7 @@ void print_report(const bench::Report& report) {
                   m.name.c_str(), m.median, m.min, m.max, m.unit.c_str(), m.clock.c_str(), m.repetitions);
     print(line);
   }
-  for (const std::string& skipped : report.skipped) print("left out: " + skipped + "\n");
+  for (const std::string& skipped : report.skipped) print("skipped: " + skipped + "\n");
 }
 
 void measure(const Options& options) {
@@ -58,20 +58,24 @@ void measure(const Options& options) {
 }  // namespace
 
 Command add_bench(CommandLine& program) {
-  Command command = declare(program, "bench", "Measures how fast the parts are on this machine.",
+  Command command = declare(program, "bench", "Measures the performance of the simulation and the renderer.",
                             "  brume bench\n"
                             "  brume bench fill/1800 march --json bench.json --repetitions 31");
   auto options = std::make_shared<Options>();
   const Arguments& arguments = command.arguments;
   arguments
-      .add_option("NAME", options->names, "What to measure, whole names or their first parts; default: all")
+      .add_option("NAME", options->names, "Benchmarks to run, by name or leading part of it; default: all")
       .type_name("");
-  arguments.add_option("--json", options->json, "Write the results as JSON; -: to standard output")
+  arguments.add_option("--json", options->json, "Write the results as JSON; - for standard output")
       .type_name("FILE");
-  arguments.add_option("--repetitions", options->bench.repetitions, "Samples of each; default: what suits it")
+  arguments
+      .add_option("--repetitions", options->bench.repetitions,
+                  "Samples per benchmark; default: chosen by each")
       .range(1u, 100'000u)
       .type_name("N");
-  arguments.add_option("--device", options->bench.device, "Number or part of the name; see brume devices")
+  arguments
+      .add_option("--device", options->bench.device,
+                  "Device by number or part of its name; see brume devices")
       .type_name("N|NAME");
   command.run = [options] { measure(*options); };
   return command;

@@ -1,4 +1,4 @@
-// The commands of the program, one file each: how its arguments are declared and what it does with them.
+// The commands of the program, one source file each: declares the arguments and runs the command.
 #pragma once
 
 #include <functional>
@@ -9,20 +9,20 @@
 
 namespace brume::cli {
 
-/// What every command takes.
+/// Options that every command accepts.
 struct CommonOptions {
-  unsigned threads = 0;  ///< 0: one a core.
-  bool quiet = false;    ///< No progress and no warnings; results and errors stay.
+  unsigned threads = 0;  ///< 0: one per core.
+  bool quiet = false;    ///< Suppresses progress and warnings, but not results and errors.
 };
 
-/// A command as main runs it. `run` throws Error when it fails and Interrupted when a signal ends it.
+/// A command for main to run. `run` throws Error on failure and Interrupted when a signal stops it.
 struct Command {
   Arguments arguments;
   std::shared_ptr<CommonOptions> common;
   std::function<void()> run;
 };
 
-/// Declares a command with its common options. Its help begins with `what` and the examples.
+/// Declares a command with the common options. Its --help begins with `what` and the examples.
 Command declare(CommandLine& program, const std::string& name, const std::string& what,
                 const std::string& examples);
 

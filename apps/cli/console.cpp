@@ -20,20 +20,20 @@ namespace {
 
 std::atomic<int> g_signal{0};
 std::atomic<bool> g_quiet{false};
-std::atomic<bool> g_line_shown{false};  // A progress line stands on the terminal, without its line end.
+std::atomic<bool> g_line_shown{false};  // The cursor is on a progress line.
 
 extern "C" void on_signal(int signal) {
   g_signal = signal;
 }
 
-// "\r", the text and blanks over what an earlier, longer line left.
+// Overwrites the current line; the padding erases the rest of a longer one.
 void show_line(const std::string& line) {
   std::fprintf(stderr, "\r%-79s", line.c_str());
   std::fflush(stderr);
   g_line_shown = true;
 }
 
-void leave_line() {
+void end_line() {
   if (g_line_shown.exchange(false)) std::fputc('\n', stderr);
 }
 
@@ -50,7 +50,7 @@ void start_console(bool quiet) {
   g_quiet = quiet;
   set_log_callback([quiet](LogLevel level, const std::string& line) {
     if (quiet || level != LogLevel::warning) return;
-    leave_line();
+    end_line();
     std::fprintf(stderr, "brume: warning: %s\n", one_line(line).c_str());
   });
   struct sigaction action {};
@@ -76,12 +76,12 @@ Progress::Callback progress_display() {
     if (!ended && now - *last < std::chrono::milliseconds(100)) return;
     *last = now;
     show_line(progress_line(state));
-    if (ended) leave_line();
+    if (ended) end_line();
   };
 }
 
-void say_failure(const std::string& message) {
-  leave_line();
+void print_failure(const std::string& message) {
+  end_line();
   std::fprintf(stderr, "brume: %s\n", one_line(message).c_str());
 }
 
@@ -102,9 +102,9 @@ void check_output(const std::filesystem::path& path) {
   if (path.empty() || path == "-") return;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw Error(ErrorCode::bad_input, path.string() + ": is a folder; name a file in it");
+    throw Error(ErrorCode::bad_input, path.string() + ": is a folder; name a file inside it");
   }
-  auto file = AtomicFile::open(path);  // Removed again at once.
+  auto file = AtomicFile::open(path);  // The destructor removes it again.
   if (!file) throw Error(file.failure());
 }
 

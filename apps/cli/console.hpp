@@ -1,4 +1,4 @@
-// What the program says and where: results on standard output, all else on standard error.
+// Console output and signals: results go to standard output, progress, warnings and errors to standard error.
 #pragma once
 
 #include <filesystem>
@@ -10,35 +10,36 @@ namespace brume::cli {
 
 class Json;
 
-/// Thrown where a command notices that SIGINT or SIGTERM has arrived, so that what it holds is cleaned up.
+/// Thrown when a command notices SIGINT or SIGTERM, so that unwinding releases its resources.
 struct Interrupted {
   int signal;
 };
 
-/// Warnings of the library go to standard error from here on (nowhere when quiet), and the first SIGINT or
-/// SIGTERM only asks the command to end; the second one ends the process.
+/// Routes library warnings to standard error (drops them if `quiet`) and installs signal handlers: the first
+/// SIGINT or SIGTERM requests a stop, the second ends the process.
 void start_console(bool quiet);
 
-/// Throws Interrupted when a signal has arrived.
+/// Throws Interrupted if a signal has arrived.
 void stop_if_interrupted();
 
-/// For long jobs: shows a line on standard error where that is a terminal, and stops on a signal.
+/// Progress callback for long jobs: shows a line if standard error is a terminal, and throws Interrupted on a
+/// signal.
 Progress::Callback progress_display();
 
-/// One line on standard error, "brume: ...", over what progress may stand there.
-void say_failure(const std::string& message);
+/// Prints one line, "brume: ...", to standard error, below any progress line.
+void print_failure(const std::string& message);
 
-/// Text on standard output.
+/// Prints to standard output.
 void print(const std::string& text);
 
-/// Writes the object to `target`, "-" for standard output. Throws Error.
+/// Writes the object to the file `target`, or to standard output if it is "-". Throws Error.
 void write_json(const std::string& target, const Json& object);
 
-/// Throws Error (bad_input) unless a file of this name can be made: asked before any work is done for it.
-/// Nothing is left behind. An empty name and "-" are fine.
+/// Throws Error (bad_input) unless this file can be created: called before the work whose result goes there.
+/// Leaves no file behind. Accepts an empty path and "-".
 void check_output(const std::filesystem::path& path);
 
-/// Impulses standard output out; throws Error when it could not be written.
+/// Flushes standard output; throws Error if it could not be written.
 void finish_output();
 
 }  // namespace brume::cli

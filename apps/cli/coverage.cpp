@@ -1,5 +1,4 @@
 #include "apps/cli/coverage.hpp"
-#include "smoke/holes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,21 +6,22 @@
 #include <numbers>
 
 #include "apps/cli/console.hpp"
+#include "smoke/holes.hpp"
 
 namespace brume::cli {
 namespace {
 
-/// Where shot i of n goes: a point of a disk around the line, evenly by the golden angle.
+/// The target of shot i: points of a disk around the far end, spread evenly by the golden angle (Vogel 1979).
 glm::vec3 aim(const SightLine& line, const Volley& volley, unsigned i) {
-  const glm::dvec3 from(line.from_world), way = glm::dvec3(line.to_world) - from;
-  const double length = glm::length(way);
-  const glm::dvec3 ahead = way / length;
+  const glm::dvec3 from(line.from_world), segment = glm::dvec3(line.to_world) - from;
+  const double length = glm::length(segment);
+  const glm::dvec3 ahead = segment / length;
   const glm::dvec3 aside =
       glm::normalize(glm::cross(ahead, std::abs(ahead.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
   const double radius =
       std::tan(volley.spread_degrees * std::numbers::pi / 180) * length * std::sqrt((i + 0.5) / volley.count);
   const double angle = 2.399963229728653 * i;
-  return glm::vec3(from + way +
+  return glm::vec3(from + segment +
                    radius * (std::cos(angle) * aside + std::sin(angle) * glm::cross(ahead, aside)));
 }
 
@@ -61,11 +61,13 @@ const char* name_of(HiddenBy by) {
   return by == HiddenBy::wall ? "wall" : by == HiddenBy::smoke ? "smoke" : "nothing";
 }
 
-SightSample look(const scenario::Scenario& scenario, const scenario::Simulation& simulation, const SightLine& line) {
+SightSample sample_sight(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
+                         const SightLine& line) {
   const sim::State& state = simulation.world().state();
   const std::vector<shared::Hole> holes = smoke::holes_of(state, &scenario.masks);
-  const smoke::Sight sight(simulation.volume(), simulation.world().grid(), holes, state.seconds(state.tick),
-                         {scenario.timeline.smoke.extinction, scenario.timeline.smoke.albedo, &scenario.masks});
+  const smoke::Sight sight(
+      simulation.volume(), simulation.world().grid(), holes, state.seconds(state.tick),
+      {scenario.timeline.smoke.extinction, scenario.timeline.smoke.albedo, &scenario.masks});
   SightSample sample;
   sample.optical_depth = sight.optical_depth(line.from_world, line.to_world).value_or_throw();
   sample.wall = sight.first_wall(line.from_world, line.to_world).value_or_throw();
@@ -78,16 +80,17 @@ SightSample look(const scenario::Scenario& scenario, const scenario::Simulation&
 Coverage coverage_of(const scenario::Scenario& scenario, const SightLine& line, const TimeRange& times) {
   Coverage coverage;
   at_every_tick(scenario, times.begin, times.end, [&](const scenario::Simulation& simulation, double time) {
-    const SightSample sample = look(scenario, simulation, line);
+    const SightSample sample = sample_sight(scenario, simulation, line);
     if (sample.hidden_by == HiddenBy::nothing) return;
     const double next = std::min(time + tick_seconds(simulation), times.end);
     coverage.hidden_seconds += next - time;
     auto& intervals = coverage.intervals;
-    const bool goes_on = !intervals.empty() && intervals.back().by == sample.hidden_by &&
-                         std::abs(intervals.back().end - time) < 1e-9;
-    if (!goes_on) intervals.push_back({time, next, sample.hidden_by, 0});
+    const bool continues = !intervals.empty() && intervals.back().by == sample.hidden_by &&
+                           std::abs(intervals.back().end - time) < 1e-9;
+    if (!continues) intervals.push_back({time, next, sample.hidden_by, 0});
     intervals.back().end = next;
-    intervals.back().most_depth = std::max(intervals.back().most_depth, sample.optical_depth);
+    float& deepest = intervals.back().max_optical_depth;
+    deepest = std::max(deepest, sample.optical_depth);
   });
   return coverage;
 }
@@ -102,28 +105,28 @@ std::vector<ShotResult> fire(const scenario::Scenario& scenario, const SightLine
   std::vector<bool> hidden;
   at_every_tick(scenario, volley.first_time, std::min(end, closed(shots.back())),
                 [&](const scenario::Simulation& simulation, double) {
-                  hidden.push_back(look(scenario, simulation, line).hidden_by != HiddenBy::nothing);
+                  hidden.push_back(sample_sight(scenario, simulation, line).hidden_by != HiddenBy::nothing);
                 });
   std::vector<ShotResult> results;
   if (std::find(hidden.begin(), hidden.end(), true) == hidden.end()) return results;
 
-  scenario::Scenario shot_at = scenario;
-  auto& all = shot_at.timeline.shots;
+  scenario::Scenario with_shots = scenario;
+  auto& all = with_shots.timeline.shots;
   for (const scene::ShotEvent& shot : shots) {
-    // Among the scenario's own, by time.
+    // The timeline's shots are sorted by time.
     const auto later = [&](const scene::ShotEvent& other) { return other.time > shot.time; };
     all.insert(std::find_if(all.begin(), all.end(), later), shot);
     ShotResult result{shot.time, std::numeric_limits<float>::max(), false};
     std::size_t tick = 0;
-    at_every_tick(shot_at, volley.first_time, std::min(end, closed(shot)),
+    at_every_tick(with_shots, volley.first_time, std::min(end, closed(shot)),
                   [&](const scenario::Simulation& simulation, double) {
                     if (!hidden[tick++]) return;
-                    const SightSample sample = look(scenario, simulation, line);
-                    result.least_depth = std::min(result.least_depth, sample.optical_depth);
-                    result.seen |= sample.hidden_by == HiddenBy::nothing;
+                    const SightSample sample = sample_sight(scenario, simulation, line);
+                    result.min_optical_depth = std::min(result.min_optical_depth, sample.optical_depth);
+                    result.visible |= sample.hidden_by == HiddenBy::nothing;
                   });
     if (shot.time < end) results.push_back(result);
-    if (result.seen) break;
+    if (result.visible) break;
   }
   return results;
 }

@@ -1,4 +1,4 @@
-// How long a smoke hides two points of a timeline from each other, and how many shots it takes to see.
+// How long smoke hides two points of a timeline from each other, and how many shots clear the line of sight.
 #pragma once
 
 #include <cstdint>
@@ -7,63 +7,64 @@
 #include <vector>
 
 #include "apps/cli/parse.hpp"
-#include "smoke/sight.hpp"
 #include "scenario/simulation.hpp"
+#include "smoke/sight.hpp"
 
 namespace brume::cli {
 
 struct SightLine {
   glm::vec3 from_world{0}, to_world{0};
-  float threshold = 3;  ///< Optical depth above which smoke hides.
+  float threshold = 3;  ///< Optical depth above which smoke hides the far end.
 };
 
 enum class HiddenBy { nothing, wall, smoke };
 /// "nothing", "wall" or "smoke".
 const char* name_of(HiddenBy by);
 
-/// What the line is at one sample.
+/// The state of a line of sight at one tick.
 struct SightSample {
   HiddenBy hidden_by = HiddenBy::nothing;
   float optical_depth = 0;
   std::optional<smoke::SightWall> wall;
 };
 
-SightSample look(const scenario::Scenario& scenario, const scenario::Simulation& simulation, const SightLine& line);
+SightSample sample_sight(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
+                         const SightLine& line);
 
-/// Ticks one after the other at which the same hides, as times [s]: from the first of them to the next tick
-/// after the last.
+/// Consecutive ticks at which the same thing hides the line [s]: from the first of them to the tick after the
+/// last.
 struct HiddenInterval {
   double begin = 0, end = 0;
   HiddenBy by = HiddenBy::smoke;
-  float most_depth = 0;
+  float max_optical_depth = 0;
 };
 
 struct Coverage {
-  std::vector<HiddenInterval> intervals;  ///< By time, apart or hidden by different things.
+  std::vector<HiddenInterval> intervals;  ///< Sorted by time; neighbours are apart or differ in `by`.
   double hidden_seconds = 0;
 };
 
-/// Looks at every tick in [times.begin, times.end). Throws Error as scenario::Simulation::create fails, and
-/// Interrupted.
+/// Samples every tick in [times.begin, times.end). Throws Error if scenario::Simulation::create fails, and
+/// Interrupted on a signal.
 Coverage coverage_of(const scenario::Scenario& scenario, const SightLine& line, const TimeRange& times);
 
-/// Shots from one end of the line towards the other, besides those of the timeline.
+/// Shots from one end of the line towards the other, in addition to those of the timeline.
 struct Volley {
   unsigned count = 1;
   double first_time = 0, every = 0.1;  ///< [s]
-  double spread_degrees = 0;           ///< They go to points of a disk around the line, evenly, none beyond.
+  double spread_degrees = 0;           ///< Half-angle of the cone that the shots fill evenly.
 };
 
-/// What the first shots of a volley do: all that are fired up to `time`.
+/// The effect of the first shots of a volley: all that are fired up to `time`.
 struct ShotResult {
   double time = 0;  ///< When the last of them is fired [s].
-  float least_depth =
-      0;  ///< At the ticks at which it would be hidden without them, until that one's hole closes.
-  bool seen = false;  ///< Whether nothing hides at one of those ticks.
+  /// Over the ticks at which the line is hidden without the shots, until the last shot's hole closes.
+  float min_optical_depth = 0;
+  bool visible = false;  ///< Whether nothing hides the line at one of those ticks.
 };
 
-/// One shot, two shots, and so on until it is seen or all are fired; looks no later than `end` [s]. Nothing
-/// where it is not hidden in that time anyway.
+/// Results for one shot, two shots and so on, until the far end is visible or all are fired; samples no later
+/// than `end` [s]. Empty if nothing hides the line in that time even without shots.
 std::vector<ShotResult> fire(const scenario::Scenario& scenario, const SightLine& line, const Volley& volley,
                              double end);
 

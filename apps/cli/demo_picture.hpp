@@ -1,9 +1,9 @@
-// What the picture of `brume demo` shows; docs/gallery.md shows the same moment.
+// The time of the image that `brume demo` renders; docs/gallery.md shows the same frame.
 #pragma once
 
 namespace brume::cli {
 
-/// Of scenes/demo.toml [s].
+/// On the timeline scenes/demo.toml [s].
 inline constexpr double kPictureTime = 4.95;
 
 }  // namespace brume::cli

@@ -28,7 +28,7 @@ void list_devices(const std::string& json) {
     text += std::to_string(number) + "  " + device.name + "  (" + device.kind + ", " + device.driver +
             ", Vulkan " + version_text(device.api_version) + ", " +
             std::to_string(device.memory_bytes >> 20) + " MiB)" +
-            (device.unsupported.empty() ? "" : "  not usable: " + device.unsupported) + "\n";
+            (device.unsupported.empty() ? "" : "  unsupported: " + device.unsupported) + "\n";
     ++number;
   }
   if (!json.empty()) write_json(json, {{"devices", devices}});
@@ -38,10 +38,11 @@ void list_devices(const std::string& json) {
 }  // namespace
 
 Command add_devices(CommandLine& program) {
-  Command command = declare(program, "devices", "Lists the devices that can render, as --device takes them.",
-                            "  brume devices\n  brume devices --json -");
+  Command command =
+      declare(program, "devices", "Lists the Vulkan devices and the numbers that --device takes.",
+              "  brume devices\n  brume devices --json -");
   auto json = std::make_shared<std::string>();
-  command.arguments.add_option("--json", *json, "Write the list as JSON; -: to standard output")
+  command.arguments.add_option("--json", *json, "Write the list as JSON; - for standard output")
       .type_name("FILE");
   command.run = [json] {
     check_output(*json);

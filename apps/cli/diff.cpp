@@ -29,7 +29,7 @@ std::string number(double value) {
   return text.str();
 }
 
-// In steps of 1/255, as eight bits hold colours.
+// Colour and alpha differences are in units of 1/255, the step of an 8-bit channel.
 struct Comparison {
   image::Difference colours;
   double alpha_max = 0, psnr = 0, ssim = 0, flip = 0;
@@ -52,7 +52,7 @@ Comparison compare(const image::Image8& reference, const image::Image8& test) {
 }
 
 Json json_of(const Options& options, const image::Image8& picture, const Comparison& c) {
-  // Equal pictures have no finite ratio of signal to noise.
+  // The PSNR of equal images is infinite, which JSON cannot express.
   return {{"reference", options.reference},
           {"test", options.test},
           {"size", Json::list({picture.width, picture.height})},
@@ -67,7 +67,7 @@ Json json_of(const Options& options, const image::Image8& picture, const Compari
 
 std::string text_of(const Comparison& c) {
   return "max    " + number(c.colours.max) + " of 255\nmean   " + number(c.colours.mean) + "\nrmse   " +
-         number(c.colours.rmse) + "\nalpha  " + number(c.alpha_max) + " at most\npsnr   " + number(c.psnr) +
+         number(c.colours.rmse) + "\nalpha  " + number(c.alpha_max) + " maximum\npsnr   " + number(c.psnr) +
          " dB\nssim   " + number(c.ssim) + "\nflip   " + number(c.flip) + "\n";
 }
 
@@ -117,20 +117,25 @@ void diff(const Options& options) {
 
 Command add_diff(CommandLine& program) {
   Command command =
-      declare(program, "diff", "Tells how far two pictures are apart, and shows where one would notice.",
+      declare(program, "diff", "Measures the difference of two images and maps where it is visible.",
               "  brume diff reference.png test.png\n"
               "  brume diff reference.png test.png -o map.png --json -\n"
-              "  brume diff reference.png test.png --psnr-below 38   # exit code 7 if it is");
+              "  brume diff reference.png test.png --psnr-below 38   # exit code 7 below 38 dB");
   auto options = std::make_shared<Options>();
   const Arguments& arguments = command.arguments;
-  arguments.add_option("REFERENCE", options->reference, "A picture, .png or .jpg").required().type_name("");
-  arguments.add_option("TEST", options->test, "The one to compare with it").required().type_name("");
-  arguments.add_option("-o,--output", options->map, "Write the map of FLIP, black to pale yellow: .png")
+  arguments.add_option("REFERENCE", options->reference, "Reference image, .png or .jpg")
+      .required()
+      .type_name("");
+  arguments.add_option("TEST", options->test, "Image to compare with it").required().type_name("");
+  arguments
+      .add_option("-o,--output", options->map, "Write the FLIP error map, from black to pale yellow: .png")
       .type_name("FILE");
-  arguments.add_option("--fail-above", options->fail_above, "Fail if any channel differs by more [0, 255]")
+  arguments
+      .add_option("--fail-above", options->fail_above, "Fail if any channel differs by more than N [0, 255]")
       .type_name("N");
-  arguments.add_option("--psnr-below", options->psnr_below, "Fail if the PSNR is below [dB]").type_name("DB");
-  arguments.add_option("--json", options->json, "Write the numbers as JSON; -: to standard output")
+  arguments.add_option("--psnr-below", options->psnr_below, "Fail if the PSNR is below DB [dB]")
+      .type_name("DB");
+  arguments.add_option("--json", options->json, "Write the metrics as JSON; - for standard output")
       .type_name("FILE");
   command.run = [options] { diff(*options); };
   return command;

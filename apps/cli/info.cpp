@@ -6,9 +6,9 @@
 #include "apps/cli/json.hpp"
 #include "core/error.hpp"
 #include "image/decode.hpp"
+#include "scenario/vxl_file.hpp"
 #include "scene/load.hpp"
 #include "scene/timeline.hpp"
-#include "scenario/vxl_file.hpp"
 
 namespace brume::cli {
 namespace {
@@ -21,13 +21,12 @@ Json scene_info(const std::filesystem::path& path) {
   const scene::Scene scene = scene::load_scene(path).value_or_throw();
   std::uint64_t triangles = 0;
   for (const scene::Object& object : scene.objects) triangles += scene.meshes[object.mesh].indices.size() / 3;
-  // A grenade of the file's own is one of its objects, though it does not stand in the world.
-  const scene::Mesh& grenade = scene.meshes[scene.grenade.mesh];
-  const bool own_grenade = grenade.name != "built-in grenade";
-  if (own_grenade) triangles += grenade.indices.size() / 3;
+  // A grenade from the file counts as one of its objects, although it is not placed in the world.
+  const bool own_grenade = scene.grenade.has_value();
+  if (own_grenade) triangles += scene.meshes[scene.grenade->mesh].indices.size() / 3;
   Json info{{"kind", "scene"},
             {"objects", scene.objects.size() + own_grenade},
-            {"grenade", own_grenade ? "of the file" : "built in"},
+            {"grenade", own_grenade ? "from the file" : "built in"},
             {"meshes", scene.meshes.size()},
             {"materials", scene.materials.size()},
             {"images", scene.images.size()},
@@ -43,17 +42,15 @@ Json scene_info(const std::filesystem::path& path) {
 
 Json timeline_info(const std::filesystem::path& path) {
   const scene::Timeline timeline = scene::load_timeline(path).value_or_throw();
-  return {{"kind", "timeline"},
-          {"scene", timeline.scene.string()},
-          {"seconds", timeline.duration},
-          {"voxel_size", timeline.grid.voxel},
-          {"camera_keys", timeline.camera.size()},
-          {"smokes", timeline.smokes.size()},
-          {"shots", timeline.shots.size()},
-          {"blasts", timeline.blasts.size()},
-          {"moves", timeline.moves.size()},
-          {"edits", timeline.edits.size()},
-          {"doors", timeline.doors.size()}};
+  Json info{{"kind", "timeline"},
+            {"scene", timeline.scene.string()},
+            {"seconds", timeline.duration},
+            {"voxel_size", timeline.grid.voxel},
+            {"camera_keys", timeline.camera.size()}};
+  scene::for_each_event_list(timeline, [&](const char* type, const auto& events) {
+    info.set(type + std::string("s"), events.size());
+  });
+  return info;
 }
 
 Json image_info(const std::filesystem::path& path) {
@@ -65,7 +62,7 @@ Json image_info(const std::filesystem::path& path) {
 
 Json voxel_info(const std::filesystem::path& path) {
   const auto contents = scenario::load_vxl(path, std::nullopt).value_or_throw();
-  BRUME_ASSERT(contents.has_value(), "any key is taken");
+  BRUME_ASSERT(contents.has_value(), "loading without a key accepts any file");
   const voxel::GridLayout& frame = contents->grid.layout();
   return {{"kind", "voxels"},
           {"size", Json::list({frame.size.x, frame.size.y, frame.size.z})},
@@ -87,10 +84,9 @@ Json info_of(const std::filesystem::path& path) {
   if (is_one_of({".toml"})) return timeline_info(path);
   if (is_one_of({".vxl"})) return voxel_info(path);
   if (is_one_of({".png", ".jpg", ".jpeg"})) return image_info(path);
-  throw Error(ErrorCode::usage,
-              path.string() +
-                  ": cannot tell what this is by its name; expected .txt, .gltf, .glb, .obj, "
-                  ".vxl, .toml, .png or .jpg");
+  throw Error(ErrorCode::usage, path.string() +
+                                    ": unknown file extension; expected .txt, .gltf, .glb, .obj, "
+                                    ".vxl, .toml, .png or .jpg");
 }
 
 }  // namespace
@@ -99,12 +95,12 @@ Command add_info(CommandLine& program) {
   struct Options {
     std::string input, json;
   };
-  Command command = declare(program, "info", "Tells what is in a scene, timeline, voxel or picture file.",
+  Command command = declare(program, "info", "Summarizes a scene, timeline, voxel or image file.",
                             "  brume info room.glb\n"
                             "  brume info room.vxl --json -");
   auto options = std::make_shared<Options>();
-  command.arguments.add_option("FILE", options->input, "The file").required().type_name("");
-  command.arguments.add_option("--json", options->json, "Write it as JSON; -: to standard output")
+  command.arguments.add_option("FILE", options->input, "The file to summarize").required().type_name("");
+  command.arguments.add_option("--json", options->json, "Write the summary as JSON; - for standard output")
       .type_name("FILE");
   command.run = [options] {
     check_output(options->json);

@@ -52,7 +52,7 @@ void Json::push_back(const Json& value) {
 }
 
 std::string Json::dump() const {
-  // Names of files need not be UTF-8.
+  // File names need not be UTF-8.
   return value_->dump(2, ' ', false, Value::error_handler_t::replace);
 }
 

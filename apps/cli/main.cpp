@@ -15,22 +15,22 @@ namespace {
 constexpr const char* kAbout =
     "Real-time volumetric smoke that floods real scenes.\n\n"
     "Examples:\n"
-    "  brume demo                                        # a picture and a film: out/demo.png, out/demo.mp4\n"
-    "  brume view                                        # walk in, throw smoke, shoot through it\n"
-    "  brume render room.glb -o room.png --smoke 0,1,0   # a picture of a scene with smoke in it\n"
-    "  brume sim scenes/demo.toml --hash                 # the same smoke on every machine\n"
-    "  brume voxelize room.glb -o room.vxl --json -      # which voxels of a scene are solid\n"
-    "  brume info room.glb                               # what is in a file\n"
-    "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3   # who sees whom\n"
-    "  brume diff reference.png test.png                 # how far two pictures are apart\n"
-    "  brume devices                                     # what can render";
+    "  brume demo                                        # an image and a film: out/demo.png, out/demo.mp4\n"
+    "  brume view                                        # walk around, throw smoke, shoot through it\n"
+    "  brume render room.glb -o room.png --smoke 0,1,0   # render a scene with smoke in it\n"
+    "  brume sim scenes/demo.toml --hash                 # simulate: the same hashes on every machine\n"
+    "  brume voxelize room.glb -o room.vxl --json -      # find the solid voxels of a scene\n"
+    "  brume info room.glb                               # summarize a file\n"
+    "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3   # line of sight\n"
+    "  brume diff reference.png test.png                 # compare two images\n"
+    "  brume devices                                     # list the Vulkan devices";
 
 int fail(const Failure& failure) {
-  say_failure(failure.message);
+  print_failure(failure.message);
   return static_cast<int>(failure.code);
 }
 
-// The exit code. Every failure is one line on standard error.
+// Runs a command and returns the exit code. Every failure is one line on standard error.
 int run(const Command& command) {
   try {
     start_console(command.common->quiet);
@@ -41,10 +41,10 @@ int run(const Command& command) {
   } catch (const Error& error) {
     return fail(error.failure());
   } catch (const Interrupted& interrupted) {
-    say_failure("interrupted");
+    print_failure("interrupted");
     return 128 + interrupted.signal;
   } catch (const std::bad_alloc&) {
-    return fail({ErrorCode::resource_limit, "out of memory; use a smaller scene, grid or picture"});
+    return fail({ErrorCode::resource_limit, "out of memory; use a smaller scene, grid or image"});
   } catch (const std::exception& error) {
     return fail({ErrorCode::internal, error.what()});
   }
@@ -78,10 +78,10 @@ Command declare(CommandLine& program, const std::string& name, const std::string
   command.common = std::make_shared<CommonOptions>();
   command.arguments = program.add_command(name, what + "\n\nExamples:\n" + examples);
   command.arguments
-      .add_option("--threads", command.common->threads, "Threads to use; 0: one a core (default)")
+      .add_option("--threads", command.common->threads, "Number of threads; default 0: one per core")
       .range(0u, 1024u)
       .type_name("N");
-  command.arguments.add_flag("-q,--quiet", command.common->quiet, "No progress and no warnings");
+  command.arguments.add_flag("-q,--quiet", command.common->quiet, "Suppress progress and warnings");
   return command;
 }
 

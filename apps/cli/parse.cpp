@@ -27,7 +27,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-// The number that is the whole text, independent of the locale.
+// The whole text as a number, independent of the locale.
 template <typename Number>
 std::optional<Number> number(std::string_view text) {
   Number value{};
@@ -73,7 +73,7 @@ glm::ivec3 parse_grid(const std::string& option, const std::string& text) {
   if (values && (*values)[0] >= 0 && (*values)[1] >= 0 && (*values)[2] >= 0) {
     return {(*values)[0], (*values)[1], (*values)[2]};
   }
-  refuse(option, text, "three whole numbers of voxels, such as 120x20x120");
+  refuse(option, text, "voxels along x, y and z, such as 120x20x120");
 }
 
 glm::vec3 parse_point(const std::string& option, const std::string& text) {
@@ -91,7 +91,7 @@ scene::Camera parse_camera(const std::string& option, const std::string& text) {
     }
   }
   refuse(option, text,
-         "\"position target fov\" with two different points and an angle in (0, 180) degrees, such as "
+         "\"position target fov\" with two distinct points and an angle in (0, 180) degrees, such as "
          "\"0,1.7,5 0,1.5,0 60\"");
 }
 
@@ -99,7 +99,7 @@ passes::ViewSlice parse_slice(const std::string& option, const std::string& text
   const std::size_t axis = std::string_view("xyz").find(text.empty() ? '?' : text[0]);
   const bool begins = axis != std::string_view::npos && text.size() > 2 && text[1] == '=';
   const auto at = begins ? number<float>(std::string_view(text).substr(2)) : std::nullopt;
-  if (!at || !std::isfinite(*at)) refuse(option, text, "an axis and a place in metres, as in y=1.5");
+  if (!at || !std::isfinite(*at)) refuse(option, text, "an axis and a position in metres, such as y=1.5");
   return {static_cast<std::uint32_t>(axis), *at};
 }
 

@@ -42,7 +42,7 @@ glm::vec3 parse_end(const std::string& option, const std::string& text) {
 void check_options(const Options& options) {
   if (options.report && options.time >= 0)
     throw Error(ErrorCode::usage,
-                "--time asks for one sample; with --report give --times, such as --times 0-6");
+                "--time: is for a single sample; with --report use --times, such as --times 0-6");
   const std::pair<const char*, double> finite[] = {{"--time", options.time},
                                                    {"--threshold", double{options.threshold}},
                                                    {"--shots-at", options.shots_at},
@@ -52,13 +52,13 @@ void check_options(const Options& options) {
     if (std::isnan(value)) throw Error(ErrorCode::usage, std::string(name) + " 'nan': expected a number");
   }
   if (!options.report && options.time < 0)
-    throw Error(ErrorCode::usage, "give a moment, such as --time 3, or --report for all of them");
+    throw Error(ErrorCode::usage, "expected a time, such as --time 3, or --report for all of them");
   if (!options.report && (options.shots > 0 || !options.times.empty()))
-    throw Error(ErrorCode::usage, "--times and --shots belong to --report; add it");
+    throw Error(ErrorCode::usage, "--times and --shots require --report; add it");
   check_output(options.json);
 }
 
-/// One line for each entry: its name and its value.
+/// Prints one line per field: its name and its value.
 void print_fields(const std::vector<std::pair<std::string, std::string>>& fields) {
   for (const auto& [name, value] : fields) print(name + std::string(16 - name.size(), ' ') + value + "\n");
 }
@@ -66,7 +66,7 @@ void print_fields(const std::vector<std::pair<std::string, std::string>>& fields
 void print_sample(const Options& options, const scenario::Scenario& scenario, const SightLine& line) {
   const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   simulation->advance_to(options.time);
-  const SightSample sample = look(scenario, *simulation, line);
+  const SightSample sample = sample_sight(scenario, *simulation, line);
   const double transmittance = std::exp(-double{sample.optical_depth});
   const float distance = glm::length(line.to_world - line.from_world);
   if (!options.json.empty()) {
@@ -89,9 +89,9 @@ void print_sample(const Options& options, const scenario::Scenario& scenario, co
                               {"first_solid", first}});
   }
   if (options.json == "-") return;
-  const bool seen = sample.hidden_by == HiddenBy::nothing;
+  const bool visible = sample.hidden_by == HiddenBy::nothing;
   print_fields(
-      {{"visible", seen ? "yes" : std::string("no, hidden by ") + name_of(sample.hidden_by)},
+      {{"visible", visible ? "yes" : std::string("no, hidden by ") + name_of(sample.hidden_by)},
        {"optical depth", number("%.3f", double{sample.optical_depth})},
        {"transmittance", number("%.4g", transmittance)},
        {"distance", number("%.2f m", double{distance})},
@@ -101,46 +101,49 @@ void print_sample(const Options& options, const scenario::Scenario& scenario, co
 Json coverage_json(const Coverage& coverage) {
   Json intervals = Json::list({});
   for (const HiddenInterval& i : coverage.intervals)
-    intervals.push_back(
-        Json{{"begin", i.begin}, {"end", i.end}, {"by", name_of(i.by)}, {"most_depth", i.most_depth}});
+    intervals.push_back(Json{{"begin", i.begin},
+                             {"end", i.end},
+                             {"by", name_of(i.by)},
+                             {"max_optical_depth", i.max_optical_depth}});
   return {{"hidden_seconds", coverage.hidden_seconds}, {"intervals", intervals}};
 }
 
 Json shots_json(const std::vector<ShotResult>& shots) {
   Json each = Json::list({});
   for (const ShotResult& shot : shots)
-    each.push_back(Json{{"time", shot.time}, {"least_depth", shot.least_depth}, {"seen", shot.seen}});
-  const bool seen = shots.empty() || shots.back().seen;
-  return {{"seen_after", seen ? Json(shots.size()) : Json(nullptr)}, {"each", each}};
+    each.push_back(
+        Json{{"time", shot.time}, {"min_optical_depth", shot.min_optical_depth}, {"visible", shot.visible}});
+  const bool visible = shots.empty() || shots.back().visible;
+  return {{"visible_after", visible ? Json(shots.size()) : Json(nullptr)}, {"each", each}};
 }
 
 void print_coverage(const Coverage& coverage, const TimeRange& times) {
   print("hidden for " + number("%.2f", coverage.hidden_seconds) + " of " +
         number("%.2f s", times.end - times.begin) + "\n");
   if (coverage.intervals.empty()) return;
-  print("   from s      to s  hidden by  most optical depth\n");
+  print(" begin [s]   end [s]  hidden by  max optical depth\n");
   for (const HiddenInterval& i : coverage.intervals) {
     char line[120];
-    std::snprintf(line, sizeof line, "%9.2f %9.2f  %-9s  %.3f\n", i.begin, i.end, name_of(i.by),
-                  double{i.most_depth});
+    std::snprintf(line, sizeof line, "%10.2f %9.2f  %-9s  %17.3f\n", i.begin, i.end, name_of(i.by),
+                  double{i.max_optical_depth});
     print(line);
   }
 }
 
 void print_shots(const std::vector<ShotResult>& shots, unsigned count) {
-  if (shots.empty()) return print("not hidden when the shots are fired\n");
-  print((shots.back().seen ? "seen after " : "not seen after ") + std::to_string(shots.size()) + " of " +
-        std::to_string(count) + " shots\n");
-  print("  shots  last fired s  least optical depth\n");
+  if (shots.empty()) return print("visible even without the shots\n");
+  print((shots.back().visible ? "visible after " : "still hidden after ") + std::to_string(shots.size()) +
+        " of " + std::to_string(count) + " shots\n");
+  print("  shots  last fired [s]  min optical depth\n");
   for (std::size_t i = 0; i < shots.size(); ++i) {
     char line[120];
-    std::snprintf(line, sizeof line, "%7zu %13.2f  %19.3f\n", i + 1, shots[i].time,
-                  double{shots[i].least_depth});
+    std::snprintf(line, sizeof line, "%7zu %15.2f  %17.3f\n", i + 1, shots[i].time,
+                  double{shots[i].min_optical_depth});
     print(line);
   }
 }
 
-void tell_coverage(const Options& options, const scenario::Scenario& scenario, const SightLine& line) {
+void report_coverage(const Options& options, const scenario::Scenario& scenario, const SightLine& line) {
   const TimeRange times = options.times.empty() ? TimeRange{0, double{scenario.timeline.duration}}
                                                 : parse_times("--times", options.times);
   const Coverage coverage = coverage_of(scenario, line, times);
@@ -167,11 +170,11 @@ void query(const Options& options) {
   check_options(options);
   if (!options.times.empty()) parse_times("--times", options.times);
   if (options.shots > 0 && line.from_world == line.to_world)
-    throw Error(ErrorCode::usage, "--shots: --from and --to are the same point; give two");
+    throw Error(ErrorCode::usage, "--shots: --from and --to are the same point; give two distinct ones");
   const scenario::Scenario scenario = scenario::load_scenario(options.timeline, {}).value_or_throw();
   stop_if_interrupted();
   if (options.report) {
-    tell_coverage(options, scenario, line);
+    report_coverage(options, scenario, line);
   } else {
     print_sample(options, scenario, line);
   }
@@ -181,7 +184,7 @@ void query(const Options& options) {
 
 Command add_query(CommandLine& program) {
   Command command =
-      declare(program, "query", "Tells whether one point can be seen from another through the smoke.",
+      declare(program, "query", "Tests whether one point is visible from another through the smoke.",
               "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3.2\n"
               "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 1-3 "
               "--json -\n"
@@ -190,35 +193,37 @@ Command add_query(CommandLine& program) {
               "--shots-at 3");
   auto options = std::make_shared<Options>();
   const Arguments& arguments = command.arguments;
-  arguments.add_option("TIMELINE", options->timeline, "The timeline (.toml), or a scene")
-      .required()
-      .type_name("");
-  arguments.add_option("--from", options->from, "Who looks [m]").required().type_name("X,Y,Z");
-  arguments.add_option("--to", options->to, "What is looked at [m]").required().type_name("X,Y,Z");
-  arguments.add_option("--time", options->time, "The sample [s]").range(0.0, 3600.0).type_name("S");
+  arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml) or scene").required().type_name("");
+  arguments.add_option("--from", options->from, "Position of the observer [m]").required().type_name("X,Y,Z");
+  arguments.add_option("--to", options->to, "Position of the target [m]").required().type_name("X,Y,Z");
+  arguments.add_option("--time", options->time, "Time of the sample [s]").range(0.0, 3600.0).type_name("S");
   arguments
       .add_option("--threshold", options->threshold,
-                  "Optical depth from which smoke hides; default 3: 5 % come through")
+                  "Optical depth above which smoke hides the target; default 3 (5 % transmittance)")
       .range(0.0, 1e6)
       .type_name("T");
-  arguments.add_flag("--report", options->report, "When the two are hidden from each other");
-  arguments.add_option("--times", options->times, "From when to when; default: the whole timeline")
+  arguments.add_flag("--report", options->report, "List the intervals in which the target is hidden");
+  arguments
+      .add_option("--times", options->times, "Begin and end of the report [s]; default: the whole timeline")
       .type_name("A-B");
   arguments
-      .add_option("--shots", options->shots, "Fire so many more shots, and tell after how many it is seen")
+      .add_option("--shots", options->shots,
+                  "Fire up to N shots at the target and report how many make it visible")
       .range(0u, 100u)
       .type_name("N");
-  arguments.add_option("--shots-at", options->shots_at, "When the first is fired [s]; default: A")
+  arguments.add_option("--shots-at", options->shots_at, "Time of the first of these shots [s]; default: A")
       .range(0.0, 3600.0)
       .type_name("S");
-  arguments.add_option("--shots-every", options->shots_every, "Time between two [s]; default 0.1")
+  arguments.add_option("--shots-every", options->shots_every, "Interval between these shots [s]; default 0.1")
       .range(0.02, 60.0)
       .type_name("S");
   arguments
-      .add_option("--spread", options->spread, "How far from the line they go at most [degrees]; default 0")
+      .add_option("--spread", options->spread,
+                  "Maximum deviation of these shots from the line [degrees]; default 0")
       .range(0.0, 45.0)
       .type_name("DEG");
-  arguments.add_option("--json", options->json, "Write it as JSON; -: to standard output").type_name("FILE");
+  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
+      .type_name("FILE");
   command.run = [options] { query(*options); };
   return command;
 }

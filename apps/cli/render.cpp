@@ -25,10 +25,10 @@ struct Options {
   std::optional<double> time;
   std::uint32_t fps = 24;
   bool temporal = false;
-  float step = 1, light_update_fraction = 1, seen = 1;
+  float step = 1, light_update_fraction = 1, resolve_error_scale = 1;
 };
 
-// What the options say, checked before any file is read.
+// The parsed options, checked before any file is read.
 struct Plan {
   TargetKind kind = TargetKind::picture;
   render::RendererOptions renderer;
@@ -49,34 +49,36 @@ Plan make_plan(const Options& options) {
   plan.view = *passes::find_debug_view(options.view);
   if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);
   if (plan.slice && !passes::has_slice(plan.view))
-    throw Error(ErrorCode::usage, "--slice: needs --view density, light or distance");
+    throw Error(ErrorCode::usage, "--slice: requires --view density, light or distance");
   for (const std::string& text : options.smokes) {
     const glm::vec3 place = parse_point("--smoke", text);
     plan.smokes.push_back({0, place, place});
   }
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
-  // Not by range(), which takes what is not a number.
+  // Not with range(), which accepts NaN.
   if (!(options.step >= 0.25f && options.step <= 4)) {
     throw Error(ErrorCode::usage, "--step: expected a number from 0.25 to 4, such as 2");
   }
-  if (!(options.seen >= 0.25f && options.seen <= 16)) {
-    throw Error(ErrorCode::usage, "--seen: expected a number from 0.25 to 16, such as 4");
+  if (!(options.resolve_error_scale >= 0.25f && options.resolve_error_scale <= 16)) {
+    throw Error(ErrorCode::usage, "--resolve-error-scale: expected a number from 0.25 to 16, such as 4");
   }
   if (!(options.light_update_fraction >= 0.0625f && options.light_update_fraction <= 1)) {
-    throw Error(ErrorCode::usage, "--light-share: expected a number from 0.0625 to 1, such as 0.125");
+    throw Error(ErrorCode::usage,
+                "--light-update-fraction: expected a number from 0.0625 to 1, such as 0.125");
   }
   if (plan.kind == TargetKind::picture && plan.frames) {
-    throw Error(ErrorCode::usage, options.output + ": --frames needs a film (.mp4) or a %04d in the name");
+    throw Error(ErrorCode::usage, options.output + ": --frames requires a film (.mp4) or %04d in the name");
   }
   if (plan.kind == TargetKind::picture && options.temporal) {
-    throw Error(ErrorCode::usage, options.output + ": --temporal needs a film (.mp4) or a %04d in the name");
+    throw Error(ErrorCode::usage, options.output + ": --temporal requires a film (.mp4) or %04d in the name");
   }
   if (plan.kind != TargetKind::picture && options.time) {
-    throw Error(ErrorCode::usage, options.output + ": --time is for one picture; use --frames");
+    throw Error(ErrorCode::usage, options.output + ": --time is for a single image; use --frames");
   }
   if (plan.kind == TargetKind::film &&
       (plan.renderer.size_px.x % 2 != 0 || plan.renderer.size_px.y % 2 != 0)) {
-    throw Error(ErrorCode::usage, "--size '" + options.size + "': both sides of a film must be even");
+    throw Error(ErrorCode::usage,
+                "--size '" + options.size + "': the width and height of a film must be even");
   }
   const std::filesystem::path output = options.output;
   check_output(plan.kind == TargetKind::sequence ? sequence_name(output, 0) : output);
@@ -88,7 +90,7 @@ scenario::Scenario load(const Options& options, const Plan& plan) {
   const std::filesystem::path input = options.input;
   const bool is_timeline = input.extension() == ".toml";
   if (is_timeline && !options.timeline.empty()) {
-    throw Error(ErrorCode::usage, "--timeline: " + options.input + " is a timeline already; name a scene");
+    throw Error(ErrorCode::usage, "--timeline: " + options.input + " is already a timeline; name a scene");
   }
   if (is_timeline || !options.timeline.empty()) {
     scene::Timeline timeline =
@@ -118,7 +120,7 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Draws, and keeps the books for --json.
+// Renders frames and gathers the statistics for --json.
 class TimedRenderer {
  public:
   explicit TimedRenderer(render::Playback& playback) : playback_(playback) {}
@@ -137,7 +139,7 @@ class TimedRenderer {
     return {{"frames", frames_},
             {"seconds_per_frame", seconds_ / frames_},
             {"cpu_seconds_per_frame", cpu_seconds_ / frames_},
-            {"share_marched_of_last_frame", playback_.share_marched()},
+            {"marched_fraction_of_last_frame", playback_.share_marched()},
             {"gpu_milliseconds_of_last_frame", passes}};
   }
 
@@ -148,18 +150,18 @@ class TimedRenderer {
 };
 
 void write(const Options& options, const Plan& plan, const CommonOptions& common,
-           const scene::Timeline& timeline, TimedRenderer& draughtsman) {
+           const scene::Timeline& timeline, TimedRenderer& renderer) {
   const double fps = options.fps;
   if (plan.kind == TargetKind::picture) {
     const double time = options.time.value_or(static_cast<double>(timeline.duration));
-    const image::Image8 picture = draughtsman.draw(time, 0);
+    const image::Image8 picture = renderer.draw(time, 0);
     stop_if_interrupted();
     image::save_png(options.output, picture).value_or_throw();
     return;
   }
   const auto all = static_cast<std::uint32_t>(std::ceil(static_cast<double>(timeline.duration) * fps));
   const FrameRange range = plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
-  const auto draw = [&](std::uint32_t i) { return draughtsman.draw(i / fps, i); };
+  const auto draw = [&](std::uint32_t i) { return renderer.draw(i / fps, i); };
   if (plan.kind == TargetKind::film) {
     write_film(options.output, {plan.renderer.size_px, options.fps, common.threads}, range.first, range.last,
                draw);
@@ -177,10 +179,10 @@ void render(const Options& options, const CommonOptions& common) {
   playback.set_camera(plan.camera);
   playback.set_step_scale(options.step);
   playback.set_light_update_fraction(options.light_update_fraction);
-  playback.set_resolve_error_scale(options.seen);
+  playback.set_resolve_error_scale(options.resolve_error_scale);
   playback.set_view(plan.view, plan.slice);
-  TimedRenderer draughtsman(playback);
-  write(options, plan, common, scenario.timeline, draughtsman);
+  TimedRenderer renderer(playback);
+  write(options, plan, common, scenario.timeline, renderer);
   if (options.json.empty()) return;
   Json statistics{{"output", options.output},
                   {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})},
@@ -188,28 +190,30 @@ void render(const Options& options, const CommonOptions& common) {
                   {"temporal", options.temporal},
                   {"device", context.info().name},
                   {"driver", context.info().driver}};
-  statistics.update(draughtsman.statistics());
+  statistics.update(renderer.statistics());
   write_json(options.json, statistics);
 }
 
 void declare_quality(const Arguments& arguments, Options& options) {
   arguments
-      .add_option("--march", options.march, "Rays of the smoke: one for each pixel, 2x2 or 4x4; default full")
+      .add_option("--march", options.march,
+                  "Smoke resolution: one ray per pixel, per 2x2 or per 4x4; default full")
       .one_of({"full", "half", "quarter"})
       .type_name("full|half|quarter");
-  arguments.add_flag("--temporal", options.temporal, "Gather the smoke of a film over its frames");
+  arguments.add_flag("--temporal", options.temporal, "Accumulate the smoke of a film over its frames");
   arguments
       .add_option("--step", options.step,
-                  "Length of the steps through smoke, of the usual: 0.25 to 4; longer is faster; default 1")
+                  "Scale of the ray march step, 0.25 to 4: larger is faster and coarser; default 1")
       .type_name("X");
   arguments
       .add_option(
-          "--seen", options.seen,
-          "Error up to which --march half and quarter interpolate, of the usual: 0.25 to 16; default 1")
+          "--resolve-error-scale", options.resolve_error_scale,
+          "Scale of the error that --march half and quarter may interpolate over, 0.25 to 16; default 1")
       .type_name("X");
   arguments
-      .add_option("--light-share", options.light_update_fraction,
-                  "How much of the light in smoke each frame of a film makes anew: 0.0625 to 1; default 1")
+      .add_option(
+          "--light-update-fraction", options.light_update_fraction,
+          "Fraction of the changed light in smoke that each frame of a film updates, 0.0625 to 1; default 1")
       .type_name("X");
 }
 
@@ -217,21 +221,23 @@ void declare_quality(const Arguments& arguments, Options& options) {
 
 Command add_render(CommandLine& program) {
   Command command =
-      declare(program, "render", "Renders a scene or a timeline to a picture, numbered pictures or a film.",
+      declare(program, "render", "Renders a scene or a timeline to an image, an image sequence or a film.",
               "  brume render room.glb -o room.png --smoke 0,1,0\n"
               "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
               "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
               "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
   auto options = std::make_shared<Options>();
   const Arguments& arguments = command.arguments;
-  arguments.add_option("INPUT", options->input, "A timeline (.toml) or a scene (.txt, .gltf, .glb, .obj)")
+  arguments.add_option("INPUT", options->input, "Timeline (.toml) or scene (.txt, .gltf, .glb, .obj)")
       .required()
       .type_name("");
-  arguments.add_option("-o,--output", options->output, "Where to: .png, .png with %04d, or .mp4")
+  arguments
+      .add_option("-o,--output", options->output, "Output file: .png, .png with %04d for a sequence, or .mp4")
       .required()
       .type_name("FILE");
-  arguments.add_option("--timeline", options->timeline, "What happens in the scene INPUT").type_name("FILE");
-  arguments.add_option("--time", options->time, "When the picture is taken [s]; default: at the end")
+  arguments.add_option("--timeline", options->timeline, "Timeline to play in the scene INPUT")
+      .type_name("FILE");
+  arguments.add_option("--time", options->time, "Time of the image [s]; default: the end of the timeline")
       .range(0.0, 3600.0)
       .type_name("S");
   arguments.add_option("--frames", options->frames, "First and last frame; default: the whole timeline")
@@ -240,23 +246,27 @@ Command add_render(CommandLine& program) {
   arguments.add_option("--fps", options->fps, "Frames per second; default 24")
       .range(1u, 1000u)
       .type_name("F");
-  arguments.add_option("--size", options->size, "Pixels; default 1280x720").take_last().type_name("WxH");
+  arguments.add_option("--size", options->size, "Image size [px]; default 1280x720")
+      .take_last()
+      .type_name("WxH");
   declare_quality(arguments, *options);
-  arguments.add_option("--camera", options->camera, "\"px,py,pz tx,ty,tz fov\": from, to [m], degrees")
+  arguments
+      .add_option("--camera", options->camera,
+                  "\"px,py,pz tx,ty,tz fov\": position, target [m], vertical fov [degrees]")
       .type_name("CAMERA");
-  arguments.add_option("--view", options->view, "What the picture is made from: " + view_names())
+  arguments.add_option("--view", options->view, "Debug view: " + view_names())
       .one_of({passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()})
       .type_name("VIEW");
   arguments
       .add_option("--slice", options->slice,
-                  "Where --view density, light and distance cut; default: in the smoke")
+                  "Slice of --view density, light and distance; default: through the middle of the smoke")
       .type_name("AXIS=M");
-  arguments.add_option("--smoke", options->smokes, "A smoke that goes off there at 0 s; may be repeated")
+  arguments.add_option("--smoke", options->smokes, "Detonate a smoke grenade here at 0 s; may be repeated")
       .take_all()
       .type_name("X,Y,Z");
-  arguments.add_option("--device", options->device, "Number or part of the name; see brume devices")
+  arguments.add_option("--device", options->device, "Device by number or part of its name; see brume devices")
       .type_name("N|NAME");
-  arguments.add_option("--json", options->json, "Write what it took as JSON; -: to standard output")
+  arguments.add_option("--json", options->json, "Write statistics as JSON; - for standard output")
       .type_name("FILE");
   command.run = [options, common = command.common] { render(*options, *common); };
   return command;

@@ -15,7 +15,7 @@
 namespace brume::cli {
 namespace {
 
-constexpr std::uint32_t kMaxTicks = 1u << 22;  // 18 hours at 64 a second.
+constexpr std::uint32_t kMaxTicks = 1u << 22;  // 18 hours at 64 Hz
 
 struct Options {
   std::string timeline, record, replay, json;
@@ -25,16 +25,15 @@ struct Options {
 
 void check_options(const Options& options) {
   if (options.timeline.empty() == options.replay.empty())
-    throw Error(ErrorCode::usage,
-                "expected a timeline, such as scenes/demo.toml, or --replay FILE; give one");
+    throw Error(ErrorCode::usage, "expected either a timeline, such as scenes/demo.toml, or --replay FILE");
   if (!options.replay.empty() && (options.ticks || options.rate || !options.record.empty()))
     throw Error(ErrorCode::usage,
-                "--replay: the file has its own ticks; leave --ticks, --rate and --record out");
+                "--replay: the recording sets the ticks; remove --ticks, --rate and --record");
   check_output(options.record);
   check_output(options.json);
 }
 
-// What a run came to: the hash of each of its ticks.
+// The result of a run: the state hash of each tick.
 struct Run {
   std::vector<std::uint64_t> hashes;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
@@ -51,7 +50,7 @@ std::string hex(std::uint64_t hash) {
   return text;
 }
 
-void say(const Options& options, const Run& run, std::uint32_t rate, bool compared) {
+void report(const Options& options, const Run& run, std::uint32_t rate, bool compared) {
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - run.start;
   if (!options.json.empty()) {
     Json result{{"ticks", run.hashes.size()},
@@ -70,7 +69,7 @@ void say(const Options& options, const Run& run, std::uint32_t rate, bool compar
   const std::size_t last = run.hashes.size() - 1;
   for (std::size_t tick = options.hash ? 0 : last; tick <= last; ++tick)
     print(std::to_string(tick) + " " + hex(run.hashes[tick]) + "\n");
-  if (compared) print(std::to_string(run.hashes.size()) + " ticks as recorded\n");
+  if (compared) print(std::to_string(run.hashes.size()) + " ticks match the recording\n");
 }
 
 void simulate(const Options& options) {
@@ -91,49 +90,52 @@ void simulate(const Options& options) {
     replay.checksums.push_back(wire::checksum_of(world.state()));
   }
   if (!options.record.empty()) wire::save_replay(options.record, replay).value_or_throw();
-  say(options, run, rate, false);
+  report(options, run, rate, false);
 }
 
-void play_again(const Options& options) {
+void verify_replay(const Options& options) {
   const wire::Replay replay = wire::load_replay(options.replay).value_or_throw();
   if (replay.checksums.empty())
-    throw Error(ErrorCode::bad_input, options.replay + ": a replay of no ticks; record some");
+    throw Error(ErrorCode::bad_input, options.replay + ": the recording has no ticks; record it again");
   Run run;
-  const auto departure =
+  const auto divergence =
       wire::play(replay, [&](const sim::State& state) { run.take(state); }).value_or_throw();
-  if (departure)
+  if (divergence)
     throw Error(ErrorCode::comparison_failed,
-                options.replay + ": tick " + std::to_string(departure->tick) + " is another: recorded " +
-                    hex(departure->recorded).substr(8) + ", simulated " + hex(departure->got).substr(8));
-  say(options, run, replay.settings.ticks_per_second, true);
+                options.replay + ": tick " + std::to_string(divergence->tick) + " differs: recorded " +
+                    hex(divergence->recorded).substr(8) + ", simulated " + hex(divergence->got).substr(8));
+  report(options, run, replay.settings.ticks_per_second, true);
 }
 
 }  // namespace
 
 Command add_sim(CommandLine& program) {
-  Command command = declare(
-      program, "sim", "Simulates a timeline without drawing it; records it, or plays a recording again.",
-      "  brume sim scenes/demo.toml --ticks 64 --hash\n"
-      "  brume sim scenes/demo.toml --record demo.brp\n"
-      "  brume sim --replay demo.brp");
+  Command command =
+      declare(program, "sim", "Simulates a timeline without rendering; records it, or verifies a recording.",
+              "  brume sim scenes/demo.toml --ticks 64 --hash\n"
+              "  brume sim scenes/demo.toml --record demo.brp\n"
+              "  brume sim --replay demo.brp");
   auto options = std::make_shared<Options>();
   const Arguments& arguments = command.arguments;
-  arguments.add_option("TIMELINE", options->timeline, "The timeline (.toml), or a scene").type_name("");
-  arguments.add_option("--ticks", options->ticks, "How many ticks, from tick 0 on; default: the duration")
+  arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml) or scene").type_name("");
+  arguments.add_option("--ticks", options->ticks, "Number of ticks to simulate; default: the duration")
       .range(1u, kMaxTicks)
       .type_name("N");
-  arguments.add_option("--rate", options->rate, "Ticks a second; default 64").range(1u, 1000u).type_name("N");
-  arguments.add_flag("--hash", options->hash, "Say the hash of each tick, not of the last one only");
-  arguments.add_option("--record", options->record, "Write the level, the events and a checksum a tick")
+  arguments.add_option("--rate", options->rate, "Ticks per second; default 64")
+      .range(1u, 1000u)
+      .type_name("N");
+  arguments.add_flag("--hash", options->hash, "Print the state hash of every tick instead of the last one");
+  arguments.add_option("--record", options->record, "Record the level, the events and a checksum per tick")
       .type_name("FILE");
   arguments
-      .add_option("--replay", options->replay, "Simulate a recording again; exit code 7 where a tick differs")
+      .add_option("--replay", options->replay,
+                  "Simulate a recording and compare; exit code 7 if a tick differs")
       .type_name("FILE");
-  arguments.add_option("--json", options->json, "Write the result as JSON; -: to standard output")
+  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
       .type_name("FILE");
   command.run = [options] {
     check_options(*options);
-    options->replay.empty() ? simulate(*options) : play_again(*options);
+    options->replay.empty() ? simulate(*options) : verify_replay(*options);
   };
   return command;
 }

@@ -12,7 +12,7 @@
 namespace brume::cli {
 namespace {
 
-// Where the number goes in a file name, and how many digits it has at least.
+// Position of the frame number in a file name, and its minimum number of digits.
 struct Placeholder {
   std::size_t begin = 0, length = 0, digits = 1;
 };
@@ -34,13 +34,13 @@ TargetKind target_kind(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   if (path.extension() == ".mp4") return TargetKind::film;
   if (path.extension() != ".png") {
-    throw Error(ErrorCode::usage, path.string() + ": cannot write this kind of file; expected .png or .mp4");
+    throw Error(ErrorCode::usage, path.string() + ": cannot write this file type; expected .png or .mp4");
   }
   if (name.find('%') == std::string::npos) return TargetKind::picture;
   const auto place = find_placeholder(name);
   if (!place || name.find('%', place->begin + 1) != std::string::npos) {
     throw Error(ErrorCode::usage,
-                path.string() + ": expected one %d or %04d in the name, where the number of the frame goes");
+                path.string() + ": expected one %d or %04d in the name, for the frame number");
   }
   return TargetKind::sequence;
 }

@@ -1,4 +1,4 @@
-// What `render` writes to: a picture, a numbered sequence of pictures, or a film. Told by the name.
+// Output targets of `render`: an image, a numbered image sequence or a film, chosen by the file name.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct FilmSettings {
   unsigned threads = 0;
 };
 
-/// Draws frames first to last and writes them all, with progress. Throws Error, and what `draw` throws; no
-/// file is left half-written.
+/// Draws the frames first to last, inclusive, and writes them, with progress. Throws Error and whatever
+/// `draw` throws; leaves no partial file.
 void write_film(const std::filesystem::path& path, const FilmSettings& settings, std::uint32_t first,
                 std::uint32_t last, const std::function<image::Image8(std::uint32_t)>& draw);
 void write_sequence(const std::filesystem::path& pattern, std::uint32_t first, std::uint32_t last,

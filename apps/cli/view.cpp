@@ -83,9 +83,9 @@ void write_report(const std::string& target, const viewer::ViewerReport& report)
 
 void view(const Options& options) {
   if (!options.input.empty() && !options.play.empty())
-    throw Error(ErrorCode::usage, "--play: names the timeline that is shown; leave INPUT out");
+    throw Error(ErrorCode::usage, "--play: already names the timeline; remove INPUT");
   if (!options.screenshot.empty() && !options.exit_after)
-    throw Error(ErrorCode::usage, "--screenshot: is taken at the time of --exit-after; name one");
+    throw Error(ErrorCode::usage, "--screenshot: is taken at --exit-after; add that option");
   const bool plays = !options.play.empty();
   const std::filesystem::path input = plays                   ? options.play
                                       : options.input.empty() ? BRUME_SCENES_DIR "/demo.toml"
@@ -99,13 +99,13 @@ void view(const Options& options) {
   const viewer::ViewerReport report = viewer::run_viewer(std::move(scenario), plays, viewer);
   write_report(options.json, report);
   if (report.validation_messages.empty()) return;
-  throw Error(ErrorCode::internal, "the validation layers found " +
+  throw Error(ErrorCode::internal, "the validation layers reported " +
                                        std::to_string(report.validation_messages.size()) +
-                                       " faults; the first: " + report.validation_messages.front());
+                                       " errors; the first: " + report.validation_messages.front());
 }
 
 void declare_tests(const Arguments& arguments, Options& options) {
-  // What tests of the window need; not part of the help.
+  // For tests of the window.
   arguments.add_option("--lose-device", options.lose_device, "").hidden().range(0.0, 3600.0);
   arguments.add_option("--lose-surface", options.lose_surface, "").hidden().range(0.0, 3600.0);
 }
@@ -115,57 +115,64 @@ void declare_tests(const Arguments& arguments, Options& options) {
 Command add_view(CommandLine& program) {
   Command command =
       declare(program, "view", "Opens a window to walk through a scene, throw smoke and shoot through it.",
-              "  brume view                              # the demo's house at night; H shows the keys\n"
+              "  brume view                              # the demo house at night; H shows the keys\n"
               "  brume view room.glb --quality half\n"
               "  brume view --play scenes/demo.toml --time 4.1 --panels\n"
-              "  brume view --play scenes/demo.toml      # what the timeline says happens\n"
+              "  brume view --play scenes/demo.toml      # play the events of the timeline\n"
               "  brume view --play scenes/demo.toml --exit-after 3 --screenshot end.png --size 640x360");
   auto options = std::make_shared<Options>();
   const Arguments& arguments = command.arguments;
-  arguments.add_option("INPUT", options->input, "A timeline (.toml), whose events do not happen, or a scene")
+  arguments.add_option("INPUT", options->input, "Scene, or timeline (.toml) whose events are ignored")
       .type_name("");
-  arguments.add_option("--play", options->play, "A timeline whose events happen").type_name("FILE");
-  arguments.add_option("--time", options->time, "Begin at this time, paused [s]")
+  arguments.add_option("--play", options->play, "Timeline to play").type_name("FILE");
+  arguments.add_option("--time", options->time, "Start paused at this time [s]")
       .range(0.0, 3600.0)
       .type_name("S");
-  arguments.add_option("--size", options->size, "Of the window [px]; default 1280x720")
+  arguments.add_option("--size", options->size, "Window size [px]; default 1280x720")
       .take_last()
       .type_name("WxH");
-  arguments.add_option("--quality", options->quality, "How the smoke is drawn; default auto: as --fps allows")
+  arguments
+      .add_option("--quality", options->quality,
+                  "Quality of the smoke; default auto: the best that holds --fps")
       .take_last()
       .one_of(quality_names())
       .type_name("NAME");
-  arguments.add_option("--fps", options->frames_per_second, "Frames a second that auto holds; default 60")
+  arguments
+      .add_option("--fps", options->frames_per_second,
+                  "Frame rate that --quality auto holds [1/s]; default 60")
       .range(1.0, 1000.0)
       .type_name("F");
-  arguments.add_option("--view", options->view, "A debug view to begin with; see docs/debug-views.md")
+  arguments.add_option("--view", options->view, "Initial debug view; see docs/debug-views.md")
       .one_of(view_names())
       .type_name("NAME");
-  arguments.add_option("--word", options->word, "What letters are shot; default BRUME").type_name("TEXT");
-  arguments.add_option("--shot", options->picture, "A picture whose shape is shot").type_name("FILE");
-  arguments.add_option("--folder", options->folder, "Where screenshots and recordings go; default: here")
+  arguments.add_option("--word", options->word, "Word whose letters are shot; default BRUME")
+      .type_name("TEXT");
+  arguments.add_option("--shot", options->picture, "Image whose shape is shot").type_name("FILE");
+  arguments
+      .add_option("--folder", options->folder,
+                  "Folder for screenshots and recordings; default: current folder")
       .type_name("FOLDER");
-  arguments.add_option("--record", options->record, "Write what was done as a timeline at the end")
+  arguments.add_option("--record", options->record, "On exit, write the session as a timeline")
       .type_name("FILE");
-  arguments.add_option("--exit-after", options->exit_after, "Close the window at this time of its clock [s]")
+  arguments.add_option("--exit-after", options->exit_after, "Close the window at this simulation time [s]")
       .take_last()
       .range(0.01, 3600.0)
       .type_name("S");
-  arguments.add_option("--screenshot", options->screenshot, "Save the picture of that time")
+  arguments.add_option("--screenshot", options->screenshot, "Save an image at the time of --exit-after")
       .type_name("FILE");
-  arguments.add_flag("--panels", options->panels, "Begin with the panels open");
-  arguments.add_flag("--bare", options->bare, "Begin with nothing over the picture");
-  arguments.add_flag("--no-vsync", options->no_vertical_sync, "Do not wait for the screen");
-  arguments.add_option("--shaders", options->shaders, "Shader files that are watched for changes")
+  arguments.add_flag("--panels", options->panels, "Start with the panels open");
+  arguments.add_flag("--bare", options->bare, "Start without any overlay");
+  arguments.add_flag("--no-vsync", options->no_vertical_sync, "Do not wait for vertical sync");
+  arguments.add_option("--shaders", options->shaders, "Folder of shader sources to watch for changes")
       .type_name("FOLDER");
-  arguments.add_flag("--validation", options->validation, "Let Vulkan's validation layers watch every call");
-  arguments.add_option("--device", options->device, "Number or part of the name; see brume devices")
+  arguments.add_flag("--validation", options->validation, "Enable the Vulkan validation layers");
+  arguments.add_option("--device", options->device, "Device by number or part of its name; see brume devices")
       .type_name("N|NAME");
   arguments
       .add_option("--frame-log", options->frame_log,
-                  "Write a line for each frame as CSV, while the window is open: times, memory")
+                  "Write one CSV line per frame while the window is open: times, memory")
       .type_name("FILE");
-  arguments.add_option("--json", options->json, "Write what was measured as JSON; -: to standard output")
+  arguments.add_option("--json", options->json, "Write the measurements as JSON; - for standard output")
       .type_name("FILE");
   declare_tests(arguments, *options);
   command.run = [options] { view(*options); };

@@ -5,8 +5,8 @@
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/error.hpp"
-#include "scene/load.hpp"
 #include "scenario/vxl_file.hpp"
+#include "scene/load.hpp"
 #include "voxel/obj_export.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -18,21 +18,22 @@ struct Options {
   float voxel = 0.25f;
 };
 
-// What can be known of the frame before the scene is loaded.
+// Checks as much of the grid layout as possible before the scene is loaded.
 void check_options(const Options& options) {
   if (!options.origin.empty()) parse_point("--origin", options.origin);
   if (options.grid.empty()) {
     if (options.origin.empty()) return;
-    throw Error(ErrorCode::usage, "--origin needs --grid, such as --grid 120x20x120; give both or none");
+    throw Error(ErrorCode::usage,
+                "--origin: requires --grid, such as --grid 120x20x120; give both or neither");
   }
   voxel::check_frame({parse_grid("--grid", options.grid), options.voxel, glm::vec3(0)}).value_or_throw();
 }
 
-// The frame that the options ask for: around the scene where they leave it open.
+// The requested grid layout; fits the scene where no option is given.
 voxel::GridLayout choose_frame(const Options& options, const scene::Scene& scene) {
   const scene::Bounds bounds = scene::world_bounds(scene);
   if (options.grid.empty())
-    return voxel::frame_around(bounds.min, bounds.max, options.voxel, 1).value_or_throw();
+    return voxel::layout_around(bounds.min, bounds.max, options.voxel, 1).value_or_throw();
   voxel::GridLayout frame{parse_grid("--grid", options.grid), options.voxel, {}};
   frame.origin_world = options.origin.empty() ? glm::floor(bounds.min / options.voxel) * options.voxel
                                               : parse_point("--origin", options.origin);
@@ -69,31 +70,30 @@ void voxelize(const Options& options) {
                 frame.size.x, frame.size.y, frame.size.z);
   print(text);
   std::snprintf(text, sizeof text, "voxelized in %.2f ms\n", voxels.milliseconds);
-  print(voxels.cached ? "from the cache\n" : text);
+  print(voxels.cached ? "loaded from the cache\n" : text);
 }
 
 }  // namespace
 
 Command add_voxelize(CommandLine& program) {
   Command command = declare(
-      program, "voxelize", "Finds the voxels of a scene that are solid.",
+      program, "voxelize", "Finds the solid voxels of a scene.",
       "  brume voxelize room.glb -o room.vxl\n"
       "  brume voxelize room.glb --grid 120x20x120 --voxel 0.5 --origin -30,0,-30 --obj cubes.obj --json -");
   auto options = std::make_shared<Options>();
   const Arguments& arguments = command.arguments;
-  arguments.add_option("SCENE", options->scene, "The scene (.txt, .gltf, .glb, .obj)")
-      .required()
-      .type_name("");
+  arguments.add_option("SCENE", options->scene, "Scene (.txt, .gltf, .glb, .obj)").required().type_name("");
   arguments
-      .add_option("-o,--output", options->output, "Voxel file; loaded instead while the scene stays the same")
+      .add_option("-o,--output", options->output, "Voxel file; loaded instead if the scene has not changed")
       .type_name("FILE");
-  arguments.add_option("--grid", options->grid, "Voxels per axis; default: around the scene")
+  arguments.add_option("--grid", options->grid, "Grid size in voxels; default: encloses the scene")
       .type_name("XxYxZ");
   arguments.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25").type_name("M");
-  arguments.add_option("--origin", options->origin, "Low corner of the grid [m]; default: the scene's")
+  arguments
+      .add_option("--origin", options->origin, "Minimum corner of the grid [m]; default: that of the scene")
       .type_name("X,Y,Z");
   arguments.add_option("--obj", options->obj, "Write the solid voxels as a mesh").type_name("FILE");
-  arguments.add_option("--json", options->json, "Write the result as JSON; -: to standard output")
+  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
       .type_name("FILE");
   command.run = [options] { voxelize(*options); };
   return command;

@@ -9,7 +9,7 @@
 namespace brume::viewer {
 namespace {
 
-double middle_of(std::vector<double> values) {
+double median_of(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -23,14 +23,14 @@ void Figures::add(FrameFigures frame) {
     if (std::find(pass_names_.begin(), pass_names_.end(), pass.name) == pass_names_.end())
       pass_names_.push_back(pass.name);
   frames_.push_back(std::move(frame));
-  if (frames_.size() > kKept) frames_.pop_front();
+  if (frames_.size() > kHistory) frames_.pop_front();
   ++count_;
 }
 
 double Figures::median(double FrameFigures::*member) const {
   std::vector<double> values;
   for (const FrameFigures& frame : frames_) values.push_back(frame.*member);
-  return middle_of(std::move(values));
+  return median_of(std::move(values));
 }
 
 double Figures::pass_median(const std::string& name) const {
@@ -38,7 +38,7 @@ double Figures::pass_median(const std::string& name) const {
   for (const FrameFigures& frame : frames_)
     for (const auto& pass : frame.passes)
       if (pass.name == name) values.push_back(pass.milliseconds);
-  return middle_of(std::move(values));
+  return median_of(std::move(values));
 }
 
 double Figures::frames_per_second() const {

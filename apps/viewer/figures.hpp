@@ -1,4 +1,4 @@
-// What the window measures of itself, for the overlay, the graph and the report.
+// Performance figures of the viewer: for the overlay, the graph and the report.
 #pragma once
 
 #include <array>
@@ -12,28 +12,29 @@
 
 namespace brume::viewer {
 
-/// One frame.
+/// Measurements of one frame.
 struct FrameFigures {
-  double frame_ms = 0;    ///< From the frame before.
-  double tick_ms = 0;     ///< Of the processor, for the simulation.
-  double work_ms = 0;     ///< Of processor and device together, without waiting for the screen.
-  double latency_ms = 0;  ///< From reading the input to the finished picture.
+  double frame_ms = 0;    ///< Since the previous frame began.
+  double tick_ms = 0;     ///< CPU time of the simulation.
+  double work_ms = 0;     ///< CPU and GPU time together, without waiting for vertical sync.
+  double latency_ms = 0;  ///< From reading the input to the finished image.
   std::vector<gpu::Timings::Scope> passes;
 };
 
+/// The last kHistory frames and their medians.
 class Figures {
  public:
-  static constexpr std::size_t kKept = 240;
+  static constexpr std::size_t kHistory = 240;
 
   void add(FrameFigures frame);
   const std::deque<FrameFigures>& frames() const { return frames_; }
-  std::uint64_t count() const { return count_; }
-  /// The middle one of the frames that are kept; 0 where there are none.
+  std::uint64_t count() const { return count_; }  ///< Of all frames so far.
+  /// Median over the history; 0 without frames.
   double median(double FrameFigures::*member) const;
   double frames_per_second() const;
-  /// The middle one of a pass's times, over the frames that had it [ms].
+  /// Median GPU time of a pass over the frames in which it ran [ms].
   double pass_median(const std::string& name) const;
-  /// Names of all passes that were seen, in the order of a frame.
+  /// Names of all passes that ran so far, in frame order.
   const std::vector<std::string>& pass_names() const { return pass_names_; }
 
  private:
@@ -42,12 +43,11 @@ class Figures {
   std::vector<std::string> pass_names_;
 };
 
-/// Memory that the process holds [bytes]; 0 where the system does not say.
+/// Resident memory of the process [bytes]; 0 if the system does not report it.
 std::uint64_t resident_bytes();
 
-/// Memory that the process has allocated and not freed [bytes], wherever it lies; 0 where the C library does
-/// not say. Unlike resident_bytes it does not grow because freed memory is in pieces, or is touched for the
-/// first time.
+/// Heap memory that is allocated and not freed [bytes]; 0 if the C library does not report it. Unlike
+/// resident_bytes it does not grow with fragmentation or when pages are first touched.
 std::uint64_t heap_bytes();
 
 }  // namespace brume::viewer

@@ -11,7 +11,7 @@ namespace brume::viewer {
 
 FrameLog::FrameLog(const std::filesystem::path& path) : path_(path) {
   if (path.empty()) return;
-  // Not through AtomicFile: the log is read while it grows.
+  // Not an AtomicFile: the log is read while it grows.
   file_.reset(std::fopen(path.c_str(), "w"));
   if (!file_) throw Error(ErrorCode::bad_input, path.string() + ": cannot write: " + std::strerror(errno));
   std::fputs(

@@ -1,5 +1,5 @@
-// One line of CSV a frame, readable while the window is open: hitches, memory and pictures over time, and how
-// a test knows what was drawn.
+// A CSV line per frame, readable while the window is open: shows hitches and memory over time, and lets tests
+// wait for a frame with the properties that they check.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +10,29 @@
 
 namespace brume::viewer {
 
-/// How the picture in the window came about.
+/// Where the image in the window comes from.
 enum class PictureKind {
-  film,   ///< Drawn for this frame.
-  still,  ///< Paused: the one of the frame before, not yet at its best.
-  best,   ///< Paused: the picture that `brume render` draws.
+  film,   ///< Rendered for this frame.
+  still,  ///< Paused: repeats the previous frame at its quality.
+  best,   ///< Paused: full quality, the image that `brume render` renders.
 };
 
 struct FrameLine {
-  double seconds = 0;  ///< Of the viewer's clock.
+  double seconds = 0;  ///< Session time.
   double frame_ms = 0, tick_ms = 0, latency_ms = 0;
-  glm::uvec2 size_px{0};  ///< Of the window.
+  glm::uvec2 size_px{0};  ///< Window size.
   PictureKind picture = PictureKind::film;
   std::uint64_t device_bytes = 0;
-  std::size_t shader_faults = 0;  ///< Changed shaders that were refused.
+  std::size_t shader_faults = 0;  ///< Number of edited shaders that were rejected.
 };
 
 class FrameLog {
  public:
-  /// Writes the heading. An empty path: no log. Throws bad_input when the file cannot be written.
+  /// Writes the header line. An empty path disables the log. Throws bad_input if the file cannot be written.
   explicit FrameLog(const std::filesystem::path& path);
 
-  /// Adds a line, with the frame's number (from 1) and the memory of the process. Throws resource_limit when
-  /// the disk is full.
+  /// Adds a line with the frame number (from 1) and the memory of the process. Throws resource_limit if the
+  /// disk is full.
   void add(const FrameLine& line);
 
  private:

@@ -1,5 +1,4 @@
-// What a person can do at the keyboard and the mouse: one table, from which the window reads and the help is
-// made.
+// Key and mouse bindings: one table for input handling and for the help.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@ enum class Action {
   throw_smoke,
   shoot,
   free_cursor,
-  let_cursor_go,
+  toggle_cursor,
   fly,
   shape_bullet,
   shape_glyph,
@@ -43,13 +42,13 @@ constexpr std::size_t kActions = static_cast<std::size_t>(Action::count);
 
 struct KeyBinding {
   Action action;
-  bool mouse;  ///< `code` is a button of the mouse, else a key; both as GLFW numbers them.
+  bool mouse;  ///< Whether `code` is a GLFW mouse button; else a GLFW key.
   int code;
-  const char* name;  ///< As it is printed on the key.
-  const char* does;
+  const char* name;  ///< Label of the key.
+  const char* does;  ///< Description in the help.
 };
 
-/// In the order of the help. An action may have more than one key.
+/// All bindings in the order of the help. An action may have several.
 std::span<const KeyBinding> key_bindings();
 
 }  // namespace brume::viewer

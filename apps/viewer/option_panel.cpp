@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kLabelWidth = 150;
 
-// Radians are shown as degrees.
+// Angles are stored in radians and shown in degrees.
 float shown(const scene::OptionInfo& info, float value) {
   return scene::is_angle(info) ? value / static_cast<float>(scene::kRadiansOfDegree) : value;
 }
@@ -22,7 +22,7 @@ std::string number(double value) {
   return text;
 }
 
-// Wide ranges of what is never negative are felt by their factors.
+// Wide non-negative ranges get a logarithmic slider.
 ImGuiSliderFlags flags_of(const scene::OptionInfo& info) {
   const bool wide = info.low >= 0 && info.high >= 50;
   return ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
@@ -32,7 +32,7 @@ std::string format_of(const scene::OptionInfo& info) {
   return std::string("%.3g ") + info.unit;
 }
 
-/// The name at the left, and where the widget goes.
+/// The label at the left; positions the widget.
 void begin_row(const scene::OptionInfo& info) {
   ImGui::PushID(info.key);
   ImGui::AlignTextToFramePadding();
@@ -41,7 +41,7 @@ void begin_row(const scene::OptionInfo& info) {
   ImGui::SetNextItemWidth(-1);
 }
 
-/// What it is, and back to the default.
+/// The tooltip. Returns whether a right click asks for the default.
 bool end_row(const scene::OptionInfo& info, const std::string& initial) {
   const bool restore = ImGui::IsItemClicked(ImGuiMouseButton_Right);
   if (ImGui::IsItemHovered()) {

@@ -1,5 +1,5 @@
-// Panels that are made of the option structs: name, default, unit and range of each number stand in
-// scene/options.hpp alone.
+// Panel rows generated from the option structs: scene/options.hpp is the only place that states the name,
+// default, unit and range of a number.
 #pragma once
 
 #include <imgui.h>
@@ -15,19 +15,20 @@
 
 namespace brume::viewer {
 
-// One row for a number: a slider, its unit, what it is when the mouse rests on it; a right click brings the
-// default back. True when it was changed. Ctrl and a click lets type it in; it never leaves its range.
+// One row per number: a slider with unit and tooltip; right click restores the default, Ctrl+click types a
+// value. Values stay in their range. Returns whether the value changed.
 bool option_row(const scene::OptionInfo& info, float& value, float initial);
 bool option_row(const scene::OptionInfo& info, std::uint32_t& value, std::uint32_t initial);
 bool option_row(const scene::OptionInfo& info, glm::vec3& value, glm::vec3 initial);
 bool option_row(const scene::OptionInfo& info, std::optional<float>& value, std::optional<float> initial);
 
-/// The rows of those members that `wanted` names; `visit` is one of the visit_* functions, as a callable.
+/// Rows for the members that `wanted` selects, all if it is empty; `visit` wraps one of the visit_*
+/// functions. Returns whether a value changed.
 template <typename Options, typename Visit>
 bool option_rows(Options& options, Visit visit, const std::function<bool(const std::string&)>& wanted = {}) {
   Options initial{};
   bool changed = false;
-  // Both structs are walked in step: the default of a member stands at the same place.
+  // Both visits are in the same order, so that index i is the default of member i.
   std::vector<const void*> defaults;
   visit(initial, [&](const scene::OptionInfo&, auto& member) { defaults.push_back(&member); });
   std::size_t i = 0;

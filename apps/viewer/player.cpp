@@ -6,7 +6,7 @@
 namespace brume::viewer {
 namespace {
 
-constexpr float kSteepest = 1.55f;  // [rad]: straight up has no direction to turn from
+constexpr float kMaxPitch = 1.55f;  // [rad], below pi / 2, where the yaw is undefined
 
 }  // namespace
 
@@ -14,24 +14,24 @@ void Player::look_along(const scene::Camera& camera) {
   const glm::vec3 apart = camera.target_world - camera.position_world;
   const glm::vec3 direction = glm::length(apart) > 1e-6f ? glm::normalize(apart) : glm::vec3(0, 0, -1);
   yaw_ = std::atan2(direction.x, -direction.z);
-  pitch_ = std::clamp(std::asin(std::clamp(direction.y, -1.0f, 1.0f)), -kSteepest, kSteepest);
+  pitch_ = std::clamp(std::asin(std::clamp(direction.y, -1.0f, 1.0f)), -kMaxPitch, kMaxPitch);
   vertical_fov_ = camera.vertical_fov;
 }
 
 void Player::go_to(const voxel::BitGrid& grid, const scene::Camera& camera) {
   look_along(camera);
-  ridden_.reset();
+  followed_.reset();
   walker_.put(grid, camera.position_world);
 }
 
-void Player::ride(const scene::Camera& camera) {
+void Player::follow(const scene::Camera& camera) {
   look_along(camera);
-  ridden_ = camera;
+  followed_ = camera;
 }
 
 void Player::turn(glm::dvec2 look_px) {
   yaw_ += static_cast<float>(look_px.x) * kRadiansPerPixel;
-  pitch_ = std::clamp(pitch_ - static_cast<float>(look_px.y) * kRadiansPerPixel, -kSteepest, kSteepest);
+  pitch_ = std::clamp(pitch_ - static_cast<float>(look_px.y) * kRadiansPerPixel, -kMaxPitch, kMaxPitch);
 }
 
 void Player::set_flying(const voxel::BitGrid& grid, bool flying) {
@@ -46,20 +46,20 @@ void Player::change_fly_speed(const voxel::BitGrid& grid, double notches) {
 }
 
 void Player::move(const Input& input, const voxel::BitGrid& grid, double seconds) {
-  if (ridden_) go_to(grid, scene::Camera(*ridden_));
+  if (followed_) go_to(grid, scene::Camera(*followed_));
   const auto axis = [&](Action positive, Action negative) {
     return (input.is_held(positive) ? 1.0f : 0.0f) - (input.is_held(negative) ? 1.0f : 0.0f);
   };
   const glm::vec3 ahead(std::sin(yaw_), 0, -std::cos(yaw_)), right(std::cos(yaw_), 0, std::sin(yaw_));
-  scenario::WalkerInput wish;
-  wish.direction_world = axis(Action::forward, Action::back) * (flying() ? direction_world() : ahead) +
-                         axis(Action::right, Action::left) * right;
-  if (flying()) wish.direction_world.y += axis(Action::up, Action::down);
-  const float length = glm::length(wish.direction_world);
-  if (length > 1) wish.direction_world /= length;
-  wish.jump = !flying() && input.is_held(Action::up);
-  wish.run = !flying() && input.is_held(Action::down);
-  walker_.move(grid, wish, seconds);
+  scenario::WalkerInput motion;
+  motion.direction_world = axis(Action::forward, Action::back) * (flying() ? direction_world() : ahead) +
+                           axis(Action::right, Action::left) * right;
+  if (flying()) motion.direction_world.y += axis(Action::up, Action::down);
+  const float length = glm::length(motion.direction_world);
+  if (length > 1) motion.direction_world /= length;
+  motion.jump = !flying() && input.is_held(Action::up);
+  motion.run = !flying() && input.is_held(Action::down);
+  walker_.move(grid, motion, seconds);
 }
 
 glm::vec3 Player::direction_world() const {
@@ -67,7 +67,7 @@ glm::vec3 Player::direction_world() const {
 }
 
 scene::Camera Player::camera() const {
-  if (ridden_) return *ridden_;
+  if (followed_) return *followed_;
   scene::Camera camera;
   camera.position_world = walker_.eye_world();
   camera.target_world = camera.position_world + direction_world();
@@ -75,13 +75,13 @@ scene::Camera Player::camera() const {
   return camera;
 }
 
-glm::vec3 direction_through(const scene::Camera& camera, float aspect, glm::vec2 place) {
+glm::vec3 direction_through(const scene::Camera& camera, float aspect, glm::vec2 point) {
   const glm::vec3 forward = glm::normalize(camera.target_world - camera.position_world);
   const glm::vec3 helper = std::abs(forward.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
   const glm::vec3 right = glm::normalize(glm::cross(forward, helper)), up = glm::cross(right, forward);
   const float tan_y = std::tan(0.5f * camera.vertical_fov);
-  return glm::normalize(forward + (2 * place.x - 1) * aspect * tan_y * right -
-                        (2 * place.y - 1) * tan_y * up);
+  return glm::normalize(forward + (2 * point.x - 1) * aspect * tan_y * right -
+                        (2 * point.y - 1) * tan_y * up);
 }
 
 }  // namespace brume::viewer

@@ -1,28 +1,28 @@
-// The person at the window: where they stand, where they look, how they move.
+// The player: position, view direction and movement.
 #pragma once
 
 #include <optional>
 
 #include "apps/viewer/window.hpp"
-#include "scene/scene.hpp"
 #include "scenario/walker.hpp"
+#include "scene/scene.hpp"
 
 namespace brume::viewer {
 
 class Player {
  public:
-  static constexpr float kRadiansPerPixel = 0.0022f;  // of the mouse
+  static constexpr float kRadiansPerPixel = 0.0022f;  // of mouse motion
 
-  /// Stands (or flies) where a camera is, and looks where it looks.
+  /// Moves to the position and view direction of a camera, on foot or flying as before.
   void go_to(const voxel::BitGrid& grid, const scene::Camera& camera);
-  /// Is carried along a path: its camera is exactly this one until it moves by itself again.
-  void ride(const scene::Camera& camera);
+  /// Follows a camera path: camera() is exactly this one until the next move().
+  void follow(const scene::Camera& camera);
   void turn(glm::dvec2 look_px);
   void set_flying(const voxel::BitGrid& grid, bool flying);
   bool flying() const { return walker_.flying(); }
-  /// Moves for a time [s] as the keys say.
+  /// Moves for `seconds` as the held keys demand.
   void move(const Input& input, const voxel::BitGrid& grid, double seconds);
-  /// Each notch makes flight a quarter faster or slower.
+  /// Each notch of the wheel changes the flight speed by a quarter.
   void change_fly_speed(const voxel::BitGrid& grid, double notches);
 
   scene::Camera camera() const;
@@ -39,10 +39,10 @@ class Player {
   scenario::Walker walker_;
   float yaw_ = 0, pitch_ = 0;  ///< [rad]; 0: along -z, level. Pitch rises upwards.
   float vertical_fov_ = 1;
-  std::optional<scene::Camera> ridden_;
+  std::optional<scene::Camera> followed_;
 };
 
-/// The direction from the eye through a place of the picture, whose size is 1 x 1, y down.
-glm::vec3 direction_through(const scene::Camera& camera, float aspect, glm::vec2 place);
+/// The direction from the eye through a point of the image, in [0, 1]^2 with y down.
+glm::vec3 direction_through(const scene::Camera& camera, float aspect, glm::vec2 point);
 
 }  // namespace brume::viewer

@@ -1,8 +1,8 @@
 #include "apps/viewer/probe.hpp"
 
-#include "smoke/holes.hpp"
-
 #include <cmath>
+
+#include "smoke/holes.hpp"
 
 namespace brume::viewer {
 
@@ -16,23 +16,23 @@ void Probe::pick(glm::vec3 place_world) {
   }
 }
 
-Result<ProbeAnswer> ask(const Probe& probe, const scenario::Scenario& scenario, const scenario::Simulation& simulation,
-                        double seconds) {
+Result<ProbeResult> evaluate(const Probe& probe, const scenario::Scenario& scenario,
+                             const scenario::Simulation& simulation, double seconds) {
   const auto holes = smoke::holes_of(simulation.world().state(), &scenario.masks);
   smoke::SightSettings settings;
   settings.extinction = scenario.timeline.smoke.extinction;
   settings.masks = &scenario.masks;
   const smoke::Sight sight(simulation.volume(), simulation.world().grid(), holes, static_cast<float>(seconds),
-                         settings);
+                           settings);
   const auto depth = sight.optical_depth(*probe.a_world, *probe.b_world);
   if (!depth) return depth.failure();
   const auto wall = sight.first_wall(*probe.a_world, *probe.b_world);
   if (!wall) return wall.failure();
-  ProbeAnswer answer;
-  answer.optical_depth = *depth;
-  answer.transmittance = *wall ? 0 : std::exp(-*depth);
-  if (*wall) answer.wall_m = (*wall)->distance;
-  return answer;
+  ProbeResult result;
+  result.optical_depth = *depth;
+  result.transmittance = *wall ? 0 : std::exp(-*depth);
+  if (*wall) result.wall_m = (*wall)->distance;
+  return result;
 }
 
 }  // namespace brume::viewer

@@ -1,30 +1,30 @@
-// Line of sight between two points that were picked in the picture.
+// Line of sight between two points picked in the window.
 #pragma once
 
 #include <optional>
 
-#include "smoke/sight.hpp"
-#include "scenario/simulation.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/simulation.hpp"
+#include "smoke/sight.hpp"
 
 namespace brume::viewer {
 
-/// Two ends, or one while the second is still to be picked.
+/// Up to two end points.
 struct Probe {
   std::optional<glm::vec3> a_world, b_world;
 
-  /// The next step: sets the first end, then the second, then takes both away.
+  /// Sets the first end, at the next call the second, then removes both.
   void pick(glm::vec3 place_world);
 };
 
-struct ProbeAnswer {
+struct ProbeResult {
   float optical_depth = 0;
   float transmittance = 1;      ///< exp(-optical_depth); 0 behind a wall.
-  std::optional<float> wall_m;  ///< From the first end to a wall between them [m].
+  std::optional<float> wall_m;  ///< Distance from the first end to the first wall between them [m].
 };
 
-/// What a probe with both ends sees at the simulation's tick, with the holes of `seconds`.
-Result<ProbeAnswer> ask(const Probe& probe, const scenario::Scenario& scenario, const scenario::Simulation& simulation,
-                        double seconds);
+/// Evaluates a probe that has both ends, with the smoke of the current tick and the holes at `seconds`.
+Result<ProbeResult> evaluate(const Probe& probe, const scenario::Scenario& scenario,
+                             const scenario::Simulation& simulation, double seconds);
 
 }  // namespace brume::viewer

@@ -15,12 +15,11 @@ constexpr std::array kLevels{
     Quality{"smallest", 0.5f, 4, 2, 4, 1.0f / 16},
 };
 
-// Frames at a level that still pay for the change, and those after which it is judged.
+// The first frames at a level include the cost of the change; it is judged after a few more.
 constexpr int kFramesOfChange = 2, kFramesToJudge = 4;
 constexpr double kSmoothing = 0.25;  // weight of the newest frame
-// A better level costs about twice as much as the next one (quality_levels): it is tried when
-// there is that much room.
-constexpr double kRoomForBetter = 0.5;
+// Each level costs about twice as much as the next one, so a better one is tried below half the frame budget.
+constexpr double kUpgradeBelow = 0.5;
 
 }  // namespace
 
@@ -48,16 +47,16 @@ void QualityControl::add_frame(double work_seconds, double frame_seconds) {
                       ? work_seconds
                       : mean_seconds_ + kSmoothing * (work_seconds - mean_seconds_);
   if (!automatic_ || frames_ < kFramesToJudge) return;
-  if (mean_seconds_ > wanted_seconds_ && level_ + 1 < kLevels.size()) {
-    // Too slow soon after it was tried: that was too early.
+  if (mean_seconds_ > target_seconds_ && level_ + 1 < kLevels.size()) {
+    // Too slow soon after the upgrade: wait longer before the next one.
     const bool too_early = tried_better_ && since_change_ < kMinCooldown;
-    rest_ = too_early ? std::min(2 * rest_, kMaxCooldown) : kMinCooldown;
+    cooldown_ = too_early ? std::min(2 * cooldown_, kMaxCooldown) : kMinCooldown;
     tried_better_ = false;
-    // Far too slow: a slow machine does not have the time to go step by step.
-    const double excess = mean_seconds_ / wanted_seconds_;
+    // Far too slow: skip levels, since each step takes several slow frames.
+    const double excess = mean_seconds_ / target_seconds_;
     const std::size_t steps = excess > 6 ? 3 : excess > 3 ? 2 : 1;
     change_level(std::min(level_ + steps, kLevels.size() - 1));
-  } else if (level_ > 0 && mean_seconds_ < kRoomForBetter * wanted_seconds_ && since_change_ > rest_) {
+  } else if (level_ > 0 && mean_seconds_ < kUpgradeBelow * target_seconds_ && since_change_ > cooldown_) {
     tried_better_ = true;
     change_level(level_ - 1);
   }

@@ -1,4 +1,4 @@
-// How good the picture of a moving window is: as good as the wanted frame rate leaves time for.
+// Adaptive quality: the best image that the target frame rate allows.
 #pragma once
 
 #include <cstdint>
@@ -7,36 +7,36 @@
 
 namespace brume::viewer {
 
-/// What a frame is drawn with.
+/// The settings of a quality level.
 struct Quality {
-  const char* name;               ///< As the overlay says it.
-  float picture_scale = 1;        ///< Pixels of the picture for each of the window, along each axis, (0, 1].
-  std::uint32_t march_scale = 1;  ///< render::RendererOptions::march_scale.
-  float step_scale = 1;           ///< render::FrameInput::step_scale.
-  float resolve_error_scale = 1;           ///< render::FrameInput::resolve_error_scale.
-  float light_update_fraction = 1;          ///< render::FrameInput::light_update_fraction.
+  const char* name;                 ///< Label in the overlay.
+  float picture_scale = 1;          ///< Rendered pixels per window pixel along each axis, (0, 1].
+  std::uint32_t march_scale = 1;    ///< render::RendererOptions::march_scale.
+  float step_scale = 1;             ///< render::FrameInput::step_scale.
+  float resolve_error_scale = 1;    ///< render::FrameInput::resolve_error_scale.
+  float light_update_fraction = 1;  ///< render::FrameInput::light_update_fraction.
 };
 
-/// From the best to the fastest; the first is what `brume render` draws.
+/// From best to fastest; the first one is that of `brume render`.
 std::span<const Quality> quality_levels();
 
-/// Picks a level by how long frames take. It gives way as soon as frames are too long, and tries the better
-/// level again only after a while, which doubles (up to kMaxCooldown) each time that level was too slow
-/// again.
+/// Chooses a level from the measured frame times. Lowers the quality as soon as frames are too slow, and
+/// tries the better level only after a cooldown, which doubles (up to kMaxCooldown) each time that level is
+/// too slow again.
 class QualityControl {
  public:
   static constexpr double kMinCooldown = 2, kMaxCooldown = 32;  // [s]
 
-  explicit QualityControl(double frames_per_second) : wanted_seconds_(1 / frames_per_second) {}
+  explicit QualityControl(double frames_per_second) : target_seconds_(1 / frames_per_second) {}
 
-  void set_frame_rate(double frames_per_second) { wanted_seconds_ = 1 / frames_per_second; }
-  /// A fixed level instead of one that is picked.
+  void set_frame_rate(double frames_per_second) { target_seconds_ = 1 / frames_per_second; }
+  /// Fixes the level until set_automatic().
   void fix(std::size_t level);
   void set_automatic() { automatic_ = true; }
   bool automatic() const { return automatic_; }
 
-  /// How long the work of the last frame took [s], and how long ago the one before began [s]: time that was
-  /// spent waiting for the screen is no work.
+  /// Adds a frame: CPU and GPU work without waiting for vertical sync [s], and the time since the previous
+  /// frame began [s].
   void add_frame(double work_seconds, double frame_seconds);
   std::size_t level() const { return level_; }
   const Quality& quality() const { return quality_levels()[level_]; }
@@ -44,14 +44,14 @@ class QualityControl {
  private:
   void change_level(std::size_t level);
 
-  double wanted_seconds_;
+  double target_seconds_;
   bool automatic_ = true;
   std::size_t level_ = 0;
-  double mean_seconds_ = 0;  ///< Of work, smoothed, at this level.
-  int frames_ = 0;           ///< At this level.
+  double mean_seconds_ = 0;  ///< Smoothed work per frame at this level.
+  int frames_ = 0;           ///< Frames at this level.
   double since_change_ = 0;  ///< [s]
-  double rest_ = kMinCooldown;
-  bool tried_better_ = false;  ///< This level is a try that has not failed.
+  double cooldown_ = kMinCooldown;
+  bool tried_better_ = false;  ///< This level is an upgrade that has not failed so far.
 };
 
 }  // namespace brume::viewer

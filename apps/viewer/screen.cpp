@@ -10,7 +10,7 @@ namespace {
 
 gpu::Image make_canvas(gpu::Context& context, glm::uvec2 size_px) {
   gpu::ImageInfo info;
-  info.format = VK_FORMAT_R8G8B8A8_UNORM;  // as the renderer's display: encoded for the screen
+  info.format = VK_FORMAT_R8G8B8A8_UNORM;  // as Renderer::display: already sRGB-encoded
   info.size = {size_px, 1};
   info.usage =
       VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
@@ -41,7 +41,7 @@ Screen::Screen(const Window& window, const scenario::Scenario& scenario, const S
 }
 
 Screen::~Screen() {
-  // Of a lost device nothing is waited for; it lets go of what it used.
+  // Returns an error at once on a lost device, which is fine: its resources may be destroyed.
   context_.vk().DeviceWaitIdle(context_.device());
 }
 
@@ -49,10 +49,10 @@ void Screen::wait() {
   context_.wait();
 }
 
-void Screen::follow(glm::uvec2 picture_px, std::uint32_t march_scale) {
+void Screen::set_resolution(glm::uvec2 picture_px, std::uint32_t march_scale) {
   if (picture_px != renderer_->size_px()) {
     renderer_->resize(picture_px);
-    is_fresh_ = true;
+    history_lost_ = true;
   }
   if (march_scale != march_scale_) renderer_->set_march_scale(march_scale);
   march_scale_ = march_scale;
@@ -65,10 +65,10 @@ bool Screen::show(const render::FrameInput* input, const Quality& quality, const
   if (image->size_px != glm::uvec2(canvas_.info().size)) canvas_ = make_canvas(context_, image->size_px);
   render::FrameInput frame;
   if (input) {
-    follow(scaled(image->size_px, quality.picture_scale), quality.march_scale);
+    set_resolution(scaled(image->size_px, quality.picture_scale), quality.march_scale);
     frame = *input;
-    frame.continues = input->continues && !is_fresh_;
-    is_fresh_ = false;
+    frame.continues = input->continues && !history_lost_;
+    history_lost_ = false;
     renderer_->prepare(frame);
   }
   ui_->reserve(ui);
@@ -87,8 +87,8 @@ bool Screen::show(const render::FrameInput* input, const Quality& quality, const
 }
 
 image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
-  follow(size_px, 1);
-  is_fresh_ = true;
+  set_resolution(size_px, 1);
+  history_lost_ = true;
   input.continues = false;
   input.frame_index = 0;
   input.step_scale = 1;

@@ -1,4 +1,4 @@
-// Pictures of the window on disk, with what renders them again.
+// Screenshots, saved together with the timeline that reproduces them.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace brume::viewer {
 
-/// "name_0001.png" in a folder, or the first number after it that is free.
+/// "folder/name_0001.png", or with the first higher number that is not in use.
 std::filesystem::path free_name(const std::filesystem::path& folder, const std::string& name,
                                 const std::string& extension);
 
-/// Saves the picture, and beside it under the same name (.toml) the timeline whose end it shows.
+/// Saves the image and, next to it with the extension .toml, the timeline whose last frame it shows.
 Result<void> save_snapshot(const std::filesystem::path& picture, const image::Image8& image,
-                         const scene::Timeline& snapshot);
+                           const scene::Timeline& snapshot);
 
 }  // namespace brume::viewer

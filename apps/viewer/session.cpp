@@ -3,51 +3,40 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/options.hpp"
 #include "scenario/aim.hpp"
 #include "scenario/doors.hpp"
+#include "scene/options.hpp"
 
 namespace brume::viewer {
 namespace {
 
-constexpr float kReach = 100;       // [m]: how far away one aims
-constexpr float kBlastBack = 0.3f;  // [m]: an explosion is in front of what it hits
+constexpr float kReach = 100;       // [m]: range of an action
+constexpr float kBlastBack = 0.3f;  // [m]: an explosion is in front of the surface that it hits
 
-/// Bytes of the UTF-8 character that begins here; a broken one counts as one byte.
+/// Number of bytes that the UTF-8 lead byte at `at` announces, clamped to the text. Does not validate: a
+/// stray continuation byte (0x80-0xBF) counts as the lead of two bytes; the font refuses the letter later.
 std::size_t character_bytes(const std::string& text, std::size_t at) {
   const auto lead = static_cast<unsigned char>(text[at]);
   const std::size_t bytes = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
   return std::min(bytes, text.size() - at);
 }
 
-/// The latest time of anything that a timeline says [s].
+/// The time of the last event or camera key [s].
 double last_event(const scene::Timeline& timeline) {
   double last = timeline.camera.empty() ? 0 : timeline.camera.back().time;
-  const auto take = [&](const auto& events) {
+  scene::for_each_event_list(timeline, [&](const char*, const auto& events) {
     if (!events.empty()) last = std::max(last, events.back().time);
-  };
-  take(timeline.smokes);
-  take(timeline.shots);
-  take(timeline.texts);
-  take(timeline.blasts);
-  take(timeline.moves);
-  take(timeline.edits);
-  take(timeline.doors);
+  });
   return last;
 }
 
-void forget_events(scene::Timeline& timeline) {
-  timeline.smokes.clear();
-  timeline.shots.clear();
-  timeline.texts.clear();
-  timeline.blasts.clear();
-  timeline.moves.clear();
-  timeline.edits.clear();
-  timeline.doors.clear();
+void clear_events(scene::Timeline& timeline) {
+  scene::for_each_event_list(timeline, [](const char*, auto& events) { events.clear(); });
 }
 
-Failure nothing_there(const char* action) {
-  return {ErrorCode::bad_input, std::string("nothing to ") + action + " there: look at something solid"};
+Failure no_target(const char* action) {
+  return {ErrorCode::bad_input,
+          std::string("nothing to ") + action + " in that direction; look at something solid"};
 }
 
 }  // namespace
@@ -67,7 +56,7 @@ const char* name_of(ShotKind kind) {
 }
 
 Result<std::unique_ptr<Session>> Session::create(scenario::Scenario scenario, bool play) {
-  if (!play) forget_events(scenario.timeline);
+  if (!play) clear_events(scenario.timeline);
   scene::Timeline initial = scenario.timeline;
   auto live = scenario::EditableScenario::create(std::move(scenario));
   if (!live) return live.failure();
@@ -77,13 +66,13 @@ Result<std::unique_ptr<Session>> Session::create(scenario::Scenario scenario, bo
 Session::Session(std::unique_ptr<scenario::EditableScenario> live, scene::Timeline initial, bool play)
     : live_(std::move(live)), initial_(std::move(initial)), keys_(initial_.camera), follows_path_(play) {
   if (play) end_seconds_ = std::max(double{initial_.duration}, last_event(initial_));
-  // Without play only the first key counts: it is where the person begins.
+  // Without play only the first camera key matters: the player starts there.
   if (!play) keys_.clear();
   seek(kFirstTime);
 }
 
 void Session::seek(double seconds) {
-  // A float, as the duration of the timeline that a moment is saved as.
+  // Rounded to float, as is the duration of the timeline that snapshot() returns.
   seconds_ = static_cast<double>(static_cast<float>(std::clamp(seconds, kFirstTime, scene::kLatestTime)));
   end_seconds_ = std::max(end_seconds_, seconds_);
   live_->advance_to(seconds_);
@@ -123,7 +112,7 @@ scene::Camera Session::path_camera() const {
 }
 
 void Session::record_camera(const scene::Camera& camera) {
-  // What comes later was another way.
+  // Later keys belong to a path that this one replaces.
   while (!keys_.empty() && keys_.back().time > seconds_) keys_.pop_back();
   if (!keys_.empty() && seconds_ - keys_.back().time < kCameraKeyEvery) return;
   keys_.push_back({seconds_, camera});
@@ -135,14 +124,14 @@ double Session::next_tick_seconds() const {
 
 Result<void> Session::add(const scene::Timeline& actions) {
   if (last_event(actions) > scene::kLatestTime)
-    return Failure{ErrorCode::resource_limit, "the hour of this recording is over; R begins anew"};
+    return Failure{ErrorCode::resource_limit, "a recording is limited to one hour; press R to reset"};
   end_seconds_ = std::max(end_seconds_, last_event(actions));
   return live_->add(actions);
 }
 
 Result<void> Session::throw_smoke(glm::vec3 from_world, glm::vec3 direction_world) {
   const scenario::Aim aim = scenario::aim(simulation().world().grid(), from_world, direction_world, kReach);
-  if (!aim.meets || !aim.landing_world) return nothing_there("hit");
+  if (!aim.meets || !aim.landing_world) return no_target("hit");
   scene::Timeline actions;
   actions.smokes.push_back({next_tick_seconds(), from_world, aim.at_world});
   return add(actions);
@@ -158,8 +147,7 @@ Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, con
     shot.toward_world = toward_world;
     if (weapons.kind == ShotKind::picture) {
       if (weapons.picture.empty())
-        return Failure{ErrorCode::usage,
-                       "no picture to shoot: name one in the panel of holes, or with --shot"};
+        return Failure{ErrorCode::usage, "no image to shoot; choose one in the panel Holes or with --shot"};
       shot.shape = scene::ShotShape::mask;
       shot.mask = weapons.picture;
     }
@@ -171,7 +159,7 @@ Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, con
   text.from_world = from_world;
   text.toward_world = toward_world;
   if (weapons.kind == ShotKind::glyph && !text.text.empty()) {
-    // Blanks are no letters.
+    // Skip blanks.
     const std::string word = text.text;
     for (std::size_t tries = 0; tries < word.size(); ++tries) {
       if (next_letter_ >= word.size()) next_letter_ = 0;
@@ -187,7 +175,7 @@ Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, con
 
 Result<void> Session::blast(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons) {
   const scenario::Aim aim = scenario::aim(simulation().world().grid(), from_world, direction_world, kReach);
-  if (!aim.meets) return nothing_there("blow up");
+  if (!aim.meets) return no_target("blow up");
   scene::Timeline actions;
   scene::BlastEvent blast = weapons.blast;
   blast.time = next_tick_seconds();
@@ -200,7 +188,7 @@ Result<std::string> Session::use_door(glm::vec3 at_world) {
   const scenario::Scenario& scenario = live_->scenario();
   const std::vector<scenario::Door> doors = scenario::doors_of(scenario.scene);
   if (doors.empty())
-    return Failure{ErrorCode::bad_input, "there is no door: no object of the scene has \"door\" in its name"};
+    return Failure{ErrorCode::bad_input, "the scene has no door: no object has \"door\" in its name"};
   const auto distance = [&](const scenario::Door& door) {
     return glm::length(at_world - glm::clamp(at_world, door.bounds_world.min, door.bounds_world.max));
   };
@@ -213,7 +201,7 @@ Result<std::string> Session::use_door(glm::vec3 at_world) {
   event.open = !scenario::is_open(scenario.timeline, nearest->name, event.time);
   actions.doors.push_back(event);
   if (auto done = add(actions); !done) return done.failure();
-  return (event.open ? "opened: " : "shut: ") + nearest->name;
+  return (event.open ? "opened: " : "closed: ") + nearest->name;
 }
 
 scene::Timeline Session::recording() const {

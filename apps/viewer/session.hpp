@@ -1,6 +1,5 @@
-// What is played in the window: a scenario, its clock, and what a person does on it. Everything that is done
-// becomes part of the scenario's timeline at the tick that comes next, so that the timeline, saved and played,
-// makes the same again bit for bit.
+// An interactive session: a scenario, its clock and the actions of the player. Every action becomes a
+// timeline event at the next tick, so that the saved timeline reproduces the session bit for bit.
 #pragma once
 
 #include <algorithm>
@@ -17,65 +16,66 @@ namespace brume::viewer {
 enum class ShotKind { bullet, glyph, word, picture };
 const char* name_of(ShotKind kind);
 
-/// What the next shots and blasts are like.
+/// Settings of the next shots and blasts.
 struct Weapons {
   ShotKind kind = ShotKind::bullet;
-  scene::ShotEvent shot;  ///< Of bullets and pictures; where from and when do not count.
-  scene::TextEvent text;  ///< Of letters and words; text is the word.
+  scene::ShotEvent shot;  ///< For bullets and pictures; time, origin and direction are ignored.
+  scene::TextEvent text;  ///< For letters and words; `text` is the word.
   scene::BlastEvent blast;
-  std::filesystem::path picture;  ///< PNG or JPEG; empty: none is chosen.
+  std::filesystem::path picture;  ///< PNG or JPEG; empty: none.
 };
 
 class Session {
  public:
   static constexpr double kTick = 1.0 / 64;         // [s], of the default sim::WorldSettings
-  static constexpr double kFirstTime = 1.0 / 64;  // [s]: the shortest timeline is longer than nothing
+  static constexpr double kFirstTime = 1.0 / 64;    // [s], since a timeline must not be empty
   static constexpr double kCameraKeyEvery = 0.125;  // [s]
-  static constexpr double kLongestFrame = 0.25;     // [s]: a slower frame lets the clock go slower
+  static constexpr double kLongestFrame = 0.25;     // [s]; slower frames slow the clock down
 
-  /// A scenario as it is before anything happens; with `play` what its timeline says happens, and the camera
-  /// goes its way.
+  /// A session at the start of the scenario. With `play` the events of its timeline take place and the camera
+  /// follows its path; otherwise the timeline only sets the initial camera.
   static Result<std::unique_ptr<Session>> create(scenario::Scenario scenario, bool play);
 
   const scenario::EditableScenario& live() const { return *live_; }
   scenario::EditableScenario& live() { return *live_; }
   const scenario::Simulation& simulation() const { return live_->simulation(); }
   double seconds() const { return seconds_; }
-  /// Where the last thing happens or ends on the bar of time: at least the duration that was recorded.
+  /// End of the time slider [s]: the latest event or time reached so far, and at least the recorded duration.
   double end_seconds() const { return end_seconds_; }
   bool paused() const { return paused_; }
   void set_paused(bool paused) { paused_ = paused; }
 
-  /// How much time passes during a frame that took so long [s].
+  /// Session time that passes during a frame of this duration [s].
   double passing(double frame_seconds) const { return paused_ ? 0 : std::min(frame_seconds, kLongestFrame); }
-  /// To any time, forwards or backwards [s].
+  /// Moves the clock to any time, forwards or backwards [s].
   void seek(double seconds);
-  /// The same as the bar of time does it: paused, and on the camera's way, which is so not overwritten.
+  /// Seeks for the time slider: pauses and follows the recorded camera path, so that it is not overwritten.
   void scrub(double seconds);
+  /// Pauses and seeks by a number of ticks, backwards if negative.
   void step(int ticks);
-  /// Back to the beginning, without what was done.
+  /// Back to the start, discarding all actions.
   Result<void> reset();
-  /// From the beginning, with what was done, on the camera's way.
+  /// Replays all actions from the start along the recorded camera path.
   void play();
 
-  // The camera's way.
+  // The recorded camera path.
   bool follows_path() const { return follows_path_; }
   void leave_path() { follows_path_ = false; }
-  /// The camera at the present time on its way.
+  /// The camera of the path at the current time.
   scene::Camera path_camera() const;
-  /// Where the camera is now, when it is not on its way: becomes part of the way.
+  /// Adds the player's camera to the path, at most every kCameraKeyEvery; discards later keys.
   void record_camera(const scene::Camera& camera);
 
-  // Actions: at the next tick. Fail in one line when they cannot be.
+  // Actions take place at the next tick. They fail with a one-line message.
   Result<void> throw_smoke(glm::vec3 from_world, glm::vec3 direction_world);
   Result<void> shoot(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons);
   Result<void> blast(glm::vec3 from_world, glm::vec3 direction_world, const Weapons& weapons);
-  /// The door nearest to a point; its name.
+  /// Opens or closes the door nearest to a point. Returns a message with its name.
   Result<std::string> use_door(glm::vec3 at_world);
 
-  /// The timeline with all that was done, as long as until now at least.
+  /// The timeline of the session with all actions, at least as long as the current time.
   scene::Timeline recording() const;
-  /// The timeline of this moment: the picture of its end is what `camera` sees now.
+  /// A timeline that ends now: its last frame shows what `camera` sees.
   scene::Timeline snapshot(const scene::Camera& camera) const;
 
  private:
@@ -84,11 +84,11 @@ class Session {
   Result<void> add(const scene::Timeline& actions);
 
   std::unique_ptr<scenario::EditableScenario> live_;
-  scene::Timeline initial_;  ///< What reset goes back to.
+  scene::Timeline initial_;  ///< Restored by reset().
   std::vector<scene::CameraKey> keys_;
   double seconds_ = kFirstTime, end_seconds_ = kFirstTime;
   bool paused_ = false, follows_path_ = false;
-  std::size_t next_letter_ = 0;  ///< In bytes of the word.
+  std::size_t next_letter_ = 0;  ///< Byte offset in the word.
 };
 
 }  // namespace brume::viewer

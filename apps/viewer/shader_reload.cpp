@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kMaxSourceBytes = 1 << 22;
 
-/// Files that `text` includes, as they are written.
+/// The file names in the #include directives of `text`.
 std::vector<std::string> includes_of(const std::string& text) {
   constexpr std::string_view kWord = "#include \"";
   std::vector<std::string> names;
@@ -25,22 +25,22 @@ std::vector<std::string> includes_of(const std::string& text) {
   return names;
 }
 
-/// When a file, or one that it includes, was changed last; nothing when the file is not there.
+/// Latest modification time of a file and everything that it includes; nothing if the file does not exist.
 std::optional<std::filesystem::file_time_type> newest_change(const std::filesystem::path& folder,
                                                              const std::string& name,
-                                                             std::set<std::string>& seen) {
+                                                             std::set<std::string>& visited) {
   std::error_code error;
   auto newest = std::filesystem::last_write_time(folder / name, error);
   if (error) return std::nullopt;
-  if (!seen.insert(name).second) return newest;
+  if (!visited.insert(name).second) return newest;
   const auto text = read_text_file(folder / name, kMaxSourceBytes);
   if (!text) return newest;
   for (const std::string& included : includes_of(*text))
-    if (const auto time = newest_change(folder, included, seen)) newest = std::max(newest, *time);
+    if (const auto time = newest_change(folder, included, visited)) newest = std::max(newest, *time);
   return newest;
 }
 
-/// Includes from the shaders' folder, as the build's -I has them.
+/// Resolves includes relative to the shader folder, as -I of the build does.
 class FolderIncluder : public shaderc::CompileOptions::IncluderInterface {
  public:
   explicit FolderIncluder(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -49,7 +49,7 @@ class FolderIncluder : public shaderc::CompileOptions::IncluderInterface {
                                      std::size_t) override {
     auto* const include = new Include;
     const auto text = read_text_file(folder_ / requested, kMaxSourceBytes);
-    // Without a name the content is the compiler's message.
+    // shaderc reports the content as the error message if the name is empty.
     include->name = text ? requested : "";
     include->text = text ? *text : text.failure().message;
     include->result = {include->name.data(), include->name.size(), include->text.data(), include->text.size(),
@@ -76,8 +76,8 @@ std::optional<shaderc_shader_kind> kind_of(const std::string& name) {
   return std::nullopt;
 }
 
-Failure misfit(const std::string& name, const std::string& what) {
-  return {ErrorCode::bad_input, name + ": " + what + "; build the program again for that"};
+Failure mismatch(const std::string& name, const std::string& what) {
+  return {ErrorCode::bad_input, name + ": " + what + "; rebuild the program to change its interface"};
 }
 
 }  // namespace
@@ -109,8 +109,8 @@ Result<void> check_fit(const std::vector<std::uint32_t>& words, const gpu::Pipel
       const std::uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
       const std::uint32_t set = compiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
       if (set != 0 || binding >= bindings.size() || bindings[binding] != type)
-        return misfit(name, "the program binds nothing of that kind at binding " + std::to_string(binding) +
-                                " (" + resource.name + ")");
+        return mismatch(name, "the program binds no resource of that type at binding " +
+                                  std::to_string(binding) + " (" + resource.name + ")");
     }
     return {};
   };
@@ -119,30 +119,31 @@ Result<void> check_fit(const std::vector<std::uint32_t>& words, const gpu::Pipel
         fits(resources.sampled_images, gpu::kSampled), fits(resources.storage_images, gpu::kStored)})
     if (!done) return done.failure();
   if (!resources.separate_images.empty() || !resources.separate_samplers.empty())
-    return misfit(name, "the program binds no separate images and samplers");
+    return mismatch(name, "the program binds no separate images and samplers");
   for (const spirv_cross::Resource& block : resources.push_constant_buffers)
     if (compiler.get_declared_struct_size(compiler.get_type(block.base_type_id)) > pipeline.push_bytes())
-      return misfit(name, "the program impulses only " + std::to_string(pipeline.push_bytes()) + " bytes");
+      return mismatch(name, "the program sets only " + std::to_string(pipeline.push_bytes()) +
+                                " bytes of push constants");
   if (const auto* compute = dynamic_cast<const gpu::ComputePipeline*>(&pipeline)) {
     for (std::uint32_t axis = 0; axis < 3; ++axis)
       if (compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, axis) != compute->group()[axis])
-        return misfit(name, "the program counts on another local size");
+        return mismatch(name, "the program expects another local size");
   }
   return {};
 }
 
 ShaderReload::ShaderReload(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-void ShaderReload::look() {
+void ShaderReload::poll_files() {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
     const std::string name = entry.path().filename().string();
     if (!kind_of(name)) continue;
-    std::set<std::string> seen;
-    const auto newest = newest_change(folder_, name, seen);
+    std::set<std::string> visited;
+    const auto newest = newest_change(folder_, name, visited);
     if (!newest) continue;
     const auto [known, is_new] = newest_.emplace(name, *newest);
-    if (is_new || known->second == *newest) continue;  // at first: what was built in
+    if (is_new || known->second == *newest) continue;  // The first poll sees the built-in version.
     known->second = *newest;
     if (std::find(changed_.begin(), changed_.end(), name) == changed_.end()) changed_.push_back(name);
   }
@@ -157,15 +158,15 @@ Result<void> ShaderReload::replace(gpu::Pipeline& pipeline, const std::string& n
   return {};
 }
 
-bool ShaderReload::take(gpu::Context& context, Compiled compiled) {
+bool ShaderReload::install(gpu::Context& context, Compiled compiled) {
   errors_.erase(compiled.name);
   if (!compiled.words) {
     errors_[compiled.name] = compiled.words.failure().message;
     return false;
   }
-  kept_.push_back(std::move(*compiled.words));
-  const Words& words = kept_.back();
-  // The key lives as long as the pipelines that are given it as their shader's name.
+  installed_.push_back(std::move(*compiled.words));
+  const Words& words = installed_.back();
+  // Pipelines refer to the key as the name of their shader, so it must outlive them.
   const auto in_use = in_use_.emplace(compiled.name, nullptr).first;
   for (gpu::Pipeline* pipeline : context.pipelines()) {
     if (const auto done = replace(*pipeline, in_use->first, words); !done) {
@@ -178,23 +179,23 @@ bool ShaderReload::take(gpu::Context& context, Compiled compiled) {
   return true;
 }
 
-bool ShaderReload::follow(gpu::Context& context) {
+bool ShaderReload::update(gpu::Context& context) {
   const auto now = std::chrono::steady_clock::now();
-  if (now - looked_at_ > kLookEvery) {
-    looked_at_ = now;
-    look();
+  if (now - polled_at_ > kPollInterval) {
+    polled_at_ = now;
+    poll_files();
   }
   bool changed = false;
   if (compiling_.valid() && compiling_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-    changed = take(context, compiling_.get());
-  // One at a time, beside the frames.
+    changed = install(context, compiling_.get());
+  // Compile one shader at a time, concurrently with the frames.
   if (!compiling_.valid() && !changed_.empty()) {
     compiling_ = std::async(std::launch::async, [folder = folder_, name = changed_.front()] {
       return Compiled{name, compile_shader(folder, name)};
     });
     changed_.pop_front();
   }
-  // Pipelines may be made later than the shader was changed: those of a debug view, those of a new device.
+  // Pipelines created after the change, by a debug view or on a new device, still have the built-in shader.
   for (gpu::Pipeline* pipeline : context.pipelines()) {
     for (const auto& [name, words] : in_use_) {
       if (!words) continue;

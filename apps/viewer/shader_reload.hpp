@@ -1,6 +1,6 @@
-// Shaders that are edited while the window is open: compiled again when a file changes, and put into the
-// pipelines that use them. One that does not compile, or asks for other resources than the program binds, is
-// refused, and the version before goes on.
+// Hot reload of shaders: recompiles a file when it changes and replaces it in the pipelines that use it. A
+// shader that does not compile, or whose interface differs from what the program binds, is rejected, and the
+// previous version stays in use.
 #pragma once
 
 #include <chrono>
@@ -17,27 +17,27 @@
 
 namespace brume::viewer {
 
-/// Compiles one shader file of `folder`, with its includes from there, as the build does. Fails with what the
-/// compiler says: file, line, and what is wrong.
+/// Compiles a shader of `folder` as the build does, with includes relative to that folder. Fails with the
+/// compiler's message, which names file and line.
 Result<std::vector<std::uint32_t>> compile_shader(const std::filesystem::path& folder,
                                                   const std::string& name);
 
-/// Fails when a shader does not fit a pipeline: bindings, push constants, size of the workgroup.
+/// Fails if the interface of a shader does not match a pipeline: bindings, push constants, workgroup size.
 Result<void> check_fit(const std::vector<std::uint32_t>& words, const gpu::Pipeline& pipeline,
                        const std::string& name);
 
 class ShaderReload {
  public:
-  static constexpr std::chrono::milliseconds kLookEvery{300};
+  static constexpr std::chrono::milliseconds kPollInterval{300};
 
-  /// Watches the shader files of a folder; one that is not there is watched in vain.
+  /// Watches the shader files of a folder. A folder that does not exist is no error.
   explicit ShaderReload(std::filesystem::path folder);
 
-  /// Looks after the files every now and then, and puts what was compiled so far into the pipelines that do
-  /// not have it yet. When the device is done with the frame before. True when there is a new version.
-  bool follow(gpu::Context& context);
+  /// Polls the files every kPollInterval and installs the compiled shaders in pipelines that lack them. Call
+  /// it when the device has finished the previous frame. Returns whether a new version was installed.
+  bool update(gpu::Context& context);
 
-  /// What is wrong with shaders now, by file: what the compiler says.
+  /// Current compiler and interface errors by file name.
   const std::map<std::string, std::string>& errors() const { return errors_; }
   std::size_t reloads() const { return reloads_; }
 
@@ -47,17 +47,18 @@ class ShaderReload {
     std::string name;
     Result<Words> words;
   };
-  void look();
-  bool take(gpu::Context& context, Compiled compiled);
-  /// Gives a pipeline this version of its shader, unless it has it or another shader.
+  void poll_files();
+  bool install(gpu::Context& context, Compiled compiled);
+  /// Replaces the shader `name` of a pipeline, unless it does not use that shader or is up to date.
   static Result<void> replace(gpu::Pipeline& pipeline, const std::string& name, const Words& words);
 
   std::filesystem::path folder_;
-  std::chrono::steady_clock::time_point looked_at_{};
-  std::map<std::string, std::filesystem::file_time_type> newest_;  ///< Of a shader and all that it includes.
-  std::deque<std::string> changed_;                                ///< To be compiled.
+  std::chrono::steady_clock::time_point polled_at_{};
+  std::map<std::string, std::filesystem::file_time_type>
+      newest_;                       ///< Latest change of a shader and its includes.
+  std::deque<std::string> changed_;  ///< To be compiled.
   std::future<Compiled> compiling_;
-  std::deque<Words> kept_;  ///< Pipelines refer to them.
+  std::deque<Words> installed_;  ///< Referenced by pipelines.
   std::map<std::string, const Words*> in_use_;
   std::map<std::string, std::string> errors_;
   std::size_t reloads_ = 0;

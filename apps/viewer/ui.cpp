@@ -33,7 +33,7 @@ Ui::Ui(const Window& window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // nothing is left behind in the folder that it was started in
+  io.IniFilename = nullptr;  // no imgui.ini in the current folder
   io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   choose_style();
@@ -54,7 +54,7 @@ void Ui::begin_frame() {
 }
 
 UiRequests Ui::lay_out(Choices& choices, Session& session, Player& player, const Figures& figures,
-                   const Notices& notices) {
+                       const Notices& notices) {
   UiRequests requests;
   lay_out_marks(choices, session, player);
   if (choices.overlay) lay_out_overlay(choices, session, player, figures, notices);

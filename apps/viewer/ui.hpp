@@ -1,4 +1,4 @@
-// What is drawn over the picture: the line of figures, the help, the panels, the bar of time.
+// The user interface over the image: overlay, help, panels and time slider.
 #pragma once
 
 #include <optional>
@@ -14,31 +14,31 @@
 
 namespace brume::viewer {
 
-/// What the person has chosen. The panels change it.
+/// Settings that the player chooses by keys and panels.
 struct Choices {
   bool panels = false, help = false, overlay = true;
-  bool free_cursor = false;  ///< The mouse moves the cursor instead of the view.
+  bool free_cursor = false;  ///< The mouse moves the cursor instead of turning the view.
   passes::DebugView view = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice;  ///< Empty: through the middle of the smoke.
   Weapons weapons;
   Probe probe;
-  std::optional<std::size_t> level;  ///< Of quality_levels; empty: as the frame rate allows.
+  std::optional<std::size_t> level;  ///< Index into quality_levels(); empty: adaptive.
   double frames_per_second = 60;
-  bool gather = true;  ///< Smoke over the frames.
+  bool temporal = true;  ///< Accumulates the smoke over frames.
   bool vertical_sync = true;
 };
 
-/// What the panels and the bar of time ask for.
+/// Requests from the panels and the time slider, applied after the layout.
 struct UiRequests {
   std::optional<double> seek;  ///< [s]
   std::vector<Action> actions;
-  bool play = false;             ///< From the beginning.
-  bool changed_picture = false;  ///< Something that a still picture shows.
+  bool play = false;             ///< Replay from the start.
+  bool changed_picture = false;  ///< A paused image must be rendered again.
 };
 
-/// What is told.
+/// Messages and status for the overlay and the panels.
 struct Notices {
-  std::vector<std::string> lines;  ///< The last ones that were said, the newest last.
+  std::vector<std::string> lines;  ///< Recent messages, the newest last.
   std::string device;
   std::uint64_t device_bytes = 0;
   const Quality* quality = nullptr;
@@ -46,7 +46,7 @@ struct Notices {
   std::string shader_errors;  ///< Empty: none.
 };
 
-/// Dear ImGui with our font and colours, for a window.
+/// Dear ImGui for a window, with the project's font and colours.
 class Ui {
  public:
   explicit Ui(const Window& window);
@@ -55,10 +55,10 @@ class Ui {
   Ui& operator=(const Ui&) = delete;
 
   void begin_frame();
-  /// Lays everything out; what is to be drawn is in ImGui::GetDrawData() until the next frame begins.
+  /// Lays out everything; ImGui::GetDrawData() holds the result until the next frame begins.
   UiRequests lay_out(Choices& choices, Session& session, Player& player, const Figures& figures,
-                 const Notices& notices);
-  /// Whether the mouse or the keyboard are the panels' now.
+                     const Notices& notices);
+  /// Whether the panels currently capture the mouse or the keyboard.
   bool takes_mouse() const;
   bool takes_keys() const;
 };

@@ -16,14 +16,14 @@ constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 constexpr ImU32 kMark = IM_COL32(255, 190, 90, 255), kShade = IM_COL32(0, 0, 0, 160);
-constexpr ImU32 kSees = IM_COL32(110, 220, 130, 255), kBlind = IM_COL32(240, 90, 80, 255);
+constexpr ImU32 kVisible = IM_COL32(110, 220, 130, 255), kHidden = IM_COL32(240, 90, 80, 255);
 constexpr float kMargin = 8;
 
 glm::vec2 display_size() {
   return {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
 }
 
-/// Where a point is on the display; nothing behind the eye.
+/// Projects a world point to the display; nothing if it is behind the near plane.
 std::optional<ImVec2> on_display(const scene::Camera& camera, glm::vec3 world) {
   const glm::vec2 size = display_size();
   const auto device = render::device_camera(camera, glm::uvec2(glm::max(size, glm::vec2(1))));
@@ -38,13 +38,13 @@ void label(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& text) {
   list.AddText(at, colour, text.c_str());
 }
 
-std::string answer_text(const ProbeAnswer& answer) {
+std::string probe_text(const ProbeResult& result) {
   char text[128];
-  if (answer.wall_m) {
-    std::snprintf(text, sizeof text, "a wall after %.2f m", static_cast<double>(*answer.wall_m));
+  if (result.wall_m) {
+    std::snprintf(text, sizeof text, "wall at %.2f m", static_cast<double>(*result.wall_m));
   } else {
-    std::snprintf(text, sizeof text, "%.1f %% comes through, optical depth %.2f",
-                  100 * static_cast<double>(answer.transmittance), static_cast<double>(answer.optical_depth));
+    std::snprintf(text, sizeof text, "transmittance %.1f %%, optical depth %.2f",
+                  100 * static_cast<double>(result.transmittance), static_cast<double>(result.optical_depth));
   }
   return text;
 }
@@ -56,18 +56,18 @@ void lay_out_probe(const Choices& choices, const Session& session, const scene::
   const auto a = on_display(camera, *probe.a_world);
   if (a) list.AddCircleFilled(*a, 5, kMark);
   if (!probe.b_world) {
-    if (a) label(list, ImVec2(a->x + 9, a->y - 8), kMark, "L again: the other end");
+    if (a) label(list, ImVec2(a->x + 9, a->y - 8), kMark, "L: set the other end");
     return;
   }
-  const auto answer = ask(probe, session.live().scenario(), session.simulation(), session.seconds());
+  const auto result = evaluate(probe, session.live().scenario(), session.simulation(), session.seconds());
   const auto b = on_display(camera, *probe.b_world);
-  const bool sees = answer && answer->transmittance > 0.05f;
+  const bool visible = result && result->transmittance > 0.05f;
   if (b) list.AddCircleFilled(*b, 5, kMark);
-  if (a && b) list.AddLine(*a, *b, sees ? kSees : kBlind, 2.5f);
+  if (a && b) list.AddLine(*a, *b, visible ? kVisible : kHidden, 2.5f);
   const auto at = b ? b : a;
   if (at)
-    label(list, ImVec2(at->x + 9, at->y - 8), sees ? kSees : kBlind,
-          answer ? answer_text(*answer) : answer.failure().message);
+    label(list, ImVec2(at->x + 9, at->y - 8), visible ? kVisible : kHidden,
+          result ? probe_text(*result) : result.failure().message);
 }
 
 }  // namespace
@@ -91,15 +91,15 @@ void lay_out_overlay(const Choices& choices, const Session& session, const Playe
   const Quality& quality = *notices.quality;
   ImGui::Text("%.0f fps  %.1f ms  %s%s", figures.frames_per_second(), figures.median(&FrameFigures::work_ms),
               choices.level ? "" : "auto: ", quality.name);
-  ImGui::Text("%d frame in flight, input to picture %.1f ms", Screen::kFramesInFlight,
+  ImGui::Text("%d frame in flight, latency %.1f ms", Screen::kFramesInFlight,
               figures.median(&FrameFigures::latency_ms));
   ImGui::Text("%.2f s%s  %s  shot: %s%s", session.seconds(), session.paused() ? " (paused)" : "",
               player.flying() ? "flying" : "walking", name_of(choices.weapons.kind),
-              session.follows_path() ? "  on the camera's way" : "");
+              session.follows_path() ? "  following the camera path" : "");
   if (choices.view != passes::DebugView::none)
     ImGui::Text("view: %s", std::string(passes::debug_view_name(choices.view)).c_str());
   if (!notices.shader_errors.empty())
-    ImGui::TextColored(ImVec4(1, 0.45f, 0.4f, 1), "a shader does not compile: see the panels");
+    ImGui::TextColored(ImVec4(1, 0.45f, 0.4f, 1), "shader error: see the panels");
   for (const std::string& line : notices.lines)
     ImGui::TextColored(ImVec4(1, 0.8f, 0.5f, 1), "%s", line.c_str());
   if (figures.count() < 600) ImGui::TextDisabled("H: help   Tab: panels");
@@ -114,7 +114,7 @@ void lay_out_help() {
     name = glm::max(name, glm::vec2(a.x, a.y));
     does = glm::max(does, glm::vec2(b.x, b.y));
   }
-  // One list or two beside each other, whichever is larger where it fits the window.
+  // One or two columns, whichever allows the larger text in this window.
   const glm::vec2 room = display_size() - 4 * kMargin;
   const glm::vec2 padding(2 * ImGui::GetStyle().CellPadding.x, 2 * ImGui::GetStyle().CellPadding.y + 1);
   const auto scale_of = [&](int lists) {

@@ -12,7 +12,7 @@ namespace brume::viewer {
 namespace {
 
 constexpr float kPanelWidth = 400, kTimeBarHeight = 64;
-// Of the passes in the graph, by their order in a frame.
+// Colours of the passes in the graph, in frame order.
 constexpr std::array kPassColours{
     IM_COL32(94, 129, 172, 255),  IM_COL32(136, 192, 208, 255), IM_COL32(163, 190, 140, 255),
     IM_COL32(235, 203, 139, 255), IM_COL32(208, 135, 112, 255), IM_COL32(191, 97, 106, 255),
@@ -27,31 +27,31 @@ ImU32 pass_colour(std::size_t pass) {
 bool is_noise(const std::string& key) {
   return key.starts_with("noise") || key == "erosion" || key.starts_with("swirl") || key == "rise";
 }
-bool is_of_light(const std::string& key) {
+bool is_lighting(const std::string& key) {
   return key == "albedo" || key == "anisotropy" || key == "droplet" || key == "multiple_scattering";
 }
 
-void keep(const Result<void>& done, std::vector<std::string>& failures) {
+void report(const Result<void>& done, std::vector<std::string>& failures) {
   if (!done) failures.push_back(done.failure().message);
 }
 
-// Settings of the smoke; those that the simulation stands on play it anew.
+// Smoke settings; changing one that the simulation depends on simulates again from the start.
 void smoke_rows(Session& session, UiRequests& requests, std::vector<std::string>& failures,
                 const std::function<bool(const std::string&)>& wanted) {
   scene::SmokeOptions smoke = session.live().scenario().timeline.smoke;
   const auto visit = [](auto& options, auto&& visitor) { scene::visit_smoke_options(options, visitor); };
   if (!option_rows(smoke, visit, wanted)) return;
   requests.changed_picture = true;
-  keep(session.live().set_smoke(smoke), failures);
+  report(session.live().set_smoke(smoke), failures);
 }
 
 void lay_out_light(Session& session, UiRequests& requests, std::vector<std::string>& failures) {
-  smoke_rows(session, requests, failures, is_of_light);
+  smoke_rows(session, requests, failures, is_lighting);
   const scene::Timeline& timeline = session.live().scenario().timeline;
   scene::SkyOptions sky = timeline.sky;
   const auto visit = [](auto& options, auto&& visitor) { scene::visit_sky_options(options, visitor); };
   if (option_rows(sky, visit)) {
-    keep(session.live().set_sky(sky), failures);
+    report(session.live().set_sky(sky), failures);
     requests.changed_picture = true;
   }
   scene::Timeline exposed;
@@ -60,7 +60,7 @@ void lay_out_light(Session& session, UiRequests& requests, std::vector<std::stri
     scene::visit_timeline_options(options, visitor);
   };
   if (option_rows(exposed, visit_timeline, [](const std::string& key) { return key == "exposure"; })) {
-    keep(session.live().set_exposure(exposed.exposure), failures);
+    report(session.live().set_exposure(exposed.exposure), failures);
     requests.changed_picture = true;
   }
 }
@@ -74,7 +74,7 @@ void lay_out_holes(Choices& choices) {
   ImGui::InputText("word", &weapons.text.text);
   std::string picture = weapons.picture.string();
   if (ImGui::InputText("picture", &picture)) weapons.picture = picture;
-  if (ImGui::TreeNode("shots and pictures")) {
+  if (ImGui::TreeNode("bullets and pictures")) {
     option_rows(weapons.shot, [](auto& o, auto&& visitor) { scene::visit_shot_options(o, visitor); });
     ImGui::TreePop();
   }
@@ -98,15 +98,16 @@ void lay_out_quality(Choices& choices, const Notices& notices) {
     if (ImGui::RadioButton(levels[i].name, choices.level == i)) choices.level = i;
   }
   auto rate = static_cast<float>(choices.frames_per_second);
-  if (ImGui::SliderFloat("frames a second", &rate, 5, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::SliderFloat("frames per second", &rate, 5, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp))
     choices.frames_per_second = static_cast<double>(rate);
-  ImGui::Checkbox("wait for the screen", &choices.vertical_sync);
+  ImGui::Checkbox("vertical sync", &choices.vertical_sync);
   const Quality& now = *notices.quality;
-  ImGui::Text("now: %s", now.name);
-  ImGui::Text("  picture %ux%u", notices.picture_px.x, notices.picture_px.y);
-  ImGui::Text("  a ray for %ux%u pixels, steps %.1f times as long", now.march_scale, now.march_scale,
+  ImGui::Text("current level: %s", now.name);
+  ImGui::Text("  resolution %ux%u", notices.picture_px.x, notices.picture_px.y);
+  ImGui::Text("  one ray per %ux%u pixels, step scale %.1f", now.march_scale, now.march_scale,
               static_cast<double>(now.step_scale));
-  ImGui::Text("  1/%.0f of the light made anew each frame", 1 / static_cast<double>(now.light_update_fraction));
+  ImGui::Text("  1/%.0f of the changed light updated per frame",
+              1 / static_cast<double>(now.light_update_fraction));
 }
 
 void lay_out_views(Choices& choices, const Session& session, UiRequests& requests) {
@@ -118,10 +119,10 @@ void lay_out_views(Choices& choices, const Session& session, UiRequests& request
       requests.changed_picture = true;
     }
   }
-  bool chosen = choices.slice.has_value();
-  if (ImGui::Checkbox("slice", &chosen)) {
+  bool has_slice = choices.slice.has_value();
+  if (ImGui::Checkbox("slice", &has_slice)) {
     choices.slice.reset();
-    if (chosen) choices.slice.emplace();
+    if (has_slice) choices.slice.emplace();
     requests.changed_picture = true;
   }
   if (!choices.slice) {
@@ -136,7 +137,8 @@ void lay_out_views(Choices& choices, const Session& session, UiRequests& request
   choices.slice->axis = static_cast<std::uint32_t>(axis);
   const float low = frame.origin_world[axis];
   const float high = low + static_cast<float>(frame.size[axis]) * frame.voxel_size;
-  if (ImGui::SliderFloat("at", &choices.slice->at_world, low, high, "%.2f m")) requests.changed_picture = true;
+  if (ImGui::SliderFloat("at", &choices.slice->at_world, low, high, "%.2f m"))
+    requests.changed_picture = true;
 }
 
 void lay_out_camera(Session& session, Player& player, UiRequests& requests) {
@@ -157,12 +159,12 @@ void lay_out_camera(Session& session, Player& player, UiRequests& requests) {
   const glm::vec3 p = camera.position_world, d = camera.target_world - camera.position_world;
   ImGui::Text("eye %.2f %.2f %.2f m", static_cast<double>(p.x), static_cast<double>(p.y),
               static_cast<double>(p.z));
-  ImGui::Text("looks along %.2f %.2f %.2f", static_cast<double>(d.x), static_cast<double>(d.y),
+  ImGui::Text("direction %.2f %.2f %.2f", static_cast<double>(d.x), static_cast<double>(d.y),
               static_cast<double>(d.z));
   if (ImGui::Button(player.flying() ? "walk (G)" : "fly (G)")) requests.actions.push_back(Action::fly);
 }
 
-// The last frames as stacked bars, scaled to the slowest.
+// GPU times of the last frames as stacked bars, scaled to the slowest frame.
 void lay_out_graph(const Figures& figures) {
   const auto& names = figures.pass_names();
   const auto& frames = figures.frames();
@@ -176,7 +178,7 @@ void lay_out_graph(const Figures& figures) {
     for (const auto& pass : frame.passes) sum += pass.milliseconds;
     slowest = std::max(slowest, sum);
   }
-  const float bar = size.x / static_cast<float>(Figures::kKept);
+  const float bar = size.x / static_cast<float>(Figures::kHistory);
   float x = at.x + size.x - bar * static_cast<float>(frames.size());
   for (const FrameFigures& frame : frames) {
     float y = at.y + size.y;
@@ -196,7 +198,7 @@ void lay_out_graph(const Figures& figures) {
 }
 
 void lay_out_times(const Figures& figures) {
-  ImGui::TextUnformatted("time of the device by pass [ms]");
+  ImGui::TextUnformatted("GPU time by pass [ms]");
   lay_out_graph(figures);
   if (figures.frames().empty() || !ImGui::BeginTable("passes", 4, ImGuiTableFlags_SizingFixedFit)) return;
   for (const auto& pass : figures.frames().back().passes) {
@@ -216,8 +218,8 @@ void lay_out_state(const Session& session, const Figures& figures, const Notices
   const sim::State& state = session.simulation().world().state();
   constexpr double kMiB = 1024.0 * 1024.0;
   ImGui::Text("%s", notices.device.c_str());
-  ImGui::Text("processor: %.3f ms for the simulation", figures.median(&FrameFigures::tick_ms));
-  ImGui::Text("memory: device %.0f MiB, process %.0f MiB", static_cast<double>(notices.device_bytes) / kMiB,
+  ImGui::Text("simulation: %.3f ms CPU", figures.median(&FrameFigures::tick_ms));
+  ImGui::Text("memory: GPU %.0f MiB, process %.0f MiB", static_cast<double>(notices.device_bytes) / kMiB,
               static_cast<double>(resident_bytes()) / kMiB);
   ImGui::Text("tick %u, %zu clouds, %zu holes, %zu blasts", state.tick, state.clouds.size(),
               state.holes.size(), state.blasts.size());
@@ -251,13 +253,12 @@ void lay_out_panels(Choices& choices, Session& session, Player& player, const Fi
     lay_out_views(choices, session, requests);
   if (ImGui::CollapsingHeader("Smoke"))
     smoke_rows(session, requests, failures,
-               [](const std::string& key) { return !is_noise(key) && !is_of_light(key); });
+               [](const std::string& key) { return !is_noise(key) && !is_lighting(key); });
   if (ImGui::CollapsingHeader("Holes")) lay_out_holes(choices);
   if (ImGui::CollapsingHeader("Light")) lay_out_light(session, requests, failures);
   if (ImGui::CollapsingHeader("Noise")) smoke_rows(session, requests, failures, is_noise);
   if (ImGui::CollapsingHeader("March")) lay_out_quality(choices, notices);
-  if (ImGui::CollapsingHeader("Resolve"))
-    ImGui::Checkbox("gather the smoke over the frames", &choices.gather);
+  if (ImGui::CollapsingHeader("Resolve")) ImGui::Checkbox("accumulate smoke over frames", &choices.temporal);
   if (ImGui::CollapsingHeader("Camera")) lay_out_camera(session, player, requests);
   for (const std::string& failure : failures) ImGui::TextWrapped("%s", failure.c_str());
   ImGui::End();
@@ -265,7 +266,7 @@ void lay_out_panels(Choices& choices, Session& session, Player& player, const Fi
 
 namespace {
 
-// Marks on the bar: what happens when.
+// Marks the events of the timeline on the slider.
 void mark_events(const scene::Timeline& timeline, ImVec2 at, ImVec2 size, double end) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto marks = [&](const auto& events, ImU32 colour) {
@@ -289,14 +290,13 @@ void lay_out_time_bar(Session& session, UiRequests& requests) {
   ImGui::SetNextWindowPos(ImVec2(8, display.y - kTimeBarHeight - 8), ImGuiCond_Always);
   ImGui::SetNextWindowSize(ImVec2(std::max(display.x - 16, 100.0f), kTimeBarHeight), ImGuiCond_Always);
   ImGui::Begin("time", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
-  if (ImGui::Button(session.paused() ? "go on" : "pause")) requests.actions.push_back(Action::pause);
+  if (ImGui::Button(session.paused() ? "resume" : "pause")) requests.actions.push_back(Action::pause);
   ImGui::SameLine();
   if (ImGui::Button("play")) requests.play = true;
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("from the beginning, with what was done, on the camera's way");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("replay all actions from the start, along the camera path");
   ImGui::SameLine();
   if (ImGui::Button("save")) requests.actions.push_back(Action::save_recording);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("what was done, as a timeline (F5)");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("save the session as a timeline (F5)");
   ImGui::SameLine();
   if (ImGui::Button("reset")) requests.actions.push_back(Action::reset);
   ImGui::SameLine();

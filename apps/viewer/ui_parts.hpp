@@ -1,20 +1,20 @@
-// The parts of the Ui, one function each.
+// The parts of Ui::lay_out.
 #pragma once
 
 #include "apps/viewer/ui.hpp"
 
 namespace brume::viewer {
 
-/// The line of figures, and below it what was said last.
+/// Frame statistics and recent messages.
 void lay_out_overlay(const Choices& choices, const Session& session, const Player& player,
                      const Figures& figures, const Notices& notices);
-/// Every key, from key_bindings.
+/// All key bindings.
 void lay_out_help();
-/// The cross in the middle, the probe's ends and what it sees.
+/// The crosshair, the ends of the probe and its result.
 void lay_out_marks(const Choices& choices, const Session& session, const Player& player);
-/// The bar of time.
+/// The time slider with its buttons.
 void lay_out_time_bar(Session& session, UiRequests& requests);
-/// Settings and figures.
+/// Settings and statistics.
 void lay_out_panels(Choices& choices, Session& session, Player& player, const Figures& figures,
                     const Notices& notices, UiRequests& requests);
 

@@ -1,4 +1,4 @@
-// Draws what Dear ImGui has laid out over a picture.
+// Draws Dear ImGui's draw data over an image.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@ namespace brume::viewer {
 
 class UiPass {
  public:
-  /// Uploads the font of the current ImGui context. `target` is the format of the picture.
+  /// Uploads the font of the current ImGui context. `target` is the format of the image to draw on.
   UiPass(gpu::Context& context, gpu::CommandRunner& runner, VkFormat target);
 
-  /// Makes room. When the device is done with the frame before.
+  /// Grows the buffers to hold `data`. Call it when the device has finished the previous frame.
   void reserve(const ImDrawData& data);
-  /// Draws over `picture`, which is as large as the display that the data is for.
+  /// Draws over `picture`, which must have the display size of `data`.
   void record(gpu::Recorder& recorder, const ImDrawData& data, const gpu::Image& picture) const;
 
  private:

@@ -12,8 +12,8 @@
 #include "apps/viewer/shader_reload.hpp"
 #include "apps/viewer/ui.hpp"
 #include "render/playback.hpp"
-#include "scene/timeline_writer.hpp"
 #include "scenario/aim.hpp"
+#include "scene/timeline_writer.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -22,16 +22,16 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kNoticeSeconds = 4;
 constexpr std::size_t kMostNotices = 4;
-// A device that is lost again and again is broken.
+// A device that keeps getting lost is broken.
 constexpr std::size_t kMostLostDevices = 5;
-// While nothing moves the window sleeps between events.
+// A paused window sleeps between events.
 constexpr double kIdleSeconds = 0.05;
 
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-/// All that a picture shows: equal ones need not be drawn again.
+/// Everything that a paused image depends on: it is rendered again only if the key changes.
 struct PictureKey {
   double seconds = -1;
   glm::vec3 eye{0}, target{0};
@@ -58,7 +58,7 @@ class Viewer {
     choices_.level = options.level;
     choices_.frames_per_second = options.frames_per_second;
     choices_.vertical_sync = options.vertical_sync;
-    go_to_beginning();
+    go_to_start();
     if (options.begin_at) {
       session_->seek(*options.begin_at);
       session_->set_paused(true);
@@ -85,30 +85,30 @@ class Viewer {
                                  ScreenOptions{options_.device, options_.validation, choices_.vertical_sync});
     masks_ = session_->live().scenario().masks.key();
     continues_ = false;
-    shown_ = {};
+    rendered_ = {};
   }
 
-  // The device is gone with all that was on it; what is played is not.
+  // Recreates all GPU state after a device loss; the session is unaffected.
   void recover() {
     take_messages();
     if (++devices_lost_ > kMostLostDevices)
-      throw gpu::DeviceLost(ErrorCode::no_device, "the device is lost again and again");
-    ImGui::EndFrame();  // which the loss may have cut off
+      throw gpu::DeviceLost(ErrorCode::no_device, "the device is lost repeatedly");
+    ImGui::EndFrame();  // the loss may have interrupted a frame
     screen_.reset();
     make_screen();
-    say("the device was lost; it was made anew");
+    notify("the device was lost and has been recreated");
   }
 
-  void say(const std::string& line) {
+  void notify(const std::string& line) {
     notices_.push_back({line, Clock::now()});
     if (notices_.size() > kMostNotices) notices_.pop_front();
   }
-  void say_failure(const Result<void>& done) {
-    if (!done) say(done.failure().message);
+  void notify_failure(const Result<void>& done) {
+    if (!done) notify(done.failure().message);
   }
 
   const voxel::BitGrid& grid() const { return session_->simulation().world().grid(); }
-  void go_to_beginning() {
+  void go_to_start() {
     const scenario::Scenario& scenario = session_->live().scenario();
     player_.go_to(grid(), scene::camera_at(scenario.timeline, scenario.camera, 0));
   }
@@ -119,9 +119,9 @@ class Viewer {
   void act(Action action);
   void perform(Action action);
   void choose(Action action);
-  void hold_mouse(const Input& input);
-  void grant(const UiRequests& requests);
-  void follow_quality();
+  void update_mouse_capture(const Input& input);
+  void apply(const UiRequests& requests);
+  void update_quality();
   bool draw();
   bool is_still();
   render::FrameInput frame_input(std::vector<shared::Hole>& holes) const;
@@ -136,7 +136,7 @@ class Viewer {
 
   struct Notice {
     std::string line;
-    Clock::time_point said;
+    Clock::time_point time;
   };
 
   ViewerOptions options_;
@@ -150,19 +150,19 @@ class Viewer {
   Choices choices_;
   Figures figures_;
   std::unique_ptr<Screen> screen_;
-  sim::MaskKey masks_{};  ///< Those that the screen has.
+  sim::MaskKey masks_{};  ///< Key of the masks that the screen has.
 
   std::optional<Clock::time_point> last_frame_;
   std::uint32_t frame_index_ = 0;
-  bool continues_ = false;  ///< The frame before was of the same film.
-  PictureKey shown_;
-  int still_frames_ = 0;         ///< Since the picture changed.
-  bool is_of_the_film_ = false;  ///< This frame: its picture is neither the one of before nor a still.
-  bool still_is_best_ = false;   ///< The still picture is the one of `brume render`.
+  bool continues_ = false;  ///< The next frame may accumulate with the previous one.
+  PictureKey rendered_;
+  int still_frames_ = 0;        ///< Frames since the image changed.
+  bool in_motion_ = false;      ///< This frame renders a new image of the running film.
+  bool still_is_best_ = false;  ///< The paused image has full quality.
   std::uint64_t changes_ = 0;
   bool done_ = false;
   std::deque<Notice> notices_;
-  std::vector<std::string> messages_;  ///< Of the validation layers.
+  std::vector<std::string> messages_;  ///< From the validation layers.
   std::size_t devices_lost_ = 0;
 };
 
@@ -171,36 +171,36 @@ void Viewer::take_messages() {
     messages_.push_back(std::move(message));
 }
 
-// The mouse turns the view unless something else needs the cursor.
-void Viewer::hold_mouse(const Input& input) {
-  window_.hold_mouse(!choices_.panels && !choices_.help && !choices_.free_cursor &&
-                     !input.is_held(Action::free_cursor));
+// The mouse turns the view unless the cursor is needed.
+void Viewer::update_mouse_capture(const Input& input) {
+  window_.capture_mouse(!choices_.panels && !choices_.help && !choices_.free_cursor &&
+                        !input.is_held(Action::free_cursor));
 }
 
 glm::vec3 Viewer::aim() const {
   const glm::vec2 size(glm::max(window_.size_px(), glm::uvec2(1)));
-  const glm::vec2 place = window_.holds_mouse() ? glm::vec2(0.5f) : window_.cursor_px() / size;
-  return direction_through(player_.camera(), size.x / size.y, glm::clamp(place, glm::vec2(0), glm::vec2(1)));
+  const glm::vec2 point = window_.captures_mouse() ? glm::vec2(0.5f) : window_.cursor_px() / size;
+  return direction_through(player_.camera(), size.x / size.y, glm::clamp(point, glm::vec2(0), glm::vec2(1)));
 }
 
-// What happens in the level.
+// Actions that change the level.
 void Viewer::perform(Action action) {
   const glm::vec3 eye = player_.camera().position_world;
-  if (action == Action::throw_smoke) say_failure(session_->throw_smoke(eye, aim()));
-  if (action == Action::shoot) say_failure(session_->shoot(eye, aim(), choices_.weapons));
-  if (action == Action::blast) say_failure(session_->blast(eye, aim(), choices_.weapons));
+  if (action == Action::throw_smoke) notify_failure(session_->throw_smoke(eye, aim()));
+  if (action == Action::shoot) notify_failure(session_->shoot(eye, aim(), choices_.weapons));
+  if (action == Action::blast) notify_failure(session_->blast(eye, aim(), choices_.weapons));
   if (action == Action::door) {
     const auto door = session_->use_door(eye);
-    say(door ? *door : door.failure().message);
+    notify(door ? *door : door.failure().message);
   }
   if (action == Action::reset) {
-    say_failure(session_->reset());
-    go_to_beginning();
+    notify_failure(session_->reset());
+    go_to_start();
     choices_.probe = {};
   }
 }
 
-// What the next actions are like, and how the picture is shown.
+// Actions that change settings of the weapons or the view.
 void Viewer::choose(Action action) {
   if (action == Action::shape_bullet) choices_.weapons.kind = ShotKind::bullet;
   if (action == Action::shape_glyph) choices_.weapons.kind = ShotKind::glyph;
@@ -210,7 +210,7 @@ void Viewer::choose(Action action) {
   if (action == Action::panels) choices_.panels = !choices_.panels;
   if (action == Action::overlay) choices_.overlay = !choices_.overlay;
   if (action == Action::help) choices_.help = !choices_.help;
-  if (action == Action::let_cursor_go) choices_.free_cursor = !choices_.free_cursor;
+  if (action == Action::toggle_cursor) choices_.free_cursor = !choices_.free_cursor;
   if (action == Action::full_screen) window_.toggle_full_screen();
   if (action == Action::next_view) {
     const auto next = (static_cast<std::size_t>(choices_.view) + 1) % passes::kDebugViewNames.size();
@@ -220,7 +220,7 @@ void Viewer::choose(Action action) {
   if (action == Action::probe) {
     const glm::vec3 eye = player_.camera().position_world, direction = aim();
     const scenario::Aim aimed = scenario::aim(grid(), eye, direction);
-    // Just before the wall, which would be in the way.
+    // Just in front of the wall, which would block the line of sight.
     const float back = 0.5f * grid().layout().voxel_size;
     choices_.probe.pick(eye + std::max(aimed.meets.value_or(10) - back, 0.0f) * direction);
   }
@@ -236,14 +236,14 @@ void Viewer::act(Action action) {
   if (action == Action::save_recording) save_recording(free_name(options_.folder, "recording", ".toml"));
 }
 
-// Up to the end, which is met exactly.
+// Advances the clock, and stops it at exactly exit_after.
 void Viewer::advance_time(double frame_seconds) {
   const double next = session_->seconds() + session_->passing(frame_seconds);
   done_ = options_.exit_after && next >= *options_.exit_after;
   session_->seek(done_ ? std::max(*options_.exit_after, session_->seconds()) : next);
 }
 
-// What the keys say, then what time does.
+// Handles input, advances the clock and moves the player.
 void Viewer::play_frame(const Input& input, double frame_seconds) {
   for (const Action action : input.pressed) act(action);
   const bool turned = input.look_px != glm::dvec2(0);
@@ -255,7 +255,7 @@ void Viewer::play_frame(const Input& input, double frame_seconds) {
   }
   advance_time(frame_seconds);
   if (session_->follows_path()) {
-    player_.ride(session_->path_camera());
+    player_.follow(session_->path_camera());
     return;
   }
   player_.turn(input.look_px);
@@ -273,14 +273,14 @@ render::FrameInput Viewer::frame_input(std::vector<shared::Hole>& holes) const {
   return input;
 }
 
-// Whether the picture is the one that is there. A picture that stays is drawn once more as good as can be: it
-// is then the one that `brume render` makes of this moment.
+// Whether the paused image is up to date. draw() renders it once more at full quality after a few frames: it
+// is then identical to that of `brume render`.
 bool Viewer::is_still() {
   const scene::Camera camera = player_.camera();
   const PictureKey now{session_->seconds(), camera.position_world, camera.target_world,
                        camera.vertical_fov, window_.size_px(),     changes_};
-  if (now != shown_) {
-    shown_ = now;
+  if (now != rendered_) {
+    rendered_ = now;
     still_frames_ = 0;
     still_is_best_ = false;
     return false;
@@ -293,12 +293,12 @@ bool Viewer::draw() {
   constexpr int kFramesUntilBest = 3;
   const bool still = is_still();
   const bool best = still && still_frames_ >= kFramesUntilBest && !still_is_best_;
-  is_of_the_film_ = !still;
+  in_motion_ = !still;
   if (still && !best) return screen_->show(nullptr, quality_.quality(), *ImGui::GetDrawData());
   std::vector<shared::Hole> holes;
   render::FrameInput input = frame_input(holes);
   const Quality& quality = best ? quality_levels().front() : quality_.quality();
-  input.continues = continues_ && choices_.gather && !best;
+  input.continues = continues_ && choices_.temporal && !best;
   input.frame_index = best ? 0 : ++frame_index_;
   input.step_scale = quality.step_scale;
   input.resolve_error_scale = quality.resolve_error_scale;
@@ -308,7 +308,7 @@ bool Viewer::draw() {
   return screen_->show(&input, quality, *ImGui::GetDrawData());
 }
 
-void Viewer::follow_quality() {
+void Viewer::update_quality() {
   quality_.set_frame_rate(choices_.frames_per_second);
   if (!choices_.level) {
     quality_.set_automatic();
@@ -327,7 +327,7 @@ void Viewer::lose_for_tests() {
   if (due(options_.lose_device)) throw gpu::DeviceLost(ErrorCode::no_device, "lost for a test");
 }
 
-void Viewer::grant(const UiRequests& requests) {
+void Viewer::apply(const UiRequests& requests) {
   if (requests.changed_picture) ++changes_;
   if (requests.play) session_->play();
   if (requests.seek) session_->scrub(*requests.seek);
@@ -335,16 +335,16 @@ void Viewer::grant(const UiRequests& requests) {
 }
 
 Notices Viewer::notices() {
-  while (!notices_.empty() && seconds_between(notices_.front().said, Clock::now()) > kNoticeSeconds)
+  while (!notices_.empty() && seconds_between(notices_.front().time, Clock::now()) > kNoticeSeconds)
     notices_.pop_front();
-  Notices told;
-  for (const Notice& notice : notices_) told.lines.push_back(notice.line);
-  told.device = screen_->context().info().name;
-  told.device_bytes = screen_->context().memory().bytes_in_use();
-  told.quality = &quality_.quality();
-  told.picture_px = screen_->picture_px();
-  for (const auto& [name, text] : shaders_.errors()) told.shader_errors += text;
-  return told;
+  Notices notices;
+  for (const Notice& notice : notices_) notices.lines.push_back(notice.line);
+  notices.device = screen_->context().info().name;
+  notices.device_bytes = screen_->context().memory().bytes_in_use();
+  notices.quality = &quality_.quality();
+  notices.picture_px = screen_->picture_px();
+  for (const auto& [name, text] : shaders_.errors()) notices.shader_errors += text;
+  return notices;
 }
 
 void Viewer::frame() {
@@ -352,9 +352,9 @@ void Viewer::frame() {
   window_.poll(asleep ? kIdleSeconds : 0);
   const Clock::time_point begin = Clock::now();
   Input input = window_.take_input();
-  hold_mouse(input);
+  update_mouse_capture(input);
   ui_.begin_frame();
-  // What the panels take does not reach the game.
+  // Input that the panels capture does not reach the game.
   if (ui_.takes_keys()) input = {};
   if (ui_.takes_mouse())
     std::erase_if(input.pressed, [](Action a) { return a == Action::throw_smoke || a == Action::shoot; });
@@ -363,20 +363,20 @@ void Viewer::frame() {
   last_frame_ = begin;
   play_frame(input, frame_seconds);
   const double tick_seconds = seconds_between(begin, Clock::now());
-  grant(ui_.lay_out(choices_, *session_, player_, figures_, notices()));
+  apply(ui_.lay_out(choices_, *session_, player_, figures_, notices()));
 
   if (const sim::MaskKey key = session_->live().scenario().masks.key(); !(key == masks_)) {
     screen_->set_masks(session_->live().scenario().masks);
     masks_ = key;
   }
-  if (shaders_.follow(screen_->context())) ++changes_;
-  follow_quality();
+  if (shaders_.update(screen_->context())) ++changes_;
+  update_quality();
   screen_->set_vertical_sync(choices_.vertical_sync);
   lose_for_tests();
   if (draw()) {
     finish_frame(begin, frame_seconds, tick_seconds);
   } else {
-    shown_ = {};  // nothing was seen, so what comes to be seen is new
+    rendered_ = {};  // render a new image when the window shows again
     window_.poll(kIdleSeconds);
   }
   if (done_ && !options_.screenshot.empty()) save_screenshot(options_.screenshot);
@@ -387,12 +387,12 @@ void Viewer::finish_frame(Clock::time_point begin, double frame_seconds, double 
   const double latency = seconds_between(begin, Clock::now());
   FrameLine line{session_->seconds(), 1e3 * frame_seconds, 1e3 * tick_seconds, 1e3 * latency,
                  window_.size_px()};
-  if (!is_of_the_film_) line.picture = still_is_best_ ? PictureKind::best : PictureKind::still;
+  if (!in_motion_) line.picture = still_is_best_ ? PictureKind::best : PictureKind::still;
   line.device_bytes = screen_->context().memory().bytes_in_use();
   line.shader_faults = shaders_.errors().size();
   log_.add(line);
-  // The first has none before it, and still ones say nothing of what it costs to go on.
-  if (frame_seconds == 0 || !is_of_the_film_) return;
+  // The first frame has no duration, and paused frames are no measure of the cost of the film.
+  if (frame_seconds == 0 || !in_motion_) return;
   FrameFigures figures;
   figures.frame_ms = 1e3 * frame_seconds;
   figures.tick_ms = 1e3 * tick_seconds;
@@ -400,7 +400,7 @@ void Viewer::finish_frame(Clock::time_point begin, double frame_seconds, double 
   figures.passes = screen_->timings();
   double device_ms = 0;
   for (const auto& pass : figures.passes) device_ms += pass.milliseconds;
-  // Without what was spent waiting for the screen.
+  // Excludes waiting for vertical sync.
   figures.work_ms = device_ms + 1e3 * (tick_seconds + screen_->record_seconds());
   quality_.add_frame(1e-3 * figures.work_ms, frame_seconds);
   figures_.add(std::move(figures));
@@ -414,13 +414,13 @@ void Viewer::save_screenshot(const std::filesystem::path& picture) {
   continues_ = false;
   still_is_best_ = false;
   const auto saved = save_snapshot(picture, image, session_->snapshot(player_.camera()));
-  say(saved ? "saved: " + picture.string() : saved.failure().message);
+  notify(saved ? "saved: " + picture.string() : saved.failure().message);
   if (!saved && done_) throw Error(saved.failure());
 }
 
 void Viewer::save_recording(const std::filesystem::path& path) {
   const auto saved = scene::save_timeline(path, session_->recording());
-  say(saved ? "saved: " + path.string() : saved.failure().message);
+  notify(saved ? "saved: " + path.string() : saved.failure().message);
   if (!saved && done_) throw Error(saved.failure());
 }
 

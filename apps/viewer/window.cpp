@@ -1,8 +1,8 @@
 #include "apps/viewer/window.hpp"
 
-// vulkan.h comes first so that GLFW declares its functions for it.
+// GLFW declares its Vulkan functions only if vulkan.h comes first.
 #include "gpu/functions.hpp"
-// GLFW after it.
+// Keeps clang-format from sorting the two.
 #include <GLFW/glfw3.h>
 
 #include "core/error.hpp"
@@ -18,21 +18,20 @@ std::string glfw_message() {
   return message;
 }
 
-[[noreturn]] void no_window(const std::string& why) {
+[[noreturn]] void throw_no_window(const std::string& why) {
   throw Error(ErrorCode::no_device, "cannot open a window" + (why.empty() ? "" : " (" + why + ")") +
-                                        "; without a display use brume render");
+                                        "; use brume render if there is no display");
 }
 
 }  // namespace
 
 Window::Window(glm::uvec2 size_px, const std::string& title) {
-  if (!::glfwInit()) no_window(glfw_message());
+  if (!::glfwInit()) throw_no_window(glfw_message());
   if (!::glfwVulkanSupported()) {
     ::glfwTerminate();
-    throw Error(
-        ErrorCode::no_device,
-        "no Vulkan loader that can show pictures in a window; install libvulkan1 and a driver such as "
-        "mesa-vulkan-drivers");
+    throw Error(ErrorCode::no_device,
+                "the Vulkan loader cannot present to a window; install libvulkan1 and a driver such as "
+                "mesa-vulkan-drivers");
   }
   ::glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   handle_ = ::glfwCreateWindow(static_cast<int>(size_px.x), static_cast<int>(size_px.y), title.c_str(),
@@ -40,7 +39,7 @@ Window::Window(glm::uvec2 size_px, const std::string& title) {
   if (!handle_) {
     const std::string why = glfw_message();
     ::glfwTerminate();
-    no_window(why);
+    throw_no_window(why);
   }
   ::glfwSetWindowUserPointer(handle_, this);
   ::glfwSetKeyCallback(handle_, on_key);
@@ -101,11 +100,11 @@ Input Window::take_input() {
   return taken;
 }
 
-void Window::hold_mouse(bool hold) {
-  if (hold == holds_mouse_) return;
-  holds_mouse_ = hold;
-  knows_cursor_ = false;
-  ::glfwSetInputMode(handle_, GLFW_CURSOR, hold ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+void Window::capture_mouse(bool capture) {
+  if (capture == captures_mouse_) return;
+  captures_mouse_ = capture;
+  cursor_known_ = false;
+  ::glfwSetInputMode(handle_, GLFW_CURSOR, capture ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
 }
 
 glm::vec2 Window::cursor_px() const {
@@ -113,7 +112,7 @@ glm::vec2 Window::cursor_px() const {
   int width = 1, height = 1;
   ::glfwGetCursorPos(handle_, &x, &y);
   ::glfwGetWindowSize(handle_, &width, &height);
-  // The cursor is in the units of the desktop, pictures are in pixels.
+  // GLFW reports the cursor in screen coordinates, which differ from pixels on scaled displays.
   const glm::dvec2 scale = glm::dvec2(size_px()) / glm::dvec2(std::max(width, 1), std::max(height, 1));
   return glm::vec2(glm::dvec2(x, y) * scale);
 }
@@ -153,20 +152,20 @@ void Window::on_button(GLFWwindow* window, int button, int change, int) {
 void Window::on_cursor(GLFWwindow* window, double x, double y) {
   auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
   const glm::dvec2 now(x, y);
-  if (self->holds_mouse_ && self->knows_cursor_) self->input_.look_px += now - self->last_cursor_;
+  if (self->captures_mouse_ && self->cursor_known_) self->input_.look_px += now - self->last_cursor_;
   self->last_cursor_ = now;
-  self->knows_cursor_ = true;
+  self->cursor_known_ = true;
 }
 
 void Window::on_wheel(GLFWwindow* window, double, double y) {
   static_cast<Window*>(::glfwGetWindowUserPointer(window))->input_.wheel += y;
 }
 
-// What was held when the window lost the keyboard will not be heard of again.
+// The release of keys that are held when the window loses focus is never reported.
 void Window::on_focus(GLFWwindow* window, int focused) {
   auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
   if (!focused) self->input_.held.fill(false);
-  self->knows_cursor_ = false;
+  self->cursor_known_ = false;
 }
 
 }  // namespace brume::viewer

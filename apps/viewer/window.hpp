@@ -1,4 +1,4 @@
-// A window of the desktop, and what the keyboard and the mouse do to it.
+// A desktop window with keyboard and mouse input.
 #pragma once
 
 #include <array>
@@ -14,39 +14,41 @@ struct GLFWwindow;
 
 namespace brume::viewer {
 
-/// What happened since the last time it was asked, and what is held down.
+/// Input events since the last call of take_input(), and the actions whose keys are held down.
 struct Input {
-  std::vector<Action> pressed;  ///< In the order in which it came.
+  std::vector<Action> pressed;  ///< In order of arrival.
   std::array<bool, kActions> held{};
-  glm::dvec2 look_px{0};  ///< How far the mouse moved while the window held it.
-  double wheel = 0;       ///< Notches, away from the user.
+  glm::dvec2 look_px{0};  ///< Mouse motion while the window captured it.
+  double wheel = 0;       ///< Notches; positive: away from the user.
   bool is_held(Action action) const { return held[static_cast<std::size_t>(action)]; }
 };
 
 class Window {
  public:
-  /// Throws no_device when there is no display.
+  /// Throws no_device without a display.
   Window(glm::uvec2 size_px, const std::string& title);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   GLFWwindow* handle() const { return handle_; }
-  /// What a gpu::Context needs to show pictures here, and the surface that they are shown on.
+  /// What gpu::Context and gpu::Swapchain need to present to this window.
   gpu::Presentation presentation() const;
   gpu::SurfaceMaker surface() const;
 
   glm::uvec2 size_px() const;
   bool should_close() const;
-  /// Takes in what happened. With `wait_seconds` > 0 it sleeps until something does, at most so long.
+  /// Processes pending events. With `wait_seconds` > 0 sleeps until an event arrives, but no longer than
+  /// that.
   void poll(double wait_seconds);
+  /// Returns the input since the last call and clears its events.
   Input take_input();
-  /// Whether the mouse turns the view instead of moving the cursor.
-  void hold_mouse(bool hold);
-  bool holds_mouse() const { return holds_mouse_; }
-  /// Of the cursor while it is free [px].
+  /// Captures the mouse to turn the view, or releases it to move the cursor.
+  void capture_mouse(bool capture);
+  bool captures_mouse() const { return captures_mouse_; }
+  /// Position of the free cursor [px].
   glm::vec2 cursor_px() const;
-  /// The screen that it is on as a whole, or the window as it was before.
+  /// Switches between full screen and the previous window.
   void toggle_full_screen();
 
  private:
@@ -59,10 +61,10 @@ class Window {
 
   GLFWwindow* handle_ = nullptr;
   Input input_;
-  bool holds_mouse_ = false;
-  bool knows_cursor_ = false;  ///< last_cursor_ is of the same mode of the cursor.
+  bool captures_mouse_ = false;
+  bool cursor_known_ = false;  ///< last_cursor_ was set since the mouse was captured or released.
   glm::dvec2 last_cursor_{0};
-  glm::ivec4 windowed_{0};  ///< Place and size before it took the whole screen.
+  glm::ivec4 windowed_{0};  ///< Position and size before full screen.
 };
 
 }  // namespace brume::viewer

@@ -223,7 +223,7 @@ void Recorder::dispatch_indirect(const Buffer& groups) {
   context_.vk().CmdDispatchIndirect(commands_, groups.handle(), 0);
 }
 
-Recorder::Staged Recorder::stage(std::span<const std::byte> bytes) {
+Recorder::Staged Recorder::stage_bytes(std::span<const std::byte> bytes) {
   // Offsets of image copies must be multiples of the texel size; 16 covers every format that is used.
   constexpr VkDeviceSize kAlignment = 16;
   auto& buffers = slot_.staging_;
@@ -246,7 +246,7 @@ Recorder::Staged Recorder::stage(std::span<const std::byte> bytes) {
 void Recorder::upload(const Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes) {
   if (bytes.empty()) return;
   BRUME_ASSERT(offset + bytes.size() <= buffer.size(), std::to_string(offset + bytes.size()));
-  const Staged staged = stage(bytes);
+  const Staged staged = stage_bytes(bytes);
   use(buffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
   flush_barriers();
   const VkBufferCopy copy{staged.offset, offset, bytes.size()};
@@ -269,7 +269,7 @@ void Recorder::upload(const Image& image, std::span<const Region> regions) {
     copies.clear();
   };
   for (const Region& region : regions) {
-    const Staged staged = stage(region.texels);
+    const Staged staged = stage_bytes(region.texels);
     if (staged.buffer != source) flush_copies();
     source = staged.buffer;
     VkBufferImageCopy copy{};

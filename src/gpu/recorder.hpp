@@ -145,7 +145,7 @@ class Recorder {
     const Buffer* buffer;
     VkDeviceSize offset;
   };
-  Staged stage(std::span<const std::byte> bytes);
+  Staged stage_bytes(std::span<const std::byte> bytes);
   VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const Binding> bindings);
   void bind_set(const Pipeline& pipeline, std::span<const Binding> bindings);
   void use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);

@@ -161,7 +161,7 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, c
     out.draws.emplace_back(place(geometry, scene.objects[i])).object = i;
   std::stable_sort(out.draws.begin(), out.draws.end(),
                    [](const Draw& a, const Draw& b) { return a.material < b.material; });
-  out.grenade = place(geometry, scene.grenade);
+  if (scene.grenade) out.grenade = place(geometry, *scene.grenade);
   const scene::Bounds bounds = scene::world_bounds(scene);
   out.bounds_min = bounds.min;
   out.bounds_max = bounds.max;

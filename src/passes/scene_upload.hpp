@@ -43,7 +43,7 @@ struct SceneResources {
   std::vector<gpu::Image> images;  ///< The first three: white, flat normal, white.
   std::vector<MaterialImages> materials;
   std::vector<Draw> draws;  ///< In order of material.
-  Draw grenade;
+  Draw grenade;  ///< Draws nothing where the scene has none.
   std::vector<shared::Light> light_list;  ///< The first ones in `lights`; after them those of the moment.
   glm::vec3 bounds_min{0}, bounds_max{0};
 };

@@ -1,4 +1,4 @@
-// Where a player aims: what throws and shots are made of.
+// Where a player aims: the input of throws and shots.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,15 +9,15 @@
 namespace brume::scenario {
 
 struct Aim {
-  glm::vec3 at_world{0};       ///< Where the ray meets something solid; else as far as it reaches.
-  std::optional<float> meets;  ///< How far off that is [m]; nothing when it meets nothing.
-  /// The middle of the voxel in which a smoke thrown from the eye to `at_world` goes off; nothing when it
-  /// goes off nowhere.
+  glm::vec3 at_world{0};       ///< The first solid point on the ray; without one, its end.
+  std::optional<float> meets;  ///< Distance to that solid point [m]; nothing when there is none.
+  /// The centre of the voxel where a smoke thrown from the eye to `at_world` detonates; nothing when it
+  /// detonates nowhere.
   std::optional<glm::vec3> landing_world;
 };
 
-/// The ray from an eye. `at_world` is at least kNearestAim and at most `reach` from the eye and where events
-/// may happen, as long as the eye is. A direction of length 0 or that is no number is taken for -z.
+/// Traces the ray from an eye. `at_world` lies between kNearestAim and `reach` [m] from the eye, and within
+/// the range of events if the eye does. A direction of length 0 or with a NaN is replaced by -z.
 constexpr float kNearestAim = 0.25f;
 Aim aim(const voxel::BitGrid& grid, glm::vec3 eye_world, glm::vec3 direction_world, float reach = 40);
 

@@ -36,7 +36,7 @@ std::uint64_t bits_of(ivec3 low, ivec3 high) {
   return bits;
 }
 
-/// How many voxels of any box within a region are solid, each in 8 look-ups.
+/// A summed-volume table: the number of solid voxels of any box within a region in 8 look-ups.
 class SolidCount {
  public:
   SolidCount(const BitGrid& grid, const IntBox& region)
@@ -74,17 +74,17 @@ class SolidCount {
   std::vector<std::uint32_t> sums_;
 };
 
-/// Ways along an axis [voxels] on which a body [low, high] comes to touch some voxel, and none; short ones
-/// first. Of the shortest way out each part is one of these: else that part could be shorter.
-std::vector<double> touching_ways(double low, double high, double farthest, double skin) {
-  std::vector<double> ways{0};
+/// Offsets along an axis [voxels] at which a body [low, high] touches a voxel face, and 0; shortest first.
+/// Each component of the shortest displacement to free space is one of these: otherwise it could be shorter.
+std::vector<double> touching_offsets(double low, double high, double farthest, double skin) {
+  std::vector<double> offsets{0};
   for (double face = std::ceil(low - farthest); face <= low + farthest; face += 1)
-    ways.push_back(face + skin - low);
+    offsets.push_back(face + skin - low);
   for (double face = std::ceil(high - farthest); face <= high + farthest; face += 1)
-    ways.push_back(face - skin - high);
-  std::sort(ways.begin(), ways.end(),
+    offsets.push_back(face - skin - high);
+  std::sort(offsets.begin(), offsets.end(),
             [](double a, double b) { return std::pair(std::abs(a), a) < std::pair(std::abs(b), b); });
-  return ways;
+  return offsets;
 }
 
 }  // namespace
@@ -110,48 +110,51 @@ bool is_stuck(const BitGrid& grid, const Body& body) {
   return any_solid(grid, voxels_of(grid, body));
 }
 
-double sweep(const BitGrid& grid, const Body& body, int axis, double way) {
-  if (way == 0) return 0;
+double sweep(const BitGrid& grid, const Body& body, int axis, double distance) {
+  if (distance == 0) return 0;
   const double edge = double{grid.layout().voxel_size}, skin = kSkin / edge;
   const IntBox across = voxels_of(grid, body);
-  const double front = voxel_space(grid, way > 0 ? body.high : body.low)[axis];
-  const double goal = front + way / edge;
-  const int step = way > 0 ? 1 : -1;
-  // Layer after layer of voxels before it.
-  for (int layer = static_cast<int>(way > 0 ? std::ceil(front) : std::floor(front) - 1);; layer += step) {
-    const double face = way > 0 ? layer : layer + 1;  // towards the body
-    if (way > 0 ? face >= goal + skin : face <= goal - skin) return way;
+  const double front = voxel_space(grid, distance > 0 ? body.high : body.low)[axis];
+  const double goal = front + distance / edge;
+  const int step = distance > 0 ? 1 : -1;
+  // Test the voxels ahead of the body layer by layer.
+  for (int layer = static_cast<int>(distance > 0 ? std::ceil(front) : std::floor(front) - 1);;
+       layer += step) {
+    const double face = distance > 0 ? layer : layer + 1;  // towards the body
+    if (distance > 0 ? face >= goal + skin : face <= goal - skin) return distance;
     IntBox voxels = across;
     voxels.low[axis] = layer;
     voxels.high[axis] = layer + 1;
     if (!any_solid(grid, voxels)) continue;
     const double allowed = (face - step * skin - front) * edge;
-    return way > 0 ? std::max(0.0, allowed) : std::min(0.0, allowed);
+    return distance > 0 ? std::max(0.0, allowed) : std::min(0.0, allowed);
   }
 }
 
-dvec3 way_out(const BitGrid& grid, const Body& body, double farthest) {
+dvec3 offset_to_free_space(const BitGrid& grid, const Body& body, double farthest) {
   constexpr std::size_t kMostVoxels = std::size_t{1} << 26;
   const double edge = double{grid.layout().voxel_size}, skin = kSkin / edge;
   const dvec3 low = voxel_space(grid, body.low), high = voxel_space(grid, body.high);
+  // Search ever larger neighbourhoods.
   for (double reach = std::min(std::max(0.25, 1.01 * edge), farthest);;
        reach = std::min(2 * reach, farthest)) {
     const double far = reach / edge;
     const IntBox around = voxels_of(low - far - 1.0, high + far + 1.0);
     if (SolidCount::volume(around.high - around.low + 1) > kMostVoxels) break;
     const SolidCount solid(grid, around);
-    std::array<std::vector<double>, 3> ways;
+    std::array<std::vector<double>, 3> offsets;
     for (int axis = 0; axis < 3; ++axis)
-      ways[static_cast<std::size_t>(axis)] = touching_ways(low[axis], high[axis], far, skin);
-    // All that are shorter than the best so far. What is found farther than `far` might not be the shortest.
+      offsets[static_cast<std::size_t>(axis)] = touching_offsets(low[axis], high[axis], far, skin);
+
+    // Try all that are shorter than the best so far. Beyond `far` the shortest one might be missed.
     double best = far * far;
     dvec3 found(0);
     bool is_found = false;
-    for (const double x : ways[0]) {
+    for (const double x : offsets[0]) {
       if (x * x > best) break;
-      for (const double z : ways[2]) {
+      for (const double z : offsets[2]) {
         if (x * x + z * z > best) break;
-        for (const double y : ways[1]) {
+        for (const double y : offsets[1]) {
           const double square = x * x + y * y + z * z;
           if (square > best || (is_found && square == best)) break;
           if (solid.any(voxels_of(low + dvec3(x, y, z), high + dvec3(x, y, z)))) continue;
@@ -165,7 +168,8 @@ dvec3 way_out(const BitGrid& grid, const Body& body, double farthest) {
     if (is_found) return found * edge;
     if (reach >= farthest) break;
   }
-  // Up, from voxel to voxel: above the grid all is free.
+
+  // Straight up, voxel by voxel: above the grid everything is free.
   dvec3 up(0);
   while (any_solid(grid, voxels_of(low + up, high + up))) up.y = std::floor(low.y + up.y) + 1 + skin - low.y;
   return up * edge;

@@ -15,7 +15,7 @@ bool is_lower(char c) {
   return c >= 'a' && c <= 'z';
 }
 
-/// Whether a word, in lower case, is one of a name's.
+/// Whether a name contains a word, given in lower case, in any case and as a word of its own.
 bool has_word(std::string_view name, std::string_view word) {
   const auto same = [](char a, char b) { return (is_upper(a) ? a - 'A' + 'a' : a) == b; };
   for (auto at = name.begin();; ++at) {
@@ -33,7 +33,7 @@ bool has_word(std::string_view name, std::string_view word) {
 }  // namespace
 
 bool is_door_name(std::string_view name) {
-  return has_word(name, "door") && !has_word(name, "layout");
+  return has_word(name, "door") && !has_word(name, "frame");
 }
 
 std::vector<Door> doors_of(const scene::Scene& scene) {

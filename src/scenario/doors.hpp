@@ -1,4 +1,4 @@
-// Doors: what of a scene a player may open and shut.
+// Doors: the objects of a scene that players can open and close.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace brume::scenario {
 
-/// A door, as door events name it: all objects of one name.
+/// A door as door events refer to it: all objects of one name.
 struct Door {
   std::string name;
-  std::vector<std::uint32_t> objects;  ///< Of the scene, rising.
-  scene::Bounds bounds_world;          ///< Around all of them, shut.
+  std::vector<std::uint32_t> objects;  ///< Indices into Scene::objects, ascending.
+  scene::Bounds bounds_world;          ///< Bounds of all of them, closed.
 };
 
-/// Whether an object of this name is taken for a door: "door" is a word of it, in any case ("front door",
-/// "door_2"), also in names run together ("FrontDoor", "DoorRoom"); frames of doors are none.
+/// Whether an object of this name counts as a door: the name contains the word "door" in any case ("front
+/// door", "door_2"), also in camel case ("FrontDoor", "DoorRoom"), but not the word "frame".
 bool is_door_name(std::string_view name);
 
 /// The doors of a scene, in the order of their first objects.

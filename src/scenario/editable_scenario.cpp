@@ -12,7 +12,7 @@ scene::GridOptions grid_of(const voxel::GridLayout& layout) {
   return {layout.voxel_size, layout.size, layout.origin_world};
 }
 
-/// Each event behind those that are at its time or before.
+/// Inserts each event after all events of its time or earlier.
 template <typename Event>
 void merge(std::vector<Event>& list, const std::vector<Event>& more) {
   for (const Event& event : more) {
@@ -23,25 +23,19 @@ void merge(std::vector<Event>& list, const std::vector<Event>& more) {
 }
 
 void merge_events(scene::Timeline& timeline, const scene::Timeline& more) {
-  merge(timeline.smokes, more.smokes);
-  merge(timeline.shots, more.shots);
-  merge(timeline.texts, more.texts);
-  merge(timeline.blasts, more.blasts);
-  merge(timeline.moves, more.moves);
-  merge(timeline.edits, more.edits);
-  merge(timeline.doors, more.doors);
+  scene::for_each_event_kind([&](const char*, auto list) { merge(timeline.*list, more.*list); });
 }
 
 bool changes_level(const scene::Timeline& timeline) {
   return !timeline.edits.empty() || !timeline.doors.empty();
 }
 
-/// Whether some event of a list, of a time or before, is such.
-template <typename Event, typename Is>
-bool is_there_by(const std::vector<Event>& list, double time, Is is) {
+/// Whether any event at or before a time satisfies the predicate.
+template <typename Event, typename Predicate>
+bool any_until(const std::vector<Event>& list, double time, Predicate predicate) {
   for (const Event& event : list) {
     if (event.time > time) return false;
-    if (is(event)) return true;
+    if (predicate(event)) return true;
   }
   return false;
 }
@@ -75,46 +69,48 @@ Result<void> EditableScenario::add(const scene::Timeline& actions) {
   return replay(std::move(timeline), {masks, !changes_level(sorted)});
 }
 
-/// Whether each mask is known, and from a shot or text that is no later: then all keep their numbers.
+/// Whether a shot or text no later already uses each mask: then all masks keep their numbers.
 bool EditableScenario::has_masks_of(const scene::Timeline& actions) const {
   const scene::Timeline& timeline = scenario_.timeline;
   const auto known_shot = [&](const scene::ShotEvent& shot) {
     const auto is_same = [&](const scene::ShotEvent& other) {
       return other.shape == scene::ShotShape::mask && other.mask == shot.mask;
     };
-    return shot.shape != scene::ShotShape::mask || is_there_by(timeline.shots, shot.time, is_same);
+    return shot.shape != scene::ShotShape::mask || any_until(timeline.shots, shot.time, is_same);
   };
   const auto known_text = [&](const scene::TextEvent& text) {
     const auto is_same = [&](const scene::TextEvent& other) {
       return ShotMasks::key(other) == ShotMasks::key(text);
     };
-    return is_there_by(timeline.texts, text.time, is_same);
+    return any_until(timeline.texts, text.time, is_same);
   };
   return std::all_of(actions.shots.begin(), actions.shots.end(), known_shot) &&
          std::all_of(actions.texts.begin(), actions.texts.end(), known_text);
 }
 
-/// Whether no move is before one that is there: then all bodies keep their numbers.
+/// Whether no new move precedes an existing one: then all bodies keep their numbers.
 bool EditableScenario::moves_are_last(const scene::Timeline& actions) const {
   const auto& moves = scenario_.timeline.moves;
   return actions.moves.empty() || moves.empty() || actions.moves.front().time >= moves.back().time;
 }
 
-/// Whether no edit or door comes before one that is there.
+/// Whether no new edit or door precedes an existing one.
 bool EditableScenario::changes_are_last(const scene::Timeline& actions) const {
   const auto& edits = scenario_.timeline.edits;
   const auto& doors = scenario_.timeline.doors;
   const double last_edit = edits.empty() ? -1 : edits.back().time;
   const double last_door = doors.empty() ? -1 : doors.back().time;
-  // Of the same time edits come before doors.
-  const bool edits_are_last =
-      actions.edits.empty() || (actions.edits.front().time >= last_edit && actions.edits.front().time > last_door);
+  // Edits precede doors of the same time.
+  const bool edits_are_last = actions.edits.empty() || (actions.edits.front().time >= last_edit &&
+                                                        actions.edits.front().time > last_door);
   return edits_are_last &&
          (actions.doors.empty() || actions.doors.front().time >= std::max(last_edit, last_door));
 }
 
 Result<void> EditableScenario::add_in_place(const scene::Timeline& actions) {
-  const EventSettings settings{scenario_.voxels.grid.layout(), scenario_.timeline.smoke, scenario_.shot_masks};
+  // Check the events first, because applying level changes is expensive to undo.
+  const EventSettings settings{scenario_.voxels.grid.layout(), scenario_.timeline.smoke,
+                               scenario_.shot_masks};
   BodyNumbers bodies = bodies_;
   auto events = ordered_events(actions, {}, bodies, settings);
   if (!events) return events.failure();
@@ -125,6 +121,8 @@ Result<void> EditableScenario::add_in_place(const scene::Timeline& actions) {
     if (!events) last_level_.reset();
     if (!events) return events.failure();
   }
+
+  // Commit.
   if (auto added = simulation_->add(std::move(*events), std::move(changes)); !added) {
     last_level_.reset();
     return added;
@@ -134,9 +132,10 @@ Result<void> EditableScenario::add_in_place(const scene::Timeline& actions) {
   return {};
 }
 
-Result<void> EditableScenario::replay(scene::Timeline timeline, const Kept& staying) {
+Result<void> EditableScenario::replay(scene::Timeline timeline, const Unchanged& unchanged) {
+  // Masks.
   std::optional<LoadedMasks> masks;
-  if (!staying.masks) {
+  if (!unchanged.masks) {
     auto loaded = load_masks(timeline);
     if (!loaded) return loaded.failure();
     masks = std::move(*loaded);
@@ -144,21 +143,25 @@ Result<void> EditableScenario::replay(scene::Timeline timeline, const Kept& stay
   const ShotMasks& shot_masks = masks ? masks->of_shots : scenario_.shot_masks;
   const sim::MaskKey key = masks ? masks->atlas.key() : scenario_.masks.key();
 
+  // Level changes.
   std::vector<LevelEvent> changes;
   std::optional<ObjectLevel> level;
-  if (staying.level) {
+  if (unchanged.level) {
     changes = simulation_->level_events();
   } else if (changes_level(timeline)) {
     level = make_level(scenario_);
     changes = apply_level_events(timeline, scenario_.scene, *level);
   }
+
+  // Events.
   BodyNumbers bodies;
   auto events =
       ordered_events(timeline, changes, bodies, {scenario_.voxels.grid.layout(), timeline.smoke, shot_masks});
   if (!events) return events.failure();
   if (auto done = simulation_->replace(std::move(*events), std::move(changes), key); !done) return done;
 
-  if (!staying.level) last_level_ = std::move(level);
+  // Commit.
+  if (!unchanged.level) last_level_ = std::move(level);
   if (masks) {
     scenario_.masks = std::move(masks->atlas);
     scenario_.shot_masks = std::move(masks->of_shots);
@@ -226,11 +229,12 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
   std::error_code error;
   if (timeline.scene != scenario_.timeline.scene &&
       !std::filesystem::equivalent(timeline.scene, scenario_.timeline.scene, error))
-    return Failure{ErrorCode::bad_input, timeline.scene.string() + ": expected the scene that is on scenario, " +
+    return Failure{ErrorCode::bad_input, timeline.scene.string() + ": expected the scenario's own scene, " +
                                              scenario_.timeline.scene.string()};
   if (timeline.grid.voxel != grid.voxel || timeline.grid.size.value_or(*grid.size) != *grid.size ||
       timeline.grid.origin_world.value_or(*grid.origin_world) != *grid.origin_world)
-    return Failure{ErrorCode::bad_input, "the timeline has another grid than the scenario; load it anew"};
+    return Failure{ErrorCode::bad_input,
+                   "the timeline has another grid than the scenario; load it as a new scenario"};
   timeline.grid = grid;
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;

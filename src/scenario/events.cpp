@@ -34,14 +34,15 @@ sim::SmokeSettings smoke_settings(const scene::SmokeOptions& smoke, std::uint32_
   return settings;
 }
 
-sim::HoleTiming timing_of(const scene::HoleTimes& times) {
+sim::HoleTimingMs timing_of(const scene::HoleTimes& times) {
   return {milliseconds(times.reach), milliseconds(times.expand), milliseconds(times.stay),
           milliseconds(times.fade)};
 }
 
-std::uint32_t turns(float radians) {
-  const double share = double{radians} / (2 * std::numbers::pi);
-  return static_cast<std::uint32_t>(std::lround((share - std::floor(share)) * sim::kFullTurn)) %
+/// An angle in 1/65536 turn, [0, 65535].
+std::uint32_t turn_of(float radians) {
+  const double turns = double{radians} / (2 * std::numbers::pi);
+  return static_cast<std::uint32_t>(std::lround((turns - std::floor(turns)) * sim::kFullTurn)) %
          sim::kFullTurn;
 }
 
@@ -52,7 +53,7 @@ sim::Shot shot_of(const scene::ShotEvent& event, std::uint32_t tick, const ShotM
   shot.toward = position(event.toward_world);
   shot.radius = units(event.radius);
   shot.timing = timing_of(event.times);
-  shot.roll = turns(event.roll);
+  shot.roll = turn_of(event.roll);
   switch (event.shape) {
     case scene::ShotShape::cylinder:
       break;
@@ -67,20 +68,23 @@ sim::Shot shot_of(const scene::ShotEvent& event, std::uint32_t tick, const ShotM
   return shot;
 }
 
-/// One shot a letter: each the text's own, moved aside by whole units, so that all are parallel.
+/// One shot per letter, offset sideways by whole units so that all are parallel.
 std::vector<sim::Shot> shots_of(const scene::TextEvent& event, std::uint32_t ticks_per_second,
                                 const ShotMasks& masks) {
+  // The shot through the middle of the text.
   sim::Shot middle;
   middle.origin = position(event.from_world);
   middle.toward = position(event.toward_world);
   middle.timing = timing_of(event.times);
   middle.shape = sim::HoleShape::mask;
-  middle.roll = turns(event.roll);
+  middle.roll = turn_of(event.roll);
   std::vector<sim::Shot> shots;
-  if (middle.origin == middle.toward) {  // nearer than 1/1024 m: refused where events are checked
+  if (middle.origin == middle.toward) {  // closer than 1/1024 m: check_event rejects it
     shots.push_back(middle);
     return shots;
   }
+
+  // Its copies, one for each letter.
   const smoke::ShotAxes axes = smoke::axes_of(middle);
   double time = event.time;
   for (const Letter& letter : masks.texts.at(ShotMasks::key(event))) {
@@ -138,7 +142,7 @@ class EventList {
 }  // namespace
 
 std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second) {
-  // A time that was meant to be a tick may fall short of it by a rounding.
+  // A time meant as an exact tick may lie below it by a rounding error.
   return static_cast<std::uint32_t>(std::floor(std::max(0.0, seconds) * ticks_per_second + 1e-9));
 }
 
@@ -154,9 +158,13 @@ Result<std::vector<OrderedEvent>> ordered_events(const scene::Timeline& timeline
   const std::uint32_t rate = settings.ticks_per_second;
   const auto tick = [&](const auto& event) { return tick_at(event.time, rate); };
   EventList events(settings.layout);
+
+  // Level changes.
   for (const LevelEvent& event : changes)
     if (!event.blocks.empty())
       events.add(EventKind::level, event.time, sim::LevelEdit{tick(event), event.blocks}, {});
+
+  // Smokes, shots and texts.
   const sim::SmokeSettings smoke = smoke_settings(settings.smoke, rate);
   for (const scene::SmokeEvent& event : timeline.smokes)
     events.add(EventKind::smoke, event.time,
@@ -167,6 +175,8 @@ Result<std::vector<OrderedEvent>> ordered_events(const scene::Timeline& timeline
   for (const scene::TextEvent& event : timeline.texts)
     for (const sim::Shot& shot : shots_of(event, rate, settings.masks))
       events.add(EventKind::letter, event.time, shot, event.place);
+
+  // Blasts and moves.
   for (const scene::BlastEvent& event : timeline.blasts)
     events.add(EventKind::blast, event.time, blast_of(event, tick(event)), event.place);
   for (const scene::MoveEvent& event : timeline.moves)
@@ -179,18 +189,18 @@ Result<std::vector<sim::Event>> events_of(const Scenario& scenario, std::uint32_
   const auto changes = level_events(scenario);
   if (!changes) return changes.failure();
   BodyNumbers bodies;
-  auto events =
-      ordered_events(scenario.timeline, *changes, bodies,
-                     {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks, ticks_per_second});
+  auto events = ordered_events(
+      scenario.timeline, *changes, bodies,
+      {scenario.voxels.grid.layout(), scenario.timeline.smoke, scenario.shot_masks, ticks_per_second});
   if (!events) return events.failure();
   return without_order(std::move(*events));
 }
 
 std::vector<sim::Event> without_order(std::vector<OrderedEvent> events) {
-  std::vector<sim::Event> alone;
-  alone.reserve(events.size());
-  for (OrderedEvent& event : events) alone.push_back(std::move(event.event));
-  return alone;
+  std::vector<sim::Event> result;
+  result.reserve(events.size());
+  for (OrderedEvent& event : events) result.push_back(std::move(event.event));
+  return result;
 }
 
 }  // namespace brume::scenario

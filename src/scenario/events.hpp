@@ -1,4 +1,4 @@
-// What a timeline says, as a world takes it: integer events in the order in which they happen.
+// Converts timelines to the integer events of a world, in the order in which they happen.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "sim/world.hpp"
 #include "scenario/level_events.hpp"
 #include "scenario/scenario.hpp"
+#include "sim/world.hpp"
 
 namespace brume::scenario {
 
@@ -19,11 +19,11 @@ std::uint32_t tick_at(double seconds, std::uint32_t ticks_per_second = sim::Worl
 /// Kinds of events in the order in which they happen within one tick.
 enum class EventKind : std::uint8_t { level, smoke, shot, letter, blast, move };
 
-/// What the place of an event among others follows from. Of equal ones the first in the timeline comes first.
+/// Sort key of an event. Events with equal keys keep their timeline order.
 struct EventOrder {
   std::uint32_t tick = 0;
   EventKind kind = EventKind::level;
-  double time = 0;  ///< Of the timeline's event [s]: of all letters of a text the same.
+  double time = 0;  ///< Time of the timeline's event [s]; the same for all letters of a text.
   auto operator<=>(const EventOrder&) const = default;
 };
 
@@ -32,10 +32,10 @@ struct OrderedEvent {
   sim::Event event;
 };
 
-/// The numbers that bodies have in the world, by their names.
+/// The numbers of bodies in the world, by name.
 class BodyNumbers {
  public:
-  /// Of a body; one that is new gets the next number.
+  /// The number of a body; a new one gets the next number.
   std::uint32_t operator[](const std::string& name) {
     return numbers_.emplace(name, static_cast<std::uint32_t>(numbers_.size())).first->second;
   }
@@ -44,10 +44,10 @@ class BodyNumbers {
  private:
   std::map<std::string, std::uint32_t> numbers_;
 };
-/// Numbered in the order of their names' first appearance.
+/// Numbers the bodies in the order of their first appearance.
 BodyNumbers number_bodies(const scene::Timeline& timeline);
 
-/// What the events of a timeline become that follows from elsewhere.
+/// Settings that determine events besides the timeline's event lists.
 struct EventSettings {
   const voxel::GridLayout& layout;
   const scene::SmokeOptions& smoke;
@@ -55,20 +55,19 @@ struct EventSettings {
   std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second;
 };
 
-/// The edits of a level's changes, and a timeline's events without its edits and doors, in order. `masks`
-/// must have all that they name. Fails with bad_input for an event that is out of the simulation's range.
+/// The edits of level changes and a timeline's other events (all but edits and doors), in order. `masks` must
+/// contain all masks they use. Fails with bad_input for an event outside the simulation's range.
 Result<std::vector<OrderedEvent>> ordered_events(const scene::Timeline& timeline,
                                                  const std::vector<LevelEvent>& changes, BodyNumbers& bodies,
                                                  const EventSettings& settings);
 
-/// The timeline's events in the order in which a world takes them: by tick, and within one tick the edits and
-/// doors, the smokes, the shots, the letters of texts, the blasts, the moves. Bodies are numbered in the
-/// order of their names' first appearance. Fails with bad_input for an event that is out of the simulation's
-/// range, and as level_events.
+/// The timeline's events in the order of a world's log: by tick, and within one tick edits and doors, smokes,
+/// shots, letters of texts, blasts, moves. Bodies are numbered in the order of their first appearance. Fails
+/// with bad_input for an event outside the simulation's range, and as level_events.
 Result<std::vector<sim::Event>> events_of(
     const Scenario& scenario, std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second);
 
-/// The events alone.
+/// The events without their sort keys.
 std::vector<sim::Event> without_order(std::vector<OrderedEvent> events);
 
 }  // namespace brume::scenario

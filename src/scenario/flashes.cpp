@@ -2,19 +2,19 @@
 
 #include <algorithm>
 
-#include "sim/world.hpp"
 #include "scenario/events.hpp"
+#include "sim/world.hpp"
 
 namespace brume::scenario {
 namespace {
 
 constexpr float kLeastIntensity = 0.01f;
 
-/// Share of the time that is left, in (0, 1]; 0 before and after.
-float left_of(double event_time, double seconds, double lasts) {
+/// Remaining fraction of a flash's duration, in (0, 1]; 0 before and after.
+float remaining_fraction(double event_time, double seconds, double duration) {
   const std::uint32_t ticks_per_second = sim::WorldSettings{}.ticks_per_second;
   const double age = seconds - tick_at(event_time, ticks_per_second) / static_cast<double>(ticks_per_second);
-  return age >= 0 && age < lasts ? static_cast<float>(1 - age / lasts) : 0.0f;
+  return age >= 0 && age < duration ? static_cast<float>(1 - age / duration) : 0.0f;
 }
 
 void add_flash(std::vector<shared::Light>& lights, glm::vec3 position_world, float intensity,
@@ -33,18 +33,18 @@ void add_flash(std::vector<shared::Light>& lights, glm::vec3 position_world, flo
 }  // namespace
 
 std::vector<shared::Light> flashes_of(const scene::Timeline& timeline, double seconds) {
-  // Burning powder, and a fireball that goes from yellow to red.
+  // Burning powder, and a fireball that fades from yellow to red.
   constexpr glm::vec3 kMuzzle{1, 0.68f, 0.34f}, kFire{1, 0.72f, 0.38f}, kEmbers{1, 0.34f, 0.08f};
   std::vector<shared::Light> lights;
   for (const scene::ShotEvent& shot : timeline.shots) {
-    const float left = left_of(shot.time, seconds, kMuzzleSeconds);
+    const float remaining = remaining_fraction(shot.time, seconds, kMuzzleSeconds);
     const glm::vec3 ahead = kMuzzleAhead * glm::normalize(shot.toward_world - shot.from_world);
-    add_flash(lights, shot.from_world + ahead, shot.flash * left * left, kMuzzle);
+    add_flash(lights, shot.from_world + ahead, shot.flash * remaining * remaining, kMuzzle);
   }
   for (const scene::BlastEvent& blast : timeline.blasts) {
-    const float left = left_of(blast.time, seconds, kBlastSeconds);
-    add_flash(lights, blast.at_world + glm::vec3(0, kBlastAbove, 0), blast.flash * left * left,
-              glm::mix(kEmbers, kFire, left));
+    const float remaining = remaining_fraction(blast.time, seconds, kBlastSeconds);
+    add_flash(lights, blast.at_world + glm::vec3(0, kBlastAbove, 0), blast.flash * remaining * remaining,
+              glm::mix(kEmbers, kFire, remaining));
   }
   return lights;
 }

@@ -1,4 +1,4 @@
-// Light that is there for a moment: what a muzzle and an explosion throw on all around.
+// Short-lived lights: muzzle flashes and explosions.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace brume::scenario {
 
-/// How long a muzzle and an explosion shine, from the tick of the event on [s].
+/// Duration of a muzzle flash and of an explosion's light, from the tick of the event [s].
 constexpr double kMuzzleSeconds = 0.06, kBlastSeconds = 0.3;
-/// A muzzle's light is this far before the place that is shot from [m].
+/// Distance of a muzzle flash ahead of the shot's origin [m].
 constexpr float kMuzzleAhead = 0.3f;
-/// An explosion's light is this far over its place, which may be on the ground [m].
+/// Height of an explosion's light above its position, which may be on the ground [m].
 constexpr float kBlastAbove = 0.4f;
 
-/// The lights that shine at a time [s], in the order of the timeline's shots, then of its blasts: point
-/// lights shadowed by voxels (kShadowByVoxels), none darker than 1/100 W/sr. Each begins at its event's
-/// `flash` and fades as the square of the time that is left.
+/// The lights at a time [s], in the order of the timeline's shots, then of its blasts: point lights shadowed
+/// by voxels (kShadowByVoxels), none darker than 1/100 W/sr. Each starts at its event's `flash` and fades
+/// with the square of the remaining time.
 std::vector<shared::Light> flashes_of(const scene::Timeline& timeline, double seconds);
 
 }  // namespace brume::scenario

@@ -14,7 +14,7 @@ Failure at_place(const std::string& place, const Failure& failure) {
   return {failure.code, (place.empty() ? "" : place + ": ") + failure.message};
 }
 
-/// Gathers masks, each once.
+/// Collects masks, each once.
 class Collector {
  public:
   Result<void> add(const scene::ShotEvent& shot) {
@@ -56,7 +56,7 @@ class Collector {
     std::map<char32_t, LoadedGlyph> glyphs;
   };
 
-  /// Numbers a mask; those that look alike are one, from whichever file they come.
+  /// Returns the number of a mask; masks with identical texels share one, whatever their files.
   std::uint32_t take(smoke::Mask mask) {
     const auto number = static_cast<std::uint32_t>(masks_.size());
     const auto [known, is_new] = numbers_.emplace(std::pair(mask.width, mask.texels), number);
@@ -85,10 +85,13 @@ class Collector {
   }
 
   Result<std::vector<Letter>> letters_of(const scene::TextEvent& event, const std::filesystem::path& file) {
+    // Lay out the row.
     const auto font = font_at(file);
     if (!font) return font.failure();
     const auto row = (*font)->font.row(event.text, event.spacing);
     if (!row) return row.failure();
+
+    // The mask of each visible letter.
     std::vector<Letter> letters;
     float low = 0, high = 0;
     for (const image::PlacedLetter& placed : *row) {
@@ -105,14 +108,16 @@ class Collector {
       letters.push_back(letter);
     }
     if (letters.empty())
-      return Failure{ErrorCode::bad_input, "the text has no letter that can be seen; expected one at least"};
+      return Failure{ErrorCode::bad_input, "the text has no visible letter; expected at least one"};
+
+    // Measure from the middle of the row.
     for (Letter& letter : letters) letter.right -= 0.5f * (low + high);
     return letters;
   }
 
   std::vector<smoke::Mask> masks_;
   std::map<std::pair<std::uint32_t, std::vector<std::uint8_t>>, std::uint32_t> numbers_;
-  std::string last_place_;  // of an event that brought one
+  std::string last_place_;  // place of the last event that added a mask
   std::map<std::string, LoadedFont> fonts_;
   ShotMasks of_shots_;
 };
@@ -125,13 +130,13 @@ Result<smoke::Mask> mask_of(const image::Image8& picture, const std::string& nam
     return Failure{ErrorCode::resource_limit, name + ": " + std::to_string(picture.width) + " x " +
                                                   std::to_string(picture.height) + " texels, at most " +
                                                   std::to_string(smoke::kMaxMaskAxis) +
-                                                  " an axis as a mask; make it smaller"};
+                                                  " per axis are possible for a mask; make it smaller"};
   smoke::Mask mask{side, side, std::vector<std::uint8_t>(std::size_t{side} * side, 0)};
   const std::uint32_t left = (side - picture.width) / 2, top = (side - picture.height) / 2;
   for (std::uint32_t y = 0; y < picture.height; ++y)
     for (std::uint32_t x = 0; x < picture.width; ++x) {
       const std::uint8_t* rgba = &picture.rgba[4 * (std::size_t{y} * picture.width + x)];
-      // Rec. 709's weights of red, green and blue, in 1/65536.
+      // Rec. 709 weights of red, green and blue, in 1/65536.
       const std::uint64_t luminance = 13933u * rgba[0] + 46871u * rgba[1] + 4732u * rgba[2];
       constexpr std::uint64_t kWhole = 65536u * 255u;
       mask.texels[std::size_t{top + y} * side + left + x] =

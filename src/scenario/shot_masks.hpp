@@ -1,4 +1,4 @@
-// The masks of a timeline's shots and letters: pictures and glyphs, in one atlas.
+// The masks of a timeline's shots and texts: pictures and glyphs in one atlas.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +15,19 @@
 
 namespace brume::scenario {
 
-/// A letter of a text that is shot, in capital heights from the middle of its row: halfway along it, and
-/// halfway up a capital letter.
+/// A letter of a text, in cap heights from the middle of its row: half its length along it and half a cap
+/// height up.
 struct Letter {
   std::uint32_t mask = 0;
   float right = 0, up = 0;
   float half_side = 0;
 };
 
-/// Which masks of an atlas belong to what a timeline names.
+/// The masks in an atlas for each picture and text of a timeline.
 struct ShotMasks {
   using Text = std::tuple<std::string, std::string, float>;  ///< Font, text, spacing.
-  std::map<std::string, std::uint32_t> pictures;             ///< By their files.
-  std::map<Text, std::vector<Letter>> texts;                 ///< Blanks are left out.
+  std::map<std::string, std::uint32_t> pictures;             ///< By file.
+  std::map<Text, std::vector<Letter>> texts;                 ///< Without blanks.
 
   static Text key(const scene::TextEvent& event) { return {event.font.string(), event.text, event.spacing}; }
 };
@@ -37,16 +37,16 @@ struct LoadedMasks {
   ShotMasks of_shots;
 };
 
-/// The mask that a picture is: luminance times alpha, 255 where it is white. One that is no square lies in
-/// the middle of one. Fails with resource_limit for a picture larger than an atlas holds.
+/// Converts a picture to a mask: luminance times alpha, 255 for opaque white. A picture that is not square is
+/// centred in a square. Fails with resource_limit for a picture larger than an atlas can hold.
 Result<smoke::Mask> mask_of(const image::Image8& picture, const std::string& name);
 
-/// Reads the pictures and fonts that the timeline names; each picture, and each glyph of a font, is one mask,
-/// and those that are the same texel for texel are one together. They are numbered by the time of their first
-/// use: what is shot later changes no number of what was before. The same atlas for the same pictures,
-/// letters and timeline, wherever the files lie. Fails with bad_input for a file that is missing or cannot
-/// be read, a character that its font lacks, a text of blanks, naming the event's place, and with
-/// resource_limit as MaskAtlas::pack, naming the last event's that brings a mask.
+/// Loads the pictures and fonts that the timeline names. Each picture and each glyph is one mask; masks with
+/// identical texels are shared. They are numbered by the time of their first use, so later shots do not
+/// change earlier numbers. The atlas depends on pictures, letters and timeline only, not on file locations.
+/// Fails with bad_input for a file that is missing or unreadable, a character missing from its font, or a
+/// text of blanks, naming the event's place, and with resource_limit as MaskAtlas::pack, naming the place of
+/// the last event that adds a mask.
 Result<LoadedMasks> load_masks(const scene::Timeline& timeline);
 
 }  // namespace brume::scenario

@@ -43,7 +43,7 @@ void Simulation::advance_to(double seconds) {
 
 Result<void> Simulation::add(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes) {
   if (!events.empty()) {
-    // What is in the log from the first of them on, and they in between.
+    // Merge the new events with the log from the first of them on.
     const auto log = world_.log();
     const EventOrder first{events.front().order.tick, EventKind{}, -1};
     const auto from =
@@ -51,10 +51,12 @@ Result<void> Simulation::add(std::vector<OrderedEvent> events, std::vector<Level
     std::vector<OrderedEvent> tail;
     tail.reserve(log.size() - from + events.size());
     for (std::size_t i = from; i < log.size(); ++i) tail.push_back({orders_[i], log[i]});
-    const auto kept = static_cast<std::ptrdiff_t>(tail.size());
+    const auto middle = static_cast<std::ptrdiff_t>(tail.size());
     std::move(events.begin(), events.end(), std::back_inserter(tail));
-    std::inplace_merge(tail.begin(), tail.begin() + kept, tail.end(),
+    std::inplace_merge(tail.begin(), tail.begin() + middle, tail.end(),
                        [](const OrderedEvent& a, const OrderedEvent& b) { return a.order < b.order; });
+
+    // Replay from there.
     const std::vector<EventOrder> orders = orders_of(tail);
     if (auto done = world_.replace_from(first.tick, without_order(std::move(tail))); !done) return done;
     orders_.resize(from);
@@ -68,11 +70,15 @@ Result<void> Simulation::replace(std::vector<OrderedEvent> events, std::vector<L
                                  const sim::MaskKey& masks) {
   std::vector<EventOrder> orders = orders_of(events);
   std::vector<sim::Event> log = without_order(std::move(events));
+
+  // The first tick at which the logs differ.
   const auto before = world_.log();
   const auto [was, is] = std::mismatch(before.begin(), before.end(), log.begin(), log.end());
   std::uint32_t first = sim::kMaxTick + 1;
   if (was != before.end()) first = sim::tick_of(*was);
   if (is != log.end()) first = std::min(first, sim::tick_of(*is));
+
+  // Replay from that tick.
   const auto from = std::partition_point(
       log.begin(), log.end(), [&](const sim::Event& event) { return sim::tick_of(event) < first; });
   std::vector<sim::Event> tail(std::make_move_iterator(from), std::make_move_iterator(log.end()));
@@ -102,7 +108,7 @@ void Simulation::follow_level() {
   const auto count = static_cast<std::size_t>(later - level_events_.begin());
   if (count == in_effect_) return;
 
-  // Planes: on top of those that stay, or all anew when time ran backwards.
+  // Planes: add the new patches, or rebuild all when time ran backwards.
   for (std::size_t i = std::min(count, in_effect_); i < std::max(count, in_effect_); ++i) {
     const voxel::IntBox& cells = level_events_[i].planes->cells;
     if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
@@ -112,7 +118,7 @@ void Simulation::follow_level() {
     planes_.add(level_events_[i].planes);
   in_effect_ = count;
 
-  // The last word on each object.
+  // The last event decides whether an object is hidden.
   std::map<std::uint32_t, bool> hidden;
   for (std::size_t i = 0; i < count; ++i)
     for (const std::uint32_t object : level_events_[i].objects) hidden[object] = level_events_[i].hidden;

@@ -28,13 +28,13 @@ using voxel::Plane;
 using voxel::SurfacePlanes;
 using voxel::Triangle;
 
-static_assert(std::endian::native == std::endian::little, "the format is what memory holds");
+static_assert(std::endian::native == std::endian::little, "the format is the layout in memory");
 
 constexpr std::array<char, 8> kMagic = {'B', 'R', 'U', 'M', 'E', 'V', 'X', 'L'};
 constexpr std::uint32_t kVersion = 1;
 constexpr int kCompressionLevel = 3;
 constexpr std::uint64_t kMaxPayload = std::uint64_t{8} << 30;
-// zstd's densest block turns 4 bytes into 128 KiB: more than this a payload cannot grow.
+// zstd's densest block expands 4 bytes to 128 KiB: the maximum growth of a payload.
 constexpr std::uint64_t kMaxGrowth = 32768;
 
 struct Header {
@@ -67,7 +67,7 @@ void append(std::vector<std::byte>& bytes, std::span<const T> values) {
   bytes.insert(bytes.end(), raw.begin(), raw.end());
 }
 
-// Takes values off the front. The caller has checked that they are there.
+// Removes values from the front. The caller has checked the size.
 template <typename T>
 void take(std::span<const std::byte>& bytes, std::span<T> values) {
   BRUME_ASSERT(bytes.size() >= values.size_bytes(), std::to_string(bytes.size()));
@@ -114,7 +114,7 @@ std::vector<std::byte> encode_payload(const std::vector<NumberedBrick>& bricks, 
   return payload;
 }
 
-// The bits of a brick that lie in the grid.
+// The bits of a brick inside the grid.
 BitGrid::Brick bits_in_grid(ivec3 size, ivec3 brick) {
   BitGrid::Brick mask{};
   const ivec3 inside = glm::min(size - brick * kBrickSize, ivec3(kBrickSize));
@@ -153,11 +153,11 @@ Result<SurfacePlanes> decode_planes(std::span<const std::byte> payload, const He
   std::vector<Plane> planes(header.planes);
   take(payload, std::span(planes));
   auto result = SurfacePlanes::from_parts(header.size, std::move(keys), counts, std::move(planes));
-  if (!result) return damaged("the surface planes contradict each other");
+  if (!result) return damaged("the surface planes are inconsistent");
   return std::move(*result);
 }
 
-// The length that the payload must have, when the counts are possible for the grid and the file.
+// The expected length of the payload; nothing when the counts are impossible for the grid or the file.
 std::optional<std::uint64_t> payload_bytes(const Header& header) {
   const glm::u64vec3 size(header.size), n(brick_count(header.size));
   const std::uint64_t cells = (size.x + 1) * (size.y + 1) * (size.z + 1);  // At most 4097^3.
@@ -173,16 +173,16 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The cache's contents, when it is there, sound, and of this key.
+// The cache's contents, if it exists, is valid and has this key.
 std::optional<VxlContents> from_cache(const std::filesystem::path& path, std::uint64_t key) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   auto loaded = load_vxl(path, key);
   if (!loaded) {
-    log_warning(loaded.failure().message + "; voxelizing anew");
+    log_warning(loaded.failure().message + "; voxelizing again");
     return std::nullopt;
   }
-  if (!*loaded) log_info(path.string() + ": made from another scene or grid; voxelizing anew");
+  if (!*loaded) log_info(path.string() + ": made from another scene or grid; voxelizing again");
   return std::move(*loaded);
 }
 
@@ -225,23 +225,23 @@ std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key
 
 Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
                                               std::optional<std::uint64_t> expected_key) {
-  // Is it ours, and whole?
+  // Signature, version, length, checksum and key.
   Header header;
-  if (bytes.size() < sizeof(Header) + kChecksumBytes) return damaged("not a voxel cache, or cut short");
+  if (bytes.size() < sizeof(Header) + kChecksumBytes) return damaged("not a voxel cache, or truncated");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.magic != kMagic) return damaged("not a voxel cache");
   if (header.version != kVersion)
     return damaged("a voxel cache of version " + std::to_string(header.version) + ", not " +
                    std::to_string(kVersion));
   if (header.compressed_bytes != bytes.size() - sizeof(Header) - kChecksumBytes)
-    return damaged("a voxel cache that is cut short or too long");
+    return damaged("a voxel cache that is truncated or too long");
   std::uint64_t checksum = 0;
   std::memcpy(&checksum, bytes.data() + bytes.size() - kChecksumBytes, kChecksumBytes);
   if (checksum != hash_bytes(bytes.first(bytes.size() - kChecksumBytes)))
     return damaged("a damaged voxel cache: its checksum is wrong");
   if (expected_key && header.key != *expected_key) return std::optional<VxlContents>();
 
-  // Can it be what it says?
+  // The payload, as long as grid and counts allow.
   const GridLayout layout{header.size, header.voxel_size, header.origin_world};
   if (!voxel::check_frame(layout)) return damaged("a voxel cache with an impossible grid");
   const auto length = payload_bytes(header);
@@ -251,7 +251,7 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
       ZSTD_decompress(payload.data(), payload.size(), bytes.data() + sizeof(Header), header.compressed_bytes);
   if (ZSTD_isError(got) || got != payload.size()) return damaged("a voxel cache that does not unpack");
 
-  // Put it together.
+  // Bricks and planes.
   VxlContents contents{BitGrid(layout), {}, header.triangles};
   std::span<const std::byte> rest(payload);
   if (auto decoded = decode_bricks(rest, header.bricks, contents.grid); !decoded) return decoded.failure();

@@ -28,38 +28,39 @@ void visit_walker_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"half_width", "m", "from the body's middle to its side", 0.05, 1}, o.half_width);
   visit(OptionInfo{"height", "m", "of the body", 0.2, 3}, o.height);
   visit(OptionInfo{"eye", "m", "of the eye over the feet", 0.1, 3}, o.eye);
-  visit(OptionInfo{"step", "m", "highest step that is climbed without a jump", 0, 2}, o.step);
+  visit(OptionInfo{"step", "m", "highest step climbed without a jump", 0, 2}, o.step);
   visit(OptionInfo{"walk_speed", "m/s", "on foot", 0.1, 100}, o.walk_speed);
   visit(OptionInfo{"fly_speed", "m/s", "in flight", 0.1, 1000}, o.fly_speed);
-  visit(OptionInfo{"run", "", "how many times as fast when running", 1, 10}, o.run);
-  visit(OptionInfo{"jump", "m", "how high a jump goes", 0, 10}, o.jump);
-  visit(OptionInfo{"gravity", "m/s2", "how fast a fall grows faster", 0.1, 100}, o.gravity);
+  visit(OptionInfo{"run", "", "speed factor when running", 1, 10}, o.run);
+  visit(OptionInfo{"jump", "m", "height of a jump", 0, 10}, o.jump);
+  visit(OptionInfo{"gravity", "m/s2", "acceleration of a fall", 0.1, 100}, o.gravity);
 }
 
 struct WalkerInput {
-  glm::vec3 direction_world{0};  ///< Where to, at most 1 long; on foot its x and z count.
+  glm::vec3 direction_world{
+      0};  ///< Direction and fraction of the speed, length <= 1; on foot only x and z count.
   bool run = false, jump = false;
 };
 
-/// The body is a box, upright and along the axes. On foot it is never inside a solid voxel, whatever the
-/// speed and the length of a layout: its ways are swept. Below the grid's bottom, also beside the grid, all is
-/// solid; else what is outside is free. The same inputs on the same grids give the same ways.
+/// The body is an upright, axis-aligned box. On foot it is never inside a solid voxel, whatever the speed and
+/// the frame time: its motion is swept. Below the grid's bottom, also beside the grid, everything is solid;
+/// elsewhere outside of the grid everything is free. Equal inputs on equal grids give equal motion.
 class Walker {
  public:
   explicit Walker(const WalkerOptions& options = {}) : options_(options) {}
 
-  /// Puts the eye at a place, at rest. On foot, a body that would be in something solid stands at the nearest
-  /// place that is free.
+  /// Places the eye, with zero velocity. On foot, a body that would overlap a solid voxel moves to the
+  /// nearest free position.
   void put(const voxel::BitGrid& grid, glm::vec3 eye_world);
-  /// Takes off, or comes down on foot where it is (or at the nearest place that is free).
+  /// Starts or stops flying in place, or on foot at the nearest free position.
   void set_flying(const voxel::BitGrid& grid, bool flying);
   void set_options(const voxel::BitGrid& grid, const WalkerOptions& options);
 
-  /// Moves on by some seconds; more than 1 are taken for 1, and what is no number for none. A body in which a
-  /// voxel became solid stands at the nearest free place first.
+  /// Moves for some seconds, at most 1; NaN and infinity count as 0. A body that overlaps a voxel that became
+  /// solid first moves to the nearest free position.
   void move(const voxel::BitGrid& grid, const WalkerInput& input, double seconds);
 
-  /// Follows the body, gently where it climbs or goes down stairs, and is never in a solid voxel on foot.
+  /// Follows the body, smoothed on stairs; on foot never in a solid voxel.
   glm::vec3 eye_world() const;
   glm::vec3 feet_world() const { return glm::vec3(feet_); }
   glm::vec3 velocity() const { return glm::vec3(velocity_); }  ///< [m/s]
@@ -79,7 +80,7 @@ class Walker {
   WalkerOptions options_;
   glm::dvec3 feet_{0};      // middle of the body's lower side [m]
   glm::dvec3 velocity_{0};  // [m/s]
-  double eye_behind_ = 0;   // how far the eye is over where it belongs [m]
+  double eye_offset_ = 0;   // height of the eye above its target [m]
   bool flying_ = false, on_ground_ = false;
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 using voxel::Triangle;
 
-// One object's triangles and where they go in the list.
+// An object and the position of its triangles in the list.
 struct Part {
   const scene::Object* object;
   std::size_t first;

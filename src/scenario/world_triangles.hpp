@@ -1,4 +1,4 @@
-// The triangles of a scene in world space, object after object.
+// The triangles of a scene in world space, object by object.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace brume::scenario {
 
-/// The triangles of all objects that are voxelized, in the order of objects and indices, whatever the number
-/// of threads. Mesh indices must be valid, as the loaders guarantee.
+/// The triangles of all voxelized objects, in the order of objects and indices regardless of the number of
+/// threads. Mesh indices must be valid, as the loaders guarantee.
 std::vector<voxel::Triangle> world_triangles(const scene::Scene& scene);
 
 /// The triangles of one object, voxelized or not.

@@ -14,6 +14,10 @@ Bounds world_bounds(const Scene& scene) {
       bounds.max = glm::max(bounds.max, p);
     }
   }
+  for (const Sphere& sphere : scene.spheres) {
+    bounds.min = glm::min(bounds.min, sphere.centre_world - sphere.radius);
+    bounds.max = glm::max(bounds.max, sphere.centre_world + sphere.radius);
+  }
   return bounds;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -73,18 +74,50 @@ struct Camera {
   float vertical_fov = 1.0472f;  ///< Radians, (0, pi).
 };
 
+/// A participating medium from a file, placed in the world.
+struct Volume {
+  std::string name;
+  std::filesystem::path file;       ///< Ready to open.
+  glm::mat4 world_from_volume{1};   ///< Affine, from the file's own world space [m].
+};
+
+struct Sphere {
+  glm::vec3 centre_world{0};
+  float radius = 0.5f;              ///< [m], > 0
+  std::uint32_t material = kNone;   ///< Index into Scene::materials.
+};
+
+/// A volume that darkens or tints the surfaces that it covers: the unit cube [-0.5, 0.5]^3 of its own space.
+struct Decal {
+  std::string name;
+  std::filesystem::path file;       ///< Ready to open.
+  glm::mat4 world_from_decal{1};    ///< Affine.
+  std::uint32_t carrier = kNone;    ///< Index into Scene::objects of the object that it moves with; kNone: none.
+};
+
+/// A source of particles, which start in the unit cube [-0.5, 0.5]^3 of its own space.
+struct Emitter {
+  std::string name;
+  glm::mat4 world_from_emitter{1};  ///< Affine.
+  std::uint32_t count = 0;          ///< Particles alive at a time.
+};
+
+/// Everything that a file places in the world. Any list may be empty; loaders fill what their format has.
 struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Image> images;
   std::vector<Material> materials;
   std::vector<Object> objects;  ///< What stands in the world. The grenade is not among them.
   std::vector<Light> lights;
-  Object grenade;  ///< Drawn while it flies; its mesh is centred on its origin. Always a valid mesh and
-                   ///< material.
+  std::vector<Volume> volumes;
+  std::vector<Sphere> spheres;
+  std::vector<Decal> decals;
+  std::vector<Emitter> emitters;
+  std::optional<Object> grenade;  ///< Drawn while it flies; its mesh is centred on its origin.
   std::optional<Camera> camera;  ///< The first camera of the file.
 };
 
-/// The box around all objects, in world space; min > max when there is no triangle.
+/// The box around all objects and spheres, in world space; min > max when there is none.
 struct Bounds {
   glm::vec3 min{1e30f}, max{-1e30f};
   bool empty() const { return min.x > max.x; }

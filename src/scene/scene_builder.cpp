@@ -132,9 +132,9 @@ Result<void> SceneBuilder::set_grenade(const Object& object, const std::string& 
   const auto added = add_mesh(std::move(mesh));
   if (!added) return added.failure();
   scene.grenade = object;
-  scene.grenade.mesh = *added;
-  scene.grenade.voxelized = false;
-  scene.grenade.world_from_mesh[3] = glm::vec4(0, 0, 0, 1);
+  scene.grenade->mesh = *added;
+  scene.grenade->voxelized = false;
+  scene.grenade->world_from_mesh[3] = glm::vec4(0, 0, 0, 1);
   return {};
 }
 
@@ -160,17 +160,9 @@ Result<Scene> SceneBuilder::finish() && {
     return Failure{ErrorCode::bad_input,
                    name_ + ": the scene has no triangle; add at least one object with a mesh"};
   }
-  if (!has_grenade()) {
-    scene.materials.push_back({});
-    scene.materials.back().name = "built-in grenade";
-    scene.materials.back().base_color = glm::vec3(0.07f, 0.09f, 0.06f);
-    scene.materials.back().roughness = 0.5f;
-    scene.materials.back().metallic = 0.3f;
-    const auto added = add_mesh(built_in_grenade());
-    if (!added) return added.failure();
-    scene.grenade = Object{"Grenade", *added, last_index(scene.materials.size()), glm::mat4(1), false};
+  if (scene.grenade) {
+    if (auto checked = check_object(*scene.grenade); !checked) return checked.failure();
   }
-  if (auto checked = check_object(scene.grenade); !checked) return checked.failure();
   return std::move(scene);
 }
 

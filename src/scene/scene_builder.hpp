@@ -41,9 +41,9 @@ class SceneBuilder {
   Result<void> add_object(Object object, const std::string& place);
   /// Makes the object the scene's grenade: a centred copy of its mesh, without the object's position.
   Result<void> set_grenade(const Object& object, const std::string& place);
-  bool has_grenade() const { return scene.grenade.mesh != kNone; }
+  bool has_grenade() const { return scene.grenade.has_value(); }
 
-  /// Gives the scene a built-in grenade where it has none, and checks it: at least one triangle, no point
+  /// Checks the scene: at least one triangle, no point
   /// beyond kFarthest.
   Result<Scene> finish() &&;
 

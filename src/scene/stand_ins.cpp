@@ -41,7 +41,7 @@ Mesh unit_cube() {
   return mesh;
 }
 
-Mesh built_in_grenade() {
+Mesh grenade_mesh() {
   // The outline, turned around the y axis: radius and height [m] from the lower middle to the upper.
   constexpr glm::vec2 kOutline[] = {{0.0f, -0.055f},  {0.026f, -0.055f}, {0.03f, -0.051f}, {0.03f, 0.031f},
                                     {0.022f, 0.039f}, {0.012f, 0.041f},  {0.012f, 0.055f}, {0.0f, 0.055f}};
@@ -81,6 +81,19 @@ image::Image8 magenta_checker() {
     }
   }
   return image;
+}
+
+void add_built_in_grenade(Scene& scene) {
+  if (scene.grenade) return;
+  Material metal;
+  metal.name = "built-in grenade";
+  metal.base_color = glm::vec3(0.07f, 0.09f, 0.06f);
+  metal.roughness = 0.5f;
+  metal.metallic = 0.3f;
+  scene.materials.push_back(std::move(metal));
+  scene.meshes.push_back(grenade_mesh());
+  scene.grenade = Object{"Grenade", static_cast<std::uint32_t>(scene.meshes.size() - 1),
+                         static_cast<std::uint32_t>(scene.materials.size() - 1), glm::mat4(1), false};
 }
 
 }  // namespace brume::scene

@@ -9,7 +9,10 @@ namespace brume::scene {
 Mesh unit_cube();
 
 /// A hand grenade-sized can with bevelled ends, 0.11 m high and 0.06 m wide, centred on the origin.
-Mesh built_in_grenade();
+Mesh grenade_mesh();
+
+/// Gives a scene that has no grenade a built-in one, with a mesh and a material of its own.
+void add_built_in_grenade(Scene& scene);
 
 /// 8 x 8 squares of magenta and black.
 image::Image8 magenta_checker();

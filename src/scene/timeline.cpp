@@ -253,14 +253,8 @@ class TimelineReader {
 
 void sort_events(Timeline& timeline) {
   const auto earlier = [](const auto& a, const auto& b) { return a.time < b.time; };
-  const auto sort = [&](auto& list) { std::stable_sort(list.begin(), list.end(), earlier); };
-  sort(timeline.smokes);
-  sort(timeline.shots);
-  sort(timeline.texts);
-  sort(timeline.blasts);
-  sort(timeline.moves);
-  sort(timeline.edits);
-  sort(timeline.doors);
+  for_each_event_list(
+      timeline, [&](const char*, auto& events) { std::stable_sort(events.begin(), events.end(), earlier); });
 }
 
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path) {
@@ -296,12 +290,14 @@ Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scen
   Timeline timeline;
   timeline.scene = path;
   const Camera camera = default_camera(scene);
-  // A scene smaller than a room gets voxels to its size.
+
+  // A scene smaller than a room gets proportionally smaller voxels.
   const Bounds bounds = world_bounds(scene);
   const glm::vec3 extent = bounds.empty() ? glm::vec3(10) : bounds.max - bounds.min;
   const float room_voxel = timeline.grid.voxel;
   timeline.grid.voxel = std::clamp(std::max({extent.x, extent.y, extent.z}) / 40, 0.015625f, room_voxel);
-  // And smoke that looks as it would in a room: a ball that does not hide the whole scene.
+
+  // Smoke that looks as it would in a room: a ball that does not fill the whole scene.
   const float radius_voxels = 0.25f * std::max({extent.x, extent.y, extent.z}) / timeline.grid.voxel;
   const float ball = 4.19f * radius_voxels * radius_voxels * radius_voxels;
   timeline.smoke.voxels =
@@ -311,6 +307,8 @@ Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scen
   timeline.smoke.noise_size = std::max(timeline.smoke.noise_size * scale, 0.05f);
   timeline.smoke.swirl *= scale;
   timeline.smoke.rise *= scale;
+
+  // One smoke, thrown to the surface in the middle of the view.
   SmokeEvent smoke;
   smoke.from_world = camera.position_world;
   smoke.at_world = first_hit(scene, camera.position_world, camera.target_world - camera.position_world)

@@ -1,4 +1,4 @@
-// A timeline: which scene, where the camera is, what happens when. Renders the same twice.
+// A timeline: a scene, a camera path and timed events. Rendering it twice gives identical images.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace brume::scene {
 
 // Units, ranges and meanings of all settings: scene/options.hpp.
 
-/// Where the voxels are. Without size and origin the grid covers the scene's bounds.
+/// Placement of the voxel grid. Without size and origin the grid covers the scene's bounds.
 struct GridOptions {
   float voxel = 0.25f;
   std::optional<glm::ivec3> size;
@@ -31,7 +31,7 @@ struct SmokeOptions {
   float extinction = 3.0f;
   glm::vec3 albedo{0.92f};
   float anisotropy = 0.2f;
-  std::optional<float> droplet;  ///< Where it is, anisotropy does not count.
+  std::optional<float> droplet;  ///< Overrides anisotropy when set.
   float multiple_scattering = 1;
   float erosion = 0.5f;
   float noise_size = 1.5f;
@@ -42,7 +42,7 @@ struct SmokeOptions {
   bool operator==(const SmokeOptions&) const = default;
 };
 
-/// Linear radiance of what no surface covers, and of the light from everywhere.
+/// Linear radiance of the sky where no surface covers it, and of the ambient light.
 struct SkyOptions {
   glm::vec3 zenith{0.20f, 0.36f, 0.70f};
   glm::vec3 horizon{0.55f, 0.65f, 0.78f};
@@ -56,17 +56,17 @@ struct CameraKey {
   Camera camera;
 };
 
-/// How far from the origin of the world something may happen, along each axis [m].
+/// Largest distance of an event from the world's origin, along each axis [m].
 constexpr double kFarthestEvent = 16384;
 
-/// A grenade is thrown; it flies straight at 20 m/s and goes off at its target.
+/// A grenade is thrown: it flies in a straight line at 20 m/s and detonates at its target.
 struct SmokeEvent {
-  double time = 0;  ///< Of throwing [s], [0, 3600].
+  double time = 0;  ///< Of the throw [s], [0, 3600].
   glm::vec3 from_world{0}, at_world{0};
-  std::string place = {};  ///< "file:line:column", for messages; so in all events.
+  std::string place = {};  ///< "file:line:column" for error messages, as in all events.
 };
 
-/// How a hole opens and closes.
+/// How a hole opens and closes [s].
 struct HoleTimes {
   float reach = 0.25f;
   float expand = 0.05f;
@@ -76,7 +76,7 @@ struct HoleTimes {
 
 enum class ShotShape { cylinder, box, mask };
 
-/// A shot, and the hole that it leaves in smoke.
+/// A shot and the hole it leaves in smoke.
 struct ShotEvent {
   double time = 0;  ///< [s], [0, 3600].
   glm::vec3 from_world{0};
@@ -84,7 +84,7 @@ struct ShotEvent {
   float radius = 0.25f;
   HoleTimes times = {};
   ShotShape shape = ShotShape::cylinder;
-  std::filesystem::path mask = {};  ///< Picture of the cross-section, ready to open; for masks.
+  std::filesystem::path mask = {};  ///< Image of the cross-section, resolved; only for ShotShape::mask.
   float roll = 0;                   ///< [-2 pi, 2 pi]
   std::string place = {};
   float flash = 25.0f;
@@ -93,23 +93,23 @@ struct ShotEvent {
 /// Longest text of a TextEvent.
 constexpr std::size_t kMaxTextBytes = 1024;
 
-/// A row of letters is shot through the smoke, each a hole: parallel shots, side by side, that read from
-/// where they are fired.
+/// Shoots a line of text through the smoke: one hole per letter, parallel and side by side, legible from the
+/// shooter's position.
 struct TextEvent {
   double time = 0;   ///< Of the first letter [s], [0, 3600].
   std::string text;  ///< One line, UTF-8, 1 to 1024 bytes.
   glm::vec3 from_world{0};
-  glm::vec3 toward_world{0, 0, -1};  ///< Where the middle of the row passes; not `from_world`.
+  glm::vec3 toward_world{0, 0, -1};  ///< A point on the path of the row's middle; not `from_world`.
   float size = 0.5f;
-  std::filesystem::path font = {};  ///< Ready to open; empty: image::default_font().
+  std::filesystem::path font = {};  ///< Resolved path; empty: image::default_font().
   float spacing = 0;
   float interval = 0;
   HoleTimes times = {};
-  float roll = 0;  ///< [-2 pi, 2 pi]; the row turns with its letters.
+  float roll = 0;  ///< [-2 pi, 2 pi]; rotates the whole row.
   std::string place = {};
 };
 
-/// An explosion opens a cavity in the smoke around it, which then fills again.
+/// An explosion opens a cavity in the surrounding smoke, which then refills.
 struct BlastEvent {
   double time = 0;  ///< [s], [0, 3600].
   glm::vec3 at_world{0};
@@ -122,39 +122,41 @@ struct BlastEvent {
   float flash = 250.0f;
 };
 
-/// A body is at a place now; its first move puts it there.
+/// A body moves to a position; its first move places it.
 struct MoveEvent {
   double time = 0;   ///< [s], [0, 3600].
-  std::string body;  ///< Its name: any text.
+  std::string body;  ///< Name of the body: any text.
   glm::vec3 to_world{0};
   std::string place = {};
 };
 
-/// The voxels whose centres lie in a box become solid or free.
+/// The voxels with centres inside a box become solid or free.
 struct EditEvent {
   double time = 0;  ///< [s], [0, 3600].
   glm::vec3 low_world{0}, high_world{1};
   bool solid = true;
 };
 
-/// A door opens, which takes its objects out of the scene, or shuts, which puts them back.
+/// A door opens, which hides its objects, or closes, which shows them again.
 struct DoorEvent {
   double time = 0;     ///< [s], [0, 3600].
-  std::string object;  ///< Name of the scene's objects that are the door.
+  std::string object;  ///< Name of the scene objects that make up the door.
   bool open = true;
-  std::string place = {};  ///< Of the name.
+  std::string place = {};  ///< Of the object's name.
 };
 
 struct Timeline {
-  std::filesystem::path scene;  ///< Ready to open: what the file says, from the timeline's own folder.
+  std::filesystem::path scene;  ///< Resolved against the timeline's own folder.
   float duration = 4.0f;
   float exposure = 0.0f;
   GridOptions grid;
   SmokeOptions smoke;
   SkyOptions sky;
-  std::vector<CameraKey> camera;   ///< By time, no two alike.
-  std::vector<SmokeEvent> smokes;  ///< By time; those of the same time as in the file.
-  std::vector<ShotEvent> shots;    ///< The same, and so for all kinds of events.
+  std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal.
+  // Events, each list sorted by time; events of the same time in file order. A new kind of event needs a line
+  // in for_each_event_kind.
+  std::vector<SmokeEvent> smokes;
+  std::vector<ShotEvent> shots;
   std::vector<TextEvent> texts;
   std::vector<BlastEvent> blasts;
   std::vector<MoveEvent> moves;
@@ -162,7 +164,26 @@ struct Timeline {
   std::vector<DoorEvent> doors;
 };
 
-/// Puts the events of each list in order of time; those of the same time stay as they stood.
+/// Calls visit(type, member) for each kind of event: its `type` in timeline files, and a pointer to its list
+/// in Timeline. The one place that enumerates the kinds.
+template <typename Visitor>
+void for_each_event_kind(Visitor&& visit) {
+  visit("smoke", &Timeline::smokes);
+  visit("shot", &Timeline::shots);
+  visit("text", &Timeline::texts);
+  visit("blast", &Timeline::blasts);
+  visit("move", &Timeline::moves);
+  visit("edit", &Timeline::edits);
+  visit("door", &Timeline::doors);
+}
+
+/// Calls visit(type, list) for each list of events of a timeline; a const timeline gives const lists.
+template <typename AnyTimeline, typename Visitor>
+void for_each_event_list(AnyTimeline& timeline, Visitor&& visit) {
+  for_each_event_kind([&](const char* type, auto member) { visit(type, timeline.*member); });
+}
+
+/// Sorts each list of events by time. Stable: events of the same time keep their order.
 void sort_events(Timeline& timeline);
 
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, the tables [grid] (voxel,
@@ -170,24 +191,26 @@ void sort_events(Timeline& timeline);
 /// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
 /// from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text,
 /// from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius,
-/// speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid)
-/// or "door" (time, object, open). Points in metres, [-10^6, 10^6]; those of events [-16384, 16384]. Whether
-/// a door's object exists, is seen by check_doors. Fails with bad_input and file:line:column for broken TOML,
-/// a key that is not known (naming the nearest that is), a value of the wrong type or out of its range.
+/// speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high,
+/// solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events [-16384,
+/// 16384]. check_doors checks whether a door's object exists. Fails with bad_input and file:line:column for
+/// malformed TOML, an unknown key (suggesting the nearest known one), and a value of the wrong type or out of
+/// range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
-/// The same from text; `path` is what messages call it and what its scene is relative to.
+/// The same from text; `path` names it in messages and is the base of its relative paths.
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path);
 
-/// Fails with bad_input at the first door whose object the scene does not have, naming the nearest that it
-/// has.
+/// Fails with bad_input at the first door whose object is missing from the scene, suggesting the nearest
+/// name.
 Result<void> check_doors(const Timeline& timeline, const Scene& scene);
 
-/// The timeline of a scene file without one: a smoke thrown from the camera to what it looks at.
+/// The default timeline of a bare scene file: one smoke thrown from the camera to the point it looks at.
 Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scene);
 
-/// The camera at a time [s]: through all keys, with continuous speed, at rest before the first and after the
-/// last; `fallback` where there is no key. The field of view never leaves the range of its two keys.
+/// The camera at a time [s]: passes through all keys with continuous velocity, at rest before the first and
+/// after the last; `fallback` when there are no keys. The field of view stays within that of the two
+/// neighbouring keys.
 Camera camera_at(const Timeline& timeline, const Camera& fallback, double time);
 
 }  // namespace brume::scene

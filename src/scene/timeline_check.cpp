@@ -10,19 +10,19 @@
 namespace brume::scene {
 namespace {
 
-/// Looks at the members of one thing; the first failure is kept. A visitor of scene/options.hpp.
+/// Checks the members of one event or table; keeps the first failure. A visitor of scene/options.hpp.
 class Checker {
  public:
-  explicit Checker(std::string thing) : thing_(std::move(thing)) {}
+  explicit Checker(std::string subject) : subject_(std::move(subject)) {}
   template <typename Event>
-  Checker(const char* kind, const Event& event) : thing_(kind) {
+  Checker(const char* kind, const Event& event) : subject_(kind) {
     number("time", event.time, 0, kLatestTime);
-    thing_ += " at " + shown(event.time) + " s";
+    subject_ += " at " + shown(event.time) + " s";
   }
 
   void operator()(const OptionInfo& info, const float& member) {
     const double unit = is_angle(info) ? kRadiansOfDegree : 1;
-    // As floats: the least number of the file may be a float that is less.
+    // Compared as floats: the file's lower bound may round down to a float below it.
     if (member >= static_cast<float>(info.low * unit) && member <= static_cast<float>(info.high * unit))
       return;
     out_of_range(info.key, double{member} / unit, info.low, info.high);
@@ -55,7 +55,7 @@ class Checker {
   void fail(const char* key, const std::string& what) {
     if (failed_) return;
     failed_ = true;
-    failure_ = {ErrorCode::bad_input, thing_ + ": \"" + key + "\": " + what};
+    failure_ = {ErrorCode::bad_input, subject_ + ": \"" + key + "\": " + what};
   }
   Result<void> done() const { return failed_ ? Result<void>(failure_) : Result<void>(); }
 
@@ -64,7 +64,7 @@ class Checker {
     fail(key, "expected a number from " + shown(low) + " to " + shown(high) + ", found " + shown(value));
   }
 
-  std::string thing_;
+  std::string subject_;
   bool failed_ = false;
   Failure failure_;
 };
@@ -83,7 +83,7 @@ Result<void> check(const ShotEvent& event) {
   look.direction("toward", event.from_world, event.toward_world, "\"from\"");
   visit_shot_options(event, look);
   if ((event.shape == ShotShape::mask) == event.mask.empty())
-    look.fail("mask", "expected a picture where the shape is a mask, and only there");
+    look.fail("mask", "expected a picture if the shape is a mask, and only then");
   look.text("mask", event.mask.string());
   return look.done();
 }
@@ -135,20 +135,14 @@ Result<void> check(const DoorEvent& event) {
 
 Result<void> check_events(const Timeline& timeline) {
   Result<void> outcome;
-  const auto check_all = [&](const auto& events) {
+  for_each_event_list(timeline, [&](const char*, const auto& events) {
     for (auto event = events.begin(); event != events.end() && outcome; ++event) outcome = check(*event);
-  };
-  check_all(timeline.smokes);
-  check_all(timeline.shots);
-  check_all(timeline.texts);
-  check_all(timeline.blasts);
-  check_all(timeline.moves);
-  check_all(timeline.edits);
-  check_all(timeline.doors);
+  });
   return outcome;
 }
 
 Result<void> check_settings(const Timeline& timeline) {
+  // The timeline's own settings, then those of its tables.
   Checker look("the timeline");
   visit_timeline_options(timeline, look);
   if (auto done = look.done(); !done) return done;
@@ -158,6 +152,8 @@ Result<void> check_settings(const Timeline& timeline) {
   visit_sky_options(timeline.sky, sky);
   for (const Checker* checker : {&grid, &smoke, &sky})
     if (auto done = checker->done(); !done) return done;
+
+  // The camera keys, in strictly rising order of time.
   double last = -1;
   for (const CameraKey& key : timeline.camera) {
     Checker camera("camera", key);
@@ -165,7 +161,7 @@ Result<void> check_settings(const Timeline& timeline) {
     camera.point("target", key.camera.target_world, kFarthestPoint);
     camera.direction("target", key.camera.position_world, key.camera.target_world, "the position");
     visit_camera_options(key.camera, camera);
-    if (!(key.time > last)) camera.fail("time", "expected a later time than that of the key before");
+    if (!(key.time > last)) camera.fail("time", "expected a later time than that of the previous key");
     last = key.time;
     if (auto done = camera.done(); !done) return done;
   }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <map>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -175,30 +176,35 @@ class Writer {
     options(timeline.sky, SkyOptions(), "\n[sky]\n", [](auto& o, auto& v) { visit_sky_options(o, v); });
   }
 
-  /// All events by time; of the same time in the order in which they happen.
+  /// Writes all events by time; events of the same time in the order in which they happen.
   void write_events(const Timeline& timeline) {
-    std::vector<std::pair<double, std::string>> events;
-    const auto add = [&](const char* type, const auto& list) {
+    struct EventText {
+      double time;
+      bool changes_level;
+      std::string text;
+    };
+    std::vector<EventText> events;
+    std::string head = std::move(text_);
+    for_each_event_list(timeline, [&](const char* type, const auto& list) {
       for (const auto& event : list) {
         text_.clear();
         text_ += "\n[[event]]\ntype = \"" + std::string(type) + "\"\n";
         line("time", event.time);
         write_event(event);
-        events.emplace_back(event.time, std::move(text_));
+        events.push_back({event.time, changes_level(event), std::move(text_)});
       }
-    };
-    std::string head = std::move(text_);
-    add("edit", timeline.edits);
-    add("door", timeline.doors);
-    add("smoke", timeline.smokes);
-    add("shot", timeline.shots);
-    add("text", timeline.texts);
-    add("blast", timeline.blasts);
-    add("move", timeline.moves);
-    std::stable_sort(events.begin(), events.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    });
+    // The level changes before anything else of the same time happens.
+    std::stable_sort(events.begin(), events.end(), [](const EventText& a, const EventText& b) {
+      return a.time != b.time ? a.time < b.time : a.changes_level && !b.changes_level;
+    });
     text_ = std::move(head);
-    for (const auto& [time, text] : events) text_ += text;
+    for (const EventText& event : events) text_ += event.text;
+  }
+
+  template <typename Event>
+  static constexpr bool changes_level(const Event&) {
+    return std::is_same_v<Event, EditEvent> || std::is_same_v<Event, DoorEvent>;
   }
 
   void write_event(const SmokeEvent& event) {
@@ -245,16 +251,16 @@ class Writer {
     text_ += std::string(key) + " = " + text_of(value) + "\n";
   }
 
-  /// What differs from the usual, under a title.
+  /// Writes the options that differ from their defaults, under a title.
   template <typename Options, typename Visit>
-  void options(const Options& chosen, const Options& usual, const char* title, Visit visit) {
-    OptionTexts texts, usual_texts;
+  void options(const Options& chosen, const Options& defaults, const char* title, Visit visit) {
+    OptionTexts texts, default_texts;
     visit(chosen, texts);
-    visit(usual, usual_texts);
+    visit(defaults, default_texts);
     bool titled = false;
     for (std::size_t i = 0; i < texts.texts.size(); ++i) {
       const auto& [key, text] = texts.texts[i];
-      if (text == usual_texts.texts[i].second) continue;
+      if (text == default_texts.texts[i].second) continue;
       if (!std::exchange(titled, true)) text_ += title;
       text_ += std::string(key) + " = " + text + "\n";
     }
@@ -264,16 +270,16 @@ class Writer {
   std::string text_;
 };
 
-/// Brings the files that a timeline names below the folder of its own.
-class FileKeeper {
+/// Copies files that a timeline names into the timeline's own folder.
+class FileCollector {
  public:
-  FileKeeper(fs::path folder, fs::path own) : folder_(std::move(folder)), own_(std::move(own)) {}
+  FileCollector(fs::path folder, fs::path own) : folder_(std::move(folder)), own_(std::move(own)) {}
 
-  /// Names the file's place below the folder, where `copy_files` puts it.
-  Result<void> keep(fs::path& file) {
+  /// Replaces `file` by its path below the folder, where `copy_files` puts it.
+  Result<void> collect(fs::path& file) {
     if (file.empty() || is_safe_relative(path_from(file, folder_).generic_string())) return {};
-    const auto known = kept_.find(file);
-    if (known != kept_.end()) {
+    const auto known = collected_.find(file);
+    if (known != collected_.end()) {
       file = known->second;
       return {};
     }
@@ -281,7 +287,7 @@ class FileKeeper {
     if (!bytes) return bytes.failure();
     const fs::path copy = place_for(file, *bytes);
     copies_[copy] = std::move(*bytes);
-    kept_[file] = copy;
+    collected_[file] = copy;
     file = copy;
     return {};
   }
@@ -289,7 +295,8 @@ class FileKeeper {
   Result<void> copy_files() const {
     std::error_code error;
     if (!copies_.empty()) fs::create_directories(own_, error);
-    if (error) return Failure{ErrorCode::bad_input, own_.string() + ": cannot be made: " + error.message()};
+    if (error)
+      return Failure{ErrorCode::bad_input, own_.string() + ": cannot create the folder: " + error.message()};
     for (const auto& [place, bytes] : copies_)
       if (!fs::exists(place, error))
         if (auto written = write_file_atomic(place, bytes); !written) return written;
@@ -297,7 +304,7 @@ class FileKeeper {
   }
 
  private:
-  /// A name that is free, or is that of the same bytes.
+  /// A path that is unused, or that holds the same bytes.
   fs::path place_for(const fs::path& file, const std::vector<std::byte>& bytes) const {
     fs::path place = own_ / file.filename();
     for (int number = 2; !is_free_for(place, bytes); ++number)
@@ -308,13 +315,13 @@ class FileKeeper {
     if (const auto planned = copies_.find(place); planned != copies_.end()) return planned->second == bytes;
     std::error_code error;
     if (!fs::exists(place, error)) return true;
-    const auto there = read_file(place);
-    return there && *there == bytes;
+    const auto existing = read_file(place);
+    return existing && *existing == bytes;
   }
 
   fs::path folder_, own_;
-  std::map<fs::path, fs::path> kept_;                  // by their own places
-  std::map<fs::path, std::vector<std::byte>> copies_;  // by their new ones
+  std::map<fs::path, fs::path> collected_;             // new path by original path
+  std::map<fs::path, std::vector<std::byte>> copies_;  // bytes by new path
 };
 
 }  // namespace
@@ -324,16 +331,16 @@ std::string format_timeline(const Timeline& timeline, const fs::path& folder) {
 }
 
 Result<void> save_timeline(const fs::path& path, const Timeline& timeline) {
-  Timeline kept = timeline;
-  FileKeeper keeper(path.parent_path(), path.parent_path() / (path.stem().string() + "_files"));
-  for (ShotEvent& shot : kept.shots)
-    if (auto done = keeper.keep(shot.mask); !done) return done;
-  for (TextEvent& text : kept.texts)
-    if (auto done = keeper.keep(text.font); !done) return done;
-  const std::string text = format_timeline(kept, path.parent_path());
-  // What could not be read again is not written.
+  Timeline saved = timeline;
+  FileCollector files(path.parent_path(), path.parent_path() / (path.stem().string() + "_files"));
+  for (ShotEvent& shot : saved.shots)
+    if (auto done = files.collect(shot.mask); !done) return done;
+  for (TextEvent& text : saved.texts)
+    if (auto done = files.collect(text.font); !done) return done;
+  const std::string text = format_timeline(saved, path.parent_path());
+  // Never write a timeline that could not be read back.
   if (const auto read = parse_timeline(text, path); !read) return read.failure();
-  if (auto copied = keeper.copy_files(); !copied) return copied;
+  if (auto copied = files.copy_files(); !copied) return copied;
   return write_file_atomic(path, text);
 }
 

@@ -12,11 +12,11 @@
 namespace brume::sim {
 namespace {
 
-constexpr std::int64_t kSub = 1024;  // subvoxels a voxel
-/// Beyond the radius the effect fades over a fifth of it more: reach 255 lies there.
+constexpr std::int64_t kSub = 1024;  // subvoxels per voxel
+/// The effect fades out between the radius and 6/5 of it, where reach is 255.
 constexpr std::uint64_t kRimNum = 6, kRimDen = 5;
 constexpr std::uint32_t kFullReach = 255 * kRimDen / kRimNum;
-/// A voxel opens in this time once the front is there.
+/// Time a voxel takes to open once the front has arrived.
 constexpr std::uint64_t kOpenMilliseconds = 50;
 constexpr std::uint64_t kWhole = 65536;
 
@@ -24,7 +24,7 @@ constexpr std::uint64_t smoothstep(std::uint64_t x) {
   return (x * x * (3 * kWhole - 2 * x)) >> 32;
 }
 
-/// floor(sqrt(square)) for square < 2^52: the processor's root is correctly rounded.
+/// floor(sqrt(square)) for square < 2^52. Exact: IEEE square roots are correctly rounded.
 std::int64_t floor_sqrt(std::int64_t square) {
   auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(square)));
   while (root * root > square) --root;
@@ -32,7 +32,7 @@ std::int64_t floor_sqrt(std::int64_t square) {
   return root;
 }
 
-/// The solid voxels of a box, a byte each, so that a step along a ray is one addition.
+/// The solid voxels of a box, one byte each, so that a step along a ray is one addition.
 class SolidBox {
  public:
   SolidBox(const voxel::BitGrid& grid, glm::ivec3 low, glm::ivec3 high)
@@ -61,24 +61,26 @@ class SolidBox {
   std::vector<std::uint8_t> solid_;
 };
 
-/// Whether the straight way from a point to the centre of a voxel meets no solid voxel before it. Along an
-/// edge x steps before y, y before z. Both in the box, which is at most 2^10 voxels wide.
+/// Whether the segment from a point to the centre of a voxel meets no solid voxel before it. Along an edge x
+/// steps before y, y before z. Both ends lie in the box, which is at most 2^10 voxels wide.
 bool in_sight(const SolidBox& box, glm::i64vec3 from, glm::ivec3 target) {
   const glm::i64vec3 to = glm::i64vec3(target) * kSub + kSub / 2;
-  const glm::i64vec3 way = to - from, length = glm::max(glm::abs(way), std::int64_t{1});
-  // Times to the next face on each axis, all multiplied by the lengths of the ways, so that they are whole.
+  const glm::i64vec3 path = to - from, length = glm::max(glm::abs(path), std::int64_t{1});
+  // Times to the next face on each axis, scaled by the path's lengths on the other axes: integers.
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
   const glm::i64vec3 others(length.y * length.z, length.x * length.z, length.x * length.y);
   glm::i64vec3 next(kNever), step_time(0);
   std::array<std::size_t, 3> step{};  // downward steps wrap around
   for (int axis = 0; axis < 3; ++axis) {
-    if (way[axis] == 0) continue;
+    if (path[axis] == 0) continue;
     const std::int64_t in_voxel = from[axis] & (kSub - 1);
     const std::size_t stride = box.stride(axis);
-    step[static_cast<std::size_t>(axis)] = way[axis] > 0 ? stride : std::size_t{0} - stride;
-    next[axis] = (way[axis] > 0 ? kSub - in_voxel : in_voxel) * others[axis];
+    step[static_cast<std::size_t>(axis)] = path[axis] > 0 ? stride : std::size_t{0} - stride;
+    next[axis] = (path[axis] > 0 ? kSub - in_voxel : in_voxel) * others[axis];
     step_time[axis] = kSub * others[axis];
   }
+
+  // Step to the nearest face until the target is reached.
   const std::size_t end = box.index(target);
   for (std::size_t at = box.index(glm::ivec3(from >> std::int64_t{10})); at != end;) {
     if (box[at]) return false;
@@ -93,6 +95,7 @@ bool in_sight(const SolidBox& box, glm::i64vec3 from, glm::ivec3 target) {
 
 BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint32_t ticks_per_second)
     : blast_(blast), centre_(blast.at), ticks_per_second_(ticks_per_second) {
+  // A blast inside a wall moves to the nearest free voxel.
   const VoxelRuler ruler(grid.layout());
   glm::i64vec3 from = ruler.subvoxel(centre_);
   if (grid.solid(glm::ivec3(from >> std::int64_t{10}))) {
@@ -105,7 +108,7 @@ BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint
     from = ruler.subvoxel(centre_);
   }
 
-  // Every free voxel of the ball, slice by slice.
+  // Test every free voxel of the ball, slice by slice.
   const std::int64_t limit = ruler.subvoxels(blast.radius) * std::int64_t{kRimNum} / std::int64_t{kRimDen};
   const glm::ivec3 box_low((from - limit) >> std::int64_t{10}), box_high((from + limit) >> std::int64_t{10});
   const SolidBox box(grid, box_low, box_high);
@@ -127,8 +130,8 @@ BlastField::BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint
   finish(grid.layout());
 }
 
-Result<BlastField> BlastField::from_parts(const voxel::GridLayout& layout, const Blast& blast, Position centre,
-                                          BlockSet reached, std::uint32_t ticks_per_second) {
+Result<BlastField> BlastField::from_parts(const voxel::GridLayout& layout, const Blast& blast,
+                                          Position centre, BlockSet reached, std::uint32_t ticks_per_second) {
   if (auto ok = check_event(blast, layout); !ok) return ok.failure();
   if (auto ok = check_event(MoveBody{blast.tick, 0, centre}, layout); !ok) return ok.failure();
   const VoxelRuler ruler(layout);
@@ -139,7 +142,7 @@ Result<BlastField> BlastField::from_parts(const voxel::GridLayout& layout, const
     const glm::i64vec3 d = glm::i64vec3(v) * kSub + kSub / 2 - from;
     within &= d.x * d.x + d.y * d.y + d.z * d.z <= limit * limit;
   });
-  if (!within) return Failure{ErrorCode::bad_input, "blast: expected voxels within its reach"};
+  if (!within) return Failure{ErrorCode::bad_input, "blast: expected all voxels within its radius"};
   BlastField field;
   field.blast_ = blast;
   field.centre_ = centre;
@@ -149,8 +152,9 @@ Result<BlastField> BlastField::from_parts(const voxel::GridLayout& layout, const
   return field;
 }
 
-/// Computes from what the blast reached how far each voxel lies, when all is over, and the hash.
+/// Computes the distance of each reached voxel, the end tick and the hash.
 void BlastField::finish(const voxel::GridLayout& layout) {
+  // The distance of each voxel, scaled to [0, 255].
   const VoxelRuler ruler(layout);
   const glm::i64vec3 from = ruler.subvoxel(centre_);
   const std::int64_t limit = std::max<std::int64_t>(
@@ -162,6 +166,7 @@ void BlastField::finish(const voxel::GridLayout& layout) {
     reach_[rank] = static_cast<std::uint8_t>(std::min<std::int64_t>(255, distance * 255 / limit));
   });
 
+  // The end: when the last distance has refilled.
   end_tick_ = blast_.tick;
   const std::uint64_t tps = ticks_per_second_;
   for (std::uint32_t reach = 0; reach < 256; ++reach) {
@@ -169,7 +174,8 @@ void BlastField::finish(const voxel::GridLayout& layout) {
     end_tick_ = std::max(end_tick_, blast_.tick + static_cast<std::uint32_t>((over * tps + 999) / 1000));
   }
 
-  std::vector<std::uint64_t> words{blast_.tick, blast_.radius,        blast_.speed,
+  // The hash of the blast, its voxels and their distances.
+  std::vector<std::uint64_t> words{blast_.tick,      blast_.radius,        blast_.speed,
                                    blast_.remaining, blast_.refill_rim_ms, blast_.refill_middle_ms};
   for (const Position p : {blast_.at, centre_})
     for (int axis = 0; axis < 3; ++axis) words.push_back(static_cast<std::uint64_t>(std::int64_t{p[axis]}));
@@ -204,14 +210,15 @@ BlastProfile BlastField::profile(std::uint32_t tick) const {
     const std::uint64_t since = age_us - arrival, open = kOpenMilliseconds * 1000;
     std::uint64_t cleared = smoothstep(std::min(since * kWhole / open, kWhole));
     if (since > open) {
-      // Comes back as smoothstep^1.8, here (s + 4 s^2) / 5: never more than 0.018 off.
+      // Refills as smoothstep^1.8, approximated by (s + 4 s^2) / 5: error below 0.018.
       const std::uint64_t s =
           smoothstep(std::min((since - open) * kWhole / (refill_ms(reach) * 1000), kWhole));
       cleared = kWhole - (s + 4 * (s * s >> 16)) / 5;
     }
     if (reach > kFullReach)
       cleared = cleared * smoothstep((255 - reach) * kWhole / (255 - kFullReach)) / kWhole;
-    m.remaining[reach] = static_cast<std::uint8_t>(255 - ((255 - blast_.remaining) * cleared + kWhole / 2) / kWhole);
+    m.remaining[reach] =
+        static_cast<std::uint8_t>(255 - ((255 - blast_.remaining) * cleared + kWhole / 2) / kWhole);
   }
   return m;
 }

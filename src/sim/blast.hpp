@@ -1,4 +1,4 @@
-// The cavity of an explosion: which voxels it reaches, and how much smoke it leaves in them at any tick.
+// The cavity of an explosion: which voxels it reaches and how much smoke remains in them at any tick.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace brume::sim {
 
-/// How much density a blast leaves at one tick, of 255, by reach. Equal moments, equal effect.
+/// Remaining fraction of density, of 255, at one tick by BlastField::reach. Equal profiles, equal effect.
 struct BlastProfile {
   std::array<std::uint8_t, 256> remaining;
   bool operator==(const BlastProfile&) const = default;
@@ -22,24 +22,24 @@ struct BlastProfile {
 
 class BlastField {
  public:
-  /// Finds the free voxels within the radius whose centre is in a straight line from the blast, no solid
-  /// voxel between. A blast inside a solid voxel goes off in the free voxel nearest to it.
+  /// Finds the free voxels within the radius whose centres are visible from the blast: no solid voxel on the
+  /// straight line. A blast inside a solid voxel detonates in the nearest free voxel.
   BlastField(const voxel::BitGrid& grid, const Blast& blast, std::uint32_t ticks_per_second);
-  /// From what travelled. Fails with bad_input when a voxel lies beyond the radius.
+  /// From received parts. Fails with bad_input when a voxel lies beyond the radius.
   static Result<BlastField> from_parts(const voxel::GridLayout& layout, const Blast& blast, Position centre,
                                        BlockSet reached, std::uint32_t ticks_per_second);
 
   const Blast& blast() const { return blast_; }
-  /// Where it goes off: blast().at, or the centre of the free voxel that was taken instead.
+  /// Where it detonates: blast().at, or the centre of the free voxel that replaced it.
   Position centre() const { return centre_; }
   const BlockSet& reached() const { return reached_; }
   /// Distance from the centre by rank in reached(): 0 there, 255 at the radius.
   std::span<const std::uint8_t> reach() const { return reach_; }
-  /// When all has refilled.
+  /// The tick at which the cavity has refilled.
   std::uint32_t end_tick() const { return end_tick_; }
 
   BlastProfile profile(std::uint32_t tick) const;
-  /// Density that is remaining in a voxel, of 255; 255 where the blast does not reach.
+  /// Remaining fraction of density in a voxel, of 255; 255 where the blast does not reach.
   std::uint8_t remaining(glm::ivec3 voxel, const BlastProfile& profile) const {
     const std::uint32_t rank = reached_.rank(voxel);
     return rank == BlockSet::kNone ? 255 : profile.remaining[reach_[rank]];

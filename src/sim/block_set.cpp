@@ -13,7 +13,7 @@ constexpr int kMaxVoxel = 1 << 17;
 }  // namespace
 
 BlockSet::BlockSet(std::span<const glm::ivec3> voxels) {
-  // Neighbours in the list are mostly of one block: gather runs, then sort and join those.
+  // Consecutive voxels are mostly of one block: gather them into runs.
   std::vector<VoxelBlock> runs;
   for (const glm::ivec3 v : voxels) {
     BRUME_ASSERT(glm::all(glm::greaterThanEqual(v, glm::ivec3(-kMaxVoxel))) &&
@@ -23,6 +23,8 @@ BlockSet::BlockSet(std::span<const glm::ivec3> voxels) {
     if (runs.empty() || runs.back().at != at) runs.push_back({at, 0, 0});
     runs.back().mask |= std::uint64_t{1} << block_bit_index(v);
   }
+
+  // Sort the runs and join those of one block.
   std::sort(runs.begin(), runs.end(),
             [](const VoxelBlock& a, const VoxelBlock& b) { return block_before(a.at, b.at); });
   std::vector<VoxelBlock> blocks;
@@ -45,10 +47,10 @@ BlockSet BlockSet::from_blocks(std::vector<VoxelBlock> blocks) {
     BRUME_ASSERT(i == 0 || block_before(set.blocks_[i - 1].at, block.at), "blocks out of order");
     block.first = set.size_;
     set.size_ += static_cast<std::uint32_t>(std::popcount(block.mask));
-    for (std::uint64_t left = block.mask; left != 0; left &= left - 1) {
-      const glm::ivec3 v = voxel_of_block(glm::ivec3(block.at), std::countr_zero(left));
-      set.low_ = i == 0 && left == block.mask ? v : glm::min(set.low_, v);
-      set.high_ = i == 0 && left == block.mask ? v : glm::max(set.high_, v);
+    for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
+      const glm::ivec3 v = voxel_of_block(glm::ivec3(block.at), std::countr_zero(bits));
+      set.low_ = i == 0 && bits == block.mask ? v : glm::min(set.low_, v);
+      set.high_ = i == 0 && bits == block.mask ? v : glm::max(set.high_, v);
     }
   }
   return set;

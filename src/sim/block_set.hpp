@@ -1,5 +1,5 @@
-// A set of voxels as 64-bit masks of 4^3 blocks: what clouds, blasts and edits are made of, and how they
-// displacements. Each voxel of the set has a rank, so that data of the voxels are plain arrays beside it.
+// A set of voxels as 64-bit masks of 4^3 blocks: the representation of clouds, blasts and edits in memory and
+// on the wire. Each voxel of the set has a rank, so that per-voxel data are plain arrays beside the set.
 //
 //   blocks  sorted by (z, y, x):  | at | mask | first |     mask bit x + 4 y + 16 z of the voxel in its block
 //   rank of a voxel = first of its block + set bits below its own
@@ -34,31 +34,31 @@ class BlockSet {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   BlockSet() = default;
-  /// The set of these voxels, in any order, also more than once. Coordinates within [-2^17, 2^17).
+  /// The set of these voxels, in any order, duplicates allowed. Coordinates within [-2^17, 2^17).
   explicit BlockSet(std::span<const glm::ivec3> voxels);
-  /// From blocks sorted by (z, y, x), no two alike, no mask 0; `first` is counted anew.
+  /// From blocks sorted by (z, y, x), all distinct, no mask 0; `first` is recomputed.
   static BlockSet from_blocks(std::vector<VoxelBlock> blocks);
 
   std::span<const VoxelBlock> blocks() const { return blocks_; }
   std::uint32_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// The block, or null when none of its voxels is in the set.
+  /// The block, or null when the set has no voxel in it.
   const VoxelBlock* find_block(glm::ivec3 block) const;
   bool contains(glm::ivec3 voxel) const { return rank(voxel) != kNone; }
-  /// Number of the voxel in [0, size), by block and bit; kNone when it is not in the set.
+  /// Rank of the voxel in [0, size), in the order of blocks and bits; kNone when it is not in the set.
   std::uint32_t rank(glm::ivec3 voxel) const;
 
-  /// Low corner of the lowest and high corner of the highest voxel, by axis; of an empty set low > high.
+  /// Per-axis minimum and maximum of the voxels; of an empty set low > high.
   glm::ivec3 low() const { return low_; }
   glm::ivec3 high() const { return high_; }
 
-  /// Calls visit(voxel, rank) for each voxel in the order of ranks.
+  /// Calls visit(voxel, rank) for each voxel in rank order.
   template <typename Visit>
   void for_each(Visit visit) const {
     for (const VoxelBlock& block : blocks_) {
       std::uint32_t rank = block.first;
-      for (std::uint64_t left = block.mask; left != 0; left &= left - 1)
-        visit(voxel_of_block(glm::ivec3(block.at), std::countr_zero(left)), rank++);
+      for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1)
+        visit(voxel_of_block(glm::ivec3(block.at), std::countr_zero(bits)), rank++);
     }
   }
 
@@ -71,12 +71,12 @@ class BlockSet {
   glm::ivec3 low_{0}, high_{-1};
 };
 
-/// The voxels of both.
+/// The union of both sets.
 BlockSet unite(const BlockSet& a, const BlockSet& b);
-/// How many voxels are in both.
+/// The number of voxels in both sets.
 std::uint32_t count_common(const BlockSet& a, const BlockSet& b);
 
-/// The order of blocks.
+/// The order of blocks: by (z, y, x).
 inline bool block_before(glm::i16vec3 a, glm::i16vec3 b) {
   return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
 }

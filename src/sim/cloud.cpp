@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kAmountBits = 20;
 constexpr std::uint32_t kWhole = 65536;
-/// Fraction of the dissolve in which one voxel fades.
+/// Fraction of the dissolve that one voxel takes to fade.
 constexpr std::uint32_t kDissolveSoft = kWhole * 3 / 10;
-/// Of a voxel's survival: what its distance decides and what noise does; together 255.
+/// Parts of a voxel's survival due to distance and to noise; the sum is 255.
 constexpr std::uint32_t kSurvivalByDistance = 165, kSurvivalByNoise = 90;
-/// Radius of the sphere of the lobes' noise, in 1/256 of a cell: a lobe is about a tenth of a turn wide.
+/// Radius of the sphere on which the lobe noise is sampled, in 1/256 cell: a lobe spans about 36 degrees.
 constexpr int kLobesWide = 3 * 256;
 
 /// 3x^2 - 2x^3 for x in [0, 65536].
@@ -48,10 +48,10 @@ class BlockNoise {
   std::array<std::uint32_t, 8> corners_;
 };
 
-/// How far the smoke at a voxel is behind the front: noise on a sphere around the source, whose bulges are as
-/// wide in every direction and keep their places while the cloud grows.
+/// How far the smoke at a voxel lags behind the front: noise on a sphere around the source, so that lobes
+/// have the same angular width in all directions and stay in place while the cloud grows.
 std::uint8_t lag_of(glm::ivec3 from_source, std::uint32_t distance, std::uint32_t seed) {
-  // Towards the voxel, as long as the sphere's radius; moved to where no component is below 0.
+  // The direction to the voxel scaled to the sphere's radius, offset so that no component is negative.
   const auto on_sphere = [&](int radius_256) {
     const auto far = static_cast<std::int64_t>(std::max(distance, kFaceStep));
     glm::ivec3 point;
@@ -73,14 +73,38 @@ std::vector<std::uint8_t> survival_of(const BlockSet& fill, std::span<const std:
   for (const VoxelBlock& block : fill.blocks()) {
     const BlockNoise noise(glm::ivec3(block.at), seed);
     std::uint32_t rank = block.first;
-    for (std::uint64_t left = block.mask; left != 0; left &= left - 1, ++rank) {
+    for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1, ++rank) {
       const std::uint64_t far =
           std::uint64_t{kSurvivalByDistance} * distances[rank] / std::max(max_distance, 1u);
-      const std::uint32_t noisy = noise.at(std::countr_zero(left)) * kSurvivalByNoise / 255;
+      const std::uint32_t noisy = noise.at(std::countr_zero(bits)) * kSurvivalByNoise / 255;
       survival[rank] = static_cast<std::uint8_t>(kSurvivalByDistance - far + noisy);
     }
   }
   return survival;
+}
+
+/// What a flood decides for each voxel of the fill, by rank.
+struct FillValues {
+  std::vector<std::uint32_t> distances;
+  std::vector<std::uint8_t> survival, lag;
+};
+
+FillValues fill_values(const CloudParts& p, std::span<const FilledVoxel> filled) {
+  const glm::ivec3 source = p.origin.source;
+  const std::array<std::uint32_t, 4> seeds{static_cast<std::uint32_t>(source.x),
+                                           static_cast<std::uint32_t>(source.y),
+                                           static_cast<std::uint32_t>(source.z), p.origin.detonation_tick};
+  const auto seed = static_cast<std::uint32_t>(hash_values(std::span<const std::uint32_t>(seeds)));
+  FillValues values;
+  values.distances.resize(p.fill.size());
+  for (const FilledVoxel& one : filled) values.distances[p.fill.rank(one.voxel)] = one.distance;
+  const std::uint32_t max_distance = filled.empty() ? 0 : filled.back().distance;
+  values.survival = survival_of(p.fill, values.distances, max_distance, seed);
+  values.lag.resize(p.fill.size());
+  p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
+    values.lag[i] = lag_of(voxel - source, values.distances[i], seed);
+  });
+  return values;
 }
 
 std::vector<glm::ivec3> voxels_of(std::span<const FilledVoxel> filled) {
@@ -94,29 +118,29 @@ Failure bad_parts(const std::string& expected) {
   return {ErrorCode::bad_input, "cloud: expected " + expected};
 }
 
-/// What can be said of parts before anything is computed from them.
+/// The checks that need no derived data.
 Result<void> check_parts(const CloudParts& p) {
   const SmokeSettings& s = p.origin.settings;
   if (s.voxels < 1 || s.voxels > kMaxFillVoxels || s.bloom_ticks < 1 || s.bloom_ticks > kMaxTick ||
       s.hold_ticks > kMaxTick || s.dissolve_ticks < 1 || s.dissolve_ticks > kMaxTick)
-    return bad_parts("settings of a smoke");
+    return bad_parts("smoke settings within their ranges");
   if (p.origin.detonation_tick > kMaxTick + kMaxTick / 8)
-    return bad_parts("a detonation that an event can cause");
+    return bad_parts("a detonation tick that an event can cause");
   for (const BlockSet* set : {&p.fill, &p.detached})
     if (!set->empty() && (glm::any(glm::lessThan(set->low(), glm::ivec3(0))) ||
                           glm::any(glm::greaterThanEqual(set->high(), glm::ivec3(voxel::kMaxAxis)))))
       return bad_parts("voxels within a grid");
   if (p.fill.size() > s.voxels) return bad_parts("no more voxels than its amount");
-  if (count_common(p.fill, p.detached) != 0) return bad_parts("each voxel once");
+  if (count_common(p.fill, p.detached) != 0) return bad_parts("each voxel only once");
   const std::size_t flowing = p.flow_tick == 0 ? 0 : p.fill.size();
   if (p.fill_base.size() != flowing || p.fill_delay.size() != flowing ||
       p.detached_base.size() != p.detached.size() || p.detached_delay.size() != p.detached.size() ||
       p.detached_survival.size() != p.detached.size())
-    return bad_parts("one number for each voxel that flows");
+    return bad_parts("one value for each flowing voxel");
   const auto any_leaving = [&] {
     return std::any_of(p.detached_delay.begin(), p.detached_delay.end(), [](auto d) { return d != 0; });
   };
-  if (p.flow_tick == 0 && any_leaving()) return bad_parts("smoke at rest to stay");
+  if (p.flow_tick == 0 && any_leaving()) return bad_parts("no smoke to leave a settled cloud");
   return {};
 }
 
@@ -135,42 +159,32 @@ Cloud::Cloud(const voxel::BitGrid& grid, const CloudOrigin& origin) {
 Result<Cloud> Cloud::from_parts(CloudParts parts) {
   if (auto ok = check_parts(parts); !ok) return ok.failure();
   const std::vector<FilledVoxel> filled = flood_fill(parts.fill, parts.origin.source);
-  if (filled.size() != parts.fill.size()) return bad_parts("all of its fill to be reached from its source");
+  if (filled.size() != parts.fill.size()) return bad_parts("all of its fill to be reachable from its source");
   Cloud cloud;
   cloud.parts_ = std::move(parts);
   cloud.finish(filled);
   return cloud;
 }
 
-/// Computes from the parts, and from the flood in the order of its distances, what every question needs.
+/// Computes all derived data from the parts and from the flood, sorted by distance.
 void Cloud::finish(std::span<const FilledVoxel> filled) {
   const CloudParts& p = parts_;
-  if (!p.detached.empty()) both_ = unite(p.fill, p.detached);
+  if (!p.detached.empty()) all_voxels_ = unite(p.fill, p.detached);
+
+  // How many voxels lie within each distance.
   for (const FilledVoxel& one : filled) {
-    if (levels_.empty() || levels_.back().distance != one.distance) levels_.push_back({one.distance, 0});
-    levels_.back().count = static_cast<std::uint64_t>(&one - filled.data()) + 1;
+    if (distance_counts_.empty() || distance_counts_.back().distance != one.distance)
+      distance_counts_.push_back({one.distance, 0});
+    distance_counts_.back().count = static_cast<std::uint64_t>(&one - filled.data()) + 1;
   }
-  levels_.shrink_to_fit();
+  distance_counts_.shrink_to_fit();
 
-  std::vector<std::uint32_t> fill_distances(p.fill.size());
-  for (const FilledVoxel& one : filled) fill_distances[p.fill.rank(one.voxel)] = one.distance;
-  const glm::ivec3 source = p.origin.source;
-  const std::array<std::uint32_t, 4> seeds{static_cast<std::uint32_t>(source.x),
-                                           static_cast<std::uint32_t>(source.y),
-                                           static_cast<std::uint32_t>(source.z), p.origin.detonation_tick};
-  const auto seed = static_cast<std::uint32_t>(hash_values(std::span<const std::uint32_t>(seeds)));
-  std::vector<std::uint8_t> fill_survival =
-      survival_of(p.fill, fill_distances, filled.empty() ? 0 : filled.back().distance, seed);
-
-  std::vector<std::uint8_t> fill_lag(p.fill.size());
-  p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
-    fill_lag[i] = lag_of(voxel - source, fill_distances[i], seed);
-  });
-
+  // Distance, survival and lag, moved from ranks in the fill to ranks in voxels().
+  FillValues fill = fill_values(p, filled);
   if (p.detached.empty() && p.flow_tick == 0) {
-    distances_ = std::move(fill_distances);
-    lag_ = std::move(fill_lag);
-    survival_ = std::move(fill_survival);
+    distances_ = std::move(fill.distances);
+    lag_ = std::move(fill.lag);
+    survival_ = std::move(fill.survival);
   } else {
     const BlockSet& all = voxels();
     distances_.assign(all.size(), kNoDistance);
@@ -180,9 +194,9 @@ void Cloud::finish(std::span<const FilledVoxel> filled) {
     delay_.assign(all.size(), 0);
     p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
       const std::uint32_t rank = all.rank(voxel);
-      distances_[rank] = fill_distances[i];
-      survival_[rank] = fill_survival[i];
-      lag_[rank] = fill_lag[i];
+      distances_[rank] = fill.distances[i];
+      survival_[rank] = fill.survival[i];
+      lag_[rank] = fill.lag[i];
       if (p.flow_tick == 0) return;
       base_[rank] = p.fill_base[i];
       delay_[rank] = p.fill_delay[i];
@@ -195,6 +209,8 @@ void Cloud::finish(std::span<const FilledVoxel> filled) {
       if (p.detached_delay[i] == 0) ++trapped_;
     });
   }
+
+  // The flow ends when its last voxel has reached its new density.
   if (p.flow_tick != 0) {
     const std::uint16_t last =
         delay_.empty() ? std::uint16_t{0} : *std::max_element(delay_.begin(), delay_.end());
@@ -223,10 +239,10 @@ std::uint64_t Cloud::content_hash() const {
 }
 
 std::uint64_t Cloud::bytes() const {
-  const std::uint64_t parts =
-      parts_.fill.bytes() + parts_.detached.bytes() + 3 * parts_.fill_base.size() + 4 * parts_.detached.size();
-  return sizeof(Cloud) + parts + both_.bytes() + 4 * distances_.size() + survival_.size() + lag_.size() +
-         base_.size() + 2 * delay_.size() + sizeof(Level) * levels_.size();
+  const std::uint64_t parts = parts_.fill.bytes() + parts_.detached.bytes() + 3 * parts_.fill_base.size() +
+                              4 * parts_.detached.size();
+  return sizeof(Cloud) + parts + all_voxels_.bytes() + 4 * distances_.size() + survival_.size() +
+         lag_.size() + base_.size() + 2 * delay_.size() + sizeof(DistanceCount) * distance_counts_.size();
 }
 
 std::uint32_t Cloud::end_tick() const {
@@ -243,39 +259,42 @@ std::uint64_t Cloud::amount(std::uint32_t tick) const {
   const CloudOrigin& o = parts_.origin;
   if (tick <= o.detonation_tick) return 0;
   const std::uint64_t age = std::min(tick - o.detonation_tick, o.settings.bloom_ticks);
-  // Fraction (1 - (1 - x)^3)^2: a few voxels in the first tick, then fast, then ebbing.
+  // Released fraction (1 - (1 - x)^3)^2: a few voxels in the first tick, then fast, then levelling off.
   constexpr std::uint64_t kOne = std::uint64_t{1} << kAmountBits;
-  const std::uint64_t left = (o.settings.bloom_ticks - age) * kOne / o.settings.bloom_ticks;
-  const std::uint64_t out = kOne - (((left * left) >> kAmountBits) * left >> kAmountBits);
+  const std::uint64_t rest = (o.settings.bloom_ticks - age) * kOne / o.settings.bloom_ticks;  // 1 - x
+  const std::uint64_t out = kOne - (((rest * rest) >> kAmountBits) * rest >> kAmountBits);
   return o.settings.voxels * ((out * out) >> kAmountBits);
 }
 
-/// How far the smoke has come at a tick: never falls, rises with each tick of the bloom, and the amount's
-/// nearest voxels lie within it. Where the cloud has filled all that it can reach the front goes on as
-/// before: what no longer fits makes the rim denser.
+/// Distance of the front at a tick: rises with each tick of the bloom, never falls, and encloses the nearest
+/// amount(tick) voxels. Once the cloud has filled everything it can reach, the front advances at the same
+/// speed: the excess makes the rim denser.
 Front Cloud::front(std::uint32_t tick) const {
   const std::uint64_t out = amount(tick), trapped = std::uint64_t{trapped_} << kAmountBits;
-  if (out <= trapped || levels_.empty()) return 0;
+  if (out <= trapped || distance_counts_.empty()) return 0;
   const std::uint64_t n = out - trapped;
 
-  // The level that the amount is filling: the front is at its distance when the first of its voxels is due,
-  // and comes to the next level's when the last one is.
+  // The distance being filled: the front is there when the first of its voxels is due, and reaches the next
+  // distance when the last one is.
   const std::uint64_t whole = (n + (1u << kAmountBits) - 1) >> kAmountBits;
-  const auto level = std::lower_bound(levels_.begin(), levels_.end(), whole,
-                                      [](const Level& l, std::uint64_t count) { return l.count < count; });
-  if (level == levels_.end()) {
-    // All is filled: on at the mean pace so far.
-    const Level& last = levels_.back();
+  const auto at =
+      std::lower_bound(distance_counts_.begin(), distance_counts_.end(), whole,
+                       [](const DistanceCount& d, std::uint64_t count) { return d.count < count; });
+  if (at == distance_counts_.end()) {
+    // All is filled: continue at the mean speed so far.
+    const DistanceCount& last = distance_counts_.back();
     const std::uint64_t over = n - (last.count << kAmountBits);
     const std::uint64_t pace = std::max<std::uint64_t>(1, last.count / std::max(last.distance, kFaceStep));
     return (last.distance + 1) * kFrontUnit + ((over / pace * kFrontUnit) >> kAmountBits);
   }
-  const std::uint64_t before = level == levels_.begin() ? 0 : std::prev(level)->count;
+
+  // Between two distances the front moves with the amount.
+  const std::uint64_t before = at == distance_counts_.begin() ? 0 : std::prev(at)->count;
   const std::uint64_t next =
-      std::next(level) == levels_.end() ? level->distance + 1 : std::next(level)->distance;
-  const std::uint64_t gap = (next - level->distance) * kFrontUnit;
+      std::next(at) == distance_counts_.end() ? at->distance + 1 : std::next(at)->distance;
+  const std::uint64_t gap = (next - at->distance) * kFrontUnit;
   const std::uint64_t due = n - (before << kAmountBits);
-  return level->distance * kFrontUnit + (due / (level->count - before) * gap >> kAmountBits);
+  return at->distance * kFrontUnit + (due / (at->count - before) * gap >> kAmountBits);
 }
 
 CloudPhase Cloud::undissolved_phase(std::uint32_t tick) const {
@@ -320,10 +339,10 @@ std::uint8_t Cloud::density(std::uint32_t rank, const CloudPhase& m) const {
     }
   }
   if (m.dissolved == 0 || density == 0) return static_cast<std::uint8_t>(density);
-  // A voxel begins to fade when its survival is over, and is gone a share of kDissolveSoft later.
+  // A voxel starts to fade when its survival is exhausted, and is gone kDissolveSoft later.
   const std::uint32_t gone_at = survival_[rank] * (kWhole - kDissolveSoft) / 255 + kDissolveSoft;
-  const std::uint32_t left = gone_at <= m.dissolved ? 0 : std::min(gone_at - m.dissolved, kDissolveSoft);
-  return static_cast<std::uint8_t>((density * left + kDissolveSoft / 2) / kDissolveSoft);
+  const std::uint32_t remaining = gone_at <= m.dissolved ? 0 : std::min(gone_at - m.dissolved, kDissolveSoft);
+  return static_cast<std::uint8_t>((density * remaining + kDissolveSoft / 2) / kDissolveSoft);
 }
 
 std::uint8_t Cloud::density(glm::ivec3 voxel, const CloudPhase& m) const {

@@ -1,12 +1,12 @@
-// One smoke: the voxels that it fills, and how dense it is in each at any tick.
+// One smoke: the voxels it fills and its density in each of them at any tick.
 //
 //             bloom_ticks      hold_ticks             dissolve_ticks
-//   off |------------------|------------------|------------------------| nothing left
-//       the front runs out   nothing changes    eaten from the edges, by distance and noise
+//   off |------------------|------------------|------------------------| nothing remains
+//       the front expands    steady             eroded from the edges, by distance and noise
 //
-// An edit of the level lets it flow on (Cloud::flowed): the nearest voxels are found anew from its source;
-// what is cut off from it stays where it is and counts; each voxel gained takes, when the flow gets there,
-// what the farthest of the voxels lost gives up.
+// When the level is edited the cloud flows again (Cloud::flowed): the flood from its source is repeated;
+// smoke cut off from the source stays in place and counts against the amount; each voxel gained receives,
+// when the flow reaches it, the smoke of the farthest voxel lost.
 #pragma once
 
 #include <algorithm>
@@ -25,42 +25,42 @@
 
 namespace brume::sim {
 
-/// Distance of a cloud's front: chamfer units / 256.
+/// Distance of a cloud's front, in 1/256 chamfer units.
 using Front = std::uint64_t;
 constexpr Front kFrontUnit = 256;
 
-/// Where a smoke comes from; all else follows from it and the level.
+/// Where and when a smoke starts; everything else follows from this and the level.
 struct CloudOrigin {
-  glm::ivec3 source{0};  ///< A voxel; where the grenade went off.
+  glm::ivec3 source{0};  ///< The voxel where the grenade detonated.
   SmokeSettings settings;
   std::uint32_t detonation_tick = 0;
   bool operator==(const CloudOrigin&) const = default;
 };
 
-/// All of a cloud's state, as it travels. The rest of a Cloud is computed from it.
+/// The complete state of a cloud, as serialized. The rest of a Cloud is derived from it.
 struct CloudParts {
   CloudOrigin origin;
-  BlockSet fill;  ///< Voxels that the flood from the source reached: connected, with the source.
-  BlockSet detached;  ///< Other voxels that hold smoke of before an edit: trapped, or flowing off.
-  /// When it began to flow on; 0 when it never did or has come to rest.
+  BlockSet fill;      ///< Voxels that the flood from the source reached: connected, source included.
+  BlockSet detached;  ///< Other voxels with smoke from before an edit: trapped, or flowing off.
+  /// When it last began to flow; 0 when it never did or has settled.
   std::uint32_t flow_tick = 0;
-  /// By rank in `fill`, empty when flow_tick = 0: density at flow_tick, and ticks after flow_tick until the
-  /// voxel turns to its new density, + 1; 0: it has it at once.
+  /// By rank in `fill`, empty when flow_tick = 0: density at flow_tick, and 1 + the ticks from flow_tick
+  /// until the voxel starts to change to its new density; 0: it has that density at once.
   std::vector<std::uint8_t> fill_base;
   std::vector<std::uint16_t> fill_delay;
-  /// By rank in `rest`: density at flow_tick; ticks until it begins to leave, + 1, or 0: it is trapped and
-  /// stays; Cloud::survival.
+  /// By rank in `detached`: density at flow_tick; 1 + the ticks until the smoke starts to leave, or 0: it is
+  /// trapped and stays; Cloud::survival.
   std::vector<std::uint8_t> detached_base;
   std::vector<std::uint16_t> detached_delay;
   std::vector<std::uint8_t> detached_survival;
   bool operator==(const CloudParts&) const = default;
 };
 
-/// What a cloud's densities depend on besides its voxels, at one tick: equal moments, equal densities.
+/// The time-dependent input of a cloud's densities at one tick: equal phases give equal densities.
 struct CloudPhase {
-  Front front = 0;              ///< 0: nothing is out.
-  std::uint32_t dissolved = 0;  ///< Fraction of the dissolve that is over, of 65536.
-  std::uint32_t flowed = 0;     ///< Ticks since flow_tick, at most until it has come to rest.
+  Front front = 0;              ///< 0: no smoke yet.
+  std::uint32_t dissolved = 0;  ///< Elapsed fraction of the dissolve, [0, 65536].
+  std::uint32_t flowed = 0;     ///< Ticks since flow_tick, clamped at the settle tick.
   bool operator==(const CloudPhase&) const = default;
 };
 
@@ -69,63 +69,63 @@ class Cloud {
   /// Floods the grid from the source. The cloud has no voxel when the source is not free.
   Cloud(const voxel::BitGrid& grid, const CloudOrigin& origin);
 
-  /// From what travelled; it may come from anywhere. Fails with bad_input when the parts contradict each
-  /// other: numbers out of range, a fill that is not connected or without its source, sets that overlap,
-  /// lists of the wrong length. Distances are those of the flood that made the fill: its shortest ways run
-  /// through voxels of the fill only.
+  /// From untrusted, received parts. Fails with bad_input when they are inconsistent: numbers out of range, a
+  /// fill that is disconnected or lacks its source, overlapping sets, lists of the wrong length. Distances
+  /// equal those of the flood that made the fill, because its shortest paths run through the fill only.
   static Result<Cloud> from_parts(CloudParts parts);
 
-  /// Whether an edit of the level changes where this smoke is or can go.
+  /// Whether an edit of the level changes where this smoke is or can flow.
   bool touched_by(std::span<const EditBlock> edits) const;
-  /// The cloud after an edit of the level that is in effect from `tick` on. Where it gains voxels it flows in
-  /// at half the mean pace of its bloom, from the first one gained on.
+  /// The cloud after a level edit that takes effect at `tick`; `grid` is the edited level. It flows into the
+  /// voxels gained at half the mean speed of its bloom, nearest first.
   Cloud flowed(const voxel::BitGrid& grid, std::uint32_t tick) const;
-  /// The same cloud at rest: what flowed off is forgotten. Equal densities from settle_tick() on.
+  /// The settled cloud, without the voxels that smoke has left. Equal densities from settle_tick() on.
   Cloud settled() const;
 
   const CloudParts& parts() const { return parts_; }
   const CloudOrigin& origin() const { return parts_.origin; }
-  /// Every voxel in which there may be smoke at some tick: fill and rest.
-  const BlockSet& voxels() const { return parts_.detached.empty() ? parts_.fill : both_; }
-  /// Low corner of the lowest and high corner of the highest voxel; empty clouds: low > high.
+  /// Every voxel that may hold smoke at some tick: fill and detached.
+  const BlockSet& voxels() const { return parts_.detached.empty() ? parts_.fill : all_voxels_; }
+  /// Per-axis minimum and maximum of the voxels; empty clouds: low > high.
   glm::ivec3 low() const { return voxels().low(); }
   glm::ivec3 high() const { return voxels().high(); }
-  /// When the last smoke is gone.
+  /// The tick at which the last smoke is gone.
   std::uint32_t end_tick() const;
-  /// When it has come to rest after an edit; nothing when it is at rest.
+  /// The tick at which it settles after an edit; nothing when it is not flowing.
   std::optional<std::uint32_t> settle_tick() const;
 
-  /// Amount of smoke that is out at a tick, in voxels / 2^20. Rises from the detonation, fastest after a
-  /// quarter of the bloom, to the whole budget after bloom_ticks, then stays.
+  /// Amount of smoke released by a tick, in voxels / 2^20. Rises from the detonation, fastest after a quarter
+  /// of the bloom, to the whole amount after bloom_ticks, then stays constant.
   std::uint64_t amount(std::uint32_t tick) const;
   CloudPhase phase(std::uint32_t tick) const;
-  /// The same as if it never dissolved.
+  /// The phase without the dissolve.
   CloudPhase undissolved_phase(std::uint32_t tick) const;
   /// Density in [0, 255] of the voxel with this rank in voxels().
   std::uint8_t density(std::uint32_t rank, const CloudPhase& phase) const;
-  /// The density of any voxel; 0 where the cloud never is.
+  /// The density of any voxel; 0 outside voxels().
   std::uint8_t density(glm::ivec3 voxel, const CloudPhase& phase) const;
 
-  /// Density in [0, 255] where smoke arrives with a front at this distance: 0 at and beyond the front, 255
-  /// from a taper before it, even between them. The taper is a third of the front, at least two voxels, so
-  /// that the rim fades in open air while walls, which the fill reaches early, see full density.
+  /// Density in [0, 255] at this distance behind a front: 0 at and beyond the front, 255 at the taper's
+  /// length behind it and farther, linear in between. The taper is a third of the front's distance, at least
+  /// two voxels, so that the rim fades in open air while walls, which the fill reaches early, get full
+  /// density.
   static std::uint8_t profile(std::uint32_t distance, Front front);
 
   static constexpr std::uint32_t kNoDistance = ~std::uint32_t{0};
-  /// How far the front must have come for a voxel's smoke to be there, by rank in voxels(): its distance and
-  /// up to a quarter more, so that the cloud bulges in lobes. kNoDistance for those of parts().detached.
+  /// Front distance at which smoke reaches a voxel, by rank in voxels(): its own distance plus up to a
+  /// quarter, so that the cloud bulges in lobes. kNoDistance for parts().detached.
   std::uint32_t reach(std::uint32_t rank) const {
     const std::uint32_t distance = distances_[rank];
     if (distance == kNoDistance) return kNoDistance;
     return distance + static_cast<std::uint32_t>((std::uint64_t{distance} * lag_[rank]) >> kLagBits);
   }
-  /// Distance from the source by rank in voxels(); kNoDistance for those of parts().detached.
+  /// Geodesic distance from the source by rank in voxels(); kNoDistance for parts().detached.
   std::span<const std::uint32_t> distances() const { return distances_; }
-  /// How long a voxel's smoke withstands the dissolve, of 255, by rank in voxels(): less far from the source,
-  /// and by noise.
+  /// How long a voxel's smoke withstands the dissolve, [0, 255], by rank in voxels(): decreases with distance
+  /// from the source, varied by noise.
   std::span<const std::uint8_t> survival() const { return survival_; }
 
-  /// Hash of all parts and all that was computed from them.
+  /// Hash of all parts and everything derived from them.
   std::uint64_t hash() const { return hash_; }
   /// Bytes of memory held.
   std::uint64_t bytes() const;
@@ -134,27 +134,27 @@ class Cloud {
   Cloud() = default;
   void finish(std::span<const FilledVoxel> filled);
   std::uint64_t content_hash() const;
-  /// Ticks that a voxel takes to turn to its new density.
+  /// Ticks a voxel takes to change to its new density.
   std::uint32_t flow_ramp() const { return std::max(1u, parts_.origin.settings.bloom_ticks / 4); }
   Front front(std::uint32_t tick) const;
 
-  /// Distinct distances in rising order, and how many fill voxels lie within each.
-  struct Level {
+  /// A distance that occurs in the fill, and the number of fill voxels at that distance or nearer.
+  struct DistanceCount {
     std::uint32_t distance;
     std::uint64_t count;
   };
 
   CloudParts parts_;
-  BlockSet both_;  // fill and rest, where there is a rest
+  BlockSet all_voxels_;  // fill and detached; empty when nothing is detached
   std::vector<std::uint32_t> distances_;
   std::vector<std::uint8_t> survival_;
   static constexpr int kLagBits = 10;
-  std::vector<std::uint8_t> lag_;   // of the distance, / 2^kLagBits
-  std::vector<std::uint8_t> base_;  // of fill and rest, by rank in voxels(); empty when there are none
-  std::vector<std::uint16_t> delay_;
-  std::uint32_t trapped_ = 0;  // voxels of the rest that stay
-  std::vector<Level> levels_;
-  std::uint32_t flow_length_ = 0;  // ticks from flow_tick to rest
+  std::vector<std::uint8_t> lag_;     // fraction of the distance, / 2^kLagBits
+  std::vector<std::uint8_t> base_;    // fill_base and detached_base by rank in voxels(); empty without both
+  std::vector<std::uint16_t> delay_;  // the same for fill_delay and detached_delay
+  std::uint32_t trapped_ = 0;         // number of detached voxels that stay
+  std::vector<DistanceCount> distance_counts_;
+  std::uint32_t flow_length_ = 0;  // ticks from flow_tick to settle_tick()
   std::uint64_t hash_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// How a cloud goes on when the level around it changes.
+// How a cloud flows when the level around it changes.
 #include <algorithm>
 #include <bit>
 
@@ -7,15 +7,15 @@
 namespace brume::sim {
 namespace {
 
-/// Free voxels of a cloud with the densities and distances that they have now.
+/// The free voxels of a cloud with their densities and distances before the edit.
 struct Before {
   std::vector<glm::ivec3> voxels;
   std::vector<std::uint8_t> densities, survival;
   std::vector<std::uint32_t> distances;
-  BlockSet set;  // of the same voxels: a rank is the number in the lists
+  BlockSet set;  // the same voxels: a rank is an index into the lists
 };
 
-Before look_at(const Cloud& cloud, const voxel::BitGrid& grid, std::uint32_t tick) {
+Before capture(const Cloud& cloud, const voxel::BitGrid& grid, std::uint32_t tick) {
   Before before;
   const CloudPhase phase = cloud.undissolved_phase(tick);
   cloud.voxels().for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
@@ -26,10 +26,10 @@ Before look_at(const Cloud& cloud, const voxel::BitGrid& grid, std::uint32_t tic
     before.distances.push_back(cloud.distances()[rank]);
   });
   before.set = BlockSet(before.voxels);
-  return before;  // the voxels came in the order of ranks, so that list and set agree
+  return before;  // voxels were visited in rank order, so list and set agree
 }
 
-/// The old source, or the nearest voxel to it in the smoke that is still free.
+/// The old source, or the nearest smoke voxel to it that is still free.
 glm::ivec3 source_in(const Before& before, glm::ivec3 old, const voxel::BitGrid& grid) {
   if (grid.free(old) || before.voxels.empty()) return old;
   const auto nearest = std::min_element(before.distances.begin(), before.distances.end());
@@ -43,15 +43,17 @@ std::vector<glm::ivec3> voxels_of(std::span<const FilledVoxel> filled) {
   return voxels;
 }
 
-/// Smoke outside of the new fill: where it was and when it begins to leave.
-struct Rest {
-  std::vector<std::uint32_t> trapped, lost;  // numbers in the lists of Before
+/// Smoke outside of the new fill, as indices into the lists of Before.
+struct Detached {
+  std::vector<std::uint32_t> trapped;  // cut off from the source: stays
+  std::vector<std::uint32_t> lost;     // leaves
 };
 
-/// Ticks after the edit, + 1, at which each fill voxel turns to its new density; those gained in `gained`, by
-/// rank, nearest first.
+/// 1 + the ticks after the edit at which each fill voxel starts to change to its new density; 0: at once.
+/// Appends the ranks of the voxels gained to `gained`, nearest first.
 std::vector<std::uint16_t> fill_delays(const Cloud& after, const Before& before, Front front,
                                        std::vector<std::uint32_t>& gained) {
+  // Voxels that held smoke before change at once, if at all.
   const CloudParts& p = after.parts();
   std::vector<std::uint16_t> delays(p.fill.size());
   std::vector<std::uint32_t> distances(p.fill.size());
@@ -64,31 +66,35 @@ std::vector<std::uint16_t> fill_delays(const Cloud& after, const Before& before,
     else
       delays[rank] = before.densities[old] == Cloud::profile(after.reach(in_all), front) ? 0 : 1;
   });
+
+  // The others follow by distance, at half the mean speed of the bloom.
   std::stable_sort(gained.begin(), gained.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return distances[a] < distances[b]; });
   const std::uint64_t farthest = *std::max_element(distances.begin(), distances.end());
   for (const std::uint32_t rank : gained) {
-    const std::uint64_t way = distances[rank] - distances[gained.front()];
+    const std::uint64_t distance = distances[rank] - distances[gained.front()];
     const std::uint64_t ticks =
-        way * 2 * p.origin.settings.bloom_ticks / std::max<std::uint64_t>(farthest, 1);
+        distance * 2 * p.origin.settings.bloom_ticks / std::max<std::uint64_t>(farthest, 1);
     delays[rank] = static_cast<std::uint16_t>(1 + std::min<std::uint64_t>(ticks, 65534));
   }
   return delays;
 }
 
-/// Enters the smoke outside of the fill: what is trapped stays, the i-th of those lost, farthest first,
-/// leaves when the voxel gained that takes its smoke is due.
-void settle(CloudParts& parts, const Before& before, Rest rest, std::span<const std::uint32_t> gained) {
-  std::stable_sort(rest.lost.begin(), rest.lost.end(), [&](std::uint32_t a, std::uint32_t b) {
+/// Fills the detached lists: trapped smoke stays; the i-th lost voxel, farthest first, empties when the
+/// gained voxel that receives its smoke is due.
+void set_detached(CloudParts& parts, const Before& before, Detached detached,
+                  std::span<const std::uint32_t> gained) {
+  std::vector<std::uint32_t>& lost = detached.lost;
+  std::stable_sort(lost.begin(), lost.end(), [&](std::uint32_t a, std::uint32_t b) {
     return before.distances[a] > before.distances[b];
   });
   std::vector<std::uint16_t> delay_of(before.voxels.size(), 0);
-  for (std::size_t i = 0; i < rest.lost.size(); ++i)
-    delay_of[rest.lost[i]] =
-        gained.empty() ? std::uint16_t{1} : parts.fill_delay[gained[i * gained.size() / rest.lost.size()]];
+  for (std::size_t i = 0; i < lost.size(); ++i)
+    delay_of[lost[i]] =
+        gained.empty() ? std::uint16_t{1} : parts.fill_delay[gained[i * gained.size() / lost.size()]];
 
   std::vector<glm::ivec3> voxels;
-  for (const auto* list : {&rest.trapped, &rest.lost})
+  for (const auto* list : {&detached.trapped, &lost})
     for (const std::uint32_t i : *list) voxels.push_back(before.voxels[i]);
   parts.detached = BlockSet(voxels);
   parts.detached.for_each([&](glm::ivec3 voxel, std::uint32_t) {
@@ -108,8 +114,8 @@ bool Cloud::touched_by(std::span<const EditBlock> edits) const {
       continue;
     const VoxelBlock* own = voxels().find_block(glm::ivec3(edit.at));
     if (own && (own->mask & edit.make_solid) != 0) return true;
-    for (std::uint64_t left = edit.make_free; left != 0; left &= left - 1) {
-      const glm::ivec3 voxel = voxel_of_block(glm::ivec3(edit.at), std::countr_zero(left));
+    for (std::uint64_t bits = edit.make_free; bits != 0; bits &= bits - 1) {
+      const glm::ivec3 voxel = voxel_of_block(glm::ivec3(edit.at), std::countr_zero(bits));
       for (int i = 0; i < 27; ++i)
         if (voxels().contains(voxel + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1)) return true;
     }
@@ -118,39 +124,43 @@ bool Cloud::touched_by(std::span<const EditBlock> edits) const {
 }
 
 Cloud Cloud::flowed(const voxel::BitGrid& grid, std::uint32_t tick) const {
-  const Before before = look_at(*this, grid, tick);
+  const Before before = capture(*this, grid, tick);
   CloudParts parts;
   parts.origin = parts_.origin;
   parts.origin.source = source_in(before, parts_.origin.source, grid);
 
-  // What the smoke itself no longer joins to the source is trapped. It counts; the rest is found anew.
+  // Smoke no longer connected to the source through smoke is trapped and counts against the amount.
   const BlockSet joined(voxels_of(flood_fill(before.set, parts.origin.source)));
   std::uint32_t cut_off = 0;
   for (std::size_t i = 0; i < before.voxels.size(); ++i)
     if (before.densities[i] > 0 && !joined.contains(before.voxels[i])) ++cut_off;
+
+  // The new fill: a flood with the remaining amount.
   const std::uint32_t amount = parts.origin.settings.voxels;
   const auto filled = flood_fill(grid, parts.origin.source, amount - std::min(amount, cut_off));
   parts.fill = BlockSet(voxels_of(filled));
-  Rest rest;
+  Detached detached;
   for (std::uint32_t i = 0; i < before.voxels.size(); ++i)
     if (before.densities[i] > 0 && !parts.fill.contains(before.voxels[i]))
-      (joined.contains(before.voxels[i]) ? rest.lost : rest.trapped).push_back(i);
+      (joined.contains(before.voxels[i]) ? detached.lost : detached.trapped).push_back(i);
 
-  // The new fill as if nothing flowed tells which voxels have to change, and when.
+  // A settled cloud with the new fill gives the target densities: which voxels change, and when.
   CloudParts settled = parts;
-  settle(settled, before, {rest.trapped, {}}, {});
+  set_detached(settled, before, {detached.trapped, {}}, {});
   Cloud after;
   after.parts_ = std::move(settled);
   after.finish(filled);
   std::vector<std::uint32_t> gained;
   if (!parts.fill.empty())
     parts.fill_delay = fill_delays(after, before, after.undissolved_phase(tick).front, gained);
+
+  // The flow starts from the densities before the edit.
   parts.flow_tick = std::max(tick, 1u);
   parts.fill.for_each([&](glm::ivec3 voxel, std::uint32_t) {
     const std::uint32_t old = before.set.rank(voxel);
     parts.fill_base.push_back(old == BlockSet::kNone ? std::uint8_t{0} : before.densities[old]);
   });
-  settle(parts, before, rest, gained);
+  set_detached(parts, before, detached, gained);
 
   Cloud flowing;
   flowing.parts_ = std::move(parts);
@@ -159,6 +169,7 @@ Cloud Cloud::flowed(const voxel::BitGrid& grid, std::uint32_t tick) const {
 }
 
 Cloud Cloud::settled() const {
+  // Of the detached smoke only the trapped part remains.
   CloudParts parts;
   parts.origin = parts_.origin;
   parts.fill = parts_.fill;
@@ -170,8 +181,9 @@ Cloud Cloud::settled() const {
     parts.detached_delay.push_back(0);
     parts.detached_survival.push_back(parts_.detached_survival[rank]);
   });
-  parts.detached = BlockSet(trapped);  // the order of ranks is kept
+  parts.detached = BlockSet(trapped);  // preserves the order of ranks
 
+  // The flood is unchanged: sort its voxels by the known distances.
   std::vector<FilledVoxel> filled;
   parts.fill.for_each([&](glm::ivec3 voxel, std::uint32_t) {
     filled.push_back({voxel, distances_[voxels().rank(voxel)]});

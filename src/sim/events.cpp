@@ -11,7 +11,7 @@ bool in_world(Position p) {
   return within(p.x) && within(p.y) && within(p.z);
 }
 
-/// Puts together what is wrong with an event: which, when, and what was expected.
+/// Formats failures of one event: its kind, its tick and the expectation.
 class Check {
  public:
   Check(const char* name, std::uint32_t tick)
@@ -53,9 +53,9 @@ Result<void> check(const ThrowSmoke& e, const voxel::GridLayout&) {
 
 Result<void> check(const Shot& e, const voxel::GridLayout&) {
   const Check check("shot", e.tick);
-  if (e.origin == e.toward) return check.expected("a point to shoot toward that is not the muzzle");
+  if (e.origin == e.toward) return check.expected("`toward` to differ from the muzzle");
   if (e.shape > HoleShape::mask) return check.expected("a cylinder, a box or a mask");
-  if (e.shape != HoleShape::mask && e.mask != 0) return check.expected("no mask where the shape is not one");
+  if (e.shape != HoleShape::mask && e.mask != 0) return check.expected("no mask unless the shape is a mask");
   return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("the muzzle", e.origin),
                 check.position("`toward`", e.toward), check.number("a radius", e.radius, 1, kMaxCoordinate),
                 check.number("a roll", e.roll, 0, kFullTurn - 1),
@@ -73,7 +73,7 @@ Result<void> check(const Blast& e, const voxel::GridLayout& layout) {
   return all_of(check.number("a tick", e.tick, 0, kMaxTick), check.position("`at`", e.at),
                 check.number("a radius", e.radius, 1, max_radius),
                 check.number("a speed", e.speed, kUnitsPerMetre, 1u << 24),
-                check.number("a share left", e.remaining, 0, 255),
+                check.number("a remaining fraction", e.remaining, 0, 255),
                 check.number("milliseconds to refill the rim", e.refill_rim_ms, 1, kMaxMilliseconds),
                 check.number("milliseconds to refill the middle", e.refill_middle_ms, e.refill_rim_ms,
                              kMaxMilliseconds));
@@ -95,7 +95,7 @@ Result<void> check(const LevelEdit& e, const voxel::GridLayout& layout) {
     if (i > 0 && !block_before(e.blocks[i - 1].at, block.at))
       return check.expected("blocks sorted by z, y, x, each once");
     if ((block.make_solid | block.make_free) == 0 || (block.make_solid & block.make_free) != 0)
-      return check.expected("each voxel of a block to become solid or free, not both, and one at least");
+      return check.expected("at least one change per block, and no voxel both solid and free");
   }
   return check.number("a tick", e.tick, 0, kMaxTick);
 }

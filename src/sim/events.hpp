@@ -1,4 +1,4 @@
-// What happens in a world, and when: the events of its log. All numbers are integers.
+// The events of a world's log. All numbers are integers.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@
 
 namespace brume::sim {
 
-/// Largest tick of an event: four months at 64 a second; sums of ticks stay within 32 bits.
+/// Largest tick of an event: 97 days at 64 ticks per second; sums of ticks fit 32 bits.
 constexpr std::uint32_t kMaxTick = 1u << 29;
 
-/// Life of a smoke: it blooms to its full amount, holds, and dissolves from its edges. Ticks at 64 a second:
-/// 1 s, 18 s, 3 s.
+/// Life of a smoke: it blooms to its full amount, holds, and dissolves from its edges. The defaults at 64
+/// ticks per second: 1 s, 18 s, 3 s.
 struct SmokeSettings {
-  std::uint32_t voxels = 1800;         ///< Amount of smoke: voxels that it fills, [1, kMaxFillVoxels].
+  std::uint32_t voxels = 1800;         ///< Amount of smoke: number of voxels it fills, [1, kMaxFillVoxels].
   std::uint32_t bloom_ticks = 64;      ///< From the detonation to the full amount, [1, kMaxTick].
-  std::uint32_t hold_ticks = 1152;     ///< From there until it begins to dissolve, [0, kMaxTick].
-  std::uint32_t dissolve_ticks = 192;  ///< From there until nothing is left, [1, kMaxTick].
+  std::uint32_t hold_ticks = 1152;     ///< From the full amount to the start of the dissolve, [0, kMaxTick].
+  std::uint32_t dissolve_ticks = 192;  ///< From the start of the dissolve to its end, [1, kMaxTick].
   bool operator==(const SmokeSettings&) const = default;
 };
 
-/// A smoke grenade leaves the hand. It flies in a straight line at 20 m/s to where the ray from `from`
-/// through `at` lands (landing_voxel) and goes off on arrival.
+/// A smoke grenade is thrown. It flies in a straight line at 20 m/s to where the ray from `from` through `at`
+/// lands (landing_voxel), and detonates on arrival.
 struct ThrowSmoke {
   std::uint32_t tick = 0;
   Position from{0}, at{0};  ///< 1/1024 m
@@ -37,12 +37,12 @@ struct ThrowSmoke {
 };
 
 /// Times of a hole (shared/hole.h) [ms], each at most kMaxMilliseconds.
-struct HoleTiming {
+struct HoleTimingMs {
   std::uint32_t reach_far = 250;
   std::uint32_t expand = 50;
   std::uint32_t stay_open = 1000;
   std::uint32_t fade = 350;
-  bool operator==(const HoleTiming&) const = default;
+  bool operator==(const HoleTimingMs&) const = default;
 };
 constexpr std::uint32_t kMaxMilliseconds = 1u << 30;
 
@@ -53,39 +53,41 @@ enum class HoleShape : std::uint8_t {
   mask = shared::kHoleMask,
 };
 
-/// A bullet leaves the muzzle and bores a hole into the smoke that is there at that tick.
+/// A bullet leaves the muzzle and bores a hole into the smoke present at that tick.
 struct Shot {
   std::uint32_t tick = 0;
-  Position origin{0}, toward{0};  ///< 1/1024 m, must differ
+  Position origin{0}, toward{0};  ///< 1/1024 m; must differ
   std::uint32_t radius = 205;     ///< Half the edge of a box or mask; 1/1024 m, [1, kMaxCoordinate]
-  HoleTiming timing = {};
+  HoleTimingMs timing = {};
   HoleShape shape = HoleShape::cylinder;
-  std::uint32_t mask = 0;  ///< Number of the world's mask, [0, WorldSettings::masks.count); 0 unless a mask.
-  /// Turns the cross-section clockwise as the shooter sees it; 1/65536 of a turn, [0, 65535]. 0: the top of a
-  /// box or mask is up.
+  /// Index of one of the world's masks, [0, WorldSettings::masks.count); 0 unless the shape is a mask.
+  std::uint32_t mask = 0;
+  /// Rotation of the cross-section, clockwise as the shooter sees it; 1/65536 turn, [0, 65535]. 0: the top of
+  /// a box or mask is up.
   std::uint32_t roll = 0;
   bool operator==(const Shot&) const = default;
 };
 constexpr std::uint32_t kFullTurn = 65536;
 
-/// An explosion drives the smoke out of what it reaches in a straight line: a cavity whose front runs outward
-/// from `at`, and that fills again from its rim to its middle. Walls shield what lies behind them.
+/// An explosion drives the smoke out of every voxel visible from it: a cavity whose front runs outward from
+/// `at`, and which refills from its rim to its middle. Walls shield the smoke behind them.
 struct Blast {
   std::uint32_t tick = 0;
-  Position at{0};                         ///< 1/1024 m
-  std::uint32_t radius = 5 * 1024;        ///< 1/1024 m, at least 1, at most kMaxBlastVoxels voxels
-  std::uint32_t speed = 32 * 1024;        ///< of the front, 1/1024 m a second, [1024, 2^24]
-  std::uint32_t remaining = 5;                 ///< density that stays, of 255, [0, 255]
-  std::uint32_t refill_rim_ms = 500;      ///< until the rim is full again, [1, kMaxMilliseconds]
-  std::uint32_t refill_middle_ms = 5000;  ///< until the middle is, [refill_rim_ms, kMaxMilliseconds]
+  Position at{0};                     ///< 1/1024 m
+  std::uint32_t radius = 5 * 1024;    ///< 1/1024 m, from 1 to kMaxBlastVoxels voxels
+  std::uint32_t speed = 32 * 1024;    ///< of the front, 1/1024 m/s, [1024, 2^24]
+  std::uint32_t remaining = 5;        ///< remaining fraction of density, of 255, [0, 255]
+  std::uint32_t refill_rim_ms = 500;  ///< until the rim is full again, [1, kMaxMilliseconds]
+  std::uint32_t refill_middle_ms =
+      5000;  ///< until the middle is full again, [refill_rim_ms, kMaxMilliseconds]
   bool operator==(const Blast&) const = default;
 };
 constexpr int kMaxBlastVoxels = 64;
 
-/// A player, a bot or a thing is at a place now. Its first move puts it there.
+/// A player, bot or object moves to a position. Its first move places it.
 struct MoveBody {
   std::uint32_t tick = 0;
-  std::uint32_t body = 0;  ///< The caller's number for it.
+  std::uint32_t body = 0;  ///< The caller's number for the body.
   Position to{0};          ///< 1/1024 m
   bool operator==(const MoveBody&) const = default;
 };
@@ -103,8 +105,8 @@ inline std::uint32_t tick_of(const Event& event) {
   return std::visit([](const auto& e) { return e.tick; }, event);
 }
 
-/// Fails with bad_input, in one line, when a number of the event is out of the range that is named above, a
-/// position is out of the world, or the blocks of an edit are out of the grid or out of order.
+/// Fails with bad_input, in one line, when a number of the event is outside its range above, a position is
+/// outside the world, or the blocks of an edit lie outside the grid or are out of order.
 Result<void> check_event(const Event& event, const voxel::GridLayout& layout);
 
 }  // namespace brume::sim

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kUnreached = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kNoBrick = std::numeric_limits<std::uint32_t>::max();
 constexpr int kMoves = 26;
-/// Index of a voxel x + kRow y + kLayer z: the order of indices is that of any grid.
+/// Voxel index x + kRow y + kLayer z, ordered as the indices of any grid.
 constexpr std::int64_t kRow = std::int64_t{1} << 18, kLayer = kRow << 18;
 
 struct Move {
@@ -42,7 +42,8 @@ constexpr std::array<Move, kMoves> kMoveTable = make_moves();
 /// 3x3 words: slice of an 8x8 brick layer as seen from a step of (dx, dy).
 using ShiftedSlice = std::array<std::array<std::uint64_t, 3>, 3>;
 
-/// A brick of the fill: distances of its 8^3 voxels and, for each move, from which voxels it may be made.
+/// A brick of the fill: the distances of its 8^3 voxels and, for each move, the voxels from which it is
+/// valid.
 struct FillBrick {
   glm::ivec3 coordinates;
   std::array<std::uint32_t, 27> neighbours;
@@ -54,7 +55,7 @@ std::uint64_t low_bits(int count) {
   return count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
 }
 
-/// The free voxels of a brick as 8 words; no bit where the grid ends. Bricks outside have none.
+/// The free voxels of a brick as 8 words; none outside the grid.
 voxel::BitGrid::Brick free_words(const voxel::BitGrid& grid, glm::ivec3 brick) {
   voxel::BitGrid::Brick words{};
   const glm::ivec3 inside = glm::min(grid.size() - brick * 8, glm::ivec3(8));
@@ -68,7 +69,7 @@ voxel::BitGrid::Brick free_words(const voxel::BitGrid& grid, glm::ivec3 brick) {
   return words;
 }
 
-/// The voxels of a set in a brick.
+/// The voxels of a set within a brick.
 voxel::BitGrid::Brick words_of(const BlockSet& set, glm::ivec3 brick) {
   voxel::BitGrid::Brick words{};
   for (int octant = 0; octant < 8; ++octant) {
@@ -83,7 +84,7 @@ voxel::BitGrid::Brick words_of(const BlockSet& set, glm::ivec3 brick) {
   return words;
 }
 
-/// Shifts one layer of 3x3 brick slices so that result[dy + 1][dx + 1] bit (x, y) tells of (x + dx, y + dy).
+/// Shifts one layer of 3x3 brick slices: bit (x, y) of result[dy + 1][dx + 1] is voxel (x + dx, y + dy).
 ShiftedSlice shift_slice(const std::array<std::array<std::uint64_t, 3>, 3>& around) {
   constexpr std::uint64_t kFirstColumn = 0x0101010101010101u;
   ShiftedSlice by_x;
@@ -106,10 +107,12 @@ using FreeWords = std::function<voxel::BitGrid::Brick(glm::ivec3 brick)>;
 
 /// Writes FillBrick::may_move, 64 voxels at a time.
 void find_moves(const FreeWords& free, FillBrick& brick) {
+  // The free voxels of the brick and its 26 neighbours.
   std::array<voxel::BitGrid::Brick, 27> words;
   for (int i = 0; i < 27; ++i)
     words[static_cast<std::size_t>(i)] = free(brick.coordinates + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
 
+  // Each slice, shifted by every step in x and y.
   std::array<ShiftedSlice, 10> slices;  // z = -1 .. 8
   for (std::size_t s = 0; s < 10; ++s) {
     const std::size_t layer = (s + 7) / 8;
@@ -119,6 +122,7 @@ void find_moves(const FreeWords& free, FillBrick& brick) {
     slices[s] = shift_slice(around);
   }
 
+  // A move is valid where all corners of its box are free.
   for (std::size_t m = 0; m < kMoves; ++m) {
     const glm::ivec3 step = kMoveTable[m].step;
     for (std::size_t z = 0; z < 8; ++z) {
@@ -133,7 +137,7 @@ void find_moves(const FreeWords& free, FillBrick& brick) {
   }
 }
 
-/// Dial's bucket queue over bricks made on demand. Dial 1969, "Algorithm 360: Shortest-Path Forest with
+/// Dial's bucket queue over bricks created on demand. Dial 1969, "Algorithm 360: Shortest-Path Forest with
 /// Topological Ordering": edge lengths are small integers, so 18 buckets in a ring hold all open voxels.
 class Fill {
  public:
@@ -143,7 +147,7 @@ class Fill {
 
  private:
   struct Open {
-    std::uint64_t index;  // of the voxel: the order among equals
+    std::uint64_t index;  // voxel index: breaks ties
     std::uint32_t brick, local;
   };
 
@@ -176,6 +180,7 @@ std::uint32_t Fill::brick_at(glm::ivec3 b) {
   return entry->second;
 }
 
+/// Relaxes all moves from a voxel.
 void Fill::spread(const Open& from, std::uint32_t distance) {
   FillBrick& home = bricks_[from.brick];
   const glm::ivec3 local(static_cast<int>(from.local & 7), static_cast<int>(from.local >> 3 & 7),
@@ -184,6 +189,8 @@ void Fill::spread(const Open& from, std::uint32_t distance) {
   const std::uint64_t bit = std::uint64_t{1} << (from.local & 63);
   for (std::size_t m = 0; m < kMoves; ++m) {
     if (!(home.may_move[m][word] & bit)) continue;
+
+    // The target voxel, perhaps in a neighbouring brick.
     const Move& move = kMoveTable[m];
     const glm::ivec3 to = local + move.step;
     const glm::ivec3 beyond = to >> 3;  // -1, 0 or 1 bricks away
@@ -191,6 +198,8 @@ void Fill::spread(const Open& from, std::uint32_t distance) {
         home.neighbours[static_cast<std::size_t>(beyond.x + 3 * beyond.y + 9 * beyond.z + 13)];
     if (brick == kNoBrick) brick = brick_at(home.coordinates + beyond);
     const auto to_local = static_cast<std::uint32_t>((to.x & 7) | (to.y & 7) << 3 | (to.z & 7) << 6);
+
+    // Queue it when this path is shorter.
     std::uint32_t& known = bricks_[brick].distances[to_local];
     const std::uint32_t length = distance + move.length;
     if (length >= known) continue;
@@ -203,6 +212,7 @@ void Fill::spread(const Open& from, std::uint32_t distance) {
 }
 
 std::vector<FilledVoxel> Fill::run(glm::ivec3 source, std::uint32_t budget) {
+  // Start at the source, if it is free.
   std::vector<FilledVoxel> filled;
   const glm::ivec3 in_brick = source & 7;
   const bool is_free =
@@ -217,12 +227,13 @@ std::vector<FilledVoxel> Fill::run(glm::ivec3 source, std::uint32_t budget) {
   buckets_[0].push_back(first);
   open_ = 1;
 
+  // Settle the voxels bucket by bucket, those of one distance by index.
   std::vector<Open> nearest;
   for (std::uint32_t distance = 0; open_ > 0; ++distance) {
     nearest.clear();
     nearest.swap(buckets_[distance % buckets_.size()]);
     open_ -= nearest.size();
-    // An entry is stale when its voxel was reached by a shorter way meanwhile.
+    // An entry is stale when a shorter path to its voxel was found meanwhile.
     std::erase_if(nearest, [&](const Open& o) { return bricks_[o.brick].distances[o.local] != distance; });
     std::sort(nearest.begin(), nearest.end(), [](const Open& a, const Open& b) { return a.index < b.index; });
     for (const Open& open : nearest) {

@@ -14,7 +14,7 @@ namespace brume::sim {
 /// Borgefors 1986, "Distance Transformations in Digital Images", scaled to the unit voxel = 10.
 constexpr std::uint32_t kFaceStep = 10, kEdgeStep = 14, kCornerStep = 17;
 
-/// Largest budget of one fill; distances of that many voxels fit 32 bits.
+/// Largest budget of one fill; the distances of so many voxels fit 32 bits.
 constexpr std::uint32_t kMaxFillVoxels = 1u << 27;
 
 struct FilledVoxel {
@@ -24,19 +24,19 @@ struct FilledVoxel {
 };
 
 /// Returns the `budget` nearest free voxels to `source` by geodesic chamfer distance, sorted by (distance,
-/// voxel index), index = x + size.x * (y + size.y * z); of equally distant ones at the end those with the
-/// lowest index. Fewer when the space that `source` can reach is smaller; none when `source` is solid or
-/// outside the grid.
+/// voxel index), index = x + size.x * (y + size.y * z); ties at the budget go to the lowest index. Fewer when
+/// the space reachable from `source` is smaller; none when `source` is solid or outside the grid.
 ///
-/// A move goes to one of 26 neighbours and needs *every* voxel of the box that it spans (2, 4 or 8) free: the
-/// fill crosses no wall and slips through no diagonal crack. Time and memory follow the voxels filled.
+/// A move goes to one of 26 neighbours and requires *every* voxel of the box it spans (2, 4 or 8) to be free:
+/// the fill crosses no wall and leaks through no diagonal crack. Time and memory are proportional to the
+/// voxels filled.
 ///
 /// budget: at most kMaxFillVoxels.
 std::vector<FilledVoxel> flood_fill(const voxel::BitGrid& grid, glm::ivec3 source, std::uint32_t budget);
 
-/// The same where the voxels of `domain` are the only free ones: all of them that `source` can reach. Of the
-/// voxels that flood_fill returned it gives back all, with the same distances: their shortest ways, and the
-/// boxes of their moves, hold nearer voxels only. Coordinates of the domain in [0, 2^17).
+/// The same with the voxels of `domain` as the only free ones, without a budget: all that `source` can reach.
+/// Applied to the result of a flood_fill it returns the same voxels and distances, because shortest paths and
+/// the boxes of their moves contain nearer voxels only. Coordinates of the domain in [0, 2^17).
 std::vector<FilledVoxel> flood_fill(const BlockSet& domain, glm::ivec3 source);
 
 }  // namespace brume::sim

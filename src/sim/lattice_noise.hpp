@@ -6,7 +6,7 @@
 
 namespace brume::sim {
 
-/// Noise at a point of the integer lattice, [0, 255], evenly spread.
+/// Noise at a point of the integer lattice, uniform in [0, 255].
 inline std::uint32_t lattice_noise(glm::ivec3 at, std::uint32_t seed) {
   std::uint32_t h = seed ^ static_cast<std::uint32_t>(at.x) * 0x9e3779b1u ^
                     static_cast<std::uint32_t>(at.y) * 0x85ebca77u ^
@@ -16,11 +16,11 @@ inline std::uint32_t lattice_noise(glm::ivec3 at, std::uint32_t seed) {
   return (h ^ h >> 15) >> 24;
 }
 
-/// Value noise with smooth weights between the lattice's points, [0, 255]; the point in 1/256 of a cell, each
+/// Value noise, smoothly interpolated between lattice points, [0, 255]; the point in 1/256 cell, each
 /// component in [0, 2^31).
 inline std::uint32_t value_noise(glm::ivec3 point_256, std::uint32_t seed) {
   const glm::ivec3 cell = point_256 >> 8;
-  std::uint32_t weight[3];  // of the upper corners, [0, 256]
+  std::uint32_t weight[3];  // weights of the upper corners, [0, 256]
   for (int axis = 0; axis < 3; ++axis) {
     const auto f = static_cast<std::uint32_t>(point_256[axis] & 255);
     weight[axis] = (f * f * (768 - 2 * f)) >> 16;
@@ -28,9 +28,9 @@ inline std::uint32_t value_noise(glm::ivec3 point_256, std::uint32_t seed) {
   std::uint32_t sum = 0;
   for (int i = 0; i < 8; ++i) {
     const glm::ivec3 upper(i & 1, i >> 1 & 1, i >> 2);
-    std::uint32_t share = 1;  // of 2^24
-    for (int axis = 0; axis < 3; ++axis) share *= upper[axis] ? weight[axis] : 256 - weight[axis];
-    sum += lattice_noise(cell + upper, seed) * (share >> 8);
+    std::uint32_t corner_weight = 1;  // of 2^24
+    for (int axis = 0; axis < 3; ++axis) corner_weight *= upper[axis] ? weight[axis] : 256 - weight[axis];
+    sum += lattice_noise(cell + upper, seed) * (corner_weight >> 8);
   }
   return sum >> 16;
 }

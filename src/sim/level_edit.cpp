@@ -17,7 +17,7 @@ std::uint64_t bits_within(glm::ivec3 block, glm::ivec3 low, glm::ivec3 high) {
   return bits;
 }
 
-/// Calls visit(block) for the blocks that voxels of [low, high) lie in, in their order.
+/// Calls visit(block) in order for each block that contains voxels of [low, high).
 template <typename Visit>
 void for_each_block(glm::ivec3 low, glm::ivec3 high, Visit visit) {
   if (glm::any(glm::greaterThanEqual(low, high))) return;
@@ -99,8 +99,8 @@ EditBlocks effective_edits(const voxel::BitGrid& grid, std::span<const EditBlock
 
 void apply_edits(voxel::BitGrid& grid, std::span<const EditBlock> edits) {
   for (const EditBlock& edit : edits)
-    for (std::uint64_t left = edit.make_solid | edit.make_free; left != 0; left &= left - 1) {
-      const int bit = std::countr_zero(left);
+    for (std::uint64_t bits = edit.make_solid | edit.make_free; bits != 0; bits &= bits - 1) {
+      const int bit = std::countr_zero(bits);
       const glm::ivec3 v = voxel_of_block(glm::ivec3(edit.at), bit);
       if (grid.contains(v)) grid.set(v, edit.make_solid >> bit & 1);
     }

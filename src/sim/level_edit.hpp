@@ -1,4 +1,4 @@
-// Edits of the level: which voxels became solid or free.
+// Edits of the level: which voxels become solid or free.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace brume::sim {
 
-/// What an edit does to one 4^3 block; a voxel is in at most one of the masks.
+/// The changes of an edit within one 4^3 block; a voxel is in at most one of the masks.
 struct EditBlock {
   glm::i16vec3 at{0};            ///< voxel / 4
   std::uint64_t make_solid = 0;  ///< Bits as in VoxelBlock.
@@ -19,25 +19,25 @@ struct EditBlock {
   bool operator==(const EditBlock&) const = default;
 };
 
-/// Blocks sorted by block_before, no two alike, none without a bit.
+/// Blocks sorted by block_before, all distinct, none without a bit.
 using EditBlocks = std::vector<EditBlock>;
 
-/// Makes every voxel in [low, high) solid or free; what lies outside the grid is left out.
+/// Makes every voxel in [low, high) solid or free; clipped to the grid.
 EditBlocks edit_box(const voxel::GridLayout& layout, glm::ivec3 low, glm::ivec3 high, bool solid);
 
 /// The edits that turn `from` into `to` within [low, high) voxels; both of the same layout.
 EditBlocks difference(const voxel::BitGrid& from, const voxel::BitGrid& to, glm::ivec3 low, glm::ivec3 high);
 
-/// `later` after `earlier`, as one.
+/// The combined effect of `earlier` followed by `later`.
 EditBlocks merge_edits(std::span<const EditBlock> earlier, std::span<const EditBlock> later);
 
-/// What of the edits changes the grid.
+/// The part of the edits that changes the grid.
 EditBlocks effective_edits(const voxel::BitGrid& grid, std::span<const EditBlock> edits);
 
 /// The solid voxels of a block; none outside the grid.
 std::uint64_t solid_bits(const voxel::BitGrid& grid, glm::ivec3 block);
 
-/// Changes the grid. What lies outside of it is left out.
+/// Applies the edits to the grid; changes outside the grid are ignored.
 void apply_edits(voxel::BitGrid& grid, std::span<const EditBlock> edits);
 
 }  // namespace brume::sim

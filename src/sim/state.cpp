@@ -53,12 +53,15 @@ std::uint8_t State::density(glm::ivec3 voxel) const {
 }
 
 std::uint64_t State::hash() const {
+  // Layout, clock and masks.
   Words words;
   words.add(layout.size);
   words.add(layout.voxel_size);
   for (int axis = 0; axis < 3; ++axis) words.add(layout.origin_world[axis]);
   words.add(ticks_per_second, tick, events, masks.count);
   words.add(masks.hash);
+
+  // Level edits.
   words.add(std::uint64_t{edits ? edits->size() : 0});
   if (edits)
     for (const EditBlock& edit : *edits) {
@@ -66,6 +69,8 @@ std::uint64_t State::hash() const {
       words.add(edit.make_solid);
       words.add(edit.make_free);
     }
+
+  // Flights, clouds and blasts.
   words.add(std::uint64_t{flights.size()});
   for (const Flight& f : flights) {
     words.add(f.id, f.throw_tick, f.detonation_tick);
@@ -85,6 +90,8 @@ std::uint64_t State::hash() const {
     words.add(live.id);
     words.add(live.field->hash());
   }
+
+  // Holes and bodies.
   words.add(std::uint64_t{holes.size()});
   for (const BulletHole& hole : holes) add_hole(words, hole);
   words.add(std::uint64_t{bodies.size()});
@@ -100,9 +107,10 @@ std::vector<Grenade> grenades_of(const State& state) {
   std::vector<Grenade> flying;
   const VoxelRuler ruler(state.layout);
   for (const Flight& f : state.flights) {
-    const double share = static_cast<double>(state.tick - f.throw_tick) / (f.detonation_tick - f.throw_tick);
+    const double fraction =
+        static_cast<double>(state.tick - f.throw_tick) / (f.detonation_tick - f.throw_tick);
     const glm::dvec3 from = metres_from_position(f.from), to = metres_from_position(ruler.centre(f.landing));
-    flying.push_back({glm::vec3(from + (to - from) * share), state.seconds(state.tick - f.throw_tick)});
+    flying.push_back({glm::vec3(from + (to - from) * fraction), state.seconds(state.tick - f.throw_tick)});
   }
   return flying;
 }

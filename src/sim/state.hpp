@@ -1,6 +1,6 @@
-// All that is there at one tick, in integers: what the simulation makes, what travels, what is drawn and
-// looked through. A State is a value: copying it is a snapshot, and cheap, because clouds and blasts never
-// change and are shared.
+// The complete state of a world at one tick, in integers: output of the simulation, payload of the network
+// protocol, input of rendering and of line-of-sight queries. A State is a value: copying it takes a snapshot,
+// cheaply, because clouds and blasts are immutable and shared.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@ namespace brume::sim {
 
 /// A grenade in the air.
 struct Flight {
-  std::uint32_t id = 0;  ///< Of its throw; its cloud will have the same.
+  std::uint32_t id = 0;  ///< Id of its throw; its cloud gets the same id.
   Position from{0};
-  glm::ivec3 landing{0};  ///< The voxel in which it goes off.
+  glm::ivec3 landing{0};  ///< The voxel where it detonates.
   std::uint32_t throw_tick = 0, detonation_tick = 0;
   SmokeSettings smoke;
   bool operator==(const Flight&) const = default;
 };
 
 struct LiveCloud {
-  std::uint32_t id = 0;  ///< Of its throw.
+  std::uint32_t id = 0;  ///< Id of its throw.
   std::shared_ptr<const Cloud> cloud;
 };
 
@@ -35,15 +35,15 @@ struct LiveBlast {
   std::shared_ptr<const BlastField> field;
 };
 
-/// A hole that is open somewhere.
+/// A hole that has not closed yet.
 struct BulletHole {
   std::uint32_t id = 0;
   Shot shot;
-  std::uint64_t distance = 0;  ///< How deep it goes, 1/1024 m, > 0.
+  std::uint64_t distance = 0;  ///< Depth from the muzzle, 1/1024 m, > 0.
   bool operator==(const BulletHole&) const = default;
 };
 
-/// Where a body is, and where it was before its last move: the way that its wake follows.
+/// A body's position and the one before its last move: the segment its wake follows.
 struct Body {
   std::uint32_t body = 0;
   Position position{0}, previous{0};
@@ -54,37 +54,37 @@ struct Body {
 struct State {
   voxel::GridLayout layout;
   std::uint32_t ticks_per_second = 64;
-  MaskKey masks = {};  ///< Those that its holes name.
+  MaskKey masks = {};  ///< The masks that its holes refer to.
   std::uint32_t tick = 0;
-  std::uint32_t events = 0;  ///< Events taken in so far: the id of the next one.
-  /// What differs from the level as it was loaded; null: nothing.
+  std::uint32_t events = 0;  ///< Number of events applied so far: the id of the next one.
+  /// Differences from the level as loaded; null: none.
   std::shared_ptr<const EditBlocks> edits;
-  std::vector<Flight> flights;  ///< By id, like all lists here;
-  std::vector<LiveCloud> clouds;
-  std::vector<LiveBlast> blasts;
-  std::vector<BulletHole> holes;
-  std::vector<Body> bodies;  ///< but these, by body.
+  std::vector<Flight> flights;    ///< Sorted by id.
+  std::vector<LiveCloud> clouds;  ///< Sorted by id.
+  std::vector<LiveBlast> blasts;  ///< Sorted by id.
+  std::vector<BulletHole> holes;  ///< Sorted by id.
+  std::vector<Body> bodies;       ///< Sorted by Body::body.
 
   /// Seconds from tick 0 to a tick: the clock of shared::Hole.
   float seconds(std::uint32_t at) const {
     return static_cast<float>(static_cast<double>(at) / ticks_per_second);
   }
-  /// Density in [0, 255] of a voxel, without holes: the sum of all clouds, at most 255, times what each blast
-  /// leaves, rounded to the nearest after each.
+  /// Density in [0, 255] of a voxel, without holes: the sum over all clouds, at most 255, scaled by the
+  /// remaining fraction of each blast in turn, each time rounded to the nearest.
   std::uint8_t density(glm::ivec3 voxel) const;
-  /// Hash of everything here: equal states have equal hashes, on every machine.
+  /// Hash of the whole state: equal states have equal hashes on every machine.
   std::uint64_t hash() const;
 };
 
-/// What is left of a density when a share of `left` / 255 stays.
-constexpr std::uint8_t scaled_density(std::uint8_t density, std::uint8_t left) {
-  return static_cast<std::uint8_t>((unsigned{density} * left + 127) / 255);
+/// density * remaining / 255, rounded to the nearest.
+constexpr std::uint8_t scaled_density(std::uint8_t density, std::uint8_t remaining) {
+  return static_cast<std::uint8_t>((unsigned{density} * remaining + 127) / 255);
 }
 
-/// A grenade in the air, to draw.
+/// A grenade in the air, for rendering.
 struct Grenade {
   glm::vec3 position_world{0};
-  float flight_seconds = 0;  ///< Since the throw: what its spin is drawn from.
+  float flight_seconds = 0;  ///< Since the throw; determines its spin.
 };
 std::vector<Grenade> grenades_of(const State& state);
 

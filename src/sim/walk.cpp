@@ -19,7 +19,7 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
   return a / b - (a % b != 0 && (a % b < 0) != (b < 0));
 }
 
-/// a < b, exact: the products need more than 64 bits.
+/// Exact a < b: the products need more than 64 bits.
 bool less(Fraction a, Fraction b) {
   return static_cast<__int128>(a.num) * b.den < static_cast<__int128>(b.num) * a.den;
 }
@@ -29,7 +29,7 @@ bool before(glm::ivec3 a, glm::ivec3 b) {
   return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
 }
 
-/// The free voxel nearest to `centre`, with centre itself, that `side` accepts; ties by voxel index.
+/// The nearest free voxel to `centre`, centre included, that `side` accepts; ties by voxel index.
 template <typename Side>
 std::optional<glm::ivec3> nearest_free(const voxel::BitGrid& grid, glm::ivec3 centre, Side side) {
   std::optional<glm::ivec3> best;
@@ -88,14 +88,14 @@ VoxelRuler::VoxelRuler(const voxel::GridLayout& layout)
     : origin_(0), voxel_size_(std::llround(static_cast<double>(layout.voxel_size) * kFrameUnitsPerMetre)) {
   const bool size_ok = layout.voxel_size >= 1.0f / 64 && layout.voxel_size <= 64;
   if (!size_ok)
-    throw Error(ErrorCode::bad_input,
-                "voxel size " + std::to_string(layout.voxel_size) + " m: the simulation takes 1/64 m to 64 m");
+    throw Error(ErrorCode::bad_input, "voxel size " + std::to_string(layout.voxel_size) +
+                                          " m: the simulation accepts 1/64 m to 64 m");
   for (int axis = 0; axis < 3; ++axis) {
     const double metres = layout.origin_world[axis];
     if (!(std::abs(metres) <= double{kMaxCoordinate} / kUnitsPerMetre))
       throw Error(ErrorCode::bad_input,
                   "grid origin " + std::to_string(metres) +
-                      " m: the simulation takes at most 16384 m from the world's origin");
+                      " m: the simulation accepts at most 16384 m from the world's origin");
     origin_[axis] = std::llround(metres * kFrameUnitsPerMetre);
   }
 }
@@ -124,10 +124,10 @@ Position VoxelRuler::centre(glm::ivec3 voxel) const {
 void walk_ray(const voxel::BitGrid& grid, const VoxelRuler& ruler, Position from, Position to,
               const std::function<bool(const WalkStep&)>& visit) {
   const glm::i64vec3 start = ruler.subvoxel(from);
-  const glm::i64vec3 way = ruler.subvoxel(to) - start;
+  const glm::i64vec3 direction = ruler.subvoxel(to) - start;
   const glm::i64vec3 size(grid.size());
   glm::i64vec3 voxel = start >> std::int64_t{kSubvoxelBits};
-  if (way == glm::i64vec3(0)) {
+  if (direction == glm::i64vec3(0)) {
     if (grid.contains(glm::ivec3(voxel))) visit({glm::ivec3(voxel), {1, 1}});
     return;
   }
@@ -137,28 +137,31 @@ void walk_ray(const voxel::BitGrid& grid, const VoxelRuler& ruler, Position from
     int nearest = -1;
     Fraction exit;
     for (int axis = 0; axis < 3; ++axis) {
-      if (way[axis] == 0) {
+      if (direction[axis] == 0) {
         if (voxel[axis] < 0 || voxel[axis] >= size[axis]) return;
         continue;
       }
-      const bool up = way[axis] > 0;
+      const bool up = direction[axis] > 0;
       if (up ? voxel[axis] >= size[axis] : voxel[axis] < 0) return;
       const std::int64_t face = (voxel[axis] + up) * (1 << kSubvoxelBits);
-      const Fraction here{up ? face - start[axis] : start[axis] - face, std::abs(way[axis])};
+      const Fraction here{up ? face - start[axis] : start[axis] - face, std::abs(direction[axis])};
       if (nearest < 0 || less(here, exit)) {
         nearest = axis;
         exit = here;
       }
     }
+
+    // Visit the voxel, then step through that face.
     const bool inside =
         glm::all(glm::greaterThanEqual(voxel, glm::i64vec3(0))) && glm::all(glm::lessThan(voxel, size));
     if (inside && !visit({glm::ivec3(voxel), exit})) return;
-    voxel[nearest] += way[nearest] > 0 ? 1 : -1;
+    voxel[nearest] += direction[nearest] > 0 ? 1 : -1;
   }
 }
 
 std::optional<glm::ivec3> landing_voxel(const voxel::BitGrid& grid, const VoxelRuler& ruler, Position from,
                                         Position at) {
+  // Walk to the first solid voxel.
   std::optional<glm::ivec3> last_free, first_solid;
   walk_ray(grid, ruler, from, at, [&](const WalkStep& step) {
     if (grid.solid(step.voxel)) {
@@ -175,10 +178,11 @@ std::optional<glm::ivec3> landing_voxel(const voxel::BitGrid& grid, const VoxelR
   }
   if (last_free) return last_free;
 
-  const glm::i64vec3 way = glm::i64vec3(at) - glm::i64vec3(from);
+  // The ray starts in a wall: prefer free voxels ahead.
+  const glm::i64vec3 direction = glm::i64vec3(at) - glm::i64vec3(from);
   const auto ahead = [&](glm::ivec3 offset) {
     const glm::i64vec3 o(offset);
-    return o.x * way.x + o.y * way.y + o.z * way.z >= 0;
+    return o.x * direction.x + o.y * direction.y + o.z * direction.z >= 0;
   };
   const auto on_side = nearest_free(grid, *first_solid, ahead);
   return on_side ? on_side : nearest_free_voxel(grid, *first_solid);

@@ -12,9 +12,9 @@ namespace brume::sim {
 namespace {
 
 constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
-/// A surface may carry smoke this far beyond the voxels that a cloud fills.
+/// Surfaces may show smoke this many voxels beyond those a cloud fills.
 constexpr int kSmokeMargin = 2;
-/// States that can be gone back to are at least this many ticks apart, and at most so many.
+/// Minimum distance and maximum number of checkpoints.
 constexpr std::uint32_t kCheckpointTicks = 64;
 constexpr std::size_t kMaxCheckpoints = 256;
 
@@ -22,9 +22,9 @@ bool inside(glm::ivec3 v, glm::ivec3 low, glm::ivec3 high) {
   return glm::all(glm::greaterThanEqual(v, low)) && glm::all(glm::lessThanEqual(v, high));
 }
 
-/// The tick at which the last of a hole has closed.
+/// The tick at which a hole has fully closed.
 std::uint32_t end_of(const BulletHole& hole, std::uint32_t ticks_per_second) {
-  const HoleTiming& t = hole.shot.timing;
+  const HoleTimingMs& t = hole.shot.timing;
   const std::uint64_t life = std::uint64_t{t.reach_far} + t.expand + t.stay_open + t.fade;
   const std::uint64_t ticks = (life * ticks_per_second + 999) / 1000;
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(hole.shot.tick + ticks, kNever - 1));
@@ -34,11 +34,11 @@ Result<void> check_mask(const Event& event, const MaskKey& masks) {
   const auto* shot = std::get_if<Shot>(&event);
   if (!shot || shot->shape != HoleShape::mask || shot->mask < masks.count) return {};
   return Failure{ErrorCode::bad_input, "shot at tick " + std::to_string(shot->tick) + ": mask " +
-                                           std::to_string(shot->mask) + " of a world of " +
-                                           std::to_string(masks.count) + "; give the world its masks"};
+                                           std::to_string(shot->mask) + " in a world with " +
+                                           std::to_string(masks.count) + "; set WorldSettings::masks"};
 }
 
-/// Puts an element with an `id` where it belongs in a list sorted by id.
+/// Inserts an element into a list sorted by id.
 template <typename T>
 void insert_by_id(std::vector<T>& list, T element) {
   const auto place = std::upper_bound(list.begin(), list.end(), element.id,
@@ -53,7 +53,7 @@ std::uint32_t next_end(const State& state) {
   for (const Flight& flight : state.flights) next = std::min(next, flight.detonation_tick);
   for (const LiveCloud& live : state.clouds) {
     next = std::min(next, live.cloud->end_tick());
-    if (const auto rest = live.cloud->settle_tick()) next = std::min(next, *rest);
+    if (const auto settle = live.cloud->settle_tick()) next = std::min(next, *settle);
   }
   for (const LiveBlast& live : state.blasts) next = std::min(next, live.field->end_tick());
   for (const BulletHole& hole : state.holes) next = std::min(next, end_of(hole, state.ticks_per_second));
@@ -64,7 +64,7 @@ void remove_ended(State& state) {
   const std::uint32_t tick = state.tick;
   std::erase_if(state.clouds, [&](const LiveCloud& live) { return live.cloud->end_tick() <= tick; });
   for (LiveCloud& live : state.clouds)
-    if (const auto rest = live.cloud->settle_tick(); rest && *rest <= tick)
+    if (const auto settle = live.cloud->settle_tick(); settle && *settle <= tick)
       live.cloud = std::make_shared<const Cloud>(live.cloud->settled());
   std::erase_if(state.blasts, [&](const LiveBlast& live) { return live.field->end_tick() <= tick; });
   std::erase_if(state.holes,
@@ -75,7 +75,7 @@ World::World(const voxel::BitGrid& level, const WorldSettings& settings)
     : level_(level), settings_(settings), ruler_(level.layout()) {
   if (settings.ticks_per_second < 1 || settings.ticks_per_second > 1000)
     throw Error(ErrorCode::bad_input,
-                std::to_string(settings.ticks_per_second) + " ticks a second: expected 1 to 1000");
+                std::to_string(settings.ticks_per_second) + " ticks per second: expected 1 to 1000");
   state_.layout = level.layout();
   state_.ticks_per_second = settings.ticks_per_second;
   state_.masks = settings.masks;
@@ -93,7 +93,7 @@ Result<void> World::append(std::vector<Event> events) {
   std::uint32_t first = kNever;
   for (const Event& event : events) first = std::min(first, tick_of(event));
   if (auto ok = check(events, first, settings_.masks); !ok) return ok;
-  take_from(first, log_.size(), std::move(events));
+  replace_log(first, log_.size(), std::move(events));
   return {};
 }
 
@@ -110,15 +110,15 @@ Result<void> World::replace_from(std::uint32_t tick, std::vector<Event> events, 
       if (auto ok = check_mask(*event, masks); !ok) return ok;
     set_masks(masks);
   }
-  take_from(tick, static_cast<std::size_t>(from - log_.begin()), std::move(events));
+  replace_log(tick, static_cast<std::size_t>(from - log_.begin()), std::move(events));
   return {};
 }
 
-/// States name masks by their numbers alone.
+/// States refer to masks by index only, so their keys can change in place.
 void World::set_masks(const MaskKey& masks) {
   settings_.masks = state_.masks = first_.masks = masks;
   if (previous_) previous_->masks = masks;
-  for (State& kept : checkpoints_) kept.masks = masks;
+  for (State& checkpoint : checkpoints_) checkpoint.masks = masks;
 }
 
 /// `first`: the first tick whose events change.
@@ -130,16 +130,16 @@ Result<void> World::check(std::span<const Event> events, std::uint32_t first, co
   if (first >= first_free_tick_) return {};
   return Failure{ErrorCode::bad_input, "event at tick " + std::to_string(first) + ": expected tick " +
                                            std::to_string(first_free_tick_) +
-                                           " or later, what was before is forgotten"};
+                                           " or later; earlier history was dropped"};
 }
 
-/// Takes events from tick `first` on behind the first `kept` of the log, which lets those go that are after.
-void World::take_from(std::uint32_t first, std::size_t kept, std::vector<Event> events) {
+/// Replaces the log after its first `retained` events by `events`, all at or after tick `first`, and replays.
+void World::replace_log(std::uint32_t first, std::size_t retained, std::vector<Event> events) {
   const std::uint32_t present = state_.tick;
   std::erase_if(checkpoints_, [&](const State& state) { return state.tick >= first; });
   if (first <= present) go_back_before(first);
   const auto by_tick = [](const Event& a, const Event& b) { return tick_of(a) < tick_of(b); };
-  const auto middle = static_cast<std::ptrdiff_t>(kept);
+  const auto middle = static_cast<std::ptrdiff_t>(retained);
   log_.erase(log_.begin() + middle, log_.end());
   std::move(events.begin(), events.end(), std::back_inserter(log_));
   std::stable_sort(log_.begin() + middle, log_.end(), by_tick);
@@ -160,6 +160,7 @@ void World::advance_to(std::uint32_t tick) {
 }
 
 void World::play_tick(std::uint32_t tick) {
+  // Events, detonations, ends.
   previous_ = state_;
   state_.tick = changed_at_ = tick;
   for (; next_event_ < log_.size() && tick_of(log_[next_event_]) == tick; ++next_event_) {
@@ -170,35 +171,40 @@ void World::play_tick(std::uint32_t tick) {
   remove_ended(state_);
   next_end_ = next_end(state_);
 
-  // A state to go back to, now and then.
+  // A checkpoint every kCheckpointTicks at most.
   if (!checkpoints_.empty() && tick < checkpoints_.back().tick + kCheckpointTicks) return;
   checkpoints_.push_back(state_);
   if (checkpoints_.size() <= kMaxCheckpoints) return;
-  // Old ones thin out.
-  std::size_t kept = 0;
+
+  // When there are too many, drop every second one of the older half.
+  std::size_t retained = 0;
   for (std::size_t i = 0; i < checkpoints_.size(); ++i)
-    if (i >= kMaxCheckpoints / 2 || i % 2 == 0) checkpoints_[kept++] = std::move(checkpoints_[i]);
-  checkpoints_.resize(kept);
+    if (i >= kMaxCheckpoints / 2 || i % 2 == 0) checkpoints_[retained++] = std::move(checkpoints_[i]);
+  checkpoints_.resize(retained);
 }
 
-/// Becomes the last state kept of before a tick; where nothing has happened since, the present one.
+/// Rolls back to the last retained state before a tick; keeps the present one where nothing has changed
+/// since.
 void World::go_back_before(std::uint32_t tick) {
   if (tick > changed_at_) {
     state_.tick = std::min(state_.tick, tick - 1);
     return;
   }
+
+  // The latest of the previous state, the checkpoints and the first state.
   const auto after = std::lower_bound(checkpoints_.begin(), checkpoints_.end(), tick,
-                                      [](const State& kept, std::uint32_t t) { return kept.tick < t; });
-  const bool is_kept = after != checkpoints_.begin();
+                                      [](const State& state, std::uint32_t t) { return state.tick < t; });
+  const bool has_checkpoint = after != checkpoints_.begin();
   const bool is_previous =
-      previous_ && previous_->tick < tick && (!is_kept || std::prev(after)->tick < previous_->tick);
-  const bool is_first = !is_kept && !is_previous;
+      previous_ && previous_->tick < tick && (!has_checkpoint || std::prev(after)->tick < previous_->tick);
+  const bool is_first = !has_checkpoint && !is_previous;
   const State target = is_previous ? *previous_ : is_first ? first_ : *std::prev(after);
   previous_.reset();
   change_edits(target.edits);
   state_ = target;
   changed_at_ = target.tick;
-  // The log holds no event that first_ has taken in.
+
+  // The next event to play. Events already in first_ are no longer in the log.
   next_event_ = 0;
   if (!is_first)
     next_event_ = static_cast<std::size_t>(
@@ -208,7 +214,7 @@ void World::go_back_before(std::uint32_t tick) {
   next_end_ = next_end(state_);
 }
 
-/// Turns the grid from the edits of state_ to others.
+/// Replaces the edits of state_ in the grid by others.
 void World::change_edits(const std::shared_ptr<const EditBlocks>& edits) {
   if (edits == state_.edits) return;
   if (!edited_) edited_.emplace(level_);
@@ -224,12 +230,12 @@ void World::change_edits(const std::shared_ptr<const EditBlocks>& edits) {
 Result<void> World::restore(const State& state) {
   if (state.layout != level_.layout() || state.ticks_per_second != settings_.ticks_per_second)
     return Failure{ErrorCode::bad_input,
-                   "state: expected one of a world of the same grid and ticks a second"};
+                   "state: expected the same grid and ticks per second as this world's"};
   if (state.masks != settings_.masks)
     return Failure{ErrorCode::bad_input,
-                   "state: its holes have other masks than this world's; load the same timeline"};
+                   "state: its holes use different masks than this world; load the same timeline"};
   if (next_end(state) <= state.tick)
-    return Failure{ErrorCode::bad_input, "state: expected nothing in it that has ended before its tick"};
+    return Failure{ErrorCode::bad_input, "state: contains something that ended before its tick"};
   if (state.edits)
     if (auto ok = check_event(LevelEdit{0, *state.edits}, level_.layout()); !ok) return ok;
   std::erase_if(log_, [&](const Event& event) { return tick_of(event) <= state.tick; });
@@ -246,7 +252,7 @@ Result<void> World::restore(const State& state) {
 
 void World::forget_before(std::uint32_t tick) {
   const auto after = std::upper_bound(checkpoints_.begin(), checkpoints_.end(), std::min(tick, state_.tick),
-                                      [](std::uint32_t t, const State& kept) { return t < kept.tick; });
+                                      [](std::uint32_t t, const State& state) { return t < state.tick; });
   if (after == checkpoints_.begin()) return;
   first_ = *std::prev(after);
   first_free_tick_ = first_.tick + 1;
@@ -278,7 +284,7 @@ void World::detonate() {
   std::vector<std::shared_ptr<const Cloud>> clouds(due.size());
   parallel_for(due.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      // A wall may have come to stand where it was to land.
+      // The landing voxel may have become solid since the throw.
       const glm::ivec3 source = nearest_free_voxel(grid(), due[i].landing).value_or(due[i].landing);
       clouds[i] =
           std::make_shared<const Cloud>(grid(), CloudOrigin{source, due[i].smoke, due[i].detonation_tick});
@@ -288,39 +294,41 @@ void World::detonate() {
     if (!clouds[i]->voxels().empty()) insert_by_id(state_.clouds, LiveCloud{due[i].id, clouds[i]});
 }
 
-/// How deep the hole of a shot goes, 1/1024 m: to where the shot leaves the last brick of smoke, but no
-/// farther than to the middle of its way through the first solid voxel after the first free one: there,
-/// somewhere, is the wall. 0: it meets no smoke.
+/// Depth of a shot's hole, 1/1024 m: up to where the shot leaves the last smoke, but no farther than halfway
+/// through the first solid voxel after the first free one, which contains the wall. 0: it meets no smoke.
 std::uint64_t World::hole_distance(const Shot& shot) const {
-  // The way, and the smoke that may be on it.
-  std::vector<WalkStep> way;
+  // The voxels on the path, up to the wall.
+  std::vector<WalkStep> path;
   glm::ivec3 low(voxel::kMaxAxis), high(-1);
   bool was_free = false;
   walk_ray(grid(), ruler_, shot.origin, shot.toward, [&](const WalkStep& step) {
-    way.push_back(step);
+    path.push_back(step);
     low = glm::min(low, step.voxel);
     high = glm::max(high, step.voxel);
     const bool solid = grid().solid(step.voxel);
     was_free |= !solid;
     return !was_free || !solid;
   });
-  std::vector<const Cloud*> there;
+
+  // The clouds whose bounds the path may cross.
+  std::vector<const Cloud*> nearby;
   for (const LiveCloud& live : state_.clouds)
     if (glm::all(glm::lessThanEqual(low, live.cloud->high() + kSmokeMargin)) &&
         glm::all(glm::greaterThanEqual(high, live.cloud->low() - kSmokeMargin)))
-      there.push_back(live.cloud.get());
+      nearby.push_back(live.cloud.get());
 
+  // The farthest exit from a voxel in smoke.
   const auto length = static_cast<__int128>(ceil_distance(shot.origin, shot.toward));
-  const auto distance_at = [&](Fraction share) { return length * share.num / share.den; };
+  const auto distance_at = [&](Fraction fraction) { return length * fraction.num / fraction.den; };
   __int128 far = 0;
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    const bool in_smoke = std::any_of(there.begin(), there.end(), [&](const Cloud* cloud) {
-      return inside(way[i].voxel, cloud->low() - kSmokeMargin, cloud->high() + kSmokeMargin);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool in_smoke = std::any_of(nearby.begin(), nearby.end(), [&](const Cloud* cloud) {
+      return inside(path[i].voxel, cloud->low() - kSmokeMargin, cloud->high() + kSmokeMargin);
     });
     if (!in_smoke) continue;
-    far = distance_at(way[i].exit);
-    const bool ends_in_wall = i + 1 == way.size() && i > 0 && grid().solid(way[i].voxel);
-    if (ends_in_wall) far = (distance_at(way[i - 1].exit) + far) / 2;
+    far = distance_at(path[i].exit);
+    const bool ends_in_wall = i + 1 == path.size() && i > 0 && grid().solid(path[i].voxel);
+    if (ends_in_wall) far = (distance_at(path[i - 1].exit) + far) / 2;
   }
   return static_cast<std::uint64_t>(far);
 }

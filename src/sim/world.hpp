@@ -1,5 +1,5 @@
-// The simulation: a level and an event log in, the state of any tick out. The same log gives the same bits,
-// whatever the machine, the number of threads, or the ticks at which it was asked.
+// The simulation: a level and an event log in, the state of any tick out. The same log gives the same bits
+// regardless of machine, number of threads and ticks visited in between.
 #pragma once
 
 #include <cstdint>
@@ -17,40 +17,43 @@ namespace brume::sim {
 
 struct WorldSettings {
   std::uint32_t ticks_per_second = 64;  ///< [1, 1000]
-  MaskKey masks = {};                   ///< Those that its shots may name: MaskAtlas::key().
+  MaskKey masks = {};                   ///< The masks its shots may refer to: MaskAtlas::key().
 };
 
 constexpr std::uint32_t kGrenadeMetresPerSecond = 20;
 
-/// The next tick at which something goes off, comes to rest or ends; 2^32 - 1 when nothing will.
+/// The next tick at which a grenade detonates, or a cloud, blast or hole settles or ends; 2^32 - 1 when none
+/// will.
 std::uint32_t next_end(const State& state);
-/// Takes out of a state what is over at its tick, as a world does; grenades that arrive are left to it.
+/// Removes clouds, blasts and holes that have ended by the state's tick, as World does. Does not detonate
+/// grenades.
 void remove_ended(State& state);
 
-/// A tick happens in this order: its events, as they were appended; grenades that arrive go off; what has
-/// ended goes. Between the ticks at which something begins or ends nothing is computed.
+/// A tick is processed in this order: its events, as appended; detonation of arriving grenades; removal of
+/// everything that has ended. Nothing is computed between ticks at which something starts or ends.
 class World {
  public:
-  /// `level` must outlive the world and keep its voxels. Throws Error(bad_input) for a layout that VoxelRuler
-  /// refuses or ticks_per_second out of range.
+  /// `level` must outlive the world unchanged. Throws Error(bad_input) for a layout that VoxelRuler rejects
+  /// or ticks_per_second out of range.
   explicit World(const voxel::BitGrid& level, const WorldSettings& settings = {});
 
-  /// Takes an event into the log. One at or before the present tick changes the past: the world goes back and
-  /// plays it again up to the present. Fails with bad_input as check_event does, for a shot of a mask that
-  /// the settings do not have, or for an event of a tick that is forgotten; the world is then as before.
+  /// Adds an event to the log. One at or before the present tick changes the past: the world rolls back and
+  /// replays to the present. Fails with bad_input as check_event does, for a shot with a mask that the
+  /// settings lack, and for an event of a tick before dropped or restored history ends; the world is then
+  /// unchanged.
   Result<void> append(Event event);
-  /// The same for many at once: the past is played again only once. All or none are taken.
+  /// The same for many events with a single replay. Adds all or none.
   Result<void> append(std::vector<Event> events);
-  /// Takes events into the place of those of the log at or after a tick, as if they had been appended in
-  /// their stead; each must be of that tick or later. Fails as `append` does; the world is then as before.
+  /// Replaces the log's events at or after a tick by others, as if they had been appended in their stead;
+  /// each must be of that tick or later. Fails as `append` does; the world is then unchanged.
   Result<void> replace_from(std::uint32_t tick, std::vector<Event> events) {
     return replace_from(tick, std::move(events), settings_.masks);
   }
-  /// The same, and the world's shots have other masks from now on, those before the tick too. Fails with
-  /// bad_input also when one of those names a mask that there is no more.
+  /// The same, and replaces the masks of all shots, those before the tick included. Also fails with bad_input
+  /// when one of those shots uses a mask that no longer exists.
   Result<void> replace_from(std::uint32_t tick, std::vector<Event> events, const MaskKey& masks);
 
-  /// Moves to a tick, forwards or, down to earliest_tick(), backwards.
+  /// Moves to a tick, forwards, or backwards down to earliest_tick().
   void advance_to(std::uint32_t tick);
   void step() { advance_to(tick() + 1); }
 
@@ -58,25 +61,25 @@ class World {
   const State& state() const { return state_; }
   std::uint64_t state_hash() const { return state_.hash(); }
   const WorldSettings& settings() const { return settings_; }
-  /// The level at the present tick, edits included. Valid until the world moves.
+  /// The level at the present tick, edits included. Valid until the world changes tick.
   const voxel::BitGrid& grid() const { return edited_ ? *edited_ : level_; }
 
-  /// Becomes the world of a state: what another world's state() was, or what travelled. Events of the log up
-  /// to the state's tick are dropped, later ones stay. Fails with bad_input when the state is of another
-  /// layout or ticks_per_second, or was made with other masks.
+  /// Adopts a state, from another world's state() or received. Log events up to the state's tick are dropped,
+  /// later ones are retained. Fails with bad_input when the state has another layout, ticks_per_second or
+  /// masks, or contains something that has already ended.
   Result<void> restore(const State& state);
-  /// The first tick that can be gone back to: 0, or that of the state restored or kept.
+  /// The first tick that can be rolled back to: 0, or that of the earliest state retained or restored.
   std::uint32_t earliest_tick() const { return first_.tick; }
-  /// Lets the past go that nobody will ask for: what was before `tick`, or what is kept of before it; where
-  /// the past then begins, earliest_tick() says. Costs next to nothing: a server may do it every tick.
+  /// Drops history before the last checkpoint at or before `tick`, which becomes earliest_tick(). Cheap: a
+  /// server may call it every tick.
   void forget_before(std::uint32_t tick);
 
-  /// The events since earliest_tick(), by tick; those of one tick as they were appended.
+  /// The events since earliest_tick(), sorted by tick; those of one tick in the order appended.
   std::span<const Event> log() const { return log_; }
 
  private:
   Result<void> check(std::span<const Event> events, std::uint32_t first, const MaskKey& masks) const;
-  void take_from(std::uint32_t first, std::size_t kept, std::vector<Event> events);
+  void replace_log(std::uint32_t first, std::size_t retained, std::vector<Event> events);
   void set_masks(const MaskKey& masks);
   void go_back_before(std::uint32_t tick);
   void change_edits(const std::shared_ptr<const EditBlocks>& edits);
@@ -94,13 +97,13 @@ class World {
   VoxelRuler ruler_;
   std::optional<voxel::BitGrid> edited_;
   std::vector<Event> log_;
-  std::size_t next_event_ = 0;  // of the log: the first that is not in state_
+  std::size_t next_event_ = 0;  // index into the log: the first event not yet in state_
   State first_, state_;
-  std::uint32_t first_free_tick_ = 0;  // the first tick whose events first_ has not taken in
-  std::vector<State> checkpoints_;     // by tick, each with the events of its tick
-  std::optional<State> previous_;      // before the last tick that was played: for events of the present
-  std::uint32_t next_end_ = 0;         // the next tick at which something in state_ goes off or ends
-  std::uint32_t changed_at_ = 0;       // no tick after this one has changed state_, but for its number
+  std::uint32_t first_free_tick_ = 0;  // the first tick whose events are not in first_
+  std::vector<State> checkpoints_;     // sorted by tick, each including the events of its tick
+  std::optional<State> previous_;      // before the last tick played: for events of the present
+  std::uint32_t next_end_ = 0;         // next_end(state_)
+  std::uint32_t changed_at_ = 0;       // since this tick only state_.tick has changed
 };
 
 }  // namespace brume::sim

@@ -4,7 +4,7 @@
 //   node   8^3 entries, one per brick of 8^3 voxels     -> brick, or none
 //   brick  8 words of 64 bits; word z, bit x + 8 y      -> 1 = solid
 //
-// Only bricks that hold something exist, so that memory follows the surfaces, not the volume.
+// Only bricks with solid voxels are allocated: memory is proportional to the surfaces, not to the volume.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace brume::voxel {
 
-/// Where a grid lies in the world. Voxel i covers [i, i+1) in voxel space, its centre is i + 0.5;
+/// Placement of a grid in the world. Voxel i covers [i, i+1) in voxel space, its centre is i + 0.5;
 /// position_voxel = (position_world - origin_world) / voxel_size.
 struct GridLayout {
   glm::ivec3 size{0};         ///< Voxels per axis, each in [1, kMaxAxis].
@@ -52,19 +52,19 @@ class BitGrid {
     const Brick* brick = find_brick(v >> 3);
     return brick && ((*brick)[static_cast<unsigned>(v.z & 7)] >> ((v.x & 7) + 8 * (v.y & 7)) & 1);
   }
-  /// True when the voxel is in the grid and not solid: smoke may be there.
+  /// True when the voxel is in the grid and not solid: it may hold smoke.
   bool free(glm::ivec3 v) const { return contains(v) && !solid(v); }
 
-  /// The brick at brick coordinates (voxel / 8), or null when it holds nothing. `b` must lie in the grid.
+  /// The brick at brick coordinates (voxel / 8), or null when it is not allocated. `b` must lie in the grid.
   const Brick* find_brick(glm::ivec3 b) const {
     const std::uint32_t node = root_[root_index(b >> 3)];
     if (node == 0) return nullptr;
     const std::uint32_t brick = nodes_[node - 1][node_index(b)];
     return brick == 0 ? nullptr : &bricks_[brick - 1];
   }
-  /// The same to write into. A brick may be emptied; it then stays as one that holds nothing.
+  /// The same for writing. A brick that becomes empty stays allocated.
   Brick* find_brick_to_write(glm::ivec3 b) { return const_cast<Brick*>(find_brick(b)); }
-  /// The brick, made when it is not there. Invalidates pointers to other bricks.
+  /// The brick, allocated if necessary. Invalidates pointers to other bricks.
   Brick& ensure_brick(glm::ivec3 b);
 
   /// `v` must lie in the grid.
@@ -74,7 +74,7 @@ class BitGrid {
   /// Bytes of memory held.
   std::uint64_t bytes() const;
 
-  /// Calls visit(brick_coordinates, brick) for each brick that exists, in order of node, then of brick.
+  /// Calls visit(brick_coordinates, brick) for each allocated brick, in order of node, then of brick.
   template <typename Visit>
   void for_each_brick(Visit visit) const;
 

@@ -5,7 +5,7 @@
 
 namespace brume::voxel {
 
-/// From low up to high, which is not in it.
+/// The half-open box [low, high).
 struct IntBox {
   glm::ivec3 low{0}, high{0};
   bool empty() const { return glm::any(glm::greaterThanEqual(low, high)); }
@@ -22,7 +22,7 @@ inline IntBox intersection(const IntBox& a, const IntBox& b) {
   return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }
 
-/// Calls visit(v) for all of the box, x fastest.
+/// Calls visit(v) for every element of the box, x fastest.
 template <typename Visit>
 void for_each_in(const IntBox& box, Visit visit) {
   for (int z = box.low.z; z < box.high.z; ++z)

@@ -14,7 +14,7 @@ using glm::ivec3;
 
 constexpr std::size_t kTrianglesPerRun = 32;
 
-// The bits of a brick's slice z that lie in the box.
+// The bits of a brick's slice z within the box.
 std::uint64_t slice_bits(const IntBox& box, ivec3 brick, int z) {
   const IntBox in_brick = intersection({box.low - brick * kBrickSize, box.high - brick * kBrickSize},
                                        {ivec3(0), ivec3(kBrickSize)});
@@ -53,7 +53,7 @@ BitGrid copy_of(const BitGrid& grid, const IntBox& voxels) {
   return copy;
 }
 
-// The smallest box that holds both.
+// The bounding box of both.
 IntBox joined(const IntBox& a, const IntBox& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
@@ -76,7 +76,7 @@ Level::Part Level::make_part(std::vector<Triangle> triangles) {
     if (i % kTrianglesPerRun == 0) part.runs.push_back(kNothing);
     Run& run = part.runs.back();
     const Triangle& t = part.triangles[i];
-    // In this order of arguments a NaN is passed over. Such a triangle is left out everywhere.
+    // This argument order ignores NaN: triangles with a NaN are skipped everywhere.
     for (const glm::vec3& p : {t.a, t.b, t.c}) {
       run.low = glm::min(run.low, p);
       run.high = glm::max(run.high, p);
@@ -93,7 +93,7 @@ bool Level::Reach::misses(const Run& run) const {
 
 Level::Reach Level::reach_of(const dvec3& low_voxel, const dvec3& high_voxel) const {
   constexpr double kMargin = 1e-3;
-  // What touches them counts. Doubles are wrong by far less than the margin.
+  // Triangles that only touch the box count; the margin is far above the rounding error.
   const GridLayout& layout = grid_.layout();
   const dvec3 origin(layout.origin_world);
   const double size = layout.voxel_size;
@@ -102,12 +102,12 @@ Level::Reach Level::reach_of(const dvec3& low_voxel, const dvec3& high_voxel) co
 
 IntBox Level::voxels_of(const Part& part) const {
   const GridLayout& layout = grid_.layout();
-  IntBox box;  // As voxelize sees it: a voxel that is touched with a face is in it.
+  IntBox box;  // As in voxelize, touching the face of a voxel counts.
   for (int axis = 0; axis < 3; ++axis) {
     const double origin = layout.origin_world[axis], size = layout.voxel_size;
     const double low = (part.bounds.low[axis] - origin) / size,
                  high = (part.bounds.high[axis] - origin) / size;
-    // One voxel outside of the grid stays: planes of the border's cells depend on what is there.
+    // Include one voxel outside of the grid: the planes of border cells depend on it.
     const auto clamped = [&](double v) {
       return static_cast<int>(std::clamp(v, -2.0, layout.size[axis] + 2.0));
     };
@@ -162,13 +162,15 @@ std::uint32_t Level::add_part() {
 LevelChange Level::set_box(IntBox box, bool solid) {
   box = intersection(box, {ivec3(0), grid_.size()});
   if (box.empty()) return rebuild({});
-  // Boxes below it have no say any more.
+  // Boxes that it covers have no effect any more.
   std::erase_if(boxes_, [&](const Box& other) { return box.contains(other.voxels); });
   boxes_.push_back({box, solid, ++last_layer_});
   return rebuild(box);
 }
 
+/// Redraws the voxels from all layers.
 void Level::paint(const IntBox& voxels) {
+  // All visible layers, bottom to top.
   struct Layer {
     std::uint64_t order;
     const Part* part;
@@ -181,6 +183,7 @@ void Level::paint(const IntBox& voxels) {
   std::stable_sort(layers.begin(), layers.end(),
                    [](const Layer& a, const Layer& b) { return a.order < b.order; });
 
+  // Draw them over an empty box.
   fill_box(grid_, voxels, false);
   const Reach reach = reach_of(dvec3(voxels.low), dvec3(voxels.high));
   std::vector<Triangle> triangles;
@@ -197,7 +200,7 @@ void Level::paint(const IntBox& voxels) {
 
 LevelChange Level::rebuild(const IntBox& touched) {
   const IntBox voxels = intersection(touched, {ivec3(0), grid_.size()});
-  // Every cell with a corner in a voxel that was touched, also in one outside of the grid.
+  // Every cell with a corner in a touched voxel, including voxels outside of the grid.
   const IntBox cells =
       touched.empty() ? IntBox{} : intersection({touched.low - 1, touched.high}, {ivec3(-1), grid_.size()});
   LevelChange change{voxels, cells, copy_of(grid_, voxels), {}};

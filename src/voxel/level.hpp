@@ -1,11 +1,11 @@
-// A level whose parts come and go: after each change only the voxels and planes that it touches are made
-// anew.
+// A level whose parts can be shown, hidden and moved: each change rebuilds only the voxels and planes that it
+// touches.
 //
-//   layers, in the order in which they were put down:   part, part, part, box, part, ...
+//   layers, from bottom to top:   part, part, part, box, part, ...
 //   a part: a list of triangles, shown or hidden;  a box: voxels made solid, or free
 //
-// Showing a part again, or giving it other triangles, puts it down anew, on top. A box makes free what lies
-// below it and nothing else.
+// Showing a part again, or replacing its triangles, moves it to the top. A box affects only the layers below
+// it.
 #pragma once
 
 #include <cstdint>
@@ -19,39 +19,38 @@
 
 namespace brume::voxel {
 
-/// What a change did. Outside of `voxels` no voxel changed, and outside of `cells` no plane.
+/// The effect of a change. No voxel outside of `voxels` and no plane outside of `cells` has changed.
 struct LevelChange {
   IntBox voxels, cells;
-  BitGrid before;        ///< The voxels of `voxels` as they were; nothing else in it.
-  SurfacePlanes planes;  ///< The planes of `cells` as they are now; nothing else in it.
+  BitGrid before;        ///< The content of `voxels` before the change; free elsewhere.
+  SurfacePlanes planes;  ///< The planes of `cells` after the change; none elsewhere.
 };
 
 class Level {
  public:
-  /// A level of parts, all shown, numbered from 0. `grid` must be what voxelize makes of all their triangles.
+  /// A level of parts, all shown, numbered from 0. `grid` must be the voxelization of all their triangles.
   Level(BitGrid grid, std::vector<std::vector<Triangle>> parts);
 
   const BitGrid& grid() const { return grid_; }
   std::uint32_t part_count() const { return static_cast<std::uint32_t>(parts_.size()); }
   bool shown(std::uint32_t part) const { return parts_[part].shown; }
 
-  /// Shows or hides parts. One that is as it should be already stays as it is.
+  /// Shows or hides parts; no effect on those already in that state.
   LevelChange show(std::span<const std::uint32_t> parts, bool shown);
-  /// Gives a part other triangles: it has moved, or it is a new mesh in a part of add_part.
+  /// Replaces the triangles of a part: it has moved, or it is a new part from add_part.
   LevelChange replace(std::uint32_t part, std::vector<Triangle> triangles);
-  /// One more part, shown, without triangles. Returns its number.
+  /// Adds a part, shown, without triangles. Returns its number.
   std::uint32_t add_part();
   /// Makes the voxels of a box solid, with surfaces along its six faces, or free.
   LevelChange set_box(IntBox box, bool solid);
 
-  /// The planes of a stretch of cells as they are now.
+  /// The current planes of a box of cells.
   SurfacePlanes planes_in(const IntBox& cells) const;
   /// Bytes of memory held.
   std::uint64_t bytes() const;
 
  private:
-  // Triangles that follow each other in a mesh are near each other: what lies elsewhere is left out run by
-  // run.
+  // Consecutive triangles of a mesh lie close together: culling works on runs of them.
   struct Run {
     glm::vec3 low, high;
   };
@@ -67,7 +66,7 @@ class Level {
     bool solid;
     std::uint64_t layer;
   };
-  // World space [m]; what is outside cannot matter.
+  // World space [m]; triangles outside have no effect.
   struct Reach {
     glm::dvec3 low, high;
     bool misses(const Run& run) const;

@@ -16,11 +16,11 @@ using glm::ivec3;
 constexpr std::size_t kWriteBytes = 1 << 20;
 
 struct Face {
-  int plane, h, w;  // Of the face's low corner: along the axis, the height, the width.
+  int plane, h, w;  // The face's low corner along the axis, the height and the width.
   auto operator<=>(const Face&) const = default;  // NOLINT(modernize-use-nullptr): there is no pointer
 };
 
-// The faces that look along one direction of one axis, in order of plane, row and place in the row.
+// The faces of one direction along one axis, sorted by plane, row and position in the row.
 std::vector<Face> faces_towards(const BitGrid& grid, int axis, bool positive) {
   ivec3 towards(0);
   towards[axis] = positive ? 1 : -1;
@@ -39,8 +39,9 @@ std::vector<Face> faces_towards(const BitGrid& grid, int axis, bool positive) {
   return faces;
 }
 
-// Faces into runs along the width, runs of one place and length into rectangles.
+// Merges faces into runs along the width, and runs of equal position and length into rectangles.
 void merge_faces(const std::vector<Face>& faces, int axis, bool positive, std::vector<FaceRectangle>& out) {
+  // Faces into runs.
   struct Run {
     int plane, w, width, h;
     auto operator<=>(const Run&) const = default;  // NOLINT(modernize-use-nullptr): there is no pointer
@@ -56,6 +57,8 @@ void merge_faces(const std::vector<Face>& faces, int axis, bool positive, std::v
     }
     runs.push_back({f.plane, f.w, 1, f.h});
   }
+
+  // Runs into rectangles.
   std::sort(runs.begin(), runs.end());
   const std::size_t first = out.size();
   for (const Run& run : runs) {
@@ -76,7 +79,7 @@ void merge_faces(const std::vector<Face>& faces, int axis, bool positive, std::v
   }
 }
 
-// Corners counter-clockwise seen from where the face looks.
+// Corners, counter-clockwise seen from the free side.
 std::array<ivec3, 4> corners_of(const FaceRectangle& r) {
   ivec3 along_w(0), along_h(0);
   along_w[(r.axis + 1) % 3] = r.width;
@@ -90,7 +93,7 @@ std::uint64_t packed(ivec3 corner) {
   return c.x | c.y << 16 | c.z << 32;
 }
 
-// Lines of text on their way into the file.
+// Buffers lines of text for the file.
 class Writer {
  public:
   explicit Writer(AtomicFile& file) : file_(file) {}

@@ -1,4 +1,4 @@
-// The planes of a level that has changed here and there since they were built.
+// The planes of a level with local changes since they were built.
 #pragma once
 
 #include <memory>
@@ -10,31 +10,31 @@
 
 namespace brume::voxel {
 
-/// The planes of a stretch of cells, in the place of those before.
+/// Replaces the planes of a box of cells.
 struct PlanePatch {
   IntBox cells;
   SurfacePlanes planes;  ///< None outside of `cells`.
 };
 
-/// Planes with patches over them, the last on top.
+/// Base planes overlaid by patches; the latest patch wins.
 class PatchedPlanes {
  public:
-  /// `base` must outlive it.
+  /// `base` must outlive this object.
   explicit PatchedPlanes(const SurfacePlanes& base) : base_(base) {}
 
-  /// As SurfacePlanes::at. Valid as long as the patch that it comes from is held by anybody.
+  /// As SurfacePlanes::at. Valid while the patch it comes from is alive.
   std::span<const Plane> at(glm::ivec3 cell) const {
     for (auto patch = patches_.rbegin(); patch != patches_.rend(); ++patch)
       if ((*patch)->cells.contains(cell)) return (*patch)->planes.at(cell);
     return base_.at(cell);
   }
 
-  /// One more patch, on top. Those that it covers are let go.
+  /// Adds a patch on top and drops the patches it covers.
   void add(std::shared_ptr<const PlanePatch> patch) {
     std::erase_if(patches_, [&](const auto& other) { return patch->cells.contains(other->cells); });
     patches_.push_back(std::move(patch));
   }
-  /// As it was at the beginning.
+  /// Removes all patches.
   void clear() { patches_.clear(); }
 
  private:

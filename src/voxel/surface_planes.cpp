@@ -14,12 +14,12 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 
-// Pieces whose normals are within 25 degrees belong together: a column of one voxel radius becomes two or
-// three planes in a cell, the two slopes of a roof stay apart.
+// Pieces whose normals are within 25 degrees form one cluster: a column of one voxel radius becomes two or
+// three planes in a cell, the two slopes of a roof stay separate.
 constexpr double kSameDirection = 0.9;
-// A cluster below 2 % of a voxel face is an edge that peeps into the cell; it would shift nothing visible.
+// A cluster below 2 % of a voxel face is an edge that barely enters the cell: no visible effect.
 constexpr double kLeastArea = 0.02;
-// How near to a voxel a part of a surface is at it: more than floats misplace a face that is at its side.
+// A surface within this distance of a voxel counts as touching it: above the rounding error of floats.
 constexpr double kAtVoxel = 1e-3;
 constexpr std::size_t kTrianglesPerTask = 2048;
 constexpr std::int64_t kCellsForThreads = 32768;
@@ -36,13 +36,13 @@ std::uint64_t key_of(ivec3 size, ivec3 cell) {
   return x + nx * (y + ny * z);
 }
 
-// A convex polygon; three corners and one more for each of the six cuts.
+// A convex polygon: three corners plus one for each of the six cuts.
 struct Polygon {
   std::array<dvec3, 9> corners;
   unsigned count = 0;
 };
 
-// The part on the side of `limit` along `axis`: below it, or above. Sutherland & Hodgman 1974, one plane.
+// The part below or above `limit` along `axis`. Sutherland & Hodgman 1974, for one plane.
 Polygon cut(const Polygon& in, int axis, double limit, bool keep_below) {
   Polygon out;
   const auto inside = [&](const dvec3& p) { return keep_below ? p[axis] <= limit : p[axis] >= limit; };
@@ -66,7 +66,7 @@ struct Piece {
   float area;          // [voxel^2]
 };
 
-// First and last cell that [from, to] lies in, within [low, high].
+// First and last cell that [from, to] overlaps, within [low, high].
 bool cell_range(double from, double to, int low, int high, int& first, int& last) {
   if (!(from < high + 1.0) || !(to >= low)) return false;
   first = static_cast<int>(std::max<double>(low, std::floor(from)));
@@ -74,7 +74,7 @@ bool cell_range(double from, double to, int low, int high, int& first, int& last
   return true;
 }
 
-// Cuts the polygon into the cells along `axis`, and hands each part on: visit(cell index, part).
+// Cuts the polygon at the cell borders along `axis` and calls visit(cell index, part).
 template <typename Visit>
 void slice(const Polygon& polygon, int axis, int low, int high, Visit visit) {
   double from = polygon.corners[0][axis], to = from;
@@ -119,9 +119,10 @@ dvec3 canonical(dvec3 n) {
   return n[axis] < 0 ? -n : n;
 }
 
-// Puts the pieces of one cell, the largest first, together by direction and appends the planes.
+// Clusters the pieces of one cell, largest first, by direction and appends the planes.
 std::uint8_t cluster_pieces(std::span<const Piece> pieces, std::vector<Cluster>& clusters,
                             std::vector<Plane>& planes) {
+  // Add each piece to the cluster of the nearest direction.
   clusters.clear();
   for (const Piece& piece : pieces) {
     const dvec3 n(piece.normal);
@@ -136,6 +137,8 @@ std::uint8_t cluster_pieces(std::span<const Piece> pieces, std::vector<Cluster>&
     home->normal += sign * piece.area * n;
     home->moment += double{piece.area} * dvec3(piece.centroid);
   }
+
+  // The largest clusters become planes.
   std::stable_sort(clusters.begin(), clusters.end(),
                    [](const Cluster& a, const Cluster& b) { return a.area > b.area; });
   std::uint8_t count = 0;
@@ -149,7 +152,7 @@ std::uint8_t cluster_pieces(std::span<const Piece> pieces, std::vector<Cluster>&
   return count;
 }
 
-// The cells of one z, worked on by one thread.
+// The cells of one z, built by one thread.
 struct Slab {
   std::vector<std::uint64_t> keys;
   std::vector<std::uint8_t> counts;
@@ -176,9 +179,9 @@ class SlabBuilder {
               std::span<const IntBox> cleared)
       : triangles_(triangles), grid_(grid), cells_(cells), cleared_(cleared) {}
 
-  Slab build(std::span<const std::uint32_t> members, int z) {
+  Slab build(std::span<const std::uint32_t> in_slab, int z) {
     pieces_.clear();
-    for (const std::uint32_t i : members) add(triangles_[i], z);
+    for (const std::uint32_t i : in_slab) add(triangles_[i], z);
     order_.resize(pieces_.size());
     for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -200,7 +203,7 @@ class SlabBuilder {
     const dvec3 cross =
         glm::cross(triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]);
     const double length = glm::length(cross);
-    if (!(length > 0) || !std::isfinite(length)) return;  // No area, no side.
+    if (!(length > 0) || !std::isfinite(length)) return;  // A degenerate triangle has no plane.
     const dvec3 n = cross / length;
     slice(triangle, 2, z, z, [&](int, const Polygon& in_slab) {
       slice(in_slab, 1, cells_.low.y, cells_.high.y - 1, [&](int y, const Polygon& in_row) {
@@ -228,14 +231,14 @@ class SlabBuilder {
     });
   }
 
-  // The parts in the eight voxels of the cell, as far as those or one beside them are solid.
+  // Adds the parts of the cell's eight octants that lie in or at a solid voxel.
   void add_octants(const Polygon& in_cell, const dvec3& n, ivec3 cell) {
     const dvec3 centre = dvec3(cell) + 0.5;
     for (int octant = 0; octant < 8; ++octant) {
       Polygon part = in_cell;
       for (int axis = 0; axis < 3 && part.count >= 3; ++axis) {
         const bool below = (octant >> axis & 1) == 0;
-        // What lies in the middle plane itself is above it.
+        // A polygon in the middle plane itself belongs to the upper half.
         const auto end = part.corners.begin() + part.count;
         const bool all_above =
             std::all_of(part.corners.begin(), end, [&](const dvec3& p) { return p[axis] >= centre[axis]; });
@@ -272,12 +275,13 @@ class SlabBuilder {
   std::vector<Cluster> clusters_;
 };
 
-// Of each slab of the cells from z = low_z on the triangles that reach into it, ascending: a counting sort.
-struct Members {
+// The triangles that overlap each slab of cells from z = low_z on, ascending: a counting sort.
+struct SlabTriangles {
   std::vector<std::size_t> first;
   std::vector<std::uint32_t> triangles;
 
-  Members(std::span<const Triangle> all, const GridLayout& layout, int low_z, int high_z) {
+  SlabTriangles(std::span<const Triangle> all, const GridLayout& layout, int low_z, int high_z) {
+    // The slabs of each triangle.
     const auto slabs = static_cast<std::size_t>(high_z - low_z);
     std::vector<std::pair<int, int>> range(all.size(), {0, -1});
     parallel_for(all.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -290,6 +294,8 @@ struct Members {
           low = 0, high = -1;
       }
     });
+
+    // Count, sum up, distribute.
     first.assign(slabs + 1, 0);
     for (const auto& [low, high] : range)
       for (int z = low; z <= high; ++z) ++first[static_cast<std::size_t>(z - low_z + 1)];
@@ -323,21 +329,23 @@ SurfacePlanes SurfacePlanes::build(std::span<const Triangle> triangles, const Bi
 SurfacePlanes SurfacePlanes::build_in(std::span<const Triangle> triangles, const BitGrid& grid,
                                       const IntBox& cells, std::span<const IntBox> cleared) {
   BRUME_ASSERT(triangles.size() < 0xffffffffu, std::to_string(triangles.size()));
-  BRUME_ASSERT((IntBox{ivec3(-1), grid.size()}.contains(cells)), "the cells are the grid's");
+  BRUME_ASSERT((IntBox{ivec3(-1), grid.size()}.contains(cells)), "the cells lie in the grid");
+  // Build the slabs in parallel.
   std::vector<Slab> slabs;
   if (!cells.empty()) {
-    const Members members(triangles, grid.layout(), cells.low.z, cells.high.z);
+    const SlabTriangles slab_triangles(triangles, grid.layout(), cells.low.z, cells.high.z);
     slabs.resize(static_cast<std::size_t>(cells.high.z - cells.low.z));
-    // A few cells are done before another thread has begun.
+    // A few cells take less time than starting another thread.
     const glm::i64vec3 size(cells.high - cells.low);
     const std::size_t grain = size.x * size.y * size.z < kCellsForThreads ? slabs.size() : 1;
     parallel_for(slabs.size(), grain, [&](std::size_t begin, std::size_t end) {
       SlabBuilder builder(triangles, grid, cells, cleared);
       for (std::size_t i = begin; i < end; ++i)
-        slabs[i] = builder.build(members.of(i), cells.low.z + static_cast<int>(i));
+        slabs[i] = builder.build(slab_triangles.of(i), cells.low.z + static_cast<int>(i));
     });
   }
 
+  // Concatenate them.
   SurfacePlanes result;
   result.size_ = grid.size();
   result.first_.push_back(0);

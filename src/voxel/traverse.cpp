@@ -15,12 +15,12 @@ RayHit hit_of(const shared::Dda& d, float t, ivec3 crossed) {
   return hit;
 }
 
-// The first solid voxel of a brick, for the part of the ray that is in it.
+// The first solid voxel on the ray segment within a brick.
 std::optional<RayHit> first_in_brick(const BitGrid::Brick& bits, const shared::Dda& outer, ivec3 size,
                                      glm::vec3 origin, glm::vec3 direction) {
   const ivec3 low = outer.cell * kBrickSize, high = glm::min(low + kBrickSize, size);
   shared::Dda d = shared::dda_begin(origin, direction, low, high, 1, outer.t, outer.t_end);
-  ivec3 crossed = outer.crossed;  // Of the first voxel: how the ray came into the brick.
+  ivec3 crossed = outer.crossed;  // The first voxel is entered through the face of the brick.
   while (d.t < d.t_end) {
     if (bits[static_cast<unsigned>(d.cell.z & 7)] >> ((d.cell.x & 7) + 8 * (d.cell.y & 7)) & 1)
       return hit_of(d, d.t, crossed);
@@ -35,7 +35,7 @@ std::optional<RayHit> first_in_brick(const BitGrid::Brick& bits, const shared::D
 std::optional<RayHit> first_solid(const BitGrid& grid, glm::vec3 origin_voxel, glm::vec3 direction,
                                   float t_max) {
   if (!is_ray(origin_voxel, direction)) return std::nullopt;
-  // Planes of bricks are planes of voxels and are crossed at the very same t: the two walks fit exactly.
+  // Brick faces are voxel faces and are crossed at exactly the same t: both traversals agree.
   const ivec3 size = grid.size(), bricks = (size + (kBrickSize - 1)) / kBrickSize;
   shared::Dda d = shared::dda_begin(origin_voxel, direction, ivec3(0), size, 1, 0, t_max);
   const float t_end = d.t_end;

@@ -1,4 +1,4 @@
-// Rays through the voxels.
+// Ray traversal of voxel grids.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace brume::voxel {
 
-/// Calls visit(voxel, t_enter, t_leave) for every voxel of the grid that the ray is in for t of positive
-/// length within [0, t_max], in order, until visit returns false. Points of the ray are origin_voxel + t *
-/// direction (voxel space, any length but 0). Ties as in shared/dda.h. A ray that is not finite visits
-/// nothing.
+/// Calls visit(voxel, t_enter, t_leave) in order for every voxel of the grid that the ray crosses over a t
+/// interval of positive length within [0, t_max], until visit returns false. Points of the ray are
+/// origin_voxel + t * direction (voxel space, any length but 0). Ties as in shared/dda.h. A ray that is not
+/// finite visits nothing.
 template <typename Visit>
 void visit_voxels(const GridLayout& layout, glm::vec3 origin_voxel, glm::vec3 direction, float t_max,
                   Visit visit);
@@ -22,15 +22,15 @@ void visit_voxels(const GridLayout& layout, glm::vec3 origin_voxel, glm::vec3 di
 struct RayHit {
   glm::ivec3 voxel{0};
   float t = 0;  ///< Where the ray enters the voxel; 0 when it starts there.
-  glm::ivec3 normal{
-      0};  ///< Outward normal of the face entered (the first axis at an edge); 0 at a start inside.
+  /// Outward normal of the face entered (of the first axis at an edge); 0 when the ray starts inside.
+  glm::ivec3 normal{0};
 };
 
-/// The first solid voxel that visit_voxels would visit. Bricks that hold nothing are one step.
+/// The first solid voxel that visit_voxels would visit. Skips unallocated bricks in one step.
 std::optional<RayHit> first_solid(const BitGrid& grid, glm::vec3 origin_voxel, glm::vec3 direction,
                                   float t_max = std::numeric_limits<float>::infinity());
 
-/// Whether a ray can be walked: all finite, the direction not 0.
+/// Whether a ray can be traversed: all components finite, the direction not 0.
 inline bool is_ray(glm::vec3 origin, glm::vec3 direction) {
   constexpr float kMax = std::numeric_limits<float>::max();
   const glm::vec3 o = glm::abs(origin), d = glm::abs(direction);

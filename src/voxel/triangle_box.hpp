@@ -1,14 +1,14 @@
-// One triangle against many voxels, without rounding; what is the same for all voxels is computed once.
+// Tests one triangle against many voxels exactly; everything independent of the voxel is precomputed.
 //
 // The thirteen axes of the separating-axis test fall into the three of the box (the range of candidates), the
 // normal (PlaneTest), and nine products of an edge with a box axis. The latter are perpendicular to that
 // axis: three edges in each of three projections (EdgeTest), as in Schwarz & Seidel 2010, section 4. An axis
-// separates when the closed intervals of box and triangle on it are disjoint; both ends are looked at, so
-// that triangles of no area, whose edges have no inner side, need no special care.
+// separates when the closed intervals of box and triangle on it are disjoint; testing both ends handles
+// degenerate triangles, whose edges have no inner side, without a special case.
 //
-// Walls love to touch voxels exactly, with one coordinate of many digits, and there doubles guess. So corners
-// are integers here, relative to a voxel near the triangle and below 2^57 in size. Differences then fit 58
-// bits, what an edge says of a point and the normal fit 118, and what the plane says of a point fits 177.
+// Walls often touch voxels exactly, where rounding of doubles would decide. Corners are therefore integers,
+// relative to a voxel near the triangle and below 2^57 in magnitude. Differences then fit 58 bits, edge
+// functions and the normal fit 118, and the plane equation fits 177.
 #pragma once
 
 #include <algorithm>
@@ -20,20 +20,20 @@ namespace brume::voxel {
 
 __extension__ typedef __int128 Int128;
 
-/// Three corners in voxel space, and from `base` as multiples of 2^-shift voxel, truncated. Of a coordinate
-/// at least 1/32 of the triangle's extent nothing is lost.
+/// Three corners in voxel space, and relative to `base` as multiples of 2^-shift voxel, truncated.
+/// Coordinates of at least 1/32 of the triangle's extent are exact.
 struct VoxelTriangle {
   std::array<glm::dvec3, 3> corners;
   std::array<glm::i64vec3, 3> fixed;
   glm::i64vec3 base{0};
   int shift = 0;
 
-  /// Corners must be below 2^kMaxExponent in size.
+  /// Corners must be below 2^kMaxExponent in magnitude.
   static constexpr int kMaxExponent = 55;
 
   explicit VoxelTriangle(const std::array<glm::dvec3, 3>& p) : corners(p) {}
 
-  /// Fills the other members.
+  /// Computes the integer members.
   void fix() {
     const glm::dvec3 low = glm::floor(glm::min(glm::min(corners[0], corners[1]), corners[2]));
     const glm::dvec3 extent = glm::max(glm::max(corners[0], corners[1]), corners[2]) - low;
@@ -44,7 +44,7 @@ struct VoxelTriangle {
     for (unsigned i = 0; i < 3; ++i) fixed[i] = glm::i64vec3((corners[i] - low) * scale);
   }
 
-  /// The low side of a voxel that the triangle's box reaches, as `fixed` counts.
+  /// The low side of a voxel in the triangle's bounds, in the units of `fixed`.
   std::int64_t fixed_voxel(int axis, int voxel) const {
     return (voxel - base[axis]) * (std::int64_t{1} << shift);
   }
@@ -54,8 +54,7 @@ struct VoxelTriangle {
 struct EdgeTest {
   std::int64_t nu = 0, nw = 0;      // The edge's normal in the projection.
   std::int64_t at_u = 0, at_w = 0;  // The corner where the edge begins.
-  Int128 low = 0,
-         high = 0;  // What the normal may say of a voxel's low corner when the axis does not separate.
+  Int128 low = 0, high = 0;  // Range of value() at a voxel's low corner when the axis does not separate.
 
   EdgeTest() = default;
   EdgeTest(const VoxelTriangle& t, unsigned edge, int axis) {
@@ -73,7 +72,7 @@ struct EdgeTest {
   Int128 value(std::int64_t u, std::int64_t w) const {
     return Int128{nu} * (u - at_u) + Int128{nw} * (w - at_w);
   }
-  /// Whether the axis leaves the voxel with low corner (u, w) joined to the triangle.
+  /// Whether the axis fails to separate the triangle from the voxel with low corner (u, w).
   bool joins(std::int64_t u, std::int64_t w) const {
     const Int128 v = value(u, w);
     return v >= low && v <= high;
@@ -92,17 +91,17 @@ struct ProjectionTest {
   }
 };
 
-/// The plane of the triangle. Doubles decide what they can.
+/// The plane of the triangle. Decides with doubles where their error allows it.
 struct PlaneTest {
   std::array<Int128, 3> fixed_normal{};
   glm::i64vec3 fixed_at{0}, base{0};
   int shift = 0;
   glm::dvec3 normal{0}, at{0};  // The same in voxels.
-  double low = 0, high = 0;     // What the normal may say of a voxel's low corner when it does not separate.
-  double doubt = 0;             // More than the doubles can be wrong by.
+  double low = 0, high = 0;     // Range of the plane value at a voxel's low corner without separation.
+  double max_error = 0;         // Bound of the rounding error of doubles.
 
   PlaneTest() = default;
-  /// `reach`: no corner of a voxel that is asked for is farther from the first corner of the triangle.
+  /// `reach`: largest distance, by axis, of a tested voxel's corner from the triangle's first corner.
   PlaneTest(const VoxelTriangle& t, const glm::dvec3& reach)
       : fixed_at(t.fixed[0]), base(t.base), shift(t.shift), at(t.corners[0]) {
     const glm::i64vec3 e = t.fixed[1] - t.fixed[0], f = t.fixed[2] - t.fixed[0];
@@ -114,19 +113,20 @@ struct PlaneTest {
       normal[axis] = static_cast<double>(n) / (scale * scale);
       low -= std::max(normal[axis], 0.0);
       high -= std::min(normal[axis], 0.0);
-      // Rounding, and the digits that truncation took from `at`.
-      doubt += std::abs(normal[axis]) * (reach[axis] + 1) * 0x1p-48 + std::abs(normal[axis]) * (2 / scale);
+      // Rounding, and the truncation of `at`.
+      max_error +=
+          std::abs(normal[axis]) * (reach[axis] + 1) * 0x1p-48 + std::abs(normal[axis]) * (2 / scale);
     }
   }
 
   bool joins(const glm::ivec3& voxel) const {
     const double value = glm::dot(normal, glm::dvec3(voxel) - at);
-    if (value - low > doubt && high - value > doubt) return true;
-    if (value - low < -doubt || high - value < -doubt) return false;
+    if (value - low > max_error && high - value > max_error) return true;
+    if (value - low < -max_error || high - value < -max_error) return false;
     return exact_sign(voxel, true) >= 0 && exact_sign(voxel, false) <= 0;
   }
 
-  /// The sign of what the plane says of the voxel's corner farthest along the normal, or against it.
+  /// The sign of the plane equation at the voxel's corner farthest along the normal, or against it.
   int exact_sign(const glm::ivec3& voxel, bool along) const {
     Int128 high_part = 0, low_part = 0;  // The number is high_part * 2^64 + low_part.
     for (int axis = 0; axis < 3; ++axis) {
@@ -137,8 +137,8 @@ struct PlaneTest {
       low_part += static_cast<Int128>(static_cast<std::uint64_t>(n)) * x;
     }
     high_part += low_part >> 64;
-    const bool rest = static_cast<std::uint64_t>(low_part) != 0;
-    return high_part < 0 ? -1 : high_part > 0 || rest ? 1 : 0;
+    const bool has_low_bits = static_cast<std::uint64_t>(low_part) != 0;
+    return high_part < 0 ? -1 : high_part > 0 || has_low_bits ? 1 : 0;
   }
 };
 

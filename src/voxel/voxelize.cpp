@@ -15,7 +15,7 @@ using glm::ivec3;
 
 constexpr std::size_t kTrianglesPerTask = 512;
 
-// Writes voxels into a grid and remembers the brick of the last one.
+// Writes voxels into a grid; caches the brick of the last one.
 class Pen {
  public:
   explicit Pen(BitGrid& grid) : grid_(grid) {}
@@ -46,7 +46,7 @@ class Pen {
 // Voxels [low, high] per axis that the closed interval [from, to] touches, within the grid.
 struct Range {
   int low = 0, high = -1;
-  bool thin = false;  // The interval lies in one voxel's closed interval and touches no other.
+  bool thin = false;  // The interval touches one voxel only.
 
   Range() = default;
   Range(double from, double to, int low_limit, int high_limit) {
@@ -87,14 +87,14 @@ class TriangleScan {
   }
 
  private:
-  // A row of voxels in which the triangle reaches from end to end, and it hangs together: it touches all.
+  // Along a single row of voxels a triangle touches every voxel of its range, because it is connected.
   void fill_box() {
     for (int z = range_[2].low; z <= range_[2].high; ++z)
       for (int y = range_[1].low; y <= range_[1].high; ++y)
         for (int x = range_[0].low; x <= range_[0].high; ++x) pen_.set({x, y, z});
   }
 
-  // The columns (u, w) of a projection that the three edges leave.
+  // Visits the columns (u, w) of a projection that the three edges do not separate.
   template <typename Visit>
   void for_columns(const ProjectionTest& projection, int axis, Visit visit) {
     const int a1 = (axis + 1) % 3, a2 = (axis + 2) % 3;
@@ -105,7 +105,7 @@ class TriangleScan {
     }
   }
 
-  // Where in row w the edges may leave something: nothing is left out, a little may be too much.
+  // A conservative range of the columns in row w that pass the edge tests.
   std::pair<int, int> row(const ProjectionTest& projection, int a1, int a2, int w) const {
     const Range& range_u = range_[a1];
     if (range_u.high - range_u.low <= 3) return {range_u.low, range_u.high};
@@ -114,10 +114,10 @@ class TriangleScan {
                base = static_cast<double>(t_.base[a1]);
     for (const EdgeTest& edge : projection.edges) {
       if (edge.nu == 0) continue;
-      const Int128 rest = Int128{edge.nw} * (t_.fixed_voxel(a2, w) - edge.at_w);
+      const Int128 along_w = Int128{edge.nw} * (t_.fixed_voxel(a2, w) - edge.at_w);
       const auto nu = static_cast<double>(edge.nu);
-      const double p = static_cast<double>(edge.low - rest) / nu,
-                   q = static_cast<double>(edge.high - rest) / nu;
+      const double p = static_cast<double>(edge.low - along_w) / nu,
+                   q = static_cast<double>(edge.high - along_w) / nu;
       const auto at = static_cast<double>(edge.at_u);
       from = std::max(from, base + (at + std::min(p, q)) / scale - margin());
       to = std::min(to, base + (at + std::max(p, q)) / scale + margin());
@@ -125,7 +125,7 @@ class TriangleScan {
     return {static_cast<int>(std::ceil(from)), static_cast<int>(std::floor(to))};
   }
 
-  // Along `axis` the triangle lies within one voxel: its projection decides.
+  // Along `axis` the triangle lies within one voxel: the projection decides.
   void scan_slab(int axis) {
     for_columns(ProjectionTest(t_, axis), axis, [&](int u, int w) {
       ivec3 v;
@@ -136,19 +136,22 @@ class TriangleScan {
     });
   }
 
-  // Columns along the axis that the plane faces most, and in each the few voxels that the plane meets.
+  // Visits columns along the dominant axis of the normal, and in each the few voxels that the plane crosses.
   void scan_columns(const PlaneTest& plane) {
     const dvec3 n = plane.normal, size = glm::abs(n);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const int a1 = (axis + 1) % 3, a2 = (axis + 2) % 3;
     const ProjectionTest along_a1(t_, a1), along_a2(t_, a2);
     for_columns(ProjectionTest(t_, axis), axis, [&](int u, int w) {
-      const double rest = n[a1] * (u - plane.at[a1]) + n[a2] * (w - plane.at[a2]);
-      const double p = (plane.low - rest) / n[axis], q = (plane.high - rest) / n[axis];
+      // The range in which the plane crosses the column.
+      const double across = n[a1] * (u - plane.at[a1]) + n[a2] * (w - plane.at[a2]);
+      const double p = (plane.low - across) / n[axis], q = (plane.high - across) / n[axis];
       const double from = plane.at[axis] + std::min(p, q) - margin();
       const double to = plane.at[axis] + std::max(p, q) + margin();
       const int low = static_cast<int>(std::ceil(std::max<double>(range_[axis].low, from)));
       const int high = static_cast<int>(std::floor(std::min<double>(range_[axis].high, to)));
+
+      // The exact tests.
       for (int i = low; i <= high; ++i) {
         ivec3 v;
         v[axis] = i;
@@ -162,8 +165,9 @@ class TriangleScan {
     });
   }
 
-  // A triangle of no area is its longest edge: walk along that, slab by slab.
+  // A degenerate triangle is its longest edge: follow it slab by slab.
   void scan_segment() {
+    // The longest edge and its dominant axis.
     const ProjectionTest projections[3] = {{t_, 0}, {t_, 1}, {t_, 2}};
     dvec3 p = t_.corners[0], q = t_.corners[1];
     for (unsigned i = 1; i < 3; ++i) {
@@ -172,7 +176,9 @@ class TriangleScan {
     }
     const dvec3 along = q - p, size = glm::abs(along);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+
     for (int i = range_[axis].low; i <= range_[axis].high; ++i) {
+      // The bounds of the edge within this slab.
       const dvec3 from = p + std::clamp((i - margin() - p[axis]) / along[axis], 0.0, 1.0) * along;
       const dvec3 to = p + std::clamp((i + 1 + margin() - p[axis]) / along[axis], 0.0, 1.0) * along;
       Range slab[3];
@@ -180,6 +186,8 @@ class TriangleScan {
         slab[k] = Range(std::min(from[k], to[k]) - margin(), std::max(from[k], to[k]) + margin(),
                         range_[k].low, range_[k].high);
       slab[axis].low = slab[axis].high = i;
+
+      // The exact tests.
       for (int z = slab[2].low; z <= slab[2].high; ++z)
         for (int y = slab[1].low; y <= slab[1].high; ++y)
           for (int x = slab[0].low; x <= slab[0].high; ++x) {
@@ -191,7 +199,7 @@ class TriangleScan {
     }
   }
 
-  // Candidates are found with doubles and this margin [voxels], far above their error; the tests decide.
+  // Margin [voxels] of the candidate search in doubles, far above their error; the exact tests decide.
   double margin() const { return 1e-3 + std::ldexp(1.0, 16 - t_.shift); }
 
   VoxelTriangle& t_;
@@ -241,8 +249,8 @@ Result<void> check_frame(const GridLayout& layout) {
   return {};
 }
 
-Result<GridLayout> frame_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
-                               int margin_voxels) {
+Result<GridLayout> layout_around(glm::vec3 low_world, glm::vec3 high_world, float voxel_size,
+                                 int margin_voxels) {
   GridLayout layout{ivec3(1), voxel_size, glm::vec3(0)};
   if (auto checked = check_frame(layout); !checked) return checked.failure();
   if (margin_voxels < 0)
@@ -252,7 +260,7 @@ Result<GridLayout> frame_around(glm::vec3 low_world, glm::vec3 high_world, float
     if (!std::isfinite(low_world[axis]) || !std::isfinite(high_world[axis]) ||
         low_world[axis] > high_world[axis])
       return Failure{ErrorCode::bad_input,
-                     "grid: nothing to lay it around; the scene has no finite triangle"};
+                     "grid: the scene has no bounds; it needs at least one triangle with finite corners"};
     const double low = std::floor(double{low_world[axis]} / voxel_size) - margin_voxels;
     const double high = std::ceil(double{high_world[axis]} / voxel_size) + margin_voxels;
     const double size = std::max(high - low, 1.0);
@@ -274,7 +282,7 @@ Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& 
   std::atomic<std::size_t> next{0};
   const IntBox all{ivec3(0), layout.size};
 
-  // Each worker draws triangles into a grid of its own. Or-ing the grids forgets who drew what.
+  // Each worker draws into a grid of its own. The union does not depend on which worker drew what.
   parallel_for(workers, 1, [&](std::size_t worker, std::size_t) {
     Pen pen(grids[worker]);
     for (std::size_t task; (task = next.fetch_add(1)) < tasks;) {

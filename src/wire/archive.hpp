@@ -1,5 +1,5 @@
-// The archive of things on the wire: each struct is described once, by a function that lists its numbers, and
-// the coder behind it writes or reads them. A number travels as its difference from the last one of its kind.
+// Serialization for the wire: one `serialize` function per struct lists its fields, and the coder behind the
+// archive writes or reads them. A number is coded as its difference from the last one of its kind.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace brume::wire {
 
-/// Kinds of numbers. Of a position, that of x; y and z follow.
+/// Kinds of numbers. Positions have three consecutive kinds; the name is that of x.
 enum class Field : std::uint8_t {
   events,
   id,
@@ -58,18 +58,18 @@ enum class Field : std::uint8_t {
   count
 };
 
-/// Decisions of one kind.
-enum class Flag : std::uint8_t { list, kept, replaced, settled, flows, edits, count };
+/// Kinds of yes-or-no decisions.
+enum class Flag : std::uint8_t { list, retained, replaced, settled, flows, edits, count };
 
-/// The last number of each kind: what the next one is compared with.
+/// The last number of each kind, which predicts the next one.
 class DeltaContext {
  public:
-  /// Ticks are near `tick`, settings near their defaults.
+  /// Predicts ticks near `tick` and settings near their defaults.
   explicit DeltaContext(std::uint32_t tick);
 
   std::int64_t& at(Field field) { return last_[static_cast<std::size_t>(field)]; }
 
-  // A describing function given a DeltaContext makes it expect a thing like that one.
+  // `serialize` called with a DeltaContext sets its predictions to the values of an object.
   template <typename Value>
   void field(Field field, Value& value) {
     at(field) = static_cast<std::int64_t>(value);
@@ -85,17 +85,21 @@ class Archive {
   static constexpr bool kReads = Coder::kReads;
 
   Archive(Coder& coder, const voxel::GridLayout& layout, std::uint32_t tick, const Limits& limits)
-      : memory(tick), coder_(coder), layout_(layout), limits_(limits), voxels_left_(limits.max_voxels) {}
+      : context(tick),
+        coder_(coder),
+        layout_(layout),
+        limits_(limits),
+        voxels_remaining_(limits.max_voxels) {}
 
-  DeltaContext memory;
+  DeltaContext context;
 
   const voxel::GridLayout& layout() const { return layout_; }
   bool ok() const { return coder_.ok(); }
-  /// Why reading failed, where more is known than that the bytes make no sense.
+  /// Why reading failed; empty when the bytes are merely malformed.
   const std::string& reason() const { return reason_; }
-  void refuse(std::string why) {
+  void fail(std::string reason) {
     if constexpr (kReads) {
-      if (coder_.ok()) reason_ = std::move(why);
+      if (coder_.ok()) reason_ = std::move(reason);
       coder_.fail();
     }
   }
@@ -103,7 +107,7 @@ class Archive {
   /// An integer of at most 64 bits.
   template <typename Value>
   void field(Field field, Value& value) {
-    std::int64_t& last = memory.at(field);
+    std::int64_t& last = context.at(field);
     const auto now = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
     const std::uint64_t code =
         coder_.number(numbers_[static_cast<std::size_t>(field)],
@@ -120,7 +124,7 @@ class Archive {
 
   bool flag(Flag flag, bool value) { return coder_.bit(flags_[static_cast<std::size_t>(flag)], value); }
 
-  /// How many there are of something.
+  /// The length of a list, at most Limits::max_items.
   std::uint64_t count(std::uint64_t count) {
     const std::uint64_t coded = coder_.number(counts_, count);
     if constexpr (kReads) {
@@ -129,52 +133,52 @@ class Archive {
     return ok() ? coded : 0;
   }
 
-  /// Voxels of clouds and blasts: all in the grid.
+  /// The voxels of a cloud or blast: all must lie in the grid.
   void set(glm::ivec3 near_voxel, const Prediction& like, sim::BlockSet& set) {
     std::vector<sim::VoxelBlock> coded =
         blocks({set.blocks().begin(), set.blocks().end()}, near_voxel, like, false);
     if constexpr (kReads) set = sim::BlockSet::from_blocks(std::move(coded));
   }
-  /// Blocks of an edit: their voxels may lie beyond the grid.
+  /// The blocks of an edit: their voxels may lie outside the grid.
   std::vector<sim::VoxelBlock> edit_blocks(std::vector<sim::VoxelBlock> list) {
     return blocks(std::move(list), glm::ivec3(0), {}, true);
   }
 
-  /// Lists beside sets (block_coding.hpp); those of one kind share what was learnt.
+  /// Per-voxel lists (block_coding.hpp); lists of one kind share their models.
   void densities(std::size_t kind, const sim::BlockSet& set, std::span<const std::uint8_t> expected,
-             std::vector<std::uint8_t>& list) {
-    code_densities(coder_, steps_[kind], set, expected, list);
+                 std::vector<std::uint8_t>& list) {
+    code_densities(coder_, density_models_[kind], set, expected, list);
   }
   void delays(std::size_t kind, std::span<const std::uint32_t> order, std::span<const std::uint8_t> group,
-             std::vector<std::uint16_t>& list) {
-    code_delays(coder_, waits_[kind], order, group, list);
+              std::vector<std::uint16_t>& list) {
+    code_delays(coder_, delay_models_[kind], order, group, list);
   }
 
  private:
   std::vector<sim::VoxelBlock> blocks(std::vector<sim::VoxelBlock> list, glm::ivec3 near_voxel,
                                       const Prediction& like, bool whole) {
     if constexpr (kReads) list.clear();
-    code_blocks(coder_, block_models_, {layout_.size, whole, voxels_left_}, near_voxel >> 2, like, list);
+    code_blocks(coder_, block_models_, {layout_.size, whole, voxels_remaining_}, near_voxel >> 2, like, list);
     if constexpr (kReads)
-      for (const sim::VoxelBlock& block : list) voxels_left_ -= cost_of(block);
+      for (const sim::VoxelBlock& block : list) voxels_remaining_ -= cost_of(block);
     return list;
   }
 
   Coder& coder_;
   const voxel::GridLayout& layout_;
   Limits limits_;
-  std::uint64_t voxels_left_;
+  std::uint64_t voxels_remaining_;
   std::string reason_;
   std::array<NumberModel, static_cast<std::size_t>(Field::count)> numbers_;
   std::array<BitModel, static_cast<std::size_t>(Flag::count)> flags_;
   NumberModel counts_;
   BlockModels block_models_;
-  std::array<DensityModels, 3> steps_;
-  std::array<DelayModels, 2> waits_;
+  std::array<DensityModels, 3> density_models_;
+  std::array<DelayModels, 2> delay_models_;
 };
 
 template <typename F>
-void describe_position(F& archive, Field x, glm::ivec3& position) {
+void serialize_position(F& archive, Field x, glm::ivec3& position) {
   for (int axis = 0; axis < 3; ++axis)
     archive.field(static_cast<Field>(static_cast<int>(x) + axis), position[axis]);
 }
@@ -190,8 +194,8 @@ void serialize(F& archive, sim::SmokeSettings& smoke) {
 template <typename F>
 void serialize(F& archive, sim::Shot& shot) {
   archive.field(Field::shot_tick, shot.tick);
-  describe_position(archive, Field::from, shot.origin);
-  describe_position(archive, Field::toward, shot.toward);
+  serialize_position(archive, Field::from, shot.origin);
+  serialize_position(archive, Field::toward, shot.toward);
   archive.field(Field::bullet_radius, shot.radius);
   archive.field(Field::reach_far, shot.timing.reach_far);
   archive.field(Field::expand, shot.timing.expand);
@@ -205,7 +209,7 @@ void serialize(F& archive, sim::Shot& shot) {
 template <typename F>
 void serialize(F& archive, sim::Blast& blast) {
   archive.field(Field::blast_tick, blast.tick);
-  describe_position(archive, Field::centre, blast.at);
+  serialize_position(archive, Field::centre, blast.at);
   archive.field(Field::blast_radius, blast.radius);
   archive.field(Field::blast_speed, blast.speed);
   archive.field(Field::blast_remaining, blast.remaining);
@@ -213,7 +217,7 @@ void serialize(F& archive, sim::Blast& blast) {
   archive.field(Field::refill_middle, blast.refill_middle_ms);
 }
 
-/// Codes an edit as the blocks that it makes solid and those that it makes free; what is read is in order.
+/// Codes an edit as the blocks it makes solid followed by those it makes free; decoded blocks are sorted.
 template <typename Coder>
 void serialize(Archive<Coder>& archive, sim::EditBlocks& edits);
 

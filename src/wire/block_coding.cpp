@@ -22,7 +22,7 @@ std::uint64_t find_mask(std::span<const VoxelBlock> blocks, ivec3 at) {
   return block ? block->mask : 0;
 }
 
-// The bits of a block that lie in a grid of this size.
+// The bits of a block inside a grid of this size.
 std::uint64_t bits_inside(ivec3 size, ivec3 block) {
   const ivec3 end = glm::min(size - block * sim::kBlockSize, ivec3(sim::kBlockSize));
   std::uint64_t bits = 0;
@@ -31,7 +31,7 @@ std::uint64_t bits_inside(ivec3 size, ivec3 block) {
   return bits;
 }
 
-// A block and a rim of one voxel around it, as far as it is known.
+// The known voxels of a block and of a one-voxel rim around it.
 class Window {
  public:
   Window(std::span<const VoxelBlock> known, ivec3 at) {
@@ -43,7 +43,7 @@ class Window {
 
   void set(ivec3 v) { voxels_[index(v)] = 1; }
 
-  // The known neighbours of a voxel as the number of a model.
+  // The known neighbours of a voxel as a model index.
   std::uint32_t context(ivec3 v) const {
     const std::uint8_t* at = &voxels_[index(v)];
     constexpr std::array kNeighbours{-1, -6, -36, -1 - 6, -1 - 36, -6 - 36, 1 - 6, 1 - 36, 6 - 36};
@@ -86,7 +86,7 @@ int code_gap(Coder& coder, NumberModel& model, int value, int reference) {
   return coder.ok() ? static_cast<int>(reference + static_cast<std::int64_t>(code)) : 0;
 }
 
-// Where the next block is. `row` and `slice` are the blocks that the present row and slice began with.
+// Codes the position of the next block. `row` and `slice` are the first blocks of the current row and slice.
 template <typename Coder>
 ivec3 code_place(Coder& coder, BlockModels& models, std::span<const VoxelBlock> known, ivec3 row, ivec3 slice,
                  ivec3 at) {
@@ -122,8 +122,7 @@ std::uint64_t code_mask(Coder& coder, BlockModels& models, std::span<const Voxel
   return coded;
 }
 
-// The same where a set is known that this one is like: what matters is where neighbours are not as they are
-// there.
+// The same with a prediction: the context is how much the neighbours differ from those of the predicted set.
 template <typename Coder>
 std::uint64_t code_mask_like(Coder& coder, BlockModels& models, std::span<const VoxelBlock> known, ivec3 at,
                              const Prediction& like, std::uint64_t mask) {
@@ -159,9 +158,10 @@ template <typename Coder>
 void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, ivec3 near,
                  const Prediction& like, std::vector<VoxelBlock>& blocks) {
   const std::uint64_t count = coder.number(models.count, blocks.size());
-  std::uint64_t voxels = 0;
+  std::uint64_t voxels = 0;  // by cost_of
   ivec3 row(0), slice(0);
   for (std::uint64_t i = 0; i < count && coder.ok(); ++i) {
+    // Its position, relative to the previous block, row or slice.
     VoxelBlock block;
     if constexpr (!Coder::kReads) block = blocks[i];
     const auto known = std::span<const VoxelBlock>(blocks).first(i);
@@ -175,6 +175,8 @@ void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, i
         at[axis] = code_signed(coder, models.first[static_cast<unsigned>(axis)], at[axis], near[axis]);
       row = slice = at;
     }
+
+    // Its voxels; a decoder checks and appends them.
     block.mask = like.set ? code_mask_like(coder, models, known, at, like, block.mask)
                           : code_mask(coder, models, known, at, block.mask);
     if constexpr (Coder::kReads) {
@@ -190,7 +192,7 @@ void code_blocks(Coder& coder, BlockModels& models, const BlockBounds& bounds, i
 
 template <typename Coder>
 void code_densities(Coder& coder, DensityModels& models, const sim::BlockSet& set,
-                std::span<const std::uint8_t> expected, std::vector<std::uint8_t>& densities) {
+                    std::span<const std::uint8_t> expected, std::vector<std::uint8_t>& densities) {
   if constexpr (Coder::kReads) densities.assign(set.size(), 0);
   const auto code = [&](NumberModel& model, std::uint32_t rank, std::uint8_t near) {
     const auto difference = static_cast<std::int8_t>(static_cast<std::uint8_t>(densities[rank] - near));
@@ -200,7 +202,7 @@ void code_densities(Coder& coder, DensityModels& models, const sim::BlockSet& se
   set.for_each([&](ivec3 voxel, std::uint32_t rank) {
     if (!coder.ok()) return;
     if (!expected.empty()) return code(models.against_expected, rank, expected[rank]);
-    // The neighbours before it tell: in x, else y, else z, else the voxel before.
+    // Predict from the preceding neighbour in x, else y, else z, else from the previous voxel.
     const std::array ranks{set.rank(voxel - ivec3(1, 0, 0)), set.rank(voxel - ivec3(0, 1, 0)),
                            set.rank(voxel - ivec3(0, 0, 1))};
     int found = 0, agreeing = 0;
@@ -216,19 +218,19 @@ void code_densities(Coder& coder, DensityModels& models, const sim::BlockSet& se
 
 template <typename Coder>
 void code_delays(Coder& coder, DelayModels& models, std::span<const std::uint32_t> order,
-                std::span<const std::uint8_t> group, std::vector<std::uint16_t>& delays) {
+                 std::span<const std::uint8_t> group, std::vector<std::uint16_t>& delays) {
   if constexpr (Coder::kReads) delays.assign(order.size(), 0);
   std::array<std::uint16_t, 2> last{};
   std::array<bool, 2> none{};
   for (const std::uint32_t rank : order) {
     if (!coder.ok()) return;
     const std::size_t g = group[rank] != 0;
-    std::uint16_t& wait = delays[rank];
-    none[g] = coder.bit(models.none[2 * g + none[g]], wait == 0);
+    std::uint16_t& delay = delays[rank];
+    none[g] = coder.bit(models.none[2 * g + none[g]], delay == 0);
     if (none[g]) continue;
-    const auto difference = static_cast<std::int16_t>(static_cast<std::uint16_t>(wait - last[g]));
+    const auto difference = static_cast<std::int16_t>(static_cast<std::uint16_t>(delay - last[g]));
     const std::int64_t coded = unfolded(coder.number(models.step[g], folded(difference)));
-    wait = last[g] = static_cast<std::uint16_t>(last[g] + static_cast<std::uint16_t>(coded));
+    delay = last[g] = static_cast<std::uint16_t>(last[g] + static_cast<std::uint16_t>(coded));
   }
 }
 
@@ -237,12 +239,12 @@ template void code_blocks(Encoder&, BlockModels&, const BlockBounds&, ivec3, con
 template void code_blocks(Decoder&, BlockModels&, const BlockBounds&, ivec3, const Prediction&,
                           std::vector<VoxelBlock>&);
 template void code_densities(Encoder&, DensityModels&, const sim::BlockSet&, std::span<const std::uint8_t>,
-                         std::vector<std::uint8_t>&);
+                             std::vector<std::uint8_t>&);
 template void code_densities(Decoder&, DensityModels&, const sim::BlockSet&, std::span<const std::uint8_t>,
-                         std::vector<std::uint8_t>&);
-template void code_delays(Encoder&, DelayModels&, std::span<const std::uint32_t>, std::span<const std::uint8_t>,
-                         std::vector<std::uint16_t>&);
-template void code_delays(Decoder&, DelayModels&, std::span<const std::uint32_t>, std::span<const std::uint8_t>,
-                         std::vector<std::uint16_t>&);
+                             std::vector<std::uint8_t>&);
+template void code_delays(Encoder&, DelayModels&, std::span<const std::uint32_t>,
+                          std::span<const std::uint8_t>, std::vector<std::uint16_t>&);
+template void code_delays(Decoder&, DelayModels&, std::span<const std::uint32_t>,
+                          std::span<const std::uint8_t>, std::vector<std::uint16_t>&);
 
 }  // namespace brume::wire

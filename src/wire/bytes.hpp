@@ -1,4 +1,4 @@
-// Plain bytes, checked: little-endian numbers and varints (7 bits a byte, lowest first, the top bit: more).
+// Checked byte streams: little-endian numbers and varints (7 bits per byte, lowest first; the top bit: more).
 #pragma once
 
 #include <concepts>
@@ -22,7 +22,7 @@ class ByteWriter {
     bytes_.push_back(static_cast<std::byte>(value));
   }
   void raw(std::span<const std::byte> bytes);
-  /// How many bytes follow, then the bytes.
+  /// The number of bytes as a varint, then the bytes.
   void section(std::span<const std::byte> bytes) {
     varint(bytes.size());
     raw(bytes);
@@ -35,8 +35,8 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads bytes from anywhere. Past their end all is 0 or empty, and ok() is false from then on; nothing is
-/// allocated.
+/// Reads untrusted bytes. Reading past their end gives 0 or nothing and makes ok() false for good. Never
+/// allocates.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -49,7 +49,7 @@ class ByteReader {
       value |= std::to_integer<std::uint64_t>(bytes[i]) << (8 * i);
     return static_cast<T>(value);
   }
-  /// At most `max`; a longer code than needed is refused too, so that a number has one code only.
+  /// A number of at most `max`. Overlong codes fail too, so that each number has one code only.
   std::uint64_t varint(std::uint64_t max) {
     std::uint64_t value = 0;
     for (int shift = 0; shift < 64; shift += 7) {

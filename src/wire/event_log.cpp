@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/hash.hpp"
-#include "wire/bytes.hpp"
 #include "wire/archive.hpp"
+#include "wire/bytes.hpp"
 #include "wire/packet.hpp"
 
 namespace brume::wire {
@@ -15,8 +15,8 @@ namespace {
 template <typename Coder>
 void serialize(Archive<Coder>& archive, sim::ThrowSmoke& smoke) {
   archive.field(Field::throw_tick, smoke.tick);
-  describe_position(archive, Field::from, smoke.from);
-  describe_position(archive, Field::toward, smoke.at);
+  serialize_position(archive, Field::from, smoke.from);
+  serialize_position(archive, Field::toward, smoke.at);
   serialize(archive, smoke.smoke);
 }
 
@@ -24,7 +24,7 @@ template <typename Coder>
 void serialize(Archive<Coder>& archive, sim::MoveBody& move) {
   archive.field(Field::body_tick, move.tick);
   archive.field(Field::body, move.body);
-  describe_position(archive, Field::body_at, move.to);
+  serialize_position(archive, Field::body_at, move.to);
 }
 
 template <typename Coder>
@@ -35,7 +35,7 @@ void serialize(Archive<Coder>& archive, sim::LevelEdit& edit) {
 
 constexpr auto kFirstByte = static_cast<std::uint8_t>(kVersion << 4 | static_cast<int>(PacketKind::events));
 
-// An event of the variant's alternative with this index.
+// A default event of the variant's alternative with this index.
 template <std::size_t... kIndices>
 sim::Event event_of_kind(std::size_t kind, std::index_sequence<kIndices...>) {
   sim::Event event;
@@ -48,13 +48,13 @@ void code_event(Archive<Coder>& archive, sim::Event& event) {
   constexpr std::size_t kKinds = std::variant_size_v<sim::Event>;
   std::size_t kind = event.index();
   archive.field(Field::kind, kind);
-  if (kind >= kKinds) archive.refuse("an event of a kind that is not known");
+  if (kind >= kKinds) archive.fail("an event of an unknown kind");
   if (!archive.ok()) return;
   if constexpr (Coder::kReads) event = event_of_kind(kind, std::make_index_sequence<kKinds>());
   std::visit([&](auto& e) { serialize(archive, e); }, event);
   if constexpr (Coder::kReads) {
     const Result<void> checked = sim::check_event(event, archive.layout());
-    if (!checked) archive.refuse(checked.failure().message);
+    if (!checked) archive.fail(checked.failure().message);
   }
 }
 
@@ -75,6 +75,7 @@ std::vector<std::byte> write_events(std::span<const sim::Event> events, const vo
 
 Result<std::vector<sim::Event>> read_events(std::span<const std::byte> bytes, const voxel::GridLayout& layout,
                                             const Limits& limits) {
+  // Check the version and the checksum.
   ByteReader in(bytes);
   const auto first = in.number<std::uint8_t>();
   const auto checksum = in.number<std::uint32_t>();
@@ -82,6 +83,8 @@ Result<std::vector<sim::Event>> read_events(std::span<const std::byte> bytes, co
     return Failure{ErrorCode::bad_input, "event log: not one of version " + std::to_string(kVersion)};
   if (checksum != static_cast<std::uint32_t>(hash_bytes(in.remaining())))
     return Failure{ErrorCode::bad_input, "event log: damaged, its checksum is wrong"};
+
+  // Decode the events.
   Decoder coder(in.remaining());
   const auto archive = std::make_unique<Archive<Decoder>>(coder, layout, 0, limits);
   const std::uint64_t count = archive->count(0);
@@ -94,7 +97,7 @@ Result<std::vector<sim::Event>> read_events(std::span<const std::byte> bytes, co
   if (!archive->reason().empty()) return Failure{ErrorCode::bad_input, "event log: " + archive->reason()};
   if (!coder.at_end())
     return Failure{ErrorCode::bad_input,
-                   "event log: expected whole events, as many as are told; write it anew"};
+                   "event log: truncated, or longer than its number of events; write it again"};
   return events;
 }
 

@@ -1,4 +1,4 @@
-// The bytes of an event log.
+// Serialization of event logs.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace brume::wire {
 
-/// Events of a world of this layout, in their order. The same bytes for the same events.
+/// Serializes events of a world with this layout, in order. Equal events give equal bytes.
 std::vector<std::byte> write_events(std::span<const sim::Event> events, const voxel::GridLayout& layout);
 
-/// Reads them again. Fails with bad_input when the bytes are damaged, cut short, or beyond the limits, and
-/// for an event that sim::check_event refuses.
+/// Reads the output of write_events. Fails with bad_input when the bytes are damaged, truncated or beyond the
+/// limits, and for an event that sim::check_event rejects.
 Result<std::vector<sim::Event>> read_events(std::span<const std::byte> bytes, const voxel::GridLayout& layout,
                                             const Limits& limits = {});
 

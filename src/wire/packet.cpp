@@ -10,7 +10,7 @@ namespace brume::wire {
 namespace {
 
 Failure refused(const std::string& what) {
-  return {ErrorCode::bad_input, "packet: " + what + "; ask again"};
+  return {ErrorCode::bad_input, "packet: " + what + "; request it again"};
 }
 
 std::uint8_t first_byte(PacketKind kind) {
@@ -19,8 +19,7 @@ std::uint8_t first_byte(PacketKind kind) {
 
 Result<sim::State> checked(Result<sim::State> state, const PacketHead& head) {
   if (!state) return refused(state.failure().message);
-  if (checksum_of(*state) != head.checksum)
-    return refused("the state has another checksum than the sender's");
+  if (checksum_of(*state) != head.checksum) return refused("the state's checksum differs from the sender's");
   return state;
 }
 
@@ -63,7 +62,10 @@ std::vector<std::byte> write_request(const Request& request) {
 
 Result<PacketHead> read_head(std::span<const std::byte> packet, const Limits& limits) {
   if (packet.size() > limits.max_bytes)
-    return refused(std::to_string(packet.size()) + " bytes, at most " + std::to_string(limits.max_bytes));
+    return refused(std::to_string(packet.size()) + " bytes, at most " + std::to_string(limits.max_bytes) +
+                   " are accepted");
+
+  // Kind and version.
   ByteReader in(packet);
   PacketHead head;
   const auto first = in.number<std::uint8_t>();
@@ -71,15 +73,17 @@ Result<PacketHead> read_head(std::span<const std::byte> packet, const Limits& li
   if (!in.ok() || first >> 4 != kVersion ||
       (head.kind != PacketKind::keyframe && head.kind != PacketKind::delta))
     return refused("not a keyframe or delta of version " + std::to_string(kVersion));
+
+  // Ticks and checksum.
   head.tick = static_cast<std::uint32_t>(in.varint(kMaxPacketTick));
   if (head.kind == PacketKind::delta) {
-    const std::uint64_t back = in.varint(head.tick);
-    if (back == 0) return refused("a delta must lead from one tick to a later one");
-    head.base_tick = head.tick - static_cast<std::uint32_t>(back);
+    const std::uint64_t ticks = in.varint(head.tick);
+    if (ticks == 0) return refused("a delta must start from an earlier tick");
+    head.base_tick = head.tick - static_cast<std::uint32_t>(ticks);
   }
   head.checksum = in.number<std::uint32_t>();
   head.body = in.remaining();
-  if (!in.ok()) return refused("the bytes are cut short");
+  if (!in.ok()) return refused("truncated");
   return head;
 }
 

@@ -7,25 +7,25 @@ namespace brume::wire {
 namespace {
 
 constexpr std::uint32_t kTop = 1u << 24;  // Below this the range takes in another byte.
-constexpr int kLeftOut = 4;               // Zeros at the end that are not written.
+constexpr int kMaxOmitted = 4;            // Trailing zeros that are not written.
 
-// A model that has seen n decisions moves by 1 / (n + 1.5) towards the next one (the estimate of Krichevsky
-// and Trofimov 1981), n at most kMemory: what was long ago is forgotten. Of 65536.
+// After n decisions a model moves by 1 / (n + 1.5) towards the next one (the estimator of Krichevsky and
+// Trofimov 1981), n at most kMemory: older decisions fade. In 1/65536.
 constexpr std::uint16_t kMemory = 60;
 constexpr auto kSteps = [] {
-  std::array<std::uint32_t, kMemory + 1> densities{};
-  for (std::uint32_t n = 0; n <= kMemory; ++n) densities[n] = 2 * 65536 / (2 * n + 3);
-  return densities;
+  std::array<std::uint32_t, kMemory + 1> steps{};
+  for (std::uint32_t n = 0; n <= kMemory; ++n) steps[n] = 2 * 65536 / (2 * n + 3);
+  return steps;
 }();
 
-// No decision is ever so sure that it would cost nothing: a packet's bytes bound what is in it.
+// Probabilities stay away from 0 and 1 so that every decision costs bits: a packet's bytes bound its content.
 constexpr std::uint32_t kSurest = 128;
 
 std::uint32_t width_of_zero(std::uint32_t range, const BitModel& model) {
   return (range >> 16) * model.zero();
 }
 
-// The number as both coders see it: they differ in what bit() and direct() do.
+// Shared by both coders, which differ in bit() and direct().
 template <typename Coder>
 std::uint64_t code_number(Coder& coder, NumberModel& model, std::uint64_t number) {
   const auto length = static_cast<std::uint32_t>(std::bit_width(number));
@@ -38,8 +38,8 @@ std::uint64_t code_number(Coder& coder, NumberModel& model, std::uint64_t number
   }
   if (bits < 2) return static_cast<std::uint64_t>(bits);
   const bool second = coder.bit(model.second[static_cast<unsigned>(bits)], number >> (bits - 2) & 1);
-  const std::uint64_t rest = coder.direct(number, bits - 2);
-  return (std::uint64_t{2} + second) << (bits - 2) | rest;
+  const std::uint64_t low_bits = coder.direct(number, bits - 2);
+  return (std::uint64_t{2} + second) << (bits - 2) | low_bits;
 }
 
 }  // namespace
@@ -53,15 +53,15 @@ void BitModel::learn(bool bit) {
 }
 
 void Encoder::push_byte() {
-  // A byte is settled when no carry can come any more, or when it has come.
+  // Pending bytes are final once no carry can occur any more, or when it has occurred.
   if (low_ < 0xFF000000u || low_ >> 32 != 0) {
     const auto carry = static_cast<std::uint8_t>(low_ >> 32);
-    if (!first_) bytes_.push_back(static_cast<std::byte>(waiting_ + carry));
+    if (!first_) bytes_.push_back(static_cast<std::byte>(pending_ + carry));
     first_ = false;
-    for (; waiting_ones_ > 0; --waiting_ones_) bytes_.push_back(static_cast<std::byte>(0xFF + carry));
-    waiting_ = static_cast<std::uint8_t>(low_ >> 24);
+    for (; pending_ones_ > 0; --pending_ones_) bytes_.push_back(static_cast<std::byte>(0xFF + carry));
+    pending_ = static_cast<std::uint8_t>(low_ >> 24);
   } else {
-    ++waiting_ones_;
+    ++pending_ones_;
   }
   low_ = (low_ & 0x00FFFFFFu) << 8;
 }
@@ -86,14 +86,14 @@ bool Encoder::bit(BitModel& model, bool bit) {
 }
 
 std::uint64_t Encoder::direct(std::uint64_t bits, int count) {
-  std::uint64_t kept = 0;
+  std::uint64_t coded = 0;
   for (int i = count - 1; i >= 0; --i) {
     const bool bit = bits >> i & 1;
     const std::uint32_t half = range_ >> 1;
     narrow(bit ? half : 0, bit ? range_ - half : half);
-    kept = kept << 1 | bit;
+    coded = coded << 1 | bit;
   }
-  return kept;
+  return coded;
 }
 
 std::uint64_t Encoder::number(NumberModel& model, std::uint64_t number) {
@@ -101,7 +101,7 @@ std::uint64_t Encoder::number(NumberModel& model, std::uint64_t number) {
 }
 
 std::vector<std::byte> Encoder::finish() {
-  // Of all values that the decoder would take, the one with the most zeros at the end.
+  // Of all values that decode correctly, choose the one with the most trailing zeros.
   const std::uint64_t last = low_ + range_ - 1;
   for (int zeros = 32; zeros >= 0; zeros -= 8) {
     const std::uint64_t value = last >> zeros << zeros;
@@ -110,7 +110,7 @@ std::vector<std::byte> Encoder::finish() {
     break;
   }
   for (int i = 0; i < 5; ++i) push_byte();
-  for (int i = 0; i < kLeftOut && !bytes_.empty() && bytes_.back() == std::byte{0}; ++i) bytes_.pop_back();
+  for (int i = 0; i < kMaxOmitted && !bytes_.empty() && bytes_.back() == std::byte{0}; ++i) bytes_.pop_back();
   return std::move(bytes_);
 }
 
@@ -120,7 +120,7 @@ Decoder::Decoder(std::span<const std::byte> bytes) : bytes_(bytes) {
 
 std::uint8_t Decoder::next_byte() {
   if (position_ < bytes_.size()) return static_cast<std::uint8_t>(bytes_[position_++]);
-  if (++beyond_ > kLeftOut) ok_ = false;
+  if (++beyond_ > kMaxOmitted) ok_ = false;
   return 0;
 }
 

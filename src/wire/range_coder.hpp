@@ -1,12 +1,13 @@
-// An adaptive binary range coder: yes-or-no decisions in, about as many bits out as they were surprising.
+// An adaptive binary range coder: codes yes-or-no decisions in about as many bits as their information
+// content.
 //
 // Source: Martin 1979, "Range encoding: an algorithm for removing redundancy from a digitised message", in
-// the binary archive with carry propagation that LZMA made known (Pavlov, "LZMA specification", 2015). Integers
-// only: the same decisions give the same bytes on every machine.
+// the binary form with carry propagation known from LZMA (Pavlov, "LZMA specification", 2015). Integers only:
+// the same decisions give the same bytes on every machine.
 //
-// Encoder and decoder have the same members, so that one function describes a format for both ways:
+// Encoder and decoder have the same members, so that one function describes a format in both directions:
 //
-//   value = coder.number(model, value);    an encoder hands back what it was given, a decoder what it reads
+//   value = coder.number(model, value);    an encoder returns its argument, a decoder the value it reads
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@
 
 namespace brume::wire {
 
-/// What a decision has been so far: it learns fast at first, then slower.
+/// Adaptive probability of a decision; adapts fast at first, then more slowly.
 class BitModel {
  public:
   /// Probability of a 0, of 65536.
@@ -26,13 +27,13 @@ class BitModel {
   void learn(bool bit);
 
  private:
-  // All bits 0 at first, so that thousands of models are made by one memset.
+  // Zero-initialized, so that thousands of models are initialized by one memset.
   std::int16_t above_half_ = 0;
   std::uint16_t seen_ = 0;
 };
 
-/// A number: how many bits it has by a tree of decisions, the second highest bit by a decision, the rest as
-/// they are (an Exp-Golomb code that adapts). Small and repeated numbers are cheap.
+/// A number: its bit count by a tree of decisions, its second highest bit by a decision, the lower bits
+/// verbatim (an adaptive Exp-Golomb code). Small and repeated numbers are cheap.
 struct NumberModel {
   std::array<BitModel, 128> length;
   std::array<BitModel, 65> second;
@@ -43,13 +44,13 @@ class Encoder {
   static constexpr bool kReads = false;
 
   bool bit(BitModel& model, bool bit);
-  /// The lowest `count` bits of a number, as they are.
+  /// The lowest `count` bits of a number, verbatim.
   std::uint64_t direct(std::uint64_t bits, int count);
   std::uint64_t number(NumberModel& model, std::uint64_t number);
 
   static constexpr bool ok() { return true; }
 
-  /// The bytes; the encoder is used up.
+  /// The bytes. The encoder must not be used afterwards.
   std::vector<std::byte> finish();
 
  private:
@@ -57,14 +58,14 @@ class Encoder {
   void push_byte();
 
   std::vector<std::byte> bytes_;
-  std::uint64_t low_ = 0;  // 33 bits: the highest is a carry into bytes that wait
+  std::uint64_t low_ = 0;  // 33 bits: the highest is a carry into the pending bytes
   std::uint32_t range_ = ~std::uint32_t{0};
-  std::uint8_t waiting_ = 0;        // the last byte that a carry may still change,
-  std::uint64_t waiting_ones_ = 0;  // and how many 0xFF follow it
-  bool first_ = true;               // the first byte is always 0 and is left out
+  std::uint8_t pending_ = 0;        // the last byte that a carry may still change
+  std::uint64_t pending_ones_ = 0;  // number of 0xFF bytes after it
+  bool first_ = true;               // the first byte is always 0 and is omitted
 };
 
-/// Reads what an encoder wrote, or anything: past the end of the bytes all is 0 and ok() is false.
+/// Reads the output of an encoder, or any bytes: past their end everything is 0 and ok() is false.
 class Decoder {
  public:
   static constexpr bool kReads = true;
@@ -75,10 +76,10 @@ class Decoder {
   std::uint64_t direct(std::uint64_t ignored, int count);
   std::uint64_t number(NumberModel& model, std::uint64_t ignored = 0);
 
-  /// False once more was read than was there, or fail() was called. From then on all that is read is 0.
+  /// False after reading past the end or calling fail(). From then on every read returns 0.
   bool ok() const { return ok_; }
   void fail() { ok_ = false; }
-  /// True when all bytes were read, none more.
+  /// True when exactly all bytes were read.
   bool at_end() const { return ok_ && position_ == bytes_.size(); }
 
  private:
@@ -87,7 +88,7 @@ class Decoder {
 
   std::span<const std::byte> bytes_;
   std::size_t position_ = 0;
-  int beyond_ = 0;  // zeros that the encoder left out at the end
+  int beyond_ = 0;  // trailing zeros that the encoder omitted
   std::uint32_t range_ = ~std::uint32_t{0};
   std::uint32_t code_ = 0;
   bool ok_ = true;

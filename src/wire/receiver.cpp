@@ -5,12 +5,13 @@
 namespace brume::wire {
 namespace {
 
-// An answer begins with the state that was asked from; this many packets may overtake it.
+// A reply is relative to the state named in the request; this many packets may overtake it.
 constexpr std::size_t kStates = 32;
 
 }  // namespace
 
 Result<Reception> Receiver::receive(std::span<const std::byte> packet) {
+  // Find the state that a delta is relative to.
   const auto head = read_head(packet, limits_);
   if (!head) {
     behind_ = true;
@@ -25,6 +26,8 @@ Result<Reception> Receiver::receive(std::span<const std::byte> packet) {
       return Reception::missed;
     }
   }
+
+  // Decode the packet and append its state.
   auto state = base ? read_delta(*head, *base, limits_) : read_keyframe(*head, limits_);
   if (!state) {
     behind_ = true;

@@ -1,4 +1,5 @@
-// The side that has no level and no World: packets in, in any order, with gaps; the sender's states out.
+// The receiving side, without level or World: turns packets, in any order and with gaps, into the sender's
+// states.
 #pragma once
 
 #include <cstddef>
@@ -14,38 +15,38 @@
 
 namespace brume::wire {
 
-/// What became of a packet.
+/// The result of receiving a packet.
 enum class Reception {
-  applied,  ///< state() is the packet's.
-  old,      ///< Nothing changed: a state of that tick or a later one is there.
-  missed    ///< Nothing changed: the state that it begins with is not there. Time to ask.
+  applied,  ///< state() is now the packet's.
+  old,      ///< Ignored: state() is of that tick or a later one.
+  missed    ///< Ignored: the state it is relative to is missing. Send a request.
 };
 
 class Receiver {
  public:
   explicit Receiver(const Limits& limits = {}) : limits_(limits) {}
 
-  /// Takes a packet. Fails with bad_input, one line, and changes nothing when it is damaged or makes another
-  /// state than the sender's; time to ask then, too.
+  /// Processes a packet. Fails with bad_input, in one line, and changes nothing but behind() when it is
+  /// damaged or gives another state than the sender's; send a request then, too.
   Result<Reception> receive(std::span<const std::byte> packet);
 
-  /// The newest state, equal to the sender's of that tick, bit by bit; null: nothing came yet. Valid until
+  /// The newest state, equal bit for bit to the sender's of that tick; null: none received yet. Valid until
   /// the next packet.
   const sim::State* state() const { return states_.empty() ? nullptr : &states_.back(); }
 
-  /// True when something is known to be missing: send request() to the sender, again and again (every few
-  /// ticks) until it is false. Where nothing came for a while, ask as well: the last packet may be lost.
+  /// True when a state is known to be missing: send request() to the sender every few ticks until it is
+  /// false. Send one also when no packet has arrived for a while: the last one may be lost.
   bool behind() const { return states_.empty() || behind_; }
   std::vector<std::byte> request() const;
 
-  /// Forgets all: another match begins, at an earlier tick perhaps.
+  /// Drops all states: a new match starts, perhaps at an earlier tick.
   void reset();
 
  private:
   const sim::State* find(std::uint32_t tick) const;
 
   Limits limits_;
-  std::deque<sim::State> states_;  // by tick; the earlier ones are there for packets that begin with them
+  std::deque<sim::State> states_;  // sorted by tick; older ones are the bases of late deltas
   bool behind_ = false;
 };
 

@@ -23,10 +23,10 @@ constexpr std::array kMagic{std::byte{'B'}, std::byte{'R'}, std::byte{'U'}, std:
 constexpr std::size_t kHashBytes = 8;
 
 Failure damaged(const std::string& what) {
-  return {ErrorCode::bad_input, what + "; record it anew"};
+  return {ErrorCode::bad_input, what + "; record it again"};
 }
 
-// The solid voxels of a level, by blocks.
+// The solid voxels of a level as sorted blocks.
 std::vector<sim::VoxelBlock> blocks_of(const voxel::BitGrid& level) {
   std::vector<sim::VoxelBlock> blocks;
   level.for_each_brick([&](ivec3 at, const voxel::BitGrid::Brick& brick) {
@@ -65,7 +65,7 @@ Result<voxel::BitGrid> decode_level(std::span<const std::byte> bytes, const voxe
   const auto models = std::make_unique<BlockModels>();
   std::vector<sim::VoxelBlock> blocks;
   code_blocks(coder, *models, {layout.size, false, kMaxLevelVoxels}, ivec3(0), {}, blocks);
-  if (!coder.at_end()) return damaged("a replay with an impossible level");
+  if (!coder.at_end()) return damaged("a replay with an invalid level");
   voxel::BitGrid level(layout);
   for (const sim::VoxelBlock& block : blocks) {
     const sim::EditBlock edit{block.at, block.mask, 0};
@@ -97,27 +97,27 @@ Result<std::vector<std::byte>> encode_replay(const Replay& replay) {
 }
 
 Result<Replay> decode_replay(std::span<const std::byte> bytes) {
-  // Is it ours, and whole?
+  // Signature, version and hash.
   ByteReader in(bytes);
   const auto magic = in.raw(kMagic.size());
   if (!in.ok() || !std::equal(magic.begin(), magic.end(), kMagic.begin())) return damaged("not a replay");
   const std::uint64_t version = in.varint(~std::uint64_t{0});
   if (!in.ok() || version != kVersion)
     return damaged("a replay of another version than " + std::to_string(kVersion));
-  if (in.remaining().size() < kHashBytes) return damaged("a replay that is cut short");
+  if (in.remaining().size() < kHashBytes) return damaged("a truncated replay");
   const std::size_t hashed = bytes.size() - kHashBytes;
   if (ByteReader(bytes.subspan(hashed)).number<std::uint64_t>() != hash_bytes(bytes.first(hashed)))
     return damaged("a damaged replay: its hash is wrong");
 
-  // What does it tell?
+  // World, level, events and checksums.
   const auto world = read_world(in);
   if (!world) return damaged("replay: " + world.failure().message);
   const auto level_bytes = in.section();
   const auto event_bytes = in.section();
-  if (!in.ok() || in.remaining().size() < kHashBytes) return damaged("a replay that is cut short");
+  if (!in.ok() || in.remaining().size() < kHashBytes) return damaged("a truncated replay");
   const std::uint64_t ticks = in.varint(in.remaining().size() / sizeof(std::uint32_t));
   if (!in.ok() || in.remaining().size() != ticks * sizeof(std::uint32_t) + kHashBytes)
-    return damaged("a replay with another number of ticks than it tells");
+    return damaged("a replay whose length does not match its number of ticks");
   auto level = decode_level(level_bytes, world->layout);
   if (!level) return level.failure();
   auto events = read_events(event_bytes, world->layout);
@@ -142,9 +142,9 @@ Result<Replay> load_replay(const std::filesystem::path& path) {
 }
 
 Result<std::optional<Divergence>> play(const Replay& replay,
-                                      const std::function<void(const sim::State&)>& visit) {
+                                       const std::function<void(const sim::State&)>& visit) {
   sim::World world(replay.level, replay.settings);
-  if (auto taken = world.append(replay.events); !taken) return taken.failure();
+  if (auto appended = world.append(replay.events); !appended) return appended.failure();
   for (std::uint32_t tick = 0; tick < replay.checksums.size(); ++tick) {
     world.advance_to(tick);
     if (visit) visit(world.state());

@@ -1,5 +1,5 @@
-// A replay: all that a simulation followed from, and what it came to at each tick. A file stands for itself:
-// the level is in it.
+// A replay: all input of a simulation and the checksum of every tick. A replay file is self-contained: it
+// includes the level.
 #pragma once
 
 #include <cstddef>
@@ -24,34 +24,35 @@ struct Replay {
   std::vector<std::uint32_t> checksums;  ///< checksum_of the states of tick 0, 1, 2, ...
 };
 
-/// A replay without ticks that follows this world from its first tick on.
+/// A replay of this world from its first tick, still without checksums.
 Replay replay_of(const voxel::BitGrid& level, const sim::WorldSettings& settings,
                  std::span<const sim::Event> events);
 
-/// Solid voxels that a replay may hold; a block of 4^3 counts as 16 at least.
+/// Maximum number of solid voxels in a replay; a 4^3 block counts as at least 16.
 constexpr std::uint64_t kMaxLevelVoxels = std::uint64_t{1} << 27;
 
-/// The bytes of a replay file; the same for the same replay. Fails with resource_limit for a level of more
+/// The bytes of a replay file; equal replays give equal bytes. Fails with resource_limit for a level of more
 /// than kMaxLevelVoxels.
 Result<std::vector<std::byte>> encode_replay(const Replay& replay);
 
-/// Reads what encode_replay made. Fails with bad_input when it is truncated, damaged, foreign or of another
-/// version; the message does not name the file. Allocates no more than the level's limit and the bytes allow.
+/// Reads the output of encode_replay. Fails with bad_input when it is truncated, damaged, foreign or of
+/// another version; the message does not name the file. Allocates no more than the level limit and the bytes
+/// allow.
 Result<Replay> decode_replay(std::span<const std::byte> bytes);
 
-/// The same with files; messages name them. Written whole or not at all.
+/// The same with files; messages name them. A file is written completely or not at all.
 Result<void> save_replay(const std::filesystem::path& path, const Replay& replay);
 Result<Replay> load_replay(const std::filesystem::path& path);
 
-/// Where a simulation left the replay.
+/// The first tick at which a simulation differs from its replay.
 struct Divergence {
   std::uint32_t tick = 0;
   std::uint32_t recorded = 0, got = 0;  ///< Checksums.
 };
 
-/// Simulates all ticks anew and compares each; stops at the first that differs. `visit` is called with each
-/// state before it is compared. Fails as World does for an event that it refuses.
+/// Simulates all ticks and compares their checksums; stops at the first difference. Calls `visit` with each
+/// state before comparing it. Fails as World does for an event that it rejects.
 Result<std::optional<Divergence>> play(const Replay& replay,
-                                      const std::function<void(const sim::State&)>& visit = {});
+                                       const std::function<void(const sim::State&)>& visit = {});
 
 }  // namespace brume::wire

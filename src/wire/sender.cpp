@@ -6,16 +6,18 @@
 namespace brume::wire {
 
 Sender::Sender(const SenderSettings& settings) : settings_(settings) {
-  BRUME_ASSERT(settings.history >= 1, "a history of no state");
+  BRUME_ASSERT(settings.history >= 1, "a history of no states");
 }
 
 Result<std::vector<std::byte>> Sender::push(const sim::State& state) {
   if (state.tick > kMaxPacketTick)
     return Failure{ErrorCode::bad_input,
                    "sender: expected a tick of at most " + std::to_string(kMaxPacketTick)};
-  // Fewer events than before: another world goes on here.
+  // Fewer events than before: a new world.
   if (!history_.empty() && state.events < history_.back().events && state.tick > history_.back().tick)
     history_.clear();
+
+  // A keyframe for the first state, a delta for the others.
   std::vector<std::byte> packet;
   if (history_.empty()) {
     packet = keyframe_ = write_keyframe(state);
@@ -35,14 +37,14 @@ Result<std::vector<std::byte>> Sender::push(const sim::State& state) {
 }
 
 Result<std::vector<std::byte>> Sender::answer(std::span<const std::byte> request) {
-  const auto asked = read_request(request);
-  if (!asked) return asked.failure();
+  const auto held = read_request(request);  // the receiver's state
+  if (!held) return held.failure();
   if (history_.empty()) return Failure{ErrorCode::bad_input, "sender: no state to send yet; push one first"};
   const sim::State& last = history_.back();
-  if (asked->tick) {
-    const auto base = std::lower_bound(history_.begin(), history_.end(), *asked->tick,
+  if (held->tick) {
+    const auto base = std::lower_bound(history_.begin(), history_.end(), *held->tick,
                                        [](const sim::State& s, std::uint32_t tick) { return s.tick < tick; });
-    if (base != history_.end() && base->tick == *asked->tick && checksum_of(*base) == asked->checksum) {
+    if (base != history_.end() && base->tick == *held->tick && checksum_of(*base) == held->checksum) {
       if (base->tick == last.tick) return std::vector<std::byte>();
       return write_delta(*base, last);
     }

@@ -1,4 +1,5 @@
-// The side that has the World: a packet a tick for everyone, and answers for those who missed some.
+// The sending side, which has the World: one packet per tick for all receivers, and replies to those that
+// missed some.
 #pragma once
 
 #include <cstddef>
@@ -14,28 +15,28 @@
 namespace brume::wire {
 
 struct SenderSettings {
-  std::uint32_t history = 128;  ///< States kept to answer from, at least 1: two seconds.
+  std::uint32_t history = 128;  ///< States retained for replies, at least 1. 128 ticks: two seconds.
 };
 
 class Sender {
  public:
   explicit Sender(const SenderSettings& settings = {});
 
-  /// Takes the state of a tick and returns the packet to send to every receiver: what is different since the
-  /// state pushed before, or a keyframe for the first one and for one of fewer events than the last (another
-  /// world goes on). Fails with bad_input when the tick is not above the last one's or above kMaxPacketTick,
-  /// or layout, ticks_per_second or masks are others.
+  /// Takes the state of a tick and returns the packet to send to every receiver: a delta from the previous
+  /// state, or a keyframe for the first one and for one with fewer events than the last (a new world). Fails
+  /// with bad_input when the tick is not above the last one's or above kMaxPacketTick, or layout,
+  /// ticks_per_second or masks have changed.
   Result<std::vector<std::byte>> push(const sim::State& state);
 
-  /// What to send to the one receiver that asked: a delta from the state that it has, a keyframe where that
-  /// is too old or not the same, nothing (empty) when it is up to date. Fails with bad_input for what is no
-  /// request, and when nothing was pushed yet.
+  /// The reply to one receiver's request: a delta from the state it has, a keyframe when that state is too
+  /// old or differs, or nothing (empty) when it is up to date. Fails with bad_input for bytes that are not a
+  /// request, and before the first push.
   Result<std::vector<std::byte>> answer(std::span<const std::byte> request);
 
  private:
   SenderSettings settings_;
-  std::deque<sim::State> history_;   // by tick
-  std::vector<std::byte> keyframe_;  // of the last; empty: not asked for yet
+  std::deque<sim::State> history_;   // sorted by tick
+  std::vector<std::byte> keyframe_;  // of the last state; empty: not created yet
 };
 
 }  // namespace brume::wire

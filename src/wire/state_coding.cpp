@@ -4,19 +4,19 @@
 #include <memory>
 #include <utility>
 
-#include "wire/cloud_coding.hpp"
 #include "wire/archive.hpp"
+#include "wire/cloud_coding.hpp"
 
 namespace brume::wire {
 namespace {
 
 using sim::Body;
+using sim::BulletHole;
 using sim::EditBlock;
 using sim::EditBlocks;
 using sim::Flight;
 using sim::LiveBlast;
 using sim::LiveCloud;
-using sim::BulletHole;
 using sim::State;
 
 std::uint32_t key_of(const Flight& flight) {
@@ -47,41 +47,42 @@ bool same(const LiveBlast& a, const LiveBlast& b) {
 }
 
 template <typename F>
-void describe_numbers(F& archive, Flight& flight) {
+void serialize_fields(F& archive, Flight& flight) {
   archive.field(Field::throw_tick, flight.throw_tick);
   archive.field(Field::detonation_tick, flight.detonation_tick);
-  describe_position(archive, Field::from, flight.from);
-  describe_position(archive, Field::voxel, flight.landing);
+  serialize_position(archive, Field::from, flight.from);
+  serialize_position(archive, Field::voxel, flight.landing);
   serialize(archive, flight.smoke);
 }
 
 template <typename F>
-void describe_numbers(F& archive, BulletHole& hole) {
+void serialize_fields(F& archive, BulletHole& hole) {
   serialize(archive, hole.shot);
   archive.field(Field::distance, hole.distance);
 }
 
 template <typename F>
-void describe_numbers(F& archive, Body& body) {
-  describe_position(archive, Field::body_at, body.position);
-  describe_position(archive, Field::body_was, body.previous);
+void serialize_fields(F& archive, Body& body) {
+  serialize_position(archive, Field::body_at, body.position);
+  serialize_position(archive, Field::body_was, body.previous);
   archive.field(Field::body_tick, body.tick);
   archive.field(Field::body_tick_before, body.previous_tick);
 }
 
-// One State as the difference from another.
+// Codes one State as the difference from another.
 template <typename Coder>
 class StateCoder {
  public:
   static constexpr bool kReads = Coder::kReads;
 
-  StateCoder(Archive<Coder>& archive, const State& base, State& now) : archive_(archive), base_(base), now_(now) {}
+  StateCoder(Archive<Coder>& archive, const State& base, State& now)
+      : archive_(archive), base_(base), now_(now) {}
 
   void code() {
-    archive_.memory.at(Field::events) = archive_.memory.at(Field::id) = base_.events;
+    archive_.context.at(Field::events) = archive_.context.at(Field::id) = base_.events;
     archive_.field(Field::events, now_.events);
-    // What stays is not looked at again: it is of an earlier event still.
-    if (now_.events < base_.events) archive_.refuse("events were taken back");
+    // Unchanged items are not validated again: they stem from earlier events.
+    if (now_.events < base_.events) archive_.fail("fewer events than in the base state");
     code_edits();
     code_list(base_.flights, now_.flights);
     code_list(base_.clouds, now_.clouds);
@@ -91,7 +92,7 @@ class StateCoder {
   }
 
  private:
-  // An edit that is there before and after costs nothing: only bits that differ displacements.
+  // Codes only the bits that differ: an edit present in both states costs nothing.
   void code_edits() {
     const EditBlocks none;
     const EditBlocks& before = base_.edits ? *base_.edits : none;
@@ -106,12 +107,12 @@ class StateCoder {
     if constexpr (kReads) {
       EditBlocks after = flipped(before, changed);
       for (const EditBlock& edit : after)
-        if (edit.make_solid & edit.make_free) archive_.refuse("an edit makes a voxel both solid and free");
+        if (edit.make_solid & edit.make_free) archive_.fail("an edit makes a voxel both solid and free");
       now_.edits = after.empty() ? nullptr : std::make_shared<const EditBlocks>(std::move(after));
     }
   }
 
-  // The bits that are in one of the two; flipping them again leads back.
+  // The bits in exactly one of the two; flipping again restores the original.
   static EditBlocks flipped(const EditBlocks& a, const EditBlocks& b) {
     EditBlocks both;
     std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both),
@@ -129,9 +130,10 @@ class StateCoder {
     return result;
   }
 
-  // Of each thing in the base: whether it stays, and whether it is as it was. Then the new ones.
+  // For each item of the base: whether it remains and whether it changed. Then the new items.
   template <typename Item>
   void code_list(const std::vector<Item>& base, std::vector<Item>& now) {
+    // One flag for an unchanged list.
     bool differs = false;
     if constexpr (!kReads)
       differs = base.size() != now.size() ||
@@ -142,24 +144,28 @@ class StateCoder {
       if constexpr (kReads) now = base;
       return;
     }
-    std::vector<Item> kept, added;
+
+    // The items of the base.
+    std::vector<Item> retained, added;
     auto next = now.begin();
     for (const Item& before : base) {
       if (!archive_.ok()) return;
       Item after = before;
-      bool stays = false;
+      bool remains = false;
       if constexpr (!kReads) {
         for (; next != now.end() && key_of(*next) < key_of(before); ++next) added.push_back(*next);
-        stays = next != now.end() && key_of(*next) == key_of(before);
-        if (stays) after = *next++;
+        remains = next != now.end() && key_of(*next) == key_of(before);
+        if (remains) after = *next++;
       }
-      if (!archive_.flag(Flag::kept, stays)) continue;
+      if (!archive_.flag(Flag::retained, remains)) continue;
       if (archive_.flag(Flag::replaced, !same(before, after))) code_item(&before, after);
-      if constexpr (kReads) kept.push_back(std::move(after));
+      if constexpr (kReads) retained.push_back(std::move(after));
     }
+
+    // The new items.
     if constexpr (!kReads) added.insert(added.end(), next, now.end());
     code_added(added);
-    if constexpr (kReads) schedule_gather(std::move(kept), std::move(added), now);
+    if constexpr (kReads) merge_items(std::move(retained), std::move(added), now);
   }
 
   template <typename Item>
@@ -178,17 +184,17 @@ class StateCoder {
   }
 
   template <typename Item>
-  void schedule_gather(std::vector<Item> kept, std::vector<Item> added, std::vector<Item>& now) {
+  void merge_items(std::vector<Item> retained, std::vector<Item> added, std::vector<Item>& now) {
     if (!archive_.ok()) return;
     const auto before = [](const Item& a, const Item& b) { return key_of(a) < key_of(b); };
     now.clear();
-    std::merge(std::make_move_iterator(kept.begin()), std::make_move_iterator(kept.end()),
+    std::merge(std::make_move_iterator(retained.begin()), std::make_move_iterator(retained.end()),
                std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()),
                std::back_inserter(now), before);
     for (std::size_t i = 0; i < now.size(); ++i) {
-      if (i > 0 && !before(now[i - 1], now[i])) archive_.refuse("numbers of things are out of order");
+      if (i > 0 && !before(now[i - 1], now[i])) archive_.fail("ids are out of order");
       if (!std::is_same_v<Item, Body> && key_of(now[i]) >= now_.events)
-        archive_.refuse("a thing is of an event that was not yet");
+        archive_.fail("an id belongs to a future event");
     }
   }
 
@@ -202,22 +208,22 @@ class StateCoder {
   void code_item(const Item* before, Item& item) {
     if (before) {
       Item expected = *before;
-      describe_numbers(archive_.memory, expected);
+      serialize_fields(archive_.context, expected);
     }
-    describe_numbers(archive_, item);
+    serialize_fields(archive_, item);
     if constexpr (kReads) check(item);
   }
 
-  // A body that moves was where it was; that costs nothing then.
+  // A moving body's previous position is its position in the base state: it costs nothing.
   void code_item(const Body* before, Body& body) {
     if (before) {
       Body expected = *before;
       expected.previous = before->position;
       expected.previous_tick = before->tick;
       expected.tick = now_.tick;
-      describe_numbers(archive_.memory, expected);
+      serialize_fields(archive_.context, expected);
     }
-    describe_numbers(archive_, body);
+    serialize_fields(archive_, body);
     if constexpr (kReads) check(body);
   }
 
@@ -226,16 +232,16 @@ class StateCoder {
       if constexpr (kReads) live.cloud = std::make_shared<const sim::Cloud>(before->cloud->settled());
       return;
     }
-    // Its grenade told most of it.
+    // Its grenade predicts most of it.
     const auto flight = std::find_if(base_.flights.begin(), base_.flights.end(),
                                      [&](const Flight& f) { return f.id == live.id; });
     if (flight != base_.flights.end()) {
       Flight expected = *flight;
-      describe_numbers(archive_.memory, expected);
+      serialize_fields(archive_.context, expected);
     }
     if (before) {
       sim::CloudOrigin expected = before->cloud->origin();
-      serialize(archive_.memory, expected);
+      serialize(archive_.context, expected);
     }
     sim::CloudParts parts;
     if constexpr (!kReads) parts = live.cloud->parts();
@@ -246,7 +252,7 @@ class StateCoder {
       if (cloud)
         live.cloud = std::make_shared<const sim::Cloud>(std::move(*cloud));
       else
-        archive_.refuse(cloud.failure().message);
+        archive_.fail(cloud.failure().message);
     }
   }
 
@@ -257,6 +263,7 @@ class StateCoder {
   }
 
   void code_item(const LiveBlast* before, LiveBlast& live) {
+    // The event and the centre, validated before they are used.
     sim::Blast blast;
     sim::Position centre{0};
     sim::BlockSet reached;
@@ -267,10 +274,10 @@ class StateCoder {
     }
     if (before) {
       sim::Blast expected = before->field->blast();
-      serialize(archive_.memory, expected);
+      serialize(archive_.context, expected);
     }
     serialize(archive_, blast);
-    describe_position(archive_, Field::centre, centre);
+    serialize_position(archive_, Field::centre, centre);
     if (!archive_.ok()) return;
     const sim::VoxelRuler ruler(archive_.layout());
     if constexpr (kReads) {
@@ -279,6 +286,8 @@ class StateCoder {
       check_event(sim::MoveBody{0, 0, centre});
       if (!archive_.ok()) return;
     }
+
+    // The voxels it reached.
     archive_.set(glm::ivec3(ruler.subvoxel(centre) >> std::int64_t{10}), {}, reached);
     if constexpr (kReads) {
       if (!archive_.ok()) return;
@@ -287,44 +296,44 @@ class StateCoder {
       if (field)
         live.field = std::make_shared<const sim::BlastField>(std::move(*field));
       else
-        archive_.refuse(field.failure().message);
+        archive_.fail(field.failure().message);
     }
   }
 
   void check_event(const sim::Event& event) {
     const Result<void> checked = sim::check_event(event, archive_.layout());
-    if (!checked) archive_.refuse(checked.failure().message);
+    if (!checked) archive_.fail(checked.failure().message);
   }
-  void check_inside(glm::ivec3 voxel, const char* otherwise) {
+  void check_inside(glm::ivec3 voxel, const char* message) {
     if (glm::any(glm::lessThan(voxel, glm::ivec3(0))) ||
         glm::any(glm::greaterThanEqual(voxel, archive_.layout().size)))
-      archive_.refuse(otherwise);
+      archive_.fail(message);
   }
   void check_begun(std::uint32_t tick) {
-    if (tick > now_.tick) archive_.refuse("a thing is there before it begins");
+    if (tick > now_.tick) archive_.fail("an item exists before its first tick");
   }
   void check(const Flight& flight) {
     check_event(sim::ThrowSmoke{flight.throw_tick, flight.from, flight.from, flight.smoke});
     check_inside(flight.landing, "a grenade lands outside of the grid");
     check_begun(flight.throw_tick);
     if (flight.detonation_tick <= flight.throw_tick || flight.detonation_tick > 2 * sim::kMaxTick)
-      archive_.refuse("a grenade goes off before it is thrown, or never");
+      archive_.fail("a grenade detonates before it is thrown, or never");
   }
   void check(const BulletHole& hole) {
     check_event(hole.shot);
     check_begun(hole.shot.tick);
     if (hole.shot.shape == sim::HoleShape::mask && hole.shot.mask >= now_.masks.count)
-      archive_.refuse("a hole of a mask that is not there");
-    if (hole.distance == 0 || hole.distance > kMaxDistance) archive_.refuse("a hole of no depth, or too deep");
+      archive_.fail("a hole's mask does not exist");
+    if (hole.distance == 0 || hole.distance > kMaxDistance) archive_.fail("a hole's depth is out of range");
   }
   void check(const Body& body) {
     check_event(sim::MoveBody{body.tick, body.body, body.position});
     check_event(sim::MoveBody{body.previous_tick, body.body, body.previous});
     check_begun(body.tick);
-    if (body.previous_tick > body.tick) archive_.refuse("a body moved before it was where it came from");
+    if (body.previous_tick > body.tick) archive_.fail("a body's last move precedes the one before");
   }
 
-  // Longer than any way through the world.
+  // Longer than any path through the world.
   static constexpr std::uint64_t kMaxDistance = std::uint64_t{8} * sim::kMaxCoordinate;
 
   Archive<Coder>& archive_;
@@ -334,7 +343,7 @@ class StateCoder {
 
 }  // namespace
 
-// A Archive is large; it lives on the heap.
+// An Archive is large, so it lives on the heap.
 std::vector<std::byte> write_body(const sim::State& base, const sim::State& now) {
   Encoder coder;
   const auto archive = std::make_unique<Archive<Encoder>>(coder, now.layout, now.tick, Limits{});
@@ -355,7 +364,7 @@ Result<sim::State> read_body(std::span<const std::byte> body, const sim::State& 
   StateCoder<Decoder>(*archive, base, now).code();
   if (!archive->reason().empty()) return Failure{ErrorCode::bad_input, archive->reason()};
   if (!coder.at_end())
-    return Failure{ErrorCode::bad_input, "the bytes are cut short, too many, or out of range"};
+    return Failure{ErrorCode::bad_input, "the bytes are truncated, too many, or out of range"};
   return now;
 }
 

@@ -1,4 +1,4 @@
-// A whole State through a coder: as its difference from another one.
+// Coding of a State as its difference from another one.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace brume::wire {
 
-/// What is different in `now` from `base`, which has no more events, and the same layout,
-/// ticks_per_second and masks or nothing at all.
+/// The differences of `now` from `base`. `base` has no more events than `now`, and either the same layout,
+/// ticks_per_second and masks, or is a default State.
 std::vector<std::byte> write_body(const sim::State& base, const sim::State& now);
 
-/// The state of `tick` that differs from the base as the bytes say; what does not differ is shared with it.
-/// Fails with bad_input for bytes that are cut short, too many or beyond the limits, and for what no
-/// simulation makes: ids out of order, numbers out of range, clouds whose parts contradict each other. No
-/// checksum is looked at here.
+/// Applies the differences to `base`; returns the state of `tick`, which shares unchanged clouds and blasts.
+/// Fails with bad_input for bytes that are truncated, too many or beyond the limits, and for states that no
+/// simulation produces: ids out of order, numbers out of range, clouds with inconsistent parts. Does not
+/// verify checksums.
 Result<sim::State> read_body(std::span<const std::byte> body, const sim::State& base, std::uint32_t tick,
                              const Limits& limits);
 

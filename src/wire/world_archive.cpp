@@ -34,7 +34,7 @@ Result<WorldArchive> read_world(ByteReader& in) {
   if (!in.ok() || world.ticks_per_second == 0)
     return Failure{
         ErrorCode::bad_input,
-        "expected a grid of up to 4096 voxels an axis, 1 to 1000 ticks a second and at most 65536 masks"};
+        "expected a grid of up to 4096 voxels per axis, 1 to 1000 ticks per second and at most 65536 masks"};
   if (auto checked = voxel::check_frame(world.layout); !checked)
     return Failure{ErrorCode::bad_input, checked.failure().message};
   try {

@@ -1,4 +1,4 @@
-// What keyframes and replays say of the world itself.
+// The description of a world in keyframes and replays.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ struct WorldArchive {
   sim::MaskKey masks;
 };
 
-/// Three varints of the size, the bits of four floats (voxel size, origin), a varint of the ticks a second, a
-/// varint of how many masks there are and, where there are any, 8 bytes of their hash.
+/// Three varints of the size, the bits of four floats (voxel size, origin), a varint of the ticks per second,
+/// a varint of the number of masks and, if that is not 0, 8 bytes of their hash.
 void write_world(ByteWriter& out, const WorldArchive& world);
 
-/// Fails with bad_input for what no World can have.
+/// Fails with bad_input for values that World does not accept.
 Result<WorldArchive> read_world(ByteReader& in);
 
 }  // namespace brume::wire

@@ -223,7 +223,8 @@ TEST_P(BlenderFormats, WhatIsBeingEditedIsExportedAsItIsShown) {
 
 TEST_P(BlenderFormats, WhatCannotBeCarriedIsLeftOutAndSaid) {
   const scene::Scene scene = scene::load_scene(level("odd", GetParam())).value_or_throw();
-  EXPECT_EQ(scene.grenade.name, "Grenade");
+  ASSERT_TRUE(scene.grenade.has_value());
+  EXPECT_EQ(scene.grenade->name, "Grenade");
   EXPECT_FALSE(scene.camera.has_value());
   EXPECT_TRUE(scene.lights.empty());
   std::set<std::string> first_words;

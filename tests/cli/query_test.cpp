@@ -76,7 +76,7 @@ TEST_F(Query, TellsAPersonTheSame) {
   const Outcome report = query(across({"--report", "--shots", "1", "--shots-at", "1"}));
   EXPECT_EQ(report.exit_code, 0) << report.error;
   EXPECT_EQ(report.out.rfind("hidden for ", 0), 0u) << report.out;
-  EXPECT_NE(report.out.find("seen after 1 of 1 shots\n"), std::string::npos) << report.out;
+  EXPECT_NE(report.out.find("visible after 1 of 1 shots\n"), std::string::npos) << report.out;
 }
 
 TEST_F(Query, ReportsWhenTwoAreHidden) {
@@ -113,19 +113,19 @@ TEST_F(Query, CountsTheShotsThatItTakes) {
   };
   // One straight along the line is enough.
   const Json one = shots({"--shots", "3", "--shots-at", "0.6", "--shots-every", "0.25"});
-  EXPECT_EQ(one["seen_after"], 1);
+  EXPECT_EQ(one["visible_after"], 1);
   EXPECT_EQ(one["each"].size(), 1u);
   EXPECT_EQ(one["each"][0]["time"], 0.6);
-  EXPECT_LT(one["each"][0]["least_depth"], 0.05);
+  EXPECT_LT(one["each"][0]["min_optical_depth"], 0.05);
   // Aside of it none is.
   const Json none = shots({"--shots", "2", "--shots-at", "0.6", "--spread", "40"});
-  EXPECT_TRUE(none["seen_after"].is_null());
+  EXPECT_TRUE(none["visible_after"].is_null());
   ASSERT_EQ(none["each"].size(), 2u);
-  EXPECT_FALSE(none["each"][1]["seen"]);
-  EXPECT_GT(none["each"][0]["least_depth"], 3);
+  EXPECT_FALSE(none["each"][1]["visible"]);
+  EXPECT_GT(none["each"][0]["min_optical_depth"], 3);
   // None is needed where nothing hides.
   const Json needless = answer(across({"--report", "--shots", "2", "--shots-at", "2.5"}))["shots"];
-  EXPECT_EQ(needless["seen_after"], 0);
+  EXPECT_EQ(needless["visible_after"], 0);
 }
 
 TEST_F(Query, RefusesWhatCannotBe) {

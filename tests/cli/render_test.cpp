@@ -63,7 +63,7 @@ TEST_F(Render, LongerStepsMakeAnotherPictureAndOnlyWithinTheirRange) {
   EXPECT_NE(picture("2.png").rgba, picture("usual.png").rgba);
   for (const char* step : {"0.2", "4.5", "nan"})
     EXPECT_EQ(render({"-o", "no.png", "--step", step}).exit_code, 2) << step;
-  for (const char* option : {"--seen", "--light-share"})
+  for (const char* option : {"--resolve-error-scale", "--light-update-fraction"})
     for (const char* value : {"0.01", "17", "nan"})
       EXPECT_EQ(render({"-o", "no.png", option, value}).exit_code, 2) << option << value;
 }

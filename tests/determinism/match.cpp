@@ -98,7 +98,7 @@ void add_blasts(std::vector<sim::Event>& events, Random& random) {
     blast.tick = 190 + 170 * i;
     blast.at = places[i] * sim::kUnitsPerMetre;
     blast.radius = static_cast<std::uint32_t>(random.between(2000, 6000));
-    blast.left = static_cast<std::uint32_t>(random.between(0, 60));
+    blast.remaining = static_cast<std::uint32_t>(random.between(0, 60));
     events.emplace_back(blast);
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/events.hpp"
+#include "smoke/mask_atlas.hpp"
 #include "voxel/bit_grid.hpp"
 #include "voxel/surface_planes.hpp"
 

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <iterator>
 #include <regex>
 
 namespace brume::house {
 namespace {
 
-constexpr std::array<std::string_view, 12> kFolders{"core",  "image", "scene",  "voxel",  "sim",   "wire",
-                                                    "stage", "gpu",   "passes", "render", "bench", "apps"};
+constexpr std::array<std::string_view, 16> kFolders{
+    "core",     "image",    "scene", "voxel",  "volume", "sim",   "smoke", "wire",
+    "scenario", "planning", "gpu",   "passes", "render", "bench", "apps",  "examples"};
 
 // Every match's first group.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {
@@ -20,11 +22,36 @@ std::vector<std::string> matches(std::string_view text, const std::regex& patter
   return found;
 }
 
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+std::size_t indent_of(std::string_view line) {
+  return std::min(line.find_first_not_of(' '), line.size());
+}
+
+/// Whether a block that begins with this line is no function.
+bool is_other_block(std::string_view line) {
+  static const std::regex other(
+      R"re(\s*((namespace|class|struct|enum|union|extern|if|for|while|switch|else|do)\b|\}|//).*)re");
+  return std::regex_match(line.begin(), line.end(), other);
+}
+
 auto place(std::string_view folder) {
   return std::distance(kFolders.begin(), std::find(kFolders.begin(), kFolders.end(), folder));
 }
 
 }  // namespace
+
+std::span<const std::string_view> folders() {
+  return kFolders;
+}
 
 std::vector<std::string> upward_includes(std::string_view folder, std::string_view text) {
   static const std::regex include(R"re(#\s*include\s*"([^"]+)")re");
@@ -51,6 +78,64 @@ std::vector<std::string> unsized_structs(std::string_view text) {
   std::vector<std::string> found;
   for (const std::string& name : matches(text, declared)) {
     if (std::find(with_size.begin(), with_size.end(), name) == with_size.end()) found.push_back(name);
+  }
+  return found;
+}
+
+std::size_t line_count(std::string_view text) {
+  return lines_of(text).size();
+}
+
+std::vector<std::size_t> wide_lines(std::string_view text, std::size_t limit) {
+  std::vector<std::size_t> wide;
+  const auto lines = lines_of(text);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    // Continuation bytes of UTF-8 are no characters of their own.
+    const auto characters =
+        std::count_if(lines[i].begin(), lines[i].end(), [](char c) { return (c & 0xc0) != 0x80; });
+    if (static_cast<std::size_t>(characters) > limit) wide.push_back(i + 1);
+  }
+  return wide;
+}
+
+std::vector<Length> long_functions(std::string_view text, std::size_t limit) {
+  std::vector<Length> found;
+  const auto lines = lines_of(text);
+  for (std::size_t end = 0; end < lines.size(); ++end) {
+    if (lines[end] != "}" && lines[end] != "  }") continue;
+    // Up to the line that begins in the same column: the signature.
+    const std::size_t indent = indent_of(lines[end]);
+    std::size_t begin = end;
+    while (begin > 0) {
+      const std::string_view line = lines[--begin];
+      if (!line.empty() && indent_of(line) == indent && !line.starts_with('#')) break;
+    }
+    const std::size_t length = end - begin + 1;
+    if (length >= limit && !is_other_block(lines[begin]))
+      found.push_back({begin + 1, length, std::string(lines[begin])});
+  }
+  return found;
+}
+
+std::vector<std::string> replaced_words(std::string_view glossary) {
+  static const std::regex word("`([^`]+)`");
+  std::vector<std::string> words;
+  for (const std::string_view line : lines_of(glossary)) {
+    if (!line.starts_with("| ") || !line.ends_with(" |")) continue;
+    const std::size_t column = line.rfind('|', line.size() - 2);
+    for (const std::string& found : matches(line.substr(column), word)) words.push_back(found);
+  }
+  return words;
+}
+
+std::vector<std::string> occurring(std::span<const std::string> words, std::string_view text) {
+  std::vector<std::string> found;
+  for (const std::string& word : words) {
+    // "lamp" stands in lamp, far_lamp and kFarLamp, but not in clamp.
+    std::string capital = word;
+    capital[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(capital[0])));
+    const std::regex whole("(^|[^A-Za-z])" + word + "s?(?![a-z])|" + capital + "s?(?![a-z])");
+    if (std::regex_search(text.begin(), text.end(), whole)) found.push_back(word);
   }
   return found;
 }

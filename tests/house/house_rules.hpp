@@ -1,14 +1,18 @@
-// The rules that hold the folders apart, as functions of a file's text.
+// The rules of the architecture, as functions of a file's text.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace brume::house {
 
-/// The includes of a file in src/FOLDER, or "apps", that reach upwards in core < image < scene < voxel < sim
-/// < gpu < passes < render < apps, or into a folder that is not in this list.
+/// The folders from bottom to top: a file may include its own folder and those before it.
+std::span<const std::string_view> folders();
+
+/// The includes of a file in src/FOLDER, or "apps", that point up in folders() or to a folder that is not in
+/// it.
 std::vector<std::string> upward_includes(std::string_view folder, std::string_view text);
 
 /// The places where Vulkan is called or its headers are included: `vkName(`.
@@ -16,5 +20,28 @@ std::vector<std::string> vulkan_calls(std::string_view text);
 
 /// The structs of a shared header that have no SHARED_SIZE in it.
 std::vector<std::string> unsized_structs(std::string_view text);
+
+/// A length that a file or function has, and where it begins.
+struct Length {
+  std::size_t line = 0;  ///< From 1.
+  std::size_t lines = 0;
+  std::string name;  ///< First line of the function.
+};
+
+/// Number of lines; a last line without a line break counts.
+std::size_t line_count(std::string_view text);
+
+/// Lines of more than `limit` characters (UTF-8 code points), from 1.
+std::vector<std::size_t> wide_lines(std::string_view text, std::size_t limit);
+
+/// Functions of at least `limit` lines, signature and closing brace included. Expects clang-format's layout:
+/// a function begins and ends in the same column, 0 at namespace level or 2 in a class.
+std::vector<Length> long_functions(std::string_view text, std::size_t limit);
+
+/// The words of a glossary's last column that stand in backticks: names that nothing may use any more.
+std::vector<std::string> replaced_words(std::string_view glossary);
+
+/// Which of the words occur in a text as whole words, alone or as a part of snake_case and CamelCase names.
+std::vector<std::string> occurring(std::span<const std::string> words, std::string_view text);
 
 }  // namespace brume::house

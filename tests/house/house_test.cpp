@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 
 #include "core/file.hpp"
 #include "tests/house/house_rules.hpp"
@@ -13,13 +14,15 @@ using Strings = std::vector<std::string>;
 
 const std::filesystem::path kRoot = BRUME_SOURCE_DIR;
 
-// Calls visit(path, text) for each C++ file and header below a folder of the project, and says how many.
+// Calls visit(path, text) for each C++ file and shader below a folder of the project, and says how many.
 int for_each_source(const std::filesystem::path& folder,
                     const std::function<void(const std::filesystem::path&, const std::string&)>& visit) {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const auto extension = entry.path().extension();
-    if (extension != ".cpp" && extension != ".hpp" && extension != ".h") continue;
+    static const std::set<std::filesystem::path> kSources{".cpp",  ".hpp",  ".h",   ".comp",
+                                                          ".vert", ".frag", ".glsl"};
+    if (!kSources.contains(extension)) continue;
     visit(entry.path(), *read_text_file(entry.path()));
     ++count;
   }
@@ -57,6 +60,38 @@ TEST(HouseRules, SeeAStructWithoutASize) {
             Strings{"B"});
 }
 
+TEST(HouseRules, SeeLinesThatAreTooWide) {
+  EXPECT_EQ(wide_lines("12345\n123456\n\n1234567", 5), (std::vector<std::size_t>{2, 4}));
+  EXPECT_TRUE(wide_lines("\xc3\xa4\xc3\xb6\xc3\xbc", 3).empty()) << "characters, not bytes";
+  EXPECT_EQ(line_count("a\nb\n"), 2u);
+  EXPECT_EQ(line_count("a\nb"), 2u);
+}
+
+std::string function_of(std::size_t lines, const std::string& indent) {
+  std::string text = indent + "int f(int a,\n" + indent + "      int b) {\n";
+  for (std::size_t i = 3; i < lines; ++i) text += indent + "  ++a;\n";
+  return text + indent + "}\n";
+}
+
+TEST(HouseRules, SeeLongFunctions) {
+  EXPECT_TRUE(long_functions(function_of(59, ""), 60).empty());
+  const auto found = long_functions("namespace a {\n" + function_of(70, "") + "}\n", 60);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].lines, 70u);
+  EXPECT_EQ(found[0].line, 2u);
+  EXPECT_EQ(long_functions("class A {\n public:\n" + function_of(70, "  ") + "};\n", 60).size(), 1u);
+  EXPECT_TRUE(long_functions("namespace a {\n" + std::string(100, '\n') + "}\n", 60).empty());
+}
+
+TEST(HouseRules, SeeWordsThatTheGlossaryReplaces) {
+  const Strings words =
+      replaced_words("| word | means | not |\n| **light** | a `source` | `lamp`, other |\n");
+  EXPECT_EQ(words, Strings{"lamp"});
+  EXPECT_EQ(occurring(words, "float far_lamp;"), words);
+  EXPECT_EQ(occurring(words, "kLampCount = 1; // lamps"), words);
+  EXPECT_TRUE(occurring(words, "x = clamp(y); clamps").empty());
+}
+
 TEST(House, IncludesGoDownwards) {
   int count = 0;
   const auto check = [](const std::filesystem::path& path, const std::string& text) {
@@ -64,7 +99,8 @@ TEST(House, IncludesGoDownwards) {
       ADD_FAILURE() << path << " includes " << include << ", which lies above it";
     }
   };
-  for (const char* folder : {"src", "bench", "apps"}) count += for_each_source(kRoot / folder, check);
+  for (const char* folder : {"src", "bench", "apps", "examples"})
+    count += for_each_source(kRoot / folder, check);
   EXPECT_GT(count, 20);
 }
 
@@ -82,6 +118,36 @@ TEST(House, SharedStructsHaveASize) {
       ADD_FAILURE() << path << ": " << name << " has no SHARED_SIZE";
   });
   EXPECT_GT(count, 1);
+}
+
+constexpr std::size_t kMaxFileLines = 500, kMaxShaderLines = 200, kMaxFunctionLines = 60, kMaxLineWidth = 120;
+
+TEST(House, FilesAndFunctionsStayShort) {
+  int count = 0;
+  for (const char* folder : {"src", "apps", "bench", "tests", "examples", "fuzz", "shaders"}) {
+    const std::size_t most = folder == std::string("shaders") ? kMaxShaderLines : kMaxFileLines;
+    count += for_each_source(kRoot / folder, [&](const auto& path, const std::string& text) {
+      EXPECT_LT(line_count(text), most)
+          << path << " is too long: it hides a second thing, which deserves a file";
+      for (const Length& function : long_functions(text, kMaxFunctionLines))
+        ADD_FAILURE() << path << ":" << function.line << ": " << function.name << " has " << function.lines
+                      << " lines; fewer than " << kMaxFunctionLines << " are allowed";
+      for (const std::size_t line : wide_lines(text, kMaxLineWidth))
+        ADD_FAILURE() << path << ":" << line << " is wider than " << kMaxLineWidth << " characters";
+    });
+  }
+  EXPECT_GT(count, 300);
+}
+
+TEST(House, NothingUsesAWordThatTheGlossaryReplaces) {
+  const Strings words = replaced_words(*read_text_file(kRoot / "docs/glossary.md"));
+  ASSERT_GT(words.size(), 10u);
+  for (const char* folder : {"src", "apps", "bench", "tests", "examples", "fuzz", "shaders"})
+    for_each_source(kRoot / folder, [&](const auto& path, const std::string& text) {
+      if (folder_of(path) == "tests" && path.string().find("/house/") != std::string::npos) return;
+      for (const std::string& word : occurring(words, text))
+        ADD_FAILURE() << path << " says \"" << word << "\", which docs/glossary.md replaces";
+    });
 }
 
 }  // namespace

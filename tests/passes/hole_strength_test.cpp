@@ -10,7 +10,7 @@ namespace {
 using HoleStrength = gpu::GpuTest;
 
 TEST_F(HoleStrength, EqualsTheModelInDoubleAt1000PointsAndTimes) {
-  const smoke::HolePairs questions = sim::make_hole_pairs(1000, 5);
+  const smoke::HolePairs questions = smoke::make_hole_pairs(1000, 5);
   const gpu::ComputePipeline pipeline(context(), shaders::hole_probe_comp,
                                       {gpu::kBuffer, gpu::kSampled, gpu::kBuffer}, 0, {64, 1, 1});
   const gpu::Sampler nearest(context(), {VK_FILTER_NEAREST});
@@ -46,7 +46,7 @@ struct LeftQuestion {
 };
 
 TEST_F(HoleStrength, TheMarchLeavesWhatTheModelDoesNotRemove) {
-  smoke::HolePairs pairs = sim::make_hole_pairs(1000, 6);
+  smoke::HolePairs pairs = smoke::make_hole_pairs(1000, 6);
   for (std::size_t i = 0; i < 1000; i += 2) pairs.pairs[i].hole.time_to_stay_open += 10;  // more wide open
   std::vector<LeftQuestion> questions;
   std::vector<glm::vec4> rows;

@@ -149,8 +149,8 @@ class NoiseAdvectionTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) {
       drift.record(recorder, {frame, room_.upload.resources(), noise_, state, seconds, 12});
     });
-    const auto medium = read_back<Half4>(room_.upload.resources().medium);
-    const auto share = read_back<std::uint32_t>(room_.upload.resources().share);
+    const auto medium = read_back<Half4>(room_.upload.resources().density_displacement);
+    const auto share = read_back<std::uint32_t>(room_.upload.resources().filtered_density);
     std::vector<glm::vec4> out;
     for (std::size_t i = 0; i < medium.size(); ++i) {
       const glm::vec4 texel = from_half(medium[i]);

@@ -13,7 +13,7 @@ TEST(Doors, AreWhatIsCalledSo) {
         "DoorRoom_E", "DumpsterDoorLeft_A", "garage_door 3", "outdoor door"})
     EXPECT_TRUE(is_door_name(name)) << name;
   for (const char* name : {"", "doo", "outdoor", "Outdoor", "doors", "doorway", "indoor_light",
-                           "frame_front_door", "DoorFrame", "door layout", "LadderOutdoor"})
+                           "frame_front_door", "DoorFrame", "door frame", "LadderOutdoor"})
     EXPECT_FALSE(is_door_name(name)) << name;
 }
 

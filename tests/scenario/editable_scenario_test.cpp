@@ -119,7 +119,9 @@ class Live : public testing::Test {
     scenario.timeline.scene = "rooms.glb";
     return scenario;
   }
-  static std::unique_ptr<EditableScenario> rooms() { return EditableScenario::create(empty_rooms()).value_or_throw(); }
+  static std::unique_ptr<EditableScenario> rooms() {
+    return EditableScenario::create(empty_rooms()).value_or_throw();
+  }
 
   /// The timeline, saved and loaded again, on a scenario of its own.
   Scenario reloaded(const scene::Timeline& timeline) const {
@@ -181,7 +183,7 @@ TEST_F(Live, IsAtEveryMomentWhatItsTimelineSays) {
         scene::SmokeOptions smoke = live->scenario().timeline.smoke;
         smoke.voxels = 800 + player.below(1500);
         smoke.hold = 0.5f * static_cast<float>(player.below(5));
-        smoke.noise = 0.25f;
+        smoke.erosion = 0.25f;
         ASSERT_TRUE(live->set_smoke(smoke));
       }
       if (i % 10 == 9)
@@ -253,7 +255,7 @@ TEST_F(Live, TakesAllOrNothing) {
   EXPECT_NE(refused([&](auto& t) {
               t.texts = {Player(1, folder).text(1)};
               t.texts[0].text = " ";
-            }).find("no letter that can be seen"),
+            }).find("no visible letter"),
             std::string::npos);
   scene::SmokeOptions smoke;
   smoke.voxels = 0;
@@ -287,12 +289,11 @@ TEST_F(Live, GoesBackToWhatItWas) {
 
   scene::Timeline other = first;
   other.scene = "other.glb";
-  EXPECT_EQ(live->reset(other).failure().message,
-            "other.glb: expected the scene that is on scenario, rooms.glb");
+  EXPECT_EQ(live->reset(other).failure().message, "other.glb: expected the scenario's own scene, rooms.glb");
   other = first;
   other.grid.voxel = 0.5f;
   EXPECT_EQ(live->reset(other).failure().message,
-            "the timeline has another grid than the scenario; load it anew");
+            "the timeline has another grid than the scenario; load it as a new scenario");
 }
 
 TEST_F(Live, ARecordingOfTheDemoLoadsAsItWasPlayed) {

@@ -79,9 +79,11 @@ class ExpectedRow {
 };
 
 /// Share of the smoke that all holes leave at a point.
-float remaining_at(const Scenario& scenario, const std::vector<shared::Hole>& holes, glm::vec3 p, float time) {
+float remaining_at(const Scenario& scenario, const std::vector<shared::Hole>& holes, glm::vec3 p,
+                   float time) {
   float left = 1;
-  for (const shared::Hole& hole : holes) left *= 1 - smoke::hole_strength_masked(hole, p, time, 0, scenario.masks);
+  for (const shared::Hole& hole : holes)
+    left *= 1 - smoke::hole_strength_masked(hole, p, time, 0, scenario.masks);
   return left;
 }
 
@@ -91,8 +93,8 @@ struct Comparison {
 
 /// Looks at the row along its shots (mirrored: from behind, with the left of the shooter to the right) and
 /// compares with the font's glyphs wherever those are not at an edge.
-Comparison compare(const Scenario& scenario, const std::vector<shared::Hole>& holes, float time, bool from_behind,
-                   bool mirror_expected) {
+Comparison compare(const Scenario& scenario, const std::vector<shared::Hole>& holes, float time,
+                   bool from_behind, bool mirror_expected) {
   const ExpectedRow expected(scenario.timeline.texts[0].text);
   const scene::TextEvent& event = scenario.timeline.texts[0];
   Comparison result;
@@ -183,8 +185,7 @@ TEST(Text, NamesWhatItCannotShoot) {
     timeline.texts[0].place = "t.toml:7:1";
     return load_masks(timeline).failure().message;
   };
-  EXPECT_EQ(failure_of("  ", ""),
-            "t.toml:7:1: the text has no letter that can be seen; expected one at least");
+  EXPECT_EQ(failure_of("  ", ""), "t.toml:7:1: the text has no visible letter; expected at least one");
   EXPECT_EQ(failure_of("\xe6\xbc\xa2", "").rfind("t.toml:7:1: ", 0), 0u);
   EXPECT_EQ(failure_of("A", "/no/such.ttf").rfind("t.toml:7:1: /no/such.ttf: ", 0), 0u);
 }
@@ -202,7 +203,7 @@ TEST(ShotMasks, AreThePictureWhereItIsWhiteAndOpaqueInTheMiddleOfASquare) {
                                            128, 54, 182, 18, 0,   0, 0, 0};  // 0.2126, 0.7152, 0.0722 of 255
   EXPECT_EQ(mask.texels, expected);
   EXPECT_EQ(mask_of({4095, 1, std::vector<std::uint8_t>(4 * 4095)}, "wide.png").failure().message,
-            "wide.png: 4095 x 1 texels, at most 4094 an axis as a mask; make it smaller");
+            "wide.png: 4095 x 1 texels, at most 4094 per axis are possible for a mask; make it smaller");
 }
 
 TEST(ShotMasks, AreLoadedOnceEach) {

@@ -387,7 +387,7 @@ TEST(BodySweep, TheWayOutIsTheShortest) {
     const Body body{low, low + dvec3(0.4, 1.2, 0.4)};
     if (!is_stuck(grid, body)) continue;
     ++stuck;
-    const dvec3 way = way_out(grid, body);
+    const dvec3 way = offset_to_free_space(grid, body);
     EXPECT_FALSE(is_stuck(grid, body.moved(way)));
     // No place of a fine lattice that is nearer is free.
     const double length = glm::length(way) - 1e-4, step = 0.06;

@@ -302,8 +302,8 @@ TEST(Gltf, MarksThatKeepObjectsOutOfTheVoxels) {
   EXPECT_FALSE(scene->objects[1].voxelized);
   EXPECT_FALSE(scene->objects[2].voxelized) << "handed down";
   EXPECT_TRUE(scene->objects[3].voxelized);
-  EXPECT_EQ(scene->grenade.name, "Grenade");
-  EXPECT_EQ(glm::vec3(scene->grenade.world_from_mesh[3]), glm::vec3(0));
+  EXPECT_EQ(scene->grenade->name, "Grenade");
+  EXPECT_EQ(glm::vec3(scene->grenade->world_from_mesh[3]), glm::vec3(0));
 }
 
 TEST(Gltf, BrokenStructureIsRefused) {

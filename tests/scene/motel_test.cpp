@@ -26,7 +26,7 @@ TEST(Motel, LoadsCompletely) {
 
   EXPECT_TRUE(warnings.lines.empty()) << warnings.lines.front();
   EXPECT_EQ(scene->objects.size(), 156u) << "157 lines, one of them the grenade";
-  EXPECT_EQ(scene->grenade.name, "Grenade");
+  EXPECT_EQ(scene->grenade->name, "Grenade");
   EXPECT_EQ(scene->lights.size(), 51u);
   std::size_t triangles = 0, ignored = 0;
   bool case_differs = false;

@@ -64,7 +64,7 @@ inline void expect_sound(const Scene& scene) {
     }
   }
   std::vector<Object> objects = scene.objects;
-  objects.push_back(scene.grenade);
+  if (scene.grenade) objects.push_back(*scene.grenade);
   for (const Object& object : objects) {
     ASSERT_LT(object.mesh, scene.meshes.size()) << object.name;
     ASSERT_LT(object.material, scene.materials.size()) << object.name;

@@ -7,6 +7,7 @@
 
 #include "core/file.hpp"
 #include "scene/load.hpp"
+#include "scene/stand_ins.hpp"
 #include "tests/scene/scene_test_tools.hpp"
 
 namespace brume::scene {
@@ -103,18 +104,21 @@ TEST(SceneTxt, TheGrenadeIsCentredAndApart) {
   const auto scene = parse("Grenade 7 8 9 0 0 0 2 2 2\nBox 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->objects.size(), 1u);
-  EXPECT_EQ(scene->grenade.name, "Grenade");
-  const Mesh& mesh = scene->meshes[scene->grenade.mesh];
+  EXPECT_EQ(scene->grenade->name, "Grenade");
+  const Mesh& mesh = scene->meshes[scene->grenade->mesh];
   expect_near(mesh.vertices[0].position + mesh.vertices[1].position, {0, -4, 0});
-  expect_near(glm::vec3(scene->grenade.world_from_mesh * glm::vec4(1, 0, 0, 1)), {2, 0, 0});
+  expect_near(glm::vec3(scene->grenade->world_from_mesh * glm::vec4(1, 0, 0, 1)), {2, 0, 0});
 }
 
 TEST(SceneTxt, WithoutGrenadeABuiltInOneAndAWarning) {
   const Warnings warnings;
-  const auto scene = parse("Box 0 0 0 0 0 0 1 1 1\n");
+  auto scene = parse("Box 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
   EXPECT_TRUE(warnings.has("Scene.txt: no object is called Grenade"));
-  EXPECT_GT(signed_volume(*scene, scene->grenade), 1e-4) << "a closed, outward mesh of about 0.3 l";
+  EXPECT_FALSE(scene->grenade.has_value());
+  add_built_in_grenade(*scene);
+  ASSERT_TRUE(scene->grenade.has_value());
+  EXPECT_GT(signed_volume(*scene, *scene->grenade), 1e-4) << "a closed, outward mesh of about 0.3 l";
   expect_sound(*scene);
 }
 

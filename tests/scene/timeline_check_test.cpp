@@ -111,7 +111,7 @@ TEST(TimelineCheck, NamesTheEventAndTheNumber) {
   EXPECT_EQ(message(), "shot at 0 s: \"toward\": expected a point other than \"from\"");
   timeline.shots[0] = {};
   timeline.shots[0].shape = ShotShape::mask;
-  EXPECT_EQ(message(), "shot at 0 s: \"mask\": expected a picture where the shape is a mask, and only there");
+  EXPECT_EQ(message(), "shot at 0 s: \"mask\": expected a picture if the shape is a mask, and only then");
   timeline.shots.clear();
   timeline.texts.resize(1);
   EXPECT_EQ(message(), "text at 0 s: \"text\": expected 1 to 1024 bytes");
@@ -123,7 +123,7 @@ TEST(TimelineCheck, NamesTheEventAndTheNumber) {
   EXPECT_EQ(message(), "blast: \"time\": expected a number from 0 to 3600, found nan");
   timeline.camera = {{1, {}}, {1, {}}};
   EXPECT_EQ(check_settings(timeline).failure().message,
-            "camera at 1 s: \"time\": expected a later time than that of the key before");
+            "camera at 1 s: \"time\": expected a later time than that of the previous key");
 }
 
 }  // namespace

@@ -452,12 +452,12 @@ TEST(World, OfOneSetOfMasksIsNotThatOfAnother) {
   World world(grid, {.masks = {2, 77}});
   EXPECT_TRUE(world.append(Shot{0, {5, 5, 5}, {5, 5, 6}, 10, {}, HoleShape::mask, 1}));
   const auto refused = world.append(Shot{3, {5, 5, 5}, {5, 5, 6}, 10, {}, HoleShape::mask, 2});
-  EXPECT_EQ(refused.failure().message, "shot at tick 3: mask 2 of a world of 2; give the world its masks");
+  EXPECT_EQ(refused.failure().message, "shot at tick 3: mask 2 in a world with 2; set WorldSettings::masks");
   World same(grid, {.masks = {2, 77}}), other(grid, {.masks = {2, 78}});
   EXPECT_TRUE(same.restore(world.state()));
   const auto mismatch = other.restore(world.state());
   EXPECT_EQ(mismatch.failure().message,
-            "state: its holes have other masks than this world's; load the same timeline");
+            "state: its holes use different masks than this world; load the same timeline");
   EXPECT_NE(other.state_hash(), World(grid, {.masks = {2, 77}}).state_hash());
 }
 

@@ -120,7 +120,7 @@ TEST_F(SessionTest, DoorsOpenAndShut) {
   EXPECT_EQ(session_->use_door(eye_).value_or_throw(), "opened: Door");
   advance(0.1);
   EXPECT_EQ(hidden(), 1u);
-  EXPECT_EQ(session_->use_door(eye_).value_or_throw(), "shut: Door");
+  EXPECT_EQ(session_->use_door(eye_).value_or_throw(), "closed: Door");
   advance(0.1);
   EXPECT_EQ(hidden(), 0u);
 }

@@ -68,19 +68,19 @@ TEST_F(ShaderReloadTest, APipelineThatIsMadeLaterGetsTheChangedShader) {
   const auto copy = folder.path() / "shaders";
   std::filesystem::copy(kShaders, copy, std::filesystem::copy_options::recursive);
   ShaderReload reload(copy);
-  EXPECT_FALSE(reload.follow(context()));
+  EXPECT_FALSE(reload.update(context()));
   // Another time than that of the copy, whatever the clock of the file system can tell apart.
   std::filesystem::last_write_time(
       copy / "display.comp",
       std::filesystem::last_write_time(copy / "display.comp") + std::chrono::seconds(2));
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);  // only a hang
-  while (reload.reloads() == 0 && std::chrono::steady_clock::now() < end) reload.follow(context());
+  while (reload.reloads() == 0 && std::chrono::steady_clock::now() < end) reload.update(context());
   ASSERT_EQ(reload.reloads(), 1u);
   const gpu::ComputePipeline pipeline(context(), shaders::display_comp,
                                       {gpu::kUniform, gpu::kSampled, gpu::kStored, gpu::kStored}, 0,
                                       {8, 8, 1});
   ASSERT_EQ(pipeline.shaders()[0].words.data(), shaders::display_comp.words.data());
-  reload.follow(context());
+  reload.update(context());
   EXPECT_NE(pipeline.shaders()[0].words.data(), shaders::display_comp.words.data());
   EXPECT_TRUE(reload.errors().empty());
 }

@@ -226,14 +226,14 @@ TEST(Voxelize, RefusesFramesThatAreNone) {
 }
 
 TEST(FrameAround, HoldsTheBoundsAndItsMargin) {
-  const auto layout = frame_around({-1.2f, 0, 3.1f}, {2.6f, 0, 4.9f}, 0.5f, 2);
+  const auto layout = layout_around({-1.2f, 0, 3.1f}, {2.6f, 0, 4.9f}, 0.5f, 2);
   ASSERT_TRUE(layout);
   EXPECT_EQ(layout->size, ivec3(9 + 4, 1 * 0 + 4, 4 + 4));
   EXPECT_EQ(layout->origin_world, vec3(-2.5f, -1.0f, 2.0f));
-  EXPECT_EQ(frame_around(vec3(1), vec3(0), 0.5f, 2).failure().code, ErrorCode::bad_input);
-  EXPECT_EQ(frame_around(vec3(-1e30f), vec3(1e30f), 0.5f, 2).failure().code, ErrorCode::resource_limit);
-  EXPECT_EQ(frame_around(vec3(0), vec3(1), 0, 2).failure().code, ErrorCode::usage);
-  EXPECT_EQ(frame_around(vec3(0), vec3(1), 1, -2).failure().code, ErrorCode::usage);
+  EXPECT_EQ(layout_around(vec3(1), vec3(0), 0.5f, 2).failure().code, ErrorCode::bad_input);
+  EXPECT_EQ(layout_around(vec3(-1e30f), vec3(1e30f), 0.5f, 2).failure().code, ErrorCode::resource_limit);
+  EXPECT_EQ(layout_around(vec3(0), vec3(1), 0, 2).failure().code, ErrorCode::usage);
+  EXPECT_EQ(layout_around(vec3(0), vec3(1), 1, -2).failure().code, ErrorCode::usage);
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(Replay, OfOtherMasksDoesNotPlay) {
   none.settings.masks = {};
   const auto refused = play(none);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.failure().message.find("of a world of 0; give the world its masks"), std::string::npos);
+  EXPECT_NE(refused.failure().message.find("in a world with 0; set WorldSettings::masks"), std::string::npos);
 }
 
 TEST(Replay, NamesTheFirstTickThatDiffers) {

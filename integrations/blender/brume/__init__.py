@@ -1,6 +1,6 @@
-"""Brume for Blender: exports levels, writes timelines, shows what Brume renders.
+"""Brume for Blender: exports levels and timelines, and shows Brume's renderings.
 
-Runs as an add-on of Blender 3.4 to 4.1 (bl_info) and as an extension from 4.2 on (blender_manifest.toml).
+An add-on for Blender 3.4 to 4.1 (bl_info) and an extension from 4.2 on (blender_manifest.toml).
 """
 
 bl_info = {

@@ -1,4 +1,4 @@
-"""From Blender's axes and units to Brume's: Z up to Y up, scene units to metres. Matrices are arrays of doubles."""
+"""Converts Blender's axes and units to Brume's: Z up to Y up, scene units to metres. Matrices are float64 arrays."""
 
 import math
 
@@ -6,25 +6,25 @@ import numpy as np
 
 from .messages import BrumeError
 
-# (x, y, z) of Blender is (x, z, -y) of Brume: both right-handed, a turn by -90 degrees about x.
+# Maps (x, y, z) of Blender to (x, z, -y) of Brume: a rotation by -90 degrees about x; both are right-handed.
 BRUME_FROM_BLENDER = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 
 _TINY = 1e-6
 
 
 def metres_per_unit(scene):
-    """The length of one Blender unit; without a unit system Blender does not apply its scale."""
+    """The length of a Blender unit [m]; Blender ignores the unit scale if the unit system is None."""
     settings = scene.unit_settings
     return settings.scale_length if settings.system != "NONE" else 1.0
 
 
 def point(blender_point, metres):
-    """A point of Blender's world in Brume's [m]."""
+    """Converts a world-space point to Brume [m]."""
     return BRUME_FROM_BLENDER @ np.array(blender_point, dtype=float)[:3] * metres
 
 
 def matrix(blender_matrix, metres):
-    """world_from_mesh in Brume's axes and metres, for mesh points that were turned by BRUME_FROM_BLENDER."""
+    """world_from_mesh in Brume's axes and metres, for mesh points rotated by BRUME_FROM_BLENDER."""
     source = np.array(blender_matrix, dtype=float)
     result = np.identity(4)
     result[:3, :3] = BRUME_FROM_BLENDER @ source[:3, :3] @ BRUME_FROM_BLENDER.T * metres
@@ -33,7 +33,7 @@ def matrix(blender_matrix, metres):
 
 
 def has_orthogonal_columns(linear):
-    """Whether a 3x3 matrix is a rotation times a scale along the mesh's own axes, none of them nothing."""
+    """Whether a 3x3 matrix is a rotation or reflection times a nonzero scale along the mesh axes."""
     lengths = np.linalg.norm(linear, axis=0)
     if lengths.min() <= _TINY * lengths.max():
         return False
@@ -42,10 +42,10 @@ def has_orthogonal_columns(linear):
 
 
 def scale_and_angles(linear):
-    """The scale and the angles of a Scene.txt line, or None for a matrix that they cannot say.
+    """The scale and the angles of a Scene.txt line, or None if they cannot represent the matrix.
 
-    Scene.txt scales after it turns: linear = diag(scale) * Rx(-x) * Ry(-y) * Rz(-z). That needs rows at right
-    angles, which a rotated object has only with a uniform scale.
+    Scene.txt scales after it rotates: linear = diag(scale) * Rx(-x) * Ry(-y) * Rz(-z). That requires orthogonal
+    rows, which a rotated object has only with a uniform scale.
     """
     if not has_orthogonal_columns(linear.T):
         return None
@@ -57,14 +57,14 @@ def scale_and_angles(linear):
     y = math.atan2(turn[0, 2], across)
     if across > 1e-7:
         x, z = math.atan2(-turn[1, 2], turn[2, 2]), math.atan2(-turn[0, 1], turn[0, 0])
-    else:  # Turned by 90 degrees about y: x and z turn about the same axis.
+    else:  # Gimbal lock at 90 degrees about y: x and z rotate about the same axis.
         x, z = math.atan2(turn[2, 1], turn[1, 1]), 0.0
     return scale, -np.array([x, y, z])
 
 
 def number(value):
-    """A number as text: the shortest that is the same float, in a form that TOML takes for a float."""
+    """Formats a number with the fewest digits that give the same float32, as a TOML float."""
     rounded = np.float32(value) + np.float32(0)  # -0 becomes 0.
     if not np.isfinite(rounded):
-        raise BrumeError("a place or a setting of the scene is not a finite number; look for broken matrices")
+        raise BrumeError("a position or setting of the scene is not finite; check the transforms")
     return np.format_float_positional(rounded, unique=True, trim="0")

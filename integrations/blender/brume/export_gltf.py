@@ -1,4 +1,4 @@
-"""glTF by Blender's own exporter, run on a scene of its own: what stands there has plain transforms in metres."""
+"""glTF export: runs Blender's exporter on a temporary scene whose objects have plain transforms in metres."""
 
 import json
 import os
@@ -13,7 +13,7 @@ from . import conversion, files, meshes
 from .level import WIDEST_SPOT, spot_for_area
 from .messages import BrumeError
 
-# Every setting that the result depends on; versions of the exporter know some under another name, or not at all.
+# All settings that affect the result; some versions of the exporter lack or rename some of them.
 _SETTINGS = {
     "export_format": "GLB",
     "check_existing": False,
@@ -32,7 +32,7 @@ _SETTINGS = {
     "export_tangents": False,
     "export_cameras": True,
     "export_lights": True,
-    # W / (4 pi) is the intensity in W/sr that Brume takes a candela for; the other modes multiply by 683 lm/W.
+    # Brume reads candela as W/sr, which is W / (4 pi) for a point light; the other modes multiply by 683 lm/W.
     "convert_lighting_mode": "COMPAT",
     "export_import_convert_lighting_mode": "COMPAT",
     "export_extras": False,
@@ -44,14 +44,14 @@ _SETTINGS = {
 
 
 def _blender_matrix(world_from_mesh):
-    """Back to Blender's axes, still in metres."""
+    """Converts back to Blender's axes, still in metres."""
     turn = np.identity(4)
     turn[:3, :3] = conversion.BRUME_FROM_BLENDER
     return Matrix((turn.T @ world_from_mesh @ turn).tolist())
 
 
-class _Stand:
-    """A scene with copies of what is exported, for the time of the export."""
+class _TemporaryScene:
+    """A scene with copies of the exported objects, removed after the export."""
 
     def __init__(self, scene):
         self._made = []
@@ -78,8 +78,8 @@ class _Stand:
         mesh, matrix = piece.mesh, _blender_matrix(piece.world_from_mesh)
         linear = np.array(matrix)[:3, :3]
         if not conversion.has_orthogonal_columns(linear):
-            # Sheared by a parent: a node's scale and rotation cannot say it, the points can.
-            # A mirrored one stays mirrored by its node, so that its faces keep their order.
+            # Sheared by a parent: scale and rotation of a node cannot represent it, so bake it into the points.
+            # A reflection stays in the node, so that the winding of the faces is preserved.
             mesh = mesh.copy()
             self._made.append(mesh)
             side = Matrix.Scale(-1 if np.linalg.det(linear) < 0 else 1, 4, (1, 0, 0))
@@ -100,7 +100,7 @@ class _Stand:
         data.energy = light.power
         if data.type == "AREA":
             data.type = "SPOT"
-            data = bpy.data.lights[data.name]  # Its class follows its type.
+            data = bpy.data.lights[data.name]  # Changing the type changes the Python class.
             data.spot_size, data.spot_blend = WIDEST_SPOT, 1.0
             data.energy = spot_for_area(light.power)
         if data.type == "SPOT":
@@ -119,7 +119,7 @@ def _run_exporter(context, scene, path):
     try:
         known = set(operator.get_rna_type().properties.keys())
     except (AttributeError, KeyError) as error:
-        raise BrumeError('the add-on "glTF 2.0 format" is off; switch it on in the preferences') from error
+        raise BrumeError('the add-on "glTF 2.0 format" is disabled; enable it in the preferences') from error
     window, before = context.window, context.scene
     if window:
         window.scene = scene
@@ -136,10 +136,10 @@ def _run_exporter(context, scene, path):
 
 
 def _json_and_rest(data):
-    """The two chunks of a GLB (glTF 2.0, section 4.4)."""
+    """Splits a GLB into its JSON and the remaining chunks (glTF 2.0, section 4.4)."""
     length, kind = struct.unpack_from("<II", data, 12)
     if data[:4] != b"glTF" or kind != 0x4E4F534A:
-        raise BrumeError("Blender's glTF exporter wrote no GLB")
+        raise BrumeError("Blender's glTF exporter did not write a GLB file")
     return json.loads(data[20 : 20 + length]), data[20 + length :]
 
 
@@ -150,38 +150,38 @@ def _glb(document, rest):
     return struct.pack("<4sIIII", b"glTF", 2, size, len(text), 0x4E4F534A) + text + rest
 
 
-def _name_nodes(document, stand):
-    """The names that things have in Brume, and the mark of what smoke passes through."""
+def _name_nodes(document, temporary):
+    """Sets Brume's object names, and marks objects that smoke passes through."""
     shapes = document.get("meshes", [])
     for node in document.get("nodes", []):
         made = node.get("name", "")
-        if made not in stand.names:
+        if made not in temporary.names:
             continue
-        node["name"] = stand.names[made]
-        if made in stand.passable:
+        node["name"] = temporary.names[made]
+        if made in temporary.passable:
             node["extras"] = {"brume_ignore": True}
         if "mesh" in node:
-            # A mesh's own name could mark it as passable, or as the grenade, for all that share it.
-            shapes[node["mesh"]]["name"] = "mesh of " + stand.names[made]
+            # The original mesh name could mark it as passable or as the grenade for all objects that share it.
+            shapes[node["mesh"]]["name"] = "mesh of " + temporary.names[made]
 
 
 def export(context, path, level, camera):
     """Writes a GLB: meshes, materials, textures, lights (KHR_lights_punctual), the camera."""
-    stand = _Stand(context.scene)
+    temporary = _TemporaryScene(context.scene)
     try:
         for thing in level.things:
             for piece in thing.pieces:
-                stand.add_piece(piece, thing)
+                temporary.add_piece(piece, thing)
         for light in level.lights:
-            stand.add_light(light)
+            temporary.add_light(light)
         if camera:
-            stand.add_camera(camera, level.metres)
+            temporary.add_camera(camera, level.metres)
         with tempfile.TemporaryDirectory(prefix="brume_") as folder:
             written = os.path.join(folder, "level.glb")
-            _run_exporter(context, stand.scene, written)
+            _run_exporter(context, temporary.scene, written)
             with open(written, "rb") as file:
                 document, rest = _json_and_rest(file.read())
     finally:
-        stand.remove()
-    _name_nodes(document, stand)
+        temporary.remove()
+    _name_nodes(document, temporary)
     files.write(path, _glb(document, rest))

@@ -1,4 +1,4 @@
-"""Exports the open scene: a scene file that Brume loads and the timeline of what happens in it."""
+"""Exports the open scene as a scene file and a timeline."""
 
 import os
 
@@ -14,14 +14,14 @@ EXTENSIONS = {"GLTF": ".glb", "TXT": ".txt"}
 
 
 def export(context, path, file_format, warnings, with_timeline=True):
-    """Writes the level to `path`, whose extension is that of the format, and the timeline beside it as .toml.
+    """Writes the level to `path`, whose extension must match the format, and the timeline next to it as .toml.
 
-    Returns the timeline's path, or the scene file's without one. Raises BrumeError.
+    Returns the path of the timeline, or that of the scene file without a timeline. Raises BrumeError.
     """
     stem, _ = os.path.splitext(path)
     with Gathered(context, warnings) as level:
         if not level.things:
-            raise BrumeError("the scene has no visible mesh; add one that renders and is not left out")
+            raise BrumeError("the scene has no visible mesh; add one that renders and is exported")
         if file_format == "GLTF":
             camera = context.scene.camera
             perspective = camera and camera.type == "CAMERA" and camera.data.type == "PERSP"
@@ -46,19 +46,19 @@ class BRUME_OT_export_level(bpy.types.Operator, ExportHelper):
     format: EnumProperty(
         items=(
             ("GLTF", "glTF (.glb)", "One file: all lights, materials and the camera"),
-            ("TXT", "Scene.txt", "A line an object, with the folders Meshes and Textures beside it"),
+            ("TXT", "Scene.txt", "One line per object, with the folders Meshes and Textures next to it"),
         ),
         name="Format",
-        description="What the level is written as",
+        description="File format of the level",
     )
     with_timeline: BoolProperty(
-        name="Timeline", default=True, description="Write camera and events beside it as a .toml file"
+        name="Timeline", default=True, description="Write camera and events to a .toml file next to it"
     )
 
     def check(self, _context):
-        """The name follows the format."""
-        wanted = os.path.splitext(self.filepath)[0] + EXTENSIONS[self.format]
-        changed, self.filepath = wanted != self.filepath, wanted
+        """Keeps the file extension in line with the format."""
+        expected = os.path.splitext(self.filepath)[0] + EXTENSIONS[self.format]
+        changed, self.filepath = expected != self.filepath, expected
         return changed
 
     def execute(self, context):

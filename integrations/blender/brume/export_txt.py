@@ -1,4 +1,4 @@
-"""Scene.txt with Meshes/*.obj and Textures/*_diffuse.png: a line an object or a light."""
+"""Scene.txt export, with Meshes/*.obj and Textures/*_diffuse.png: one line per object or light."""
 
 import hashlib
 import os
@@ -10,14 +10,14 @@ from .conversion import number
 
 
 class _Part:
-    """The triangles of a piece that have one material, as arrays, corner by corner."""
+    """The triangles of a piece with one material, as arrays by corner."""
 
     def __init__(self, positions, normals, uvs, material):
         self.positions, self.normals, self.uvs, self.material = positions, normals, uvs, material
         self._key = None
 
     def turned(self, linear):
-        """Under a 3x3 matrix; faces look out of what they looked out of, mirrored or not."""
+        """Applies a 3x3 matrix; reverses the winding under a reflection, so that faces stay outward."""
         normals = self.normals @ meshes.cofactors(linear).T
         lengths = np.linalg.norm(normals, axis=1, keepdims=True)
         normals = np.where(lengths > 1e-30, normals / np.maximum(lengths, 1e-30), self.normals)
@@ -28,7 +28,7 @@ class _Part:
         return _Part(positions, normals, uvs, self.material)
 
     def key(self):
-        """What equal parts have in common."""
+        """A hash of the geometry, to share equal meshes."""
         if self._key is None:
             arrays = (array.astype(np.float32).tobytes() for array in (self.positions, self.normals, self.uvs))
             self._key = hashlib.sha256(b"".join(arrays)).digest()
@@ -36,7 +36,7 @@ class _Part:
 
 
 def _parts_of(piece):
-    """The mesh of a piece by material, in Brume's axes, in the mesh's own space."""
+    """Splits the mesh of a piece by material; in mesh space with Brume's axes."""
     mesh = piece.mesh
     mesh.calc_loop_triangles()
     count = len(mesh.loop_triangles)
@@ -76,7 +76,7 @@ def _joined(parts, material):
 
 
 def _unique_rows(values):
-    """The rows of an array as floats, each once and sorted, and which of them each row is."""
+    """The sorted unique rows of an array as float32, and the index of each row among them."""
     values = values.astype(np.float32)
     order = np.lexsort(values.T[::-1])
     in_order = values[order]
@@ -88,7 +88,7 @@ def _unique_rows(values):
 
 
 def _obj_text(part):
-    """Positions, texture coordinates and normals, each once."""
+    """OBJ text with unique positions, texture coordinates and normals."""
     lines, columns = ["# Metres or units of the scene file, Y up"], []
     for keyword, values in (("v", part.positions), ("vt", part.uvs), ("vn", part.normals)):
         unique, index = _unique_rows(values)
@@ -104,7 +104,7 @@ class _Writer:
     def __init__(self, folder, level, warnings):
         self._folder, self._level, self._warnings = folder, level, warnings
         self._mesh_names, self._written, self._materials, self._known_parts = {}, {}, {}, {}
-        # Names of parts must not meet those of things.
+        # Names of parts must not collide with those of things.
         self._part_names = names.UniqueNames(thing.name for thing in level.things)
         self._material_names = names.UniqueNames()
         self.lines = ["# Name\tPosition\tRotation\tScale\tMaterial\tRoughness"]
@@ -130,7 +130,7 @@ class _Writer:
         return self._known_parts[key]
 
     def _add_as_one(self, thing):
-        """One mesh, one material: a line's name is that of its mesh, and a door is what has its name."""
+        """Writes a single mesh with one material: Scene.txt identifies a door or grenade by the name of one line."""
         origin = thing.pieces[0].world_from_mesh.copy()
         parts = []
         for piece in thing.pieces:
@@ -146,7 +146,7 @@ class _Writer:
             return
         looks = [textures.look_of(material) for material in found]
         if any(look.image for look in looks):
-            self._warnings.add(f'"{thing.name}" has several materials: Scene.txt shows their mean colours')
+            self._warnings.add(f'"{thing.name}" has several materials; Scene.txt stores only their mean colours')
         for part in parts:
             tile = found.index(part.material)
             part.uvs = np.tile([(tile + 0.5) / len(found), 0.5], (len(part.uvs), 1))
@@ -158,9 +158,9 @@ class _Writer:
 
     def _place(self, part, world_from_mesh, name, shared, look=None):
         linear = world_from_mesh[:3, :3]
-        said = conversion.scale_and_angles(linear)
-        if said is None:
-            part, said = part.turned(linear), (np.ones(3), np.zeros(3))
+        scale_and_angles = conversion.scale_and_angles(linear)
+        if scale_and_angles is None:
+            part, scale_and_angles = part.turned(linear), (np.ones(3), np.zeros(3))
         if shared:
             key = (part.key(), name.startswith("IGNORE_"))
             name = self._mesh_names.setdefault(key, name)
@@ -168,12 +168,12 @@ class _Writer:
             self._written[name] = True
             files.write(os.path.join(self._folder, "Meshes", name + ".obj"), _obj_text(part))
         material, roughness = look or self._material(part.material)
-        vectors = (world_from_mesh[:3, 3], said[1], said[0])
+        vectors = (world_from_mesh[:3, 3], scale_and_angles[1], scale_and_angles[0])
         fields = [name] + [" ".join(number(value) for value in vector) for vector in vectors]
         self.lines.append("\t".join(fields + [material, number(roughness)]))
 
     def _material(self, material):
-        """The name and roughness of a material; its picture is written when it comes up first."""
+        """The name and roughness of a material; writes its texture on first use."""
         if material in self._materials:
             return self._materials[material]
         look = textures.look_of(material)
@@ -183,26 +183,27 @@ class _Writer:
             self._warnings.add(f'the image "{look.image.name}" has no pixels; its material is exported plain')
         extension, data = stored or (".png", textures.plain_png([look.color]))
         files.write(os.path.join(self._folder, "Textures", f"{name}_diffuse{extension}"), data)
-        if extension == ".jpg":  # A PNG of an earlier export would be taken first.
+        if extension == ".jpg":  # A PNG of an earlier export would take precedence.
             files.remove(os.path.join(self._folder, "Textures", f"{name}_diffuse.png"))
         self._materials[material] = (name, look.roughness)
         return self._materials[material]
 
     def add_light(self, light):
-        """A point that gives off `power` watts evenly: what Blender's point lights are, and all Scene.txt knows."""
+        """Writes a point light that emits `power` watts uniformly, the only kind that Scene.txt supports."""
         kind = light.data.type
         if kind == "SUN":
-            self._warnings.add(f'the sun "{light.data.name}" is left out: Scene.txt has none, glTF has')
+            self._warnings.add(f'the sun "{light.data.name}" is not exported: Scene.txt has no suns; use glTF')
             return
         if kind != "POINT":
-            self._warnings.add(f'the light "{light.data.name}" shines all around in Scene.txt; glTF keeps its cone')
+            name = light.data.name
+            self._warnings.add(f'the light "{name}" becomes a point light in Scene.txt; use glTF to keep its shape')
         values = [light.world_from_light[:3, 3], light.data.color, [light.power]]
         fields = [" ".join(number(value) for value in vector) for vector in values]
         self.lines.append("\t".join(["LIGHT_SOURCE"] + fields))
 
 
 def export(path, level, warnings):
-    """Writes the scene file and, beside it, the folders Meshes and Textures."""
+    """Writes the scene file and, next to it, the folders Meshes and Textures."""
     writer = _Writer(os.path.dirname(path), level, warnings)
     for thing in level.things:
         writer.add(thing)

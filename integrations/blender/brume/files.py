@@ -1,4 +1,4 @@
-"""Files that appear under their names when they are complete."""
+"""Atomic file output: a file appears under its name only when it is complete."""
 
 import os
 
@@ -6,7 +6,7 @@ from .messages import BrumeError
 
 
 def write(path, data):
-    """Writes bytes or text, and makes the folder."""
+    """Writes bytes or text, and creates the folder."""
     if isinstance(data, str):
         data = data.encode("utf-8")
     unfinished = path + ".unfinished"
@@ -22,7 +22,7 @@ def write(path, data):
 
 
 def remove(path):
-    """Takes a file away that may be there."""
+    """Removes a file if it exists."""
     try:
         os.remove(path)
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""What operators share that run brume: in the background of a window, or to the end in a script."""
+"""Base of operators that run brume: in the background of a window, or blocking in a script."""
 
 import shutil
 import tempfile
@@ -8,10 +8,10 @@ from .messages import BrumeError, Warnings
 
 
 class JobOperator:
-    """An operator that exports, runs brume on it and shows what came out, by these of its own:
+    """An operator that exports the scene, runs brume and uses the result. A subclass defines:
 
-    arguments(context, folder): what brume is called with; files are written into `folder`.
-    finish(context, folder, out): takes what came out.
+    arguments(context, folder): exports into the temporary `folder` and returns the arguments of brume.
+    finish(context, folder, out): uses the files in `folder` and the standard output of brume.
     """
 
     stopped_by_escape = True
@@ -47,7 +47,7 @@ class JobOperator:
         return {"CANCELLED"}
 
     def execute(self, context):
-        """Waits for the program: what scripts and tests call."""
+        """Blocks until the program ends: for scripts and tests."""
         try:
             self._start(context)
             self._job.wait()
@@ -57,7 +57,7 @@ class JobOperator:
         return {"FINISHED"}
 
     def invoke(self, context, _event):
-        """Starts the program and looks after it ten times a second."""
+        """Starts the program and polls it ten times per second."""
         try:
             self._start(context)
         except BrumeError as error:
@@ -82,6 +82,6 @@ class JobOperator:
         return {"FINISHED"}
 
     def cancel(self, context):
-        """Esc, and Blender when it closes."""
+        """Stops the program: called on Esc and when Blender closes."""
         self._job.stop()
         self._clean(context)

@@ -1,4 +1,4 @@
-"""What stands in the open scene, as both exporters read it: evaluated, every instance a thing, names unique."""
+"""The contents of the open scene for both exporters: evaluated, instances expanded, with unique names."""
 
 import math
 from dataclasses import dataclass, field
@@ -11,16 +11,16 @@ from . import conversion, names
 
 @dataclass
 class Piece:
-    """A mesh where it stands."""
+    """A mesh with its transform."""
 
-    mesh: bpy.types.Mesh  # A copy with modifiers applied, in its own space and in Blender's units.
+    mesh: bpy.types.Mesh  # A copy with modifiers applied, in mesh space and Blender units.
     world_from_mesh: np.ndarray  # In Brume's axes and metres.
-    materials: list  # Of each slot; None for an empty one.
+    materials: list  # By slot; None for an empty one.
 
 
 @dataclass
 class Thing:
-    """What is one object in Brume: a mesh, or a door with what is parented to it."""
+    """An object in Brume: a mesh, or a door together with its children."""
 
     name: str
     role: str
@@ -28,21 +28,21 @@ class Thing:
 
 
 @dataclass
-class Lamp:
+class Light:
     data: bpy.types.Light
     world_from_light: np.ndarray  # In Brume's axes and metres.
-    power: float  # [W]; of a sun [W/m^2].
+    power: float  # [W]; for a sun [W/m^2].
 
 
 @dataclass
 class Level:
     things: list = field(default_factory=list)
     lights: list = field(default_factory=list)
-    door_names: dict = field(default_factory=dict)  # Name of a door in Blender: those of its doors in Brume.
-    metres: float = 1.0  # One unit of Blender's.
+    door_names: dict = field(default_factory=dict)  # Name in Blender: names of its instances in Brume.
+    metres: float = 1.0  # Length of a Blender unit.
 
 
-# What renders in Blender and is no mesh there.
+# Object types that Blender renders but cannot evaluate to a mesh.
 _NO_MESH = {
     "VOLUME": "volume",
     "POINTCLOUD": "point cloud",
@@ -53,15 +53,15 @@ _NO_MESH = {
 
 
 def _hidden_from_renders(instance):
-    """What Blender's renders leave out of what its depsgraph lists."""
+    """Whether the depsgraph lists an instance that Blender does not render."""
     source = instance.object.original
     if instance.is_instance:
-        # Geometry nodes show instances of what is hidden itself.
+        # Geometry nodes render instances of hidden objects.
         parent = instance.parent.original
         return parent.hide_render or (parent.instance_type == "COLLECTION" and source.hide_render)
     if source.hide_render:
         return True
-    # The instance on vertices and faces replaces the child; the instancer shows itself where it says so.
+    # Instances on vertices and faces replace the child; the instancer itself renders only if its option says so.
     if source.parent and source.parent.instance_type in {"VERTS", "FACES"}:
         return True
     instancing = source.instance_type in {"VERTS", "FACES"} or len(source.particle_systems) > 0
@@ -79,14 +79,14 @@ def _role(instance):
 
 
 def _door_of(source):
-    """The nearest door among an object and its parents."""
+    """The nearest door among an object and its ancestors, or None."""
     while source is not None and source.brume.role != "DOOR":
         source = source.parent
     return source
 
 
 def _materials(evaluated):
-    """Of each slot: the object's where it has its own there, else the mesh's."""
+    """Materials by slot: that of the object if the slot is linked to it, else that of the mesh."""
     found = list(evaluated.data.materials)
     for index, slot in enumerate(evaluated.material_slots):
         if index < len(found) and slot.link == "OBJECT":
@@ -95,7 +95,7 @@ def _materials(evaluated):
 
 
 class Gathered:
-    """`with Gathered(context, warnings) as level`: the copies of the meshes are gone behind it."""
+    """`with Gathered(context, warnings) as level`: the level of the scene; removes its mesh copies on exit."""
 
     def __init__(self, context, warnings):
         self._context, self._warnings = context, warnings
@@ -104,7 +104,7 @@ class Gathered:
         self._names = names.UniqueNames()
 
     def __enter__(self):
-        # What is being edited has no faces in the depsgraph.
+        # A mesh in edit mode has no faces in the depsgraph.
         if self._context.mode.startswith("EDIT"):
             self._mode = self._context.object.mode
             bpy.ops.object.mode_set(mode="OBJECT")
@@ -120,7 +120,7 @@ class Gathered:
                     self._add_light(instance)
                 elif instance.object.type in _NO_MESH:
                     what = _NO_MESH[instance.object.type]
-                    self._warnings.add(f'"{instance.object.name}" is a {what}, and is left out')
+                    self._warnings.add(f'"{instance.object.name}" is a {what} and is not exported')
         except BaseException:
             self.__exit__()
             raise
@@ -138,18 +138,18 @@ class Gathered:
         role = _role(instance)
         if role == "LEFT_OUT" or len(evaluated.data.polygons) == 0:
             return
-        # Objects without modifiers share the evaluated mesh. All live as long as the depsgraph is not evaluated anew.
+        # Objects without modifiers share the evaluated mesh. Meshes live until the depsgraph is evaluated again.
         key = evaluated.data.as_pointer()
         if key not in self._copies:
-            # Of an evaluated object this is its evaluated mesh. Asked to evaluate it again, with all layers,
-            # Blender 3.4 crashes on instances of letters.
+            # Copies the evaluated mesh. With preserve_all_data_layers and a depsgraph Blender 3.4 crashes on
+            # instances of text objects.
             self._copies[key] = bpy.data.meshes.new_from_object(evaluated)
         matrix = conversion.matrix(instance.matrix_world, self._level.metres)
         if not np.isfinite(matrix).all():
-            self._warnings.add(f'"{source.name}" has a matrix that is not finite, and is left out')
+            self._warnings.add(f'"{source.name}" has a transform that is not finite and is not exported')
             return
         if not matrix[:3, :3].any():
-            return  # Scaled to a point, in Blender too.
+            return  # Scaled to a point: invisible in Blender too.
         piece = Piece(self._copies[key], matrix, _materials(evaluated))
         door = _door_of(source) if role in {"SOLID", "DOOR"} else None
         if door:
@@ -157,11 +157,13 @@ class Gathered:
             return
         name = self._names.take(names.safe(source.name))
         if "door" in name.lower():
-            self._warnings.add(f'"{source.name}" is no door, but the viewer opens it for its name; rename or mark it')
+            self._warnings.add(
+                f'"{source.name}" has "door" in its name, so the viewer opens it; rename it or set its role to Door'
+            )
         self._level.things.append(Thing(name, role, [piece]))
 
     def _add_to_door(self, instance, door, piece):
-        """A door and what is parented to it are one thing, once for each instance of their collection."""
+        """Adds a piece to the thing of its door: one thing per instance of the door's collection."""
         copy = ()
         if instance.is_instance:
             parent = instance.parent
@@ -170,7 +172,7 @@ class Gathered:
         key = (door.name_full, copy)
         if key not in self._doors:
             name = names.safe(door.name)
-            # The name is how the viewer knows a door.
+            # The viewer recognizes doors by their name.
             name = self._names.take(name if "door" in name.lower() else "door_" + name)
             self._doors[key] = Thing(name, "DOOR")
             self._level.things.append(self._doors[key])
@@ -180,26 +182,26 @@ class Gathered:
     def _add_light(self, instance):
         light = instance.object.original.data
         metres = self._level.metres
-        # Light falls off with the square of Blender's units: in metres it takes metres^2 as much power to
-        # light a surface the same.
+        # Light falls off with the square of the distance in Blender units: in metres the same irradiance takes
+        # metres^2 times the power.
         power = light.energy * (1.0 if light.type == "SUN" else metres * metres)
         if power < 0 or min(light.color) < 0:
-            self._warnings.add(f'the light "{instance.object.name}" takes light away, and is left out')
+            self._warnings.add(f'the light "{instance.object.name}" has negative power or colour and is not exported')
             return
-        self._level.lights.append(Lamp(light, conversion.matrix(instance.matrix_world, metres), power))
+        self._level.lights.append(Light(light, conversion.matrix(instance.matrix_world, metres), power))
 
 
-# Blender's lights of P watts, as its renderers show them (tests/blender/lights.py measures it): points, and spots inside
-# their cone, have the intensity P / (4 pi) W/sr; area lights have P / 4 along their axis, and cos times that beside it.
+# Intensity of Blender's lights of P watts (measured by tests/blender/lights.py): P / (4 pi) W/sr for points and for
+# spots inside their cone; P / 4 along the axis of area lights, times the cosine off axis.
 def spot_for_area(power):
-    """The power of a spot of 180 degrees, faded from its axis on, that lights as an area light does.
+    """The power of a 180 degree spot with full blend that approximates an area light.
 
-    A spot of power q has q / (4 pi) along its axis. Faded by Brume's smoothstep(0, 1, cos) it gives off
-    2 pi * q / (4 pi) * integral of (3 c^2 - 2 c^3) from 0 to 1 = q / 4; the area light pi * power / 4. Both ask for
-    q = pi * power.
+    A spot of power q has the intensity q / (4 pi) along its axis. With Brume's falloff smoothstep(0, 1, cos) it emits
+    2 pi * q / (4 pi) * integral of (3 c^2 - 2 c^3) from 0 to 1 = q / 4; the area light emits pi * power / 4. Both
+    axis intensity and total match for q = pi * power.
     """
     return math.pi * power
 
 
-# Of a spot, side to side [radians]: a float nearest to pi would be more than the half circle that glTF allows.
+# Full angle of the widest spot [radians]: pi rounded to float32 exceeds the maximum of glTF.
 WIDEST_SPOT = math.pi - 1e-6

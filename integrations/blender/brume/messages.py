@@ -1,12 +1,12 @@
-"""What is said to the user: one line a fault, warnings gathered until the work is done."""
+"""Messages to the user: one-line errors, and warnings that are reported when the work is done."""
 
 
 class BrumeError(Exception):
-    """An expected failure, in one line: what is wrong, and the mend."""
+    """An expected failure; the message is one line that names the problem and the fix."""
 
 
 class Warnings:
-    """Gathers what could be mended. Each line is kept once."""
+    """Collects warnings without duplicates."""
 
     def __init__(self):
         self.lines = []
@@ -16,7 +16,7 @@ class Warnings:
             self.lines.append(line)
 
     def report(self, operator):
-        """Says all on the console, and the first in Blender's status bar."""
+        """Prints all to the console, and the first to Blender's status bar."""
         for line in self.lines:
             print("Brume: warning: " + line)
         if self.lines:

@@ -1,15 +1,15 @@
-"""Names that every format, file system and timeline takes."""
+"""Names that are valid in every format, file system and timeline."""
 
 import re
 import unicodedata
 
-# What Windows does not let a file be called.
+# File names that Windows reserves.
 _RESERVED = {"con", "prn", "aux", "nul"} | {f"{port}{i}" for port in ("com", "lpt") for i in range(1, 10)}
 _LONGEST = 60
 
 
 def safe(name, otherwise="object"):
-    """ASCII letters, digits, '_', '-' and '.': one word of a Scene.txt and a file name anywhere."""
+    """Reduces a name to ASCII letters, digits, '_', '-' and '.': a word in Scene.txt and a portable file name."""
     plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
     plain = re.sub(r"[^A-Za-z0-9_.-]+", "_", plain).lstrip(".-")[:_LONGEST].rstrip(".")
     if not plain.strip("_"):
@@ -20,15 +20,15 @@ def safe(name, otherwise="object"):
 
 
 class UniqueNames:
-    """Hands out each name once, letter case ignored: file systems differ in it."""
+    """Makes names unique ignoring case, because some file systems do."""
 
     def __init__(self, taken=()):
         self._taken = {name.lower() for name in taken}
 
-    def take(self, wanted):
-        name, number = wanted, 1
+    def take(self, base):
+        name, number = base, 1
         while name.lower() in self._taken:
             number += 1
-            name = f"{wanted}_{number}"
+            name = f"{base}_{number}"
         self._taken.add(name.lower())
         return name

@@ -22,7 +22,7 @@ _DISPLAY = {
 
 
 class BRUME_OT_add_event(bpy.types.Operator):
-    """Add an empty at which something happens"""
+    """Add an empty that marks an event"""
 
     bl_idname = "brume.add_event"
     bl_label = "Add Brume Event"

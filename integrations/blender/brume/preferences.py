@@ -1,4 +1,4 @@
-"""Where the brume program is."""
+"""Add-on preferences: the path of the brume program."""
 
 import bpy
 from bpy.props import StringProperty
@@ -8,7 +8,7 @@ class BrumePreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
     program: StringProperty(
-        name="brume", description="The brume program; nothing: the one on PATH", subtype="FILE_PATH"
+        name="brume", description="Path of the brume program; empty: search PATH", subtype="FILE_PATH"
     )
 
     def draw(self, _context):

@@ -1,4 +1,4 @@
-"""The brume program as a child process."""
+"""Runs the brume program as a child process."""
 
 import os
 import shutil
@@ -12,21 +12,21 @@ from .preferences import program_path
 
 
 def find(context):
-    """The program of the preferences, else the one on PATH."""
+    """The program set in the preferences, else the one on PATH."""
     chosen = program_path(context)
     if chosen:
         path = bpy.path.abspath(chosen)
         if os.path.isfile(path) and os.access(path, os.X_OK):
             return path
-        raise BrumeError(f"{path} is no program; choose brume in Preferences > Add-ons > Brume")
+        raise BrumeError(f"{path} is not executable; set the path of brume in Preferences > Add-ons > Brume")
     path = shutil.which("brume")
     if path is None:
-        raise BrumeError("there is no brume on PATH; choose it in Preferences > Add-ons > Brume")
+        raise BrumeError("brume is not on PATH; set its path in Preferences > Add-ons > Brume")
     return path
 
 
 class Job:
-    """A running program. What it says goes to files, so that it never waits for a reader."""
+    """A running program. Its output goes to files, so that it never blocks on a full pipe."""
 
     def __init__(self, arguments, folder):
         self._out, self._error = tempfile.TemporaryFile(), tempfile.TemporaryFile()
@@ -57,16 +57,16 @@ class Job:
         self._child.wait()
 
     def result(self, warnings):
-        """What it wrote to standard output; its warnings are added, its failure is raised."""
+        """Returns the standard output. Adds its warnings to `warnings`; raises BrumeError if it failed."""
         lines = [line for line in _text(self._error).splitlines() if line.strip()]
         prefix = "brume: warning: "
         for line in lines:
-            # That a scene has no grenade of its own is news to no one who made it.
+            # The author of a scene knows that it has no grenade of its own.
             if line.startswith(prefix) and not line.endswith("a built-in one is thrown"):
                 warnings.add(line[len(prefix) :])
         if self._child.returncode != 0:
-            told = [line for line in lines if not line.startswith(prefix)]
-            raise BrumeError(told[-1] if told else f"brume ended with code {self._child.returncode}")
+            errors = [line for line in lines if not line.startswith(prefix)]
+            raise BrumeError(errors[-1] if errors else f"brume ended with code {self._child.returncode}")
         return _text(self._out)
 
 

@@ -1,4 +1,4 @@
-"""Render with Brume: exports the scene, renders the current frame, shows the picture in an Image Editor."""
+"""Render with Brume: exports the scene, renders the current frame and shows the image in an Image Editor."""
 
 import os
 
@@ -13,7 +13,7 @@ IMAGE_NAME = "Brume Render"
 
 
 def _take_image(path):
-    """The picture of this render, in place of the one before; packed, for its file does not last."""
+    """Replaces the image of the previous render; packs the new one, because its file is temporary."""
     before = bpy.data.images.get(IMAGE_NAME)
     image = bpy.data.images.load(path)
     image.pack()
@@ -24,8 +24,8 @@ def _take_image(path):
 
 
 def _show():
-    """In the Image Editors that are open, or in a window of its own. Called by a timer: an operator that runs on
-    would not end where a window opens under it."""
+    """Shows the image in all open Image Editors, or in a new window. Called by a timer, because a modal operator
+    that opens a window does not end."""
     image = bpy.data.images.get(IMAGE_NAME)
     windows = bpy.context.window_manager.windows
     editors = [area for window in windows for area in window.screen.areas if area.type == "IMAGE_EDITOR"]
@@ -52,7 +52,7 @@ class BRUME_OT_render(JobOperator, bpy.types.Operator):
         written = export(context, level, options.format, self._warnings)
         time = timeline.seconds(scene, scene.frame_current_final)
         if not 0 <= time <= 3600:
-            raise BrumeError(f"frame {scene.frame_current} is at {time:g} s; Brume takes 0 to 3600 s")
+            raise BrumeError(f"frame {scene.frame_current} is at {time:g} s; choose one between 0 and 3600 s")
         width, height = (
             max(1, side * render.resolution_percentage // 100) for side in (render.resolution_x, render.resolution_y)
         )
@@ -64,7 +64,7 @@ class BRUME_OT_render(JobOperator, bpy.types.Operator):
     def finish(self, _context, folder, _out):
         path = os.path.join(folder, "render.png")
         if not os.path.isfile(path):
-            raise BrumeError("brume ended without a picture; is the program of the preferences Brume?")
+            raise BrumeError("brume wrote no image; check the program path in the preferences")
         _take_image(path)
         if not bpy.app.background:
             bpy.app.timers.register(_show, first_interval=0)

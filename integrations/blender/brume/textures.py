@@ -1,4 +1,4 @@
-"""The pictures and the plain look of materials, for Scene.txt, which knows one picture and one roughness each."""
+"""Textures and plain colours of materials for Scene.txt, which has one texture and one roughness per material."""
 
 import os
 import struct
@@ -9,13 +9,13 @@ import numpy as np
 
 
 def srgb(linear):
-    """IEC 61966-2-1."""
+    """Encodes linear values as sRGB (IEC 61966-2-1)."""
     linear = np.clip(linear, 0.0, 1.0)
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
 def png_bytes(pixels):
-    """A PNG of rows of RGBA bytes, the first row on top (W3C PNG, 2003: IHDR, IDAT, IEND, no filter)."""
+    """Encodes rows of RGBA bytes, top row first, as PNG (W3C PNG, 2003: IHDR, IDAT, IEND, no filter)."""
     height, width, _ = pixels.shape
 
     def chunk(kind, data):
@@ -30,7 +30,7 @@ def png_bytes(pixels):
 
 
 def plain_png(colors):
-    """A row of tiles of 16 x 16 texels in linear colours."""
+    """A PNG with a row of 16 x 16 texel tiles, one per linear colour."""
     tiles = [np.full((16, 16, 4), 255, dtype=np.uint8) for _ in colors]
     for tile, color in zip(tiles, colors):
         tile[:, :, :3] = np.rint(srgb(np.array(color[:3])) * 255)
@@ -44,7 +44,7 @@ def _file_kind(data):
 
 
 def _stored_bytes(image):
-    """The file that an image was loaded from, where it is as it was."""
+    """The bytes of the file that an image was loaded from; empty if the image was modified or the file is gone."""
     if image.is_dirty or image.source != "FILE":
         return b""
     if image.packed_file:
@@ -57,7 +57,7 @@ def _stored_bytes(image):
 
 
 def _pixels(image):
-    """RGBA bytes in sRGB, the first row on top; None where the image has no pixels."""
+    """sRGB-encoded RGBA bytes, top row first; None if the image has no pixels."""
     width, height = image.size
     if width == 0 or height == 0:
         return None
@@ -68,13 +68,13 @@ def _pixels(image):
     rgba[:, :, : image.channels] = values[:, :, :4]
     if image.channels == 1:
         rgba[:, :, :3] = values
-    if image.is_float:  # Linear in memory; bytes are kept as they are stored.
+    if image.is_float:  # Float images are linear in memory, byte images encoded.
         rgba[:, :, :3] = srgb(rgba[:, :, :3])
     return np.rint(np.clip(rgba, 0, 1) * 255).astype(np.uint8)
 
 
 def image_file(image):
-    """(extension, bytes) of an image as PNG or JPEG, or None where there is nothing to show."""
+    """(extension, bytes) of an image as PNG or JPEG, or None if it has no pixels."""
     data = _stored_bytes(image)
     if _file_kind(data):
         return _file_kind(data), data
@@ -83,13 +83,13 @@ def image_file(image):
 
 
 class Look:
-    """What Scene.txt can say of a material: a linear colour or a picture, and a roughness."""
+    """A material as Scene.txt represents it: a linear colour or an image, and a roughness."""
 
     def __init__(self, color=(0.8, 0.8, 0.8), roughness=0.5, image=None):
         self.color, self.roughness, self.image = tuple(color)[:3], roughness, image
 
     def mean_color(self):
-        """Of the picture where there is one."""
+        """The mean colour of the image if there is one, else the plain colour."""
         pixels = _pixels(self.image) if self.image else None
         if pixels is None:
             return self.color
@@ -99,7 +99,7 @@ class Look:
 
 
 def _image_behind(socket, depth=16):
-    """The first image texture that feeds a socket."""
+    """The first image texture that is connected to a socket, directly or through other nodes."""
     if depth == 0:
         return None
     for link in socket.links:
@@ -122,7 +122,8 @@ def _surface_node(material):
 
 
 def look_of(material):
-    """The look of a material: its Principled node's, or that of any node with a colour, or of the viewport."""
+    """The look of a material: from its Principled node, else from a surface node with a colour, else from the
+    viewport settings."""
     if material is None:
         return Look()
     node = _surface_node(material) if material.use_nodes and material.node_tree else None

@@ -1,4 +1,4 @@
-"""The timeline: what stands as empties becomes events, the scene's camera becomes keys. TOML, docs/timeline.md."""
+"""Timeline export (TOML, docs/timeline.md): empties become events, the motion of the scene camera becomes keys."""
 
 import math
 import os
@@ -13,11 +13,11 @@ from .properties import HOLE_TIMES
 
 _KEYS_PER_SECOND = 8
 _LONGEST = 3600.0
-_AHEAD = 5.0  # Metres from the camera to the point that it looks at.
+_AHEAD = 5.0  # Distance from the camera to its target [m].
 
 
 def quoted(text):
-    """A basic string of TOML."""
+    """Quotes text as a TOML basic string."""
     result = ""
     for character in text:
         if character in '"\\':
@@ -34,7 +34,7 @@ def _vector(values):
 
 
 def seconds(scene, frame):
-    """The time of a frame, from the scene's first."""
+    """The time of a frame, from the first frame of the scene [s]."""
     return (frame - scene.frame_start) * scene.render.fps_base / scene.render.fps
 
 
@@ -43,7 +43,7 @@ def frame_of(scene, time):
 
 
 def moves(thing):
-    """Whether an object's place or lens may change from frame to frame."""
+    """Whether the transform or the lens of an object may change over time."""
     while thing is not None:
         for block in (thing, thing.data):
             animation = getattr(block, "animation_data", None)
@@ -56,7 +56,7 @@ def moves(thing):
 
 
 class _Clock:
-    """Goes to frames, and back to where the scene was."""
+    """Sets the frame of the scene, and restores the original one on exit."""
 
     def __init__(self, context):
         self._context, self._scene = context, context.scene
@@ -84,7 +84,7 @@ class _Clock:
 
 
 class Writer:
-    """Gathers the lines of a timeline. `level` knows what doors are called in the scene file."""
+    """Writes a timeline. `level` has the names of doors in the scene file."""
 
     def __init__(self, context, level, folder, warnings):
         self._context, self._scene, self._level = context, context.scene, level
@@ -102,7 +102,7 @@ class Writer:
         scene, options = self._scene, self._scene.brume
         duration = seconds(scene, scene.frame_end + 1)
         if not 0.01 <= duration <= _LONGEST:
-            raise BrumeError(f"the scene lasts {duration:g} s; a timeline takes 0.01 to 3600 s: change its frames")
+            raise BrumeError(f"the scene lasts {duration:g} s, expected 0.01 to 3600 s; change its frame range")
         exposure = min(max(scene.view_settings.exposure, -20.0), 20.0)
         lines = ["version = 1", f"scene = {quoted(scene_file)}"]
         lines += [f"duration = {number(duration)}", f"exposure = {number(exposure)}"]
@@ -118,10 +118,10 @@ class Writer:
     def _camera(self, clock):
         camera, scene = self._scene.camera, self._scene
         if camera is None or camera.type != "CAMERA":
-            self._warnings.add("the scene has no camera: Brume takes one that has all in view")
+            self._warnings.add("the scene has no camera; Brume uses one with everything in view")
             return []
         if camera.data.type != "PERSP":
-            self._warnings.add(f'the camera "{camera.name}" is not a perspective one, and is left out')
+            self._warnings.add(f'the camera "{camera.name}" is not a perspective camera and is not exported')
             return []
         if any(marker.camera for marker in scene.timeline_markers):
             self._warnings.add("markers that switch cameras are not exported")
@@ -144,11 +144,11 @@ class Writer:
         matrix = evaluated.matrix_world
         metres = self._level.metres
         forward = -matrix.col[2].to_3d().normalized()
-        # A roll, or an axis out of the lens's middle, is more than position, target and field of view say.
+        # Position, target and field of view cannot represent a roll or a lens shift.
         if abs(matrix.col[0].to_3d().normalized().z) > 0.01:
-            self._warnings.add(f'the camera "{camera.name}" is rolled; Brume keeps the horizon level')
+            self._warnings.add(f'the camera "{camera.name}" is rolled; Brume keeps its horizon level')
         if evaluated.data.shift_x or evaluated.data.shift_y:
-            self._warnings.add(f'the shift of the camera "{camera.name}" is left out')
+            self._warnings.add(f'the lens shift of the camera "{camera.name}" is not exported')
         position = matrix.translation
         target = position + forward * (_AHEAD / metres)
         return (
@@ -190,19 +190,19 @@ class Writer:
         return _vector(values)
 
     def _aimed(self, clock, thing, event, place):
-        """A shot or a text: from the empty along its arrow, its z axis, or to what it aims at."""
+        """The keys of a shot or a text: fired from the empty along its z axis, or at its target."""
         here = place.translation
         toward = here + place.col[2].to_3d().normalized() * (10 / self._level.metres)
         if event.aim:
             toward = clock.matrix_at(event.aim, event.time).translation
         if (Vector(toward) - here).length < 1e-6:
-            raise BrumeError(f'the event "{thing.name}" aims at where it is; move it or what it aims at')
+            raise BrumeError(f'the event "{thing.name}" aims at its own position; move it or its target')
         keys = {"from": self._point(thing, here), "toward": self._point(thing, toward)}
         keys["roll"] = number(math.degrees(event.roll))
         keys |= {key: number(getattr(event, key)) for key in HOLE_TIMES}
         if event.type == "TEXT":
             if not 1 <= len(event.text.encode("utf-8")) <= 1024:
-                raise BrumeError(f'the text of "{thing.name}" has to be 1 to 1024 bytes long')
+                raise BrumeError(f'the text of "{thing.name}" must be 1 to 1024 bytes long')
             keys["text"] = quoted(event.text)
             keys |= {key: number(getattr(event, key)) for key in ("size", "spacing", "interval")}
             if event.font:
@@ -215,7 +215,7 @@ class Writer:
         return keys
 
     def _copy_of(self, thing, file, kind):
-        """Copies a file below the timeline's folder, where timelines may name it."""
+        """Copies a file into a folder next to the timeline, because timelines may not refer to files elsewhere."""
         path = bpy.path.abspath(file)
         try:
             with open(path, "rb") as source:
@@ -231,8 +231,8 @@ class Writer:
         door = event.door
         found = self._level.door_names.get(door.name, []) if door else []
         if not found:
-            what = f'"{door.name}" is not marked as a door' if door else "it names no door"
-            self._warnings.add(f'the door event "{thing.name}" is left out: {what}')
+            what = f'"{door.name}" does not have the role Door' if door else "it has no door"
+            self._warnings.add(f'the door event "{thing.name}" is not exported: {what}')
         lines = []
         for name in found:
             lines += ["", "[[event]]", 'type = "door"', f"time = {number(event.time)}"]
@@ -241,7 +241,7 @@ class Writer:
 
 
 def _world_color(world):
-    """The background's colour times its strength."""
+    """The colour of the background times its strength."""
     if world is None:
         return (0.0, 0.0, 0.0)
     if world.use_nodes and world.node_tree:
@@ -253,7 +253,7 @@ def _world_color(world):
 
 
 def vertical_fov(camera, scene):
-    """The angle between the upper and the lower edge of the picture [radians]."""
+    """The vertical field of view [radians]."""
     frame = camera.view_frame(scene=scene)
     height = max(corner.y for corner in frame) - min(corner.y for corner in frame)
     return 2 * math.atan(height / 2 / -frame[0].z)

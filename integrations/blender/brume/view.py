@@ -1,4 +1,4 @@
-"""Walk In: exports the scene and opens it in Brume's own window."""
+"""Walk In: exports the scene and opens it in the Brume viewer."""
 
 import os
 
@@ -10,14 +10,14 @@ from .job_operator import JobOperator
 
 
 class BRUME_OT_view(JobOperator, bpy.types.Operator):
-    """Walk through the scene in a window of Brume's, throw smoke and shoot through it"""
+    """Walk through the scene in the Brume viewer, throw smoke and shoot through it"""
 
     bl_idname = "brume.view"
     bl_label = "Walk In"
 
-    play: BoolProperty(name="Play", description="Let the events of the scene happen, seen by its camera")
+    play: BoolProperty(name="Play", description="Play the events of the scene, viewed by its camera")
 
-    # The window is its own: Esc in Blender means something else.
+    # The viewer has its own window, so Esc in Blender must not stop it.
     stopped_by_escape = False
 
     def arguments(self, context, folder):
@@ -29,7 +29,7 @@ class BRUME_OT_view(JobOperator, bpy.types.Operator):
         return ["view"] + (["--play"] if self.play else []) + [written, "--folder", keep]
 
     def finish(self, _context, _folder, _out):
-        """Nothing comes out."""
+        """The viewer returns no result."""
 
 
 def register():

@@ -1,4 +1,4 @@
-"""The voxels that smoke meets, as a mesh: of the open scene, or from the OBJ of `brume voxelize --obj`."""
+"""Shows solid voxels as a mesh: those of the open scene, or of an OBJ file from `brume voxelize --obj`."""
 
 import json
 import os
@@ -17,7 +17,7 @@ OBJECT_NAME = "Brume voxels"
 
 
 def _read_quads(path):
-    """The points and faces of an OBJ of `brume voxelize`: `v` and `f` lines alone."""
+    """Reads points and faces of an OBJ file from `brume voxelize`, which has only `v` and `f` lines."""
     points, faces = [], []
     try:
         with open(path, encoding="ascii") as file:
@@ -28,18 +28,18 @@ def _read_quads(path):
                 elif words and words[0] == "f":
                     faces.append([int(word) - 1 for word in words[1:]])
                 elif words and not words[0].startswith("#"):
-                    raise BrumeError(f"{path}:{number}: expected the voxels that brume voxelize --obj writes")
+                    raise BrumeError(f"{path}:{number}: expected voxels written by brume voxelize --obj")
     except OSError as error:
         raise BrumeError(f"{path}: {error.strerror}") from error
     except ValueError as error:
-        raise BrumeError(f"{path}: expected the voxels that brume voxelize --obj writes: {error}") from error
+        raise BrumeError(f"{path}: expected voxels written by brume voxelize --obj: {error}") from error
     if not points or any(len(face) < 3 or not 0 <= min(face) <= max(face) < len(points) for face in faces):
-        raise BrumeError(f"{path}: expected the voxels that brume voxelize --obj writes")
+        raise BrumeError(f"{path}: expected voxels written by brume voxelize --obj")
     return np.array(points), faces
 
 
 def add_voxels(context, path):
-    """Adds the voxels as an object that is not exported, in Blender's axes and units."""
+    """Adds the voxels as an object with the role Not exported, in Blender's axes and units."""
     points, faces = _read_quads(path)
     points = points @ conversion.BRUME_FROM_BLENDER / conversion.metres_per_unit(context.scene)
     mesh = bpy.data.meshes.new(OBJECT_NAME)
@@ -54,7 +54,7 @@ def add_voxels(context, path):
 
 
 class BRUME_OT_voxels(JobOperator, bpy.types.Operator):
-    """Show the voxels of the scene that smoke stops at"""
+    """Show the voxels of the scene that block smoke"""
 
     bl_idname = "brume.voxels"
     bl_label = "Show Voxels"
@@ -68,14 +68,14 @@ class BRUME_OT_voxels(JobOperator, bpy.types.Operator):
         return ["voxelize", written, "--voxel", edge, "--obj", "voxels.obj", "--json", "-"]
 
     def finish(self, context, folder, out):
-        told = json.loads(out)
+        result = json.loads(out)
         voxels = add_voxels(context, os.path.join(folder, "voxels.obj"))
-        voxels["solid"] = told["solid"]
-        self.report({"INFO"}, "{} voxels of {}x{}x{} are solid".format(told["solid"], *told["grid"]))
+        voxels["solid"] = result["solid"]
+        self.report({"INFO"}, "{} voxels of {}x{}x{} are solid".format(result["solid"], *result["grid"]))
 
 
 class BRUME_OT_import_voxels(bpy.types.Operator, ImportHelper):
-    """Import the voxels that brume voxelize --obj wrote"""
+    """Import voxels written by brume voxelize --obj"""
 
     bl_idname = "brume.import_voxels"
     bl_label = "Import Brume Voxels"
