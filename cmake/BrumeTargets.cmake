@@ -63,15 +63,16 @@ function(brume_library name)
   brume_precompile(brume_${name} brume_headers)
 endfunction()
 
-# What the sources of tests have in common: Release and RelWithDebInfo builds optimize them little, since to compile
-# them is the longer part. What is tested keeps its optimization.
+# What the sources of tests have in common: they are optimized little, since to compile them is the longer part. Not at
+# all would be too little: under the sanitizers, tests then run four times as long. What is tested keeps its optimization.
+set(brume_test_optimization "$<$<CONFIG:Release,RelWithDebInfo>:-O1;-Wno-maybe-uninitialized>")
 function(brume_test_options target)
   if(NOT TARGET brume_test_headers)
     brume_precompiled(brume_test_headers ${brume_common_headers} <random> <gtest/gtest.h> LINKS GTest::gtest)
   endif()
   brume_precompile(${target} brume_test_headers)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
-  target_compile_options(${target} PRIVATE "$<$<CONFIG:Release,RelWithDebInfo>:-O1;-Wno-maybe-uninitialized>")
+  target_compile_options(${target} PRIVATE "${brume_test_optimization}")
 endfunction()
 
 # brume_test_library(NAME sources... LINKS libraries...): what several test programs use, compiled once.
