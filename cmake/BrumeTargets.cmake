@@ -1,12 +1,12 @@
-# Functions that declare the targets of the project.
+# One way to declare the targets of the house.
 include_guard(GLOBAL)
 
-# Options of all targets.
+# Options that every target shares.
 add_library(brume_options INTERFACE)
 target_compile_features(brume_options INTERFACE cxx_std_20)
 target_compile_options(brume_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
-# Identical rounding on every machine: no fused multiply-add, which g++ emits for a * b + c if the processor has it,
-# and which rounds once instead of twice (docs/determinism.md).
+# One rounding everywhere: no fused multiply-add, which g++ makes of a * b + c where the processor has one, and
+# which rounds once instead of twice (docs/determinism.md).
 target_compile_options(brume_options INTERFACE -ffp-contract=off)
 target_include_directories(brume_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/shaders)
 target_compile_definitions(brume_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_EXPLICIT_CTOR)
@@ -19,34 +19,33 @@ if(BRUME_PORTABLE)
   target_link_options(brume_options INTERFACE -static-libstdc++ -static-libgcc)
 endif()
 
-# Sources that run once per process, such as parsers: optimizing their templates costs more time than it saves.
-# Affects release builds only.
+# A scene file or a command line is read once: the templates of the readers cost more to optimize than they run.
+# Release builds only; a build without optimization stays one.
 function(brume_cold)
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
 endfunction()
 
-# Precompiles the external headers that nearly every file includes, once for all targets. Sources still include what
-# they use: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without. Off with ccache, which gets no hits with them, and for the
-# fuzzers, whose targets have flags of their own.
+# Headers of others that nearly every file reads, compiled once for all targets. A source still includes what it uses:
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without. Not with ccache, which would find nothing of such a file again,
+# and not where single targets have flags of their own, as the fuzzers do.
 if(BRUME_FUZZ OR CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 set(brume_common_headers <algorithm> <array> <bit> <cmath> <cstdint> <cstdio> <cstring> <filesystem> <functional>
     <limits> <map> <memory> <optional> <span> <string> <utility> <vector> <glm/glm.hpp>)
 
-# brume_precompiled(NAME headers... LINKS libraries...): precompiled headers for brume_precompile.
+# brume_precompiled(NAME headers... LINKS libraries...): what brume_precompile then gives to other targets.
 function(brume_precompiled name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS")
   set(source ${PROJECT_BINARY_DIR}/${name}.cpp)
-  file(CONFIGURE OUTPUT ${source} CONTENT "// CMake attaches the precompiled headers to this source.\n")
+  file(CONFIGURE OUTPUT ${source} CONTENT "// What CMake compiles the headers for.\n")
   add_library(${name} OBJECT ${source})
   target_link_libraries(${name} PRIVATE brume_options ${arg_LINKS})
   target_precompile_headers(${name} PRIVATE ${arg_UNPARSED_ARGUMENTS})
   target_compile_options(${name} PRIVATE -fPIC)
 endfunction()
 
-# brume_precompile(TARGET NAME): reuses precompiled headers. -fPIC for programs too: with CMake's -fPIE they would need
-# a second set of headers.
+# The property would compile programs with -fPIE, for which there would have to be a second set of headers.
 function(brume_precompile target name)
   target_compile_options(${target} PRIVATE -fPIC)
   target_precompile_headers(${target} REUSE_FROM ${name})
@@ -64,19 +63,16 @@ function(brume_library name)
   brume_precompile(brume_${name} brume_headers)
 endfunction()
 
-# What the sources of tests have in common: they are optimized little, under the sanitizers not at all, since to
-# compile them is the longer part. What is tested keeps its optimization.
-set(brume_test_optimization
-    "$<$<CONFIG:Release>:-O1;-Wno-maybe-uninitialized>" "$<$<CONFIG:Debug,RelWithDebInfo>:-O0>")
+# What the sources of tests have in common: they are optimized little, since to compile them is the longer part. Not at
+# all would be too little: under the sanitizers, tests then run four times as long. What is tested keeps its optimization.
+set(brume_test_optimization "$<$<CONFIG:Release,RelWithDebInfo>:-O1;-Wno-maybe-uninitialized>")
 function(brume_test_options target)
   if(NOT TARGET brume_test_headers)
     brume_precompiled(brume_test_headers ${brume_common_headers} <random> <gtest/gtest.h> LINKS GTest::gtest)
-    # Headers that were compiled with optimization are not taken without.
-    target_compile_options(brume_test_headers PRIVATE ${brume_test_optimization})
   endif()
   brume_precompile(${target} brume_test_headers)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
-  target_compile_options(${target} PRIVATE ${brume_test_optimization})
+  target_compile_options(${target} PRIVATE "${brume_test_optimization}")
 endfunction()
 
 # brume_test_library(NAME sources... LINKS libraries...): what several test programs use, compiled once.
@@ -88,14 +84,12 @@ function(brume_test_library name)
 endfunction()
 
 # brume_test(NAME sources... LINKS libraries... LABELS labels...): a GoogleTest program that CTest runs.
-# The label one_thread marks programs that use threads only through code that other tests cover; script/test skips them
-# under the thread sanitizer. COST is the approximate duration in seconds of slow tests, which start first. TIMEOUT only
-# ends tests that hang: a busy machine may take ten times as long as an idle one. A program is one CTest entry, because
-# creating a Vulkan device for every case would take longer than the cases.
+# The label one_thread is for programs that use no threads but through what others test: the thread sanitizer leaves
+# them out. COST is about how many seconds it takes where that is much: the long ones begin first. A program is one CTest entry: starting a Vulkan device for each case would cost more than the cases.
 function(brume_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;COST" "LINKS;LABELS")
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 1800)
+    set(arg_TIMEOUT 300)
   endif()
   if(NOT arg_COST)
     set(arg_COST 1)
