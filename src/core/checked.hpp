@@ -1,4 +1,4 @@
-// Sizes that come from files are multiplied and added here, in 64 bits, before anything is allocated.
+// Overflow-checked 64-bit arithmetic for sizes that come from files, used before anything is allocated.
 #pragma once
 
 #include <cstdint>

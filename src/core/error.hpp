@@ -1,5 +1,5 @@
-// What can go wrong, and how it travels: `Result<T>` for failures a caller expects (a file, an argument),
-// `Error` thrown by constructors for a broken environment, BRUME_ASSERT for mistakes of the programmer.
+// Error handling: `Result<T>` for expected failures (a file, an argument), `Error` thrown by constructors for
+// a broken environment, BRUME_ASSERT for programming errors.
 #pragma once
 
 #include <exception>
@@ -9,7 +9,7 @@
 
 namespace brume {
 
-/// Why an operation failed. The value is the exit code of the command line.
+/// The kind of a failure. Its value is the exit code of the command line.
 enum class ErrorCode : int {
   internal = 1,
   usage = 2,
@@ -20,7 +20,7 @@ enum class ErrorCode : int {
   comparison_failed = 7,
 };
 
-/// A failure in words: one line that names the place, what was expected and what would mend it.
+/// A failure with a message: one line that names the place, the expectation and the fix.
 struct Failure {
   ErrorCode code = ErrorCode::internal;
   std::string message;
@@ -43,7 +43,7 @@ class Error : public std::exception {
 [[noreturn]] void assertion_failed(const char* expression, const char* file, int line,
                                    const std::string& values);
 
-/// A value, or the reason why there is none.
+/// A value, or the failure that explains its absence.
 template <typename T>
 class [[nodiscard]] Result {
  public:
@@ -55,12 +55,12 @@ class [[nodiscard]] Result {
   T&& operator*() && { return std::move(value()); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &const_cast<Result*>(this)->value(); }
-  /// The reason. Only when there is no value.
+  /// The failure. Must only be called when there is no value.
   const Failure& failure() const {
     if (state_.index() != 1) assertion_failed("failure() of a Result with a value", __FILE__, __LINE__, "");
     return *std::get_if<1>(&state_);
   }
-  /// The value; throws the failure as `Error` where there is none.
+  /// The value; throws the failure as `Error` if there is none.
   T value_or_throw() && {
     if (state_.index() == 1) throw Error(failure());
     return std::move(value());
@@ -75,7 +75,7 @@ class [[nodiscard]] Result {
   std::variant<T, Failure> state_;
 };
 
-/// Success, or the reason of the failure.
+/// Success, or a failure.
 template <>
 class [[nodiscard]] Result<void> {
  public:
@@ -94,8 +94,8 @@ class [[nodiscard]] Result<void> {
 
 }  // namespace brume
 
-/// Stops the program with the expression and the values (a std::string) when a condition that the
-/// programmer promised does not hold. Checked in every build.
+/// Aborts the program, printing the expression and the values (a std::string), when an invariant does not
+/// hold. Checked in every build.
 #define BRUME_ASSERT(condition, values)                                                  \
   do {                                                                                   \
     if (!(condition)) ::brume::assertion_failed(#condition, __FILE__, __LINE__, values); \

@@ -12,23 +12,24 @@ namespace {
 
 Failure system_failure(const std::filesystem::path& path, const char* action, int error) {
   const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  std::string mend;
-  if (error == ENOENT) mend = "; check the path";
-  if (error == EACCES || error == EPERM || error == EROFS) mend = "; check its permissions";
-  if (full) mend = "; free some space or choose another folder";
+  std::string fix;
+  if (error == ENOENT) fix = "; check the path";
+  if (error == EACCES || error == EPERM || error == EROFS) fix = "; check its permissions";
+  if (full) fix = "; free some space or choose another folder";
   return {full ? ErrorCode::resource_limit : ErrorCode::bad_input,
-          path.string() + ": cannot " + action + ": " + std::strerror(error) + mend};
+          path.string() + ": cannot " + action + ": " + std::strerror(error) + fix};
 }
 
 struct Descriptor {
   int value = -1;
   ~Descriptor() {
-    if (value >= 0) ::close(value);  // Only read from: nothing is lost when closing fails.
+    if (value >= 0) ::close(value);  // Read-only: errors lose no data.
   }
 };
 
 template <typename Container>
 Result<Container> read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
+  // Open the file and check its type and size.
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.value < 0) return system_failure(path, "open", errno);
   struct stat info {};
@@ -41,13 +42,15 @@ Result<Container> read_whole(const std::filesystem::path& path, std::uint64_t ma
                                                   " bytes, at most " + std::to_string(max_bytes) +
                                                   " are read"};
   }
+
+  // Read it.
   Container bytes(size, {});
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t got = ::read(file.value, bytes.data() + done, bytes.size() - done);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return system_failure(path, "read", errno);
-    if (got == 0) break;  // It shrank since fstat: what is there is the file.
+    if (got == 0) break;  // The file has shrunk since fstat.
     done += static_cast<std::size_t>(got);
   }
   bytes.resize(done);

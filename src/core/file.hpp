@@ -1,4 +1,4 @@
-// Whole files in, whole files out. A reader never sees a half-written file.
+// Reads and writes whole files. Readers never see a half-written file.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +20,11 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
 /// The same as text.
 Result<std::string> read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1ull << 28);
 
-/// A file that appears under its name only when it is complete: bytes go to a temporary name in the same
-/// folder; `commit` syncs and renames. Without a commit the destructor removes the temporary.
+/// A file that appears under its name only when it is complete: bytes go to a temporary file in the same
+/// folder; `commit` syncs and renames it. Without a commit the destructor removes it.
 class AtomicFile {
  public:
-  /// Opens the temporary. Fails with bad_input when the folder does not exist or is not writable.
+  /// Opens the temporary file. Fails with bad_input when the folder does not exist or is not writable.
   static Result<AtomicFile> open(const std::filesystem::path& path);
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&&) = delete;
@@ -32,9 +32,9 @@ class AtomicFile {
 
   /// Appends bytes. Fails with resource_limit when the disk is full.
   Result<void> write(std::span<const std::byte> bytes);
-  /// Syncs the bytes to disk and gives the file its name.
+  /// Syncs the bytes to disk and gives the file its final name.
   Result<void> commit();
-  /// The name the bytes have until the commit, for programs that write the file themselves.
+  /// The path until the commit, for programs that write the file themselves.
   const std::filesystem::path& temporary_path() const { return temporary_; }
 
  private:

@@ -1,6 +1,6 @@
 #include "core/hash.hpp"
 
-// The whole of xxHash from its header: a server needs no library of it.
+// All of xxHash from its header: a server does not need the library.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

@@ -1,4 +1,4 @@
-// The library's one way to speak: a callback that the program installs. Silent until then.
+// The library's log output: a callback that the program installs. Silent until then.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,8 @@ enum class LogLevel { info, warning };
 
 using LogCallback = std::function<void(LogLevel, const std::string&)>;
 
-/// Installs the callback that receives every line; an empty one silences the library.
-/// The callback may be called from any thread, one call at a time.
+/// Installs the callback that receives every line; an empty one silences the library. It may be called from
+/// any thread, one call at a time.
 void set_log_callback(LogCallback callback);
 
 void log_info(const std::string& line);

@@ -1,4 +1,4 @@
-// How far a long job is: done of total, rate, time left. The job counts, the program shows.
+// Progress of a long job: done of total, rate, remaining time. The job counts, the program displays.
 #pragma once
 
 #include <chrono>
@@ -12,12 +12,12 @@ namespace brume {
 class Progress {
  public:
   struct State {
-    std::string name;  ///< What is being done: "voxelize", "frames".
+    std::string name;  ///< Name of the job: "voxelize", "frames".
     std::uint64_t done = 0;
-    std::uint64_t total = 0;  ///< 0: not known.
-    double seconds = 0;       ///< Since the job began.
+    std::uint64_t total = 0;  ///< 0: unknown.
+    double seconds = 0;       ///< Since the start of the job.
     double rate() const { return seconds > 0 ? static_cast<double>(done) / seconds : 0; }
-    /// Seconds until done = total at the present rate; negative: not known yet.
+    /// Seconds until done = total at the present rate; negative: not yet known.
     double seconds_left() const;
   };
   using Callback = std::function<void(const State&)>;

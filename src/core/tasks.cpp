@@ -31,6 +31,7 @@ void parallel_for(std::size_t count, std::size_t grain,
   std::exception_ptr failure;
   std::mutex failure_mutex;
 
+  // Each thread takes ranges until none remain.
   const auto work = [&] {
     try {
       for (;;) {
@@ -41,10 +42,11 @@ void parallel_for(std::size_t count, std::size_t grain,
     } catch (...) {
       const std::lock_guard lock(failure_mutex);
       if (!failure) failure = std::current_exception();
-      next = count;  // The others stop at their next range.
+      next = count;  // The other threads stop at their next range.
     }
   };
 
+  // Run it on the helpers and on this thread.
   const std::size_t ranges = (count + grain - 1) / grain;
   const std::size_t helpers = std::min<std::size_t>(thread_count(), ranges) - 1;
   {

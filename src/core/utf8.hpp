@@ -1,4 +1,4 @@
-// Characters of texts.
+// UTF-8 decoding.
 #pragma once
 
 #include <optional>
@@ -6,11 +6,11 @@
 
 namespace brume {
 
-/// The first character of a text, taken off it; nothing, and nothing taken, when it is no UTF-8 (RFC 3629).
-/// The text must not be empty.
+/// Removes and returns the first character of a text; nothing, and no change, when it is not valid UTF-8 (RFC
+/// 3629). The text must not be empty.
 std::optional<char32_t> take_character(std::string_view& text);
 
-/// Whether all of a text is UTF-8; the empty one is.
+/// Whether a text is valid UTF-8; the empty one is.
 bool is_utf8(std::string_view text);
 
 }  // namespace brume

@@ -29,7 +29,7 @@ Result<void> check_size(std::uint64_t width, std::uint64_t height, const std::st
   if (width > kMaxAxis || height > kMaxAxis) {
     return Failure{ErrorCode::resource_limit, name + ": the picture is " + size + ", at most " +
                                                   std::to_string(kMaxAxis) +
-                                                  " texels per axis are taken; scale it down"};
+                                                  " texels per axis are accepted; scale it down"};
   }
   return {};
 }

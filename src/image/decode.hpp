@@ -1,4 +1,4 @@
-// Picture files in: PNG and JPEG, told apart by their first bytes.
+// Decodes image files: PNG and JPEG, distinguished by their first bytes.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@
 namespace brume::image {
 
 /// Decodes a PNG (any colour type and depth, 16 bits are rounded down to 8) or a JPEG (grey or colour) to
-/// 8-bit RGBA. Sizes are checked before anything is allocated: at most kMaxAxis texels per axis. `name` is
-/// what error messages call the bytes. Fails with bad_input when they are neither, damaged or cut short, and
-/// with resource_limit when the picture is too large.
+/// 8-bit RGBA. Sizes are checked before anything is allocated: at most kMaxAxis texels per axis. `name` names
+/// the bytes in error messages. Fails with bad_input when they are neither, damaged or truncated, and with
+/// resource_limit when the picture is too large.
 Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads and decodes a file.

@@ -10,18 +10,18 @@
 namespace brume::image {
 namespace {
 
-// A progressive file of few bytes can ask for any number of passes over all texels.
+// A small progressive file can request any number of passes over all texels.
 constexpr int kMaxScans = 200;
 
-// libjpeg reports errors by a function that must not return: it jumps back to where decoding began. All
-// that owns memory lives in this struct, outside the frames that are jumped over.
+// libjpeg reports errors by a function that must not return: it jumps back to the start of decoding.
+// Everything that owns memory lives in this struct, outside of the stack frames that the jump discards.
 struct Decoder {
   jpeg_decompress_struct jpeg{};
   jpeg_error_mgr errors{};
   jpeg_progress_mgr progress{};
   std::jmp_buf start;
   char message[JMSG_LENGTH_MAX] = {};
-  const char* reason = nullptr;  // Set where the reason is ours, not libjpeg's.
+  const char* reason = nullptr;  // Set when the failure is ours, not libjpeg's.
   Image8 image;
   Result<void> size;
 
@@ -40,7 +40,7 @@ Decoder& decoder_of(j_common_ptr common) {
   std::longjmp(decoder.start, 1);
 }
 
-// Warnings: libjpeg would paint what is missing grey and go on.
+// Warnings about missing data become errors: libjpeg would fill the gap with grey and continue.
 void on_message(j_common_ptr common, int level) {
   if (level >= 0) return;
   const int code = common->err->msg_code;
@@ -54,7 +54,7 @@ void on_progress(j_common_ptr common) {
   std::longjmp(decoder.start, 1);
 }
 
-// Decodes the whole picture, or sets `size` to why not, or jumps. No local that is alive while libjpeg works
+// Decodes the whole picture, or sets `size` to a failure, or jumps. No local that is alive while libjpeg runs
 // may own anything: longjmp runs no destructors.
 [[gnu::noinline]] void decode_rows(Decoder& decoder, std::span<const std::byte> bytes,
                                    const std::string& name) {
@@ -79,8 +79,8 @@ void on_progress(j_common_ptr common) {
   jpeg_finish_decompress(jpeg);
 }
 
-// False when libjpeg failed. Apart from decode_rows, so that the frame that is jumped back to has no locals
-// that the jump could spoil.
+// False when libjpeg failed. Separate from decode_rows, so that the stack frame of setjmp has no locals that
+// the jump could clobber.
 bool try_to_decode(Decoder& decoder, std::span<const std::byte> bytes, const std::string& name) {
   if (setjmp(decoder.start) != 0) return false;
   decode_rows(decoder, bytes, name);
@@ -99,7 +99,7 @@ Result<Image8> decode_jpeg(std::span<const std::byte> bytes, const std::string& 
   const bool decoded = try_to_decode(decoder, bytes, name);
   if (!decoder.size) return decoder.size.failure();
   if (decoded) return std::move(decoder.image);
-  return Failure{ErrorCode::bad_input, name + ": not a whole JPEG file that can be shown: " +
+  return Failure{ErrorCode::bad_input, name + ": not a complete, supported JPEG file: " +
                                            (decoder.reason ? decoder.reason : decoder.message)};
 }
 

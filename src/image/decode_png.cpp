@@ -8,7 +8,7 @@
 namespace brume::image {
 namespace {
 
-// Deflate cannot make more than 1032 bytes out of one: a shorter file cannot hold the texels it announces.
+// Deflate expands a byte to at most 1032: a shorter file cannot hold the texels it declares.
 constexpr std::uint64_t kMaxInflation = 1032;
 constexpr std::size_t kMaxChunkBytes = std::size_t{64} << 20;
 
@@ -17,7 +17,7 @@ struct FreeContext {
 };
 
 Failure png_failure(const std::string& name, const char* reason) {
-  return {ErrorCode::bad_input, name + ": not a whole, valid PNG file: " + reason + "; save it again"};
+  return {ErrorCode::bad_input, name + ": not a complete, valid PNG file: " + reason + "; save it again"};
 }
 
 std::uint64_t big_endian(std::span<const std::byte> bytes) {
@@ -26,8 +26,8 @@ std::uint64_t big_endian(std::span<const std::byte> bytes) {
   return value;
 }
 
-// Whether the file goes on to its end marker, which libspng does not ask for. A chunk is its length, a type
-// of four letters, the data and a sum of four bytes.
+// Whether the file extends to its end marker, which libspng does not check. A chunk is its length, a type of
+// four letters, the data and a four-byte checksum.
 bool has_end(std::span<const std::byte> bytes) {
   constexpr std::uint64_t kIend = 0x49454e44;
   std::uint64_t at = 8;
@@ -45,7 +45,7 @@ Result<Image8> decode_png(std::span<const std::byte> bytes, const std::string& n
   if (!context) return Failure{ErrorCode::resource_limit, name + ": out of memory"};
   const auto failed = [&](int error) { return png_failure(name, spng_strerror(error)); };
 
-  // Limits first: they hold while the header is read.
+  // Set the limits first: they apply while the header is read.
   spng_set_image_limits(context.get(), 0x7fffffff, 0x7fffffff);
   spng_set_chunk_limits(context.get(), kMaxChunkBytes, kMaxChunkBytes);
   if (const int error = spng_set_png_buffer(context.get(), bytes.data(), bytes.size())) return failed(error);

@@ -1,4 +1,4 @@
-// FLIP for pictures of low dynamic range: Andersson et al. 2020, "FLIP: A Difference Evaluator for
+// FLIP for low dynamic range images: Andersson et al. 2020, "FLIP: A Difference Evaluator for
 // Alternating Images".
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The paper's constants: exponents of the colour and the feature difference, where the colour difference
-// bends, and the width of a feature [degrees].
+// The paper's constants: exponents of the colour and the feature difference, the knee of the colour
+// difference, and the width of a feature [degrees].
 constexpr double kColourExponent = 0.7, kBendAt = 0.4, kBendTo = 0.95, kFeatureExponent = 0.5,
                  kFeatureWidth = 0.082;
 
@@ -49,7 +49,7 @@ glm::dvec3 rgb_from_opponent(glm::dvec3 c) {
   return kRgbFromXyz * (glm::dvec3(y + c.y / 500, y, y - c.z / 200) * kWhite);
 }
 
-// CIELAB with the effect that colours fade as they darken (Hunt).
+// CIELAB with the Hunt effect: colours fade as they darken.
 glm::dvec3 hunt_lab_from_rgb(glm::dvec3 rgb) {
   const glm::dvec3 v = kXyzFromRgb * rgb / kWhite;
   const auto f = [](double t) {
@@ -60,7 +60,7 @@ glm::dvec3 hunt_lab_from_rgb(glm::dvec3 rgb) {
   return {lightness, 0.01 * lightness * 500 * (f(v.x) - f(v.y)), 0.01 * lightness * 200 * (f(v.y) - f(v.z))};
 }
 
-// Abasi et al. 2020: city blocks in lightness, straight in colour.
+// Abasi et al. 2020: city-block distance in lightness, Euclidean in chromaticity.
 double hyab(glm::dvec3 a, glm::dvec3 b) {
   return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
@@ -85,7 +85,7 @@ Kernel kernel(int radius, const Weight& weight) {
   return weights;
 }
 
-// Along x by one kernel, along y by another.
+// A separable filter: one kernel along x, another along y.
 template <typename T>
 Field<T> filtered(const Field<T>& in, const Kernel& across, const Kernel& down) {
   const int radius = static_cast<int>(across.size()) / 2;
@@ -108,7 +108,7 @@ Field<T> filtered(const Field<T>& in, const Kernel& across, const Kernel& down) 
   return out;
 }
 
-// What the eye resolves of a picture, in CIELAB.
+// The image filtered by contrast sensitivity, in CIELAB.
 Field<glm::dvec3> seen(const Field<glm::dvec3>& opponent, double pixels_per_degree) {
   const int radius =
       static_cast<int>(std::ceil(3 * std::sqrt(kBlueYellow.b / (2 * kPi * kPi)) * pixels_per_degree));
@@ -135,7 +135,7 @@ Field<glm::dvec3> seen(const Field<glm::dvec3>& opponent, double pixels_per_degr
   return lab;
 }
 
-// How strong edges and points are: lengths of the first and the second derivatives.
+// The strength of edges and points: magnitudes of the first and second derivatives.
 struct Features {
   std::vector<double> edges, points;
 };
@@ -144,7 +144,7 @@ Features features(const Field<double>& lightness, double pixels_per_degree) {
   const double deviation = 0.5 * kFeatureWidth * pixels_per_degree, square = deviation * deviation;
   const int radius = static_cast<int>(std::ceil(3 * deviation));
   const auto bell = [&](double i) { return std::exp(-i * i / (2 * square)); };
-  // Each derivative so that what it adds weighs 1, and what it takes away too.
+  // Normalize each derivative: its positive weights sum to 1, its negative ones to -1.
   const auto balanced = [](Kernel weights) {
     double plus = 0, minus = 0;
     for (const double w : weights) (w > 0 ? plus : minus) += std::abs(w);
@@ -188,7 +188,7 @@ Seen look_at(const Image8& picture, double pixels_per_degree) {
 Plane flip(const Image8& reference, const Image8& test, double pixels_per_degree) {
   BRUME_ASSERT(reference.width == test.width && reference.height == test.height, "pictures of two sizes");
   const Seen a = look_at(reference, pixels_per_degree), b = look_at(test, pixels_per_degree);
-  // Green and blue are the two colours of a screen that are furthest apart.
+  // Green and blue are the most distant colours of a screen.
   const double most =
       std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), kColourExponent);
   const double bend = kBendAt * most;

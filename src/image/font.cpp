@@ -16,7 +16,7 @@ namespace brume::image {
 namespace {
 
 constexpr std::uint64_t kMaxFontBytes = std::uint64_t{1} << 26;
-/// A stroke of a bold letter is then about 20 texels wide.
+/// The stroke of a bold letter is about 20 texels wide at this size.
 constexpr FT_UInt kTexelsPerEm = 96;
 /// Largest side of a glyph: some fonts have ornaments many ems wide.
 constexpr std::uint32_t kMaxGlyphSide = 1024;
@@ -27,7 +27,7 @@ std::string name_of(char32_t character) {
   return text;
 }
 
-/// Puts a bitmap of FreeType in the middle of a square.
+/// Centres a FreeType bitmap in a square.
 void centre(const FT_GlyphSlot slot, Glyph& glyph, float texels_per_cap) {
   const FT_Bitmap& bitmap = slot->bitmap;
   glyph.side = std::max(bitmap.width, bitmap.rows) + 2;
@@ -47,7 +47,7 @@ void centre(const FT_GlyphSlot slot, Glyph& glyph, float texels_per_cap) {
 }  // namespace
 
 struct Font::Face {
-  std::vector<std::byte> bytes;  // FreeType reads them while the face is there
+  std::vector<std::byte> bytes;  // read by FreeType during the face's lifetime
   std::string name;
   FT_Library library = nullptr;
   FT_Face face = nullptr;
@@ -63,7 +63,7 @@ struct Font::Face {
 
   Failure bad(const std::string& what) const { return {ErrorCode::bad_input, name + ": " + what}; }
 
-  /// Height of a capital letter, or where there is none, what stands above the base line.
+  /// Height of a capital letter, or without one, the ascender.
   float cap_height() const {
     if (FT_Load_Char(face, 'H', FT_LOAD_NO_HINTING) == 0 && face->glyph->metrics.horiBearingY > 0)
       return static_cast<float>(face->glyph->metrics.horiBearingY) / 64;
@@ -92,7 +92,7 @@ Result<Font> Font::open(std::vector<std::byte> bytes, const std::string& name) {
   face->bytes = std::move(bytes);
   face->name = name;
   if (FT_Init_FreeType(&face->library) != 0)
-    return Failure{ErrorCode::internal, name + ": FreeType does not start"};
+    return Failure{ErrorCode::internal, name + ": cannot initialize FreeType"};
   const auto* data = reinterpret_cast<const FT_Byte*>(face->bytes.data());
   if (FT_New_Memory_Face(face->library, data, static_cast<FT_Long>(face->bytes.size()), 0, &face->face) != 0)
     return face->bad("not a font that FreeType reads, or damaged; expected a TrueType or OpenType file");
@@ -117,8 +117,8 @@ Result<Glyph> Font::glyph(char32_t character) {
   Glyph glyph;
   if (FT_Load_Glyph(face, *index, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0 ||
       face->glyph->format != FT_GLYPH_FORMAT_OUTLINE)
-    return face_->bad("the glyph of " + name_of(character) + " is damaged or no outline");
-  // FreeType rasterizes what it is given, however large: look first.
+    return face_->bad("the glyph of " + name_of(character) + " is damaged or not an outline");
+  // FreeType rasterizes glyphs of any size: check it first.
   FT_BBox box;
   FT_Outline_Get_CBox(&face->glyph->outline, &box);
   constexpr FT_Pos kMost = FT_Pos{kMaxGlyphSide - 4} * 64;
@@ -139,7 +139,7 @@ Result<std::vector<PlacedLetter>> Font::row(std::string_view text, float spacing
   float pen = 0;
   while (!text.empty()) {
     const auto character = take_character(text);
-    if (!character) return Failure{ErrorCode::bad_input, "the text is no UTF-8"};
+    if (!character) return Failure{ErrorCode::bad_input, "the text is not valid UTF-8"};
     if (*character < 0x20 || *character == 0x7f)
       return Failure{ErrorCode::bad_input, "the text has the control character " + name_of(*character) +
                                                "; expected one line of letters"};
@@ -152,7 +152,7 @@ Result<std::vector<PlacedLetter>> Font::row(std::string_view text, float spacing
       return face_->bad("the glyph of " + name_of(*character) + " is damaged");
     if (before != 0) pen += static_cast<float>(kerning.x) / 64 / face_->texels_per_cap + spacing;
     letters.push_back({*character, pen});
-    // Advances without hinting, in 1/65536 texels: those of FT_GlyphSlot::advance are whole texels.
+    // Unhinted advances in 1/65536 texel: FT_GlyphSlot::advance is rounded to whole texels.
     pen += static_cast<float>(face->glyph->linearHoriAdvance) / 65536 / face_->texels_per_cap;
     before = *index;
   }

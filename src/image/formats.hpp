@@ -1,4 +1,4 @@
-// The decoders behind decode_image, one a format.
+// The decoders behind decode_image, one per format.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace brume::image {
 Result<Image8> decode_png(std::span<const std::byte> bytes, const std::string& name);
 Result<Image8> decode_jpeg(std::span<const std::byte> bytes, const std::string& name);
 
-/// Refuses pictures without texels and with more than kMaxAxis per axis.
+/// Fails for images without texels (bad_input) or with more than kMaxAxis per axis (resource_limit).
 Result<void> check_size(std::uint64_t width, std::uint64_t height, const std::string& name);
 
 }  // namespace brume::image

@@ -1,4 +1,4 @@
-// Pictures in memory: what files are decoded to and encoded from.
+// Images in memory: the result of decoding and the input of encoding.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace brume::image {
 
-/// Most texels per axis that a file may have.
+/// Maximum number of texels per axis of an image file.
 constexpr std::uint32_t kMaxAxis = 16384;
 
 /// 8-bit RGBA, rows from the top, width * height * 4 bytes.

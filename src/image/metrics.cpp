@@ -14,7 +14,7 @@ namespace {
 constexpr int kWindow = 11, kHalf = kWindow / 2;
 constexpr double kWindowDeviation = 1.5, kK1 = 0.01, kK2 = 0.03;
 
-// What of an axis the middles of windows cover.
+// The range of window centres along an axis.
 struct Span {
   int begin, end;
 };
@@ -55,11 +55,11 @@ Difference difference(std::span<const float> a, std::span<const float> b) {
   Difference result;
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    double apart = std::abs(double{a[i]} - double{b[i]});
-    if (!std::isfinite(apart)) apart = std::numeric_limits<double>::infinity();
-    result.max = std::max(result.max, apart);
-    sum += apart;
-    squares += apart * apart;
+    double distance = std::abs(double{a[i]} - double{b[i]});
+    if (!std::isfinite(distance)) distance = std::numeric_limits<double>::infinity();
+    result.max = std::max(result.max, distance);
+    sum += distance;
+    squares += distance * distance;
   }
   if (a.empty()) return result;
   result.mean = sum / static_cast<double>(a.size());

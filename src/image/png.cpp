@@ -44,6 +44,7 @@ Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::u
   const std::vector<Value> rgb = has_alpha ? std::vector<Value>() : without_alpha(rgba);
   const std::vector<Value>& values = has_alpha ? rgba : rgb;
 
+  // Encode into memory.
   const std::unique_ptr<spng_ctx, FreeContext> context(spng_ctx_new(SPNG_CTX_ENCODER));
   const auto failed = [&](int error) {
     return Failure{ErrorCode::internal, path.string() + ": cannot encode the PNG: " + spng_strerror(error)};
@@ -61,6 +62,8 @@ Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::u
                                           SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE)) {
     return failed(error);
   }
+
+  // Write the file.
   std::size_t size = 0;
   int error = 0;
   const std::unique_ptr<void, FreeBytes> bytes(spng_get_png_buffer(context.get(), &size, &error));

@@ -1,4 +1,4 @@
-// PNG files out.
+// Writes PNG files.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct Image16 {
   std::vector<std::uint16_t> rgba;
 };
 
-/// Writes the picture as sRGB PNG: RGB when every texel is opaque, else RGBA. The file appears under its name
-/// only when it is complete. Fails with bad_input when the folder does not exist and with resource_limit when
-/// the disk is full.
+/// Writes an sRGB PNG: RGB when every texel is opaque, otherwise RGBA. The file appears under its name only
+/// when it is complete. Fails with bad_input when the folder does not exist and with resource_limit when the
+/// disk is full.
 Result<void> save_png(const std::filesystem::path& path, const Image8& image);
 Result<void> save_png(const std::filesystem::path& path, const Image16& image);
 

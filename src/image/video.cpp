@@ -44,7 +44,7 @@ class Descriptor {
 std::vector<std::string> ffmpeg_arguments(const VideoOptions& options, const std::string& output) {
   const std::string rate = std::to_string(options.frames_per_second);
   const std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
-  // Told in full, because players guess BT.601 or BT.709 by the picture's size.
+  // Explicit, because players guess BT.601 or BT.709 by the image size.
   const std::string to_bt709 = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int";
   return {"ffmpeg",      "-nostdin",   "-hide_banner", "-loglevel", "error",
           "-xerror",     "-f",         "rawvideo",     "-pix_fmt",  "rgb24",
@@ -71,7 +71,7 @@ struct VideoWriter::Encoder {
   VideoOptions options;
   AtomicFile file;
   Descriptor frames;    // Our end of ffmpeg's standard input.
-  Descriptor messages;  // What ffmpeg says: a file in memory, which unlike a pipe never fills up.
+  Descriptor messages;  // ffmpeg's messages: a file in memory, which unlike a pipe never fills up.
   pid_t process = -1;
   std::vector<std::uint8_t> rgb;
 
@@ -86,14 +86,14 @@ struct VideoWriter::Encoder {
 
   Result<void> start();
   int wait_for_end();
-  /// The end of what ffmpeg has said.
-  std::string said() const;
-  /// What went wrong, after the end of ffmpeg.
+  /// The end of ffmpeg's messages.
+  std::string last_messages() const;
+  /// The failure, once ffmpeg has exited.
   Failure stopped(int status) const;
 };
 
 Result<void> VideoWriter::Encoder::start() {
-  // A socket pair instead of a pipe: writing to it can be told not to raise SIGPIPE.
+  // A socket pair instead of a pipe: MSG_NOSIGNAL avoids SIGPIPE.
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return Failure{ErrorCode::resource_limit,
@@ -103,17 +103,19 @@ Result<void> VideoWriter::Encoder::start() {
   const Descriptor child_end(ends[1]);
   messages = Descriptor(::memfd_create("messages", MFD_CLOEXEC));
 
+  // The child's standard input, output and error.
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, child_end.get(), STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, messages.get(), STDERR_FILENO);
-  // Its own process group: Ctrl-C reaches us alone, and we stop it.
+  // Its own process group: Ctrl-C reaches only us, and we stop it.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(&attributes, 0);
 
+  // Start it.
   std::vector<std::string> arguments = ffmpeg_arguments(options, "file:" + file.temporary_path().string());
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);
@@ -140,7 +142,7 @@ int VideoWriter::Encoder::wait_for_end() {
   return status;
 }
 
-std::string VideoWriter::Encoder::said() const {
+std::string VideoWriter::Encoder::last_messages() const {
   std::string text(4096, '\0');
   const off_t length = ::lseek(messages.get(), 0, SEEK_END);
   const off_t begin = std::max<off_t>(0, length - static_cast<off_t>(text.size()));
@@ -150,7 +152,7 @@ std::string VideoWriter::Encoder::said() const {
 }
 
 Failure VideoWriter::Encoder::stopped(int status) const {
-  const std::string text = said();
+  const std::string text = last_messages();
   std::string reason = last_line(text);
   bool full = WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ;
   for (const int error : {ENOSPC, EDQUOT, EFBIG})
@@ -204,10 +206,10 @@ Result<void> VideoWriter::add_frame(const Image8& frame) {
 
 Result<void> VideoWriter::finish() {
   BRUME_ASSERT(encoder_ && encoder_->process > 0, "after finish or a failure");
-  encoder_->frames.close();  // The end of its input: ffmpeg writes the rest and ends.
+  encoder_->frames.close();  // End of input: ffmpeg completes the file and exits.
   const int status = encoder_->wait_for_end();
-  // An error that ffmpeg tells of counts even when its exit code does not.
-  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && encoder_->said().empty();
+  // An error message counts even when the exit code is 0.
+  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && encoder_->last_messages().empty();
   if (!well) return encoder_->stopped(status);
   return encoder_->file.commit();
 }

@@ -1,4 +1,4 @@
-// Films out: frames go down a pipe to the `ffmpeg` program, which encodes H.264 in an MP4 file.
+// Writes videos: pipes frames to the `ffmpeg` program, which encodes H.264 in an MP4 file.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 namespace brume::image {
 
 struct VideoOptions {
-  std::uint32_t width = 0, height = 0;  ///< Texels; even, because the format halves its colour planes.
+  std::uint32_t width = 0, height = 0;  ///< Texels; even, because of 4:2:0 chroma subsampling.
   std::uint32_t frames_per_second = 24;
-  unsigned threads = 0;  ///< That ffmpeg may use; 0: as many as it likes.
+  unsigned threads = 0;  ///< Threads of ffmpeg; 0: its own choice.
 };
 
-/// Writes one film. The file appears under its name only after a successful `finish`; a writer that is
-/// destroyed before that stops ffmpeg and leaves nothing behind.
+/// Writes one video. The file appears under its name only after a successful `finish`; a writer destroyed
+/// before that stops ffmpeg and leaves no file.
 class VideoWriter {
  public:
   /// Starts ffmpeg. Fails with usage when a side is odd or zero, with bad_input when the folder does not
@@ -27,11 +27,11 @@ class VideoWriter {
   VideoWriter& operator=(VideoWriter&&) = delete;
   ~VideoWriter();
 
-  /// Appends a frame of the film's size; its alpha is ignored. Waits while ffmpeg is behind. When ffmpeg has
-  /// ended, fails with the last line that it said.
+  /// Appends a frame of the video's size; its alpha is ignored. Blocks while ffmpeg is busy. If ffmpeg has
+  /// exited, fails with the last line of its output.
   Result<void> add_frame(const Image8& frame);
 
-  /// Ends the film and gives the file its name. Fails when ffmpeg did.
+  /// Ends the video and gives the file its name. Fails if ffmpeg failed.
   Result<void> finish();
 
  private:

@@ -6,16 +6,15 @@
 namespace brume::scene {
 namespace {
 
-/// The speed at the middle one of three keys: that of the parabola through them (Catmull-Rom for keys at
-/// uneven times).
+/// The velocity at the middle of three keys: that of the parabola through them (non-uniform Catmull-Rom).
 glm::dvec3 parabola_speed(const double (&time)[3], const glm::dvec3 (&value)[3]) {
   const double before = time[1] - time[0], after = time[2] - time[1];
   return ((value[1] - value[0]) * (after / before) + (value[2] - value[1]) * (before / after)) /
          (before + after);
 }
 
-/// The speed that never overshoots: the weighted harmonic mean of the slopes on both sides, zero where they
-/// disagree in sign (Fritsch and Butland 1984).
+/// A velocity without overshoot: the weighted harmonic mean of the slopes on both sides, zero where their
+/// signs differ (Fritsch and Butland 1984).
 double monotone_speed(const double (&time)[3], const double (&value)[3]) {
   const double before = time[1] - time[0], after = time[2] - time[1];
   const double slope_before = (value[1] - value[0]) / before, slope_after = (value[2] - value[1]) / after;
@@ -50,7 +49,7 @@ class Path {
     camera.vertical_fov =
         static_cast<float>(hermite(double{begin.camera.vertical_fov}, double{end.camera.vertical_fov},
                                    fov_speed(span), fov_speed(span + 1), seconds, s));
-    // Paths of position and target may cross: looking where the span began is better than nowhere.
+    // Position and target may coincide where their paths cross: keep the direction of the span's start.
     if (glm::distance(camera.position_world, camera.target_world) < 1e-4f)
       camera.target_world = camera.position_world + begin.camera.target_world - begin.camera.position_world;
     return camera;

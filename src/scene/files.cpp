@@ -21,7 +21,7 @@ std::string forward_slashes(std::string name) {
   return name;
 }
 
-/// The entry of the folder whose name differs from `wanted` at most in letter case.
+/// The entry of the folder whose name equals `wanted` except for letter case.
 std::optional<std::string> matching_entry(const std::filesystem::path& folder, const std::string& wanted) {
   std::error_code error;
   if (std::filesystem::exists(folder / wanted, error)) return wanted;

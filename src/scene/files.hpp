@@ -1,5 +1,5 @@
-// The files that a scene names: meshes, textures, buffers. Loaders see them only through this interface, so
-// that the same code reads a folder and, in tests, memory.
+// The files that a scene refers to: meshes, textures, buffers. Loaders access them only through this
+// interface, so that the same code reads a folder and, in tests, memory.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,17 @@
 
 namespace brume::scene {
 
-/// True when the name stays below the folder it is relative to: not empty, not absolute, no "..", no drive
-/// letter, no control byte. Both slashes count as separators.
+/// True for a relative path that cannot leave its folder: not empty, not absolute, no "..", no drive letter,
+/// no control byte. Both slashes count as separators.
 bool is_safe_relative(const std::string& name);
 
 class SceneFiles {
  public:
   virtual ~SceneFiles() = default;
-  /// The name under which the file exists, or nothing. Where the exact name is missing, a file whose name
-  /// differs only in letter case is taken (the first in byte order). Unsafe names exist nowhere.
+  /// The actual name of the file, or nothing. Without an exact match, returns a file whose name differs only
+  /// in letter case (the first in byte order). Unsafe names never match.
   virtual std::optional<std::string> find(const std::string& name) const = 0;
-  /// Reads a file that `find` gave.
+  /// Reads a file by a name that `find` returned.
   virtual Result<std::vector<std::byte>> read(const std::string& found) const = 0;
 };
 
@@ -39,7 +39,7 @@ class FolderFiles : public SceneFiles {
   std::filesystem::path folder_;
 };
 
-/// Files in memory, by their names.
+/// Files in memory, by name.
 class MemoryFiles : public SceneFiles {
  public:
   std::map<std::string, std::vector<std::byte>> files;

@@ -26,7 +26,7 @@ glm::dmat4 local_matrix(const tinygltf::Node& node) {
   return result;
 }
 
-/// Where the node's -z points in the world.
+/// The node's -z direction in world space.
 glm::vec3 forward(const glm::dmat4& world_from_node) {
   const glm::dvec3 direction = -glm::dvec3(world_from_node[2]);
   const double length = glm::length(direction);
@@ -51,7 +51,7 @@ class GltfLoader {
   }
 
  private:
-  /// What a node hands down to its children.
+  /// State that a node passes on to its children.
   struct Visit {
     int node = 0;
     glm::dmat4 world_from_parent{1};
@@ -63,8 +63,9 @@ class GltfLoader {
       const std::string& name = model_.extensionsRequired[i];
       if (name != "KHR_lights_punctual" && name != "KHR_mesh_quantization" &&
           name != "KHR_texture_transform" && !name.starts_with("KHR_materials_")) {
-        document_.fail(document_.place("extensionsRequired", i),
-                       "the file needs the extension " + name + ", which is not known; export it without");
+        document_.fail(
+            document_.place("extensionsRequired", i),
+            "the file requires the extension " + name + ", which is not supported; export without it");
       }
     }
   }
@@ -76,7 +77,7 @@ class GltfLoader {
       for (const int node : model_.scenes[static_cast<std::size_t>(chosen)].nodes) roots.push_back({node});
       return roots;
     }
-    // Without scenes: every node that is nobody's child.
+    // Without scenes: every node without a parent.
     std::vector<bool> is_child(model_.nodes.size());
     for (const tinygltf::Node& node : model_.nodes) {
       for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
@@ -87,7 +88,7 @@ class GltfLoader {
     return roots;
   }
 
-  /// Visits nodes in the document's order, without recursion: files choose the depth.
+  /// Visits nodes in document order, without recursion, because files control the depth.
   void walk(std::vector<Visit> pending) {
     std::reverse(pending.begin(), pending.end());
     std::vector<bool> visited(model_.nodes.size());
@@ -110,9 +111,9 @@ class GltfLoader {
     }
   }
 
-  /// Adds what stands at the node, and updates what its children get.
+  /// Adds the node's mesh, light and camera, and updates the state for its children.
   void read_node(const tinygltf::Node& node, const std::string& place, Visit& visit) {
-    // Extras may be any value; only objects can hold the mark.
+    // Extras may be any value; only objects can contain the flag.
     const bool marked = node.extras.Has("brume_ignore") && node.extras.Get("brume_ignore").IsBool() &&
                         node.extras.Get("brume_ignore").Get<bool>();
     if (marked || node.name.starts_with("IGNORE_")) visit.voxelized = false;
@@ -144,10 +145,10 @@ class GltfLoader {
     }
   }
 
-  /// The grenade is one object: its parts become one mesh, in the first part's material.
+  /// The grenade is one object: its parts become one mesh with the first part's material.
   void set_grenade(const std::string& place, const std::vector<GltfMeshes::Part>& parts, Object object) {
     if (builder_.has_grenade()) {
-      log_warning(place + ": a second mesh of a Grenade is left out");
+      log_warning(place + ": a second mesh of a Grenade is ignored");
       return;
     }
     Mesh merged;
@@ -207,7 +208,7 @@ class GltfLoader {
     const glm::dvec3 p(world_from_node[3]);
     for (int axis = 0; axis < 3; ++axis) {
       if (!(std::abs(p[axis]) <= double{kFarthest}))
-        document_.fail(place, "stands farther than 10,000 km from the origin");
+        document_.fail(place, "is farther than 10,000 km from the origin");
     }
     return glm::vec3(p);
   }
@@ -231,7 +232,7 @@ Result<Scene> parse_gltf(std::span<const std::byte> bytes, const std::string& na
   } catch (const Error& error) {
     return error.failure();
   } catch (const std::bad_alloc&) {
-    return Failure{ErrorCode::resource_limit, name + ": needs more memory than there is"};
+    return Failure{ErrorCode::resource_limit, name + ": not enough memory to load the scene"};
   }
 }
 

@@ -1,4 +1,4 @@
-// glTF 2.0 and GLB.
+// Loader for glTF 2.0 and GLB.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +12,21 @@
 namespace brume::scene {
 
 /// Reads a .gltf or .glb: the default scene's nodes with meshes (triangles, strips, fans), metallic-roughness
-/// materials, punctual lights, and the first perspective camera. Files that it names must lie below the
+/// materials, punctual lights, and the first perspective camera. Files it refers to must lie below the
 /// scene's folder.
-/// - Missing normals become flat ones, missing tangents are computed. BLEND is cut out at alpha 0.5.
-/// - Light intensities are taken as they are: candela as W/sr, lux as W/m^2; exposure does the rest.
-/// - A light emits along its node's -z. The camera's target is the point of its axis nearest to the middle
-///   of the scene, at least 1 m ahead.
+/// - Missing normals become flat normals, missing tangents are computed. BLEND becomes a cutout at alpha 0.5.
+/// - Light intensities are not converted: candela count as W/sr, lux as W/m^2; exposure compensates.
+/// - A light emits along its node's -z. The camera's target is the point on its axis nearest to the middle of
+/// the
+///   scene, at least 1 m ahead.
 /// - A node with extras {"brume_ignore": true}, or whose own or mesh's name begins with IGNORE_, is not
 ///   voxelized, nor are its children.
 /// - The first node or mesh called Grenade becomes Scene::grenade.
-/// - An emissive texture is replaced by its mean colour. Animation, skins, morph targets and points and
-///   lines are not drawn.
-/// Fails with bad_input ("file: path of the value: what was expected") for whatever is broken or needs an
-/// extension that is not known.
+/// - An emissive texture is replaced by its mean colour. Animations, skins, morph targets, points and lines
+/// are
+///   ignored.
+/// Fails with bad_input ("file: path of the value: expectation") for invalid documents and for those that
+/// require an unknown extension.
 Result<Scene> parse_gltf(std::span<const std::byte> bytes, const std::string& name, const SceneFiles& files);
 
 }  // namespace brume::scene

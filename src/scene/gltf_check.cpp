@@ -15,11 +15,11 @@ constexpr double kMostBytes = 1ull << 32, kPi = 3.14159265358979323846;
 enum class Kind { any, object, array, text, flag, number, whole, index };
 
 struct Rule {
-  const char* path;  ///< Arrays' elements as [], members of any name as *.
+  const char* path;  ///< Array elements are [], members of any name *.
   Kind kind = Kind::any;
   double least = 0, most = 0;
-  std::size_t count = 0;        ///< Of the array whose elements this is; 0 for any.
-  const char* array = nullptr;  ///< What an index counts.
+  std::size_t count = 0;        ///< Required length of an array; 0 for any.
+  const char* array = nullptr;  ///< The array that an index refers to.
   bool required = false;
 };
 
@@ -95,7 +95,7 @@ constexpr Rule kRules[] = {
 #undef LIGHTS
 #undef TEXTURE
 
-/// The rules by their paths, with those of the arrays and objects around them.
+/// The rules by path, including those of the enclosing arrays and objects.
 struct Node {
   Rule rule{};
   std::vector<std::string> required;
@@ -152,16 +152,16 @@ class Checker {
 
   void expect(bool holds, const json& value, const std::string& path, const std::string& what) const {
     if (holds) return;
-    // Dumping a hostile value could be long: arrays and objects are only named.
+    // Printing an untrusted value could be long: arrays and objects are only named.
     const std::string found = value.is_structured()
                                   ? std::string("an ") + value.type_name()
                                   : in_quotes(value.dump(-1, ' ', true, json::error_handler_t::replace));
     fail(path, "expected " + what + ", found " + found);
   }
 
-  /// `pattern` is the path as the rules have it.
+  /// `pattern` is the path in the form of the rules.
   void visit(const json& value, const std::string& pattern, const std::string& path, int depth) const {
-    if (depth > kMostNesting) fail(path.substr(0, 200), "is nested too deep");
+    if (depth > kMostNesting) fail(path.substr(0, 200), "is nested too deeply");
     auto known = rules().find(pattern);
     if (known == rules().end()) known = rules().find(pattern.substr(0, pattern.rfind('.') + 1) + "*");
     if (known != rules().end()) judge(value, known->second, path);
@@ -223,7 +223,7 @@ json checked_gltf_json(std::string_view text, const std::string& file) {
   if (text.size() > kMostGltfJson) {
     throw Error(ErrorCode::resource_limit, file + ": has " + std::to_string(text.size()) +
                                                " bytes of JSON, at most " + std::to_string(kMostGltfJson) +
-                                               " are read; keep the buffers in a .bin or .glb file");
+                                               " are accepted; store the buffers in a .bin or .glb file");
   }
   try {
     json document = json::parse(text.begin(), text.end());
@@ -231,8 +231,8 @@ json checked_gltf_json(std::string_view text, const std::string& file) {
     return document;
   } catch (const json::parse_error& error) {
     const LineColumn at = line_column(text, error.byte > 0 ? error.byte - 1 : 0);
-    throw Error(ErrorCode::bad_input, file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) +
-                                          ": expected JSON, it breaks off here");
+    throw Error(ErrorCode::bad_input,
+                file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": invalid JSON");
   } catch (const json::exception&) {
     throw Error(ErrorCode::bad_input, file + ": the JSON holds a number too large to read");
   }

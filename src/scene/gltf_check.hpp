@@ -1,5 +1,5 @@
-// A glTF document's JSON, checked before tinygltf sees it: tinygltf passes over values of a wrong type, cuts
-// indices to 32 bits, reads images from unchecked ranges and recurses as deep as the file says.
+// Validates a glTF document's JSON before tinygltf reads it: tinygltf ignores values of a wrong type,
+// truncates indices to 32 bits, reads images from unchecked ranges and recurses without limit.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,12 +10,12 @@
 
 namespace brume::scene {
 
-/// Most bytes of a document's JSON.
+/// Maximum number of bytes of a document's JSON.
 constexpr std::uint64_t kMostGltfJson = 1ull << 26;
 
-/// Parses the JSON and checks every value that the loader uses: its type, its range, and for an index that
-/// the element exists; and that buffer views lie in their buffers. Throws brume::Error: "file: path of the
-/// value: what was expected", syntax errors as "file:line:column: ...".
+/// Parses the JSON and checks every value that the loader uses: its type, its range, for an index that the
+/// element exists, and that buffer views lie in their buffers. Throws brume::Error with "file: path of the
+/// value: expectation", or "file:line:column: ..." for syntax errors.
 nlohmann::json checked_gltf_json(std::string_view text, const std::string& file);
 
 }  // namespace brume::scene

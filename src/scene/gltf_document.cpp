@@ -56,17 +56,17 @@ std::size_t component_size(int type) {
       std::max(0, tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type))));
 }
 
-/// What tinygltf asks for files. It reads the buffers first, in their order, and only then the images.
+/// File access for tinygltf, which reads all buffers in order before any image.
 struct FileAccess {
-  struct Wanted {
+  struct BufferFile {
     std::size_t buffer, bytes;
     std::string uri;
   };
   std::string name;
   const SceneFiles& files;
-  std::vector<Wanted> buffers;  ///< Those in files of their own.
+  std::vector<BufferFile> buffers;  ///< The buffers stored in separate files.
   std::size_t next = 0;
-  std::string problem;  ///< The first; nothing is thrown through tinygltf.
+  std::string problem;  ///< The first failure; exceptions must not pass through tinygltf.
 
   FileAccess(const nlohmann::json& document, std::string name_of_document, const SceneFiles& scene_files)
       : name(std::move(name_of_document)), files(scene_files) {
@@ -92,7 +92,7 @@ struct FileAccess {
     return name + ": " + (in_buffers() ? "buffers[" + std::to_string(buffers[next].buffer) + "]" : "images");
   }
 
-  /// tinygltf takes a + for a blank, which it is not in a file's name.
+  /// tinygltf decodes + as a blank, which is wrong for file names.
   std::optional<std::string> find(const std::string& file) const {
     const auto found = files.find(file);
     return found || !in_buffers() ? found : files.find(buffers[next].uri);
@@ -107,11 +107,11 @@ struct FileAccess {
     auto& self = *static_cast<FileAccess*>(user);
     if (!is_safe_relative(file) || file.find("://") != std::string::npos) {
       return self.fail(".uri: the file " + in_quotes(file) +
-                       " is not below the scene's own folder; move it there");
+                       " is not below the scene's folder; move it there");
     }
     if (self.find(file)) return true;
     if (self.in_buffers())
-      self.fail(".uri: the file " + in_quotes(file) + " does not exist beside the scene");
+      self.fail(".uri: the file " + in_quotes(file) + " does not exist below the scene's folder");
     return false;
   }
 
@@ -121,13 +121,13 @@ struct FileAccess {
     if (!bytes) return self.in_buffers() ? self.fail(".uri: " + bytes.failure().message) : false;
     std::size_t size = bytes->size();
     if (self.in_buffers()) {
-      // tinygltf refuses files that are longer than the buffer; the format allows them.
-      const std::size_t wanted = self.buffers[self.next].bytes;
-      if (size < wanted) {
-        return self.fail(": is cut short: " + std::to_string(wanted) + " bytes are promised, " +
-                         std::to_string(size) + " are there");
+      // tinygltf rejects files longer than the buffer; the format allows them.
+      const std::size_t expected = self.buffers[self.next].bytes;
+      if (size < expected) {
+        return self.fail(": is truncated: expected " + std::to_string(expected) + " bytes, found " +
+                         std::to_string(size));
       }
-      size = wanted;
+      size = expected;
       ++self.next;
     }
     const auto* first = reinterpret_cast<const unsigned char*>(bytes->data());
@@ -147,7 +147,7 @@ std::string_view json_of_glb(std::string_view glb, const std::string& name) {
   std::uint32_t length = 0;
   if (glb.size() >= 20) std::memcpy(&length, glb.data() + 12, sizeof length);
   if (glb.size() < 20 || length > glb.size() - 20)
-    throw Error(ErrorCode::bad_input, name + ": the GLB file is cut short; export or copy it again");
+    throw Error(ErrorCode::bad_input, name + ": the GLB file is truncated; export or copy it again");
   return glb.substr(20, length);
 }
 
@@ -158,6 +158,8 @@ GltfDocument::GltfDocument(std::span<const std::byte> bytes, std::string name, c
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.size() > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorCode::resource_limit, name_ + ": is larger than 4 GiB; split the scene");
+
+  // Check the JSON, and set up access to files.
   const bool is_glb = text.starts_with("glTF");
   FileAccess access(checked_gltf_json(is_glb ? json_of_glb(text, name_) : text, name_), name_, files);
 
@@ -165,6 +167,8 @@ GltfDocument::GltfDocument(std::span<const std::byte> bytes, std::string name, c
   reader.SetFsCallbacks({&FileAccess::exists, [](const std::string& file, void*) { return file; },
                          &FileAccess::read, nullptr, &access});
   reader.SetImageLoader(keep_image, nullptr);
+
+  // Load, and report the first problem.
   std::string error, warning;
   const auto size = static_cast<std::uint32_t>(text.size());
   bool loaded = false;
@@ -177,7 +181,7 @@ GltfDocument::GltfDocument(std::span<const std::byte> bytes, std::string name, c
   }
   if (!access.problem.empty()) throw Error(ErrorCode::bad_input, access.problem);
   if (loaded && error.empty()) return;
-  throw Error(ErrorCode::bad_input, name_ + ": is no sound glTF 2.0" +
+  throw Error(ErrorCode::bad_input, name_ + ": is not valid glTF 2.0" +
                                         (error.empty() ? "" : ": " + in_quotes(error)) +
                                         "; export or copy it again");
 }
@@ -197,6 +201,7 @@ std::span<const std::byte> GltfDocument::view(int index) const {
 }
 
 std::vector<std::byte> GltfDocument::packed(std::size_t index) const {
+  // The element type.
   const tinygltf::Accessor& accessor = model_.accessors[index];
   const std::string here = place("accessors", index);
   const std::size_t size = component_size(accessor.componentType);
@@ -207,6 +212,7 @@ std::vector<std::byte> GltfDocument::packed(std::size_t index) const {
     fail(here + ".type", "is none of SCALAR, VEC2, VEC3, VEC4");
   const std::size_t element_size = size * static_cast<std::size_t>(components);
 
+  // The elements: zeros, or gathered from the buffer view.
   std::vector<std::byte> result;
   if (accessor.bufferView < 0) {
     if (accessor.count > kMostZeroElements) fail(here, "has too many elements without a bufferView");
@@ -247,6 +253,8 @@ void GltfDocument::apply_sparse(const tinygltf::Accessor& accessor, std::size_t 
       fail(here, "reaches past its bufferView");
     return bytes.subspan(offset, count * size);
   };
+
+  // Overwrite the listed elements.
   const int type = sparse.indices.componentType;
   if (!is_index_type(type)) fail(here + ".indices.componentType", "is none of 5121, 5123, 5125");
   const auto indices = part(sparse.indices.bufferView, sparse.indices.byteOffset, component_size(type));
@@ -261,29 +269,29 @@ void GltfDocument::apply_sparse(const tinygltf::Accessor& accessor, std::size_t 
   }
 }
 
-std::vector<float> GltfDocument::floats(int index, int components, const std::string& asker) const {
+std::vector<float> GltfDocument::floats(int index, int components, const std::string& user) const {
   const auto at = static_cast<std::size_t>(index);
   const tinygltf::Accessor& accessor = model_.accessors[at];
-  if (accessor.type != components) fail(asker, "expected an accessor of VEC" + std::to_string(components));
+  if (accessor.type != components) fail(user, "expected an accessor of VEC" + std::to_string(components));
   const std::vector<std::byte> bytes = packed(at);
   const std::size_t size = component_size(accessor.componentType);
   std::vector<float> values(bytes.size() / size);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = component(bytes.data() + i * size, accessor.componentType, accessor.normalized);
     if (!std::isfinite(values[i])) {
-      fail(asker, "element " + std::to_string(i / static_cast<std::size_t>(components)) + " of accessors[" +
-                      std::to_string(index) + "] is not finite; repair the mesh");
+      fail(user, "element " + std::to_string(i / static_cast<std::size_t>(components)) + " of accessors[" +
+                     std::to_string(index) + "] is not finite; repair the mesh");
     }
   }
   return values;
 }
 
-std::vector<std::uint32_t> GltfDocument::indices(int index, const std::string& asker) const {
+std::vector<std::uint32_t> GltfDocument::indices(int index, const std::string& user) const {
   const auto at = static_cast<std::size_t>(index);
   const tinygltf::Accessor& accessor = model_.accessors[at];
   const int type = accessor.componentType;
   if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_index_type(type))
-    fail(asker, "expected a SCALAR accessor of unsigned integers");
+    fail(user, "expected a SCALAR accessor of unsigned integers");
   const std::vector<std::byte> bytes = packed(at);
   std::vector<std::uint32_t> values(accessor.count);
   for (std::size_t i = 0; i < values.size(); ++i)

@@ -1,6 +1,6 @@
-// A glTF document as tinygltf reads it, and what its accessors hold. Every index and every buffer view in the
-// model is valid (checked_gltf_json); accessors are checked here, before they are read. Throws brume::Error;
-// parse_gltf turns that into its Result.
+// A glTF document read by tinygltf, and the contents of its accessors. Every index and buffer view in the
+// model is valid (checked_gltf_json); accessors are validated here before they are read. Throws brume::Error,
+// which parse_gltf converts to its Result.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -14,13 +14,13 @@
 
 namespace brume::scene {
 
-/// Most elements of an accessor without a buffer view: what it holds costs the file nothing.
+/// Maximum number of elements of an accessor without a buffer view, whose zeros take no space in the file.
 constexpr std::uint64_t kMostZeroElements = 1ull << 22;
 
 class GltfDocument {
  public:
-  /// Reads .gltf or .glb, told apart by the first bytes, with its buffers and images (Image::image holds the
-  /// file as it is; empty when it does not exist). Files must lie below the scene's folder.
+  /// Reads .gltf or .glb, distinguished by the first bytes, with its buffers and images (Image::image holds
+  /// the encoded file; empty when it does not exist). Files must lie below the scene's folder.
   GltfDocument(std::span<const std::byte> bytes, std::string name, const SceneFiles& files);
 
   const tinygltf::Model& model() const { return model_; }
@@ -28,11 +28,11 @@ class GltfDocument {
   std::string place(const char* path, std::size_t index) const;
   [[noreturn]] void fail(const std::string& place, const std::string& what) const;
 
-  /// An accessor's elements as numbers, `components` each (integers scaled where the accessor says
-  /// normalized). All finite.
-  std::vector<float> floats(int accessor, int components, const std::string& asker) const;
+  /// An accessor's elements as finite numbers, `components` each; normalized integers are scaled. `user`
+  /// names the referring value in messages.
+  std::vector<float> floats(int accessor, int components, const std::string& user) const;
   /// A scalar accessor of unsigned integers.
-  std::vector<std::uint32_t> indices(int accessor, const std::string& asker) const;
+  std::vector<std::uint32_t> indices(int accessor, const std::string& user) const;
 
  private:
   std::vector<std::byte> packed(std::size_t accessor) const;

@@ -39,6 +39,8 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
                              : image_of_texture(texture.index, texture.extensions, place + "." + name);
   };
   const auto rgb = [](const std::vector<double>& c) { return glm::vec3(glm::dvec3(c[0], c[1], c[2])); };
+
+  // Metallic-roughness factors and images.
   const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
   Material material;
   material.name = source.name;
@@ -52,6 +54,7 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
            : material.normal_image != kNone   ? source.normalTexture.texCoord
                                               : pbr.metallicRoughnessTexture.texCoord;
 
+  // Emission.
   material.emission = rgb(source.emissiveFactor);
   const auto strength = source.extensions.find("KHR_materials_emissive_strength");
   if (strength != source.extensions.end() && strength->second.Has("emissiveStrength"))
@@ -59,7 +62,7 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   if (source.emissiveTexture.index >= 0 && material.emission != glm::vec3(0))
     material.emission *= mean_color(image(source.emissiveTexture, "emissiveTexture"));
 
-  // The cutoff is compared with the texel alone: the factor moves to its side.
+  // Alpha cutoff: the renderer compares it with the texel only, so divide it by the factor.
   const std::string& mode = source.alphaMode;
   if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
     document_.fail(place + ".alphaMode", "is none of OPAQUE, MASK, BLEND");
@@ -72,8 +75,7 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
 
 std::uint32_t GltfMaterials::image_of_texture(int texture, const tinygltf::ExtensionMap& extensions,
                                               const std::string& place) {
-  if (extensions.contains("KHR_texture_transform"))
-    log_warning(place + ": texture transforms are not applied");
+  if (extensions.contains("KHR_texture_transform")) log_warning(place + ": texture transforms are ignored");
   const int source = document_.model().textures[static_cast<std::size_t>(texture)].source;
   if (source < 0) {
     log_warning(document_.place("textures", static_cast<std::size_t>(texture)) +

@@ -18,7 +18,7 @@ std::vector<std::uint32_t> as_triangles(const std::vector<std::uint32_t>& corner
   if (mode == TINYGLTF_MODE_TRIANGLES) return corners;
   std::vector<std::uint32_t> triangles;
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-    // Every second triangle of a strip runs the other way.
+    // Every second triangle of a strip has the opposite winding.
     const std::size_t swap = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? i % 2 : 0;
     triangles.push_back(corners[mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i]);
     triangles.push_back(corners[i + 1 + swap]);
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> as_triangles(const std::vector<std::uint32_t>& corner
   return triangles;
 }
 
-/// A vertex of its own for every corner, so that computed normals are those of the triangles.
+/// Gives every corner a vertex of its own, so that computed normals are those of the triangles.
 void separate_corners(Mesh& mesh) {
   std::vector<Vertex> vertices;
   vertices.reserve(mesh.indices.size());
@@ -63,6 +63,7 @@ const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index) {
 }
 
 Mesh GltfMeshes::convert(const tinygltf::Primitive& primitive, int uv_set, const std::string& place) {
+  // The attributes.
   const auto read = [&](const std::string& key, int components) {
     const auto accessor = primitive.attributes.find(key);
     return accessor == primitive.attributes.end()
@@ -79,6 +80,7 @@ Mesh GltfMeshes::convert(const tinygltf::Primitive& primitive, int uv_set, const
                    "have different counts; expected as many of each as there are positions");
   }
 
+  // Vertices.
   Mesh mesh;
   mesh.vertices.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -94,6 +96,7 @@ Mesh GltfMeshes::convert(const tinygltf::Primitive& primitive, int uv_set, const
     }
   }
 
+  // Indices, as triangles.
   std::vector<std::uint32_t> corners(count);
   if (primitive.indices >= 0) {
     corners = document_.indices(primitive.indices, place + ".indices");
@@ -110,6 +113,8 @@ Mesh GltfMeshes::convert(const tinygltf::Primitive& primitive, int uv_set, const
   if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
     document_.fail(place, "has " + std::to_string(corners.size()) + " corners; expected a multiple of 3");
   mesh.indices = as_triangles(corners, primitive.mode);
+
+  // Missing normals and tangents.
   if (normals.empty()) {
     separate_corners(mesh);
     compute_normals(mesh);

@@ -1,5 +1,5 @@
-// The materials and meshes of a glTF document, each converted once. Throws brume::Error; parse_gltf turns
-// that into its Result.
+// Converts the materials and meshes of a glTF document, each once. Throws brume::Error, which parse_gltf
+// converts to its Result.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ class GltfMaterials {
 
   struct Converted {
     std::uint32_t index = kNone;  ///< Into Scene::materials.
-    int uv_set = 0;               ///< The TEXCOORD that its images use.
+    int uv_set = 0;               ///< The TEXCOORD set that its images use.
   };
   /// The material with the document's index, or the default one for -1.
   Converted material(int index);
@@ -40,7 +40,7 @@ class GltfMeshes {
   struct Part {
     std::uint32_t mesh = kNone, material = kNone;
   };
-  /// The primitives of meshes[index] that are triangles.
+  /// The triangle primitives of meshes[index].
   const std::vector<Part>& parts(int index);
 
  private:

@@ -25,7 +25,7 @@ Result<Scene> load_scene(const std::filesystem::path& path) {
     return parse_gltf(*bytes, path.string(), files);
   }
   return Failure{ErrorCode::bad_input,
-                 path.string() + ": not a scene by its name; expected .txt, .gltf, .glb or .obj"};
+                 path.string() + ": not a scene file by its name; expected .txt, .gltf, .glb or .obj"};
 }
 
 }  // namespace brume::scene

@@ -1,4 +1,4 @@
-// Scene files in: Scene.txt, glTF 2.0 / GLB, OBJ.
+// Loads scene files: Scene.txt, glTF 2.0 / GLB, OBJ.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace brume::scene {
 
-/// Loads a scene by its file name: `.txt` (Scene.txt), `.gltf`, `.glb` or `.obj`. What can be mended (a
-/// missing mesh or texture) is a warning that names file and line, and a visible stand-in; what cannot is
-/// bad_input with file:line:column and what was expected. Every mesh index in the result is valid, every
+/// Loads a scene by its file extension: `.txt` (Scene.txt), `.gltf`, `.glb` or `.obj`. Recoverable problems
+/// (a missing mesh or texture) give a warning with file and line, and a visible stand-in; all others fail
+/// with bad_input, file:line:column and the expectation. Every mesh index in the result is valid, every
 /// number finite.
 Result<Scene> load_scene(const std::filesystem::path& path);
 

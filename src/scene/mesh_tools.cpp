@@ -47,7 +47,7 @@ void compute_tangents(Mesh& mesh) {
       vertex.tangent = glm::vec4(perpendicular(vertex.normal), 1);
       continue;
     }
-    // v runs down the image and the normal map's y runs up it: the bitangent is against v.
+    // v points down the image and the normal map's y points up: the bitangent opposes v.
     const double w = glm::dot(glm::cross(normal, tangent), along_v[i]) > 0 ? -1 : 1;
     vertex.tangent = glm::vec4(glm::vec3(glm::normalize(tangent)), static_cast<float>(w));
   }

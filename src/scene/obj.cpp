@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kUnset = -1;
 
-/// What a corner of a face names, counted from 0; kUnset where it names nothing.
+/// The indices of a face corner, from 0; kUnset if absent.
 struct Corner {
   std::int64_t position = kUnset, uv = kUnset, normal = kUnset;
   bool operator==(const Corner&) const = default;
@@ -54,7 +54,7 @@ class ObjParser {
     return {};
   }
 
-  /// Up to `most` numbers, at least `least`; what the line holds beyond them (weights, colours) is ignored.
+  /// From `least` to `most` numbers; further values on the line (weights, colours) are ignored.
   Result<void> read_vector(std::vector<glm::vec3>& into, int most, int least, const char* what) {
     constexpr const char* kAxes[3] = {"first", "second", "third"};
     glm::vec3 value(0);
@@ -76,7 +76,7 @@ class ObjParser {
     part_ = entry->second;
   }
 
-  /// Takes an index off the front of `word`.
+  /// Removes an index from the front of `word`.
   Result<std::int64_t> read_index(std::string_view& word, std::string_view whole, std::size_t count,
                                   const char* what) {
     std::int64_t index = 0;
@@ -131,7 +131,7 @@ class ObjParser {
       return Failure{ErrorCode::resource_limit,
                      reader_.line_place() + ": a face with " + std::to_string(face_.size()) +
                          " corners; at most " + std::to_string(kMaxConcaveCorners) +
-                         " are cut where it is not convex: export the mesh as triangles"};
+                         " are triangulated if it is not convex: export the mesh as triangles"};
     }
     add_face();
     return {};

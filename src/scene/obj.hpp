@@ -1,4 +1,4 @@
-// Wavefront OBJ and MTL: the text, checked line by line.
+// Parser for Wavefront OBJ and MTL, validated line by line.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,26 @@ namespace brume::scene {
 
 /// The triangles of one material, in the order of the file.
 struct ObjPart {
-  std::string material;  ///< As `usemtl` names it; empty before the first.
+  std::string material;  ///< Name given by `usemtl`; empty before the first.
   std::string place;     ///< "file:line" of its first `usemtl`.
   std::vector<std::uint32_t> indices;
 };
 
 struct ObjLibrary {
-  std::string file;   ///< As `mtllib` names it.
+  std::string file;   ///< Name given by `mtllib`.
   std::string place;  ///< "file:line".
 };
 
 struct ObjModel {
-  std::vector<Vertex> vertices;  ///< Without tangents. v runs down, other than in the file.
+  std::vector<Vertex> vertices;  ///< Without tangents. v points down, unlike in the file.
   std::vector<ObjPart> parts;    ///< Each with at least one triangle.
   std::vector<ObjLibrary> libraries;
 };
 
 /// Reads positions, texture coordinates, normals, faces (any number of corners, negative indices too),
-/// usemtl and mtllib; corners without a normal get their face's. Other statements are passed over. Fails
-/// with bad_input and name:line:column for a word where a number belongs, a number that is not finite, an
-/// index that names nothing written so far, or a face with fewer than 3 corners.
+/// usemtl and mtllib; corners without a normal get their face's. Other statements are ignored. Fails with
+/// bad_input and name:line:column for a word in place of a number, a number that is not finite, an index
+/// without an element above its line, or a face with fewer than 3 corners.
 Result<ObjModel> parse_obj(std::string_view text, const std::string& name);
 
 /// All parts as one mesh with tangents.
@@ -41,7 +41,7 @@ Mesh merged_mesh(ObjModel model, const std::string& name);
 /// Each part as a mesh with tangents, with only the vertices that it uses.
 std::vector<Mesh> part_meshes(const ObjModel& model);
 
-/// A material as the MTL file gives it; file names are empty where there is none.
+/// A material of an MTL file; file names are empty if absent.
 struct MtlMaterial {
   std::string name;
   glm::vec3 diffuse{0.8f}, emission{0};
@@ -50,11 +50,11 @@ struct MtlMaterial {
   std::string diffuse_place, normal_place;  ///< "file:line" of the maps.
 };
 
-/// Reads newmtl, Kd, Ke, Ns (as a roughness: sqrt(2 / (Ns + 2)) is alpha, its root the roughness), Pr, Pm,
-/// map_Kd, norm, map_Bump, bump. Other statements are passed over. Same errors as parse_obj.
+/// Reads newmtl, Kd, Ke, Ns (as a roughness: alpha is sqrt(2 / (Ns + 2)), its root the roughness), Pr, Pm,
+/// map_Kd, norm, map_Bump, bump. Other statements are ignored. Same errors as parse_obj.
 Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::string& name);
 
-/// A scene of one OBJ file: an object a material.
+/// A scene from one OBJ file: one object per material.
 Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files);
 
 }  // namespace brume::scene

@@ -44,7 +44,7 @@ class MtlParser {
     return {};
   }
 
-  /// One number stands for all three channels.
+  /// A single number applies to all three channels.
   Result<void> read_color(glm::vec3& color) {
     const auto red = reader_.number("red");
     if (!red) return red.failure();
@@ -66,8 +66,8 @@ class MtlParser {
     return {};
   }
 
-  /// The file name behind options like "-bm 1.0": the last of them takes what follows as its values while
-  /// those are numbers or switches.
+  /// The file name after options like "-bm 1.0": an option's values are the numbers and switches that follow
+  /// it.
   void read_map(std::string& file, std::string& place) {
     std::string_view rest = reader_.rest_of_line();
     const auto take_word = [&rest] {
@@ -122,7 +122,7 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
   };
   material.base_color_image = image(source.diffuse_map, source.diffuse_place);
   material.normal_image = image(source.normal_map, source.normal_place);
-  // Exporters write Kd 0 beside a map that is meant to be seen as it is.
+  // Exporters write Kd 0 beside a map that is meant to be unscaled.
   if (material.base_color_image != kNone && material.base_color == glm::vec3(0))
     material.base_color = glm::vec3(1);
   return material;

@@ -6,7 +6,7 @@
 namespace brume::scene {
 namespace {
 
-/// The corners as seen along the area vector's largest axis: still counter-clockwise.
+/// The corners projected along the area vector's dominant axis: still counter-clockwise.
 std::vector<glm::dvec2> flattened(std::span<const glm::vec3> corners) {
   const glm::dvec3 area = area_vector(corners);
   const glm::dvec3 size = glm::abs(area);
@@ -72,7 +72,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::vec3>
 
   if (corners.size() > 3) {
     const std::vector<glm::dvec2> flat = flattened(corners);
-    // Cut ears off until what is left is a triangle, or has no ear because it crosses itself.
+    // Clip ears until a triangle remains, or a self-intersecting polygon without ears.
     bool found = !all_turn_left(flat);
     while (found && ring.size() > 3) {
       found = false;

@@ -6,7 +6,7 @@
 namespace brume::scene {
 namespace {
 
-/// The distance along the ray in lengths of its direction; infinity where it misses.
+/// The distance along the ray in units of its direction's length; infinity for a miss.
 double hit_distance(glm::dvec3 origin, glm::dvec3 direction, const glm::dvec3 (&corner)[3]) {
   constexpr double kMiss = std::numeric_limits<double>::infinity();
   const glm::dvec3 ab = corner[1] - corner[0], ac = corner[2] - corner[0];

@@ -1,4 +1,4 @@
-// One ray against a scene's triangles, without any structure: for the odd question, not for pictures.
+// Intersects one ray with a scene's triangles by brute force: for occasional queries, not for rendering.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,8 +8,8 @@
 
 namespace brume::scene {
 
-/// The nearest point at which the ray from `origin_world` meets a triangle (either side) of an object that
-/// is voxelized; nothing when it meets none. Moeller and Trumbore 1997, in double.
+/// The nearest intersection of the ray from `origin_world` with a triangle (either side) of a voxelized
+/// object; nothing when there is none. Moeller and Trumbore 1997, in double.
 std::optional<glm::vec3> first_hit(const Scene& scene, glm::vec3 origin_world, glm::vec3 direction_world);
 
 }  // namespace brume::scene

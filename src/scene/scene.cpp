@@ -26,7 +26,7 @@ Camera default_camera(const Scene& scene) {
   Camera camera;
   const Bounds bounds = world_bounds(scene);
   if (bounds.empty()) return camera;
-  // The sphere around the bounds, seen under the vertical angle, also when the picture is a square.
+  // Fits the bounding sphere into the vertical field of view, so that square images contain it too.
   const float radius = std::max(glm::length(bounds.max - bounds.min) / 2, 0.1f);
   camera.target_world = (bounds.min + bounds.max) / 2.0f;
   camera.position_world = camera.target_world + glm::normalize(glm::vec3(0.8f, 0.6f, 1)) *

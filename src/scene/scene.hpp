@@ -1,5 +1,5 @@
-// A scene as the loaders leave it and as everybody else reads it: meshes, materials, objects, lights, a
-// camera. Right-handed, Y up, metres. Plain data.
+// A scene, as produced by the loaders: meshes, materials, objects, lights, a camera. Plain data;
+// right-handed, Y up, metres.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 struct Vertex {
   glm::vec3 position{0};
   glm::vec3 normal{0, 1, 0};  ///< Unit length.
-  glm::vec4 tangent{1, 0, 0,
-                    1};  ///< xyz: unit length; w: +1 or -1, the bitangent is w * cross(normal, tangent).
-  glm::vec2 uv{0};       ///< v runs down the image: (0, 0) is the first texel of the first row.
+  /// xyz: unit length; w: +1 or -1, the bitangent is w * cross(normal, tangent).
+  glm::vec4 tangent{1, 0, 0, 1};
+  glm::vec2 uv{0};  ///< v points down the image: (0, 0) is the first texel of the first row.
 };
 
 /// Triangles, three indices each, counter-clockwise seen from outside. Every index is below vertices.size().
@@ -38,14 +38,14 @@ struct Image {
 
 struct Material {
   std::string name;
-  glm::vec3 base_color{1};  ///< Linear, multiplies the image.
-  glm::vec3 emission{0};    ///< Linear radiance [W/(sr m^2)], up to a scale that scenes choose.
-  float roughness = 0.8f;   ///< [0, 1], perceptual: alpha = roughness^2.
-  float metallic = 0;       ///< [0, 1].
-  float alpha_cutoff = 0;   ///< Texels with less alpha are not there; 0: all are.
+  glm::vec3 base_color{1};                 ///< Linear; multiplies the image.
+  glm::vec3 emission{0};                   ///< Linear radiance [W/(sr m^2)], up to a scene-specific scale.
+  float roughness = 0.8f;                  ///< [0, 1], perceptual: alpha = roughness^2.
+  float metallic = 0;                      ///< [0, 1].
+  float alpha_cutoff = 0;                  ///< Texels with less alpha are cut out; 0: none.
   std::uint32_t base_color_image = kNone;  ///< sRGB colour, linear alpha. Index into Scene::images.
   std::uint32_t normal_image = kNone;      ///< Tangent-space normal map, +Y up.
-  std::uint32_t roughness_image = kNone;   ///< G roughness, B metallic, multiply the factors.
+  std::uint32_t roughness_image = kNone;   ///< G: roughness, B: metallic; multiply the factors.
 };
 
 struct Object {
@@ -61,11 +61,11 @@ enum class LightKind : std::uint32_t { point, spot, directional };
 struct Light {
   LightKind kind = LightKind::point;
   glm::vec3 position_world{0};
-  glm::vec3 direction_world{0, -1, 0};  ///< Where the light goes. Unit length.
+  glm::vec3 direction_world{0, -1, 0};  ///< Direction in which light travels. Unit length.
   /// Point and spot: radiant intensity [W/sr] per channel; irradiance at distance d is intensity / d^2.
   /// Directional: irradiance [W/m^2].
   glm::vec3 intensity{1};
-  float cos_inner = 1, cos_outer = 0;  ///< Spot: full inside the inner cone, none outside the outer.
+  float cos_inner = 1, cos_outer = 0;  ///< Spot: full inside the inner cone, zero outside the outer.
 };
 
 struct Camera {
@@ -77,22 +77,23 @@ struct Camera {
 /// A participating medium from a file, placed in the world.
 struct Volume {
   std::string name;
-  std::filesystem::path file;       ///< Ready to open.
-  glm::mat4 world_from_volume{1};   ///< Affine, from the file's own world space [m].
+  std::filesystem::path file;      ///< Ready to open.
+  glm::mat4 world_from_volume{1};  ///< Affine, from the file's own world space [m].
 };
 
 struct Sphere {
   glm::vec3 centre_world{0};
-  float radius = 0.5f;              ///< [m], > 0
-  std::uint32_t material = kNone;   ///< Index into Scene::materials.
+  float radius = 0.5f;             ///< [m], > 0
+  std::uint32_t material = kNone;  ///< Index into Scene::materials.
 };
 
 /// A volume that darkens or tints the surfaces that it covers: the unit cube [-0.5, 0.5]^3 of its own space.
 struct Decal {
   std::string name;
-  std::filesystem::path file;       ///< Ready to open.
-  glm::mat4 world_from_decal{1};    ///< Affine.
-  std::uint32_t carrier = kNone;    ///< Index into Scene::objects of the object that it moves with; kNone: none.
+  std::filesystem::path file;     ///< Ready to open.
+  glm::mat4 world_from_decal{1};  ///< Affine.
+  std::uint32_t carrier =
+      kNone;  ///< Index into Scene::objects of the object that it moves with; kNone: none.
 };
 
 /// A source of particles, which start in the unit cube [-0.5, 0.5]^3 of its own space.
@@ -107,24 +108,24 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Image> images;
   std::vector<Material> materials;
-  std::vector<Object> objects;  ///< What stands in the world. The grenade is not among them.
+  std::vector<Object> objects;  ///< The objects of the world, without the grenade.
   std::vector<Light> lights;
   std::vector<Volume> volumes;
   std::vector<Sphere> spheres;
   std::vector<Decal> decals;
   std::vector<Emitter> emitters;
-  std::optional<Object> grenade;  ///< Drawn while it flies; its mesh is centred on its origin.
-  std::optional<Camera> camera;  ///< The first camera of the file.
+  std::optional<Object> grenade;  ///< Drawn in flight; its mesh is centred on its origin.
+  std::optional<Camera> camera;   ///< The first camera of the file.
 };
 
-/// The box around all objects and spheres, in world space; min > max when there is none.
+/// The bounding box of all objects and spheres in world space; min > max when there is none.
 struct Bounds {
   glm::vec3 min{1e30f}, max{-1e30f};
   bool empty() const { return min.x > max.x; }
 };
 Bounds world_bounds(const Scene& scene);
 
-/// The scene's own camera, or one that has all of its bounds in view, from above and aside.
+/// The scene's own camera, or one that sees all of its bounds obliquely from above.
 Camera default_camera(const Scene& scene);
 
 }  // namespace brume::scene

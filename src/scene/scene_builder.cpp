@@ -71,7 +71,7 @@ std::uint32_t SceneBuilder::add_image(Result<image::Image8> pixels, const std::s
     return checker_image();
   }
   if (image_bytes_ + pixels->rgba.size() > kMostImageBytes) {
-    log_warning(place + ": the scene's images pass " + std::to_string(kMostImageBytes >> 20) +
+    log_warning(place + ": the scene's images exceed " + std::to_string(kMostImageBytes >> 20) +
                 " MiB; a magenta checker stands in for " + name);
     return checker_image();
   }
@@ -108,7 +108,7 @@ Result<void> SceneBuilder::add_object(Object object, const std::string& place) {
   const double volume = determinant(object.world_from_mesh);
   if (volume == 0) {
     log_warning(place + ": \"" + object.name +
-                "\" is scaled to nothing and left out; give it a scale above 0");
+                "\" is scaled to nothing and skipped; give it a scale other than 0");
     return {};
   }
   if (volume < 0) {
@@ -122,7 +122,7 @@ Result<void> SceneBuilder::add_object(Object object, const std::string& place) {
 
 Result<void> SceneBuilder::set_grenade(const Object& object, const std::string& place) {
   if (determinant(object.world_from_mesh) == 0) {
-    log_warning(place + ": the grenade is scaled to nothing; give it a scale above 0");
+    log_warning(place + ": the grenade is scaled to nothing and skipped; give it a scale other than 0");
     return {};
   }
   Mesh mesh = scene.meshes[object.mesh];

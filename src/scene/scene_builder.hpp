@@ -1,4 +1,4 @@
-// What all loaders share: meshes and images once each, stand-ins, mirrored copies, the last checks.
+// Shared by all loaders: deduplicated meshes and images, stand-ins, mirrored copies, final checks.
 #pragma once
 
 #include <map>
@@ -12,39 +12,38 @@
 
 namespace brume::scene {
 
-/// No point of a scene may be farther from the origin [m].
+/// Maximum distance of any point from the origin, along each axis [m].
 constexpr float kFarthest = 1e7f;
-/// Most vertices and indices of a scene, before instancing; most bytes of its decoded images.
+/// Maximum number of vertices and indices of a scene, before instancing, and of bytes of its decoded images.
 constexpr std::uint64_t kMostVertices = 1ull << 26, kMostIndices = 1ull << 28, kMostImageBytes = 1ull << 32;
 
 class SceneBuilder {
  public:
-  /// `name` is what messages call the scene. The files must outlive the builder.
+  /// `name` names the scene in messages. The files must outlive the builder.
   SceneBuilder(const SceneFiles& files, std::string name) : files_(files), name_(std::move(name)) {}
 
   Scene scene;
 
   /// resource_limit when the scene would pass kMostVertices or kMostIndices.
   Result<std::uint32_t> add_mesh(Mesh mesh);
-  /// The first of the files that exists, decoded; each file is read once. A missing or damaged one is a
-  /// warning that begins with `place`, and the magenta checker.
+  /// The first existing file of `names`, decoded; each file is read once. If it is missing or damaged, logs a
+  /// warning that starts with `place` and returns the magenta checker.
   std::uint32_t image_of_file(std::span<const std::string> names, const std::string& place);
-  /// The same from bytes in memory under a name of their own.
+  /// The same from named bytes in memory.
   std::uint32_t image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
                                const std::string& place);
   std::uint32_t checker_image();
   /// The index of the stand-in cube.
   Result<std::uint32_t> cube_mesh();
 
-  /// Adds an object whose matrix may mirror (it then gets a mirrored copy of its mesh). An object flattened
-  /// to nothing by a zero scale is a warning that begins with `place`, and is left out.
+  /// Adds an object; if its matrix mirrors, with a mirrored copy of its mesh. An object flattened by a zero
+  /// scale is skipped, with a warning that starts with `place`.
   Result<void> add_object(Object object, const std::string& place);
   /// Makes the object the scene's grenade: a centred copy of its mesh, without the object's position.
   Result<void> set_grenade(const Object& object, const std::string& place);
   bool has_grenade() const { return scene.grenade.has_value(); }
 
-  /// Checks the scene: at least one triangle, no point
-  /// beyond kFarthest.
+  /// Checks the scene: at least one triangle, no point beyond kFarthest.
   Result<Scene> finish() &&;
 
  private:

@@ -89,6 +89,7 @@ class SceneTxtParser {
   }
 
   Result<void> read_object(std::string name) {
+    // The line's values.
     const auto position = read_vector({"the x position", "the y position", "the z position"});
     if (!position) return position.failure();
     const auto rotation = read_vector({"the x rotation", "the y rotation", "the z rotation"});
@@ -104,6 +105,7 @@ class SceneTxtParser {
     }
     if (auto end = expect_end(); !end) return end;
 
+    // The object.
     const auto mesh = mesh_of(name);
     if (!mesh) return mesh.failure();
     Object object;
@@ -114,7 +116,7 @@ class SceneTxtParser {
     object.name = std::move(name);
     if (object.name != "Grenade") return builder_.add_object(std::move(object), reader_.line_place());
     if (!builder_.has_grenade()) return builder_.set_grenade(object, reader_.line_place());
-    log_warning(reader_.line_place() + ": a second Grenade is left out");
+    log_warning(reader_.line_place() + ": a second Grenade is ignored");
     return {};
   }
 

@@ -42,7 +42,7 @@ Mesh unit_cube() {
 }
 
 Mesh grenade_mesh() {
-  // The outline, turned around the y axis: radius and height [m] from the lower middle to the upper.
+  // The profile rotated around the y axis: radius and height [m] from the bottom centre to the top centre.
   constexpr glm::vec2 kOutline[] = {{0.0f, -0.055f},  {0.026f, -0.055f}, {0.03f, -0.051f}, {0.03f, 0.031f},
                                     {0.022f, 0.039f}, {0.012f, 0.041f},  {0.012f, 0.055f}, {0.0f, 0.055f}};
   constexpr int kSides = 20;

@@ -1,14 +1,14 @@
-// What is shown where a file is missing: visible, never silent.
+// Visible stand-ins for missing files.
 #pragma once
 
 #include "scene/scene.hpp"
 
 namespace brume::scene {
 
-/// A cube of edge length 1 around the origin, with its own normals and texture coordinates a face.
+/// A unit cube centred on the origin, with separate normals and texture coordinates per face.
 Mesh unit_cube();
 
-/// A hand grenade-sized can with bevelled ends, 0.11 m high and 0.06 m wide, centred on the origin.
+/// A can the size of a hand grenade with bevelled ends, 0.11 m high and 0.06 m wide, centred on the origin.
 Mesh grenade_mesh();
 
 /// Gives a scene that has no grenade a built-in one, with a mesh and a material of its own.

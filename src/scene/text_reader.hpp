@@ -1,4 +1,4 @@
-// Text files by lines and words, with the place of each word for error messages.
+// Reads text files by lines and words, with the position of each word for error messages.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +9,27 @@
 
 namespace brume::scene {
 
-/// Walks over a text: `next_line`, then `next_word` until it is empty. Words are separated by blanks and
-/// tabs; a word that begins with '#' ends the line. Lines end with LF or CR LF. Views into the text, which
-/// must outlive the reader.
+/// Iterates over a text: `next_line`, then `next_word` until it is empty. Words are separated by blanks and
+/// tabs; a word that begins with '#' ends the line. Lines end with LF or CR LF. Returns views into the text,
+/// which must outlive the reader.
 class TextReader {
  public:
   enum class Continuation { none, backslash };
 
-  /// `name` is what error messages call the text. With Continuation::backslash, a line whose last word is a
-  /// lone backslash goes on in the next.
+  /// `name` names the text in error messages. With Continuation::backslash, a line whose last word is a lone
+  /// backslash continues on the next.
   TextReader(std::string_view text, std::string name, Continuation continuation = Continuation::none);
 
-  /// Goes to the next line; false at the end of the text.
+  /// Advances to the next line; false at the end of the text.
   bool next_line();
   /// The next word of the line; empty at its end.
   std::string_view next_word();
-  /// The rest of the line without blanks at its ends: for names that may hold blanks.
+  /// The rest of the line, trimmed: for names that may contain blanks.
   std::string_view rest_of_line();
 
   /// "name:line".
   std::string line_place() const;
-  /// "name:line:column" of the word that next_word gave last; columns count bytes from 1.
+  /// "name:line:column" of the last word returned; columns count bytes from 1.
   std::string place() const;
   std::uint32_t line() const { return line_number_; }
   const std::string& name() const { return name_; }
@@ -53,7 +53,7 @@ class TextReader {
 /// The text between quotes, cut at 40 bytes, with control bytes shown as '?'; "the end of the line" for
 /// an empty one.
 std::string in_quotes(std::string_view text);
-/// A number as messages show it: six digits at most.
+/// A number formatted for messages: at most six digits.
 std::string shown(double value);
 
 /// Line and column, both from 1, of a byte of the text.

@@ -81,7 +81,7 @@ class TimelineReader {
     TomlTable table(source, "[smoke]", file_);
     visit_smoke_options(timeline_.smoke, OptionReader{table});
     if (timeline_.smoke.droplet && source.contains("anisotropy"))
-      table.fail("droplet", "\"droplet\": expected either it or \"anisotropy\"; take one of them out");
+      table.fail("droplet", "\"droplet\": cannot be combined with \"anisotropy\"; remove one of them");
     return table.finish();
   }
 
@@ -102,7 +102,7 @@ class TimelineReader {
     if (key.camera.position_world == key.camera.target_world)
       table.fail("target", "\"target\": expected a point other than the position");
     if (!timeline_.camera.empty() && !(key.time > timeline_.camera.back().time))
-      table.fail("time", "\"time\": expected a later time than that of the [[camera]] before");
+      table.fail("time", "\"time\": expected a later time than that of the previous [[camera]]");
     timeline_.camera.push_back(key);
     return table.finish();
   }

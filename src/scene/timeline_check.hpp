@@ -1,4 +1,4 @@
-// Whether what a program puts into a timeline could stand in its file.
+// Validates timelines that were built by a program, as if they had been read from a file.
 #pragma once
 
 #include "core/error.hpp"
@@ -6,13 +6,12 @@
 
 namespace brume::scene {
 
-/// Fails with bad_input at the first event that a file could not have: a number out of the range of
-/// scene/options.hpp or none, a text that is no UTF-8, a shot without a direction; the message names the
-/// event, its time and the number. Whether doors are in the scene, and pictures and fonts there, is not
-/// looked at.
+/// Fails with bad_input at the first event that a file could not contain: a number that is NaN or outside the
+/// range in scene/options.hpp, invalid UTF-8, a shot without a direction; the message names the event, its
+/// time and the number. Does not check whether doors, pictures and fonts exist.
 Result<void> check_events(const Timeline& timeline);
 
-/// The same for all but the events: settings, and the keys of the camera, which must be in order of time.
+/// The same for everything but the events: settings, and camera keys, which must be sorted by time.
 Result<void> check_settings(const Timeline& timeline);
 
 }  // namespace brume::scene

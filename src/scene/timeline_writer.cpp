@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A number as TOML takes it for one that is not whole.
+/// Formats a number as a TOML float.
 template <typename Number>
 std::string decimal(Number value) {
   const double size = std::abs(double{value});
@@ -43,12 +43,12 @@ std::string text_of(double value) {
 }
 
 std::string text_of(float value) {
-  // The reader rounds to double first, and in rare cases not to the same float then.
+  // The reader rounds to double first, which in rare cases gives another float.
   std::string text = decimal(value);
   return static_cast<float>(read_back(text)) == value ? text : decimal(double{value});
 }
 
-/// Degrees of which the reader makes the same radians: as few digits as will do, within the angle's range.
+/// Degrees that the reader converts to the same radians: as few digits as possible, within the angle's range.
 std::string degrees_text(const OptionInfo& info, float radians) {
   const double degrees = double{radians} / kRadiansOfDegree;
   for (int digits = 1; digits < 17; ++digits) {
@@ -111,7 +111,7 @@ std::string text_of(const std::string& value) {
   return text;
 }
 
-/// Settings and their texts; none for one that is not there.
+/// Settings and their texts; none for an absent one.
 class OptionTexts {
  public:
   void operator()(const OptionInfo& info, const float& member) {
@@ -131,7 +131,7 @@ class OptionTexts {
   void add(const OptionInfo& info, std::string text) { texts.emplace_back(info.key, std::move(text)); }
 };
 
-/// `path` from a folder: spelled as it is where it begins with the folder's name.
+/// `path` relative to a folder; its spelling is preserved if it begins with the folder's name.
 fs::path path_from(const fs::path& path, const fs::path& folder) {
   const fs::path below = path.lexically_relative(folder);
   if (is_safe_relative(below.generic_string())) return below;

@@ -8,7 +8,7 @@
 namespace brume::scene {
 namespace {
 
-/// The start of a message on a key's value.
+/// The start of a message about a key's value.
 std::string expected(std::string_view key, const char* what) {
   std::string text = "\"";
   text += key;
@@ -17,7 +17,7 @@ std::string expected(std::string_view key, const char* what) {
   return text;
 }
 
-/// The first byte that is not ASCII outside of comments and of texts on one line.
+/// The first non-ASCII byte outside of comments and single-line strings.
 std::optional<std::size_t> misplaced_letter(std::string_view text) {
   enum class In { open, comment, basic, literal, long_basic, long_literal } in = In::open;
   const bool has_mark = text.starts_with("\xef\xbb\xbf");
@@ -39,7 +39,7 @@ std::optional<std::size_t> misplaced_letter(std::string_view text) {
     } else if ((in == In::basic && c == '"') || (in == In::literal && c == '\'')) {
       in = In::open;
     } else if (is_long && triple && c == (in == In::long_basic ? '"' : '\'')) {
-      // Up to two more quotes belong to the text that ends here; more are an error for the parser.
+      // Up to two more quotes belong to the string that ends here; more are a syntax error.
       for (i += 2; i + 1 < text.size() && text[i + 1] == c;) ++i;
       in = In::open;
     }
@@ -47,7 +47,7 @@ std::optional<std::size_t> misplaced_letter(std::string_view text) {
   return std::nullopt;
 }
 
-/// The text with an x for every letter beyond ASCII: lines and columns stay.
+/// The text with an x for every non-ASCII character: lines and columns are preserved.
 std::string ascii_twin(std::string_view text) {
   std::string twin;
   for (const char c : text) {
@@ -184,7 +184,7 @@ void TomlTable::read(std::string_view key, std::string& value) {
   if (const auto* text = node->as_string()) {
     value = text->get();
   } else {
-    fail_at(node->source(), expected(key, "a text in quotes"));
+    fail_at(node->source(), expected(key, "a string in quotes"));
   }
 }
 
@@ -242,9 +242,9 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
   if (const auto byte = misplaced_letter(text)) {
     const LineColumn at = line_column(text, *byte);
     return failure(at.line, at.column,
-                   "expected ASCII; other letters belong in comments and in texts on one line");
+                   "expected ASCII; other characters are allowed in comments and in single-line strings");
   }
-  // The twin shows that the document is sound, so that the other letters are looked at as text alone.
+  // If the ASCII twin parses, the document is valid and its other characters are only seen as text.
   const std::string twin = ascii_twin(text);
   toml::parse_result parsed = toml::parse(twin);
   if (parsed && twin != text) parsed = toml::parse(text);
@@ -254,7 +254,7 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // Long keys are nobody's typing error, and their distance would take long.
+  // Long keys are not typing errors, and comparing them would take long.
   a = a.substr(0, 64);
   b = b.substr(0, 64);
   std::vector<std::size_t> row(b.size() + 1);

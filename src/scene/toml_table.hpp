@@ -1,4 +1,5 @@
-// Settings from TOML tables: every key typed, in range and known, or an error that names the place.
+// Reads settings from TOML tables: every key must be known, of the right type and in range; errors name the
+// place.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,12 +17,12 @@
 
 namespace brume::scene {
 
-/// Reads one table. Each `read` takes a key that may be missing (the value is then left alone); `finish`
-/// refuses the keys that nobody read. The first failure is kept and later reads do nothing, so that a reader
-/// asks for all keys in a row and looks at the outcome once.
+/// Reads one table. Each `read` takes a key that may be missing (the value is then unchanged); `finish` fails
+/// for keys that were never read. The first failure is stored and later reads do nothing, so that a reader
+/// can read all keys in a row and check the result once.
 class TomlTable {
  public:
-  /// `name` is what messages call the table ("[smoke]"), `file` the file.
+  /// `name` names the table in messages ("[smoke]"), `file` the file.
   TomlTable(const toml::table& table, std::string name, std::string file);
 
   void read(std::string_view key, float& value, double least, double most);
@@ -40,13 +41,13 @@ class TomlTable {
 
   /// "file:line:column" of the table.
   std::string place() const;
-  /// The same of a key's value; of the table where the key is missing.
+  /// The same of a key's value, or of the table if the key is missing.
   std::string place(std::string_view key) const;
-  /// Fails where the key is missing.
+  /// Fails if the key is missing.
   void require(std::string_view key);
-  /// Fails at a key's value (at the table where the key is missing).
+  /// Fails at a key's value, or at the table if the key is missing.
   void fail(std::string_view key, const std::string& what);
-  /// The first failure; else the first key that nobody read, with the nearest known one.
+  /// The first failure; otherwise the first key that was never read, with the nearest known one.
   Result<void> finish();
 
  private:
@@ -64,12 +65,13 @@ class TomlTable {
   std::optional<Failure> failure_;
 };
 
-/// Parses a document; errors are "file:line:column: ...". Letters beyond ASCII are taken in comments and in
-/// texts on one line only: toml++ 3.3 runs into an unreachable point when it looks whether some of them
-/// (U+024C) are white space, which it does elsewhere and when it goes through a broken value.
+/// Parses a document; errors are "file:line:column: ...". Accepts non-ASCII characters only in comments and
+/// single-line strings: elsewhere, and while it recovers from a malformed value, toml++ 3.3 tests for white
+/// space and reaches undefined behaviour for some of them (U+024C).
 Result<toml::table> parse_toml(std::string_view text, const std::string& file);
 
-/// How many single characters must be inserted, removed or replaced to turn a into b (Levenshtein 1966).
+/// Minimum number of single-character insertions, deletions and replacements that turn a into b (Levenshtein
+/// 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace brume::scene

@@ -85,7 +85,7 @@ TEST_F(MaskErrors, ShotsThatCannotBe) {
   };
   fails("shape = \"mask\"", {"a.toml:4:1: ", "lacks the key \"mask\""});
   fails("shape = \"mask\"\nmask = \"\"", {"a.toml:10:8: ", "\"mask\": expected the name of a picture"});
-  fails("shape = \"mask\"\nmask = 3", {"a.toml:10:", "\"mask\": expected a text in quotes"});
+  fails("shape = \"mask\"\nmask = 3", {"a.toml:10:", "\"mask\": expected a string in quotes"});
   fails("mask = \"a.png\"", {"a.toml:9:8: ", "belongs to shape = \"mask\""});
   fails("shape = \"star\"", {"a.toml:9:9: ", "expected \"cylinder\", \"box\" or \"mask\""});
   for (const char* name : {"../a.png", "/a.png"})
@@ -105,7 +105,7 @@ TEST_F(MaskErrors, TextsThatCannotBe) {
   fails("text = \"\"", {"a.toml:9:8: ", "expected 1 to 1024 bytes"});
   fails("text = \"" + std::string(1025, 'A') + "\"", {"a.toml:9:8: ", "expected 1 to 1024 bytes"});
   fails("text = \"  \"", {"a.toml:4:1: ", "no letter", "expected one"});
-  fails("text = 5", {"a.toml:9:8: ", "expected a text in quotes"});
+  fails("text = 5", {"a.toml:9:8: ", "expected a string in quotes"});
   fails("text = \"A\\tB\"", {"a.toml:4:1: ", "U+0009", "expected one line of letters"});
   fails("text = \"\xff\xfe\"", {"a.toml:9:", "utf-8"});
   fails("text = \"\xe6\xbc\xa2\"", {"a.toml:4:1: ", "no glyph for U+6F22", "choose another"});

@@ -100,7 +100,7 @@ TEST(Font, ReadsUtf8) {
   EXPECT_EQ(row[3].character, U'\U0001f600');
   for (const char* bad :
        {"\x80", "a\xc3", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff", "\xe2\x28\xa1"})
-    EXPECT_EQ(font.row(bad, 0).failure().message, "the text is no UTF-8") << bad;
+    EXPECT_EQ(font.row(bad, 0).failure().message, "the text is not valid UTF-8") << bad;
   EXPECT_EQ(font.row("a\nb", 0).failure().message,
             "the text has the control character U+000A; expected one line of letters");
 }

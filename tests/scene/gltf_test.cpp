@@ -176,7 +176,7 @@ TEST(Gltf, SparseAccessorsReplaceElements) {
 TEST(Gltf, CutShortOrOverreachingBytesAreRefused) {
   Document truncated;
   truncated.promised = 40;
-  EXPECT_HAS(truncated.error(), "a.gltf: buffers[0]: is cut short: 40 bytes are promised, 36 are there");
+  EXPECT_HAS(truncated.error(), "a.gltf: buffers[0]: is truncated: expected 40 bytes, found 36");
 
   Document past_end;
   past_end.accessors =
@@ -207,7 +207,7 @@ TEST(Gltf, UrisStayBelowTheFolder) {
   }
   Document missing;
   missing.uri = "other.bin";
-  EXPECT_HAS(missing.error(), "buffers[0].uri: the file \"other.bin\" does not exist beside the scene");
+  EXPECT_HAS(missing.error(), "buffers[0].uri: the file \"other.bin\" does not exist below the scene's folder");
 }
 
 TEST(Gltf, DataUrisAndPercentEscapes) {
@@ -353,7 +353,7 @@ TEST(Gltf, ValuesOfAWrongTypeAreNeverPassedOver) {
 TEST(Gltf, DeepNestingIsRefused) {
   Document document;
   document.more = ", \"extras\": " + std::string(1000000, '[') + "1" + std::string(1000000, ']');
-  EXPECT_HAS(document.error(), "is nested too deep");
+  EXPECT_HAS(document.error(), "is nested too deeply");
 }
 
 TEST(Gltf, ImagesOutsideOfTheirBufferAreRefused) {

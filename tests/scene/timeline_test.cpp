@@ -106,7 +106,7 @@ TEST(Timeline, SmokeIsOfAnAnisotropyOrOfDroplets) {
   ASSERT_TRUE(neither) << neither.failure().message;
   EXPECT_EQ(neither->smoke.droplet, std::nullopt);
   EXPECT_EQ(error_of(std::string(kHead) + "[smoke]\ndroplet = 8\nanisotropy = 0.3\n"),
-            "scenes/t.toml:4:11: \"droplet\": expected either it or \"anisotropy\"; take one of them out");
+            "scenes/t.toml:4:11: \"droplet\": cannot be combined with \"anisotropy\"; remove one of them");
   EXPECT_EQ(error_of(std::string(kHead) + "[smoke]\ndroplet = 51\n"),
             "scenes/t.toml:4:11: \"droplet\": expected a number from 0.1 to 50, found 51");
 }
