@@ -123,10 +123,9 @@ void SmokeUpload::make_written_atlases(glm::ivec3 bricks) {
   resources_.filtered_density = make_atlas(context_, bricks, VK_FORMAT_R16G16_SFLOAT, kUses);
 }
 
-void SmokeUpload::record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& needs) {
-  recorder.upload(resources_.slots, 0, std::as_bytes(std::span(needs.slots)));
-  resources_.needed = static_cast<std::uint32_t>(needs.slots.size());
-  resources_.seen = needs.seen;
+void SmokeUpload::record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& visibility) {
+  recorder.upload(resources_.slots, 0, std::as_bytes(std::span(visibility.slots)));
+  resources_.needed = static_cast<std::uint32_t>(visibility.slots.size());
 }
 
 void SmokeUpload::record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all) {

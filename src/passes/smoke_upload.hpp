@@ -18,7 +18,7 @@ struct SmokeResources {
   gpu::Buffer filled;       ///< Per slot the cells in which smoke may be.
   gpu::Buffer slots;        ///< SmokeVisibility::slots of the frame.
   std::uint32_t slot_count = 0;
-  std::uint32_t needed = 0, seen = 0;  ///< How many `slots` has, and how many of them may be in view.
+  std::uint32_t needed = 0;  ///< How many `slots` has.
 };
 
 /// The cells of a slot in which smoke may be, as shared::pack_cells packs them.
@@ -37,7 +37,7 @@ class SmokeUpload {
   bool record(gpu::Recorder& recorder, const smoke::SmokeVolume& volume);
 
   /// Uploads what the frame needs of the volume that `reserve` saw.
-  void record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& needs);
+  void record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& visibility);
 
   const SmokeResources& resources() const { return resources_; }
 
