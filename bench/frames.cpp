@@ -12,18 +12,18 @@ RepeatedFrame::RepeatedFrame(gpu::Context& context, const scenario::Scenario& sc
       counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
   simulation_->advance_to(seconds);
   input_ = render::frame_input(scenario, *simulation_, seconds, holes_);
-  input_.rebuild_light = true;
+  input_.quality.rebuild_light = true;
 }
 
 FrameCost RepeatedFrame::draw() {
-  ++input_.frame_index;
+  ++input_.view.frame_index;
   FrameCost cost;
   const double start = thread_cpu_ms();
-  renderer_.prepare(input_);
+  const render::FramePlan plan = renderer_.plan(input_);
   cost.prepare_cpu = thread_cpu_ms() - start;
   runner_.run([&](gpu::Recorder& recorder) {
     const double begin = thread_cpu_ms();
-    renderer_.record_frame(recorder, input_);
+    renderer_.record_frame(recorder, plan);
     cost.record_cpu = thread_cpu_ms() - begin;
     recorder.read_back(renderer_.sample_counter(), counter_, sizeof(std::uint32_t));
   });

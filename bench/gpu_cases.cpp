@@ -184,7 +184,7 @@ Result<std::vector<Measurement>> light_cache(Bench& bench) {
   render::RendererOptions options;
   options.size_px = slow ? glm::uvec2(96, 54) : glm::uvec2(1920, 1080);
   RepeatedFrame frame(bench.context(), *scenario, options, kGrown);
-  const std::vector<shared::Hole> holes(frame.input().holes.begin(), frame.input().holes.end());
+  const std::vector<shared::Hole> holes(frame.input().smoke.holes.begin(), frame.input().smoke.holes.end());
   std::vector<shared::Hole> changing = holes;
   std::vector<Measurement> results;
   const auto time = [&](const std::string& name, auto change) {
@@ -196,26 +196,26 @@ Result<std::vector<Measurement>> light_cache(Bench& bench) {
       const FrameCost cost = frame.draw();
       if (i < 2) continue;
       milliseconds.push_back(cost.passes.at("smoke_light"));
-      rays += frame.renderer().light_plan().pairs.size();
-      bricks += frame.renderer().light_plan().bricks.size();
+      rays += frame.renderer().light_plan().shadow_rays.size();
+      bricks += frame.renderer().light_plan().gathers.size();
     }
     results.push_back(summarize("light_cache/" + name, "ms", "gpu", milliseconds));
     results.back().details = {{"blocks_of_rays", static_cast<double>(rays) / count},
                               {"bricks", static_cast<double>(bricks) / count}};
   };
   time("all", [](unsigned) {});
-  frame.input().rebuild_light = false;
+  frame.input().quality.rebuild_light = false;
   time("nothing", [](unsigned) {});
-  time("eye", [&](unsigned i) { frame.input().camera.position_world.x = 0.01f * static_cast<float>(i); });
+  time("eye", [&](unsigned i) { frame.input().view.camera.position_world.x = 0.01f * static_cast<float>(i); });
   time("hole", [&](unsigned i) {
     changing.back().radius = holes.back().radius * (i % 2 == 0 ? 1 : 0.9f);
-    frame.input().holes = changing;
+    frame.input().smoke.holes = changing;
   });
   // A light that changes its intensity, and one that appears.
-  time("flicker", [&](unsigned i) { frame.input().flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
+  time("flicker", [&](unsigned i) { frame.input().environment.flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
   time("flash", [&](unsigned i) {
-    frame.input().flashes = {flash_beside(2)};
-    frame.input().flashes[0].position_world.y += 0.01f * static_cast<float>(i);
+    frame.input().environment.flashes = {flash_beside(2)};
+    frame.input().environment.flashes[0].position_world.y += 0.01f * static_cast<float>(i);
   });
   return results;
 }

@@ -63,18 +63,18 @@ bool Screen::show(const render::FrameInput* input, const Quality& quality, const
   if (!image) return false;
   const auto begin = std::chrono::steady_clock::now();
   if (image->size_px != glm::uvec2(canvas_.info().size)) canvas_ = make_canvas(context_, image->size_px);
-  render::FrameInput frame;
+  std::optional<render::FramePlan> plan;
   if (input) {
     set_resolution(scaled(image->size_px, quality.picture_scale), quality.march_scale);
-    frame = *input;
-    frame.continues = input->continues && !history_lost_;
+    render::FrameInput frame = *input;
+    frame.view.continues = input->view.continues && !history_lost_;
     history_lost_ = false;
-    renderer_->prepare(frame);
+    plan.emplace(renderer_->plan(frame));
   }
   ui_->reserve(ui);
   const bool same_size = renderer_->size_px() == image->size_px;
   const auto record = [&](gpu::Recorder& recorder) {
-    if (input) renderer_->record_frame(recorder, frame);
+    if (plan) renderer_->record_frame(recorder, *plan);
     const gpu::Scope scope(recorder, "window");
     recorder.blit(renderer_->display(), canvas_, same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
     ui_->record(recorder, ui, canvas_);
@@ -89,18 +89,12 @@ bool Screen::show(const render::FrameInput* input, const Quality& quality, const
 image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
   set_resolution(size_px, 1);
   history_lost_ = true;
-  input.continues = false;
-  input.frame_index = 0;
-  input.step_scale = 1;
-  input.resolve_error_scale = 1;
-  input.light_update_fraction = 1;
-  renderer_->prepare(input);
+  input.view.continues = false;
+  input.view.frame_index = 0;
+  input.quality = {};
   const gpu::Buffer pixels(context_, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            gpu::MemoryUse::readback);
-  runner_->run([&](gpu::Recorder& recorder) {
-    renderer_->record_frame(recorder, input);
-    recorder.read_back(renderer_->display(), pixels);
-  });
+  renderer_->draw(input, [&](gpu::Recorder& recorder) { recorder.read_back(renderer_->display(), pixels); });
   image::Image8 picture;
   picture.width = size_px.x;
   picture.height = size_px.y;

@@ -7,7 +7,7 @@
 
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/ui_parts.hpp"
-#include "render/device_camera.hpp"
+#include "planning/device_camera.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -26,9 +26,9 @@ glm::vec2 display_size() {
 /// Projects a world point to the display; nothing if it is behind the near plane.
 std::optional<ImVec2> on_display(const scene::Camera& camera, glm::vec3 world) {
   const glm::vec2 size = display_size();
-  const auto device = render::device_camera(camera, glm::uvec2(glm::max(size, glm::vec2(1))));
+  const auto device = planning::device_camera(camera, glm::uvec2(glm::max(size, glm::vec2(1))));
   const glm::vec4 clip = device.clip_from_world * glm::vec4(world, 1);
-  if (clip.w < render::kNearPlane) return std::nullopt;
+  if (clip.w < planning::kNearPlane) return std::nullopt;
   return ImVec2((0.5f + 0.5f * clip.x / clip.w) * size.x, (0.5f + 0.5f * clip.y / clip.w) * size.y);
 }
 

@@ -267,9 +267,8 @@ void Viewer::play_frame(const Input& input, double frame_seconds) {
 render::FrameInput Viewer::frame_input(std::vector<shared::Hole>& holes) const {
   render::FrameInput input =
       render::frame_input(session_->live().scenario(), session_->simulation(), session_->seconds(), holes);
-  input.camera = player_.camera();
-  input.view = choices_.view;
-  input.view_slice = choices_.slice;
+  input.view.camera = player_.camera();
+  input.debug = {choices_.view, choices_.slice};
   return input;
 }
 
@@ -298,11 +297,11 @@ bool Viewer::draw() {
   std::vector<shared::Hole> holes;
   render::FrameInput input = frame_input(holes);
   const Quality& quality = best ? quality_levels().front() : quality_.quality();
-  input.continues = continues_ && choices_.temporal && !best;
-  input.frame_index = best ? 0 : ++frame_index_;
-  input.step_scale = quality.step_scale;
-  input.resolve_error_scale = quality.resolve_error_scale;
-  input.light_update_fraction = quality.light_update_fraction;
+  input.view.continues = continues_ && choices_.temporal && !best;
+  input.view.frame_index = best ? 0 : ++frame_index_;
+  input.quality.step_scale = quality.step_scale;
+  input.quality.resolve_error_scale = quality.resolve_error_scale;
+  input.quality.light_update_fraction = quality.light_update_fraction;
   continues_ = !best;
   still_is_best_ = best;
   return screen_->show(&input, quality, *ImGui::GetDrawData());

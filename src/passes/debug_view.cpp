@@ -96,17 +96,6 @@ std::optional<DebugView> find_debug_view(std::string_view name) {
   return static_cast<DebugView>(found - kDebugViewNames.begin());
 }
 
-ViewSlice slice_through_smoke(const smoke::SmokeVolume* volume, glm::vec3 eye_world, glm::vec3 target_world) {
-  const glm::vec3 toward = glm::abs(target_world - eye_world);
-  ViewSlice slice{toward.x > toward.z ? 0u : 2u, 0};
-  const int axis = static_cast<int>(slice.axis);
-  if (!volume || volume->slot_count() == 0) return {slice.axis, target_world[axis]};
-  const shared::VolumeLayout& layout = volume->layout();
-  const float middle = std::floor(0.5f * (layout.bounds_min[axis] + layout.bounds_max[axis])) + 0.5f;
-  slice.at_world = layout.origin_world[axis] + middle * layout.voxel_size;
-  return slice;
-}
-
 float ramp_end(DebugView view, const sim::State& state) {
   if (view == DebugView::holes) return 2;
   if (view == DebugView::steps) return 96;
@@ -144,7 +133,7 @@ void DebugViewPass::reserve(const DebugSubject& subject, glm::uvec2 size_px) {
 }
 
 void DebugViewPass::find_level(const LevelView& level) {
-  if (seen_level_ && seen_level_->grid == level.grid && seen_level_->edits == level.edits) return;
+  if (seen_level_ == level) return;
   root_size_ = level.grid ? (level.grid->size() + (kNodeVoxels - 1)) / kNodeVoxels : glm::ivec3(1);
   level_words_ = level.grid ? words_of_level(*level.grid, root_size_) : std::vector<std::uint32_t>(1);
   gpu::grow(context_, level_, level_words_.size() * sizeof(std::uint32_t));
@@ -163,7 +152,8 @@ void DebugViewPass::find_ways(const DebugSubject& subject) {
         if (slot == smoke::SmokeVolume::kNoSlot || cloud.density(rank, phase) == 0) return;
         const std::uint32_t distance = cloud.distances()[rank];
         const std::uint32_t way = distance == sim::Cloud::kNoDistance ? shared::kNoWay : distance + 1;
-        std::uint32_t& entry = way_words_[std::size_t{slot} * smoke::kVoxelsPerBrick + smoke::local_voxel(voxel)];
+        std::uint32_t& entry =
+            way_words_[std::size_t{slot} * smoke::kVoxelsPerBrick + smoke::local_voxel(voxel)];
         entry = entry == 0 ? way : std::min(entry, way);
       });
     }

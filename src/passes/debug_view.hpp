@@ -9,25 +9,15 @@
 #include "passes/gbuffer.hpp"
 #include "passes/hole_clusters.hpp"
 #include "passes/solid_volume.hpp"
+#include "planning/debug_request.hpp"
 #include "shared/debug_view.h"
-#include "smoke/smoke_volume.hpp"
 #include "sim/state.hpp"
+#include "smoke/smoke_volume.hpp"
 
 namespace brume::passes {
 
-enum class DebugView : std::uint32_t {
-  none = shared::kViewNone,  ///< The picture itself.
-  solid = shared::kViewSolid,
-  distance = shared::kViewDistance,
-  density = shared::kViewDensity,
-  light = shared::kViewLight,
-  holes = shared::kViewHoles,
-  steps = shared::kViewSteps,
-  bricks = shared::kViewBricks,
-  normals = shared::kViewNormals,
-  albedo = shared::kViewAlbedo,
-  depth = shared::kViewDepth,
-};
+using planning::DebugView;
+using planning::ViewSlice;
 
 /// The names of all views by their number, that of `none` first.
 constexpr std::array<std::string_view, shared::kViewCount> kDebugViewNames{
@@ -45,17 +35,6 @@ constexpr bool has_slice(DebugView view) {
   return view == DebugView::density || view == DebugView::light || view == DebugView::distance;
 }
 
-/// A plane across an axis of the world: on it density and light are shown, on its far side distances.
-struct ViewSlice {
-  std::uint32_t axis = 1;  ///< 0, 1 or 2: x, y or z.
-  float at_world = 1.2f;   ///< [m]
-  bool operator==(const ViewSlice&) const = default;
-};
-
-/// The slice that faces the eye most of those across x and z, through the middle of the smoke and of its
-/// voxels; without smoke (null: none) through the target.
-ViewSlice slice_through_smoke(const smoke::SmokeVolume* volume, glm::vec3 eye_world, glm::vec3 target_world);
-
 /// The number at the end of a view's ramp: of distance, from what the clouds may fill [m], of holes [m], of
 /// steps.
 float ramp_end(DebugView view, const sim::State& state);
@@ -66,7 +45,7 @@ struct DebugSubject {
   ViewSlice slice;
   LevelView level;
   const smoke::SmokeVolume* volume = nullptr;  ///< null: no smoke.
-  const sim::State* state = nullptr;         ///< Whose clouds have distances; null: there are none.
+  const sim::State* state = nullptr;           ///< Whose clouds have distances; null: there are none.
 };
 
 class DebugViewPass {

@@ -1,44 +1,17 @@
-// Which holes reach where (shared/hole_clusters.h), found anew each frame: holes open, close and are shot.
+// Clusters of holes (shared/hole_clusters.h), found again each frame: holes open, close and are shot.
 #pragma once
-
-#include <span>
-#include <vector>
 
 #include "passes/hole_masks.hpp"
 #include "passes/smoke_upload.hpp"
-#include "shared/frame.h"
-#include "shared/hole_reach.h"
+#include "planning/hole_plan.hpp"
 
 namespace brume::passes {
-
-/// What is known of a frame's holes before any is drawn.
-struct HolePlan {
-  std::vector<shared::Hole> holes;  ///< Those that may take smoke away; at most kMaxHoles, the last ones.
-  std::vector<shared::HoleReach> reaches;  ///< Of each, inside the smoke's bounds.
-  std::uint32_t pair_capacity =
-      0;  ///< Never less than the pairs of a brick and a hole that meet, up to kMaxHolePairs.
-  std::uint32_t block_capacity = 0;
-};
-
-/// Where there are more, or more bricks with holes than block_capacity may be (7,000), light does not see
-/// some holes.
-constexpr std::uint32_t kMaxHolePairs = 1u << 22;
-
-/// Plans the holes that are open at `time` in smoke of `slot_count` bricks; noise moves their rims by up to
-/// `rim` metres.
-HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
-                    const shared::VolumeLayout& volume, std::uint32_t slot_count);
-
-/// As the shaders read them (lib/hole_rows.glsl): first all holes, then all their reaches. A radius is
-/// negative where two rows do not tell all: the hole opens or closes somewhere at `time`, or has a mask; a
-/// length where it is round.
-std::vector<glm::vec4> hole_rows(const HolePlan& plan, float time);
 
 /// What every pass that looks for holes binds.
 struct HoleResources {
   gpu::Buffer holes, lists, cells;
   gpu::Image masks;  ///< The mask atlas.
-  bool any = false;  ///< Whether any hole is open in this frame.
+  bool any = false;  ///< Whether any hole of the frame may remove smoke.
 };
 
 class HoleClusters {
@@ -48,14 +21,13 @@ class HoleClusters {
   /// Other masks instead. When the device is done with what was recorded before.
   void set_masks(gpu::Context& context, gpu::CommandRunner& runner, const smoke::MaskAtlas& masks);
 
-  /// Plans the frame and makes room. Not between the begin and the end of a recording, and only when the
-  /// device is done with what it recorded before. Throws resource_limit.
-  void reserve(std::span<const shared::Hole> holes, float time, float rim,
-               const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px);
-  /// What the frame's constants must say.
-  shared::HoleClusterLayout layout() const;
-  /// Uploads the holes and finds where they are, after the frame's constants and the smoke were uploaded.
-  void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SmokeResources& smoke);
+  /// Makes room for a plan. Not between the begin and the end of a recording, and only when the device is
+  /// done with what it recorded before. Throws resource_limit.
+  void reserve(const planning::HolePlan& plan);
+  /// Uploads the holes of the reserved plan and clusters them, after the frame's constants, which have the
+  /// plan's layout, and the smoke were uploaded.
+  void record(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
+              const SmokeResources& smoke);
 
   const HoleResources& resources() const { return resources_; }
 
@@ -65,11 +37,6 @@ class HoleClusters {
   gpu::Sampler nearest_;
   HoleResources resources_;
   gpu::Buffer coarse_tile_holes_, pairs_, counters_, words_taken_;
-  HolePlan plan_;
-  float time_ = 0;
-  std::uint32_t slot_count_ = 0;
-  glm::uvec2 tiles_{0};
-  std::uint32_t entries_at_ = 0, entry_capacity_ = 0;
 };
 
 }  // namespace brume::passes

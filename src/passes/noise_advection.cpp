@@ -71,13 +71,6 @@ class GrowthAround {
   std::array<glm::vec4, kEdge * kEdge * kEdge> voxels_{};
 };
 
-std::vector<shared::CloudMotion> motions_of(const sim::State& state, double seconds, double swirl_period) {
-  std::vector<shared::CloudMotion> motions;
-  for (const sim::LiveCloud& live : state.clouds)
-    motions.push_back(planning::cloud_motion(*live.cloud, state.ticks_per_second, seconds, swirl_period));
-  return motions;
-}
-
 }  // namespace
 
 bool CloudGrowth::update(const sim::State& state, const smoke::SmokeVolume& volume) {
@@ -132,7 +125,8 @@ std::vector<CloudGrowth::Share> CloudGrowth::make_shares(const sim::Cloud& cloud
     glm::uvec2* out = displacements_.data() + std::size_t{part} * shared::kDisplacementsPerBrick;
     for (std::uint32_t i = 0; i < shared::kDisplacementsPerBrick; ++i) {
       const auto n = static_cast<int>(i);
-      const glm::ivec3 point(n % shared::kDisplacementPoints, n / shared::kDisplacementPoints % shared::kDisplacementPoints,
+      const glm::ivec3 point(n % shared::kDisplacementPoints,
+                             n / shared::kDisplacementPoints % shared::kDisplacementPoints,
                              n / (shared::kDisplacementPoints * shared::kDisplacementPoints));
       const glm::vec4 mean = around.mean(2 * point + 1);
       // Where clouds meet, each counts for more the nearer its source is.
@@ -167,60 +161,53 @@ NoiseAdvectionPass::NoiseAdvectionPass(gpu::Context& context)
                 sizeof(shared::NoiseAdvectionParams), {kGroup, 1, 1}),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
-  for (gpu::Buffer* buffer : {&parts_, &displacements_, &motions_, &due_slots_}) gpu::grow(context, *buffer, 1);
+  for (gpu::Buffer* buffer : {&parts_, &displacements_, &motions_, &slots_due_})
+    gpu::grow(context, *buffer, 1);
   gpu::grow(context, impulses_, planning::kMaxImpulses * sizeof(shared::Impulse));
 }
 
-void NoiseAdvectionPass::reserve(const sim::State& state, const smoke::SmokeVolume& volume) {
+void NoiseAdvectionPass::reserve(const sim::State& state, const smoke::SmokeVolume& volume,
+                                 const planning::NoisePlan& plan) {
   parts_stale_ |= growth_.update(state, volume);
   parts_stale_ |= gpu::grow(context_, parts_, growth_.parts().size_bytes());
   displacements_stale_ |= gpu::grow(context_, displacements_, growth_.displacements().size_bytes());
-  gpu::grow(context_, motions_, state.clouds.size() * sizeof(shared::CloudMotion));
+  gpu::grow(context_, motions_, plan.motions.size() * sizeof(shared::CloudMotion));
+  if (plan.slots_due) gpu::grow(context_, slots_due_, plan.slots_due->size() * sizeof(std::uint32_t));
 }
 
-bool NoiseAdvectionPass::schedule(const sim::State& state, const smoke::SmokeVolume& volume, const planning::SmokeVisibility& needs,
-                          const shared::SmokeLook& look, double seconds, double swirl_period) {
-  const auto motions = motions_of(state, seconds, swirl_period);
-  const std::vector<shared::Impulse> impulses = planning::impulses_of(state, seconds);
-  due_ = turns_.due({&volume, needs.slots, motions, impulses, look, static_cast<float>(seconds)});
-  gpu::grow(context_, due_slots_, due_->size_bytes());
-  return !due_->empty();
-}
-
-void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Impulse> impulses) {
+void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const planning::NoisePlan& plan) {
   if (parts_stale_) recorder.upload(parts_, 0, std::as_bytes(growth_.parts()));
   if (displacements_stale_) {
     recorder.upload(displacements_, 0, std::as_bytes(growth_.displacements()));
   } else if (parts_stale_) {
     for (const std::uint32_t part : growth_.new_parts()) {
-      const auto entries =
-          growth_.displacements().subspan(std::size_t{part} * shared::kDisplacementsPerBrick, shared::kDisplacementsPerBrick);
+      const auto entries = growth_.displacements().subspan(std::size_t{part} * shared::kDisplacementsPerBrick,
+                                                           shared::kDisplacementsPerBrick);
       recorder.upload(displacements_, std::size_t{part} * entries.size_bytes(), std::as_bytes(entries));
     }
   }
   growth_.forget_new();
   parts_stale_ = displacements_stale_ = false;
-  const auto motions = motions_of(in.state, in.seconds, in.swirl_period);
-  recorder.upload(motions_, 0, std::as_bytes(std::span(motions)));
-  recorder.upload(impulses_, 0, std::as_bytes(impulses));
+  recorder.upload(motions_, 0, std::as_bytes(std::span(plan.motions)));
+  recorder.upload(impulses_, 0, std::as_bytes(std::span(plan.impulses)));
+  if (plan.slots_due && !plan.slots_due->empty())
+    recorder.upload(slots_due_, 0, std::as_bytes(std::span(*plan.slots_due)));
 }
 
-void NoiseAdvectionPass::record(gpu::Recorder& recorder, const Inputs& in) {
-  const std::vector<shared::Impulse> impulses = planning::impulses_of(in.state, in.seconds);
-  upload(recorder, in, impulses);
-  if (!due_) turns_.forget();
-  const auto all = due_ ? static_cast<std::uint32_t>(due_->size()) : in.smoke.needed;
-  if (due_ && all > 0) recorder.upload(due_slots_, 0, std::as_bytes(*due_));
-  const gpu::Buffer& slots = due_ ? due_slots_ : in.smoke.slots;
-  due_.reset();
+void NoiseAdvectionPass::record(gpu::Recorder& recorder, const planning::NoisePlan& plan, const Inputs& in) {
+  upload(recorder, plan);
+  const gpu::Buffer& slots = plan.slots_due ? slots_due_ : in.smoke.slots;
+  const auto all = plan.slots_due ? static_cast<std::uint32_t>(plan.slots_due->size()) : in.smoke.needed;
   for (std::uint32_t first = 0; first < all; first += kSlotsPerDispatch) {
     const std::uint32_t count = std::min(kSlotsPerDispatch, all - first);
     recorder.bind(
         pipeline_,
         {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
          gpu::sampled(in.noise, repeat_), gpu::read(parts_), gpu::read(displacements_), gpu::read(motions_),
-         gpu::read(impulses_), gpu::stored(in.smoke.density_displacement), gpu::stored(in.smoke.filtered_density), gpu::read(slots)},
-        shared::NoiseAdvectionParams{first, count, in.smoke.slot_count, static_cast<std::uint32_t>(impulses.size())});
+         gpu::read(impulses_), gpu::stored(in.smoke.density_displacement),
+         gpu::stored(in.smoke.filtered_density), gpu::read(slots)},
+        shared::NoiseAdvectionParams{first, count, in.smoke.slot_count,
+                                     static_cast<std::uint32_t>(plan.impulses.size())});
     recorder.dispatch_threads(pipeline_, count * shared::kTexelsPerBrick);
   }
 }

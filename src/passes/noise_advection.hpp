@@ -5,15 +5,15 @@
 #include <memory>
 #include <vector>
 
-#include "planning/noise_updates.hpp"
 #include "passes/smoke_upload.hpp"
+#include "planning/noise_motion.hpp"
 #include "shared/noise_advection.h"
 #include "sim/state.hpp"
 
 namespace brume::passes {
 
-/// How each cloud grew, brick by brick, as shaders/shared/drift.h lays it out: made when a cloud comes,
-/// dropped when it goes.
+/// How each cloud grew, brick by brick, as shaders/shared/noise_advection.h lays it out: made when a cloud
+/// comes, dropped when it goes.
 class CloudGrowth {
  public:
   /// Follows the clouds of a state and the slots of a volume; true when the list of parts is another one.
@@ -52,31 +52,22 @@ class NoiseAdvectionPass {
     const gpu::Buffer& frame;
     const SmokeResources& smoke;
     const gpu::Image& noise;
-    const sim::State& state;  ///< Whose clouds, shots, bodies and blasts; as reserve saw it.
-    double seconds = 0;       ///< On the clock of the state.
-    double swirl_period = 1;  ///< That a roll takes.
   };
-  /// Makes room for the clouds. As SmokeUpload::reserve, and after it.
-  void reserve(const sim::State& state, const smoke::SmokeVolume& volume);
-  /// Chooses the bricks of the next record by turns; every record in a row must have its own. After
-  /// `reserve`, outside of a recording. False: none has a turn.
-  bool schedule(const sim::State& state, const smoke::SmokeVolume& volume, const planning::SmokeVisibility& needs,
-                 const shared::SmokeLook& look, double seconds, double swirl_period);
-  /// Fills smoke.density_displacement (shaders/shared/smoke_volume.h; the noise at a point is that of point + GBA) and
-  /// smoke.filtered_density for the needed slots. Depends on the inputs alone; after `schedule`, which fills only those
-  /// that have a turn, on the frames before.
-  void record(gpu::Recorder& recorder, const Inputs& inputs);
+  /// Makes room for the clouds of a state, whose noise is planned. When SmokeUpload::reserve may be called,
+  /// with the same volume.
+  void reserve(const sim::State& state, const smoke::SmokeVolume& volume, const planning::NoisePlan& plan);
+  /// Fills smoke.density_displacement (shaders/shared/smoke_volume.h; the noise at a point is that of point +
+  /// GBA) and smoke.filtered_density for the slots of the reserved plan.
+  void record(gpu::Recorder& recorder, const planning::NoisePlan& plan, const Inputs& inputs);
 
  private:
-  void upload(gpu::Recorder& recorder, const Inputs& inputs, std::span<const shared::Impulse> impulses);
+  void upload(gpu::Recorder& recorder, const planning::NoisePlan& plan);
 
   gpu::Context& context_;
   gpu::ComputePipeline pipeline_;
   gpu::Sampler linear_, repeat_;
   CloudGrowth growth_;
-  planning::NoiseUpdates turns_;
-  std::optional<std::span<const std::uint32_t>> due_;  // of the next record
-  gpu::Buffer due_slots_;
+  gpu::Buffer slots_due_;
   gpu::Buffer parts_, displacements_, motions_, impulses_;
   bool parts_stale_ = true, displacements_stale_ = true;
 };

@@ -15,7 +15,7 @@ class ResolvePass {
   /// `depth` is the G-buffer's.
   void record_ends(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& depth,
                    const MarchTiles& blocks) const;
-  /// Lists the blocks where interpolation between rays would be seen: off by more than 2/255 on the screen,
+  /// Lists the blocks where interpolation between rays would be seen: off by more than 3/255 on the screen,
   /// in front of a surface that shines as `emission` (the G-buffer's) says or that stands in bright light.
   void record_select(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& emission,
                      const MarchTiles& blocks) const;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu/recorder.hpp"
+#include "planning/frame_input.hpp"
 #include "scene/scene.hpp"
 #include "shared/gbuffer.h"
 #include "shared/light.h"
@@ -35,8 +36,7 @@ struct MaterialImages {
   std::uint32_t base_color = 0, normal = 0, roughness = 0;  ///< Into SceneResources::images.
 };
 
-/// Lights of a moment that there is room for after those of the scene.
-constexpr std::size_t kMaxFlashes = 64;
+using planning::kMaxFlashes;  // so many lights of a frame there is room for after those of the scene
 
 struct SceneResources {
   gpu::Buffer vertices, indices, lights;

@@ -41,43 +41,38 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
                       sizeof(shared::SmokeLightParams), {kThreads, 1, 1}),
       one_group_(context.info().kind == "cpu"),
       linear_(context, {}),
-      compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
-      plan_(&kept_.plan({})) {
-  for (gpu::Buffer* buffer : {&rows_, &blocks_, &listed_rows_, &changes_, &pairs_, &bricks_, &brick_lights_})
+      compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {
+  for (gpu::Buffer* buffer :
+       {&texel_lists_, &ray_pages_, &listed_bricks_, &changes_, &shadow_rays_, &gathers_, &gathered_lights_})
     gpu::grow(context, *buffer, 1);
 }
 
-void SmokeLightPass::reserve(const planning::SmokeLightInputs& inputs) {
-  const auto make_room = [&] {
-    constexpr std::size_t kWord = sizeof(std::uint32_t);
-    const std::size_t most = context_.limits().maxStorageBufferRange;
-    // Twice what is needed, so that it is seldom: what was kept is lost then.
-    const auto grow = [&](gpu::Buffer& buffer, std::size_t bytes) {
-      return buffer.size() < bytes && gpu::grow(context_, buffer, std::min(2 * bytes, std::max(most, bytes)));
-    };
-    const bool rows = grow(rows_, plan_->row_count * shared::kTexelListWords * kWord);
-    const bool blocks = grow(blocks_, plan_->page_count * shared::kTexelsPerBrick * kWord);
-    return rows || blocks;
+bool SmokeLightPass::reserve(const planning::SmokeLightPlan& plan) {
+  // What is cached: twice what the plan needs, since a larger buffer loses it.
+  const auto grow = [&](gpu::Buffer& buffer, std::size_t words) {
+    const std::size_t bytes = words * sizeof(std::uint32_t), most = context_.limits().maxStorageBufferRange;
+    return buffer.size() < bytes && gpu::grow(context_, buffer, std::min(2 * bytes, std::max(most, bytes)));
   };
-  plan_ = &kept_.plan(inputs);
-  if (make_room()) {
-    kept_.forget();
-    plan_ = &kept_.plan(inputs);
-  }
-  gpu::grow(context_, listed_rows_, plan_->rows.size() * sizeof(shared::TexelList));
-  gpu::grow(context_, changes_, plan_->changes.size() * sizeof(shared::LightChange));
-  gpu::grow(context_, pairs_, plan_->pairs.size() * sizeof(shared::ShadowRays));
-  gpu::grow(context_, bricks_, plan_->bricks.size() * sizeof(shared::LightGather));
-  gpu::grow(context_, brick_lights_, plan_->lights.size() * sizeof(glm::uvec2));
+  const bool lost_lists = grow(texel_lists_, std::size_t{plan.texel_list_count} * shared::kTexelListWords);
+  const bool lost_pages = grow(ray_pages_, std::size_t{plan.page_count} * shared::kTexelsPerBrick);
+  if (lost_lists || lost_pages) return false;
+
+  // The plan's own lists.
+  gpu::grow(context_, listed_bricks_, plan.texel_lists.size() * sizeof(shared::TexelList));
+  gpu::grow(context_, changes_, plan.changes.size() * sizeof(shared::LightChange));
+  gpu::grow(context_, shadow_rays_, plan.shadow_rays.size() * sizeof(shared::ShadowRays));
+  gpu::grow(context_, gathers_, plan.gathers.size() * sizeof(shared::LightGather));
+  gpu::grow(context_, gathered_lights_, plan.gathered_lights.size() * sizeof(glm::uvec2));
+  return true;
 }
 
-void SmokeLightPass::record(gpu::Recorder& recorder, const Inputs& in) {
-  upload(recorder, listed_rows_, plan_->rows);
-  upload(recorder, changes_, plan_->changes);
-  upload(recorder, pairs_, plan_->pairs);
-  upload(recorder, bricks_, plan_->bricks);
-  upload(recorder, brick_lights_, plan_->lights);
-  for (const planning::SmokeLightPlan::Part& part : plan_->parts) record_part(recorder, in, part);
+void SmokeLightPass::record(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan, const Inputs& in) {
+  upload(recorder, listed_bricks_, plan.texel_lists);
+  upload(recorder, changes_, plan.changes);
+  upload(recorder, shadow_rays_, plan.shadow_rays);
+  upload(recorder, gathers_, plan.gathers);
+  upload(recorder, gathered_lights_, plan.gathered_lights);
+  for (const planning::SmokeLightPlan::Part& part : plan.parts) record_part(recorder, in, part);
 }
 
 void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
@@ -85,44 +80,46 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   const auto params = [](const volume::IndexRange& range, std::uint32_t threads) {
     return shared::SmokeLightParams{range.first, range.count, threads};
   };
-  if (part.rows.count > 0) {
+  if (part.texel_lists.count > 0) {
     recorder.bind(texels_pass_,
-                  {gpu::uniform(in.frame), gpu::read(listed_rows_), gpu::sampled(in.smoke.density, linear_),
-                   gpu::read_write(rows_), gpu::read(in.smoke.cells), gpu::read(in.smoke.slot_bricks),
+                  {gpu::uniform(in.frame), gpu::read(listed_bricks_), gpu::sampled(in.smoke.density, linear_),
+                   gpu::read_write(texel_lists_), gpu::read(in.smoke.cells), gpu::read(in.smoke.slot_bricks),
                    gpu::read(changes_)},
-                  params(part.rows, 256));
-    const Groups groups = groups_of(part.rows.count);
+                  params(part.texel_lists, 256));
+    const Groups groups = groups_of(part.texel_lists.count);
     recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
   }
-  // First what asks for texels of every phase, then what asks for those of some. A thread a texel; without a
-  // GPU one group for all of them, since there threads that have none cost as much as those that have.
+  // First the items of all texels, then those of some phases. A thread a texel; without a GPU one group for
+  // all of them, since there threads that have none cost as much as those that have.
   const auto threads_for = [&](std::uint32_t texels) {
     return one_group_ ? kThreads : (texels + kThreads - 1) / kThreads * kThreads;
   };
-  const auto each = [&](const volume::IndexRange& range, std::uint32_t few, auto record) {
-    if (range.count > few) record({range.first, range.count - few}, threads_for(shared::kTexelsPerBrick));
-    if (few > 0)
-      record({range.first + range.count - few, few}, threads_for(part.phases * shared::kTexelsPerPhase));
+  const auto each = [&](const volume::IndexRange& range, std::uint32_t sliced, auto record) {
+    if (range.count > sliced)
+      record({range.first, range.count - sliced}, threads_for(shared::kTexelsPerBrick));
+    if (sliced > 0)
+      record({range.first + range.count - sliced, sliced},
+             threads_for(part.phases * shared::kTexelsPerPhase));
   };
-  each(part.pairs, part.few_pairs, [&](const volume::IndexRange& range, std::uint32_t threads) {
+  each(part.shadow_rays, part.sliced_rays, [&](const volume::IndexRange& range, std::uint32_t threads) {
     recorder.bind(rays_pass_,
                   {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
                    gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
                    gpu::read(in.smoke.pages), gpu::sampled(in.smoke.filtered_density, linear_),
                    gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
                    gpu::read(in.holes.cells), gpu::sampled(in.level.solid.texels(), linear_),
-                   gpu::read(pairs_), gpu::read(rows_), gpu::write(blocks_)},
+                   gpu::read(shadow_rays_), gpu::read(texel_lists_), gpu::write(ray_pages_)},
                   params(range, threads));
     const Groups groups = groups_of(range.count);
     recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
   });
-  each(part.bricks, part.few_bricks, [&](const volume::IndexRange& range, std::uint32_t threads) {
+  each(part.gathers, part.sliced_gathers, [&](const volume::IndexRange& range, std::uint32_t threads) {
     recorder.bind(
         inscatter_pass_,
         {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
-         gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
+         gpu::read(texel_lists_), gpu::read(ray_pages_), gpu::read(gathers_), gpu::stored(in.smoke.inscatter),
          gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
-         gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(brick_lights_)},
+         gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(gathered_lights_)},
         params(range, threads));
     const Groups groups = groups_of(range.count);
     recorder.dispatch_threads(inscatter_pass_, threads, groups.y, groups.z);

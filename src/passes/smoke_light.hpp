@@ -5,8 +5,8 @@
 #include "passes/hole_clusters.hpp"
 #include "passes/shade.hpp"
 #include "passes/shadow.hpp"
-#include "planning/smoke_light_cache.hpp"
 #include "passes/smoke_upload.hpp"
+#include "planning/smoke_light_cache.hpp"
 
 namespace brume::passes {
 
@@ -22,14 +22,12 @@ class SmokeLightPass {
     const HoleResources& holes;
     LevelLight level;
   };
-  /// Plans a frame, which must then be recorded, and makes room. Not between the begin and the end of a
-  /// recording, and only when the device is done with what it recorded before. Throws resource_limit.
-  void reserve(const planning::SmokeLightInputs& inputs);
-  /// Brings smoke.inscatter to the inputs of `reserve`, where a ray of the frame's camera can meet smoke.
-  void record(gpu::Recorder& recorder, const Inputs& inputs);
-
-  /// What the next record does, or the last one did.
-  const planning::SmokeLightPlan& plan() const { return *plan_; }
+  /// Makes room for a plan; false where what was cached is lost for it, and the frame must be planned again.
+  /// Not between the begin and the end of a recording, and only when the device is done with what it recorded
+  /// before. Throws resource_limit.
+  [[nodiscard]] bool reserve(const planning::SmokeLightPlan& plan);
+  /// Brings smoke.inscatter to the reserved plan's frame, where a ray of its camera can meet smoke.
+  void record(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan, const Inputs& inputs);
 
  private:
   void record_part(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeLightPlan::Part& part);
@@ -38,10 +36,8 @@ class SmokeLightPass {
   gpu::ComputePipeline texels_pass_, rays_pass_, inscatter_pass_;
   const bool one_group_;  // of threads for each entry of a list
   gpu::Sampler linear_, compare_;
-  planning::SmokeLightCache kept_;
-  const planning::SmokeLightPlan* plan_;
-  gpu::Buffer rows_, blocks_;                                         // what is kept
-  gpu::Buffer listed_rows_, changes_, pairs_, bricks_, brick_lights_;  // the lists of a plan
+  gpu::Buffer texel_lists_, ray_pages_;                                            // what is cached
+  gpu::Buffer listed_bricks_, changes_, shadow_rays_, gathers_, gathered_lights_;  // the lists of a plan
 };
 
 }  // namespace brume::passes

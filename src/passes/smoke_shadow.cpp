@@ -39,24 +39,24 @@ SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 pic
   return shadows;
 }
 
-void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in, const planning::SmokeShadowPlan& all,
-                             const SmokeShadows& shadows, const Texels& texels) const {
-  const planning::SmokeShadowPlan plan = all.spread_by(texels.spread);
+void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
+                             const planning::SmokeShadowUpdate& update, const SmokeShadows& shadows) const {
+  const planning::SmokeShadowPlan& plan = update.plan;
   recorder.upload(shadows.faces, 0, std::as_bytes(std::span(plan.faces)));
   if (plan.blocks == 0) return;
   shared::SmokeShadowParams params{};
   params.face_count = static_cast<std::uint32_t>(plan.faces.size());
   params.step_length = kStepMetres;
-  params.spread = texels.spread;
-  params.first = texels.first;
+  params.spread = update.spread;
+  params.first = update.first;
   recorder.bind(
       pipeline_,
       {gpu::uniform(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
        gpu::sampled(in.shadows.layers, nearest_), gpu::read(in.smoke.pages),
-       gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary),
-       gpu::read(in.smoke.corners), gpu::stored(shadows.atlas), gpu::read(in.holes.cells),
-       gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_), gpu::read(in.holes.holes),
-       gpu::sampled(in.holes.masks, nearest_)},
+       gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(in.smoke.cells),
+       gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners), gpu::stored(shadows.atlas),
+       gpu::read(in.holes.cells), gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_),
+       gpu::read(in.holes.holes), gpu::sampled(in.holes.masks, nearest_)},
       params);
   recorder.dispatch_threads(pipeline_, kThreads * plan.blocks, 1);
 }

@@ -3,9 +3,9 @@
 
 #include "passes/hole_clusters.hpp"
 #include "passes/shadow.hpp"
-#include "planning/smoke_shadow_plan.hpp"
 #include "passes/smoke_upload.hpp"
 #include "passes/solid_volume.hpp"
+#include "planning/smoke_shadow_cache.hpp"
 
 namespace brume::passes {
 
@@ -30,14 +30,9 @@ class SmokeShadowPass {
     const SmokeResources& smoke;
     const HoleResources& holes;
   };
-  /// Every `spread`th texel of each rectangle along both axes, from the texel `first` below `spread` on.
-  struct Texels {
-    std::uint32_t spread = 1;
-    glm::uvec2 first{0};
-  };
-  /// Marches rays of a plan for the atlas; the plan's lights are those of the scene's buffer.
-  void record(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeShadowPlan& plan,
-              const SmokeShadows& shadows, const Texels& texels) const;
+  /// Marches the rays of an update for the atlas; its plan's lights are those of the scene's buffer.
+  void record(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeShadowUpdate& update,
+              const SmokeShadows& shadows) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -20,7 +20,7 @@ struct SmokeResources {
   gpu::Buffer filled{};  ///< Per slot the cells that smoke may be in.
   gpu::Buffer slots{};   ///< SmokeVisibility::slots of the frame.
   std::uint32_t slot_count = 0;
-  std::uint32_t needed = 0, seen = 0;  ///< How many `slots` has, and how many of them may be in view.
+  std::uint32_t needed = 0;  ///< How many `slots` has.
 };
 
 /// The cells of a slot that smoke may be in, as shared::pack_cells packs them.

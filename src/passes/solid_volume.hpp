@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu/recorder.hpp"
+#include "planning/frame_input.hpp"
 #include "shared/solid_volume.h"
 #include "sim/level_edit.hpp"
 #include "voxel/bit_grid.hpp"
@@ -13,12 +14,7 @@
 
 namespace brume::passes {
 
-/// A level at a moment. The edits say what changed since another moment of the same level; null: as it was
-/// loaded.
-struct LevelView {
-  const voxel::BitGrid* grid = nullptr;  ///< Edits included; null: nothing is solid anywhere.
-  std::shared_ptr<const sim::EditBlocks> edits;
-};
+using planning::LevelView;
 
 constexpr int kMaxSolidAxis = 256;
 constexpr std::uint32_t kMaxSolidTexels = 1u << 20;
@@ -32,7 +28,7 @@ class SolidVolume {
   explicit SolidVolume(gpu::Context& context);
 
   /// Makes room for the level. Outside of a recording, when the device is done with the one before. Levels of
-  /// one frame are taken for moments of the same one. Throws resource_limit.
+  /// one layout are taken for the same level at different times. Throws resource_limit.
   void reserve(const LevelView& level);
   /// Uploads what changed since the last record; true when anything did. The level must be as `reserve` saw
   /// it.

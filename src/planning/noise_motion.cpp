@@ -14,12 +14,12 @@ constexpr double kMostGrown = 2.5;
 // How the noise follows the front: a little behind, so that its cells grow too.
 constexpr double kFollow = 0.8;
 constexpr double kCreep = 1.0 / 7, kCreepSeconds = 5;
-// How far the rolls of a new cloud are ahead of those of an old one, in turns, and for how long.
 // How little of a dissolved cloud counts, so that nothing jumps when it goes: 1 less this.
 constexpr double kGoneWeight = 0.999;
 // How much wider the rolls of a cloud become while it dissolves.
 constexpr double kDrawnOut = 2;
-constexpr double kSwirlLead = 0.5, kRollAheadSeconds = 1.5;
+// How far the rolls of an old cloud are ahead of those of a new one, in turns, and how fast they get there [s].
+constexpr double kSwirlLead = 0.5, kSwirlLeadSeconds = 1.5;
 
 /// 3x^2 - 2x^3, x clamped to [0, 1].
 double smooth(double x) {
@@ -112,7 +112,7 @@ shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_pe
   const double creep = kCreep * (1 - std::exp(-age / kCreepSeconds));
 
   // The rolls of all clouds keep pace, so that they blend where clouds meet; a new one's are only ahead.
-  const double ahead = kSwirlLead * (1 - std::exp(-age / kRollAheadSeconds));
+  const double ahead = kSwirlLead * (1 - std::exp(-age / kSwirlLeadSeconds));
   const double turns = std::fmod(seconds / std::max(swirl_period, kMinSwirlPeriod), 1.0) + ahead;
   const double angle = 2 * std::numbers::pi * turns;
   // What dissolves is drawn out.
@@ -134,6 +134,14 @@ std::vector<shared::Impulse> impulses_of(const sim::State& state, double seconds
   if (impulses.size() > kMaxImpulses)
     impulses.erase(impulses.begin(), impulses.end() - static_cast<std::ptrdiff_t>(kMaxImpulses));
   return impulses;
+}
+
+NoisePlan plan_noise(const sim::State& state, double seconds, double swirl_period) {
+  NoisePlan plan;
+  for (const sim::LiveCloud& live : state.clouds)
+    plan.motions.push_back(cloud_motion(*live.cloud, state.ticks_per_second, seconds, swirl_period));
+  plan.impulses = impulses_of(state, seconds);
+  return plan;
 }
 
 }  // namespace brume::planning

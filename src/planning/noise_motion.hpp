@@ -1,6 +1,7 @@
-// What moves the noise in the smoke at a moment, as the drift pass takes it.
+// What advects the noise in the smoke at a time, as the advection pass reads it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "shared/noise_advection.h"
@@ -8,7 +9,7 @@
 
 namespace brume::planning {
 
-/// Of the rolls of the noise: how long one takes once the cloud has settled.
+/// The shortest time that a roll of the noise takes [s]; shorter periods count as this one.
 constexpr double kMinSwirlPeriod = 0.1;
 
 /// What a cloud does to its noise `seconds` after tick 0. While the cloud blooms its noise grows with its
@@ -18,11 +19,22 @@ constexpr double kMinSwirlPeriod = 0.1;
 shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_per_second, double seconds,
                                  double swirl_period);
 
-/// The most things that move the noise at a time.
+/// The most impulses at a time.
 constexpr std::size_t kMaxImpulses = 64;
 
-/// Shots, bodies and explosions that move the noise; of more than kMaxImpulses the latest. Each begins and ends
-/// with nothing moved.
+/// The impulses of shots, bodies and explosions; of more than kMaxImpulses the latest. Each begins and ends at
+/// rest.
 std::vector<shared::Impulse> impulses_of(const sim::State& state, double seconds);
+
+/// The noise of a frame.
+struct NoisePlan {
+  std::vector<shared::CloudMotion> motions;  ///< Of the state's clouds, in their order.
+  std::vector<shared::Impulse> impulses;
+  /// The slots whose noise the frame advects; empty: all of its slots.
+  std::optional<std::vector<std::uint32_t>> slots_due;
+};
+
+/// What advects the noise of a state `seconds` after tick 0, in all slots.
+NoisePlan plan_noise(const sim::State& state, double seconds, double swirl_period);
 
 }  // namespace brume::planning

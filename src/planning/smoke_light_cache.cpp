@@ -4,10 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <string_view>
-#include <tuple>
-#include <unordered_set>
 
 #include "core/hash.hpp"
 #include "planning/light_reach.hpp"
@@ -15,9 +11,9 @@
 namespace brume::planning {
 namespace {
 
-// Lights that are remembered beyond those of the frame.
+// Lights that are known beyond those of the frame.
 constexpr std::size_t kExtraLights = 32;
-// More questions of a ray and a change than this cost more than following rays does.
+// More tests of a ray and a change than this cost more than following all rays does.
 constexpr std::size_t kMaxIntersectionTests = 1u << 16;
 // Around the middle of a brick lie all its texels and points [voxels]: corners of a cube of 11.
 constexpr float kBrickReach = 9.53f;
@@ -43,155 +39,83 @@ glm::vec3 middle_of(const shared::VolumeLayout& layout, glm::ivec3 brick) {
 
 }  // namespace
 
-bool same_opening(const shared::Hole& hole, float time_a, float time_b) {
-  constexpr float kTolerance = 1e-3f;  // [s]: more than times round by
-  const float wide = hole.time_start + hole.time_to_reach_far + std::max(hole.time_to_expand, 1e-6f);
-  const float closing = hole.time_start + hole.time_to_expand + hole.time_to_stay_open;
-  const float closed = wide + hole.time_to_stay_open + std::max(hole.time_to_fade, 1e-6f);
-  const float first = std::min(time_a, time_b), last = std::max(time_a, time_b);
-  return first == last || (first > wide + kTolerance && last < closing - kTolerance) ||
-         last < hole.time_start - kTolerance || first > closed + kTolerance;
-}
-
 void SmokeLightCache::drop_all_rays() {
-  row_count_ = 0;
-  std::fill(row_of_slot_.begin(), row_of_slot_.end(), kNone);
-  page_end_ = 0;
+  entry_count_ = 0;
+  std::fill(entry_of_slot_.begin(), entry_of_slot_.end(), kNone);
+  pages_.clear();
 }
 
-void SmokeLightCache::forget() {
+void SmokeLightCache::invalidate() {
   drop_all_rays();
-  last_.reset();
+  tracker_.reset();
 }
 
-bool SmokeLightCache::must_invalidate(const SmokeLightInputs& inputs) const {
-  if (!last_ || inputs.volume != last_->volume || (!shares() && inputs_differ(inputs))) return true;
-  const shared::VolumeLayout& layout = inputs.volume->layout();
-  if (layout.origin_world != layout_.origin_world || layout.voxel_size != layout_.voxel_size ||
-      layout.atlas_bricks != layout_.atlas_bricks)
-    return true;
-  // What is dirty is only that since the revision before.
-  return inputs.volume->revision() != revision_ && inputs.volume->revision() != revision_ + 1;
-}
-
-/// Whether no ray holds, wherever it runs.
-bool SmokeLightCache::inputs_differ(const SmokeLightInputs& inputs) const {
-  return inputs.anew || !same_bytes(inputs.look, last_->look);
-}
-
-void SmokeLightCache::remember(const SmokeLightInputs& inputs) {
-  holes_.assign(inputs.holes.begin(), inputs.holes.end());
-  revision_ = inputs.volume->revision();
-  layout_ = inputs.volume->layout();
-  bounds_ = inputs.needs->bounds;
-  const bool other_volume = !last_ || last_->volume != inputs.volume;
-  last_ = inputs;
-  if (!other_volume && generation_ == inputs.volume->structure_generation()) return;
-  generation_ = inputs.volume->structure_generation();
-  brick_of_slot_.resize(inputs.volume->slot_count());
-  for (std::uint32_t slot = 0; slot < inputs.volume->slot_count(); ++slot)
-    brick_of_slot_[slot] = inputs.volume->brick_of(slot);
-}
-
-void SmokeLightCache::add_hole_changes(const SmokeLightInputs& inputs,
-                                      std::vector<shared::LightChange>& changes) const {
-  const float slack = layout_.voxel_size;  // holes are averaged over cells of half a voxel
-  const auto add = [&](const shared::Hole& hole) {
-    // A rim moves by a quarter of the radius at most; only boxes and masks have corners.
-    const float reach = hole.shape == shared::kHoleCylinder ? 1.25f : shared::kHoleWidest;
-    changes.push_back({hole.origin_world, hole.radius * reach + slack,
-                       hole.origin_world + hole.distance_to_far * hole.forward, 0});
+/// The texels of bricks that changed must be listed again.
+void SmokeLightCache::relist_dirty_slots(const smoke::SmokeVolume& volume) {
+  const auto relist = [&](std::uint32_t slot) {
+    if (slot < entry_of_slot_.size() && entry_of_slot_[slot] != kNone)
+      entries_[entry_of_slot_[slot]].is_listed = false;
   };
-  const auto bytes = [](const shared::Hole& hole) {
-    return std::string_view(reinterpret_cast<const char*>(&hole), sizeof hole);
-  };
-  std::unordered_set<std::string_view> gone;
-  for (const shared::Hole& hole : holes_) gone.insert(bytes(hole));
-  for (const shared::Hole& hole : inputs.holes)
-    if (gone.erase(bytes(hole)) == 0 || !same_opening(hole, last_->time, inputs.time)) add(hole);
-  for (const shared::Hole& hole : holes_)
-    if (gone.count(bytes(hole)) > 0) add(hole);
+  for (const std::uint32_t slot : volume.dirty_slots()) relist(slot);
+  for (const std::uint32_t slot : volume.dirty_cell_slots()) relist(slot);
 }
 
-/// Lists the changes of holes that a row's texels may be in.
-volume::IndexRange SmokeLightCache::changes_in(const Row& row) {
+/// Adds the changes of holes that a brick's texels may be in to the plan.
+volume::IndexRange SmokeLightCache::add_changes_in(const BrickEntry& entry) {
   const auto first = static_cast<std::uint32_t>(plan_.changes.size());
   // A brick has one texel around it.
-  const glm::vec3 low = world_of(layout_, glm::vec3(row.brick) * float{shared::kBrickVoxels} - 1.0f);
-  const glm::vec3 high = world_of(layout_, glm::vec3(row.brick + 1) * float{shared::kBrickVoxels} + 1.0f);
-  for (const shared::LightChange& cut : hole_changes_)
-    if (intersects_box(cut.from_world, cut.to_world, low - cut.radius, high + cut.radius))
-      plan_.changes.push_back(cut);
+  const glm::vec3 low =
+      world_of(tracker_.layout(), glm::vec3(entry.brick) * float{shared::kBrickVoxels} - 1.0f);
+  const glm::vec3 high =
+      world_of(tracker_.layout(), glm::vec3(entry.brick + 1) * float{shared::kBrickVoxels} + 1.0f);
+  for (const shared::LightChange& hole : hole_changes_)
+    if (intersects_box(hole.from_world, hole.to_world, low - hole.radius, high + hole.radius))
+      plan_.changes.push_back(hole);
   return {first, static_cast<std::uint32_t>(plan_.changes.size()) - first};
 }
 
-void SmokeLightCache::add_smoke_changes(const SmokeLightInputs& inputs,
-                                       std::vector<shared::LightChange>& changes) {
-  if (inputs.volume->revision() == revision_) return;
-  // Cubes of four bricks, what changed in each as one.
-  std::map<std::tuple<int, int, int>, voxel::IntBox> cubes;
-  const auto add = [&](glm::ivec3 brick) {
-    const glm::ivec3 cube = brick >> 2;
-    const auto [known, added] = cubes.try_emplace({cube.x, cube.y, cube.z}, voxel::IntBox{brick, brick + 1});
-    if (!added) known->second = {glm::min(known->second.low, brick), glm::max(known->second.high, brick + 1)};
-  };
-  const auto add_slot = [&](std::uint32_t slot) {
-    add(inputs.volume->brick_of(slot));
-    if (slot < brick_of_slot_.size()) add(brick_of_slot_[slot]);
-    if (slot < row_of_slot_.size() && row_of_slot_[slot] != kNone) rows_[row_of_slot_[slot]].listed = false;
-  };
-  for (const std::uint32_t slot : inputs.volume->dirty_slots()) add_slot(slot);
-  for (const std::uint32_t slot : inputs.volume->dirty_cell_slots()) add_slot(slot);
-  for (const auto& [key, bricks] : cubes) {
-    // Corner sets of bricks around follow, too.
-    const glm::vec3 low = world_of(layout_, glm::vec3(bricks.low - 1) * float{shared::kBrickVoxels});
-    const glm::vec3 high = world_of(layout_, glm::vec3(bricks.high + 1) * float{shared::kBrickVoxels});
-    const glm::vec3 middle = 0.5f * (low + high);
-    changes.push_back({middle, 0.5f * glm::length(high - low), middle, 0});
-  }
-}
-
-/// Drops all rays; which texels have any stays known.
+/// No ray holds; which texels have any stays known.
 void SmokeLightCache::invalidate_rays() {
-  for (Row& row : std::span(rows_).first(row_count_)) {
-    row.sky.stale = kAllPhases;
-    for (Kept& kept : row.lights) kept.stale = kAllPhases;
+  for (BrickEntry& entry : entries()) {
+    entry.sky.dirty_phases = kAllPhases;
+    for (CachedRays& rays : entry.lights) rays.dirty_phases = kAllPhases;
   }
 }
 
-/// Drops the rays that changes may lie on; false where there is too much to ask.
+/// Finds the rays that changes may lie on; false where there is too much to test.
 bool SmokeLightCache::invalidate_crossing(const SmokeLightInputs& inputs,
-                                  std::span<const shared::LightChange> changes) {
+                                          std::span<const shared::LightChange> changes) {
   if (changes.empty()) return true;
-  std::size_t rays = 0;
-  for (const Row& row : std::span(rows_).first(row_count_)) rays += shared::kSkyRays + row.lights.size();
-  if (changes.size() * rays > kMaxIntersectionTests) return false;
-  const shared::VolumeLayout &now = inputs.volume->layout(), &then = layout_;
-  const float far = layout_.voxel_size * glm::length(glm::max(now.bounds_max, then.bounds_max) -
-                                                    glm::min(now.bounds_min, then.bounds_min));
-  const float radius = kBrickReach * layout_.voxel_size;
-  for (Row& row : std::span(rows_).first(row_count_)) {
-    const glm::vec3 from = middle_of(layout_, row.brick);
+  std::size_t ray_count = 0;
+  for (const BrickEntry& entry : entries()) ray_count += shared::kSkyRays + entry.lights.size();
+  if (changes.size() * ray_count > kMaxIntersectionTests) return false;
+  const shared::VolumeLayout &now = inputs.volume->layout(), &then = tracker_.layout();
+  const float far = then.voxel_size * glm::length(glm::max(now.bounds_max, then.bounds_max) -
+                                                  glm::min(now.bounds_min, then.bounds_min));
+  const float radius = kBrickReach * then.voxel_size;
+  for (BrickEntry& entry : entries()) {
+    const glm::vec3 from = middle_of(then, entry.brick);
     const auto crossed = [&](glm::vec3 to) {
       return std::any_of(changes.begin(), changes.end(), [&](const shared::LightChange& change) {
         const float reach = radius + change.radius;
         return distance2(from, to, change.from_world, change.to_world) < reach * reach;
       });
     };
-    for (std::uint32_t i = 0; i < shared::kSkyRays && row.sky.stale != kAllPhases; ++i)
-      if (crossed(from + far * shared::sky_ray(i))) row.sky.stale = kAllPhases;
-    for (Kept& kept : row.lights) {
-      const shared::Light& light = known_lights_[kept.light].light;
+    for (std::uint32_t i = 0; i < shared::kSkyRays && entry.sky.dirty_phases != kAllPhases; ++i)
+      if (crossed(from + far * shared::sky_ray(i))) entry.sky.dirty_phases = kAllPhases;
+    for (CachedRays& rays : entry.lights) {
+      const shared::Light& light = known_lights_[rays.light].light;
       const bool sun = light.kind == shared::kLightDirectional;
-      if (kept.stale != kAllPhases && crossed(sun ? from - far * light.direction : light.position_world))
-        kept.stale = kAllPhases;
+      if (rays.dirty_phases != kAllPhases &&
+          crossed(sun ? from - far * light.direction : light.position_world))
+        rays.dirty_phases = kAllPhases;
     }
   }
   return true;
 }
 
 SmokeLightCache::KnownLight& SmokeLightCache::match_light(const shared::Light& light, std::size_t hint,
-                                                 std::size_t most) {
+                                                          std::size_t most) {
   const auto is_it = [&](const KnownLight& known) {
     return known.last_frame < frames_ && same_rays(known.light, light);
   };
@@ -199,13 +123,14 @@ SmokeLightCache::KnownLight& SmokeLightCache::match_light(const shared::Light& l
   const auto known = std::find_if(known_lights_.begin(), known_lights_.end(), is_it);
   if (known != known_lights_.end()) return *known;
   if (known_lights_.size() < most) return known_lights_.emplace_back();
-  // In the place of the one that was not seen for the longest time.
-  const auto oldest = std::min_element(
-      known_lights_.begin(), known_lights_.end(), [](const KnownLight& a, const KnownLight& b) { return a.last_frame < b.last_frame; });
+  // In the place of the one that no frame had for the longest time.
+  const auto oldest =
+      std::min_element(known_lights_.begin(), known_lights_.end(),
+                       [](const KnownLight& a, const KnownLight& b) { return a.last_frame < b.last_frame; });
   const auto number = static_cast<std::uint32_t>(oldest - known_lights_.begin());
-  for (Row& row : std::span(rows_).first(row_count_))
-    for (Kept& kept : row.lights)
-      if (kept.light == number) kept.listing = 0;
+  for (BrickEntry& entry : entries())
+    for (CachedRays& rays : entry.lights)
+      if (rays.light == number) rays.list_version = 0;
   *oldest = {};
   return *oldest;
 }
@@ -215,7 +140,7 @@ void SmokeLightCache::match_lights(std::span<const shared::Light> lights) {
   for (KnownLight& known : known_lights_) known.in_frame = kNone;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     KnownLight& known = match_light(lights[i], i, lights.size() + kExtraLights);
-    if (known.version == 0 || !same_bytes(known.light, lights[i])) known.version = ++versions_;
+    if (known.version == 0 || !same_bytes(known.light, lights[i])) known.version = ++light_versions_;
     known.light = lights[i];
     known.last_frame = frames_;
     known.in_frame = static_cast<std::uint32_t>(i);
@@ -229,272 +154,282 @@ void SmokeLightCache::find_lights_in_reach(const SmokeLightInputs& inputs) {
   lights_in_reach_.clear();
   lights_in_reach_first_.assign(1, 0);
   const shared::VolumeLayout& layout = inputs.volume->layout();
-  for (std::uint32_t i = 0; i < inputs.needs->seen; ++i) {
-    const glm::vec3 middle = middle_of(layout, inputs.volume->brick_of(inputs.needs->slots[i]));
+  for (std::uint32_t i = 0; i < inputs.visibility->visible_count; ++i) {
+    const glm::vec3 middle = middle_of(layout, inputs.volume->brick_of(inputs.visibility->slots[i]));
     for (const std::uint32_t light : in_order)
-      if (reaches(known_lights_[light].light, middle, kBrickReach * layout.voxel_size)) lights_in_reach_.push_back(light);
+      if (reaches(known_lights_[light].light, middle, kBrickReach * layout.voxel_size))
+        lights_in_reach_.push_back(light);
     lights_in_reach_first_.push_back(static_cast<std::uint32_t>(lights_in_reach_.size()));
   }
 }
 
-std::span<const std::uint32_t> SmokeLightCache::reaching(std::size_t seen_index) const {
-  return std::span(lights_in_reach_).subspan(lights_in_reach_first_[seen_index],
-                                      lights_in_reach_first_[seen_index + 1] - lights_in_reach_first_[seen_index]);
+std::span<const std::uint32_t> SmokeLightCache::lights_reaching(std::size_t visible_index) const {
+  return std::span(lights_in_reach_)
+      .subspan(lights_in_reach_first_[visible_index],
+               lights_in_reach_first_[visible_index + 1] - lights_in_reach_first_[visible_index]);
 }
 
-const SmokeLightCache::Row* SmokeLightCache::find_entry(std::uint32_t slot) const {
-  return slot < row_of_slot_.size() && row_of_slot_[slot] != kNone ? &rows_[row_of_slot_[slot]] : nullptr;
+const SmokeLightCache::BrickEntry* SmokeLightCache::find_entry(std::uint32_t slot) const {
+  return slot < entry_of_slot_.size() && entry_of_slot_[slot] != kNone ? &entries_[entry_of_slot_[slot]]
+                                                                       : nullptr;
 }
 
-/// At most: blocks for all that is in view, less those that it has.
+/// No fewer than the plan allocates: pages for all that is in view, less those that it has.
 std::size_t SmokeLightCache::pages_missing(const SmokeLightInputs& inputs) const {
   std::size_t missing = 0;
-  for (std::uint32_t i = 0; i < inputs.needs->seen; ++i) {
-    const Row* row = find_entry(inputs.needs->slots[i]);
-    missing += reaching(i).size() + (row ? 0 : shared::kSkyPages);
-    if (!row) continue;
-    const auto lights = reaching(i);
-    for (const Kept& kept : row->lights)
-      missing -= std::find(lights.begin(), lights.end(), kept.light) != lights.end();
+  for (std::uint32_t i = 0; i < inputs.visibility->visible_count; ++i) {
+    const BrickEntry* entry = find_entry(inputs.visibility->slots[i]);
+    missing += lights_reaching(i).size() + (entry ? 0 : shared::kSkyPages);
+    if (!entry) continue;
+    const auto lights = lights_reaching(i);
+    for (const CachedRays& rays : entry->lights)
+      missing -= std::find(lights.begin(), lights.end(), rays.light) != lights.end();
   }
   return missing;
 }
 
-SmokeLightCache::Row& SmokeLightCache::row_of(const SmokeLightInputs& inputs, std::uint32_t slot) {
-  if (slot >= row_of_slot_.size()) row_of_slot_.resize(std::size_t{slot} + 1, kNone);
-  const bool is_new = row_of_slot_[slot] == kNone;
+SmokeLightCache::BrickEntry& SmokeLightCache::entry_of(const SmokeLightInputs& inputs, std::uint32_t slot) {
+  if (slot >= entry_of_slot_.size()) entry_of_slot_.resize(std::size_t{slot} + 1, kNone);
+  const bool is_new = entry_of_slot_[slot] == kNone;
   if (is_new) {
-    row_of_slot_[slot] = row_count_++;
-    if (rows_.size() < row_count_) rows_.emplace_back();
+    entry_of_slot_[slot] = entry_count_++;
+    if (entries_.size() < entry_count_) entries_.emplace_back();
   }
-  Row& row = rows_[row_of_slot_[slot]];
+  BrickEntry& entry = entries_[entry_of_slot_[slot]];
   const glm::ivec3 brick = inputs.volume->brick_of(slot);
   if (is_new) {
-    row.sky = {};
-    row.lights.clear();
+    entry.sky = {};
+    entry.lights.clear();
   }
-  if (is_new || row.brick != brick) {
-    // The blocks stay its own.
-    row.slot = slot;
-    row.number = row_of_slot_[slot];
-    row.brick = brick;
-    row.listed = false;
-    row.listing = row.sky.listing = row.gathered_lights = 0;
-    for (Kept& kept : row.lights) kept.listing = 0;
+  if (is_new || entry.brick != brick) {
+    // It keeps its pages.
+    entry.slot = slot;
+    entry.number = entry_of_slot_[slot];
+    entry.brick = brick;
+    entry.is_listed = false;
+    entry.list_version = entry.sky.list_version = entry.gathered_lights = 0;
+    for (CachedRays& rays : entry.lights) rays.list_version = 0;
   }
-  return row;
-}
-
-void SmokeLightCache::allocate_pages(Kept& kept, std::uint32_t count) {
-  if (kept.block != kNone) return;
-  kept.block = page_end_;
-  page_end_ += count;
+  return entry;
 }
 
 std::uint64_t SmokeLightCache::light_versions_hash(std::span<const std::uint32_t> lights) const {
-  std::uint64_t made = 0;
-  for (const std::uint32_t light : lights) made = hash_values(std::span(&known_lights_[light].version, 1), made);
-  return made;
+  std::uint64_t hash = 0;
+  for (const std::uint32_t light : lights)
+    hash = hash_values(std::span(&known_lights_[light].version, 1), hash);
+  return hash;
 }
 
-/// What is kept of a light in a row, most likely at a place.
-SmokeLightCache::Kept& SmokeLightCache::cached_rays_of(Row& row, std::uint32_t light, std::size_t hint) {
-  if (hint < row.lights.size() && row.lights[hint].light == light) return row.lights[hint];
-  const auto known = std::find_if(row.lights.begin(), row.lights.end(),
-                                  [light](const Kept& kept) { return kept.light == light; });
-  if (known != row.lights.end()) return *known;
-  row.lights.emplace_back().light = light;
-  return row.lights.back();
+/// The rays of a brick to a light, most likely those at index `hint`.
+SmokeLightCache::CachedRays& SmokeLightCache::cached_rays_of(BrickEntry& entry, std::uint32_t light,
+                                                             std::size_t hint) {
+  if (hint < entry.lights.size() && entry.lights[hint].light == light) return entry.lights[hint];
+  const auto known = std::find_if(entry.lights.begin(), entry.lights.end(),
+                                  [light](const CachedRays& rays) { return rays.light == light; });
+  if (known != entry.lights.end()) return *known;
+  entry.lights.emplace_back().light = light;
+  return entry.lights.back();
 }
 
-void SmokeLightCache::choose_slice(float share) {
-  phases_ = shared::kLightPhases;
-  while (phases_ > 1 && static_cast<float>(phases_ / 2) >= share * float{shared::kLightPhases}) phases_ /= 2;
-  // The bits of the turn from behind, so that turns one after the other are in different halves, quarters,
-  // ...
-  first_phase_ = 0;
-  for (std::uint32_t bit = shared::kLightPhases / 2, turn = turns_++ % shared::kLightPhases; bit >= phases_;
-       bit /= 2, turn /= 2)
-    first_phase_ += turn % 2 * bit;
+SmokeLightCache::PhaseRange SmokeLightCache::phases_of(const BrickEntry& entry) const {
+  return scheduler_.slices(entry.priority_frames > 0 ? kPriority : 1);
 }
 
-SmokeLightCache::Run SmokeLightCache::phase_range_of(const Row& row) const {
-  const std::uint32_t count = row.priority > 0 ? priority_phases() : phases_;
-  const std::uint32_t first = first_phase_ / count * count;
-  return {first, first + count};
-}
-
-/// Lists a row's texels where the list is not what it must be; whether it may have texels without light.
-bool SmokeLightCache::update_texel_list(Row& row) {
-  const bool had_list = shares() && row.listing != 0;
-  const volume::IndexRange changes = had_list ? changes_in(row) : volume::IndexRange{};
-  if (row.listed && (row.by_phase || !shares()) && changes.count == 0) return false;
-  const bool is_fresh = had_list && (!row.listed || changes.count > 0);
-  plan_.rows.push_back({row.slot, row.number, shares(), had_list, changes.first, changes.count});
-  if (!row.listed || is_fresh) row.listing = ++listings_;
-  row.listed = true;
-  row.by_phase = shares();
+/// Schedules a brick's texel list where it changed; whether it may have texels without light.
+bool SmokeLightCache::update_texel_list(BrickEntry& entry) {
+  const bool had_list = scheduler_.is_sliced() && entry.list_version != 0;
+  const volume::IndexRange changes = had_list ? add_changes_in(entry) : volume::IndexRange{};
+  if (entry.is_listed && (entry.by_phase || !scheduler_.is_sliced()) && changes.count == 0) return false;
+  const bool is_fresh = had_list && (!entry.is_listed || changes.count > 0);
+  plan_.texel_lists.push_back(
+      {entry.slot, entry.number, scheduler_.is_sliced(), had_list, changes.first, changes.count});
+  if (!entry.is_listed || is_fresh) entry.list_version = ++list_versions_;
+  entry.is_listed = true;
+  entry.by_phase = scheduler_.is_sliced();
   return is_fresh;
 }
 
-/// What is to be done of rays that a row has; `before` is the listing that it had.
-SmokeLightCache::Task SmokeLightCache::work_for(const Row& row, const Kept& kept, std::uint64_t before,
-                                             Run run) const {
-  const bool fresh = kept.listing != row.listing;
-  if (kept.listing == 0 || kept.listing != before || (fresh && !shares())) return {.all = true};
-  if (kept.stale == 0) return {.fresh = fresh};
+/// The work on a brick's rays; `version_before` is the version of its texel list before this frame.
+SmokeLightCache::Work SmokeLightCache::work_for(const BrickEntry& entry, const CachedRays& rays,
+                                                std::uint64_t version_before, PhaseRange phases) const {
+  const bool fresh = rays.list_version != entry.list_version;
+  if (rays.list_version == 0 || rays.list_version != version_before || (fresh && !scheduler_.is_sliced()))
+    return {.all = true};
+  if (rays.dirty_phases == 0) return {.fresh = fresh};
   // Rays to a light that the brick's last frame did not have are of any age.
-  if (!shares() || kept.planned != row.planned) return {.all = true};
-  return {false, fresh, (kept.stale & run.mask()) != 0};
+  if (!scheduler_.is_sliced() || rays.last_frame != entry.last_frame) return {.all = true};
+  return {false, fresh, (rays.dirty_phases & phases.mask()) != 0};
 }
 
 template <typename Item>
-void SmokeLightCache::ask(const Task& task, Run run, Item item, std::vector<Item>& list,
-                         std::vector<Item>& few) {
-  item.texels = task.all ? shared::kAllTexels : shared::kNewTexels;
-  if (task.all || task.fresh) list.push_back(item);
-  if (task.all || !task.run) return;
-  item.texels = run.texels();
-  few.push_back(item);
-  most_phases_ = std::max(most_phases_, run.end - run.first);
+void SmokeLightCache::schedule(const Work& work, PhaseRange phases, Item item, std::vector<Item>& list,
+                               std::vector<Item>& sliced) {
+  item.texels = work.all ? shared::kAllTexels : shared::kNewTexels;
+  if (work.all || work.fresh) list.push_back(item);
+  if (work.all || !work.slice) return;
+  item.texels = shared::phase_range(phases.first, phases.end);
+  sliced.push_back(item);
+  most_phases_ = std::max(most_phases_, phases.end - phases.first);
 }
 
-/// Asks for `blocks` blocks of rays, `light` of the first.
-void SmokeLightCache::follow(const Row& row, Kept& kept, std::uint32_t light, std::uint32_t blocks,
-                            const Task& task, Run run) {
-  for (std::uint32_t i = 0; i < blocks; ++i)
-    ask(task, run, shared::ShadowRays{row.slot, row.number, light + i, kept.block + i, 0}, plan_.pairs,
-        few_pairs_);
-  kept.stale &= ~(task.all ? kAllPhases : task.run ? run.mask() : 0);
-  kept.listing = row.listing;
-  kept.planned = frames_;
+/// Schedules `page_count` pages of rays, the first of them to `light`.
+void SmokeLightCache::schedule_rays(const BrickEntry& entry, CachedRays& rays, std::uint32_t light,
+                                    std::uint32_t page_count, const Work& work, PhaseRange phases) {
+  for (std::uint32_t i = 0; i < page_count; ++i)
+    schedule(work, phases, shared::ShadowRays{entry.slot, entry.number, light + i, rays.page + i, 0},
+             plan_.shadow_rays, sliced_rays_);
+  rays.dirty_phases &= ~(work.all ? kAllPhases : work.slice ? phases.mask() : 0);
+  rays.list_version = entry.list_version;
+  rays.last_frame = frames_;
 }
 
-void SmokeLightCache::plan_brick(Row& row, std::span<const std::uint32_t> lights) {
-  const std::uint64_t before = row.listing;
-  Task put{.fresh = update_texel_list(row)};
-  if (row.planned + 1 != frames_) row.priority = shared::kLightPhases / priority_phases();
-  const Run run = phase_range_of(row);
-  const auto follow_kept = [&](Kept& kept, std::uint32_t light, std::uint32_t blocks, const Task& task) {
-    allocate_pages(kept, blocks);
-    follow(row, kept, light, blocks, task, run);
-    put.all |= task.all;
-    put.run |= task.run;
+void SmokeLightCache::plan_brick(BrickEntry& entry, std::span<const std::uint32_t> lights) {
+  // Its texels, and which of them the frame updates.
+  const std::uint64_t version_before = entry.list_version;
+  Work gather{.fresh = update_texel_list(entry)};
+  if (entry.last_frame + 1 != frames_)
+    entry.priority_frames = shared::kLightPhases / scheduler_.slices_per_frame(kPriority);
+  const PhaseRange phases = phases_of(entry);
+
+  // Its rays: to the sky, and to each light that reaches it.
+  const auto plan_rays = [&](CachedRays& rays, std::uint32_t light, std::uint32_t page_count,
+                             const Work& work) {
+    if (rays.page == kNone) rays.page = pages_.allocate(page_count);
+    schedule_rays(entry, rays, light, page_count, work, phases);
+    gather.all |= work.all;
+    gather.slice |= work.slice;
   };
-  follow_kept(row.sky, shared::kSkyTarget, shared::kSkyPages, work_for(row, row.sky, before, run));
-  const auto first = static_cast<std::uint32_t>(plan_.lights.size());
+  plan_rays(entry.sky, shared::kSkyTarget, shared::kSkyPages,
+            work_for(entry, entry.sky, version_before, phases));
+  const auto first_light = static_cast<std::uint32_t>(plan_.gathered_lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const KnownLight& light = known_lights_[lights[i]];
-    Kept& kept = cached_rays_of(row, lights[i], i);
-    const bool beyond = light.light.range > kept.range || brightest(light.light) > kept.intensity;
-    const Task task = beyond ? Task{.all = true} : work_for(row, kept, before, run);
-    follow_kept(kept, light.in_frame, 1, task);
-    if (task.all) {
-      kept.range = light.light.range;
-      kept.intensity = brightest(light.light);
+    CachedRays& rays = cached_rays_of(entry, lights[i], i);
+    const bool beyond = light.light.range > rays.range || brightest(light.light) > rays.intensity;
+    const Work work = beyond ? Work{.all = true} : work_for(entry, rays, version_before, phases);
+    plan_rays(rays, light.in_frame, 1, work);
+    if (work.all) {
+      rays.range = light.light.range;
+      rays.intensity = brightest(light.light);
     }
-    plan_.lights.push_back({light.in_frame, kept.block});
+    plan_.gathered_lights.push_back({light.in_frame, rays.page});
   }
-  schedule_gather(row, lights, first, put, run);
-  row.planned = frames_;
-  row.priority -= row.priority > 0;
+
+  // Its light.
+  schedule_gather(entry, lights, first_light, gather, phases);
+  entry.last_frame = frames_;
+  entry.priority_frames -= entry.priority_frames > 0;
 }
 
-/// Asks for the light of a row: what `put` says, and what else of it is not as it was.
-void SmokeLightCache::schedule_gather(Row& row, std::span<const std::uint32_t> lights, std::uint32_t first_light,
-                                  Task put, Run run) {
-  if (row.epoch != epoch_) row.stale = kAllPhases;
-  row.epoch = epoch_;
-  const std::uint64_t made = light_versions_hash(lights);
-  put.all |= row.gathered_lights != made || (!shares() && row.stale != 0);
-  put.run |= (row.stale & run.mask()) != 0;
-  row.gathered_lights = made;
-  row.stale &= ~(put.all ? kAllPhases : put.run ? run.mask() : 0);
-  if (!put.all && !put.fresh && !put.run) plan_.lights.resize(first_light);
-  ask(put, run,
-      shared::LightGather{row.slot, row.number, row.sky.block, first_light,
-                         static_cast<std::uint32_t>(lights.size()), 0},
-      plan_.bricks, few_bricks_);
+/// Schedules the gather of a brick: `work`, and what eye, sky and lights change of it.
+void SmokeLightCache::schedule_gather(BrickEntry& entry, std::span<const std::uint32_t> lights,
+                                      std::uint32_t first_light, Work work, PhaseRange phases) {
+  if (entry.epoch != epoch_) entry.dirty_phases = kAllPhases;
+  entry.epoch = epoch_;
+  const std::uint64_t versions = light_versions_hash(lights);
+  work.all |= entry.gathered_lights != versions || (!scheduler_.is_sliced() && entry.dirty_phases != 0);
+  work.slice |= (entry.dirty_phases & phases.mask()) != 0;
+  entry.gathered_lights = versions;
+  entry.dirty_phases &= ~(work.all ? kAllPhases : work.slice ? phases.mask() : 0);
+  if (!work.all && !work.fresh && !work.slice) plan_.gathered_lights.resize(first_light);
+  schedule(work, phases,
+           shared::LightGather{entry.slot, entry.number, entry.sky.page, first_light,
+                               static_cast<std::uint32_t>(lights.size()), 0},
+           plan_.gathers, sliced_gathers_);
 }
 
 void SmokeLightCache::plan_incremental(const SmokeLightInputs& inputs) {
-  few_pairs_.clear();
-  few_bricks_.clear();
+  sliced_rays_.clear();
+  sliced_gathers_.clear();
   most_phases_ = 0;
-  for (std::uint32_t i = 0; i < inputs.needs->seen; ++i)
-    plan_brick(row_of(inputs, inputs.needs->slots[i]), reaching(i));
-  plan_.row_count = row_count_;
-  plan_.page_count = page_end_;
-  plan_.pairs.insert(plan_.pairs.end(), few_pairs_.begin(), few_pairs_.end());
-  plan_.bricks.insert(plan_.bricks.end(), few_bricks_.begin(), few_bricks_.end());
-  if (plan_.rows.empty() && plan_.bricks.empty()) return;
+  for (std::uint32_t i = 0; i < inputs.visibility->visible_count; ++i)
+    plan_brick(entry_of(inputs, inputs.visibility->slots[i]), lights_reaching(i));
+  plan_.texel_list_count = entry_count_;
+  plan_.page_count = pages_.used();
+  plan_.shadow_rays.insert(plan_.shadow_rays.end(), sliced_rays_.begin(), sliced_rays_.end());
+  plan_.gathers.insert(plan_.gathers.end(), sliced_gathers_.begin(), sliced_gathers_.end());
+  if (plan_.texel_lists.empty() && plan_.gathers.empty()) return;
   const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-  plan_.parts = {{{0, count(plan_.rows)},
-                  {0, count(plan_.pairs)},
-                  {0, count(plan_.bricks)},
-                  count(few_pairs_),
-                  count(few_bricks_),
+  plan_.parts = {{{0, count(plan_.texel_lists)},
+                  {0, count(plan_.shadow_rays)},
+                  {0, count(plan_.gathers)},
+                  count(sliced_rays_),
+                  count(sliced_gathers_),
                   most_phases_}};
 }
 
-/// As many bricks at a time as their blocks fit, nothing kept.
+/// As many bricks at a time as their pages fit; nothing is cached.
 void SmokeLightCache::plan_in_parts(const SmokeLightInputs& inputs) {
-  const auto sizes = [&] { return std::array{plan_.rows.size(), plan_.pairs.size(), plan_.bricks.size()}; };
+  const auto sizes = [&] {
+    return std::array{plan_.texel_lists.size(), plan_.shadow_rays.size(), plan_.gathers.size()};
+  };
   auto begin = sizes();
   const auto end_part = [&] {
     const auto end = sizes();
     const auto range = [&](std::size_t i) {
       return volume::IndexRange{static_cast<std::uint32_t>(begin[i]),
-                             static_cast<std::uint32_t>(end[i] - begin[i])};
+                                static_cast<std::uint32_t>(end[i] - begin[i])};
     };
     plan_.parts.push_back({range(0), range(1), range(2), 0, 0, 0});
-    plan_.row_count = std::max(plan_.row_count, row_count_);
-    plan_.page_count = std::max(plan_.page_count, page_end_);
+    plan_.texel_list_count = std::max(plan_.texel_list_count, entry_count_);
+    plan_.page_count = std::max(plan_.page_count, pages_.used());
     begin = end;
     drop_all_rays();
   };
-  for (std::uint32_t i = 0; i < inputs.needs->seen; ++i) {
-    const auto lights = reaching(i);
-    if (page_end_ > 0 && page_end_ + lights.size() + shared::kSkyPages > max_pages_) end_part();
-    plan_brick(row_of(inputs, inputs.needs->slots[i]), lights);
+  for (std::uint32_t i = 0; i < inputs.visibility->visible_count; ++i) {
+    const auto lights = lights_reaching(i);
+    if (pages_.used() > 0 && !pages_.fits(lights.size() + shared::kSkyPages)) end_part();
+    plan_brick(entry_of(inputs, inputs.visibility->slots[i]), lights);
   }
   end_part();
+}
+
+/// Finds the cached rays and texel lists that no longer hold.
+void SmokeLightCache::drop_changed(const SmokeLightInputs& inputs) {
+  hole_changes_.clear();
+  if (!tracker_.is_continuous(inputs) || (!scheduler_.is_sliced() && tracker_.all_rays_changed(inputs))) {
+    drop_all_rays();
+    return;
+  }
+
+  // Texels that must have light at once: of smoke that changed, and in holes that did and beside them. Rays
+  // that only graze holes can wait.
+  std::vector<shared::LightChange> changes;
+  if (tracker_.smoke_changed(inputs)) relist_dirty_slots(*inputs.volume);
+  if (scheduler_.is_sliced()) tracker_.add_hole_changes(inputs, hole_changes_);
+  for (shared::LightChange& hole : hole_changes_) hole.radius -= 0.5f * tracker_.layout().voxel_size;
+
+  // Rays that cross what changed.
+  tracker_.add_smoke_changes(inputs, changes);
+  if (!tracker_.noise_moved(inputs)) tracker_.add_hole_changes(inputs, changes);
+  if (tracker_.noise_moved(inputs) || tracker_.caster_bounds_changed(inputs) ||
+      tracker_.all_rays_changed(inputs) || !invalidate_crossing(inputs, changes))
+    invalidate_rays();
 }
 
 const SmokeLightPlan& SmokeLightCache::plan(const SmokeLightInputs& inputs) {
   plan_ = {};
   if (!inputs.volume || inputs.volume->slot_count() == 0) {
-    forget();
+    invalidate();
     return plan_;
   }
-  choose_slice(inputs.share);
-  hole_changes_.clear();
-  if (must_invalidate(inputs)) {
-    drop_all_rays();
-  } else {
-    std::vector<shared::LightChange> changes;
-    add_smoke_changes(inputs, changes);
-    // Rays end where the box around the smoke does.
-    const bool other_box =
-        bounds_.low != inputs.needs->bounds.low || bounds_.high != inputs.needs->bounds.high;
-    const bool noise_drifts = inputs.look.erosion > 0 && (inputs.time != last_->time || inputs.noise_changed);
-    if (shares()) add_hole_changes(inputs, hole_changes_);
-    // Texels in them and beside them, not rays that graze them.
-    for (shared::LightChange& cut : hole_changes_) cut.radius -= 0.5f * layout_.voxel_size;
-    if (!noise_drifts) add_hole_changes(inputs, changes);
-    if (noise_drifts || other_box || inputs_differ(inputs) || !invalidate_crossing(inputs, changes)) invalidate_rays();
-  }
-  if (!last_ || last_->eye_world != inputs.eye_world || !same_bytes(last_->sky, inputs.sky)) ++epoch_;
+
+  // What changed since the frame before.
+  scheduler_.next_slice(inputs.update_fraction);
+  drop_changed(inputs);
+  if (tracker_.gather_inputs_changed(inputs)) ++epoch_;
   match_lights(inputs.lights);
   find_lights_in_reach(inputs);
-  if (page_end_ + pages_missing(inputs) > max_pages_) drop_all_rays();
-  if (page_end_ == 0 && pages_missing(inputs) > max_pages_) {
-    choose_slice(1);
+
+  // What the frame updates.
+  if (!pages_.fits(pages_missing(inputs))) drop_all_rays();
+  if (pages_.used() == 0 && !pages_.fits(pages_missing(inputs))) {
+    scheduler_.next_slice(1);
     plan_in_parts(inputs);
-    last_.reset();
+    tracker_.reset();
   } else {
     plan_incremental(inputs);
-    remember(inputs);
+    tracker_.store_inputs(inputs);
   }
   return plan_;
 }

@@ -147,44 +147,44 @@ SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& 
   const VolumeTransform places(volume.layout());
   const auto in_view = [&](const WorldSphere& smoke) { return view.may_intersect(smoke); };
   // What may be in view.
-  SmokeVisibility needs;
+  SmokeVisibility visibility;
   WorldBox visible_smoke = kNothing;
   for (const smoke::SmokeBounds& cloud : volume.cloud_bounds()) {
-    if (!collect_slots(volume, cloud, places, in_view, needs.slots)) continue;
-    needs.visible_bounds = with(needs.visible_bounds, cloud);
+    if (!collect_slots(volume, cloud, places, in_view, visibility.slots)) continue;
+    visibility.visible_bounds = with(visibility.visible_bounds, cloud);
     visible_smoke = join(visible_smoke, places.bricks_of(cloud));
   }
-  sort_once(needs.slots);
-  needs.seen = static_cast<std::uint32_t>(needs.slots.size());
+  sort_once(visibility.slots);
+  visibility.visible_count = static_cast<std::uint32_t>(visibility.slots.size());
 
   // What stands between that and the lights.
   const LightPaths ways(view, lights, join(scene, visible_smoke), visible_smoke,
                        light_interpolation_margin(volume.layout().voxel_size));
   const auto in_the_way = [&](const WorldSphere& smoke) { return ways.may_cross(smoke); };
   std::vector<std::uint32_t> shading;
-  needs.bounds = needs.visible_bounds;
+  visibility.caster_bounds = visibility.visible_bounds;
   for (const smoke::SmokeBounds& cloud : volume.cloud_bounds())
-    if (collect_slots(volume, cloud, places, in_the_way, shading)) needs.bounds = with(needs.bounds, cloud);
+    if (collect_slots(volume, cloud, places, in_the_way, shading)) visibility.caster_bounds = with(visibility.caster_bounds, cloud);
   sort_once(shading);
-  const std::vector<std::uint32_t> seen = needs.slots;
+  const std::vector<std::uint32_t> seen = visibility.slots;
   std::set_difference(shading.begin(), shading.end(), seen.begin(), seen.end(),
-                      std::back_inserter(needs.slots));
-  return needs;
+                      std::back_inserter(visibility.slots));
+  return visibility;
 }
 
 SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume) {
-  SmokeVisibility needs;
+  SmokeVisibility visibility;
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
-    if (volume.slot_at(volume.brick_of(slot)) == slot) needs.slots.push_back(slot);
-  needs.seen = static_cast<std::uint32_t>(needs.slots.size());
-  needs.visible_bounds = needs.bounds = {volume.layout().bounds_min, volume.layout().bounds_max};
-  return needs;
+    if (volume.slot_at(volume.brick_of(slot)) == slot) visibility.slots.push_back(slot);
+  visibility.visible_count = static_cast<std::uint32_t>(visibility.slots.size());
+  visibility.visible_bounds = visibility.caster_bounds = {volume.layout().bounds_min, volume.layout().bounds_max};
+  return visibility;
 }
 
-std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& needs) {
+std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility) {
   const VolumeTransform places(volume.layout());
   std::map<std::tuple<int, int, int>, WorldBox> nodes;  // in voxels
-  for (const std::uint32_t slot : needs.slots) {
+  for (const std::uint32_t slot : visibility.slots) {
     const glm::ivec3 brick = volume.brick_of(slot), node = brick >> 3;
     const WorldBox box{glm::vec3(brick * shared::kBrickVoxels),
                        glm::vec3((brick + 1) * shared::kBrickVoxels)};
@@ -193,7 +193,7 @@ std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeV
   }
   std::vector<WorldBox> boxes;
   for (const auto& [node, box] : nodes) {
-    const WorldBox cut{glm::max(box.low, needs.bounds.low), glm::min(box.high, needs.bounds.high)};
+    const WorldBox cut{glm::max(box.low, visibility.caster_bounds.low), glm::min(box.high, visibility.caster_bounds.high)};
     if (glm::all(glm::lessThan(cut.low, cut.high))) boxes.push_back(places.box(cut.low, cut.high));
   }
   return boxes;

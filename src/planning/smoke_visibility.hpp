@@ -21,9 +21,9 @@ struct SmokeVisibility {
   /// Slots in use whose smoke may be in view, in rising order; after them, likewise, those whose smoke may
   /// dim light on its way to what is in view.
   std::vector<std::uint32_t> slots;
-  std::uint32_t seen = 0;        ///< How many of `slots` may be in view.
+  std::uint32_t visible_count = 0;    ///< How many of `slots` may be in view.
   smoke::SmokeBounds visible_bounds;  ///< Around the clouds that may be in view; no volume: none.
-  smoke::SmokeBounds bounds;       ///< Around all that are needed.
+  smoke::SmokeBounds caster_bounds;   ///< Around these and the clouds that may dim light to what is in view.
 };
 
 /// How far from what is in view light in smoke is still looked up, by interpolation and off walls [m].
@@ -45,6 +45,6 @@ SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& 
 SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume);
 
 /// Boxes around the needed smoke: one for each node of the page table that holds some.
-std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& needs);
+std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility);
 
 }  // namespace brume::planning

@@ -23,40 +23,40 @@ RendererOptions with_masks(RendererOptions options, const scenario::Scenario& sc
 
 }  // namespace
 
-FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation, double seconds,
-                       std::vector<shared::Hole>& holes) {
+FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
+                       double seconds, std::vector<shared::Hole>& holes) {
   const scene::Timeline& timeline = scenario.timeline;
   FrameInput input;
-  input.camera = scene::camera_at(timeline, scenario.camera, seconds);
-  input.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient, timeline.sky.stars,
-               timeline.sky.bounce};
+  input.view.camera = scene::camera_at(timeline, scenario.camera, seconds);
+  input.environment.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient,
+                           timeline.sky.stars, timeline.sky.bounce};
   const scene::SmokeOptions& smoke = timeline.smoke;
-  input.look.albedo = smoke.albedo;
-  input.look.extinction = smoke.extinction;
-  input.look.phase =
+  input.smoke.look.albedo = smoke.albedo;
+  input.smoke.look.extinction = smoke.extinction;
+  input.smoke.look.phase =
       smoke.droplet ? shared::phase_of_droplet(*smoke.droplet) : shared::phase_of_hg(smoke.anisotropy);
-  input.look.step_length = 0.4f * scenario.voxels.grid.layout().voxel_size;
-  input.look.opaque_transmittance = 0.004f;
-  input.look.erosion = smoke.erosion;
-  input.look.noise_period = static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size;
-  input.look.rise = smoke.rise;
-  input.look.swirl = smoke.swirl;
-  input.look.swirl_width = 2.0f * smoke.noise_size;
-  input.swirl_period = double{smoke.swirl_period};
-  input.state = &simulation.world().state();
-  input.look.multiple_scattering = smoke.multiple_scattering;
-  input.look.hole_rim = smoke.hole_rim;
-  input.exposure = std::exp2(timeline.exposure);
-  input.time = static_cast<float>(seconds);
-  input.level = {&simulation.world().grid(), simulation.world().state().edits};
-  input.volume = &simulation.volume();
+  input.smoke.look.step_length = 0.4f * scenario.voxels.grid.layout().voxel_size;
+  input.smoke.look.opaque_transmittance = 0.004f;
+  input.smoke.look.erosion = smoke.erosion;
+  input.smoke.look.noise_period = static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size;
+  input.smoke.look.rise = smoke.rise;
+  input.smoke.look.swirl = smoke.swirl;
+  input.smoke.look.swirl_width = 2.0f * smoke.noise_size;
+  input.smoke.swirl_period = double{smoke.swirl_period};
+  input.smoke.state = &simulation.world().state();
+  input.smoke.look.multiple_scattering = smoke.multiple_scattering;
+  input.smoke.look.hole_rim = smoke.hole_rim;
+  input.view.exposure = std::exp2(timeline.exposure);
+  input.smoke.time = static_cast<float>(seconds);
+  input.level.voxels = {&simulation.world().grid(), simulation.world().state().edits};
+  input.smoke.volume = &simulation.volume();
   holes = smoke::holes_of(simulation.world().state(), &scenario.masks);
-  input.holes = holes;
-  input.flashes = scenario::flashes_of(timeline, seconds);
+  input.smoke.holes = holes;
+  input.environment.flashes = scenario::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
-    input.grenades.push_back(grenade_matrix(grenade));
+    input.level.grenades.push_back(grenade_matrix(grenade));
   const auto hidden = simulation.hidden_objects();
-  input.hidden_objects.assign(hidden.begin(), hidden.end());
+  input.level.hidden_objects.assign(hidden.begin(), hidden.end());
   return input;
 }
 
@@ -81,18 +81,15 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
   FrameInput input = frame_input(scenario_, *simulation_, seconds, holes);
-  input.frame_index = frame_index;
-  input.step_scale = step_scale_;
-  input.light_update_fraction = light_update_fraction_;
-  input.resolve_error_scale = resolve_error_scale_;
-  input.continues = last_frame_index_ && frame_index == *last_frame_index_ + 1;
+  input.view.frame_index = frame_index;
+  input.quality.step_scale = step_scale_;
+  input.quality.light_update_fraction = light_update_fraction_;
+  input.quality.resolve_error_scale = resolve_error_scale_;
+  input.view.continues = last_frame_index_ && frame_index == *last_frame_index_ + 1;
   last_frame_index_ = frame_index;
-  if (camera_) input.camera = *camera_;
-  input.view = view_;
-  input.view_slice = slice_;
-  renderer_.prepare(input);
-  runner_.run([&](gpu::Recorder& recorder) {
-    renderer_.record_frame(recorder, input);
+  if (camera_) input.view.camera = *camera_;
+  input.debug = debug_;
+  renderer_.draw(input, [&](gpu::Recorder& recorder) {
     recorder.read_back(renderer_.display(), pixels_);
     if (renderer_.march_tiles())
       recorder.read_back(renderer_.march_tiles()->list, list_, sizeof(shared::MarchList));

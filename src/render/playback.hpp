@@ -11,8 +11,8 @@
 namespace brume::render {
 
 /// What a renderer shows of a scenario at a time. `holes` keeps the holes that the result refers to.
-FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation, double seconds,
-                       std::vector<shared::Hole>& holes);
+FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
+                       double seconds, std::vector<shared::Hole>& holes);
 
 /// A scenario on a device, frame after frame.
 class Playback {
@@ -28,16 +28,15 @@ class Playback {
   image::Image8 draw(double seconds, std::uint32_t frame_index);
   /// Where the camera is instead of on the timeline's path; empty: on the path.
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
-  /// FrameInput::step_scale of the frames that follow.
+  /// Quality::step_scale of the frames that follow.
   void set_step_scale(float scale) { step_scale_ = scale; }
-  /// FrameInput::resolve_error_scale of the frames that follow.
+  /// Quality::resolve_error_scale of the frames that follow.
   void set_resolve_error_scale(float scale) { resolve_error_scale_ = scale; }
-  /// FrameInput::light_update_fraction of the frames that follow; below 1 they depend on those before.
+  /// Quality::light_update_fraction of the frames that follow; below 1 they depend on those before.
   void set_light_update_fraction(float share) { light_update_fraction_ = share; }
-  /// FrameInput::view and view_slice from now on.
+  /// FrameInput::debug of the frames that follow.
   void set_view(passes::DebugView view, const std::optional<passes::ViewSlice>& slice) {
-    view_ = view;
-    slice_ = slice;
+    debug_ = {view, slice};
   }
   /// GPU times of the passes of the last frame.
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
@@ -54,8 +53,7 @@ class Playback {
   gpu::Buffer list_;  ///< shared::MarchList of the last frame.
   std::optional<scene::Camera> camera_;
   float step_scale_ = 1, light_update_fraction_ = 1, resolve_error_scale_ = 1;
-  passes::DebugView view_ = passes::DebugView::none;
-  std::optional<passes::ViewSlice> slice_;
+  planning::DebugRequest debug_;
   std::optional<std::uint32_t> last_frame_index_;
 };
 

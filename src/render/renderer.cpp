@@ -1,18 +1,12 @@
 #include "render/renderer.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
-#include <iterator>
 
 #include "passes/blue_noise.hpp"
-#include "render/device_camera.hpp"
 
 namespace brume::render {
 namespace {
 
-// The share of light up to which shadows of smoke and its noise take turns, too.
-constexpr float kSlicedUpdatesBelow = 0.25f;
 constexpr VkBufferUsageFlags kBufferUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
@@ -32,15 +26,33 @@ std::vector<passes::Draw> grenade_draws(const passes::SceneResources& scene,
   return draws;
 }
 
-const sim::State& state_of(const FrameInput& input) {
-  static const sim::State kNothing;
-  return input.state ? *input.state : kNothing;
+passes::DebugSubject debug_subject(const FramePlan& plan) {
+  const FrameInput& input = plan.input;
+  return {input.debug.view, plan.view_slice, input.level.voxels, input.smoke.volume, input.smoke.state};
 }
 
-passes::DebugSubject subject_of(const FrameInput& input) {
-  const passes::ViewSlice slice = input.view_slice.value_or(
-      passes::slice_through_smoke(input.volume, input.camera.position_world, input.camera.target_world));
-  return {input.view, slice, input.level, input.volume, input.state};
+/// What every pass may read, but for the layouts of the renderer's own resources.
+shared::FrameConstants frame_constants(const FramePlan& plan) {
+  const FrameInput& input = plan.input;
+  shared::FrameConstants frame{};
+  frame.camera = plan.camera;
+  frame.sky = input.environment.sky;
+  frame.look = input.smoke.look;
+  frame.look.step_length *= input.quality.step_scale;
+  if (input.smoke.volume && input.smoke.volume->slot_count() > 0) frame.volume = input.smoke.volume->layout();
+  frame.volume.bounds_min = plan.visibility.visible_bounds.low;
+  frame.volume.bounds_max = plan.visibility.visible_bounds.high;
+  frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
+  frame.caster_bounds_min = plan.visibility.caster_bounds.low;
+  frame.caster_bounds_max = plan.visibility.caster_bounds.high;
+  frame.size_px = plan.size_px;
+  frame.light_count = static_cast<std::uint32_t>(plan.lights.size());
+  frame.holes = plan.holes.layout();
+  frame.frame_index = input.view.frame_index;
+  frame.time = input.smoke.time;
+  frame.exposure = input.view.exposure;
+  frame.resolve_error = shared::kResolveError * input.quality.resolve_error_scale;
+  return frame;
 }
 
 }  // namespace
@@ -87,8 +99,8 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
 
 void Renderer::set_march_scale(std::uint32_t scale) {
   march_scale_ = scale;
-  blocks_.reset();
-  if (scale > 1) blocks_.emplace(context_, size_px_, scale);
+  march_tiles_.reset();
+  if (scale > 1) march_tiles_.emplace(context_, size_px_, scale);
 }
 
 void Renderer::resize(glm::uvec2 size_px) {
@@ -96,218 +108,158 @@ void Renderer::resize(glm::uvec2 size_px) {
   gbuffer_ = passes::GBuffer(context_, size_px_);
   smoke_shadows_ =
       smoke_shadow_pass_.make_shadows(context_, size_px_, scene_.light_list.size() + passes::kMaxFlashes);
-  smoke_shadow_plan_ = {};
+  history_.smoke_shadows.invalidate();
   smoke_image_ = storage_image(context_, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT);
   picture_ = storage_image(context_, size_px_, VK_FORMAT_R16G16B16A16_SFLOAT);
   display_image_ = storage_image(context_, size_px_, VK_FORMAT_R8G8B8A8_UNORM);
   if (accumulate_pass_) accumulate_pass_.emplace(context_, size_px_);
   set_march_scale(march_scale_);
-  smoke_changed_ = true;  // other smoke may be in view
 }
 
 void Renderer::set_masks(const smoke::MaskAtlas& masks) {
   hole_clusters_.set_masks(context_, runner_, masks);
+  history_.smoke_shadows.invalidate();
+  history_.smoke_light.invalidate();
 }
 
-void Renderer::find_visibility(const FrameInput& input) {
-  const planning::ViewFrustum view(device_camera(input.camera, size_px_));
-  std::vector<shared::Light> lights = scene_.light_list;
-  const std::size_t flashes = std::min(input.flashes.size(), passes::kMaxFlashes);
-  lights.insert(lights.end(), input.flashes.begin(),
-                input.flashes.begin() + static_cast<std::ptrdiff_t>(flashes));
-  const float voxel_size = input.volume ? input.volume->layout().voxel_size : 0;
-  lights_ = planning::visible_lights(lights, view, planning::light_interpolation_margin(voxel_size));
-  visibility_ = {};
-  if (input.volume)
-    visibility_ = planning::cull_smoke(*input.volume, view, lights_, {scene_.bounds_min, scene_.bounds_max});
+planning::PlanTarget Renderer::plan_target() const {
+  return {scene_.light_list,
+          {scene_.bounds_min, scene_.bounds_max},
+          shadows_.sun_clip_from_world,
+          size_px_,
+          glm::uvec2(smoke_shadows_.atlas.info().size)};
 }
 
-void Renderer::prepare(const FrameInput& input) {
-  find_visibility(input);
-  const std::uint32_t slots = input.volume ? input.volume->slot_count() : 0;
-  if (input.volume) smoke_upload_.reserve(*input.volume);
-  if (input.volume) noise_advection_pass_.reserve(state_of(input), *input.volume);
-  const bool in_turns = input.volume && input.light_update_fraction <= kSlicedUpdatesBelow;
-  noise_changed_ = in_turns && noise_advection_pass_.schedule(state_of(input), *input.volume, visibility_, input.look,
-                                                   input.time, input.swirl_period);
-  solid_.reserve(input.level);
+FramePlan Renderer::plan(const FrameInput& input) {
+  FramePlan plan = planning::plan_frame(input, plan_target(), history_);
+  reserve(plan);
+  return plan;
+}
+
+/// Makes room for a plan, in the order of the data.
+void Renderer::reserve(FramePlan& plan) {
+  const FrameInput& input = plan.input;
+  if (input.smoke.volume) {
+    smoke_upload_.reserve(*input.smoke.volume);
+    noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
+  }
+  solid_.reserve(input.level.voxels);
   sky_light_.reserve(solid_);
-  hole_clusters_.reserve(input.holes, input.time, input.look.hole_rim,
-                      slots > 0 ? input.volume->layout() : shared::VolumeLayout(), slots, size_px_);
-  const bool walls_changed = input.hidden_objects != hidden_objects_ || input.level.grid != lit_level_.grid ||
-                             input.level.edits != lit_level_.edits;
-  lit_level_ = input.level;
-  if (input.hidden_objects != hidden_objects_) follow_hidden_objects(input);
-  smoke_light_pass_.reserve({input.volume, &visibility_, lights_, input.holes, input.time, input.look, input.sky,
-                             input.camera.position_world, walls_changed || input.rebuild_light,
-                             input.light_update_fraction, noise_changed_});
-  if (input.view != passes::DebugView::none) reserve_view(input);
+  hole_clusters_.reserve(plan.holes);
+  if (!plan.changed_objects.empty())
+    shadow_pass_.record_changed(context_, runner_, scene_, input.level.hidden_objects, plan.changed_objects,
+                                shadows_);
+  while (!smoke_light_pass_.reserve(*plan.smoke_light)) planning::replan_smoke_light(plan, history_);
+  if (input.debug.view != planning::DebugView::none) reserve_debug_view(plan);
 }
 
-void Renderer::reserve_view(const FrameInput& input) {
+void Renderer::reserve_debug_view(const FramePlan& plan) {
   if (!debug_view_) debug_view_.emplace(context_);
-  debug_view_->reserve(subject_of(input), size_px_);
-  if (input.view == passes::DebugView::steps && !counting_march_)
+  debug_view_->reserve(debug_subject(plan), size_px_);
+  if (plan.input.debug.view == planning::DebugView::steps && !counting_march_)
     counting_march_.emplace(context_, passes::MarchPass::Options{false, true, brute_force_holes_});
 }
 
-void Renderer::record_view(gpu::Recorder& recorder, const FrameInput& input) {
-  debug_view_->record(recorder, subject_of(input),
-                      {frame_, gbuffer_, smoke_upload_.resources(), hole_clusters_.resources()}, display_image_);
+void Renderer::draw(const FrameInput& input, const std::function<void(gpu::Recorder&)>& then) {
+  const FramePlan plan = this->plan(input);
+  runner_.run([&](gpu::Recorder& recorder) {
+    record_frame(recorder, plan);
+    if (then) then(recorder);
+  });
 }
 
-void Renderer::follow_hidden_objects(const FrameInput& input) {
-  std::vector<std::uint32_t> changed;
-  std::set_symmetric_difference(hidden_objects_.begin(), hidden_objects_.end(), input.hidden_objects.begin(),
-                                input.hidden_objects.end(), std::back_inserter(changed));
-  hidden_objects_ = input.hidden_objects;
-  shadow_pass_.record_changed(context_, runner_, scene_, hidden_objects_, changed, shadows_);
-  smoke_changed_ = true;  // the light in it has
-}
-
-void Renderer::record_frame_constants(gpu::Recorder& recorder, const FrameInput& input) {
-  shared::FrameConstants frame{};
-  frame.camera = device_camera(input.camera, size_px_);
-  frame.sky = input.sky;
-  frame.look = input.look;
-  frame.look.step_length *= input.step_scale;
-  if (input.volume && input.volume->slot_count() > 0) frame.volume = input.volume->layout();
-  frame.volume.bounds_min = visibility_.visible_bounds.low;
-  frame.volume.bounds_max = visibility_.visible_bounds.high;
-  frame.caster_bounds_min = visibility_.bounds.low;
-  frame.caster_bounds_max = visibility_.bounds.high;
-  frame.solid = solid_.layout();
-  frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
-  frame.size_px = size_px_;
-  frame.light_count = static_cast<std::uint32_t>(lights_.size());
-  frame.holes = hole_clusters_.layout();
-  frame.frame_index = input.frame_index;
-  frame.time = input.time;
-  frame.exposure = input.exposure;
-  frame.march_scale = march_scale_;
-  frame.resolve_error = shared::kResolveError * input.resolve_error_scale;
-  recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
-  recorder.upload(scene_.lights, 0, std::as_bytes(std::span(lights_)));
-  recorder.fill(march_of(input).counters, 0);
-}
-
-void Renderer::record_frame(gpu::Recorder& recorder, const FrameInput& input) {
+void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
   const auto stage = [&](const char* name, auto record) {
     const gpu::Scope scope(recorder, name);
     record();
   };
-  const auto& smoke = smoke_upload_.resources();
+  const FrameInput& input = plan.input;
+  const passes::SmokeResources& smoke = smoke_upload_.resources();
+  const passes::HoleResources& holes = hole_clusters_.resources();
+  const passes::LevelLight level{solid_, sky_light_};
+  const March march = march_of(plan);
 
-  stage("upload", [&] {
-    record_frame_constants(recorder, input);
-    if (input.volume) smoke_changed_ = smoke_upload_.record(recorder, *input.volume) || smoke_changed_;
-    smoke_upload_.record_visibility(recorder, visibility_);
-  });
+  stage("upload", [&] { record_upload(recorder, plan); });
   stage("sky_light", [&] {
-    if (solid_.record(recorder, input.level)) sky_light_.record(recorder, frame_, solid_);
+    if (solid_.record(recorder, input.level.voxels)) sky_light_.record(recorder, frame_, solid_);
   });
-  stage("gbuffer", [&] {
-    gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, input.grenades), input.hidden_objects,
-                         planning::ViewFrustum(device_camera(input.camera, size_px_)), frame_, gbuffer_);
-  });
-  const auto& holes = hole_clusters_.resources();
-  stage("holes", [&] { hole_clusters_.record(recorder, frame_, smoke); });
+  stage("gbuffer", [&] { record_gbuffer(recorder, plan); });
+  stage("holes", [&] { hole_clusters_.record(recorder, plan.holes, frame_, smoke); });
   stage("drift", [&] {
-    if (input.volume)
-      noise_advection_pass_.record(recorder, {frame_, smoke, noise_, state_of(input), input.time, input.swirl_period});
+    if (input.smoke.volume) noise_advection_pass_.record(recorder, plan.noise, {frame_, smoke, noise_});
   });
-  const bool light_smoke = input.volume && (needs_light(input) || noise_changed_);
-  stage("smoke_shadow", [&] { record_smoke_shadows(recorder, input, light_smoke); });
+  stage("smoke_shadow", [&] { record_smoke_shadows(recorder, plan); });
   stage("smoke_light", [&] {
-    smoke_light_pass_.record(recorder, {frame_, scene_, shadows_, smoke, holes, {solid_, sky_light_}});
+    smoke_light_pass_.record(recorder, *plan.smoke_light, {frame_, scene_, shadows_, smoke, holes, level});
   });
-  const March march = march_of(input);
   stage("march", [&] { record_march(recorder, march); });
-  if (blocks_) stage("resolve", [&] { record_resolve(recorder, march); });
+  if (march_tiles_) stage("resolve", [&] { record_resolve(recorder, march); });
   if (accumulate_pass_)
     stage("accumulate", [&] {
-      accumulate_pass_->record(recorder, frame_, device_camera(input.camera, size_px_), gbuffer_.depth,
-                               smoke_image_, input.continues);
+      accumulate_pass_->record(recorder, frame_, plan.camera, gbuffer_.depth, smoke_image_,
+                               input.view.continues);
     });
-  if (input.view != passes::DebugView::none) {
-    stage("debug_view", [&] { record_view(recorder, input); });
-    return;
-  }
+  if (input.debug.view != planning::DebugView::none)
+    return stage("debug_view", [&] { record_debug_view(recorder, plan); });
   stage("shade", [&] {
-    shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, {solid_, sky_light_}, gbuffer_,
-                       this->smoke(), picture_);
+    shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, level, gbuffer_, this->smoke(),
+                       picture_);
   });
   stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
 }
 
-void Renderer::record_smoke_shadows(gpu::Recorder& recorder, const FrameInput& input, bool anew) {
-  const auto boxes =
-      input.volume ? planning::smoke_boxes(*input.volume, visibility_) : std::vector<planning::WorldBox>();
-  auto plan = planning::plan_smoke_shadows(
-      {lights_, shadows_.sun_clip_from_world, device_camera(input.camera, size_px_)}, boxes,
-      glm::uvec2(smoke_shadows_.atlas.info().size));
-  const bool same_plan = plan == smoke_shadow_plan_;
-  smoke_shadow_plan_ = std::move(plan);
-  // In four frames; texels of every frame lie beside each other.
-  constexpr std::array<glm::uvec2, 4> kSlices{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
-  const bool in_turns = same_plan && input.light_update_fraction <= kSlicedUpdatesBelow;
-  if (anew || !same_plan) smoke_shadow_turns_ = kSlices.size();
-  if (smoke_shadow_turns_ == 0) return;
-  passes::SmokeShadowPass::Texels texels;
-  if (in_turns) texels = {2, kSlices[++smoke_shadow_turn_ % kSlices.size()]};
-  smoke_shadow_turns_ = in_turns ? smoke_shadow_turns_ - 1 : 0;
+void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan) {
+  shared::FrameConstants frame = frame_constants(plan);
+  frame.solid = solid_.layout();
+  frame.march_scale = march_scale_;
+  recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
+  recorder.upload(scene_.lights, 0, std::as_bytes(std::span(plan.lights)));
+  recorder.fill(march_of(plan).counters, 0);
+  if (plan.input.smoke.volume) smoke_upload_.record(recorder, *plan.input.smoke.volume);
+  smoke_upload_.record_visibility(recorder, plan.visibility);
+}
+
+void Renderer::record_gbuffer(gpu::Recorder& recorder, const FramePlan& plan) {
+  const planning::LevelState& level = plan.input.level;
+  gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, level.grenades), level.hidden_objects,
+                       plan.frustum, frame_, gbuffer_);
+}
+
+void Renderer::record_smoke_shadows(gpu::Recorder& recorder, const FramePlan& plan) {
+  if (!plan.smoke_shadows) return;
   smoke_shadow_pass_.record(
       recorder, {frame_, scene_, shadows_, solid_, smoke_upload_.resources(), hole_clusters_.resources()},
-      smoke_shadow_plan_, smoke_shadows_, texels);
+      *plan.smoke_shadows, smoke_shadows_);
 }
 
 passes::MarchPass::Inputs Renderer::march_inputs() const {
   return {frame_, smoke_upload_.resources(), noise_, gbuffer_.depth, blue_noise_, hole_clusters_.resources()};
 }
 
-Renderer::March Renderer::march_of(const FrameInput& input) const {
-  if (input.view == passes::DebugView::steps) return {*counting_march_, debug_view_->counters()};
+Renderer::March Renderer::march_of(const FramePlan& plan) const {
+  if (plan.input.debug.view == planning::DebugView::steps) return {*counting_march_, debug_view_->counters()};
   return {march_pass_, counters_};
 }
 
 void Renderer::record_march(gpu::Recorder& recorder, const March& march) {
-  if (!blocks_) {
+  if (!march_tiles_) {
     march.pass.record(recorder, march_inputs(), smoke_image_, march.counters);
     return;
   }
-  resolve_pass_.record_ends(recorder, frame_, gbuffer_.depth, *blocks_);
-  march.pass.record_tiles(recorder, march_inputs(), *blocks_, march.counters);
+  resolve_pass_.record_ends(recorder, frame_, gbuffer_.depth, *march_tiles_);
+  march.pass.record_tiles(recorder, march_inputs(), *march_tiles_, march.counters);
 }
 
 void Renderer::record_resolve(gpu::Recorder& recorder, const March& march) {
-  resolve_pass_.record_select(recorder, frame_, gbuffer_.emission, *blocks_);
-  resolve_pass_.record(recorder, frame_, gbuffer_.depth, *blocks_, smoke_image_);
-  march.pass.record_list(recorder, march_inputs(), *blocks_, smoke_image_, march.counters);
+  resolve_pass_.record_select(recorder, frame_, gbuffer_.emission, *march_tiles_);
+  resolve_pass_.record(recorder, frame_, gbuffer_.depth, *march_tiles_, smoke_image_);
+  march.pass.record_list(recorder, march_inputs(), *march_tiles_, smoke_image_, march.counters);
 }
 
-bool Renderer::needs_light(const FrameInput& input) {
-  const bool same_look = std::memcmp(&lit_look_, &input.look, sizeof lit_look_) == 0 &&
-                         std::memcmp(&lit_sky_, &input.sky, sizeof lit_sky_) == 0;
-  // Scattering depends on where the eye is, and only what may be in view is lit.
-  const bool same_view = lit_camera_.position_world == input.camera.position_world &&
-                         lit_camera_.target_world == input.camera.target_world &&
-                         lit_camera_.vertical_fov == input.camera.vertical_fov;
-  // Noise drifts, holes open and close.
-  const bool has_holes = hole_clusters_.layout().count > 0;
-  const bool same_moment = lit_time_ == input.time || (input.look.erosion == 0 && !has_holes && !lit_holes_);
-  lit_holes_ = has_holes;
-  const bool same_flashes =
-      std::equal(lit_flashes_.begin(), lit_flashes_.end(), input.flashes.begin(), input.flashes.end(),
-                 [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; });
-  const bool needed =
-      smoke_changed_ || !same_flashes || !same_look || !same_view || !same_moment || input.rebuild_light;
-  lit_time_ = input.time;
-  lit_camera_ = input.camera;
-  lit_look_ = input.look;
-  lit_sky_ = input.sky;
-  lit_flashes_ = input.flashes;
-  smoke_changed_ = false;
-  return needed;
+void Renderer::record_debug_view(gpu::Recorder& recorder, const FramePlan& plan) {
+  debug_view_->record(recorder, debug_subject(plan),
+                      {frame_, gbuffer_, smoke_upload_.resources(), hole_clusters_.resources()},
+                      display_image_);
 }
 
 }  // namespace brume::render

@@ -144,14 +144,15 @@ class DebugViewTest : public gpu::GpuTest {
     gbuffer.normal_metallic =
         sampled_image(size, VK_FORMAT_R16G16B16A16_SFLOAT, std::as_bytes(std::span(surfaces.normal)));
     gbuffer.depth = sampled_image(size, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(surfaces.depth)));
-    holes_.reserve(open_, frame.time, 0, frame.volume, room_.volume.slot_count(), size);
-    frame.holes = holes_.layout();
+    const auto holes = planning::plan_holes(open_, frame.time, 0, frame.volume, room_.volume.slot_count(), size);
+    holes_.reserve(holes);
+    frame.holes = holes.layout();
     const auto frame_buffer = upload(std::vector{frame});
     const auto display = test_image(context(), size, VK_FORMAT_R8G8B8A8_UNORM);
     const DebugSubject subject{view, slice, {&room_.grid, nullptr}, &room_.volume, &room_.world.state()};
     pass_.reserve(subject, size);
     runner().run([&](gpu::Recorder& recorder) {
-      holes_.record(recorder, frame_buffer, room_.upload.resources());
+      holes_.record(recorder, holes, frame_buffer, room_.upload.resources());
       pass_.record(recorder, subject, {frame_buffer, gbuffer, room_.upload.resources(), holes_.resources()},
                    display);
     });

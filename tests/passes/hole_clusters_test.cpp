@@ -38,64 +38,6 @@ std::vector<shared::Hole> random_holes(std::size_t count, std::uint32_t seed, fl
   return holes;
 }
 
-/// Smoke of quarter-metre voxels that reaches a hundred metres each way.
-shared::VolumeLayout wide_volume() {
-  shared::VolumeLayout volume{};
-  volume.voxel_size = 0.25f;
-  volume.bounds_min = glm::vec3(-400);
-  volume.bounds_max = glm::vec3(400);
-  return volume;
-}
-
-TEST(HolePlan, LeavesOutWhatIsNotOpen) {
-  std::vector<shared::Hole> holes = random_holes(3, 1, 5);
-  for (shared::Hole& hole : holes) {
-    hole.time_to_reach_far = 0.25f;
-    hole.time_to_expand = 0.05f;
-    hole.time_to_stay_open = 1;
-    hole.time_to_fade = 0.35f;
-  }
-  holes[0].time_start = 2;    // still to come
-  holes[1].time_start = -10;  // long closed
-  holes[2].time_start = 0.125f;
-  const HolePlan plan = plan_holes(holes, 1, 0, wide_volume(), 10);
-  ASSERT_EQ(plan.holes.size(), 1u);
-  EXPECT_EQ(plan.holes[0].time_start, 0.125f);
-}
-
-TEST(HolePlan, HasRoomForEveryBrickThatAHoleReaches) {
-  // Bricks of 2 m: at most those whose middle is within the radius and half their diagonal of the axis.
-  auto holes = random_holes(300, 2, 20);
-  for (shared::Hole& hole : holes) {
-    hole.time_start = 0;
-    hole.time_to_stay_open = 100;
-  }
-  std::size_t met = 0;
-  for (const shared::Hole& hole : holes) {
-    const float reach = hole.radius * 1.4143f + 1.7321f;
-    for (int x = -40; x < 40; ++x)
-      for (int y = -40; y < 40; ++y)
-        for (int z = -40; z < 40; ++z) {
-          const glm::vec3 apart = 2.0f * glm::vec3(x, y, z) + 1.0f - hole.origin_world;
-          const float along = glm::clamp(glm::dot(apart, hole.forward), 0.0f, hole.distance_to_far);
-          met += glm::length(apart - along * hole.forward) <= reach ? 1 : 0;
-        }
-  }
-  EXPECT_GE(plan_holes(holes, 50, 0, wide_volume(), 512000).pair_capacity, met);
-  EXPECT_GT(met, 1000u);
-}
-
-TEST(HolePlan, DrawsTheLastOfTooMany) {
-  std::vector<shared::Hole> holes(shared::kMaxHoles + 5, random_holes(1, 1, 5)[0]);
-  for (std::size_t i = 0; i < holes.size(); ++i) {
-    holes[i].time_start = 0;
-    holes[i].time_to_stay_open = 1 + static_cast<float>(i);
-  }
-  const HolePlan plan = plan_holes(holes, 0.5f, 0, wide_volume(), 10);
-  ASSERT_EQ(plan.holes.size(), shared::kMaxHoles);
-  EXPECT_EQ(plan.holes.front().time_to_stay_open, 6);
-}
-
 class HoleClustersTest : public gpu::GpuTest {
  protected:
   static constexpr glm::uvec2 kSize{70, 41};
@@ -134,9 +76,10 @@ class HoleClustersTest : public gpu::GpuTest {
     frame.look.hole_rim = 0.06f;
     frame.time = 1;
     HoleClusters hole_clusters(context(), runner(), {});
-    hole_clusters.reserve(holes, frame.time, frame.look.hole_rim, frame.volume, room_.volume.slot_count(),
-                       kSize);
-    frame.holes = hole_clusters.layout();
+    const auto plan = planning::plan_holes(holes, frame.time, frame.look.hole_rim, frame.volume,
+                                           room_.volume.slot_count(), kSize);
+    hole_clusters.reserve(plan);
+    frame.holes = plan.layout();
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / 15);
@@ -145,7 +88,7 @@ class HoleClustersTest : public gpu::GpuTest {
     const SmokeResources& smoke = room_.upload.resources();
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(smoke.inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
-      hole_clusters.record(recorder, frame_buffer, smoke);
+      hole_clusters.record(recorder, plan, frame_buffer, smoke);
       (plain ? plain_ : march_)
           .record(recorder,
                   {frame_buffer, smoke, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},

@@ -54,9 +54,10 @@ TEST_F(HoleStrength, TheMarchLeavesWhatTheModelDoesNotRemove) {
   for (const smoke::HolePair& q : pairs.pairs) {
     const float rim = 0.25f * q.hole.radius;
     questions.push_back({q.p_world, q.time, q.rim / rim, rim});
-    HolePlan plan;
+    planning::HolePlan plan;
     plan.holes = {q.hole};
-    const auto of_hole = hole_rows(plan, q.time);
+    plan.time = q.time;
+    const auto of_hole = planning::pack_holes(plan);
     steady += of_hole[0].w > 0 ? 1u : 0u;
     rows.insert(rows.end(), of_hole.begin(), of_hole.begin() + sizeof(shared::Hole) / sizeof(glm::vec4));
   }

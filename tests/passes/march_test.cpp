@@ -53,14 +53,15 @@ class MarchTest : public gpu::GpuTest {
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / distance);
     const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
     HoleClusters hole_clusters(context(), runner(), {});
-    hole_clusters.reserve(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
-    frame.holes = hole_clusters.layout();
+    const auto plan = planning::plan_holes(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
+    hole_clusters.reserve(plan);
+    frame.holes = plan.layout();
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
-      hole_clusters.record(recorder, frame_buffer, room.upload.resources());
+      hole_clusters.record(recorder, plan, frame_buffer, room.upload.resources());
       march_.record(recorder,
                     {frame_buffer, room.upload.resources(), noise_tile_, depth_image, blue_noise_,
                      hole_clusters.resources()},

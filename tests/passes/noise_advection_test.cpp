@@ -145,9 +145,10 @@ class NoiseAdvectionTest : public gpu::GpuTest {
     frame_.look.erosion = erosion;
     frame_.time = static_cast<float>(seconds);
     const auto frame = upload(std::vector{frame_});
-    drift.reserve(state, room_.volume);
+    const planning::NoisePlan plan = planning::plan_noise(state, seconds, 12);
+    drift.reserve(state, room_.volume, plan);
     runner().run([&](gpu::Recorder& recorder) {
-      drift.record(recorder, {frame, room_.upload.resources(), noise_, state, seconds, 12});
+      drift.record(recorder, plan, {frame, room_.upload.resources(), noise_});
     });
     const auto medium = read_back<Half4>(room_.upload.resources().density_displacement);
     const auto share = read_back<std::uint32_t>(room_.upload.resources().filtered_density);

@@ -62,13 +62,14 @@ class ResolveTest : public gpu::GpuTest {
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), size, VK_FORMAT_R16G16B16A16_SFLOAT);
     HoleClusters holes(context(), runner(), {});
-    holes.reserve({}, 0, 0, frame.volume, room.volume.slot_count(), size);
+    const auto no_holes = planning::plan_holes({}, 0, 0, frame.volume, room.volume.slot_count(), size);
+    holes.reserve(no_holes);
     const MarchTiles blocks(context(), size, std::max(frame.march_scale, 2u));
     const MarchPass::Inputs in{frame_buffer, room.upload.resources(), noise_tile_, depth,
                                blue_noise_,  holes.resources()};
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
-      holes.record(recorder, frame_buffer, room.upload.resources());
+      holes.record(recorder, no_holes, frame_buffer, room.upload.resources());
       if (way == Way::pixels) {
         march_.record(recorder, in, target, counters);
         return;

@@ -55,11 +55,12 @@ struct SmokeRoom {
     const gpu::Image noise = make_noise_tile(context, 8);
     const NoisePass noise_pass(context);
     NoiseAdvectionPass advection(context);
-    advection.reserve({}, volume);
+    const planning::NoisePlan still;
+    advection.reserve({}, volume, still);
     runner.run([&](gpu::Recorder& recorder) {
       recorder.upload(layout, 0, std::as_bytes(std::span(&constants, 1)));
       noise_pass.record(recorder, noise, {8, 2, 1});
-      advection.record(recorder, {layout, upload.resources(), noise, {}, 0, 1});
+      advection.record(recorder, still, {layout, upload.resources(), noise});
     });
   }
 };

@@ -29,13 +29,13 @@ class NoiseUpdatesTest : public ::testing::Test {
     world_.advance_to(700);
     volume_.update(world_);
     visibility_ = all_smoke_visible(volume_);
-    moment_.volume = &volume_;
-    moment_.slots = visibility_.slots;
-    moment_.motions = motions_;
-    moment_.time = 10;
+    inputs_.volume = &volume_;
+    inputs_.slots = visibility_.slots;
+    inputs_.motions = motions_;
+    inputs_.time = 10;
   }
   std::set<std::uint32_t> due() {
-    const auto due = turns_.due(moment_);
+    const auto due = updates_.slots_due(inputs_);
     EXPECT_TRUE(std::is_sorted(due.begin(), due.end()));
     return {due.begin(), due.end()};
   }
@@ -47,8 +47,8 @@ class NoiseUpdatesTest : public ::testing::Test {
   smoke::SmokeVolume volume_{grid_, planes_};
   SmokeVisibility visibility_;
   std::vector<shared::CloudMotion> motions_ = std::vector<shared::CloudMotion>(2, shared::CloudMotion{});
-  NoiseInputs moment_;
-  NoiseUpdates turns_;
+  NoiseInputs inputs_;
+  NoiseUpdates updates_;
 };
 
 TEST_F(NoiseUpdatesTest, EveryBrickHasATurnInFourFramesAndAMomentThatStandsIsDone) {
@@ -57,14 +57,14 @@ TEST_F(NoiseUpdatesTest, EveryBrickHasATurnInFourFramesAndAMomentThatStandsIsDon
   std::map<std::uint32_t, int> last;
   for (const std::uint32_t slot : visibility_.slots) last[slot] = 0;
   for (int frame = 1; frame < 30; ++frame) {
-    moment_.time += 0.1f;
+    inputs_.time += 0.1f;
     const auto now = due();
     EXPECT_LE(now.size(), (all().size() + 3) / 4 + 1);
     for (const std::uint32_t slot : now) last[slot] = frame;
     for (const auto& [slot, when] : last) EXPECT_LE(frame - when, 4);
   }
   // What has had no turn yet at this time, and nothing more.
-  moment_.time += 0.1f;
+  inputs_.time += 0.1f;
   const auto first = due();
   const auto rest = due();
   std::set<std::uint32_t> both = first;
@@ -94,17 +94,17 @@ TEST_F(NoiseUpdatesTest, WhatMovesOrIsNewIsNeverLate) {
     EXPECT_TRUE(std::includes(now.begin(), now.end(), near.begin(), near.end()));
     EXPECT_LT(now.size(), all().size());
   };
-  moment_.impulses = impulses;
+  inputs_.impulses = impulses;
   expect_near();
   EXPECT_TRUE(due().empty()) << "it stands";
-  moment_.impulses = {};
+  inputs_.impulses = {};
   expect_near();
   EXPECT_TRUE(due().empty());
   // Out of view and back.
   const std::vector<std::uint32_t> some(visibility_.slots.begin(), visibility_.slots.begin() + 3);
-  moment_.slots = some;
+  inputs_.slots = some;
   due();
-  moment_.slots = visibility_.slots;
+  inputs_.slots = visibility_.slots;
   std::set<std::uint32_t> back = all();
   for (const std::uint32_t slot : some) back.erase(slot);
   EXPECT_EQ(due(), back);
@@ -112,9 +112,9 @@ TEST_F(NoiseUpdatesTest, WhatMovesOrIsNewIsNeverLate) {
   motions_[1].front += 0.1f;
   EXPECT_EQ(due(), all());
   // Another look, and somebody else in between.
-  moment_.look.swirl = 1;
+  inputs_.look.swirl = 1;
   EXPECT_EQ(due(), all());
-  turns_.forget();
+  updates_.invalidate();
   EXPECT_EQ(due(), all());
 }
 

@@ -42,7 +42,7 @@ class SmokeLightPlanTest : public ::testing::Test {
   SmokeLightInputs inputs() const {
     SmokeLightInputs moment;
     moment.volume = &volume_;
-    moment.needs = &visibility_;
+    moment.visibility = &visibility_;
     moment.lights = lights_;
     moment.holes = holes_;
     moment.time = 1.5f;
@@ -62,14 +62,14 @@ TEST_F(SmokeLightPlanTest, AsksForEveryLampOfEveryBrickOnceAndThenForNothing) {
   SmokeLightCache kept;
   const SmokeLightPlan first = kept.plan(inputs());
   ASSERT_EQ(first.parts.size(), 1u);
-  EXPECT_EQ(first.bricks.size(), visibility_.seen);
-  EXPECT_EQ(first.rows.size(), visibility_.seen);
+  EXPECT_EQ(first.gathers.size(), visibility_.visible_count);
+  EXPECT_EQ(first.texel_lists.size(), visibility_.visible_count);
   std::set<std::uint32_t> blocks;
-  for (const shared::ShadowRays& pair : first.pairs) EXPECT_TRUE(blocks.insert(pair.block).second);
+  for (const shared::ShadowRays& pair : first.shadow_rays) EXPECT_TRUE(blocks.insert(pair.block).second);
   EXPECT_EQ(blocks.size(), first.page_count);
   // Every point of a brick within the range of a light has that light.
   const shared::VolumeLayout& layout = volume_.layout();
-  for (const shared::LightGather& brick : first.bricks)
+  for (const shared::LightGather& brick : first.gathers)
     for (std::uint32_t light = 0; light < lights_.size(); ++light) {
       const glm::vec3 low =
           layout.origin_world + kVoxel * (8.0f * glm::vec3(volume_.brick_of(brick.slot)) - 0.5f);
@@ -77,41 +77,41 @@ TEST_F(SmokeLightPlanTest, AsksForEveryLampOfEveryBrickOnceAndThenForNothing) {
       if (glm::distance(near, lights_[light].position_world) >= lights_[light].range) continue;
       bool listed = false;
       for (std::uint32_t i = 0; i < brick.light_count; ++i)
-        listed |= first.lights[brick.first_light + i].x == light;
+        listed |= first.gathered_lights[brick.first_light + i].x == light;
       EXPECT_TRUE(listed);
     }
   const SmokeLightPlan again = kept.plan(inputs());
-  EXPECT_TRUE(again.parts.empty() && again.pairs.empty() && again.bricks.empty());
+  EXPECT_TRUE(again.parts.empty() && again.shadow_rays.empty() && again.gathers.empty());
 }
 
 TEST_F(SmokeLightPlanTest, WhatDoesNotFitIsDoneInParts) {
-  const std::size_t all = SmokeLightCache().plan(inputs()).pairs.size();
+  const std::size_t all = SmokeLightCache().plan(inputs()).shadow_rays.size();
   const auto most = static_cast<std::uint32_t>(all / 3);
   SmokeLightCache kept(most);
   for (int repeat = 0; repeat < 2; ++repeat) {
     const SmokeLightPlan plan = kept.plan(inputs());
     EXPECT_GT(plan.parts.size(), 2u);
     EXPECT_LE(plan.page_count, most);
-    EXPECT_EQ(plan.pairs.size(), all);
+    EXPECT_EQ(plan.shadow_rays.size(), all);
     std::size_t pairs = 0;
     std::set<std::uint32_t> slots;
     for (const SmokeLightPlan::Part& part : plan.parts) {
-      EXPECT_EQ(part.pairs.first, pairs);
-      pairs += part.pairs.count;
+      EXPECT_EQ(part.shadow_rays.first, pairs);
+      pairs += part.shadow_rays.count;
       std::set<std::uint32_t> blocks;
-      for (std::uint32_t i = 0; i < part.pairs.count; ++i)
-        EXPECT_TRUE(blocks.insert(plan.pairs[part.pairs.first + i].block).second);
-      for (std::uint32_t i = 0; i < part.bricks.count; ++i)
-        EXPECT_TRUE(slots.insert(plan.bricks[part.bricks.first + i].slot).second);
+      for (std::uint32_t i = 0; i < part.shadow_rays.count; ++i)
+        EXPECT_TRUE(blocks.insert(plan.shadow_rays[part.shadow_rays.first + i].block).second);
+      for (std::uint32_t i = 0; i < part.gathers.count; ++i)
+        EXPECT_TRUE(slots.insert(plan.gathers[part.gathers.first + i].slot).second);
     }
     EXPECT_EQ(pairs, all);
-    EXPECT_EQ(slots.size(), visibility_.seen);
+    EXPECT_EQ(slots.size(), visibility_.visible_count);
   }
 }
 
 TEST_F(SmokeLightPlanTest, AHoleMakesAnewOnlyWhatMayCrossIt) {
   SmokeLightCache kept;
-  const std::size_t all = kept.plan(inputs()).pairs.size();
+  const std::size_t all = kept.plan(inputs()).shadow_rays.size();
   // Along z through the first smoke; the last is 28 m away, and no light reaches from there to here.
   shared::Hole hole{};
   hole.origin_world = {6, 1, 4};
@@ -122,22 +122,22 @@ TEST_F(SmokeLightPlanTest, AHoleMakesAnewOnlyWhatMayCrossIt) {
   hole.time_to_stay_open = 10;
   holes_ = {hole};
   const SmokeLightPlan plan = kept.plan(inputs());
-  EXPECT_GT(plan.pairs.size(), 0u);
-  EXPECT_LT(plan.pairs.size(), all);
+  EXPECT_GT(plan.shadow_rays.size(), 0u);
+  EXPECT_LT(plan.shadow_rays.size(), all);
   // All the lights' rays of the smoke that it goes through.
   const auto in_first = [&](std::uint32_t slot) {
     return static_cast<float>(8 * volume_.brick_of(slot).x) * kVoxel < 12;
   };
   const SmokeLightPlan whole = SmokeLightCache().plan(inputs());
   std::multiset<std::uint32_t> lights, whole_lights;
-  for (const auto& pair : plan.pairs)
+  for (const auto& pair : plan.shadow_rays)
     if (volume_.brick_of(pair.slot) == glm::ivec3(1, 0, 2)) lights.insert(pair.light);
-  for (const auto& pair : whole.pairs)
+  for (const auto& pair : whole.shadow_rays)
     if (volume_.brick_of(pair.slot) == glm::ivec3(1, 0, 2)) whole_lights.insert(pair.light);
   EXPECT_FALSE(whole_lights.empty());
   EXPECT_EQ(lights, whole_lights);
   bool far_light = false;
-  for (const auto& pair : plan.pairs) far_light |= !in_first(pair.slot) && pair.light == 8;
+  for (const auto& pair : plan.shadow_rays) far_light |= !in_first(pair.slot) && pair.light == 8;
   EXPECT_FALSE(far_light);
 }
 
@@ -147,13 +147,13 @@ class Ages {
   /// Takes a frame's plan; how many pairs it asks for, those of some phases in parts.
   double take(const SmokeLightPlan& plan, std::uint32_t frame) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> times;  // of (slot, phase)
-    for (const shared::ShadowRays& pair : plan.pairs) {
+    for (const shared::ShadowRays& pair : plan.shadow_rays) {
       if (pair.texels == shared::kNewTexels) continue;
       for (std::uint32_t phase = pair.texels & 255; phase < pair.texels >> 8; ++phase)
         ++times[{pair.slot, phase}];
       asked_ += (pair.texels >> 8) - (pair.texels & 255);
     }
-    for (const shared::LightGather& brick : plan.bricks) {
+    for (const shared::LightGather& brick : plan.gathers) {
       if (brick.texels == shared::kNewTexels) continue;
       for (std::uint32_t phase = brick.texels & 255; phase < brick.texels >> 8; ++phase)
         if (times[{brick.slot, phase}] == brick.light_count + shared::kSkyPages)
@@ -179,9 +179,9 @@ TEST_F(SmokeLightPlanTest, AShareMakesEveryPhaseAnewInTime) {
     Ages ages;
     SmokeLightInputs now = inputs();
     now.look.erosion = 0.5f;
-    now.share = share;
+    now.update_fraction = share;
     const double all = ages.take(kept.plan(now), 0);
-    EXPECT_EQ(ages.size(), visibility_.seen * shared::kLightPhases) << "at first all is made";
+    EXPECT_EQ(ages.size(), visibility_.visible_count * shared::kLightPhases) << "at first all is made";
     // What there is of it: 1/2, 1/4, ... 1/16.
     const double part = std::max(std::exp2(std::floor(std::log2(double{share}))), 1.0 / 16);
     const double more = std::max(std::exp2(std::ceil(std::log2(double{share}))), 1.0 / 16);
@@ -229,7 +229,7 @@ TEST_F(SmokeLightPlanTest, ALampThatComesOrGoesIsNeverLate) {
   SmokeLightCache kept;
   SmokeLightInputs now = inputs();
   now.look.erosion = 0.5f;
-  now.share = 0.125f;
+  now.update_fraction = 0.125f;
   for (int i = 0; i < 12; ++i, now.time += 0.1f) kept.plan(now);
   std::vector<shared::Light> with = lights_;
   with.push_back(lights_[4]);
@@ -237,19 +237,19 @@ TEST_F(SmokeLightPlanTest, ALampThatComesOrGoesIsNeverLate) {
   now.lights = with;
   const auto bricks_of = [&](const SmokeLightPlan& plan) {
     std::set<std::uint32_t> slots;
-    for (const shared::LightGather& brick : plan.bricks)
+    for (const shared::LightGather& brick : plan.gathers)
       if (brick.texels == shared::kAllTexels) slots.insert(brick.slot);
     return slots;
   };
   const SmokeLightPlan come = kept.plan(now);
   std::set<std::uint32_t> reached;
-  for (const shared::ShadowRays& pair : come.pairs)
+  for (const shared::ShadowRays& pair : come.shadow_rays)
     if (pair.light == 9) {
       EXPECT_EQ(pair.texels, shared::kAllTexels);
       EXPECT_TRUE(reached.insert(pair.slot).second);
     }
   EXPECT_FALSE(reached.empty());
-  EXPECT_LT(reached.size(), visibility_.seen);
+  EXPECT_LT(reached.size(), visibility_.visible_count);
   EXPECT_EQ(bricks_of(come), reached);
   now.time += 0.1f;
   now.lights = lights_;
@@ -260,7 +260,7 @@ TEST_F(SmokeLightPlanTest, TexelsInAHoleThatChangesAreNeverLate) {
   SmokeLightCache kept;
   SmokeLightInputs now = inputs();
   now.look.erosion = 0.5f;
-  now.share = 0.125f;
+  now.update_fraction = 0.125f;
   for (int i = 0; i < 12; ++i, now.time += 0.1f) kept.plan(now);
   shared::Hole hole{};
   hole.origin_world = {6, 1, 4};
@@ -273,7 +273,7 @@ TEST_F(SmokeLightPlanTest, TexelsInAHoleThatChangesAreNeverLate) {
   now.holes = holes_;
   const SmokeLightPlan plan = kept.plan(now);
   std::set<std::uint32_t> listed;
-  for (const shared::TexelList& row : plan.rows) {
+  for (const shared::TexelList& row : plan.texel_lists) {
     listed.insert(row.slot);
     EXPECT_TRUE(row.had_list);
     ASSERT_EQ(row.change_count, 1u);
@@ -285,12 +285,12 @@ TEST_F(SmokeLightPlanTest, TexelsInAHoleThatChangesAreNeverLate) {
     const std::uint32_t slot = volume_.slot_at(glm::ivec3(glm::floor(glm::vec3(6, 1, z) / (8 * kVoxel))));
     EXPECT_TRUE(slot == smoke::SmokeVolume::kNoSlot || listed.count(slot) > 0);
   }
-  EXPECT_LT(listed.size(), visibility_.seen / 2);
+  EXPECT_LT(listed.size(), visibility_.visible_count / 2);
   // Each with all of its pairs.
   std::map<std::uint32_t, std::uint32_t> pairs, wanted;
-  for (const shared::ShadowRays& pair : plan.pairs)
+  for (const shared::ShadowRays& pair : plan.shadow_rays)
     if (pair.texels == shared::kNewTexels) ++pairs[pair.slot];
-  for (const shared::LightGather& brick : plan.bricks)
+  for (const shared::LightGather& brick : plan.gathers)
     if (brick.texels == shared::kNewTexels) wanted[brick.slot] = brick.light_count + shared::kSkyPages;
   EXPECT_EQ(pairs, wanted);
   EXPECT_EQ(wanted.size(), listed.size());

@@ -60,8 +60,8 @@ class SmokeVisibilityTest : public ::testing::Test {
   }
   /// Whether all smoke on a way is needed: looked up twice a voxel.
   bool all_visible(const SmokeVisibility& needs, glm::vec3 from, glm::vec3 way, bool seen) const {
-    const smoke::SmokeBounds& bounds = seen ? needs.visible_bounds : needs.bounds;
-    const std::size_t first_slots = seen ? needs.seen : needs.slots.size();
+    const smoke::SmokeBounds& bounds = seen ? needs.visible_bounds : needs.caster_bounds;
+    const std::size_t first_slots = seen ? needs.visible_count : needs.slots.size();
     const int count = static_cast<int>(glm::length(way) / (0.5f * kVoxel)) + 1;
     for (int i = 0; i <= count; ++i) {
       const glm::vec3 p = (from + way * (static_cast<float>(i) / static_cast<float>(count))) / kVoxel;
@@ -130,10 +130,10 @@ TEST_F(SmokeVisibilityTest, WhatIsFarBehindIsNotNeeded) {
   camera.up = {0, 0.4f, 0};
   const SmokeVisibility none = needs(camera);
   EXPECT_TRUE(none.slots.empty());
-  EXPECT_EQ(none.bounds.low, none.bounds.high);
+  EXPECT_EQ(none.caster_bounds.low, none.caster_bounds.high);
   EXPECT_TRUE(smoke_boxes(volume_, none).empty());
   camera.forward = {1, 0, 0};
-  EXPECT_GT(needs(camera).seen, 0u);
+  EXPECT_GT(needs(camera).visible_count, 0u);
 }
 
 // Of all smoke the boxes are what bounds it.

@@ -42,12 +42,11 @@ class Eye {
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back)),
                     up = glm::cross(back, right);
     const float edge = pair.sign_px / 45 * kHalfCrop * glm::length(pair.eye - pair.target);
-    input_.camera = {pair.eye, pair.target, 2 * std::atan(kHalfCrop)};
-    input_.grenades = {glm::mat4(glm::vec4(edge * right, 0), glm::vec4(edge * up, 0),
+    input_.view.camera = {pair.eye, pair.target, 2 * std::atan(kHalfCrop)};
+    input_.level.grenades = {glm::mat4(glm::vec4(edge * right, 0), glm::vec4(edge * up, 0),
                                  glm::vec4(0.01f * back, 0), glm::vec4(pair.target, 1))};
     renderer_.set_march_scale(scale);
-    renderer_.prepare(input_);
-    runner_.run([&](gpu::Recorder& recorder) { renderer_.record_frame(recorder, input_); });
+    renderer_.draw(input_);
     return renderer_;
   }
 

@@ -72,7 +72,7 @@ class LightCacheTest : public gpu::GpuTest {
   FrameInput input_at(double seconds) {
     simulation_->advance_to(seconds);
     FrameInput input = frame_input(*scenario_, *simulation_, seconds, holes_);
-    input.camera = camera_;
+    input.view.camera = camera_;
     if (flash_ > 0) {
       shared::Light light{};
       light.kind = shared::kLightPoint;
@@ -80,25 +80,24 @@ class LightCacheTest : public gpu::GpuTest {
       light.intensity = glm::vec3(flash_);
       light.range = shared::light_range(flash_);
       light.shadow_layer = shared::kShadowByVoxels;
-      input.flashes = {light};
+      input.environment.flashes = {light};
     }
     return input;
   }
   static std::vector<std::uint64_t> smoke_of(Renderer& renderer, const FrameInput& input) {
-    renderer.prepare(input);
-    runner().run([&](gpu::Recorder& recorder) { renderer.record_frame(recorder, input); });
+    renderer.draw(input);
     return read_back<std::uint64_t>(renderer.smoke());
   }
   /// Draws a moment by both, which must be equal.
   Work draw(double seconds) {
     FrameInput input = input_at(seconds);
     const auto kept = smoke_of(*kept_, input);
-    input.rebuild_light = true;
+    input.quality.rebuild_light = true;
     const auto anew = smoke_of(*anew_, input);
     EXPECT_GT(std::set<std::uint64_t>(anew.begin(), anew.end()).size(), 60u) << "smoke is in view";
     EXPECT_EQ(kept, anew) << "at " << seconds;
-    return {kept_->light_plan().pairs.size(), kept_->light_plan().bricks.size(),
-            anew_->light_plan().pairs.size(), anew_->light_plan().bricks.size()};
+    return {kept_->light_plan().shadow_rays.size(), kept_->light_plan().gathers.size(),
+            anew_->light_plan().shadow_rays.size(), anew_->light_plan().gathers.size()};
   }
 
   std::optional<scenario::Scenario> scenario_;
@@ -185,8 +184,8 @@ class SharedLightTest : public LightCacheTest {
   /// The smoke; expects that nothing glares.
   std::vector<std::uint64_t> draw_share(double seconds, float share) {
     FrameInput input = input_at(seconds);
-    input.light_update_fraction = share;
-    anew_->prepare(input);
+    input.quality.light_update_fraction = share;
+    const FramePlan plan = anew_->plan(input);
     const gpu::Image& light = anew_->smoke_resources().inscatter;
     const glm::uvec3 size = light.info().size;
     if (size != lit_size_) {
@@ -195,7 +194,7 @@ class SharedLightTest : public LightCacheTest {
       runner().run([&](gpu::Recorder& recorder) { recorder.upload(light, {&all, 1}); });
       lit_size_ = size;
     }
-    runner().run([&](gpu::Recorder& recorder) { anew_->record_frame(recorder, input); });
+    runner().run([&](gpu::Recorder& recorder) { anew_->record_frame(recorder, plan); });
     const auto smoke = smoke_of(*kept_, input);
     EXPECT_EQ(read_back<std::uint64_t>(anew_->smoke()), smoke) << "light that was never made, at " << seconds;
     return smoke;

@@ -12,7 +12,7 @@
 
 #include "core/file.hpp"
 #include "passes/scene_upload.hpp"
-#include "render/device_camera.hpp"
+#include "planning/device_camera.hpp"
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
@@ -173,10 +173,9 @@ class LitWallsTest : public gpu::GpuTest {
       input = frame_input(scenario, *simulation, kSeconds, holes);
     }
     Profile draw(const scene::Camera& camera) {
-      input.camera = camera;
-      ++input.frame_index;
-      renderer.prepare(input);
-      runner().run([&](gpu::Recorder& recorder) { renderer.record_frame(recorder, input); });
+      input.view.camera = camera;
+      ++input.view.frame_index;
+      renderer.draw(input);
       const auto texels = read_back<passes::Half4>(renderer.smoke());
       return mean_of_rows([&](std::uint32_t x, std::uint32_t y) {
         const glm::vec4 texel = passes::from_half(texels[x + std::size_t{kSize.x} * y]);
@@ -269,7 +268,7 @@ TEST_F(LitWallsTest, InEvenLightOnlyTheDistanceToTheWallCounts) {
     Studio studio(scenario);
     for (const View& view : views_of(wall)) {
       const Profile drawn = studio.draw(view.camera);
-      const shared::Camera camera = device_camera(view.camera, kSize);
+      const shared::Camera camera = planning::device_camera(view.camera, kSize);
       const Profile expected = mean_of_rows([&](std::uint32_t x, std::uint32_t y) {
         const double passed = std::exp(-kSigma * smoke_before(wall, camera, glm::dvec2(x, y) + 0.5));
         return glm::dvec2(1 - passed, passed);
@@ -286,16 +285,16 @@ TEST_F(LitWallsTest, ByALampTheWallShowsNoLine) {
     Studio studio(scenario);
     reference::TruthScene truth;
     truth.size_px = kSize;
-    truth.look = studio.input.look;
+    truth.look = studio.input.smoke.look;
     truth.time = kSeconds;
-    truth.volume = studio.input.volume;
+    truth.volume = studio.input.smoke.volume;
     const auto lights = passes::device_lights(scenario.scene.lights, 64);
     truth.lights = lights;
     const auto triangles = reference::truth_triangles(scenario.scene);
     truth.triangles = triangles;
     for (const View& view : views_of(wall)) {
       const Profile drawn = studio.draw(view.camera);
-      truth.camera = device_camera(view.camera, kSize);
+      truth.camera = planning::device_camera(view.camera, kSize);
       const auto pixels = trace_truth(truth);
       const Profile expected = mean_of_rows([&](std::uint32_t x, std::uint32_t y) {
         const auto& pixel = pixels[x + std::size_t{kSize.x} * y];

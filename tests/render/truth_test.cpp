@@ -11,7 +11,7 @@
 #include "image/png.hpp"
 #include "passes/noise.hpp"
 #include "passes/scene_upload.hpp"
-#include "render/device_camera.hpp"
+#include "planning/device_camera.hpp"
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
@@ -49,8 +49,7 @@ class TruthTest : public gpu::GpuTest {
     }
     /// What `input` shows.
     Drawn draw() {
-      renderer_.prepare(input);
-      runner().run([&](gpu::Recorder& recorder) { renderer_.record_frame(recorder, input); });
+      renderer_.draw(input);
       Drawn drawn{texels(renderer_.smoke()), {}, {}};
       for (const glm::dvec4& texel : texels(renderer_.picture())) drawn.picture.emplace_back(texel);
       const gpu::Image& medium = renderer_.smoke_resources().density_displacement;
@@ -131,16 +130,16 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     SCOPED_TRACE(one.name);
     Studio studio(one.scenario, one.seconds);
     FrameInput& input = studio.input;
-    input.look.multiple_scattering = 0;
-    if (!one.noisy) input.look.hole_rim = 0;
+    input.smoke.look.multiple_scattering = 0;
+    if (!one.noisy) input.smoke.look.hole_rim = 0;
     const Drawn drawn = studio.draw();
 
     reference::TruthScene truth;
-    truth.camera = device_camera(input.camera, kSize);
+    truth.camera = planning::device_camera(input.view.camera, kSize);
     truth.size_px = kSize;
-    truth.look = input.look;
+    truth.look = input.smoke.look;
     truth.time = one.seconds;
-    truth.volume = input.volume;
+    truth.volume = input.smoke.volume;
     truth.holes = studio.holes;
     const auto lights = passes::device_lights(one.scenario.scene.lights, 64);
     truth.lights = lights;
@@ -160,7 +159,7 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
       over_truth.push_back(glm::dvec3(drawn.smoke[i]) + drawn.smoke[i].w * pixels[i].surface);
       transmittance += std::abs(drawn.smoke[i].w - pixels[i].transmittance) / double(pixels.size());
     }
-    const double exposure = double{input.exposure};
+    const double exposure = double{input.view.exposure};
     const auto truth_shown = shown(expected, exposure);
     const auto smoke_shown = shown(over_truth, exposure), picture_shown = shown(drawn.picture, exposure);
     const double linear = psnr_of(expected, over_truth, exposure), toned = psnr_of(truth_shown, smoke_shown);
@@ -172,7 +171,7 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     keep(one.name + " picture", truth_shown, picture_shown);
     EXPECT_GE(toned, one.least_psnr);
     // A ray that is let through by less than look.opaque_transmittance is taken as shut: its mean is off by less than that.
-    EXPECT_LT(transmittance, double{input.look.opaque_transmittance});
+    EXPECT_LT(transmittance, double{input.smoke.look.opaque_transmittance});
   }
 }
 
@@ -195,8 +194,8 @@ TEST_F(TruthTest, InEvenLightSmokeWithoutAbsorptionIsNotSeen) {
   for (const float noise : {0.0f, 0.5f}) {
     for (const float extinction : {0.1f, 1.0f, 10.0f}) {
       double darkest = 2, brightest = 0, least_left = 1;
-      studio.input.look.extinction = extinction;
-      studio.input.look.erosion = noise;
+      studio.input.smoke.look.extinction = extinction;
+      studio.input.smoke.look.erosion = noise;
       const Drawn drawn = studio.draw();
       for (const glm::dvec3& radiance : drawn.picture) {
         darkest = std::min(darkest, radiance.g);
@@ -236,12 +235,12 @@ TEST_F(TruthTest, ALightBehindASlabIsDimmedAsBeerAndLambertSay) {
   timeline.smokes = {{0.0, {0, 1.5f, 0}, {0, 1, 0}}};
   const scenario::Scenario scenario = scenario_of(scene, timeline, {{24, 20, 32}, 0.25f, {-3, -1, -4}});
   Studio studio(scenario);
-  const smoke::SmokeVolume* const volume = std::exchange(studio.input.volume, nullptr);
+  const smoke::SmokeVolume* const volume = std::exchange(studio.input.smoke.volume, nullptr);
   const auto clear = studio.draw().picture;
-  studio.input.volume = volume;
-  const shared::Camera camera = device_camera(*scene.camera, kSize);
+  studio.input.smoke.volume = volume;
+  const shared::Camera camera = planning::device_camera(*scene.camera, kSize);
   for (const float extinction : {0.05f, 0.3f, 0.7f}) {
-    studio.input.look.extinction = extinction;
+    studio.input.smoke.look.extinction = extinction;
     const auto picture = studio.draw().picture;
     int seen = 0;
     for (std::uint32_t i = 0; i < picture.size(); ++i) {
@@ -261,9 +260,9 @@ TEST_F(TruthTest, StepsOfTheMarchDoNotShow) {
   for (const TruthCase& one : truth_cases()) {
     if (one.name != "hole" && one.name != "noise and holes") continue;
     Studio studio(one.scenario);
-    const float length = studio.input.look.step_length;
+    const float length = studio.input.smoke.look.step_length;
     const auto at = [&](float share) {
-      studio.input.look.step_length = share * length;
+      studio.input.smoke.look.step_length = share * length;
       return shown(studio.draw().picture, 1);
     };
     const image::Image8 plain = at(1);

@@ -1,8 +1,8 @@
-#include "render/device_camera.hpp"
+#include "planning/device_camera.hpp"
 
 #include <cmath>
 
-namespace brume::render {
+namespace brume::planning {
 
 shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px) {
   // Axes of the view: forward, right, up.
@@ -23,4 +23,4 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px) {
   return {glm::transpose(rows), p, kNearPlane, forward, tan_x * right, tan_y * up};
 }
 
-}  // namespace brume::render
+}  // namespace brume::planning

@@ -1,10 +1,10 @@
-#include "render/device_camera.hpp"
+#include "planning/device_camera.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace brume::render {
+namespace brume::planning {
 namespace {
 
 TEST(DeviceCamera, RaysAndProjectionAgree) {
@@ -38,4 +38,4 @@ TEST(DeviceCamera, LooksStraightDownAndAtItself) {
 }
 
 }  // namespace
-}  // namespace brume::render
+}  // namespace brume::planning

@@ -1,0 +1,14 @@
+// The camera of a frame in the form that shaders and culling read.
+#pragma once
+
+#include "scene/scene.hpp"
+#include "shared/frame.h"
+
+namespace brume::planning {
+
+constexpr float kNearPlane = 0.05f;  // [m]
+
+/// `camera` for an image of this size. A view straight up or down is valid.
+shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px);
+
+}  // namespace brume::planning

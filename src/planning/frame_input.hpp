@@ -1,0 +1,85 @@
+// What one frame shows, in groups that change at different rates.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "planning/debug_request.hpp"
+#include "scene/scene.hpp"
+#include "shared/frame.h"
+#include "shared/hole.h"
+#include "shared/light.h"
+#include "sim/level_edit.hpp"
+#include "sim/state.hpp"
+#include "smoke/smoke_volume.hpp"
+#include "voxel/bit_grid.hpp"
+
+namespace brume::planning {
+
+/// The most lights of one frame beyond those of the scene.
+constexpr std::size_t kMaxFlashes = 64;
+
+/// A level at one time. The edits list what changed since the level was loaded; null: nothing.
+struct LevelView {
+  const voxel::BitGrid* grid = nullptr;  ///< Edits included; null: nothing is solid anywhere.
+  std::shared_ptr<const sim::EditBlocks> edits;
+  bool operator==(const LevelView&) const = default;
+};
+
+struct View {
+  scene::Camera camera;
+  float exposure = 1;             ///< Multiplies radiance before the tone curve; > 0.
+  std::uint32_t frame_index = 0;  ///< Moves jitter and dither; equal numbers give equal images.
+  /// The next frame of a film: a renderer that accumulates smoke over frames goes on from the frames before.
+  bool continues = false;
+};
+
+struct Environment {
+  shared::Sky sky{};
+  std::vector<shared::Light> flashes;  ///< Lights of this frame; at most kMaxFlashes, the first ones.
+};
+
+struct LevelState {
+  LevelView voxels;                           ///< Where the level is solid; always of the same level.
+  std::vector<std::uint32_t> hidden_objects;  ///< Of the scene, rising: not drawn, and they cast no shadow.
+  std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
+};
+
+struct SmokeInput {
+  const smoke::SmokeVolume* volume = nullptr;  ///< null: no smoke.
+  /// The clouds, shots, bodies and blasts that advect the noise; null: it only rises.
+  const sim::State* state = nullptr;
+  std::span<const shared::Hole> holes;  ///< At most shared::kMaxHoles are cut, the last ones.
+  shared::SmokeLook look{};
+  double swirl_period = 12;  ///< How long the noise takes to roll around once [s]; > 0.
+  float time = 0;            ///< The clock of the holes and of the noise [s].
+};
+
+struct Quality {
+  /// Multiplies look.step_length, for devices that the usual steps are too expensive for; > 0. Light in the
+  /// smoke does not depend on it.
+  float step_scale = 1;
+  /// Multiplies the error up to which pixels of a reduced march are interpolated, three steps of a display's
+  /// 255; > 0. Above 1 fewer pixels are marched one by one, and the image may show what that of the full
+  /// march hides.
+  float resolve_error_scale = 1;
+  /// About which fraction of the light that changed is updated in this frame; in (0, 1], 1: all. Below, light
+  /// is as old as ceil(1 / light_update_fraction) frames where it changes slowly, and 1/16 is the least
+  /// (SmokeLightCache); such a frame depends on the frames before. Up to 1/4 the shadows of smoke on surfaces
+  /// (SmokeShadowCache) and the advection of slow noise (NoiseUpdates) are spread over four frames.
+  float light_update_fraction = 1;
+  bool rebuild_light = false;  ///< Light smoke and surfaces again even where nothing changed.
+};
+
+/// What one frame shows. What `smoke` and `level` point to must outlive the frame's recording.
+struct FrameInput {
+  View view;
+  Environment environment;
+  LevelState level;
+  SmokeInput smoke;
+  Quality quality;
+  DebugRequest debug;
+};
+
+}  // namespace brume::planning

@@ -1,0 +1,102 @@
+#include "planning/frame_plan.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "planning/device_camera.hpp"
+
+namespace brume::planning {
+namespace {
+
+/// What of lights and smoke is visible.
+void plan_visibility(FramePlan& plan, const PlanTarget& target) {
+  const smoke::SmokeVolume* volume = plan.input.smoke.volume;
+  const std::vector<shared::Light>& flashes = plan.input.environment.flashes;
+  std::vector<shared::Light> lights(target.lights.begin(), target.lights.end());
+  const auto flash_count = static_cast<std::ptrdiff_t>(std::min(flashes.size(), kMaxFlashes));
+  lights.insert(lights.end(), flashes.begin(), flashes.begin() + flash_count);
+  const float voxel_size = volume ? volume->layout().voxel_size : 0;
+  plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size));
+  if (volume) plan.visibility = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds);
+}
+
+void plan_level(FramePlan& plan, PlanHistory& history) {
+  const LevelState& level = plan.input.level;
+  std::set_symmetric_difference(history.hidden_objects.begin(), history.hidden_objects.end(),
+                                level.hidden_objects.begin(), level.hidden_objects.end(),
+                                std::back_inserter(plan.changed_objects));
+  plan.level_changed = !plan.changed_objects.empty() || !(level.voxels == history.level);
+  history.hidden_objects = level.hidden_objects;
+  history.level = level.voxels;
+}
+
+void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
+  const SmokeInput& smoke = plan.input.smoke;
+  if (!smoke.volume) return;
+  plan.noise = plan_noise(plan.state(), static_cast<double>(smoke.time), smoke.swirl_period);
+  if (!history.noise.applies_to(plan.input.quality.light_update_fraction)) {
+    history.noise.invalidate();
+    return;
+  }
+  const auto slots_due = history.noise.slots_due(
+      {smoke.volume, plan.visibility.slots, plan.noise.motions, plan.noise.impulses, smoke.look, smoke.time});
+  plan.noise.slots_due.emplace(slots_due.begin(), slots_due.end());
+}
+
+void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
+  const SmokeInput& smoke = plan.input.smoke;
+  const Quality& quality = plan.input.quality;
+  std::vector<WorldBox> boxes;
+  if (smoke.volume) boxes = smoke_boxes(*smoke.volume, plan.visibility);
+  plan.smoke_shadows = history.smoke_shadows.update(
+      plan_smoke_shadows({plan.lights, target.sun_clip_from_world, plan.camera}, boxes,
+                         target.smoke_shadow_atlas),
+      {smoke.volume, &plan.visibility, plan.lights, &plan.holes, &plan.noise, smoke.look, smoke.time,
+       plan.level_changed || quality.rebuild_light, quality.light_update_fraction});
+}
+
+void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
+  const FrameInput& input = plan.input;
+  const bool noise_changed = plan.noise.slots_due && !plan.noise.slots_due->empty();
+  plan.smoke_light = &history.smoke_light.plan({input.smoke.volume, &plan.visibility, plan.lights,
+                                                input.smoke.holes, input.smoke.time, input.smoke.look,
+                                                input.environment.sky, input.view.camera.position_world,
+                                                plan.level_changed || input.quality.rebuild_light,
+                                                input.quality.light_update_fraction, noise_changed});
+}
+
+}  // namespace
+
+FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px)
+    : input(frame_input),
+      size_px(frame_size_px),
+      camera(device_camera(frame_input.view.camera, frame_size_px)),
+      frustum(camera) {}
+
+const sim::State& FramePlan::state() const {
+  static const sim::State kNothing;
+  return input.smoke.state ? *input.smoke.state : kNothing;
+}
+
+FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history) {
+  FramePlan plan(input, target.size_px);
+  plan_visibility(plan, target);
+  plan_level(plan, history);
+  const SmokeInput& smoke = plan.input.smoke;
+  const std::uint32_t slots = smoke.volume ? smoke.volume->slot_count() : 0;
+  plan.holes = plan_holes(smoke.holes, smoke.time, smoke.look.hole_rim,
+                          slots > 0 ? smoke.volume->layout() : shared::VolumeLayout(), slots, target.size_px);
+  plan_noise_updates(plan, history);
+  plan_smoke_shadow_update(plan, target, history);
+  plan_smoke_light(plan, history);
+  plan.view_slice = input.debug.slice.value_or(
+      slice_through_smoke(smoke.volume, input.view.camera.position_world, input.view.camera.target_world));
+  return plan;
+}
+
+void replan_smoke_light(FramePlan& plan, PlanHistory& history) {
+  history.smoke_light.invalidate();
+  plan_smoke_light(plan, history);
+}
+
+}  // namespace brume::planning

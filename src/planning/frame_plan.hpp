@@ -1,0 +1,69 @@
+// All that a frame needs to know before it is recorded: what is visible, what changed, what is updated. Found
+// once a frame; passes make room by it and record it.
+#pragma once
+
+#include <vector>
+
+#include "planning/frame_input.hpp"
+#include "planning/hole_plan.hpp"
+#include "planning/noise_updates.hpp"
+#include "planning/smoke_light_cache.hpp"
+#include "planning/smoke_shadow_cache.hpp"
+#include "planning/view_frustum.hpp"
+
+namespace brume::planning {
+
+/// What plans follow from besides the frame's input: the scene, and what the renderer draws into.
+struct PlanTarget {
+  std::span<const shared::Light> lights;  ///< Of the scene.
+  WorldBox scene_bounds;                  ///< Around all surfaces.
+  glm::mat4 sun_clip_from_world{1};
+  glm::uvec2 size_px{1};
+  glm::uvec2 smoke_shadow_atlas{0};  ///< Size of the atlas in texels.
+};
+
+struct FramePlan {
+  /// The plan of a frame in which nothing is visible.
+  FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px);
+
+  FrameInput input;
+  glm::uvec2 size_px{1};
+
+  // What is visible.
+  shared::Camera camera;
+  ViewFrustum frustum;
+  std::vector<shared::Light> lights;  ///< Of the scene and of the frame that reach what is in view.
+  SmokeVisibility visibility;
+
+  // What changed.
+  bool level_changed = false;                  ///< Walls or hidden objects.
+  std::vector<std::uint32_t> changed_objects;  ///< Hidden or shown since the frame before, rising.
+
+  // What is updated.
+  HolePlan holes;
+  NoisePlan noise;
+  std::optional<SmokeShadowUpdate> smoke_shadows;  ///< Empty: those of the frame before hold.
+  const SmokeLightPlan* smoke_light = nullptr;     ///< In the history, until it plans again; not null in a plan.
+
+  ViewSlice view_slice;  ///< Where debug views cut.
+
+  /// The state whose clouds and events the frame shows; an empty one where the input has none.
+  const sim::State& state() const;
+};
+
+/// What the caches of a renderer hold, and the level of the frame before.
+struct PlanHistory {
+  NoiseUpdates noise;
+  SmokeShadowCache smoke_shadows;
+  SmokeLightCache smoke_light;
+  LevelView level;
+  std::vector<std::uint32_t> hidden_objects;
+};
+
+/// Plans a frame, which must then be recorded: its updates count as done.
+FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history);
+
+/// Plans the light in the smoke again after the device lost what was cached of it.
+void replan_smoke_light(FramePlan& plan, PlanHistory& history);
+
+}  // namespace brume::planning

@@ -1,0 +1,45 @@
+// Which holes a frame cuts out of the smoke, and how much room their clusters take (shared/hole_clusters.h).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "shared/hole_clusters.h"
+#include "shared/hole_reach.h"
+#include "shared/smoke_volume.h"
+
+namespace brume::planning {
+
+/// Where more pairs of a brick and a hole meet, or more bricks have holes than chunk_capacity may be (7,000),
+/// light does not read some holes.
+constexpr std::uint32_t kMaxHolePairs = 1u << 22;
+
+/// All that is known of a frame's holes before the device has clustered them.
+struct HolePlan {
+  std::vector<shared::Hole> holes;         ///< Those that may remove smoke; at most kMaxHoles, the last ones.
+  std::vector<shared::HoleReach> reaches;  ///< Of each, inside the smoke's bounds.
+  float time = 0;                          ///< [s]
+  std::uint32_t slot_count = 0;            ///< Slots of the volume's bricks.
+  /// Never less than the pairs of a brick and a hole that meet, up to kMaxHolePairs.
+  std::uint32_t pair_capacity = 0;
+  std::uint32_t chunk_capacity = 0;  ///< Bricks with holes that have cells.
+  glm::uvec2 coarse_tiles{0};        ///< Of the frame.
+  std::uint32_t cluster_count = 0;   ///< Entries of the lists before their words.
+  std::uint32_t word_capacity = 0;   ///< Of those words.
+
+  /// As the frame's constants describe the clusters to shaders.
+  shared::HoleClusterLayout layout() const;
+};
+
+/// Plans the holes that are open at `time` in smoke of `slot_count` bricks, for a frame of `size_px`; without
+/// smoke none is. Noise moves their rims by up to `rim` metres.
+HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
+                    const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px);
+
+/// The plan's holes as shaders read them (lib/hole_rows.glsl): first all holes, then all their reaches. A
+/// radius is negative where two rows do not describe the hole: it opens or closes somewhere at the plan's
+/// time, or has a mask; a length is negative where the hole is round.
+std::vector<glm::vec4> pack_holes(const HolePlan& plan);
+
+}  // namespace brume::planning

@@ -1,0 +1,124 @@
+#include "planning/light_change_tracking.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <string_view>
+#include <tuple>
+#include <unordered_set>
+
+namespace brume::planning {
+namespace {
+
+template <typename T>
+bool same_bytes(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+glm::vec3 world_from_brick(const shared::VolumeLayout& layout, glm::ivec3 brick) {
+  return layout.origin_world + glm::vec3(brick) * float{shared::kBrickVoxels} * layout.voxel_size;
+}
+
+}  // namespace
+
+bool same_opening(const shared::Hole& hole, float time_a, float time_b) {
+  constexpr float kTolerance = 1e-3f;  // [s]: more than times round by
+  const float wide = hole.time_start + hole.time_to_reach_far + std::max(hole.time_to_expand, 1e-6f);
+  const float closing = hole.time_start + hole.time_to_expand + hole.time_to_stay_open;
+  const float closed = wide + hole.time_to_stay_open + std::max(hole.time_to_fade, 1e-6f);
+  const float first = std::min(time_a, time_b), last = std::max(time_a, time_b);
+  return first == last || (first > wide + kTolerance && last < closing - kTolerance) ||
+         last < hole.time_start - kTolerance || first > closed + kTolerance;
+}
+
+bool LightChangeTracker::is_continuous(const SmokeLightInputs& inputs) const {
+  if (!last_ || inputs.volume != last_->volume) return false;
+  const shared::VolumeLayout& layout = inputs.volume->layout();
+  if (layout.origin_world != layout_.origin_world || layout.voxel_size != layout_.voxel_size ||
+      layout.atlas_bricks != layout_.atlas_bricks)
+    return false;
+  // The dirty slots are those since the revision before, no older ones.
+  return inputs.volume->revision() == last_->revision || inputs.volume->revision() == last_->revision + 1;
+}
+
+bool LightChangeTracker::all_rays_changed(const SmokeLightInputs& inputs) const {
+  return inputs.rebuild || !same_bytes(inputs.look, last_->look);
+}
+
+bool LightChangeTracker::smoke_changed(const SmokeLightInputs& inputs) const {
+  return inputs.volume->revision() != last_->revision;
+}
+
+bool LightChangeTracker::noise_moved(const SmokeLightInputs& inputs) const {
+  return inputs.look.erosion > 0 && (inputs.time != last_->time || inputs.noise_changed);
+}
+
+bool LightChangeTracker::caster_bounds_changed(const SmokeLightInputs& inputs) const {
+  const smoke::SmokeBounds& bounds = inputs.visibility->caster_bounds;
+  return last_->caster_bounds.low != bounds.low || last_->caster_bounds.high != bounds.high;
+}
+
+bool LightChangeTracker::gather_inputs_changed(const SmokeLightInputs& inputs) const {
+  return !last_ || last_->eye_world != inputs.eye_world || !same_bytes(last_->sky, inputs.sky);
+}
+
+void LightChangeTracker::add_hole_changes(const SmokeLightInputs& inputs,
+                                          std::vector<shared::LightChange>& changes) const {
+  const float slack = layout_.voxel_size;  // holes are averaged over cells of half a voxel
+  const auto add = [&](const shared::Hole& hole) {
+    // A rim moves by a quarter of the radius at most; only boxes and masks have corners.
+    const float reach = hole.shape == shared::kHoleCylinder ? 1.25f : shared::kHoleWidest;
+    changes.push_back({hole.origin_world, hole.radius * reach + slack,
+                       hole.origin_world + hole.distance_to_far * hole.forward, 0});
+  };
+  const auto bytes = [](const shared::Hole& hole) {
+    return std::string_view(reinterpret_cast<const char*>(&hole), sizeof hole);
+  };
+  std::unordered_set<std::string_view> gone;
+  for (const shared::Hole& hole : holes_) gone.insert(bytes(hole));
+  for (const shared::Hole& hole : inputs.holes)
+    if (gone.erase(bytes(hole)) == 0 || !same_opening(hole, last_->time, inputs.time)) add(hole);
+  for (const shared::Hole& hole : holes_)
+    if (gone.count(bytes(hole)) > 0) add(hole);
+}
+
+void LightChangeTracker::add_smoke_changes(const SmokeLightInputs& inputs,
+                                           std::vector<shared::LightChange>& changes) const {
+  if (!smoke_changed(inputs)) return;
+  // Cubes of four bricks, what changed in each as one.
+  std::map<std::tuple<int, int, int>, voxel::IntBox> cubes;
+  const auto add = [&](glm::ivec3 brick) {
+    const glm::ivec3 cube = brick >> 2;
+    const auto [known, added] = cubes.try_emplace({cube.x, cube.y, cube.z}, voxel::IntBox{brick, brick + 1});
+    if (!added) known->second = {glm::min(known->second.low, brick), glm::max(known->second.high, brick + 1)};
+  };
+  // A slot's brick, and the one that it held before.
+  const auto add_slot = [&](std::uint32_t slot) {
+    add(inputs.volume->brick_of(slot));
+    if (slot < brick_of_slot_.size()) add(brick_of_slot_[slot]);
+  };
+  for (const std::uint32_t slot : inputs.volume->dirty_slots()) add_slot(slot);
+  for (const std::uint32_t slot : inputs.volume->dirty_cell_slots()) add_slot(slot);
+  for (const auto& [key, bricks] : cubes) {
+    // Corner sets of the bricks around change, too.
+    const glm::vec3 low = world_from_brick(layout_, bricks.low - 1);
+    const glm::vec3 high = world_from_brick(layout_, bricks.high + 1);
+    const glm::vec3 middle = 0.5f * (low + high);
+    changes.push_back({middle, 0.5f * glm::length(high - low), middle, 0});
+  }
+}
+
+void LightChangeTracker::store_inputs(const SmokeLightInputs& inputs) {
+  const bool other_volume = !last_ || last_->volume != inputs.volume;
+  last_ = {inputs.volume,    inputs.volume->revision(),       inputs.time, inputs.look, inputs.sky,
+           inputs.eye_world, inputs.visibility->caster_bounds};
+  layout_ = inputs.volume->layout();
+  holes_.assign(inputs.holes.begin(), inputs.holes.end());
+  if (!other_volume && generation_ == inputs.volume->structure_generation()) return;
+  generation_ = inputs.volume->structure_generation();
+  brick_of_slot_.resize(inputs.volume->slot_count());
+  for (std::uint32_t slot = 0; slot < inputs.volume->slot_count(); ++slot)
+    brick_of_slot_[slot] = inputs.volume->brick_of(slot);
+}
+
+}  // namespace brume::planning

@@ -1,0 +1,80 @@
+// What changed between two frames of what light in the smoke depends on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planning/smoke_visibility.hpp"
+#include "shared/frame.h"
+#include "shared/hole.h"
+#include "shared/smoke_light.h"
+
+namespace brume::planning {
+
+/// What the light in the smoke of a frame follows from.
+struct SmokeLightInputs {
+  const smoke::SmokeVolume* volume = nullptr;   ///< null: no smoke.
+  const SmokeVisibility* visibility = nullptr;  ///< Not null where there is smoke.
+  std::span<const shared::Light> lights;        ///< Of the frame.
+  std::span<const shared::Hole> holes;
+  float time = 0;  ///< Of holes and noise [s].
+  shared::SmokeLook look{};
+  shared::Sky sky{};
+  glm::vec3 eye_world{0};
+  bool rebuild = false;  ///< Something else changed, walls for instance: no cached ray holds.
+  /// About which fraction of what changed is updated in this frame; in (0, 1].
+  float update_fraction = 1;
+  bool noise_changed = false;  ///< The noise changed, though the time may not have.
+};
+
+/// Whether a hole removes the same everywhere at two times [s].
+bool same_opening(const shared::Hole& hole, float time_a, float time_b);
+
+/// Compares a frame's inputs with those of the frame before.
+class LightChangeTracker {
+ public:
+  /// Whether the volume is that of the frame before, one revision later at most: older changes are not known.
+  bool is_continuous(const SmokeLightInputs& inputs) const;
+  /// Whether no cached ray holds, wherever it runs. Like all below, only where there is a frame before.
+  bool all_rays_changed(const SmokeLightInputs& inputs) const;
+  /// Whether densities or walls changed.
+  bool smoke_changed(const SmokeLightInputs& inputs) const;
+  /// Whether the noise moved, and all smoke with it.
+  bool noise_moved(const SmokeLightInputs& inputs) const;
+  /// Whether rays end elsewhere: where the box around the smoke does.
+  bool caster_bounds_changed(const SmokeLightInputs& inputs) const;
+  /// Whether light scatters to another eye, or comes from another sky; true where there is no frame before.
+  bool gather_inputs_changed(const SmokeLightInputs& inputs) const;
+
+  /// Adds where holes opened, closed, came or went.
+  void add_hole_changes(const SmokeLightInputs& inputs, std::vector<shared::LightChange>& changes) const;
+  /// Adds where densities or walls changed.
+  void add_smoke_changes(const SmokeLightInputs& inputs, std::vector<shared::LightChange>& changes) const;
+
+  /// The frame is the one before from now on.
+  void store_inputs(const SmokeLightInputs& inputs);
+  /// There is no frame before.
+  void reset() { last_.reset(); }
+  /// Of the volume of the last stored frame.
+  const shared::VolumeLayout& layout() const { return layout_; }
+
+ private:
+  struct Last {
+    const smoke::SmokeVolume* volume = nullptr;
+    std::uint64_t revision = 0;
+    float time = 0;
+    shared::SmokeLook look{};
+    shared::Sky sky{};
+    glm::vec3 eye_world{0};
+    smoke::SmokeBounds caster_bounds;
+  };
+  std::optional<Last> last_;
+  shared::VolumeLayout layout_{};
+  std::vector<shared::Hole> holes_;
+  std::vector<glm::ivec3> brick_of_slot_;  // of all slots
+  std::uint64_t generation_ = 0;
+};
+
+}  // namespace brume::planning

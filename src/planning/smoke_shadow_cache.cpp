@@ -1,0 +1,93 @@
+#include "planning/smoke_shadow_cache.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <iterator>
+
+namespace brume::planning {
+namespace {
+
+template <typename T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// What of the look the noise in the density depends on (shaders/noise_advection.comp).
+shared::SmokeLook noise_look_of(const shared::SmokeLook& look) {
+  shared::SmokeLook noise{};
+  noise.erosion = look.erosion;
+  noise.noise_period = look.noise_period;
+  noise.rise = look.rise;
+  noise.swirl = look.swirl;
+  noise.swirl_width = look.swirl_width;
+  return noise;
+}
+
+}  // namespace
+
+bool SmokeShadowCache::Key::operator==(const Key& other) const {
+  return volume == other.volume && revision == other.revision && slots == other.slots &&
+         caster_bounds.low == other.caster_bounds.low && caster_bounds.high == other.caster_bounds.high &&
+         same_bytes(lights, other.lights) && extinction == other.extinction && erosion == other.erosion &&
+         std::memcmp(&noise_look, &other.noise_look, sizeof noise_look) == 0 &&
+         same_bytes(motions, other.motions) && same_bytes(impulses, other.impulses) &&
+         noise_time == other.noise_time && same_bytes(holes, other.holes) &&
+         same_bytes(reaches, other.reaches) && hole_time == other.hole_time;
+}
+
+SmokeShadowCache::Key SmokeShadowCache::key_of(const SmokeShadowInputs& inputs) {
+  Key key;
+  if (!inputs.volume) return key;
+  key.volume = inputs.volume;
+  key.revision = inputs.volume->revision();
+
+  // Rays end at the caster bounds, and only these slots have this frame's density.
+  const SmokeVisibility& visibility = *inputs.visibility;
+  const auto casters = visibility.slots.begin() + static_cast<std::ptrdiff_t>(visibility.visible_count);
+  std::merge(visibility.slots.begin(), casters, casters, visibility.slots.end(),
+             std::back_inserter(key.slots));
+  key.caster_bounds = visibility.caster_bounds;
+  key.lights.assign(inputs.lights.begin(), inputs.lights.end());
+  for (shared::Light& light : key.lights) light.intensity = glm::vec3(0);
+
+  // The clock counts only where noise or holes move with it.
+  key.extinction = inputs.look.extinction;
+  key.erosion = inputs.look.erosion;
+  if (inputs.look.erosion > 0) {
+    key.noise_look = noise_look_of(inputs.look);
+    key.motions = inputs.noise->motions;
+    key.impulses = inputs.noise->impulses;
+    key.noise_time = inputs.time;
+  }
+  key.holes = inputs.holes->holes;
+  key.reaches = inputs.holes->reaches;
+  if (!key.holes.empty()) key.hole_time = inputs.holes->time;
+  return key;
+}
+
+std::optional<SmokeShadowUpdate> SmokeShadowCache::update(SmokeShadowPlan plan,
+                                                          const SmokeShadowInputs& inputs) {
+  // What changed. Time-sliced noise changes after its inputs did, too.
+  Key key = key_of(inputs);
+  const bool noise_changed =
+      inputs.look.erosion > 0 && inputs.noise->slots_due && !inputs.noise->slots_due->empty();
+  const bool same_plan = key_ && plan == plan_;
+  const bool same_inputs = key_ && key == *key_ && !(inputs.volume && (inputs.rebuild || noise_changed));
+  plan_ = std::move(plan);
+  key_ = std::move(key);
+
+  // Texels of one frame lie beside those of the others.
+  constexpr std::array<glm::uvec2, 4> kFirstTexels{{{1, 1}, {0, 1}, {1, 0}, {0, 0}}};
+  if (!same_plan || !same_inputs) scheduler_.restart();
+  if (scheduler_.pending() == 0) return std::nullopt;
+  if (!same_plan || !scheduler_.takes_one_slice(inputs.update_fraction)) {
+    scheduler_.complete();
+    return SmokeShadowUpdate{plan_.spread_by(1), 1, glm::uvec2(0)};
+  }
+  scheduler_.next_slice(inputs.update_fraction);
+  scheduler_.complete_slice();
+  return SmokeShadowUpdate{plan_.spread_by(2), 2, kFirstTexels[scheduler_.slices().first]};
+}
+
+}  // namespace brume::planning

@@ -1,0 +1,73 @@
+// Which rays of the smoke shadows (shared/smoke_shadow.h) a frame marches, and which still hold.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planning/hole_plan.hpp"
+#include "planning/noise_motion.hpp"
+#include "planning/smoke_shadow_plan.hpp"
+#include "planning/update_scheduler.hpp"
+
+namespace brume::planning {
+
+/// What the smoke shadows of a frame follow from: all that shaders/smoke_shadow.comp reads. It reads no
+/// camera; that counts only as far as it changes the plan, or which smoke casts visible shadows.
+struct SmokeShadowInputs {
+  const smoke::SmokeVolume* volume = nullptr;   ///< null: no smoke.
+  const SmokeVisibility* visibility = nullptr;  ///< Not null.
+  std::span<const shared::Light> lights;        ///< Of the frame, those of the plan.
+  const HolePlan* holes = nullptr;              ///< Not null.
+  const NoisePlan* noise = nullptr;             ///< Not null.
+  shared::SmokeLook look{};
+  float time = 0;             ///< Of the noise [s].
+  bool rebuild = false;       ///< Surfaces changed, or shadows are to be marched again for another reason.
+  float update_fraction = 1;  ///< Quality::light_update_fraction.
+};
+
+/// The texels that a frame marches: of each rectangle every `spread`th along both axes, from `first` on.
+struct SmokeShadowUpdate {
+  SmokeShadowPlan plan;  ///< With blocks of these texels.
+  std::uint32_t spread = 1;
+  glm::uvec2 first{0};
+};
+
+/// Tracks what the device's atlas holds. All texels are marched where the plan changed, since they move;
+/// where only their inputs changed, and the update fraction is a quarter at most, in four frames, of each 2x2
+/// texels one a frame.
+class SmokeShadowCache {
+ public:
+  /// The update of a frame that has `plan`; nothing where all texels hold. It counts as done from then on.
+  std::optional<SmokeShadowUpdate> update(SmokeShadowPlan plan, const SmokeShadowInputs& inputs);
+  /// The device lost its atlas.
+  void invalidate() { key_.reset(); }
+
+ private:
+  /// What the texels were marched from.
+  struct Key {
+    const smoke::SmokeVolume* volume = nullptr;
+    std::uint64_t revision = 0;
+    std::vector<std::uint32_t> slots;  // rising
+    smoke::SmokeBounds caster_bounds;
+    std::vector<shared::Light> lights;  // without what their rays do not depend on
+    float extinction = 0, erosion = 0;
+    // Of what noise removes, where it removes anything.
+    shared::SmokeLook noise_look{};
+    std::vector<shared::CloudMotion> motions;
+    std::vector<shared::Impulse> impulses;
+    float noise_time = 0;
+    // Of holes, where there are any.
+    std::vector<shared::Hole> holes;
+    std::vector<shared::HoleReach> reaches;
+    float hole_time = 0;
+    bool operator==(const Key& other) const;
+  };
+  static Key key_of(const SmokeShadowInputs& inputs);
+
+  UpdateScheduler scheduler_{4};
+  SmokeShadowPlan plan_;
+  std::optional<Key> key_;
+};
+
+}  // namespace brume::planning

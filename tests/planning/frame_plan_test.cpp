@@ -1,0 +1,122 @@
+#include "planning/frame_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/world.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::planning {
+namespace {
+
+constexpr float kVoxel = 0.5f;
+
+/// A smoke in an open world that has stopped growing, a light above it.
+class FramePlanTest : public ::testing::Test {
+ protected:
+  FramePlanTest() {
+    sim::ThrowSmoke event;
+    event.from = event.at = sim::position_from_metres(glm::dvec3(8, 1, 8));
+    event.smoke.voxels = 400;
+    event.smoke.hold_ticks = 10000;
+    world_.append(event).value_or_throw();
+    world_.advance_to(300);
+    volume_.update(world_);
+    shared::Light light{};
+    light.position_world = {8, 6, 8};
+    light.intensity = glm::vec3(2);
+    light.range = shared::light_range(2);
+    light.kind = shared::kLightPoint;
+    lights_ = {light};
+    target_.lights = lights_;
+    target_.scene_bounds = {glm::vec3(0), {40, 8, 16}};
+    target_.size_px = {64, 36};
+    target_.smoke_shadow_atlas = {1024, 64};
+    input_.view.camera = {{8, 2, 30}, {8, 2, 8}, 1.2f};
+    input_.smoke.volume = &volume_;
+    input_.smoke.state = &world_.state();
+    input_.smoke.look.extinction = 3;
+    input_.smoke.time = 4.6f;
+    input_.level.voxels.grid = &grid_;
+  }
+  FramePlan plan() { return plan_frame(input_, target_, history_); }
+
+  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
+  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
+  sim::World world_{grid_};
+  smoke::SmokeVolume volume_{grid_, planes_};
+  std::vector<shared::Light> lights_;
+  PlanTarget target_;
+  FrameInput input_;
+  PlanHistory history_;
+};
+
+TEST_F(FramePlanTest, APausedCameraThatFliesOnlyGathersLight) {
+  const FramePlan first = plan();
+  EXPECT_EQ(first.lights.size(), 1u);
+  EXPECT_EQ(first.visibility.visible_count, volume_.slot_count());
+  EXPECT_TRUE(first.smoke_shadows);
+  EXPECT_FALSE(first.smoke_light->shadow_rays.empty());
+  for (int i = 0; i < 10; ++i) {
+    input_.view.camera.position_world += glm::vec3(0.1f, 0.05f, -0.1f);
+    const FramePlan next = plan();
+    EXPECT_FALSE(next.smoke_shadows);
+    EXPECT_TRUE(next.smoke_light->shadow_rays.empty());
+    EXPECT_FALSE(next.smoke_light->gathers.empty());
+    EXPECT_FALSE(next.level_changed);
+  }
+}
+
+TEST_F(FramePlanTest, EditsAndHiddenObjectsOfTheLevelReachWhatTheyMayChange) {
+  plan();
+  input_.level.voxels.edits = std::make_shared<sim::EditBlocks>();
+  FramePlan edited = plan();
+  EXPECT_TRUE(edited.level_changed);
+  EXPECT_TRUE(edited.changed_objects.empty());
+  EXPECT_TRUE(edited.smoke_shadows);
+  EXPECT_FALSE(edited.smoke_light->shadow_rays.empty());
+  input_.level.hidden_objects = {1, 3};
+  plan();
+  input_.level.hidden_objects = {3, 4};
+  const FramePlan hidden = plan();
+  EXPECT_EQ(hidden.changed_objects, (std::vector<std::uint32_t>{1, 4}));
+  EXPECT_TRUE(hidden.smoke_shadows);
+  EXPECT_FALSE(plan().smoke_shadows);
+}
+
+TEST_F(FramePlanTest, OnlyAQuarterOfTheLightOrLessSlicesNoise) {
+  input_.smoke.look.erosion = 0.5f;
+  EXPECT_FALSE(plan().noise.slots_due);
+  input_.quality.light_update_fraction = 0.25f;
+  const FramePlan first = plan();
+  ASSERT_TRUE(first.noise.slots_due);
+  EXPECT_EQ(*first.noise.slots_due, first.visibility.slots) << "the frame before advected without it";
+  input_.smoke.time += 0.1f;
+  const FramePlan next = plan();
+  ASSERT_TRUE(next.noise.slots_due);
+  EXPECT_LT(next.noise.slots_due->size(), next.visibility.slots.size());
+  EXPECT_EQ(next.noise.motions.size(), 1u);
+  ASSERT_TRUE(next.smoke_shadows);
+  EXPECT_EQ(next.smoke_shadows->spread, 2u);
+}
+
+TEST_F(FramePlanTest, LostLightIsPlannedAgain) {
+  plan();
+  FramePlan again = plan();
+  EXPECT_TRUE(again.smoke_light->parts.empty());
+  replan_smoke_light(again, history_);
+  EXPECT_EQ(again.smoke_light->gathers.size(), again.visibility.visible_count);
+}
+
+TEST_F(FramePlanTest, WithoutSmokeNothingIsUpdated) {
+  input_.smoke = {};
+  const FramePlan none = plan();
+  EXPECT_TRUE(none.visibility.slots.empty());
+  EXPECT_TRUE(none.smoke_light->parts.empty());
+  EXPECT_TRUE(none.noise.motions.empty());
+  EXPECT_EQ(none.holes.layout().count, 0u);
+  EXPECT_FALSE(plan().smoke_shadows);
+  EXPECT_TRUE(none.state().clouds.empty());
+}
+
+}  // namespace
+}  // namespace brume::planning

@@ -1,0 +1,94 @@
+#include "planning/hole_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace brume::planning {
+namespace {
+
+/// Shots of all kinds through a box around the origin, from anywhere.
+std::vector<shared::Hole> random_holes(std::size_t count, std::uint32_t seed, float reach) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> one(-1, 1);
+  const auto point = [&] { return reach * glm::vec3(one(random), one(random), one(random)); };
+  std::vector<shared::Hole> holes(count);
+  for (shared::Hole& hole : holes) {
+    hole.origin_world = point();
+    hole.forward = glm::normalize(point() - hole.origin_world + glm::vec3(0, 0, 1e-3f));
+    const glm::vec3 helper = std::abs(hole.forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    hole.right = glm::normalize(glm::cross(hole.forward, helper));
+    hole.up = glm::cross(hole.right, hole.forward);
+    hole.radius = 0.02f + 0.3f * std::abs(one(random));
+    hole.distance_to_far = 0.1f + 2 * reach * std::abs(one(random));
+    hole.time_start = std::abs(one(random));
+    hole.time_to_reach_far = one(random) > 0 ? 0.5f * std::abs(one(random)) : 0.0f;
+    hole.time_to_expand = 0.1f * std::abs(one(random));
+    hole.time_to_stay_open = std::abs(one(random));
+    hole.time_to_fade = 0.5f * std::abs(one(random));
+    hole.shape = one(random) > 0 ? shared::kHoleBox : shared::kHoleCylinder;
+  }
+  return holes;
+}
+
+/// Smoke of quarter-metre voxels that reaches a hundred metres each way.
+shared::VolumeLayout wide_volume() {
+  shared::VolumeLayout volume{};
+  volume.voxel_size = 0.25f;
+  volume.bounds_min = glm::vec3(-400);
+  volume.bounds_max = glm::vec3(400);
+  return volume;
+}
+
+TEST(HolePlan, LeavesOutWhatIsNotOpen) {
+  std::vector<shared::Hole> holes = random_holes(3, 1, 5);
+  for (shared::Hole& hole : holes) {
+    hole.time_to_reach_far = 0.25f;
+    hole.time_to_expand = 0.05f;
+    hole.time_to_stay_open = 1;
+    hole.time_to_fade = 0.35f;
+  }
+  holes[0].time_start = 2;    // still to come
+  holes[1].time_start = -10;  // long closed
+  holes[2].time_start = 0.125f;
+  const HolePlan plan = plan_holes(holes, 1, 0, wide_volume(), 10, {1, 1});
+  ASSERT_EQ(plan.holes.size(), 1u);
+  EXPECT_EQ(plan.holes[0].time_start, 0.125f);
+}
+
+TEST(HolePlan, HasRoomForEveryBrickThatAHoleReaches) {
+  // Bricks of 2 m: at most those whose middle is within the radius and half their diagonal of the axis.
+  auto holes = random_holes(300, 2, 20);
+  for (shared::Hole& hole : holes) {
+    hole.time_start = 0;
+    hole.time_to_stay_open = 100;
+  }
+  std::size_t met = 0;
+  for (const shared::Hole& hole : holes) {
+    const float reach = hole.radius * 1.4143f + 1.7321f;
+    for (int x = -40; x < 40; ++x)
+      for (int y = -40; y < 40; ++y)
+        for (int z = -40; z < 40; ++z) {
+          const glm::vec3 apart = 2.0f * glm::vec3(x, y, z) + 1.0f - hole.origin_world;
+          const float along = glm::clamp(glm::dot(apart, hole.forward), 0.0f, hole.distance_to_far);
+          met += glm::length(apart - along * hole.forward) <= reach ? 1 : 0;
+        }
+  }
+  EXPECT_GE(plan_holes(holes, 50, 0, wide_volume(), 512000, {1, 1}).pair_capacity, met);
+  EXPECT_GT(met, 1000u);
+}
+
+TEST(HolePlan, DrawsTheLastOfTooMany) {
+  std::vector<shared::Hole> holes(shared::kMaxHoles + 5, random_holes(1, 1, 5)[0]);
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    holes[i].time_start = 0;
+    holes[i].time_to_stay_open = 1 + static_cast<float>(i);
+  }
+  const HolePlan plan = plan_holes(holes, 0.5f, 0, wide_volume(), 10, {1, 1});
+  ASSERT_EQ(plan.holes.size(), shared::kMaxHoles);
+  EXPECT_EQ(plan.holes.front().time_to_stay_open, 6);
+}
+
+}  // namespace
+}  // namespace brume::planning

@@ -1,0 +1,199 @@
+#include "planning/smoke_shadow_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sim/world.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::planning {
+namespace {
+
+constexpr float kVoxel = 0.5f;
+
+/// A smoke in an open world, a light beside it and a camera before it.
+class SmokeShadowCacheTest : public ::testing::Test {
+ protected:
+  SmokeShadowCacheTest() {
+    throw_smoke(8);
+    shared::Light light{};
+    light.position_world = {8, 6, 8};
+    light.intensity = glm::vec3(2);
+    light.range = shared::light_range(2);
+    light.kind = shared::kLightPoint;
+    lights_ = {light};
+    camera_.eye_world = {8, 1, 40};
+    camera_.forward = {0, 0, -1};
+    camera_.right = {1, 0, 0};
+    camera_.up = {0, 1, 0};
+    inputs_.look.extinction = 3;
+    inputs_.time = 10;
+    inputs_.update_fraction = 1;
+  }
+  void throw_smoke(double x) {
+    sim::ThrowSmoke event;
+    event.tick = tick_;
+    event.from = event.at = sim::position_from_metres(glm::dvec3(x, 1, 8));
+    event.smoke.voxels = 400;
+    event.smoke.hold_ticks = 10000;
+    world_.append(event).value_or_throw();
+    world_.advance_to(tick_ += 300);
+    volume_.update(world_);
+    visibility_ = all_smoke_visible(volume_);
+  }
+  /// The update of a frame with what is set below.
+  std::optional<SmokeShadowUpdate> update() {
+    inputs_.volume = &volume_;
+    inputs_.visibility = &visibility_;
+    inputs_.lights = lights_;
+    inputs_.holes = &holes_;
+    inputs_.noise = &noise_;
+    return cache_.update(plan_smoke_shadows({lights_, glm::mat4(1), camera_}, smoke_boxes(volume_, visibility_),
+                                            {1024, 256}),
+                         inputs_);
+  }
+  /// Expects that something changed, and that it is up to date then.
+  void expect_one_update(const char* what) {
+    EXPECT_TRUE(update()) << what;
+    EXPECT_FALSE(update()) << what << ", again";
+  }
+  void open_hole() {
+    shared::Hole hole{};
+    hole.origin_world = {8, 1, 4};
+    hole.forward = {0, 0, 1};
+    hole.distance_to_far = 8;
+    hole.radius = 0.2f;
+    hole.time_start = 1;
+    hole.time_to_stay_open = 100;
+    holes_ = plan_holes({&hole, 1}, inputs_.time, 0, volume_.layout(), volume_.slot_count(), {16, 16});
+    ASSERT_EQ(holes_.holes.size(), 1u);
+  }
+
+  const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
+  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
+  std::uint32_t tick_ = 0;
+  sim::World world_{grid_};
+  smoke::SmokeVolume volume_{grid_, planes_};
+  SmokeVisibility visibility_;
+  std::vector<shared::Light> lights_;
+  shared::Camera camera_{};
+  HolePlan holes_;
+  NoisePlan noise_;
+  SmokeShadowInputs inputs_;
+  SmokeShadowCache cache_;
+};
+
+TEST_F(SmokeShadowCacheTest, ACameraThatFliesMarchesNothing) {
+  const auto first = update();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->spread, 1u);
+  EXPECT_GT(first->plan.blocks, 0u);
+  for (int i = 0; i < 10; ++i) {
+    camera_.eye_world.x += 0.1f;
+    camera_.eye_world.z -= 0.5f;
+    EXPECT_FALSE(update()) << "the eye is not read";
+  }
+  // Nor is the clock, where neither noise nor holes move with it.
+  inputs_.time += 1;
+  inputs_.look.albedo = glm::vec3(0.5f);
+  inputs_.look.step_length *= 2;
+  EXPECT_FALSE(update());
+  cache_.invalidate();
+  EXPECT_TRUE(update());
+}
+
+TEST_F(SmokeShadowCacheTest, WhatIsReadIsMarchedAgain) {
+  update();
+  lights_[0].position_world.x += 0.001f;
+  expect_one_update("a light");
+  inputs_.look.extinction += 1;
+  expect_one_update("the look");
+  inputs_.rebuild = true;
+  EXPECT_TRUE(update()) << "an edit of the level";
+  inputs_.rebuild = false;
+  EXPECT_FALSE(update());
+  visibility_.slots.pop_back();
+  --visibility_.visible_count;
+  expect_one_update("the smoke that casts shadows");
+  throw_smoke(20);
+  expect_one_update("smoke");
+}
+
+TEST_F(SmokeShadowCacheTest, SlotsThatCastShadowsInViewOrOutOfItAreTheSame) {
+  ASSERT_GT(visibility_.slots.size(), 3u);
+  update();
+  // The first one goes out of view, and still casts a shadow.
+  visibility_.slots.push_back(visibility_.slots.front());
+  visibility_.slots.erase(visibility_.slots.begin());
+  --visibility_.visible_count;
+  EXPECT_FALSE(update());
+}
+
+TEST_F(SmokeShadowCacheTest, HolesMoveWithTheClock) {
+  update();
+  open_hole();
+  expect_one_update("a hole");
+  inputs_.time += 0.1f;
+  open_hole();
+  expect_one_update("its later shape");
+  holes_ = {};
+  expect_one_update("none");
+  inputs_.time += 0.1f;
+  EXPECT_FALSE(update());
+}
+
+TEST_F(SmokeShadowCacheTest, NoiseMovesWithTheClockAndWithImpulses) {
+  noise_.impulses.resize(1);
+  update();
+  noise_.impulses[0].radius = 1;
+  EXPECT_FALSE(update()) << "no noise, nothing to move";
+  inputs_.look.erosion = 0.5f;
+  expect_one_update("erosion");
+  inputs_.time += 0.1f;
+  expect_one_update("time");
+  noise_.impulses[0].radius = 2;
+  expect_one_update("an impulse");
+  inputs_.look.swirl += 0.1f;
+  expect_one_update("the swirl");
+  // Bricks whose noise is late.
+  noise_.slots_due.emplace(1, 0);
+  EXPECT_TRUE(update());
+  noise_.slots_due->clear();
+  EXPECT_FALSE(update());
+}
+
+TEST_F(SmokeShadowCacheTest, SlicesAreDoneInFourFrames) {
+  update();
+  inputs_.update_fraction = 0.25f;
+  EXPECT_FALSE(update());
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    inputs_.look.extinction += 1;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> texels;
+    for (int frame = 0; frame < 4; ++frame) {
+      const auto slice = update();
+      ASSERT_TRUE(slice);
+      EXPECT_EQ(slice->spread, 2u);
+      texels.insert({slice->first.x, slice->first.y});
+    }
+    EXPECT_EQ(texels.size(), 4u);
+    EXPECT_FALSE(update());
+  }
+  // Another plan moves the texels: all at once.
+  visibility_.caster_bounds.high.x -= 4;
+  const auto moved = update();
+  ASSERT_TRUE(moved);
+  EXPECT_EQ(moved->spread, 1u);
+  EXPECT_FALSE(update());
+  // And what was begun in slices is completed at once.
+  inputs_.look.extinction += 1;
+  update();
+  inputs_.update_fraction = 1;
+  const auto rest = update();
+  ASSERT_TRUE(rest);
+  EXPECT_EQ(rest->spread, 1u);
+  EXPECT_FALSE(update());
+}
+
+}  // namespace
+}  // namespace brume::planning
