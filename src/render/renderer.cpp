@@ -169,8 +169,8 @@ void Renderer::draw(const FrameInput& input, const std::function<void(gpu::Recor
 }
 
 void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
-  const auto stage = [&](const char* name, auto record) {
-    const gpu::Scope scope(recorder, name);
+  const auto scope = [&](const char* name, auto record) {
+    const gpu::Scope timed(recorder, name);
     record();
   };
   const FrameInput& input = plan.input;
@@ -179,33 +179,33 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
   const passes::LevelLight level{solid_, sky_light_};
   const March march = march_of(plan);
 
-  stage("upload", [&] { record_upload(recorder, plan); });
-  stage("sky_light", [&] {
+  scope("upload", [&] { record_upload(recorder, plan); });
+  scope("sky_light", [&] {
     if (solid_.record(recorder, input.level.voxels)) sky_light_.record(recorder, frame_, solid_);
   });
-  stage("gbuffer", [&] { record_gbuffer(recorder, plan); });
-  stage("holes", [&] { hole_clusters_.record(recorder, plan.holes, frame_, smoke); });
-  stage("drift", [&] {
+  scope("gbuffer", [&] { record_gbuffer(recorder, plan); });
+  scope("holes", [&] { hole_clusters_.record(recorder, plan.holes, frame_, smoke); });
+  scope("noise_advection", [&] {
     if (input.smoke.volume) noise_advection_pass_.record(recorder, plan.noise, {frame_, smoke, noise_});
   });
-  stage("smoke_shadow", [&] { record_smoke_shadows(recorder, plan); });
-  stage("smoke_light", [&] {
+  scope("smoke_shadow", [&] { record_smoke_shadows(recorder, plan); });
+  scope("smoke_light", [&] {
     smoke_light_pass_.record(recorder, *plan.smoke_light, {frame_, scene_, shadows_, smoke, holes, level});
   });
-  stage("march", [&] { record_march(recorder, march); });
-  if (march_tiles_) stage("resolve", [&] { record_resolve(recorder, march); });
+  scope("march", [&] { record_march(recorder, march); });
+  if (march_tiles_) scope("resolve", [&] { record_resolve(recorder, march); });
   if (accumulate_pass_)
-    stage("accumulate", [&] {
+    scope("accumulate", [&] {
       accumulate_pass_->record(recorder, frame_, plan.camera, gbuffer_.depth, smoke_image_,
                                input.view.continues);
     });
   if (input.debug.view != planning::DebugView::none)
-    return stage("debug_view", [&] { record_debug_view(recorder, plan); });
-  stage("shade", [&] {
+    return scope("debug_view", [&] { record_debug_view(recorder, plan); });
+  scope("shade", [&] {
     shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, level, gbuffer_, this->smoke(),
                        picture_);
   });
-  stage("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
+  scope("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
 }
 
 void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan) {
