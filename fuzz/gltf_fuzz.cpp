@@ -1,4 +1,4 @@
-// The system's tinygltf is not watched by sanitizers: the fuzzer brings its own from the same header.
+// The system's tinygltf is not instrumented by sanitizers: the fuzzer compiles its own from the same header.
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE

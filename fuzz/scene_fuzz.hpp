@@ -1,4 +1,4 @@
-// What the scene readers promise of any scene that they let through.
+// The guarantees of the scene readers for any scene that they accept.
 #pragma once
 
 #include <cmath>

@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace brume::scene;
   const auto timeline = parse_timeline(as_text(data, size), "t.toml");
   if (!timeline) return 0;
-  // What was read can be written, and is then the same.
+  // A timeline that was read can be written, and reads back the same.
   if (!check_settings(*timeline) || !check_events(*timeline)) __builtin_trap();
   const std::string written = format_timeline(*timeline, "");
   const auto again = parse_timeline(written, "t.toml");

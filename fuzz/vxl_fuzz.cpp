@@ -1,5 +1,5 @@
-// A `.vxl` file from anywhere: refused, or a sound grid. The checksum is made right, for else nothing behind
-// it is ever reached; and where the bytes are no layout of zstd, they are packed into one as the payload.
+// An arbitrary `.vxl` file is rejected or gives a valid grid. The checksum is fixed up, because otherwise
+// nothing beyond it would be reached; the bytes are also tried as the payload, compressed into a zstd frame.
 #include <zstd.h>
 
 #include <cstdint>
@@ -22,7 +22,7 @@ void read(std::vector<std::byte> bytes) {
   bytes.insert(bytes.end(), raw, raw + kChecksumBytes);
   const auto contents = brume::scenario::decode_vxl(bytes, std::nullopt);
   if (!contents || !*contents) return;
-  // What was accepted must hold together: written again it is read again.
+  // Accepted contents must be consistent: written again they are read again.
   const auto again = brume::scenario::decode_vxl(brume::scenario::encode_vxl(**contents, 1), 1);
   if (!again || !*again || !((*again)->planes == (*contents)->planes)) std::abort();
 }

@@ -1,5 +1,5 @@
-// What the readers of the wire promise of any bytes: for the fuzzers, and for the test that replays their
-// corpus.
+// The guarantees of the wire readers for arbitrary bytes: used by the fuzzers and by the test that replays
+// their corpus.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace brume::wire {
 
 using Input = std::span<const std::byte>;
 
-// Small, so that a run is short.
+// Small, to keep runs short.
 constexpr Limits kFuzzLimits{.max_bytes = 4096, .max_voxels = 512, .max_items = 12};
 
 /// A small level: ground, a wall with a door, a pillar.
@@ -38,7 +38,7 @@ inline const voxel::BitGrid& fuzz_level() {
   return level;
 }
 
-/// The state that a packet makes of another one, whatever its checksum.
+/// The state of a packet relative to another one, ignoring its checksum.
 inline Result<sim::State> state_of(const PacketHead& head, const sim::State& base) {
   if (head.kind == PacketKind::delta) return read_body(head.body, base, head.tick, kFuzzLimits);
   ByteReader in(head.body);
@@ -51,20 +51,21 @@ inline Result<sim::State> state_of(const PacketHead& head, const sim::State& bas
   return read_body(in.remaining(), empty, head.tick, kFuzzLimits);
 }
 
-/// Whoever holds the state may ask it anything, and may send it on.
+/// Any decoded state must survive all queries and must be sendable.
 inline void check_state(const sim::State& base, const sim::State& state) {
   for (const sim::LiveCloud& live : state.clouds) {
     const glm::ivec3 low = live.cloud->low(), high = live.cloud->high();
     for (const glm::ivec3 voxel : {low, high, (low + high) / 2}) static_cast<void>(state.density(voxel));
   }
   BRUME_ASSERT(sim::grenades_of(state).size() == state.flights.size(), "grenades");
-  // Masks do not displacements: only who has them can ask for holes.
-  if (state.masks == sim::MaskKey{}) BRUME_ASSERT(smoke::holes_of(state).size() == state.holes.size(), "holes");
+  // Masks are not sent: holes can only be queried without them.
+  if (state.masks == sim::MaskKey{})
+    BRUME_ASSERT(smoke::holes_of(state).size() == state.holes.size(), "holes");
 
   Receiver receiver;
   const auto received = receiver.receive(write_keyframe(state));
   BRUME_ASSERT(received, received.failure().message);
-  BRUME_ASSERT(receiver.state()->hash() == state.hash(), "a keyframe makes another state");
+  BRUME_ASSERT(receiver.state()->hash() == state.hash(), "a keyframe gives another state");
   if (base.tick >= state.tick || base.events > state.events || base.layout != state.layout ||
       base.ticks_per_second != state.ticks_per_second || base.masks != state.masks)
     return;
@@ -75,7 +76,7 @@ inline void check_state(const sim::State& base, const sim::State& state) {
   BRUME_ASSERT(again, again.failure().message);
 }
 
-/// A receiver keeps its state, and asks, whatever comes that it does not take.
+/// A receiver must keep its state and request a new one after any packet that it rejects.
 inline void receive_all(const std::vector<Input>& packets) {
   Receiver receiver(kFuzzLimits);
   for (const Input packet : packets) {
@@ -84,12 +85,12 @@ inline void receive_all(const std::vector<Input>& packets) {
     const std::uint64_t before = had ? receiver.state()->hash() : 0;
     const auto received = receiver.receive(packet);
     if (had && (!received || *received != Reception::applied))
-      BRUME_ASSERT(receiver.state()->hash() == before, "a packet that was not taken changed the state");
-    BRUME_ASSERT(received || receiver.behind(), "damage and no question");
+      BRUME_ASSERT(receiver.state()->hash() == before, "a rejected packet changed the state");
+    BRUME_ASSERT(received || receiver.behind(), "damage without a request");
   }
 }
 
-/// The same packets as if their checksums were right.
+/// Decodes the packets as if their checksums were right.
 inline void decode_all(const std::vector<Input>& packets) {
   sim::State base, state;
   base.layout = state.layout = fuzz_level().layout();
@@ -104,7 +105,7 @@ inline void decode_all(const std::vector<Input>& packets) {
   check_state(base, state);
 }
 
-/// Which of the two, then packets, each with its length before it.
+/// The first byte selects one of the two; then follow packets, each after its length.
 inline void check_packets(Input bytes) {
   ByteReader in(bytes);
   const bool as_they_are = in.number<std::uint8_t>() % 4 == 0;
@@ -117,7 +118,7 @@ inline void check_packets(Input bytes) {
   as_they_are ? receive_all(packets) : decode_all(packets);
 }
 
-/// The events as a short run can take them: small smokes, small blasts.
+/// The events with small smokes and blasts, to keep runs short.
 inline std::vector<sim::Event> made_small(std::vector<sim::Event> events, float voxel_size) {
   const auto max_radius = static_cast<std::uint32_t>(voxel_size * 3 * sim::kUnitsPerMetre);
   for (sim::Event& event : events) {
@@ -128,7 +129,7 @@ inline std::vector<sim::Event> made_small(std::vector<sim::Event> events, float 
   return events;
 }
 
-/// The body of an event log behind a head that fits it.
+/// The body of an event log after a matching header.
 inline std::vector<std::byte> as_event_log(Input body) {
   ByteWriter whole;
   whole.number(static_cast<std::uint8_t>(kVersion << 4 | static_cast<int>(PacketKind::events)));
@@ -137,50 +138,54 @@ inline std::vector<std::byte> as_event_log(Input body) {
   return whole.take();
 }
 
-/// The body of an event log; what comes before it is made to fit.
+/// Checks the body of an event log, with and without a matching header.
 inline void check_event_log(Input body) {
   const voxel::BitGrid& level = fuzz_level();
   static_cast<void>(read_events(body, level.layout(), kFuzzLimits));
   const auto read = read_events(as_event_log(body), level.layout(), kFuzzLimits);
   if (!read) return;
   const auto again = read_events(write_events(*read, level.layout()), level.layout());
-  BRUME_ASSERT(again && *again == *read, "events written again are others");
+  BRUME_ASSERT(again && *again == *read, "events change when written and read again");
 
+  // Append the events in order.
   const std::vector<sim::Event> events = made_small(*read, level.layout().voxel_size);
   std::uint32_t end = 0;
   for (const sim::Event& event : events) end = std::max(end, sim::tick_of(event) + 70);
-  // As many masks as a shot may name.
+  // With as many masks as a shot can refer to.
   const sim::WorldSettings settings{.masks = {sim::kMaxMasks, 1}};
-  sim::World told(level, settings);
-  for (const sim::Event& event : events) told.append(event).value_or_throw();
-  told.advance_to(end / 2);
-  told.advance_to(end);
-  const std::uint64_t hash = told.state_hash();
-  if (hash_bytes(body) % 4 != 0) return;  // the rest is slow
-  check_state(sim::State{}, told.state());
-  told.advance_to(end / 3);
-  told.advance_to(end);
-  BRUME_ASSERT(told.state_hash() == hash, "going back makes another state");
-  // Told one by one after it all happened: the same end.
+  sim::World world(level, settings);
+  for (const sim::Event& event : events) world.append(event).value_or_throw();
+  world.advance_to(end / 2);
+  world.advance_to(end);
+  const std::uint64_t hash = world.state_hash();
+  if (hash_bytes(body) % 4 != 0) return;  // the following checks are slow
+
+  // Roll back and replay.
+  check_state(sim::State{}, world.state());
+  world.advance_to(end / 3);
+  world.advance_to(end);
+  BRUME_ASSERT(world.state_hash() == hash, "rolling back gives another state");
+
+  // Append the events one by one in the past: the same end.
   sim::World late(level, settings);
   late.advance_to(end);
   for (const sim::Event& event : events) late.append(event).value_or_throw();
-  BRUME_ASSERT(late.state_hash() == hash, "the order of telling matters");
+  BRUME_ASSERT(late.state_hash() == hash, "late events give another state");
 }
 
-/// A replay whose checksums are made to fit: that of its events, where they can be found, and that at its
-/// end, which the bytes do not have.
+/// A replay with matching checksums: of its events, if they can be located, and at its end, which the bytes
+/// lack.
 inline std::vector<std::byte> as_replay(Input bytes) {
   ByteWriter whole;
   ByteReader in(bytes);
   constexpr std::size_t kMagicBytes = 8, kLogHead = 5;
   in.raw(kMagicBytes);
   in.varint(kVersion);
-  const bool sound = static_cast<bool>(read_world(in));
+  const bool valid = static_cast<bool>(read_world(in));
   in.section();
   const std::size_t before = bytes.size() - in.remaining().size();
   const Input events = in.section();
-  if (sound && in.ok() && events.size() >= kLogHead) {
+  if (valid && in.ok() && events.size() >= kLogHead) {
     whole.raw(bytes.first(before));
     whole.section(as_event_log(events.subspan(kLogHead)));
     whole.raw(in.remaining());
@@ -198,7 +203,7 @@ inline void check_replay(Input bytes) {
   if (!read) return;
   const auto again = decode_replay(encode_replay(*read).value_or_throw());
   BRUME_ASSERT(again && again->events == read->events && again->checksums == read->checksums,
-               "a replay written again is another");
+               "a replay changes when written and read again");
   const glm::u64vec3 size(read->level.size());
   if (size.x * size.y * size.z > 4096 || read->events.size() > 16) return;
   Replay small{read->level, read->settings, made_small(read->events, read->level.layout().voxel_size),

@@ -1,12 +1,13 @@
-// A match on a server: the least program around brume::sim. It links nothing else: no Vulkan, no window, no
-// scene.
+// A match on a server: a minimal program around brume::sim and brume::smoke, without Vulkan, window or scene
+// files.
 //
 //   cmake -S . -B build/server -D BRUME_SERVER=ON -D CMAKE_BUILD_TYPE=Release
 //   cmake --build build/server --target brume_server
 //   build/server/examples/server/brume_server [--seconds N] [--realtime]
 //
-// Twelve bots run about in two rooms with a door between them, throw smokes and shoot through them. Each
-// second it prints the tick, who sees whom, and the hash of the state: every machine prints the same.
+// Twelve bots run around in two rooms with a door in between, throw smokes and shoot through them. Each
+// second it prints the tick, the number of pairs that see each other, and the state hash: the same on every
+// machine.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -17,19 +18,19 @@
 #include <vector>
 
 #include "sim/level_edit.hpp"
+#include "sim/world.hpp"
 #include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
-#include "sim/world.hpp"
 
 namespace {
 
 using namespace brume;
 
 constexpr std::uint32_t kBots = 12;
-constexpr sim::Position kEyes{0, 1638, 0};  // 1.6 m over the feet
+constexpr sim::Position kEyes{0, 1638, 0};  // 1.6 m above the feet
 
-/// Two rooms of 16 x 5 x 16 m, half a metre a voxel, and the door between them.
+/// Two rooms of 16 x 5 x 16 m with half-metre voxels, and a door between them.
 voxel::BitGrid make_level() {
   voxel::BitGrid level({{65, 10, 32}, 0.5f, glm::vec3(0)});
   for (int z = 0; z < 32; ++z)
@@ -38,14 +39,14 @@ voxel::BitGrid make_level() {
   return level;
 }
 
-/// Where a bot is: it walks up and down its own lane, over to the other room and back.
+/// A bot's position: it walks along its own lane to the other room and back.
 sim::Position bot_at(std::uint32_t bot, std::uint32_t tick) {
-  const std::uint32_t way = (tick * 48 + bot * 6000) % 60000;
-  const auto along = static_cast<int>(way < 30000 ? way : 60000 - way);
+  const std::uint32_t walked = (tick * 48 + bot * 6000) % 60000;
+  const auto along = static_cast<int>(walked < 30000 ? walked : 60000 - walked);
   return {1024 + along, 0, 1024 + static_cast<int>(bot) * 1200};
 }
 
-/// What players and bots did at a tick: in a real match it comes from the network.
+/// The input of a tick; in a real match it comes from the network.
 void take_input(sim::World& world, std::uint32_t tick) {
   const auto bot = tick / 16 % kBots;
   world.append(sim::MoveBody{tick, bot, bot_at(bot, tick)}).value_or_throw();
@@ -54,14 +55,14 @@ void take_input(sim::World& world, std::uint32_t tick) {
   if (tick % 40 == 0) world.append(sim::Shot{tick, eyes, {16000, 1600, 15872}}).value_or_throw();
   if (tick % 640 == 500) world.append(sim::Blast{tick, {14000, 1024, 15872}}).value_or_throw();
   if (tick % 320 == 0) {
-    const bool shut = tick % 640 == 320;
-    const sim::EditBlocks door = sim::edit_box(world.state().layout, {32, 0, 14}, {33, 5, 18}, shut);
+    const bool closed = tick % 640 == 320;
+    const sim::EditBlocks door = sim::edit_box(world.state().layout, {32, 0, 14}, {33, 5, 18}, closed);
     world.append(sim::LevelEdit{tick, door}).value_or_throw();
   }
 }
 
-/// Pairs of bots that see each other through walls and smoke as they are now.
-std::size_t count_seen(const sim::World& world, const smoke::SmokeVolume& smoke) {
+/// The number of pairs of bots that see each other past the current walls and smoke.
+std::size_t count_visible_pairs(const sim::World& world, const smoke::SmokeVolume& smoke) {
   const auto holes = smoke::holes_of(world.state());
   const smoke::Sight sight(smoke, world.grid(), holes, world.state().seconds(world.tick()));
   std::vector<smoke::Segment> pairs;
@@ -70,9 +71,9 @@ std::size_t count_seen(const sim::World& world, const smoke::SmokeVolume& smoke)
   };
   for (std::uint32_t a = 0; a < kBots; ++a)
     for (std::uint32_t b = a + 1; b < kBots; ++b) pairs.push_back({metres(a), metres(b)});
-  std::vector<std::uint8_t> seen(pairs.size());
-  sight.visible(pairs, 3, seen).value_or_throw();
-  return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1));
+  std::vector<std::uint8_t> visible(pairs.size());
+  sight.visible(pairs, 3, visible).value_or_throw();
+  return static_cast<std::size_t>(std::count(visible.begin(), visible.end(), 1));
 }
 
 void run_match(std::uint32_t seconds, bool realtime) {
@@ -86,12 +87,12 @@ void run_match(std::uint32_t seconds, bool realtime) {
       std::this_thread::sleep_until(start + std::chrono::nanoseconds(1'000'000'000 / rate) * tick);
     take_input(world, tick);
     world.advance_to(tick);
-    if (tick > rate) world.forget_before(tick - rate);  // late input may change one second, no more
+    if (tick > rate) world.forget_before(tick - rate);  // accept input that is up to one second late
     smoke.update(world);
-    const std::size_t seen = count_seen(world, smoke);
+    const std::size_t visible = count_visible_pairs(world, smoke);
     if (tick % rate == 0)
       std::printf("tick %u: %zu smokes, %zu holes, %zu pairs of bots see each other, state %016llx\n", tick,
-                  world.state().clouds.size(), world.state().holes.size(), seen,
+                  world.state().clouds.size(), world.state().holes.size(), visible,
                   static_cast<unsigned long long>(world.state_hash()));
   }
 }

@@ -20,8 +20,7 @@ std::uint32_t find_queue_family(const Functions& vk, VkInstance instance, VkPhys
     if (!presentation.supported || presentation.supported(instance, device, i)) return i;
   }
   if (presentation.supported)
-    throw Error(ErrorCode::no_device,
-                "the Vulkan device cannot show pictures in this window system's windows");
+    throw Error(ErrorCode::no_device, "the Vulkan device cannot present to this window system");
   throw Error(ErrorCode::no_device, "the Vulkan device has no queue for graphics and compute");
 }
 
@@ -48,6 +47,7 @@ Context::Context(const HostDevice& host) : device_(host.device), queue_family_(h
 }
 
 void Context::create_device(const Presentation& presentation) {
+  // One queue for graphics and compute.
   queue_family_ = find_queue_family(vk_, instance_->handle(), info_.handle, presentation);
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{};
@@ -56,6 +56,7 @@ void Context::create_device(const Presentation& presentation) {
   queue.queueCount = 1;
   queue.pQueuePriorities = &priority;
 
+  // The device, with a swapchain for presentation.
   const DeviceFeatures features;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
@@ -71,6 +72,7 @@ void Context::create_device(const Presentation& presentation) {
   if (shows) vk_.load_swapchain(device_);
   vk_.GetDeviceQueue(device_, queue_family_, 0, &queue_);
 
+  // The timeline semaphore of submissions.
   const VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO, nullptr,
                                        VK_SEMAPHORE_TYPE_TIMELINE, 0};
   const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
@@ -89,14 +91,14 @@ void Context::read_properties() {
 
 Context::~Context() {
   if (!owns_device()) return;
-  vk_.DeviceWaitIdle(device_);  // A lost device cannot be waited for; it is destroyed all the same.
+  vk_.DeviceWaitIdle(device_);  // Fails for a lost device, which is destroyed all the same.
   vk_.DestroySemaphore(device_, done_, nullptr);
   memory_.reset();
   vk_.DestroyDevice(device_, nullptr);
 }
 
 void Context::submit(VkCommandBuffer commands, const WindowSemaphores& window) {
-  BRUME_ASSERT(owns_device(), "a host submits itself");
+  BRUME_ASSERT(owns_device(), "a host submits its own command buffers");
   const VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands, 0};
   const auto semaphore = [](VkSemaphore handle, std::uint64_t value, VkPipelineStageFlags2 stages) {
     return VkSemaphoreSubmitInfo{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, handle, value, stages, 0};

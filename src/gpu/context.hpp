@@ -1,4 +1,4 @@
-// The device that everything runs on: our own, or a host's.
+// The Vulkan device that everything runs on: our own, or a host application's.
 #pragma once
 
 #include <functional>
@@ -13,31 +13,31 @@
 
 namespace brume::gpu {
 
-/// What showing pictures in a window asks of instance and device.
+/// Requirements on instance and device for presenting in a window.
 struct Presentation {
-  std::vector<const char*> instance_extensions;  ///< Of the window system.
-  /// Whether a queue family of a device can show pictures.
+  std::vector<const char*> instance_extensions;  ///< Required by the window system.
+  /// Whether a queue family of a device can present.
   std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t family)> supported;
 };
 
 struct ContextOptions {
-  std::string device;           ///< As choose_device takes it.
-  bool validation = false;      ///< Validation and synchronization layers; their messages are kept.
+  std::string device;           ///< See choose_device.
+  bool validation = false;      ///< Enables validation and synchronization layers; stores their messages.
   Presentation presentation{};  ///< Without extensions: no windows.
 };
 
-/// What a host lends. Everything must outlive the Context. The device needs Vulkan 1.3 with the features of
-/// DeviceFeatures (device_features.hpp) enabled.
+/// Handles lent by a host, which must outlive the Context. The device must support Vulkan 1.3 and have the
+/// features of DeviceFeatures (device_features.hpp) enabled.
 struct HostDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  std::uint32_t queue_family = 0;  ///< Graphics and compute. The queue itself stays the host's.
+  std::uint32_t queue_family = 0;  ///< With graphics and compute. The queue itself remains the host's.
 };
 
-/// Semaphores of a submission besides the device's own: null, or what the commands wait for before they write
-/// a window's image, and what is signalled when they are done.
+/// Additional semaphores of a submission: null, or one to wait for before writing a window's image, and one
+/// to signal when the commands are complete.
 struct WindowSemaphores {
   VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
@@ -46,9 +46,9 @@ class Pipeline;
 
 class Context {
  public:
-  /// Owns its instance and device. Throws no_device when nothing fits.
+  /// Creates its own instance and device. Throws no_device when no device fits.
   explicit Context(const ContextOptions& options);
-  /// Lives on the host's device: records only, never submits or waits.
+  /// Uses the host's device: records only, never submits or waits.
   explicit Context(const HostDevice& host);
   ~Context();
   Context(const Context&) = delete;
@@ -59,23 +59,23 @@ class Context {
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   std::uint32_t queue_family() const { return queue_family_; }
-  /// Nanoseconds a timestamp tick.
+  /// Nanoseconds per timestamp tick.
   double timestamp_period() const { return static_cast<double>(limits_.timestampPeriod); }
   Memory& memory() { return *memory_; }
   const Memory& memory() const { return *memory_; }
-  /// All that live on it; they enter and leave it themselves.
+  /// All live pipelines, which register and unregister themselves.
   std::vector<Pipeline*>& pipelines() { return pipelines_; }
   bool owns_device() const { return instance_ != nullptr; }
 
-  // Only with a device of our own:
+  // Only when owns_device():
   VkInstance instance() const { return instance_->handle(); }
   VkQueue queue() const { return queue_; }
-  /// Submits a command buffer that has ended. Throws DeviceLost.
+  /// Submits a completed command buffer. Throws DeviceLost.
   void submit(VkCommandBuffer commands, const WindowSemaphores& window = {});
-  /// Until the device is done with all that was submitted. Throws DeviceLost.
+  /// Waits until the device has completed all submissions. Throws DeviceLost.
   void wait();
 
-  /// What the validation layers said since the last call.
+  /// The messages of the validation layers since the last call.
   std::vector<std::string> take_validation_messages() const;
 
  private:

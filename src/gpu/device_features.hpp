@@ -1,13 +1,13 @@
-// What Brume asks of a Vulkan 1.3 device beyond its core: for a host that makes the device itself. What no
-// feature turns on must be there as well: subgroup vote, arithmetic and ballot in compute shaders.
+// The features that Brume requires of a Vulkan 1.3 device, for hosts that create the device themselves. It
+// also requires subgroup vote, arithmetic and ballot in compute shaders, which no feature enables.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
 
 namespace brume::gpu {
 
-/// The features as a chain for VkDeviceCreateInfo::pNext, alone or with more of the host's behind it. It
-/// points into itself: it stays where it is until the device is made.
+/// The features as a chain for VkDeviceCreateInfo::pNext, to which a host can append its own. The chain
+/// points into this object, which must not move before the device is created.
 struct DeviceFeatures {
   VkPhysicalDeviceVulkan13Features vulkan13{};
   VkPhysicalDeviceVulkan12Features vulkan12{};

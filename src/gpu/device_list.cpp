@@ -25,7 +25,7 @@ const char* kind_name(VkPhysicalDeviceType type) {
 }
 
 std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::uint32_t api_version) {
-  if (api_version < VK_API_VERSION_1_3) return "speaks Vulkan older than 1.3";
+  if (api_version < VK_API_VERSION_1_3) return "supports only Vulkan versions before 1.3";
   VkPhysicalDeviceVulkan13Features features13{};
   features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   VkPhysicalDeviceVulkan12Features features12{};
@@ -74,6 +74,7 @@ std::vector<DeviceInfo> list_devices(const Functions& vk, VkInstance instance) {
 
   std::vector<DeviceInfo> devices;
   for (const VkPhysicalDevice handle : handles) {
+    // Driver, memory and features of each device.
     VkPhysicalDeviceDriverProperties driver{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, nullptr, {}, {}, {}, {}};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
@@ -103,6 +104,7 @@ std::vector<DeviceInfo> list_system_devices() {
 }
 
 const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+  // The names of all devices, for messages.
   std::string names;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     names += (i ? ", " : "") + std::to_string(i) + " " + devices[i].name;
@@ -112,6 +114,8 @@ const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const st
     throw Error(ErrorCode::no_device,
                 "no Vulkan device; install a driver (mesa-vulkan-drivers renders on any CPU)");
   }
+
+  // Select by speed, index or name.
   const DeviceInfo* chosen = nullptr;
   if (wanted.empty()) {
     chosen = &*std::max_element(devices.begin(), devices.end(),
@@ -125,9 +129,9 @@ const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, const st
     }
   }
   if (!chosen)
-    throw Error(ErrorCode::no_device, "no Vulkan device fits \"" + wanted + "\"; there are: " + names);
+    throw Error(ErrorCode::no_device, "no Vulkan device fits \"" + wanted + "\"; available: " + names);
   if (!chosen->unsupported.empty()) {
-    throw Error(ErrorCode::no_device, "the Vulkan device cannot be used; there are: " + names);
+    throw Error(ErrorCode::no_device, "the Vulkan device cannot be used; available: " + names);
   }
   return *chosen;
 }

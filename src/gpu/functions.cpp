@@ -49,7 +49,7 @@ void Functions::load_swapchain(VkDevice device) {
 }
 
 PFN_vkGetInstanceProcAddr system_loader() {
-  // Never closed: drivers do not survive being unloaded.
+  // Never closed: drivers do not support being unloaded.
   static void* const library = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   if (!library) {
     throw Error(
@@ -110,7 +110,7 @@ void check(VkResult result, const char* what) {
   const bool device = result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_INITIALIZATION_FAILED;
   const std::string message = std::string(what) + " failed with " + result_name(result) + " (" +
                               std::to_string(result) + ")" +
-                              (memory ? "; a smaller picture or grid needs less memory" : "");
+                              (memory ? "; a smaller image or grid needs less memory" : "");
   if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(ErrorCode::no_device, message);
   throw Error(memory   ? ErrorCode::resource_limit
               : device ? ErrorCode::no_device

@@ -1,5 +1,5 @@
-// Our own table of the Vulkan functions that are used. Nothing here defines or calls a global vk* symbol, so
-// that the library can sit in a process whose host links the loader, and tests can replace an entry.
+// A private table of the Vulkan functions in use. Nothing defines or calls a global vk* symbol, so that the
+// library can live in a process whose host links the loader, and tests can replace an entry.
 #pragma once
 
 #define VK_NO_PROTOTYPES
@@ -31,7 +31,7 @@
   X(CmdClearColorImage) X(CmdBlitImage) X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) \
   X(CmdSetCullMode) X(CmdBindIndexBuffer) X(CmdDrawIndexed) X(CmdDraw) X(CmdResetQueryPool) X(CmdWriteTimestamp2)
 
-// Only where pictures are shown in a window.
+// Only for presentation in a window.
 #define BRUME_VK_SURFACE_FUNCTIONS(X) \
   X(DestroySurfaceKHR) X(GetPhysicalDeviceSurfaceSupportKHR) X(GetPhysicalDeviceSurfaceCapabilitiesKHR) \
   X(GetPhysicalDeviceSurfaceFormatsKHR) X(GetPhysicalDeviceSurfacePresentModesKHR)
@@ -53,7 +53,7 @@ struct Functions {
   /// Throws no_device when a function is missing.
   void load_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance);
   void load_device(VkDevice device);
-  /// The same for an instance and a device that show pictures.
+  /// The same for the functions of presentation.
   void load_surface(PFN_vkGetInstanceProcAddr get, VkInstance instance);
   void load_swapchain(VkDevice device);
 };
@@ -64,14 +64,14 @@ PFN_vkGetInstanceProcAddr system_loader();
 /// "VK_ERROR_DEVICE_LOST" and so on.
 const char* result_name(VkResult result);
 
-/// The device is gone, and with it all that was on it; another may be made.
+/// The device is lost together with all its resources; a new one may be created.
 class DeviceLost : public Error {
  public:
   using Error::Error;
 };
 
-/// Throws Error with the code that fits when `result` is not VK_SUCCESS, DeviceLost for a lost device; `what`
-/// is the failed call.
+/// Throws Error with a matching code when `result` is not VK_SUCCESS, DeviceLost for a lost device; `what`
+/// names the failed call.
 void check(VkResult result, const char* what);
 
 }  // namespace brume::gpu

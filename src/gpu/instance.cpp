@@ -21,6 +21,7 @@ Instance::Instance(bool validation, const std::vector<const char*>& wanted) {
   if (!create)
     throw Error(ErrorCode::no_device, "the Vulkan loader has no vkCreateInstance; reinstall libvulkan1");
 
+  // The validation layer and its messages.
   const VkApplicationInfo application{
       VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "brume", 1, "brume", 1, VK_API_VERSION_1_3};
   const VkValidationFeatureEnableEXT enabled[] = {
@@ -35,6 +36,8 @@ Instance::Instance(bool validation, const std::vector<const char*>& wanted) {
       this};
   const VkValidationFeaturesEXT features{
       VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messenger, 1, enabled, 0, nullptr};
+
+  // The instance.
   const char* const layers[] = {"VK_LAYER_KHRONOS_validation"};
   std::vector<const char*> extensions = wanted;
   if (validation) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -50,8 +53,7 @@ Instance::Instance(bool validation, const std::vector<const char*>& wanted) {
   info.ppEnabledExtensionNames = extensions.data();
   const VkResult result = create(&info, nullptr, &handle_);
   if (result == VK_ERROR_EXTENSION_NOT_PRESENT && !wanted.empty()) {
-    throw Error(ErrorCode::no_device,
-                "the Vulkan loader cannot show pictures in this window system's windows");
+    throw Error(ErrorCode::no_device, "the Vulkan loader does not support this window system");
   }
   if (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT) {
     throw Error(ErrorCode::no_device, "no Vulkan validation layer; install vulkan-validationlayers");
@@ -61,6 +63,7 @@ Instance::Instance(bool validation, const std::vector<const char*>& wanted) {
                 "no Vulkan device; install a driver (mesa-vulkan-drivers renders on any CPU)");
   }
   check(result, "vkCreateInstance");
+  // Its functions.
   vk_.load_instance(get, handle_);
   if (!wanted.empty()) vk_.load_surface(get, handle_);
   if (!validation) return;

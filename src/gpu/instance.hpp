@@ -1,4 +1,4 @@
-// A Vulkan instance of our own, with the validation layers on request.
+// Our own Vulkan instance, optionally with validation layers.
 #pragma once
 
 #include <mutex>
@@ -11,9 +11,9 @@ namespace brume::gpu {
 
 class Instance {
  public:
-  /// With `validation`, the Khronos layer with synchronization checks, whose messages are kept. `extensions`
-  /// are those that the window system needs. Throws no_device when there is no loader, no driver or (asked
-  /// for) no layer or extension.
+  /// With `validation`, enables the Khronos layer with synchronization checks and stores its messages.
+  /// `extensions` are those required by the window system. Throws no_device when the loader, a driver, or a
+  /// requested layer or extension is missing.
   explicit Instance(bool validation, const std::vector<const char*>& extensions = {});
   ~Instance();
   Instance(const Instance&) = delete;
@@ -21,7 +21,7 @@ class Instance {
 
   VkInstance handle() const { return handle_; }
   const Functions& vk() const { return vk_; }
-  /// What the validation layers said since the last call.
+  /// The messages of the validation layers since the last call.
   std::vector<std::string> take_messages() const;
 
  private:

@@ -12,7 +12,7 @@ VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {
   return (value + alignment - 1) / alignment * alignment;
 }
 
-/// Cuts an aligned range out of the first hole that holds it.
+/// Allocates an aligned range from the first hole that fits it.
 std::optional<VkDeviceSize> take(std::map<VkDeviceSize, VkDeviceSize>& holes, VkDeviceSize size,
                                  VkDeviceSize alignment) {
   for (auto hole = holes.begin(); hole != holes.end(); ++hole) {
@@ -27,7 +27,7 @@ std::optional<VkDeviceSize> take(std::map<VkDeviceSize, VkDeviceSize>& holes, Vk
   return std::nullopt;
 }
 
-/// Gives a range back, joined with the holes that it touches.
+/// Frees a range, merging it with adjacent holes.
 void give(std::map<VkDeviceSize, VkDeviceSize>& holes, VkDeviceSize offset, VkDeviceSize size) {
   auto next = holes.lower_bound(offset);
   if (next != holes.end() && offset + size == next->first) {
@@ -58,17 +58,17 @@ Memory::~Memory() {
 std::uint32_t Memory::find_type(std::uint32_t type_bits, MemoryUse use) const {
   constexpr VkMemoryPropertyFlags kHost =
       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-  // The first that fits wins: what is wanted most comes first.
+  // Ordered by preference: the first match wins.
   std::vector<VkMemoryPropertyFlags> requests;
   if (use == MemoryUse::device) requests = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
   if (use == MemoryUse::upload) requests = {kHost};
   if (use == MemoryUse::readback) requests = {kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kHost};
-  for (const VkMemoryPropertyFlags wish : requests) {
+  for (const VkMemoryPropertyFlags request : requests) {
     for (std::uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
-      if ((type_bits >> i & 1) && (properties_.memoryTypes[i].propertyFlags & wish) == wish) return i;
+      if ((type_bits >> i & 1) && (properties_.memoryTypes[i].propertyFlags & request) == request) return i;
     }
   }
-  throw Error(ErrorCode::resource_limit, "the Vulkan device has no memory of the kind that is needed");
+  throw Error(ErrorCode::resource_limit, "the Vulkan device lacks a required memory type");
 }
 
 Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled) {
@@ -115,7 +115,7 @@ void Memory::free(const Range& range) noexcept {
   MemoryBlock& block = *range.block;
   give(block.holes, range.offset, range.size);
   const bool empty = block.holes.size() == 1 && block.holes.begin()->second == block.size;
-  if (!empty || block.size == kBlockBytes) return;  // Shared blocks are kept for the next one.
+  if (!empty || block.size == kBlockBytes) return;  // Shared blocks are retained for reuse.
   vk_.FreeMemory(device_, block.memory, nullptr);
   blocks_.remove_if([&](const MemoryBlock& other) { return &other == &block; });
 }

@@ -1,4 +1,4 @@
-// Device memory: blocks of 64 MiB that are shared, and an allocation of its own from 16 MiB up.
+// Device memory: shared blocks of 64 MiB, and dedicated allocations from 16 MiB up.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 namespace brume::gpu {
 
 enum class MemoryUse {
-  device,    ///< Fastest for the device; the CPU does not see it.
-  upload,    ///< The CPU writes in order, the device reads.
+  device,    ///< Fastest for the device; not visible to the CPU.
+  upload,    ///< The CPU writes sequentially, the device reads.
   readback,  ///< The device writes, the CPU reads.
 };
 
@@ -23,13 +23,13 @@ class Memory {
   static constexpr VkDeviceSize kDedicatedBytes = 16ull << 20;
 
   struct MemoryBlock;
-  /// A range of memory, owned by whoever holds it until `free`.
+  /// A range of memory, owned by its holder until `free`.
   struct Range {
     MemoryBlock* block = nullptr;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
     VkDeviceSize size = 0;
-    std::byte* mapped = nullptr;  ///< For upload and readback: coherent, mapped for good.
+    std::byte* mapped = nullptr;  ///< For upload and readback: coherent, permanently mapped.
   };
 
   Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device);
@@ -37,8 +37,8 @@ class Memory {
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
 
-  /// Throws resource_limit when the device has no memory left. `tiled` keeps images apart from buffers, so
-  /// that bufferImageGranularity never matters.
+  /// Throws resource_limit when the device is out of memory. `tiled` separates images from buffers, so that
+  /// bufferImageGranularity never matters.
   Range allocate(const VkMemoryRequirements& needs, MemoryUse use, bool tiled);
   void free(const Range& range) noexcept;
 
@@ -63,7 +63,7 @@ struct Memory::MemoryBlock {
   std::uint32_t type = 0;
   bool tiled = false;
   std::byte* mapped = nullptr;
-  std::map<VkDeviceSize, VkDeviceSize> holes;  // offset -> size, never two that touch
+  std::map<VkDeviceSize, VkDeviceSize> holes;  // offset -> size, never adjacent
 };
 
 }  // namespace brume::gpu

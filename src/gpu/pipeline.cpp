@@ -9,7 +9,7 @@
 namespace brume::gpu {
 namespace {
 
-/// A shader module that lives as long as its pipeline is being made.
+/// A shader module that lives while its pipeline is created.
 class Module {
  public:
   Module(Context& context, const ShaderCode& code) : context_(context) {
@@ -113,7 +113,7 @@ Result<void> Pipeline::replace_shader(const ShaderCode& code) {
   const VkResult result = make(shaders, &made);
   if (result != VK_SUCCESS)
     return Failure{ErrorCode::bad_input,
-                   std::string(code.name) + ": the driver refuses it with " + result_name(result)};
+                   std::string(code.name) + ": the driver rejects it with " + result_name(result)};
   context_.vk().DestroyPipeline(context_.device(), handle_, nullptr);
   handle_ = made;
   shaders_ = std::move(shaders);
@@ -154,6 +154,7 @@ GraphicsPipeline::GraphicsPipeline(Context& context, const GraphicsInfo& wanted,
 }
 
 VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline* made) const {
+  // Shader stages.
   const Module vertex(context_, shaders[0]);
   std::vector<VkPipelineShaderStageCreateInfo> stages{vertex.stage(VK_SHADER_STAGE_VERTEX_BIT, nullptr)};
   std::optional<Module> fragment;
@@ -162,6 +163,7 @@ VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline*
     stages.push_back(fragment->stage(VK_SHADER_STAGE_FRAGMENT_BIT, nullptr));
   }
 
+  // Fixed-function state.
   const VkPipelineVertexInputStateCreateInfo input{
       VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO, nullptr, 0, 0, nullptr, 0, nullptr};
   const VkPipelineInputAssemblyStateCreateInfo assembly{

@@ -11,13 +11,13 @@
 
 namespace brume::gpu {
 
-// What a binding can be, by the names of GLSL.
+// Descriptor types by their GLSL names.
 constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 constexpr VkDescriptorType kUniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 constexpr VkDescriptorType kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 
-/// What compute and graphics pipelines share.
+/// Base of compute and graphics pipelines.
 class Pipeline {
  public:
   Pipeline(const Pipeline&) = delete;
@@ -30,21 +30,21 @@ class Pipeline {
   VkShaderStageFlags stages() const { return stages_; }
   const std::vector<VkDescriptorType>& bindings() const { return bindings_; }
   std::uint32_t push_bytes() const { return push_bytes_; }
-  /// Its stages, in order.
+  /// The shader stages, in order.
   std::span<const ShaderCode> shaders() const { return shaders_; }
 
-  /// Takes another version of the stage of the same name, whose interface is the same, when the device is
-  /// done with what was recorded before. Its words stay where they are while the pipeline lives. Fails when
-  /// the driver refuses it; the pipeline is then as before.
+  /// Replaces the stage of the same name by another version with the same interface. The device must have
+  /// completed all earlier recordings; the words of `code` must outlive the pipeline. Fails when the driver
+  /// rejects the shader; the pipeline is then unchanged.
   Result<void> replace_shader(const ShaderCode& code);
 
  protected:
   Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderStageFlags stages,
            std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
   virtual ~Pipeline();
-  /// The pipeline of these stages.
+  /// Creates a pipeline of these stages.
   virtual VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const = 0;
-  /// The same as its first.
+  /// Creates the initial pipeline.
   void make_first(std::vector<ShaderCode> shaders);
   Context& context_;
 
@@ -61,7 +61,7 @@ class Pipeline {
 
 class ComputePipeline : public Pipeline {
  public:
-  /// `group` is the workgroup size that the shader declares; `constants` are its specialization constants
+  /// `group` is the workgroup size declared by the shader; `constants` are its specialization constants
   /// 0, 1...
   ComputePipeline(Context& context, const ShaderCode& shader,
                   std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes,
@@ -79,12 +79,12 @@ struct GraphicsInfo {
   const ShaderCode* fragment = nullptr;  ///< null: depth only.
   std::vector<VkFormat> colours;
   VkFormat depth = VK_FORMAT_D32_SFLOAT;  ///< VK_FORMAT_UNDEFINED: no depth.
-  float depth_bias_slope = 0;             ///< Impulses surfaces away from the eye (reverse depth) by the slope.
+  float depth_bias_slope = 0;  ///< Pushes surfaces away from the eye (reverse depth) by their slope.
   float depth_bias_constant = 0;
-  bool blend = false;  ///< Colour over what is there, by its alpha.
+  bool blend = false;  ///< Alpha blending over the existing colour.
 };
 
-/// Triangles, reverse depth (greater is nearer), cull mode set while recording; vertices are pulled from
+/// Triangles with reverse depth (greater is nearer) and dynamic cull mode; shaders pull vertices from
 /// buffers.
 class GraphicsPipeline : public Pipeline {
  public:

@@ -20,16 +20,19 @@ struct Dependency {
   VkAccessFlags2 src_access = 0;
 };
 
-/// Notes a use in the record and tells what it has to wait for.
+/// Records a use and returns its dependency.
 Dependency advance(LastUse& last, VkPipelineStageFlags2 stages, VkAccessFlags2 access, bool new_layout) {
+  // A read waits for the last write, unless that is visible already.
   if (!(access & kWrites) && !new_layout) {
-    const bool seen = (last.visible_stages & stages) == stages && (last.visible_access & access) == access;
-    const Dependency after_write{!seen && last.write_stages != 0, last.write_stages, last.write_access};
+    const bool visible = (last.visible_stages & stages) == stages && (last.visible_access & access) == access;
+    const Dependency after_write{!visible && last.write_stages != 0, last.write_stages, last.write_access};
     last.read_stages |= stages;
     last.visible_stages |= stages;
     last.visible_access |= access;
     return after_write;
   }
+
+  // A write or layout change waits for all earlier uses.
   const Dependency after_all{new_layout || last.write_stages != 0 || last.read_stages != 0,
                              last.write_stages | last.read_stages, last.write_access};
   last.write_stages = stages;
@@ -127,6 +130,7 @@ void Recorder::flush_barriers() {
 
 VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Binding> bindings) {
   BRUME_ASSERT(bindings.size() == pipeline.bindings().size(), std::to_string(bindings.size()));
+  // Allocate the set.
   VkDescriptorSetAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
   info.descriptorPool = slot_.descriptors_;
@@ -136,6 +140,7 @@ VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Bi
   VkDescriptorSet set = VK_NULL_HANDLE;
   check(context_.vk().AllocateDescriptorSets(context_.device(), &info, &set), "vkAllocateDescriptorSets");
 
+  // Write its descriptors.
   std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
   std::vector<VkDescriptorImageInfo> images(bindings.size());
   std::vector<VkWriteDescriptorSet> writes;
@@ -224,7 +229,7 @@ void Recorder::dispatch_indirect(const Buffer& groups) {
 }
 
 Recorder::Staged Recorder::stage_bytes(std::span<const std::byte> bytes) {
-  // Offsets of image copies must be multiples of the texel size; 16 covers every format that is used.
+  // Offsets of image copies must be multiples of the texel size; 16 covers every format in use.
   constexpr VkDeviceSize kAlignment = 16;
   auto& buffers = slot_.staging_;
   while (slot_.staging_index_ < buffers.size() &&
@@ -258,7 +263,8 @@ void Recorder::upload(const Image& image, std::span<const Region> regions) {
   use(image, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   flush_barriers();
-  // Copies from the same staging buffer go in one command.
+
+  // One copy command per staging buffer.
   std::vector<VkBufferImageCopy> copies;
   const Buffer* source = nullptr;
   const auto flush_copies = [&] {
@@ -399,6 +405,8 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     return info;
   };
+
+  // Attachments and their barriers.
   std::vector<VkRenderingAttachmentInfo> colours;
   for (const Image* image : attachments.colours) {
     use(*image, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -418,6 +426,7 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
   }
   flush_barriers();
 
+  // Rendering, with the whole area as viewport and scissor.
   VkRenderingInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
   info.renderArea.extent = {size_px.x, size_px.y};

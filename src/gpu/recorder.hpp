@@ -1,4 +1,4 @@
-// Records work into a command buffer, and the barriers between.
+// Records commands into a command buffer and derives the barriers between them.
 #pragma once
 
 #include <deque>
@@ -14,7 +14,7 @@
 
 namespace brume::gpu {
 
-/// A resource bound to a pass, and what the pass does with it.
+/// A resource bound to a pass, and how the pass accesses it.
 struct Binding {
   VkDescriptorType type = kBuffer;
   const Buffer* buffer = nullptr;
@@ -44,8 +44,8 @@ inline Binding read_stored(const Image& image) {
   return {kStored, nullptr, &image, nullptr, true, false};
 }
 
-/// What one frame in flight needs besides its command buffer: descriptors, staging memory, timestamps.
-/// Reused when the device is done with the frame.
+/// The resources of one frame in flight besides its command buffer: descriptors, staging memory, timestamps.
+/// Reused once the device has completed the frame.
 class FrameSlot {
  public:
   explicit FrameSlot(Context& context);
@@ -58,7 +58,7 @@ class FrameSlot {
   friend class Recorder;
   Context& context_;
   VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
-  std::deque<Buffer> staging_;  // Each is filled front to back; a new one is added when all are full.
+  std::deque<Buffer> staging_;  // Filled in order; a new one is added when all are full.
   std::size_t staging_index_ = 0;
   VkDeviceSize staging_used_ = 0;
   Timings timings_;
@@ -66,29 +66,30 @@ class FrameSlot {
 
 class Recorder {
  public:
-  /// `commands` is in the recording state, and stays so. `slot` must not be in use by the device.
+  /// `commands` is in the recording state and remains so. `slot` must not be in use by the device.
   Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands);
 
-  /// Binds resources (in the order of the pipeline's bindings) and push constants, with the barriers they
-  /// need.
+  /// Binds resources (in the order of the pipeline's bindings) and push constants, with the required
+  /// barriers.
   void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings,
             std::span<const std::byte> push = {});
-  template <typename Impulse>
-  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings, const Impulse& push) {
+  template <typename Push>
+  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings, const Push& push) {
     bind(pipeline, bindings, std::as_bytes(std::span(&push, 1)));
   }
   /// Runs the bound compute pipeline over at least this many threads.
   void dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y = 1,
                         std::uint32_t z = 1);
-  /// What depends on nothing of each other runs at once: the barriers of all of them come before the first.
+  /// Independent dispatches: one barrier before all of them.
   struct Dispatch {
     const ComputePipeline& pipeline;
     std::vector<Binding> bindings;
-    glm::uvec3 threads{1};  ///< At least so many.
+    glm::uvec3 threads{1};  ///< Minimum number of threads.
     std::span<const std::byte> push = {};
   };
   void dispatch_together(std::initializer_list<Dispatch> dispatches);
-  /// As many workgroups as the first three words of `groups` say (VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT).
+  /// Dispatches the number of workgroups in the first three words of `groups`
+  /// (VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT).
   void dispatch_indirect(const Buffer& groups);
   void push(const Pipeline& pipeline, std::span<const std::byte> bytes);
 
@@ -107,32 +108,32 @@ class Recorder {
   void read_back(const Buffer& from, const Buffer& to, VkDeviceSize bytes);
   /// Copies a 2D image to one of another size or format.
   void blit(const Image& from, const Image& to, VkFilter filter);
-  /// The same to an image that is not ours, whole, whatever was in it; it is left ready to be shown.
+  /// The same to all of a window's image, discarding its content; transitions it for presentation.
   struct WindowImage {
     VkImage handle = VK_NULL_HANDLE;
     glm::uvec2 size_px{0};
   };
   void blit(const Image& from, const WindowImage& to);
-  /// Fills the mip levels of a 2D image from its first.
+  /// Generates the mip levels of a 2D image from its first.
   void make_mip_levels(const Image& image);
 
   struct Attachments {
     std::vector<const Image*> colours;
     const Image* depth = nullptr;
     VkImageView depth_view = VK_NULL_HANDLE;  ///< Of one layer; null: the image's own view.
-    bool keep = false;                        ///< What is there stays.
+    bool keep = false;                        ///< Preserves their contents.
   };
-  /// Attachments are cleared to 0 (reverse depth: infinitely far) unless they are kept.
+  /// Clears the attachments to 0 (reverse depth: infinitely far) unless `keep` is set.
   void begin_rendering(const Attachments& attachments, glm::uvec2 size_px);
   void end_rendering();
   void draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,
                     std::int32_t first_vertex);
   void set_culling(bool back_faces);
   void set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px);
-  /// Barriers for a resource that draws read, before begin_rendering.
+  /// Barriers for resources that draws read; before begin_rendering.
   void prepare_for_draws(std::initializer_list<Binding> bindings);
   void prepare_indices(const Buffer& indices);
-  /// Binds inside a rendering, where no barrier can be: resources were prepared before.
+  /// Binds inside a rendering, where barriers are impossible: the resources must have been prepared.
   void bind_for_draws(const Pipeline& pipeline, std::initializer_list<Binding> bindings);
 
   void begin_scope(const char* name) { slot_.timings_.begin(commands_, name); }
@@ -160,7 +161,7 @@ class Recorder {
   std::vector<VkImageMemoryBarrier2> image_barriers_;
 };
 
-/// Measures the GPU time of what is recorded while it lives.
+/// Measures the GPU time of the commands recorded during its lifetime.
 class Scope {
  public:
   Scope(Recorder& recorder, const char* name) : recorder_(recorder) { recorder.begin_scope(name); }
@@ -172,7 +173,7 @@ class Scope {
   Recorder& recorder_;
 };
 
-/// A command buffer of our own, for programs that own the device.
+/// Its own command buffer, for programs that own the device.
 class CommandRunner {
  public:
   explicit CommandRunner(Context& context);
@@ -182,7 +183,7 @@ class CommandRunner {
 
   /// Records, submits and waits. Throws what `record` throws, or DeviceLost.
   void run(const std::function<void(Recorder&)>& record);
-  /// The same without the wait: Context::wait comes before the next recording.
+  /// The same without the wait: call Context::wait before the next recording.
   void start(const std::function<void(Recorder&)>& record, const WindowSemaphores& window);
   std::vector<Timings::Scope> timings() const { return slot_.timings().read(); }
 

@@ -35,7 +35,7 @@ bool grow(Context& context, Buffer& buffer, VkDeviceSize bytes) {
   const VkDeviceSize most = context.limits().maxStorageBufferRange;
   if (bytes > most) {
     throw Error(ErrorCode::resource_limit, "the smoke needs a buffer of " + std::to_string(bytes) +
-                                               " bytes, the device takes " + std::to_string(most) +
+                                               " bytes, the device supports " + std::to_string(most) +
                                                "; use larger voxels or less smoke");
   }
   buffer = Buffer(context, std::min(std::bit_ceil(std::max<VkDeviceSize>(bytes, 256)), most),
@@ -78,6 +78,7 @@ VkImageViewCreateInfo view_info(const Image& image, VkImageViewType type, std::u
 }  // namespace
 
 Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), info_(wanted) {
+  // The image.
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = wanted.three_dimensional ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
@@ -89,6 +90,7 @@ Image::Image(Context& context, const ImageInfo& wanted) : context_(&context), in
   info.usage = wanted.usage;
   const Functions& vk = context.vk();
   check(vk.CreateImage(context.device(), &info, nullptr, &handle_), "vkCreateImage");
+  // Its memory and view.
   try {
     VkMemoryRequirements needs{};
     vk.GetImageMemoryRequirements(context.device(), handle_, &needs);

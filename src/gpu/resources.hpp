@@ -1,4 +1,4 @@
-// Buffers, images and samplers, and for each the record of its last use from which barriers follow.
+// Buffers, images and samplers. Buffers and images track their last use, from which barriers are derived.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,12 +7,12 @@
 
 namespace brume::gpu {
 
-/// What touched a resource last. A resource is used by one recording at a time.
+/// The last accesses to a resource. A resource is used by one recording at a time.
 struct LastUse {
-  VkPipelineStageFlags2 write_stages = 0;  ///< Of the last write or layout change.
+  VkPipelineStageFlags2 write_stages = 0;  ///< Stages of the last write or layout change.
   VkAccessFlags2 write_access = 0;
-  VkPipelineStageFlags2 read_stages = 0;     ///< Since that write.
-  VkPipelineStageFlags2 visible_stages = 0;  ///< Who already sees that write.
+  VkPipelineStageFlags2 read_stages = 0;     ///< Stages that have read since that write.
+  VkPipelineStageFlags2 visible_stages = 0;  ///< Stages to which that write is already visible.
   VkAccessFlags2 visible_access = 0;
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
@@ -29,7 +29,7 @@ class Buffer {
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   VkBuffer handle() const { return handle_; }
   VkDeviceSize size() const { return size_; }
-  /// For upload and readback memory; else null.
+  /// For upload and readback memory; otherwise null.
   std::byte* mapped() const { return range_.mapped; }
 
   mutable LastUse last_use;
@@ -41,8 +41,9 @@ class Buffer {
   Memory::Range range_;
 };
 
-/// Makes a storage buffer at least this large, in powers of two so that growth is rare; true when it is a new
-/// one, with nothing in it. Throws resource_limit when the device takes no buffer of that size.
+/// Ensures that a storage buffer has at least this size, growing in powers of two; true when it was
+/// recreated, with undefined contents. Throws resource_limit when the device does not support a buffer of
+/// that size.
 bool grow(Context& context, Buffer& buffer, VkDeviceSize bytes);
 
 struct ImageInfo {
@@ -68,7 +69,7 @@ class Image {
   VkImageView view() const { return view_; }
   const ImageInfo& info() const { return info_; }
   VkImageAspectFlags aspect() const;
-  /// Images that shaders write stay in GENERAL; others are read in SHADER_READ_ONLY.
+  /// Images that shaders write remain in GENERAL; others are read in SHADER_READ_ONLY.
   VkImageLayout sampled_layout() const {
     return info_.usage & VK_IMAGE_USAGE_STORAGE_BIT ? VK_IMAGE_LAYOUT_GENERAL
                                                     : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;

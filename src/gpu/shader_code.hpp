@@ -1,4 +1,4 @@
-// A shader as the build embeds it.
+// A shader embedded by the build.
 #pragma once
 
 #include <cstdint>

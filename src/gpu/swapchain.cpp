@@ -15,7 +15,7 @@ VkSemaphore make_semaphore(Context& context) {
   return semaphore;
 }
 
-/// Eight bits a channel that are stored as they are: pictures are encoded for the screen already.
+/// Eight bits per channel without conversion: the rendered image is already encoded for the screen.
 VkSurfaceFormatKHR choose_format(Context& context, VkSurfaceKHR surface) {
   const Functions& vk = context.vk();
   std::uint32_t count = 0;
@@ -28,7 +28,7 @@ VkSurfaceFormatKHR choose_format(Context& context, VkSurfaceKHR surface) {
     for (const VkSurfaceFormatKHR& format : formats)
       if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) return format;
   }
-  throw Error(ErrorCode::no_device, "the window takes no pictures of 8 bits a channel");
+  throw Error(ErrorCode::no_device, "the window does not support 8 bits per channel");
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ Swapchain::~Swapchain() {
 
 void Swapchain::destroy() {
   const Functions& vk = context_.vk();
-  vk.DeviceWaitIdle(context_.device());  // A lost device cannot be waited for; all is destroyed nevertheless.
+  vk.DeviceWaitIdle(context_.device());  // Fails for a lost device; destroy everything all the same.
   for (const VkSemaphore semaphore : drawn_) vk.DestroySemaphore(context_.device(), semaphore, nullptr);
   vk.DestroySemaphore(context_.device(), acquired_, nullptr);
   vk.DestroySwapchainKHR(context_.device(), handle_, nullptr);
@@ -58,7 +58,7 @@ void Swapchain::destroy() {
 }
 
 VkPresentModeKHR Swapchain::choose_mode() const {
-  if (vertical_sync_) return VK_PRESENT_MODE_FIFO_KHR;  // which every surface has
+  if (vertical_sync_) return VK_PRESENT_MODE_FIFO_KHR;  // supported by every surface
   const Functions& vk = context_.vk();
   std::uint32_t count = 0;
   check(vk.GetPhysicalDeviceSurfacePresentModesKHR(context_.info().handle, surface_, &count, nullptr),
@@ -71,7 +71,7 @@ VkPresentModeKHR Swapchain::choose_mode() const {
   return VK_PRESENT_MODE_FIFO_KHR;
 }
 
-// True when there are images to draw into.
+// Recreates surface and swapchain as necessary; false when there are no images to render into.
 bool Swapchain::make() {
   const Functions& vk = context_.vk();
   check(vk.DeviceWaitIdle(context_.device()), "vkDeviceWaitIdle");
@@ -95,6 +95,7 @@ bool Swapchain::make() {
   size_px_ = free_size ? window_.size_px() : glm::uvec2(can.currentExtent.width, can.currentExtent.height);
   if (size_px_.x == 0 || size_px_.y == 0) return false;
 
+  // The swapchain.
   const VkSurfaceFormatKHR format = choose_format(context_, surface_);
   VkSwapchainCreateInfoKHR info{};
   info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
@@ -115,7 +116,7 @@ bool Swapchain::make() {
   const VkResult result = vk.CreateSwapchainKHR(context_.device(), &info, nullptr, &made);
   vk.DestroySwapchainKHR(context_.device(), handle_, nullptr);
   handle_ = VK_NULL_HANDLE;
-  // The window may have changed since it was asked for its size; the next frame asks again.
+  // The window may have changed since its size was queried; the next frame tries again.
   if (result == VK_ERROR_OUT_OF_DATE_KHR) return false;
   surface_lost_ = result == VK_ERROR_SURFACE_LOST_KHR || result == VK_ERROR_NATIVE_WINDOW_IN_USE_KHR;
   if (surface_lost_) return false;
@@ -133,7 +134,7 @@ bool Swapchain::make() {
 }
 
 std::optional<Recorder::WindowImage> Swapchain::acquire() {
-  // A window that is being dragged may change again while its images are made.
+  // A window that is being resized may change again while its images are created.
   for (int attempt = 0; attempt < 3; ++attempt) {
     if ((out_of_date_ || surface_lost_ || window_.size_px() != size_px_) && !make()) return std::nullopt;
     const VkResult result = context_.vk().AcquireNextImageKHR(context_.device(), handle_, UINT64_MAX,

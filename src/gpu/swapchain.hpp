@@ -1,4 +1,4 @@
-// The images of a window, and the way of a picture into one of them.
+// A window's swapchain images: acquisition and presentation.
 #pragma once
 
 #include <functional>
@@ -9,30 +9,30 @@
 
 namespace brume::gpu {
 
-/// A window as a swapchain sees it.
+/// The window of a swapchain.
 struct SurfaceMaker {
-  /// A new surface of the window. Throws Error when there is none.
+  /// Creates a surface of the window. Throws Error on failure.
   std::function<VkSurfaceKHR(VkInstance)> make;
-  /// Its size now [px]; a side of 0: nothing can be shown.
+  /// Its current size [px]; a side of 0: it cannot be presented to.
   std::function<glm::uvec2()> size_px;
 };
 
 class Swapchain {
  public:
-  /// `context` was made with a Presentation, and outlives it. Throws no_device when the window takes no
-  /// pictures of 8 bits a channel.
+  /// `context` must have been created with a Presentation and must outlive the swapchain. Throws no_device
+  /// when the window does not support 8 bits per channel.
   Swapchain(Context& context, SurfaceMaker window, bool vertical_sync);
   ~Swapchain();
   Swapchain(const Swapchain&) = delete;
   Swapchain& operator=(const Swapchain&) = delete;
 
-  /// The window's image to draw into next, made anew for a window that was resized and for a surface that was
-  /// lost. Empty while nothing can be shown: a minimized window. When the device is done with the frame
-  /// before.
+  /// The next image to render into; recreates the swapchain if the window was resized or the surface was
+  /// lost. Empty while nothing can be presented, as for a minimized window. The device must have completed
+  /// the previous frame.
   std::optional<Recorder::WindowImage> acquire();
-  /// For the submission of what writes the acquired image.
+  /// The semaphores for the submission that writes the acquired image.
   WindowSemaphores semaphores() const;
-  /// Shows the acquired image after that submission.
+  /// Presents the acquired image after that submission.
   void present();
 
   void set_vertical_sync(bool wanted);
@@ -52,8 +52,8 @@ class Swapchain {
   glm::uvec2 size_px_{0};
   std::vector<VkImage> images_;
   VkSemaphore acquired_ = VK_NULL_HANDLE;
-  std::vector<VkSemaphore> drawn_;  ///< Of each image.
-  std::uint32_t index_ = 0;         ///< Of the acquired image.
+  std::vector<VkSemaphore> drawn_;  ///< One per image.
+  std::uint32_t index_ = 0;         ///< Index of the acquired image.
   bool vertical_sync_ = true, out_of_date_ = true, surface_lost_ = false;
 };
 

@@ -1,4 +1,4 @@
-// GPU time of named parts of a recording, by timestamp queries.
+// GPU times of named parts of a recording, by timestamp queries.
 #pragma once
 
 #include <string>
@@ -21,12 +21,12 @@ class Timings {
   Timings(const Timings&) = delete;
   Timings& operator=(const Timings&) = delete;
 
-  /// Forgets the scopes of the last recording; first command of a recording.
+  /// Clears the scopes of the last recording; must be the first command of a recording.
   void reset(VkCommandBuffer commands);
   /// Scopes do not nest. More than kMaxScopes are ignored.
   void begin(VkCommandBuffer commands, const char* name);
   void end(VkCommandBuffer commands);
-  /// After the device is done with the recording: its scopes in order.
+  /// The scopes in order, once the device has completed the recording.
   std::vector<Scope> read() const;
 
  private:

@@ -50,6 +50,7 @@ Result<Image8> decode_png(std::span<const std::byte> bytes, const std::string& n
   spng_set_chunk_limits(context.get(), kMaxChunkBytes, kMaxChunkBytes);
   if (const int error = spng_set_png_buffer(context.get(), bytes.data(), bytes.size())) return failed(error);
 
+  // Check the size before allocating.
   spng_ihdr header{};
   if (const int error = spng_get_ihdr(context.get(), &header)) return failed(error);
   if (auto size = check_size(header.width, header.height, name); !size) return size.failure();
@@ -58,6 +59,7 @@ Result<Image8> decode_png(std::span<const std::byte> bytes, const std::string& n
     return png_failure(name, "it is too short for the size in its header");
   }
 
+  // Decode.
   Image8 image{header.width, header.height, {}};
   image.rgba.resize(std::size_t{header.width} * header.height * 4);
   if (const int error = spng_decode_image(context.get(), image.rgba.data(), image.rgba.size(), SPNG_FMT_RGBA8,

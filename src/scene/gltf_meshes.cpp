@@ -113,8 +113,6 @@ Mesh GltfMeshes::convert(const tinygltf::Primitive& primitive, int uv_set, const
   if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
     document_.fail(place, "has " + std::to_string(corners.size()) + " corners; expected a multiple of 3");
   mesh.indices = as_triangles(corners, primitive.mode);
-
-  // Missing normals and tangents.
   if (normals.empty()) {
     separate_corners(mesh);
     compute_normals(mesh);

@@ -21,6 +21,7 @@ bool is_direction(glm::dvec3 v) {
 }  // namespace
 
 void compute_tangents(Mesh& mesh) {
+  // Sum the directions of u and v over each vertex' triangles.
   std::vector<glm::dvec3> along_u(mesh.vertices.size(), glm::dvec3(0));
   std::vector<glm::dvec3> along_v(mesh.vertices.size(), glm::dvec3(0));
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -39,6 +40,8 @@ void compute_tangents(Mesh& mesh) {
       along_v[index] += glm::normalize(v);
     }
   }
+
+  // Orthogonalize to the normal.
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     Vertex& vertex = mesh.vertices[i];
     const glm::dvec3 normal(vertex.normal);

@@ -144,6 +144,8 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
   std::vector<Mesh> meshes = part_meshes(*model);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const ObjPart& part = model->parts[i];
+
+    // The material.
     const auto source = materials->find(part.material);
     Material material;
     if (source != materials->end()) {
@@ -159,6 +161,8 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
       }
     }
     builder.scene.materials.push_back(std::move(material));
+
+    // The object.
     const auto mesh = builder.add_mesh(std::move(meshes[i]));
     if (!mesh) return mesh.failure();
     Object object;
