@@ -40,7 +40,7 @@ extern const glm::ivec3 kLowCorner, kHighCorner;
 
 constexpr std::uint32_t kMatchTicks = 30 * 64;
 
-/// Key of the masks that its shots use.
+/// The masks of its shots.
 smoke::MaskAtlas make_masks();
 
 /// 8 smokes, 200 shots of all shapes, 5 blasts, 2 doors that open and shut while smoke is there, 4 bodies; by
