@@ -22,10 +22,10 @@ bool option_row(const scene::OptionInfo& info, std::uint32_t& value, std::uint32
 bool option_row(const scene::OptionInfo& info, glm::vec3& value, glm::vec3 initial);
 bool option_row(const scene::OptionInfo& info, std::optional<float>& value, std::optional<float> initial);
 
-/// Rows for the members that `wanted` selects, all if it is empty; `visit` wraps one of the visit_*
+/// Rows for the members that `selects` selects, all if it is empty; `visit` wraps one of the visit_*
 /// functions. Returns whether a value changed.
 template <typename Options, typename Visit>
-bool option_rows(Options& options, Visit visit, const std::function<bool(const std::string&)>& wanted = {}) {
+bool option_rows(Options& options, Visit visit, const std::function<bool(const std::string&)>& selects = {}) {
   Options initial{};
   bool changed = false;
   // Both visits are in the same order, so that index i is the default of member i.
@@ -35,7 +35,7 @@ bool option_rows(Options& options, Visit visit, const std::function<bool(const s
   visit(options, [&](const scene::OptionInfo& info, auto& member) {
     using Member = std::remove_reference_t<decltype(member)>;
     const auto& standard = *static_cast<const Member*>(defaults[i++]);
-    if (!wanted || wanted(info.key)) changed = option_row(info, member, standard) || changed;
+    if (!selects || selects(info.key)) changed = option_row(info, member, standard) || changed;
   });
   return changed;
 }

@@ -37,10 +37,10 @@ void report(const Result<void>& done, std::vector<std::string>& failures) {
 
 // Smoke settings; changing one that the simulation depends on simulates again from the start.
 void smoke_rows(Session& session, UiRequests& requests, std::vector<std::string>& failures,
-                const std::function<bool(const std::string&)>& wanted) {
+                const std::function<bool(const std::string&)>& selects) {
   scene::SmokeOptions smoke = session.live().scenario().timeline.smoke;
   const auto visit = [](auto& options, auto&& visitor) { scene::visit_smoke_options(options, visitor); };
-  if (!option_rows(smoke, visit, wanted)) return;
+  if (!option_rows(smoke, visit, selects)) return;
   requests.changed_picture = true;
   report(session.live().set_smoke(smoke), failures);
 }

@@ -1,4 +1,4 @@
-// What the tests of the Blender add-on share.
+// Fixture of the tests of the Blender add-on.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace brume::blender {
 
-/// Runs Blender once for all its cases; without Blender they are skipped.
+/// Runs Blender once for all cases; skips them if Blender is not installed.
 class Blender : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -28,8 +28,7 @@ class Blender : public testing::TestWithParam<const char*> {
   }
 };
 
-/// Fails for a picture that is blank, or nearly: neither one colour nor noise, but lit smoke and bricks
-/// before a night sky.
+/// Fails for a nearly blank image: expects lit smoke and bricks in front of a night sky.
 inline void expect_a_picture(const image::Image8& picture) {
   std::set<std::uint32_t> colors;
   double sum = 0, squares = 0;

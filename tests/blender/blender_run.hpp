@@ -7,8 +7,8 @@
 
 namespace brume::blender {
 
-/// What make_level.py left: folders `courtyard`, `small` and `box`, each with txt/level.txt, gltf/level.glb
-/// and their timelines, and the JSON files of what Blender says.
+/// The output of make_level.py: folders `courtyard`, `small` and `box`, each with txt/level.txt,
+/// gltf/level.glb and their timelines, and JSON files with facts from Blender.
 struct BlenderRun {
   bool blender_is_there = false;
   int exit_code = -1;
@@ -16,7 +16,7 @@ struct BlenderRun {
   std::filesystem::path folder;
 };
 
-/// Runs Blender the first time that it is asked; the folder lasts until the program ends.
+/// Runs Blender at the first call; the folder exists until the program ends.
 const BlenderRun& blender_run();
 
 nlohmann::json read_json(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// A level made in Blender comes out where Blender has it, in both formats; docs/blender.md.
+// Exported levels match the scene in Blender, in both formats; docs/blender.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,8 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The bound that the add-on answers for [m]. A float of a level within 10 m is rounded by at most 5e-7 m, a
-// few times on the way.
+// Error bound of an exported position [m]: a float32 within 10 m is rounded by at most 5e-7 m, a few times.
 constexpr double kNear = 1e-4;
 
 struct Corner {
@@ -52,7 +51,7 @@ std::vector<Triangle> blenders_triangles(const Json& expected) {
       const Json& corner = entry["corners"][i];
       t.corners[i] = {turned(corner["point"]) * metres, turned(corner["normal"]), {}};
       t.has_uv = !corner["uv"].is_null();
-      // Pictures run down in Brume.
+      // The v axis points down in Brume.
       if (t.has_uv) t.corners[i].uv = {corner["uv"][0].get<double>(), 1 - corner["uv"][1].get<double>()};
     }
     triangles.push_back(std::move(t));
@@ -81,7 +80,7 @@ std::vector<Triangle> brumes_triangles(const scene::Scene& scene) {
   return triangles;
 }
 
-// How the corners of `b` follow those of `a`, turned round, where they are the same points; else -1.
+// The rotation that maps the corners of `b` to those of `a` if they are the same points; else -1.
 int same_points(const Triangle& a, const Triangle& b) {
   for (std::size_t turn = 0; turn < 3; ++turn) {
     double farthest = 0;
@@ -96,7 +95,7 @@ void expect_same_look(const Triangle& blender, const Triangle& brume, std::size_
   EXPECT_EQ(blender.passable, brume.passable) << blender.object << " as " << brume.object;
   for (std::size_t k = 0; k < 3; ++k) {
     const Corner &a = blender.corners[k], &b = brume.corners[(k + turn) % 3];
-    // Blender's exporter rounds normals to four decimals; so does its 16-bit storage of own normals.
+    // Blender's exporter and its 16-bit storage of custom normals round to four decimals.
     EXPECT_GT(glm::dot(a.normal, b.normal), 0.9999) << blender.object << " as " << brume.object;
     if (with_uv && blender.has_uv) {
       EXPECT_LT(glm::distance(a.uv, b.uv), 1e-5) << blender.object << " as " << brume.object;
@@ -108,7 +107,7 @@ class BlenderFormats : public Blender {};
 INSTANTIATE_TEST_SUITE_P(, BlenderFormats, testing::Values("txt", "gltf"),
                          [](const auto& kind) { return std::string(kind.param); });
 
-TEST_P(BlenderFormats, EveryTriangleIsWhereBlenderHasIt) {
+TEST_P(BlenderFormats, TrianglesMatchBlender) {
   for (const char* name : {"courtyard", "small"}) {
     SCOPED_TRACE(name);
     const Json expected = read_json(blender_run().folder / name / "expected.json");
@@ -126,7 +125,7 @@ TEST_P(BlenderFormats, EveryTriangleIsWhereBlenderHasIt) {
       }
       ASSERT_LT(at, brume.size()) << "a triangle of " << t.object << " is not there";
       taken[at] = true;
-      // A door of several materials has its colours in a palette in Scene.txt.
+      // Scene.txt stores the colours of a door with several materials in a palette texture.
       const bool is_door = t.object == "entrance" || t.object == "handle";
       expect_same_look(t, brume[at], static_cast<std::size_t>(turn), !is_door);
       if (HasFailure()) return;
@@ -134,8 +133,7 @@ TEST_P(BlenderFormats, EveryTriangleIsWhereBlenderHasIt) {
   }
 }
 
-// Voxels that Blender's own triangles touch, by the obvious test, a voxel of the grid grown by `more` voxels
-// each way.
+// Voxels that Blender's triangles touch, by brute force; each voxel is grown by `more` voxels on all sides.
 std::size_t voxels_touched(const std::vector<Triangle>& triangles, const voxel::GridLayout& frame,
                            double more) {
   std::set<std::array<int, 3>> touched;
@@ -160,7 +158,7 @@ std::size_t voxels_touched(const std::vector<Triangle>& triangles, const voxel::
   return touched.size();
 }
 
-TEST_P(BlenderFormats, VoxelizesToWhatBlendersTrianglesTouch) {
+TEST_P(BlenderFormats, VoxelsAreThoseThatBlendersTrianglesTouch) {
   const voxel::GridLayout frame{{66, 26, 52}, 0.2f, {-6.53f, -0.67f, -5.37f}};
   const auto triangles = blenders_triangles(read_json(blender_run().folder / "courtyard" / "expected.json"));
   const cli::Outcome run = cli::run_brume(
@@ -168,14 +166,14 @@ TEST_P(BlenderFormats, VoxelizesToWhatBlendersTrianglesTouch) {
                              "--voxel", "0.2", "--origin", "-6.53,-0.67,-5.37", "--json", "-"});
   ASSERT_EQ(run.exit_code, 0) << run.error;
   const std::size_t solid = Json::parse(run.out)["solid"];
-  // Points may be off by kNear, and voxels that they then touch or miss may differ.
+  // Positions have an error of kNear, which may change the voxels that are barely touched.
   EXPECT_GE(solid, voxels_touched(triangles, frame, -kNear / 0.2));
   EXPECT_LE(solid, voxels_touched(triangles, frame, kNear / 0.2));
 }
 
 // The box stands from 0.1 - 1.5 to 0.1 (turned by a quarter), 0.1 to 1.1 and -2.1 to -0.1: at voxels of 0.25
 // it touches 7 x 5 x 9 voxels, and holds 5 x 3 x 7 that its surface does not touch.
-TEST_P(BlenderFormats, ABoxHasTheVoxelsThatOneCounts) {
+TEST_P(BlenderFormats, ABoxHasTheExpectedVoxels) {
   const cli::Outcome run = cli::run_brume(
       blender_run().folder, {"voxelize", level("box", GetParam()).string(), "--grid", "16x16x16", "--voxel",
                              "0.25", "--origin", "-2,-1,-3", "--json", "-"});
@@ -183,7 +181,7 @@ TEST_P(BlenderFormats, ABoxHasTheVoxelsThatOneCounts) {
   EXPECT_EQ(Json::parse(run.out)["solid"], 7 * 5 * 9 - 5 * 3 * 7);
 }
 
-TEST_P(BlenderFormats, NamesAreUniqueAndDoorsAreWhole) {
+TEST_P(BlenderFormats, NamesAreUniqueAndDoorsAreComplete) {
   const scene::Scene scene = scene::load_scene(level("courtyard", GetParam())).value_or_throw();
   std::map<std::string, int> count;
   for (const scene::Object& object : scene.objects) ++count[object.name];
@@ -194,17 +192,17 @@ TEST_P(BlenderFormats, NamesAreUniqueAndDoorsAreWhole) {
   EXPECT_EQ(count.count("measure") + count.count("not_rendered") + count.count("hidden"), 0u);
   for (const char* name : {"Kafig_grun_", "_con", "object", "_one", "_LIGHT_SOURCE"})
     EXPECT_EQ(count[name], 1) << name;
-  // The leaf and its handle: one mesh in Scene.txt, two nodes of one name in glTF.
+  // The leaf and its handle: one mesh in Scene.txt, two nodes with the same name in glTF.
   EXPECT_EQ(count["door_entrance"], std::string(GetParam()) == "txt" ? 1 : 2);
   EXPECT_EQ(count.count("handle"), 0u);
 }
 
-TEST_P(BlenderFormats, ObjectsOfOneMeshShareIt) {
+TEST_P(BlenderFormats, ObjectsShareMeshes) {
   const scene::Scene scene = scene::load_scene(level("courtyard", GetParam())).value_or_throw();
   std::set<std::uint32_t> meshes;
   int crates = 0;
   for (const scene::Object& object : scene.objects) {
-    // The tipped one is turned and scaled unevenly, which Scene.txt cannot say of a shared mesh.
+    // The tipped one is rotated and scaled non-uniformly, which Scene.txt cannot express for a shared mesh.
     if (!object.name.starts_with("Crate") || object.name == "Crate_tipped") continue;
     meshes.insert(object.mesh);
     ++crates;
@@ -213,7 +211,7 @@ TEST_P(BlenderFormats, ObjectsOfOneMeshShareIt) {
   EXPECT_EQ(meshes.size(), 1u);
 }
 
-TEST_P(BlenderFormats, WhatIsBeingEditedIsExportedAsItIsShown) {
+TEST_P(BlenderFormats, MeshesInEditModeAreExported) {
   const scene::Bounds bounds =
       scene::world_bounds(scene::load_scene(level("edited", GetParam())).value_or_throw());
   EXPECT_LT(glm::distance(bounds.max, glm::vec3(5, 5, 1)), kNear);
@@ -221,7 +219,7 @@ TEST_P(BlenderFormats, WhatIsBeingEditedIsExportedAsItIsShown) {
   EXPECT_EQ(read_json(blender_run().folder / "edited/facts.json")["mode"], "EDIT_MESH");
 }
 
-TEST_P(BlenderFormats, WhatCannotBeCarriedIsLeftOutAndSaid) {
+TEST_P(BlenderFormats, UnsupportedContentIsSkippedWithAWarning) {
   const scene::Scene scene = scene::load_scene(level("odd", GetParam())).value_or_throw();
   ASSERT_TRUE(scene.grenade.has_value());
   EXPECT_EQ(scene.grenade->name, "Grenade");
@@ -231,17 +229,18 @@ TEST_P(BlenderFormats, WhatCannotBeCarriedIsLeftOutAndSaid) {
   for (const scene::Object& object : scene.objects)
     first_words.insert(object.name.substr(0, object.name.find('.')));
   EXPECT_EQ(first_words, (std::set<std::string>{"cube", "flat", "Outdoor_stone"}));
-  // A plane that Blender shows, though its box has no volume.
+  // A plane without volume that Blender shows.
   EXPECT_FLOAT_EQ(scene::world_bounds(scene).min.y, -3);
   for (const char* said :
-       {"the light \"dark\" takes light away", "the camera \"flat view\" is not a perspective one",
-        "the image \"gone\" has no pixels", "\"Outdoor stone\" is no door, but the viewer opens it"}) {
+       {"the light \"dark\" has negative power or colour",
+        "the camera \"flat view\" is not a perspective camera", "the image \"gone\" has no pixels",
+        "\"Outdoor stone\" has \"door\" in its name"}) {
     EXPECT_NE(blender_run().log.find(std::string("Brume: warning: ") + said), std::string::npos) << said;
   }
 }
 
 // Radiant intensities [W/sr]: power / (4 pi) of points and spots; power / 4 of an area light along its axis.
-TEST_P(BlenderFormats, LampsShineAsInBlender) {
+TEST_P(BlenderFormats, LightsMatchBlender) {
   const double pi = std::acos(-1.0);
   for (const auto& sample : {std::pair{"courtyard", 1.0}, std::pair{"small", 0.25}}) {
     const double metres = sample.second;
@@ -257,7 +256,7 @@ TEST_P(BlenderFormats, LampsShineAsInBlender) {
       EXPECT_NEAR(double{found->intensity.r}, red, 1e-4 * red);
       EXPECT_EQ(found->kind, is_txt ? scene::LightKind::point : kind);
       if (found->kind == scene::LightKind::point) return;
-      // All lights with a direction look from where they are to where build_lights() says.
+      // Lights with a direction point at the target in build_lights().
       const glm::dvec3 aim = blender.z > 8   ? glm::dvec3(-2, 0, -3)
                              : blender.z > 3 ? glm::dvec3(0.2, 0.6, -0.9)
                                              : glm::dvec3(0, 0.5, -2);
@@ -272,7 +271,7 @@ TEST_P(BlenderFormats, LampsShineAsInBlender) {
   }
 }
 
-TEST_P(BlenderFormats, TheTimelineSaysWhatTheSceneDoes) {
+TEST_P(BlenderFormats, TimelineMatchesTheScene) {
   const scene::Timeline timeline =
       scene::load_timeline(this->timeline("courtyard", GetParam())).value_or_throw();
   const scene::Scene scene = scene::load_scene(timeline.scene).value_or_throw();
@@ -308,16 +307,15 @@ TEST_P(BlenderFormats, TheTimelineSaysWhatTheSceneDoes) {
   EXPECT_TRUE(timeline.doors[0].open);
 }
 
-// Blender's own view of frame 49, which is 2 s in: the eye, and the corners of the picture one focal length
-// ahead.
-TEST_P(BlenderFormats, TheCameraSeesWhatBlendersSees) {
+// Blender's view at frame 49 (2 s): the eye, and the corners of the image one focal length ahead.
+TEST_P(BlenderFormats, CameraMatchesBlender) {
   const scene::Timeline timeline =
       scene::load_timeline(this->timeline("courtyard", GetParam())).value_or_throw();
   EXPECT_GT(timeline.camera.size(), 8u);
   const scene::Camera camera = scene::camera_at(timeline, {}, 2);
   const Json view = read_json(blender_run().folder / "courtyard" / "expected.json")["frame_49"];
   const glm::dvec3 eye = turned(view["eye"]);
-  // Keys stand an eighth of a second apart; between them Brume's curve is not Blender's.
+  // Keys are an eighth of a second apart; between them the curves of Brume and Blender differ.
   EXPECT_LT(glm::distance(glm::dvec3(camera.position_world), eye), 1e-3);
   glm::dvec3 middle(0), top(0), bottom(0);
   for (const Json& corner : view["corners"]) {
@@ -333,8 +331,8 @@ TEST_P(BlenderFormats, TheCameraSeesWhatBlendersSees) {
   EXPECT_NEAR(double{camera.vertical_fov}, fov, 1e-4);
 }
 
-// What the panels take at most and at least, a timeline takes; what they say unasked is what it means unsaid.
-TEST_F(Blender, SettingsHaveTheRangesAndDefaultsOfTimelines) {
+// Timelines accept the limits of all properties, and the defaults of both are the same.
+TEST_F(Blender, SettingsMatchTheRangesAndDefaultsOfTimelines) {
   for (const char* setting : {"least", "usual", "most"}) {
     const auto read = scene::load_timeline(blender_run().folder / (setting + std::string(".toml")));
     ASSERT_TRUE(read) << setting << ": " << read.failure().message;
@@ -372,37 +370,37 @@ TEST_F(Blender, SettingsHaveTheRangesAndDefaultsOfTimelines) {
   }
 }
 
-TEST_F(Blender, TheExportLeavesTheFileAsItWas) {
+TEST_F(Blender, ExportDoesNotChangeTheFile) {
   const Json expected = read_json(blender_run().folder / "courtyard" / "expected.json");
   EXPECT_EQ(expected["left_behind"], Json::array());
   EXPECT_EQ(expected["frame_after"], 49);
 }
 
-TEST_F(Blender, PicturesOfFilesAreCopiedAsTheyAre) {
+TEST_F(Blender, ImageFilesAreCopiedUnchanged) {
   const auto textures = blender_run().folder / "courtyard/txt/Textures";
   EXPECT_EQ(read_text_file(textures / "ground_diffuse.jpg").value_or_throw(),
             read_text_file(blender_run().folder / "paving stones.jpg").value_or_throw());
   EXPECT_FALSE(std::filesystem::exists(textures / "ground_diffuse.png"));
-  // Brume's own reader takes them all: no stand-in is in the scene.
+  // Brume reads all of them: the scene has no placeholders.
   const scene::Scene scene = scene::load_scene(level("courtyard", "txt")).value_or_throw();
   for (const scene::Image& image : scene.images) EXPECT_NE(image.name, "stand-in checker");
 }
 
-TEST_F(Blender, TheCameraOfAGltfIsInTheFile) {
+TEST_F(Blender, GltfContainsTheCamera) {
   const scene::Scene scene = scene::load_scene(level("courtyard", "gltf")).value_or_throw();
   ASSERT_TRUE(scene.camera.has_value());
   const scene::Timeline timeline = scene::load_timeline(this->timeline("courtyard", "gltf")).value_or_throw();
   EXPECT_NEAR(scene.camera->vertical_fov, scene::camera_at(timeline, {}, 2).vertical_fov, 1e-4f);
 }
 
-TEST_F(Blender, RenderWithBrumeShowsThePicture) {
+TEST_F(Blender, RenderWithBrumeShowsTheImage) {
   const image::Image8 picture = image::load_image(blender_run().folder / "render.png").value_or_throw();
   EXPECT_EQ(picture.width, 960u);
   EXPECT_EQ(picture.height, 540u);
   expect_a_picture(picture);
 }
 
-TEST_F(Blender, VoxelsComeBackWhereTheyAre) {
+TEST_F(Blender, ImportedVoxelsAreInPlace) {
   const Json voxels = read_json(blender_run().folder / "voxels.json");
   EXPECT_EQ(voxels["role"], "LEFT_OUT");
   const cli::Outcome run =
@@ -423,16 +421,17 @@ TEST_F(Blender, VoxelsComeBackWhereTheyAre) {
   EXPECT_NEAR(volume / (0.2 * 0.2 * 0.2), told["solid"].get<double>(), 0.5);
 }
 
-TEST_F(Blender, SaysInOneLineWhatIsWrong) {
+TEST_F(Blender, FailuresAreOneLine) {
   const Json lines = read_json(blender_run().folder / "failures.json");
   const auto expect_line = [&](const char* what, const char* part) {
     const std::string line = lines[what];
     EXPECT_NE(line.find(part), std::string::npos) << what << ": " << line;
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
   };
-  expect_line("no program", "no brume here is no program; choose brume in Preferences > Add-ons > Brume");
+  expect_line("no program",
+              "no brume here is not executable; set the path of brume in Preferences > Add-ons > Brume");
   expect_line("program fails", "brume ended with code 1");
-  expect_line("no voxels", "scene.obj:2: expected the voxels");
+  expect_line("no voxels", "scene.obj:2: expected voxels");
   expect_line("no folder", "cannot be written");
   expect_line("empty scene", "the scene has no visible mesh");
 }

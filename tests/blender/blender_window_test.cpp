@@ -1,4 +1,4 @@
-// What needs a screen: Blender's own renderer, and its window.
+// Tests that require a display: Blender's renderer and its window.
 #include "image/decode.hpp"
 #include "scene/load.hpp"
 #include "tests/blender/blender_fixture.hpp"
@@ -9,14 +9,14 @@ namespace {
 using Json = nlohmann::json;
 
 // EEVEE's picture of a plane two metres below each light, against the light that Brume reads: radiance is 0.8
-// / pi of what falls in. EEVEE fits the power of area lights to Cycles' by a factor of 0.8 for pi / 4, 1.9 %
+// / pi of the irradiance. EEVEE fits the power of area lights to Cycles' by a factor of 0.8 for pi / 4, 1.9 %
 // more, and the lights have a size.
-TEST_F(Blender, LampsLightAsBlendersOwnRendererShows) {
+TEST_F(Blender, LightsMatchBlendersRenderer) {
   const Json measured = read_json(blender_run().folder / "lights.json");
   ASSERT_EQ(measured.size(), 4u);
   for (const auto& [kind, radiance] : measured.items()) {
     const scene::Scene scene =
-        scene::load_scene(blender_run().folder / ("lamp_" + kind + ".glb")).value_or_throw();
+        scene::load_scene(blender_run().folder / ("light_" + kind + ".glb")).value_or_throw();
     ASSERT_EQ(scene.lights.size(), 1u) << kind;
     const double falls_in = double{scene.lights[0].intensity.g} / (kind == "SUN" ? 1 : 2 * 2);
     const double expected = 0.8 / std::acos(-1.0) * falls_in;
@@ -24,9 +24,9 @@ TEST_F(Blender, LampsLightAsBlendersOwnRendererShows) {
   }
 }
 
-// In a window: Blender's timers go on while Brume renders, the picture comes up in the Image Editor, Esc ends
-// the program, a program that fails leaves the picture that was there.
-TEST_F(Blender, RendersBesideAWindowThatGoesOn) {
+// In a window: Blender's timers run while Brume renders, the image appears in the Image Editor, Esc stops the
+// program, and a failing program keeps the previous image.
+TEST_F(Blender, RendersWithoutBlockingTheWindow) {
   const Json window = read_json(blender_run().folder / "window.json");
   EXPECT_EQ(window["started"], Json({"RUNNING_MODAL"}));
   EXPECT_GE(window["ticks"], 10);
@@ -37,7 +37,7 @@ TEST_F(Blender, RendersBesideAWindowThatGoesOn) {
   EXPECT_EQ(window["image_after"], true);
   ASSERT_EQ(window["viewed"], true);
   expect_a_picture(image::load_image(blender_run().folder / "view.png").value_or_throw());
-  // Panels that fail to draw say so on the console.
+  // Panels that fail to draw print a traceback.
   EXPECT_EQ(blender_run().log.find("Traceback"), std::string::npos) << blender_run().log;
 }
 

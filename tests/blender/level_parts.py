@@ -1,4 +1,4 @@
-"""A courtyard behind a wall, made of everything that an export can get wrong: rotated, scaled, mirrored, parented,
+"""A courtyard behind a wall, with everything that is hard to export: rotated, scaled, mirrored, parented,
 sheared, instanced and modified objects, curves and letters, names that clash. Units are Blender's."""
 
 import math
@@ -24,7 +24,7 @@ def material(name, color, roughness=0.8, image=None):
 
 
 def brick_image(name, joint, brick, contrast, length):
-    """Courses of bricks, generated: no file lies behind it."""
+    """A generated brick image without a file."""
     width, height = 128, 128
     image = bpy.data.images.new(name, width, height)
     pixels = []
@@ -40,7 +40,7 @@ def brick_image(name, joint, brick, contrast, length):
 
 
 def save(image, path, kind):
-    """Makes it a picture of a file."""
+    """Saves an image to a file."""
     image.filepath_raw, image.file_format = path, kind
     image.save()
     return bpy.data.images.load(path)
@@ -55,7 +55,7 @@ def add(name, data, parent=None, collection=None, location=(0, 0, 0), rotation=(
 
 
 def box_mesh(name, low, high, *materials):
-    """A box with texture coordinates in units of length."""
+    """A box with texture coordinates in scene units."""
     corners = [[(high if i >> axis & 1 else low)[axis] for axis in range(3)] for i in range(8)]
     faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
     mesh = bpy.data.meshes.new(name)
@@ -72,7 +72,7 @@ def box_mesh(name, low, high, *materials):
 
 
 def wedge_mesh(name, entry):
-    """A ramp: no mirror image of itself looks the same."""
+    """A ramp: has no mirror symmetry."""
     mesh = bpy.data.meshes.new(name)
     points = [(0, 0, 0), (2, 0, 0), (0, 1, 0), (2, 1, 0), (0, 0, 1), (0, 0.6, 1)]
     mesh.from_pydata(points, [], [(0, 2, 3, 1), (0, 1, 4), (2, 5, 3), (0, 4, 5, 2), (1, 3, 5, 4)])
@@ -81,7 +81,7 @@ def wedge_mesh(name, entry):
 
 
 def ball_mesh(name, entry):
-    """Smooth: its corners' normals are not those of its faces."""
+    """A sphere with smooth normals."""
     mesh = bpy.data.meshes.new(name)
     ball = bmesh.new()
     bmesh.ops.create_uvsphere(ball, u_segments=12, v_segments=8, radius=1)
@@ -93,7 +93,7 @@ def ball_mesh(name, entry):
 
 
 def instancing_nodes(thing):
-    """Geometry nodes that set an instance of an object on every point, in its own scale (Blender 3.4's groups)."""
+    """A geometry node group (Blender 3.4) that instances an object on every point, with its own scale."""
     group = bpy.data.node_groups.new("scatter", "GeometryNodeTree")
     group.inputs.new("NodeSocketGeometry", "Geometry")
     group.outputs.new("NodeSocketGeometry", "Geometry")
@@ -110,7 +110,7 @@ def instancing_nodes(thing):
 
 
 def looks(folder):
-    """The materials, two with pictures: one of a file, one of none."""
+    """The materials, two with images: one from a file, one generated."""
     wall = brick_image("bricks", (0.5, 0.47, 0.43), (0.46, 0.24, 0.17), 0.22, 32)
     bricks = material("Old bricks", (1, 1, 1), 0.9, wall)
     paving = brick_image("paving", (0.17, 0.16, 0.15), (0.36, 0.34, 0.32), 0.15, 16)
@@ -124,7 +124,7 @@ def looks(folder):
 
 def add_walls(look):
     add("Ground", box_mesh("ground", (-6.13, -4.07, -0.21), (6.11, 5.09, 0), look.ground))
-    # Names that a file system may take for the same.
+    # Names that collide on some file systems.
     add("Wall", box_mesh("left", (-6.13, 2, 0), (-0.61, 2.33, 4.17), look.bricks))
     add("wall", box_mesh("right", (0.61, 2, 0), (6.11, 2.33, 4.17), look.bricks))
     add("Wall.lintel", box_mesh("lintel", (-0.61, 2, 2.23), (0.61, 2.33, 4.17), look.bricks))
@@ -138,7 +138,7 @@ def add_walls(look):
 
 
 def add_blocks(look, crate):
-    """Rotated about all axes and scaled unevenly; mirrored; mirrored by a parent that is itself rotated."""
+    """Objects rotated about all axes and scaled non-uniformly; mirrored; mirrored by a rotated parent."""
     add("Crate", crate, location=(2.6, -0.4, 0.43), rotation=(0, 0, 0.4), scale=(0.85, 0.85, 0.85))
     add("Crate.001", crate, location=(2.75, -0.35, 1.16), rotation=(0, 0, -0.3), scale=(0.6, 0.6, 0.6))
     add("Crate tipped", crate, location=(3.55, -1.13, 0.55), rotation=(0.5, 0.3, 1.1), scale=(0.9, 0.6, 0.7))
@@ -153,7 +153,7 @@ def add_blocks(look, crate):
 
 
 def add_shapes(look):
-    """Modifiers, a curve, letters."""
+    """Modifiers, a curve, a text object."""
     step = box_mesh("step", (-0.61, -0.3, -0.02), (0.61, 0, 0.17), look.ground)
     steps = add("Steps", step, location=(0.003, 1.98, 0), scale=(1, 1, 0.9))
     repeat = steps.modifiers.new("array", "ARRAY")
@@ -174,7 +174,7 @@ def add_shapes(look):
 
 
 def add_bushes(look):
-    """A collection of bushes, instanced twice: turned, and mirrored. Smoke passes through them."""
+    """A collection of bushes, instanced twice: rotated, and mirrored. Smoke passes through them."""
     bushes = bpy.data.collections.new("bushes")
     bush = bpy.data.meshes.new("bush")
     blades = 14
@@ -198,7 +198,7 @@ def add_bushes(look):
 
 
 def add_instances(look):
-    """Instances on the corners of a mesh, which replace the child that is instanced; and by geometry nodes."""
+    """Instances on the vertices of a mesh, which replace the instanced child; and by geometry nodes."""
     rail = bpy.data.meshes.new("rail")
     rail.from_pydata([(-5.6, -2.2, 0), (-5.6, -1.4, 0), (-5.5, -0.6, 0)], [(0, 1), (1, 2)], [])
     posts = add("Rail", rail)
@@ -212,14 +212,14 @@ def add_instances(look):
 
 
 def add_names(look):
-    """Names that no file system or no Scene.txt takes as they are."""
+    """Names that are invalid in some file systems or in Scene.txt."""
     for number, name in enumerate(("Käfig (grün)", "con", "\u6728\u7bb1", "# one", "LIGHT_SOURCE")):
         size = 0.2 + 0.01 * number
         add(name, box_mesh(name, (0, 0, 0), (size, size, size), look.wood), location=(5.2, 1.6 - 0.3 * number, 0.01))
 
 
 def add_exceptions(look, crate):
-    """One mesh in two materials, the second by its object; and what must not come out."""
+    """One mesh in two materials, the second by its object; and objects that must not be exported."""
     post = box_mesh("post", (-0.1, -0.1, 0), (0.1, 0.1, 1.1), look.metal, look.metal)
     post.polygons[1].material_index = 1
     cap = add("Post", post, location=(-2.33, -2.11, 0.01))
@@ -278,7 +278,7 @@ def build_camera():
 
 
 def star_image():
-    """White where a star of five rays is."""
+    """A white five-pointed star."""
     size = 64
     image = bpy.data.images.new("star", size, size)
     pixels = []
@@ -316,7 +316,7 @@ def build_events(folder):
 
 
 def build_all(folder):
-    """The courtyard with its lights, camera and events, at a moment when much happens. Files are written to `folder`."""
+    """The courtyard with its lights, camera and events, at a busy frame. Files are written to `folder`."""
     build_courtyard(folder)
     build_lights()
     build_camera()

@@ -1,4 +1,4 @@
-"""Run by Blender, where it has a screen: blender -b --factory-startup -P lights.py -- ADDON.zip BRUME FOLDER
+"""Run by Blender with a display: blender -b --factory-startup -P lights.py -- ADDON.zip BRUME FOLDER
 
 Exports a light of each kind above a white plane, and lets Blender's own renderer say how bright the plane is below it:
 lights.json.
@@ -14,8 +14,8 @@ import bpy
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import level_parts  # noqa: E402
 
-# Watts; of the sun W/m^2. All two metres above a plane that reflects 0.8 evenly.
-LAMPS = {"POINT": 100, "SPOT": 100, "AREA": 100, "SUN": 3}
+# [W]; sun [W/m^2]. All are two metres above a diffuse plane with albedo 0.8.
+LIGHTS = {"POINT": 100, "SPOT": 100, "AREA": 100, "SUN": 3}
 
 
 def diffuse():
@@ -40,9 +40,9 @@ def build_plane():
 
 
 def add_light(kind):
-    """No shadows, no highlights, small lights: what is left is the light's power and the distance."""
+    """No shadows, no highlights, small lights: only power and distance matter."""
     light = bpy.data.lights.new("light", kind)
-    light.energy, light.use_shadow, light.specular_factor = LAMPS[kind], False, 0
+    light.energy, light.use_shadow, light.specular_factor = LIGHTS[kind], False, 0
     if kind in {"POINT", "SPOT"}:
         light.shadow_soft_size = 0.01
     if kind == "AREA":
@@ -53,7 +53,7 @@ def add_light(kind):
 
 
 def radiance(path):
-    """Of the middle of the picture, by EEVEE."""
+    """Radiance at the centre of the image, rendered by EEVEE."""
     scene = bpy.context.scene
     scene.render.engine = "BLENDER_EEVEE"
     scene.eevee.taa_render_samples, scene.eevee.use_soft_shadows = 16, False
@@ -72,10 +72,10 @@ def main():
     bpy.ops.preferences.addon_enable(module="brume")
     build_plane()
     measured = {}
-    for kind in LAMPS:
+    for kind in LIGHTS:
         light = add_light(kind)
-        bpy.ops.brume.export_level(filepath=os.path.join(folder, f"lamp_{kind}.glb"), format="GLTF")
-        measured[kind] = radiance(os.path.join(folder, f"lamp_{kind}.exr"))
+        bpy.ops.brume.export_level(filepath=os.path.join(folder, f"light_{kind}.glb"), format="GLTF")
+        measured[kind] = radiance(os.path.join(folder, f"light_{kind}.exr"))
         bpy.data.objects.remove(light)
     with open(os.path.join(folder, "lights.json"), "w", encoding="utf-8") as file:
         json.dump(measured, file)

@@ -15,7 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import level_parts  # noqa: E402
 
 
-# What TOML has to write with escapes, or as UTF-8.
+# Characters that TOML must escape or write as UTF-8.
 LETTERS = 'a "b" \\ é \U0001f32b'
 
 
@@ -47,7 +47,7 @@ def corners_of(mesh, world, mirrored):
 
 
 def expected_triangles():
-    """Of all that renders and is not left out, with the names of Blender's objects."""
+    """The triangles of everything that renders and is exported, with the names of Blender's objects."""
     found = []
     depsgraph = bpy.context.evaluated_depsgraph_get()
     for instance in depsgraph.object_instances:
@@ -55,7 +55,7 @@ def expected_triangles():
         if instance.object.type != "MESH" or source.brume.role == "LEFT_OUT":
             continue
         if not instance.is_instance:
-            # An object that is instanced on corners is not rendered where it stands itself.
+            # An object that is instanced on vertices is not rendered at its own position.
             if source.hide_render or source.name in ("Rail", "Bollard"):
                 continue
         world = instance.matrix_world.copy()
@@ -78,7 +78,7 @@ def export_both(folder, name):
 
 
 def left_behind():
-    """What the export must not leave in the file."""
+    """Counts the data blocks that the export must not change."""
     kinds = ("scenes", "objects", "meshes", "lights", "cameras")
     return sorted(block.name for kind in kinds for block in getattr(bpy.data, kind))
 
@@ -99,7 +99,7 @@ def make_courtyard(folder):
     facts["left_behind"] = [name for name in left_behind() if name not in before]
     facts["frame_after"] = scene.frame_current
     write_json(os.path.join(folder, "courtyard", "expected.json"), facts)
-    # The same in units of a quarter of a metre.
+    # The same with units of 0.25 m.
     scene.unit_settings.scale_length = 0.25
     export_both(folder, "small")
     write_json(os.path.join(folder, "small", "expected.json"), {"triangles": triangles, "metres": 0.25})
@@ -107,7 +107,7 @@ def make_courtyard(folder):
 
 
 def empty_with(kind, number, setting):
-    """An event of a kind whose every number is its least, its most, or what it is when nobody set it."""
+    """An event whose numbers are all at their minimum, maximum or default."""
     made = level_parts.add(f"{kind} {number}", None, location=(number, 0, 0))
     event = made.brume_event
     event.type = kind
@@ -118,7 +118,7 @@ def empty_with(kind, number, setting):
 
 
 def make_ranges(folder):
-    """Timelines whose every number is at an end of what the panels take."""
+    """Timelines whose numbers are all at the minimum, default or maximum of their properties."""
     for setting in ("least", "usual", "most"):
         empty_scene()
         level_parts.add("floor", level_parts.box_mesh("floor", (-1, -1, -1), (1, 1, 0)))
@@ -132,7 +132,7 @@ def make_ranges(folder):
 
 
 def make_odd(folder):
-    """What is not as an export likes it: a mesh that is being edited, flat, empty, of many materials, dark lights."""
+    """Unusual contents: meshes in edit mode, flat, empty, with many materials; negative lights."""
     empty_scene()
     cube = level_parts.add("cube", level_parts.box_mesh("cube", (-1, -1, -1), (1, 1, 1)))
     bpy.context.view_layer.objects.active = cube
@@ -186,14 +186,14 @@ def render_and_voxelize(folder, brume):
         "points": [tuple(voxels.matrix_world @ vertex.co) for vertex in voxels.data.vertices],
         "outward": sum(
             face.area * face.center.dot(face.normal) for face in voxels.data.polygons
-        ),  # Three times the volume inside.
+        ),  # Three times the enclosed volume.
         "role": voxels.brume.role,
     }
     write_json(os.path.join(folder, "voxels.json"), facts)
 
 
 def says(operator, **arguments):
-    """The one line that an operator fails with."""
+    """Returns the error message of a failing operator."""
     try:
         operator(**arguments)
     except RuntimeError as error:

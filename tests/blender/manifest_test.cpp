@@ -1,4 +1,4 @@
-// The package is what Blender 3.4 takes as an add-on and 4.2 as an extension; needs no Blender.
+// The package is a valid add-on for Blender 3.4 and extension for 4.2; does not require Blender.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -19,8 +19,8 @@ std::string manifest_text() {
   return read_text_file(kAddon / "blender_manifest.toml").value_or_throw();
 }
 
-// The fields and their forms as "Blender 4.2 manual, Extensions: getting started" lists them.
-TEST(BlenderPackage, TheManifestHasWhatBlender42AsksFor) {
+// Fields and formats of "Blender 4.2 manual, Extensions: getting started".
+TEST(BlenderPackage, ManifestHasTheFieldsThatBlender42Requires) {
   const std::string text = manifest_text();
   const auto parsed = scene::parse_toml(text, "blender_manifest.toml");
   ASSERT_TRUE(parsed) << parsed.failure().message;
@@ -51,7 +51,7 @@ TEST(BlenderPackage, TheManifestHasWhatBlender42AsksFor) {
   }
 }
 
-TEST(BlenderPackage, BothVersionsAreTheSame) {
+TEST(BlenderPackage, ManifestAndCodeHaveTheSameVersion) {
   std::smatch in_manifest, in_code;
   const std::string manifest = manifest_text();
   const std::string code = read_text_file(kAddon / "__init__.py").value_or_throw();
@@ -61,8 +61,8 @@ TEST(BlenderPackage, BothVersionsAreTheSame) {
   for (std::size_t part = 1; part <= 3; ++part) EXPECT_EQ(in_manifest[part], in_code[part]);
 }
 
-// One folder with the package's name, as 3.4 wants it; the manifest in it, where 4.2 looks.
-TEST(BlenderPackage, TheZipHoldsTheSourcesAlone) {
+// One folder with the name of the package, as 3.4 requires, with the manifest in it for 4.2.
+TEST(BlenderPackage, ZipContainsOnlyTheSources) {
   const cli::WorkFolder folder;
   const std::string zip = (folder.path() / "brume.zip").string(), list = (folder.path() / "list").string();
   std::ostringstream command;

@@ -17,7 +17,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import level_parts  # noqa: E402
 
 IMAGE = "Brume Render"
-# [s]: only what hangs takes so long.
+# [s]: only ends tests that hang.
 HANG = 600
 
 bpy.context.preferences.view.show_splash = False
@@ -63,7 +63,7 @@ def show(thing):
 
 
 def point_at(x, y):
-    """Puts the mouse there, from the window's lower left corner; X counts from the upper left one."""
+    """Moves the mouse; the origin is the lower left corner of the window, for X the upper left one."""
     height = bpy.context.window_manager.windows[0].height
     subprocess.run(["xdotool", "mousemove", str(x), str(height - 1 - y)], check=True)
 
@@ -100,7 +100,7 @@ def set_up(addon, folder):
 
 
 def draw_panels(view):
-    show(bpy.data.objects["star"])  # Without it there is no tab Item.
+    show(bpy.data.objects["star"])  # Without a selection there is no tab Item.
     yield 1.0
     yield from choose_tab(view)
     for name in ("entrance", "bushes left", "word", "blast", "door opens", "Grenade at the steps", "word"):
@@ -109,7 +109,7 @@ def draw_panels(view):
 
 
 def render(preferences, brume, folder, editor, facts):
-    """A render that begins once Blender's own timers have gone on beside it."""
+    """A render that starts only after Blender's timers have run in the meantime."""
     mark = os.path.join(folder, "ticked")
     commands = f"while [ ! -e '{mark}' ]; do sleep 0.1; done; exec '{brume}' \"$@\""
     preferences.program = write_program(folder, "waiting", commands)
@@ -139,7 +139,7 @@ def take_picture(view, editor, path):
 
 
 def render_without_editor(preferences, folder, editor, facts):
-    """The picture opens a window of its own; the program is one that is quick."""
+    """The image opens a window of its own; uses a program that ends quickly."""
     with open(os.path.join(folder, "first.png"), "wb") as file:
         file.write(bpy.data.images[IMAGE].packed_file.data)
     preferences.program = write_program(folder, "quick", f"cp '{folder}/first.png' render.png")
@@ -158,7 +158,7 @@ def render_without_editor(preferences, folder, editor, facts):
 
 
 def stop_by_escape(preferences, folder, view, facts):
-    """A program that does not end by itself."""
+    """A program that never ends."""
     mark, deadline = os.path.join(folder, "pid"), time.monotonic() + HANG
     commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep infinity"
     preferences.program = write_program(folder, "endless", commands)
@@ -174,7 +174,7 @@ def stop_by_escape(preferences, folder, view, facts):
 
 
 def walk_in(preferences, brume, folder, facts):
-    """Brume's own window beside Blender's, with the events of the scene; it closes by itself here."""
+    """The viewer beside Blender's window, with the events of the scene; closes by itself in the test."""
     picture, deadline = os.path.join(folder, "view.png"), time.monotonic() + HANG
     options = f"--exit-after 1.5 --screenshot '{picture}' --size 320x180 --bare"
     preferences.program = write_program(folder, "viewer", f"exec '{brume}' \"$@\" {options}")
@@ -186,7 +186,7 @@ def walk_in(preferences, brume, folder, facts):
 
 
 def steps(addon, brume, folder):
-    """Does what a person does; yields how long it waits [s]."""
+    """Simulates user input; yields the time to wait [s]."""
     set_up(addon, folder)
     view, editor = lay_out()
     preferences = bpy.context.preferences.addons["brume"].preferences
@@ -197,7 +197,7 @@ def steps(addon, brume, folder):
     yield from render_without_editor(preferences, folder, editor, facts)
     yield from stop_by_escape(preferences, folder, view, facts)
     yield from walk_in(preferences, brume, folder, facts)
-    # A program that fails leaves the picture that was there.
+    # A failing program keeps the previous image.
     preferences.program = "/bin/false"
     invoke_render()
     yield 1.0

@@ -1,5 +1,5 @@
-// Whatever goes wrong: one line on standard error that names the place, nothing on standard output, the exit
-// code of docs/conventions.md, and no file left behind.
+// Every failure prints one line to standard error that names the place and nothing to standard output, has
+// the exit code of docs/conventions.md, and leaves no file behind.
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mount.h>
@@ -33,7 +33,7 @@ TEST(BadInput, UnknownKeyInATimeline) {
   expect_failure(folder, {"render", "a.toml", "-o", "a.png"}, 3, {"a.toml:3:", "durration", "duration"});
 }
 
-TEST(BadInput, WordInPlaceOfANumberInSceneTxt) {
+TEST(BadInput, WordInsteadOfANumberInSceneTxt) {
   const WorkFolder folder;
   folder.write("Scene.txt", "# objects\nWall 0 0 0  0 zero 0  1 1 1 Brick 0.5\n");
   expect_failure(folder, voxelize("Scene.txt"), 3, {"Scene.txt:2:", "zero", "number"});
@@ -59,7 +59,7 @@ TEST(BadInput, EmptyScene) {
   expect_failure(folder, voxelize("Scene.txt"), 3, {"Scene.txt"});
 }
 
-TEST(BadInput, GridsThatCannotBe) {
+TEST(BadInput, InvalidGrids) {
   const WorkFolder folder;
   folder.write("room.obj", room_obj());
   expect_failure(folder, voxelize("room.obj", {"--grid", "0x10x10"}), 2, {"0"});
@@ -71,7 +71,7 @@ TEST(BadInput, GridsThatCannotBe) {
   expect_failure(folder, voxelize("room.obj", {"--grid", "8x8x8", "--origin", "0,0,inf"}), 2, {"--origin"});
 }
 
-TEST(BadInput, ArgumentsThatCannotBe) {
+TEST(BadInput, InvalidArguments) {
   const WorkFolder folder;
   folder.write("room.obj", room_obj());
   expect_failure(folder, {}, 2, {"--help"});
@@ -89,7 +89,7 @@ TEST(BadInput, ArgumentsThatCannotBe) {
   expect_failure(folder, {"info", "room.blend"}, 2, {"room.blend", ".glb"});
 }
 
-TEST(BadInput, OutputFolderThatDoesNotExist) {
+TEST(BadInput, MissingOutputFolder) {
   const WorkFolder folder;
   folder.write("room.obj", room_obj());
   expect_failure(folder, {"voxelize", "room.obj", "-o", "none/a.vxl"}, 3, {"none", "does not exist"});
@@ -98,13 +98,13 @@ TEST(BadInput, OutputFolderThatDoesNotExist) {
   expect_failure(folder, {"render", "room.obj", "-o", "none/a.png"}, 3, {"none", "does not exist"});
   expect_failure(folder, {"render", "room.obj", "-o", "none/a_%d.png"}, 3, {"none", "does not exist"});
   expect_failure(folder, {"demo", "--out", "none"}, 3, {"none", "does not exist"});
-  // A file where a folder is needed, and the other way round.
+  // A file instead of a folder, and vice versa.
   expect_failure(folder, {"voxelize", "room.obj", "-o", "room.obj/a.vxl"}, 3, {"room.obj"});
   expect_failure(folder, {"voxelize", "room.obj", "--obj", "."}, 3, {"folder"});
 }
 
-// The old file stays when a new one does not fit.
-TEST(BadInput, FilesThatMayNotGrow) {
+// The old file survives when the new one does not fit.
+TEST(BadInput, FileSizeLimit) {
   const WorkFolder folder;
   folder.write("room.obj", room_obj());
   folder.write("old.obj", "# old\n");
@@ -119,10 +119,10 @@ TEST(BadInput, FullDisk) {
   const WorkFolder folder;
   const auto disk = folder.path() / "disk";
   std::filesystem::create_directory(disk);
-  // In a namespace of our own, so that nothing stays mounted when this process ends.
+  // In a mount namespace of its own, so that nothing stays mounted when this process ends.
   if (::unshare(CLONE_NEWNS) == 0) ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
   if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=4k") != 0) {
-    GTEST_SKIP() << "no small disk can be mounted here, which takes root; FilesThatMayNotGrow has run";
+    GTEST_SKIP() << "no small disk can be mounted here, which takes root; FileSizeLimit has run";
   }
   folder.write("room.obj", room_obj());
   expect_failure(folder, {"voxelize", "room.obj", "--voxel", "0.05", "-o", "disk/a.vxl"}, 4,
@@ -131,7 +131,7 @@ TEST(BadInput, FullDisk) {
   ::umount2(disk.c_str(), MNT_DETACH);
 }
 
-TEST(BadInput, StandardOutputThatIsFull) {
+TEST(BadInput, FullStandardOutput) {
   const WorkFolder folder;
   folder.write("room.obj", room_obj());
   RunOptions full;
@@ -150,7 +150,7 @@ TEST(BadInput, NoDevice) {
                  {"no such device"});
 }
 
-TEST(BadInput, DamagedPictures) {
+TEST(BadInput, DamagedImage) {
   const WorkFolder folder;
   folder.write("a.png", "not a picture");
   expect_failure(folder, {"info", "a.png"}, 3, {"a.png"});

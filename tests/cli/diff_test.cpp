@@ -1,4 +1,4 @@
-// `brume diff`: how far two pictures are apart.
+// `brume diff`: the difference of two images.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
 
-// A grey picture, one with a texel 20 brighter in green, one of another size.
+// A grey image, one with a texel 20 brighter in green, one of another size.
 class Diff : public testing::Test {
  protected:
   Diff() {
@@ -38,7 +38,7 @@ class Diff : public testing::Test {
   WorkFolder folder_;
 };
 
-TEST_F(Diff, OfOneTexel) {
+TEST_F(Diff, OneTexel) {
   const Outcome run = diff({"a.png", "b.png", "-o", "map.png", "--json", "-"});
   ASSERT_EQ(run.exit_code, 0) << run.error;
   const Json json = Json::parse(run.out);
@@ -62,7 +62,7 @@ TEST_F(Diff, OfOneTexel) {
   EXPECT_EQ(brightest, std::size_t{4 * (8 * 33 + 16)});
 }
 
-TEST_F(Diff, OfEqualPictures) {
+TEST_F(Diff, EqualImages) {
   const Outcome run = diff({"a.png", "a.png", "--fail-above", "0", "--psnr-below", "200", "--json", "-"});
   ASSERT_EQ(run.exit_code, 0) << run.error;
   const Json json = Json::parse(run.out);
@@ -72,7 +72,7 @@ TEST_F(Diff, OfEqualPictures) {
   EXPECT_NE(diff({"a.png", "a.png"}).out.find("psnr   inf dB\n"), std::string::npos);
 }
 
-TEST_F(Diff, FailsBeyondItsThresholdsAndSaysByHowMuch) {
+TEST_F(Diff, FailsBeyondItsThresholdsAndReportsTheDifference) {
   const auto exit_code = [&](const Arguments& more) { return diff(more).exit_code; };
   EXPECT_EQ(exit_code({"a.png", "b.png", "--fail-above", "20.1"}), 0);
   const Outcome above = diff({"a.png", "b.png", "--fail-above", "19.9", "--json", "d.json"});
@@ -84,7 +84,7 @@ TEST_F(Diff, FailsBeyondItsThresholdsAndSaysByHowMuch) {
   EXPECT_EQ(exit_code({"a.png", "clear.png", "--fail-above", "99"}), 7);  // alpha counts
 }
 
-TEST_F(Diff, RefusesWhatCannotBeCompared) {
+TEST_F(Diff, RejectsIncomparableImages) {
   const auto refuses = [&](const Arguments& more, int exit_code, const std::string& part) {
     SCOPED_TRACE(testing::PrintToString(more));
     const auto before = folder_.files();

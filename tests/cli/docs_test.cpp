@@ -1,4 +1,4 @@
-// The commands in the documents and in the program's own help work as they stand there.
+// The commands in the documents and in --help run as written.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-// What a shell makes of a simple command: words, "double quotes", and # to the end of the line.
+// Splits a simple command as a shell does: words, "double quotes", and # to the end of the line.
 Arguments words_of(const std::string& line) {
   Arguments words;
   static const std::regex word("\"([^\"]*)\"|(#.*)|(\\S+)");
@@ -30,7 +30,7 @@ Arguments words_of(const std::string& line) {
   return words;
 }
 
-// The arguments of each line that calls the program.
+// The arguments of every line that runs the program.
 std::vector<Arguments> calls_in(const std::string& text) {
   std::vector<Arguments> calls;
   std::istringstream lines(text);
@@ -59,7 +59,7 @@ std::string shell_blocks(const std::string& markdown) {
   return blocks;
 }
 
-// A folder with the files that documents speak of: the demo's scene under any name, voxels of it.
+// A folder with the files that documents mention: the scene of the demo under any name, and its voxels.
 class Documents : public testing::Test {
  protected:
   Documents() {
@@ -75,12 +75,12 @@ class Documents : public testing::Test {
       std::filesystem::create_symlink(BRUME_SOURCE_DIR "/scenes/demo.glb", path);
     if (path.extension() == ".obj") folder_.write(word, room_obj());
     if (path.extension() == ".png") {
-      const image::Image8 picture{32, 18,
-                                  std::vector<std::uint8_t>(4 * 32 * 18, 255)};  // as render is called
+      const image::Image8 picture{
+          32, 18, std::vector<std::uint8_t>(4 * 32 * 18, 255)};  // the size that render is called with
       image::save_png(path, picture).value_or_throw();
     }
   }
-  // Runs a call small: few pixels, few frames. `demo` and `bench` take minutes and are run by scripts.
+  // Runs a command with few pixels and frames. `demo` and `bench` take minutes and are run by scripts.
   void expect_works(const std::string& source, Arguments call) const {
     SCOPED_TRACE(source + ": brume " + testing::PrintToString(call));
     if (call.empty() || call[0] == "demo" || call[0] == "bench") return;
@@ -108,11 +108,11 @@ class Documents : public testing::Test {
   }
   WorkFolder folder_;
 #ifdef BRUME_VIEWER
-  mutable std::optional<viewer::Desktop> desktop_;  ///< For windows.
+  mutable std::optional<viewer::Desktop> desktop_;  ///< For `brume view`.
 #endif
 };
 
-TEST_F(Documents, TheirCommandsRun) {
+TEST_F(Documents, CommandsRun) {
   std::size_t count = 0;
   std::vector<std::filesystem::path> pages;
   for (const char* folder : {BRUME_SOURCE_DIR, BRUME_SOURCE_DIR "/docs"}) {
@@ -129,7 +129,7 @@ TEST_F(Documents, TheirCommandsRun) {
   EXPECT_GT(count, 0u);
 }
 
-TEST_F(Documents, TheExamplesOfTheHelpRun) {
+TEST_F(Documents, ExamplesOfTheHelpRun) {
   const Outcome help = run_brume(folder_.path(), {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
@@ -150,14 +150,14 @@ TEST_F(Documents, TheExamplesOfTheHelpRun) {
   }
 }
 
-TEST(DocumentRules, TheGalleryShowsTheMomentOfTheDemo) {
+TEST(DocumentRules, GalleryShowsTheFrameOfTheDemo) {
   std::ostringstream call;
   call << "`brume render scenes/demo.toml -o demo.png --time " << kPictureTime << ' ';
   const auto gallery = read_text_file(BRUME_SOURCE_DIR "/docs/gallery.md");
   EXPECT_NE(gallery->find(call.str()), std::string::npos) << call.str();
 }
 
-TEST(DocumentRules, SeeTheCallsOfABlock) {
+TEST(DocumentRules, FindTheCommandsOfABlock) {
   const std::string text =
       "brume no\n```sh\nbrume a \\\n  --b \"c d\"  # e\nls\n```\n```toml\nbrume no\n```\n";
   EXPECT_EQ(calls_in(shell_blocks(text)), (std::vector<Arguments>{{"a", "--b", "c d"}}));

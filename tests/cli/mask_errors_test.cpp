@@ -1,5 +1,5 @@
-// Pictures and texts that cannot be shot through smoke: one line that names the event's or the value's place,
-// what was expected and the mend, and the exit code of docs/conventions.md.
+// Invalid images and texts for shots: the error is one line that names the position of the event or value,
+// the expectation and the fix, with the exit code of docs/conventions.md.
 #include <gtest/gtest.h>
 
 #include "image/png.hpp"
@@ -8,7 +8,8 @@
 namespace brume::cli {
 namespace {
 
-/// A room, and a timeline whose one event begins on line 4 and ends, from line 9 on, with what a test adds.
+/// A room, and a timeline whose one event begins on line 4 and ends, from line 9 on, with lines from the
+/// test.
 class MaskErrors : public testing::Test {
  protected:
   MaskErrors() { folder_.write("room.obj", room_obj()); }
@@ -29,7 +30,7 @@ class MaskErrors : public testing::Test {
                                 std::vector<std::uint8_t>(std::size_t{4} * width * height, 255)};
     ASSERT_TRUE(image::save_png(folder_.path() / name, picture));
   }
-  /// The head of a PNG file (PNG specification, 11.2.2), with nothing in it: the sum of the head is `sum`.
+  /// Writes only the header of a PNG file (PNG specification, 11.2.2); `sum` is its CRC.
   void write_head(const std::string& name, const std::string& size, const std::string& sum) const {
     using namespace std::string_literals;
     folder_.write(name, "\x89PNG\r\n\x1a\n\0\0\0\rIHDR"s + size + "\x08\0\0\0\0"s + sum);
@@ -37,7 +38,7 @@ class MaskErrors : public testing::Test {
   WorkFolder folder_;
 };
 
-TEST_F(MaskErrors, PicturesThatAreNone) {
+TEST_F(MaskErrors, InvalidImages) {
   expect_mask_fails("none.png", 3, {"No such file", "check the path"});
   folder_.write("words.png", "not a picture");
   expect_mask_fails("words.png", 3, {"neither a PNG nor a JPEG file", "convert it"});
@@ -45,18 +46,18 @@ TEST_F(MaskErrors, PicturesThatAreNone) {
   expect_mask_fails("empty.png", 3, {"neither a PNG nor a JPEG file", "convert it"});
   std::filesystem::create_directory(folder_.path() / "folder.png");
   expect_mask_fails("folder.png", 3, {"not a regular file", "check the path"});
-  // One that ends in its middle.
+  // A truncated file.
   write_picture("cut.png", 64, 64);
   const auto cut = folder_.path() / "cut.png";
   std::filesystem::resize_file(cut, std::filesystem::file_size(cut) - 20);
   expect_mask_fails("cut.png", 3, {"PNG", "save it again"});
 }
 
-TEST_F(MaskErrors, PicturesOfAbsurdSizes) {
+TEST_F(MaskErrors, ImagesOfAbsurdSizes) {
   using namespace std::string_literals;
   write_picture("wide.png", 4095, 1);
   expect_mask_fails("wide.png", 4, {"4095 x 1", "at most 4094", "make it smaller"});
-  // Heads that announce 100,000 x 100,000 texels, 16,000 x 16,000 and 0 x 4, without them.
+  // Headers of 100,000 x 100,000, 16,000 x 16,000 and 0 x 4 texels without data.
   write_head("huge.png", "\0\x01\x86\xa0\0\x01\x86\xa0"s, "\x8d\x39\x54\x14"s);
   expect_mask_fails("huge.png", 4, {"100000x100000", "at most 16384", "scale it down"});
   write_head("lies.png", "\0\0\x3e\x80\0\0\x3e\x80"s, "\x64\x15\x80\x02"s);
@@ -65,12 +66,12 @@ TEST_F(MaskErrors, PicturesOfAbsurdSizes) {
   expect_mask_fails("none.png", 3, {"width", "save it again"});
 }
 
-TEST_F(MaskErrors, MorePicturesThanFit) {
+TEST_F(MaskErrors, TooManyImages) {
   std::string lines = "shape = \"mask\"\nmask = \"0.png\"";
   write_picture("0.png", 2000, 2000);
   for (int i = 1; i < 5; ++i) {
     const std::string name = std::to_string(i) + ".png";
-    write_picture(name, 2000, 2000 - i);  // equal ones would be one mask
+    write_picture(name, 2000, 2000 - i);  // equal images would share a mask
     lines +=
         "\n[[event]]\ntype = \"shot\"\ntime = 0.1\nfrom = [0, 1, 1]\ntoward = [0, 1, -1]\nshape = "
         "\"mask\"\nmask = \"" +
@@ -79,7 +80,7 @@ TEST_F(MaskErrors, MorePicturesThanFit) {
   expect_event_fails("shot", lines, 4, {"a.toml:32:1: ", "masks: 5", "4096 x 4096", "fewer or smaller"});
 }
 
-TEST_F(MaskErrors, ShotsThatCannotBe) {
+TEST_F(MaskErrors, InvalidShots) {
   const auto fails = [&](const std::string& lines, const std::vector<std::string>& parts) {
     expect_event_fails("shot", lines, 3, parts);
   };
@@ -97,7 +98,7 @@ TEST_F(MaskErrors, ShotsThatCannotBe) {
   fails("stay = -1", {"a.toml:9:8: ", "from 0 to 600", "found -1"});
 }
 
-TEST_F(MaskErrors, TextsThatCannotBe) {
+TEST_F(MaskErrors, InvalidTexts) {
   const auto fails = [&](const std::string& lines, const std::vector<std::string>& parts) {
     expect_event_fails("text", lines, 3, parts);
   };
@@ -111,7 +112,7 @@ TEST_F(MaskErrors, TextsThatCannotBe) {
   fails("text = \"\xe6\xbc\xa2\"", {"a.toml:4:1: ", "no glyph for U+6F22", "choose another"});
 }
 
-TEST_F(MaskErrors, FontsThatAreNone) {
+TEST_F(MaskErrors, InvalidFonts) {
   const auto fails = [&](const std::string& font, const std::vector<std::string>& parts) {
     expect_event_fails("text", "text = \"A\"\nfont = \"" + font + "\"", 3, parts);
   };
@@ -121,7 +122,7 @@ TEST_F(MaskErrors, FontsThatAreNone) {
   fails("../a.ttf", {"a.toml:10:8: ", "below the timeline's folder"});
 }
 
-TEST_F(MaskErrors, RowsOfAbsurdSizes) {
+TEST_F(MaskErrors, TextsOfAbsurdSizes) {
   const auto fails = [&](const std::string& lines, const std::vector<std::string>& parts) {
     expect_event_fails("text", "text = \"A\"\n" + lines, 3, parts);
   };
@@ -130,7 +131,7 @@ TEST_F(MaskErrors, RowsOfAbsurdSizes) {
   fails("spacing = -3", {"a.toml:10:11: ", "from -0.5 to 10", "found -3"});
   fails("interval = -1", {"a.toml:10:12: ", "from 0 to 10", "found -1"});
   fails("roll = 999", {"a.toml:10:8: ", "from -360 to 360", "found 999"});
-  // Each value may be, but not the row that they make.
+  // Each value is valid, but the resulting row is not.
   expect_event_fails("text", "text = \"" + std::string(1024, 'A') + "\"\nsize = 10\nspacing = 10", 3,
                      {"a.toml:4:1: ", "expected the muzzle within 16384 m"});
 }

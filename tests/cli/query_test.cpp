@@ -1,4 +1,4 @@
-// `brume query`: who sees whom through smoke, holes and walls.
+// `brume query`: visibility through smoke, holes and walls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
 
-// A closed room of 4 x 3 x 4 m with a block in it, smoke in it at 0.1 s that stays for half a second.
+// A closed room of 4 x 3 x 4 m with a block in it, with a smoke at 0.1 s that dissolves within 2 s.
 class Query : public testing::Test {
  protected:
   Query() {
@@ -44,7 +44,7 @@ class Query : public testing::Test {
   WorkFolder folder_;
 };
 
-TEST_F(Query, SmokeHidesWhileItIsThere) {
+TEST_F(Query, SmokeHidesWhileItLasts) {
   const Json before = answer(across({"--time", "0"}));
   EXPECT_TRUE(before["visible"]);
   EXPECT_EQ(before["optical_depth"], 0);
@@ -55,7 +55,7 @@ TEST_F(Query, SmokeHidesWhileItIsThere) {
   const Json during = answer(across({"--time", "1"}));
   EXPECT_FALSE(during["visible"]);
   EXPECT_EQ(during["hidden_by"], "smoke");
-  // At most dense smoke all the way.
+  // At most dense smoke along the whole line.
   EXPECT_LE(during["optical_depth"].get<double>(), 4 * std::hypot(3.2, 3.2) * 1.0001);
   EXPECT_NEAR(during["transmittance"].get<double>(), std::exp(-during["optical_depth"].get<double>()), 1e-9);
   EXPECT_TRUE(answer(across({"--time", "1", "--threshold", "1000"}))["visible"]);
@@ -69,7 +69,7 @@ TEST_F(Query, WallsHideWithoutSmoke) {
   EXPECT_NEAR(out["first_solid"]["distance"].get<double>(), 2, 0.26);  // the wall at x = 2, in its voxel
 }
 
-TEST_F(Query, TellsAPersonTheSame) {
+TEST_F(Query, PrintsTheSameAsText) {
   const Outcome run = query(across({"--time", "1"}));
   EXPECT_EQ(run.exit_code, 0) << run.error;
   EXPECT_NE(run.out.find("visible         no, hidden by smoke\n"), std::string::npos) << run.out;
@@ -79,56 +79,56 @@ TEST_F(Query, TellsAPersonTheSame) {
   EXPECT_NE(report.out.find("visible after 1 of 1 shots\n"), std::string::npos) << report.out;
 }
 
-TEST_F(Query, ReportsWhenTwoAreHidden) {
+TEST_F(Query, ReportsHiddenIntervals) {
   const Json report = answer(across({"--report"}));
   ASSERT_EQ(report["intervals"].size(), 1u) << report;
   const Json& hidden = report["intervals"][0];
   EXPECT_EQ(hidden["by"], "smoke");
-  // Not before it goes off, and not after all has dissolved: 0.1 + 0.3 + 1.2 + 0.3 s.
+  // Not before the detonation and not after the end: 0.1 + 0.3 + 1.2 + 0.3 s.
   EXPECT_GT(hidden["begin"], 0.1);
   EXPECT_LT(hidden["begin"], 0.5);
   EXPECT_GT(hidden["end"], 1.5);
   EXPECT_LT(hidden["end"], 2.0);
   EXPECT_NEAR(report["hidden_seconds"].get<double>(),
               hidden["end"].get<double>() - hidden["begin"].get<double>(), 1e-6);
-  // What the report says of a moment is what a query of the moment says.
+  // The report agrees with single samples at the ends of the interval.
   for (const double off : {-1.5, 0.5}) {
     const double begin = hidden["begin"].get<double>() + off / 64,
                  end = hidden["end"].get<double>() + off / 64;
     EXPECT_EQ(answer(across({"--time", std::to_string(begin)}))["visible"], off < 0);
     EXPECT_EQ(answer(across({"--time", std::to_string(end)}))["visible"], off > 0);
   }
-  // A part of it.
+  // A shorter report.
   const Json part = answer(across({"--report", "--times", "0.75-1.25"}));
   ASSERT_EQ(part["intervals"].size(), 1u);
   EXPECT_EQ(part["intervals"][0]["begin"], 0.75);
   EXPECT_EQ(part["intervals"][0]["end"], 1.25);
 }
 
-TEST_F(Query, CountsTheShotsThatItTakes) {
+TEST_F(Query, CountsTheShotsUntilVisible) {
   const auto shots = [&](const Arguments& more) {
     Arguments arguments = across({"--report", "--times", "0.5-1.4"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return answer(arguments)["shots"];
   };
-  // One straight along the line is enough.
+  // One shot along the line is enough.
   const Json one = shots({"--shots", "3", "--shots-at", "0.6", "--shots-every", "0.25"});
   EXPECT_EQ(one["visible_after"], 1);
   EXPECT_EQ(one["each"].size(), 1u);
   EXPECT_EQ(one["each"][0]["time"], 0.6);
   EXPECT_LT(one["each"][0]["min_optical_depth"], 0.05);
-  // Aside of it none is.
+  // Shots beside the line are not.
   const Json none = shots({"--shots", "2", "--shots-at", "0.6", "--spread", "40"});
   EXPECT_TRUE(none["visible_after"].is_null());
   ASSERT_EQ(none["each"].size(), 2u);
   EXPECT_FALSE(none["each"][1]["visible"]);
   EXPECT_GT(none["each"][0]["min_optical_depth"], 3);
-  // None is needed where nothing hides.
+  // No shot is needed if nothing hides the target.
   const Json needless = answer(across({"--report", "--shots", "2", "--shots-at", "2.5"}))["shots"];
   EXPECT_EQ(needless["visible_after"], 0);
 }
 
-TEST_F(Query, RefusesWhatCannotBe) {
+TEST_F(Query, RejectsInvalidArguments) {
   const auto refuses = [&](const Arguments& more, int exit_code, const std::string& part) {
     SCOPED_TRACE(testing::PrintToString(more));
     const auto before = folder_.files();

@@ -34,7 +34,7 @@ class Render : public testing::Test {
   WorkFolder folder_;
 };
 
-TEST_F(Render, APictureTwiceTheSameAndFromElsewhereAnother) {
+TEST_F(Render, ImagesAreReproducibleAndDependOnTheCamera) {
   for (const char* name : {"a.png", "b.png"}) {
     const Outcome run = render({"-o", name, "--size", "64x36", "--time", "0.8", "--json", "-"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
@@ -52,7 +52,7 @@ TEST_F(Render, APictureTwiceTheSameAndFromElsewhereAnother) {
   EXPECT_NE(picture("c.png").rgba, picture("a.png").rgba);
 }
 
-TEST_F(Render, LongerStepsMakeAnotherPictureAndOnlyWithinTheirRange) {
+TEST_F(Render, QualityOptionsTakeEffectWithinTheirRange) {
   for (const char* step : {"1", "2"}) {
     const Outcome run =
         render({"-o", std::string(step) + ".png", "--size", "64x36", "--time", "0.8", "--step", step});
@@ -68,7 +68,7 @@ TEST_F(Render, LongerStepsMakeAnotherPictureAndOnlyWithinTheirRange) {
       EXPECT_EQ(render({"-o", "no.png", option, value}).exit_code, 2) << option << value;
 }
 
-TEST_F(Render, WhatThePictureIsMadeFrom) {
+TEST_F(Render, DebugViewsAndSlices) {
   const Arguments small{"--size", "48x27", "--time", "0.8"};
   const auto draw = [&](const std::string& name, Arguments more) {
     more.insert(more.end(), {"-o", name});
@@ -84,7 +84,7 @@ TEST_F(Render, WhatThePictureIsMadeFrom) {
   EXPECT_EQ(low, draw("again.png", {"--view", "density", "--slice", "y=0.4"}));
 }
 
-TEST_F(Render, ViewsAndSlicesThatCannotBe) {
+TEST_F(Render, InvalidViewsAndSlices) {
   const auto refused = [&](const Arguments& more, const std::string& part) {
     Arguments arguments{"-o", "a.png", "--size", "32x18"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -99,7 +99,7 @@ TEST_F(Render, ViewsAndSlicesThatCannotBe) {
     refused({"--view", "density", "--slice", slice}, "--slice '" + std::string(slice) + "'");
 }
 
-TEST_F(Render, NumberedPicturesAndAFilm) {
+TEST_F(Render, ImageSequenceAndFilm) {
   const Outcome pictures = render({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
   ASSERT_EQ(pictures.exit_code, 0) << pictures.error;
   const Outcome film = render({"-o", "film.mp4", "--frames", "0-5", "--size", "32x18"});
@@ -108,7 +108,7 @@ TEST_F(Render, NumberedPicturesAndAFilm) {
             (Arguments{"film.mp4", "p_002.png", "p_003.png", "p_004.png", "room.obj", "room.toml"}));
 }
 
-TEST_F(Render, ASceneWithoutATimeline) {
+TEST_F(Render, SceneWithoutATimeline) {
   const Outcome run = run_brume(
       folder_.path(), {"render", "room.obj", "-o", "a.png", "--size", "32x18", "--smoke", "0,1,-1"});
   ASSERT_EQ(run.exit_code, 0) << run.error;
@@ -121,7 +121,7 @@ TEST_F(Render, LeavesNothingWhenInterrupted) {
   for (const int signal : {SIGINT, SIGTERM}) {
     RunOptions interrupt;
     interrupt.signal = signal;
-    // Its temporary: the film is under way.
+    // The temporary file exists: the film is being written.
     interrupt.signal_when = [&] { return folder_.files().size() > 2; };
     const Outcome run = render({"-o", "long.mp4", "--frames", "0-100000", "--size", "640x360"}, interrupt);
     EXPECT_EQ(run.exit_code, 128 + signal) << run.error;
@@ -130,7 +130,7 @@ TEST_F(Render, LeavesNothingWhenInterrupted) {
   }
 }
 
-TEST_F(Render, AFilmThatDoesNotFit) {
+TEST_F(Render, FilmOnAFullDisk) {
   RunOptions small;
   small.file_bytes = 400;
   const Outcome run = render({"-o", "film.mp4", "--frames", "0-9", "--size", "64x36"}, small);

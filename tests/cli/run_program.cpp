@@ -29,7 +29,7 @@ void send_to(int descriptor, const std::filesystem::path& file) {
   if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(126);
 }
 
-// In the child: becomes the program.
+// Runs in the child process; replaces it with the program.
 [[noreturn]] void become(const std::filesystem::path& folder, std::vector<std::string> arguments,
                          const RunOptions& options, const std::filesystem::path& out,
                          const std::filesystem::path& error) {

@@ -1,4 +1,4 @@
-// Runs the program as a shell would, and keeps what it says.
+// Runs the program as a shell does, and captures its output.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 namespace brume::cli {
 
 struct Outcome {
-  int exit_code = -1;  ///< 128 + signal where one ended it.
+  int exit_code = -1;  ///< 128 + signal if a signal ended it.
   std::string out, error;
 };
 
 struct RunOptions {
   std::vector<std::pair<std::string, std::string>> environment;  ///< Added to the test's own.
   std::uint64_t file_bytes = 0;                                  ///< No file may grow past this; 0: any size.
-  std::string out_file;                                          ///< Standard output goes there instead.
+  std::string out_file;                                          ///< Receives standard output instead.
   int signal = 0;                                                ///< Sent once `signal_when` holds.
   std::function<bool()> signal_when;
 };
@@ -27,7 +27,7 @@ struct RunOptions {
 Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                   const RunOptions& options = {});
 
-/// A folder of one test's own, removed with what is in it.
+/// A temporary folder, removed with its contents.
 class WorkFolder {
  public:
   WorkFolder();
@@ -43,8 +43,8 @@ class WorkFolder {
   std::filesystem::path path_;
 };
 
-/// Fails unless the program, run with these arguments, ends with the exit code, says nothing on standard
-/// output and one line on standard error that has all the parts, and leaves the folder as it was.
+/// Fails unless the program ends with the exit code, prints nothing to standard output and one line to
+/// standard error that contains all parts, and leaves the folder unchanged.
 void expect_failure(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code,
                     const std::vector<std::string>& parts, const RunOptions& options = {});
 

@@ -35,7 +35,7 @@ Outcome run_well(const WorkFolder& folder, const Arguments& arguments) {
   return run;
 }
 
-TEST(Sim, SaysTheSameHashesOnAnyNumberOfThreads) {
+TEST(Sim, HashesDoNotDependOnTheNumberOfThreads) {
   const WorkFolder folder;
   write_room(folder);
   const std::string one =
@@ -47,18 +47,18 @@ TEST(Sim, SaysTheSameHashesOnAnyNumberOfThreads) {
   for (const char* threads : {"2", "7"})
     EXPECT_EQ(run_well(folder, {"sim", "room.toml", "--ticks", "128", "--hash", "--threads", threads}).out,
               one);
-  // The duration is 128 ticks; without --hash only the last is said.
+  // The duration is 128 ticks; without --hash only the last one is printed.
   EXPECT_EQ(lines_of(run_well(folder, {"sim", "room.toml"}).out), Arguments{lines[127]});
 }
 
-TEST(Sim, RecordsWhatItCanPlayAgain) {
+TEST(Sim, RecordingsReplay) {
   const WorkFolder folder;
   write_room(folder);
   const Outcome recorded = run_well(folder, {"sim", "room.toml", "--record", "room.brp", "--json", "-"});
   const Json result = Json::parse(recorded.out);
   EXPECT_EQ(result["ticks"], 128);
   EXPECT_EQ(result["ticks_per_second"], 64);
-  // The recording stands for itself.
+  // The recording does not depend on other files.
   std::filesystem::remove(folder.path() / "room.obj");
   std::filesystem::remove(folder.path() / "room.toml");
   EXPECT_EQ(folder.files(), Arguments{"room.brp"});
@@ -68,7 +68,7 @@ TEST(Sim, RecordsWhatItCanPlayAgain) {
   EXPECT_EQ(lines_of(run_well(folder, {"sim", "--replay", "room.brp", "--hash"}).out).size(), 129u);
 }
 
-TEST(Sim, OtherRatesAreOtherSimulations) {
+TEST(Sim, TickRatesAreDifferentSimulations) {
   const WorkFolder folder;
   write_room(folder);
   const Json slow = Json::parse(run_well(folder, {"sim", "room.toml", "--rate", "20", "--json", "-"}).out);
@@ -76,7 +76,7 @@ TEST(Sim, OtherRatesAreOtherSimulations) {
   EXPECT_EQ(slow["ticks_per_second"], 20);
 }
 
-TEST(Sim, RefusesInOneLine) {
+TEST(Sim, FailuresAreOneLine) {
   const WorkFolder folder;
   write_room(folder);
   run_well(folder, {"sim", "room.toml", "--ticks", "20", "--record", "room.brp"});

@@ -19,7 +19,7 @@ Json json_of(const Outcome& run) {
 
 const Arguments kRoom{"voxelize", "room.obj", "-o", "room.vxl", "--voxel", "0.25", "--json", "-"};
 
-TEST(Voxelize, TellsWhatItFoundAndLoadsTheCacheNextTime) {
+TEST(Voxelize, ReportsTheResultAndLoadsTheCacheNextTime) {
   const WorkFolder folder;
   folder.write("room.obj", room_obj());
   const Json first = json_of(run_brume(folder.path(), kRoom));
@@ -78,7 +78,7 @@ TEST(Voxelize, ExportsASceneThatLoads) {
   }
 }
 
-TEST(Voxelize, TakesOriginsThatBeginWithAMinus) {
+TEST(Voxelize, AcceptsOriginsThatBeginWithAMinus) {
   const WorkFolder folder;
   folder.write("room.obj", room_obj());
   for (const Arguments& origin : {Arguments{"--origin", "-30,0,-30"}, Arguments{"--origin=-30,0,-30"}}) {
@@ -92,7 +92,7 @@ TEST(Voxelize, TakesOriginsThatBeginWithAMinus) {
   }
 }
 
-TEST(Voxelize, IsTheSameOnAnyNumberOfThreads) {
+TEST(Voxelize, IsIndependentOfTheNumberOfThreads) {
   const WorkFolder folder;
   folder.write("room.obj", room_obj());
   std::string one;
@@ -116,7 +116,7 @@ TEST(Voxelize, TheMotel) {
   const Arguments arguments{"voxelize",  scene, "--grid",    "120x20x120", "--voxel",   "0.5",    "--origin",
                             "-30,0,-30", "-o",  "motel.vxl", "--obj",      "motel.obj", "--json", "-"};
   const Json first = json_of(run_brume(folder.path(), arguments));
-  // Of 101,055 triangles, those of objects that smoke passes through are left out.
+  // Of 101,055 triangles, those of passable objects are skipped.
   EXPECT_GT(first["triangles"], 98000);
   EXPECT_LT(first["triangles"], 101055);
   EXPECT_EQ(first["cached"], false);

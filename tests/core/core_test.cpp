@@ -37,7 +37,7 @@ TEST_F(FileTest, WritesAndReadsBack) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(FileTest, LeavesNothingWithoutCommit) {
+TEST_F(FileTest, LeavesNoFileWithoutCommit) {
   {
     auto file = AtomicFile::open(folder_ / "a");
     ASSERT_TRUE(file);
@@ -62,21 +62,21 @@ TEST_F(FileTest, NamesTheMissingFolder) {
   EXPECT_NE(result.failure().message.find("does not exist"), std::string::npos);
 }
 
-TEST_F(FileTest, RefusesAFolderAndALongFile) {
+TEST_F(FileTest, RejectsAFolderAndALongFile) {
   EXPECT_EQ(read_text_file(folder_).failure().code, ErrorCode::bad_input);
   EXPECT_EQ(read_text_file(folder_ / "missing").failure().code, ErrorCode::bad_input);
   ASSERT_TRUE(write_file_atomic(folder_ / "a", std::string(100, 'x')));
   EXPECT_EQ(read_text_file(folder_ / "a", 99).failure().code, ErrorCode::resource_limit);
 }
 
-TEST(Checked, SeesOverflow) {
+TEST(Checked, DetectsOverflow) {
   EXPECT_EQ(checked_mul(1u << 20, 1u << 20), 1ull << 40);
   EXPECT_FALSE(checked_mul(1ull << 32, 1ull << 32));
   EXPECT_FALSE(checked_mul(1ull << 30, 1ull << 30, 1ull << 30));
   EXPECT_FALSE(checked_add(std::numeric_limits<std::uint64_t>::max(), 1));
 }
 
-TEST(Tasks, EveryIndexOnce) {
+TEST(Tasks, RunsEveryIndexOnce) {
   for (const unsigned threads : {1u, 2u, 7u}) {
     set_thread_count(threads);
     std::vector<std::atomic<int>> hits(1001);
@@ -88,7 +88,7 @@ TEST(Tasks, EveryIndexOnce) {
   set_thread_count(0);
 }
 
-TEST(Tasks, CarriesTheException) {
+TEST(Tasks, PropagatesExceptions) {
   EXPECT_THROW(parallel_for(100, 1,
                             [](std::size_t begin, std::size_t) {
                               if (begin == 50) throw std::runtime_error("fifty");
@@ -96,21 +96,22 @@ TEST(Tasks, CarriesTheException) {
                std::runtime_error);
 }
 
-TEST(Tasks, NothingToDo) {
+TEST(Tasks, AcceptsNoWork) {
   parallel_for(0, 0, [](std::size_t, std::size_t) { FAIL(); });
 }
 
-TEST(Progress, TellsRateAndTimeLeft) {
+TEST(Progress, ReportsRateAndRemainingTime) {
   const Progress::State state{"frames", 30, 120, 10.0};
   EXPECT_DOUBLE_EQ(state.seconds_left(), 30.0);
   EXPECT_EQ(progress_line(state), "frames     [######..................] 30/120  3/s  30 s left");
   EXPECT_LT((Progress::State{"x", 0, 10, 0}.seconds_left()), 0);
 }
 
-TEST(Utf8, IsWhatTheStandardSays) {
+TEST(Utf8, MatchesTheStandard) {
   for (const char* good : {"", "plain", "\xc3\xa9", "\xe6\xbc\xa2 \xf0\x9f\x92\xa8", "\xf4\x8f\xbf\xbf"})
     EXPECT_TRUE(is_utf8(good)) << good;
-  // A lone tail, a lone head, a cut one, too long a form, half a surrogate pair, beyond the last.
+  // A stray continuation byte, a lone lead byte, a truncated sequence, an overlong form, a surrogate, beyond
+  // U+10FFFF.
   for (const char* bad :
        {"\x80", "\xc3", "a\xe6\xbc", "\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"})
     EXPECT_FALSE(is_utf8(bad)) << bad;

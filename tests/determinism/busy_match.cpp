@@ -1,4 +1,4 @@
-// Plays the busy match and prints what it came to, a line each: TICK KIND HASH.
+// Plays the busy match and prints hashes, one line each: TICK KIND HASH.
 //
 //   state    sim::State::hash(), every tick          level    voxels and planes of the level, at tick 0
 //   voxels   densities of all voxels, every 16       sight    optical depths and what is visible, every 64
@@ -6,9 +6,9 @@
 //
 //   busy_match [--threads N] [--calls N] [--mode straight|rollback|late|snapshot] [--expect FILE]
 //
-// However it is played, a line has the same hash (docs/determinism.md). --calls: how many times a second the
-// world is stepped, at whatever tick it is then. --expect: fails with 7 and names the first line that differs
-// from the file's line of the same tick and kind, or is not there; prints nothing else.
+// The hashes are the same in all modes (docs/determinism.md). --calls: how often the world is advanced per
+// second, to whatever tick is current then. --expect: prints only the first line that differs from that of
+// the same tick and kind in the file, or is missing there, and fails with 7.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -23,10 +23,10 @@
 
 #include "core/hash.hpp"
 #include "core/tasks.hpp"
+#include "sim/world.hpp"
 #include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
-#include "sim/world.hpp"
 #include "tests/determinism/match.hpp"
 
 namespace brume::determinism {
@@ -96,7 +96,7 @@ std::uint64_t hash_level(const MatchLevel& level) {
   return hash;
 }
 
-/// Of all voxels in which there may be smoke: there is none in others.
+/// The densities of all voxels that may contain smoke.
 std::uint64_t hash_densities(const sim::State& state) {
   std::vector<glm::ivec3> voxels;
   for (const sim::LiveCloud& live : state.clouds)
@@ -126,7 +126,8 @@ std::uint64_t hash_sight(const smoke::SmokeVolume& volume, const sim::World& wor
   };
   for (smoke::Segment& segment : segments) segment = {metres(), metres()};
   const auto holes = smoke::holes_of(world.state(), &masks);
-  const smoke::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()), {.masks = &masks});
+  const smoke::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()),
+                           {.masks = &masks});
   std::vector<float> depths(segments.size());
   std::vector<std::uint8_t> seen(segments.size());
   sight.optical_depths(segments, depths).value_or_throw();
@@ -134,7 +135,7 @@ std::uint64_t hash_sight(const smoke::SmokeVolume& volume, const sim::World& wor
   return hash_values(std::span<const float>(depths), hash_values(std::span<const std::uint8_t>(seen)));
 }
 
-/// A world that is asked for its hashes at each tick to which it comes.
+/// A world that reports its hashes at every tick that it reaches.
 class Match {
  public:
   Match(const MatchLevel& level, Report& report)
@@ -144,7 +145,7 @@ class Match {
 
   sim::World& world() { return *world_; }
   void append(const sim::Event& event) { world_->append(event).value_or_throw(); }
-  /// Another world in the place of this one.
+  /// Replaces the world.
   void restart() {
     world_ = std::make_unique<sim::World>(level_.grid, sim::WorldSettings{.masks = masks_.key()});
   }
@@ -176,13 +177,13 @@ class Match {
   std::uint64_t second_ = 0;
 };
 
-/// Tick after tick, or at the ticks at which calls find it.
+/// Advances tick by tick, or to the ticks given by --calls.
 void play_straight(Match& match, const std::vector<sim::Event>& events, std::uint32_t calls) {
   for (const sim::Event& event : events) match.append(event);
   for (std::uint32_t call = 0; call <= kMatchTicks * calls / 64; ++call) match.play_to(call * 64 / calls);
 }
 
-/// Back 60 ticks, now and then, and again up to where it was.
+/// Rolls back 60 ticks from time to time and advances again.
 void play_rollback(Match& match, const std::vector<sim::Event>& events) {
   for (const sim::Event& event : events) match.append(event);
   for (std::uint32_t tick = 0; tick <= kMatchTicks; ++tick) {
@@ -192,7 +193,7 @@ void play_rollback(Match& match, const std::vector<sim::Event>& events) {
   }
 }
 
-/// The events of half a second are told after it is over, the last ones first.
+/// Adds the events of each half second after it is over, in reverse order.
 void play_late(Match& match, const std::vector<sim::Event>& events) {
   constexpr std::uint32_t kTicks = 32;
   auto next = events.begin();
@@ -201,7 +202,7 @@ void play_late(Match& match, const std::vector<sim::Event>& events) {
     match.world().advance_to(end - 1);
     const auto first = next;
     while (next != events.end() && tick_of(*next) < end) ++next;
-    // Those of one tick keep their order.
+    // Events of the same tick keep their order.
     for (auto last = next; last != first;) {
       auto same = std::prev(last);
       while (same != first && tick_of(*std::prev(same)) == tick_of(*same)) --same;
@@ -212,15 +213,15 @@ void play_late(Match& match, const std::vector<sim::Event>& events) {
   }
 }
 
-/// Again and again another world takes the state over and goes on.
+/// Repeatedly restores the state in another world and continues there.
 void play_snapshot(Match& match, const std::vector<sim::Event>& events) {
   for (const sim::Event& event : events) match.append(event);
   for (std::uint32_t tick = 0; tick <= kMatchTicks; ++tick) {
     match.play_to(tick);
     if (tick % 23 != 0) continue;
-    const sim::State kept = match.world().state();
+    const sim::State snapshot = match.world().state();
     match.restart();
-    match.world().restore(kept).value_or_throw();
+    match.world().restore(snapshot).value_or_throw();
     for (const sim::Event& event : events)
       if (tick_of(event) > tick) match.append(event);
   }

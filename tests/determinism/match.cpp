@@ -10,7 +10,7 @@ namespace {
 
 constexpr voxel::GridLayout kFrame{{97, 15, 97}, 0.5f, {-24.25f, -0.75f, -24.25f}};
 
-/// From tenths of a metre, the unit of the plan below.
+/// Converts from decimetres, the unit of the plan below.
 glm::vec3 metres(glm::ivec3 tenths) {
   return glm::vec3(tenths) / 10.0f;
 }
@@ -30,8 +30,8 @@ void add_box(std::vector<voxel::Triangle>& out, glm::ivec3 low, glm::ivec3 high)
     }
 }
 
-/// A wall of 0.2 m across `axis` at `place` from one side of the level to the other, 6 m high. Each opening
-/// is 2 m wide, 2.5 m high and begins at that place along the wall.
+/// A wall across the level, 0.2 m thick and 6 m high, perpendicular to `axis` at `place`. Openings are 2 m
+/// wide and 2.5 m high and begin at these positions along the wall.
 void add_wall(std::vector<voxel::Triangle>& out, int axis, int place, const std::vector<int>& openings) {
   const auto piece = [&](int from, int to, int bottom) {
     if (from >= to) return;
@@ -51,7 +51,7 @@ void add_wall(std::vector<voxel::Triangle>& out, int axis, int place, const std:
   piece(from, 240, 0);
 }
 
-/// A door is the voxels of an opening.
+/// A door fills the voxels of an opening.
 struct Door {
   glm::ivec3 low, high;
 };
@@ -59,7 +59,7 @@ struct Door {
 constexpr Door kDoors[2] = {{{32, 2, 47}, {33, 7, 50}}, {{47, 2, 64}, {50, 7, 65}}};
 
 void add_smokes(std::vector<sim::Event>& events, Random& random) {
-  // Two in one room, one on each side of a door, one on the stairs, the others anywhere.
+  // Two in one room, one on each side of a door, one on the stairs, the others at random positions.
   const std::vector<glm::ivec3> targets{{-12, 0, 0}, {-15, 0, 2}, {-3, 0, 0}, {0, 0, 5}, {16, 0, -16}};
   for (std::uint32_t i = 0; i < 8; ++i) {
     sim::ThrowSmoke smoke;
@@ -115,7 +115,7 @@ void add_moves(std::vector<sim::Event>& events, Random& random) {
 }
 
 void add_doors(std::vector<sim::Event>& events, const voxel::GridLayout& layout) {
-  // Shut at first; open, shut and open again while smoke stands before them.
+  // Closed at first; opened, closed and opened again with smoke in front of them.
   for (std::uint32_t i = 0; i < 2; ++i)
     for (const std::uint32_t tick : {0u, 200u, 560u, 900u}) {
       const bool shut = tick == 0 || tick == 560;
@@ -158,7 +158,7 @@ MatchLevel make_level() {
   add_wall(triangles, 0, 80, {-160, 100});
   add_wall(triangles, 2, -80, {-200, 110});
   add_wall(triangles, 2, 80, {-170, -10, 150});
-  // A corridor 2 m wide along the northern wall of the middle room; stairs; a slope that no axis follows.
+  // A corridor 2 m wide along the northern wall of the middle room; stairs; a slope oblique to all axes.
   add_box(triangles, {-80, 0, -62}, {60, 30, -60});
   for (int step = 0; step < 10; ++step)
     add_box(triangles, {120 + 5 * step, 0, -200}, {125 + 5 * step, 3 * (step + 1), -120});

@@ -68,8 +68,8 @@ TEST(Devices, ChoosesByNumberByNameAndBySpeed) {
   EXPECT_THROW((void)choose_device({}, ""), Error);
 }
 
-/// A host's device, made as an application would: Brume only borrows it.
-TEST_F(GpuTest, LivesOnAHostsDevice) {
+/// A device created by a host application and borrowed by Brume.
+TEST_F(GpuTest, WorksOnADeviceOfTheHost) {
   HostDevice host;
   host.get_instance_proc_addr = system_loader();
   const Instance instance(true);

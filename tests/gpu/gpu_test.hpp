@@ -13,7 +13,7 @@ namespace brume::gpu {
 class GpuTest : public testing::Test {
  protected:
   static Context& context() {
-    // One device for the whole program: making one takes longer than most tests.
+    // One device for all tests: creating one takes longer than most of them.
     static Context instance(ContextOptions{"", true});
     return instance;
   }
@@ -42,7 +42,7 @@ class GpuTest : public testing::Test {
     std::memcpy(values.data(), copy.mapped(), count * sizeof(T));
     return values;
   }
-  /// The texels of an image whose texel is a T.
+  /// The texels of an image with texels of type T.
   template <typename T>
   static std::vector<T> read_back(const Image& image) {
     const glm::uvec3 size = image.info().size;

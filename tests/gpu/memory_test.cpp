@@ -39,7 +39,7 @@ TEST_F(GpuTest, MemoryRangesNeverOverlap) {
   EXPECT_EQ(memory.bytes_in_use(), 0u);
 }
 
-TEST_F(GpuTest, LargeRangesHaveMemoryOfTheirOwn) {
+TEST_F(GpuTest, LargeRangesHaveDedicatedMemory) {
   Memory memory(context().vk(), context().info().handle, context().device());
   const auto small = memory.allocate({1024, 16, ~0u}, MemoryUse::device, false);
   const auto large = memory.allocate({Memory::kDedicatedBytes, 16, ~0u}, MemoryUse::device, false);

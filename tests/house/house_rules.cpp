@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 16> kFolders{
     "core",     "image",    "scene", "voxel",  "volume", "sim",   "smoke", "wire",
     "scenario", "planning", "gpu",   "passes", "render", "bench", "apps",  "examples"};
 
-// Every match's first group.
+// The first group of every match.
 std::vector<std::string> matches(std::string_view text, const std::regex& pattern) {
   std::vector<std::string> found;
   using Iterator = std::regex_iterator<std::string_view::const_iterator>;
@@ -58,9 +58,9 @@ std::vector<std::string> upward_includes(std::string_view folder, std::string_vi
   std::vector<std::string> found;
   for (const std::string& path : matches(text, include)) {
     const std::size_t slash = path.find('/');
-    if (slash == std::string::npos) continue;  // Generated beside the file's target: shader_list.hpp.
+    if (slash == std::string::npos) continue;  // A generated header.
     const std::string_view other = std::string_view(path).substr(0, slash);
-    if (other == "shared") continue;  // Below everything: plain structs for C++ and GLSL.
+    if (other == "shared") continue;  // The lowest layer: plain structs for C++ and GLSL.
     if (place(other) > place(folder) || place(other) == std::ssize(kFolders)) found.push_back(path);
   }
   return found;

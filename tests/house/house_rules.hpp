@@ -15,10 +15,10 @@ std::span<const std::string_view> folders();
 /// it.
 std::vector<std::string> upward_includes(std::string_view folder, std::string_view text);
 
-/// The places where Vulkan is called or its headers are included: `vkName(`.
+/// The calls of Vulkan functions, `vkName(`, and includes of its headers.
 std::vector<std::string> vulkan_calls(std::string_view text);
 
-/// The structs of a shared header that have no SHARED_SIZE in it.
+/// The structs of a shared header without SHARED_SIZE.
 std::vector<std::string> unsized_structs(std::string_view text);
 
 /// A length that a file or function has, and where it begins.

@@ -14,7 +14,7 @@ using Strings = std::vector<std::string>;
 
 const std::filesystem::path kRoot = BRUME_SOURCE_DIR;
 
-// Calls visit(path, text) for each C++ file and shader below a folder of the project, and says how many.
+// Calls visit(path, text) for each C++ file and shader below a folder of the project, and returns their number.
 int for_each_source(const std::filesystem::path& folder,
                     const std::function<void(const std::filesystem::path&, const std::string&)>& visit) {
   int count = 0;
@@ -36,7 +36,7 @@ std::string folder_of(const std::filesystem::path& path) {
   return *part == "src" ? (++part)->string() : part->string();
 }
 
-TEST(HouseRules, SeeAnUpwardInclude) {
+TEST(HouseRules, DetectAnUpwardInclude) {
   EXPECT_EQ(upward_includes("voxel", "#include \"sim/world.hpp\"\n"), Strings{"sim/world.hpp"});
   EXPECT_EQ(upward_includes("core", "#  include \"image/image.hpp\"\n"), Strings{"image/image.hpp"});
   EXPECT_EQ(upward_includes("render", "#include \"apps/cli/options.hpp\"\n"),
@@ -48,14 +48,14 @@ TEST(HouseRules, SeeAnUpwardInclude) {
             Strings{});
 }
 
-TEST(HouseRules, SeeACallOfVulkan) {
+TEST(HouseRules, DetectACallOfVulkan) {
   EXPECT_EQ(vulkan_calls("  vkCmdDraw(c);"), Strings{"vkCmdDraw("});
   EXPECT_EQ(vulkan_calls("f.vkCmdDraw (c);"), Strings{"vkCmdDraw ("});
   EXPECT_EQ(vulkan_calls("#include <vulkan/vulkan.h>"), Strings{"#include <vulkan/vulkan.h"});
   EXPECT_EQ(vulkan_calls("VkImage image; recorder.dispatch(1); // as vkCmdDraw does"), Strings{});
 }
 
-TEST(HouseRules, SeeAStructWithoutASize) {
+TEST(HouseRules, DetectAStructWithoutASize) {
   EXPECT_EQ(unsized_structs("struct A {\n float x;\n};\nSHARED_SIZE(A, 4);\nstruct B { int y; };"),
             Strings{"B"});
 }
@@ -92,7 +92,7 @@ TEST(HouseRules, SeeWordsThatTheGlossaryReplaces) {
   EXPECT_TRUE(occurring(words, "x = clamp(y); clamps").empty());
 }
 
-TEST(House, IncludesGoDownwards) {
+TEST(House, IncludesPointDownwards) {
   int count = 0;
   const auto check = [](const std::filesystem::path& path, const std::string& text) {
     for (const auto& include : upward_includes(folder_of(path), text)) {

@@ -14,10 +14,11 @@ Font default_face() {
   return Font::load(default_font()).value_or_throw();
 }
 
-/// The texels that a glyph covers at least by half: left, right, top and bottom, in cap heights from the pen.
+/// Bounds of the texels that a glyph covers by half or more: left, right, top and bottom, in cap heights from
+/// the pen.
 struct Ink {
   float left = 1e9f, right = -1e9f, bottom = 1e9f, top = -1e9f;
-  double share = 0;  ///< Of the square.
+  double fraction = 0;  ///< Covered fraction of the square.
 };
 
 Ink ink_of(const Glyph& g) {
@@ -32,7 +33,7 @@ Ink ink_of(const Glyph& g) {
       ink.right = std::max(ink.right, left + texel);
       ink.top = std::max(ink.top, top);
       ink.bottom = std::min(ink.bottom, top - texel);
-      ink.share += 1.0 / (g.side * g.side);
+      ink.fraction += 1.0 / (g.side * g.side);
     }
   return ink;
 }
@@ -40,7 +41,7 @@ Ink ink_of(const Glyph& g) {
 TEST(Font, MeasuresInCapitalHeights) {
   Font font = default_face();
   constexpr float kTexel =
-      1.5f / 69;  // 96 to an em, a capital letter 0.73 em; half a texel a side, and a rounding
+      1.5f / 69;  // 96 to an em, a capital letter 0.73 em; half a texel per side, and rounding
   for (const char32_t letter : {U'H', U'I', U'E', U'M'}) {
     const Ink ink = ink_of(font.glyph(letter).value_or_throw());
     EXPECT_NEAR(ink.top, 1, kTexel);
@@ -54,11 +55,11 @@ TEST(Font, MeasuresInCapitalHeights) {
   // A bar is as wide as it is inked.
   const Glyph bar = font.glyph(U'I').value_or_throw();
   const Ink ink = ink_of(bar);
-  EXPECT_NEAR(ink.share,
+  EXPECT_NEAR(ink.fraction,
               (ink.right - ink.left) * (ink.top - ink.bottom) / (4 * bar.half_side * bar.half_side), 1e-3);
 }
 
-TEST(Font, PutsEachGlyphInTheMiddleOfASquareWithAnEmptyRim) {
+TEST(Font, CentresEachGlyphInASquareWithAnEmptyRim) {
   Font font = default_face();
   for (char32_t letter = U'!'; letter <= U'~'; ++letter) {
     const Glyph g = font.glyph(letter).value_or_throw();
@@ -86,7 +87,7 @@ TEST(Font, RowsAreKernedAndSpaced) {
   EXPECT_LT(advance, 1.4f);
   EXPECT_NEAR(last_pen("HHHHH", 0), 4 * advance, 1e-4f);
   EXPECT_NEAR(last_pen("HHHHH", 0.25f), 4 * (advance + 0.25f), 1e-4f);
-  // A and V lean into each other.
+  // A and V are kerned.
   EXPECT_LT(last_pen("AVA", 0), last_pen("AH", 0) + last_pen("VH", 0) - 0.1f);
   EXPECT_TRUE(font.row("", 0).value_or_throw().empty());
 }
@@ -105,7 +106,7 @@ TEST(Font, ReadsUtf8) {
             "the text has the control character U+000A; expected one line of letters");
 }
 
-TEST(Font, NamesAGlyphThatItLacks) {
+TEST(Font, NamesAMissingGlyph) {
   Font font = default_face();
   const std::string message = font.row("\xe6\xbc\xa2", 0).failure().message;  // a Han character
   EXPECT_EQ(message, default_font().string() +
@@ -113,7 +114,7 @@ TEST(Font, NamesAGlyphThatItLacks) {
   EXPECT_EQ(font.glyph(U'\u6f22').failure().message, message);
 }
 
-TEST(Font, RefusesWhatIsNoFont) {
+TEST(Font, RejectsOtherFiles) {
   for (const std::size_t size : {0u, 1u, 100u}) {
     const auto font = Font::open(std::vector<std::byte>(size, std::byte{0x41}), "x.ttf");
     ASSERT_FALSE(font);

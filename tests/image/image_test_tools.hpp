@@ -1,4 +1,4 @@
-// What the tests of this folder share.
+// Helpers of the image tests.
 #pragma once
 
 #include <unistd.h>
@@ -11,7 +11,7 @@
 
 namespace brume::image {
 
-/// A folder of one test's own, removed with what is in it.
+/// A temporary folder, removed with its contents.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name)

@@ -76,7 +76,7 @@ TEST(Jpeg, DecodesASmoothPictureClosely) {
   }
 }
 
-TEST(Jpeg, SpreadsGreyOverTheChannels) {
+TEST(Jpeg, ExpandsGreyToAllChannels) {
   const auto image = decode_image(encode(7, 5, ramp(7, 5, 1), {JCS_GRAYSCALE, 1}), "grey.jpg");
   ASSERT_TRUE(image) << image.failure().message;
   for (std::size_t i = 0; i < image->rgba.size(); i += 4) {
@@ -85,7 +85,7 @@ TEST(Jpeg, SpreadsGreyOverTheChannels) {
   }
 }
 
-TEST(Jpeg, RefusesInkColoursInWords) {
+TEST(Jpeg, RejectsCmykWithAMessage) {
   const auto image = decode_image(encode(8, 8, ramp(8, 8, 4), {JCS_CMYK, 4}), "ink.jpg");
   ASSERT_FALSE(image);
   EXPECT_EQ(image.failure().code, ErrorCode::bad_input);
@@ -105,7 +105,7 @@ TEST(Jpeg, EveryTruncationIsAnError) {
   }
 }
 
-TEST(Jpeg, EveryDamagedByteIsAnErrorOrAPicture) {
+TEST(Jpeg, EveryDamagedByteIsAnErrorOrAnImage) {
   const auto bytes = encode(17, 9, ramp(17, 9, 3), {JCS_RGB, 3, true});
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     auto damaged = bytes;
@@ -116,7 +116,7 @@ TEST(Jpeg, EveryDamagedByteIsAnErrorOrAPicture) {
   }
 }
 
-TEST(Jpeg, RefusesSizesBeforeItAllocates) {
+TEST(Jpeg, RejectsSizesBeforeItAllocates) {
   auto bytes = encode(8, 8, ramp(8, 8, 3), {});
   // The frame header: FF C0, length, depth, then height and width, big-endian.
   for (std::size_t i = 0; i + 8 < bytes.size(); ++i) {

@@ -40,7 +40,7 @@ TEST(Difference, OfKnownLists) {
 }
 
 TEST(Ssim, OfPlanesWithoutStructureIsTheirLuminanceTerm) {
-  // Both variances are 0: what is left is (2 a b + C1) / (a^2 + b^2 + C1), C1 = 0.01^2.
+  // Both variances are 0: what remains is (2 a b + C1) / (a^2 + b^2 + C1), C1 = 0.01^2.
   for (const auto& [w, h] : {std::pair{33u, 17u}, {7u, 5u}, {1u, 1u}, {11u, 40u}}) {
     const Plane a{w, h, std::vector<float>(w * h, 0.25f)}, b{w, h, std::vector<float>(w * h, 0.75f)};
     EXPECT_NEAR(ssim(a, b, 1), (2 * 0.25 * 0.75 + 1e-4) / (0.25 * 0.25 + 0.75 * 0.75 + 1e-4), 1e-12);
@@ -48,7 +48,7 @@ TEST(Ssim, OfPlanesWithoutStructureIsTheirLuminanceTerm) {
   }
 }
 
-TEST(Ssim, OfAWindowIsItsFormula) {
+TEST(Ssim, OfOneWindowMatchesTheFormula) {
   // One window, 11 x 11: the sums written out.
   std::mt19937 random(3);
   std::uniform_real_distribution<float> level(0, 1);
@@ -77,21 +77,21 @@ TEST(Ssim, OfAWindowIsItsFormula) {
       (2 * ma * mb + 1e-4) * (2 * ab + 9e-4) / ((ma * ma + mb * mb + 1e-4) * (va + vb + 9e-4));
   EXPECT_NEAR(ssim(a, b, 1), expected, 1e-12);
   EXPECT_NEAR(ssim(b, a, 1), expected, 1e-12);
-  // A negative is as unlike as can be.
+  // The negative has the greatest difference.
   Plane negative = a;
   for (float& value : negative.values) value = 1 - value;
   EXPECT_LT(ssim(a, negative, 1), -0.8);
 }
 
-TEST(Flip, IsNothingForEqualPictures) {
+TEST(Flip, IsZeroForEqualImages) {
   for (const auto& [w, h] : {std::pair{33u, 17u}, {1u, 1u}, {7u, 1u}}) {
     const Image8 picture = random_image(w, h, true, 5);
     for (const float value : flip(picture, picture).values) EXPECT_EQ(value, 0);
   }
 }
 
-TEST(Flip, OfPlainPicturesIsTheColourDifferenceAlone) {
-  // Filters leave plain pictures alone, and there are no features. Black and white are 100 apart in
+TEST(Flip, OfPlainImagesIsTheColourDifference) {
+  // Filters do not change plain images, and there are no features. Black and white are 100 apart in
   // lightness, so 100^0.7 = 25.119 of the 308.3^0.7 = 55.2 or so between green and blue; worked out here from
   // CIELAB again.
   const auto lab = [](double x, double y, double z) {  // relative to white, all far above the dark end
@@ -117,7 +117,7 @@ TEST(Flip, OfPlainPicturesIsTheColourDifferenceAlone) {
   EXPECT_NEAR(mean(flip(filled(40, 23, {0, 255, 0}), filled(40, 23, {0, 0, 255}))), 1, 1e-6);
 }
 
-TEST(Flip, SeesALineWhereItIsAndLessOfItFromAfar) {
+TEST(Flip, LocatesALineAndFadesWithDistance) {
   const Image8 plain = filled(64, 64, {128, 128, 128});
   Image8 line = plain;
   for (std::uint32_t y = 0; y < 64; ++y)
@@ -132,7 +132,7 @@ TEST(Flip, SeesALineWhereItIsAndLessOfItFromAfar) {
   EXPECT_GT(along(20), 1.5f * along(67));
 }
 
-TEST(Flip, IsSymmetricAndNoMoreThanOne) {
+TEST(Flip, IsSymmetricAndAtMostOne) {
   const Image8 a = random_image(33, 17, true, 1), b = random_image(33, 17, true, 2);
   const Plane there = flip(a, b), back = flip(b, a);
   for (std::size_t i = 0; i < there.values.size(); ++i) {

@@ -13,7 +13,7 @@
 namespace brume::image {
 namespace {
 
-// Width and height of a PNG file stand big-endian at byte 16, the depth at 24, the colour type at 25.
+// A PNG file has width and height big-endian at byte 16, the depth at 24, the colour type at 25.
 std::uint8_t byte_at(const std::filesystem::path& path, std::size_t offset) {
   return static_cast<std::uint8_t>((*read_file(path)).at(offset));
 }
@@ -43,7 +43,7 @@ TEST(Png, HasAlphaOnlyWhereNeeded) {
   EXPECT_EQ(byte_at(folder.path() / "rgba.png", 25), SPNG_COLOR_TYPE_TRUECOLOR_ALPHA);
 }
 
-TEST(Png, Saves16BitsThatRead8BitsBack) {
+TEST(Png, Saves16BitImages) {
   const TemporaryFolder folder("deep");
   Image16 image{33, 17, {}};
   for (std::uint32_t i = 0; i < 33 * 17 * 4; ++i) {
@@ -70,7 +70,7 @@ TEST(Png, EveryTruncationIsAnError) {
   }
 }
 
-TEST(Png, EveryDamagedByteIsAnErrorOrAPicture) {
+TEST(Png, EveryDamagedByteIsAnErrorOrAnImage) {
   const TemporaryFolder folder("damage");
   ASSERT_TRUE(save_png(folder.path() / "a.png", random_image(7, 5, true, 4)));
   const auto bytes = *read_file(folder.path() / "a.png");
@@ -83,8 +83,8 @@ TEST(Png, EveryDamagedByteIsAnErrorOrAPicture) {
   }
 }
 
-// A PNG whose header says this size; libspng writes none that it cannot fill, so the header of a small one is
-// changed and its sum made right (CRC-32 of the PNG standard, annex D).
+// A PNG whose header says this size; libspng cannot write it, so the header of a small one is patched
+// with a correct checksum (CRC-32 of the PNG standard, annex D).
 std::vector<std::byte> hollow_png(std::uint32_t width, std::uint32_t height) {
   const TemporaryFolder folder("hollow");
   EXPECT_TRUE(save_png(folder.path() / "a.png", random_image(1, 1, true, 6)));
@@ -103,7 +103,7 @@ std::vector<std::byte> hollow_png(std::uint32_t width, std::uint32_t height) {
   return bytes;
 }
 
-TEST(Png, RefusesSizesBeforeItAllocates) {
+TEST(Png, RejectsSizesBeforeItAllocates) {
   const auto wide = decode_image(hollow_png(kMaxAxis + 1, 1), "wide.png");
   ASSERT_FALSE(wide);
   EXPECT_EQ(wide.failure().code, ErrorCode::resource_limit);
@@ -121,7 +121,7 @@ TEST(Png, NamesTheMissingFolder) {
   EXPECT_NE(missing.failure().message.find("/nonexistent"), std::string::npos);
 }
 
-TEST(Decode, RefusesOtherFormats) {
+TEST(Decode, RejectsOtherFormats) {
   const std::string text = "GIF89a, or anything else";
   const auto image = decode_image(std::as_bytes(std::span(text)), "a.gif");
   ASSERT_FALSE(image);

@@ -14,7 +14,7 @@
 namespace brume::image {
 namespace {
 
-// The search path for programs, replaced while this lives.
+// Replaces the search path for programs in a scope.
 class SearchPath {
  public:
   explicit SearchPath(const std::string& path) : old_(std::getenv("PATH")) {
@@ -64,8 +64,8 @@ TEST(Video, KeepsSizeCountAndColours) {
   EXPECT_EQ(frame->width, 64u);
   EXPECT_EQ(frame->height, 34u);
   // Studio range has 219 steps of luma and 224 of chroma; BT.709 gives blue the largest factor, 1.86: half a
-  // step of each and of the way back is at most 0.5 * (255 / 219 + 1.86 * 255 / 224) + 0.5 < 2.2, for the
-  // quantizer of crf 16 on a plain picture two more.
+  // step of each and of the conversion back is at most 0.5 * (255 / 219 + 1.86 * 255 / 224) + 0.5 < 2.2, for
+  // the quantizer of crf 16 on a plain picture two more.
   for (std::size_t i = 0; i < frame->rgba.size(); i += 4) {
     ASSERT_NEAR(frame->rgba[i], 200, 4);
     ASSERT_NEAR(frame->rgba[i + 1], 90, 4);
@@ -73,7 +73,7 @@ TEST(Video, KeepsSizeCountAndColours) {
   }
 }
 
-TEST(Video, NamesOddSizes) {
+TEST(Video, RejectsOddSizes) {
   const TemporaryFolder folder("odd");
   for (const auto& options : {VideoOptions{33, 18}, VideoOptions{32, 17}}) {
     const auto writer = VideoWriter::open(folder.path() / "a.mp4", options);
@@ -92,7 +92,7 @@ TEST(Video, NamesTheMissingFolder) {
   EXPECT_EQ(writer.failure().code, ErrorCode::bad_input);
 }
 
-TEST(Video, NamesTheMissingProgramAndTheMend) {
+TEST(Video, NamesTheMissingProgramAndTheFix) {
   const TemporaryFolder folder("noffmpeg");
   const SearchPath search(folder.path().string());
   const auto writer = VideoWriter::open(folder.path() / "a.mp4", {2, 2});
@@ -101,13 +101,13 @@ TEST(Video, NamesTheMissingProgramAndTheMend) {
   EXPECT_EQ(folder.files(), 0u);
 }
 
-TEST(Video, TellsWhatFfmpegSaidLast) {
+TEST(Video, ReportsTheLastMessageOfFfmpeg) {
   const TemporaryFolder folder("fails");
   write_program(folder.path() / "ffmpeg", "echo first >&2; echo 'the last line' >&2; exit 3");
   const SearchPath search(folder.path().string());
   auto writer = VideoWriter::open(folder.path() / "a.mp4", {64, 64});
   ASSERT_TRUE(writer) << writer.failure().message;
-  // It reads nothing: sooner or later a frame finds nobody at the other end, without a SIGPIPE.
+  // It reads nothing: eventually a write fails with a closed pipe, without a SIGPIPE.
   Result<void> added;
   for (int i = 0; i < 1000 && added; ++i) added = writer->add_frame(plain(64, 64, 1, 2, 3));
   ASSERT_FALSE(added);
@@ -144,9 +144,9 @@ TEST(Video, LeavesNothingWhenDropped) {
   EXPECT_TRUE(no_children());
 }
 
-// A limit on the size of files stands for a full disk: it ends ffmpeg by a signal, or, where that is ignored,
-// makes its writes fail. The short film fits until its index is written.
-TEST(Video, TellsOfAFullDisk) {
+// A file size limit simulates a full disk: it ends ffmpeg by a signal or, if that is ignored, makes its
+// writes fail. The short film fits until its index is written.
+TEST(Video, ReportsAFullDisk) {
   rlimit old{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
   for (const auto handler : {SIG_DFL, SIG_IGN}) {

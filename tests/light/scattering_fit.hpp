@@ -1,4 +1,4 @@
-// How well formulas for multiple scattering agree with random walks, and the fit of shared/scattering.h to
+// The error of formulas for multiple scattering against random walks, and the fit of shared/scattering.h to
 // them.
 #pragma once
 
@@ -11,22 +11,22 @@
 
 namespace brume::reference {
 
-/// What a formula says of a sample: radiance per irradiance after more than one scattering.
+/// A formula for a sample: radiance per irradiance after more than one scattering.
 using ManyFormula = std::function<double(const ScatteringSample&)>;
 
 /// Root of the mean square of ln((L + l) / (L' + l)), L and L' the whole scattered radiance of the formula
-/// and of the walks, l = 0.004 of the irradiance: a tenth of what thin smoke scatters of it, so that what is
-/// next to black counts little.
+/// and of the walks, l = 0.004 of the irradiance: a tenth of what thin smoke scatters of it, so that
+/// nearly black samples have little weight.
 double misfit(std::span<const ScatteringSample> samples, const ManyFormula& formula);
 
-/// shared::scattered without what was scattered once.
+/// shared::scattered without single scattering.
 double many_of(const shared::ManyFit& fit, const ScatteringSample& sample);
-/// Octaves as everybody guesses them: exp(-depth / 2^i) / 2^i with g / 2^i, i = 1, 2.
+/// Octaves with the usual guess: exp(-depth / 2^i) / 2^i with g / 2^i, i = 1, 2.
 double guessed_octaves(const ScatteringSample& sample);
 /// The sum over i = 1, 2 of b^i exp(-a^i depth) and Henyey-Greenstein with c^i g.
 double octaves(double a, double b, double c, const ScatteringSample& sample);
 
-/// The parameters of least misfit from a start on, by the method of Nelder and Mead 1965.
+/// Minimizes the misfit from a starting point by the method of Nelder and Mead 1965.
 std::vector<double> minimize(const std::function<double(const std::vector<double>&)>& cost,
                              std::vector<double> start, double step, int iterations);
 

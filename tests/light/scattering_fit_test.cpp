@@ -9,20 +9,20 @@
 namespace brume::reference {
 namespace {
 
-TEST(ManyFit, IsTheOneOfLeastMisfit) {
+TEST(ScatteringFit, HasTheLeastMisfit) {
   const auto samples = scattering_samples({0, 0.3, 0.6, 0.85}, {0.8, 0.9, 0.99, 1}, 5000, 1);
   const auto of = [&](const shared::ManyFit& fit) {
     return misfit(samples, [&](const ScatteringSample& s) { return many_of(fit, s); });
   };
-  const shared::ManyFit found = fit_many(samples), kept = shared::many_fit();
+  const shared::ManyFit found = fit_many(samples), shipped = shared::many_fit();
   const auto print = [&](const char* name, const shared::ManyFit& f) {
     std::printf(
         "%s decay %.3f held %.3f share %.3f share_g %.3f closure %.3f even %.3f even_g %.3f: misfit %.4f\n",
         name, double{f.decay}, double{f.held}, double{f.share}, double{f.share_g}, double{f.closure},
         double{f.even}, double{f.even_g}, of(f));
   };
-  print("found:", found);
-  print("kept: ", kept);
+  print("found:  ", found);
+  print("shipped:", shipped);
   const auto abc = minimize(
       [&](const std::vector<double>& p) {
         if (p[0] < 0 || p[1] < 0 || p[2] < 0 || p[2] >= 1) return 1e9;
@@ -39,13 +39,13 @@ TEST(ManyFit, IsTheOneOfLeastMisfit) {
     noise += relative * relative / static_cast<double>(samples.size());
   }
   std::printf("noise of the samples: %.4f\n", std::sqrt(noise));
-  EXPECT_LT(of(kept), 1.01 * of(found));
-  EXPECT_LT(of(kept), 0.5 * best_octaves);
+  EXPECT_LT(of(shipped), 1.01 * of(found));
+  EXPECT_LT(of(shipped), 0.5 * best_octaves);
 }
 
-// A beam through a round hole: the formula, which knows only whether a place is lit, against walks on the
-// axis and, where it knows of no light at all, beside the beam. Prints the table of docs/light.md.
-TEST(ManyFit, TakesEveryBeamForAWideOne) {
+// A beam through a round hole: the formula, which knows only whether a point is lit, against walks on the
+// axis and beside the beam, where the formula gives no light. Prints the table of docs/light.md.
+TEST(ScatteringFit, TreatsEveryBeamAsAWideOne) {
   const Body body{Body::Shape::box, 4};
   const std::vector<double> albedos{0.5, 0.9, 0.99};
   std::vector<double> narrowest, widest;

@@ -34,7 +34,7 @@ double chandrasekhar_h(double albedo, double mu) {
   return next(mu);
 }
 
-TEST(MultipleScattering, AtTheSurfaceOfAHalfSpaceIsChandrasekhars) {
+TEST(MultipleScattering, MatchesChandrasekharAtTheSurfaceOfAHalfSpace) {
   // There the source of even scattering is albedo / 4 pi H(cosine of the light) for a beam of irradiance 1.
   const Body body{Body::Shape::slab, 40};
   const double tilt = 0.6;
@@ -49,9 +49,9 @@ TEST(MultipleScattering, AtTheSurfaceOfAHalfSpaceIsChandrasekhars) {
   }
 }
 
-TEST(MultipleScattering, InAThinBodyIsThatOfTwoScatterings) {
-  // In a small sphere, to the first order in its radius: the way out is R from its middle in every direction,
-  // so that albedo R of the even light that comes in is scattered a second time.
+TEST(MultipleScattering, EqualsDoubleScatteringInAThinBody) {
+  // In a small sphere, to the first order in its radius: the distance to the surface is R from its centre in
+  // every direction, so that albedo R of the even light that comes in is scattered a second time.
   const Body body{Body::Shape::sphere, 0.01};
   const auto samples = walk_light(body, {}, 0, {0.7}, glm::dvec3(0), {1, 0, 0}, 400000, 3);
   const double expected = 0.7 * 0.01 / (4 * std::numbers::pi);
@@ -60,13 +60,13 @@ TEST(MultipleScattering, InAThinBodyIsThatOfTwoScatterings) {
   EXPECT_NEAR(samples[0].depth, 0.01, 1e-12);
 }
 
-TEST(MultipleScattering, WaysOutOfBodies) {
-  EXPECT_DOUBLE_EQ((Body{Body::Shape::slab, 2}.way_out({5, 9, -1}, {0, 0.6, 0.8})), 3 / 0.8);
-  EXPECT_DOUBLE_EQ((Body{Body::Shape::box, 2}.way_out({1, 0, -1}, {0.6, 0, 0.8})), 1 / 0.6);
-  EXPECT_DOUBLE_EQ((Body{Body::Shape::sphere, 2}.way_out({0, 0, -1}, {0, 0, 1})), 3);
+TEST(MultipleScattering, DistancesToTheSurfaceOfBodies) {
+  EXPECT_DOUBLE_EQ((Body{Body::Shape::slab, 2}.exit_distance({5, 9, -1}, {0, 0.6, 0.8})), 3 / 0.8);
+  EXPECT_DOUBLE_EQ((Body{Body::Shape::box, 2}.exit_distance({1, 0, -1}, {0.6, 0, 0.8})), 1 / 0.6);
+  EXPECT_DOUBLE_EQ((Body{Body::Shape::sphere, 2}.exit_distance({0, 0, -1}, {0, 0, 1})), 3);
 }
 
-/// Samples by other random numbers than the fit's, and fewer walks.
+/// Samples with other random numbers than those of the fit, and fewer walks.
 const std::vector<ScatteringSample>& some_samples() {
   static const std::vector<ScatteringSample> samples = scattering_samples(kGs, kAlbedos, 1000, 77);
   return samples;
@@ -76,7 +76,7 @@ double misfit_of(const shared::ManyFit& fit, std::span<const ScatteringSample> s
   return misfit(samples, [&](const ScatteringSample& s) { return many_of(fit, s); });
 }
 
-TEST(ManyFit, ComesCloserToRandomWalksThanOctavesDo) {
+TEST(ScatteringFit, IsCloserToRandomWalksThanOctaves) {
   const auto& samples = some_samples();
   const double none = misfit(samples, [](const ScatteringSample&) { return 0.0; });
   const double guessed = misfit(samples, guessed_octaves), fitted = misfit_of(shared::many_fit(), samples);
@@ -99,7 +99,7 @@ TEST(ManyFit, ComesCloserToRandomWalksThanOctavesDo) {
   }
 }
 
-TEST(ManyFit, IsNothingWhereNothingScattersAgain) {
+TEST(ScatteringFit, IsZeroWithoutFurtherScattering) {
   const shared::ManyScatterings many =
       shared::multiple_scattering(shared::many_fit(), glm::vec3(0.9f), 0.3f, 1.0f);
   EXPECT_EQ(many.share, glm::vec3(0));
@@ -109,7 +109,7 @@ TEST(ManyFit, IsNothingWhereNothingScattersAgain) {
             glm::vec3(std::exp(-0.5f) * shared::phase_value(phase, 0.1f)));
 }
 
-TEST(ManyFit, StaysFiniteAndSteady) {
+TEST(ScatteringFit, IsFiniteAndMonotonic) {
   // More light for more albedo and for less escape, decaying in depth, for every g.
   for (const float g : {-0.9f, 0.0f, 0.5f, 0.9f, 0.99f}) {
     float before = 0;

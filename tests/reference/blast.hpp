@@ -1,5 +1,5 @@
-// What a blast leaves of the smoke, in double and by its definition (docs/simulation.md): a front runs
-// outward, behind it all is cleared in a moment and comes back, from the rim first.
+// The smoke that remains after a blast, in double precision by definition (docs/simulation.md): a front runs
+// outward, clears everything behind it quickly, and the smoke refills from the rim first.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ inline double smooth(double x) {
   return x * x * (3 - 2 * x);
 }
 
-/// Density that is left, of 255, at a distance [m] from a blast in the open, `age` seconds after it.
+/// Remaining density, of 255, at a distance [m] from a blast in the open, `age` seconds after it.
 inline double blast_left(const sim::Blast& blast, double distance, double age) {
   const double radius = blast.radius / 1024.0, share = distance / radius;
   if (share > 1.2) return 255;  // the effect fades over a fifth of the radius more

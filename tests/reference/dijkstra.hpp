@@ -1,4 +1,4 @@
-// Geodesic chamfer distances the obvious way: Dijkstra over a map, one voxel and one test at a time.
+// Geodesic chamfer distances by brute force: Dijkstra over a map, one voxel and one test at a time.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What a hole removes, in double and by its definition: the local frame of the shot, the life of the hole at
-// a depth, the image of its cross-section texel by texel.
+// The density that a hole removes, in double precision by definition: the local frame of the shot, the life
+// of the hole at a depth, the image of its cross-section texel by texel.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ inline double mask_at(const smoke::Mask& mask, double u, double v) {
   return sum;
 }
 
-/// `mask`: the image of a hole that is one.
+/// `mask`: the image of a mask hole.
 inline double hole_strength(const shared::Hole& h, glm::dvec3 p, double time, double rim,
                             const smoke::Mask* mask = nullptr) {
   const glm::dmat3 world_from_hole(glm::dvec3(h.right), glm::dvec3(h.up), glm::dvec3(h.forward));
@@ -61,7 +61,7 @@ struct StrengthRange {
 };
 
 /// The strengths at the point and at those up to `metres` away along each axis of the hole, at times up to
-/// `seconds` apart: what a computation may answer whose point and time are off by that much.
+/// `seconds` apart: the possible results of a computation with that error in point and time.
 inline StrengthRange strengths_within(const shared::Hole& h, glm::dvec3 p, double time, double rim,
                                       const smoke::Mask* mask, double metres, double seconds) {
   StrengthRange range;

@@ -42,7 +42,7 @@ double henyey_greenstein_cosine(double g, double u) {
   return std::clamp((1 + g * g - s * s) / (2 * g), -1.0, 1.0);
 }
 
-/// What of the light reaches a point of the body: its way, its irradiance without smoke, the optical depth.
+/// The light at a point of the body: its direction, its irradiance without smoke, the optical depth.
 struct Arrival {
   glm::dvec3 direction;
   double irradiance, depth;
@@ -50,11 +50,12 @@ struct Arrival {
 Arrival arrival(const Body& body, const BodyLight& light, glm::dvec3 p) {
   if (light.directional) {
     const double off_axis = glm::length(glm::cross(p, light.direction));
-    return {light.direction, off_axis < light.beam ? 1.0 : 0.0, body.way_out(p, -light.direction)};
+    return {light.direction, off_axis < light.beam ? 1.0 : 0.0, body.exit_distance(p, -light.direction)};
   }
-  const glm::dvec3 way = p - light.position;
-  const double d2 = glm::dot(way, way), d = std::sqrt(d2);
-  return {way / d, glm::dot(light.position, light.position) / d2, std::min(d, body.way_out(p, -way / d))};
+  const glm::dvec3 offset = p - light.position;
+  const double d2 = glm::dot(offset, offset), d = std::sqrt(d2);
+  return {offset / d, glm::dot(light.position, light.position) / d2,
+          std::min(d, body.exit_distance(p, -offset / d))};
 }
 
 double escape_probability(const Body& body, glm::dvec3 p) {
@@ -63,7 +64,7 @@ double escape_probability(const Body& body, glm::dvec3 p) {
   for (int i = 0; i < kDirections; ++i) {  // a spiral of even directions
     const double z = 1 - (2 * i + 1.0) / kDirections, angle = i * kPi * (3 - std::sqrt(5.0));
     const double r = std::sqrt(1 - z * z);
-    sum += std::exp(-body.way_out(p, {r * std::cos(angle), r * std::sin(angle), z}));
+    sum += std::exp(-body.exit_distance(p, {r * std::cos(angle), r * std::sin(angle), z}));
   }
   return sum / kDirections;
 }
@@ -76,17 +77,17 @@ bool Body::contains(glm::dvec3 p) const {
   return glm::all(glm::lessThan(glm::abs(p), glm::dvec3(half)));
 }
 
-double Body::way_out(glm::dvec3 p, glm::dvec3 direction) const {
+double Body::exit_distance(glm::dvec3 p, glm::dvec3 direction) const {
   if (shape == Shape::sphere) {
     const double b = glm::dot(p, direction), c = glm::dot(p, p) - half * half;
     return std::max(0.0, -b + std::sqrt(std::max(0.0, b * b - c)));
   }
-  double way = kFar;
+  double distance = kFar;
   for (int axis = shape == Shape::slab ? 2 : 0; axis < 3; ++axis) {
     const double d = direction[axis];
-    if (std::abs(d) > 1e-9) way = std::min(way, ((d > 0 ? half : -half) - p[axis]) / d);
+    if (std::abs(d) > 1e-9) distance = std::min(distance, ((d > 0 ? half : -half) - p[axis]) / d);
   }
-  return std::max(way, 0.0);
+  return std::max(distance, 0.0);
 }
 
 std::vector<ScatteringSample> walk_light(const Body& body, const BodyLight& light, double g,
@@ -107,15 +108,15 @@ std::vector<ScatteringSample> walk_light(const Body& body, const BodyLight& ligh
   for (std::uint32_t walk = 0; walk < walks; ++walk) {
     std::fill(sums.begin(), sums.end(), 0);
     std::fill(weights.begin(), weights.end(), 1);
-    glm::dvec3 at = p, way = out;  // backwards: `way` is where the light goes
+    glm::dvec3 at = p, direction = out;  // backwards: `direction` is that of the light
     for (int bounce = 0; bounce < kLongestWalk; ++bounce) {
-      way = turned(way, henyey_greenstein_cosine(g, random.next()), 2 * kPi * random.next());
+      direction = turned(direction, henyey_greenstein_cosine(g, random.next()), 2 * kPi * random.next());
       const double step = -std::log1p(-random.next());
-      if (step >= body.way_out(at, -way)) break;
-      at -= step * way;
+      if (step >= body.exit_distance(at, -direction)) break;
+      at -= step * direction;
       const Arrival there = arrival(body, light, at);
       const double scattered =
-          there.irradiance * std::exp(-there.depth) * draine(g, 0, glm::dot(there.direction, way));
+          there.irradiance * std::exp(-there.depth) * draine(g, 0, glm::dot(there.direction, direction));
       for (std::size_t i = 0; i < albedos.size(); ++i) {
         weights[i] *= albedos[i];
         sums[i] += weights[i] * scattered;
@@ -144,7 +145,7 @@ std::vector<ScatteringSample> scattering_samples(const std::vector<double>& gs,
   std::vector<Place> places;
   using Shape = Body::Shape;
   const glm::dvec3 askew = glm::normalize(glm::dvec3(0.8, 0.1, 0.6));
-  for (const double half : {0.25, 1.0, 4.0})  // slabs, lit from the front and askew
+  for (const double half : {0.25, 1.0, 4.0})  // slabs, lit from the front and obliquely
     for (const double z : {-0.95, -0.7, -0.3, 0.2, 0.8})
       for (const glm::dvec3 direction : {glm::dvec3(0, 0, 1), askew})
         places.push_back({{Shape::slab, half}, {true, direction, {}}, {0, 0, z * half}});
@@ -160,8 +161,9 @@ std::vector<ScatteringSample> scattering_samples(const std::vector<double>& gs,
   parallel_for(all.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Place& place = places[i % per_g / std::size(kCosines)];
-      const glm::dvec3 way = arrival(place.body, place.light, place.p).direction;
-      const glm::dvec3 out = turned(way, kCosines[i % std::size(kCosines)], 2.4 * static_cast<double>(i));
+      const glm::dvec3 direction = arrival(place.body, place.light, place.p).direction;
+      const glm::dvec3 out =
+          turned(direction, kCosines[i % std::size(kCosines)], 2.4 * static_cast<double>(i));
       all[i] = walk_light(place.body, place.light, gs[i / per_g], albedos, place.p, out, walks,
                           seed + 1000003 * i);
     }

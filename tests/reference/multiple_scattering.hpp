@@ -16,24 +16,24 @@ struct Body {
   double half = 1;  ///< Half the thickness along z, the radius, or half the edge [free paths].
   bool contains(glm::dvec3 p) const;
   /// Length from a point of the body to its surface along a unit direction; at most 1e6.
-  double way_out(glm::dvec3 p, glm::dvec3 direction) const;
+  double exit_distance(glm::dvec3 p, glm::dvec3 direction) const;
 };
 
 /// A directional light of irradiance 1, or a point light that gives 1 at the body's middle.
 struct BodyLight {
   bool directional = true;
-  glm::dvec3 direction{0, 0, 1};  ///< Where a directional light goes, unit.
+  glm::dvec3 direction{0, 0, 1};  ///< Unit direction of a directional light.
   glm::dvec3 position{0};         ///< Of a point light, outside of the body.
   /// Of a directional light, as through a round hole: radius around the line through the origin [free paths].
   double beam = std::numeric_limits<double>::infinity();
 };
 
-/// What reaches a point of a body and is scattered there into one direction.
+/// Light that is scattered at a point of a body into one direction.
 struct ScatteringSample {
   double g = 0, albedo = 1;
   double depth = 0;       ///< Optical depth to the light.
-  double cos_angle = 0;   ///< Between the light's way and the way to the eye.
-  double escape = 1;      ///< Mean over all directions of exp(-way out).
+  double cos_angle = 0;   ///< Between the direction of the light and that to the eye.
+  double escape = 1;      ///< Mean over all directions of exp(-distance to the surface).
   double irradiance = 1;  ///< Of the light at the point, as it would be without smoke.
   /// Radiance per unit of scattering coefficient after one scattering and after more than one; the standard
   /// deviation of the latter.

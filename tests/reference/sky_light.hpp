@@ -1,4 +1,4 @@
-// The light of the sky in a grid of voxels, the slow way: ray by ray in double precision.
+// Sky light in a grid of voxels by brute force: ray by ray in double precision.
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace brume::reference {
 
-/// Whether a ray from a point (voxel space) leaves the grid without a solid voxel on its way: looked at every
-/// 1/64 of a voxel.
+/// Whether a ray from a point (voxel space) leaves the grid without a solid voxel along the path: sampled
+/// every 1/64 of a voxel.
 inline bool sees_sky(const voxel::BitGrid& grid, glm::dvec3 p_voxel, glm::dvec3 direction) {
   for (;; p_voxel += direction / 64.0) {
     const glm::ivec3 v(glm::floor(p_voxel));
@@ -31,7 +31,7 @@ inline bool sees_sky_step_by_step(const voxel::BitGrid& grid, glm::ivec3 voxel, 
   }
 }
 
-/// Share of a uniform sky seen from a point: `rings` x 2 `rings` directions, even in solid angle.
+/// Visible fraction of a uniform sky at a point: `rings` x 2 `rings` directions, even in solid angle.
 inline double sky_share(const voxel::BitGrid& grid, glm::dvec3 p_voxel, int rings) {
   int seen = 0;
   for (int j = 0; j < rings; ++j)

@@ -1,4 +1,5 @@
-// The integral of smoke along a segment by its definition, in double: many small steps, no cell walked.
+// The integral of smoke along a segment by definition, in double precision: many small steps, no cell
+// traversal.
 #pragma once
 
 #include <cmath>
@@ -48,7 +49,7 @@ struct SmokeIntegral {
   double error = 0;
 };
 
-/// Density by `density(p_voxel)`, in steps of `step` voxels; `masks` of the holes that are such.
+/// Density by `density(p_voxel)`, in steps of `step` voxels; `masks` for mask holes.
 template <typename Density>
 SmokeIntegral integrate_smoke(const shared::VolumeLayout& frame, std::span<const shared::Hole> holes,
                               float time, const smoke::Segment& s, double step, const Density& density,

@@ -1,4 +1,4 @@
-// Triangle against one voxel, the obvious way: thirteen axes, all corners projected, in double precision.
+// Triangle against one voxel by brute force: thirteen axes, all corners projected, in double precision.
 // Independent of src/voxel but for the types.
 #pragma once
 
@@ -30,8 +30,9 @@ inline bool separated_along(const glm::dvec3& axis, const std::array<glm::dvec3,
   return t1 < b0 - slack || b1 < t0 - slack;
 }
 
-/// Whether the closed triangle and the closed box [low, low + 1] share a point. `slack` times what doubles
-/// round by on the axes that are not the box's own is taken for touching (above 0) or for apart (below 0).
+/// Whether the closed triangle and the closed box [low, low + 1] share a point. `slack` times the
+/// rounding error on the axes that are not those of the box counts as touching (above 0) or as apart (below
+/// 0).
 inline bool touches(const std::array<glm::dvec3, 3>& t, const glm::dvec3& low, double slack = 0) {
   const glm::dvec3 edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
   const glm::dvec3 box_axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -36,7 +36,7 @@ glm::dvec4 noise_at(const NoiseTile& tile, glm::dvec3 p_tile) {
   return sum;
 }
 
-/// How far the noise was carried to a point of the smoke.
+/// The noise displacement at a point of the smoke.
 glm::dvec3 advection_at(const TruthScene& scene, glm::dvec3 p_voxel) {
   if (scene.drift == nullptr) return glm::dvec3(0);
   const glm::ivec3 brick(glm::floor(p_voxel / 8.0));
@@ -66,7 +66,7 @@ glm::dvec4 smoke_noise(const TruthScene& scene, glm::dvec3 p_world, glm::dvec3 p
                   (p_world + advection_at(scene, p_voxel) - rise) / double{scene.look.noise_period});
 }
 
-/// Share of the smoke that a hole takes away: the rule of shaders/shared/hole.h.
+/// Fraction of the smoke that a hole removes: the rule of shaders/shared/hole.h.
 double hole_share(const shared::Hole& hole, glm::dvec3 p_world, double time, double rim) {
   const glm::dvec3 apart = p_world - glm::dvec3(hole.origin_world);
   const double z = glm::dot(apart, glm::dvec3(hole.forward)), far = double{hole.distance_to_far};
@@ -84,7 +84,7 @@ double hole_share(const shared::Hole& hole, glm::dvec3 p_world, double time, dou
   return (1 - closed) * smooth((radius - out) / (radius * double{shared::kHoleSoftShare}));
 }
 
-/// Distance to a triangle along a unit direction (Moeller and Trumbore 1997); none where it is missed.
+/// Distance to a triangle along a unit direction (Moeller and Trumbore 1997); nothing if the ray misses.
 std::optional<double> hit(const TruthTriangle& t, glm::dvec3 from, glm::dvec3 direction) {
   const glm::dvec3 u = t.b - t.a, v = t.c - t.a, p = glm::cross(direction, v);
   const double determinant = glm::dot(u, p);
@@ -129,7 +129,7 @@ struct Incident {
   double distance;
 };
 
-/// What a light sends to a point through scene and smoke: the rule of shaders/lib/lights.glsl, shadows exact.
+/// Light that reaches a point through scene and smoke: the rule of shaders/lib/lights.glsl, shadows exact.
 std::optional<Incident> light_at(const TruthScene& scene, const shared::Light& light, glm::dvec3 p) {
   Incident incident{glm::dvec3(light.intensity), -glm::dvec3(light.direction), kFar};
   if (light.kind != shared::kLightDirectional) {
@@ -162,7 +162,7 @@ std::optional<Incident> light_at(const TruthScene& scene, const shared::Light& l
   return incident;
 }
 
-/// Radiance towards `view` for unit irradiance of a surface that is no metal: the rule of
+/// Radiance towards `view` for unit irradiance of a dielectric surface: the rule of
 /// shaders/lib/shading.glsl.
 glm::dvec3 reflected(const TruthTriangle& surface, glm::dvec3 normal, glm::dvec3 view, glm::dvec3 to_light) {
   const double n_l = glm::dot(normal, to_light), n_v = std::max(glm::dot(normal, view), 1e-3);
@@ -182,7 +182,7 @@ TruthPixel trace(const TruthScene& scene, glm::dvec2 position_px) {
   const glm::dvec3 direction =
       glm::normalize(glm::dvec3(scene.camera.forward) + ndc.x * glm::dvec3(scene.camera.right) -
                      ndc.y * glm::dvec3(scene.camera.up));
-  // The surface behind.
+  // The surface behind the smoke.
   double t_surface = kFar;
   const TruthTriangle* surface = nullptr;
   for (const TruthTriangle& triangle : scene.triangles) {
@@ -203,8 +203,7 @@ TruthPixel trace(const TruthScene& scene, glm::dvec2 position_px) {
         pixel.surface += reflected(*surface, normal, -direction, incident->to_light) * incident->irradiance;
     }
   }
-  // The smoke before it. In-scatter is taken as even within a step, and what the step lets through of it is
-  // exact.
+  // The smoke in front of it. In-scatter is constant within a step, and its transmittance there is exact.
   const double voxel = double{scene.volume->layout().voxel_size}, sigma = double{scene.look.extinction};
   walk(inside(*scene.volume, eye, direction, t_surface), scene.view_step * voxel,
        [&](double t, double length) {

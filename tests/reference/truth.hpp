@@ -1,6 +1,6 @@
-// What the picture of lit smoke should be: single scattering by its definition, in double, in many small
-// steps. Nothing is stored on a grid: from every step of every pixel's ray a ray goes to every light, through
-// the triangles of the scene, the holes and the smoke.
+// Reference renderer for lit smoke: single scattering by definition, in double precision, in many small
+// steps. Stores nothing on a grid: every step of every camera ray traces a ray to every light, through the
+// triangles of the scene, the holes and the smoke.
 #pragma once
 
 #include <cstdint>
@@ -16,48 +16,48 @@
 
 namespace brume::reference {
 
-/// The tile of noise as the device made it: RGBA of 8 bits, size^3 texels.
+/// The noise tile read back from the device: RGBA of 8 bits, size^3 texels.
 struct NoiseTile {
   std::uint32_t size = 0;
   std::vector<glm::u8vec4> texels;
 };
 
-/// Where the noise is carried as the device holds it: xyz of the texels of all bricks [m], laid out as the
+/// The noise displacement read back from the device: xyz of the texels of all bricks [m], laid out as the
 /// density.
 struct NoiseAdvectionField {
   glm::ivec3 size{0};  ///< Texels per axis.
   std::vector<glm::vec3> texels;
 };
 
-/// A triangle of the world and what it is made of.
+/// A world-space triangle with its material.
 struct TruthTriangle {
   glm::dvec3 a, b, c;
   glm::dvec3 albedo, emission;
   double roughness = 1;
 };
 
-/// The triangles of a scene without images; metals are not known here.
+/// The triangles of a scene without textures; does not support metals.
 std::vector<TruthTriangle> truth_triangles(const scene::Scene& scene);
 
 struct TruthScene {
   shared::Camera camera{};
   glm::uvec2 size_px{0};
-  shared::SmokeLook look{};  ///< Its step_length, stop and multiple_scattering play no part here.
+  shared::SmokeLook look{};  ///< Its step_length, stop and multiple_scattering are ignored.
   double time = 0;           ///< [s]
   const smoke::SmokeVolume* volume = nullptr;
   std::span<const shared::Hole> holes;  ///< Without masks.
   std::span<const shared::Light> lights;
   std::span<const TruthTriangle> triangles;
-  const NoiseTile* noise = nullptr;   ///< Needed where look.erosion or look.hole_rim is not 0.
-  const NoiseAdvectionField* drift = nullptr;  ///< Null: the noise is not carried.
-  double view_step = 0.2;             ///< Of the rays of the pixels [voxels].
-  double light_step = 0.4;            ///< Of the rays to the lights [voxels].
+  const NoiseTile* noise = nullptr;            ///< Required if look.erosion or look.hole_rim is not 0.
+  const NoiseAdvectionField* drift = nullptr;  ///< Null: no noise displacement.
+  double view_step = 0.2;                      ///< Of the rays of the pixels [voxels].
+  double light_step = 0.4;                     ///< Of the rays to the lights [voxels].
 };
 
-/// One pixel, seen through its middle.
+/// The result at the centre of a pixel.
 struct TruthPixel {
-  glm::dvec3 smoke{0};  ///< Radiance that the smoke scatters towards the eye, as far as it comes through.
-  double transmittance = 1;  ///< Of the smoke before the surface.
+  glm::dvec3 smoke{0};       ///< In-scattered radiance that reaches the eye.
+  double transmittance = 1;  ///< Of the smoke in front of the surface.
   glm::dvec3 surface{0};     ///< Radiance of the surface behind, lit through the smoke.
   glm::dvec3 picture() const { return smoke + transmittance * surface; }
 };

@@ -36,12 +36,12 @@ TEST(Aim, MeetsTheFirstWallAndLandsBeforeIt) {
   EXPECT_EQ(glm::vec3(world.state().flights[0].landing) * 0.5f + 0.25f, *at_wall.landing_world);
 }
 
-TEST(Aim, ReachesSoFarAndStaysWhereEventsMayHappen) {
+TEST(Aim, LimitsTheRangeAndStaysWhereEventsAreValid) {
   const voxel::BitGrid grid = air_with_a_wall();
   const Aim into_air = aim(grid, {1, 2.2f, 3.2f}, {-1, 0, 0}, 3);
   EXPECT_EQ(into_air.meets, std::nullopt);
   EXPECT_NEAR(into_air.at_world.x, -2, 1e-5);
-  EXPECT_EQ(into_air.landing_world, glm::vec3(0.25f, 2.25f, 3.25f)) << "the last voxel on the way";
+  EXPECT_EQ(into_air.landing_world, glm::vec3(0.25f, 2.25f, 3.25f)) << "the last voxel along the path";
   EXPECT_LE(aim(grid, {16383, 0, 0}, {1, 0, 0}).at_world.x, 16384);
   EXPECT_EQ(aim(grid, {16383, 0, 0}, {1, 0, 0}).landing_world, std::nullopt);
   // From within the wall, and without a direction: a shot still has one.

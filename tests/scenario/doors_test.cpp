@@ -7,7 +7,7 @@
 namespace brume::scenario {
 namespace {
 
-TEST(Doors, AreWhatIsCalledSo) {
+TEST(Doors, AreRecognizedByName) {
   for (const char* name :
        {"door", "Door", "DOOR_2", "front door", "door2", "door.001", "door-leaf", "door_leaf", "FrontDoor",
         "DoorRoom_E", "DumpsterDoorLeft_A", "garage_door 3", "outdoor door"})
@@ -27,7 +27,7 @@ TEST(Doors, OfASceneAreGroupedByNameWithBounds) {
   EXPECT_EQ(doors[0].bounds_world.max, glm::vec3(0.02f, 2, 0.5f));
 }
 
-TEST(Doors, AreOpenAsTheTimelineSays) {
+TEST(Doors, FollowTheTimeline) {
   scene::Timeline timeline;
   timeline.doors = {{1, "door", true, ""}, {1.5, "other", true, ""}, {2, "door", false, ""}};
   EXPECT_FALSE(is_open(timeline, "door", 0));

@@ -19,13 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 using glm::vec3;
 
-/// What a player may do in the two rooms, drawn from a seed.
+/// Random actions of a player in the two rooms, from a seed.
 class Player {
  public:
   Player(std::uint32_t seed, fs::path folder) : random_(seed), folder_(std::move(folder)) {}
 
   std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(random_() % count); }
-  /// Whole ticks, and times between them; many alike.
+  /// Tick times and times between ticks, with many duplicates.
   double time() { return below(40) * 0.125 + (below(3) == 0 ? below(4) * 0.004 : 0.0); }
   vec3 place() {
     const auto real = [&](float low, float high) {
@@ -61,7 +61,7 @@ class Player {
     return text;
   }
 
-  /// One action, now and then several at once.
+  /// One action, sometimes several at once.
   scene::Timeline actions() {
     scene::Timeline actions;
     for (std::uint32_t count = below(4) == 0 ? 3 : 1; count > 0; --count) {
@@ -101,9 +101,9 @@ class Player {
   fs::path folder_;
 };
 
-class Live : public testing::Test {
+class EditableScenarioTest : public testing::Test {
  protected:
-  Live() : folder(fs::temp_directory_path() / ("brume_live_" + std::to_string(::getpid()))) {
+  EditableScenarioTest() : folder(fs::temp_directory_path() / ("brume_live_" + std::to_string(::getpid()))) {
     fs::create_directories(folder / "out");
     for (int i = 0; i < 3; ++i) {
       image::Image8 picture{6, 6, std::vector<std::uint8_t>(144, 255)};
@@ -111,7 +111,7 @@ class Live : public testing::Test {
       image::save_png(folder / (std::to_string(i) + ".png"), picture).value_or_throw();
     }
   }
-  ~Live() override { fs::remove_all(folder); }
+  ~EditableScenarioTest() override { fs::remove_all(folder); }
 
   static Scenario empty_rooms() {
     Scenario scenario = two_rooms();
@@ -123,7 +123,7 @@ class Live : public testing::Test {
     return EditableScenario::create(empty_rooms()).value_or_throw();
   }
 
-  /// The timeline, saved and loaded again, on a scenario of its own.
+  /// Saves the timeline and loads it into a new scenario.
   Scenario reloaded(const scene::Timeline& timeline) const {
     const fs::path file = folder / "out/take.toml";
     scene::save_timeline(file, timeline).value_or_throw();
@@ -135,7 +135,7 @@ class Live : public testing::Test {
     return scenario;
   }
 
-  /// That the live scenario is, now and at other times, what its timeline says.
+  /// Checks that the live scenario matches its timeline now and at other times.
   void expect_as_saved(EditableScenario& live, std::initializer_list<double> times) const {
     const Scenario scenario = reloaded(live.scenario().timeline);
     EXPECT_EQ(scenario.masks.key(), live.scenario().masks.key());
@@ -170,7 +170,7 @@ class Live : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(Live, IsAtEveryMomentWhatItsTimelineSays) {
+TEST_F(EditableScenarioTest, MatchesItsTimelineAtEveryTime) {
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Player player(seed, folder);
@@ -193,8 +193,8 @@ TEST_F(Live, IsAtEveryMomentWhatItsTimelineSays) {
   }
 }
 
-TEST_F(Live, TakesTheSameDeedsInAnyOrder) {
-  // Events of one kind at the same time stay as they were done, so here no two are of the same time.
+TEST_F(EditableScenarioTest, IsIndependentOfTheOrderOfActions) {
+  // Simultaneous events of one kind keep the order of the actions, so all times differ here.
   Player player(100, folder);
   std::vector<scene::Timeline> actions;
   for (int i = 0; i < 30; ++i) {
@@ -222,7 +222,7 @@ TEST_F(Live, TakesTheSameDeedsInAnyOrder) {
   }
 }
 
-TEST_F(Live, TakesAllOrNothing) {
+TEST_F(EditableScenarioTest, AddsAllActionsOrNone) {
   const auto live = rooms();
   live->advance_to(1);
   const std::string before = scene::format_timeline(live->scenario().timeline, "");
@@ -271,7 +271,7 @@ TEST_F(Live, TakesAllOrNothing) {
   expect_as_saved(*live, {1, 2});
 }
 
-TEST_F(Live, GoesBackToWhatItWas) {
+TEST_F(EditableScenarioTest, ResetRestoresTheInitialState) {
   const auto live = rooms();
   const scene::Timeline first = live->scenario().timeline;
   live->advance_to(3);
@@ -296,8 +296,8 @@ TEST_F(Live, GoesBackToWhatItWas) {
             "the timeline has another grid than the scenario; load it as a new scenario");
 }
 
-TEST_F(Live, ARecordingOfTheDemoLoadsAsItWasPlayed) {
-  // From the files of the demo to files of our own: a throw, twenty shots, a word, a blast, a door, a path.
+TEST_F(EditableScenarioTest, ARecordingOfTheDemoReloadsToTheSameState) {
+  // Starts from the files of the demo: a throw, twenty shots, a word, a blast, a door, a path.
   const fs::path demo = fs::path(BRUME_SOURCE_DIR) / "scenes/demo.toml";
   const auto live = EditableScenario::create(load_scenario(demo, {}).value_or_throw()).value_or_throw();
   const auto play = [&](double time, const std::function<void(scene::Timeline&)>& make) {
@@ -339,7 +339,7 @@ TEST_F(Live, ARecordingOfTheDemoLoadsAsItWasPlayed) {
   }
 }
 
-TEST_F(Live, KeepsItsGridWhenItIsLoadedAgain) {
+TEST_F(EditableScenarioTest, KeepsItsGridWhenReloaded) {
   const auto live = rooms();
   const scene::GridOptions& grid = live->scenario().timeline.grid;
   const voxel::GridLayout& layout = live->scenario().voxels.grid.layout();
@@ -348,7 +348,7 @@ TEST_F(Live, KeepsItsGridWhenItIsLoadedAgain) {
   EXPECT_EQ(grid.voxel, layout.voxel_size);
 }
 
-/// Processor time that this thread spends: what else the machine does meanwhile does not count.
+/// CPU time of this thread, which does not depend on the load of the machine.
 double cpu_seconds_of(const std::function<void()>& work) {
   const auto now = [] {
     timespec time{};
@@ -366,10 +366,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-TEST_F(Live, AShotIntoARunningWorldIsCheap) {
-  // Into a grown smoke, one at each tick. None may play the past again: that is what a shot into the past
-  // does, which is the measure here, taken in between, on whatever machine this is. Nor may it read files:
-  // they are gone.
+TEST_F(EditableScenarioTest, AShotIntoARunningWorldIsCheap) {
+  // Shots into a grown smoke, one per tick, must not replay the past. Shots into the past do, and serve as
+  // the reference on any machine. Shots must not read files either, so these are removed.
   const auto live = rooms();
   live->advance_to(3);
   Player player(5, folder);

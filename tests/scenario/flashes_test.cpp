@@ -21,7 +21,7 @@ scene::Timeline timeline() {
   return timeline;
 }
 
-TEST(Flashes, ShineFromTheTickOfTheirEventAndFade) {
+TEST(Flashes, StartAtTheTickOfTheirEventAndFade) {
   const scene::Timeline events = timeline();
   EXPECT_TRUE(flashes_of(events, 0.99).empty());
   const auto first = flashes_of(events, 1);
@@ -41,7 +41,7 @@ TEST(Flashes, ShineFromTheTickOfTheirEventAndFade) {
   EXPECT_TRUE(flashes_of(events, tick_65 + kBlastSeconds).empty());
 }
 
-TEST(Flashes, AnExplosionReddensOverItsPlace) {
+TEST(Flashes, AnExplosionTurnsRedAboveItsPosition) {
   const scene::Timeline events = timeline();
   const auto early = flashes_of(events, 1.1), late = flashes_of(events, 1.25);
   ASSERT_EQ(early.size(), 1u);

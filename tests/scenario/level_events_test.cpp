@@ -40,7 +40,7 @@ std::uint64_t smoke_in_the_east(const Simulation& simulation) {
   return sum;
 }
 
-TEST(LevelEvents, ADoorChangesVoxelsPlanesAndPictureAndBack) {
+TEST(LevelEvents, ADoorTogglesVoxelsPlanesAndVisibility) {
   Scenario scenario = two_rooms();
   scenario.timeline.doors = {{1.0, "door", true, ""}, {2.0, "door", false, ""}, {3.0, "poster", true, ""}};
   const Voxels open = rebuilt(scenario, "door"), shut = rebuilt(scenario, "nothing");
@@ -50,7 +50,7 @@ TEST(LevelEvents, ADoorChangesVoxelsPlanesAndPictureAndBack) {
     const auto now = simulation->hidden_objects();
     return std::vector<std::uint32_t>(now.begin(), now.end());
   };
-  // Forwards, backwards, and by leaps.
+  // Forwards, backwards and in jumps.
   for (const double time : {0.0, 1.0, 1.99, 2.0, 3.0, 1.5, 0.5, 2.5, 1.0, 0.99}) {
     SCOPED_TRACE(time);
     simulation->advance_to(time);
@@ -60,7 +60,7 @@ TEST(LevelEvents, ADoorChangesVoxelsPlanesAndPictureAndBack) {
   }
 }
 
-TEST(LevelEvents, SmokePassesADoorThatOpensAndNoneThatIsShut) {
+TEST(LevelEvents, SmokePassesOnlyOpenDoors) {
   Scenario scenario = two_rooms();
   scenario.timeline.doors = {{3.0, "door", true, ""}};
   const auto simulation = Simulation::create(scenario).value_or_throw();
@@ -74,8 +74,8 @@ TEST(LevelEvents, SmokePassesADoorThatOpensAndNoneThatIsShut) {
   EXPECT_EQ(smoke_in_the_east(*simulation), 0u);
 }
 
-TEST(LevelEvents, TheSmokeVolumeIsThatOfTheOpenLevel) {
-  // A volume that saw the door open is one that never knew it shut, at every place that can be asked for.
+TEST(LevelEvents, TheSmokeVolumeEqualsThatOfTheOpenLevel) {
+  // A volume in which the door opened equals one that was built with the door open, at every point.
   Scenario scenario = two_rooms();
   scenario.timeline.doors = {{0.0, "door", true, ""}};
   Scenario other = two_rooms();
@@ -97,23 +97,25 @@ TEST(LevelEvents, TheSmokeVolumeIsThatOfTheOpenLevel) {
   }
 }
 
-TEST(LevelEvents, AnEditFillsTheVoxelsWhoseCentresAreInIt) {
+TEST(LevelEvents, AnEditFillsTheVoxelsWithCentresInside) {
   Scenario scenario = two_rooms();
   const voxel::GridLayout& layout = scenario.voxels.grid.layout();
-  EXPECT_EQ(voxels_in(layout, layout.origin_world + vec3(0.1f), layout.origin_world + vec3(0.5f, 0.51f, 0.6f)),
-            (voxel::IntBox{ivec3(0), ivec3(2, 3, 3)}));
-  EXPECT_TRUE(voxels_in(layout, layout.origin_world + vec3(0.15f), layout.origin_world + vec3(0.25f)).empty());
+  EXPECT_EQ(
+      voxels_in(layout, layout.origin_world + vec3(0.1f), layout.origin_world + vec3(0.5f, 0.51f, 0.6f)),
+      (voxel::IntBox{ivec3(0), ivec3(2, 3, 3)}));
+  EXPECT_TRUE(
+      voxels_in(layout, layout.origin_world + vec3(0.15f), layout.origin_world + vec3(0.25f)).empty());
   EXPECT_EQ(voxels_in(layout, vec3(-1e6f), vec3(1e6f)), (voxel::IntBox{ivec3(-1), layout.size + 1}));
 
   // A hole in the wall between the rooms, and the doorway walled up.
   scenario.timeline.edits = {{1.0, {-0.3f, 2.1f, -1.5f}, {0.3f, 2.7f, -0.7f}, false},
-                          {2.0, {-0.3f, 0, -0.6f}, {0.3f, 2.1f, 0.6f}, true}};
+                             {2.0, {-0.3f, 0, -0.6f}, {0.3f, 2.1f, 0.6f}, true}};
   scenario.timeline.doors = {{2.0, "door", true, ""}};
   const auto events = level_events(scenario).value_or_throw();
   ASSERT_EQ(events.size(), 3u);
   EXPECT_FALSE(events[0].blocks.empty());
   EXPECT_FALSE(events[1].blocks.empty());
-  EXPECT_TRUE(events[2].blocks.empty());  // the door is within what was walled up
+  EXPECT_TRUE(events[2].blocks.empty());  // the edit covers the door
   EXPECT_TRUE(events[2].hidden);
   const auto simulation = Simulation::create(scenario).value_or_throw();
   simulation->advance_to(0.5);
@@ -128,7 +130,7 @@ TEST(LevelEvents, AnEditFillsTheVoxelsWhoseCentresAreInIt) {
   EXPECT_GT(smoke_in_the_east(*simulation), 0u);
 }
 
-TEST(LevelEvents, EventsAreInOrderOfTheirTicks) {
+TEST(LevelEvents, EventsAreSortedByTick) {
   Scenario scenario = two_rooms();
   scenario.timeline.doors = {{1.0, "door", true, ""}};
   scenario.timeline.edits = {{1.0, {-3, 1, -1}, {-2, 2, 1}, true}};
@@ -153,12 +155,12 @@ TEST(LevelEvents, EventsAreInOrderOfTheirTicks) {
 TEST(LevelEvents, AnUnknownDoorFails) {
   Scenario scenario = two_rooms();
   scenario.timeline.doors = {{1.0, "dor", true, "t.toml:3:4"}};
-  for (const Failure& failure :
-       {level_events(scenario).failure(), events_of(scenario).failure(), Simulation::create(scenario).failure()})
+  for (const Failure& failure : {level_events(scenario).failure(), events_of(scenario).failure(),
+                                 Simulation::create(scenario).failure()})
     EXPECT_EQ(failure.message, "t.toml:3:4: the scene has no object \"dor\"; the nearest name is \"door\"");
 }
 
-TEST(LevelEvents, AnEventOutOfRangeNamesItsPlace) {
+TEST(LevelEvents, AnEventOutOfRangeNamesItsPosition) {
   Scenario scenario = two_rooms();
   scenario.timeline.blasts = {{0.5, {1, 1, 1}}};
   scenario.timeline.blasts[0].radius = 100;  // 500 voxels
@@ -174,7 +176,7 @@ TEST(TickAt, TakesTheTickAtOrBefore) {
   EXPECT_EQ(tick_at(-3.0, 64), 0u);
   EXPECT_EQ(tick_at(1.0 / 64, 64), 1u);
   EXPECT_EQ(tick_at(0.99 / 64, 64), 0u);
-  EXPECT_EQ(tick_at(0.1 + 0.2, 10), 3u);  // not a rounding below it
+  EXPECT_EQ(tick_at(0.1 + 0.2, 10), 3u);  // not rounded down to tick 2
   EXPECT_EQ(tick_at(3600.0, 1000), 3600000u);
 }
 

@@ -1,14 +1,14 @@
-// The real scene, where it is there.
+// Tests with the motel scene, if it is available.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
-#include "scene/load.hpp"
 #include "scenario/level_events.hpp"
 #include "scenario/walker.hpp"
 #include "scenario/world_triangles.hpp"
+#include "scene/load.hpp"
 #include "tests/reference/triangle_box.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"
@@ -37,7 +37,7 @@ TEST(Motel, VoxelsEqualBruteForceAndPlanesLieInThem) {
   const auto grid = voxel::voxelize(triangles, layout);
   ASSERT_TRUE(grid);
 
-  // Each triangle against the voxels of its box and a rim around.
+  // Each triangle against the voxels of its bounding box and a margin.
   BitGrid expected(layout);
   for (const Triangle& t : triangles) {
     std::array<glm::dvec3, 3> in_voxels{(glm::dvec3(t.a) - glm::dvec3(layout.origin_world)) / 0.5,
@@ -69,7 +69,7 @@ TEST(Motel, VoxelsEqualBruteForceAndPlanesLieInThem) {
   EXPECT_GT(planes.cell_count(), grid->count_solid() / 2);
 }
 
-TEST(Motel, ADoorThatOpensLeavesWhatAFullRebuildWithoutItMakes) {
+TEST(Motel, OpeningADoorEqualsARebuildWithoutIt) {
   if (!std::filesystem::exists(motel()))
     GTEST_SKIP() << motel() << " is not there; set BRUME_MOTEL to its folder";
   auto scene = scene::load_scene(motel());
@@ -109,12 +109,12 @@ TEST(Motel, ADoorThatOpensLeavesWhatAFullRebuildWithoutItMakes) {
   }
 }
 
-TEST(Motel, ABodyOnFootGoesUpItsStairsAndComesDown) {
+TEST(Motel, AWalkerClimbsAndDescendsItsStairs) {
   if (!std::filesystem::exists(motel()))
     GTEST_SKIP() << motel() << " is not there; set BRUME_MOTEL to its folder";
   const auto triangles = world_triangles(scene::load_scene(motel()).value_or_throw());
   for (const GridLayout& layout : {GridLayout{{120, 20, 120}, 0.5f, glm::vec3(-30, 0, -30)},
-                                 GridLayout{{240, 40, 240}, 0.25f, glm::vec3(-30, 0, -30)}}) {
+                                   GridLayout{{240, 40, 240}, 0.25f, glm::vec3(-30, 0, -30)}}) {
     const BitGrid grid = voxel::voxelize(triangles, layout).value_or_throw();
     Walker walker;
     walker.put(grid, {-29.3f, 2.6f, 7.5f});

@@ -14,8 +14,8 @@
 namespace brume::scenario {
 namespace {
 
-/// Open air, 12 x 6 x 8 m, with a smoke in its middle that fills a good part of it, and what the timeline
-/// shoots.
+/// Open air, 12 x 6 x 8 m, with a smoke in its middle that fills much of it, and the shots of a
+/// timeline.
 Scenario air(scene::Timeline timeline) {
   timeline.smoke.voxels = 60000;
   timeline.smokes = {{0.0, {0, 2, 0}, {0, 2, 0}}};
@@ -36,7 +36,7 @@ scene::TextEvent text_event(const std::string& text) {
   return event;
 }
 
-/// What the row of letters should be: each glyph's texel at a point, in capital heights from the middle.
+/// The expected row of letters: the glyph texel at a point, in capital heights from the middle.
 class ExpectedRow {
  public:
   explicit ExpectedRow(const std::string& text) {
@@ -53,7 +53,7 @@ class ExpectedRow {
     half_width_ = 0.5f * (high - low);
   }
   float half_width() const { return half_width_; }
-  /// The least and the greatest coverage within a texel of the point.
+  /// Minimum and maximum coverage within a texel of the point.
   std::pair<int, int> coverage_around(float right, float up) const {
     int least = 255, greatest = 0;
     for (int i = 0; i < 9; ++i) {
@@ -78,7 +78,7 @@ class ExpectedRow {
   float middle_ = 0, half_width_ = 0;
 };
 
-/// Share of the smoke that all holes leave at a point.
+/// Fraction of the smoke that remains after all holes at a point.
 float remaining_at(const Scenario& scenario, const std::vector<shared::Hole>& holes, glm::vec3 p,
                    float time) {
   float left = 1;
@@ -91,8 +91,8 @@ struct Comparison {
   int ink = 0, paper = 0, wrong = 0;
 };
 
-/// Looks at the row along its shots (mirrored: from behind, with the left of the shooter to the right) and
-/// compares with the font's glyphs wherever those are not at an edge.
+/// Compares the row, viewed along its shots (mirrored: from behind), with the glyphs of the font, except at
+/// their edges.
 Comparison compare(const Scenario& scenario, const std::vector<shared::Hole>& holes, float time,
                    bool from_behind, bool mirror_expected) {
   const ExpectedRow expected(scenario.timeline.texts[0].text);
@@ -111,7 +111,7 @@ Comparison compare(const Scenario& scenario, const std::vector<shared::Hole>& ho
   return result;
 }
 
-TEST(Text, ReadsAsItsGlyphsFromTheShooterMirroredFromBehindAndIsGoneAfterwards) {
+TEST(Text, MatchesItsGlyphsMirroredFromBehindAndCloses) {
   scene::Timeline timeline;
   timeline.texts = {text_event("BRUME")};
   const Scenario scenario = air(timeline);
@@ -138,7 +138,7 @@ TEST(Text, ReadsAsItsGlyphsFromTheShooterMirroredFromBehindAndIsGoneAfterwards) 
     EXPECT_EQ(shared::hole_strength(hole, glm::vec3(0.3f, 2, 0), 3.66f, 0), 0);
 }
 
-TEST(Text, HasParallelShotsOfTheRightSizesThatFollowEachOther) {
+TEST(Text, BecomesParallelShotsOfTheRightSizesAndTimes) {
   scene::Timeline timeline;
   timeline.texts = {text_event("A mi")};
   timeline.texts[0].from_world = {3, 1, 4};
@@ -162,7 +162,7 @@ TEST(Text, HasParallelShotsOfTheRightSizesThatFollowEachOther) {
   EXPECT_LT(glm::dot(glm::dvec3(shots[1].origin - shots[0].origin), axes.up), -0.05 * 1024);
 }
 
-TEST(Text, TurnsAsARow) {
+TEST(Text, RollRotatesTheWholeRow) {
   scene::Timeline timeline;
   timeline.texts = {text_event("II")};
   timeline.texts[0].roll = 0.5f * 3.14159265f;
@@ -177,7 +177,7 @@ TEST(Text, TurnsAsARow) {
   EXPECT_LE(std::abs(apart.x), 1);
 }
 
-TEST(Text, NamesWhatItCannotShoot) {
+TEST(Text, ErrorsNameTheText) {
   const auto failure_of = [](const std::string& text, const std::string& font) {
     scene::Timeline timeline;
     timeline.texts = {text_event(text)};
@@ -190,7 +190,7 @@ TEST(Text, NamesWhatItCannotShoot) {
   EXPECT_EQ(failure_of("A", "/no/such.ttf").rfind("t.toml:7:1: /no/such.ttf: ", 0), 0u);
 }
 
-TEST(ShotMasks, AreThePictureWhereItIsWhiteAndOpaqueInTheMiddleOfASquare) {
+TEST(ShotMasks, AreTheLuminanceTimesAlphaCentredInASquare) {
   image::Image8 picture{4, 2, {}};
   const std::uint8_t rgba[8][4] = {{255, 255, 255, 255}, {0, 0, 0, 255},       {255, 255, 255, 0},
                                    {255, 255, 255, 128}, {128, 128, 128, 255}, {255, 0, 0, 255},
@@ -225,7 +225,7 @@ TEST(ShotMasks, AreLoadedOnceEach) {
   timeline.texts = {text_event("ANNA"), text_event("NAN")};
   const LoadedMasks masks = load_masks(timeline).value_or_throw();
   EXPECT_EQ(masks.atlas.count(), 4u) << "two pictures, A and N";
-  // By the time of their first use, shots before texts, and what is alike is one.
+  // In the order of their first use, shots before texts, without duplicates.
   ASSERT_TRUE(image::save_png(folder / "like_a.png", {8, 8, std::vector<std::uint8_t>(256, 255)}));
   scene::Timeline later = timeline;
   later.shots[0].time = later.shots[1].time = later.shots[2].time = 3;

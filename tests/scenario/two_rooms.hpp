@@ -1,4 +1,4 @@
-// Two rooms with a door in between, without any file.
+// Two rooms with a door in between, created in memory.
 #pragma once
 
 #include <string>

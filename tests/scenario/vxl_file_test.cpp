@@ -48,7 +48,7 @@ void expect_same(const BitGrid& a, const BitGrid& b) {
       for (int x = 0; x < a.size().x; ++x) ASSERT_EQ(a.solid({x, y, z}), b.solid({x, y, z}));
 }
 
-// Counts warnings while it lives.
+// Counts warnings in a scope.
 class Warnings {
  public:
   Warnings() {
@@ -72,7 +72,7 @@ class VxlFile : public testing::Test {
   std::filesystem::path folder_, path_;
 };
 
-TEST(VxlCodec, ReturnsWhatItWasGiven) {
+TEST(VxlCodec, RoundTrips) {
   const VxlContents contents = small_contents();
   ASSERT_GT(contents.planes.plane_count(), 10u);
   const auto bytes = encode_vxl(contents, kKey);
@@ -87,20 +87,20 @@ TEST(VxlCodec, ReturnsWhatItWasGiven) {
   EXPECT_TRUE(*decode_vxl(bytes, std::nullopt));
 }
 
-TEST(VxlCodec, ReturnsAnEmptyGrid) {
+TEST(VxlCodec, RoundTripsAnEmptyGrid) {
   const auto bytes = encode_vxl({BitGrid({{1, 1, 1}, 1, vec3(0)}), {}, 0}, kKey);
   const auto decoded = decode_vxl(bytes, kKey);
   ASSERT_TRUE(decoded && *decoded);
   EXPECT_EQ((*decoded)->grid.count_solid(), 0u);
 }
 
-TEST(VxlCodec, RefusesEveryTruncation) {
+TEST(VxlCodec, RejectsEveryTruncation) {
   const auto bytes = encode_vxl(small_contents(), kKey);
   for (std::size_t length = 0; length < bytes.size(); ++length)
     ASSERT_FALSE(decode_vxl(std::span(bytes).first(length), kKey)) << length;
 }
 
-TEST(VxlCodec, RefusesEveryFlippedBit) {
+TEST(VxlCodec, RejectsEveryFlippedBit) {
   auto bytes = encode_vxl(small_contents(), kKey);
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     const auto mask = static_cast<std::byte>(1u << bit % 8);
@@ -110,8 +110,8 @@ TEST(VxlCodec, RefusesEveryFlippedBit) {
   }
 }
 
-TEST(VxlCodec, SurvivesFlippedBitsBehindARightChecksum) {
-  // Damage that someone signed: it may be refused or be another sound grid, but nothing else.
+TEST(VxlCodec, SurvivesFlippedBitsWithAMatchingChecksum) {
+  // Damage with a matching checksum: either rejected or another valid grid.
   auto bytes = encode_vxl(small_contents(), kKey);
   int refused = 0;
   for (std::size_t bit = 0; bit < 8 * (bytes.size() - 8); ++bit) {
@@ -122,7 +122,7 @@ TEST(VxlCodec, SurvivesFlippedBitsBehindARightChecksum) {
     const auto decoded = decode_vxl(damaged, std::nullopt);
     refused += !decoded;
     if (!decoded || !*decoded) continue;
-    // No voxel outside of the grid: all that are counted can be asked for.
+    // No voxel outside of the grid: every counted one can be queried.
     std::uint64_t inside = 0;
     (*decoded)->grid.for_each_brick([&](ivec3 at, const BitGrid::Brick&) {
       for (int i = 0; i < 512; ++i)
@@ -148,7 +148,7 @@ TEST_F(VxlFile, SecondRunLoadsTheCache) {
   EXPECT_EQ(warnings.count, 0);
 }
 
-TEST_F(VxlFile, AMovedVertexObjectOrGridRebuilds) {
+TEST_F(VxlFile, RebuildsWhenAVertexObjectOrGridMoves) {
   const Warnings warnings;
   const auto cached = [&](const scene::Scene& scene, const GridLayout& layout) {
     const auto voxels = load_or_voxelize(scene, layout, path_);
@@ -173,7 +173,7 @@ TEST_F(VxlFile, AMovedVertexObjectOrGridRebuilds) {
   EXPECT_EQ(warnings.count, 0);
 }
 
-TEST_F(VxlFile, DamagedAndForeignFilesAreRebuiltWithOneWarning) {
+TEST_F(VxlFile, RebuildsDamagedAndForeignFilesWithOneWarning) {
   ASSERT_TRUE(load_or_voxelize(small_scene(), kFrame, path_));
   const auto whole = read_file(path_);
   ASSERT_TRUE(whole);

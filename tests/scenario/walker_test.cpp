@@ -35,7 +35,7 @@ void fill(BitGrid& grid, vec3 low, vec3 high) {
 Body body_of(const Walker& walker) {
   const dvec3 feet(walker.feet_world());
   const WalkerOptions& o = walker.options();
-  // What is left after rounding to floats, and kSkin, is less than 1e-6 m of a place below 16 m.
+  // Rounding to float and kSkin amount to less than 1e-6 m for coordinates below 16 m.
   const double half = double{o.half_width} - 2e-6;
   return {feet + dvec3(-half, 2e-6, -half), feet + dvec3(half, double{o.height} - 2e-6, half)};
 }
@@ -71,7 +71,7 @@ TEST(Walker, StandsOnTheFloorOfTheGridAndBesideIt) {
   }
 }
 
-TEST(Walker, FallsAsAStoneWhateverTheFrames) {
+TEST(Walker, FallIsIndependentOfTheFrameRate) {
   const BitGrid grid = space(0.5f, vec3(4, 60, 4));
   for (const double layout : {1.0 / 240, 1.0 / 61, 0.3, 0.75}) {
     Walker walker = at(grid, {2, 50, 2});
@@ -108,7 +108,7 @@ BitGrid stairs(float voxel, float rise, float tread) {
   return grid;
 }
 
-TEST(Walker, ClimbsStairsAndGoesDownThemWithItsFeetOnThem) {
+TEST(Walker, ClimbsAndDescendsStairsWithoutLosingContact) {
   for (const auto& [voxel, rise, tread] :
        {std::array{0.25f, 0.25f, 0.25f}, std::array{0.5f, 0.5f, 0.5f}, std::array{0.0625f, 0.1875f, 0.25f}}) {
     SCOPED_TRACE(rise);
@@ -137,7 +137,7 @@ TEST(Walker, ClimbsStairsAndGoesDownThemWithItsFeetOnThem) {
   }
 }
 
-TEST(Walker, GoesUpTheStairOfTheDemoAndDownAgain) {
+TEST(Walker, ClimbsAndDescendsTheStairsOfTheDemo) {
   const auto demo = std::filesystem::path(BRUME_SOURCE_DIR) / "scenes/demo.toml";
   const Scenario scenario = load_scenario(demo, {}).value_or_throw();
   const BitGrid& grid = scenario.voxels.grid;
@@ -153,7 +153,7 @@ TEST(Walker, GoesUpTheStairOfTheDemoAndDownAgain) {
   EXPECT_NEAR(walker.feet_world().y, low, 1e-4);
 }
 
-TEST(Walker, ClimbsNoHigherThanAStepAndFallsFromWhatIs) {
+TEST(Walker, ClimbsNoHigherThanAStepAndFallsFromLedges) {
   BitGrid grid = space(0.0625f, vec3(8, 5, 3));
   fill(grid, {2, 0, 0}, {4, 0.5f, 3});
   fill(grid, {4, 0, 0}, {8, 1.125f, 3});  // 0.625 m more
@@ -162,7 +162,7 @@ TEST(Walker, ClimbsNoHigherThanAStepAndFallsFromWhatIs) {
   walk(walker, grid, vec3(1, 0, 0), 3);
   EXPECT_NEAR(walker.feet_world().y, 0.5f, 2e-5);
   EXPECT_NEAR(walker.feet_world().x, 3.8f, 3e-5);
-  // With a jump it gets there. From there it falls.
+  // A jump reaches it. From there it falls.
   walker.move(grid, {vec3(1, 0, 0), false, true}, 1.0 / 60);
   EXPECT_FALSE(walker.on_ground());
   walk(walker, grid, vec3(1, 0, 0), 1);
@@ -183,7 +183,7 @@ TEST(Walker, ClimbsNoHigherThanAStepAndFallsFromWhatIs) {
   EXPECT_NEAR(walker.feet_world().y, 0.5f, 2e-5);
 }
 
-TEST(Walker, StopsAtACeilingAndKeepsItsEyeBelowIt) {
+TEST(Walker, StopsAtACeilingWithTheEyeBelowIt) {
   BitGrid grid = space(0.0625f, vec3(6, 4, 3));
   fill(grid, {0, 2, 0}, {3, 2.25f, 3});
   Walker walker = at(grid, {1, 0, 1.5f});
@@ -194,7 +194,7 @@ TEST(Walker, StopsAtACeilingAndKeepsItsEyeBelowIt) {
     highest = std::max(highest, walker.feet_world().y);
   }
   EXPECT_NEAR(highest, 0.25f, 3e-5);
-  // Down half a metre and under a lintel at once: the eye that follows gently stays below it.
+  // Half a metre down and under a lintel at the same time: the smoothed eye stays below it.
   BitGrid cellar = space(0.0625f, vec3(6, 4, 3));
   fill(cellar, {0, 0, 0}, {2, 0.5f, 3});
   fill(cellar, {2.5f, 1.8125f, 0}, {6, 2.5f, 3});
@@ -217,8 +217,8 @@ TEST(Walker, PassesANarrowDoor) {
   EXPECT_GT(walker.feet_world().x, 5);
 }
 
-TEST(Walker, ComesOutOfWhatItStandsIn) {
-  // A door of 0.25 m is shut on it; it steps aside by the shorter way.
+TEST(Walker, MovesOutOfSolidVoxels) {
+  // A door of 0.25 m closes on it; it moves to the nearer side.
   BitGrid grid = space(0.125f, vec3(8, 4, 8));
   Walker walker = at(grid, {4.1f, 0, 4});
   walk(walker, grid, vec3(0), 0.1);
@@ -236,7 +236,7 @@ TEST(Walker, ComesOutOfWhatItStandsIn) {
   EXPECT_NEAR(walker.feet_world().y, 20, 2e-5);
 }
 
-TEST(Walker, FliesThroughEverythingAndComesDownBesideIt) {
+TEST(Walker, FliesThroughWallsAndLandsBesideThem) {
   BitGrid grid = space(0.25f, vec3(8, 4, 8));
   fill(grid, {3, 0, 0}, {4, 3, 8});
   Walker walker = at(grid, {1, 0, 4});
@@ -253,7 +253,7 @@ TEST(Walker, FliesThroughEverythingAndComesDownBesideIt) {
   EXPECT_NEAR(walker.feet_world().x, 2.8f, 3e-5);
 }
 
-/// Boxes, walls and holes drawn from a seed, in a closed room.
+/// Random boxes, walls and holes in a closed room.
 BitGrid random_rooms(std::mt19937& random, float voxel) {
   BitGrid grid = space(voxel, vec3(24, 14, 18) * voxel, vec3(-3.3f, 0.7f, 2.1f));
   const ivec3 size = grid.size();
@@ -270,14 +270,14 @@ BitGrid random_rooms(std::mt19937& random, float voxel) {
   return grid;
 }
 
-TEST(Walker, IsNeverInAnythingSolidAndNeverThroughAWall) {
+TEST(Walker, NeverEntersSolidVoxelsOrPassesWalls) {
   std::mt19937 random(1);
   const auto real = [&](float low, float high) {
     return low + (high - low) * static_cast<float>(random() % 4096) / 4095.0f;
   };
   int moved = 0;
   for (unsigned world = 0; world < 60; ++world) {
-    // The body in voxels is what matters: from a twentieth of one to many.
+    // Covers body sizes from a twentieth of a voxel to many voxels.
     const float voxel = std::array{0.015625f, 0.0625f, 0.25f, 0.5f, 2.0f, 10.0f}[world % 6];
     const float scale = voxel < 0.25f ? 4 * voxel : 1.0f;  // a smaller body for small voxels
     WalkerOptions options{0.2f * scale, 1.75f * scale, 1.62f * scale, 0.55f * scale};
@@ -286,7 +286,7 @@ TEST(Walker, IsNeverInAnythingSolidAndNeverThroughAWall) {
     BitGrid grid = random_rooms(random, voxel);
     const vec3 low = grid.layout().origin_world, high = low + vec3(grid.size()) * voxel;
     Walker walker = at(grid, 0.5f * (low + high), options);
-    // A body that has no place in the room is on top of it.
+    // A body that does not fit into the room ends up on top of it.
     const bool inside = walker.feet_world().y < high.y - voxel;
     vec3 direction(0);
     for (int i = 0; i < 400; ++i) {
@@ -315,7 +315,7 @@ TEST(Walker, IsNeverInAnythingSolidAndNeverThroughAWall) {
   EXPECT_GT(moved, 60 * 100);
 }
 
-TEST(Walker, GoesTheSameWayTwice) {
+TEST(Walker, MotionIsReproducible) {
   std::mt19937 random(4);
   const BitGrid grid = random_rooms(random, 0.5f);
   std::set<std::array<float, 3>> ends;
@@ -323,8 +323,8 @@ TEST(Walker, GoesTheSameWayTwice) {
     Walker walker = at(grid, {3, 3, 6});
     std::mt19937 inputs(9);
     for (int i = 0; i < 500; ++i) {
-      const auto way = static_cast<float>(inputs() % 628) / 100;
-      walker.move(grid, {{std::cos(way), 0, std::sin(way)}, false, inputs() % 9 == 0},
+      const auto angle = static_cast<float>(inputs() % 628) / 100;
+      walker.move(grid, {{std::cos(angle), 0, std::sin(angle)}, false, inputs() % 9 == 0},
                   0.001 * static_cast<double>(inputs() % 50));
     }
     ends.insert({walker.eye_world().x, walker.eye_world().y, walker.eye_world().z});
@@ -332,7 +332,7 @@ TEST(Walker, GoesTheSameWayTwice) {
   EXPECT_EQ(ends.size(), 1u);
 }
 
-TEST(Walker, TakesNoNumbersForNothing) {
+TEST(Walker, IgnoresNan) {
   const BitGrid grid = space(0.25f, vec3(8, 4, 8));
   Walker walker = at(grid, {4, 0, 4});
   walk(walker, grid, vec3(0), 0.5);
@@ -345,7 +345,7 @@ TEST(Walker, TakesNoNumbersForNothing) {
   EXPECT_FALSE(is_stuck(grid, body_of(walker)));
 }
 
-TEST(BodySweep, AgreesWithEveryVoxelOnTheWay) {
+TEST(BodySweep, MatchesTestingEveryVoxelAlongThePath) {
   std::mt19937 random(2);
   const auto real = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
@@ -358,24 +358,24 @@ TEST(BodySweep, AgreesWithEveryVoxelOnTheWay) {
     const Body body{low, low + dvec3(real(0.05, 2), real(0.05, 2), real(0.05, 2))};
     if (is_stuck(grid, body)) continue;
     const int axis = static_cast<int>(random() % 3);
-    const double way = real(-6, 6), done = sweep(grid, body, axis, way);
-    ASSERT_LE(std::abs(done), std::abs(way));
-    ASSERT_GE(done * way, 0);
-    // Every place on the way is free, and just beyond its end there is something, if it ends early.
+    const double displacement = real(-6, 6), done = sweep(grid, body, axis, displacement);
+    ASSERT_LE(std::abs(done), std::abs(displacement));
+    ASSERT_GE(done * displacement, 0);
+    // The path is free, and if it ends early there is a solid voxel just beyond its end.
     dvec3 to(0);
     for (double share = 0; share <= 1; share += 0.01) {
       to[axis] = done * share;
       ASSERT_FALSE(is_stuck(grid, body.moved(to))) << i;
     }
-    if (done == way) continue;
+    if (done == displacement) continue;
     ++blocked;
-    to[axis] = done + (way > 0 ? 2 : -2) * kSkin;
+    to[axis] = done + (displacement > 0 ? 2 : -2) * kSkin;
     ASSERT_TRUE(is_stuck(grid, body.moved(to))) << i;
   }
   EXPECT_GT(blocked, 300);
 }
 
-TEST(BodySweep, TheWayOutIsTheShortest) {
+TEST(BodySweep, FindsTheShortestWayOutOfSolidVoxels) {
   std::mt19937 random(3);
   const auto real = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
@@ -387,10 +387,10 @@ TEST(BodySweep, TheWayOutIsTheShortest) {
     const Body body{low, low + dvec3(0.4, 1.2, 0.4)};
     if (!is_stuck(grid, body)) continue;
     ++stuck;
-    const dvec3 way = offset_to_free_space(grid, body);
-    EXPECT_FALSE(is_stuck(grid, body.moved(way)));
-    // No place of a fine lattice that is nearer is free.
-    const double length = glm::length(way) - 1e-4, step = 0.06;
+    const dvec3 offset = offset_to_free_space(grid, body);
+    EXPECT_FALSE(is_stuck(grid, body.moved(offset)));
+    // No nearer point of a fine lattice is free.
+    const double length = glm::length(offset) - 1e-4, step = 0.06;
     const int n = static_cast<int>(std::min(length, 3.0) / step);
     for (int z = -n; z <= n; ++z)
       for (int y = -n; y <= n; ++y)

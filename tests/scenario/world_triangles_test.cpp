@@ -5,7 +5,7 @@
 namespace brume::scenario {
 namespace {
 
-TEST(WorldTriangles, TakesVoxelizedObjectsOnly) {
+TEST(WorldTriangles, ContainsVoxelizedObjectsOnly) {
   scene::Scene scene;
   scene::Mesh mesh;
   mesh.vertices.resize(3);

@@ -9,7 +9,7 @@
 namespace brume::scene {
 namespace {
 
-/// A buffer that grows by values, as the binary of a document.
+/// A buffer to append values to, the binary part of a document.
 struct Bytes {
   std::string data;
   template <typename T>
@@ -30,10 +30,10 @@ struct Document {
   std::string primitive = R"({"attributes": {"POSITION": 0}})";
   std::string accessors = R"([{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}])";
   std::string views;  ///< Default: one over everything.
-  std::string more;   ///< Members behind a comma.
+  std::string more;   ///< Additional members after a comma.
   std::string uri = "data.bin";
   Bytes binary = triangle();
-  std::size_t promised = 0;  ///< byteLength, where it is not the binary's size.
+  std::size_t promised = 0;  ///< byteLength, if it differs from the size of the binary part.
 
   std::string json() const {
     const std::string length = std::to_string(promised ? promised : binary.size());
@@ -115,7 +115,7 @@ TEST(Gltf, AllIndexTypes) {
   }
 }
 
-TEST(Gltf, AnIndexOutOfRangeIsRefused) {
+TEST(Gltf, RejectsAnIndexOutOfRange) {
   Document document;
   document.binary.add<std::uint16_t>({0, 1, 3});
   document.primitive = R"({"attributes": {"POSITION": 0}, "indices": 1})";
@@ -173,7 +173,7 @@ TEST(Gltf, SparseAccessorsReplaceElements) {
   EXPECT_EQ(world_corner(*scene, 0, 2), glm::vec3(7, 8, 9));
 }
 
-TEST(Gltf, CutShortOrOverreachingBytesAreRefused) {
+TEST(Gltf, RejectsTruncatedAndOverreachingBuffers) {
   Document truncated;
   truncated.promised = 40;
   EXPECT_HAS(truncated.error(), "a.gltf: buffers[0]: is truncated: expected 40 bytes, found 36");
@@ -198,7 +198,7 @@ TEST(Gltf, CutShortOrOverreachingBytesAreRefused) {
   EXPECT_HAS(missing.error(), "names accessors[0], but the document has 0 of them");
 }
 
-TEST(Gltf, UrisStayBelowTheFolder) {
+TEST(Gltf, RejectsUrisOutsideOfTheFolder) {
   for (const char* uri : {"../data.bin", "/etc/passwd", "a/../../b.bin", "%2e%2e/data.bin", "C:/data.bin",
                           "..\\\\data.bin", "http://host/data.bin"}) {
     Document document;
@@ -222,7 +222,7 @@ TEST(Gltf, DataUrisAndPercentEscapes) {
   EXPECT_TRUE(document.load());
 }
 
-TEST(Gltf, NotFinitePositionsAreRefused) {
+TEST(Gltf, RejectsNonFinitePositions) {
   Document document;
   document.binary = Bytes().add<float>({0, 0, 0, 1, std::numeric_limits<float>::quiet_NaN(), 0, 0, 1, 0});
   EXPECT_HAS(document.error(),
@@ -290,7 +290,7 @@ TEST(Gltf, MissingImagesAreWarningsWithStandIns) {
   EXPECT_NE(scene->materials[0].base_color_image, kNone);
 }
 
-TEST(Gltf, MarksThatKeepObjectsOutOfTheVoxels) {
+TEST(Gltf, MarksThatExcludeObjectsFromTheVoxels) {
   Document document;
   document.nodes =
       R"([{"mesh": 0}, {"mesh": 0, "name": "IGNORE_x"}, {"extras": {"brume_ignore": true}, "children": [3]},
@@ -306,7 +306,7 @@ TEST(Gltf, MarksThatKeepObjectsOutOfTheVoxels) {
   EXPECT_EQ(glm::vec3(scene->grenade->world_from_mesh[3]), glm::vec3(0));
 }
 
-TEST(Gltf, BrokenStructureIsRefused) {
+TEST(Gltf, RejectsBrokenStructure) {
   Document cycle;
   cycle.nodes = R"([{"mesh": 0}, {"children": [2]}, {"children": [1]}])";
   cycle.more = R"(, "scenes": [{"nodes": [1]}])";
@@ -326,7 +326,7 @@ TEST(Gltf, BrokenStructureIsRefused) {
   EXPECT_HAS(syntax.error(), "expected JSON");
 }
 
-TEST(Gltf, ValuesOfAWrongTypeAreNeverPassedOver) {
+TEST(Gltf, RejectsValuesOfAWrongType) {
   const std::pair<const char*, const char*> nodes[] = {
       {R"([{"mesh": 4294967296}])", "nodes[0].mesh: names meshes[4294967296]"},
       {R"([{"mesh": "0"}])", "nodes[0].mesh: expected a whole number, found"},
@@ -350,13 +350,13 @@ TEST(Gltf, ValuesOfAWrongTypeAreNeverPassedOver) {
   EXPECT_HAS(material.error(), "materials[0].pbrMetallicRoughness.roughnessFactor: expected a number from 0");
 }
 
-TEST(Gltf, DeepNestingIsRefused) {
+TEST(Gltf, RejectsDeepNesting) {
   Document document;
   document.more = ", \"extras\": " + std::string(1000000, '[') + "1" + std::string(1000000, ']');
   EXPECT_HAS(document.error(), "is nested too deeply");
 }
 
-TEST(Gltf, ImagesOutsideOfTheirBufferAreRefused) {
+TEST(Gltf, RejectsImagesOutsideOfTheirBuffer) {
   for (const char* offset : {"0", "36", "4294967296"}) {
     Document document;
     document.views = std::string(R"([{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteLength": 37,
@@ -375,7 +375,7 @@ TEST(Gltf, FilesMayBeLongerThanTheirBuffer) {
   EXPECT_TRUE(document.load());
 }
 
-TEST(Gltf, APlusIsPartOfAFilesName) {
+TEST(Gltf, PlusInAnUriIsPartOfTheFileName) {
   MemoryFiles files;
   files.add_text("a+b.bin", triangle().data);
   Document document;
@@ -396,7 +396,7 @@ std::string glb_of(std::string json, std::string binary) {
   return glb.data;
 }
 
-TEST(Glb, LoadsAndEveryTruncationIsRefused) {
+TEST(Glb, LoadsAndRejectsEveryTruncation) {
   Document document;
   document.uri = "";
   const std::string glb = glb_of(document.json(), document.binary.data);

@@ -1,4 +1,4 @@
-// The seed's real scene, where its folder is there.
+// Tests with the motel scene, if it is available.
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>

@@ -52,7 +52,7 @@ TEST(Polygon, TrianglesCoverStarShapedPolygonsExactly) {
   }
 }
 
-TEST(Polygon, AConcaveQuadIsCutAtItsDent) {
+TEST(Polygon, AConcaveQuadIsSplitAtItsReflexCorner) {
   const std::vector<glm::vec3> arrow = {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5f, 1, 0}};
   for (std::size_t shift = 0; shift < 4; ++shift) {
     std::vector<glm::vec3> corners;
@@ -61,7 +61,7 @@ TEST(Polygon, AConcaveQuadIsCutAtItsDent) {
   }
 }
 
-TEST(Polygon, DegenerateOnesStillGiveAllTriangles) {
+TEST(Polygon, DegeneratePolygonsKeepTheirTriangleCount) {
   EXPECT_EQ(triangulate(std::vector<glm::vec3>(5, glm::vec3(1))).size(), 3u);
   const std::vector<glm::vec3> bow_tie = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
   EXPECT_EQ(triangulate(bow_tie).size(), 2u);
@@ -75,7 +75,7 @@ TEST(Obj, NegativeIndicesCountFromTheEnd) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(a->vertices[i].position, b->vertices[i].position);
 }
 
-TEST(Obj, CornersAreSharedWhereAllThreePartsAgree) {
+TEST(Obj, CornersWithEqualIndicesShareAVertex) {
   const auto model = parse_obj(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 2\n"
       "f 1/1/1 2/1/1 3/1/1\nf 1/1/1 3/1/1 4/2/1\n",
@@ -87,20 +87,20 @@ TEST(Obj, CornersAreSharedWhereAllThreePartsAgree) {
   EXPECT_EQ(model->vertices[3].uv, glm::vec2(1, 0));
 }
 
-TEST(Obj, MissingNormalsAreThoseOfTheFaces) {
+TEST(Obj, MissingNormalsAreComputedPerFace) {
   const auto model = parse_obj(kCubeObj, "cube.obj");
   ASSERT_TRUE(model);
   EXPECT_EQ(model->vertices.size(), 24u);
   for (const Vertex& vertex : model->vertices) EXPECT_NEAR(glm::dot(vertex.normal, vertex.position), 1, 1e-6);
 }
 
-TEST(Obj, LinesMayGoOn) {
+TEST(Obj, LinesMayBeContinued) {
   const auto model = parse_obj("v 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3\n", "a.obj");
   ASSERT_TRUE(model) << model.failure().message;
   EXPECT_EQ(model->vertices.size(), 3u);
 }
 
-TEST(Obj, ErrorsNameThePlace) {
+TEST(Obj, ErrorsNameFileLineAndColumn) {
   EXPECT_EQ(obj_error("v 1 2\n"),
             "a.obj:1:6: expected a number for the third component of a position, found the end of the line");
   EXPECT_EQ(obj_error("v 1 x 3\n"),
@@ -119,7 +119,7 @@ TEST(Obj, ErrorsNameThePlace) {
   EXPECT_EQ(obj_error("v 1 2 3\nf 1 1 99999999999999999999\n").substr(0, 9), "a.obj:2:7");
 }
 
-TEST(ObjScene, AnObjectAMaterial) {
+TEST(ObjScene, OneObjectPerMaterial) {
   MemoryFiles files;
   files.add_text("m.mtl",
                  "newmtl red\nKd 1 0 0\nKe 0 2 0\nnewmtl old map\nKd 0.5\nNs 0\nmap_Kd -s 1 1 1 gone.png\n");
@@ -140,7 +140,7 @@ TEST(ObjScene, AnObjectAMaterial) {
   EXPECT_TRUE(warnings.has("a.obj:12: no material is called \"lost\""));
 }
 
-TEST(ObjScene, MtlErrorsNameThePlace) {
+TEST(ObjScene, MtlErrorsNameFileAndLine) {
   const auto materials = parse_mtl("newmtl a\nKd red\n", "m.mtl");
   ASSERT_FALSE(materials);
   EXPECT_EQ(materials.failure().message, "m.mtl:2:4: expected a number for red, found \"red\"");

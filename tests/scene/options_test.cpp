@@ -20,7 +20,7 @@ std::string shown(double value) {
   return {text, end};
 }
 
-/// The shortest decimal that is this float.
+/// The shortest decimal that parses to this float.
 std::string shown(float value) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr;
@@ -38,7 +38,7 @@ std::string default_text(const OptionInfo&, const glm::vec3& member) {
   return shown(member.x) + ", " + shown(member.y) + ", " + shown(member.z);
 }
 
-/// The rows of docs/timeline.md, each up to where its text may go on.
+/// The rows of docs/timeline.md, each up to its free text.
 class RowMaker {
  public:
   explicit RowMaker(std::string table) : table_(std::move(table)) {}
@@ -47,7 +47,7 @@ class RowMaker {
   void operator()(const OptionInfo& info, const Member& member) {
     add(info, " | " + default_text(info, member) + " | ");
   }
-  /// What happens where the key is missing is said in words.
+  /// The default is described in words.
   template <typename Member>
   void operator()(const OptionInfo& info, const std::optional<Member>& member) {
     EXPECT_FALSE(member) << info.key;
@@ -88,7 +88,7 @@ void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows
   }
 }
 
-TEST(Options, AreThoseOfTheTableInTheDocs) {
+TEST(Options, MatchTheTableInTheDocs) {
   const auto text =
       read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/timeline.md").value_or_throw();
   RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), camera("`[[camera]]` ");
@@ -109,7 +109,7 @@ TEST(Options, AreThoseOfTheTableInTheDocs) {
   expect_rows(part_of(text, "| `[[event]]` `type = \"blast\"`"), blast.rows);
 }
 
-/// That the default is in range, and no key is there twice.
+/// Checks that defaults are in range and keys are unique.
 struct Checker {
   std::set<std::string> keys;
 
@@ -139,7 +139,7 @@ struct Checker {
   }
 };
 
-/// How many members of a struct the visitor must meet: none is forgotten.
+/// The number of members that the visitor must visit.
 template <typename Options, typename Visit>
 std::size_t met(Options options, Visit visit) {
   Checker checker;
@@ -147,7 +147,7 @@ std::size_t met(Options options, Visit visit) {
   return checker.keys.size();
 }
 
-TEST(Options, AreAllThereWithDefaultsInRange) {
+TEST(Options, AreCompleteWithDefaultsInRange) {
 #define MET(options, visit) met(options, [](auto& o, auto& v) { visit(o, v); })
   EXPECT_EQ(MET(Timeline(), visit_timeline_options), 2u);
   EXPECT_EQ(MET(GridOptions(), visit_grid_options), 3u);

@@ -1,4 +1,4 @@
-// Timelines with everything in them, drawn from a seed.
+// Random timelines with all kinds of contents.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace brume::scene {
 
-/// Draws settings over their whole ranges, ends, tiny numbers and -0 included; some stay as they are.
+/// Draws settings from their whole ranges, including the ends, tiny numbers and -0; keeps some defaults.
 class Drawing {
  public:
   explicit Drawing(std::uint32_t seed) : random_(seed) {}
@@ -53,7 +53,7 @@ class Drawing {
 
   void operator()(const OptionInfo& info, float& member) {
     if (below(4) == 0) return;
-    // An angle is what the reader makes of some degrees, or the next float.
+    // An angle that the reader gets from degrees, or a neighbouring float.
     if (!is_angle(info)) return void(member = real(info.low, info.high));
     member = static_cast<float>(number(info.low, info.high) * kRadiansOfDegree);
     const double degrees = double{member} / kRadiansOfDegree;

@@ -1,4 +1,4 @@
-// What the tests of the loaders share.
+// Helpers of the loader tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace brume::scene {
 
-/// Collects the warnings while it lives.
+/// Collects warnings in a scope.
 class Warnings {
  public:
   Warnings() {
@@ -52,7 +52,7 @@ inline double signed_volume(const Scene& scene, const Object& object) {
   return volume;
 }
 
-/// What every loader promises: valid indices, unit normals and tangents, finite numbers.
+/// Checks the guarantees of every loader: valid indices, unit normals and tangents, finite numbers.
 inline void expect_sound(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     ASSERT_EQ(mesh.indices.size() % 3, 0u);

@@ -87,7 +87,7 @@ TEST(SceneTxt, LightsSpreadTheirPowerOverTheSphere) {
   EXPECT_NEAR(scene->lights[0].intensity.b * 4 * std::numbers::pi, 7.5, 1e-4);
 }
 
-TEST(SceneTxt, CommentsBlankLinesAndCarriageReturnsAreFine) {
+TEST(SceneTxt, AcceptsCommentsBlankLinesAndCarriageReturns) {
   const auto scene = parse("\xef\xbb\xbf# head\r\n\r\n  Box  0 0 0  0 0 0  1 1 1 \r\n\t# end");
   ASSERT_TRUE(scene) << scene.failure().message;
   EXPECT_EQ(scene->objects.size(), 1u);
@@ -100,7 +100,7 @@ TEST(SceneTxt, IgnoredObjectsAreDrawnButNotVoxelized) {
   EXPECT_TRUE(scene->objects[1].voxelized);
 }
 
-TEST(SceneTxt, TheGrenadeIsCentredAndApart) {
+TEST(SceneTxt, TheGrenadeIsCentredAndNotAnObject) {
   const auto scene = parse("Grenade 7 8 9 0 0 0 2 2 2\nBox 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->objects.size(), 1u);
@@ -135,7 +135,7 @@ TEST(SceneTxt, MissingFilesAreWarningsWithStandIns) {
   EXPECT_FLOAT_EQ(material.roughness, 0.05f) << "0 means nobody chose";
 }
 
-TEST(SceneTxt, NamesDoNotLeaveTheFolder) {
+TEST(SceneTxt, RejectsNamesOutsideOfTheFolder) {
   const Warnings warnings;
   const auto scene = parse("../../secret 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
@@ -170,14 +170,14 @@ TEST(SceneTxt, BadMeshesNameBothFiles) {
             "and they count from 1");
 }
 
-TEST(SceneTxt, EmptyAndUnreachableScenesAreRefused) {
+TEST(SceneTxt, RejectsEmptyAndDistantScenes) {
   EXPECT_EQ(error_of("# nothing\n"),
             "Scene.txt: the scene has no triangle; add at least one object with a mesh");
   EXPECT_NE(error_of("Box 0 0 0 0 0 0 1e38 1 1\n").find("\"Box\" reaches farther"), std::string::npos);
   EXPECT_NE(error_of("Box 1e30 0 0 0 0 0 1 1 1\n").find("\"Box\" reaches farther"), std::string::npos);
 }
 
-TEST(SceneTxt, AnObjectScaledToNothingIsLeftOut) {
+TEST(SceneTxt, SkipsAnObjectScaledToZero) {
   const Warnings warnings;
   const auto scene = parse("Box 0 0 0 0 0 0 1 0 1\nBox 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
@@ -195,7 +195,7 @@ TEST(LoadScene, MissingAndUnknownFiles) {
   EXPECT_NE(unknown.failure().message.find("expected .txt, .gltf, .glb or .obj"), std::string::npos);
 }
 
-TEST(LoadScene, ReadsAFolderIgnoringLetterCase) {
+TEST(LoadScene, FindsFilesIgnoringLetterCase) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("brume_scene_test_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder / "meshes");

@@ -10,7 +10,7 @@
 namespace brume::scene {
 namespace {
 
-/// Puts a few numbers of a timeline near and beyond the ends of their ranges.
+/// Sets a few numbers of a timeline near and beyond the ends of their ranges.
 class Spoiler {
  public:
   Spoiler(Drawing& draw, std::uint32_t one_in) : draw_(draw), one_in_(one_in) {}
@@ -77,7 +77,7 @@ void spoil(Timeline& t, Spoiler& s) {
   for (DoorEvent& e : t.doors) s.time(e.time);
 }
 
-TEST(TimelineCheck, TakesWhatTheFileTakesAndNothingElse) {
+TEST(TimelineCheck, AcceptsExactlyWhatTheReaderAccepts) {
   int good = 0, bad = 0;
   for (std::uint32_t seed = 0; seed < 3000; ++seed) {
     Timeline timeline = random_timeline(seed);

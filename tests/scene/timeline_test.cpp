@@ -24,7 +24,7 @@ std::string error_of(const std::string& text) {
   return timeline.failure().message;
 }
 
-TEST(Timeline, DefaultsAndTheSceneBesideIt) {
+TEST(Timeline, DefaultsAndRelativeScenePath) {
   const auto timeline = parse(kHead);
   ASSERT_TRUE(timeline) << timeline.failure().message;
   EXPECT_EQ(timeline->scene, std::filesystem::path("scenes/demo.gltf"));
@@ -33,7 +33,7 @@ TEST(Timeline, DefaultsAndTheSceneBesideIt) {
   EXPECT_FALSE(timeline->grid.size);
 }
 
-TEST(Timeline, EverythingIsRead) {
+TEST(Timeline, ReadsEverything) {
   const auto timeline = parse(std::string(kHead) + R"(duration = 5.5
 exposure = -1
 [grid]
@@ -98,7 +98,7 @@ at = [0, 0, 0]
   EXPECT_EQ(timeline->smokes[0].from_world, glm::vec3(0, 1, 5));
 }
 
-TEST(Timeline, SmokeIsOfAnAnisotropyOrOfDroplets) {
+TEST(Timeline, SmokeHasEitherAnAnisotropyOrDroplets) {
   const auto drops = parse(std::string(kHead) + "[smoke]\ndroplet = 8\n");
   ASSERT_TRUE(drops) << drops.failure().message;
   EXPECT_EQ(drops->smoke.droplet, 8.0f);
@@ -111,7 +111,7 @@ TEST(Timeline, SmokeIsOfAnAnisotropyOrOfDroplets) {
             "scenes/t.toml:4:11: \"droplet\": expected a number from 0.1 to 50, found 51");
 }
 
-TEST(Timeline, UnknownKeysNameTheNearest) {
+TEST(Timeline, UnknownKeysSuggestTheNearest) {
   EXPECT_EQ(
       error_of(std::string(kHead) + "durration = 5\n"),
       "scenes/t.toml:3:1: unknown key \"durration\" in the timeline; the nearest known one is \"duration\"");
@@ -122,7 +122,7 @@ TEST(Timeline, UnknownKeysNameTheNearest) {
             "scenes/t.toml:8:1: unknown key \"radios\" in [[event]]; the nearest known one is \"radius\"");
 }
 
-TEST(Timeline, ValuesOutOfRangeNamePlaceAndRange) {
+TEST(Timeline, ValuesOutOfRangeNamePositionAndRange) {
   EXPECT_EQ(error_of(std::string(kHead) + "[grid]\nvoxel = 0\n"),
             "scenes/t.toml:4:9: \"voxel\": expected a number from 0.015625 to 10, found 0");
   EXPECT_EQ(error_of(std::string(kHead) + "[grid]\nsize = [0, 1, 1]\n"),
@@ -137,7 +137,7 @@ TEST(Timeline, ValuesOutOfRangeNamePlaceAndRange) {
             "scenes/t.toml:4:10: \"zenith\": expected three numbers, like [0.0, 1.0, 2.0]");
 }
 
-TEST(Timeline, WhatMustBeThereAndHow) {
+TEST(Timeline, RequiredKeysAndTypes) {
   EXPECT_EQ(error_of("scene = \"a.obj\"\n").substr(0, 13), "scenes/t.toml");
   EXPECT_NE(error_of("scene = \"a.obj\"\n").find("lacks the key \"version\""), std::string::npos);
   EXPECT_NE(error_of("version = 2\nscene = \"a.obj\"\n").find("scenes/t.toml:1:11"), std::string::npos);
@@ -157,7 +157,7 @@ TEST(Timeline, WhatMustBeThereAndHow) {
             std::string::npos);
 }
 
-TEST(Timeline, OtherLettersOnlyInCommentsAndTexts) {
+TEST(Timeline, NonAsciiOnlyInCommentsAndTexts) {
   const auto timeline = parse("version = 1 # \xc9\x8c\nscene = \"a\\\"\xc9\x8c.gltf\" # '\xc9\x8c\n");
   ASSERT_TRUE(timeline) << timeline.failure().message;
   EXPECT_EQ(timeline->scene, std::filesystem::path("scenes/a\"\xc9\x8c.gltf"));
@@ -171,7 +171,7 @@ std::string event(const std::string& type, const std::string& rest) {
   return "[[event]]\ntype = \"" + type + "\"\n" + rest + "\n";
 }
 
-TEST(Timeline, TheLifeOfASmokeIsRead) {
+TEST(Timeline, ReadsTheLifetimeOfASmoke) {
   const auto usual = parse(kHead), chosen = parse(std::string(kHead) + "[smoke]\nhold = 2\ndissolve = 0.5\n");
   ASSERT_TRUE(usual && chosen);
   EXPECT_EQ(usual->smoke.hold, 18.0f);
@@ -182,7 +182,7 @@ TEST(Timeline, TheLifeOfASmokeIsRead) {
             "scenes/t.toml:4:12: \"dissolve\": expected a number from 0.05 to 60, found 0");
 }
 
-TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
+TEST(Timeline, ReadsBlastsMovesEditsAndDoors) {
   const auto timeline =
       parse(kHead + event("blast", "time = 3\nat = [1, 2, 3]\nradius = 4\nremaining = 0.5\nflash = 0") +
             event("blast", "time = 1\nat = [0, 0, 0]\nrefill_rim = 1\nrefill_middle = 2") +
@@ -191,7 +191,7 @@ TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
             event("door", "time = 6\nobject = \"front door\"\nopen = true"));
   ASSERT_TRUE(timeline) << timeline.failure().message;
   ASSERT_EQ(timeline->blasts.size(), 2u);
-  EXPECT_EQ(timeline->blasts[0].time, 1);  // by time
+  EXPECT_EQ(timeline->blasts[0].time, 1);  // sorted by time
   EXPECT_EQ(timeline->blasts[0].radius, 5.0f);
   EXPECT_EQ(timeline->blasts[0].refill_middle, 2.0f);
   EXPECT_EQ(timeline->blasts[1].at_world, glm::vec3(1, 2, 3));
@@ -210,7 +210,7 @@ TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
   EXPECT_EQ(timeline->doors[0].place, "scenes/t.toml:30:10");
 }
 
-TEST(Timeline, ShotsHaveShapesAndTextsTheirLetters) {
+TEST(Timeline, ReadsShotShapesAndTexts) {
   const auto timeline = parse(std::string(kHead) + R"([smoke]
 hole_rim = 0.02
 [[event]]
@@ -270,7 +270,7 @@ roll = -45
   EXPECT_TRUE(timeline->texts[1].font.empty());
 }
 
-TEST(Timeline, ShapesAndTextsNameTheirMistakes) {
+TEST(Timeline, InvalidShapesAndTextsNameTheMistake) {
   const std::string aimed = "time = 1\nfrom = [0, 1, 0]\ntoward = [0, 1, -1]\n";
   EXPECT_EQ(error_of(kHead + event("shot", aimed + "shape = \"star\"")),
             "scenes/t.toml:8:9: \"shape\": expected \"cylinder\", \"box\" or \"mask\"");
@@ -292,7 +292,7 @@ TEST(Timeline, ShapesAndTextsNameTheirMistakes) {
             "scenes/t.toml:7:10: \"toward\": expected a point other than \"from\"");
 }
 
-TEST(Timeline, NewEventsNameTheirMistakes) {
+TEST(Timeline, InvalidEventsNameTheMistake) {
   EXPECT_EQ(error_of(kHead + event("burst", "time = 1")),
             "scenes/t.toml:4:8: \"type\": expected \"smoke\", \"shot\", \"text\", \"blast\", \"move\", "
             "\"edit\" or \"door\"");
@@ -308,7 +308,7 @@ TEST(Timeline, NewEventsNameTheirMistakes) {
             "scenes/t.toml:3:1: [[event]] lacks the key \"open\"");
 }
 
-TEST(Timeline, ADoorThatIsNotInTheSceneNamesTheNearestObject) {
+TEST(Timeline, AnUnknownDoorSuggestsTheNearestObject) {
   const auto timeline = parse(kHead + event("door", "time = 6\nobject = \"frontdor\"\nopen = true"));
   ASSERT_TRUE(timeline);
   Scene scene;
@@ -350,7 +350,7 @@ TEST(CameraPath, PassesThroughItsKeysAndStaysAtTheEnds) {
   EXPECT_EQ(camera_at(Timeline(), {{1, 2, 3}, {0, 0, 0}, 1}, 0).position_world, glm::vec3(1, 2, 3));
 }
 
-TEST(CameraPath, EvenMotionStaysEvenAwayFromTheEnds) {
+TEST(CameraPath, UniformMotionStaysUniformBetweenInnerKeys) {
   // Keys on a line at uneven times, all at 2 m/s: the spans between inner keys are straight and even.
   const Timeline timeline = path_of(
       {key(0, {0, 0, 0}), key(1, {2, 0, 0}), key(1.5, {3, 0, 0}), key(4, {8, 0, 0}), key(5, {10, 0, 0})});
@@ -383,7 +383,7 @@ TEST(CameraPath, TheFieldOfViewNeverOvershoots) {
   }
 }
 
-TEST(TimelineForScene, ThrowsASmokeAtWhatTheCameraSees) {
+TEST(TimelineForScene, ThrowsASmokeAtTheCentreOfTheView) {
   auto scene = parse_obj_scene(kCubeObj, "cube.obj", MemoryFiles());
   ASSERT_TRUE(scene);
   scene->camera = Camera{{0.25f, 0.5f, 5}, {0.25f, 0.5f, 4}, 1};

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a timeline is, as bits: of two equal ones the same, number for number.
+/// The bits of all numbers of a timeline, for exact comparison.
 class Bits {
  public:
   template <typename Member>
@@ -90,7 +90,7 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   return b.bits;
 }
 
-TEST(TimelineWriter, RandomTimelinesComeBackBitForBit) {
+TEST(TimelineWriter, RandomTimelinesRoundTripBitForBit) {
   for (std::uint32_t seed = 0; seed < 2000; ++seed) {
     const Timeline timeline = random_timeline(seed);
     const std::string text = format_timeline(timeline, "scenes");
@@ -101,7 +101,7 @@ TEST(TimelineWriter, RandomTimelinesComeBackBitForBit) {
   }
 }
 
-TEST(TimelineWriter, EveryAngleComesBackBitForBit) {
+TEST(TimelineWriter, EveryAngleRoundTripsBitForBit) {
   // Whole degrees and their neighbours, and floats all over the range.
   Timeline timeline;
   timeline.scene = "a.obj";
@@ -126,7 +126,7 @@ TEST(TimelineWriter, EveryAngleComesBackBitForBit) {
     ASSERT_EQ(read->shots[i].roll, timeline.shots[i].roll) << i;
 }
 
-TEST(TimelineWriter, WritesAsAPersonWould) {
+TEST(TimelineWriter, WritesReadableText) {
   Timeline timeline;
   timeline.scene = "scenes/demo.glb";
   timeline.duration = 6;
@@ -177,7 +177,7 @@ roll = 12.5
 )");
 }
 
-/// A folder of its own that goes when the test does.
+/// A temporary folder, removed with its contents.
 class TimelineFile : public testing::Test {
  protected:
   TimelineFile()
@@ -201,7 +201,7 @@ class TimelineFile : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(TimelineFile, BringsItsPicturesAndFontsAlong) {
+TEST_F(TimelineFile, CopiesItsImagesAndFonts) {
   Timeline timeline;
   timeline.scene = folder / "one/level.glb";
   timeline.shots = {masked(folder / "one/star.png"), masked(folder / "two/star.png"),
@@ -210,7 +210,7 @@ TEST_F(TimelineFile, BringsItsPicturesAndFontsAlong) {
   timeline.texts[0].text = "x";
   timeline.texts[0].font = folder / "two/star.png";
   const fs::path file = folder / "out/take 1.toml";
-  for (int times = 0; times < 2; ++times) {  // again: over the first
+  for (int times = 0; times < 2; ++times) {  // the second time overwrites
     ASSERT_TRUE(save_timeline(file, timeline));
     const Timeline read = load_timeline(file).value_or_throw();
     EXPECT_TRUE(read.scene.lexically_normal() == folder / "one/level.glb");
@@ -221,7 +221,7 @@ TEST_F(TimelineFile, BringsItsPicturesAndFontsAlong) {
     EXPECT_EQ(read.shots[2].mask, read.shots[0].mask);
     EXPECT_EQ(read.shots[3].mask, folder / "out/near.png");
     EXPECT_EQ(read.texts[0].font, read.shots[1].mask);
-    // One that was read is written as it was, in another folder too.
+    // A timeline that was read is written unchanged, to another folder too.
     ASSERT_TRUE(save_timeline(folder / "again.toml", read));
     const Timeline moved = load_timeline(folder / "again.toml").value_or_throw();
     EXPECT_EQ(moved.shots[0].mask, folder / "out/take 1_files/star.png");
@@ -231,14 +231,14 @@ TEST_F(TimelineFile, BringsItsPicturesAndFontsAlong) {
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder / "out/take 1_files")) ++files;
   EXPECT_EQ(files, 2);
 
-  // What is there already stays: another picture of the name goes beside it.
+  // Existing files stay: another image of the same name is stored next to it.
   put(folder / "one/star.png", "other");
   ASSERT_TRUE(save_timeline(file, timeline));
   EXPECT_EQ(contents(folder / "out/take 1_files/star.png"), "first");
   EXPECT_EQ(contents(load_timeline(file).value_or_throw().shots[0].mask), "other");
 }
 
-TEST_F(TimelineFile, RefusesWhatCouldNotBeReadAgain) {
+TEST_F(TimelineFile, RejectsWhatTheReaderRejects) {
   Timeline timeline;
   timeline.scene = "level.glb";
   const fs::path file = folder / "out/t.toml";
@@ -251,7 +251,7 @@ TEST_F(TimelineFile, RefusesWhatCouldNotBeReadAgain) {
   timeline.shots = {masked(folder / "one/no.png")};
   EXPECT_EQ(refused().find((folder / "one/no.png").string()), 0u);
   timeline.shots = {masked(folder / "one/star.png")};
-  timeline.doors = {{1, "\xff", true}};  // no UTF-8
+  timeline.doors = {{1, "\xff", true}};  // invalid UTF-8
   EXPECT_EQ(refused().find(file.string() + ":"), 0u);
   timeline.doors.clear();
   timeline.smoke.erosion = 2;

@@ -1,4 +1,4 @@
-// Blasts in the open against a model in double.
+// Blasts in open space against a double-precision model.
 #include "sim/blast.hpp"
 
 #include <gtest/gtest.h>
@@ -28,16 +28,15 @@ Blast random_blast(std::mt19937& random) {
   return blast;
 }
 
-/// The least and the most that the simulation's integers may answer. It knows distances by 255 steps of 1.2
-/// radii, from below, and times by milliseconds, from below; smoothstep^1.8 is written as a polynomial that
-/// is 0.018 off at most (blast.cpp), and the sums of its 1/65536ths and what is left are rounded.
+/// Bounds of the result of the integer simulation. It rounds distances down to 255 steps of 1.2 radii and
+/// times down to milliseconds; it approximates smoothstep^1.8 by a polynomial with an error of 0.018
+/// (blast.cpp), and rounds sums of 1/65536 and the remaining density.
 std::pair<double, double> allowed(const Blast& blast, double distance, double age) {
   const double step = 1.2 * blast.radius / 1024 / 255 + 2 * 0.25 / 1024;
   std::pair<double, double> range{255, 0};
   for (int i = 0; i <= 8; ++i)
     for (int k = -4; k <= 8; ++k) {
-      // The front's way in whole milliseconds comes earlier, what refills in whole milliseconds is full
-      // earlier.
+      // Rounding to milliseconds makes the front arrive and the refill end earlier.
       const double left = reference::blast_left(blast, std::max(0.0, distance - step * i / 8),
                                                 std::max(0.0, age + 0.002 * k / 8));
       range = {std::min(range.first, left), std::max(range.second, left)};
@@ -46,7 +45,7 @@ std::pair<double, double> allowed(const Blast& blast, double distance, double ag
   return {range.first - slack, range.second + slack};
 }
 
-TEST(Blasts, EqualTheModelInDoubleAt1000PointsAndTimes) {
+TEST(Blasts, MatchADoublePrecisionModelAt1000PointsAndTimes) {
   std::mt19937 random(21);
   const voxel::BitGrid open(kFrame);
   int cleared = 0, partly = 0, whole = 0;
@@ -55,7 +54,7 @@ TEST(Blasts, EqualTheModelInDoubleAt1000PointsAndTimes) {
     const BlastField field(open, blast, kTicks);
     const glm::dvec3 centre = glm::dvec3(blast.at) / 1024.0;
     for (int k = 0; k < 10; ++k) {
-      // A place at most 1.3 radii away, in the blast itself every tenth time; a time until it is over.
+      // A point up to 1.3 radii away, every tenth time at the centre; a time until the end.
       const auto unit = [&] { return static_cast<double>(random() % 65536) / 32768 - 1; };
       const double x = unit(), y = unit(), z = unit();
       const glm::dvec3 aside = k == 0 ? glm::dvec3(0) : glm::dvec3(x, y, z) * (0.75 * blast.radius / 1024.0);

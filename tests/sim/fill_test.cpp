@@ -35,7 +35,7 @@ std::vector<reference::Reached> expected_fill(const BitGrid& grid, glm::ivec3 so
 
 enum class Maze { dust, walls, corridors };
 
-/// Loose voxels; thick and thin walls with doors; or corridors one voxel wide carved out of the solid.
+/// Loose voxels; thick and thin walls with doors; or corridors one voxel wide carved out of solid voxels.
 BitGrid make_maze(std::mt19937& random, glm::ivec3 size, Maze kind) {
   BitGrid grid({size, 0.5f, glm::vec3(0)});
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
@@ -85,7 +85,7 @@ glm::ivec3 any_free(std::mt19937& random, const BitGrid& grid) {
   }
 }
 
-TEST(Fill, EqualsDijkstraOn200Mazes) {
+TEST(Fill, MatchesDijkstraOn200Mazes) {
   const std::array<glm::ivec3, 8> sizes{
       {{1, 1, 1}, {7, 7, 7}, {33, 17, 5}, {5, 33, 17}, {1, 40, 3}, {8, 8, 8}, {16, 9, 24}, {20, 20, 20}}};
   for (unsigned seed = 0; seed < 200; ++seed) {
@@ -96,7 +96,7 @@ TEST(Fill, EqualsDijkstraOn200Mazes) {
     const glm::ivec3 source = any_free(random, grid);
     const std::vector<reference::Reached> all = expected_fill(grid, source);
 
-    // The whole space, one more than there is, and any part of it.
+    // The whole space, one voxel more than exists, and random amounts.
     for (const std::size_t budget : {all.size(), all.size() + 1, std::size_t{1} + random() % all.size()}) {
       std::vector<reference::Reached> nearest(all.begin(),
                                               all.begin() + static_cast<long>(std::min(budget, all.size())));
@@ -106,7 +106,7 @@ TEST(Fill, EqualsDijkstraOn200Mazes) {
   }
 }
 
-TEST(Fill, GivesNothingFromASolidOrOutsideSource) {
+TEST(Fill, IsEmptyForASourceInASolidOrOutside) {
   BitGrid grid({{7, 7, 7}, 0.5f, glm::vec3(0)});
   grid.set({3, 3, 3}, true);
   EXPECT_TRUE(flood_fill(grid, {3, 3, 3}, 10).empty());
@@ -138,7 +138,7 @@ TEST(Fill, StaysOnItsSideOfAWall) {
   for (const FilledVoxel& f : flood_fill(grid, {2, 2, 2}, 100000)) ASSERT_LT(f.voxel.x, 8);
 }
 
-/// Distances by voxel, so that only where and how far count, not the order among equals.
+/// Distances by voxel: ignores the order among equal distances.
 std::map<std::int64_t, std::uint32_t> distances(glm::ivec3 size, const std::vector<FilledVoxel>& filled,
                                                 const std::function<glm::ivec3(glm::ivec3)>& back) {
   std::map<std::int64_t, std::uint32_t> result;
@@ -146,7 +146,7 @@ std::map<std::int64_t, std::uint32_t> distances(glm::ivec3 size, const std::vect
   return result;
 }
 
-TEST(Fill, IsTheSameWhereverTheGridLiesAndHoweverItIsTurned) {
+TEST(Fill, IsInvariantUnderTranslationAndAxisPermutation) {
   for (unsigned seed = 0; seed < 12; ++seed) {
     std::mt19937 random(seed);
     const glm::ivec3 size(19, 11, 14);
@@ -155,7 +155,7 @@ TEST(Fill, IsTheSameWhereverTheGridLiesAndHoweverItIsTurned) {
     const auto same = [](glm::ivec3 v) { return v; };
     const auto plain = distances(size, flood_fill(grid, source, 100000), same);
 
-    // Moved by any number of voxels, in a solid surrounding.
+    // Translated by a random number of voxels, in solid surroundings.
     const glm::ivec3 shift(3, 13, 6);
     BitGrid moved({size + shift + 5, 0.5f, glm::vec3(0)});
     for (int z = 0; z < moved.size().z; ++z)
@@ -166,7 +166,7 @@ TEST(Fill, IsTheSameWhereverTheGridLiesAndHoweverItIsTurned) {
         distances(size, flood_fill(moved, source + shift, 100000), [&](glm::ivec3 v) { return v - shift; }),
         plain);
 
-    // Axes exchanged: (x, y, z) -> (y, z, x).
+    // Permuted axes: (x, y, z) -> (y, z, x).
     const auto turn = [](glm::ivec3 v) { return glm::ivec3(v.y, v.z, v.x); };
     const auto turn_back = [](glm::ivec3 v) { return glm::ivec3(v.z, v.x, v.y); };
     BitGrid turned({turn(size), 0.5f, glm::vec3(0)});

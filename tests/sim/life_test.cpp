@@ -28,7 +28,7 @@ BitGrid solid_but(glm::ivec3 size, glm::ivec3 low, glm::ivec3 high) {
   return grid;
 }
 
-/// Where there is room: a corridor, a hall, stairs, the open.
+/// Rooms: a corridor, a hall, stairs, open space.
 std::vector<BitGrid> rooms() {
   std::vector<BitGrid> all{
       solid_but({203, 7, 7}, {1, 1, 1}, {202, 6, 5}), solid_but({40, 20, 40}, {1, 1, 1}, {39, 19, 39}),
@@ -50,12 +50,12 @@ int density_at(const Cloud& cloud, std::uint32_t rank, std::uint32_t tick) {
 
 std::vector<int> densities(const Cloud& cloud, std::uint32_t tick) {
   std::vector<int> all(cloud.voxels().size());
-  const CloudPhase moment = cloud.phase(tick);
-  for (std::uint32_t rank = 0; rank < all.size(); ++rank) all[rank] = cloud.density(rank, moment);
+  const CloudPhase phase = cloud.phase(tick);
+  for (std::uint32_t rank = 0; rank < all.size(); ++rank) all[rank] = cloud.density(rank, phase);
   return all;
 }
 
-TEST(CloudLife, FillsItsAmountOfVoxelsWhateverTheRoom) {
+TEST(CloudLife, FillsItsVolumeInRoomsOfAnyShape) {
   for (const BitGrid& grid : rooms()) {
     for (const std::uint32_t voxels : {1u, 7u, 1800u}) {
       const Cloud cloud(grid, {first_free(grid), {voxels, 64, 100, 50}, 10});
@@ -65,7 +65,7 @@ TEST(CloudLife, FillsItsAmountOfVoxelsWhateverTheRoom) {
       cloud.voxels().for_each([&](glm::ivec3 v, std::uint32_t) { EXPECT_TRUE(grid.free(v)); });
     }
   }
-  // In a room that is too small it fills the room.
+  // Fills a room that is too small completely.
   const BitGrid cell = solid_but({12, 8, 12}, {1, 1, 1}, {11, 7, 11});
   const Cloud cloud(cell, {{5, 3, 5}, {1800, 64, 100, 50}, 0});
   EXPECT_EQ(cloud.voxels().size(), 600u);
@@ -73,7 +73,7 @@ TEST(CloudLife, FillsItsAmountOfVoxelsWhateverTheRoom) {
   EXPECT_TRUE(Cloud(cell, {{0, 0, 0}, {}, 0}).voxels().empty());
 }
 
-TEST(CloudLife, BloomsEveryTickAndMostOfItEarly) {
+TEST(CloudLife, GrowsEveryTickAndFastestAtFirst) {
   const BitGrid grid = rooms()[1];
   const Cloud cloud(grid, {{20, 3, 20}, {1800, 64, 100, 50}, 100});
   EXPECT_GT(cloud.amount(132), cloud.amount(164) / 2);
@@ -92,7 +92,7 @@ TEST(CloudLife, BloomsEveryTickAndMostOfItEarly) {
   EXPECT_EQ(density_at(cloud, cloud.voxels().rank({20, 3, 20}), 164), 255);
 }
 
-TEST(CloudLife, ProfileFallsFromFullToNothing) {
+TEST(CloudLife, ProfileFallsFromFullToZero) {
   for (const Front front : {Front{0}, Front{1}, Front{256 * 10}, Front{256 * 85}, Front{256 * 1000}}) {
     int last = 255;
     for (std::uint32_t distance = 0; distance < 1100; ++distance) {
@@ -103,24 +103,25 @@ TEST(CloudLife, ProfileFallsFromFullToNothing) {
     }
   }
   EXPECT_EQ(Cloud::profile(0, 256 * 20), 255);
-  EXPECT_EQ(Cloud::profile(10, 256 * 20), 128);  // half way through the least taper
+  EXPECT_EQ(Cloud::profile(10, 256 * 20), 128);  // halfway through the shortest taper
 }
 
-// The front lags by up to a quarter of the way, by direction alone, so that lobes grow with the cloud.
+// The front lags by up to a quarter of the distance, depending on the direction only, so that lobes grow with
+// the cloud.
 TEST(CloudLife, BulgesInLobes) {
   const BitGrid grid({glm::ivec3(81), 0.25f, glm::vec3(0)});
   const glm::ivec3 source(40);
   const Cloud cloud(grid, {source, {100000, 64, 100, 192}, 0});
-  const auto lag = [&](glm::ivec3 way) {
-    const std::uint32_t rank = cloud.voxels().rank(source + way);
+  const auto lag = [&](glm::ivec3 offset) {
+    const std::uint32_t rank = cloud.voxels().rank(source + offset);
     return static_cast<double>(cloud.reach(rank)) / cloud.distances()[rank] - 1;
   };
   double least = 1, most = 0;
   for (int i = 0; i < 343; ++i) {
-    const glm::ivec3 way(i % 7 - 3, i / 7 % 7 - 3, i / 49 - 3);
-    if (way == glm::ivec3(0)) continue;
-    const double near = lag(4 * way), far = lag(6 * way);
-    // Reaches are whole numbers, and the point on the sphere is one of 1/256 of a cell.
+    const glm::ivec3 offset(i % 7 - 3, i / 7 % 7 - 3, i / 49 - 3);
+    if (offset == glm::ivec3(0)) continue;
+    const double near = lag(4 * offset), far = lag(6 * offset);
+    // Reaches are integers, and points on the sphere are quantized to 1/256 of a cell.
     EXPECT_NEAR(near, far, 1.0 / 40 + 1.0 / 100) << i;
     least = std::min(least, far);
     most = std::max(most, far);
@@ -130,7 +131,7 @@ TEST(CloudLife, BulgesInLobes) {
   EXPECT_GT(most - least, 0.15) << "lobes";
 }
 
-TEST(CloudLife, DissolvesFromItsEdgesWithoutEverRising) {
+TEST(CloudLife, DissolvesMonotonicallyFromTheEdges) {
   for (const BitGrid& grid : rooms()) {
     const Cloud cloud(grid, {first_free(grid), {1800, 64, 100, 192}, 0});
     const std::uint32_t begin = 164;
@@ -146,7 +147,7 @@ TEST(CloudLife, DissolvesFromItsEdgesWithoutEverRising) {
       before = now;
     }
     EXPECT_EQ(*std::max_element(before.begin(), before.end()), 0) << "nothing is left";
-    // The farther half is gone earlier, in the mean.
+    // The farther half vanishes earlier on average.
     std::vector<std::uint32_t> order(gone.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(),
@@ -157,7 +158,7 @@ TEST(CloudLife, DissolvesFromItsEdgesWithoutEverRising) {
   }
 }
 
-TEST(CloudLife, LeavesAnEmptyWorldBehind) {
+TEST(CloudLife, LeavesTheWorldEmpty) {
   const BitGrid grid = rooms()[1];
   World world(grid);
   world.append(ThrowSmoke{0, {5000, 2000, 5000}, {9000, 1000, 9000}, kShort}).value_or_throw();
@@ -176,7 +177,7 @@ TEST(CloudLife, LeavesAnEmptyWorldBehind) {
   EXPECT_TRUE(state.clouds.empty() && state.blasts.empty() && state.holes.empty() && state.flights.empty());
 }
 
-TEST(CloudLife, OverlappingCloudsAddAndSaturate) {
+TEST(CloudLife, OverlappingCloudsAddUpAndSaturate) {
   const BitGrid grid = rooms()[3];
   World one(grid), two(grid);
   const ThrowSmoke smoke{0, {15000, 8000, 15000}, {16000, 8000, 16000}, {300, 64, 1000, 100}};
@@ -197,12 +198,12 @@ TEST(CloudLife, OverlappingCloudsAddAndSaturate) {
   EXPECT_EQ(one.state().density({-1, 0, 0}), 0);
 }
 
-TEST(CloudLife, TenThousandCloudsAtOnce) {
+TEST(CloudLife, TenThousandSimultaneousClouds) {
   const BitGrid grid({{512, 64, 512}, 0.5f, glm::vec3(0)});
   World world(grid);
   for (int i = 0; i < 10000; ++i) {
     const Position at(1000 + i % 100 * 2600, 16000, 1000 + i / 100 * 2600);
-    // In the future of the world: an event of the present tick plays that tick again.
+    // In the future: an event of the current tick would simulate that tick again.
     world.append(ThrowSmoke{1, at, at + Position(1, 0, 0), {27, 8, 100, 8}}).value_or_throw();
   }
   world.advance_to(50);
@@ -235,7 +236,7 @@ struct TwoRooms {
 /// Lands on the floor.
 const ThrowSmoke kInTheFirstRoom{0, {2000, 1000, 4000}, {8000, 300, 4300}, {3000, 64, 2000, 100}};
 
-TEST(Doors, SmokeFlowsThroughAnOpenedOneAndKeepsItsAmount) {
+TEST(Doors, SmokeFlowsThroughAnOpenDoorAndKeepsItsVolume) {
   const TwoRooms rooms;
   World world(rooms.grid);
   world.append(kInTheFirstRoom).value_or_throw();
@@ -251,13 +252,13 @@ TEST(Doors, SmokeFlowsThroughAnOpenedOneAndKeepsItsAmount) {
   EXPECT_FALSE(cloud.settle_tick());
   EXPECT_EQ(cloud.parts().fill.size() + cloud.parts().detached.size(), 3000u);
   EXPECT_GT(TwoRooms::beyond(cloud), 300u);
-  // As if the door had always been open.
+  // Equals a world in which the door was always open.
   BitGrid opened = rooms.grid;
   apply_edits(opened, rooms.open);
   EXPECT_EQ(cloud.voxels(), Cloud(opened, cloud.origin()).voxels());
 }
 
-TEST(Doors, NothingJumpsWhileSmokeFlowsThrough) {
+TEST(Doors, DensityChangesSmoothlyWhileSmokeFlowsThrough) {
   const TwoRooms rooms;
   World world(rooms.grid);
   world.append(kInTheFirstRoom).value_or_throw();
@@ -266,20 +267,20 @@ TEST(Doors, NothingJumpsWhileSmokeFlowsThrough) {
   const State before = world.state();
   world.step();
   world.state().clouds[0].cloud->voxels().for_each([&](glm::ivec3 v, std::uint32_t) {
-    // A voxel turns in a quarter of the bloom: 16 ticks, 16 steps a tick on the way's mean, 1.5 times that at
+    // A voxel turns in a quarter of the bloom: 16 ticks, 16 steps a tick on average, 1.5 times that at
     // the middle of a smoothstep.
     EXPECT_NEAR(world.state().density(v), before.density(v), 24);
   });
 }
 
-TEST(Doors, OneThatShutsKeepsSmokeOnBothSides) {
+TEST(Doors, ClosingKeepsSmokeOnBothSides) {
   TwoRooms rooms;
   apply_edits(rooms.grid, rooms.open);
   World world(rooms.grid);
   world.append(kInTheFirstRoom).value_or_throw();
   world.append(LevelEdit{300, rooms.shut}).value_or_throw();
   world.advance_to(299);
-  // Not all that the cloud may fill holds smoke: its lobes differ.
+  // Lobes leave some voxels of the region empty.
   std::uint32_t held = 0;
   world.state().clouds[0].cloud->voxels().for_each([&](glm::ivec3 v, std::uint32_t) {
     if (v.x > 21 && world.state().density(v) > 0) ++held;
@@ -296,12 +297,12 @@ TEST(Doors, OneThatShutsKeepsSmokeOnBothSides) {
   EXPECT_EQ(trapped, held);
   EXPECT_LE(cloud.parts().fill.size() + trapped, 3000u);
   for (int y = 1; y < 5; ++y) EXPECT_EQ(world.state().density({21, y, 8}), 0) << "in the door";
-  // With the smoke its rest goes.
+  // The detached voxels vanish with the smoke.
   world.advance_to(cloud.end_tick());
   EXPECT_TRUE(world.state().clouds.empty());
 }
 
-TEST(Blasts, LeaveTheSmokeBehindAWallUntouched) {
+TEST(Blasts, DoNotAffectSmokeBehindAWall) {
   const TwoRooms rooms;
   World world(rooms.grid);
   world.append(kInTheFirstRoom).value_or_throw();
@@ -320,10 +321,10 @@ TEST(Blasts, LeaveTheSmokeBehindAWallUntouched) {
       for (int z = 1; z < 17; ++z) EXPECT_EQ(world.state().density({x, 4, z}), before.density({x, 4, z}));
     least = std::min<int>(least, world.state().density({23, 4, 8}));
   }
-  EXPECT_EQ(least, 5);  // of Blast::left, where there is no wall
+  EXPECT_EQ(least, 5);  // Blast::remaining without a wall
 }
 
-TEST(Blasts, OpenAtTheSpeedOfTheFrontAndFillFromTheRim) {
+TEST(Blasts, OpenAtTheSpeedOfTheFrontAndRefillFromTheRim) {
   BitGrid grid = solid_but({44, 24, 44}, {2, 2, 2}, {42, 22, 42});
   World world(grid);
   world.append(ThrowSmoke{0, {11000, 6000, 11000}, {11300, 6000, 11300}, {100000, 1, 3000, 10}})
@@ -337,7 +338,7 @@ TEST(Blasts, OpenAtTheSpeedOfTheFrontAndFillFromTheRim) {
   };
   ASSERT_EQ(at(100, 0), 255);
   for (const int away : {0, 2, 4, 6, 7}) {
-    // The front is there after away / 2 m / (8 m/s) = 4 away ticks, a reach of 1/255 rounds that by 0.16
+    // The front arrives after away / 2 m / (8 m/s) = 4 away ticks, a reach of 1/255 rounds that by 0.16
     // ticks; 50 ms later, 3.2 ticks, it is open.
     const auto arrival = 100 + 4 * static_cast<std::uint32_t>(away);
     EXPECT_EQ(at(arrival - (away > 0 ? 1 : 0), away), 255) << away;

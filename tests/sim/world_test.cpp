@@ -32,7 +32,7 @@ ThrowSmoke throw_at(std::uint32_t tick, Position from, Position at, std::uint32_
   return {tick, from, at, {voxels, 64, 1152, 192}};
 }
 
-TEST(Landing, TakesTheFreeVoxelBeforeTheFirstSolidOne) {
+TEST(Landing, IsTheFreeVoxelBeforeTheFirstSolidOne) {
   const BitGrid grid = make_house();
   // From x = 1 m towards the wall at voxel 20; `at` lies before, in and behind it.
   for (const double x : {3.0, 7.2, 15.0}) {
@@ -41,16 +41,16 @@ TEST(Landing, TakesTheFreeVoxelBeforeTheFirstSolidOne) {
   }
 }
 
-TEST(Landing, IsWhereItWasAimedWhenNothingStandsInTheWay) {
+TEST(Landing, IsTheTargetIfThePathIsFree) {
   const BitGrid grid = make_house();
   EXPECT_EQ(landing_voxel(grid, glm::vec3(8, 1, 4), glm::vec3(9.1f, 3.1f, 6.1f)), glm::ivec3(24, 6, 8));
-  // Aimed at a point outside: the last voxel on the way.
+  // Aimed at a point outside: the last voxel along the path.
   EXPECT_EQ(landing_voxel(grid, glm::vec3(8, 1.2f, 4.2f), glm::vec3(90, 1.2f, 4.2f)), glm::ivec3(39, 2, 4));
   // A ray that misses the grid.
   EXPECT_EQ(landing_voxel(grid, glm::vec3(-9, 1, 4), glm::vec3(-9, 1, 8)), std::nullopt);
 }
 
-TEST(Landing, FromASolidVoxelFindsAFreeOneAhead) {
+TEST(Landing, FromASolidVoxelFindsTheNextFreeOne) {
   const BitGrid grid = make_house();
   const glm::vec3 in_wall(7.2f, 1.2f, 5.2f);
   EXPECT_EQ(landing_voxel(grid, in_wall, in_wall + glm::vec3(1, 0, 0)), glm::ivec3(21, 2, 6));
@@ -70,16 +70,16 @@ TEST(Walk, VisitsEveryVoxelOfTheRayInOrder) {
     Position to(coordinate(random), coordinate(random), coordinate(random));
     if (i % 3 == 0) to[i % 2] = from[i % 2];
     const glm::dvec3 start = glm::dvec3(ruler.subvoxel(from)) / 1024.0;
-    const glm::dvec3 way = glm::dvec3(ruler.subvoxel(to)) / 1024.0 - start;
+    const glm::dvec3 ray = glm::dvec3(ruler.subvoxel(to)) / 1024.0 - start;
     glm::ivec3 last(0);
     double entry = 0;
     int steps = 0;
     walk_ray(grid, ruler, from, to, [&](const WalkStep& step) {
       EXPECT_TRUE(grid.contains(step.voxel));
       const double exit = static_cast<double>(step.exit.num) / static_cast<double>(step.exit.den);
-      // Half way through, the ray is in this voxel.
+      // Between entry and exit the ray is in this voxel.
       if (steps > 0) {
-        const glm::dvec3 middle = start + way * ((entry + exit) / 2);
+        const glm::dvec3 middle = start + ray * ((entry + exit) / 2);
         EXPECT_TRUE(glm::all(glm::greaterThanEqual(middle, glm::dvec3(step.voxel) - 1e-9)));
         EXPECT_TRUE(glm::all(glm::lessThanEqual(middle, glm::dvec3(step.voxel) + 1.0 + 1e-9)));
         const glm::ivec3 moved = glm::abs(step.voxel - last);
@@ -94,7 +94,7 @@ TEST(Walk, VisitsEveryVoxelOfTheRayInOrder) {
   }
 }
 
-TEST(Walk, PointsOutOfTheWorldAndNoNumbersAreNoPositionsOfEvents) {
+TEST(Walk, PointsOutOfRangeAndNanAreInvalidPositions) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr int kOutside = kMaxCoordinate + 1;
@@ -110,12 +110,12 @@ TEST(Walk, PointsOutOfTheWorldAndNoNumbersAreNoPositionsOfEvents) {
     EXPECT_FALSE(world.append(MoveBody{0, 1, metres(wrong, wrong, wrong)}));
   }
   EXPECT_TRUE(world.log().empty());
-  // Where it would land can be asked of any point.
+  // The landing position can be queried for any point.
   static_cast<void>(
       landing_voxel(grid, glm::vec3(std::numeric_limits<float>::quiet_NaN()), glm::vec3(1e30f)));
 }
 
-TEST(World, RefusesEventsOutOfRange) {
+TEST(World, RejectsEventsOutOfRange) {
   const BitGrid grid = make_house();
   World world(grid);
   const std::uint64_t before = world.state_hash();
@@ -151,7 +151,7 @@ TEST(World, RefusesEventsOutOfRange) {
   EXPECT_THROW(World(BitGrid({{3, 3, 3}, 0.5f, glm::vec3(1e9f)})), Error);
 }
 
-TEST(World, GrenadeFliesAt20MetresASecondAndGoesOff) {
+TEST(World, GrenadeFliesAt20MetresPerSecondAndDetonates) {
   const BitGrid grid = make_house();
   World world(grid);
   const Position from = metres(-2, 1.25, 5.25);
@@ -191,7 +191,8 @@ std::vector<Event> busy_log(const BitGrid& grid) {
   for (std::uint32_t i = 0; i < 4; ++i) events.emplace_back(Blast{60 + 70 * i, anywhere()});
   for (std::uint32_t i = 0; i < 90; ++i) events.emplace_back(MoveBody{5 * i, i % 3, anywhere()});
   for (std::uint32_t i = 0; i < 5; ++i)
-    events.emplace_back(LevelEdit{30 + 80 * i, edit_box(grid.layout(), {20, 0, 18}, {21, 5, 21}, i % 2 == 0)});
+    events.emplace_back(
+        LevelEdit{30 + 80 * i, edit_box(grid.layout(), {20, 0, 18}, {21, 5, 21}, i % 2 == 0)});
   std::stable_sort(events.begin(), events.end(),
                    [](const Event& a, const Event& b) { return tick_of(a) < tick_of(b); });
   return events;
@@ -225,7 +226,7 @@ TEST_F(BusyWorld, EveryTickDiffersFromTheOneBefore) {
   for (std::size_t i = 1; i < hashes_.size(); ++i) EXPECT_NE(hashes_[i], hashes_[i - 1]);
 }
 
-TEST_F(BusyWorld, GoesBackSixtyTicksAndPlaysTheSame) {
+TEST_F(BusyWorld, RollsBackSixtyTicksAndReplaysTheSame) {
   for (std::uint32_t tick = 60; tick < kBusyTicks; tick += 7) {
     world_.advance_to(tick);
     for (std::uint32_t again = tick - 60; again <= tick; ++again) {
@@ -235,7 +236,7 @@ TEST_F(BusyWorld, GoesBackSixtyTicksAndPlaysTheSame) {
   }
 }
 
-TEST_F(BusyWorld, IsTheSameFromAThousandSnapshots) {
+TEST_F(BusyWorld, ContinuesIdenticallyFromAThousandSnapshots) {
   std::mt19937 random(2);
   for (int i = 0; i < 1000; ++i) {
     const auto from = static_cast<std::uint32_t>(random() % kBusyTicks);
@@ -251,7 +252,7 @@ TEST_F(BusyWorld, IsTheSameFromAThousandSnapshots) {
   }
 }
 
-TEST_F(BusyWorld, RestoringDoesNotCareWhatWasThereBefore) {
+TEST_F(BusyWorld, RestoringDoesNotDependOnThePreviousState) {
   for (const std::uint32_t tick : {450u, 0u, 200u, 33u, 499u}) {
     World other(grid_);
     other.restore(states_[450]).value_or_throw();
@@ -266,11 +267,11 @@ TEST_F(BusyWorld, RestoringDoesNotCareWhatWasThereBefore) {
   EXPECT_FALSE(World(small).restore(states_[5]));
 }
 
-TEST_F(BusyWorld, ForgetsThePastAndStaysTheSame) {
+TEST_F(BusyWorld, DroppingHistoryDoesNotChangeTheState) {
   world_.forget_before(300);
   EXPECT_EQ(world_.state_hash(), hashes_.back());
   const std::uint32_t earliest = world_.earliest_tick();
-  EXPECT_GT(earliest, 300u - 128);  // something happens every few ticks, and a state is kept every 64
+  EXPECT_GT(earliest, 300u - 128);  // events occur every few ticks, and a snapshot is stored every 64
   EXPECT_LE(earliest, 300u);
   EXPECT_TRUE(std::all_of(world_.log().begin(), world_.log().end(),
                           [&](const Event& event) { return tick_of(event) > earliest; }));
@@ -281,13 +282,13 @@ TEST_F(BusyWorld, ForgetsThePastAndStaysTheSame) {
   EXPECT_FALSE(world_.append(MoveBody{earliest, 1, {0, 0, 0}}));
 }
 
-TEST_F(BusyWorld, ForgetsEveryTickAndStillTakesLateEvents) {
+TEST_F(BusyWorld, TakesLateEventsWhenEveryTickIsDropped) {
   World server(grid_);
   auto event = events_.begin();
   for (std::uint32_t tick = 0; tick < kBusyTicks; ++tick) {
     server.advance_to(tick);
     if (tick > 50) server.forget_before(tick - 50);
-    // Heard of 20 ticks late.
+    // Received 20 ticks late.
     for (; event != events_.end() && tick_of(*event) + 20 <= tick; ++event)
       server.append(*event).value_or_throw();
   }
@@ -295,7 +296,7 @@ TEST_F(BusyWorld, ForgetsEveryTickAndStillTakesLateEvents) {
   EXPECT_EQ(server.state_hash(), hashes_.back());
 }
 
-TEST_F(BusyWorld, TakesEventsLateAndInAnyOrderOfTheirTicks) {
+TEST_F(BusyWorld, AcceptsLateEventsInAnyOrder) {
   std::mt19937 random(5);
   std::vector<std::vector<Event>> by_tick;
   for (const Event& event : events_) {
@@ -315,7 +316,7 @@ TEST_F(BusyWorld, TakesEventsLateAndInAnyOrderOfTheirTicks) {
   }
 }
 
-TEST_F(BusyWorld, TakesEventsOfThePresentTickAsAServerHearsOfThem) {
+TEST_F(BusyWorld, AcceptsEventsOfTheCurrentTick) {
   World heard(grid_);
   auto event = events_.begin();
   for (std::uint32_t tick = 0; tick < kBusyTicks; ++tick) {
@@ -325,8 +326,8 @@ TEST_F(BusyWorld, TakesEventsOfThePresentTickAsAServerHearsOfThem) {
   }
 }
 
-TEST_F(BusyWorld, WentBackAndTookAnEventThatIsToCome) {
-  // The states kept of the future do not have it.
+TEST_F(BusyWorld, AcceptsAFutureEventAfterRollback) {
+  // Snapshots of later ticks do not have it.
   const auto late = std::find_if(events_.begin(), events_.end(), [](const Event& e) {
     return std::holds_alternative<Blast>(e);  // tick 60
   });
@@ -347,7 +348,7 @@ TEST_F(BusyWorld, WentBackAndTookAnEventThatIsToCome) {
   }
 }
 
-TEST_F(BusyWorld, TakesOtherEventsInThePlaceOfThoseFromATickOn) {
+TEST_F(BusyWorld, ReplacesTheEventsFromATickOn) {
   std::mt19937 random(7);
   World world(grid_);
   world.append(events_).value_or_throw();
@@ -370,7 +371,7 @@ TEST_F(BusyWorld, TakesOtherEventsInThePlaceOfThoseFromATickOn) {
       told.advance_to(at);
       ASSERT_EQ(world.state_hash(), told.state_hash()) << i << ", tick " << at;
     }
-    // And those that there were again.
+    // And the original events again.
     std::vector<Event> all;
     for (const Event& event : events_)
       if (tick_of(event) >= from) all.push_back(event);
@@ -383,7 +384,7 @@ TEST_F(BusyWorld, TakesOtherEventsInThePlaceOfThoseFromATickOn) {
   EXPECT_EQ(world.state_hash(), hash);
 }
 
-TEST_F(BusyWorld, HasOtherMasksAsIfItAlwaysHad) {
+TEST_F(BusyWorld, ChangingMasksEqualsStartingWithThem) {
   const sim::MaskKey few{2, 17}, many{5, 99};
   Shot shot{90, metres(1, 1, 4), metres(9, 1.5, 8)};
   shot.shape = HoleShape::mask;
@@ -408,7 +409,7 @@ TEST_F(BusyWorld, HasOtherMasksAsIfItAlwaysHad) {
   }
 }
 
-TEST_F(BusyWorld, TakesAllOfManyEventsOrNone) {
+TEST_F(BusyWorld, AppendsAllEventsOrNone) {
   World told(grid_);
   told.advance_to(kBusyTicks - 1);
   std::vector<Event> wrong = events_;
@@ -419,7 +420,7 @@ TEST_F(BusyWorld, TakesAllOfManyEventsOrNone) {
   EXPECT_EQ(told.state_hash(), hashes_.back());
 }
 
-TEST(World, HoleRunsThroughTheSmokeToTheWallAndCloses) {
+TEST(World, HoleReachesThroughTheSmokeToTheWallAndCloses) {
   const BitGrid grid = make_house();
   World world(grid);
   world.append(throw_at(0, metres(0, 1.2, 5.2), metres(7, 1.2, 5.2), 3000)).value_or_throw();
@@ -436,7 +437,7 @@ TEST(World, HoleRunsThroughTheSmokeToTheWallAndCloses) {
   EXPECT_NEAR(glm::dot(hole.forward, hole.right), 0, 1e-6);
   EXPECT_NEAR(glm::dot(glm::cross(hole.right, hole.forward), hole.up), 1, 1e-6);
   EXPECT_FLOAT_EQ(hole.time_start, 200.0f / 64);
-  // Behind the wall there is nothing of it, at any time.
+  // It never has an effect behind the wall.
   for (int i = 0; i < 200; ++i)
     EXPECT_EQ(hole_strength(hole, {7.6f, 1.2f, 5.2f}, 200.0f / 64 + 0.01f * static_cast<float>(i), 0.0f), 0);
   EXPECT_GT(hole_strength(hole, {6.9f, 1.2f, 5.2f}, 200.0f / 64 + 0.5f, 0.0f), 0.9f);
@@ -447,7 +448,7 @@ TEST(World, HoleRunsThroughTheSmokeToTheWallAndCloses) {
   EXPECT_TRUE(world.state().holes.empty());
 }
 
-TEST(World, OfOneSetOfMasksIsNotThatOfAnother) {
+TEST(World, StateDependsOnTheMasks) {
   const BitGrid grid = make_house();
   World world(grid, {.masks = {2, 77}});
   EXPECT_TRUE(world.append(Shot{0, {5, 5, 5}, {5, 5, 6}, 10, {}, HoleShape::mask, 1}));
@@ -461,7 +462,7 @@ TEST(World, OfOneSetOfMasksIsNotThatOfAnother) {
   EXPECT_NE(other.state_hash(), World(grid, {.masks = {2, 77}}).state_hash());
 }
 
-TEST(World, ShotThatMeetsNoSmokeLeavesNoHole) {
+TEST(World, ShotThatMissesTheSmokeLeavesNoHole) {
   const BitGrid grid = make_house();
   World world(grid);
   world.append(Shot{0, metres(-2, 1.2, 5.2), metres(0, 1.2, 5.2)}).value_or_throw();  // no smoke yet
@@ -476,7 +477,7 @@ TEST(World, ShotThatMeetsNoSmokeLeavesNoHole) {
   EXPECT_TRUE(world.state().holes.empty());
 }
 
-TEST(World, BodiesKnowWhereTheyWere) {
+TEST(World, BodiesRecordTheirPositions) {
   const BitGrid grid = make_house();
   World world(grid);
   world.append(MoveBody{3, 7, {1, 2, 3}}).value_or_throw();

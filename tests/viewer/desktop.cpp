@@ -18,14 +18,13 @@ namespace brume::viewer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-// Only what hangs takes so long: a machine that is busy with other things may take a hundred times as long as
-// an idle one.
+// Only ends tests that hang: a busy machine may take a hundred times as long as an idle one.
 constexpr std::chrono::minutes kHang{10};
 constexpr int kPollMs = 20;
-// Frames are looked for more often than they are drawn.
+// Polls more often than frames are drawn.
 constexpr int kFramePollMs = 2;
 
-/// Starts a program whose environment is the test's own with a DISPLAY; standard error goes to a file.
+/// Starts a program with DISPLAY added to the environment of the test; standard error goes to a file.
 pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
             const std::string& display, const std::filesystem::path& error_file, int inherited) {
   std::vector<char*> words;
@@ -44,12 +43,12 @@ pid_t start(const std::vector<std::string>& arguments, const std::filesystem::pa
   ::_exit(127);
 }
 
-// Windows come and go while they are looked at.
+// Windows may disappear while they are inspected.
 int ignore_errors(Display*, XErrorEvent*) {
   return 0;
 }
 
-/// The largest window that can be seen on the desktop; 0: none.
+/// The largest visible window of the desktop; 0: none.
 Window find_window(Display* display) {
   Window root = 0, parent = 0, *children = nullptr;
   unsigned count = 0;
@@ -89,7 +88,7 @@ Desktop::Desktop() {
   ::XSetErrorHandler(ignore_errors);
   int ends[2];
   if (::pipe(ends) != 0) return;
-  // The server picks a free number and says it.
+  // The server picks a free display number and prints it.
   server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x720x24", "-nolisten",
                    "tcp", "+extension", "XTEST"},
                   "/", "", "/dev/null", ends[1]);
@@ -120,7 +119,7 @@ Desktop::~Desktop() {
 Program::Program(const Desktop& desktop, const std::filesystem::path& folder,
                  const std::vector<std::string>& arguments)
     : desktop_(desktop), error_file_(folder / "standard_error.txt"), log_file_(folder / "frames.csv") {
-  std::filesystem::remove(log_file_);  // of a program before
+  std::filesystem::remove(log_file_);  // from a previous program
   std::vector<std::string> words{BRUME_PROGRAM, "view", "--frame-log", log_file_.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   process_ = start(words, folder, desktop.name(), error_file_, -1);
@@ -264,7 +263,7 @@ const std::vector<Frame>& Program::frames() {
   log_rest_ += more.str();
   std::size_t begin = 0;
   for (std::size_t end = 0; (end = log_rest_.find('\n', begin)) != std::string::npos; begin = end + 1)
-    if (std::isdigit(static_cast<unsigned char>(log_rest_[begin])))  // not the heading
+    if (std::isdigit(static_cast<unsigned char>(log_rest_[begin])))  // skip the header line
       frames_.push_back(frame_of(log_rest_.substr(begin, end - begin)));
   log_rest_.erase(0, begin);
   return frames_;
@@ -290,8 +289,8 @@ bool Program::wait_for_clock(double seconds) {
 }
 
 bool Program::wait_for_best() {
-  // The window system shows a picture later than the device is done with it, by the images of the swapchain
-  // at most.
+  // The window system may present a frame up to the number of swapchain images after the device has finished
+  // it.
   constexpr std::size_t kImages = 8;
   return wait_for_frames(2) && wait_for_frame([](const Frame& frame) { return frame.picture == "best"; }) &&
          wait_for_frames(kImages);

@@ -1,7 +1,7 @@
-// A desktop without a screen (Xvfb), and a program on it whose keys and mouse the test moves.
+// A virtual desktop (Xvfb), and a program on it that the test controls by keyboard and mouse.
 #pragma once
 
-// gtest before X11, whose macros it does not bear.
+// gtest comes before X11, whose macros break it.
 #include <gtest/gtest.h>
 #include <sys/types.h>
 
@@ -18,10 +18,10 @@ struct _XDisplay;
 
 namespace brume::viewer {
 
-/// A virtual screen of 1280 x 720, ended with the test.
+/// A virtual display of 1280 x 720, stopped by the destructor.
 class Desktop {
  public:
-  /// Fails the test when there is no Xvfb.
+  /// Fails the test if Xvfb is missing.
   Desktop();
   ~Desktop();
   Desktop(const Desktop&) = delete;
@@ -38,15 +38,15 @@ class Desktop {
 /// A line of the frame log.
 struct Frame {
   std::uint64_t number = 0;  ///< From 1.
-  double seconds = 0;        ///< Of the viewer's clock.
+  double seconds = 0;        ///< Session time.
   glm::uvec2 size_px{0};
   std::string picture;  ///< film, still or best.
   std::uint64_t process_bytes = 0, heap_bytes = 0, device_bytes = 0;
   std::size_t shader_faults = 0;
 };
 
-/// `brume view` on a desktop. Tests wait for frames that it drew, for its own clock or for a picture, never
-/// for time to pass: a machine may be as slow as it likes.
+/// `brume view` on a desktop. Tests wait for frames, for its session time or for an image, never for
+/// wall-clock time: they pass on a machine of any speed.
 class Program {
  public:
   Program(const Desktop& desktop, const std::filesystem::path& folder,
@@ -55,38 +55,38 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Waits until the window shows a picture, and gives it the keyboard. False when it never does.
+  /// Waits until the window shows an image, and gives it the keyboard focus. False if it never does.
   bool wait_for_window();
   bool runs();
-  /// Waits for its end; the exit code, 128 + signal where one ended it.
+  /// Waits for its end; returns the exit code, 128 + signal if a signal ended it.
   int wait();
-  std::string error() const;  ///< What it wrote to standard error.
+  std::string error() const;  ///< Standard error so far.
 
   void key(unsigned long symbol, bool down);
   void tap(unsigned long symbol);
   void button(unsigned number, bool down);  ///< 1: left, 2: middle, 3: right.
   void click(unsigned number);
-  void move_mouse(int x, int y);   ///< By so many pixels.
-  void place_mouse(int x, int y);  ///< In the window.
+  void move_mouse(int x, int y);   ///< Relative [px].
+  void place_mouse(int x, int y);  ///< In window coordinates.
   void resize(unsigned width, unsigned height);
-  void hide();  ///< As a minimized window.
+  void hide();  ///< Minimizes the window.
   void show();
-  void close();             ///< As the button of the window's frame does.
-  image::Image8 picture();  ///< What the window shows now.
+  void close();             ///< As the close button does.
+  image::Image8 picture();  ///< The current contents of the window.
 
-  /// All frames that it has drawn so far.
+  /// All frames drawn so far.
   const std::vector<Frame>& frames();
-  // Each wait fails when the program ends or hangs.
-  /// Looks at the window until `wanted` holds.
+  // Every wait fails if the program ends or hangs.
+  /// Waits until the window contents satisfy `wanted`.
   bool wait_for_picture(const std::function<bool(const image::Image8&)>& wanted);
-  /// Looks at the last frame until `wanted` holds.
+  /// Waits until the last frame satisfies `wanted`.
   bool wait_for_frame(const std::function<bool(const Frame&)>& wanted);
-  /// For so many more frames. After two, all that was sent before has been handled.
+  /// Waits for more frames. After two, all earlier input has been handled.
   bool wait_for_frames(std::size_t count);
-  /// Until what was sent before has been handled, and the viewer's clock has then gone on by so much.
+  /// Waits until earlier input has been handled and the session time has then advanced by this much.
   bool wait_for_clock(double seconds);
-  /// Of a paused program: until what was sent before has been handled, and the window shows the picture at
-  /// its best.
+  /// For a paused program: waits until earlier input has been handled and the window shows the full-quality
+  /// image.
   bool wait_for_best();
 
  private:
@@ -95,7 +95,7 @@ class Program {
   const Desktop& desktop_;
   std::filesystem::path error_file_, log_file_;
   std::ifstream log_;
-  std::string log_rest_;  ///< The beginning of a line.
+  std::string log_rest_;  ///< An incomplete line.
   std::vector<Frame> frames_;
   pid_t process_ = -1;
   int status_ = 0;

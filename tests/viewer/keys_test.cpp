@@ -10,7 +10,7 @@
 namespace brume::viewer {
 namespace {
 
-TEST(KeysTest, EveryActionHasAKeyAndNoKeyTwoActions) {
+TEST(KeysTest, EveryActionHasAKeyAndEveryKeyOneAction) {
   std::set<Action> actions;
   std::set<std::pair<bool, int>> codes;
   for (const KeyBinding& binding : key_bindings()) {
@@ -20,7 +20,7 @@ TEST(KeysTest, EveryActionHasAKeyAndNoKeyTwoActions) {
   EXPECT_EQ(actions.size(), kActions);
 }
 
-TEST(KeysTest, TheDocumentNamesEveryKey) {
+TEST(KeysTest, DocumentationListsEveryKey) {
   const std::string document = read_text_file(BRUME_SOURCE_DIR "/docs/viewer.md").value_or_throw();
   for (const KeyBinding& binding : key_bindings()) {
     const std::string row = std::string("| ") + binding.name + " | " + binding.does + " |\n";

@@ -1,5 +1,4 @@
-// The pictures of docs/viewer.md: made anew where BRUME_PICTURES names a folder, and held to show what they
-// should.
+// The images of docs/viewer.md: checks their contents, and writes them if BRUME_PICTURES names a folder.
 #include <X11/keysym.h>
 
 #include <cstdlib>
@@ -24,7 +23,7 @@ class PicturesTest : public testing::Test {
   Desktop desktop_;
 };
 
-TEST_F(PicturesTest, TheDemoWithItsPanelsItsHelpAndAProbe) {
+TEST_F(PicturesTest, ShowTheDemoWithPanelsHelpAndProbe) {
   Program program(desktop_, folder_.path(),
                   {"--play", BRUME_SOURCE_DIR "/scenes/demo.toml", "--time", "3.8", "--quality", "smallest",
                    "--size", "1120x630"});
@@ -43,7 +42,7 @@ TEST_F(PicturesTest, TheDemoWithItsPanelsItsHelpAndAProbe) {
   EXPECT_GT(mean_difference(help, plain), 5);
   program.tap(XK_h);
 
-  // With the panels open the cursor is free: the probe's ends go where it points.
+  // With the panels open the cursor is free: the ends of the probe go where it points.
   program.tap(XK_Tab);
   settled(program);
   for (const glm::ivec2 place : {glm::ivec2(330, 500), glm::ivec2(425, 330)}) {

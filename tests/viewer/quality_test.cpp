@@ -5,7 +5,8 @@
 namespace brume::viewer {
 namespace {
 
-/// Plays a machine whose levels take so long [s], for some seconds; the levels that it was at.
+/// Simulates a machine with these frame times by level [s] for some seconds; returns the level of every
+/// frame.
 std::vector<std::size_t> play(QualityControl& control, const std::vector<double>& costs, double seconds) {
   std::vector<std::size_t> levels;
   for (double time = 0; time < seconds;) {
@@ -18,19 +19,19 @@ std::vector<std::size_t> play(QualityControl& control, const std::vector<double>
   return levels;
 }
 
-TEST(QualityTest, StaysAtTheBestWhereThereIsTime) {
+TEST(QualityTest, KeepsTheBestLevelIfItIsFastEnough) {
   QualityControl control(60);
   for (const std::size_t level : play(control, {0.004, 0.003, 0.002, 0.001, 0.001, 0.001}, 20))
     EXPECT_EQ(level, 0u);
 }
 
-TEST(QualityTest, FindsTheFirstLevelThatHoldsTheRate) {
+TEST(QualityTest, FindsTheBestLevelThatHoldsTheRate) {
   QualityControl control(8);
   play(control, {1.2, 0.7, 0.5, 0.3, 0.11, 0.06}, 10);
   EXPECT_EQ(control.level(), 4u);
 }
 
-TEST(QualityTest, ComesBackWhenThereIsTimeAgain) {
+TEST(QualityTest, RaisesQualityWhenLoadDrops) {
   QualityControl control(60);
   play(control, {0.05, 0.03, 0.02, 0.012, 0.01, 0.01}, 5);
   EXPECT_EQ(control.level(), 3u);
@@ -38,18 +39,18 @@ TEST(QualityTest, ComesBackWhenThereIsTimeAgain) {
   EXPECT_EQ(control.level(), 0u);
 }
 
-TEST(QualityTest, TriesATooSlowLevelMoreAndMoreRarely) {
+TEST(QualityTest, RetriesATooSlowLevelLessAndLessOften) {
   QualityControl control(60);
-  // Level 1 is cheap enough to invite a try of level 0, which never holds.
+  // Level 1 is fast enough to try level 0, which is always too slow.
   const auto levels = play(control, {0.03, 0.004, 0.004, 0.004, 0.004, 0.004}, 120);
   int tries = 0;
   for (std::size_t i = 1; i < levels.size(); ++i) tries += levels[i] == 0 && levels[i - 1] == 1 ? 1 : 0;
-  // Rests of 2, 4, 8, 16, 32, 32... seconds: six within two minutes.
+  // Cooldowns of 2, 4, 8, 16, 32, 32... seconds: six within two minutes.
   EXPECT_LE(tries, 6);
   EXPECT_GE(tries, 3);
 }
 
-TEST(QualityTest, AFixedLevelStays) {
+TEST(QualityTest, KeepsAFixedLevel) {
   QualityControl control(60);
   control.fix(2);
   for (const std::size_t level : play(control, {1, 1, 1, 1, 1, 1}, 5)) EXPECT_EQ(level, 2u);

@@ -1,4 +1,4 @@
-// What is done at the window is recorded, and what is recorded plays back bit for bit.
+// Sessions are recorded and replay bit for bit.
 #include <X11/keysym.h>
 
 #include "image/decode.hpp"
@@ -37,7 +37,7 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndPictures) {
     program.tap(XK_e);
     ASSERT_TRUE(program.wait_for_clock(0.2));
     program.tap(XK_f);
-    // An orbit: sidewards, turning back.
+    // An orbit: sideways while turning back.
     program.key(XK_a, true);
     for (int i = 0; i < 10; ++i) {
       program.move_mouse(20, 0);
@@ -72,13 +72,13 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndPictures) {
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(largest_difference(pictures[0], pictures[1]), 0);
   EXPECT_GT(count_colours(pictures[0]), 100u);
-  // And what was played live ended in the same state.
+  // The live session ended in the same state.
   const auto live = read_json(file("made.json")), played = read_json(file("first.json"));
   ASSERT_EQ(live.at("tick"), played.at("tick"));
   EXPECT_EQ(live.at("state_hash"), played.at("state_hash"));
 }
 
-TEST_F(RecordingTest, AScreenshotIsWhatRenderDrawsAndWhatTheWindowShows) {
+TEST_F(RecordingTest, AScreenshotEqualsRenderAndTheWindow) {
   Program program(desktop_, folder_.path(),
                   {"room.toml", "--size", "200x120", "--bare", "--quality", "full"});
   ASSERT_TRUE(program.wait_for_window()) << program.error();
@@ -96,7 +96,7 @@ TEST_F(RecordingTest, AScreenshotIsWhatRenderDrawsAndWhatTheWindowShows) {
       cli::run_brume(folder_.path(), {"render", "brume_0001.toml", "-o", "again.png", "--size", "200x120"});
   ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
   EXPECT_LE(largest_difference(screenshot, png("again.png")), 1);
-  // The window shows the same once nothing moves.
+  // The paused window shows the same image.
   ASSERT_TRUE(program.wait_for_best());
   EXPECT_LE(largest_difference(program.picture(), screenshot), 1);
   program.close();

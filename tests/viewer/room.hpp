@@ -1,4 +1,4 @@
-// A small level for tests of the window, and what they ask of pictures.
+// A small level for window tests, and image comparisons.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace brume::viewer {
 
-/// Writes a room with a door and a light into a folder, and room.toml that looks into it.
+/// Writes a room with a door and a light into a folder, and room.toml with a camera in it.
 inline void write_room(const cli::WorkFolder& folder) {
   std::filesystem::create_directory(folder.path() / "Meshes");
   const auto box = [](glm::vec3 low, glm::vec3 high, bool inward) {
@@ -59,7 +59,7 @@ inline nlohmann::json read_json(const std::filesystem::path& path) {
   return nlohmann::json::parse(file, nullptr, false);
 }
 
-/// Mean over all channels of how far two pictures of the same size are apart; 255 where the sizes differ.
+/// Mean absolute difference over all channels; 255 if the sizes differ.
 inline double mean_difference(const image::Image8& a, const image::Image8& b) {
   if (a.rgba.size() != b.rgba.size() || a.rgba.empty()) return 255;
   double sum = 0;
@@ -67,7 +67,7 @@ inline double mean_difference(const image::Image8& a, const image::Image8& b) {
   return sum / static_cast<double>(a.rgba.size());
 }
 
-/// The largest difference of a channel.
+/// Maximum absolute difference of a channel.
 inline int largest_difference(const image::Image8& a, const image::Image8& b) {
   if (a.rgba.size() != b.rgba.size() || a.rgba.empty()) return 255;
   int largest = 0;
@@ -76,7 +76,7 @@ inline int largest_difference(const image::Image8& a, const image::Image8& b) {
   return largest;
 }
 
-/// How many different colours a picture has.
+/// Number of distinct colours.
 inline std::size_t count_colours(const image::Image8& picture) {
   std::set<std::uint32_t> colours;
   for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4)

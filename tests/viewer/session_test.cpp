@@ -30,7 +30,7 @@ class SessionTest : public testing::Test {
   const glm::vec3 ahead_ = glm::normalize(glm::vec3(-0.05f, -0.1f, -1));
 };
 
-TEST_F(SessionTest, DeedsHappenAtTheNextTick) {
+TEST_F(SessionTest, ActionsHappenAtTheNextTick) {
   advance(0.1);
   const double now = session_->seconds();
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
@@ -41,7 +41,7 @@ TEST_F(SessionTest, DeedsHappenAtTheNextTick) {
   EXPECT_EQ(std::fmod(smokes[0].time, Session::kTick), 0);
 }
 
-TEST_F(SessionTest, TimeStandsStillWhilePausedAndSlowsForLongFrames) {
+TEST_F(SessionTest, TimeStopsWhilePausedAndSlowsForLongFrames) {
   session_->set_paused(true);
   const double before = session_->seconds();
   advance(0.1);
@@ -55,7 +55,7 @@ TEST_F(SessionTest, TimeStandsStillWhilePausedAndSlowsForLongFrames) {
   EXPECT_NEAR(session_->seconds(), 2 * Session::kTick + Session::kLongestFrame, 1e-6);
 }
 
-TEST_F(SessionTest, WhatIsDoneIsRecordedAndPlaysToTheSameState) {
+TEST_F(SessionTest, ActionsAreRecordedAndReplayToTheSameState) {
   Weapons weapons;
   weapons.text.text = "HI";
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
@@ -81,13 +81,13 @@ TEST_F(SessionTest, WhatIsDoneIsRecordedAndPlaysToTheSameState) {
   EXPECT_EQ(again->simulation().world().tick(), session_->simulation().world().tick());
   EXPECT_EQ(again->simulation().world().state_hash(), session_->simulation().world().state_hash());
   EXPECT_GT(session_->simulation().world().state().clouds.size(), 0u);
-  // About eight keys a second, and none of them lies.
+  // About eight keys per second, all on the path of the camera.
   const scene::Timeline recording = session_->recording();
   EXPECT_GE(recording.camera.size(), 6u);
   EXPECT_LE(recording.camera.size(), 10u);
 }
 
-TEST_F(SessionTest, TheBarOfTimeKeepsTheCamerasWay) {
+TEST_F(SessionTest, ScrubbingKeepsTheCameraPath) {
   scene::Camera camera;
   for (int i = 0; i < 120; ++i) {
     advance(1.0 / 60);
@@ -102,7 +102,7 @@ TEST_F(SessionTest, TheBarOfTimeKeepsTheCamerasWay) {
   EXPECT_EQ(session_->recording().camera.size(), keys);
 }
 
-TEST_F(SessionTest, LettersComeOneAfterTheOther) {
+TEST_F(SessionTest, ShootsLettersOneByOne) {
   Weapons weapons;
   weapons.kind = ShotKind::glyph;
   weapons.text.text =
@@ -125,7 +125,7 @@ TEST_F(SessionTest, DoorsOpenAndShut) {
   EXPECT_EQ(hidden(), 0u);
 }
 
-TEST_F(SessionTest, ResetForgetsWhatWasDone) {
+TEST_F(SessionTest, ResetDiscardsAllActions) {
   const std::uint64_t before = session_->simulation().world().state_hash();
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
   advance(0.25);
@@ -135,7 +135,7 @@ TEST_F(SessionTest, ResetForgetsWhatWasDone) {
   EXPECT_EQ(session_->recording().smokes.size(), 0u);
 }
 
-TEST_F(SessionTest, WhatCannotBeIsSaidInOneLine) {
+TEST_F(SessionTest, FailuresAreOneLine) {
   const auto thrown = session_->throw_smoke(glm::vec3(0, 50, 0), glm::vec3(0, 1, 0));
   ASSERT_FALSE(thrown);
   EXPECT_EQ(thrown.failure().message.find('\n'), std::string::npos);

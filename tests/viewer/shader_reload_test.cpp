@@ -13,7 +13,7 @@ const std::filesystem::path kShaders = BRUME_SOURCE_DIR "/shaders";
 
 class ShaderReloadTest : public gpu::GpuTest {
  protected:
-  /// Compiles display.comp with a part of it replaced.
+  /// Compiles display.comp with a substring replaced.
   static Result<std::vector<std::uint32_t>> compile(const cli::WorkFolder& folder, const std::string& from,
                                                     const std::string& to) {
     std::filesystem::copy(kShaders, folder.path() / "shaders", std::filesystem::copy_options::recursive);
@@ -26,7 +26,7 @@ class ShaderReloadTest : public gpu::GpuTest {
   }
 };
 
-TEST_F(ShaderReloadTest, CompilesWhatTheBuildCompiles) {
+TEST_F(ShaderReloadTest, CompilesAllShadersOfTheBuild) {
   for (const gpu::ShaderCode* built : {&shaders::display_comp, &shaders::march_comp, &shaders::ui_vert}) {
     const auto words = compile_shader(kShaders, built->name);
     ASSERT_TRUE(words) << words.failure().message;
@@ -35,7 +35,7 @@ TEST_F(ShaderReloadTest, CompilesWhatTheBuildCompiles) {
   }
 }
 
-TEST_F(ShaderReloadTest, SaysWhereAFaultIs) {
+TEST_F(ShaderReloadTest, ErrorsNameFileAndLine) {
   const cli::WorkFolder folder;
   const auto words = compile(folder, "srgb_from_linear(", "no_such_function(");
   ASSERT_FALSE(words);
@@ -43,7 +43,7 @@ TEST_F(ShaderReloadTest, SaysWhereAFaultIs) {
   EXPECT_NE(words.failure().message.find("no_such_function"), std::string::npos);
 }
 
-TEST_F(ShaderReloadTest, RefusesAnotherInterface) {
+TEST_F(ShaderReloadTest, RejectsAnotherInterface) {
   const gpu::ComputePipeline pipeline(context(), shaders::display_comp,
                                       {gpu::kUniform, gpu::kSampled, gpu::kStored, gpu::kStored}, 0,
                                       {8, 8, 1});
@@ -63,17 +63,17 @@ TEST_F(ShaderReloadTest, RefusesAnotherInterface) {
   EXPECT_TRUE(check_fit(*same, pipeline, "display.comp"));
 }
 
-TEST_F(ShaderReloadTest, APipelineThatIsMadeLaterGetsTheChangedShader) {
+TEST_F(ShaderReloadTest, LaterPipelinesGetTheChangedShader) {
   const cli::WorkFolder folder;
   const auto copy = folder.path() / "shaders";
   std::filesystem::copy(kShaders, copy, std::filesystem::copy_options::recursive);
   ShaderReload reload(copy);
   EXPECT_FALSE(reload.update(context()));
-  // Another time than that of the copy, whatever the clock of the file system can tell apart.
+  // A different time than that of the copy, whatever the resolution of the file system.
   std::filesystem::last_write_time(
       copy / "display.comp",
       std::filesystem::last_write_time(copy / "display.comp") + std::chrono::seconds(2));
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);  // only a hang
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);  // only ends a hang
   while (reload.reloads() == 0 && std::chrono::steady_clock::now() < end) reload.update(context());
   ASSERT_EQ(reload.reloads(), 1u);
   const gpu::ComputePipeline pipeline(context(), shaders::display_comp,

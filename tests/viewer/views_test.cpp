@@ -1,4 +1,4 @@
-// Every debug view shows something, and something of its own.
+// Every debug view shows something different.
 #include <X11/keysym.h>
 
 #include "passes/debug_view.hpp"
@@ -7,7 +7,7 @@
 namespace brume::viewer {
 namespace {
 
-TEST(ViewsTest, EachIsNotBlankAndUnlikeTheOthers) {
+TEST(ViewsTest, ViewsAreNotBlankAndDifferFromEachOther) {
   const cli::WorkFolder folder;
   write_room(folder);
   const Desktop desktop;

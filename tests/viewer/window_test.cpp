@@ -1,4 +1,4 @@
-// The window itself: keys and mouse, panels, sizes, what may be lost, shaders that change.
+// The window: input, panels, resizing, surface and device loss, shader reload.
 #include <X11/keysym.h>
 
 #include "tests/viewer/room.hpp"
@@ -25,7 +25,7 @@ class WindowTest : public testing::Test {
   Desktop desktop_;
 };
 
-TEST(NoDisplayTest, SaysSoAndNamesRender) {
+TEST(NoDisplayTest, FailsAndSuggestsRender) {
   const cli::WorkFolder folder;
   cli::RunOptions options;
   options.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
@@ -38,22 +38,22 @@ TEST_F(WindowTest, ThrowsAndShoots) {
   ASSERT_TRUE(program.wait_for_window()) << program.error();
   const image::Image8 empty = program.picture();
   program.click(1);
-  // Smoke fills what is seen.
+  // Smoke fills the view.
   ASSERT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, empty) > 8; }))
       << mean_difference(program.picture(), empty);
   ASSERT_TRUE(program.wait_for_clock(1.5));
-  // Of the same tick, so that nothing but the shot makes the two pictures differ; then its flash is over.
+  // At the same tick, so that only the shot makes the two images differ; its flash is over by then.
   constexpr int kTicks = 16;
   const auto step = [&](unsigned long key) {
     for (int tick = 0; tick < kTicks; ++tick) {
       program.tap(key);
-      program.wait_for_frames(2);  // GLFW takes taps that come at once for the repeats of a held key
+      program.wait_for_frames(2);  // GLFW treats immediate taps as repeats of a held key
     }
     return program.wait_for_best();
   };
   program.tap(XK_p);
   ASSERT_TRUE(step(XK_period));
-  // A hole where it is aimed, and nowhere else.
+  // A hole where the shot was aimed, and nowhere else.
   const auto part = [](const image::Image8& picture, unsigned left, unsigned top) {
     image::Image8 cut;
     for (unsigned y = top; y < top + 12; ++y)
@@ -88,7 +88,7 @@ TEST_F(WindowTest, OpensPanelsAndHelp) {
   expect_end(program);
 }
 
-TEST_F(WindowTest, SurvivesOtherSizesAndBeingHidden) {
+TEST_F(WindowTest, SurvivesResizingAndHiding) {
   Program program(desktop_, folder_.path(), arguments());
   ASSERT_TRUE(program.wait_for_window()) << program.error();
   for (const glm::uvec2 size : {glm::uvec2(333, 77), glm::uvec2(16, 200), glm::uvec2(640, 360),
@@ -100,13 +100,13 @@ TEST_F(WindowTest, SurvivesOtherSizesAndBeingHidden) {
     EXPECT_TRUE(program.wait_for_frames(4));
   }
   program.hide();
-  EXPECT_TRUE(program.wait_for_frames(4));  // X takes pictures of a hidden window
+  EXPECT_TRUE(program.wait_for_frames(4));  // X allows reading a hidden window
   program.show();
   EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return count_colours(now) > 20; }));
   expect_end(program);
 }
 
-TEST_F(WindowTest, SurvivesTheLossOfSurfaceAndDevice) {
+TEST_F(WindowTest, SurvivesSurfaceAndDeviceLoss) {
   Program program(
       desktop_, folder_.path(),
       arguments({"--lose-surface", "0.4", "--lose-device", "0.8", "--exit-after", "2", "--json", "r.json"}));
@@ -116,13 +116,13 @@ TEST_F(WindowTest, SurvivesTheLossOfSurfaceAndDevice) {
   EXPECT_TRUE(report.at("validation_messages").empty());
 }
 
-TEST_F(WindowTest, TakesShadersThatChangeAndRefusesBrokenOnes) {
+TEST_F(WindowTest, ReloadsShadersAndRejectsBrokenOnes) {
   std::filesystem::copy(BRUME_SHADERS_DIR, file("shaders"), std::filesystem::copy_options::recursive);
   Program program(desktop_, folder_.path(),
                   arguments({"--bare", "--shaders", "shaders", "--json", "r.json"}));
   ASSERT_TRUE(program.wait_for_window()) << program.error();
-  // As an editor does it: the new file takes the place of the old one at once. Its time is another one,
-  // whatever the clock of the file system can tell apart.
+  // As editors do: the new file atomically replaces the old one. Its time differs whatever the resolution of
+  // the file system.
   auto changed = std::filesystem::last_write_time(file("shaders/display.comp"));
   const auto rewrite = [&](const std::string& from, const std::string& to) {
     std::ifstream in(file("shaders/display.comp"));
@@ -141,7 +141,7 @@ TEST_F(WindowTest, TakesShadersThatChangeAndRefusesBrokenOnes) {
   };
   rewrite(colour, red);
   EXPECT_TRUE(program.wait_for_picture(is_red));
-  // Broken: the red one goes on.
+  // Broken: the red one stays in use.
   rewrite(red, "vec4(1.0, 0.0, 0.0, unknown)");
   EXPECT_TRUE(program.wait_for_frame([](const Frame& now) { return now.shader_faults == 1; }));
   EXPECT_TRUE(program.wait_for_frames(4));

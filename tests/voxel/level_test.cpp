@@ -23,7 +23,7 @@ int whole(Random& random, int low, int high) {
   return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
 }
 
-/// A slab of triangles somewhere, partly outside of the grid; often on the voxels' own sides.
+/// A random slab of triangles, partly outside of the grid, often on voxel faces.
 Triangles random_part(Random& random, const GridLayout& layout) {
   Triangles part;
   const vec3 extent = layout.voxel_size * vec3(layout.size);
@@ -61,7 +61,7 @@ void expect_same_planes(const A& a, const B& b, ivec3 size) {
   ASSERT_EQ(differing, 0);
 }
 
-/// The rule of a Level, without any of its haste: layers in order, all of the grid each time.
+/// The definition of a Level without its optimizations: all layers in order, over the whole grid.
 struct Slow {
   struct Layer {
     std::uint32_t part;  // or none
@@ -194,7 +194,7 @@ Triangles wall(float z) {
   return {{a, b, c}, {a, c, d}};
 }
 
-TEST(Level, ADoorThatShutsAgainIsAsItWas) {
+TEST(Level, ClosingADoorRestoresTheLevel) {
   const GridLayout layout{{8, 8, 8}, 1, vec3(0)};
   const std::vector<Triangles> parts{wall(4.5f), {{{2, 0, 2.5f}, {5, 0, 2.5f}, {5, 6, 2.5f}}}};
   Level level(voxelize(joined(parts), layout).value_or_throw(), parts);
@@ -207,7 +207,7 @@ TEST(Level, ADoorThatShutsAgainIsAsItWas) {
   EXPECT_TRUE(opened.before.solid({4, 2, 2}));
   EXPECT_TRUE(opened.planes.at({4, 2, 2}).empty());
   EXPECT_FALSE(planes.at({4, 2, 2}).empty());
-  EXPECT_TRUE(level.show({&door, 1}, false).voxels.empty());  // it is open already
+  EXPECT_TRUE(level.show({&door, 1}, false).voxels.empty());  // already open
   level.show({&door, 1}, true);
   expect_same_voxels(level.grid(), shut, "shut again");
   expect_same_planes(level.planes_in({ivec3(-1), layout.size}), planes, layout.size);
@@ -238,7 +238,7 @@ TEST(Level, ABoxOfSolidVoxelsHasPlanesAtItsSixFaces) {
   EXPECT_EQ(level.planes_in({ivec3(-1), layout.size}).cell_count(), 0u);
 }
 
-TEST(Level, AHoleInAWallTakesItsSurfaceOutAndLeavesTheRest) {
+TEST(Level, AHoleInAWallRemovesItsSurfaceOnly) {
   const GridLayout layout{{8, 8, 8}, 1, vec3(0)};
   const std::vector<Triangles> parts{wall(4.5f)};
   Level level(voxelize(parts[0], layout).value_or_throw(), parts);
@@ -255,7 +255,7 @@ TEST(Level, AHoleInAWallTakesItsSurfaceOutAndLeavesTheRest) {
   EXPECT_NEAR(planes.at({1, 3, 4})[0].offset, whole_wall.at({1, 3, 4})[0].offset, 1e-6);
 }
 
-TEST(Level, WhatIsShownLaterFillsAHole) {
+TEST(Level, LaterLayersFillHoles) {
   const GridLayout layout{{8, 8, 8}, 1, vec3(0)};
   const std::vector<Triangles> parts{wall(4.5f), wall(2.5f)};
   Level level(voxelize(joined(parts), layout).value_or_throw(), parts);

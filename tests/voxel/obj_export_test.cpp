@@ -25,7 +25,7 @@ BitGrid random_grid(std::uint64_t seed, ivec3 size, unsigned solid_of_8) {
   return grid;
 }
 
-// Every face of the grid, by voxel and direction, the obvious way.
+// Every face of the grid, by voxel and direction, by brute force.
 std::map<std::array<int, 4>, int> brute_force_faces(const BitGrid& grid) {
   std::map<std::array<int, 4>, int> faces;
   const ivec3 size = grid.size();
@@ -88,7 +88,7 @@ Obj parse(const std::string& text) {
   return obj;
 }
 
-TEST(ExportObj, IsClosedAndTurnedOutward) {
+TEST(ExportObj, IsClosedAndFacesOutward) {
   const auto path = std::filesystem::path(testing::TempDir()) / "brume_voxels.obj";
   const BitGrid grid = random_grid(3, {9, 20, 11}, 3);
   const auto counts = export_obj(grid, path);
@@ -98,7 +98,8 @@ TEST(ExportObj, IsClosedAndTurnedOutward) {
   const Obj obj = parse(*text);
   EXPECT_EQ(obj.vertices.size(), counts->vertices);
   EXPECT_EQ(obj.quads.size(), counts->quads);
-  // Closed and outward: the areas add up to nothing as vectors, and Gauss's volume is that of the voxels.
+  // Closed and outward: the area vectors sum to zero, and the volume by the divergence theorem is that of the
+  // voxels.
   glm::dvec3 flux(0);
   double volume = 0, area = 0;
   for (const auto& quad : obj.quads) {

@@ -36,7 +36,7 @@ vec3 centre(ivec3 cell) {
   return vec3(cell) + 1.0f;
 }
 
-TEST(SurfacePlanes, AThinWallIsOnePlaneInItsMiddle) {
+TEST(SurfacePlanes, AThinWallIsOnePlaneAtItsCentre) {
   // Two faces 0.2 voxels apart (0.1 m at 0.5 m), both within one layer of cells.
   const GridLayout layout{{12, 6, 9}, 0.5f, vec3(-2, 0, 1)};
   for (int axis = 0; axis < 3; ++axis)
@@ -88,7 +88,7 @@ TEST(SurfacePlanes, ASlantedWallIsItsPlaneInEveryCell) {
           const float sign = glm::dot(planes[0].normal, n) < 0 ? -1.0f : 1.0f;
           EXPECT_NEAR(sign * glm::dot(planes[0].normal, n), 1, 1e-6);
           EXPECT_NEAR(sign * planes[0].offset, glm::dot(n, 2.0f * middle - centre(cell)), 1e-3);
-          // Points of the cell are on the side where they are.
+          // Points of the cell are on the correct side.
           for (int k = 0; k < 4; ++k) {
             const vec3 point = centre(cell) + 0.5f * vec3(uniform(random), uniform(random), uniform(random));
             const float distance = glm::dot(n, point - 2.0f * middle);
@@ -100,12 +100,12 @@ TEST(SurfacePlanes, ASlantedWallIsItsPlaneInEveryCell) {
   }
 }
 
-TEST(SurfacePlanes, EveryCellThatAWallCrossesHasIt) {
+TEST(SurfacePlanes, EveryCellThatAWallCrossesHasItsPlane) {
   const GridLayout layout{{9, 9, 9}, 1, vec3(0)};
   std::vector<Triangle> wall;
   add_face(wall, {-20, 4.2f, -20}, {0, 0, 60}, {60, 0, 0});
   const Built built = build(wall, layout);
-  EXPECT_EQ(built.planes.cell_count(), 100u);  // (9 + 1)^2, the border's included.
+  EXPECT_EQ(built.planes.cell_count(), 100u);  // (9 + 1)^2, including the border.
   for (int z = -1; z < 9; ++z)
     for (int x = -1; x < 9; ++x) EXPECT_EQ(built.planes.at({x, 3, z}).size(), 1u);
   EXPECT_TRUE(built.planes.at({9, 3, 0}).empty());
@@ -113,7 +113,7 @@ TEST(SurfacePlanes, EveryCellThatAWallCrossesHasIt) {
   EXPECT_TRUE(SurfacePlanes().at({0, 0, 0}).empty());
 }
 
-TEST(SurfacePlanes, ARoundColumnHasItsTangents) {
+TEST(SurfacePlanes, ARoundColumnHasTangentPlanes) {
   const GridLayout layout{{24, 6, 24}, 0.5f, vec3(0)};
   constexpr float kRadius = 6;  // [voxels]
   constexpr int kFacets = 256;
@@ -161,7 +161,7 @@ TEST(SurfacePlanes, ACornerHasAPlaneForEachWall) {
   EXPECT_EQ(build(room, layout).planes.at({3, 3, 3}).size(), 3u);
 }
 
-TEST(SurfacePlanes, ThreadsDoNotMatterAndPartsGoTogetherAgain) {
+TEST(SurfacePlanes, IsIndependentOfThreadsAndPartsMerge) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> place(-2, 18), step(-1.5f, 1.5f);
   std::vector<Triangle> soup(4000);

@@ -46,7 +46,7 @@ Ray random_ray(Random& random, ivec3 size) {
     case 2:  // diagonal
       for (int axis = 0; axis < 3; ++axis) ray.direction[axis] = static_cast<float>(random() % 3) - 1;
       break;
-    case 3:  // grazing: next to parallel
+    case 3:  // grazing: nearly parallel
       ray.direction[static_cast<int>(random() % 3)] *= 1e-6f;
       break;
     default:
@@ -72,7 +72,7 @@ std::vector<Visit> walk(const GridLayout& layout, const Ray& ray) {
 }
 
 // The t for which the ray is in [v, v + 1), by slabs. `Real` float: as the header of dda.h defines crossing,
-// plane by plane; double: the nearest thing to the truth.
+// plane by plane; double: close to the exact result.
 template <typename Real>
 std::pair<Real, Real> interval_in(const Ray& ray, ivec3 v) {
   Real enter = 0, leave = static_cast<Real>(ray.t_max);
@@ -98,7 +98,7 @@ void for_voxels(ivec3 size, Each each) {
       for (int x = 0; x < size.x; ++x) each(ivec3(x, y, z));
 }
 
-TEST(VisitVoxels, EqualsBruteForceForAMillionRays) {
+TEST(VisitVoxels, MatchesBruteForceForAMillionRays) {
   Random random(1);
   const ivec3 sizes[] = {{1, 1, 1}, {5, 4, 3}, {9, 6, 4}, {7, 1, 2}};
   for (int i = 0; i < 1000000; ++i) {
@@ -121,7 +121,7 @@ TEST(VisitVoxels, EqualsBruteForceForAMillionRays) {
   }
 }
 
-TEST(VisitVoxels, AgreesWithDoublesBeyondRounding) {
+TEST(VisitVoxels, MatchesDoublePrecisionUpToRounding) {
   // A plane's t has three roundings of 2^-24: difference, inverse, product.
   Random random(2);
   const GridLayout layout{{6, 5, 7}, 1, vec3(0)};
@@ -139,7 +139,7 @@ TEST(VisitVoxels, AgreesWithDoublesBeyondRounding) {
   }
 }
 
-TEST(VisitVoxels, TiesGoThroughTheCornerAndUpOnAFace) {
+TEST(VisitVoxels, TiesGoThroughTheCornerAndUpwardsOnAFace) {
   const GridLayout layout{{4, 4, 4}, 1, vec3(0)};
   const auto diagonal = walk(layout, {vec3(0), vec3(1), 100});
   ASSERT_EQ(diagonal.size(), 4u);
@@ -153,7 +153,7 @@ TEST(VisitVoxels, TiesGoThroughTheCornerAndUpOnAFace) {
   EXPECT_TRUE(walk(layout, {{-1, 4, 1.5f}, {1, 0, 0}, 100}).empty());
 }
 
-TEST(VisitVoxels, StopsWhenToldAndIgnoresWhatIsNoRay) {
+TEST(VisitVoxels, StopsOnRequestAndIgnoresInvalidRays) {
   const GridLayout layout{{4, 4, 4}, 1, vec3(0)};
   int count = 0;
   visit_voxels(layout, vec3(0.5f), vec3(1, 0, 0), 100, [&](ivec3, float, float) { return ++count < 2; });
@@ -162,11 +162,12 @@ TEST(VisitVoxels, StopsWhenToldAndIgnoresWhatIsNoRay) {
   EXPECT_TRUE(walk(layout, {vec3(std::nanf("")), vec3(1), 100}).empty());
   EXPECT_TRUE(walk(layout, {vec3(0.5f), vec3(std::numeric_limits<float>::infinity(), 0, 0), 100}).empty());
   EXPECT_TRUE(walk(layout, {vec3(0.5f), vec3(1, 0, 0), std::nanf("")}).empty());
-  EXPECT_EQ(walk(layout, {vec3(0.5f), vec3(1e-38f, 0, 0), std::numeric_limits<float>::infinity()}).size(), 4u);
+  EXPECT_EQ(walk(layout, {vec3(0.5f), vec3(1e-38f, 0, 0), std::numeric_limits<float>::infinity()}).size(),
+            4u);
   walk(layout, {vec3(3e38f, -3e38f, 0), vec3(-3e38f, 3e38f, 1e-45f), 100});
 }
 
-TEST(FirstSolid, IsTheFirstSolidVoxelOfTheWholeWalk) {
+TEST(FirstSolid, MatchesTheFirstSolidVoxelOfTheTraversal) {
   Random random(3);
   const ivec3 sizes[] = {{33, 17, 5}, {64, 64, 64}, {7, 9, 70}};
   for (int scene = 0; scene < 12; ++scene) {

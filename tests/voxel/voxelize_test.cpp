@@ -21,7 +21,7 @@ float uniform(Random& random, float low, float high) {
   return low + (high - low) * static_cast<float>(random() >> 40) / 16777216.0f;
 }
 
-// Where a corner may lie: anywhere, or on multiples of a step, some of it outside of the grid.
+// A random corner: anywhere, or on multiples of a step, sometimes outside of the grid.
 vec3 random_corner(Random& random, const GridLayout& layout, float step) {
   vec3 p;
   for (int axis = 0; axis < 3; ++axis) {
@@ -72,7 +72,7 @@ Triangle random_triangle(Random& random, const GridLayout& layout) {
 }
 
 // Where the voxel size is a power of two, doubles hold every product of coordinates on a grid and the
-// reference is exact. Elsewhere coordinates are quotients, and the reference may err by what it rounds.
+// reference is exact. Elsewhere coordinates are quotients, and the reference has rounding errors.
 void expect_equal(const std::vector<Triangle>& triangles, const GridLayout& layout, std::size_t soup) {
   const auto grid = voxelize(triangles, layout);
   ASSERT_TRUE(grid);
@@ -89,7 +89,7 @@ void expect_equal(const std::vector<Triangle>& triangles, const GridLayout& layo
       }
 }
 
-TEST(Voxelize, EqualsBruteForceOn200Soups) {
+TEST(Voxelize, MatchesBruteForceOn200TriangleSoups) {
   Random random(7);
   const ivec3 sizes[] = {{1, 1, 1}, {7, 7, 7}, {33, 17, 5}, {2, 19, 11}, {16, 16, 16}};
   const float voxel_sizes[] = {0.5f, 0.1f, 1.0f, 0.37f};
@@ -98,13 +98,13 @@ TEST(Voxelize, EqualsBruteForceOn200Soups) {
     if (soup % 2) layout.origin_world = vec3(uniform(random, -9, 9), -30, uniform(random, -9, 9));
     std::vector<Triangle> triangles(1 + random() % 12);
     for (Triangle& t : triangles) t = random_triangle(random, layout);
-    // Single shapes first: in a full grid one could hide the fault of another.
+    // Single shapes first: in a full grid one could mask the error of another.
     if (soup % 3 == 0) triangles.resize(1);
     ASSERT_NO_FATAL_FAILURE(expect_equal(triangles, layout, soup));
   }
 }
 
-TEST(Voxelize, EachShapeAloneEqualsBruteForce) {
+TEST(Voxelize, EachShapeMatchesBruteForce) {
   Random random(8);
   for (std::size_t i = 0; i < 3000; ++i) {
     const GridLayout layout{{9, 6, 7}, i % 2 ? 0.5f : 0.3f, vec3(i % 2 ? -30.0f : 0.7f)};
@@ -126,14 +126,14 @@ TEST(Voxelize, TouchingCountsOnBothSides) {
         EXPECT_EQ(grid->solid({x, y, z}), (x == 3 || x == 4) && y >= 1 && y <= 5 && z >= 1 && z <= 5);
 }
 
-TEST(Voxelize, PointOnACornerTouchesEightVoxels) {
+TEST(Voxelize, APointOnACornerTouchesEightVoxels) {
   const GridLayout layout{{4, 4, 4}, 1, vec3(0)};
   const auto grid = voxelize(std::vector<Triangle>{{vec3(2), vec3(2), vec3(2)}}, layout);
   ASSERT_TRUE(grid);
   EXPECT_EQ(grid->count_solid(), 8u);
 }
 
-TEST(Voxelize, ThreadsDoNotMatter) {
+TEST(Voxelize, IsIndependentOfTheNumberOfThreads) {
   Random random(9);
   const GridLayout layout{{65, 33, 70}, 0.25f, vec3(-3)};
   std::vector<Triangle> triangles(5000);
@@ -197,7 +197,7 @@ TEST(Voxelize, HostileCornersAreHarmless) {
                                         {vec3(std::nanf("")), vec3(0), vec3(1)},
                                         {vec3(-huge), vec3(huge), vec3(0)}};
   EXPECT_TRUE(voxelize(triangles, layout));
-  // Far, but within reach: the plane x + y + z = 0 still runs through the grid's first voxel.
+  // Distant corners: the plane x + y + z = 0 still runs through the grid's first voxel.
   const float far = 1e16f;
   const auto plane = voxelize(std::vector<Triangle>{{{far, -far, 0}, {0, far, -far}, {-far, 0, far}}},
                               {{8, 8, 8}, 1, vec3(0)});
@@ -209,7 +209,7 @@ TEST(Voxelize, HostileCornersAreHarmless) {
   EXPECT_EQ(none->count_solid(), 0u);
 }
 
-TEST(Voxelize, RefusesFramesThatAreNone) {
+TEST(Voxelize, RejectsInvalidLayouts) {
   const auto code = [](ivec3 size, float voxel_size) {
     const auto grid = voxelize({}, {size, voxel_size, vec3(0)});
     return grid ? ErrorCode{} : grid.failure().code;
@@ -225,7 +225,7 @@ TEST(Voxelize, RefusesFramesThatAreNone) {
   EXPECT_EQ(failed.failure().message.find('\n'), std::string::npos);
 }
 
-TEST(FrameAround, HoldsTheBoundsAndItsMargin) {
+TEST(LayoutAround, ContainsTheBoundsAndAMargin) {
   const auto layout = layout_around({-1.2f, 0, 3.1f}, {2.6f, 0, 4.9f}, 0.5f, 2);
   ASSERT_TRUE(layout);
   EXPECT_EQ(layout->size, ivec3(9 + 4, 1 * 0 + 4, 4 + 4));

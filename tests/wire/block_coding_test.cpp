@@ -50,7 +50,7 @@ sim::BlockSet random_set(ivec3 size, double share, unsigned seed) {
   return sim::BlockSet(voxels);
 }
 
-TEST(BlockCoding, ReadsWhatItWroteOfAnySize) {
+TEST(BlockCoding, RoundTripsAnySize) {
   unsigned seed = 0;
   for (const ivec3 size : {ivec3(1), ivec3(7), ivec3(33, 17, 5), ivec3(4, 64, 4), ivec3(1, 1, 200)})
     for (const double share : {0.0, 0.01, 0.3, 0.9, 1.0}) {
@@ -67,7 +67,7 @@ TEST(BlockCoding, ReadsWhatItWroteOfAnySize) {
 }
 
 // Blocks at the ends of the largest grid.
-TEST(BlockCoding, ReachesTheWholeGrid) {
+TEST(BlockCoding, CoversTheWholeGrid) {
   const BlockBounds bounds{ivec3(4096), false, 1u << 20};
   Blocks blocks;
   for (const int z : {0, 1023})
@@ -78,7 +78,7 @@ TEST(BlockCoding, ReachesTheWholeGrid) {
   EXPECT_EQ(back.blocks, blocks);
 }
 
-TEST(BlockCoding, RefusesWhatLiesOutside) {
+TEST(BlockCoding, RejectsBlocksOutsideOfTheGrid) {
   const Blocks blocks{{glm::i16vec3(1, 0, 0), ~std::uint64_t{0}, 0}};
   const BlockBounds wide{ivec3(8), false, 1u << 20};
   const auto bytes = encoded(wide, ivec3(0), blocks);
@@ -93,8 +93,8 @@ TEST(BlockCoding, RefusesWhatLiesOutside) {
   EXPECT_FALSE(decoded(wide, ivec3(0), encoded(wide, ivec3(0), empty)).whole);
 }
 
-// A count says how many blocks there are, not how much memory to take: without their bits it ends at once.
-TEST(BlockCoding, DoesNotTrustACount) {
+// A false block count must not cause a large allocation: decoding fails as soon as the bits run out.
+TEST(BlockCoding, AllocatesNothingForAFalseCount) {
   Encoder coder;
   BlockModels models;
   coder.number(models.count, ~std::uint64_t{0});
@@ -103,8 +103,8 @@ TEST(BlockCoding, DoesNotTrustACount) {
   EXPECT_TRUE(back.blocks.empty());
 }
 
-// What is like something known costs little, and returns whatever it is like.
-TEST(BlockCoding, PredictionShrinksIt) {
+// Blocks similar to a known state are small, and every prediction round-trips.
+TEST(BlockCoding, PredictionReducesTheSize) {
   const ivec3 size(33, 17, 5);
   const BlockBounds bounds{size, false, 1u << 20};
   const sim::BlockSet known = random_set(size, 0.5, 1), other = random_set(size, 0.5, 2);
@@ -135,7 +135,7 @@ std::size_t steps_size(const sim::BlockSet& set, std::span<const std::uint8_t> e
   return bytes.size();
 }
 
-TEST(BlockCoding, StepsOfAnyValuesReturn) {
+TEST(BlockCoding, RoundTripsAnyDensities) {
   std::mt19937 random(5);
   for (const ivec3 size : {ivec3(1), ivec3(7), ivec3(33, 17, 5)}) {
     const sim::BlockSet set = random_set(size, 0.7, 11);
@@ -147,8 +147,8 @@ TEST(BlockCoding, StepsOfAnyValuesReturn) {
   }
 }
 
-// A ramp of densities: less than two bits a voxel, not eight; foretold, less than a tenth of a bit.
-TEST(BlockCoding, SmoothStepsAreSmall) {
+// A ramp of densities: less than two bits per voxel instead of eight; predicted, less than a tenth of a bit.
+TEST(BlockCoding, SmoothDensitiesAreSmall) {
   const sim::BlockSet set = random_set(ivec3(12), 1, 1);
   std::vector<std::uint8_t> ramp(set.size());
   set.for_each(
@@ -157,7 +157,7 @@ TEST(BlockCoding, SmoothStepsAreSmall) {
   EXPECT_LT(steps_size(set, ramp, ramp) * 80, ramp.size());
 }
 
-TEST(BlockCoding, WaitsReturn) {
+TEST(BlockCoding, RoundTripsDelays) {
   std::mt19937 random(6);
   for (const std::size_t length : {0u, 1u, 7u, 1000u}) {
     std::vector<std::uint32_t> order(length);

@@ -1,4 +1,4 @@
-// Levels and matches for the tests of the wire.
+// Levels and matches for the tests of src/wire.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ inline sim::Position centre_of(const voxel::BitGrid& grid, glm::ivec3 voxel) {
   return sim::VoxelRuler(grid.layout()).centre(voxel);
 }
 
-/// A free voxel, from some chosen at random.
+/// A random free voxel.
 inline glm::ivec3 free_voxel(const voxel::BitGrid& grid, std::mt19937& random) {
   for (;;) {
     glm::ivec3 v;
@@ -70,7 +70,7 @@ inline glm::ivec3 free_voxel(const voxel::BitGrid& grid, std::mt19937& random) {
   }
 }
 
-/// Of the worlds of busy matches: their shots name masks.
+/// The mask key of busy matches, whose shots use masks.
 constexpr sim::WorldSettings kBusySettings{.masks = {5, 0x0123456789abcdefull}};
 
 /// A busy match of `ticks` ticks: smokes, shots, blasts, bodies, and doors that open and close.
@@ -111,7 +111,7 @@ inline sim::World world_of(const voxel::BitGrid& level, const std::vector<sim::E
   return world;
 }
 
-/// Equal by hash and in the density of every voxel that any of the two fills.
+/// Whether hashes and the densities of all voxels are equal.
 inline void expect_same(const sim::State& got, const sim::State& expected) {
   ASSERT_EQ(got.hash(), expected.hash()) << "tick " << expected.tick;
   ASSERT_EQ(got.clouds.size(), expected.clouds.size());

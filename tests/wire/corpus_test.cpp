@@ -1,4 +1,4 @@
-// What the fuzzers found worth keeping, again in every run of the tests.
+// Runs the corpus of the fuzzers in every test run.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 namespace brume::wire {
 namespace {
 
-// A check that fails ends the program.
+// A failed check aborts the program.
 void replay_corpus(const std::string& name, const std::function<void(Input)>& check) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(BRUME_SOURCE_DIR "/fuzz/corpus/" + name)) {
@@ -23,13 +23,13 @@ void replay_corpus(const std::string& name, const std::function<void(Input)>& ch
   EXPECT_GT(files, 0) << name;
 }
 
-TEST(Corpus, OfPackets) {
+TEST(Corpus, Packets) {
   replay_corpus("wire", check_packets);
 }
-TEST(Corpus, OfReplays) {
+TEST(Corpus, Replays) {
   replay_corpus("replay", check_replay);
 }
-TEST(Corpus, OfEventLogs) {
+TEST(Corpus, EventLogs) {
   replay_corpus("event_log", check_event_log);
 }
 

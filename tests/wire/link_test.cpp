@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// A way for packets that loses, damages, doubles, delays and reorders them.
+// A connection that loses, damages, duplicates, delays and reorders packets.
 class Network {
  public:
   Network(unsigned seed, double loss, double damage, std::uint32_t max_delay)
@@ -71,7 +71,7 @@ Outcome play(const voxel::BitGrid& level, const std::vector<sim::Event>& events,
   Receiver receiver;
   Outcome outcome;
   std::vector<std::uint64_t> hashes;
-  const std::uint32_t calm = ticks + 100;  // nothing is lost from here on
+  const std::uint32_t calm = ticks + 100;  // no more losses from here on
   for (std::uint32_t tick = 0; tick < calm + 30; ++tick) {
     world.advance_to(tick);
     hashes.push_back(world.state_hash());
@@ -111,8 +111,8 @@ TEST(Link, WithoutLossEveryTickArrives) {
   EXPECT_EQ(outcome.requests, 0u);
 }
 
-// SPEC K10: a late joiner, 5 % of all packets lost, requests too.
-TEST(Link, LateAndLossyEndsBitEqual) {
+// SPEC K10: a late joiner, 5 % of all packets lost, including requests.
+TEST(Link, LateJoinWithLossEndsBitEqual) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const voxel::BitGrid level = rooms(seed);
     const Outcome outcome = play(level, busy_match(level, seed, 400, 400), 400, 150,
@@ -122,7 +122,7 @@ TEST(Link, LateAndLossyEndsBitEqual) {
   }
 }
 
-TEST(Link, ReorderedDoubledAndDamagedEndsBitEqual) {
+TEST(Link, ReorderingDuplicationAndDamageEndBitEqual) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const voxel::BitGrid level = yard({40, 16, 40});
     play(level, busy_match(level, seed, 300, 400), 300, 20, Network(seed, 0.2, 0.2, 9),
@@ -130,7 +130,7 @@ TEST(Link, ReorderedDoubledAndDamagedEndsBitEqual) {
   }
 }
 
-TEST(Sender, AnswersWithWhatIsMissing) {
+TEST(Sender, SendsTheMissingState) {
   const voxel::BitGrid level = yard({24, 12, 24});
   sim::World world = world_of(
       level, {sim::ThrowSmoke{0, centre_of(level, {12, 3, 4}), centre_of(level, {12, 1, 12}), {300}}});
@@ -166,7 +166,7 @@ TEST(Sender, AnswersWithWhatIsMissing) {
   EXPECT_EQ(read_head(ask({100, checksums[100]}))->kind, PacketKind::keyframe);
 }
 
-TEST(Receiver, SaysWhatBecameOfAPacket) {
+TEST(Receiver, ReportsTheResultOfAPacket) {
   const voxel::BitGrid level = yard({12, 6, 12});
   sim::World world(level);
   Sender sender;

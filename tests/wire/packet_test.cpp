@@ -22,7 +22,7 @@ Result<sim::State> read(std::span<const std::byte> packet, const sim::State* bas
   return read_delta(*head, *base, limits);
 }
 
-TEST(Packet, KeyframesOfABusyMatchReturn) {
+TEST(Packet, RoundTripsKeyframesOfABusyMatch) {
   const voxel::BitGrid level = rooms(1);
   sim::World world = world_of(level, busy_match(level, 1, 600, 500));
   for (std::uint32_t tick = 0; tick <= 700; tick += 7) {
@@ -34,7 +34,7 @@ TEST(Packet, KeyframesOfABusyMatchReturn) {
 }
 
 // From any earlier state, not only the last one.
-TEST(Packet, DeltasOfABusyMatchReturn) {
+TEST(Packet, RoundTripsDeltasOfABusyMatch) {
   const voxel::BitGrid level = rooms(2);
   sim::World world = world_of(level, busy_match(level, 2, 600, 500));
   std::mt19937 random(1);
@@ -51,8 +51,8 @@ TEST(Packet, DeltasOfABusyMatchReturn) {
   expect_same(got.back(), world.state());
 }
 
-// What did not change is not copied.
-TEST(Packet, StatesShareWhatStays) {
+// Unchanged clouds are not copied.
+TEST(Packet, SharesUnchangedClouds) {
   const voxel::BitGrid level = yard({24, 12, 24});
   sim::World world = world_of(
       level, {sim::ThrowSmoke{0, centre_of(level, {12, 3, 4}), centre_of(level, {12, 1, 12}), {300}}});
@@ -65,7 +65,7 @@ TEST(Packet, StatesShareWhatStays) {
   EXPECT_EQ(after->clouds[0].cloud, before->clouds[0].cloud);
 }
 
-// SPEC K10: a grown smoke in at most 1 KiB; growing, at most 64 bytes a tick.
+// SPEC K10: a grown smoke in at most 1 KiB; growing, at most 64 bytes per tick.
 TEST(Packet, AGrownSmokeIsSmall) {
   const auto measure = [](const char* name, const voxel::BitGrid& level, glm::ivec3 from, glm::ivec3 at) {
     sim::World world =
@@ -102,8 +102,8 @@ TEST(Packet, AGrownSmokeIsSmall) {
   }
 }
 
-// A door opens under a smoke: its densities displacements, and less than one byte a voxel.
-TEST(Packet, ASmokeThatFlowsOnIsSmallToo) {
+// A door opens under a smoke: its moving densities take less than one byte a voxel.
+TEST(Packet, ASmokeThatFlowsThroughADoorIsSmall) {
   const voxel::BitGrid level = rooms(3);
   std::mt19937 random(3);
   const glm::ivec3 voxel = free_voxel(level, random);
@@ -124,8 +124,8 @@ TEST(Packet, ASmokeThatFlowsOnIsSmallToo) {
   expect_same(*back, world.state());
 }
 
-// A packet that is cut, longer, or of which any bit is another: refused, or the very same state.
-TEST(Packet, DamageIsRefused) {
+// A packet that is truncated, longer or has any flipped bit is rejected or decodes to the same state.
+TEST(Packet, RejectsDamage) {
   const voxel::BitGrid level = yard({20, 9, 17});
   sim::World world = world_of(level, busy_match(level, 5, 100, 40));
   world.advance_to(60);
@@ -150,7 +150,7 @@ TEST(Packet, DamageIsRefused) {
   }
 }
 
-TEST(Packet, LimitsHold) {
+TEST(Packet, EnforcesLimits) {
   const voxel::BitGrid level = yard({24, 12, 24});
   sim::World world =
       world_of(level, {sim::ThrowSmoke{0, centre_of(level, {12, 3, 4}), centre_of(level, {12, 1, 12}), {300}},
@@ -163,19 +163,19 @@ TEST(Packet, LimitsHold) {
   EXPECT_FALSE(read(packet, nullptr, {.max_items = 1}));
 }
 
-// What no simulation makes is refused, even with a checksum that fits.
-TEST(Packet, ContradictionsAreRefused) {
+// Rejects states that no simulation produces, even with a matching checksum.
+TEST(Packet, RejectsContradictions) {
   const voxel::BitGrid level = yard({24, 12, 24});
   sim::World world = world_of(level, busy_match(level, 9, 100, 60));
   world.advance_to(60);
-  sim::State sound = world.state();
-  sound.blasts.clear();  // they could not even be written into an impossible grid
-  ASSERT_TRUE(read(write_keyframe(sound), nullptr));
-  ASSERT_FALSE(sound.clouds.empty());
-  ASSERT_FALSE(sound.holes.empty());
-  ASSERT_FALSE(sound.bodies.empty());
+  sim::State valid = world.state();
+  valid.blasts.clear();  // they could not even be written into an impossible grid
+  ASSERT_TRUE(read(write_keyframe(valid), nullptr));
+  ASSERT_FALSE(valid.clouds.empty());
+  ASSERT_FALSE(valid.holes.empty());
+  ASSERT_FALSE(valid.bodies.empty());
   const auto refused = [&](const std::function<void(sim::State&)>& change) {
-    sim::State state = sound;
+    sim::State state = valid;
     change(state);
     const auto got = read(write_keyframe(state), nullptr);
     return !got && got.failure().code == ErrorCode::bad_input;
@@ -206,8 +206,8 @@ TEST(Packet, ContradictionsAreRefused) {
   }));
 }
 
-// A delta that takes events back would leave things that are of none.
-TEST(Packet, EventsAreNotTakenBack) {
+// A delta that removes events would leave objects without an event.
+TEST(Packet, RejectsDeltasThatRemoveEvents) {
   const voxel::BitGrid level = yard({24, 12, 24});
   sim::World world = world_of(level, busy_match(level, 9, 100, 60));
   world.advance_to(60);
@@ -218,7 +218,7 @@ TEST(Packet, EventsAreNotTakenBack) {
   EXPECT_FALSE(read_body(write_body(world.state(), later), world.state(), later.tick, {}));
 }
 
-TEST(Packet, RequestsReturn) {
+TEST(Packet, RoundTripsRequests) {
   for (const Request& request : {Request{}, Request{0, 7}, Request{~std::uint32_t{0}, ~std::uint32_t{0}}}) {
     const Bytes bytes = write_request(request);
     EXPECT_LE(bytes.size(), 10u);

@@ -18,7 +18,7 @@ struct Item {
 };
 
 // Decisions, plain bits and numbers in any order and of any length.
-TEST(RangeCoder, ReadsWhatItWrote) {
+TEST(RangeCoder, RoundTrips) {
   std::mt19937_64 random(1);
   for (int length = 0; length < 400; ++length) {
     std::vector<Item> items;
@@ -62,7 +62,7 @@ TEST(RangeCoder, ReadsWhatItWrote) {
 }
 
 // Carries: the longest runs of 0xFF come from decisions that are always the less likely one.
-TEST(RangeCoder, CarriesThroughLongRuns) {
+TEST(RangeCoder, PropagatesCarriesThroughLongRuns) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     std::vector<bool> bits;
@@ -78,9 +78,9 @@ TEST(RangeCoder, CarriesThroughLongRuns) {
   }
 }
 
-// The cost is within 3 % of the entropy, and what adapting costs: about half of log2(n) bits for one model
-// (Krichevsky and Trofimov 1981), more as the memory is short.
-TEST(RangeCoder, CostsWhatIsSurprising) {
+// The cost is within 3 % of the entropy plus the cost of adaptation: about half of log2(n) bits for one model
+// (Krichevsky and Trofimov 1981), more with short memory.
+TEST(RangeCoder, CostIsCloseToTheEntropy) {
   for (const double share : {0.5, 0.1, 0.02}) {
     std::mt19937 random(7);
     std::bernoulli_distribution next(share);
@@ -96,13 +96,13 @@ TEST(RangeCoder, CostsWhatIsSurprising) {
   }
 }
 
-TEST(RangeCoder, NothingCostsNothing) {
+TEST(RangeCoder, EmptyInputCostsNothing) {
   EXPECT_TRUE(Encoder().finish().empty());
   EXPECT_TRUE(Decoder({}).at_end());
 }
 
-// Past the end all is 0 and known to be wrong, and nothing goes on for ever.
-TEST(RangeCoder, KnowsTheEnd) {
+// Reads past the end return 0 and set the error flag, and loops terminate.
+TEST(RangeCoder, DetectsTheEnd) {
   std::mt19937 random(3);
   Encoder encoder;
   for (int i = 0; i < 50; ++i) encoder.direct(random(), 32);
@@ -117,7 +117,7 @@ TEST(RangeCoder, KnowsTheEnd) {
     EXPECT_EQ(decoder.direct(0, 9), 0u);
     EXPECT_EQ(decoder.number(number), 0u);
   }
-  // As many zeros as the end may lack, and one byte more.
+  // As many zeros as may be missing at the end, and one byte more.
   bytes.insert(bytes.end(), 5, std::byte{0});
   Decoder decoder(bytes);
   for (int i = 0; i < 50; ++i) decoder.direct(0, 32);
@@ -134,7 +134,7 @@ TEST(Fold, IsABijection) {
   EXPECT_EQ(folded(1), 2u);
 }
 
-TEST(Bytes, ReadWhatWasWritten) {
+TEST(Bytes, RoundTrip) {
   ByteWriter out;
   const std::vector<std::uint64_t> values{0, 1, 127, 128, 300, 16383, 16384, ~std::uint64_t{0}};
   for (const std::uint64_t value : values) out.varint(value);
@@ -148,7 +148,7 @@ TEST(Bytes, ReadWhatWasWritten) {
   EXPECT_TRUE(in.remaining().empty());
 }
 
-TEST(Bytes, RefuseWhatIsNotThere) {
+TEST(Bytes, RejectReadsPastTheEnd) {
   const auto varint_of = [](std::vector<std::byte> bytes, std::uint64_t max) {
     ByteReader in(bytes);
     in.varint(max);

@@ -25,7 +25,7 @@ Replay recorded(const voxel::BitGrid& level, const std::vector<sim::Event>& even
   return replay;
 }
 
-TEST(EventLog, EventsOfABusyMatchReturn) {
+TEST(EventLog, RoundTripsABusyMatch) {
   const voxel::BitGrid level = rooms(1);
   for (unsigned seed = 0; seed < 20; ++seed) {
     const auto events = busy_match(level, seed, 1000, 1800);
@@ -39,7 +39,7 @@ TEST(EventLog, EventsOfABusyMatchReturn) {
   EXPECT_TRUE(none->empty());
 }
 
-TEST(EventLog, RefusesWhatTheWorldWouldRefuse) {
+TEST(EventLog, RejectsEventsThatTheWorldRejects) {
   const voxel::GridLayout layout{glm::ivec3(16), 0.5f, glm::vec3(0)};
   const auto refused = [&](const sim::Event& event) {
     EXPECT_FALSE(sim::check_event(event, layout));
@@ -60,7 +60,7 @@ TEST(EventLog, RefusesWhatTheWorldWouldRefuse) {
   EXPECT_TRUE(refused(sim::LevelEdit{0, {{glm::i16vec3(0, 0, 0), 1, 1}}}));
 }
 
-TEST(EventLog, RefusesDamage) {
+TEST(EventLog, RejectsDamage) {
   const voxel::BitGrid level = yard({16, 8, 16});
   const auto events = busy_match(level, 3, 1000, 1800);
   const Bytes bytes = write_events(events, level.layout());
@@ -71,7 +71,7 @@ TEST(EventLog, RefusesDamage) {
   EXPECT_FALSE(read_events(bytes, level.layout(), {.max_items = events.size() - 1}));
 }
 
-TEST(Replay, ReturnsAndPlays) {
+TEST(Replay, RoundTripsAndPlays) {
   for (const glm::ivec3 size : {glm::ivec3(33, 17, 5), glm::ivec3(40, 16, 40), glm::ivec3(7)}) {
     const voxel::BitGrid level = yard(size);
     const Replay replay = recorded(level, busy_match(level, 1, 200, 100), 250);
@@ -85,22 +85,22 @@ TEST(Replay, ReturnsAndPlays) {
     EXPECT_EQ(back->settings.masks, kBusySettings.masks);
     EXPECT_TRUE(sim::difference(back->level, level, glm::ivec3(0), size).empty());
     std::uint32_t ticks = 0;
-    const auto departure = play(*back, [&](const sim::State& state) { EXPECT_EQ(state.tick, ticks++); });
-    ASSERT_TRUE(departure);
-    EXPECT_FALSE(*departure);
+    const auto divergence = play(*back, [&](const sim::State& state) { EXPECT_EQ(state.tick, ticks++); });
+    ASSERT_TRUE(divergence);
+    EXPECT_FALSE(*divergence);
     EXPECT_EQ(ticks, 250u);
     EXPECT_EQ(*encode_replay(*back), *bytes);
   }
 }
 
-TEST(Replay, OfOtherMasksDoesNotPlay) {
+TEST(Replay, RejectsOtherMasks) {
   const voxel::BitGrid level = yard({20, 9, 20});
   const Replay replay = recorded(level, busy_match(level, 1, 20, 30), 30);
   Replay other = replay;
   other.settings.masks.hash += 1;
-  const auto departure = play(other);
-  ASSERT_TRUE(departure && *departure);
-  EXPECT_EQ((*departure)->tick, 0u);
+  const auto divergence = play(other);
+  ASSERT_TRUE(divergence && *divergence);
+  EXPECT_EQ((*divergence)->tick, 0u);
   Replay none = replay;
   none.settings.masks = {};
   const auto refused = play(none);
@@ -112,19 +112,19 @@ TEST(Replay, NamesTheFirstTickThatDiffers) {
   const voxel::BitGrid level = yard({20, 9, 20});
   Replay replay = recorded(level, {sim::MoveBody{10, 0, {}}, sim::MoveBody{20, 0, {5, 0, 0}}}, 50);
   std::get<sim::MoveBody>(replay.events[1]).to.x = 6;
-  const auto departure = play(replay);
-  ASSERT_TRUE(departure && *departure);
-  EXPECT_EQ((*departure)->tick, 20u);
-  EXPECT_EQ((*departure)->recorded, replay.checksums[20]);
-  EXPECT_NE((*departure)->got, replay.checksums[20]);
+  const auto divergence = play(replay);
+  ASSERT_TRUE(divergence && *divergence);
+  EXPECT_EQ((*divergence)->tick, 20u);
+  EXPECT_EQ((*divergence)->recorded, replay.checksums[20]);
+  EXPECT_NE((*divergence)->got, replay.checksums[20]);
 }
 
-TEST(Replay, RefusesDamage) {
+TEST(Replay, RejectsDamage) {
   const voxel::BitGrid level = yard({12, 6, 12});
   const Bytes bytes = *encode_replay(recorded(level, busy_match(level, 1, 20, 30), 30));
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_FALSE(decode_replay(std::span<const std::byte>(bytes).first(length))) << length;
-  // Damage that the hash at the end does not see, for it is made to fit.
+  // Damage with a matching final hash.
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {
     Bytes damaged(bytes.begin(), bytes.end() - 8);
@@ -138,7 +138,7 @@ TEST(Replay, RefusesDamage) {
   }
 }
 
-TEST(Replay, FilesAreWholeAndNamed) {
+TEST(Replay, FileErrorsNameTheFile) {
   const auto folder = std::filesystem::temp_directory_path() / "brume_replay_test";
   std::filesystem::create_directories(folder);
   const voxel::BitGrid level = yard({12, 6, 12});

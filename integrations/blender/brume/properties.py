@@ -50,7 +50,9 @@ class BrumeEvent(bpy.types.PropertyGroup):
     type: EnumProperty(items=EVENTS, name="Event", description="Event at this empty")
     time: _seconds("Time", 1.0, 3600.0, "Time of the event, from the first frame of the scene")
     thrown_from: PointerProperty(
-        type=bpy.types.Object, name="Thrown From", description="Position of the thrower; empty: the grenade goes off here"
+        type=bpy.types.Object,
+        name="Thrown From",
+        description="Position of the thrower; empty: the grenade goes off here",
     )
     aim: PointerProperty(
         type=bpy.types.Object, name="Aim", description="Target that the shot passes through; empty: along the arrow"
@@ -74,7 +76,7 @@ class BrumeEvent(bpy.types.PropertyGroup):
         subtype="ANGLE",
     )
     flash: FloatProperty(
-        name="Flash", default=25.0, min=0.0, max=1e6, description="Intensity of the muzzle flash, which lasts 0.06 s [W/sr]"
+        name="Flash", default=25.0, min=0.0, max=1e6, description="Intensity of the muzzle flash (0.06 s) [W/sr]"
     )
     reach: _seconds("Reach", 0.25, 60.0, "Time until the hole reaches the far end")
     expand: _seconds("Expand", 0.05, 60.0, "Time to open at each depth")
@@ -84,7 +86,7 @@ class BrumeEvent(bpy.types.PropertyGroup):
     size: _metres("Size", 0.5, 0.02, 10.0, "Height of a capital letter")
     font: StringProperty(name="Font", description="Font file; empty: DejaVu Sans Bold", subtype="FILE_PATH")
     spacing: FloatProperty(
-        name="Spacing", default=0.0, min=-0.5, max=10.0, description="Additional space between letters, in capital heights"
+        name="Spacing", default=0.0, min=-0.5, max=10.0, description="Extra space between letters, in capital heights"
     )
     interval: _seconds("Interval", 0.0, 10.0, "Time between letters")
     blast_radius: FloatProperty(
@@ -98,7 +100,7 @@ class BrumeEvent(bpy.types.PropertyGroup):
         name="Remaining", default=0.02, min=0.0, max=1.0, description="Fraction of the density that remains"
     )
     refill_rim: _seconds("Refill Rim", 0.5, 60.0, "Time until the rim is refilled", least=0.01)
-    refill_middle: _seconds("Refill Middle", 5.0, 60.0, "Time until the middle is refilled; at least that of the rim", least=0.01)
+    refill_middle: _seconds("Refill Middle", 5.0, 60.0, "Time until the middle is refilled", least=0.01)
     door: PointerProperty(
         type=bpy.types.Object, name="Door", description="The door to open or close; its role must be Door"
     )
