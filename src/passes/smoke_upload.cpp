@@ -119,6 +119,7 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeVolume& volu
   everything_ = false;
 
   const BrickAtlas::Upload bricks = atlas_.record(recorder, volume.volume());
+  // Everything.
   if (all) {
     const std::vector<std::uint32_t> slots = all_slots(volume.slot_count());
     record_cells(recorder, volume, slots);
@@ -127,6 +128,8 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeVolume& volu
     recorder.upload(resources_.corners, 0, std::as_bytes(volume.corner_sets()));
     return true;
   }
+
+  // Only what changed: cells are filled by their texels and by boundary cells.
   record_cells(recorder, volume, volume.dirty_cell_slots());
   std::vector<std::uint32_t> changed;
   std::set_union(volume.dirty_slots().begin(), volume.dirty_slots().end(), volume.dirty_cell_slots().begin(),

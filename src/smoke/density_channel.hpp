@@ -1,6 +1,5 @@
 // The density channel of the smoke volume: RG8 texels written from the densities of single voxels and from
-// what is solid. A voxel at a brick's face has copies in the aprons of up to seven other bricks; all of them
-// follow here.
+// what is solid. A voxel at a brick's face has copies in the aprons of up to seven other bricks.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +15,7 @@ namespace brume::smoke {
 /// The channel of density in the smoke's volume, of Texel.
 inline constexpr volume::ChannelId kDensityChannel{0};
 
-/// Marks what it writes dirty in the volume, which is in an update whenever a member that is not const is
-/// called.
+/// Marks what it writes dirty. Members that are not const are called within an update of the volume.
 class DensityChannel {
  public:
   /// `volume` must outlive it.

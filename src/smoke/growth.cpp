@@ -9,9 +9,9 @@
 namespace brume::smoke {
 namespace {
 
-constexpr std::uint64_t kMostVoxelsInBox = std::uint64_t{1} << 26;
+constexpr std::uint64_t kMaxVoxelsInBox = std::uint64_t{1} << 26;
 
-/// Ranks of a cloud's voxels by their place in the box around them.
+/// Ranks of a cloud's voxels by their position in the box around them.
 class RankBox {
  public:
   explicit RankBox(const sim::Cloud& cloud)
@@ -31,12 +31,12 @@ class RankBox {
       return sim::BlockSet::kNone;
     return ranks_[index(voxel)];
   }
-  /// Whether the straight line between two voxels' centres stays in the cloud, looked at twice a voxel.
+  /// Whether the straight line between two voxels' centres stays in the cloud, sampled twice a voxel.
   bool connected(glm::ivec3 a, glm::ivec3 b) const {
-    const glm::vec3 from(a), way(b - a);
-    const int steps = static_cast<int>(std::ceil(2 * glm::length(way)));
+    const glm::vec3 from(a), path(b - a);
+    const int steps = static_cast<int>(std::ceil(2 * glm::length(path)));
     for (int i = 1; i < steps; ++i) {
-      const glm::vec3 p = from + way * (static_cast<float>(i) / static_cast<float>(steps));
+      const glm::vec3 p = from + path * (static_cast<float>(i) / static_cast<float>(steps));
       if (rank(glm::ivec3(glm::floor(p + 0.5f))) == sim::BlockSet::kNone) return false;
     }
     return true;
@@ -72,53 +72,54 @@ class Paths {
   explicit Paths(const sim::Cloud& cloud)
       : box_(cloud),
         distances_(cloud.distances()),
-        turns_(distances_.size(), sim::BlockSet::kNone),
+        corners_(distances_.size(), sim::BlockSet::kNone),
         lengths_(distances_.size(), 0.0f) {
     for (const std::uint32_t rank : by_distance(distances_)) find(rank);
   }
   glm::vec3 growth(std::uint32_t rank) const {
-    const std::uint32_t turn = turns_[rank];
-    if (turn == sim::BlockSet::kNone || turn == rank) return glm::vec3(0);
-    const glm::vec3 last(box_.voxel(rank) - box_.voxel(turn));
+    const std::uint32_t corner = corners_[rank];
+    if (corner == sim::BlockSet::kNone || corner == rank) return glm::vec3(0);
+    const glm::vec3 last(box_.voxel(rank) - box_.voxel(corner));
     return last * (lengths_[rank] / glm::length(last));
   }
 
  private:
-  float length_by(std::uint32_t turn, glm::ivec3 voxel) const {
-    return lengths_[turn] + glm::length(glm::vec3(voxel - box_.voxel(turn)));
+  float length_by(std::uint32_t corner, glm::ivec3 voxel) const {
+    return lengths_[corner] + glm::length(glm::vec3(voxel - box_.voxel(corner)));
   }
 
-  /// The way to a voxel: on from the last turn of one of those before it, or with a turn there.
+  /// The path to a voxel: straight on from the last corner of a neighbour's, or with a corner there.
   void find(std::uint32_t rank) {
     const glm::ivec3 voxel = box_.voxel(rank);
     std::array<std::pair<float, std::uint32_t>, 52>
-        turns;  // where the last stretch may begin, and the way's length
+        corners;  // the path's length, and where its last segment may begin
     std::size_t count = 0;
+    // Neighbours one step nearer to the source.
     for (int i = 0; i < 27; ++i) {
       const glm::ivec3 step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       const std::uint32_t before = box_.rank(voxel + step);
-      if (before == sim::BlockSet::kNone || turns_[before] == sim::BlockSet::kNone) continue;
+      if (before == sim::BlockSet::kNone || corners_[before] == sim::BlockSet::kNone) continue;
       constexpr std::uint32_t kSteps[] = {0, sim::kFaceStep, sim::kEdgeStep, sim::kCornerStep};
       if (distances_[before] + kSteps[std::abs(step.x) + std::abs(step.y) + std::abs(step.z)] !=
           distances_[rank])
         continue;
-      for (const std::uint32_t turn : {turns_[before], before})
-        turns[count++] = {length_by(turn, voxel), turn};
+      for (const std::uint32_t corner : {corners_[before], before})
+        corners[count++] = {length_by(corner, voxel), corner};
     }
-    // The shortest that no wall cuts: at the latest that with a turn beside it.
-    std::sort(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(count));
-    turns_[rank] = rank;  // the source's
-    for (std::size_t i = 0; i < count && turns_[rank] == rank; ++i) {
-      if (i > 0 && turns[i] == turns[i - 1]) continue;
-      if (!box_.connected(voxel, box_.voxel(turns[i].second))) continue;
-      turns_[rank] = turns[i].second;
-      lengths_[rank] = turns[i].first;
+    // The shortest that stays in the cloud; one with a corner at the neighbour always does.
+    std::sort(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count));
+    corners_[rank] = rank;  // the source's
+    for (std::size_t i = 0; i < count && corners_[rank] == rank; ++i) {
+      if (i > 0 && corners[i] == corners[i - 1]) continue;
+      if (!box_.connected(voxel, box_.voxel(corners[i].second))) continue;
+      corners_[rank] = corners[i].second;
+      lengths_[rank] = corners[i].first;
     }
   }
 
   RankBox box_;
   std::span<const std::uint32_t> distances_;
-  std::vector<std::uint32_t> turns_;
+  std::vector<std::uint32_t> corners_;
   std::vector<float> lengths_;
 };
 
@@ -128,7 +129,7 @@ std::vector<glm::vec3> growth_of(const sim::Cloud& cloud) {
   std::vector<glm::vec3> growth(cloud.voxels().size(), glm::vec3(0));
   if (growth.empty()) return growth;
   const glm::u64vec3 size(cloud.high() - cloud.low() + 1);
-  if (size.x * size.y * size.z > kMostVoxelsInBox) {
+  if (size.x * size.y * size.z > kMaxVoxelsInBox) {
     cloud.voxels().for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
       if (cloud.distances()[rank] != sim::Cloud::kNoDistance)
         growth[rank] = glm::vec3(voxel - cloud.origin().source);

@@ -10,10 +10,10 @@ float seconds_from_ms(std::uint32_t ms) {
   return static_cast<float>(ms / 1000.0);
 }
 
-/// Cosine and sine of an angle of 1/65536 turns, off by less than 10^-12. From additions and multiplications
-/// alone: those of the standard library differ from one to the next.
+/// Cosine and sine of an angle of 1/65536 turns, with an error below 10^-12. From additions and
+/// multiplications alone: standard libraries differ in theirs.
 glm::dvec2 cos_sin(std::uint32_t angle) {
-  // The nearest quarter turn, and at most an eighth from there on.
+  // The nearest quarter turn, and up to an eighth from there.
   constexpr std::uint32_t kQuarter = sim::kFullTurn / 4;
   const std::uint32_t quarters = (angle + kQuarter / 2) / kQuarter;
   const double x = (static_cast<double>(angle) - static_cast<double>(quarters * kQuarter)) *
@@ -75,8 +75,7 @@ std::vector<shared::Hole> holes_of(const sim::State& state, const MaskAtlas* mas
     shared::Hole hole = hole_of(open, state);
     if (open.shot.shape == sim::HoleShape::mask) {
       if (!masks || masks->key() != state.masks)
-        throw Error(ErrorCode::bad_input,
-                    "holes: the state was made with other masks; load the same timeline");
+        throw Error(ErrorCode::bad_input, "holes: the state has other masks; load the same timeline");
       hole.uv_min = masks->rectangle(open.shot.mask).uv_min;
       hole.uv_max = masks->rectangle(open.shot.mask).uv_max;
     }

@@ -1,4 +1,4 @@
-// The holes of a state as points in space: what renderer and line of sight cut out of the smoke.
+// The holes of a state in the world: what renderer and line of sight cut out of the smoke.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,11 +16,11 @@ struct ShotAxes {
 };
 ShotAxes axes_of(const sim::Shot& shot);
 
-/// A hole as points in space ask for it (shared/hole.h), but for the rectangle of a mask: the same bits on
-/// every machine.
+/// A hole as the shaders read it (shared/hole.h), without the rectangle of a mask: the same bits on every
+/// machine.
 shared::Hole hole_of(const sim::BulletHole& open, const sim::State& state);
-/// All of them, with the rectangles. `masks` are those that the state was made with; null: it has none.
-/// Throws Error(bad_input) where one is a mask and `masks` are others.
+/// All holes of a state, with their rectangles. `masks` are those of the state's timeline; null: it has none.
+/// Throws Error(bad_input) where a hole is a mask and `masks` are others.
 std::vector<shared::Hole> holes_of(const sim::State& state, const MaskAtlas* masks = nullptr);
 
 }  // namespace brume::smoke

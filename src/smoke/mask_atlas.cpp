@@ -41,7 +41,7 @@ std::optional<Layout> lay_out(std::span<const Mask> masks, std::span<const std::
   return layout;
 }
 
-/// The smallest atlas; of two as small, the narrower.
+/// The smallest atlas; of two equally small, the narrower.
 std::optional<Layout> best_layout(std::span<const Mask> masks) {
   std::vector<std::uint32_t> by_height(masks.size());
   std::iota(by_height.begin(), by_height.end(), 0u);
@@ -79,6 +79,8 @@ Result<MaskAtlas> MaskAtlas::pack(std::span<const Mask> masks) {
   MaskAtlas atlas;
   if (auto ok = check(masks); !ok) return ok.failure();
   if (masks.empty()) return atlas;
+
+  // Where each mask lies.
   const auto layout = best_layout(masks);
   if (!layout)
     return Failure{ErrorCode::resource_limit,
@@ -88,6 +90,8 @@ Result<MaskAtlas> MaskAtlas::pack(std::span<const Mask> masks) {
   atlas.width_ = layout->width;
   atlas.height_ = layout->height;
   atlas.texels_.assign(std::size_t{layout->width} * layout->height, 0);
+
+  // Its texels, with the edge's once more around it.
   const glm::vec2 size(layout->width, layout->height);
   std::uint64_t hash = 0;
   for (std::size_t i = 0; i < masks.size(); ++i) {
@@ -123,10 +127,10 @@ float MaskAtlas::at(glm::vec2 uv) const {
 
 namespace {
 
-/// The texels around a point, (0, 0) to (1, 1), and how far it is on from the first to the last.
+/// The texels around a point, (0, 0) to (1, 1), and its position between the first and the last.
 struct Corners {
   float f00, f10, f01, f11;
-  glm::vec2 share;
+  glm::vec2 fraction;
 };
 
 Corners corners_at(const MaskView& mask, glm::vec2 across) {
@@ -145,8 +149,8 @@ Corners corners_at(const MaskView& mask, glm::vec2 across) {
 
 float MaskView::at(glm::vec2 across) const {
   const Corners c = corners_at(*this, across);
-  const float top = c.f00 + (c.f10 - c.f00) * c.share.x, bottom = c.f01 + (c.f11 - c.f01) * c.share.x;
-  return top + (bottom - top) * c.share.y;
+  const float top = c.f00 + (c.f10 - c.f00) * c.fraction.x, bottom = c.f01 + (c.f11 - c.f01) * c.fraction.x;
+  return top + (bottom - top) * c.fraction.y;
 }
 
 std::pair<std::uint8_t, std::uint8_t> MaskView::range_around(glm::vec2 across) const {

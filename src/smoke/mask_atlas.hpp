@@ -20,7 +20,7 @@
 
 namespace brume::smoke {
 
-/// One byte a texel, rows from the top, width * height of them: 255 takes all smoke away, 0 none.
+/// One byte a texel, rows from the top, width * height of them: 255 removes all smoke, 0 none.
 struct Mask {
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint8_t> texels;
@@ -66,7 +66,7 @@ class MaskAtlas {
   sim::MaskKey key_;
 };
 
-/// One mask of an atlas, to be asked many times. The atlas must outlive it.
+/// One mask of an atlas, for many lookups. The atlas must outlive it.
 struct MaskView {
   const std::uint8_t* first = nullptr;  ///< Texel (0, 0); null: no mask.
   std::uint32_t stride = 0;             ///< Texels from one row to the next.
@@ -74,10 +74,10 @@ struct MaskView {
 
   /// [0, 255], linear between the centres of texels, the edge's beyond them; `across` in [0, 1]^2.
   float at(glm::vec2 across) const;
-  /// The least and the most of the texels that `at` reads there.
+  /// The smallest and the largest of the texels that `at` reads there.
   std::pair<std::uint8_t, std::uint8_t> range_around(glm::vec2 across) const;
 };
-/// That of a hole whose rectangle is one of the atlas.
+/// The mask of a hole whose rectangle is one of the atlas.
 MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole);
 
 /// shared::hole_strength, masks through their images: the twin of lib/hole_mask.glsl's function of this name.

@@ -36,16 +36,16 @@ void SealedPockets::put(glm::ivec3 voxel, std::uint32_t space, std::vector<glm::
 }
 
 bool SealedPockets::sealed(const voxel::BitGrid& grid, const HasSmoke& has_smoke, glm::ivec3 voxel,
-                           glm::ivec3 asker) {
+                           glm::ivec3 brick) {
   std::uint32_t number = space_at(voxel);
   if (number == 0) number = explore(grid, has_smoke, voxel);
   Space& space = spaces_[number];
-  if (space.askers.empty() || space.askers.back() != asker) space.askers.push_back(asker);
+  if (space.queried_by.empty() || space.queried_by.back() != brick) space.queried_by.push_back(brick);
   return space.sealed;
 }
 
-/// Follows the free voxels from one of them until smoke or too many are found, or a space that is no pocket:
-/// then it is the same space. The number of the space.
+/// Floods the free voxels from one of them until it meets smoke, too many voxels, or a known space, of which
+/// they are then a part. Returns the number of the space.
 std::uint32_t SealedPockets::explore(const voxel::BitGrid& grid, const HasSmoke& has_smoke,
                                      glm::ivec3 voxel) {
   const std::uint32_t number = next_space_++;
@@ -66,6 +66,8 @@ std::uint32_t SealedPockets::explore(const voxel::BitGrid& grid, const HasSmoke&
       put(next, number, bricks);
       reached_.push_back(next);
     }
+
+  // A space of its own, or a part of the one that it met.
   Space& space = spaces_[into];
   if (into == number) {
     space.sealed = closed;
@@ -77,24 +79,25 @@ std::uint32_t SealedPockets::explore(const voxel::BitGrid& grid, const HasSmoke&
   return into;
 }
 
-void SealedPockets::changed(glm::ivec3 brick, const BrickBits& voxels, std::vector<glm::ivec3>& askers) {
+void SealedPockets::changed(glm::ivec3 brick, const BrickBits& voxels, std::vector<glm::ivec3>& stale) {
   if (pages_.empty()) return;
   bool any = page_of(brick) != nullptr;
   for (int face = 0; face < 6; ++face) any |= page_of(neighbour(brick, face)) != nullptr;
   if (!any) return;
   for (int z = 0; z < 8; ++z)
-    for (std::uint64_t left = voxels[static_cast<std::size_t>(z)]; left != 0; left &= left - 1) {
-      const int bit = std::countr_zero(left);
+    for (std::uint64_t bits = voxels[static_cast<std::size_t>(z)]; bits != 0; bits &= bits - 1) {
+      const int bit = std::countr_zero(bits);
       const glm::ivec3 voxel = 8 * brick + glm::ivec3(bit & 7, bit >> 3, z);
-      if (const std::uint32_t space = space_at(voxel); space != 0) forget(space, askers);
+      if (const std::uint32_t space = space_at(voxel); space != 0) invalidate(space, stale);
       for (int face = 0; face < 6; ++face)
-        if (const std::uint32_t space = space_at(neighbour(voxel, face)); space != 0) forget(space, askers);
+        if (const std::uint32_t space = space_at(neighbour(voxel, face)); space != 0)
+          invalidate(space, stale);
     }
 }
 
-void SealedPockets::forget(std::uint32_t number, std::vector<glm::ivec3>& askers) {
+void SealedPockets::invalidate(std::uint32_t number, std::vector<glm::ivec3>& stale) {
   const auto entry = spaces_.find(number);
-  askers.insert(askers.end(), entry->second.askers.begin(), entry->second.askers.end());
+  stale.insert(stale.end(), entry->second.queried_by.begin(), entry->second.queried_by.end());
   for (const glm::ivec3 brick : entry->second.bricks) {
     const auto page = pages_.find(key_of(brick));
     if (page == pages_.end()) continue;

@@ -1,4 +1,4 @@
-// Small hollows that smoke cannot come into: the insides of columns, thick walls and furniture.
+// Small hollows that smoke cannot enter: the insides of columns, thick walls and furniture.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace brume::smoke {
 
-/// Answers for single voxels, and remembers what it has learnt on the way, and for whom.
+/// Classifies single voxels. Caches the spaces explored, and which bricks queried them.
 class SealedPockets {
  public:
   /// A space of this many voxels or more is a room, not a pocket.
@@ -23,14 +23,14 @@ class SealedPockets {
   using HasSmoke = std::function<bool(glm::ivec3)>;
 
   /// True when the free voxels that can be reached from this one hold no smoke and are fewer than
-  /// kLeastRoom. Moves over faces reach as far as those of flood_fill, whose longer moves need every voxel
-  /// between free. `voxel` must be free and without smoke; `has_smoke` says of a free voxel whether a cloud
-  /// ever fills it. The brick that asks is told by `changed` when the answer may be another.
-  bool sealed(const voxel::BitGrid& grid, const HasSmoke& has_smoke, glm::ivec3 voxel, glm::ivec3 asker);
+  /// kLeastRoom. Moves over faces reach as far as those of flood_fill, whose longer moves require every voxel
+  /// between to be free. `voxel` must be free and without smoke; `has_smoke` is whether a cloud ever fills a
+  /// free voxel. `changed` reports `brick`, which queries, when the result may differ.
+  bool sealed(const voxel::BitGrid& grid, const HasSmoke& has_smoke, glm::ivec3 voxel, glm::ivec3 brick);
 
-  /// Voxels of a brick became solid, free, with or without smoke: what was learnt of the spaces beside them
-  /// is forgotten. Adds the bricks that had asked for those to `askers`.
-  void changed(glm::ivec3 brick, const BrickBits& voxels, std::vector<glm::ivec3>& askers);
+  /// Voxels of a brick became solid, free, with or without smoke: invalidates the spaces beside them. Appends
+  /// the bricks that queried those to `stale`.
+  void changed(glm::ivec3 brick, const BrickBits& voxels, std::vector<glm::ivec3>& stale);
 
  private:
   /// Number of the space of each voxel of a brick; 0: unknown.
@@ -41,12 +41,12 @@ class SealedPockets {
   struct Space {
     bool sealed = false;
     std::vector<glm::ivec3> bricks;  // that have voxels of it, some more than once
-    std::vector<glm::ivec3> askers;
+    std::vector<glm::ivec3> queried_by;
   };
   const Page* page_of(glm::ivec3 brick) const;
   std::uint32_t space_at(glm::ivec3 voxel) const;
   void put(glm::ivec3 voxel, std::uint32_t space, std::vector<glm::ivec3>& bricks);
-  void forget(std::uint32_t space, std::vector<glm::ivec3>& askers);
+  void invalidate(std::uint32_t space, std::vector<glm::ivec3>& stale);
   std::uint32_t explore(const voxel::BitGrid& grid, const HasSmoke& has_smoke, glm::ivec3 voxel);
 
   std::unordered_map<std::uint64_t, std::unique_ptr<Page>> pages_;

@@ -117,7 +117,7 @@ std::optional<SightWall> Sight::wall(glm::dvec3 a_world, glm::dvec3 b_world, boo
   return first_solid_between(level_, a_world, b_world, b_hides);
 }
 
-bool Sight::sees(const Segment& segment, float threshold, HolesOnRay& scratch) const {
+bool Sight::is_visible(const Segment& segment, float threshold, HolesOnRay& scratch) const {
   const glm::dvec3 a(segment.a_world), b(segment.b_world);
   return !wall(a, b, false) && depth(a, b, threshold, scratch) <= threshold;
 }
@@ -152,7 +152,7 @@ Result<bool> Sight::visible(glm::vec3 a_world, glm::vec3 b_world, float threshol
   if (auto ok = check_threshold(threshold); !ok) return ok.failure();
   if (auto ok = check(Segment{a_world, b_world}); !ok) return ok.failure();
   HolesOnRay scratch;
-  return sees({a_world, b_world}, threshold, scratch);
+  return is_visible({a_world, b_world}, threshold, scratch);
 }
 
 Result<void> Sight::visible(std::span<const Segment> segments, float threshold,
@@ -160,7 +160,7 @@ Result<void> Sight::visible(std::span<const Segment> segments, float threshold,
   if (auto ok = check_threshold(threshold); !ok) return ok;
   if (auto ok = check_all(segments, out.size()); !ok) return ok;
   answer_all(segments.size(), [&](std::size_t i, HolesOnRay& scratch) {
-    out[i] = sees(segments[i], threshold, scratch) ? 1 : 0;
+    out[i] = is_visible(segments[i], threshold, scratch) ? 1 : 0;
   });
   return {};
 }

@@ -1,13 +1,14 @@
-// Line of sight: how much smoke stands between two points at a tick, with its holes, and whether a wall does.
+// Line of sight: how much smoke is between two points at a tick, with its holes, and whether a wall is.
 //
 // The optical depth of a segment is the integral of extinction * density * (1 - strength of hole 1) * (1 -
-// strength of hole 2)... along it: what the renderer draws without its noise. Density is read as the shaders
-// read it (docs/smoke-volume.md) and integrated exactly; along holes by quadrature, off by at most 0.3 %.
+// strength of hole 2)... along it, matching the rendered image without its noise. Density is read as the
+// shaders read it (docs/smoke-volume.md) and integrated exactly; along holes by quadrature, with an error of
+// at most 0.3 %.
 //
 // The same bits for the same volume, holes and points: on every machine, for any number of threads, and for
 // one segment alone or among many. Segments that pass no smoke and points outside of the grid are fine: there
 // is air. Points that are not finite, or farther than kMaxSightMetres from the origin of the world, are
-// failures (bad_input), and nothing is answered.
+// failures (bad_input), and no result is written.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ constexpr float kMaxSightMetres = 16384;
 struct SightSettings {
   float extinction = 3;           ///< Where density is 1 (255 steps) [1/m], [0, 10^6].
   glm::vec3 smoke_albedo{0.92f};  ///< What sensors report of the smoke.
-  /// Those of holes_of; must outlive the Sight. Needed where a hole is a mask.
+  /// Those of holes_of; must outlive the Sight. Required where a hole is a mask.
   const MaskAtlas* masks = nullptr;
 };
 
@@ -38,7 +39,7 @@ struct Segment {
   glm::vec3 a_world{0}, b_world{0};
 };
 
-/// A solid voxel on the way.
+/// A solid voxel along a segment.
 struct SightWall {
   glm::ivec3 voxel{0};
   glm::ivec3 normal{0};  ///< Outward normal of the face that the ray enters; 0 where it starts inside.
@@ -54,13 +55,13 @@ struct SensorRay {
 
 struct SensorSample {
   float distance = 0;                ///< To the first solid voxel, else max_distance [m].
-  std::optional<SightWall> surface;  ///< What it meets; nothing up to max_distance.
-  float optical_depth = 0;           ///< Of the smoke on the way there: it lets exp(-optical_depth) through.
+  std::optional<SightWall> surface;  ///< That the ray ends at; none up to max_distance.
+  float optical_depth = 0;           ///< Of the smoke up to there, which transmits exp(-optical_depth).
   glm::vec3 surface_albedo{0};       ///< Black where there is no surface.
   glm::vec3 smoke_albedo{0};
 };
 
-/// Colour of a surface as a sensor sees it. Called from several threads at once.
+/// Colour of a surface as a sensor reports it. Called from several threads at once.
 using SurfaceAlbedo = std::function<glm::vec3(const SightWall&)>;
 
 class Sight {
@@ -77,24 +78,24 @@ class Sight {
   /// The same for many, over all threads. `out` is as long as `segments`.
   Result<void> optical_depths(std::span<const Segment> segments, std::span<float> out) const;
 
-  /// Whether b can be seen from a: no solid voxel between them, and an optical depth of at most `threshold`
-  /// (at least 0; infinity: walls only). The solid voxels that a and b lie in themselves do not hide them:
-  /// who leans against a wall is in its voxel. Faster than the depth: it ends at the first reason why not.
+  /// Whether b is visible from a: no solid voxel between them, and an optical depth of at most `threshold`
+  /// (at least 0; infinity: walls only). The solid voxels that a and b lie in do not hide them: a
+  /// player who leans against a wall is in its voxel. Faster than the depth: it ends at the first obstacle.
   Result<bool> visible(glm::vec3 a_world, glm::vec3 b_world, float threshold) const;
   /// The same for many: 1 where visible, else 0.
   Result<void> visible(std::span<const Segment> segments, float threshold, std::span<std::uint8_t> out) const;
 
-  /// The first solid voxel on the way from a to b, other than those in which a and b lie.
+  /// The first solid voxel between a and b, other than those in which a and b lie.
   Result<std::optional<SightWall>> first_wall(glm::vec3 a_world, glm::vec3 b_world) const;
 
-  /// What a depth camera with colour sees. The voxel in which the ray starts does not count as a surface.
+  /// What a depth camera with colour measures. The voxel in which the ray starts does not count as a surface.
   Result<SensorSample> sense(const SensorRay& ray, const SurfaceAlbedo& albedo) const;
   Result<void> sense(std::span<const SensorRay> rays, const SurfaceAlbedo& albedo,
                      std::span<SensorSample> out) const;
 
  private:
   float depth(glm::dvec3 a_world, glm::dvec3 b_world, float enough, HolesOnRay& scratch) const;
-  bool sees(const Segment& segment, float threshold, HolesOnRay& scratch) const;
+  bool is_visible(const Segment& segment, float threshold, HolesOnRay& scratch) const;
   SensorSample sample(const SensorRay& ray, const SurfaceAlbedo& albedo, HolesOnRay& scratch) const;
   std::optional<SightWall> wall(glm::dvec3 a_world, glm::dvec3 b_world, bool b_hides) const;
 

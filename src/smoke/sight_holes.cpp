@@ -10,7 +10,7 @@ namespace {
 constexpr float kLeastSpeed = 1e-20f;  // below, a ray runs along the axis
 constexpr float kLeastTime = 1e-6f;    // as shared/hole.h bounds times and depths
 
-/// How far the hole reaches from its axis at most: a box to its corners.
+/// Largest distance of a point of the hole from its axis: of a box, that of its corners.
 float reach_of(const shared::Hole& hole) {
   return hole.shape == shared::kHoleCylinder ? hole.radius : 1.41422f * hole.radius;
 }
@@ -29,11 +29,16 @@ void add_roots(float q2, float q1, float q0, float zero, float low, float high, 
   if (q != 0) add(q0 / q);
 }
 
-/// Adds where the distance from the axis becomes `share` of the radius, which runs from r0 at t0 to r1 at t1.
-void add_edges(const RayHole& h, float share, float t0, float r0, float t1, float r1,
-               std::vector<float>& out) {
-  const float slope = share * (r1 - r0) / (t1 - t0);
-  const float at_nearest = share * r0 + slope * (h.nearest - t0);
+/// A part of a ray in which a hole's radius runs from r0 at t0 to r1 at t1, linearly.
+struct RadiusSpan {
+  float t0, r0, t1, r1;
+};
+
+/// Adds where the distance from the axis becomes `fraction` of the radius.
+void add_edges(const RayHole& h, float fraction, const RadiusSpan& span, std::vector<float>& out) {
+  const auto [t0, r0, t1, r1] = span;
+  const float slope = fraction * (r1 - r0) / (t1 - t0);
+  const float at_nearest = fraction * r0 + slope * (h.nearest - t0);
   if (h.box) {
     for (const float sign : {-1.0f, 1.0f}) {
       add_roots(0, h.x_step - sign * slope, h.x - sign * at_nearest, h.nearest, t0, t1, out);
@@ -46,45 +51,54 @@ void add_edges(const RayHole& h, float share, float t0, float r0, float t1, floa
             h.x * h.x + h.y * h.y - at_nearest * at_nearest, h.nearest, t0, t1, out);
 }
 
-/// Where a point of the cross-section lies across a mask, from its one side to the other.
-float share_across(float from_axis, float radius) {
+/// Where a point of the cross-section lies across a mask: 0 at its one side, 1 at the other.
+float fraction_across(float from_axis, float radius) {
   if (!(radius > 1e-12f)) return from_axis < 0 ? 0.0f : 1.0f;
   return std::clamp(0.5f + 0.5f * from_axis / radius, 0.0f, 1.0f);
 }
 
-/// Adds where the ray passes the centres of a mask's texels along one axis: x(t) = x + x_step (t - nearest)
-/// is then a fixed share of the radius, which runs from r0 at t0 to r1 at t1.
-void add_texels(float x, float x_step, int texels, float nearest, float t0, float r0, float t1, float r1,
-                std::vector<float>& out) {
+/// A ray across one axis of a mask: at x + x_step (t - nearest) from the hole's axis.
+struct MaskAxis {
+  float x, x_step, nearest;
+  int texels;
+};
+
+/// Adds where the ray passes the centres of the mask's texels along the axis: the distance from the hole's
+/// axis is then a fixed fraction of the radius.
+void add_texels(const MaskAxis& axis, const RadiusSpan& span, std::vector<float>& out) {
+  const auto [x, x_step, nearest, texels] = axis;
+  const auto [t0, r0, t1, r1] = span;
   const float slope = (r1 - r0) / (t1 - t0), at_nearest = r0 + slope * (nearest - t0);
-  const float a = share_across(x + x_step * (t0 - nearest), r0),
-              b = share_across(x + x_step * (t1 - nearest), r1);
+
+  // The texels between the ends of the part, and where the ray passes each.
+  const float a = fraction_across(x + x_step * (t0 - nearest), r0),
+              b = fraction_across(x + x_step * (t1 - nearest), r1);
   const auto count = static_cast<float>(texels);
   const int first = static_cast<int>(std::ceil(std::min(a, b) * count - 0.5f));
   const int last = static_cast<int>(std::floor(std::max(a, b) * count - 0.5f));
   for (int i = first; i <= last; ++i) {
-    const float share = 2 * (static_cast<float>(i) + 0.5f) / count - 1;
-    add_roots(0, x_step - share * slope, x - share * at_nearest, nearest, t0, t1, out);
+    const float fraction = 2 * (static_cast<float>(i) + 0.5f) / count - 1;
+    add_roots(0, x_step - fraction * slope, x - fraction * at_nearest, nearest, t0, t1, out);
   }
 }
 
 /// Sorts the breaks from `first` on, which lie between t0 and t1, and drops those between texels that are all
-/// black, or all white: most of a letter is.
-void keep_uneven(const RayHole& h, float t0, float t1, std::size_t first, std::vector<float>& breaks) {
+/// black, or all white, as most of a letter is.
+void drop_even(const RayHole& h, float t0, float t1, std::size_t first, std::vector<float>& breaks) {
   std::sort(breaks.begin() + static_cast<std::ptrdiff_t>(first), breaks.end());
   const std::size_t count = breaks.size();
-  std::size_t kept = first;
+  std::size_t end = first;
   float from = t0;
   RayHole::Takes before = RayHole::Takes::part;
   for (std::size_t i = first; i <= count; ++i) {
     const float to = i < count ? breaks[i] : t1;
     const RayHole::Takes here = from < to ? h.takes(0.5f * (from + to)) : before;
     // `from` is the break before this part.
-    if (i > first && (here != before || here == RayHole::Takes::part)) breaks[kept++] = from;
+    if (i > first && (here != before || here == RayHole::Takes::part)) breaks[end++] = from;
     before = here;
     from = to;
   }
-  breaks.resize(kept);
+  breaks.resize(end);
 }
 
 /// Adds every t at which the strength of the hole has a kink.
@@ -100,7 +114,7 @@ void add_breaks(const RayHole& h, std::vector<float>& out) {
       if (t > h.begin && t < h.end) out.push_back(t);
     return;
   }
-  // Where it has just opened wide, and where it begins to close.
+  // The parts with a linear radius: they end where it has opened wide, and where it begins to close.
   std::array<float, 4> times{h.begin, h.end, h.end, h.end};
   std::size_t count = 1;
   if (h.age_step != 0) {
@@ -112,19 +126,20 @@ void add_breaks(const RayHole& h, std::vector<float>& out) {
   if (count == 3 && times[1] > times[2]) std::swap(times[1], times[2]);
   times[count++] = h.end;
 
+  // The kinks in each: its edge, and the core or the texels of its mask.
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const float t0 = times[i], t1 = times[i + 1];
     if (!(t0 < t1)) continue;
     out.push_back(t0);
-    const float r0 = h.radius_at(t0), r1 = h.radius_at(t1);
+    const RadiusSpan span{t0, h.radius_at(t0), t1, h.radius_at(t1)};
     const std::size_t first = out.size();
-    add_edges(h, 1, t0, r0, t1, r1, out);
+    add_edges(h, 1, span, out);
     if (h.mask.first) {
-      add_texels(h.x, h.x_step, h.mask.width, h.nearest, t0, r0, t1, r1, out);
-      add_texels(-h.y, -h.y_step, h.mask.height, h.nearest, t0, r0, t1, r1, out);
-      keep_uneven(h, t0, t1, first, out);
+      add_texels({h.x, h.x_step, h.nearest, h.mask.width}, span, out);
+      add_texels({-h.y, -h.y_step, h.nearest, h.mask.height}, span, out);
+      drop_even(h, t0, t1, first, out);
     } else {
-      add_edges(h, 1 - shared::kHoleSoftShare, t0, r0, t1, r1, out);
+      add_edges(h, 1 - shared::kHoleSoftShare, span, out);
     }
   }
   out.push_back(h.end);
@@ -169,7 +184,8 @@ RayHole::Takes RayHole::takes(float t) const {
   const bool closing = !steady && age + age_step * t > stay_end;
   if (mask.first) {
     if (std::max(std::abs(px), std::abs(py)) > wide) return Takes::nothing;
-    const auto [least, most] = mask.range_around(glm::vec2(share_across(px, wide), share_across(-py, wide)));
+    const auto [least, most] =
+        mask.range_around(glm::vec2(fraction_across(px, wide), fraction_across(-py, wide)));
     if (most == 0) return Takes::nothing;
     return least == 255 && !closing ? Takes::all : Takes::part;
   }
@@ -181,23 +197,23 @@ Float4 RayHole::strength(Float4 t) const {
   const Float4 from_nearest = t - splat(nearest);
   const Float4 px = splat(x) + splat(x_step) * from_nearest, py = splat(y) + splat(y_step) * from_nearest;
   const Float4 from_axis = box ? max4(abs4(px), abs4(py)) : sqrt4(px * px + py * py);
-  Float4 wide = splat(radius), kept = splat(1);
+  Float4 wide = splat(radius), open = splat(1);
   if (!steady) {
     const Float4 ages = splat(age) + splat(age_step) * t;
-    kept = splat(1) - clamp4((ages - splat(stay_end)) / splat(fade), 0, 1);
-    wide = max4(wide * clamp4(ages / splat(expand), 0, 1) * kept, splat(1e-12f));
+    open = splat(1) - clamp4((ages - splat(stay_end)) / splat(fade), 0, 1);
+    wide = max4(wide * clamp4(ages / splat(expand), 0, 1) * open, splat(1e-12f));
   }
-  if (mask.first) return mask_strength(px, py, wide, kept);
+  if (mask.first) return mask_strength(px, py, wide, open);
   const Float4 edge = clamp4((wide - from_axis) / (wide * splat(shared::kHoleSoftShare)), 0, 1);
-  return edge * edge * (splat(3) - splat(2) * edge) * kept;
+  return edge * edge * (splat(3) - splat(2) * edge) * open;
 }
 
-Float4 RayHole::mask_strength(Float4 px, Float4 py, Float4 wide, Float4 kept) const {
+Float4 RayHole::mask_strength(Float4 px, Float4 py, Float4 wide, Float4 open) const {
   Float4 result{};
   for (int i = 0; i < 4; ++i) {
     if (std::max(std::abs(px[i]), std::abs(py[i])) >= wide[i]) continue;
-    const glm::vec2 across(share_across(px[i], wide[i]), share_across(-py[i], wide[i]));
-    result[i] = mask.at(across) * (1.0f / 255) * kept[i];
+    const glm::vec2 across(fraction_across(px[i], wide[i]), fraction_across(-py[i], wide[i]));
+    result[i] = mask.at(across) * (1.0f / 255) * open[i];
   }
   return result;
 }
@@ -217,13 +233,15 @@ HoleSet::HoleSet(std::span<const shared::Hole> holes, float time, const MaskAtla
     const float life = std::max(hole.time_to_expand, kLeastTime) + hole.time_to_stay_open +
                        std::max(hole.time_to_fade, kLeastTime);
     // Open where the front has been, and not yet closed again: 0 < age - per_metre z < life.
-    const float over = age - life, whole_way = per_metre * hole.distance_to_far;
-    if (!(age > 0) || over >= whole_way) continue;
+    const float over = age - life, to_far = per_metre * hole.distance_to_far;
+    if (!(age > 0) || over >= to_far) continue;
     holes_.push_back({hole, age, per_metre, over > 0 ? over / per_metre : 0,
-                      age < whole_way ? age / per_metre : hole.distance_to_far,
+                      age < to_far ? age / per_metre : hole.distance_to_far,
                       hole.shape == shared::kHoleMask ? view_of(*masks, hole) : MaskView{}});
   }
   if (holes_.empty()) return;
+
+  // Their axes as lines, four to a group.
   reference_ = holes_[0].hole.origin_world;
   groups_.resize((holes_.size() + 3) / 4, Group{});
   for (std::size_t i = 0; i < holes_.size(); ++i) {
@@ -244,7 +262,7 @@ HoleSet::HoleSet(std::span<const shared::Hole> holes, float time, const MaskAtla
 void HoleSet::find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, HolesOnRay& out) const {
   out.holes.clear();
   out.pieces.clear();
-  // How far apart the lines of ray and axis are: by their Pluecker coordinates, |forward . moment of the ray
+  // How far apart the lines of ray and axis are, by their Pluecker coordinates, |forward . moment of the ray
   // + step . moment of the axis| is the distance times |step x forward|. Rounding makes it wider, never
   // narrower.
   const glm::vec3 from = origin_world - reference_, moment = glm::cross(from, step_world);
@@ -277,6 +295,7 @@ void HoleSet::add(const ActiveHole& open, glm::vec3 origin_world, glm::vec3 step
   const float x = glm::dot(from, hole.right), x_step = glm::dot(step_world, hole.right);
   const float y = glm::dot(from, hole.up), y_step = glm::dot(step_world, hole.up);
   float begin = 0, end = t_end;
+
   // Between the depths at which it is open.
   if (z_step != 0) {
     const float ta = (open.near - z) / z_step, tb = (open.far - z) / z_step;
@@ -285,6 +304,7 @@ void HoleSet::add(const ActiveHole& open, glm::vec3 origin_world, glm::vec3 step
   } else if (z < open.near || z > open.far) {
     return;
   }
+
   // Within its widest cross-section.
   const float speed = x_step * x_step + y_step * y_step;
   const float nearest = speed > kLeastSpeed ? -(x * x_step + y * y_step) / speed : 0;
@@ -297,6 +317,8 @@ void HoleSet::add(const ActiveHole& open, glm::vec3 origin_world, glm::vec3 step
     end = std::min(end, nearest + half);
   }
   if (!(begin < end)) return;
+
+  // What changes along the ray there.
   RayHole met{};
   met.begin = begin;
   met.end = end;

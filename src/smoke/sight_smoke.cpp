@@ -74,7 +74,7 @@ Float4 densities_at(const Corners& c, Float4 at, Float4 direction, Float4 t) {
   return low + (high - low) * z;
 }
 
-/// The same integral times what the holes leave of it, within one piece: four points.
+/// The same integral times the fraction that the holes leave, within one piece: four points.
 Float4 holed_integral(const Corners& c, Float4 at, Float4 direction, float t0, float t1,
                       const HolesOnRay& holes, const HolePiece& piece) {
   constexpr Float4 kPoints{-0.861136312f, -0.339981044f, 0.339981044f, 0.861136312f};
@@ -84,8 +84,7 @@ Float4 holed_integral(const Corners& c, Float4 at, Float4 direction, float t0, f
   return densities_at(c, at, direction, t) * holes.remaining(piece, t) * (kWeights * splat(half));
 }
 
-/// The planes of a boundary cell as a ray sees them, a lane each; equal to shared::boundary_side but for
-/// rounding.
+/// The planes of a boundary cell along a ray, a lane each; equal to shared::boundary_side but for rounding.
 struct PlanesOnRay {
   Float4 height, slope;  ///< Over the plane, up to a factor above 0: height + slope t.
   Int4 there;
@@ -95,8 +94,7 @@ struct PlanesOnRay {
     static_assert(sizeof(cell) == sizeof(packed));
     std::memcpy(&packed, &cell, sizeof(packed));
     there = (packed != 0u) & Int4{-1, -1, -1, 0};
-    // shared::plane_normal and plane_offset, times 511 and the length that the normal has before it is
-    // made 1.
+    // shared::plane_normal and plane_offset, times 511 and the length of the raw normal.
     const Int4 bits = reinterpret_cast<Int4>(packed);
     Float4 x = to_float((bits & 1023) - 511), y = to_float((bits >> 10 & 1023) - 511);
     const Float4 z = splat(511) - abs4(x) - abs4(y), fold = max4(-z, splat(0));
@@ -195,17 +193,20 @@ class Walk {
   /// A cell with surfaces: one part for each side that the ray is on.
   void through_boundary(const shared::BoundaryCell& cell, Float4 at, float t, float out) {
     const PlanesOnRay planes(cell, at, ray_.direction);
+    // Where the ray crosses the planes, in order.
     std::array<float, 5> cuts{t};
     std::size_t count = 1;
     const Float4 crossings = -planes.height / planes.slope;
     const Int4 cut_here = (crossings > splat(t)) & (crossings < splat(out)) & planes.there;
-    for (std::uint32_t left = bits_of(cut_here); left != 0; left &= left - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+    for (std::uint32_t bits = bits_of(cut_here); bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
       std::size_t place = count++;
       for (; cuts[place - 1] > crossings[k]; --place) cuts[place] = cuts[place - 1];
       cuts[place] = crossings[k];
     }
     cuts[count] = out;
+
+    // Each part with the corner set of its side.
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t side = planes.side(0.5f * (cuts[i] + cuts[i + 1]));
       const glm::uvec2 set = volume_.corner_sets()[cell.first_set + side];
@@ -259,10 +260,12 @@ class Walk {
 }  // namespace
 
 std::optional<SmokeRay> clip_to_smoke(const shared::VolumeLayout& layout, glm::dvec3 a, glm::dvec3 b) {
-  const glm::dvec3 way = b - a;
-  const double length = std::sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
+  const glm::dvec3 line = b - a;
+  const double length = std::sqrt(line.x * line.x + line.y * line.y + line.z * line.z);
   if (!(length > 0)) return std::nullopt;
-  const glm::dvec3 direction = way / length;
+
+  // The part within the bounds.
+  const glm::dvec3 direction = line / length;
   double begin = 0, end = length;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = double{layout.bounds_min[axis]} - a[axis],
@@ -277,6 +280,8 @@ std::optional<SmokeRay> clip_to_smoke(const shared::VolumeLayout& layout, glm::d
     end = std::min(end, std::max(t0, t1));
   }
   if (!(begin < end)) return std::nullopt;
+
+  // From its first cell.
   SmokeRay ray;
   ray.skipped = begin;
   ray.length = static_cast<float>(end - begin);

@@ -24,12 +24,12 @@ struct SmokeRay {
   double skipped = 0;  ///< How far from the line's first point it begins [voxels].
 };
 
-/// Nothing when the line from `a` to `b` (voxel space, finite) passes no smoke.
+/// None when the line from `a` to `b` (voxel space, finite) passes no smoke.
 std::optional<SmokeRay> clip_to_smoke(const shared::VolumeLayout& layout, glm::dvec3 a, glm::dvec3 b);
 
-/// Integral over the ray of density [0, 1] times what the holes leave, in voxels. `holes` in the ray's t,
-/// null for none. Once it is above `enough` it may stop: the result is then above `enough`, and no more is
-/// known.
+/// Integral over the ray of density [0, 1] times the fraction that the holes leave [voxels]. `holes` in the
+/// ray's t, null for none. Once the integral is above `enough` it may stop: the result is then only known to
+/// be above `enough`.
 float smoke_on_ray(const SmokeVolume& volume, const SmokeRay& ray, const HolesOnRay* holes, float enough);
 
 }  // namespace brume::smoke

@@ -33,13 +33,13 @@ std::optional<SightWall> first_solid_between(const voxel::BitGrid& grid, glm::dv
   const double size = layout.voxel_size;
   const glm::dvec3 a = (a_world - glm::dvec3(layout.origin_world)) / size;
   const glm::dvec3 b = (b_world - glm::dvec3(layout.origin_world)) / size;
-  const glm::dvec3 way = b - a;
-  const double length = std::sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
+  const glm::dvec3 line = b - a;
+  const double length = std::sqrt(line.x * line.x + line.y * line.y + line.z * line.z);
   if (!(length > 0)) return std::nullopt;
   const ivec3 first = voxel_of(a), last = b_hides ? first : voxel_of(b);
 
   // Planes of bricks are planes of voxels and are crossed at the very same t: the two walks fit exactly.
-  const glm::vec3 origin(a), direction(way / length);
+  const glm::vec3 origin(a), direction(line / length);
   const ivec3 bricks = (grid.size() + (voxel::kBrickSize - 1)) / voxel::kBrickSize;
   shared::Dda outer =
       shared::dda_begin(origin, direction, ivec3(0), grid.size(), 1, 0, static_cast<float>(length));
@@ -47,6 +47,8 @@ std::optional<SightWall> first_solid_between(const voxel::BitGrid& grid, glm::dv
   const ivec3 entered = outer.crossed;
   outer = shared::dda_begin(origin, direction, ivec3(0), bricks, voxel::kBrickSize, outer.t, outer.t_end);
   outer.crossed = entered;
+
+  // Brick by brick, and in those that hold anything voxel by voxel.
   for (; outer.t < outer.t_end; outer = shared::dda_step(outer)) {
     const voxel::BitGrid::Brick* brick = grid.find_brick(outer.cell);
     if (!brick) continue;

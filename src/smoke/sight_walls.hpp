@@ -8,8 +8,8 @@
 
 namespace brume::smoke {
 
-/// The first solid voxel that the way from a to b [m, finite] passes, in the sense of shared/dda.h, other
-/// than the voxel of a and, unless b_hides, that of b. Bricks that hold nothing are one step.
+/// The first solid voxel that the segment from a to b [m, finite] passes, in the sense of shared/dda.h, other
+/// than the voxel of a and, unless b_hides, that of b. An empty brick is one step.
 std::optional<SightWall> first_solid_between(const voxel::BitGrid& grid, glm::dvec3 a_world,
                                              glm::dvec3 b_world, bool b_hides);
 

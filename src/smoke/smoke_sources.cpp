@@ -241,8 +241,7 @@ void SmokeSources::advance_to(std::uint32_t tick, std::vector<std::uint32_t>& sl
 }
 
 void SmokeSources::advance_cloud(SmokeSource& source, std::uint32_t tick, std::vector<std::uint32_t>& slots) {
-  // How long the phase stays. All of a phase only rises: what is the same at the end of the hold stays so
-  // until then.
+  // How long the phase stays. A phase only rises: if it is the same at the end of the hold, it stays so.
   const sim::Cloud& cloud = *source.cloud;
   const sim::CloudPhase phase = cloud.phase(tick);
   const sim::CloudOrigin& origin = cloud.origin();

@@ -25,7 +25,7 @@ struct SmokeSource {
   sim::CloudPhase phase;
   std::vector<std::uint8_t> densities;       ///< By rank, at that phase; empty before the first.
   std::vector<std::uint32_t> slot_of_block;  ///< For each block of its voxels.
-  std::vector<std::uint32_t> slots;          ///< Every slot that it needs, each once.
+  std::vector<std::uint32_t> slots;          ///< Of all bricks around it, each once.
   TickSpan steady;                           ///< When its phase is known not to change.
 };
 
@@ -74,8 +74,7 @@ class SmokeSources {
   /// Takes over the blasts of a state, likewise.
   Exchange<SmokeSink> take_blasts(const sim::State& state);
 
-  /// Brings clouds and blasts to a tick. Appends the slots and the bricks in which they changed, some more
-  /// than once.
+  /// Brings clouds and blasts to a tick. Appends the slots and bricks in which they changed, with repeats.
   void advance_to(std::uint32_t tick, std::vector<std::uint32_t>& slots, std::vector<glm::ivec3>& bricks);
 
   /// By id.

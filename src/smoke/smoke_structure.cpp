@@ -10,32 +10,33 @@ constexpr int kCorners =
     shared::kBrickVoxels + 1;  // voxels per axis that are a corner of one of the brick's cells
 
 /// The 3x3x3 voxels around each corner of the cell.
-std::array<Block, 8> blocks_around_corners() {
-  std::array<Block, 8> around{};
+std::array<Neighbourhood64, 8> neighbourhoods_of_corners() {
+  std::array<Neighbourhood64, 8> around{};
   for (int corner = 0; corner < 8; ++corner)
     for (int i = 0; i < 27; ++i)
       around[static_cast<std::size_t>(corner)] |=
-          block_bit(corner_offset(corner) + glm::ivec3(i % 3, i / 3 % 3, i / 9));
+          neighbour_bit(corner_offset(corner) + glm::ivec3(i % 3, i / 3 % 3, i / 9));
   return around;
 }
 
-/// Nearer voxels say more: 144 / distance^2, whole numbers that fit 8 bits.
+/// Weight of a voxel by its distance: 144 / distance^2, whole numbers that fit 8 bits.
 std::uint32_t weight_of(glm::ivec3 offset) {
   const int square = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
   return static_cast<std::uint32_t>(144 / square);
 }
 
-/// The side that a side takes its densities from: itself when it sees any air. Else it is the inside of
-/// something and nobody is there to see it; it goes on as the side fewest planes away that sees most smoke,
-/// so that smoke reaches a curved surface also where that bulges through its plane.
-int side_to_follow(int side, int side_count, const std::array<Block, 8>& seen, Block smoke) {
+/// The side that a side takes its densities from: itself when any air is visible from it. Else it is inside
+/// of something solid and never on screen; it continues the side fewest planes away from which most smoke is
+/// visible, so that smoke reaches a curved surface also where that bulges through its plane.
+int side_to_follow(int side, int side_count, const std::array<Neighbourhood64, 8>& visible,
+                   Neighbourhood64 smoke) {
   int best = side;
   int best_rank = -1;
   for (int other = 0; other < side_count; ++other) {
-    const Block sees = seen[static_cast<std::size_t>(other)];
-    if (sees == 0) continue;
+    const Neighbourhood64 from_side = visible[static_cast<std::size_t>(other)];
+    if (from_side == 0) continue;
     const int planes_between = std::popcount(static_cast<unsigned>(side ^ other));
-    const int rank = 65 * (3 - planes_between) + std::popcount(sees & smoke);
+    const int rank = 65 * (3 - planes_between) + std::popcount(from_side & smoke);
     if (other == side || rank > best_rank) {
       best = other;
       best_rank = other == side ? 1000 : rank;
@@ -45,21 +46,21 @@ int side_to_follow(int side, int side_count, const std::array<Block, 8>& seen, B
 }
 
 /// A cell's surroundings.
-struct CellBlock {
-  glm::ivec3 local{0};  // cell - 8 brick
-  Block free = 0;       // outside the grid too: smoke may end there
-  Block smoke = 0;
+struct CellSurroundings {
+  glm::ivec3 local{0};       // cell - 8 brick
+  Neighbourhood64 free = 0;  // outside the grid too: smoke may end there
+  Neighbourhood64 smoke = 0;
 };
 
 /// The 4x4x4 voxels around a cell.
-Block block_of(const VoxelWindow& window, glm::ivec3 local) {
-  Block block = 0;
+Neighbourhood64 neighbourhood_of(const VoxelWindow& window, glm::ivec3 local) {
+  Neighbourhood64 voxels = 0;
   const auto x = static_cast<unsigned>(local.x);
   const auto y = static_cast<std::size_t>(local.y), z = static_cast<std::size_t>(local.z);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t j = 0; j < 4; ++j)
-      block |= static_cast<Block>(window[z + k][y + j] >> x & 15) << (4 * j + 16 * k);
-  return block;
+      voxels |= static_cast<Neighbourhood64>(window[z + k][y + j] >> x & 15) << (4 * j + 16 * k);
+  return voxels;
 }
 
 /// For each row of a brick's cells, those with any bit set among the 2^3 voxels of their corners, or the 4^3
@@ -113,25 +114,28 @@ class CellBuilder::Work {
   std::unique_ptr<BrickCells> build(const BrickScene& scene, const Sealed& sealed);
 
  private:
-  void add_cell(const CellBlock& block);
-  Block sealed_voxels(const CellBlock& block, Block among) const;
-  float way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke, Block sealed) const;
-  void reach_bent_surfaces(const CellBlock& block, std::array<Block, 8>& seen, shared::BoundaryCell& record);
-  void add_set(const CellBlock& block, int like, std::uint8_t sides, Block seen);
-  std::uint32_t corner(const CellBlock& block, int corner, Block own_side, Block seen);
-  std::uint32_t mean(const CellBlock& block, int corner, Block from, bool around_corner);
+  void add_cell(const CellSurroundings& cell);
+  Neighbourhood64 sealed_voxels(const CellSurroundings& cell, Neighbourhood64 among) const;
+  float distance_to_surface(int plane, const std::array<Neighbourhood64, 8>& visible, Neighbourhood64 smoke,
+                            Neighbourhood64 sealed) const;
+  void reach_bent_surfaces(const CellSurroundings& cell, std::array<Neighbourhood64, 8>& visible,
+                           shared::BoundaryCell& record);
+  void add_set(const CellSurroundings& cell, int like, std::uint8_t sides, Neighbourhood64 visible);
+  std::uint32_t corner(const CellSurroundings& cell, int corner, Neighbourhood64 own_side,
+                       Neighbourhood64 visible);
+  std::uint32_t mean(const CellSurroundings& cell, int corner, Neighbourhood64 from, bool around_corner);
   std::uint32_t voxel_number(glm::ivec3 local) const;
 
   PlaneWindow planes_;
   CellSight sight_;
-  const std::array<Block, 8> around_corner_ = blocks_around_corners();
+  const std::array<Neighbourhood64, 8> around_corner_ = neighbourhoods_of_corners();
   const BrickScene* scene_ = nullptr;
   const Sealed* sealed_ = nullptr;
   std::unique_ptr<BrickCells> out_;
-  /// Means of the voxels around a corner are the same for all cells that it is a corner of and that see the
-  /// same: by corner voxel a list of those there are.
+  /// Means of the voxels around a corner are the same for all cells that share the corner and what is
+  /// visible: a list of them per corner voxel.
   struct KnownMean {
-    Block from;  // relative to the corner voxel - 1
+    Neighbourhood64 from;  // relative to the corner voxel - 1
     std::uint32_t number, next;
   };
   std::vector<KnownMean> known_;
@@ -145,29 +149,30 @@ std::uint32_t CellBuilder::Work::voxel_number(glm::ivec3 local) const {
          local_voxel(local);
 }
 
-/// The mean of voxels of the block, nearer ones weighing more; 0 where none of them holds smoke.
-std::uint32_t CellBuilder::Work::mean(const CellBlock& block, int corner, Block from, bool around_corner) {
-  if ((from & block.smoke) == 0) return kMeanBit;
+/// The mean of voxels of the neighbourhood, weighted by distance; 0 where none of them holds smoke.
+std::uint32_t CellBuilder::Work::mean(const CellSurroundings& cell, int corner, Neighbourhood64 from,
+                                      bool around_corner) {
+  if ((from & cell.smoke) == 0) return kMeanBit;
   const glm::ivec3 at = corner_offset(corner) + 1;
   std::uint32_t* list = nullptr;
   if (around_corner) {
-    const glm::ivec3 voxel = block.local + corner_offset(corner);
+    const glm::ivec3 voxel = cell.local + corner_offset(corner);
     list = &first_known_[static_cast<std::size_t>(voxel.x + kCorners * (voxel.y + kCorners * voxel.z))];
-    const Block relative = from >> std::countr_zero(block_bit(corner_offset(corner)));
+    const Neighbourhood64 relative = from >> std::countr_zero(neighbour_bit(corner_offset(corner)));
     for (std::uint32_t i = *list; i != 0; i = known_[i - 1].next)
       if (known_[i - 1].from == relative) return known_[i - 1].number;
     known_.push_back({relative, kMeanBit | static_cast<std::uint32_t>(out_->means.size() + 1), *list});
     *list = static_cast<std::uint32_t>(known_.size());
   }
   SmokeMean mean{static_cast<std::uint32_t>(out_->mean_voxels.size()), 0, 0,
-                 static_cast<std::uint16_t>(local_voxel(block.local))};
+                 static_cast<std::uint16_t>(local_voxel(cell.local))};
   for (; from != 0; from &= from - 1) {
     const int bit = std::countr_zero(from);
-    const glm::ivec3 offset = block_voxel(bit) - at;
+    const glm::ivec3 offset = neighbour_offset(bit) - at;
     const std::uint32_t weight = offset == glm::ivec3(0) ? 1 : weight_of(offset);
     mean.total = static_cast<std::uint16_t>(mean.total + weight);
-    if ((block.smoke >> bit & 1) == 0) continue;
-    out_->mean_voxels.push_back(voxel_number(block.local - 1 + block_voxel(bit)));
+    if ((cell.smoke >> bit & 1) == 0) continue;
+    out_->mean_voxels.push_back(voxel_number(cell.local - 1 + neighbour_offset(bit)));
     out_->mean_weights.push_back(static_cast<std::uint8_t>(weight));
     ++mean.count;
   }
@@ -175,102 +180,114 @@ std::uint32_t CellBuilder::Work::mean(const CellBlock& block, int corner, Block 
   return kMeanBit | static_cast<std::uint32_t>(out_->means.size());
 }
 
-/// What a corner takes from: itself where it is on the side in question, else the nearest voxels that this
-/// side of the cell sees.
-std::uint32_t CellBuilder::Work::corner(const CellBlock& block, int corner, Block own_side, Block seen) {
+/// What a corner takes from: itself where it is on the side in question, else the nearest voxels that are
+/// visible from this side of the cell.
+std::uint32_t CellBuilder::Work::corner(const CellSurroundings& cell, int corner, Neighbourhood64 own_side,
+                                        Neighbourhood64 visible) {
   const glm::ivec3 at = corner_offset(corner) + 1;
-  if (const Block own = block_bit(at) & own_side; own != 0)
-    return (own & block.smoke) != 0 ? voxel_number(block.local + corner_offset(corner)) : kMeanBit;
-  const Block near = seen & around_corner_[static_cast<std::size_t>(corner)];
-  return near != 0 ? mean(block, corner, near, true) : mean(block, corner, seen, false);
+  if (const Neighbourhood64 own = neighbour_bit(at) & own_side; own != 0)
+    return (own & cell.smoke) != 0 ? voxel_number(cell.local + corner_offset(corner)) : kMeanBit;
+  const Neighbourhood64 near = visible & around_corner_[static_cast<std::size_t>(corner)];
+  return near != 0 ? mean(cell, corner, near, true) : mean(cell, corner, visible, false);
 }
 
-/// The voxels of `among` in pockets that no smoke comes into.
-Block CellBuilder::Work::sealed_voxels(const CellBlock& block, Block among) const {
-  Block sealed = 0;
-  for (Block left = among; left != 0; left &= left - 1) {
-    const int bit = std::countr_zero(left);
-    if ((*sealed_)(8 * scene_->brick + block.local - 1 + block_voxel(bit))) sealed |= Block{1} << bit;
+/// The voxels of `among` in pockets that smoke never enters.
+Neighbourhood64 CellBuilder::Work::sealed_voxels(const CellSurroundings& cell, Neighbourhood64 among) const {
+  Neighbourhood64 sealed = 0;
+  for (Neighbourhood64 bits = among; bits != 0; bits &= bits - 1) {
+    const int bit = std::countr_zero(bits);
+    if ((*sealed_)(8 * scene_->brick + cell.local - 1 + neighbour_offset(bit)))
+      sealed |= Neighbourhood64{1} << bit;
   }
   return sealed;
 }
 
-/// How far to move a plane along its normal so that smoke on one side of it reaches the surface all over the
-/// cell, where behind it nothing is but sealed pockets: what runs over ends inside of them. 0 where there is
-/// air on both sides.
-float CellBuilder::Work::way_to_surface(int plane, const std::array<Block, 8>& seen, Block smoke,
-                                        Block sealed) const {
-  const float way = sight_.deviation(plane);
+/// How far to move a plane along its normal so that smoke on one side of it reaches the surface everywhere in
+/// the cell [voxels]. Only where there are nothing but sealed pockets behind it: the excess ends inside of
+/// them. 0 where there is air on both sides.
+float CellBuilder::Work::distance_to_surface(int plane, const std::array<Neighbourhood64, 8>& visible,
+                                             Neighbourhood64 smoke, Neighbourhood64 sealed) const {
+  const float deviation = sight_.deviation(plane);
   for (const int behind : {0, 1}) {
     bool fits = true, any_smoke = false, any_sealed = false;
     for (int side = 0; side < sight_.side_count(); ++side) {
       if ((side >> plane & 1) != behind) continue;
-      const Block sees = seen[static_cast<std::size_t>(side)];
-      const Block smoke_before = seen[static_cast<std::size_t>(side ^ 1 << plane)] & smoke;
+      const Neighbourhood64 from_side = visible[static_cast<std::size_t>(side)];
+      const Neighbourhood64 smoke_before = visible[static_cast<std::size_t>(side ^ 1 << plane)] & smoke;
       any_smoke |= smoke_before != 0;
-      any_sealed |= (sees & ~sealed) == 0;
+      any_sealed |= (from_side & ~sealed) == 0;
       // Air on both sides may only be the same air: the plane ends there.
-      if ((sees & ~sealed) != 0) fits &= smoke_before == 0 || (smoke_before & sees) != 0;
+      if ((from_side & ~sealed) != 0) fits &= smoke_before == 0 || (smoke_before & from_side) != 0;
     }
-    if (fits && any_smoke && any_sealed) return behind == 1 ? way : -way;
+    if (fits && any_smoke && any_sealed) return behind == 1 ? deviation : -deviation;
   }
   return 0;
 }
 
-/// Where a surface bends, a piece of it that only just comes into the cell, and the pieces of the cells
-/// around it, may hide all smoke from the sliver before it: then the planes of the cell alone decide. And
-/// smoke has to reach the surface though that lies off its plane.
-void CellBuilder::Work::reach_bent_surfaces(const CellBlock& block, std::array<Block, 8>& seen,
+/// Where a surface bends, a piece of it that barely enters the cell, and the pieces of the cells around it,
+/// may hide all smoke from the sliver before it: then the planes of the cell alone decide. And smoke has to
+/// reach the surface though that lies off its plane.
+void CellBuilder::Work::reach_bent_surfaces(const CellSurroundings& cell,
+                                            std::array<Neighbourhood64, 8>& visible,
                                             shared::BoundaryCell& record) {
   bool bent = false;
   for (int plane = 0; plane < sight_.plane_count(); ++plane) bent |= sight_.deviation(plane) > 0;
   if (!bent) return;
-  Block all = 0;
-  for (const Block sees : seen) all |= sees;
-  const Block sealed = sealed_voxels(block, all & ~block.smoke);
+
+  // Slivers from which nothing is visible but sealed pockets.
+  Neighbourhood64 all = 0;
+  for (const Neighbourhood64 from_side : visible) all |= from_side;
+  const Neighbourhood64 sealed = sealed_voxels(cell, all & ~cell.smoke);
   if ((all & ~sealed) == 0)
     for (int side = 0; side < sight_.side_count(); ++side) {
-      Block& sees = seen[static_cast<std::size_t>(side)];
-      if (sees == 0) sees = sight_.on_side(side, block.smoke);
+      Neighbourhood64& from_side = visible[static_cast<std::size_t>(side)];
+      if (from_side == 0) from_side = sight_.on_side(side, cell.smoke);
     }
+
+  // Planes that lie off their surface.
   const std::array<std::uint32_t*, voxel::kMaxPlanes> packed{&record.plane0, &record.plane1, &record.plane2};
   for (int plane = 0; plane < sight_.plane_count(); ++plane) {
-    const float way = way_to_surface(plane, seen, block.smoke, sealed);
-    if (way != 0) *packed[static_cast<std::size_t>(plane)] = sight_.moved_plane(plane, way);
+    const float distance = distance_to_surface(plane, visible, cell.smoke, sealed);
+    if (distance != 0) *packed[static_cast<std::size_t>(plane)] = sight_.moved_plane(plane, distance);
   }
 }
 
-/// The set of the sides that see what side `like` sees.
-void CellBuilder::Work::add_set(const CellBlock& block, int like, std::uint8_t sides, Block seen) {
-  CornerSource source{{}, out_->set_count, static_cast<std::uint16_t>(local_voxel(block.local)), sides};
-  const Block own_side = sight_.on_side(like, block.free);
+/// The set of the sides that take the densities of side `like`.
+void CellBuilder::Work::add_set(const CellSurroundings& cell, int like, std::uint8_t sides,
+                                Neighbourhood64 visible) {
+  CornerSource source{{}, out_->set_count, static_cast<std::uint16_t>(local_voxel(cell.local)), sides};
+  const Neighbourhood64 own_side = sight_.on_side(like, cell.free);
   std::uint32_t all = kMeanBit;
   for (int i = 0; i < 8; ++i) {
-    const std::uint32_t from = corner(block, i, own_side, seen);
+    const std::uint32_t from = corner(cell, i, own_side, visible);
     source.corners[static_cast<std::size_t>(i)] = from;
     if (from != kMeanBit) all = from;
   }
   if (all != kMeanBit) out_->sources.push_back(source);
 }
 
-void CellBuilder::Work::add_cell(const CellBlock& block) {
-  sight_.look_at(8 * scene_->brick + block.local);
+void CellBuilder::Work::add_cell(const CellSurroundings& cell) {
+  // What is visible from each side of the cell's planes.
+  sight_.look_at(8 * scene_->brick + cell.local);
   shared::BoundaryCell record = sight_.record();
   record.first_set = out_->set_count;
-  std::array<Block, 8> seen{};
+  std::array<Neighbourhood64, 8> visible{};
   for (int side = 0; side < sight_.side_count(); ++side)
-    seen[static_cast<std::size_t>(side)] = sight_.seen(side, block.free);
-  reach_bent_surfaces(block, seen, record);
+    visible[static_cast<std::size_t>(side)] = sight_.visible(side, cell.free);
+  reach_bent_surfaces(cell, visible, record);
+
+  // One set for all sides that follow the same one.
   std::array<std::uint8_t, 8> followers{};
   for (int side = 0; side < sight_.side_count(); ++side) {
     std::uint8_t& sides =
-        followers[static_cast<std::size_t>(side_to_follow(side, sight_.side_count(), seen, block.smoke))];
+        followers[static_cast<std::size_t>(side_to_follow(side, sight_.side_count(), visible, cell.smoke))];
     sides = static_cast<std::uint8_t>(sides | 1u << side);
   }
   for (int side = 0; side < sight_.side_count(); ++side)
     if (const std::uint8_t sides = followers[static_cast<std::size_t>(side)]; sides != 0)
-      add_set(block, side, sides, seen[static_cast<std::size_t>(side)]);
-  out_->cells.push_back(static_cast<std::uint16_t>(local_voxel(block.local)));
+      add_set(cell, side, sides, visible[static_cast<std::size_t>(side)]);
+
+  out_->cells.push_back(static_cast<std::uint16_t>(local_voxel(cell.local)));
   out_->records.push_back(record);
   out_->set_count += static_cast<std::uint32_t>(sight_.side_count());
 }
@@ -293,7 +310,7 @@ std::unique_ptr<BrickCells> CellBuilder::Work::build(const BrickScene& scene, co
     }
     for (; row != 0; row &= row - 1) {
       const glm::ivec3 local(std::countr_zero(row), i >> 3 & 7, i >> 6);
-      add_cell({local, ~block_of(scene.solid, local), block_of(scene.smoke, local)});
+      add_cell({local, ~neighbourhood_of(scene.solid, local), neighbourhood_of(scene.smoke, local)});
     }
   }
   if (out_) out_->mean_values.assign(out_->means.size() + 1, 0);

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "smoke/cell_block.hpp"
+#include "smoke/cell_sight.hpp"
 #include "smoke/smoke_brick.hpp"
 #include "volume/range_arena.hpp"
 #include "volume/sparse_volume.hpp"

@@ -308,7 +308,7 @@ void SmokeVolume::update_densities(std::uint32_t tick) {
     if (const std::uint32_t slot = slot_at(at); slot != kNoSlot && !bricks_[slot].clouds.empty())
       mark(slot, &Brick::densities_stale);
 
-  // Their densities, and what is made from those.
+  // Their densities, texels and corner sets.
   for (const std::uint32_t slot : touched_) {
     const Brick& brick = bricks_[slot];
     if (!brick.densities_stale) continue;

@@ -9,8 +9,7 @@ namespace {
 constexpr std::uint32_t kNoSlot = volume::SparseVolume::kNoSlot;
 constexpr std::uint64_t kColumn0 = 0x0101010101010101u;
 
-/// For voxels of a layer, the cells voxel - 2 to voxel + 1 along x in the brick before, this one and the
-/// next.
+/// For voxels of a layer, the cells voxel - 2 to voxel + 1 along x: in the previous brick, this, the next.
 std::array<std::uint64_t, 3> spread_x(std::uint64_t v) {
   const std::uint64_t first = v & kColumn0, second = v & kColumn0 << 1;
   return {
@@ -206,6 +205,7 @@ volume::IndexRange WallCells::evaluate_sets(BrickCells& home, const BrickBits& s
   const std::array<const std::uint8_t*, 2> values{densities.data(), home.mean_values.data()};
   std::uint32_t low = home.set_range.count, high = 0;
   for (const std::uint32_t i : stale_of(home.sources, stale)) {
+    // Its eight densities, from voxels or from means.
     const CornerSource& source = home.sources[i];
     const auto value = [&](std::size_t corner) -> std::uint32_t {
       const std::uint32_t from = source.corners[corner];
@@ -213,6 +213,8 @@ volume::IndexRange WallCells::evaluate_sets(BrickCells& home, const BrickBits& s
     };
     const glm::uvec2 packed(value(0) | value(1) << 8 | value(2) << 16 | value(3) << 24,
                             value(4) | value(5) << 8 | value(6) << 16 | value(7) << 24);
+
+    // Every set of the cell that has these corners.
     for (unsigned sides = source.sides; sides != 0; sides &= sides - 1) {
       const std::uint32_t set = source.first_set + static_cast<std::uint32_t>(std::countr_zero(sides));
       glm::uvec2& held = corner_sets_[home.set_range.first + set];

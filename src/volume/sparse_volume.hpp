@@ -63,12 +63,11 @@ class SparseVolume {
   /// Takes the slot from its brick. Its texels become 0 and dirty in every channel; slot_count() falls when
   /// no slot above it is in use.
   void release(std::uint32_t slot);
-  /// Says that texels of the slot change in this update.
+  /// Texels of the slot change in this update.
   void mark_dirty(ChannelId channel, std::uint32_t slot);
   /// Where anything can be [voxel space]: layout().bounds_min and bounds_max, from the end of the update on.
   void set_bounds(glm::vec3 low, glm::vec3 high);
-  /// Publishes layout, dirty slots and revision. The atlas grows to hold slot_count() bricks; it never
-  /// shrinks.
+  /// Publishes layout, dirty slots and revision. The atlas grows to slot_count() bricks and never shrinks.
   void end_update();
 
   /// The slot of a brick, or kNoSlot.
@@ -113,11 +112,9 @@ class SparseVolume {
   std::span<const std::uint32_t> dirty(ChannelId channel) const {
     return channels_[index(channel)].dirty.slots();
   }
-  /// Slots below slot_count() that the last update acquired or released: brick_of may differ. In rising
-  /// order.
+  /// Slots below slot_count() that the last update acquired or released, in rising order.
   std::span<const std::uint32_t> dirty_bricks() const { return dirty_bricks_.slots(); }
-  /// The number of updates. A reader that has seen revision() - 1 needs only what is dirty, others need
-  /// everything.
+  /// The number of updates. What is dirty is all that differs from revision() - 1.
   std::uint64_t revision() const { return revision_; }
   /// The number of updates that acquired or released a slot. In between pages, brick_of, slot_count and the
   /// atlas's size stay as they are.

@@ -1,4 +1,4 @@
-// The 4x4x4 voxels around a cell, and which of them a point of the cell sees past the surfaces between.
+// The 4x4x4 voxels around a cell, and which of them are visible from a point of the cell past surfaces.
 #pragma once
 
 #include <array>
@@ -17,23 +17,23 @@ namespace brume::smoke {
 using PlaneSource = std::function<std::span<const voxel::Plane>(glm::ivec3 cell)>;
 
 /// Voxels cell - 1 to cell + 2 per axis as bits x + 4 y + 16 z: all that the cell's corners may take from.
-using Block = std::uint64_t;
+using Neighbourhood64 = std::uint64_t;
 
-constexpr Block block_bit(glm::ivec3 v) {
-  return Block{1} << (v.x + 4 * v.y + 16 * v.z);
+constexpr Neighbourhood64 neighbour_bit(glm::ivec3 v) {
+  return Neighbourhood64{1} << (v.x + 4 * v.y + 16 * v.z);
 }
-inline glm::ivec3 block_voxel(int bit) {
+inline glm::ivec3 neighbour_offset(int bit) {
   return {bit & 3, bit >> 2 & 3, bit >> 4};
 }
 inline glm::ivec3 corner_offset(int corner) {
   return {corner & 1, corner >> 1 & 1, corner >> 2};
 }
-/// The centre of a block's voxel from the centre of its cell [voxels].
+/// The centre of a neighbourhood's voxel from the centre of its cell [voxels].
 inline glm::vec3 from_cell_centre(int bit) {
-  return glm::vec3(block_voxel(bit)) - 1.5f;
+  return glm::vec3(neighbour_offset(bit)) - 1.5f;
 }
 
-/// The planes of a brick's cells and of those around them, each asked for once.
+/// The planes of a brick's cells and of those around them, each queried once.
 class PlaneWindow {
  public:
   explicit PlaneWindow(const PlaneSource& source) : source_(source) {}
@@ -59,52 +59,54 @@ class PlaneWindow {
   std::array<std::span<const voxel::Plane>, 1000> planes_;
 };
 
-/// Looks at one cell after the other. Surfaces are what `planes` says: each plane as a square that ends at
-/// the faces of its cell.
+/// Visibility around one cell at a time. Surfaces are the planes of `planes`, each a square that ends at the
+/// faces of its cell.
 class CellSight {
  public:
   explicit CellSight(PlaneWindow& planes) : planes_(planes) {}
 
-  /// Turns to a cell: reads its planes and those of the 26 cells around it.
+  /// Sets the cell: reads its planes and those of the 26 cells around it.
   void look_at(glm::ivec3 cell);
   /// The planes of the cell, packed as the shader reads them; first_set is 0.
   const shared::BoundaryCell& record() const { return record_; }
   int plane_count() const { return plane_count_; }
   /// 2^planes.
   int side_count() const { return 1 << plane_count_; }
-  /// How far the surface may lie off plane `k` of the cell [voxels]; 0 where it goes on flat.
+  /// How far the surface may lie off plane `k` of the cell [voxels]; 0 where it continues flat.
   float deviation(int k) const { return deviation_[static_cast<std::size_t>(k)]; }
   /// Plane `k`, packed, moved by `distance` along its normal [voxels].
   std::uint32_t moved_plane(int k, float distance) const;
 
-  /// The voxels of `among` on side `side` of the cell's planes, thought of as endless.
-  Block on_side(int side, Block among) const;
-  /// The voxels of `among` that the points of the cell on side `side` see.
-  Block seen(int side, Block among);
+  /// The voxels of `among` on side `side` of the cell's planes, taken as infinite.
+  Neighbourhood64 on_side(int side, Neighbourhood64 among) const;
+  /// The voxels of `among` that are visible from the points of the cell on side `side`.
+  Neighbourhood64 visible(int side, Neighbourhood64 among);
 
  private:
-  /// One plane in one or several of the 3x3x3 cells around; relative to the centre of the cell looked at.
+  /// One plane in one or several of the 3x3x3 cells around; relative to the centre of the cell.
   struct Sheet {
     glm::vec3 normal;
     float offset;
     std::uint32_t cells;             // bit x + 3 y + 9 z of cell + 1
-    std::uint32_t open_cells;        // others that the plane comes into, thought of as endless
-    Block positive;                  // voxels of the block on the positive side
-    std::array<float, 64> distance;  // of each voxel of the block
+    std::uint32_t open_cells;        // others that the infinite plane enters
+    Neighbourhood64 positive;        // voxels on the positive side
+    std::array<float, 64> distance;  // of each voxel
   };
   void read_own_planes(std::span<const voxel::Plane> own);
   void read_neighbour(const voxel::Plane& plane, glm::ivec3 step);
   void add_sheet(const voxel::Plane& plane, glm::ivec3 step);
   void measure_voxels();
-  Block seen_from(glm::vec3 viewpoint, const std::array<Block, 27>& ways, Block among) const;
-  Block seen_perhaps(std::uint32_t samples, Block among) const;
+  Neighbourhood64 visible_from(glm::vec3 viewpoint, const std::array<Neighbourhood64, 27>& paths,
+                               Neighbourhood64 among) const;
+  Neighbourhood64 possibly_visible(std::uint32_t samples, Neighbourhood64 among) const;
   void find_viewpoints();
 
   PlaneWindow& planes_;
   shared::BoundaryCell record_{};
   int plane_count_ = 0;
   std::array<voxel::Plane, voxel::kMaxPlanes> own_;
-  std::array<Block, voxel::kMaxPlanes> positive_;  // voxels on the positive side of the packed planes
+  std::array<Neighbourhood64, voxel::kMaxPlanes>
+      positive_;  // voxels on the positive side of the packed planes
   std::array<float, voxel::kMaxPlanes> deviation_;
   bool flat_ = true;  // every plane around continues one of the cell's own
   std::vector<Sheet> sheets_;

@@ -1,4 +1,4 @@
-#include "smoke/cell_block.hpp"
+#include "smoke/cell_sight.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -15,10 +15,10 @@ constexpr float kOverlap = 0.1f;  // [voxels]
 constexpr int kSamples = 3;
 
 /// An arc with curvature k and chord L lies at most k L^2 / 12 off the mean plane of its piece; L^2 is at
-/// most 2 where a cylinder runs along an axis, so k / 6. The curvature is known from planes alone, whose
-/// pieces may lie anywhere in their cells: nearly twice as much makes up for that.
+/// most 2 where a cylinder runs along an axis, so k / 6. The curvature is estimated from planes alone, whose
+/// pieces may lie anywhere in their cells: nearly twice as much compensates for that.
 constexpr float kDeviationPerCurvature = 0.3f;  // [voxels^2]
-/// Two pieces of a surface are not nearer than this [voxels].
+/// Least distance between two pieces of a surface [voxels].
 constexpr float kLeastApart = 0.5f;
 /// Planes that differ by more are two surfaces, not one that bends.
 constexpr float kLeastCosine = 0.5f;
@@ -65,13 +65,13 @@ std::uint32_t cells_around(float x, float y, float z) {
   return kCellsOfStretches[stretch(x) + 5 * stretch(y) + 25 * stretch(z)];
 }
 
-/// The voxels of a block with coordinate 0 along each axis, and how far apart in bits the next ones are.
-constexpr std::array<Block, 3> kFirstLayer{0x1111111111111111u, 0x000f000f000f000fu, 0xffffu};
+/// The voxels with coordinate 0 along each axis, and the distance in bits to those with 1.
+constexpr std::array<Neighbourhood64, 3> kFirstLayer{0x1111111111111111u, 0x000f000f000f000fu, 0xffffu};
 constexpr std::array<int, 3> kLayerStride{1, 4, 16};
 
-/// For each of the 3x3x3 cells the voxels to which the way from a point may come through it, axis by axis.
-std::array<Block, 27> ways_through_cells(glm::vec3 from) {
-  std::array<std::array<Block, 3>, 3> through{};
+/// For each of the 3x3x3 cells the voxels to which the path from a point may pass through it, axis by axis.
+std::array<Neighbourhood64, 27> paths_through_cells(glm::vec3 from) {
+  std::array<std::array<Neighbourhood64, 3>, 3> through{};
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (int i = 0; i < 4; ++i) {
       const float here = from[static_cast<int>(axis)], to = static_cast<float>(i) - 1.5f;
@@ -79,7 +79,7 @@ std::array<Block, 27> ways_through_cells(glm::vec3 from) {
       for (std::size_t third = 0; third < 3; ++third)
         if (set >> third & 1) through[axis][third] |= kFirstLayer[axis] << i * kLayerStride[axis];
     }
-  std::array<Block, 27> result;
+  std::array<Neighbourhood64, 27> result;
   for (std::size_t i = 0; i < 27; ++i)
     result[i] = through[0][i % 3] & through[1][i / 3 % 3] & through[2][i / 9];
   return result;
@@ -90,22 +90,22 @@ glm::vec3 sample_point(int i) {
   return glm::vec3(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples)) / float{kSamples - 1} -
          0.5f;
 }
-std::array<std::array<Block, 27>, kSampleCount> ways_from_samples() {
-  std::array<std::array<Block, 27>, kSampleCount> ways;
+std::array<std::array<Neighbourhood64, 27>, kSampleCount> paths_from_samples() {
+  std::array<std::array<Neighbourhood64, 27>, kSampleCount> paths;
   for (int i = 0; i < kSampleCount; ++i)
-    ways[static_cast<std::size_t>(i)] = ways_through_cells(sample_point(i));
-  return ways;
+    paths[static_cast<std::size_t>(i)] = paths_through_cells(sample_point(i));
+  return paths;
 }
 
-const std::array<std::array<Block, 27>, kSampleCount> kWaysFromSamples = ways_from_samples();
+const std::array<std::array<Neighbourhood64, 27>, kSampleCount> kPathsFromSamples = paths_from_samples();
 
-/// The voxels of a block as the processor likes them: coordinates axis by axis, and their bits by halves.
-struct BlockPoints {
+/// The voxels of a neighbourhood in vector order: coordinates axis by axis, and their bits by halves.
+struct NeighbourPoints {
   std::array<float, 64> x, y, z;
   std::array<std::uint32_t, 64> bit;
 };
-constexpr BlockPoints make_block_points() {
-  BlockPoints points{};
+constexpr NeighbourPoints make_neighbour_points() {
+  NeighbourPoints points{};
   for (unsigned i = 0; i < 64; ++i) {
     points.x[i] = static_cast<float>(i & 3) - 1.5f;
     points.y[i] = static_cast<float>(i >> 2 & 3) - 1.5f;
@@ -114,16 +114,16 @@ constexpr BlockPoints make_block_points() {
   }
   return points;
 }
-constexpr BlockPoints kPoints = make_block_points();
+constexpr NeighbourPoints kPoints = make_neighbour_points();
 
-/// How far each voxel of a block lies before a plane; returns those on its positive side.
-Block measure(glm::vec3 normal, float offset, std::array<float, 64>& distance) {
+/// The distance of each voxel from a plane along its normal; returns the voxels on its positive side.
+Neighbourhood64 measure(glm::vec3 normal, float offset, std::array<float, 64>& distance) {
   for (std::size_t i = 0; i < 64; ++i)
     distance[i] = normal.x * kPoints.x[i] + normal.y * kPoints.y[i] + normal.z * kPoints.z[i] - offset;
   std::uint32_t low = 0, high = 0;
   for (std::size_t i = 0; i < 32; ++i) low |= distance[i] > 0 ? kPoints.bit[i] : 0;
   for (std::size_t i = 32; i < 64; ++i) high |= distance[i] > 0 ? kPoints.bit[i] : 0;
-  return Block{low} | Block{high} << 32;
+  return Neighbourhood64{low} | Neighbourhood64{high} << 32;
 }
 
 /// The centres of the 3x3x3 cells, and five more to make it a power of two.
@@ -142,7 +142,7 @@ constexpr CellCentres make_cell_centres() {
 }
 constexpr CellCentres kCentres = make_cell_centres();
 
-/// The 3x3x3 cells, as Sheet::cells, that a plane comes into.
+/// The 3x3x3 cells, as Sheet::cells, that a plane enters.
 std::uint32_t cells_of_plane(glm::vec3 normal, float offset) {
   constexpr float kRounding = 1e-3f;
   const float reach = (0.5f + kRounding) * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
@@ -155,20 +155,20 @@ std::uint32_t cells_of_plane(glm::vec3 normal, float offset) {
   return cells & ((1u << 27) - 1);
 }
 
-/// Whether b is a continued within the given bounds, whichever way it faces.
+/// Whether plane b continues plane a within the given bounds, whichever side is positive.
 bool continues(glm::vec3 normal_a, float offset_a, glm::vec3 normal_b, float offset_b, float cosine,
                float apart) {
   const float along = glm::dot(normal_a, normal_b);
   return std::abs(along) > cosine && std::abs(offset_b - (along > 0 ? offset_a : -offset_a)) < apart;
 }
 
-/// Of the surface that runs from a plane in a cell to another plane `step` cells on [1/voxels]: by how much
-/// it turns between the points of the planes nearest to the middles of their cells.
+/// Curvature of the surface that runs from a plane in a cell to another plane `step` cells on [1/voxels]: how
+/// much it bends between the points of the planes nearest to the centres of their cells.
 float curvature(const voxel::Plane& a, const voxel::Plane& b, glm::ivec3 step) {
   const float cosine = std::abs(glm::dot(a.normal, b.normal));
   if (cosine < kLeastCosine) return 0;
-  const glm::vec3 way = glm::vec3(step) + b.normal * b.offset - a.normal * a.offset;
-  return std::sqrt(std::max(0.0f, 2 - 2 * cosine)) / std::max(kLeastApart, glm::length(way));
+  const glm::vec3 chord = glm::vec3(step) + b.normal * b.offset - a.normal * a.offset;
+  return std::sqrt(std::max(0.0f, 2 - 2 * cosine)) / std::max(kLeastApart, glm::length(chord));
 }
 
 }  // namespace
@@ -203,12 +203,12 @@ void CellSight::read_own_planes(std::span<const voxel::Plane> own) {
 
 void CellSight::read_neighbour(const voxel::Plane& plane, glm::ivec3 step) {
   const float offset = plane.offset + glm::dot(plane.normal, glm::vec3(step));
-  bool goes_on = false;
+  bool continued = false;
   for (std::size_t k = 0; k < static_cast<std::size_t>(plane_count_); ++k) {
-    goes_on |= continues(own_[k].normal, own_[k].offset, plane.normal, offset, 0.9995f, 0.02f);
+    continued |= continues(own_[k].normal, own_[k].offset, plane.normal, offset, 0.9995f, 0.02f);
     deviation_[k] = std::max(deviation_[k], kDeviationPerCurvature * curvature(own_[k], plane, step));
   }
-  flat_ = flat_ && goes_on;
+  flat_ = flat_ && continued;
   add_sheet(plane, step);
 }
 
@@ -261,34 +261,37 @@ void CellSight::find_viewpoints() {
     if (samples_[side] != 0) middles_[side] = sums[side] / static_cast<float>(std::popcount(samples_[side]));
 }
 
-Block CellSight::on_side(int side, Block among) const {
+Neighbourhood64 CellSight::on_side(int side, Neighbourhood64 among) const {
   for (int k = 0; k < plane_count_; ++k) {
-    const Block positive = positive_[static_cast<std::size_t>(k)];
+    const Neighbourhood64 positive = positive_[static_cast<std::size_t>(k)];
     among &= side >> k & 1 ? positive : ~positive;
   }
   return among;
 }
 
-Block CellSight::seen_from(glm::vec3 viewpoint, const std::array<Block, 27>& ways, Block among) const {
+Neighbourhood64 CellSight::visible_from(glm::vec3 viewpoint, const std::array<Neighbourhood64, 27>& paths,
+                                        Neighbourhood64 among) const {
   for (const Sheet& sheet : sheets_) {
     const float here = glm::dot(sheet.normal, viewpoint) - sheet.offset;
-    // Only voxels beyond the plane can be hidden by it, and only where their way comes through its cells.
-    const Block across = among & (here > 0 ? ~sheet.positive : sheet.positive);
+    // It hides only voxels beyond the plane, and only where the path to them passes through its cells.
+    const Neighbourhood64 across = among & (here > 0 ? ~sheet.positive : sheet.positive);
     if (across == 0) continue;
-    Block beyond = 0, past = 0;
+    Neighbourhood64 beyond = 0, past = 0;
     for (std::uint32_t cells = sheet.cells; cells != 0; cells &= cells - 1)
-      beyond |= ways[static_cast<std::size_t>(std::countr_zero(cells))];
+      beyond |= paths[static_cast<std::size_t>(std::countr_zero(cells))];
     for (std::uint32_t cells = sheet.open_cells; cells != 0; cells &= cells - 1)
-      past |= ways[static_cast<std::size_t>(std::countr_zero(cells))];
-    // Where the way comes through no other cell of the plane, it is hidden.
+      past |= paths[static_cast<std::size_t>(std::countr_zero(cells))];
+    // Where the path passes through no other cell of the plane, the voxel is hidden.
     among &= ~(across & ~past);
-    for (Block left = across & beyond & past; left != 0; left &= left - 1) {
-      const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-      const float share = here / (here - sheet.distance[bit]);
-      const Block hidden = sheet.cells & cells_around(viewpoint.x + (kPoints.x[bit] - viewpoint.x) * share,
-                                                      viewpoint.y + (kPoints.y[bit] - viewpoint.y) * share,
-                                                      viewpoint.z + (kPoints.z[bit] - viewpoint.z) * share);
-      among &= ~(Block{hidden != 0} << bit);
+    // Elsewhere it depends on the cell in which the path crosses the plane.
+    for (Neighbourhood64 undecided = across & beyond & past; undecided != 0; undecided &= undecided - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(undecided));
+      const float fraction = here / (here - sheet.distance[bit]);
+      const Neighbourhood64 hidden =
+          sheet.cells & cells_around(viewpoint.x + (kPoints.x[bit] - viewpoint.x) * fraction,
+                                     viewpoint.y + (kPoints.y[bit] - viewpoint.y) * fraction,
+                                     viewpoint.z + (kPoints.z[bit] - viewpoint.z) * fraction);
+      among &= ~(Neighbourhood64{hidden != 0} << bit);
     }
     if (among == 0) break;
   }
@@ -296,41 +299,46 @@ Block CellSight::seen_from(glm::vec3 viewpoint, const std::array<Block, 27>& way
 }
 
 /// The voxels of `among` without those that one sheet alone hides from all points of a side.
-Block CellSight::seen_perhaps(std::uint32_t samples, Block among) const {
-  std::array<Block, 27> ways{};
-  for (std::uint32_t left = samples; left != 0; left &= left - 1) {
-    const std::array<Block, 27>& of_sample =
-        kWaysFromSamples[static_cast<std::size_t>(std::countr_zero(left))];
-    for (std::size_t i = 0; i < 27; ++i) ways[i] |= of_sample[i];
+Neighbourhood64 CellSight::possibly_visible(std::uint32_t samples, Neighbourhood64 among) const {
+  // The cells that a path from any of the samples may pass through.
+  std::array<Neighbourhood64, 27> paths{};
+  for (std::uint32_t bits = samples; bits != 0; bits &= bits - 1) {
+    const std::array<Neighbourhood64, 27>& of_sample =
+        kPathsFromSamples[static_cast<std::size_t>(std::countr_zero(bits))];
+    for (std::size_t i = 0; i < 27; ++i) paths[i] |= of_sample[i];
   }
+
+  // A sheet hides nothing from samples on both of its sides.
   for (const Sheet& sheet : sheets_) {
     bool any_positive = false, any_negative = false;
-    for (std::uint32_t left = samples; left != 0; left &= left - 1) {
-      const bool positive = glm::dot(sheet.normal, sample_point(std::countr_zero(left))) - sheet.offset > 0;
+    for (std::uint32_t bits = samples; bits != 0; bits &= bits - 1) {
+      const bool positive = glm::dot(sheet.normal, sample_point(std::countr_zero(bits))) - sheet.offset > 0;
       any_positive |= positive;
       any_negative |= !positive;
     }
     if (any_positive && any_negative) continue;
-    Block past = 0;
+    Neighbourhood64 past = 0;
     for (std::uint32_t cells = sheet.open_cells; cells != 0; cells &= cells - 1)
-      past |= ways[static_cast<std::size_t>(std::countr_zero(cells))];
+      past |= paths[static_cast<std::size_t>(std::countr_zero(cells))];
     among &= past | (any_positive ? sheet.positive : ~sheet.positive);
     if (among == 0) break;
   }
   return among;
 }
 
-Block CellSight::seen(int side, Block among) {
+Neighbourhood64 CellSight::visible(int side, Neighbourhood64 among) {
   if (flat_) return on_side(side, among);
-  // The middle of the side speaks for all of it; where it sees nothing, any other point may.
+  // The middle of the side stands for all of it; where nothing is visible from there, the samples decide.
   std::uint32_t samples = samples_[static_cast<std::size_t>(side)];
   if (samples == 0) return 0;
   const glm::vec3 middle = middles_[static_cast<std::size_t>(side)];
-  if (const Block result = seen_from(middle, ways_through_cells(middle), among); result != 0) return result;
-  among = seen_perhaps(samples, among);
+  if (const Neighbourhood64 result = visible_from(middle, paths_through_cells(middle), among); result != 0)
+    return result;
+  among = possibly_visible(samples, among);
   for (; samples != 0 && among != 0; samples &= samples - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(samples));
-    const Block result = seen_from(sample_point(static_cast<int>(i)), kWaysFromSamples[i], among);
+    const Neighbourhood64 result =
+        visible_from(sample_point(static_cast<int>(i)), kPathsFromSamples[i], among);
     if (result != 0) return result;
   }
   return 0;
