@@ -139,7 +139,7 @@ class TimedRenderer {
     return {{"frames", frames_},
             {"seconds_per_frame", seconds_ / frames_},
             {"cpu_seconds_per_frame", cpu_seconds_ / frames_},
-            {"marched_fraction_of_last_frame", playback_.share_marched()},
+            {"marched_fraction_of_last_frame", playback_.fraction_marched()},
             {"gpu_milliseconds_of_last_frame", passes}};
   }
 

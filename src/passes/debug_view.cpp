@@ -127,7 +127,7 @@ void DebugViewPass::reserve(const DebugSubject& subject, glm::uvec2 size_px) {
         std::vector<std::uint32_t>{static_cast<std::uint32_t>(subject.view)});
   }
   if (needs_level(subject.view)) find_level(subject.level);
-  if (subject.view == DebugView::distance) find_ways(subject);
+  if (subject.view == DebugView::distance) find_distances(subject);
   if (subject.view == DebugView::steps)
     gpu::grow(context_, counters_, sizeof(std::uint32_t) * (1 + std::uint64_t{size_px.x} * size_px.y));
 }
@@ -140,10 +140,11 @@ void DebugViewPass::find_level(const LevelView& level) {
   seen_level_ = level;
 }
 
-void DebugViewPass::find_ways(const DebugSubject& subject) {
-  way_words_.assign(1, 0);
+void DebugViewPass::find_distances(const DebugSubject& subject) {
+  distance_words_.assign(1, 0);
   if (subject.volume && subject.state) {
-    way_words_.assign(std::max<std::size_t>(subject.volume->slot_count(), 1) * smoke::kVoxelsPerBrick, 0);
+    distance_words_.assign(std::max<std::size_t>(subject.volume->slot_count(), 1) * smoke::kVoxelsPerBrick,
+                           0);
     for (const sim::LiveCloud& live : subject.state->clouds) {
       const sim::Cloud& cloud = *live.cloud;
       const sim::CloudPhase phase = cloud.phase(subject.state->tick);
@@ -151,22 +152,22 @@ void DebugViewPass::find_ways(const DebugSubject& subject) {
         const std::uint32_t slot = subject.volume->slot_at(voxel >> 3);
         if (slot == smoke::SmokeVolume::kNoSlot || cloud.density(rank, phase) == 0) return;
         const std::uint32_t distance = cloud.distances()[rank];
-        const std::uint32_t way = distance == sim::Cloud::kNoDistance ? shared::kNoWay : distance + 1;
+        const std::uint32_t word = distance == sim::Cloud::kNoDistance ? shared::kNoWay : distance + 1;
         std::uint32_t& entry =
-            way_words_[std::size_t{slot} * smoke::kVoxelsPerBrick + smoke::local_voxel(voxel)];
-        entry = entry == 0 ? way : std::min(entry, way);
+            distance_words_[std::size_t{slot} * smoke::kVoxelsPerBrick + smoke::local_voxel(voxel)];
+        entry = entry == 0 ? word : std::min(entry, word);
       });
     }
   }
-  gpu::grow(context_, ways_, way_words_.size() * sizeof(std::uint32_t));
+  gpu::grow(context_, distances_, distance_words_.size() * sizeof(std::uint32_t));
 }
 
 void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject, const Inputs& in,
                            const gpu::Image& display) {
   if (!level_words_.empty()) recorder.upload(level_, 0, std::as_bytes(std::span(level_words_)));
-  if (!way_words_.empty()) recorder.upload(ways_, 0, std::as_bytes(std::span(way_words_)));
+  if (!distance_words_.empty()) recorder.upload(distances_, 0, std::as_bytes(std::span(distance_words_)));
   level_words_ = {};
-  way_words_ = {};
+  distance_words_ = {};
 
   shared::DebugViewParams params{};
   const voxel::GridLayout grid = subject.level.grid ? subject.level.grid->layout() : voxel::GridLayout();
@@ -179,7 +180,7 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
   params.full = ramp_end(subject.view, subject.state ? *subject.state : sim::State());
   params.labels = labels_of(subject.view, params.full);
   const gpu::Buffer& level = level_ ? level_ : nothing_;
-  const gpu::Buffer& ways = ways_ ? ways_ : nothing_;
+  const gpu::Buffer& distances = distances_ ? distances_ : nothing_;
   const gpu::Buffer& counters = counters_ ? counters_ : nothing_;
   const gpu::ComputePipeline& pipeline = *pipelines_[static_cast<std::size_t>(subject.view)];
   recorder.bind(
@@ -189,7 +190,7 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
        gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.gbuffer.albedo_roughness, nearest_),
        gpu::sampled(in.gbuffer.normal_metallic, nearest_), gpu::sampled(in.gbuffer.depth, nearest_),
        gpu::read(in.holes.holes), gpu::read(in.holes.lists), gpu::sampled(in.holes.masks, nearest_),
-       gpu::read(in.smoke.filled), gpu::read(level), gpu::read(ways), gpu::read(counters),
+       gpu::read(in.smoke.filled), gpu::read(level), gpu::read(distances), gpu::read(counters),
        gpu::stored(display)},
       params);
   recorder.dispatch_threads(pipeline, display.info().size.x, display.info().size.y);

@@ -1,4 +1,4 @@
-// Pictures of what the picture is made from: voxels, distances, slices, numbers of rays, surfaces
+// Debug views of what a frame is made from: voxels, distances, slices, numbers of rays, surfaces
 // (docs/debug-views.md).
 #pragma once
 
@@ -50,10 +50,10 @@ struct DebugSubject {
 
 class DebugViewPass {
  public:
-  /// Makes next to nothing: what a view needs is made when it is reserved first.
+  /// Creates almost nothing: the resources of a view are made when it is reserved first.
   explicit DebugViewPass(gpu::Context& context);
 
-  /// Makes the view's pipeline and room for what it needs. Outside of a recording, when the device is done
+  /// Makes the view's pipeline and room for its data. Outside of a recording, when the device is done
   /// with the one before. Throws resource_limit.
   void reserve(const DebugSubject& subject, glm::uvec2 size_px);
 
@@ -73,16 +73,16 @@ class DebugViewPass {
 
  private:
   void find_level(const LevelView& level);
-  void find_ways(const DebugSubject& subject);
+  void find_distances(const DebugSubject& subject);
 
   gpu::Context& context_;
   gpu::Sampler nearest_, linear_;
   std::array<std::optional<gpu::ComputePipeline>, shared::kViewCount> pipelines_;
-  gpu::Buffer level_, ways_, counters_;
-  gpu::Buffer nothing_;  ///< Bound where a view does without.
+  gpu::Buffer level_, distances_, counters_;
+  gpu::Buffer nothing_;  ///< Bound where a view does not read one.
   glm::ivec3 root_size_{0};
   // What is to be uploaded, and what it was made from.
-  std::vector<std::uint32_t> level_words_, way_words_;
+  std::vector<std::uint32_t> level_words_, distance_words_;
   std::optional<LevelView> seen_level_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace brume::passes {
 
-/// What shading needs of the nearest surface of each pixel.
+/// What shading reads of the nearest surface of each pixel.
 struct GBuffer {
   gpu::Image albedo_roughness;  ///< sRGB8 albedo, roughness in alpha.
   gpu::Image normal_metallic;   ///< Half floats: world normal, metallic.
@@ -20,7 +20,7 @@ struct GBuffer {
 class GBufferPass {
  public:
   explicit GBufferPass(gpu::Context& context);
-  /// `moving` are drawn with the scene's own draws; `hidden` are left out, and what `view` cannot see.
+  /// `moving` are drawn with the scene's own draws; `hidden` are omitted, and what `view` cannot see.
   /// `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
               HiddenObjects hidden, const planning::ViewFrustum& view, const gpu::Buffer& frame,

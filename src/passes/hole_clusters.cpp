@@ -7,7 +7,7 @@
 namespace brume::passes {
 namespace {
 
-// Workgroups that share the work of a pass, however much it turns out to be.
+// Workgroups of a pass whose amount of work only the device knows.
 constexpr std::uint32_t kGroups = 8192;
 constexpr std::uint32_t kRow = 32768;  // every device takes 65,535 workgroups along an axis
 
@@ -65,7 +65,7 @@ void HoleClusters::record(gpu::Recorder& recorder, const planning::HolePlan& pla
   const shared::HoleCellsParams cells{plan.slot_count, plan.pair_capacity, plan.chunk_capacity};
   const auto bytes = [](const auto& params) { return std::as_bytes(std::span(&params, 1)); };
   constexpr std::uint32_t kPerTile = shared::kCoarseTileTiles / 2;  // workgroups, along an axis
-  // What pixels need and what light needs depend on nothing of each other.
+  // Clusters, which pixels read, and cells, which light reads, do not depend on each other.
   recorder.dispatch_together(
       {{tiles_pass_,
         {gpu::uniform(frame), gpu::read(resources_.holes), gpu::write(coarse_tile_holes_)},

@@ -82,27 +82,28 @@ bool CloudGrowth::update(const sim::State& state, const smoke::SmokeVolume& volu
     return false;
   generation_ = volume.structure_generation();
 
-  std::map<const sim::Cloud*, std::vector<Share>> before;
-  before.swap(shares_);
+  std::map<const sim::Cloud*, std::vector<BrickPart>> before;
+  before.swap(parts_of_cloud_);
   std::vector<std::shared_ptr<const sim::Cloud>> clouds;
   std::vector<const sim::Cloud*> fresh;
   for (const sim::LiveCloud& live : state.clouds) {
     clouds.push_back(live.cloud);
     if (auto held = before.extract(live.cloud.get()))
-      shares_.insert(std::move(held));
+      parts_of_cloud_.insert(std::move(held));
     else
       fresh.push_back(live.cloud.get());
   }
-  for (const auto& [cloud, shares] : before)
-    for (const Share& share : shares) free_parts_.push_back(share.part);
+  for (const auto& [cloud, brick_parts] : before)
+    for (const BrickPart& brick_part : brick_parts) free_parts_.push_back(brick_part.part);
   for (const sim::Cloud* cloud : fresh)
-    if (!shares_.contains(cloud)) shares_.emplace(cloud, make_shares(*cloud, volume.layout().voxel_size));
+    if (!parts_of_cloud_.contains(cloud))
+      parts_of_cloud_.emplace(cloud, make_parts(*cloud, volume.layout().voxel_size));
   clouds_ = std::move(clouds);
   list_parts(volume);
   return true;
 }
 
-std::uint32_t CloudGrowth::take_part() {
+std::uint32_t CloudGrowth::allocate_part() {
   if (free_parts_.empty()) {
     displacements_.resize(displacements_.size() + shared::kDisplacementsPerBrick);
     return static_cast<std::uint32_t>(displacements_.size() / shared::kDisplacementsPerBrick - 1);
@@ -112,15 +113,15 @@ std::uint32_t CloudGrowth::take_part() {
   return part;
 }
 
-std::vector<CloudGrowth::Share> CloudGrowth::make_shares(const sim::Cloud& cloud, float voxel_size) {
+std::vector<CloudGrowth::BrickPart> CloudGrowth::make_parts(const sim::Cloud& cloud, float voxel_size) {
   const std::vector<glm::vec3> growth = smoke::growth_of(cloud);
   float longest = 1;
   for (const glm::vec3& one : growth) longest = std::max(longest, glm::length(one));
-  std::vector<Share> shares;
+  std::vector<BrickPart> brick_parts;
   for (const glm::ivec3 brick : bricks_of(cloud)) {
     const GrowthAround around(cloud, growth, brick);
-    const std::uint32_t part = take_part();
-    shares.push_back({brick, part});
+    const std::uint32_t part = allocate_part();
+    brick_parts.push_back({brick, part});
     new_parts_.push_back(part);
     glm::uvec2* out = displacements_.data() + std::size_t{part} * shared::kDisplacementsPerBrick;
     for (std::uint32_t i = 0; i < shared::kDisplacementsPerBrick; ++i) {
@@ -135,7 +136,7 @@ std::vector<CloudGrowth::Share> CloudGrowth::make_shares(const sim::Cloud& cloud
       *out++ = {glm::packHalf2x16({metres.x, metres.y}), glm::packHalf2x16({metres.z, mean.w / 27 * near})};
     }
   }
-  return shares;
+  return brick_parts;
 }
 
 /// Which parts are in which slot.
@@ -143,9 +144,9 @@ void CloudGrowth::list_parts(const smoke::SmokeVolume& volume) {
   const std::uint32_t slots = volume.slot_count();
   std::vector<std::vector<glm::uvec2>> by_slot(slots);
   for (std::uint32_t i = 0; i < clouds_.size(); ++i)
-    for (const Share& share : shares_.at(clouds_[i].get()))
-      if (const std::uint32_t slot = volume.slot_at(share.brick); slot != smoke::SmokeVolume::kNoSlot)
-        by_slot[slot].push_back({share.part, i});
+    for (const BrickPart& brick_part : parts_of_cloud_.at(clouds_[i].get()))
+      if (const std::uint32_t slot = volume.slot_at(brick_part.brick); slot != smoke::SmokeVolume::kNoSlot)
+        by_slot[slot].push_back({brick_part.part, i});
   parts_.assign(slots, glm::uvec2(0));
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
     parts_[slot] = {parts_.size() - slots, by_slot[slot].size()};
@@ -186,7 +187,7 @@ void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const planning::NoisePl
       recorder.upload(displacements_, std::size_t{part} * entries.size_bytes(), std::as_bytes(entries));
     }
   }
-  growth_.forget_new();
+  growth_.clear_new_parts();
   parts_stale_ = displacements_stale_ = false;
   recorder.upload(motions_, 0, std::as_bytes(std::span(plan.motions)));
   recorder.upload(impulses_, 0, std::as_bytes(std::span(plan.impulses)));

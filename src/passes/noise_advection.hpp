@@ -1,4 +1,4 @@
-// Carries the noise in the smoke, and makes the medium that the eye's rays read.
+// Advects the noise in the smoke, and filters the density that rays of light read.
 #pragma once
 
 #include <map>
@@ -12,33 +12,33 @@
 
 namespace brume::passes {
 
-/// How each cloud grew, brick by brick, as shaders/shared/noise_advection.h lays it out: made when a cloud
-/// comes, dropped when it goes.
+/// How each cloud grew, brick by brick, as shaders/shared/noise_advection.h lays it out: computed when a
+/// cloud appears, dropped when it is gone.
 class CloudGrowth {
  public:
-  /// Follows the clouds of a state and the slots of a volume; true when the list of parts is another one.
+  /// Follows the clouds of a state and the slots of a volume; true when the list of parts changed.
   bool update(const sim::State& state, const smoke::SmokeVolume& volume);
 
   /// Per slot (first, count), then the list.
   std::span<const glm::uvec2> parts() const { return parts_; }
   /// kDisplacementsPerBrick entries a part.
   std::span<const glm::uvec2> displacements() const { return displacements_; }
-  /// Parts that are new since the last forget_new.
+  /// Parts that are new since the last clear_new_parts.
   std::span<const std::uint32_t> new_parts() const { return new_parts_; }
-  void forget_new() { new_parts_.clear(); }
+  void clear_new_parts() { new_parts_.clear(); }
 
  private:
-  struct Share {
+  struct BrickPart {
     glm::ivec3 brick;
     std::uint32_t part;
   };
-  std::vector<Share> make_shares(const sim::Cloud& cloud, float voxel_size);
-  std::uint32_t take_part();
+  std::vector<BrickPart> make_parts(const sim::Cloud& cloud, float voxel_size);
+  std::uint32_t allocate_part();
 
   void list_parts(const smoke::SmokeVolume& volume);
 
   std::vector<std::shared_ptr<const sim::Cloud>> clouds_;  // of the last state
-  std::map<const sim::Cloud*, std::vector<Share>> shares_;
+  std::map<const sim::Cloud*, std::vector<BrickPart>> parts_of_cloud_;
   std::vector<glm::uvec2> parts_, displacements_;
   std::vector<std::uint32_t> free_parts_, new_parts_;
   std::uint64_t generation_ = 0;

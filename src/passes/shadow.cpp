@@ -103,9 +103,9 @@ void ShadowPass::record_changed(gpu::Context& context, gpu::CommandRunner& runne
 
 void ShadowPass::record_layers(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
                                HiddenObjects hidden, const ShadowMaps& maps,
-                               const std::function<bool(const Sees&)>& wanted) const {
+                               const std::function<bool(const Sees&)>& accepts) const {
   const auto record_one = [&](std::uint32_t layer, const glm::mat4& clip_from_world, const Sees& sees) {
-    if (!wanted(sees)) return;
+    if (!accepts(sees)) return;
     record_layer(context, runner, scene, maps, layer, clip_from_world,
                  [&](const Draw& draw) { return !is_hidden(draw, hidden) && sees(draw); });
   };

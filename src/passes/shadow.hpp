@@ -24,7 +24,7 @@ class ShadowPass {
   /// hidden.
   void record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
               HiddenObjects hidden, const ShadowMaps& maps) const;
-  /// Draws those layers anew in which one of the `changed` objects (rising) may be seen.
+  /// Re-renders those layers in which one of the `changed` objects (rising) may be seen.
   void record_changed(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
                       HiddenObjects hidden, std::span<const std::uint32_t> changed,
                       const ShadowMaps& maps) const;
@@ -33,7 +33,7 @@ class ShadowPass {
   using Sees = std::function<bool(const Draw&)>;
   void record_layers(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
                      HiddenObjects hidden, const ShadowMaps& maps,
-                     const std::function<bool(const Sees&)>& wanted) const;
+                     const std::function<bool(const Sees&)>& accepts) const;
   void record_layer(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
                     const ShadowMaps& maps, std::uint32_t layer, const glm::mat4& clip_from_world,
                     const Sees& draws) const;

@@ -9,9 +9,10 @@ namespace brume::passes {
 class SkyLightPass {
  public:
   explicit SkyLightPass(gpu::Context& context);
-  /// Makes room for what record needs. As SolidVolume::reserve, and after it.
+  /// Makes room for the light of the level that `solid` has room for. When SolidVolume::reserve may be
+  /// called.
   void reserve(const SolidVolume& solid);
-  /// Lights the level anew; needed only when the solid volume changed. `frame` holds FrameConstants.
+  /// Lights the level; required only when the solid volume changed. `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SolidVolume& solid) const;
   /// Half floats, a texel for each of the solid volume's (shared/sky_light.h).
   const gpu::Image& light() const { return light_; }

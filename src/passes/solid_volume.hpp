@@ -42,7 +42,7 @@ class SolidVolume {
 
  private:
   void make(const voxel::GridLayout& grid);
-  /// The bits of the texels in a box, anew from the level.
+  /// Computes the bits of the texels in a box from the level.
   void fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& texels);
   void upload(gpu::Recorder& recorder, const voxel::IntBox& texels) const;
 

@@ -12,11 +12,12 @@ float brightest(const shared::Light& light) {
 bool reaches(const shared::Light& light, glm::vec3 centre, float radius) {
   if (brightest(light) <= 0) return false;
   if (light.kind == shared::kLightDirectional) return true;
-  const glm::vec3 way = centre - light.position_world;
-  const float far = light.range + radius, d2 = glm::dot(way, way);
+  const glm::vec3 to_centre = centre - light.position_world;
+  const float far = light.range + radius, d2 = glm::dot(to_centre, to_centre);
   if (d2 >= far * far) return false;
   if (light.kind == shared::kLightPoint || light.cos_outer <= 0) return true;
-  const float along = glm::dot(way, light.direction), aside = std::sqrt(std::max(d2 - along * along, 0.0f));
+  const float along = glm::dot(to_centre, light.direction),
+              aside = std::sqrt(std::max(d2 - along * along, 0.0f));
   const float sin_outer = std::sqrt(1 - light.cos_outer * light.cos_outer);
   return light.cos_outer * aside - sin_outer * along <= 1.001f * radius && along >= -1.001f * radius;
 }

@@ -1,4 +1,4 @@
-// What light and its rays meet on their way.
+// What light reaches, and what its rays cross.
 #pragma once
 
 #include <glm/glm.hpp>

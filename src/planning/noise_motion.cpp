@@ -18,7 +18,8 @@ constexpr double kCreep = 1.0 / 7, kCreepSeconds = 5;
 constexpr double kGoneWeight = 0.999;
 // How much wider the rolls of a cloud become while it dissolves.
 constexpr double kDrawnOut = 2;
-// How far the rolls of an old cloud are ahead of those of a new one, in turns, and how fast they get there [s].
+// How far the rolls of an old cloud are ahead of those of a new one, in turns, and how fast they get there
+// [s].
 constexpr double kSwirlLead = 0.5, kSwirlLeadSeconds = 1.5;
 
 /// 3x^2 - 2x^3, x clamped to [0, 1].
@@ -53,13 +54,13 @@ void add_shot(const sim::BulletHole& open, const sim::State& state, double secon
   if (strength <= 0) return;
   const double reached =
       std::clamp(age / std::max(static_cast<double>(hole.time_to_reach_far), 1e-6), 0.0, 1.0);
-  shared::Impulse push{};
-  push.from_world = hole.origin_world;
-  push.to_world = hole.origin_world + hole.forward * (hole.distance_to_far * static_cast<float>(reached));
-  push.radius = 3 * hole.radius;
-  push.along = hole.forward * (2 * hole.radius * strength);
-  push.outward = hole.radius * strength;
-  out.push_back(push);
+  shared::Impulse impulse{};
+  impulse.from_world = hole.origin_world;
+  impulse.to_world = hole.origin_world + hole.forward * (hole.distance_to_far * static_cast<float>(reached));
+  impulse.radius = 3 * hole.radius;
+  impulse.along = hole.forward * (2 * hole.radius * strength);
+  impulse.outward = hole.radius * strength;
+  out.push_back(impulse);
 }
 
 void add_blast(const sim::BlastField& field, const sim::State& state, double seconds,
@@ -69,31 +70,31 @@ void add_blast(const sim::BlastField& field, const sim::State& state, double sec
   const auto strength =
       static_cast<float>(pulse(seconds - static_cast<double>(state.seconds(blast.tick)), 0.2, length));
   if (strength <= 0) return;
-  shared::Impulse push{};
-  push.from_world = push.to_world = glm::vec3(sim::metres_from_position(field.centre()));
-  push.radius = 1.5f * static_cast<float>(blast.radius) / static_cast<float>(sim::kUnitsPerMetre);
-  push.outward = 0.25f * push.radius * strength;
-  out.push_back(push);
+  shared::Impulse impulse{};
+  impulse.from_world = impulse.to_world = glm::vec3(sim::metres_from_position(field.centre()));
+  impulse.radius = 1.5f * static_cast<float>(blast.radius) / static_cast<float>(sim::kUnitsPerMetre);
+  impulse.outward = 0.25f * impulse.radius * strength;
+  out.push_back(impulse);
 }
 
 void add_body(const sim::Body& body, const sim::State& state, double seconds,
               std::vector<shared::Impulse>& out) {
   if (body.tick <= body.previous_tick || body.position == body.previous) return;
   const glm::dvec3 to = sim::metres_from_position(body.position);
-  const glm::dvec3 way = to - sim::metres_from_position(body.previous);
+  const glm::dvec3 step = to - sim::metres_from_position(body.previous);
   const double taken = static_cast<double>(body.tick - body.previous_tick) / state.ticks_per_second;
-  const double speed = glm::length(way) / taken;
+  const double speed = glm::length(step) / taken;
   const double strength = 1 - smooth((seconds - static_cast<double>(state.seconds(body.tick))) / 1.5);
   if (strength <= 0) return;
   // What it passed in the last moments follows it.
-  const glm::dvec3 forward = glm::normalize(way);
-  shared::Impulse push{};
-  push.to_world = glm::vec3(to);
-  push.from_world = glm::vec3(to - forward * std::min(0.5 * speed, 3.0));
-  push.radius = 0.9f;
-  push.along = glm::vec3(forward * (strength * std::min(0.15 * speed, 0.6)));
-  push.outward = static_cast<float>(strength * std::min(0.1 * speed, 0.4));
-  out.push_back(push);
+  const glm::dvec3 forward = glm::normalize(step);
+  shared::Impulse impulse{};
+  impulse.to_world = glm::vec3(to);
+  impulse.from_world = glm::vec3(to - forward * std::min(0.5 * speed, 3.0));
+  impulse.radius = 0.9f;
+  impulse.along = glm::vec3(forward * (strength * std::min(0.15 * speed, 0.6)));
+  impulse.outward = static_cast<float>(strength * std::min(0.1 * speed, 0.4));
+  out.push_back(impulse);
 }
 
 }  // namespace
@@ -128,7 +129,8 @@ shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_pe
 std::vector<shared::Impulse> impulses_of(const sim::State& state, double seconds) {
   std::vector<shared::Impulse> impulses;
   const std::size_t shots = std::min(state.holes.size(), kMaxImpulses);
-  for (const sim::BulletHole& open : std::span(state.holes).last(shots)) add_shot(open, state, seconds, impulses);
+  for (const sim::BulletHole& open : std::span(state.holes).last(shots))
+    add_shot(open, state, seconds, impulses);
   for (const sim::Body& body : state.bodies) add_body(body, state, seconds, impulses);
   for (const sim::LiveBlast& live : state.blasts) add_blast(*live.field, state, seconds, impulses);
   if (impulses.size() > kMaxImpulses)

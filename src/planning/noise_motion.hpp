@@ -14,16 +14,17 @@ constexpr double kMinSwirlPeriod = 0.1;
 
 /// What a cloud does to its noise `seconds` after tick 0. While the cloud blooms its noise grows with its
 /// front, as a puff does that keeps its shape: what is at the front stays there. It ends on its place in the
-/// grown cloud, and then creeps on by at most a seventh of its way. The rolls start fast, settle to a turn in
-/// `swirl_period`, and widen while the cloud dissolves. Every member is bounded and continuous in time.
+/// grown cloud, and then creeps on by at most a seventh of its distance. The rolls start fast, settle to a
+/// turn in `swirl_period`, and widen while the cloud dissolves. Every member is bounded and continuous in
+/// time.
 shared::CloudMotion cloud_motion(const sim::Cloud& cloud, std::uint32_t ticks_per_second, double seconds,
                                  double swirl_period);
 
 /// The most impulses at a time.
 constexpr std::size_t kMaxImpulses = 64;
 
-/// The impulses of shots, bodies and explosions; of more than kMaxImpulses the latest. Each begins and ends at
-/// rest.
+/// The impulses of shots, bodies and explosions; of more than kMaxImpulses the latest. Each begins and ends
+/// at rest.
 std::vector<shared::Impulse> impulses_of(const sim::State& state, double seconds);
 
 /// The noise of a frame.

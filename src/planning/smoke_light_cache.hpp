@@ -61,7 +61,7 @@ class SmokeLightCache {
     std::uint32_t page = kNone;
     std::uint64_t list_version = 0;           // of the texel list whose texels all have rays; 0: none
     std::uint32_t dirty_phases = kAllPhases;  // whose rays no longer hold
-    std::uint64_t last_frame = 0;             // that needed them
+    std::uint64_t last_frame = 0;             // that had the light
     // Of the light when the rays were followed: texels out of its reach have none.
     float range = 0, intensity = 0;
   };

@@ -95,7 +95,7 @@ std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const 
       irradiance.push_back(sun ? intensity : intensity / std::max(nearest * nearest, 0.25f));
     }
   }
-  // A light of a sixteenth of the brightest is looked at half as finely.
+  // A light of a sixteenth of the brightest has half the resolution.
   const float brightest = irradiance.empty() ? 1 : *std::max_element(irradiance.begin(), irradiance.end());
   for (std::size_t i = 0; i < parts.size(); ++i)
     parts[i].coarseness = std::clamp(std::pow(brightest / irradiance[i], 0.25f), 1.0f, 4.0f);

@@ -1,4 +1,4 @@
-// Which directions from which lights the smoke can dim, and how finely each is worth to be looked at.
+// Which directions from which lights the smoke can dim, and the resolution that each is worth.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct SmokeShadowPlan {
   SmokeShadowPlan spread_by(std::uint32_t spread) const;
 };
 
-/// Where the lights are and what they are for.
+/// The lights, and the camera that sees what they light.
 struct SmokeShadowScene {
   std::span<const shared::Light> lights;
   glm::mat4 sun_clip_from_world{1};
@@ -31,7 +31,7 @@ constexpr float kFinestSmokeShadow = 0.04f;
 
 /// Gives each light that can reach smoke, and surfaces in view, rectangles of an atlas of this size,
 /// disjoint, with texels of about one size in the world: as small as all of them fit, larger for what is
-/// dark. When they do not fit at any size, the last lights get none.
+/// dim. When they do not fit at any size, the last lights get none.
 SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const WorldBox> smoke,
                                    glm::uvec2 atlas_size);
 

@@ -20,13 +20,13 @@ bool is_empty(const WorldBox& box) {
 
 constexpr WorldBox kNothing{glm::vec3(1e30f), glm::vec3(-1e30f)};
 
-/// Whether smoke at a place can dim light that is on its way to what is in view.
+/// Whether smoke at a place can dim light on its path to what is in view.
 class LightPaths {
  public:
-  /// `lit`: a box around all that is lit; `visible_smoke`: around the smoke in view, empty for none; `slack`: so
-  /// far from what is in view light counts, too [m].
+  /// `lit`: a box around all that is lit; `visible_smoke`: around the smoke in view, empty for none; `slack`:
+  /// so far from what is in view light counts, too [m].
   LightPaths(const ViewFrustum& view, std::span<const shared::Light> lights, const WorldBox& lit,
-            const WorldBox& visible_smoke, float slack)
+             const WorldBox& visible_smoke, float slack)
       : view_(view), lit_(lit), visible_smoke_(visible_smoke), slack_(slack) {
     for (const shared::Light& light : lights)
       if (light.kind == shared::kLightDirectional)
@@ -100,21 +100,21 @@ class VolumeTransform {
   const shared::VolumeLayout& layout_;
 };
 
-/// Adds the slots of a cloud that are wanted, and says whether there are any; node by node, so that what is
-/// far costs little.
-bool collect_slots(const smoke::SmokeVolume& volume, const smoke::SmokeBounds& cloud, const VolumeTransform& places,
-                const auto& wanted, std::vector<std::uint32_t>& slots) {
+/// Adds the slots of a cloud that a test accepts, and returns whether there are any; node by node, so that
+/// clouds out of view cost little.
+bool collect_slots(const smoke::SmokeVolume& volume, const smoke::SmokeBounds& cloud,
+                   const VolumeTransform& places, const auto& accepts, std::vector<std::uint32_t>& slots) {
   const voxel::IntBox all = brick_range(cloud);
-  if (!wanted(around(places.bricks(all)))) return false;
+  if (!accepts(around(places.bricks(all)))) return false;
   const std::size_t before = slots.size();
   const voxel::IntBox nodes{all.low >> 3, ((all.high - 1) >> 3) + 1};
   voxel::for_each_in(nodes, [&](glm::ivec3 node) {
     const voxel::IntBox bricks =
         voxel::intersection(all, {node * shared::kNodeBricks, (node + 1) * shared::kNodeBricks});
-    if (!wanted(around(places.bricks(bricks)))) return;
+    if (!accepts(around(places.bricks(bricks)))) return;
     voxel::for_each_in(bricks, [&](glm::ivec3 brick) {
       const std::uint32_t slot = volume.slot_at(brick);
-      if (slot != smoke::SmokeVolume::kNoSlot && wanted(places.brick(brick))) slots.push_back(slot);
+      if (slot != smoke::SmokeVolume::kNoSlot && accepts(places.brick(brick))) slots.push_back(slot);
     });
   });
   return slots.size() > before;
@@ -137,13 +137,14 @@ std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights,
                                           float slack) {
   std::vector<shared::Light> seen;
   for (const shared::Light& light : lights)
-    if (light.kind == shared::kLightDirectional || view.may_intersect({light.position_world, light.range + slack}))
+    if (light.kind == shared::kLightDirectional ||
+        view.may_intersect({light.position_world, light.range + slack}))
       seen.push_back(light);
   return seen;
 }
 
 SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,
-                       std::span<const shared::Light> lights, const WorldBox& scene) {
+                           std::span<const shared::Light> lights, const WorldBox& scene) {
   const VolumeTransform places(volume.layout());
   const auto in_view = [&](const WorldSphere& smoke) { return view.may_intersect(smoke); };
   // What may be in view.
@@ -158,16 +159,17 @@ SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& 
   visibility.visible_count = static_cast<std::uint32_t>(visibility.slots.size());
 
   // What stands between that and the lights.
-  const LightPaths ways(view, lights, join(scene, visible_smoke), visible_smoke,
-                       light_interpolation_margin(volume.layout().voxel_size));
-  const auto in_the_way = [&](const WorldSphere& smoke) { return ways.may_cross(smoke); };
-  std::vector<std::uint32_t> shading;
+  const LightPaths paths(view, lights, join(scene, visible_smoke), visible_smoke,
+                         light_interpolation_margin(volume.layout().voxel_size));
+  const auto may_cast = [&](const WorldSphere& smoke) { return paths.may_cross(smoke); };
+  std::vector<std::uint32_t> casters;
   visibility.caster_bounds = visibility.visible_bounds;
   for (const smoke::SmokeBounds& cloud : volume.cloud_bounds())
-    if (collect_slots(volume, cloud, places, in_the_way, shading)) visibility.caster_bounds = with(visibility.caster_bounds, cloud);
-  sort_once(shading);
-  const std::vector<std::uint32_t> seen = visibility.slots;
-  std::set_difference(shading.begin(), shading.end(), seen.begin(), seen.end(),
+    if (collect_slots(volume, cloud, places, may_cast, casters))
+      visibility.caster_bounds = with(visibility.caster_bounds, cloud);
+  sort_once(casters);
+  const std::vector<std::uint32_t> visible = visibility.slots;
+  std::set_difference(casters.begin(), casters.end(), visible.begin(), visible.end(),
                       std::back_inserter(visibility.slots));
   return visibility;
 }
@@ -177,7 +179,8 @@ SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume) {
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
     if (volume.slot_at(volume.brick_of(slot)) == slot) visibility.slots.push_back(slot);
   visibility.visible_count = static_cast<std::uint32_t>(visibility.slots.size());
-  visibility.visible_bounds = visibility.caster_bounds = {volume.layout().bounds_min, volume.layout().bounds_max};
+  visibility.visible_bounds =
+      visibility.caster_bounds = {volume.layout().bounds_min, volume.layout().bounds_max};
   return visibility;
 }
 
@@ -193,7 +196,8 @@ std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeV
   }
   std::vector<WorldBox> boxes;
   for (const auto& [node, box] : nodes) {
-    const WorldBox cut{glm::max(box.low, visibility.caster_bounds.low), glm::min(box.high, visibility.caster_bounds.high)};
+    const WorldBox cut{glm::max(box.low, visibility.caster_bounds.low),
+                       glm::min(box.high, visibility.caster_bounds.high)};
     if (glm::all(glm::lessThan(cut.low, cut.high))) boxes.push_back(places.box(cut.low, cut.high));
   }
   return boxes;

@@ -1,5 +1,5 @@
-// Which of the smoke and of the lights a frame needs: what may be in view, and what may stand in the way of
-// light to it. A frame's time follows that, not the world.
+// Which smoke and which lights a frame requires: what may be in view, and what may cast shadows on it. The
+// cost of a frame follows that, not the size of the world.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct WorldBox {
 
 struct SmokeVisibility {
   /// Slots in use whose smoke may be in view, in rising order; after them, likewise, those whose smoke may
-  /// dim light on its way to what is in view.
+  /// dim light on its path to what is in view.
   std::vector<std::uint32_t> slots;
   std::uint32_t visible_count = 0;    ///< How many of `slots` may be in view.
   smoke::SmokeBounds visible_bounds;  ///< Around the clouds that may be in view; no volume: none.
@@ -37,14 +37,14 @@ std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights,
 
 /// `lights` are those that reach anything in view, `scene` is a box around all surfaces. Rays through the
 /// smoke run from what is in view to these lights and, through smoke, to the sky (shared/smoke_light.h): all
-/// slots that they can meet are needed. What one cloud needs does not depend on clouds that are not needed.
+/// slots that they can meet are required. What one cloud requires does not depend on clouds that are not.
 SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,
-                       std::span<const shared::Light> lights, const WorldBox& scene);
+                           std::span<const shared::Light> lights, const WorldBox& scene);
 
 /// As if all were in view.
 SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume);
 
-/// Boxes around the needed smoke: one for each node of the page table that holds some.
+/// Boxes around the required smoke: one for each node of the page table that holds some.
 std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility);
 
 }  // namespace brume::planning

@@ -5,9 +5,9 @@
 namespace brume::planning {
 
 std::uint32_t UpdateScheduler::slices_for(float update_fraction) const {
-  const float wanted = update_fraction * static_cast<float>(slice_count_);
+  const float at_least = update_fraction * static_cast<float>(slice_count_);
   std::uint32_t slices = slice_count_;
-  while (slices > 1 && static_cast<float>(slices / 2) >= wanted) slices /= 2;
+  while (slices > 1 && static_cast<float>(slices / 2) >= at_least) slices /= 2;
   return slices;
 }
 

@@ -9,10 +9,10 @@ ViewFrustum::ViewFrustum(const shared::Camera& camera) : eye_world_(camera.eye_w
   inward_ = {camera.forward, side(camera.right), side(-camera.right), side(camera.up), side(-camera.up)};
 }
 
-bool ViewFrustum::may_intersect(const WorldSphere& sphere, glm::vec3 way) const {
+bool ViewFrustum::may_intersect(const WorldSphere& sphere, glm::vec3 segment) const {
   const glm::vec3 from_eye = sphere.centre - eye_world_;
   return std::all_of(inward_.begin(), inward_.end(), [&](glm::vec3 inward) {
-    return glm::dot(from_eye, inward) + std::max(glm::dot(way, inward), 0.0f) >= -sphere.radius;
+    return glm::dot(from_eye, inward) + std::max(glm::dot(segment, inward), 0.0f) >= -sphere.radius;
   });
 }
 

@@ -1,4 +1,4 @@
-// What a camera can see of the world, for whoever must decide what a frame needs.
+// What a camera can see of the world, for the decision what a frame requires.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@ struct WorldSphere {
   float radius = 0;
 };
 
-/// The pyramid before a camera, without end. Its answers err to one side only: what may be seen is never
-/// denied.
+/// The pyramid before a camera, without a far plane. Its tests are conservative: what is visible is never
+/// rejected.
 class ViewFrustum {
  public:
   explicit ViewFrustum(const shared::Camera& camera);
 
   /// Whether any of a sphere may be in view.
   bool may_intersect(const WorldSphere& sphere) const { return may_intersect(sphere, glm::vec3(0)); }
-  /// Whether any of a sphere may be in view somewhere on its way along `way` [m].
-  bool may_intersect(const WorldSphere& sphere, glm::vec3 way) const;
+  /// Whether any of a sphere may be in view somewhere on a segment from where it is, along `segment` [m].
+  bool may_intersect(const WorldSphere& sphere, glm::vec3 segment) const;
 
  private:
   glm::vec3 eye_world_;

@@ -12,7 +12,7 @@ namespace {
 
 glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
   const glm::mat4 moved = glm::translate(glm::mat4(1), grenade.position_world);
-  // It tumbles: about one and a half turns a second, around an axis askew.
+  // It tumbles: about one and a half turns a second, around an oblique axis.
   return glm::rotate(moved, 9.0f * grenade.flight_seconds, glm::normalize(glm::vec3(1.0f, 0.35f, 0.2f)));
 }
 
@@ -69,7 +69,7 @@ Playback::Playback(gpu::Context& context, const scenario::Scenario& scenario, co
               VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback),
       list_(context, sizeof(shared::MarchList), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
 
-double Playback::share_marched() const {
+double Playback::fraction_marched() const {
   if (!renderer_.march_tiles()) return 1;
   shared::MarchList list{};
   std::memcpy(&list, list_.mapped(), sizeof list);
@@ -94,12 +94,12 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
     if (renderer_.march_tiles())
       recorder.read_back(renderer_.march_tiles()->list, list_, sizeof(shared::MarchList));
   });
-  image::Image8 picture;
-  picture.width = renderer_.size_px().x;
-  picture.height = renderer_.size_px().y;
-  picture.rgba.resize(pixels_.size());
-  std::memcpy(picture.rgba.data(), pixels_.mapped(), picture.rgba.size());
-  return picture;
+  image::Image8 image;
+  image.width = renderer_.size_px().x;
+  image.height = renderer_.size_px().y;
+  image.rgba.resize(pixels_.size());
+  std::memcpy(image.rgba.data(), pixels_.mapped(), image.rgba.size());
+  return image;
 }
 
 }  // namespace brume::render

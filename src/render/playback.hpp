@@ -1,4 +1,4 @@
-// Plays a scenario on a device: draws any moment of its timeline.
+// Plays a scenario on a device: draws any time of its timeline.
 #pragma once
 
 #include <memory>
@@ -22,9 +22,9 @@ class Playback {
   Playback(gpu::Context& context, const scenario::Scenario& scenario, glm::uvec2 size_px)
       : Playback(context, scenario, RendererOptions{size_px}) {}
 
-  /// The picture at a time [s]: the same for the same time and frame index, whatever came before. With
+  /// The image at a time [s]: the same for the same time and frame index, whatever came before. With
   /// RendererOptions::temporal a frame whose index is one more than that of the draw before goes on from it;
-  /// any other begins anew.
+  /// any other starts over.
   image::Image8 draw(double seconds, std::uint32_t frame_index);
   /// Where the camera is instead of on the timeline's path; empty: on the path.
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
@@ -33,15 +33,15 @@ class Playback {
   /// Quality::resolve_error_scale of the frames that follow.
   void set_resolve_error_scale(float scale) { resolve_error_scale_ = scale; }
   /// Quality::light_update_fraction of the frames that follow; below 1 they depend on those before.
-  void set_light_update_fraction(float share) { light_update_fraction_ = share; }
+  void set_light_update_fraction(float fraction) { light_update_fraction_ = fraction; }
   /// FrameInput::debug of the frames that follow.
   void set_view(passes::DebugView view, const std::optional<passes::ViewSlice>& slice) {
     debug_ = {view, slice};
   }
   /// GPU times of the passes of the last frame.
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
-  /// Share of the pixels of the last frame whose rays were marched one by one, in [0, 1].
-  double share_marched() const;
+  /// Fraction of the pixels of the last frame whose rays were marched one by one, in [0, 1].
+  double fraction_marched() const;
   const scenario::Simulation& simulation() const { return *simulation_; }
 
  private:

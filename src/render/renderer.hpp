@@ -42,7 +42,7 @@ class Renderer {
   /// what was recorded before. Throws resource_limit.
   void set_march_scale(std::uint32_t scale);
 
-  /// Pictures of another size from the next frame on, each side in [1, 16384]; a film begins anew. When the
+  /// Frames of another size from the next one on, each side in [1, 16384]; a film starts over. When the
   /// device is done with what was recorded before. Throws resource_limit.
   void resize(glm::uvec2 size_px);
   /// Other masks of the holes; uploads them. When the device is done with what was recorded before.
@@ -107,7 +107,7 @@ class Renderer {
   passes::SmokeLightPass smoke_light_pass_;
   passes::MarchPass march_pass_;
   std::optional<passes::MarchPass> counting_march_;  ///< For the view of steps.
-  std::optional<passes::DebugViewPass> debug_view_;  ///< From the first frame that is not the picture on.
+  std::optional<passes::DebugViewPass> debug_view_;  ///< From the first frame with a debug view on.
   passes::ResolvePass resolve_pass_;
   passes::DisplayPass display_pass_;
   passes::SmokeUpload smoke_upload_;
@@ -118,7 +118,7 @@ class Renderer {
   passes::GBuffer gbuffer_;
   passes::SmokeShadows smoke_shadows_;
   gpu::Image noise_, blue_noise_, smoke_image_, picture_, display_image_;
-  std::optional<passes::AccumulatePass> accumulate_pass_;  ///< Where smoke is gathered over frames.
+  std::optional<passes::AccumulatePass> accumulate_pass_;  ///< Where smoke is accumulated over frames.
   std::optional<passes::MarchTiles> march_tiles_;          ///< Where march_scale_ is above 1.
   passes::HoleClusters hole_clusters_;
   gpu::Buffer frame_, counters_;

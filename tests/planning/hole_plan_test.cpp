@@ -41,7 +41,7 @@ shared::VolumeLayout wide_volume() {
   return volume;
 }
 
-TEST(HolePlan, LeavesOutWhatIsNotOpen) {
+TEST(HolePlan, OmitsWhatIsNotOpen) {
   std::vector<shared::Hole> holes = random_holes(3, 1, 5);
   for (shared::Hole& hole : holes) {
     hole.time_to_reach_far = 0.25f;

@@ -51,9 +51,9 @@ class NoiseUpdatesTest : public ::testing::Test {
   NoiseUpdates updates_;
 };
 
-TEST_F(NoiseUpdatesTest, EveryBrickHasATurnInFourFramesAndAMomentThatStandsIsDone) {
+TEST_F(NoiseUpdatesTest, EveryBrickIsDueInFourFramesAndNoneWhileTimeStandsStill) {
   EXPECT_EQ(due(), all());
-  EXPECT_TRUE(due().empty()) << "the same moment again";
+  EXPECT_TRUE(due().empty()) << "the same time again";
   std::map<std::uint32_t, int> last;
   for (const std::uint32_t slot : visibility_.slots) last[slot] = 0;
   for (int frame = 1; frame < 30; ++frame) {
@@ -63,7 +63,7 @@ TEST_F(NoiseUpdatesTest, EveryBrickHasATurnInFourFramesAndAMomentThatStandsIsDon
     for (const std::uint32_t slot : now) last[slot] = frame;
     for (const auto& [slot, when] : last) EXPECT_LE(frame - when, 4);
   }
-  // What has had no turn yet at this time, and nothing more.
+  // What was not due yet at this time, and nothing more.
   inputs_.time += 0.1f;
   const auto first = due();
   const auto rest = due();
@@ -76,12 +76,12 @@ TEST_F(NoiseUpdatesTest, EveryBrickHasATurnInFourFramesAndAMomentThatStandsIsDon
 
 TEST_F(NoiseUpdatesTest, WhatMovesOrIsNewIsNeverLate) {
   due();
-  // A push through the first smoke, in the frames that have it and in the one after.
-  shared::Impulse push{};
-  push.from_world = {2, 1, 8};
-  push.to_world = {14, 1, 8};
-  push.radius = 0.5f;
-  const std::vector<shared::Impulse> impulses{push};
+  // An impulse through the first smoke, in the frames that have it and in the one after.
+  shared::Impulse impulse{};
+  impulse.from_world = {2, 1, 8};
+  impulse.to_world = {14, 1, 8};
+  impulse.radius = 0.5f;
+  const std::vector<shared::Impulse> impulses{impulse};
   std::set<std::uint32_t> near;
   for (const std::uint32_t slot : visibility_.slots) {
     const glm::vec3 low = 8 * kVoxel * glm::vec3(volume_.brick_of(slot));
@@ -111,7 +111,7 @@ TEST_F(NoiseUpdatesTest, WhatMovesOrIsNewIsNeverLate) {
   // A cloud that blooms.
   motions_[1].front += 0.1f;
   EXPECT_EQ(due(), all());
-  // Another look, and somebody else in between.
+  // Another look, and frames in between that did not slice.
   inputs_.look.swirl = 1;
   EXPECT_EQ(due(), all());
   updates_.invalidate();

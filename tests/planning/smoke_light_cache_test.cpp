@@ -19,9 +19,9 @@ namespace {
 constexpr float kVoxel = 0.5f;
 
 /// Three smokes in an open world, lights between.
-class SmokeLightPlanTest : public ::testing::Test {
+class SmokeLightCacheTest : public ::testing::Test {
  protected:
-  SmokeLightPlanTest() {
+  SmokeLightCacheTest() {
     for (const double x : {6.0, 20.0, 34.0}) {
       sim::ThrowSmoke event;
       event.from = event.at = sim::position_from_metres(glm::dvec3(x, 1, 8));
@@ -40,13 +40,13 @@ class SmokeLightPlanTest : public ::testing::Test {
     }
   }
   SmokeLightInputs inputs() const {
-    SmokeLightInputs moment;
-    moment.volume = &volume_;
-    moment.visibility = &visibility_;
-    moment.lights = lights_;
-    moment.holes = holes_;
-    moment.time = 1.5f;
-    return moment;
+    SmokeLightInputs inputs;
+    inputs.volume = &volume_;
+    inputs.visibility = &visibility_;
+    inputs.lights = lights_;
+    inputs.holes = holes_;
+    inputs.time = 1.5f;
+    return inputs;
   }
 
   const voxel::BitGrid grid_{{{80, 16, 32}, kVoxel, glm::vec3(0)}};
@@ -58,14 +58,14 @@ class SmokeLightPlanTest : public ::testing::Test {
   std::vector<shared::Hole> holes_;
 };
 
-TEST_F(SmokeLightPlanTest, AsksForEveryLampOfEveryBrickOnceAndThenForNothing) {
-  SmokeLightCache kept;
-  const SmokeLightPlan first = kept.plan(inputs());
+TEST_F(SmokeLightCacheTest, FollowsEveryLightOfEveryBrickOnceAndThenNothing) {
+  SmokeLightCache cache;
+  const SmokeLightPlan first = cache.plan(inputs());
   ASSERT_EQ(first.parts.size(), 1u);
   EXPECT_EQ(first.gathers.size(), visibility_.visible_count);
   EXPECT_EQ(first.texel_lists.size(), visibility_.visible_count);
   std::set<std::uint32_t> blocks;
-  for (const shared::ShadowRays& pair : first.shadow_rays) EXPECT_TRUE(blocks.insert(pair.block).second);
+  for (const shared::ShadowRays& rays : first.shadow_rays) EXPECT_TRUE(blocks.insert(rays.block).second);
   EXPECT_EQ(blocks.size(), first.page_count);
   // Every point of a brick within the range of a light has that light.
   const shared::VolumeLayout& layout = volume_.layout();
@@ -80,16 +80,16 @@ TEST_F(SmokeLightPlanTest, AsksForEveryLampOfEveryBrickOnceAndThenForNothing) {
         listed |= first.gathered_lights[brick.first_light + i].x == light;
       EXPECT_TRUE(listed);
     }
-  const SmokeLightPlan again = kept.plan(inputs());
+  const SmokeLightPlan again = cache.plan(inputs());
   EXPECT_TRUE(again.parts.empty() && again.shadow_rays.empty() && again.gathers.empty());
 }
 
-TEST_F(SmokeLightPlanTest, WhatDoesNotFitIsDoneInParts) {
+TEST_F(SmokeLightCacheTest, WhatDoesNotFitIsDoneInParts) {
   const std::size_t all = SmokeLightCache().plan(inputs()).shadow_rays.size();
   const auto most = static_cast<std::uint32_t>(all / 3);
-  SmokeLightCache kept(most);
+  SmokeLightCache cache(most);
   for (int repeat = 0; repeat < 2; ++repeat) {
-    const SmokeLightPlan plan = kept.plan(inputs());
+    const SmokeLightPlan plan = cache.plan(inputs());
     EXPECT_GT(plan.parts.size(), 2u);
     EXPECT_LE(plan.page_count, most);
     EXPECT_EQ(plan.shadow_rays.size(), all);
@@ -109,9 +109,9 @@ TEST_F(SmokeLightPlanTest, WhatDoesNotFitIsDoneInParts) {
   }
 }
 
-TEST_F(SmokeLightPlanTest, AHoleMakesAnewOnlyWhatMayCrossIt) {
-  SmokeLightCache kept;
-  const std::size_t all = kept.plan(inputs()).shadow_rays.size();
+TEST_F(SmokeLightCacheTest, AHoleInvalidatesOnlyTheRaysThatMayCrossIt) {
+  SmokeLightCache cache;
+  const std::size_t all = cache.plan(inputs()).shadow_rays.size();
   // Along z through the first smoke; the last is 28 m away, and no light reaches from there to here.
   shared::Hole hole{};
   hole.origin_world = {6, 1, 4};
@@ -121,91 +121,91 @@ TEST_F(SmokeLightPlanTest, AHoleMakesAnewOnlyWhatMayCrossIt) {
   hole.time_start = 1;
   hole.time_to_stay_open = 10;
   holes_ = {hole};
-  const SmokeLightPlan plan = kept.plan(inputs());
+  const SmokeLightPlan plan = cache.plan(inputs());
   EXPECT_GT(plan.shadow_rays.size(), 0u);
   EXPECT_LT(plan.shadow_rays.size(), all);
-  // All the lights' rays of the smoke that it goes through.
+  // The rays to all lights from the smoke that it goes through.
   const auto in_first = [&](std::uint32_t slot) {
     return static_cast<float>(8 * volume_.brick_of(slot).x) * kVoxel < 12;
   };
   const SmokeLightPlan whole = SmokeLightCache().plan(inputs());
   std::multiset<std::uint32_t> lights, whole_lights;
-  for (const auto& pair : plan.shadow_rays)
-    if (volume_.brick_of(pair.slot) == glm::ivec3(1, 0, 2)) lights.insert(pair.light);
-  for (const auto& pair : whole.shadow_rays)
-    if (volume_.brick_of(pair.slot) == glm::ivec3(1, 0, 2)) whole_lights.insert(pair.light);
+  for (const auto& rays : plan.shadow_rays)
+    if (volume_.brick_of(rays.slot) == glm::ivec3(1, 0, 2)) lights.insert(rays.light);
+  for (const auto& rays : whole.shadow_rays)
+    if (volume_.brick_of(rays.slot) == glm::ivec3(1, 0, 2)) whole_lights.insert(rays.light);
   EXPECT_FALSE(whole_lights.empty());
   EXPECT_EQ(lights, whole_lights);
   bool far_light = false;
-  for (const auto& pair : plan.shadow_rays) far_light |= !in_first(pair.slot) && pair.light == 8;
+  for (const auto& rays : plan.shadow_rays) far_light |= !in_first(rays.slot) && rays.light == 8;
   EXPECT_FALSE(far_light);
 }
 
-/// When each phase of each brick was made anew by all of its pairs, as plans say.
+/// When each phase of each brick was updated by all of its rays, according to plans.
 class Ages {
  public:
-  /// Takes a frame's plan; how many pairs it asks for, those of some phases in parts.
+  /// Takes a frame's plan; how many pages of rays it follows, those of some phases as fractions.
   double take(const SmokeLightPlan& plan, std::uint32_t frame) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> times;  // of (slot, phase)
-    for (const shared::ShadowRays& pair : plan.shadow_rays) {
-      if (pair.texels == shared::kNewTexels) continue;
-      for (std::uint32_t phase = pair.texels & 255; phase < pair.texels >> 8; ++phase)
-        ++times[{pair.slot, phase}];
-      asked_ += (pair.texels >> 8) - (pair.texels & 255);
+    for (const shared::ShadowRays& rays : plan.shadow_rays) {
+      if (rays.texels == shared::kNewTexels) continue;
+      for (std::uint32_t phase = rays.texels & 255; phase < rays.texels >> 8; ++phase)
+        ++times[{rays.slot, phase}];
+      followed_ += (rays.texels >> 8) - (rays.texels & 255);
     }
     for (const shared::LightGather& brick : plan.gathers) {
       if (brick.texels == shared::kNewTexels) continue;
       for (std::uint32_t phase = brick.texels & 255; phase < brick.texels >> 8; ++phase)
         if (times[{brick.slot, phase}] == brick.light_count + shared::kSkyPages)
-          made_[{brick.slot, phase}] = frame;
+          updated_[{brick.slot, phase}] = frame;
     }
-    return static_cast<double>(std::exchange(asked_, 0)) / shared::kLightPhases;
+    return static_cast<double>(std::exchange(followed_, 0)) / shared::kLightPhases;
   }
   std::uint32_t oldest(std::uint32_t frame) const {
     std::uint32_t oldest = 0;
-    for (const auto& [what, made] : made_) oldest = std::max(oldest, frame - made);
+    for (const auto& [what, made] : updated_) oldest = std::max(oldest, frame - made);
     return oldest;
   }
-  std::size_t size() const { return made_.size(); }
+  std::size_t size() const { return updated_.size(); }
 
  private:
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made_;
-  std::uint64_t asked_ = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> updated_;
+  std::uint64_t followed_ = 0;
 };
 
-TEST_F(SmokeLightPlanTest, AShareMakesEveryPhaseAnewInTime) {
-  for (const float share : {0.5f, 0.3f, 0.25f, 0.125f, 0.0625f, 0.01f}) {
-    SmokeLightCache kept;
+TEST_F(SmokeLightCacheTest, AnUpdateFractionUpdatesEveryPhaseInTime) {
+  for (const float fraction : {0.5f, 0.3f, 0.25f, 0.125f, 0.0625f, 0.01f}) {
+    SmokeLightCache cache;
     Ages ages;
     SmokeLightInputs now = inputs();
     now.look.erosion = 0.5f;
-    now.update_fraction = share;
-    const double all = ages.take(kept.plan(now), 0);
-    EXPECT_EQ(ages.size(), visibility_.visible_count * shared::kLightPhases) << "at first all is made";
+    now.update_fraction = fraction;
+    const double all = ages.take(cache.plan(now), 0);
+    EXPECT_EQ(ages.size(), visibility_.visible_count * shared::kLightPhases) << "at first all is updated";
     // What there is of it: 1/2, 1/4, ... 1/16.
-    const double part = std::max(std::exp2(std::floor(std::log2(double{share}))), 1.0 / 16);
-    const double more = std::max(std::exp2(std::ceil(std::log2(double{share}))), 1.0 / 16);
+    const double part = std::max(std::exp2(std::floor(std::log2(double{fraction}))), 1.0 / 16);
+    const double more = std::max(std::exp2(std::ceil(std::log2(double{fraction}))), 1.0 / 16);
     std::uint32_t oldest = 0;
     for (std::uint32_t frame = 1; frame < 100; ++frame) {
       now.time += 0.01f;
       now.eye_world.x += 0.1f;
-      const double asked = ages.take(kept.plan(now), frame);
+      const double followed = ages.take(cache.plan(now), frame);
       oldest = std::max(oldest, ages.oldest(frame));
-      // Every brick was new in the first frame, and is made anew four times as fast until all of it was.
+      // Every brick was new in the first frame, and is updated four times as fast until all of it was.
       if (frame < 4) continue;
-      EXPECT_GE(asked, part * all);
-      EXPECT_LE(asked, more * all);
+      EXPECT_GE(followed, part * all);
+      EXPECT_LE(followed, more * all);
     }
-    EXPECT_LE(oldest, std::ceil(1 / std::max(share, 1.0f / 16)) + 1);
+    EXPECT_LE(oldest, std::ceil(1 / std::max(fraction, 1.0f / 16)) + 1);
     EXPECT_GT(oldest, 0u);
     // And then nothing happens.
-    const auto left = static_cast<int>(std::ceil(1 / std::max(share, 1.0f / 16)));
-    for (int i = 0; i < left; ++i) kept.plan(now);
-    EXPECT_TRUE(kept.plan(now).parts.empty());
+    const auto left = static_cast<int>(std::ceil(1 / std::max(fraction, 1.0f / 16)));
+    for (int i = 0; i < left; ++i) cache.plan(now);
+    EXPECT_TRUE(cache.plan(now).parts.empty());
   }
 }
 
-TEST_F(SmokeLightPlanTest, TexelsSideBySideAreOfOtherPhasesAndBricksAgreeOnThem) {
+TEST_F(SmokeLightCacheTest, TexelsSideBySideAreOfOtherPhasesAndBricksAgreeOnThem) {
   std::array<std::uint32_t, shared::kLightPhases> texels{};
   for (std::uint32_t i = 0; i < shared::kTexelsPerBrick; ++i) {
     const glm::uvec3 texel(i % 10, i / 10 % 10, i / 100);
@@ -215,7 +215,7 @@ TEST_F(SmokeLightPlanTest, TexelsSideBySideAreOfOtherPhasesAndBricksAgreeOnThem)
     for (int axis = 0; axis < 3; ++axis) {
       glm::uvec3 beside = texel;
       beside[axis] += 1;
-      // In the other half, so that it is never made anew in the same frame.
+      // In the other half, so that it is never updated in the same frame.
       EXPECT_NE(shared::light_phase(beside) >> 3, phase >> 3);
       // The same voxel in the next brick.
       beside[axis] = texel[axis] + shared::kBrickVoxels;
@@ -225,12 +225,12 @@ TEST_F(SmokeLightPlanTest, TexelsSideBySideAreOfOtherPhasesAndBricksAgreeOnThem)
   for (const std::uint32_t count : texels) EXPECT_LE(count, shared::kTexelsPerPhase);
 }
 
-TEST_F(SmokeLightPlanTest, ALampThatComesOrGoesIsNeverLate) {
-  SmokeLightCache kept;
+TEST_F(SmokeLightCacheTest, ALightThatComesOrGoesIsNeverLate) {
+  SmokeLightCache cache;
   SmokeLightInputs now = inputs();
   now.look.erosion = 0.5f;
   now.update_fraction = 0.125f;
-  for (int i = 0; i < 12; ++i, now.time += 0.1f) kept.plan(now);
+  for (int i = 0; i < 12; ++i, now.time += 0.1f) cache.plan(now);
   std::vector<shared::Light> with = lights_;
   with.push_back(lights_[4]);
   with.back().position_world.y = 3;
@@ -241,27 +241,27 @@ TEST_F(SmokeLightPlanTest, ALampThatComesOrGoesIsNeverLate) {
       if (brick.texels == shared::kAllTexels) slots.insert(brick.slot);
     return slots;
   };
-  const SmokeLightPlan come = kept.plan(now);
+  const SmokeLightPlan come = cache.plan(now);
   std::set<std::uint32_t> reached;
-  for (const shared::ShadowRays& pair : come.shadow_rays)
-    if (pair.light == 9) {
-      EXPECT_EQ(pair.texels, shared::kAllTexels);
-      EXPECT_TRUE(reached.insert(pair.slot).second);
+  for (const shared::ShadowRays& rays : come.shadow_rays)
+    if (rays.light == 9) {
+      EXPECT_EQ(rays.texels, shared::kAllTexels);
+      EXPECT_TRUE(reached.insert(rays.slot).second);
     }
   EXPECT_FALSE(reached.empty());
   EXPECT_LT(reached.size(), visibility_.visible_count);
   EXPECT_EQ(bricks_of(come), reached);
   now.time += 0.1f;
   now.lights = lights_;
-  EXPECT_EQ(bricks_of(kept.plan(now)), reached);
+  EXPECT_EQ(bricks_of(cache.plan(now)), reached);
 }
 
-TEST_F(SmokeLightPlanTest, TexelsInAHoleThatChangesAreNeverLate) {
-  SmokeLightCache kept;
+TEST_F(SmokeLightCacheTest, TexelsInAHoleThatChangesAreNeverLate) {
+  SmokeLightCache cache;
   SmokeLightInputs now = inputs();
   now.look.erosion = 0.5f;
   now.update_fraction = 0.125f;
-  for (int i = 0; i < 12; ++i, now.time += 0.1f) kept.plan(now);
+  for (int i = 0; i < 12; ++i, now.time += 0.1f) cache.plan(now);
   shared::Hole hole{};
   hole.origin_world = {6, 1, 4};
   hole.forward = {0, 0, 1};
@@ -271,7 +271,7 @@ TEST_F(SmokeLightPlanTest, TexelsInAHoleThatChangesAreNeverLate) {
   hole.time_to_stay_open = 10;
   holes_ = {hole};
   now.holes = holes_;
-  const SmokeLightPlan plan = kept.plan(now);
+  const SmokeLightPlan plan = cache.plan(now);
   std::set<std::uint32_t> listed;
   for (const shared::TexelList& row : plan.texel_lists) {
     listed.insert(row.slot);
@@ -286,17 +286,17 @@ TEST_F(SmokeLightPlanTest, TexelsInAHoleThatChangesAreNeverLate) {
     EXPECT_TRUE(slot == smoke::SmokeVolume::kNoSlot || listed.count(slot) > 0);
   }
   EXPECT_LT(listed.size(), visibility_.visible_count / 2);
-  // Each with all of its pairs.
+  // Each with all of its rays.
   std::map<std::uint32_t, std::uint32_t> pairs, wanted;
-  for (const shared::ShadowRays& pair : plan.shadow_rays)
-    if (pair.texels == shared::kNewTexels) ++pairs[pair.slot];
+  for (const shared::ShadowRays& rays : plan.shadow_rays)
+    if (rays.texels == shared::kNewTexels) ++pairs[rays.slot];
   for (const shared::LightGather& brick : plan.gathers)
     if (brick.texels == shared::kNewTexels) wanted[brick.slot] = brick.light_count + shared::kSkyPages;
   EXPECT_EQ(pairs, wanted);
   EXPECT_EQ(wanted.size(), listed.size());
 }
 
-TEST(SameCut, IsOnlySaidWhereNothingDiffers) {
+TEST(SameOpening, HoldsOnlyWhereNothingDiffers) {
   std::mt19937 random(5);
   const auto unit = [&] { return std::uniform_real_distribution<float>(0, 1)(random); };
   int same = 0, different = 0;
@@ -321,10 +321,10 @@ TEST(SameCut, IsOnlySaidWhereNothingDiffers) {
           hole.origin_world + glm::vec3(2 * unit() - 1, 2 * unit() - 1, hole.distance_to_far * unit());
       equal &= shared::hole_strength(hole, p, a, 0) == shared::hole_strength(hole, p, b, 0);
     }
-    const bool said = same_opening(hole, a, b);
-    same += said;
+    const bool holds = same_opening(hole, a, b);
+    same += holds;
     different += !equal;
-    EXPECT_TRUE(equal || !said);
+    EXPECT_TRUE(equal || !holds);
   }
   EXPECT_GT(same, 3000);
   EXPECT_GT(different, 3000);

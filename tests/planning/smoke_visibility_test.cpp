@@ -54,21 +54,22 @@ class SmokeVisibilityTest : public ::testing::Test {
     camera.up = 0.6f * wide * glm::normalize(glm::cross(camera.right, camera.forward));
     return camera;
   }
-  SmokeVisibility needs(const shared::Camera& camera) const {
+  SmokeVisibility visible_from(const shared::Camera& camera) const {
     const ViewFrustum view(camera);
-    return cull_smoke(volume_, view, visible_lights(lights_, view, light_interpolation_margin(kVoxel)), scene_);
+    return cull_smoke(volume_, view, visible_lights(lights_, view, light_interpolation_margin(kVoxel)),
+                      scene_);
   }
-  /// Whether all smoke on a way is needed: looked up twice a voxel.
-  bool all_visible(const SmokeVisibility& needs, glm::vec3 from, glm::vec3 way, bool seen) const {
-    const smoke::SmokeBounds& bounds = seen ? needs.visible_bounds : needs.caster_bounds;
-    const std::size_t first_slots = seen ? needs.visible_count : needs.slots.size();
-    const int count = static_cast<int>(glm::length(way) / (0.5f * kVoxel)) + 1;
+  /// Whether all smoke on a segment is required: sampled twice a voxel.
+  bool all_visible(const SmokeVisibility& visibility, glm::vec3 from, glm::vec3 segment, bool seen) const {
+    const smoke::SmokeBounds& bounds = seen ? visibility.visible_bounds : visibility.caster_bounds;
+    const std::size_t first_slots = seen ? visibility.visible_count : visibility.slots.size();
+    const int count = static_cast<int>(glm::length(segment) / (0.5f * kVoxel)) + 1;
     for (int i = 0; i <= count; ++i) {
-      const glm::vec3 p = (from + way * (static_cast<float>(i) / static_cast<float>(count))) / kVoxel;
+      const glm::vec3 p = (from + segment * (static_cast<float>(i) / static_cast<float>(count))) / kVoxel;
       if (smoke::sample_density(volume_, p) <= 0) continue;
       const std::uint32_t slot = volume_.slot_at(glm::ivec3(glm::floor(p)) >> 3);
-      const auto end = needs.slots.begin() + static_cast<std::ptrdiff_t>(first_slots);
-      if (std::find(needs.slots.begin(), end, slot) == end) return false;
+      const auto end = visibility.slots.begin() + static_cast<std::ptrdiff_t>(first_slots);
+      if (std::find(visibility.slots.begin(), end, slot) == end) return false;
       if (glm::any(glm::lessThan(p, bounds.low)) || glm::any(glm::greaterThan(p, bounds.high))) return false;
     }
     return true;
@@ -84,60 +85,60 @@ class SmokeVisibilityTest : public ::testing::Test {
   std::vector<shared::Light> lights_;
 };
 
-// Every ray that the passes walk for a picture finds its smoke among what was said to be needed.
-TEST_F(SmokeVisibilityTest, NoRayOfAPictureMeetsSmokeThatIsNotNeeded) {
+// Every ray that the passes march for a frame finds its smoke among the required slots.
+TEST_F(SmokeVisibilityTest, NoRayOfAFrameMeetsSmokeThatIsNotRequired) {
   std::size_t rays = 0, fewer = 0;
   const shared::Light sun = lights_.back();
   for (int i = 0; i < 4000; ++i) {
-    // Every other time there is no sun, which needs much that lights need, too.
+    // Every other time there is no sun, which requires much that lights require, too.
     lights_.resize(25);
     if (i % 2 == 0) lights_.push_back(sun);
     const shared::Camera camera = this->camera();
-    const SmokeVisibility needs = this->needs(camera);
-    fewer += needs.slots.size() < all_smoke_visible(volume_).slots.size();
+    const SmokeVisibility visibility = visible_from(camera);
+    fewer += visibility.slots.size() < all_smoke_visible(volume_).slots.size();
     for (int k = 0; k < 40; ++k) {
       // A point in view; smoke may be between it and the eye.
       const float x = 2 * unit(random_) - 1, y = 2 * unit(random_) - 1, far = 60 * unit(random_);
       const glm::vec3 to = far * (camera.forward + x * camera.right + y * camera.up),
                       p = camera.eye_world + to;
-      EXPECT_TRUE(all_visible(needs, camera.eye_world, to, true));
+      EXPECT_TRUE(all_visible(visibility, camera.eye_world, to, true));
       if (glm::any(glm::lessThan(p, scene_.low)) || glm::any(glm::greaterThan(p, scene_.high))) continue;
       // It is lit.
       for (const shared::Light& light : lights_) {
-        glm::vec3 way = light.position_world - p;
+        glm::vec3 segment = light.position_world - p;
         if (light.kind == shared::kLightDirectional)
-          way = -200.0f * light.direction;
-        else if (glm::length(way) >= light.range)
+          segment = -200.0f * light.direction;
+        else if (glm::length(segment) >= light.range)
           continue;
-        EXPECT_TRUE(all_visible(needs, p, way, false));
+        EXPECT_TRUE(all_visible(visibility, p, segment, false));
         ++rays;
       }
       if (smoke::sample_density(volume_, p / kVoxel) <= 0) continue;
       for (std::uint32_t sky = 0; sky < shared::kSkyRays; ++sky, ++rays)
-        EXPECT_TRUE(all_visible(needs, p, 200.0f * shared::sky_ray(sky), false));
+        EXPECT_TRUE(all_visible(visibility, p, 200.0f * shared::sky_ray(sky), false));
     }
   }
   EXPECT_GT(rays, 5000u);
-  EXPECT_GT(fewer, 3000u) << "most pictures need less than all";
+  EXPECT_GT(fewer, 3000u) << "most frames require less than all";
 }
 
-TEST_F(SmokeVisibilityTest, WhatIsFarBehindIsNotNeeded) {
+TEST_F(SmokeVisibilityTest, SmokeFarBehindIsNotRequired) {
   lights_.pop_back();  // the sun
   shared::Camera camera{};
   camera.eye_world = {-100, 10, 80};
   camera.forward = {-1, 0, 0};
   camera.right = {0, 0, 0.7f};
   camera.up = {0, 0.4f, 0};
-  const SmokeVisibility none = needs(camera);
+  const SmokeVisibility none = visible_from(camera);
   EXPECT_TRUE(none.slots.empty());
   EXPECT_EQ(none.caster_bounds.low, none.caster_bounds.high);
   EXPECT_TRUE(smoke_boxes(volume_, none).empty());
   camera.forward = {1, 0, 0};
-  EXPECT_GT(needs(camera).visible_count, 0u);
+  EXPECT_GT(visible_from(camera).visible_count, 0u);
 }
 
 // Of all smoke the boxes are what bounds it.
-TEST_F(SmokeVisibilityTest, BoxesHoldWhatIsNeeded) {
+TEST_F(SmokeVisibilityTest, BoxesHoldTheRequiredSmoke) {
   const SmokeVisibility all = all_smoke_visible(volume_);
   const auto boxes = smoke_boxes(volume_, all);
   for (int i = 0; i < 20000; ++i) {

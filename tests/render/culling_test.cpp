@@ -1,4 +1,4 @@
-// What is not seen costs nothing, and changes nothing.
+// What is out of view costs nothing, and changes nothing.
 #include <cstdlib>
 
 #include "render/playback.hpp"
@@ -55,7 +55,7 @@ class CullingTest : public gpu::GpuTest {
 
 // Atlas coordinates of other sizes round otherwise: a value may fall on the other side of a step of 8 bits,
 // and a ray may end a sample earlier, which is less than a step, too (SmokeLook::stop).
-TEST_F(CullingTest, SmokeAndLampsThatAreNotSeenChangeNothing) {
+TEST_F(CullingTest, SmokeAndLightsOutOfViewChangeNothing) {
   const scenario::Scenario alone = wide_stage(false, false), crowded = wide_stage(true, true);
   Playback a(context(), alone, kSize), b(context(), crowded, kSize);
   const image::Image8 with = b.draw(2, 0), without = a.draw(2, 0);
@@ -70,8 +70,8 @@ TEST_F(CullingTest, SmokeAndLampsThatAreNotSeenChangeNothing) {
   RecordProperty("other_bytes", others);
 }
 
-// What was not drawn for a while is made anew when it comes into view.
-TEST_F(CullingTest, WhatComesIntoViewIsOfItsMoment) {
+// What was not drawn for a while is rebuilt when it comes into view.
+TEST_F(CullingTest, WhatComesIntoViewIsUpToDate) {
   const scenario::Scenario scenario = wide_stage(true, true);
   const scene::Camera toward{{0, 1.5f, 5.5f}, {0, 1.2f, 0}, 0.9f}, away{{0, 1.5f, 5.5f}, {0, 1.2f, 30}, 0.9f};
   Playback turning(context(), scenario, kSize), staring(context(), scenario, kSize);

@@ -1,4 +1,4 @@
-// Light in smoke that is kept from frame to frame is the light that would be made anew, bit for bit.
+// Light in smoke that is cached from frame to frame equals light that is rebuilt, bit for bit.
 #include <cmath>
 #include <set>
 
@@ -59,15 +59,15 @@ class LightCacheTest : public gpu::GpuTest {
     simulation_ = scenario::Simulation::create(*scenario_).value_or_throw();
     RendererOptions options;
     options.size_px = kSize;
-    kept_.emplace(context(), runner(), scenario_->scene, options);
-    anew_.emplace(context(), runner(), scenario_->scene, options);
+    cached_.emplace(context(), runner(), scenario_->scene, options);
+    rebuilt_.emplace(context(), runner(), scenario_->scene, options);
     camera_ = scenario_->camera;
   }
 
-  /// What a frame asked for.
+  /// The work of a frame.
   struct Work {
-    std::size_t rays = 0, bricks = 0;          // blocks of rays followed, bricks put together
-    std::size_t all_rays = 0, all_bricks = 0;  // of the frame made anew
+    std::size_t rays = 0, bricks = 0;          // pages of rays followed, bricks gathered
+    std::size_t all_rays = 0, all_bricks = 0;  // of the rebuilt frame
   };
   FrameInput input_at(double seconds) {
     simulation_->advance_to(seconds);
@@ -88,27 +88,27 @@ class LightCacheTest : public gpu::GpuTest {
     renderer.draw(input);
     return read_back<std::uint64_t>(renderer.smoke());
   }
-  /// Draws a moment by both, which must be equal.
+  /// Draws a time by both, which must be equal.
   Work draw(double seconds) {
     FrameInput input = input_at(seconds);
-    const auto kept = smoke_of(*kept_, input);
+    const auto cached = smoke_of(*cached_, input);
     input.quality.rebuild_light = true;
-    const auto anew = smoke_of(*anew_, input);
-    EXPECT_GT(std::set<std::uint64_t>(anew.begin(), anew.end()).size(), 60u) << "smoke is in view";
-    EXPECT_EQ(kept, anew) << "at " << seconds;
-    return {kept_->light_plan().shadow_rays.size(), kept_->light_plan().gathers.size(),
-            anew_->light_plan().shadow_rays.size(), anew_->light_plan().gathers.size()};
+    const auto rebuilt = smoke_of(*rebuilt_, input);
+    EXPECT_GT(std::set<std::uint64_t>(rebuilt.begin(), rebuilt.end()).size(), 60u) << "smoke is in view";
+    EXPECT_EQ(cached, rebuilt) << "at " << seconds;
+    return {cached_->light_plan().shadow_rays.size(), cached_->light_plan().gathers.size(),
+            rebuilt_->light_plan().shadow_rays.size(), rebuilt_->light_plan().gathers.size()};
   }
 
   std::optional<scenario::Scenario> scenario_;
   std::unique_ptr<scenario::Simulation> simulation_;
-  std::optional<Renderer> kept_, anew_;
+  std::optional<Renderer> cached_, rebuilt_;
   std::vector<shared::Hole> holes_;
   scene::Camera camera_;
   float flash_ = 0;
 };
 
-TEST_F(LightCacheTest, IsThatMadeAnewWhateverHappens) {
+TEST_F(LightCacheTest, IsTheRebuiltLightWhateverHappens) {
   begin(0);
   Work work = draw(2);
   EXPECT_EQ(work.rays, work.all_rays);
@@ -166,7 +166,7 @@ TEST_F(LightCacheTest, IsThatMadeAnewWhateverHappens) {
   draw(2);
 }
 
-TEST_F(LightCacheTest, WhereNoiseDriftsOnlyAMomentKeepsItsLight) {
+TEST_F(LightCacheTest, WhereNoiseMovesItHoldsOnlyWhileTimeStandsStill) {
   begin(0.5f);
   Work work = draw(2);
   EXPECT_EQ(work.rays, work.all_rays);
@@ -178,15 +178,15 @@ TEST_F(LightCacheTest, WhereNoiseDriftsOnlyAMomentKeepsItsLight) {
   EXPECT_EQ(work.rays, work.all_rays);
 }
 
-/// Draws with a share of the light, by two renderers. In one of them all light glares before its first frame.
-class SharedLightTest : public LightCacheTest {
+/// Draws with an update fraction, by two renderers. In one of them all light glares before its first frame.
+class SlicedLightTest : public LightCacheTest {
  protected:
   /// The smoke; expects that nothing glares.
-  std::vector<std::uint64_t> draw_share(double seconds, float share) {
+  std::vector<std::uint64_t> draw_fraction(double seconds, float fraction) {
     FrameInput input = input_at(seconds);
-    input.quality.light_update_fraction = share;
-    const FramePlan plan = anew_->plan(input);
-    const gpu::Image& light = anew_->smoke_resources().inscatter;
+    input.quality.light_update_fraction = fraction;
+    const FramePlan plan = rebuilt_->plan(input);
+    const gpu::Image& light = rebuilt_->smoke_resources().inscatter;
     const glm::uvec3 size = light.info().size;
     if (size != lit_size_) {
       const std::vector<std::uint16_t> glare(std::size_t{4} * size.x * size.y * size.z, 0x7bff);  // 65,504
@@ -194,68 +194,69 @@ class SharedLightTest : public LightCacheTest {
       runner().run([&](gpu::Recorder& recorder) { recorder.upload(light, {&all, 1}); });
       lit_size_ = size;
     }
-    runner().run([&](gpu::Recorder& recorder) { anew_->record_frame(recorder, plan); });
-    const auto smoke = smoke_of(*kept_, input);
-    EXPECT_EQ(read_back<std::uint64_t>(anew_->smoke()), smoke) << "light that was never made, at " << seconds;
+    runner().run([&](gpu::Recorder& recorder) { rebuilt_->record_frame(recorder, plan); });
+    const auto smoke = smoke_of(*cached_, input);
+    EXPECT_EQ(read_back<std::uint64_t>(rebuilt_->smoke()), smoke)
+        << "light that was never computed, at " << seconds;
     return smoke;
   }
-  void expect_share(float share);
+  void expect_fraction(float fraction);
 
   glm::uvec3 lit_size_{0};
 };
 
-/// Whatever happens nothing without light is seen, and a moment that is drawn again gets its light.
-void SharedLightTest::expect_share(float share) {
+/// Whatever happens no texel without light is visible, and a time that is drawn again gets its light.
+void SlicedLightTest::expect_fraction(float fraction) {
   const auto still = [&](double seconds) {
-    const int frames = static_cast<int>(std::ceil(1 / share)) + 1;
+    const int frames = static_cast<int>(std::ceil(1 / fraction)) + 1;
     std::vector<std::uint64_t> smoke;
-    for (int i = 0; i < frames; ++i) smoke = draw_share(seconds, share);
-    draw_share(seconds, share);
-    EXPECT_TRUE(kept_->light_plan().parts.empty());
+    for (int i = 0; i < frames; ++i) smoke = draw_fraction(seconds, fraction);
+    draw_fraction(seconds, fraction);
+    EXPECT_TRUE(cached_->light_plan().parts.empty());
     Renderer fresh(context(), runner(), scenario_->scene, {kSize});
     EXPECT_EQ(smoke, smoke_of(fresh, input_at(seconds))) << "at " << seconds;
-    EXPECT_EQ(read_back<std::uint64_t>(kept_->picture()), read_back<std::uint64_t>(fresh.picture()))
+    EXPECT_EQ(read_back<std::uint64_t>(cached_->picture()), read_back<std::uint64_t>(fresh.picture()))
         << "shadows on surfaces, at " << seconds;
   };
   // It grows, another comes, the eye walks.
   for (const double seconds : {0.5, 0.6, 0.7, 2.0, 3.1, 3.3, 3.5}) {
     camera_.position_world.x += 0.1f;
-    draw_share(seconds, share);
+    draw_fraction(seconds, fraction);
   }
   still(4.9);
   // A shot, its flash and its hole.
-  for (const double seconds : {5.01, 5.1, 5.2}) draw_share(seconds, share);
+  for (const double seconds : {5.01, 5.1, 5.2}) draw_fraction(seconds, fraction);
   still(6.5);
   // Eyes that turn away and back, a light that comes and goes, a door.
   camera_.target_world = {-12, 0.5f, 0};
-  draw_share(7.3, share);
+  draw_fraction(7.3, fraction);
   flash_ = 2;
-  draw_share(7.6, share);
+  draw_fraction(7.6, fraction);
   camera_.target_world = {0, 0.5f, 0};
-  draw_share(7.7, share);
+  draw_fraction(7.7, fraction);
   flash_ = 0;
-  draw_share(9.1, share);
+  draw_fraction(9.1, fraction);
   still(9.2);
 }
 
-TEST_F(SharedLightTest, IsNeverUnlitAndComesToRestAsAllOfIt) {
+TEST_F(SlicedLightTest, IsNeverUnlitAndComesToRestAsAllOfIt) {
   begin(0.5f);
-  expect_share(0.25f);
+  expect_fraction(0.25f);
 }
 
-TEST_F(SharedLightTest, WithoutNoiseToo) {
+TEST_F(SlicedLightTest, WithoutNoiseToo) {
   begin(0);
-  expect_share(0.5f);
+  expect_fraction(0.5f);
 }
 
-TEST_F(SharedLightTest, AllOfItAfterAShareIsAllOfIt) {
+TEST_F(SlicedLightTest, AllOfItAfterAFractionIsAllOfIt) {
   begin(0.5f);
-  draw_share(2, 0.125f);
-  draw_share(2.1, 0.125f);
+  draw_fraction(2, 0.125f);
+  draw_fraction(2.1, 0.125f);
   draw(2.2);
-  draw_share(2.3, 0.25f);
+  draw_fraction(2.3, 0.25f);
   draw(2.3);
-  EXPECT_EQ(read_back<std::uint64_t>(kept_->picture()), read_back<std::uint64_t>(anew_->picture()));
+  EXPECT_EQ(read_back<std::uint64_t>(cached_->picture()), read_back<std::uint64_t>(rebuilt_->picture()));
 }
 
 }  // namespace

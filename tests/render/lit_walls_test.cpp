@@ -279,7 +279,7 @@ TEST_F(LitWallsTest, InEvenLightOnlyTheDistanceToTheWallCounts) {
   }
 }
 
-TEST_F(LitWallsTest, ByALampTheWallShowsNoLine) {
+TEST_F(LitWallsTest, ByALightTheWallShowsNoLine) {
   for (const Wall& wall : walls()) {
     const scenario::Scenario scenario = scenario_of_wall(wall, true);
     Studio studio(scenario);
