@@ -27,9 +27,9 @@ inline void check_scene(const Scene& scene) {
   }
   if (scene.grenade && scene.grenade->mesh >= scene.meshes.size()) __builtin_trap();
   if (scene.grenade && scene.grenade->material >= scene.materials.size()) __builtin_trap();
-  const Bounds bounds = world_bounds(scene);
+  const Box<float> bounds = world_bounds(scene);
   for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(bounds.min[axis]) || !std::isfinite(bounds.max[axis])) __builtin_trap();
+    if (!std::isfinite(bounds.low[axis]) || !std::isfinite(bounds.high[axis])) __builtin_trap();
   }
   for (const Light& light : scene.lights) {
     if (!std::isfinite(light.intensity.r) || !(light.intensity.r >= 0)) __builtin_trap();

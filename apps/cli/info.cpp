@@ -33,9 +33,9 @@ Json scene_info(const std::filesystem::path& path) {
             {"lights", scene.lights.size()},
             {"triangles", triangles},
             {"camera", scene.camera.has_value()}};
-  if (const scene::Bounds bounds = scene::world_bounds(scene); !bounds.empty()) {
-    info.set("bounds_min", point(bounds.min));
-    info.set("bounds_max", point(bounds.max));
+  if (const Box<float> bounds = scene::world_bounds(scene); !bounds.empty()) {
+    info.set("bounds_min", point(bounds.low));
+    info.set("bounds_max", point(bounds.high));
   }
   return info;
 }

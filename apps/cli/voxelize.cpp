@@ -31,11 +31,11 @@ void check_options(const Options& options) {
 
 // The requested grid layout; fits the scene where no option is given.
 voxel::GridLayout choose_frame(const Options& options, const scene::Scene& scene) {
-  const scene::Bounds bounds = scene::world_bounds(scene);
+  const Box<float> bounds = scene::world_bounds(scene);
   if (options.grid.empty())
-    return voxel::layout_around(bounds.min, bounds.max, options.voxel, 1).value_or_throw();
+    return voxel::layout_around(bounds.low, bounds.high, options.voxel, 1).value_or_throw();
   voxel::GridLayout frame{parse_grid("--grid", options.grid), options.voxel, {}};
-  frame.origin_world = options.origin.empty() ? glm::floor(bounds.min / options.voxel) * options.voxel
+  frame.origin_world = options.origin.empty() ? glm::floor(bounds.low / options.voxel) * options.voxel
                                               : parse_point("--origin", options.origin);
   return frame;
 }

@@ -190,7 +190,7 @@ Result<std::string> Session::use_door(glm::vec3 at_world) {
   if (doors.empty())
     return Failure{ErrorCode::bad_input, "the scene has no door: no object has \"door\" in its name"};
   const auto distance = [&](const scenario::Door& door) {
-    return glm::length(at_world - glm::clamp(at_world, door.bounds_world.min, door.bounds_world.max));
+    return glm::length(at_world - glm::clamp(at_world, door.bounds_world.low, door.bounds_world.high));
   };
   const auto nearest = std::min_element(
       doors.begin(), doors.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });

@@ -43,14 +43,14 @@ Geometry gather_geometry(const scene::Scene& scene) {
     range.first_index = static_cast<std::uint32_t>(geometry.indices.size());
     range.index_count = static_cast<std::uint32_t>(mesh.indices.size());
     range.first_vertex = static_cast<std::int32_t>(geometry.vertices.size());
-    scene::Bounds bounds;
+    Box<float> bounds = kEmptyBox;
     for (const scene::Vertex& v : mesh.vertices) {
       geometry.vertices.push_back({v.position, v.normal, v.tangent, v.uv});
-      bounds.min = glm::min(bounds.min, v.position);
-      bounds.max = glm::max(bounds.max, v.position);
+      bounds.low = glm::min(bounds.low, v.position);
+      bounds.high = glm::max(bounds.high, v.position);
     }
-    range.centre_world = bounds.empty() ? glm::vec3(0) : 0.5f * (bounds.min + bounds.max);
-    range.radius = bounds.empty() ? 0 : 0.5f * glm::length(bounds.max - bounds.min);
+    range.centre_world = bounds.empty() ? glm::vec3(0) : 0.5f * (bounds.low + bounds.high);
+    range.radius = bounds.empty() ? 0 : 0.5f * glm::length(bounds.high - bounds.low);
     geometry.indices.insert(geometry.indices.end(), mesh.indices.begin(), mesh.indices.end());
     geometry.ranges.push_back(range);
   }
@@ -162,9 +162,9 @@ SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, c
   std::stable_sort(out.draws.begin(), out.draws.end(),
                    [](const Draw& a, const Draw& b) { return a.material < b.material; });
   if (scene.grenade) out.grenade = place(geometry, *scene.grenade);
-  const scene::Bounds bounds = scene::world_bounds(scene);
-  out.bounds_min = bounds.min;
-  out.bounds_max = bounds.max;
+  const Box<float> bounds = scene::world_bounds(scene);
+  out.bounds_min = bounds.low;
+  out.bounds_max = bounds.high;
   return out;
 }
 

@@ -13,8 +13,8 @@ glm::ivec3 texels_of(glm::ivec3 voxels, int voxels_per_texel) {
 }
 
 /// A box around the voxels where two lists of edits differ.
-voxel::IntBox difference_of(const sim::EditBlocks& a, const sim::EditBlocks& b) {
-  voxel::IntBox box{glm::ivec3(1 << 24), glm::ivec3(-(1 << 24))};
+Box<int> difference_of(const sim::EditBlocks& a, const sim::EditBlocks& b) {
+  Box<int> box{glm::ivec3(1 << 24), glm::ivec3(-(1 << 24))};
   const auto add = [&](const sim::EditBlock& block) {
     const glm::ivec3 low = glm::ivec3(block.at) * sim::kBlockSize;
     box.low = glm::min(box.low, low);
@@ -71,14 +71,14 @@ void SolidVolume::reserve(const LevelView& level) {
 }
 
 bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
-  voxel::IntBox changed{glm::ivec3(0), frame_.size};
+  Box<int> changed{glm::ivec3(0), frame_.size};
   if (!everything_) {
     if (!level.grid || level.edits == edits_) return false;
     static const sim::EditBlocks none;
-    const voxel::IntBox voxels = difference_of(edits_ ? *edits_ : none, level.edits ? *level.edits : none);
+    const Box<int> voxels = difference_of(edits_ ? *edits_ : none, level.edits ? *level.edits : none);
     if (voxels.empty()) return false;
-    changed = voxel::intersection(
-        changed, {voxels.low / voxels_per_texel_, texels_of(voxels.high, voxels_per_texel_)});
+    changed =
+        intersection(changed, {voxels.low / voxels_per_texel_, texels_of(voxels.high, voxels_per_texel_)});
   }
   if (level.grid) fill_bits(*level.grid, changed);
   upload(recorder, changed);
@@ -87,7 +87,7 @@ bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
   return true;
 }
 
-void SolidVolume::fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& texels) {
+void SolidVolume::fill_bits(const voxel::BitGrid& grid, const Box<int>& texels) {
   const int k = voxels_per_texel_, row_words = shared::solid_row_words(frame_.size.x);
   const glm::ivec3 size = texels.high - texels.low;
   std::vector<std::uint32_t> counts(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
@@ -98,9 +98,9 @@ void SolidVolume::fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& tex
   };
 
   // How many voxels of each texel are solid: brick by brick, bit by bit.
-  const voxel::IntBox bricks{texels.low * k / voxel::kBrickSize,
-                             (glm::min(texels.high * k, grid.size()) + 7) / voxel::kBrickSize};
-  voxel::for_each_in(bricks, [&](glm::ivec3 b) {
+  const Box<int> bricks{texels.low * k / voxel::kBrickSize,
+                        (glm::min(texels.high * k, grid.size()) + 7) / voxel::kBrickSize};
+  for_each_in(bricks, [&](glm::ivec3 b) {
     const voxel::BitGrid::Brick* brick = grid.find_brick(b);
     for (int z = 0; brick && z < voxel::kBrickSize; ++z)
       for (std::uint64_t left = (*brick)[static_cast<std::size_t>(z)]; left != 0; left &= left - 1) {
@@ -111,17 +111,17 @@ void SolidVolume::fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& tex
   });
 
   const auto half_a_wall = static_cast<std::uint32_t>((k * k + 1) / 2);
-  voxel::for_each_in(texels, [&](glm::ivec3 t) {
+  for_each_in(texels, [&](glm::ivec3 t) {
     std::uint32_t& word = bits_[static_cast<std::size_t>(t.x / 32 + row_words * (t.y + frame_.size.y * t.z))];
     const std::uint32_t bit = 1u << (t.x % 32);
     word = count_at(t) >= half_a_wall ? word | bit : word & ~bit;
   });
 }
 
-void SolidVolume::upload(gpu::Recorder& recorder, const voxel::IntBox& texels) const {
+void SolidVolume::upload(gpu::Recorder& recorder, const Box<int>& texels) const {
   const int row_words = shared::solid_row_words(frame_.size.x);
   std::vector<std::uint8_t> bytes;
-  voxel::for_each_in(texels, [&](glm::ivec3 t) {
+  for_each_in(texels, [&](glm::ivec3 t) {
     const std::uint32_t word =
         bits_[static_cast<std::size_t>(t.x / 32 + row_words * (t.y + frame_.size.y * t.z))];
     bytes.push_back(word >> (t.x % 32) & 1 ? 0 : kFreeTexel);

@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
+#include "core/box.hpp"
 #include "gpu/recorder.hpp"
 #include "planning/frame_input.hpp"
 #include "shared/solid_volume.h"
 #include "sim/level_edit.hpp"
 #include "voxel/bit_grid.hpp"
-#include "voxel/int_box.hpp"
 
 namespace brume::passes {
 
@@ -43,8 +43,8 @@ class SolidVolume {
  private:
   void make(const voxel::GridLayout& grid);
   /// Computes the bits of the texels in a box from the level.
-  void fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& texels);
-  void upload(gpu::Recorder& recorder, const voxel::IntBox& texels) const;
+  void fill_bits(const voxel::BitGrid& grid, const Box<int>& texels);
+  void upload(gpu::Recorder& recorder, const Box<int>& texels) const;
 
   gpu::Context& context_;
   voxel::GridLayout grid_layout_;

@@ -46,7 +46,7 @@ void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
 void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
   const SmokeInput& smoke = plan.input.smoke;
   const Quality& quality = plan.input.quality;
-  std::vector<WorldBox> boxes;
+  std::vector<Box<float>> boxes;
   if (smoke.volume) boxes = smoke_boxes(*smoke.volume, plan.visibility);
   plan.smoke_shadows = history.smoke_shadows.update(
       plan_smoke_shadows({plan.lights, target.sun_clip_from_world, plan.camera}, boxes,

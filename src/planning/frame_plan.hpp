@@ -16,7 +16,7 @@ namespace brume::planning {
 /// What plans follow from besides the frame's input: the scene, and what the renderer draws into.
 struct PlanTarget {
   std::span<const shared::Light> lights;  ///< Of the scene.
-  WorldBox scene_bounds;                  ///< Around all surfaces.
+  Box<float> scene_bounds;                ///< Around all surfaces.
   glm::mat4 sun_clip_from_world{1};
   glm::uvec2 size_px{1};
   glm::uvec2 smoke_shadow_atlas{0};  ///< Size of the atlas in texels.
@@ -43,7 +43,7 @@ struct FramePlan {
   HolePlan holes;
   NoisePlan noise;
   std::optional<SmokeShadowUpdate> smoke_shadows;  ///< Empty: those of the frame before hold.
-  const SmokeLightPlan* smoke_light = nullptr;     ///< In the history, until it plans again; not null in a plan.
+  const SmokeLightPlan* smoke_light = nullptr;  ///< In the history, until it plans again; not null in a plan.
 
   ViewSlice view_slice;  ///< Where debug views cut.
 

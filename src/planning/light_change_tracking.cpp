@@ -54,7 +54,7 @@ bool LightChangeTracker::noise_moved(const SmokeLightInputs& inputs) const {
 }
 
 bool LightChangeTracker::caster_bounds_changed(const SmokeLightInputs& inputs) const {
-  const smoke::SmokeBounds& bounds = inputs.visibility->caster_bounds;
+  const Box<float>& bounds = inputs.visibility->caster_bounds;
   return last_->caster_bounds.low != bounds.low || last_->caster_bounds.high != bounds.high;
 }
 
@@ -86,10 +86,10 @@ void LightChangeTracker::add_smoke_changes(const SmokeLightInputs& inputs,
                                            std::vector<shared::LightChange>& changes) const {
   if (!smoke_changed(inputs)) return;
   // Cubes of four bricks, what changed in each as one.
-  std::map<std::tuple<int, int, int>, voxel::IntBox> cubes;
+  std::map<std::tuple<int, int, int>, Box<int>> cubes;
   const auto add = [&](glm::ivec3 brick) {
     const glm::ivec3 cube = brick >> 2;
-    const auto [known, added] = cubes.try_emplace({cube.x, cube.y, cube.z}, voxel::IntBox{brick, brick + 1});
+    const auto [known, added] = cubes.try_emplace({cube.x, cube.y, cube.z}, Box<int>{brick, brick + 1});
     if (!added) known->second = {glm::min(known->second.low, brick), glm::max(known->second.high, brick + 1)};
   };
   // A slot's brick, and the one that it held before.

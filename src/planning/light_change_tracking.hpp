@@ -68,7 +68,7 @@ class LightChangeTracker {
     shared::SmokeLook look{};
     shared::Sky sky{};
     glm::vec3 eye_world{0};
-    smoke::SmokeBounds caster_bounds;
+    Box<float> caster_bounds;
   };
   std::optional<Last> last_;
   shared::VolumeLayout layout_{};

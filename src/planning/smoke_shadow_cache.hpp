@@ -49,7 +49,7 @@ class SmokeShadowCache {
     const smoke::SmokeVolume* volume = nullptr;
     std::uint64_t revision = 0;
     std::vector<std::uint32_t> slots;  // rising
-    smoke::SmokeBounds caster_bounds;
+    Box<float> caster_bounds;
     std::vector<shared::Light> lights;  // without what their rays do not depend on
     float extinction = 0, erosion = 0;
     // Of what noise removes, where it removes anything.

@@ -17,7 +17,7 @@ struct FacePart {
   bool empty() const { return low.x >= high.x || low.y >= high.y; }
 };
 
-float least_distance(glm::vec3 p, const WorldBox& box) {
+float least_distance(glm::vec3 p, const Box<float>& box) {
   return glm::length(glm::max(glm::max(box.low - p, p - box.high), glm::vec3(0)));
 }
 
@@ -27,7 +27,7 @@ glm::vec2 slopes(float low, float high, float near, float far) {
 }
 
 /// Adds what a cube face sees of a box.
-void add_to_cube_face(FacePart& part, const shared::Light& light, std::uint32_t face, const WorldBox& box) {
+void add_to_cube_face(FacePart& part, const shared::Light& light, std::uint32_t face, const Box<float>& box) {
   constexpr float kNearest = 1e-3f;
   const glm::vec3 forward = shared::cube_forward(face), right = shared::cube_right(face),
                   up = shared::cube_up(face);
@@ -47,7 +47,7 @@ void add_to_cube_face(FacePart& part, const shared::Light& light, std::uint32_t 
   part.metres = std::max(part.metres, 2 * far);
 }
 
-void add_to_sun(FacePart& part, const glm::mat4& clip_from_world, const WorldBox& box) {
+void add_to_sun(FacePart& part, const glm::mat4& clip_from_world, const Box<float>& box) {
   for (int corner = 0; corner < 8; ++corner) {
     const glm::bvec3 side(corner & 1, corner & 2, corner & 4);
     const glm::vec3 p = glm::mix(box.low, box.high, side);
@@ -68,7 +68,7 @@ bool shines_into(const shared::Light& light, std::uint32_t face) {
 }
 
 /// The parts of all lights, the brightest on smoke first.
-std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const WorldBox> smoke) {
+std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const Box<float>> smoke) {
   std::vector<FacePart> parts;
   std::vector<float> irradiance;
   const ViewFrustum view(scene.camera);
@@ -80,7 +80,7 @@ std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const 
     if (!sun && !view.may_intersect({light.position_world, light.range})) continue;
     std::array<FacePart, shared::kFacesPerLight> faces;
     float nearest = sun ? 1 : light.range;
-    for (const WorldBox& box : smoke) {
+    for (const Box<float>& box : smoke) {
       const float distance = sun ? 1 : least_distance(light.position_world, box);
       if (!sun && distance >= light.range) continue;
       nearest = std::min(nearest, distance);
@@ -146,7 +146,7 @@ SmokeShadowPlan SmokeShadowPlan::spread_by(std::uint32_t spread) const {
   return plan;
 }
 
-SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const WorldBox> smoke,
+SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const Box<float>> smoke,
                                    glm::uvec2 atlas_size) {
   SmokeShadowPlan plan;
   std::vector<FacePart> parts = find_parts(scene, smoke);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/box.hpp"
 #include "planning/smoke_visibility.hpp"
 #include "shared/frame.h"
 #include "shared/light.h"
@@ -32,7 +33,7 @@ constexpr float kFinestSmokeShadow = 0.04f;
 /// Gives each light that can reach smoke, and surfaces in view, rectangles of an atlas of this size,
 /// disjoint, with texels of about one size in the world: as small as all of them fit, larger for what is
 /// dim. When they do not fit at any size, the last lights get none.
-SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const WorldBox> smoke,
+SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<const Box<float>> smoke,
                                    glm::uvec2 atlas_size);
 
 }  // namespace brume::planning

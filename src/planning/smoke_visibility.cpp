@@ -10,23 +10,13 @@
 namespace brume::planning {
 namespace {
 
-WorldBox join(const WorldBox& a, const WorldBox& b) {
-  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-}
-
-bool is_empty(const WorldBox& box) {
-  return glm::any(glm::greaterThan(box.low, box.high));
-}
-
-constexpr WorldBox kNothing{glm::vec3(1e30f), glm::vec3(-1e30f)};
-
 /// Whether smoke at a place can dim light on its path to what is in view.
 class LightPaths {
  public:
   /// `lit`: a box around all that is lit; `visible_smoke`: around the smoke in view, empty for none; `slack`:
   /// so far from what is in view light counts, too [m].
-  LightPaths(const ViewFrustum& view, std::span<const shared::Light> lights, const WorldBox& lit,
-             const WorldBox& visible_smoke, float slack)
+  LightPaths(const ViewFrustum& view, std::span<const shared::Light> lights, const Box<float>& lit,
+             const Box<float>& visible_smoke, float slack)
       : view_(view), lit_(lit), visible_smoke_(visible_smoke), slack_(slack) {
     for (const shared::Light& light : lights)
       if (light.kind == shared::kLightDirectional)
@@ -45,14 +35,14 @@ class LightPaths {
     if (std::any_of(lamps_.begin(), lamps_.end(), near_light) ||
         std::any_of(suns_.begin(), suns_.end(), under_sun))
       return true;
-    for (std::uint32_t i = 0; i < shared::kSkyRays && !is_empty(visible_smoke_); ++i)
+    for (std::uint32_t i = 0; i < shared::kSkyRays && !visible_smoke_.empty(); ++i)
       if (may_fall(smoke, -shared::sky_ray(i), visible_smoke_)) return true;
     return false;
   }
 
  private:
   /// Whether a shadow of the smoke along a direction may be seen on something in a box.
-  bool may_fall(const WorldSphere& smoke, glm::vec3 direction, const WorldBox& on) const {
+  bool may_fall(const WorldSphere& smoke, glm::vec3 direction, const Box<float>& on) const {
     // As far as it stays between the box's lowest and its highest.
     const float down = smoke.centre.y + smoke.radius - on.low.y,
                 up = on.high.y - (smoke.centre.y - smoke.radius);
@@ -66,17 +56,17 @@ class LightPaths {
   }
 
   const ViewFrustum& view_;
-  WorldBox lit_, visible_smoke_;
+  Box<float> lit_, visible_smoke_;
   float slack_;
   std::vector<WorldSphere> lamps_;  // as far as they reach
   std::vector<glm::vec3> suns_;
 };
 
-WorldSphere around(const WorldBox& box) {
+WorldSphere around(const Box<float>& box) {
   return {0.5f * (box.low + box.high), 0.5f * glm::length(box.high - box.low)};
 }
 
-voxel::IntBox brick_range(const smoke::SmokeBounds& cloud) {
+Box<int> brick_range(const Box<float>& cloud) {
   return {glm::ivec3(glm::floor(cloud.low)) >> 3, (glm::ivec3(glm::floor(cloud.high)) >> 3) + 1};
 }
 
@@ -84,16 +74,16 @@ voxel::IntBox brick_range(const smoke::SmokeBounds& cloud) {
 class VolumeTransform {
  public:
   explicit VolumeTransform(const shared::VolumeLayout& layout) : layout_(layout) {}
-  WorldBox box(glm::vec3 low_voxel, glm::vec3 high_voxel) const {
+  Box<float> box(glm::vec3 low_voxel, glm::vec3 high_voxel) const {
     return {layout_.origin_world + low_voxel * layout_.voxel_size,
             layout_.origin_world + high_voxel * layout_.voxel_size};
   }
   /// Bricks with the texels around them.
-  WorldBox bricks(const voxel::IntBox& bricks) const {
+  Box<float> bricks(const Box<int>& bricks) const {
     return box(glm::vec3(bricks.low * shared::kBrickVoxels) - 1.0f,
                glm::vec3(bricks.high * shared::kBrickVoxels) + 1.0f);
   }
-  WorldBox bricks_of(const smoke::SmokeBounds& cloud) const { return bricks(brick_range(cloud)); }
+  Box<float> bricks_of(const Box<float>& cloud) const { return bricks(brick_range(cloud)); }
   WorldSphere brick(glm::ivec3 brick) const { return around(bricks({brick, brick + 1})); }
 
  private:
@@ -102,17 +92,16 @@ class VolumeTransform {
 
 /// Adds the slots of a cloud that a test accepts, and returns whether there are any; node by node, so that
 /// clouds out of view cost little.
-bool collect_slots(const smoke::SmokeVolume& volume, const smoke::SmokeBounds& cloud,
-                   const VolumeTransform& places, const auto& accepts, std::vector<std::uint32_t>& slots) {
-  const voxel::IntBox all = brick_range(cloud);
+bool collect_slots(const smoke::SmokeVolume& volume, const Box<float>& cloud, const VolumeTransform& places,
+                   const auto& accepts, std::vector<std::uint32_t>& slots) {
+  const Box<int> all = brick_range(cloud);
   if (!accepts(around(places.bricks(all)))) return false;
   const std::size_t before = slots.size();
-  const voxel::IntBox nodes{all.low >> 3, ((all.high - 1) >> 3) + 1};
-  voxel::for_each_in(nodes, [&](glm::ivec3 node) {
-    const voxel::IntBox bricks =
-        voxel::intersection(all, {node * shared::kNodeBricks, (node + 1) * shared::kNodeBricks});
+  const Box<int> nodes{all.low >> 3, ((all.high - 1) >> 3) + 1};
+  for_each_in(nodes, [&](glm::ivec3 node) {
+    const Box<int> bricks = intersection(all, {node * shared::kNodeBricks, (node + 1) * shared::kNodeBricks});
     if (!accepts(around(places.bricks(bricks)))) return;
-    voxel::for_each_in(bricks, [&](glm::ivec3 brick) {
+    for_each_in(bricks, [&](glm::ivec3 brick) {
       const std::uint32_t slot = volume.slot_at(brick);
       if (slot != smoke::SmokeVolume::kNoSlot && accepts(places.brick(brick))) slots.push_back(slot);
     });
@@ -121,7 +110,7 @@ bool collect_slots(const smoke::SmokeVolume& volume, const smoke::SmokeBounds& c
 }
 
 /// Bounds with those of one more cloud.
-smoke::SmokeBounds with(const smoke::SmokeBounds& bounds, const smoke::SmokeBounds& cloud) {
+Box<float> with(const Box<float>& bounds, const Box<float>& cloud) {
   if (bounds.low == bounds.high) return cloud;
   return {glm::min(bounds.low, cloud.low), glm::max(bounds.high, cloud.high)};
 }
@@ -144,27 +133,27 @@ std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights,
 }
 
 SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,
-                           std::span<const shared::Light> lights, const WorldBox& scene) {
+                           std::span<const shared::Light> lights, const Box<float>& scene) {
   const VolumeTransform places(volume.layout());
   const auto in_view = [&](const WorldSphere& smoke) { return view.may_intersect(smoke); };
   // What may be in view.
   SmokeVisibility visibility;
-  WorldBox visible_smoke = kNothing;
-  for (const smoke::SmokeBounds& cloud : volume.cloud_bounds()) {
+  Box<float> visible_smoke = kEmptyBox;
+  for (const Box<float>& cloud : volume.cloud_bounds()) {
     if (!collect_slots(volume, cloud, places, in_view, visibility.slots)) continue;
     visibility.visible_bounds = with(visibility.visible_bounds, cloud);
-    visible_smoke = join(visible_smoke, places.bricks_of(cloud));
+    visible_smoke = united(visible_smoke, places.bricks_of(cloud));
   }
   sort_once(visibility.slots);
   visibility.visible_count = static_cast<std::uint32_t>(visibility.slots.size());
 
   // What stands between that and the lights.
-  const LightPaths paths(view, lights, join(scene, visible_smoke), visible_smoke,
+  const LightPaths paths(view, lights, united(scene, visible_smoke), visible_smoke,
                          light_interpolation_margin(volume.layout().voxel_size));
   const auto may_cast = [&](const WorldSphere& smoke) { return paths.may_cross(smoke); };
   std::vector<std::uint32_t> casters;
   visibility.caster_bounds = visibility.visible_bounds;
-  for (const smoke::SmokeBounds& cloud : volume.cloud_bounds())
+  for (const Box<float>& cloud : volume.cloud_bounds())
     if (collect_slots(volume, cloud, places, may_cast, casters))
       visibility.caster_bounds = with(visibility.caster_bounds, cloud);
   sort_once(casters);
@@ -184,20 +173,20 @@ SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume) {
   return visibility;
 }
 
-std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility) {
+std::vector<Box<float>> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility) {
   const VolumeTransform places(volume.layout());
-  std::map<std::tuple<int, int, int>, WorldBox> nodes;  // in voxels
+  std::map<std::tuple<int, int, int>, Box<float>> nodes;  // in voxels
   for (const std::uint32_t slot : visibility.slots) {
     const glm::ivec3 brick = volume.brick_of(slot), node = brick >> 3;
-    const WorldBox box{glm::vec3(brick * shared::kBrickVoxels),
-                       glm::vec3((brick + 1) * shared::kBrickVoxels)};
+    const Box<float> box{glm::vec3(brick * shared::kBrickVoxels),
+                         glm::vec3((brick + 1) * shared::kBrickVoxels)};
     const auto [known, added] = nodes.try_emplace({node.x, node.y, node.z}, box);
-    if (!added) known->second = join(known->second, box);
+    if (!added) known->second = united(known->second, box);
   }
-  std::vector<WorldBox> boxes;
+  std::vector<Box<float>> boxes;
   for (const auto& [node, box] : nodes) {
-    const WorldBox cut{glm::max(box.low, visibility.caster_bounds.low),
-                       glm::min(box.high, visibility.caster_bounds.high)};
+    const Box<float> cut{glm::max(box.low, visibility.caster_bounds.low),
+                         glm::min(box.high, visibility.caster_bounds.high)};
     if (glm::all(glm::lessThan(cut.low, cut.high))) boxes.push_back(places.box(cut.low, cut.high));
   }
   return boxes;

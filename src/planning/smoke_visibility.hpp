@@ -6,24 +6,20 @@
 #include <span>
 #include <vector>
 
+#include "core/box.hpp"
 #include "planning/view_frustum.hpp"
 #include "shared/light.h"
 #include "smoke/smoke_volume.hpp"
 
 namespace brume::planning {
 
-/// A box in the world [m].
-struct WorldBox {
-  glm::vec3 low{0}, high{0};
-};
-
 struct SmokeVisibility {
   /// Slots in use whose smoke may be in view, in rising order; after them, likewise, those whose smoke may
   /// dim light on its path to what is in view.
   std::vector<std::uint32_t> slots;
-  std::uint32_t visible_count = 0;    ///< How many of `slots` may be in view.
-  smoke::SmokeBounds visible_bounds;  ///< Around the clouds that may be in view; no volume: none.
-  smoke::SmokeBounds caster_bounds;   ///< Around these and the clouds that may dim light to what is in view.
+  std::uint32_t visible_count = 0;  ///< How many of `slots` may be in view.
+  Box<float> visible_bounds;        ///< Around the clouds that may be in view; no volume: none.
+  Box<float> caster_bounds;         ///< Around these and the clouds that may dim light to what is in view.
 };
 
 /// How far from what is in view light in smoke is still looked up, by interpolation and off walls [m].
@@ -39,12 +35,12 @@ std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights,
 /// smoke run from what is in view to these lights and, through smoke, to the sky (shared/smoke_light.h): all
 /// slots that they can meet are required. What one cloud requires does not depend on clouds that are not.
 SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,
-                           std::span<const shared::Light> lights, const WorldBox& scene);
+                           std::span<const shared::Light> lights, const Box<float>& scene);
 
 /// As if all were in view.
 SmokeVisibility all_smoke_visible(const smoke::SmokeVolume& volume);
 
 /// Boxes around the required smoke: one for each node of the page table that holds some.
-std::vector<WorldBox> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility);
+std::vector<Box<float>> smoke_boxes(const smoke::SmokeVolume& volume, const SmokeVisibility& visibility);
 
 }  // namespace brume::planning

@@ -13,18 +13,17 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 using voxel::BitGrid;
-using voxel::IntBox;
 
 dvec3 voxel_space(const BitGrid& grid, const dvec3& world) {
   return (world - dvec3(grid.layout().origin_world)) / double{grid.layout().voxel_size};
 }
 
 /// The voxels that a box [voxel space] overlaps.
-IntBox voxels_of(const dvec3& low, const dvec3& high) {
+Box<int> voxels_of(const dvec3& low, const dvec3& high) {
   return {ivec3(glm::floor(low)), ivec3(glm::ceil(high))};
 }
 
-IntBox voxels_of(const BitGrid& grid, const Body& body) {
+Box<int> voxels_of(const BitGrid& grid, const Body& body) {
   return voxels_of(voxel_space(grid, body.low), voxel_space(grid, body.high));
 }
 
@@ -39,9 +38,9 @@ std::uint64_t bits_of(ivec3 low, ivec3 high) {
 /// A summed-volume table: the number of solid voxels of any box within a region in 8 look-ups.
 class SolidCount {
  public:
-  SolidCount(const BitGrid& grid, const IntBox& region)
+  SolidCount(const BitGrid& grid, const Box<int>& region)
       : low_(region.low), size_(region.high - region.low + 1), sums_(volume(size_), 0) {
-    voxel::for_each_in(region, [&](ivec3 v) {
+    for_each_in(region, [&](ivec3 v) {
       const ivec3 at = v - low_ + 1;
       const bool solid = v.y < 0 || grid.solid(v);
       sums_[index(at)] = static_cast<std::uint32_t>(solid) + sums_[index(at - ivec3(1, 0, 0))] +
@@ -51,7 +50,7 @@ class SolidCount {
     });
   }
   /// The box must lie in the region.
-  bool any(const IntBox& box) const {
+  bool any(const Box<int>& box) const {
     const ivec3 a = box.low - low_, b = box.high - low_;
     const auto at = [&](int x, int y, int z) { return sums_[index({x, y, z})]; };
     return at(b.x, b.y, b.z) - at(a.x, b.y, b.z) - at(b.x, a.y, b.z) - at(b.x, b.y, a.z) + at(a.x, a.y, b.z) +
@@ -89,14 +88,14 @@ std::vector<double> touching_offsets(double low, double high, double farthest, d
 
 }  // namespace
 
-bool any_solid(const BitGrid& grid, const IntBox& voxels) {
+bool any_solid(const BitGrid& grid, const Box<int>& voxels) {
   if (voxels.empty()) return false;
   if (voxels.low.y < 0) return true;
-  const IntBox inside = voxel::intersection(voxels, {ivec3(0), grid.size()});
+  const Box<int> inside = intersection(voxels, {ivec3(0), grid.size()});
   if (inside.empty()) return false;
-  const IntBox bricks{inside.low >> 3, ((inside.high - 1) >> 3) + 1};
+  const Box<int> bricks{inside.low >> 3, ((inside.high - 1) >> 3) + 1};
   bool found = false;
-  voxel::for_each_in(bricks, [&](ivec3 b) {
+  for_each_in(bricks, [&](ivec3 b) {
     const BitGrid::Brick* brick = found ? nullptr : grid.find_brick(b);
     if (brick == nullptr) return;
     const ivec3 low = glm::max(inside.low - 8 * b, ivec3(0)), high = glm::min(inside.high - 8 * b, ivec3(8));
@@ -113,7 +112,7 @@ bool is_stuck(const BitGrid& grid, const Body& body) {
 double sweep(const BitGrid& grid, const Body& body, int axis, double distance) {
   if (distance == 0) return 0;
   const double edge = double{grid.layout().voxel_size}, skin = kSkin / edge;
-  const IntBox across = voxels_of(grid, body);
+  const Box<int> across = voxels_of(grid, body);
   const double front = voxel_space(grid, distance > 0 ? body.high : body.low)[axis];
   const double goal = front + distance / edge;
   const int step = distance > 0 ? 1 : -1;
@@ -122,7 +121,7 @@ double sweep(const BitGrid& grid, const Body& body, int axis, double distance) {
        layer += step) {
     const double face = distance > 0 ? layer : layer + 1;  // towards the body
     if (distance > 0 ? face >= goal + skin : face <= goal - skin) return distance;
-    IntBox voxels = across;
+    Box<int> voxels = across;
     voxels.low[axis] = layer;
     voxels.high[axis] = layer + 1;
     if (!any_solid(grid, voxels)) continue;
@@ -139,7 +138,7 @@ dvec3 offset_to_free_space(const BitGrid& grid, const Body& body, double farthes
   for (double reach = std::min(std::max(0.25, 1.01 * edge), farthest);;
        reach = std::min(2 * reach, farthest)) {
     const double far = reach / edge;
-    const IntBox around = voxels_of(low - far - 1.0, high + far + 1.0);
+    const Box<int> around = voxels_of(low - far - 1.0, high + far + 1.0);
     if (SolidCount::volume(around.high - around.low + 1) > kMostVoxels) break;
     const SolidCount solid(grid, around);
     std::array<std::vector<double>, 3> offsets;

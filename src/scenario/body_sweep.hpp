@@ -3,8 +3,8 @@
 
 #include <glm/glm.hpp>
 
+#include "core/box.hpp"
 #include "voxel/bit_grid.hpp"
-#include "voxel/int_box.hpp"
 
 namespace brume::scenario {
 
@@ -19,7 +19,7 @@ constexpr double kSkin = 1e-5;
 
 /// Whether any voxel of a box is solid. Voxels below the grid's bottom count as solid, others outside as
 /// free.
-bool any_solid(const voxel::BitGrid& grid, const voxel::IntBox& voxels);
+bool any_solid(const voxel::BitGrid& grid, const Box<int>& voxels);
 
 /// Whether the body overlaps a solid voxel; touching is no overlap.
 bool is_stuck(const voxel::BitGrid& grid, const Body& body);

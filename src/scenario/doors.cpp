@@ -47,8 +47,8 @@ std::vector<Door> doors_of(const scene::Scene& scene) {
     door->objects.push_back(i);
     for (const voxel::Triangle& triangle : object_triangles(scene, object))
       for (const glm::vec3& corner : {triangle.a, triangle.b, triangle.c}) {
-        door->bounds_world.min = glm::min(door->bounds_world.min, corner);
-        door->bounds_world.max = glm::max(door->bounds_world.max, corner);
+        door->bounds_world.low = glm::min(door->bounds_world.low, corner);
+        door->bounds_world.high = glm::max(door->bounds_world.high, corner);
       }
   }
   return doors;

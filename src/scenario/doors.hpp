@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/box.hpp"
 #include "scene/timeline.hpp"
 
 namespace brume::scenario {
@@ -12,8 +13,8 @@ namespace brume::scenario {
 /// A door as door events refer to it: all objects of one name.
 struct Door {
   std::string name;
-  std::vector<std::uint32_t> objects;  ///< Indices into Scene::objects, ascending.
-  scene::Bounds bounds_world;          ///< Bounds of all of them, closed.
+  std::vector<std::uint32_t> objects;   ///< Indices into Scene::objects, ascending.
+  Box<float> bounds_world = kEmptyBox;  ///< Bounds of all of them, closed.
 };
 
 /// Whether an object of this name counts as a door: the name contains the word "door" in any case ("front

@@ -17,7 +17,7 @@ LevelEvent event_of(double time, const voxel::LevelChange& change, const voxel::
 }
 
 LevelEvent apply(const scene::EditEvent& edit, voxel::Level& level) {
-  const voxel::IntBox box = voxels_in(level.grid().layout(), edit.low_world, edit.high_world);
+  const Box<int> box = voxels_in(level.grid().layout(), edit.low_world, edit.high_world);
   return event_of(edit.time, level.set_box(box, edit.solid), level.grid());
 }
 
@@ -53,7 +53,7 @@ sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::BitGrid& 
   return sim::difference(change.before, now, change.voxels.low, change.voxels.high);
 }
 
-voxel::IntBox voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world) {
+Box<int> voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world) {
   const auto first_centre_from = [&](glm::vec3 world) {
     const glm::dvec3 at =
         (glm::dvec3(world) - glm::dvec3(layout.origin_world)) / double{layout.voxel_size} - 0.5;

@@ -33,7 +33,7 @@ ObjectLevel make_level(const Scenario& scenario);
 sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::BitGrid& now);
 
 /// The voxels with centres inside a box [m].
-voxel::IntBox voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world);
+Box<int> voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world);
 
 /// Applies all edits and doors of a timeline to a level in order of time, edits before doors of the same
 /// time. The doors must pass check_doors.

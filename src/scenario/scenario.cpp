@@ -14,8 +14,8 @@ Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const sce
   const auto& grid = timeline.grid;
   const int margin =
       2 + static_cast<int>(std::cbrt(static_cast<float>(timeline.smoke.voxels) * 0.75f / 3.14159f) * 1.2f);
-  const scene::Bounds bounds = scene::world_bounds(scene);
-  auto layout = voxel::layout_around(bounds.min, bounds.max, grid.voxel, margin);
+  const Box<float> bounds = scene::world_bounds(scene);
+  auto layout = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
   if (!layout && !(grid.size && grid.origin_world)) return layout;
   voxel::GridLayout chosen = layout ? *layout : voxel::GridLayout{glm::ivec3(1), grid.voxel, glm::vec3(0)};
   if (grid.size) chosen.size = *grid.size;

@@ -92,7 +92,7 @@ void Simulation::replace_level(std::vector<LevelEvent> changes) {
   const auto same = [](const LevelEvent& a, const LevelEvent& b) { return a.planes == b.planes; };
   if (std::equal(changes.begin(), changes.end(), level_events_.begin(), level_events_.end(), same)) return;
   for (std::size_t i = 0; i < in_effect_; ++i) {
-    const voxel::IntBox& cells = level_events_[i].planes->cells;
+    const Box<int>& cells = level_events_[i].planes->cells;
     if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
   }
   planes_.clear();
@@ -110,7 +110,7 @@ void Simulation::follow_level() {
 
   // Planes: add the new patches, or rebuild all when time ran backwards.
   for (std::size_t i = std::min(count, in_effect_); i < std::max(count, in_effect_); ++i) {
-    const voxel::IntBox& cells = level_events_[i].planes->cells;
+    const Box<int>& cells = level_events_[i].planes->cells;
     if (!cells.empty()) volume_.planes_changed(cells.low, cells.high - 1);
   }
   if (count < in_effect_) planes_.clear();

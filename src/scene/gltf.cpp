@@ -174,10 +174,10 @@ class GltfLoader {
   }
 
   static void aim_at_middle(Scene& scene) {
-    const Bounds bounds = world_bounds(scene);
+    const Box<float> bounds = world_bounds(scene);
     Camera& camera = *scene.camera;
     const glm::vec3 axis = glm::normalize(camera.target_world - camera.position_world);
-    const glm::vec3 middle = (bounds.min + bounds.max) / 2.0f;
+    const glm::vec3 middle = (bounds.low + bounds.high) / 2.0f;
     camera.target_world =
         camera.position_world + axis * std::max(1.0f, glm::dot(middle - camera.position_world, axis));
   }

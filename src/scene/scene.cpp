@@ -5,18 +5,18 @@
 
 namespace brume::scene {
 
-Bounds world_bounds(const Scene& scene) {
-  Bounds bounds;
+Box<float> world_bounds(const Scene& scene) {
+  Box<float> bounds = kEmptyBox;
   for (const Object& object : scene.objects) {
     for (const Vertex& vertex : scene.meshes[object.mesh].vertices) {
       const glm::vec3 p = glm::vec3(object.world_from_mesh * glm::vec4(vertex.position, 1));
-      bounds.min = glm::min(bounds.min, p);
-      bounds.max = glm::max(bounds.max, p);
+      bounds.low = glm::min(bounds.low, p);
+      bounds.high = glm::max(bounds.high, p);
     }
   }
   for (const Sphere& sphere : scene.spheres) {
-    bounds.min = glm::min(bounds.min, sphere.centre_world - sphere.radius);
-    bounds.max = glm::max(bounds.max, sphere.centre_world + sphere.radius);
+    bounds.low = glm::min(bounds.low, sphere.centre_world - sphere.radius);
+    bounds.high = glm::max(bounds.high, sphere.centre_world + sphere.radius);
   }
   return bounds;
 }
@@ -24,11 +24,11 @@ Bounds world_bounds(const Scene& scene) {
 Camera default_camera(const Scene& scene) {
   if (scene.camera) return *scene.camera;
   Camera camera;
-  const Bounds bounds = world_bounds(scene);
+  const Box<float> bounds = world_bounds(scene);
   if (bounds.empty()) return camera;
   // Fits the bounding sphere into the vertical field of view, so that square images contain it too.
-  const float radius = std::max(glm::length(bounds.max - bounds.min) / 2, 0.1f);
-  camera.target_world = (bounds.min + bounds.max) / 2.0f;
+  const float radius = std::max(glm::length(bounds.high - bounds.low) / 2, 0.1f);
+  camera.target_world = (bounds.low + bounds.high) / 2.0f;
   camera.position_world = camera.target_world + glm::normalize(glm::vec3(0.8f, 0.6f, 1)) *
                                                     (radius / std::sin(camera.vertical_fov / 2));
   return camera;

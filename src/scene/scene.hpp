@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/box.hpp"
 #include "image/image.hpp"
 
 namespace brume::scene {
@@ -118,12 +119,8 @@ struct Scene {
   std::optional<Camera> camera;   ///< The first camera of the file.
 };
 
-/// The bounding box of all objects and spheres in world space; min > max when there is none.
-struct Bounds {
-  glm::vec3 min{1e30f}, max{-1e30f};
-  bool empty() const { return min.x > max.x; }
-};
-Bounds world_bounds(const Scene& scene);
+/// The bounding box of all objects and spheres in world space; low > high when there is none.
+Box<float> world_bounds(const Scene& scene);
 
 /// The scene's own camera, or one that sees all of its bounds obliquely from above.
 Camera default_camera(const Scene& scene);

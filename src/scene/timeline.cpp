@@ -292,8 +292,8 @@ Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scen
   const Camera camera = default_camera(scene);
 
   // A scene smaller than a room gets proportionally smaller voxels.
-  const Bounds bounds = world_bounds(scene);
-  const glm::vec3 extent = bounds.empty() ? glm::vec3(10) : bounds.max - bounds.min;
+  const Box<float> bounds = world_bounds(scene);
+  const glm::vec3 extent = bounds.empty() ? glm::vec3(10) : bounds.high - bounds.low;
   const float room_voxel = timeline.grid.voxel;
   timeline.grid.voxel = std::clamp(std::max({extent.x, extent.y, extent.z}) / 40, 0.015625f, room_voxel);
 

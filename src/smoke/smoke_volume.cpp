@@ -289,7 +289,7 @@ void SmokeVolume::update_bounds() {
   for (const auto& source : sources_.clouds()) {
     if (source->cloud->voxels().empty()) continue;
     // The cells that take from voxel v are v - 2 to v + 1; their points lie in [v - 1.5, v + 2.5].
-    const SmokeBounds cloud{glm::vec3(source->cloud->low()) - 1.5f, glm::vec3(source->cloud->high()) + 2.5f};
+    const Box<float> cloud{glm::vec3(source->cloud->low()) - 1.5f, glm::vec3(source->cloud->high()) + 2.5f};
     const bool first = cloud_bounds_.empty();
     low = first ? cloud.low : glm::min(low, cloud.low);
     high = first ? cloud.high : glm::max(high, cloud.high);

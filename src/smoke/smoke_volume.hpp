@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/box.hpp"
 #include "shared/smoke_volume.h"
 #include "sim/state.hpp"
 #include "sim/world.hpp"
@@ -25,11 +26,6 @@
 #include "voxel/surface_planes.hpp"
 
 namespace brume::smoke {
-
-/// A box of points [voxel space].
-struct SmokeBounds {
-  glm::vec3 low{0}, high{0};
-};
 
 /// Writes clouds and blasts into a volume::SparseVolume (kDensityChannel) and its WallCells. Bricks and
 /// boundary cells are built where a cloud comes or goes or the level changes, and nowhere else; from tick to
@@ -60,7 +56,7 @@ class SmokeVolume {
   /// The boundary cells.
   const WallCells& walls() const { return walls_; }
   /// Where the density of each cloud can be above 0, in no order; layout().bounds_min and max are around all.
-  std::span<const SmokeBounds> cloud_bounds() const { return cloud_bounds_; }
+  std::span<const Box<float>> cloud_bounds() const { return cloud_bounds_; }
 
   // Of the sparse volume.
   static constexpr std::uint32_t kNoSlot = volume::SparseVolume::kNoSlot;
@@ -128,7 +124,7 @@ class SmokeVolume {
   const voxel::BitGrid* grid_ = nullptr;  // while updating
   SmokeSources sources_;
   std::shared_ptr<const sim::EditBlocks> edits_;  // of the last state
-  std::vector<SmokeBounds> cloud_bounds_;
+  std::vector<Box<float>> cloud_bounds_;
 
   volume::SparseVolume volume_;
   DensityChannel densities_;

@@ -15,9 +15,9 @@ using glm::ivec3;
 constexpr std::size_t kTrianglesPerRun = 32;
 
 // The bits of a brick's slice z within the box.
-std::uint64_t slice_bits(const IntBox& box, ivec3 brick, int z) {
-  const IntBox in_brick = intersection({box.low - brick * kBrickSize, box.high - brick * kBrickSize},
-                                       {ivec3(0), ivec3(kBrickSize)});
+std::uint64_t slice_bits(const Box<int>& box, ivec3 brick, int z) {
+  const Box<int> in_brick = intersection<int>({box.low - brick * kBrickSize, box.high - brick * kBrickSize},
+                                              {ivec3(0), ivec3(kBrickSize)});
   if (in_brick.empty() || z < in_brick.low.z || z >= in_brick.high.z) return 0;
   const std::uint64_t row = (std::uint64_t{1} << in_brick.high.x) - (std::uint64_t{1} << in_brick.low.x);
   std::uint64_t bits = 0;
@@ -25,12 +25,12 @@ std::uint64_t slice_bits(const IntBox& box, ivec3 brick, int z) {
   return bits;
 }
 
-IntBox bricks_of(const IntBox& voxels) {
+Box<int> bricks_of(const Box<int>& voxels) {
   if (voxels.empty()) return {};
   return {voxels.low >> 3, ((voxels.high - 1) >> 3) + 1};
 }
 
-void fill_box(BitGrid& grid, const IntBox& voxels, bool solid) {
+void fill_box(BitGrid& grid, const Box<int>& voxels, bool solid) {
   for_each_in(bricks_of(voxels), [&](ivec3 at) {
     BitGrid::Brick* brick = solid ? &grid.ensure_brick(at) : grid.find_brick_to_write(at);
     for (int z = 0; brick && z < kBrickSize; ++z) {
@@ -41,7 +41,7 @@ void fill_box(BitGrid& grid, const IntBox& voxels, bool solid) {
   });
 }
 
-BitGrid copy_of(const BitGrid& grid, const IntBox& voxels) {
+BitGrid copy_of(const BitGrid& grid, const Box<int>& voxels) {
   BitGrid copy(grid.layout());
   for_each_in(bricks_of(voxels), [&](ivec3 at) {
     const BitGrid::Brick* brick = grid.find_brick(at);
@@ -54,7 +54,7 @@ BitGrid copy_of(const BitGrid& grid, const IntBox& voxels) {
 }
 
 // The bounding box of both.
-IntBox joined(const IntBox& a, const IntBox& b) {
+Box<int> joined(const Box<int>& a, const Box<int>& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
   return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
@@ -100,9 +100,9 @@ Level::Reach Level::reach_of(const dvec3& low_voxel, const dvec3& high_voxel) co
   return {origin + (low_voxel - kMargin) * size, origin + (high_voxel + kMargin) * size};
 }
 
-IntBox Level::voxels_of(const Part& part) const {
+Box<int> Level::voxels_of(const Part& part) const {
   const GridLayout& layout = grid_.layout();
-  IntBox box;  // As in voxelize, touching the face of a voxel counts.
+  Box<int> box;  // As in voxelize, touching the face of a voxel counts.
   for (int axis = 0; axis < 3; ++axis) {
     const double origin = layout.origin_world[axis], size = layout.voxel_size;
     const double low = (part.bounds.low[axis] - origin) / size,
@@ -131,7 +131,7 @@ void Level::gather(const Part& part, const Reach& reach, std::vector<Triangle>& 
 }
 
 LevelChange Level::show(std::span<const std::uint32_t> parts, bool shown) {
-  IntBox touched;
+  Box<int> touched;
   ++last_layer_;
   for (const std::uint32_t i : parts) {
     BRUME_ASSERT(i < parts_.size(), std::to_string(i));
@@ -149,7 +149,7 @@ LevelChange Level::replace(std::uint32_t number, std::vector<Triangle> triangles
   Part part = make_part(std::move(triangles));
   part.shown = parts_[number].shown;
   part.layer = ++last_layer_;
-  const IntBox touched = part.shown ? joined(voxels_of(parts_[number]), voxels_of(part)) : IntBox{};
+  const Box<int> touched = part.shown ? joined(voxels_of(parts_[number]), voxels_of(part)) : Box<int>{};
   parts_[number] = std::move(part);
   return rebuild(touched);
 }
@@ -159,27 +159,27 @@ std::uint32_t Level::add_part() {
   return part_count() - 1;
 }
 
-LevelChange Level::set_box(IntBox box, bool solid) {
+LevelChange Level::set_box(Box<int> box, bool solid) {
   box = intersection(box, {ivec3(0), grid_.size()});
   if (box.empty()) return rebuild({});
   // Boxes that it covers have no effect any more.
-  std::erase_if(boxes_, [&](const Box& other) { return box.contains(other.voxels); });
+  std::erase_if(boxes_, [&](const EditedBox& other) { return box.contains(other.voxels); });
   boxes_.push_back({box, solid, ++last_layer_});
   return rebuild(box);
 }
 
 /// Redraws the voxels from all layers.
-void Level::paint(const IntBox& voxels) {
+void Level::paint(const Box<int>& voxels) {
   // All visible layers, bottom to top.
   struct Layer {
     std::uint64_t order;
     const Part* part;
-    const Box* box;
+    const EditedBox* box;
   };
   std::vector<Layer> layers;
   for (const Part& part : parts_)
     if (part.shown) layers.push_back({part.layer, &part, nullptr});
-  for (const Box& box : boxes_) layers.push_back({box.layer, nullptr, &box});
+  for (const EditedBox& box : boxes_) layers.push_back({box.layer, nullptr, &box});
   std::stable_sort(layers.begin(), layers.end(),
                    [](const Layer& a, const Layer& b) { return a.order < b.order; });
 
@@ -198,11 +198,12 @@ void Level::paint(const IntBox& voxels) {
   }
 }
 
-LevelChange Level::rebuild(const IntBox& touched) {
-  const IntBox voxels = intersection(touched, {ivec3(0), grid_.size()});
+LevelChange Level::rebuild(const Box<int>& touched) {
+  const Box<int> voxels = intersection(touched, {ivec3(0), grid_.size()});
   // Every cell with a corner in a touched voxel, including voxels outside of the grid.
-  const IntBox cells =
-      touched.empty() ? IntBox{} : intersection({touched.low - 1, touched.high}, {ivec3(-1), grid_.size()});
+  const Box<int> cells = touched.empty()
+                             ? Box<int>{}
+                             : intersection<int>({touched.low - 1, touched.high}, {ivec3(-1), grid_.size()});
   LevelChange change{voxels, cells, copy_of(grid_, voxels), {}};
   if (voxels.empty()) change.voxels = {};
   if (cells.empty()) change.cells = {};
@@ -211,7 +212,7 @@ LevelChange Level::rebuild(const IntBox& touched) {
   return change;
 }
 
-void Level::add_faces(const Box& box, std::vector<Triangle>& out) const {
+void Level::add_faces(const EditedBox& box, std::vector<Triangle>& out) const {
   const auto corner = [&](int axis, int side, int u, int w) {
     ivec3 v;
     v[axis] = side ? box.voxels.high[axis] : box.voxels.low[axis];
@@ -228,13 +229,13 @@ void Level::add_faces(const Box& box, std::vector<Triangle>& out) const {
     }
 }
 
-SurfacePlanes Level::planes_in(const IntBox& cells) const {
+SurfacePlanes Level::planes_in(const Box<int>& cells) const {
   const Reach reach = reach_of(dvec3(cells.low) + 0.5, dvec3(cells.high) + 0.5);
   std::vector<Triangle> triangles;
   for (const Part& part : parts_) gather(part, reach, triangles);
-  std::vector<IntBox> cleared;
-  const IntBox corners{cells.low, cells.high + 1};
-  for (const Box& box : boxes_) {
+  std::vector<Box<int>> cleared;
+  const Box<int> corners{cells.low, cells.high + 1};
+  for (const EditedBox& box : boxes_) {
     if (intersection(box.voxels, {corners.low - 1, corners.high + 1}).empty()) continue;
     if (box.solid) {
       add_faces(box, triangles);
@@ -246,7 +247,7 @@ SurfacePlanes Level::planes_in(const IntBox& cells) const {
 }
 
 std::uint64_t Level::bytes() const {
-  std::uint64_t sum = grid_.bytes() + boxes_.size() * sizeof(Box);
+  std::uint64_t sum = grid_.bytes() + boxes_.size() * sizeof(EditedBox);
   for (const Part& part : parts_)
     sum += sizeof(Part) + part.triangles.size() * sizeof(Triangle) + part.runs.size() * sizeof(Run);
   return sum;

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "core/box.hpp"
 #include "voxel/bit_grid.hpp"
-#include "voxel/int_box.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/triangle.hpp"
 
@@ -21,7 +21,7 @@ namespace brume::voxel {
 
 /// The effect of a change. No voxel outside of `voxels` and no plane outside of `cells` has changed.
 struct LevelChange {
-  IntBox voxels, cells;
+  Box<int> voxels, cells;
   BitGrid before;        ///< The content of `voxels` before the change; free elsewhere.
   SurfacePlanes planes;  ///< The planes of `cells` after the change; none elsewhere.
 };
@@ -42,10 +42,10 @@ class Level {
   /// Adds a part, shown, without triangles. Returns its number.
   std::uint32_t add_part();
   /// Makes the voxels of a box solid, with surfaces along its six faces, or free.
-  LevelChange set_box(IntBox box, bool solid);
+  LevelChange set_box(Box<int> box, bool solid);
 
   /// The current planes of a box of cells.
-  SurfacePlanes planes_in(const IntBox& cells) const;
+  SurfacePlanes planes_in(const Box<int>& cells) const;
   /// Bytes of memory held.
   std::uint64_t bytes() const;
 
@@ -61,8 +61,8 @@ class Level {
     bool shown = true;
     std::uint64_t layer = 0;
   };
-  struct Box {
-    IntBox voxels;
+  struct EditedBox {
+    Box<int> voxels;
     bool solid;
     std::uint64_t layer;
   };
@@ -74,15 +74,15 @@ class Level {
 
   static Part make_part(std::vector<Triangle> triangles);
   Reach reach_of(const glm::dvec3& low_voxel, const glm::dvec3& high_voxel) const;
-  IntBox voxels_of(const Part& part) const;
+  Box<int> voxels_of(const Part& part) const;
   void gather(const Part& part, const Reach& reach, std::vector<Triangle>& out) const;
-  LevelChange rebuild(const IntBox& voxels);
-  void paint(const IntBox& voxels);
-  void add_faces(const Box& box, std::vector<Triangle>& out) const;
+  LevelChange rebuild(const Box<int>& voxels);
+  void paint(const Box<int>& voxels);
+  void add_faces(const EditedBox& box, std::vector<Triangle>& out) const;
 
   BitGrid grid_;
   std::vector<Part> parts_;
-  std::vector<Box> boxes_;
+  std::vector<EditedBox> boxes_;
   std::uint64_t last_layer_ = 0;
 };
 

@@ -5,14 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "voxel/int_box.hpp"
+#include "core/box.hpp"
 #include "voxel/surface_planes.hpp"
 
 namespace brume::voxel {
 
 /// Replaces the planes of a box of cells.
 struct PlanePatch {
-  IntBox cells;
+  Box<int> cells;
   SurfacePlanes planes;  ///< None outside of `cells`.
 };
 

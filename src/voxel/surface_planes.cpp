@@ -175,8 +175,8 @@ bool at_solid_voxel(const BitGrid& grid, ivec3 cell, const dvec3& from_centre) {
 
 class SlabBuilder {
  public:
-  SlabBuilder(std::span<const Triangle> triangles, const BitGrid& grid, const IntBox& cells,
-              std::span<const IntBox> cleared)
+  SlabBuilder(std::span<const Triangle> triangles, const BitGrid& grid, const Box<int>& cells,
+              std::span<const Box<int>> cleared)
       : triangles_(triangles), grid_(grid), cells_(cells), cleared_(cleared) {}
 
   Slab build(std::span<const std::uint32_t> in_slab, int z) {
@@ -226,7 +226,7 @@ class SlabBuilder {
   }
 
   bool touches_cleared(ivec3 cell) const {
-    return std::any_of(cleared_.begin(), cleared_.end(), [&](const IntBox& box) {
+    return std::any_of(cleared_.begin(), cleared_.end(), [&](const Box<int>& box) {
       return !intersection(box, {cell, cell + 2}).empty();
     });
   }
@@ -268,8 +268,8 @@ class SlabBuilder {
 
   std::span<const Triangle> triangles_;
   const BitGrid& grid_;
-  const IntBox cells_;
-  std::span<const IntBox> cleared_;
+  const Box<int> cells_;
+  std::span<const Box<int>> cleared_;
   std::vector<Piece> pieces_, gathered_;
   std::vector<std::uint32_t> order_;
   std::vector<Cluster> clusters_;
@@ -327,9 +327,9 @@ SurfacePlanes SurfacePlanes::build(std::span<const Triangle> triangles, const Bi
 }
 
 SurfacePlanes SurfacePlanes::build_in(std::span<const Triangle> triangles, const BitGrid& grid,
-                                      const IntBox& cells, std::span<const IntBox> cleared) {
+                                      const Box<int>& cells, std::span<const Box<int>> cleared) {
   BRUME_ASSERT(triangles.size() < 0xffffffffu, std::to_string(triangles.size()));
-  BRUME_ASSERT((IntBox{ivec3(-1), grid.size()}.contains(cells)), "the cells lie in the grid");
+  BRUME_ASSERT((Box<int>{ivec3(-1), grid.size()}.contains(cells)), "the cells lie in the grid");
   // Build the slabs in parallel.
   std::vector<Slab> slabs;
   if (!cells.empty()) {

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "core/box.hpp"
 #include "voxel/bit_grid.hpp"
-#include "voxel/int_box.hpp"
 #include "voxel/triangle.hpp"
 
 namespace brume::voxel {
@@ -44,8 +44,8 @@ class SurfacePlanes {
   /// The same for the cells of a box only; all others get no planes. `cleared`: boxes of voxels removed from
   /// the voxelization. In cells with a corner in one of them only those parts of the triangles count that lie
   /// in or at a voxel that is still solid.
-  static SurfacePlanes build_in(std::span<const Triangle> triangles, const BitGrid& grid, const IntBox& cells,
-                                std::span<const IntBox> cleared);
+  static SurfacePlanes build_in(std::span<const Triangle> triangles, const BitGrid& grid,
+                                const Box<int>& cells, std::span<const Box<int>> cleared);
 
   /// The planes of a cell, at most kMaxPlanes, by decreasing area; none where no surface crosses the cell or
   /// the cell lies outside [-1, size - 1].

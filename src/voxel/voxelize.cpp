@@ -60,7 +60,7 @@ struct Range {
 
 class TriangleScan {
  public:
-  TriangleScan(VoxelTriangle& t, const IntBox& box, Pen& pen) : t_(t), pen_(pen) {
+  TriangleScan(VoxelTriangle& t, const Box<int>& box, Pen& pen) : t_(t), pen_(pen) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto [from, to] = std::minmax({t.corners[0][axis], t.corners[1][axis], t.corners[2][axis]});
       range_[axis] = Range(from, to, box.low[axis], box.high[axis] - 1);
@@ -215,7 +215,7 @@ bool within_reach(const VoxelTriangle& t) {
   return true;
 }
 
-void draw(const Triangle& t, const GridLayout& layout, const IntBox& box, Pen& pen) {
+void draw(const Triangle& t, const GridLayout& layout, const Box<int>& box, Pen& pen) {
   const dvec3 origin(layout.origin_world);
   const double voxel_size = layout.voxel_size;
   VoxelTriangle in_voxels({(dvec3(t.a) - origin) / voxel_size, (dvec3(t.b) - origin) / voxel_size,
@@ -280,7 +280,7 @@ Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& 
   const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(thread_count(), tasks));
   std::vector<BitGrid> grids(workers, BitGrid(layout));
   std::atomic<std::size_t> next{0};
-  const IntBox all{ivec3(0), layout.size};
+  const Box<int> all{ivec3(0), layout.size};
 
   // Each worker draws into a grid of its own. The union does not depend on which worker drew what.
   parallel_for(workers, 1, [&](std::size_t worker, std::size_t) {
@@ -294,8 +294,8 @@ Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& 
   return std::move(grids[0]);
 }
 
-void draw_triangles(std::span<const Triangle> triangles, const IntBox& box, BitGrid& grid) {
-  BRUME_ASSERT((IntBox{ivec3(0), grid.size()}.contains(box)), "the box lies in the grid");
+void draw_triangles(std::span<const Triangle> triangles, const Box<int>& box, BitGrid& grid) {
+  BRUME_ASSERT((Box<int>{ivec3(0), grid.size()}.contains(box)), "the box lies in the grid");
   if (box.empty()) return;
   Pen pen(grid);
   for (const Triangle& t : triangles) draw(t, grid.layout(), box, pen);

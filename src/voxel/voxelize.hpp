@@ -3,9 +3,9 @@
 
 #include <span>
 
+#include "core/box.hpp"
 #include "core/error.hpp"
 #include "voxel/bit_grid.hpp"
-#include "voxel/int_box.hpp"
 #include "voxel/triangle.hpp"
 
 namespace brume::voxel {
@@ -36,6 +36,6 @@ Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& 
 
 /// Voxelizes into a part of an existing grid, on one thread: makes solid what voxelize would make solid
 /// within the box and changes no other voxel. The box must lie in the grid.
-void draw_triangles(std::span<const Triangle> triangles, const IntBox& box, BitGrid& grid);
+void draw_triangles(std::span<const Triangle> triangles, const Box<int>& box, BitGrid& grid);
 
 }  // namespace brume::voxel

@@ -212,10 +212,10 @@ TEST_P(BlenderFormats, ObjectsShareMeshes) {
 }
 
 TEST_P(BlenderFormats, MeshesInEditModeAreExported) {
-  const scene::Bounds bounds =
+  const Box<float> bounds =
       scene::world_bounds(scene::load_scene(level("edited", GetParam())).value_or_throw());
-  EXPECT_LT(glm::distance(bounds.max, glm::vec3(5, 5, 1)), kNear);
-  EXPECT_LT(glm::distance(bounds.min, glm::vec3(-1, -1, -5)), kNear);
+  EXPECT_LT(glm::distance(bounds.high, glm::vec3(5, 5, 1)), kNear);
+  EXPECT_LT(glm::distance(bounds.low, glm::vec3(-1, -1, -5)), kNear);
   EXPECT_EQ(read_json(blender_run().folder / "edited/facts.json")["mode"], "EDIT_MESH");
 }
 

@@ -66,9 +66,9 @@ TEST_F(DebugNumbersTest, ASliceShowsTheDensityThatTheProcessorReads) {
   }
   // What the processor reads in the middle of a voxel off the walls is the state's density.
   int compared = 0;
-  voxel::for_each_in({glm::ivec3(2), room_.grid.size() - 2}, [&](glm::ivec3 v) {
+  for_each_in({glm::ivec3(2), room_.grid.size() - 2}, [&](glm::ivec3 v) {
     bool open = true;
-    voxel::for_each_in({v - 1, v + 2}, [&](glm::ivec3 beside) { open = open && !room_.grid.solid(beside); });
+    for_each_in({v - 1, v + 2}, [&](glm::ivec3 beside) { open = open && !room_.grid.solid(beside); });
     if (!open) return;
     EXPECT_NEAR(smoke::sample_density(room_.volume, glm::vec3(v) + 0.5f),
                 room_.world.state().density(v) / 255.0f, 1e-5f);

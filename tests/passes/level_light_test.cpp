@@ -15,7 +15,7 @@ using voxel::BitGrid;
 using voxel::GridLayout;
 
 void fill(BitGrid& grid, glm::ivec3 low, glm::ivec3 high, bool solid) {
-  voxel::for_each_in({low, high}, [&](glm::ivec3 v) { grid.set(v, solid); });
+  for_each_in({low, high}, [&](glm::ivec3 v) { grid.set(v, solid); });
 }
 
 /// A hollow box with walls of one voxel, and a window in its wall of high x.
@@ -72,7 +72,7 @@ class LevelLightTest : public gpu::GpuTest {
     const auto words = read_back<std::uint32_t>(solid_.words(), solid_.word_count());
     const glm::ivec3 size = solid_.layout().size;
     std::vector<bool> solid;
-    voxel::for_each_in({glm::ivec3(0), size}, [&](glm::ivec3 t) {
+    for_each_in({glm::ivec3(0), size}, [&](glm::ivec3 t) {
       const int word = t.x / 32 + shared::solid_row_words(size.x) * (t.y + size.y * t.z);
       const bool bit = words[static_cast<std::size_t>(word)] >> (t.x % 32) & 1;
       EXPECT_EQ(texels[solid.size()], bit ? 0 : 255);
@@ -82,7 +82,7 @@ class LevelLightTest : public gpu::GpuTest {
   }
   std::vector<bool> solid_voxels(const BitGrid& grid) {
     std::vector<bool> solid;
-    voxel::for_each_in({glm::ivec3(0), grid.size()}, [&](glm::ivec3 v) { solid.push_back(grid.solid(v)); });
+    for_each_in({glm::ivec3(0), grid.size()}, [&](glm::ivec3 v) { solid.push_back(grid.solid(v)); });
     return solid;
   }
 
@@ -96,7 +96,7 @@ TEST_F(LevelLightTest, TheVolumeIsTheGridAndFollowsItsEdits) {
   for (const glm::ivec3 size :
        {glm::ivec3(1), glm::ivec3(7, 7, 7), glm::ivec3(33, 17, 5), glm::ivec3(64, 3, 40)}) {
     BitGrid grid({size, 0.5f, {-1, -2, -3}});
-    voxel::for_each_in({glm::ivec3(0), size}, [&](glm::ivec3 v) { grid.set(v, random() % 3 == 0); });
+    for_each_in({glm::ivec3(0), size}, [&](glm::ivec3 v) { grid.set(v, random() % 3 == 0); });
     EXPECT_TRUE(show({&grid, nullptr}));
     EXPECT_EQ(solid_texels(), solid_voxels(grid));
     EXPECT_FALSE(show({&grid, nullptr}));
@@ -131,9 +131,8 @@ TEST_F(LevelLightTest, ATexelOfManyVoxelsIsSolidWhereAWallRunsThrough) {
   EXPECT_EQ(solid_.layout().texel_size, 1.0f);
   const auto solid = solid_texels();
   std::size_t i = 0;
-  voxel::for_each_in({glm::ivec3(0), solid_.layout().size}, [&](glm::ivec3 t) {
-    EXPECT_EQ(solid[i++], t.z == 3 || t.x == 75) << t.x << " " << t.z;
-  });
+  for_each_in({glm::ivec3(0), solid_.layout().size},
+              [&](glm::ivec3 t) { EXPECT_EQ(solid[i++], t.z == 3 || t.x == 75) << t.x << " " << t.z; });
 }
 
 TEST_F(LevelLightTest, AWayIsFreeWhereTheTraversalMeetsNothing) {
@@ -220,7 +219,7 @@ TEST_F(LevelLightTest, RaysAreThoseOfTheReference) {
   const auto rays = read_back<std::uint32_t>(sky_.rays(), solid_.word_count() * shared::kSkyDirections);
   std::size_t seen = 0, differ = 0;
   for (std::uint32_t i = 0; i < shared::kSkyDirections; ++i)
-    voxel::for_each_in({glm::ivec3(0), grid.size()}, [&](glm::ivec3 v) {
+    for_each_in({glm::ivec3(0), grid.size()}, [&](glm::ivec3 v) {
       const auto word = static_cast<std::size_t>(v.x / 32 + 2 * (v.y + grid.size().y * v.z));
       const bool sees = rays[i * solid_.word_count() + word] >> (v.x % 32) & 1;
       const bool expected = reference::sees_sky_step_by_step(grid, v, glm::dvec3(shared::sky_direction(i)));

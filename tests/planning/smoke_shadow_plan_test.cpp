@@ -30,7 +30,7 @@ shared::Camera camera() {
   return camera;
 }
 
-SmokeShadowPlan plan_for(const std::vector<shared::Light>& lights, const std::vector<WorldBox>& smoke,
+SmokeShadowPlan plan_for(const std::vector<shared::Light>& lights, const std::vector<Box<float>>& smoke,
                          glm::uvec2 atlas = kAtlas) {
   return plan_smoke_shadows({lights, glm::mat4(1), camera()}, smoke, atlas);
 }
@@ -56,7 +56,7 @@ std::pair<std::uint32_t, glm::vec2> texel_of(const SmokeShadowPlan& plan, const 
 }
 
 TEST(SmokeShadowPlan, LightsThatReachNoSmokeOrNothingInViewHaveNoRays) {
-  const std::vector<WorldBox> smoke{{{-1, 0, -1}, {1, 2, 1}}};
+  const std::vector<Box<float>> smoke{{{-1, 0, -1}, {1, 2, 1}}};
   shared::Light away = light({0, 1, 4}, 10);
   away.kind = shared::kLightSpot;
   away.direction = {0, 0, 1};
@@ -85,7 +85,7 @@ TEST(SmokeShadowPlan, LightsThatReachNoSmokeOrNothingInViewHaveNoRays) {
 TEST(SmokeShadowPlan, EveryDirectionToSmokeHasATexelOfItsOwn) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> place(-8, 8), size(0.5f, 4), share(0, 1);
-  std::vector<WorldBox> smoke;
+  std::vector<Box<float>> smoke;
   for (int i = 0; i < 5; ++i) {
     const glm::vec3 low{place(random), place(random), place(random)};
     smoke.push_back({low, low + glm::vec3(size(random), size(random), size(random))});
@@ -97,7 +97,7 @@ TEST(SmokeShadowPlan, EveryDirectionToSmokeHasATexelOfItsOwn) {
 
   for (std::size_t i = 0; i < lights.size(); ++i)
     for (int k = 0; k < 200; ++k) {
-      const WorldBox& box = smoke[random() % smoke.size()];
+      const Box<float>& box = smoke[random() % smoke.size()];
       const glm::vec3 p = glm::mix(box.low, box.high, glm::vec3(share(random), share(random), share(random)));
       if (glm::length(p - lights[i].position_world) >= lights[i].range) continue;
       const auto [face, texel] = texel_of(plan, lights[i], i, p);
@@ -130,7 +130,7 @@ TEST(SmokeShadowPlan, EveryDirectionToSmokeHasATexelOfItsOwn) {
 }
 
 TEST(SmokeShadowPlan, TexelsAreAsFineAsTheAtlasAllows) {
-  const std::vector<WorldBox> smoke{{{-1, 0, -1}, {1, 2, 1}}};
+  const std::vector<Box<float>> smoke{{{-1, 0, -1}, {1, 2, 1}}};
   const std::vector<shared::Light> one{light({0, 1, 4}, 10)};
   // The whole face spans 2 * 5 m at the far end of the smoke.
   EXPECT_NEAR(plan_for(one, smoke).faces[5].scale, 10 / kFinestSmokeShadow, 0.1f);

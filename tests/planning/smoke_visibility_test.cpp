@@ -61,7 +61,7 @@ class SmokeVisibilityTest : public ::testing::Test {
   }
   /// Whether all smoke on a segment is required: sampled twice a voxel.
   bool all_visible(const SmokeVisibility& visibility, glm::vec3 from, glm::vec3 segment, bool seen) const {
-    const smoke::SmokeBounds& bounds = seen ? visibility.visible_bounds : visibility.caster_bounds;
+    const Box<float>& bounds = seen ? visibility.visible_bounds : visibility.caster_bounds;
     const std::size_t first_slots = seen ? visibility.visible_count : visibility.slots.size();
     const int count = static_cast<int>(glm::length(segment) / (0.5f * kVoxel)) + 1;
     for (int i = 0; i <= count; ++i) {
@@ -81,7 +81,7 @@ class SmokeVisibilityTest : public ::testing::Test {
   voxel::SurfacePlanes planes_;
   sim::World world_{grid_};
   smoke::SmokeVolume volume_{grid_, planes_};
-  WorldBox scene_{glm::vec3(0), glm::vec3(kAcross, kHigh, kAcross) * kVoxel};
+  Box<float> scene_{glm::vec3(0), glm::vec3(kAcross, kHigh, kAcross) * kVoxel};
   std::vector<shared::Light> lights_;
 };
 
@@ -144,7 +144,7 @@ TEST_F(SmokeVisibilityTest, BoxesHoldTheRequiredSmoke) {
   for (int i = 0; i < 20000; ++i) {
     const glm::vec3 p = inside(0);
     if (smoke::sample_density(volume_, p / kVoxel) <= 0) continue;
-    EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const WorldBox& box) {
+    EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const Box<float>& box) {
       return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
     }));
   }

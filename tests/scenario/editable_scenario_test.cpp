@@ -155,7 +155,7 @@ class EditableScenarioTest : public testing::Test {
   static void expect_same_picture(const Simulation& a, const Simulation& b) {
     const glm::ivec3 size = a.world().grid().size();
     int planes = 0, densities = 0;
-    voxel::for_each_in({glm::ivec3(-1), size}, [&](glm::ivec3 cell) {
+    for_each_in({glm::ivec3(-1), size}, [&](glm::ivec3 cell) {
       const auto p = a.planes().at(cell), q = b.planes().at(cell);
       planes += !std::equal(p.begin(), p.end(), q.begin(), q.end());
     });

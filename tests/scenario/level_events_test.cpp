@@ -21,10 +21,9 @@ Voxels rebuilt(Scenario& scenario, const std::string& without) {
 void expect_level(const Simulation& simulation, const Voxels& expected) {
   int voxels = 0, planes = 0;
   const ivec3 size = expected.grid.size();
-  voxel::for_each_in({ivec3(0), size}, [&](ivec3 v) {
-    voxels += simulation.world().grid().solid(v) != expected.grid.solid(v);
-  });
-  voxel::for_each_in({ivec3(-1), size}, [&](ivec3 cell) {
+  for_each_in({ivec3(0), size},
+              [&](ivec3 v) { voxels += simulation.world().grid().solid(v) != expected.grid.solid(v); });
+  for_each_in({ivec3(-1), size}, [&](ivec3 cell) {
     const auto p = simulation.planes().at(cell), q = expected.planes.at(cell);
     planes += !std::equal(p.begin(), p.end(), q.begin(), q.end());
   });
@@ -36,7 +35,7 @@ void expect_level(const Simulation& simulation, const Voxels& expected) {
 std::uint64_t smoke_in_the_east(const Simulation& simulation) {
   std::uint64_t sum = 0;
   const ivec3 size = simulation.world().grid().size();
-  voxel::for_each_in({ivec3(24, 0, 0), size}, [&](ivec3 v) { sum += simulation.world().state().density(v); });
+  for_each_in({ivec3(24, 0, 0), size}, [&](ivec3 v) { sum += simulation.world().state().density(v); });
   return sum;
 }
 
@@ -102,10 +101,10 @@ TEST(LevelEvents, AnEditFillsTheVoxelsWithCentresInside) {
   const voxel::GridLayout& layout = scenario.voxels.grid.layout();
   EXPECT_EQ(
       voxels_in(layout, layout.origin_world + vec3(0.1f), layout.origin_world + vec3(0.5f, 0.51f, 0.6f)),
-      (voxel::IntBox{ivec3(0), ivec3(2, 3, 3)}));
+      (Box<int>{ivec3(0), ivec3(2, 3, 3)}));
   EXPECT_TRUE(
       voxels_in(layout, layout.origin_world + vec3(0.15f), layout.origin_world + vec3(0.25f)).empty());
-  EXPECT_EQ(voxels_in(layout, vec3(-1e6f), vec3(1e6f)), (voxel::IntBox{ivec3(-1), layout.size + 1}));
+  EXPECT_EQ(voxels_in(layout, vec3(-1e6f), vec3(1e6f)), (Box<int>{ivec3(-1), layout.size + 1}));
 
   // A hole in the wall between the rooms, and the doorway walled up.
   scenario.timeline.edits = {{1.0, {-0.3f, 2.1f, -1.5f}, {0.3f, 2.7f, -0.7f}, false},

@@ -92,10 +92,10 @@ TEST(Motel, OpeningADoorEqualsARebuildWithoutIt) {
   voxel::PatchedPlanes planes(scenario.voxels.planes);
   const auto expect_same = [&](const Voxels& expected) {
     std::uint64_t voxels_differ = 0, planes_differ = 0;
-    voxel::for_each_in({glm::ivec3(0), layout.size}, [&](glm::ivec3 v) {
+    for_each_in({glm::ivec3(0), layout.size}, [&](glm::ivec3 v) {
       voxels_differ += objects.level.grid().solid(v) != expected.grid.solid(v);
     });
-    voxel::for_each_in({glm::ivec3(-1), layout.size}, [&](glm::ivec3 cell) {
+    for_each_in({glm::ivec3(-1), layout.size}, [&](glm::ivec3 cell) {
       const auto p = planes.at(cell), q = expected.planes.at(cell);
       planes_differ += !std::equal(p.begin(), p.end(), q.begin(), q.end());
     });

@@ -26,7 +26,7 @@ BitGrid space(float voxel, vec3 metres, vec3 origin = vec3(0)) {
 
 /// Makes solid every voxel whose centre lies in a box [m].
 void fill(BitGrid& grid, vec3 low, vec3 high) {
-  voxel::for_each_in({ivec3(0), grid.size()}, [&](ivec3 v) {
+  for_each_in({ivec3(0), grid.size()}, [&](ivec3 v) {
     const vec3 centre = world_from_voxel(grid.layout(), vec3(v) + 0.5f);
     if (glm::all(glm::greaterThan(centre, low)) && glm::all(glm::lessThan(centre, high))) grid.set(v, true);
   });
@@ -261,10 +261,9 @@ BitGrid random_rooms(std::mt19937& random, float voxel) {
   for (int i = 0; i < 30; ++i) {
     const ivec3 low(below(size.x), below(size.y), below(size.z));
     const ivec3 high = low + ivec3(1 + below(6), 1 + below(4), 1 + below(6));
-    voxel::for_each_in(voxel::intersection({low, high}, {ivec3(0), size}),
-                       [&](ivec3 v) { grid.set(v, i % 4 != 3); });
+    for_each_in(intersection({low, high}, {ivec3(0), size}), [&](ivec3 v) { grid.set(v, i % 4 != 3); });
   }
-  voxel::for_each_in({ivec3(0), size}, [&](ivec3 v) {
+  for_each_in({ivec3(0), size}, [&](ivec3 v) {
     if (glm::any(glm::equal(v, ivec3(0))) || glm::any(glm::equal(v, size - 1))) grid.set(v, true);
   });
   return grid;

@@ -212,12 +212,12 @@ TEST(LoadScene, FindsFilesIgnoringLetterCase) {
 TEST(DefaultCamera, HasAllCornersOfTheBoundsInView) {
   const auto scene = parse("Box 3 4 5 0 0 0 10 1 2\n");
   ASSERT_TRUE(scene);
-  const Bounds bounds = world_bounds(*scene);
+  const Box<float> bounds = world_bounds(*scene);
   const Camera camera = default_camera(*scene);
   const glm::vec3 axis = glm::normalize(camera.target_world - camera.position_world);
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? bounds.min.x : bounds.max.x, corner & 2 ? bounds.min.y : bounds.max.y,
-                      corner & 4 ? bounds.min.z : bounds.max.z);
+    const glm::vec3 p(corner & 1 ? bounds.low.x : bounds.high.x, corner & 2 ? bounds.low.y : bounds.high.y,
+                      corner & 4 ? bounds.low.z : bounds.high.z);
     const float cosine = glm::dot(glm::normalize(p - camera.position_world), axis);
     EXPECT_GE(cosine, std::cos(camera.vertical_fov / 2) - 1e-5f);
   }

@@ -65,7 +65,7 @@ void expect_same_planes(const A& a, const B& b, ivec3 size) {
 struct Slow {
   struct Layer {
     std::uint32_t part;  // or none
-    IntBox box;
+    Box<int> box;
     bool solid;
   };
   static constexpr std::uint32_t kNone = ~0u;
@@ -170,7 +170,7 @@ TEST_P(RandomLevels, EveryChangeEqualsAFullRebuild) {
         default: {
           const ivec3 low(whole(random, -3, layout.size.x), whole(random, -3, layout.size.y),
                           whole(random, -3, layout.size.z));
-          const IntBox box{low, low + ivec3(whole(random, 0, 6), whole(random, 1, 6), whole(random, 1, 6))};
+          const Box<int> box{low, low + ivec3(whole(random, 0, 6), whole(random, 1, 6), whole(random, 1, 6))};
           const bool solid = random() % 2 == 0;
           take_change(level.set_box(box, solid), old, level.grid(), patched);
           if (!box.empty()) slow.layers.push_back({Slow::kNone, box, solid});
