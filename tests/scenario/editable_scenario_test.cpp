@@ -183,7 +183,7 @@ TEST_F(Live, IsAtEveryMomentWhatItsTimelineSays) {
         scene::SmokeOptions smoke = live->scenario().timeline.smoke;
         smoke.voxels = 800 + player.below(1500);
         smoke.hold = 0.5f * static_cast<float>(player.below(5));
-        smoke.noise = 0.25f;
+        smoke.erosion = 0.25f;
         ASSERT_TRUE(live->set_smoke(smoke));
       }
       if (i % 10 == 9)

@@ -184,7 +184,7 @@ TEST(Timeline, TheLifeOfASmokeIsRead) {
 
 TEST(Timeline, BlastsMovesEditsAndDoorsAreRead) {
   const auto timeline =
-      parse(kHead + event("blast", "time = 3\nat = [1, 2, 3]\nradius = 4\nleft = 0.5\nflash = 0") +
+      parse(kHead + event("blast", "time = 3\nat = [1, 2, 3]\nradius = 4\nremaining = 0.5\nflash = 0") +
             event("blast", "time = 1\nat = [0, 0, 0]\nrefill_rim = 1\nrefill_middle = 2") +
             event("move", "time = 2\nbody = \"runner\"\nto = [4, 0, -1]") +
             event("edit", "time = 5\nlow = [0, 0, 0]\nhigh = [1, 2, 3]\nsolid = false") +
