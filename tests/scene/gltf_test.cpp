@@ -203,7 +203,7 @@ TEST(Gltf, RejectsUrisOutsideOfTheFolder) {
                           "..\\\\data.bin", "http://host/data.bin"}) {
     Document document;
     document.uri = uri;
-    EXPECT_HAS(document.error(), "is not below the scene's own folder");
+    EXPECT_HAS(document.error(), "is not below the scene's folder");
   }
   Document missing;
   missing.uri = "other.bin";
@@ -316,14 +316,14 @@ TEST(Gltf, RejectsBrokenStructure) {
   EXPECT_EQ(empty.error(), "a.gltf: the scene has no triangle; add at least one object with a mesh");
   Document draco;
   draco.more = R"(, "extensionsRequired": ["KHR_draco_mesh_compression"])";
-  EXPECT_HAS(draco.error(), "the file needs the extension KHR_draco_mesh_compression");
+  EXPECT_HAS(draco.error(), "the file requires the extension KHR_draco_mesh_compression");
   Document word;
   word.nodes = R"([{"mesh": 0, "translation": [0, "up", 0]}])";
   EXPECT_HAS(word.error(), "a.gltf: nodes[0].translation[1]: expected a number, found");
   Document syntax;
   syntax.nodes = "[\n  {]";
-  EXPECT_EQ(syntax.error().substr(0, 14), "a.gltf:2:4: ex");
-  EXPECT_HAS(syntax.error(), "expected JSON");
+  EXPECT_EQ(syntax.error().substr(0, 14), "a.gltf:2:4: in");
+  EXPECT_HAS(syntax.error(), "invalid JSON");
 }
 
 TEST(Gltf, RejectsValuesOfAWrongType) {
