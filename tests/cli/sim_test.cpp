@@ -93,7 +93,7 @@ TEST(Sim, FailuresAreOneLine) {
     EXPECT_EQ(folder.files(), files);
   };
   expect_failure({"sim"}, 2, "--replay");
-  expect_failure({"sim", "room.toml", "--replay", "room.brp"}, 2, "give one");
+  expect_failure({"sim", "room.toml", "--replay", "room.brp"}, 2, "expected either");
   expect_failure({"sim", "--replay", "room.brp", "--ticks", "3"}, 2, "--ticks");
   expect_failure({"sim", "room.toml", "--ticks", "0"}, 2, "--ticks");
   expect_failure({"sim", "room.toml", "--rate", "1001"}, 2, "--rate");
