@@ -22,7 +22,7 @@ class LightPaths {
       if (light.kind == shared::kLightDirectional)
         suns_.push_back(light.direction);
       else
-        lamps_.push_back({light.position_world, light.range});
+        local_lights_.push_back({light.position_world, light.range});
   }
 
   bool may_cross(const WorldSphere& smoke) const {
@@ -32,7 +32,7 @@ class LightPaths {
       return glm::dot(apart, apart) < reach * reach;
     };
     const auto under_sun = [&](glm::vec3 direction) { return may_fall(smoke, direction, lit_); };
-    if (std::any_of(lamps_.begin(), lamps_.end(), near_light) ||
+    if (std::any_of(local_lights_.begin(), local_lights_.end(), near_light) ||
         std::any_of(suns_.begin(), suns_.end(), under_sun))
       return true;
     for (std::uint32_t i = 0; i < shared::kSkyRays && !visible_smoke_.empty(); ++i)
@@ -58,7 +58,7 @@ class LightPaths {
   const ViewFrustum& view_;
   Box<float> lit_, visible_smoke_;
   float slack_;
-  std::vector<WorldSphere> lamps_;  // as far as they reach
+  std::vector<WorldSphere> local_lights_;  // as far as they reach
   std::vector<glm::vec3> suns_;
 };
 

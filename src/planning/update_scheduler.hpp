@@ -24,10 +24,10 @@ class UpdateScheduler {
   bool takes_one_slice(float update_fraction) const { return slices_for(update_fraction) == 1; }
 
   /// Begins a frame that updates about a fraction, in (0, 1], of the work: the least power of two of slices
-  /// that is not less. Slices of the frame before are up to date from then on.
+  /// that is not less. They are the next ones in the order.
   void next_slice(float update_fraction);
-  /// The slices of the frame, aligned to their number. With a priority there are that many times as many, up
-  /// to all of them, and they still cover the work once in as many frames less.
+  /// The slices of the frame, aligned to their number. A priority, a power of two, multiplies that number, up
+  /// to all of them; each slice still has its turn once in a round, which takes fewer frames.
   SliceRange slices(std::uint32_t priority = 1) const;
   /// How many slices that are.
   std::uint32_t slices_per_frame(std::uint32_t priority = 1) const;

@@ -170,7 +170,7 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     keep(one.name + " smoke", truth_shown, smoke_shown);
     keep(one.name + " picture", truth_shown, picture_shown);
     EXPECT_GE(toned, one.least_psnr);
-    // A ray that is let through by less than look.opaque_transmittance is taken as shut: its mean is off by less than that.
+    // A ray with less transmittance than look.opaque_transmittance counts as opaque: its mean is off by less.
     EXPECT_LT(transmittance, double{input.smoke.look.opaque_transmittance});
   }
 }
