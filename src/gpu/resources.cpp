@@ -39,7 +39,8 @@ bool grow(Context& context, Buffer& buffer, VkDeviceSize bytes) {
                                                "; use larger voxels or less smoke");
   }
   buffer = Buffer(context, std::min(std::bit_ceil(std::max<VkDeviceSize>(bytes, 256)), most),
-                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   return true;
 }
 
