@@ -33,7 +33,7 @@ std::string number(const char* format, double value) {
 glm::vec3 parse_end(const std::string& option, const std::string& text) {
   const glm::vec3 p = parse_point(option, text);
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(p[axis]) > sim::kMaxSightMetres)
+    if (std::abs(p[axis]) > smoke::kMaxSightMetres)
       throw Error(ErrorCode::usage, option + " '" + text + "': expected coordinates within 16384 m");
   }
   return p;
