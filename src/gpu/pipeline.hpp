@@ -1,23 +1,23 @@
-// Compute and graphics pipelines. A pipeline has one descriptor set, whose bindings are numbered as listed.
+// Compute and graphics pipelines. A pipeline has one descriptor set; its layout comes from the shaders
+// (reflection).
 #pragma once
 
-#include <array>
-#include <initializer_list>
 #include <span>
 #include <vector>
 
 #include "gpu/context.hpp"
 #include "gpu/shader_code.hpp"
+#include "gpu/shader_interface.hpp"
 
 namespace brume::gpu {
 
-// What a binding can be, by the names of GLSL.
+// Descriptor types by the names of GLSL.
 constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 constexpr VkDescriptorType kUniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 constexpr VkDescriptorType kStored = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 
-/// What compute and graphics pipelines share.
+/// Common part of compute and graphics pipelines.
 class Pipeline {
  public:
   Pipeline(const Pipeline&) = delete;
@@ -28,24 +28,25 @@ class Pipeline {
   VkDescriptorSetLayout set_layout() const { return set_layout_; }
   VkPipelineBindPoint bind_point() const { return bind_point_; }
   VkShaderStageFlags stages() const { return stages_; }
-  const std::vector<VkDescriptorType>& bindings() const { return bindings_; }
-  std::uint32_t push_bytes() const { return push_bytes_; }
+  /// The interface of all stages together.
+  const ShaderInterface& interface() const { return interface_; }
   /// Its stages, in order.
   std::span<const ShaderCode> shaders() const { return shaders_; }
 
-  /// Takes another version of the stage of the same name, whose interface is the same, when the device is
-  /// done with what was recorded before. Its words stay where they are while the pipeline lives. Fails when
-  /// the driver refuses it; the pipeline is then as before.
+  /// Replaces the stage of the same name by a version whose interface fits (check_fit), once the device has
+  /// finished previous recordings. `code.words` must outlive the pipeline. Fails when the driver rejects the
+  /// shader; the pipeline is then unchanged.
   Result<void> replace_shader(const ShaderCode& code);
 
  protected:
+  /// The shaders' interfaces must be supported and agree, see reflect.
   Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderStageFlags stages,
-           std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
+           std::vector<ShaderCode> shaders);
   virtual ~Pipeline();
-  /// The pipeline of these stages.
+  /// Creates the pipeline of these stages.
   virtual VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const = 0;
-  /// The same as its first.
-  void make_first(std::vector<ShaderCode> shaders);
+  /// Creates the first version, at the end of a derived constructor.
+  void make_first();
   Context& context_;
 
  private:
@@ -53,24 +54,20 @@ class Pipeline {
   std::vector<ShaderCode> shaders_;
   VkPipelineBindPoint bind_point_;
   VkShaderStageFlags stages_;
-  std::vector<VkDescriptorType> bindings_;
-  std::uint32_t push_bytes_;
+  ShaderInterface interface_;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
 };
 
 class ComputePipeline : public Pipeline {
  public:
-  /// `group` is the workgroup size that the shader declares; `constants` are its specialization constants
-  /// 0, 1...
-  ComputePipeline(Context& context, const ShaderCode& shader,
-                  std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes,
-                  std::array<std::uint32_t, 3> group, const std::vector<std::uint32_t>& constants = {});
-  const std::array<std::uint32_t, 3>& group() const { return group_; }
+  /// `constants` are the values of the specialization constants 0, 1...
+  ComputePipeline(Context& context, const ShaderCode& shader, std::vector<std::uint32_t> constants = {});
+  /// Workgroup size.
+  const std::array<std::uint32_t, 3>& group() const { return interface().group; }
 
  private:
   VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const override;
-  std::array<std::uint32_t, 3> group_;
   std::vector<std::uint32_t> constants_;
 };
 
@@ -79,17 +76,17 @@ struct GraphicsInfo {
   const ShaderCode* fragment = nullptr;  ///< null: depth only.
   std::vector<VkFormat> colours;
   VkFormat depth = VK_FORMAT_D32_SFLOAT;  ///< VK_FORMAT_UNDEFINED: no depth.
-  float depth_bias_slope = 0;             ///< Impulses surfaces away from the eye (reverse depth) by the slope.
+  float depth_bias_slope =
+      0;  ///< Moves surfaces away from the eye (reverse depth) in proportion to their slope.
   float depth_bias_constant = 0;
-  bool blend = false;  ///< Colour over what is there, by its alpha.
+  bool blend = false;  ///< Blends over the target by alpha.
 };
 
 /// Triangles, reverse depth (greater is nearer), cull mode set while recording; vertices are pulled from
 /// buffers.
 class GraphicsPipeline : public Pipeline {
  public:
-  GraphicsPipeline(Context& context, const GraphicsInfo& info,
-                   std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
+  GraphicsPipeline(Context& context, const GraphicsInfo& info);
 
  private:
   VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const override;

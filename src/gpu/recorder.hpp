@@ -6,15 +6,17 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/timings.hpp"
+#include "shared/shim.h"
 
 namespace brume::gpu {
 
-/// A resource bound to a pass, and what the pass does with it.
+/// A resource that a pass uses, and how it uses it.
 struct Binding {
   VkDescriptorType type = kBuffer;
   const Buffer* buffer = nullptr;
@@ -44,6 +46,18 @@ inline Binding read_stored(const Image& image) {
   return {kStored, nullptr, &image, nullptr, true, false};
 }
 
+/// A resource at a binding of a shader: `{shared::kBindPages, gpu::read(pages)}`.
+struct BoundResource {
+  shared::BindingIndex at;
+  Binding resource;
+};
+using BoundResources = std::initializer_list<BoundResource>;
+
+/// Compares bound resources with the interface of a shader: a binding that the shader lacks, one of another
+/// type, one bound twice, or one without a resource. Empty when all match, else a message that names the
+/// binding.
+std::string binding_fault(const ShaderInterface& interface, std::span<const BoundResource> resources);
+
 /// What one frame in flight needs besides its command buffer: descriptors, staging memory, timestamps.
 /// Reused when the device is done with the frame.
 class FrameSlot {
@@ -69,22 +83,21 @@ class Recorder {
   /// `commands` is in the recording state, and stays so. `slot` must not be in use by the device.
   Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands);
 
-  /// Binds resources (in the order of the pipeline's bindings) and push constants, with the barriers they
-  /// need.
-  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings,
-            std::span<const std::byte> push = {});
-  template <typename Impulse>
-  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings, const Impulse& push) {
-    bind(pipeline, bindings, std::as_bytes(std::span(&push, 1)));
+  /// Binds a pipeline with its resources, in any order, and its push constants, after the barriers that they
+  /// need. The resources must match the pipeline's interface (binding_fault).
+  void bind(const Pipeline& pipeline, BoundResources resources, std::span<const std::byte> push = {});
+  template <typename Push>
+  void bind(const Pipeline& pipeline, BoundResources resources, const Push& push) {
+    bind(pipeline, resources, std::as_bytes(std::span(&push, 1)));
   }
   /// Runs the bound compute pipeline over at least this many threads.
   void dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y = 1,
                         std::uint32_t z = 1);
-  /// What depends on nothing of each other runs at once: the barriers of all of them come before the first.
+  /// Independent dispatches run concurrently: the barriers of all come before the first.
   struct Dispatch {
     const ComputePipeline& pipeline;
-    std::vector<Binding> bindings;
-    glm::uvec3 threads{1};  ///< At least so many.
+    std::vector<BoundResource> resources;
+    glm::uvec3 threads{1};  ///< At least.
     std::span<const std::byte> push = {};
   };
   void dispatch_together(std::initializer_list<Dispatch> dispatches);
@@ -132,8 +145,8 @@ class Recorder {
   /// Barriers for a resource that draws read, before begin_rendering.
   void prepare_for_draws(std::initializer_list<Binding> bindings);
   void prepare_indices(const Buffer& indices);
-  /// Binds inside a rendering, where no barrier can be: resources were prepared before.
-  void bind_for_draws(const Pipeline& pipeline, std::initializer_list<Binding> bindings);
+  /// Binds inside a rendering, where no barrier is possible: prepare_for_draws comes first.
+  void bind_for_draws(const Pipeline& pipeline, BoundResources resources);
 
   void begin_scope(const char* name) { slot_.timings_.begin(commands_, name); }
   void end_scope() { slot_.timings_.end(commands_); }
@@ -146,8 +159,8 @@ class Recorder {
     VkDeviceSize offset;
   };
   Staged stage(std::span<const std::byte> bytes);
-  VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const Binding> bindings);
-  void bind_set(const Pipeline& pipeline, std::span<const Binding> bindings);
+  VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const BoundResource> resources);
+  void bind_set(const Pipeline& pipeline, std::span<const BoundResource> resources);
   void use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
   void use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkImageLayout layout);
   void use(const Binding& binding, VkPipelineStageFlags2 stages);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "brume_shaders.hpp"
@@ -37,7 +36,8 @@ bool is_wide_open(const shared::Hole& hole, float time) {
 
 /// Most words that the lists of a group may take: a block for each 32 holes at worst, a list in each slice.
 std::size_t max_words_of_tile(std::size_t holes) {
-  return (holes + 31) / 32 * shared::kChunkWords + shared::kHoleSlices * ((holes + 1) / 2 + (holes + 31) / 32);
+  return (holes + 31) / 32 * shared::kChunkWords +
+         shared::kHoleSlices * ((holes + 1) / 2 + (holes + 31) / 32);
 }
 
 }  // namespace
@@ -65,36 +65,19 @@ HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
   return plan;
 }
 
-std::vector<glm::vec4> hole_rows(const HolePlan& plan, float time) {
-  constexpr std::size_t kRows = sizeof(shared::Hole) / sizeof(glm::vec4);
-  constexpr std::size_t kReachRows = sizeof(shared::HoleReach) / sizeof(glm::vec4);
-  std::vector<glm::vec4> rows(plan.holes.size() * (kRows + kReachRows));
-  for (std::size_t i = 0; i < plan.holes.size(); ++i) {
-    shared::Hole hole = plan.holes[i];
-    if (hole.shape == shared::kHoleMask || !is_wide_open(hole, time)) hole.radius = -hole.radius;
-    if (hole.shape == shared::kHoleCylinder) hole.distance_to_far = -hole.distance_to_far;
-    std::memcpy(&rows[kRows * i], &hole, sizeof hole);
-  }
-  if (!plan.reaches.empty())
-    std::memcpy(&rows[kRows * plan.holes.size()], plan.reaches.data(),
-                plan.reaches.size() * sizeof(shared::HoleReach));
-  return rows;
+std::vector<shared::PackedHole> pack_holes(std::span<const shared::Hole> holes, float time) {
+  std::vector<shared::PackedHole> packed;
+  packed.reserve(holes.size());
+  for (const shared::Hole& hole : holes) packed.push_back(shared::pack_hole(hole, is_wide_open(hole, time)));
+  return packed;
 }
 
 HoleClusters::HoleClusters(gpu::Context& context, gpu::CommandRunner& runner, const smoke::MaskAtlas& masks)
     : context_(context),
-      tiles_pass_(context, shaders::hole_coarse_tiles_comp, {gpu::kUniform, gpu::kBuffer, gpu::kBuffer}, 0,
-                  {256, 1, 1}),
-      groups_pass_(context, shaders::hole_clusters_comp,
-                   {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                   sizeof(shared::HoleListsParams), {128, 1, 1}),
-      bricks_pass_(context, shaders::hole_bricks_comp,
-                   {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                   sizeof(shared::HoleCellsParams), {64, 1, 1}),
-      cells_pass_(context, shaders::hole_cells_comp,
-                  {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                   gpu::kSampled},
-                  sizeof(shared::HoleCellsParams), {64, 1, 1}),
+      tiles_pass_(context, shaders::hole_coarse_tiles_comp),
+      groups_pass_(context, shaders::hole_clusters_comp),
+      bricks_pass_(context, shaders::hole_bricks_comp),
+      cells_pass_(context, shaders::hole_cells_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
       counters_(context, sizeof(shared::HoleCounters),
                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT),
@@ -104,13 +87,13 @@ HoleClusters::HoleClusters(gpu::Context& context, gpu::CommandRunner& runner, co
   set_masks(context, runner, masks);
 }
 
-void HoleClusters::set_masks(gpu::Context& context, gpu::CommandRunner& runner, const smoke::MaskAtlas& masks) {
+void HoleClusters::set_masks(gpu::Context& context, gpu::CommandRunner& runner,
+                             const smoke::MaskAtlas& masks) {
   runner.run([&](gpu::Recorder& recorder) { resources_.masks = make_hole_masks(context, recorder, masks); });
 }
 
 void HoleClusters::reserve(std::span<const shared::Hole> holes, float time, float rim,
-                        const shared::VolumeLayout& volume, std::uint32_t slot_count,
-                        glm::uvec2 size_px) {
+                           const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px) {
   time_ = time;
   plan_ = slot_count > 0 ? plan_holes(holes, time, rim, volume, slot_count) : HolePlan();
   slot_count_ = slot_count;
@@ -122,7 +105,8 @@ void HoleClusters::reserve(std::span<const shared::Hole> holes, float time, floa
   const std::size_t count = plan_.holes.size(), words = (count + 31) / 32;
   entries_at_ = static_cast<std::uint32_t>(groups);
   entry_capacity_ = static_cast<std::uint32_t>(std::min(groups * max_words_of_tile(count), kMaxWords));
-  gpu::grow(context_, resources_.holes, count * (sizeof(shared::Hole) + sizeof(shared::HoleReach)));
+  gpu::grow(context_, resources_.holes, count * sizeof(shared::PackedHole));
+  gpu::grow(context_, resources_.reaches, count * sizeof(shared::PackedReach));
   gpu::grow(context_, coarse_tile_holes_, tiles * words * sizeof(std::uint32_t));
   gpu::grow(context_, resources_.lists, (std::size_t{entries_at_} + entry_capacity_) * sizeof(std::uint32_t));
   gpu::grow(
@@ -141,34 +125,55 @@ void HoleClusters::record(gpu::Recorder& recorder, const gpu::Buffer& frame, con
   if (!resources_.any) return;
   recorder.fill(counters_, 0);
   recorder.fill(words_taken_, 0);
-  const auto rows = hole_rows(plan_, time_);
-  recorder.upload(resources_.holes, 0, std::as_bytes(std::span(rows)));
+  const auto holes = pack_holes(plan_.holes, time_);
+  recorder.upload(resources_.holes, 0, std::as_bytes(std::span(holes)));
+  std::vector<shared::PackedReach> reaches;
+  for (const shared::HoleReach& reach : plan_.reaches) reaches.push_back(shared::pack_reach(reach));
+  recorder.upload(resources_.reaches, 0, std::as_bytes(std::span(reaches)));
   const shared::HoleListsParams lists{entry_capacity_};
   const shared::HoleCellsParams cells{slot_count_, plan_.pair_capacity, plan_.block_capacity};
   const auto bytes = [](const auto& params) { return std::as_bytes(std::span(&params, 1)); };
   constexpr std::uint32_t kPerTile = shared::kCoarseTileTiles / 2;  // workgroups, along an axis
   // What pixels need and what light needs depend on nothing of each other.
-  recorder.dispatch_together(
-      {{tiles_pass_,
-        {gpu::uniform(frame), gpu::read(resources_.holes), gpu::write(coarse_tile_holes_)},
-        {tiles_pass_.group()[0] * tiles_.x, tiles_.y, 1}},
-       {bricks_pass_,
-        {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
-         gpu::read_write(resources_.cells), gpu::write(pairs_), gpu::read_write(counters_)},
-        {64 * std::min(slot_count_, kRow), (slot_count_ + kRow - 1) / kRow, 1},
-        bytes(cells)}});
-  recorder.dispatch_together(
-      {{groups_pass_,
-        {gpu::uniform(frame), gpu::read(resources_.holes), gpu::read(coarse_tile_holes_),
-         gpu::write(resources_.lists), gpu::read_write(words_taken_)},
-        {groups_pass_.group()[0] * kPerTile * tiles_.x, kPerTile * tiles_.y, 1},
-        bytes(lists)},
-       {cells_pass_,
-        {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
-         gpu::read_write(resources_.cells), gpu::read(pairs_), gpu::read(counters_),
-         gpu::sampled(resources_.masks, nearest_)},
-        {64 * std::min(kGroups, plan_.pair_capacity), 1, 1},
-        bytes(cells)}});
+  recorder.dispatch_together({{tiles_pass_,
+                               {{shared::kBindFrame, gpu::uniform(frame)},
+                                {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                                {shared::kBindCoarseTileHoles, gpu::write(coarse_tile_holes_)}},
+                               {tiles_pass_.group()[0] * tiles_.x, tiles_.y, 1}},
+                              {bricks_pass_,
+                               {
+                                   {shared::kBindFrame, gpu::uniform(frame)},
+                                   {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
+                                   {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                                   {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
+                                   {shared::kBindHolePairs, gpu::write(pairs_)},
+                                   {shared::kBindHoleCounters, gpu::read_write(counters_)},
+                               },
+                               {64 * std::min(slot_count_, kRow), (slot_count_ + kRow - 1) / kRow, 1},
+                               bytes(cells)}});
+  recorder.dispatch_together({{groups_pass_,
+                               {
+                                   {shared::kBindFrame, gpu::uniform(frame)},
+                                   {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                                   {shared::kBindCoarseTileHoles, gpu::read(coarse_tile_holes_)},
+                                   {shared::kBindHoleLists, gpu::write(resources_.lists)},
+                                   {shared::kBindHoleWordsTaken, gpu::read_write(words_taken_)},
+                               },
+                               {groups_pass_.group()[0] * kPerTile * tiles_.x, kPerTile * tiles_.y, 1},
+                               bytes(lists)},
+                              {cells_pass_,
+                               {
+                                   {shared::kBindFrame, gpu::uniform(frame)},
+                                   {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
+                                   {shared::kBindHoles, gpu::read(resources_.holes)},
+                                   {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                                   {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
+                                   {shared::kBindHolePairs, gpu::read(pairs_)},
+                                   {shared::kBindHoleCounters, gpu::read(counters_)},
+                                   {shared::kBindHoleMasks, gpu::sampled(resources_.masks, nearest_)},
+                               },
+                               {64 * std::min(kGroups, plan_.pair_capacity), 1, 1},
+                               bytes(cells)}});
 }
 
 }  // namespace brume::passes

@@ -1,4 +1,4 @@
-// Which holes reach where (shared/hole_clusters.h), found anew each frame: holes open, close and are shot.
+// Culling of holes (shared/hole_clusters.h), repeated each frame because holes open and close.
 #pragma once
 
 #include <span>
@@ -11,17 +11,16 @@
 
 namespace brume::passes {
 
-/// What is known of a frame's holes before any is drawn.
+/// Holes of a frame, and upper limits for the culling on the device.
 struct HolePlan {
-  std::vector<shared::Hole> holes;  ///< Those that may take smoke away; at most kMaxHoles, the last ones.
-  std::vector<shared::HoleReach> reaches;  ///< Of each, inside the smoke's bounds.
-  std::uint32_t pair_capacity =
-      0;  ///< Never less than the pairs of a brick and a hole that meet, up to kMaxHolePairs.
+  std::vector<shared::Hole> holes;         ///< Those that may remove smoke; at most kMaxHoles, the last ones.
+  std::vector<shared::HoleReach> reaches;  ///< One per hole, clipped to the smoke's bounds.
+  std::uint32_t pair_capacity = 0;  ///< At least the (brick, hole) pairs that meet, up to kMaxHolePairs.
   std::uint32_t block_capacity = 0;
 };
 
-/// Where there are more, or more bricks with holes than block_capacity may be (7,000), light does not see
-/// some holes.
+/// With more pairs, or with more bricks that have holes than the limit of block_capacity (7,000), light
+/// ignores some holes.
 constexpr std::uint32_t kMaxHolePairs = 1u << 22;
 
 /// Plans the holes that are open at `time` in smoke of `slot_count` bricks; noise moves their rims by up to
@@ -29,14 +28,14 @@ constexpr std::uint32_t kMaxHolePairs = 1u << 22;
 HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
                     const shared::VolumeLayout& volume, std::uint32_t slot_count);
 
-/// As the shaders read them (lib/hole_rows.glsl): first all holes, then all their reaches. A radius is
-/// negative where two rows do not tell all: the hole opens or closes somewhere at `time`, or has a mask; a
-/// length where it is round.
-std::vector<glm::vec4> hole_rows(const HolePlan& plan, float time);
+/// Packs holes for the device as they are at `time`.
+std::vector<shared::PackedHole> pack_holes(std::span<const shared::Hole> holes, float time);
 
-/// What every pass that looks for holes binds.
+/// Holes on the device, for every pass that evaluates them.
 struct HoleResources {
-  gpu::Buffer holes, lists, cells;
+  gpu::Buffer holes;    ///< shared::PackedHole.
+  gpu::Buffer reaches;  ///< shared::PackedReach, one per hole.
+  gpu::Buffer lists, cells;
   gpu::Image masks;  ///< The mask atlas.
   bool any = false;  ///< Whether any hole is open in this frame.
 };
@@ -50,8 +49,8 @@ class HoleClusters {
 
   /// Plans the frame and makes room. Not between the begin and the end of a recording, and only when the
   /// device is done with what it recorded before. Throws resource_limit.
-  void reserve(std::span<const shared::Hole> holes, float time, float rim,
-               const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px);
+  void reserve(std::span<const shared::Hole> holes, float time, float rim, const shared::VolumeLayout& volume,
+               std::uint32_t slot_count, glm::uvec2 size_px);
   /// What the frame's constants must say.
   shared::HoleClusterLayout layout() const;
   /// Uploads the holes and finds where they are, after the frame's constants and the smoke were uploaded.

@@ -6,6 +6,7 @@
 
 #include "brume_shaders.hpp"
 #include "planning/noise_motion.hpp"
+#include "shared/noise.h"
 #include "smoke/growth.hpp"
 
 namespace brume::passes {
@@ -132,7 +133,8 @@ std::vector<CloudGrowth::Share> CloudGrowth::make_shares(const sim::Cloud& cloud
     glm::uvec2* out = displacements_.data() + std::size_t{part} * shared::kDisplacementsPerBrick;
     for (std::uint32_t i = 0; i < shared::kDisplacementsPerBrick; ++i) {
       const auto n = static_cast<int>(i);
-      const glm::ivec3 point(n % shared::kDisplacementPoints, n / shared::kDisplacementPoints % shared::kDisplacementPoints,
+      const glm::ivec3 point(n % shared::kDisplacementPoints,
+                             n / shared::kDisplacementPoints % shared::kDisplacementPoints,
                              n / (shared::kDisplacementPoints * shared::kDisplacementPoints));
       const glm::vec4 mean = around.mean(2 * point + 1);
       // Where clouds meet, each counts for more the nearer its source is.
@@ -161,13 +163,11 @@ void CloudGrowth::list_parts(const smoke::SmokeVolume& volume) {
 
 NoiseAdvectionPass::NoiseAdvectionPass(gpu::Context& context)
     : context_(context),
-      pipeline_(context, shaders::noise_advection_comp,
-                {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
-                 gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kStored, gpu::kBuffer},
-                sizeof(shared::NoiseAdvectionParams), {kGroup, 1, 1}),
+      pipeline_(context, shaders::noise_advection_comp),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
-  for (gpu::Buffer* buffer : {&parts_, &displacements_, &motions_, &due_slots_}) gpu::grow(context, *buffer, 1);
+  for (gpu::Buffer* buffer : {&parts_, &displacements_, &motions_, &due_slots_})
+    gpu::grow(context, *buffer, 1);
   gpu::grow(context, impulses_, planning::kMaxImpulses * sizeof(shared::Impulse));
 }
 
@@ -178,8 +178,9 @@ void NoiseAdvectionPass::reserve(const sim::State& state, const smoke::SmokeVolu
   gpu::grow(context_, motions_, state.clouds.size() * sizeof(shared::CloudMotion));
 }
 
-bool NoiseAdvectionPass::schedule(const sim::State& state, const smoke::SmokeVolume& volume, const planning::SmokeVisibility& needs,
-                          const shared::SmokeLook& look, double seconds, double swirl_period) {
+bool NoiseAdvectionPass::schedule(const sim::State& state, const smoke::SmokeVolume& volume,
+                                  const planning::SmokeVisibility& needs, const shared::SmokeLook& look,
+                                  double seconds, double swirl_period) {
   const auto motions = motions_of(state, seconds, swirl_period);
   const std::vector<shared::Impulse> impulses = planning::impulses_of(state, seconds);
   due_ = turns_.due({&volume, needs.slots, motions, impulses, look, static_cast<float>(seconds)});
@@ -187,14 +188,15 @@ bool NoiseAdvectionPass::schedule(const sim::State& state, const smoke::SmokeVol
   return !due_->empty();
 }
 
-void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Impulse> impulses) {
+void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const Inputs& in,
+                                std::span<const shared::Impulse> impulses) {
   if (parts_stale_) recorder.upload(parts_, 0, std::as_bytes(growth_.parts()));
   if (displacements_stale_) {
     recorder.upload(displacements_, 0, std::as_bytes(growth_.displacements()));
   } else if (parts_stale_) {
     for (const std::uint32_t part : growth_.new_parts()) {
-      const auto entries =
-          growth_.displacements().subspan(std::size_t{part} * shared::kDisplacementsPerBrick, shared::kDisplacementsPerBrick);
+      const auto entries = growth_.displacements().subspan(std::size_t{part} * shared::kDisplacementsPerBrick,
+                                                           shared::kDisplacementsPerBrick);
       recorder.upload(displacements_, std::size_t{part} * entries.size_bytes(), std::as_bytes(entries));
     }
   }
@@ -215,12 +217,22 @@ void NoiseAdvectionPass::record(gpu::Recorder& recorder, const Inputs& in) {
   due_.reset();
   for (std::uint32_t first = 0; first < all; first += kSlotsPerDispatch) {
     const std::uint32_t count = std::min(kSlotsPerDispatch, all - first);
-    recorder.bind(
-        pipeline_,
-        {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
-         gpu::sampled(in.noise, repeat_), gpu::read(parts_), gpu::read(displacements_), gpu::read(motions_),
-         gpu::read(impulses_), gpu::stored(in.smoke.density_displacement), gpu::stored(in.smoke.filtered_density), gpu::read(slots)},
-        shared::NoiseAdvectionParams{first, count, in.smoke.slot_count, static_cast<std::uint32_t>(impulses.size())});
+    recorder.bind(pipeline_,
+                  {
+                      {shared::kBindFrame, gpu::uniform(in.frame)},
+                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                      {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                      {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
+                      {shared::kBindCloudParts, gpu::read(parts_)},
+                      {shared::kBindDisplacements, gpu::read(displacements_)},
+                      {shared::kBindCloudMotions, gpu::read(motions_)},
+                      {shared::kBindImpulses, gpu::read(impulses_)},
+                      {shared::kBindDensityDisplacement, gpu::stored(in.smoke.density_displacement)},
+                      {shared::kBindFilteredDensity, gpu::stored(in.smoke.filtered_density)},
+                      {shared::kBindSlots, gpu::read(slots)},
+                  },
+                  shared::NoiseAdvectionParams{first, count, in.smoke.slot_count,
+                                               static_cast<std::uint32_t>(impulses.size())});
     recorder.dispatch_threads(pipeline_, count * shared::kTexelsPerBrick);
   }
 }

@@ -1,4 +1,4 @@
-// Carries the noise in the smoke, and makes the medium that the eye's rays read.
+// Advection of the smoke's noise, and the atlases that rays from the eye and to lights read.
 #pragma once
 
 #include <map>
@@ -12,18 +12,18 @@
 
 namespace brume::passes {
 
-/// How each cloud grew, brick by brick, as shaders/shared/drift.h lays it out: made when a cloud comes,
-/// dropped when it goes.
+/// Growth of each cloud, brick by brick, in the layout of shared/noise_advection.h. Computed when a cloud
+/// appears, dropped when it disappears.
 class CloudGrowth {
  public:
-  /// Follows the clouds of a state and the slots of a volume; true when the list of parts is another one.
+  /// Follows the clouds of a state and the slots of a volume; true when the list of parts changed.
   bool update(const sim::State& state, const smoke::SmokeVolume& volume);
 
   /// Per slot (first, count), then the list.
   std::span<const glm::uvec2> parts() const { return parts_; }
-  /// kDisplacementsPerBrick entries a part.
+  /// kDisplacementsPerBrick entries per part.
   std::span<const glm::uvec2> displacements() const { return displacements_; }
-  /// Parts that are new since the last forget_new.
+  /// Parts added since the last forget_new.
   std::span<const std::uint32_t> new_parts() const { return new_parts_; }
   void forget_new() { new_parts_.clear(); }
 

@@ -1,4 +1,4 @@
-// How much of the sky's light comes to each place of a level, and from where.
+// Directional visibility of the sky at each point of a level.
 #pragma once
 
 #include "passes/solid_volume.hpp"
@@ -9,11 +9,11 @@ namespace brume::passes {
 class SkyLightPass {
  public:
   explicit SkyLightPass(gpu::Context& context);
-  /// Makes room for what record needs. As SolidVolume::reserve, and after it.
+  /// Allocates for the volume. Under the conditions of SolidVolume::reserve, and after it.
   void reserve(const SolidVolume& solid);
-  /// Lights the level anew; needed only when the solid volume changed. `frame` holds FrameConstants.
+  /// Recomputes the sky light; required only when the solid volume changed. `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SolidVolume& solid) const;
-  /// Half floats, a texel for each of the solid volume's (shared/sky_light.h).
+  /// Half floats, a texel per texel of the solid volume (shared/sky_light.h).
   const gpu::Image& light() const { return light_; }
   const gpu::Buffer& rays() const {
     return rays_;

@@ -26,19 +26,9 @@ void upload(gpu::Recorder& recorder, const gpu::Buffer& buffer, const std::vecto
 
 SmokeLightPass::SmokeLightPass(gpu::Context& context)
     : context_(context),
-      texels_pass_(context, shaders::light_texels_comp,
-                   {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                    gpu::kBuffer},
-                   sizeof(shared::SmokeLightParams), {256, 1, 1}),
-      rays_pass_(context, shaders::light_rays_comp,
-                 {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
-                  gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
-                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                 sizeof(shared::SmokeLightParams), {kThreads, 1, 1}),
-      inscatter_pass_(context, shaders::inscatter_comp,
-                      {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                       gpu::kStored, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer},
-                      sizeof(shared::SmokeLightParams), {kThreads, 1, 1}),
+      texels_pass_(context, shaders::light_texels_comp),
+      rays_pass_(context, shaders::light_rays_comp),
+      inscatter_pass_(context, shaders::inscatter_comp),
       one_group_(context.info().kind == "cpu"),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
@@ -87,9 +77,15 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   };
   if (part.rows.count > 0) {
     recorder.bind(texels_pass_,
-                  {gpu::uniform(in.frame), gpu::read(listed_rows_), gpu::sampled(in.smoke.density, linear_),
-                   gpu::read_write(rows_), gpu::read(in.smoke.cells), gpu::read(in.smoke.slot_bricks),
-                   gpu::read(changes_)},
+                  {
+                      {shared::kBindFrame, gpu::uniform(in.frame)},
+                      {shared::kBindTexelLists, gpu::read(listed_rows_)},
+                      {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                      {shared::kBindLightRows, gpu::read_write(rows_)},
+                      {shared::kBindCells, gpu::read(in.smoke.cells)},
+                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                      {shared::kBindLightChanges, gpu::read(changes_)},
+                  },
                   params(part.rows, 256));
     const Groups groups = groups_of(part.rows.count);
     recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
@@ -106,24 +102,43 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   };
   each(part.pairs, part.few_pairs, [&](const volume::IndexRange& range, std::uint32_t threads) {
     recorder.bind(rays_pass_,
-                  {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
-                   gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
-                   gpu::read(in.smoke.pages), gpu::sampled(in.smoke.filtered_density, linear_),
-                   gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
-                   gpu::read(in.holes.cells), gpu::sampled(in.level.solid.texels(), linear_),
-                   gpu::read(pairs_), gpu::read(rows_), gpu::write(blocks_)},
+                  {
+                      {shared::kBindFrame, gpu::uniform(in.frame)},
+                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                      {shared::kBindLights, gpu::read(in.scene.lights)},
+                      {shared::kBindSun, gpu::read(in.shadows.sun)},
+                      {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                      {shared::kBindPages, gpu::read(in.smoke.pages)},
+                      {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                      {shared::kBindCells, gpu::read(in.smoke.cells)},
+                      {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                      {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                      {shared::kBindHoleCells, gpu::read(in.holes.cells)},
+                      {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                      {shared::kBindShadowRays, gpu::read(pairs_)},
+                      {shared::kBindLightRows, gpu::read(rows_)},
+                      {shared::kBindLightBlocks, gpu::write(blocks_)},
+                  },
                   params(range, threads));
     const Groups groups = groups_of(range.count);
     recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
   });
   each(part.bricks, part.few_bricks, [&](const volume::IndexRange& range, std::uint32_t threads) {
-    recorder.bind(
-        inscatter_pass_,
-        {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
-         gpu::read(rows_), gpu::read(blocks_), gpu::read(bricks_), gpu::stored(in.smoke.inscatter),
-         gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
-         gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(brick_lights_)},
-        params(range, threads));
+    recorder.bind(inscatter_pass_,
+                  {
+                      {shared::kBindFrame, gpu::uniform(in.frame)},
+                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                      {shared::kBindLights, gpu::read(in.scene.lights)},
+                      {shared::kBindLightRows, gpu::read(rows_)},
+                      {shared::kBindLightBlocks, gpu::read(blocks_)},
+                      {shared::kBindLightGathers, gpu::read(bricks_)},
+                      {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
+                      {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
+                      {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                      {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                      {shared::kBindBrickLights, gpu::read(brick_lights_)},
+                  },
+                  params(range, threads));
     const Groups groups = groups_of(range.count);
     recorder.dispatch_threads(inscatter_pass_, threads, groups.y, groups.z);
   });

@@ -26,11 +26,6 @@ gpu::Image make_atlas(gpu::Context& context, glm::ivec3 bricks, VkFormat format,
   return gpu::Image(context, info);
 }
 
-glm::ivec3 slot_position(glm::ivec3 atlas, std::uint32_t slot) {
-  const auto s = static_cast<std::int32_t>(slot);
-  return {s % atlas.x, s / atlas.x % atlas.y, s / (atlas.x * atlas.y)};
-}
-
 /// Slots one after the other.
 struct SlotRun {
   std::uint32_t first = 0, count = 0;
@@ -180,7 +175,7 @@ void SmokeUpload::record_texels(gpu::Recorder& recorder, const smoke::SmokeVolum
   regions.reserve(slots.size());
   for (const std::uint32_t slot : slots) {
     regions.push_back({std::as_bytes(volume.texels(slot)),
-                       slot_position(volume.layout().atlas_bricks, slot) * shared::kBrickTexels,
+                       glm::ivec3(shared::atlas_first_texel(volume.layout().atlas_bricks, slot)),
                        glm::uvec3(static_cast<std::uint32_t>(shared::kBrickTexels))});
   }
   recorder.upload(resources_.density, regions);

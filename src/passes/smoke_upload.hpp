@@ -1,4 +1,4 @@
-// The smoke on the device: bricks, cells and corner sets, uploaded where they changed.
+// The smoke on the device: uploads bricks, cells and corner sets where they changed.
 #pragma once
 
 #include "gpu/recorder.hpp"
@@ -7,42 +7,41 @@
 
 namespace brume::passes {
 
-/// What every pass that reads density binds.
+/// The smoke volume on the device, for every pass that reads it (shared/smoke_volume.h).
 struct SmokeResources {
   gpu::Buffer pages, cells, boundary, corners;
-  gpu::Buffer slot_bricks;  ///< Per slot its brick, in bricks of the grid.
-  gpu::Image density;       ///< RG8 atlas.
-  gpu::Image inscatter;     ///< Half-float RGBA atlas of the same layout.
-  gpu::Image density_displacement;        ///< Likewise; made by passes/drift.hpp, as the next.
-  gpu::Image filtered_density;         ///< Half-float RG: what the noise leaves of it in the mean of a texel.
-  gpu::Buffer filled;       ///< Per slot the cells in which smoke may be.
-  gpu::Buffer slots;        ///< SmokeVisibility::slots of the frame.
+  gpu::Buffer slot_bricks;          ///< Per slot its brick, in bricks of the grid.
+  gpu::Image density;               ///< RG8 atlas.
+  gpu::Image inscatter;             ///< Half-float RGBA atlas of the same layout.
+  gpu::Image density_displacement;  ///< Likewise; written by NoiseAdvectionPass, as the next.
+  gpu::Image filtered_density;      ///< Half-float RG: mean density of a texel after erosion.
+  gpu::Buffer filled;               ///< Per slot the cells that may hold smoke.
+  gpu::Buffer slots;                ///< SmokeVisibility::slots of the frame.
   std::uint32_t slot_count = 0;
-  std::uint32_t needed = 0, seen = 0;  ///< How many `slots` has, and how many of them may be in view.
+  std::uint32_t needed = 0, seen = 0;  ///< Entries of `slots`, and how many of them may be visible.
 };
 
-/// The cells of a slot in which smoke may be, as shared::pack_cells packs them.
+/// The cells of a slot that may hold smoke, packed by shared::pack_cells.
 std::uint32_t filled_cells(const smoke::SmokeVolume& volume, std::uint32_t slot);
 
 class SmokeUpload {
  public:
-  /// The resources are those of a world without smoke until the first record.
+  /// A volume without smoke until the first record.
   explicit SmokeUpload(gpu::Context& context);
 
-  /// Makes room for what the volume holds. Not between the begin and the end of a recording, and only when
-  /// the device is done with what it recorded before. Throws resource_limit.
+  /// Allocates for the volume. Outside of a recording, once the device has finished previous ones. Throws
+  /// resource_limit.
   void reserve(const smoke::SmokeVolume& volume);
-  /// Uploads what changed since the last record; true when anything did. The volume must be as `reserve` saw
-  /// it.
+  /// Uploads changes since the last record; true when there were any. The volume is that of `reserve`.
   bool record(gpu::Recorder& recorder, const smoke::SmokeVolume& volume);
 
-  /// Uploads what the frame needs of the volume that `reserve` saw.
+  /// Uploads the visibility of the volume that was passed to `reserve`.
   void record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& needs);
 
   const SmokeResources& resources() const { return resources_; }
 
  private:
-  /// Those that passes write.
+  /// Creates the atlases that passes write.
   void make_written_atlases(glm::ivec3 bricks);
   void record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all);
   void record_cells(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,

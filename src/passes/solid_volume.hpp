@@ -1,4 +1,4 @@
-// The level on the device: which of its voxels are solid, for rays and for light.
+// Solid voxels of the level on the device, for rays and for light.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,27 @@
 
 namespace brume::passes {
 
-/// A level at a moment. The edits say what changed since another moment of the same level; null: as it was
-/// loaded.
+/// A snapshot of a level. The edits tell snapshots of the same level apart; null: as loaded.
 struct LevelView {
-  const voxel::BitGrid* grid = nullptr;  ///< Edits included; null: nothing is solid anywhere.
+  const voxel::BitGrid* grid = nullptr;  ///< Edits included; null: no solid voxel.
   std::shared_ptr<const sim::EditBlocks> edits;
 };
 
 constexpr int kMaxSolidAxis = 256;
 constexpr std::uint32_t kMaxSolidTexels = 1u << 20;
 
-/// Voxels per edge of a texel: the least for which the texels keep to the limits above.
+/// Voxels per edge of a texel: the smallest number for which the texels stay within the limits above.
 int voxels_per_solid_texel(glm::ivec3 voxels);
 
 class SolidVolume {
  public:
-  /// The volume of a world where nothing is solid.
+  /// A volume without solid voxels.
   explicit SolidVolume(gpu::Context& context);
 
-  /// Makes room for the level. Outside of a recording, when the device is done with the one before. Levels of
-  /// one frame are taken for moments of the same one. Throws resource_limit.
+  /// Allocates for the level. Outside of a recording, once the device has finished previous ones. Levels with
+  /// equal layouts count as snapshots of one level. Throws resource_limit.
   void reserve(const LevelView& level);
-  /// Uploads what changed since the last record; true when anything did. The level must be as `reserve` saw
-  /// it.
+  /// Uploads changes since the last record; true when there were any. The level is that of `reserve`.
   bool record(gpu::Recorder& recorder, const LevelView& level);
 
   const shared::SolidLayout& layout() const { return frame_; }
@@ -46,7 +44,7 @@ class SolidVolume {
 
  private:
   void make(const voxel::GridLayout& grid);
-  /// The bits of the texels in a box, anew from the level.
+  /// Recomputes the bits of the texels in a box from the level.
   void fill_bits(const voxel::BitGrid& grid, const voxel::IntBox& texels);
   void upload(gpu::Recorder& recorder, const voxel::IntBox& texels) const;
 

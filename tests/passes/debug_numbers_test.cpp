@@ -151,7 +151,7 @@ TEST_F(DebugNumbersTest, HolesShowHowMuchOfARayTheyClear) {
           smoke::Float4 t;
           for (int k = 0; k < 4; ++k)
             t[k] = piece.begin + (static_cast<float>(i) + 0.125f + 0.25f * static_cast<float>(k)) * width;
-          const smoke::Float4 left = piece.gone ? smoke::Float4{} : met.left(piece, t);
+          const smoke::Float4 left = piece.gone ? smoke::Float4{} : met.remaining(piece, t);
           for (int k = 0; k < 4; ++k) length += 0.25 * static_cast<double>(width * (1 - left[k]));
         }
       }
