@@ -1,13 +1,13 @@
-// Writes what shading needs to know of the nearest surface.
+// Writes the material and the normal of the nearest surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/gbuffer.h"
 
-layout(binding = 2) uniform sampler2D base_color_map;
-layout(binding = 3) uniform sampler2D normal_map;
-layout(binding = 4) uniform sampler2D roughness_map;
-layout(push_constant, scalar) uniform Impulse { DrawConstants draw; };
+layout(binding = kBindBaseColorMap) uniform sampler2D base_color_map;
+layout(binding = kBindNormalMap) uniform sampler2D normal_map;
+layout(binding = kBindRoughnessMap) uniform sampler2D roughness_map;
+layout(scalar, push_constant) uniform Push { DrawConstants draw; };
 
 layout(location = 0) in vec3 normal_world;
 layout(location = 1) in vec4 tangent_world;

@@ -1,13 +1,12 @@
-// Brings a mesh into clip space.
+// Transforms a mesh to clip space.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/gbuffer.h"
 
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Vertices { Vertex vertices[]; };
-layout(push_constant, scalar) uniform Impulse { DrawConstants draw; };
+layout(scalar, binding = kBindVertices) readonly buffer Vertices { Vertex vertices[]; };
+layout(scalar, push_constant) uniform Push { DrawConstants draw; };
 
 layout(location = 0) out vec3 normal_world;
 layout(location = 1) out vec4 tangent_world;
@@ -17,7 +16,7 @@ void main() {
   const Vertex vertex = vertices[gl_VertexIndex];
   const mat3 linear = transpose(mat3(draw.row0.xyz, draw.row1.xyz, draw.row2.xyz));
   const vec3 position_world = linear * vertex.position + vec3(draw.row0.w, draw.row1.w, draw.row2.w);
-  // The cofactor matrix turns normals right under any scale, mirroring included.
+  // The cofactor matrix transforms normals correctly under any scale, mirroring included.
   const mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
   const float handedness = determinant(linear) < 0.0 ? -1.0 : 1.0;
   normal_world = handedness * (cofactor * vertex.normal);

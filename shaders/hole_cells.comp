@@ -1,21 +1,19 @@
-// Takes out of each cell what a hole removes from it on average. One workgroup for a pair of a brick and a hole.
+// Subtracts from each cell what a hole removes from it on average. One workgroup per (brick, hole) pair.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/frame.glsl"
+#include "lib/hole_mask.glsl"
 #include "lib/hole_reach.glsl"
-#include "shared/frame.h"
+#include "lib/hole_reaches.glsl"
+#include "lib/packed_holes.glsl"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
-layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
-layout(scalar, binding = 3) buffer HoleCells { uint hole_cells[]; };
-layout(scalar, binding = 4) readonly buffer Pairs { uvec2 pairs[]; };
-layout(scalar, binding = 5) readonly buffer Counters { HoleCounters counters; };
-layout(binding = 6) uniform sampler2D hole_masks;
-layout(push_constant, scalar) uniform Impulse { HoleCellsParams params; };
-#include "lib/hole_mask.glsl"
-#include "lib/hole_rows.glsl"
+layout(scalar, binding = kBindSlotBricks) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
+layout(scalar, binding = kBindHoleCells) buffer HoleCells { uint hole_cells[]; };
+layout(scalar, binding = kBindHolePairs) readonly buffer Pairs { uvec2 pairs[]; };
+layout(scalar, binding = kBindHoleCounters) readonly buffer Counters { HoleCounters counters; };
+layout(scalar, push_constant) uniform Push { HoleCellsParams params; };
 
 /// Mean strength of a hole over a cell, from eight points.
 float mean_strength(Hole hole, vec3 low_world, float cell) {
@@ -32,26 +30,28 @@ void main() {
   const int lane = int(gl_LocalInvocationID.x);
   const float cell = frame.volume.voxel_size / float(kHoleCellsPerVoxel);
   for (uint p = gl_WorkGroupID.x; p < pair_count; p += gl_NumWorkGroups.x) {
-    const uint slot = pairs[p].x, block = hole_cells[slot];
-    if (block == 0u) continue;
-    const Hole hole = hole_from_rows(pairs[p].y);
-    const HoleReach reach = reach_from_rows(pairs[p].y);
+    const uint slot = pairs[p].x, chunk = hole_cells[slot];
+    if (chunk == 0u) continue;
+    const Hole hole = hole_at(pairs[p].y);
+    const HoleReach reach = reach_at(pairs[p].y);
     const vec3 low = frame.volume.origin_world + vec3(slot_bricks[slot]) * (cell * float(kHoleCellsPerEdge));
 
-    // Slices of cells across the longest axis of the hole; in each a square around where its axis passes.
+    // Slices of cells across the dominant axis of the hole; in each, a rectangle around the hole's axis.
     const vec3 a = abs(reach.forward);
     const int major = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
     const int u = (major + 1) % 3, v = (major + 2) % 3;
     const float slope_u = reach.forward[u] / reach.forward[major], slope_v = reach.forward[v] / reach.forward[major];
     const float half_u = reach.radius + abs(slope_u) * (0.5 * cell + reach.radius);
     const float half_v = reach.radius + abs(slope_v) * (0.5 * cell + reach.radius);
-    // Four threads a slice.
+    // Four threads per slice.
     const int slice = lane >> 2;
     const float from_start = low[major] + (float(slice) + 0.5) * cell - reach.from_world[major];
     const float at_u = reach.from_world[u] + slope_u * from_start - low[u];
     const float at_v = reach.from_world[v] + slope_v * from_start - low[v];
-    const int u0 = max(int(floor((at_u - half_u) / cell)), 0), u1 = min(int(floor((at_u + half_u) / cell)), kHoleCellsPerEdge - 1);
-    const int v0 = max(int(floor((at_v - half_v) / cell)), 0), v1 = min(int(floor((at_v + half_v) / cell)), kHoleCellsPerEdge - 1);
+    const int u0 = max(int(floor((at_u - half_u) / cell)), 0);
+    const int u1 = min(int(floor((at_u + half_u) / cell)), kHoleCellsPerEdge - 1);
+    const int v0 = max(int(floor((at_v - half_v) / cell)), 0);
+    const int v1 = min(int(floor((at_v + half_v) / cell)), kHoleCellsPerEdge - 1);
     for (int j = v0 + (lane & 3); j <= v1; j += 4) {
       for (int i = u0; i <= u1; ++i) {
         ivec3 at;
@@ -60,9 +60,10 @@ void main() {
         at[v] = j;
         const vec3 low_world = low + vec3(at) * cell;
         if (!hole_reaches_box(reach, low_world, cell)) continue;
-        const float left = max(1.0 - mean_strength(hole, low_world, cell), 1.0 / 4096.0);
-        const uint number = kHoleCellsPerChunk * (block - 1u) + uint(at.x + kHoleCellsPerEdge * (at.y + kHoleCellsPerEdge * at.z));
-        atomicAdd(hole_cells[frame.holes.cells_at + number], uint(-log2(left) * kHoleCellStep + 0.5));
+        const float remaining = max(1.0 - mean_strength(hole, low_world, cell), 1.0 / 4096.0);
+        const uint index = uint(at.x + kHoleCellsPerEdge * (at.y + kHoleCellsPerEdge * at.z));
+        const uint word = frame.holes.cells_at + kHoleCellsPerChunk * (chunk - 1u) + index;
+        atomicAdd(hole_cells[word], uint(-log2(remaining) * kHoleCellStep + 0.5));
       }
     }
   }

@@ -1,14 +1,13 @@
-// Which holes may meet which tile of the picture. A workgroup a tile.
+// Finds the holes that the rays of each coarse tile may meet. One workgroup per coarse tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/frame.h"
+#include "lib/frame.glsl"
+#include "shared/hole_clusters.h"
 
 layout(local_size_x = 256) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(binding = 1) readonly buffer Holes { vec4 hole_rows[]; };
-layout(scalar, binding = 2) writeonly buffer TileHoles { uint coarse_tile_holes[]; };
-#include "lib/hole_rows.glsl"
+layout(scalar, binding = kBindCoarseTileHoles) writeonly buffer TileHoles { uint coarse_tile_holes[]; };
+#include "lib/hole_reaches.glsl"
 #include "lib/hole_slices.glsl"
 #include "lib/ray_cone.glsl"
 
@@ -22,7 +21,7 @@ void main() {
   const vec2 low_px = vec2(gl_WorkGroupID.xy) * tile_px;
   const RayCone cone = cone_of_pixels(low_px, low_px + tile_px, smoke_reach().y);
   for (uint i = lane; i < frame.holes.count; i += gl_WorkGroupSize.x) {
-    const vec2 interval = cone_in_hole(cone, reach_from_rows(i));
+    const vec2 interval = cone_in_hole(cone, reach_at(i));
     if (interval.x <= interval.y) atomicOr(met[i >> 5u], 1u << (i & 31u));
   }
   barrier();

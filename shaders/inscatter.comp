@@ -1,26 +1,22 @@
-// In-scattered radiance at every listed texel of a brick: what each ray brings, scattered towards the eye. The march then
-// pays one fetch a sample, however many lights there are.
+// In-scattered radiance at every listed texel of a brick: the light of each ray, scattered towards the eye. The march
+// then takes one fetch per sample, however many lights there are.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#define BINDING_SKY_LIGHT 7
-#define BINDING_SOLID 8
+#include "lib/frame.glsl"
 #include "lib/lights.glsl"
-#include "shared/frame.h"
 #include "shared/scattering.h"
 #include "shared/smoke_light.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer SlotBricks { ivec3 slot_bricks[]; };
-layout(scalar, binding = 2) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = 3) readonly buffer Rows { uint rows[]; };
-layout(scalar, binding = 4) readonly buffer Blocks { uint blocks[]; };
-layout(scalar, binding = 5) readonly buffer Bricks { LightGather bricks[]; };
-layout(binding = 6, rgba16f) uniform writeonly image3D inscatter;
-layout(binding = 9) uniform sampler3D filtered_density_atlas;
-layout(scalar, binding = 10) readonly buffer BrickLights { uvec2 brick_lights[]; };
-layout(push_constant, scalar) uniform Impulse { SmokeLightParams params; };
+layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = kBindLightRows) readonly buffer Rows { uint rows[]; };
+layout(scalar, binding = kBindLightBlocks) readonly buffer Blocks { uint blocks[]; };
+layout(scalar, binding = kBindLightGathers) readonly buffer Bricks { LightGather bricks[]; };
+layout(binding = kBindInscatter, rgba16f) uniform writeonly image3D inscatter;
+layout(binding = kBindFilteredDensity) uniform sampler3D filtered_density_atlas;
+layout(scalar, binding = kBindBrickLights) readonly buffer BrickLights { uvec2 brick_lights[]; };
+layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
 #include "lib/row_texels.glsl"
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
@@ -35,16 +31,16 @@ float escape_of(uint block, uint local) {
   return escape;
 }
 
-/// Radiance from all around of an even sky of radiance 1, were there no level: light that comes straight in, a share p,
-/// and light that was scattered on its way, as bright as here and dimmed by the albedo: J = p + albedo (1 - p) J.
-/// Without absorption the smoke is as bright as the sky, whatever its density.
+/// Radiance from all directions under a uniform sky of radiance 1, without the level: a fraction p arrives directly,
+/// the rest was scattered in smoke as bright as here, dimmed by the albedo: J = p + albedo (1 - p) J. Without
+/// absorption the smoke is as bright as the sky, whatever its density.
 vec3 scattered_sky(float p) { return vec3(p) / (1.0 - frame.look.albedo * (1.0 - p)); }
 
-/// How much too bright light of exp(-k depth) is in the mean where it is interpolated between texels that are an optical
-/// depth of `step` apart: (x / 2) coth(x / 2) along an axis, x = k step; to the second order 1 + x^2 / 12 in every direction.
+/// Mean overestimate of exp(-k depth) by linear interpolation between texels an optical depth of `step` apart:
+/// (x / 2) coth(x / 2) along an axis, x = k step; to second order 1 + x^2 / 12 in every direction.
 vec3 interpolation_excess(vec3 k, float step) { return 1.0 + k * k * (step * step / 12.0); }
 
-/// Light of the lights of a brick at a texel, scattered towards the eye.
+/// Light of all lights of a brick at a texel, scattered towards the eye.
 vec3 scattered_lights(LightGather brick, uint local, vec3 p_world, ManyScatterings many) {
   const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
   vec3 sum = vec3(0.0);
@@ -54,7 +50,8 @@ vec3 scattered_lights(LightGather brick, uint local, vec3 p_world, ManyScatterin
     if (depth_lit.y <= 0.0) continue;
     const Incident incident = light_at(lights[light.x], p_world);
     if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
-    sum += incident.irradiance * (depth_lit.y * scattered(frame.look.phase, many, depth_lit.x, -dot(incident.to_light, to_eye)));
+    const float cos_angle = -dot(incident.to_light, to_eye);
+    sum += incident.irradiance * (depth_lit.y * scattered(frame.look.phase, many, depth_lit.x, cos_angle));
   }
   return sum;
 }
@@ -67,7 +64,7 @@ void light_texel(LightGather brick, uint local) {
   const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
   const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
   ManyScatterings many = multiple_scattering(frame.look, escape);
-  many.share *= excess / interpolation_excess(many.decay, texel_depth);
+  many.fraction *= excess / interpolation_excess(many.decay, texel_depth);
   const vec3 lights = scattered_lights(brick, local, p_world, many);
   const vec3 sky = frame.sky.ambient * sky_visibility(p_world) * scattered_sky(escape);
   imageStore(inscatter, at, vec4(sky + lights / excess, 1.0));

@@ -1,20 +1,20 @@
-// Where the ray of each block runs, and how far: from the depth of the block's pixels.
+// The ray of each tile and the distances that it is marched to, from the depth of the tile's pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/frame.glsl"
 #include "lib/camera.glsl"
 #include "lib/upsample.glsl"
-#include "shared/frame.h"
+#include "shared/gbuffer.h"
 #include "shared/resolve.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(binding = 1) uniform sampler2D depth;
-layout(scalar, binding = 2) writeonly buffer Ends { RayEnds ends[]; };
+layout(binding = kBindDepth) uniform sampler2D depth;
+layout(scalar, binding = kBindRayEnds) writeonly buffer Ends { RayEnds ends[]; };
 
-/// Whether 4x4 values of depth, a * row[0..3] on top, are one plane's. Reverse depth is linear over the picture on
-/// every plane, so what a plane through them by least squares leaves is small.
-bool is_even(vec4 rows[4]) {
+/// Whether 4 x 4 values of depth lie on one plane. Reverse depth is linear over the image on every plane, so the
+/// residual of a least-squares plane is small.
+bool is_flat(vec4 rows[4]) {
   const vec4 x = vec4(-1.5, -0.5, 0.5, 1.5);
   float mean = 0.0, slope_x = 0.0, slope_y = 0.0;
   for (int j = 0; j < 4; ++j) {
@@ -26,8 +26,8 @@ bool is_even(vec4 rows[4]) {
   float off = 0.0;
   vec2 range = vec2(1e9, 0.0);
   for (int j = 0; j < 4; ++j) {
-    const vec4 left = abs(rows[j] - (mean + slope_x * x + slope_y * x[j]));
-    off = max(off, max(max(left.x, left.y), max(left.z, left.w)));
+    const vec4 residual = abs(rows[j] - (mean + slope_x * x + slope_y * x[j]));
+    off = max(off, max(max(residual.x, residual.y), max(residual.z, residual.w)));
     range.x = min(range.x, min(min(rows[j].x, rows[j].y), min(rows[j].z, rows[j].w)));
     range.y = max(range.y, max(max(rows[j].x, rows[j].y), max(rows[j].z, rows[j].w)));
   }
@@ -35,13 +35,13 @@ bool is_even(vec4 rows[4]) {
 }
 
 void main() {
-  const uvec2 block = gl_GlobalInvocationID.xy;
+  const uvec2 tile = gl_GlobalInvocationID.xy;
   const int scale = int(frame.march_scale);
-  const uvec2 blocks = blocks_of(frame.size_px, frame.march_scale);
-  if (any(greaterThanEqual(block, blocks))) return;
-  const ivec2 first = ivec2(block) * scale, last = min(first + scale, ivec2(frame.size_px)) - 1;
+  const uvec2 tiles = tiles_of(frame.size_px, frame.march_scale);
+  if (any(greaterThanEqual(tile, tiles))) return;
+  const ivec2 first = ivec2(tile) * scale, last = min(first + scale, ivec2(frame.size_px)) - 1;
 
-  // The block's depth, with a pixel around it where it is 2x2: two values are always on a line.
+  // The tile's depth, with a border of one pixel where it is 2 x 2: two values always lie on a line.
   vec4 rows[4];
   const ivec2 corner = first - (4 - scale) / 2;
   for (int j = 0; j < 4; ++j) {
@@ -63,9 +63,9 @@ void main() {
   }
   e.near_last = e.far;
   e.far_first = e.near;
-  const bool apart = (e.far - e.near) * frame.look.extinction > 0.5 * kDoubt;
-  if (apart && !is_even(rows)) {
-    // The ray passes beside what stands in front: through the far pixel that is next to the middle.
+  const bool differ = (e.far - e.near) * frame.look.extinction > 0.5 * kDoubt;
+  if (differ && !is_flat(rows)) {
+    // The ray passes the foreground: through the far pixel closest to the centre.
     e.near_last = e.near;
     e.far_first = e.far;
     float nearest = 1e9;
@@ -87,5 +87,5 @@ void main() {
       }
     }
   }
-  ends[block.x + blocks.x * block.y] = e;
+  ends[tile.x + tiles.x * tile.y] = e;
 }

@@ -1,27 +1,27 @@
-// The smoke of every pixel from the rays of the blocks around it.
+// Smoke of every pixel, interpolated from the rays of the tiles around it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/frame.glsl"
 #include "lib/camera.glsl"
 #include "lib/upsample.glsl"
-#include "shared/frame.h"
+#include "shared/gbuffer.h"
 #include "shared/resolve.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(binding = 1) uniform sampler2D depth;
-layout(scalar, binding = 2) readonly buffer Ends { RayEnds ends[]; };
-layout(binding = 3) uniform sampler2D near;
-layout(binding = 4) uniform sampler2D far;
-layout(binding = 5, rgba16f) uniform writeonly image2D smoke;
+layout(binding = kBindDepth) uniform sampler2D depth;
+layout(scalar, binding = kBindRayEnds) readonly buffer Ends { RayEnds ends[]; };
+layout(binding = kBindSmokeNear) uniform sampler2D near;
+layout(binding = kBindSmokeFar) uniform sampler2D far;
+layout(binding = kBindSmoke, rgba16f) uniform writeonly image2D smoke;
 
 void main() {
   const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(uvec2(px), frame.size_px))) return;
-  const ivec2 blocks = ivec2(blocks_of(frame.size_px, frame.march_scale));
+  const ivec2 tiles = ivec2(tiles_of(frame.size_px, frame.march_scale));
   const float z = distance_in_smoke(frame, texelFetch(depth, px, 0).r);
 
-  // The four blocks around the pixel, by distance and by how well their ray knows this depth.
+  // The four tiles around the pixel, weighted by distance and by the certainty of their ray at this depth.
   const vec2 place = (vec2(px) + 0.5) / float(frame.march_scale) - 0.5;
   const ivec2 low = ivec2(floor(place));
   const vec2 f = place - vec2(low);
@@ -29,9 +29,10 @@ void main() {
   float weights = 0.0;
   for (int i = 0; i < 4; ++i) {
     const ivec2 step = ivec2(i & 1, i >> 1);
-    const ivec2 block = clamp(low + step, ivec2(0), blocks - 1);
-    const Estimate e = at_distance(ends[block.x + blocks.x * block.y], texelFetch(near, block, 0), texelFetch(far, block, 0), z,
-                                   frame.look, frame.volume.voxel_size);
+    const ivec2 tile = clamp(low + step, ivec2(0), tiles - 1);
+    const RayEnds ray = ends[tile.x + tiles.x * tile.y];
+    const Estimate e = at_distance(ray, texelFetch(near, tile, 0), texelFetch(far, tile, 0), z, frame.look,
+                                   frame.volume.voxel_size);
     const vec2 side = mix(1.0 - f, f, vec2(step));
     const float off = e.doubt / kDoubt;
     const float weight = side.x * side.y / (1.0 + off * off);

@@ -1,43 +1,39 @@
-// Lights the G-buffer and puts the smoke over it: every light within reach, with its shadow, the sky where nothing
-// stands. What the smoke hides is not lit at all.
+// Shades the G-buffer under the smoke: all lights within reach with their shadows, and the sky behind the scene. Skips
+// pixels behind opaque smoke.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_vote : require
-#define BINDING_SKY_LIGHT 10
-#define BINDING_SOLID 11
+#include "lib/frame.glsl"
 #include "lib/camera.glsl"
 #include "lib/lights.glsl"
 #include "lib/shading.glsl"
 #include "lib/sky.glsl"
-#include "shared/frame.h"
+#include "shared/display.h"
+#include "shared/gbuffer.h"
+#include "shared/resolve.h"
 #include "shared/smoke_shadow.h"
 
 layout(constant_id = 0) const uint kCullLights = 1u;  // 0: every light at every pixel
 
 const uint kGroup = 8u;
 layout(local_size_x = kGroup, local_size_y = kGroup) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(binding = 1) readonly buffer Lights { vec4 light_rows[]; };
-layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
-layout(binding = 3) uniform sampler2DArrayShadow shadows;
-layout(binding = 4) uniform sampler2D albedo_roughness;
-layout(binding = 5) uniform sampler2D normal_metallic;
-layout(binding = 6) uniform sampler2D emission;
-layout(binding = 7) uniform sampler2D depth;
-layout(binding = 8) uniform sampler2D smoke_shadows;
-layout(binding = 9) uniform sampler2D smoke;
-layout(binding = 12) readonly buffer Faces { vec4 face_rows[]; };
-layout(binding = 13, rgba16f) uniform writeonly image2D picture;
+layout(binding = kBindAlbedoRoughness) uniform sampler2D albedo_roughness;
+layout(binding = kBindNormalMetallic) uniform sampler2D normal_metallic;
+layout(binding = kBindEmission) uniform sampler2D emission;
+layout(binding = kBindDepth) uniform sampler2D depth;
+layout(binding = kBindSmokeShadows) uniform sampler2D smoke_shadows;
+layout(binding = kBindSmoke) uniform sampler2D smoke;
+layout(binding = kBindRadiance, rgba16f) uniform writeonly image2D radiance_image;
 #include "lib/light_rows.glsl"
 #include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
 
-/// What the surfaces of a tile have in common. A tile is a subgroup: its threads ask a light each, and no barrier is met.
+/// Bounds of the surfaces of a tile. A tile is a subgroup: each thread tests one light, without barriers.
 struct TileSurfaces {
-  vec3 low_world, high_world;    // bounds of the places
+  vec3 low_world, high_world;    // bounds of the positions
   vec3 low_normal, high_normal;  // and of the normals
 };
 
@@ -47,24 +43,26 @@ TileSurfaces surfaces_of_tile(bool lit, vec3 position_world, vec3 normal) {
                       subgroupMin(lit ? normal : nothing), subgroupMax(lit ? normal : -nothing));
 }
 
-/// False only where the light comes from behind every surface of the tile.
-bool shines_on_some(Light light, TileSurfaces tile) {
+/// False only where the light is behind every surface of the tile.
+bool faces_tile(Light light, TileSurfaces tile) {
   const bool directional = light.kind == kLightDirectional;
-  // The way to the light lies in a box, the normal in another: the most that their product can be.
+  // Upper bound of the dot product of two vectors, each inside a box: direction to the light, and normal.
   const vec3 low = directional ? -light.direction : light.position_world - tile.high_world;
   const vec3 high = directional ? -light.direction : light.position_world - tile.low_world;
-  const vec3 most = max(max(low * tile.low_normal, low * tile.high_normal), max(high * tile.low_normal, high * tile.high_normal));
+  const vec3 most = max(max(low * tile.low_normal, low * tile.high_normal),
+                        max(high * tile.low_normal, high * tile.high_normal));
   const vec3 longest = max(abs(low), abs(high));
   return most.x + most.y + most.z > -1e-5 * (longest.x + longest.y + longest.z);
 }
 
-/// Whether a light may send anything to the tile.
+/// Whether a light may reach the tile.
 bool reaches_tile(Light light, TileSurfaces tile) {
-  return kCullLights == 0u || (reaches_box(light, TileBox(tile.low_world, tile.high_world)) && shines_on_some(light, tile));
+  const TileBox box = TileBox(tile.low_world, tile.high_world);
+  return kCullLights == 0u || (reaches_box(light, box) && faces_tile(light, tile));
 }
 
-/// Share of a light that the smoke lets through to a surface.
-float smoke_share(uint index, vec4 on_face) {
+/// Transmittance of the smoke between a light and a surface.
+float smoke_transmittance(uint index, vec4 on_face) {
   const SmokeShadowFace face = face_from_rows(index * kFacesPerLight + uint(on_face.z));
   const vec2 texel = on_face.xy * face.scale + face.offset;
   const vec2 inside = clamp(texel, vec2(face.first_texel) + 0.5, vec2(face.first_texel + face.size) - 0.5);
@@ -72,32 +70,34 @@ float smoke_share(uint index, vec4 on_face) {
   return textureLod(smoke_shadows, texel / vec2(textureSize(smoke_shadows, 0)), 0.0).r;
 }
 
-/// What the surface reflects of a light's light, after the scene's shadow and the smoke in between.
+/// Reflected radiance of one light, with its shadow and the smoke in between.
 vec3 light_radiance(uint index, Surface surface, vec3 view) {
   const Light light = light_from_rows(index);
   const Incident incident = light_at(light, surface.position_world);
-  // A surface must not shadow itself: it is looked up a texel of the shadow off its plane.
-  const float off = light.shadow_layer == kShadowByVoxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
+  // Against self-shadowing the lookup is one texel of the shadow off the surface.
+  const bool by_voxels = light.shadow_layer == kShadowByVoxels;
+  const float off = by_voxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
   const vec3 off_world = surface.position_world + off * surface.normal;
   const vec4 on_face = face_coordinates(light, sun.clip_from_world, off_world);
-  const float share = light_visibility(light, on_face, off_world);
+  const float visibility = light_visibility(light, on_face, off_world);
   vec3 radiance = vec3(0.0);
-  // A loop that runs at most once: a software rasteriser skips those, not branches, and most lights are behind walls.
-  for (bool lit = share > 0.0; lit; lit = false) {
+  // A loop that runs at most once: a software rasteriser skips loops, not branches, and walls occlude most lights.
+  for (bool lit = visibility > 0.0; lit; lit = false) {
     radiance = reflect_light(surface, view, incident.to_light) * incident.irradiance *
-               (share * smoke_share(index, on_face));
+               (visibility * smoke_transmittance(index, on_face));
   }
   return radiance;
 }
 
-/// The light of all lights, in their order, whatever the size of a subgroup is.
+/// Reflected radiance of all lights, summed in their order whatever the subgroup size.
 vec3 lights_radiance(bool lit, Surface surface, vec3 view) {
   const TileSurfaces tile = surfaces_of_tile(lit, surface.position_world, surface.normal);
   const uint light_count = subgroupAny(lit) ? frame.light_count : 0u;
   vec3 radiance = vec3(0.0);
   for (uint first = 0u; first < light_count; first += gl_SubgroupSize) {
     const uint mine = first + gl_SubgroupInvocationID;
-    const uvec4 reaching = subgroupBallot(mine < light_count && reaches_tile(light_from_rows(min(mine, light_count - 1u)), tile));
+    const bool reaches = mine < light_count && reaches_tile(light_from_rows(min(mine, light_count - 1u)), tile);
+    const uvec4 reaching = subgroupBallot(reaches);
     for (uint word = 0u; 32u * word < gl_SubgroupSize; ++word) {
       for (uint bits = reaching[word]; bits != 0u; bits &= bits - 1u)
         radiance += light_radiance(first + 32u * word + uint(findLSB(bits)), surface, view);
@@ -107,24 +107,26 @@ vec3 lights_radiance(bool lit, Surface surface, vec3 view) {
 }
 
 void main() {
-  // Subgroups of any size see pixels that lie close together: along a Z order.
+  // Z order: the pixels of a subgroup of any size are close together.
   const uint i = gl_LocalInvocationIndex;
-  const uvec2 in_group = uvec2((i & 1u) | (i >> 1u & 2u) | (i >> 2u & 4u), (i >> 1u & 1u) | (i >> 2u & 2u) | (i >> 3u & 4u));
+  const uvec2 in_group =
+      uvec2((i & 1u) | (i >> 1u & 2u) | (i >> 2u & 4u), (i >> 1u & 1u) | (i >> 2u & 2u) | (i >> 3u & 4u));
   const ivec2 px = ivec2(kGroup * gl_WorkGroupID.xy + in_group);
   const bool inside = all(lessThan(uvec2(px), frame.size_px));
   const vec3 ray = camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
   const vec4 over = inside ? texelFetch(smoke, px, 0) : vec4(0.0);
   const float d = inside ? texelFetch(depth, px, 0).r : 0.0;
-  const bool seen = over.a > 0.0, lit = seen && d > 0.0;
+  const bool visible = over.a > 0.0, lit = visible && d > 0.0;
 
   const vec4 a = texelFetch(albedo_roughness, px, 0), n = texelFetch(normal_metallic, px, 0);
-  const Surface surface = Surface(frame.camera.eye_world + view_distance(frame.camera, d) * ray, normalize(n.xyz), a.rgb, a.a, n.a);
+  const vec3 position_world = frame.camera.eye_world + view_distance(frame.camera, d) * ray;
+  const Surface surface = Surface(position_world, normalize(n.xyz), a.rgb, a.a, n.a);
   vec3 radiance = lights_radiance(lit, surface, -normalize(ray));
   if (lit) {
     radiance += texelFetch(emission, px, 0).rgb +
                 surface.albedo * frame.sky.ambient * sky_irradiance(surface.position_world, surface.normal);
   } else {
-    radiance = seen ? sky_radiance(frame.sky, normalize(ray)) : vec3(0.0);
+    radiance = visible ? sky_radiance(frame.sky, normalize(ray)) : vec3(0.0);
   }
-  if (inside) imageStore(picture, px, vec4(over.rgb + over.a * radiance, 1.0));
+  if (inside) imageStore(radiance_image, px, vec4(over.rgb + over.a * radiance, 1.0));
 }

@@ -1,14 +1,13 @@
-// What each texel sees of the sky, from the rays of sky_rays.comp.
+// Sky light of each texel from the rays of sky_rays.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/sky_light.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Rays { uint sky_words[]; };
-layout(binding = 2, rgba16f) uniform writeonly image3D sky_light;
+layout(scalar, binding = kBindSkyRays) readonly buffer Rays { uint sky_words[]; };
+layout(binding = kBindSkyLight, rgba16f) uniform writeonly image3D sky_light;
 
 void main() {
   const ivec3 size = frame.solid.size;
@@ -18,9 +17,9 @@ void main() {
 
   vec4 sum = vec4(0.0);
   for (uint i = 0u; i < kSkyDirections; ++i) {
-    const float seen = float(sky_words[int(i) * words + word] >> (x & 31) & 1u);
+    const float visible = float(sky_words[int(i) * words + word] >> (x & 31) & 1u);
     const vec3 d = sky_direction(i);
-    sum += seen * sky_weight(i) * sky_shape(d.y) * vec4(1.0, 3.0 * d);
+    sum += visible * sky_weight(i) * sky_shape(d.y) * vec4(1.0, 3.0 * d);
   }
   imageStore(sky_light, ivec3(x, row % size.y, row / size.y), sum);
 }

@@ -1,16 +1,17 @@
-// From which texels the sky is seen in one of 32 directions: 32 texels of a row at a time, as the bits of a word that
-// walks through the level. A ray looks at one texel each step along its longest axis. Texels of a voxelized surface
-// without gaps stop it: the way between two of its points lies in their two texels.
+// Visibility of the sky from each texel in one of 32 directions. Traces 32 texels of a row at a time, as bits of a word
+// that moves through the level. A ray tests one texel per step along its longest axis; the path between two of its
+// points lies inside their two texels, so a voxelized surface without gaps stops it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/sky_light.h"
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Words { uint solid_words[]; };
-layout(scalar, binding = 2) writeonly buffer Rays { uint sky_words[]; };  // per direction as many as solid_words
+layout(scalar, binding = kBindSolidWords) readonly buffer Words { uint solid_words[]; };
+layout(scalar, binding = kBindSkyRays) writeonly buffer Rays {
+  uint sky_words[];  // per direction as many as solid_words
+};
 
 /// 32 texels of a row from x on, as bits; 0 beyond its ends.
 uint solid_bits(int row, int x, int row_words) {
@@ -29,11 +30,12 @@ void main() {
   const ivec3 at = ivec3(word % row_words * 32, row % size.y, row / size.y);
   const ivec3 slope = sky_slope(gl_GlobalInvocationID.y);
 
-  uint seen = ~solid_words[word];
-  for (int i = 1; seen != 0u; ++i) {
+  uint visible = ~solid_words[word];
+  for (int i = 1; visible != 0u; ++i) {
     const ivec3 p = at + sky_step(slope, i);
-    if (p.x <= -32 || p.x >= size.x || any(lessThan(p.yz, ivec2(0))) || any(greaterThanEqual(p.yz, size.yz))) break;
-    seen &= ~solid_bits(p.y + size.y * p.z, p.x, row_words);
+    const bool outside = p.x <= -32 || p.x >= size.x || any(lessThan(p.yz, ivec2(0)));
+    if (outside || any(greaterThanEqual(p.yz, size.yz))) break;
+    visible &= ~solid_bits(p.y + size.y * p.z, p.x, row_words);
   }
-  sky_words[int(gl_GlobalInvocationID.y) * row_words * size.y * size.z + word] = seen;
+  sky_words[int(gl_GlobalInvocationID.y) * row_words * size.y * size.z + word] = visible;
 }

@@ -1,47 +1,37 @@
-// The atlas of shared/smoke_shadow.h: a ray a texel, from the light through the smoke to the first surface.
+// Fills the atlas of shared/smoke_shadow.h: a ray per texel, from the light through the smoke to the first surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#define BINDING_PAGES 4
-#define BINDING_CELLS 6
-#define BINDING_BOUNDARY 7
-#define BINDING_CORNERS 8
-#define BINDING_HOLE_CELLS 10
-#define BINDING_SOLID 12
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 #include "shared/light.h"
 #include "shared/smoke_shadow.h"
 
-// A ray is short work after long waits: threads beside each other share one.
+// Neighbouring threads split a ray: it is little work behind long memory latency.
 const uint kRayParts = 4u, kPartSteps = 16u;
 const uint kWindowThreads = kRayParts * kSmokeShadowBlock * kSmokeShadowBlock;
 layout(local_size_x = kWindowThreads) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = 2) readonly buffer Views { ShadowView sun; };
-layout(binding = 3) uniform sampler2DArray shadows;
-layout(binding = 5) uniform sampler3D filtered_density_atlas;
-layout(binding = 9, r16f) uniform writeonly image2D smoke_shadows;
-layout(scalar, binding = 11) readonly buffer Faces { SmokeShadowFace faces[]; };
-layout(push_constant, scalar) uniform Impulse { SmokeShadowParams params; };
-layout(binding = 13) readonly buffer Holes { vec4 hole_rows[]; };
-layout(binding = 14) uniform sampler2D hole_masks;
+layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = kBindSun) readonly buffer Views { ShadowView sun; };
+layout(binding = kBindShadowMaps) uniform sampler2DArray shadow_maps;
+layout(binding = kBindSmokeShadows, r16f) uniform writeonly image2D smoke_shadows;
+layout(scalar, binding = kBindSmokeShadowFaces) readonly buffer Faces { SmokeShadowFace faces[]; };
+layout(scalar, push_constant) uniform Push { SmokeShadowParams params; };
 #include "lib/hole_reach.glsl"
 #include "lib/hole_window.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/solid.glsl"
 
-// Holes that the rays of a block may meet; where there are more, their averages over cells do.
+// Limit of exact holes per block of texels; beyond it their averages over cells are used.
 const uint kBlockHoles = 64u;
 shared uint found_holes[kBlockHoles], block_holes[kBlockHoles];
-shared uint page_count;
+shared uint hole_count;
 shared float part_depths[kWindowThreads];
 
-struct Way {
+struct RaySegment {
   vec3 from, to;
 };
 
-/// The face that a block belongs to: the last one that begins at or before it.
+/// The face of a block: the last one whose first block is not beyond it.
 uint face_of(uint block) {
   uint low = 0u, high = params.face_count;
   while (high - low > 1u) {
@@ -58,19 +48,20 @@ vec3 face_ray(uint face, vec2 uv) {
   return cube_forward(face) + ndc.x * cube_right(face) - ndc.y * cube_up(face);
 }
 
-/// From a light through a point of one of its faces to the first surface.
-Way light_way(Light light, uint face, vec2 uv) {
+/// The segment from a light through a point of one of its faces to the first surface.
+RaySegment light_segment(Light light, uint face, vec2 uv) {
   const bool by_voxels = light.shadow_layer == kShadowByVoxels;
-  const float depth = by_voxels ? 0.0 : textureLod(shadows, vec3(uv, float(light.shadow_layer + face)), 0.0).r;
+  const float depth = by_voxels ? 0.0 : textureLod(shadow_maps, vec3(uv, float(light.shadow_layer + face)), 0.0).r;
   if (light.kind == kLightDirectional) {
     const vec2 ndc = uv * 2.0 - 1.0;
-    return Way((sun.world_from_clip * vec4(ndc, 1.0, 1.0)).xyz, (sun.world_from_clip * vec4(ndc, depth, 1.0)).xyz);
+    return RaySegment((sun.world_from_clip * vec4(ndc, 1.0, 1.0)).xyz,
+                      (sun.world_from_clip * vec4(ndc, depth, 1.0)).xyz);
   }
   const vec3 far = light.position_world + face_ray(face, uv) * min(kShadowNear / max(depth, 1e-6), light.range);
-  return Way(light.position_world, by_voxels ? first_solid(light.position_world, far) : far);
+  return RaySegment(light.position_world, by_voxels ? first_solid(light.position_world, far) : far);
 }
 
-/// Around the ways through a rectangle of a face.
+/// A cone around the rays through a rectangle of a face.
 RayCone cone_of_block(Light light, uint face, vec2 low_uv, vec2 high_uv) {
   const vec2 middle_uv = 0.5 * (low_uv + high_uv);
   if (light.kind == kLightDirectional) {
@@ -81,25 +72,26 @@ RayCone cone_of_block(Light light, uint face, vec2 low_uv, vec2 high_uv) {
   }
   RayCone cone = RayCone(light.position_world, normalize(face_ray(face, middle_uv)), 0.0, 0.0, light.range);
   for (uint i = 0u; i < 4u; ++i) {
-    const vec3 ray = face_ray(face, vec2((i & 1u) == 0u ? low_uv.x : high_uv.x, (i & 2u) == 0u ? low_uv.y : high_uv.y));
+    const vec2 uv = vec2((i & 1u) == 0u ? low_uv.x : high_uv.x, (i & 2u) == 0u ? low_uv.y : high_uv.y);
+    const vec3 ray = face_ray(face, uv);
     cone.spread = max(cone.spread, length(cross(ray, cone.axis)) / max(dot(ray, cone.axis), 1e-6));
   }
   return cone;
 }
 
-/// Finds the holes of the block. All threads of the workgroup take part.
+/// Finds the holes of the block. Runs in all threads of the workgroup.
 void find_block_holes(RayCone cone) {
   const uint thread = gl_LocalInvocationIndex;
-  if (thread == 0u) page_count = 0u;
+  if (thread == 0u) hole_count = 0u;
   barrier();
   for (uint i = thread; i < frame.holes.count; i += kWindowThreads) {
-    if (!cone_meets_hole(cone, reach_from_rows(i))) continue;
-    const uint at = atomicAdd(page_count, 1u);
+    if (!cone_meets_hole(cone, reach_at(i))) continue;
+    const uint at = atomicAdd(hole_count, 1u);
     if (at < kBlockHoles) found_holes[at] = i;
   }
   barrier();
-  // In order, so that equal frames multiply in the same order.
-  const uint count = min(page_count, kBlockHoles);
+  // Sorted, so that equal frames multiply in the same order.
+  const uint count = min(hole_count, kBlockHoles);
   if (thread < count) {
     uint before = 0u;
     for (uint i = 0u; i < count; ++i) before += found_holes[i] < found_holes[thread] ? 1u : 0u;
@@ -108,16 +100,16 @@ void find_block_holes(RayCone cone) {
   barrier();
 }
 
-/// The steps of a way inside the smoke's bounds.
-RaySteps steps_of_way(Way way, uint part) {
+/// The steps of a ray segment inside the caster bounds.
+RaySteps steps_of(RaySegment segment, uint part) {
   const VolumeLayout volume = frame.volume;
-  const float distance = length(way.to - way.from);
+  const float distance = length(segment.to - segment.from);
   RaySteps ray;
-  ray.origin_world = way.from;
-  ray.direction = (way.to - way.from) / max(distance, 1e-6);
+  ray.origin_world = segment.from;
+  ray.direction = (segment.to - segment.from) / max(distance, 1e-6);
   const vec3 inverse = 1.0 / (ray.direction + vec3(equal(ray.direction, vec3(0.0))) * 1e-6);
-  const vec3 low = volume.origin_world + frame.caster_bounds_min * volume.voxel_size - way.from;
-  const vec3 high = volume.origin_world + frame.caster_bounds_max * volume.voxel_size - way.from;
+  const vec3 low = volume.origin_world + frame.caster_bounds_min * volume.voxel_size - segment.from;
+  const vec3 high = volume.origin_world + frame.caster_bounds_max * volume.voxel_size - segment.from;
   const vec3 near = min(low * inverse, high * inverse), far = max(low * inverse, high * inverse);
   ray.begin = max(max(near.x, near.y), max(near.z, 0.0));
   const float inside = max(min(min(far.x, far.y), min(far.z, distance)) - ray.begin, 0.0);
@@ -129,11 +121,11 @@ RaySteps steps_of_way(Way way, uint part) {
 
 /// Optical depth of the thread's part of the steps.
 float part_depth(RaySteps ray) {
-  const bool holes_near = frame.holes.count > 0u && page_count > 0u, by_cells = holes_near && page_count > kBlockHoles;
-  const bool by_window = holes_near && !by_cells;
+  const bool any_hole = frame.holes.count > 0u && hole_count > 0u;
+  const bool by_cells = any_hole && hole_count > kBlockHoles, by_window = any_hole && !by_cells;
   if (by_window) {
     fill_window();
-    for (uint i = 0u; i < page_count; ++i) cut_hole(ray, block_holes[i]);
+    for (uint i = 0u; i < hole_count; ++i) cut_hole(ray, block_holes[i]);
   }
   const float per_sample = ray.ds * frame.look.extinction;
   const vec3 origin = (ray.origin_world - frame.volume.origin_world) / frame.volume.voxel_size;
@@ -141,7 +133,7 @@ float part_depth(RaySteps ray) {
   float depth = 0.0;
   for (uint i = 0u; kRayParts * i + ray.part < ray.count && depth < 10.0; ++i) {
     const vec3 p_voxel = origin + per_metre * (ray.begin + (float(kRayParts * i + ray.part) + 0.5) * ray.ds);
-    float density = by_cells ? seen_smoke_at(p_voxel).density : mean_smoke_at(p_voxel).density;
+    float density = by_cells ? cut_smoke_at(p_voxel).density : mean_smoke_at(p_voxel).density;
     if (by_window) density *= remaining_at(i);
     depth += per_sample * density;
   }
@@ -153,7 +145,8 @@ void main() {
   const SmokeShadowFace face = faces[face_index];
   const Light light = lights[face_index / kFacesPerLight];
   const uint side = face_index % kFacesPerLight;
-  const uint block = gl_WorkGroupID.x - face.first_block, row = smoke_shadow_blocks(face.size, params.spread).x;
+  const uint block = gl_WorkGroupID.x - face.first_block;
+  const uint row = smoke_shadow_blocks(face.size, params.spread).x;
   const uint edge = kSmokeShadowBlock * params.spread;
   const uvec2 first = face.first_texel + edge * uvec2(block % row, block / row);
   if (frame.holes.count > 0u) {
@@ -162,10 +155,11 @@ void main() {
   }
   const uint ray = gl_LocalInvocationIndex / kRayParts, part = gl_LocalInvocationIndex % kRayParts;
   const uvec2 at = first + params.first + params.spread * uvec2(ray % kSmokeShadowBlock, ray / kSmokeShadowBlock);
-  const Way way = light_way(light, side, (vec2(at) + 0.5 - face.offset) / face.scale);
-  part_depths[gl_LocalInvocationIndex] = part_depth(steps_of_way(way, part));
+  const RaySegment segment = light_segment(light, side, (vec2(at) + 0.5 - face.offset) / face.scale);
+  part_depths[gl_LocalInvocationIndex] = part_depth(steps_of(segment, part));
   barrier();
   float depth = 0.0;
   for (uint i = 0u; i < kRayParts; ++i) depth += part_depths[kRayParts * ray + i];
-  if (part == 0u && all(lessThan(at, face.first_texel + face.size))) imageStore(smoke_shadows, ivec2(at), vec4(exp(-depth)));
+  if (part == 0u && all(lessThan(at, face.first_texel + face.size)))
+    imageStore(smoke_shadows, ivec2(at), vec4(exp(-depth)));
 }

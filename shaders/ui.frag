@@ -1,7 +1,10 @@
-// The colour of a vertex, where the font covers the pixel.
+// Vertex colour times the coverage of the font atlas.
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "shared/ui.h"
 
-layout(binding = 1) uniform sampler2D font;
+layout(binding = kBindUiFont) uniform sampler2D font;
 
 layout(location = 0) in vec4 colour;
 layout(location = 1) in vec2 uv;

@@ -1,11 +1,11 @@
-// Panels, text and lines over a picture.
+// Panels, text and lines of the viewer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/ui.h"
 
-layout(scalar, binding = 0) readonly buffer Vertices { UiVertex vertices[]; };
-layout(push_constant, scalar) uniform Impulse { UiConstants ui; };
+layout(scalar, binding = kBindUiVertices) readonly buffer Vertices { UiVertex vertices[]; };
+layout(scalar, push_constant) uniform Push { UiConstants ui; };
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec2 uv;

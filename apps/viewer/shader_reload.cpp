@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 #include <shaderc/shaderc.hpp>
-#include <spirv_cross/spirv_cross.hpp>
 
 #include "core/file.hpp"
 
@@ -76,10 +75,6 @@ std::optional<shaderc_shader_kind> kind_of(const std::string& name) {
   return std::nullopt;
 }
 
-Failure mismatch(const std::string& name, const std::string& what) {
-  return {ErrorCode::bad_input, name + ": " + what + "; rebuild the program to change its interface"};
-}
-
 }  // namespace
 
 Result<std::vector<std::uint32_t>> compile_shader(const std::filesystem::path& folder,
@@ -101,34 +96,12 @@ Result<std::vector<std::uint32_t>> compile_shader(const std::filesystem::path& f
 
 Result<void> check_fit(const std::vector<std::uint32_t>& words, const gpu::Pipeline& pipeline,
                        const std::string& name) {
-  const spirv_cross::Compiler compiler(words);
-  const auto resources = compiler.get_shader_resources(compiler.get_active_interface_variables());
-  const auto& bindings = pipeline.bindings();
-  const auto fits = [&](const auto& list, VkDescriptorType type) -> Result<void> {
-    for (const spirv_cross::Resource& resource : list) {
-      const std::uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
-      const std::uint32_t set = compiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
-      if (set != 0 || binding >= bindings.size() || bindings[binding] != type)
-        return mismatch(name, "the program binds no resource of that type at binding " +
-                                  std::to_string(binding) + " (" + resource.name + ")");
-    }
-    return {};
-  };
-  for (const auto& done :
-       {fits(resources.storage_buffers, gpu::kBuffer), fits(resources.uniform_buffers, gpu::kUniform),
-        fits(resources.sampled_images, gpu::kSampled), fits(resources.storage_images, gpu::kStored)})
-    if (!done) return done.failure();
-  if (!resources.separate_images.empty() || !resources.separate_samplers.empty())
-    return mismatch(name, "the program binds no separate images and samplers");
-  for (const spirv_cross::Resource& block : resources.push_constant_buffers)
-    if (compiler.get_declared_struct_size(compiler.get_type(block.base_type_id)) > pipeline.push_bytes())
-      return mismatch(name, "the program sets only " + std::to_string(pipeline.push_bytes()) +
-                                " bytes of push constants");
-  if (const auto* compute = dynamic_cast<const gpu::ComputePipeline*>(&pipeline)) {
-    for (std::uint32_t axis = 0; axis < 3; ++axis)
-      if (compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, axis) != compute->group()[axis])
-        return mismatch(name, "the program expects another local size");
-  }
+  const auto changed = gpu::reflect({name.c_str(), words});
+  if (!changed) return changed.failure();
+  const auto fits = gpu::check_fit(*changed, pipeline.interface());
+  if (!fits)
+    return Failure{ErrorCode::bad_input,
+                   name + ": " + fits.failure().message + "; rebuild the program to change its interface"};
   return {};
 }
 

@@ -52,7 +52,7 @@ void grow(gpu::Context& context, gpu::Buffer& buffer, std::size_t bytes, VkBuffe
 
 UiPass::UiPass(gpu::Context& context, gpu::CommandRunner& runner, VkFormat target)
     : context_(context),
-      pipeline_(context, pipeline_info(target), {gpu::kBuffer, gpu::kSampled}, sizeof(shared::UiConstants)),
+      pipeline_(context, pipeline_info(target)),
       linear_(context, {}),
       font_(make_font(context, runner)) {}
 
@@ -77,15 +77,15 @@ void UiPass::record_upload(gpu::Recorder& recorder, const ImDrawData& data) cons
 void UiPass::record(gpu::Recorder& recorder, const ImDrawData& data, const gpu::Image& picture) const {
   if (data.TotalIdxCount == 0) return;
   record_upload(recorder, data);
-  const auto bindings = {gpu::read(vertices_), gpu::sampled(font_, linear_)};
-  recorder.prepare_for_draws(bindings);
+  const gpu::Binding vertices = gpu::read(vertices_), font = gpu::sampled(font_, linear_);
+  recorder.prepare_for_draws({vertices, font});
   recorder.prepare_indices(indices_);
   const glm::uvec2 size(picture.info().size);
   gpu::Recorder::Attachments attachments;
   attachments.colours = {&picture};
   attachments.keep = true;
   recorder.begin_rendering(attachments, size);
-  recorder.bind_for_draws(pipeline_, bindings);
+  recorder.bind_for_draws(pipeline_, {{shared::kBindUiVertices, vertices}, {shared::kBindUiFont, font}});
   const shared::UiConstants constants{glm::vec2(data.DisplayPos.x, data.DisplayPos.y),
                                       glm::vec2(data.DisplaySize.x, data.DisplaySize.y)};
   recorder.push(pipeline_, std::as_bytes(std::span(&constants, 1)));

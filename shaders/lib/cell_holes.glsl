@@ -1,18 +1,18 @@
-// What holes leave of the smoke on its way to light: averages over cells of half a voxel (shared/hole_clusters.h).
-// The includer has `frame` and defines BINDING_HOLE_CELLS.
+// Holes along rays to lights: averages over cells of half a voxel (shared/hole_clusters.h).
 #ifndef CELL_HOLES_GLSL
 #define CELL_HOLES_GLSL
-#include "shared/frame.h"
+#include "lib/frame.glsl"
 
-layout(scalar, binding = BINDING_HOLE_CELLS) readonly buffer HoleCells { uint hole_cells[]; };
+layout(scalar, binding = kBindHoleCells) readonly buffer HoleCells { uint hole_cells[]; };
 
-/// Share of the density that the holes leave around a point of a brick.
+/// Mean fraction of the density that the holes leave around a point of a brick.
 float remaining_in_cell(uint slot, vec3 local_voxel) {
-  const uint block = frame.holes.count > 0u ? hole_cells[slot] : 0u;
-  if (block == 0u) return 1.0;
+  const uint chunk = frame.holes.count > 0u ? hole_cells[slot] : 0u;
+  if (chunk == 0u) return 1.0;
   const ivec3 cell = clamp(ivec3(local_voxel * float(kHoleCellsPerVoxel)), ivec3(0), ivec3(kHoleCellsPerEdge - 1));
-  const uint number = kHoleCellsPerChunk * (block - 1u) + uint(cell.x + kHoleCellsPerEdge * (cell.y + kHoleCellsPerEdge * cell.z));
-  return exp2(-float(hole_cells[frame.holes.cells_at + number]) / kHoleCellStep);
+  const uint index = uint(cell.x + kHoleCellsPerEdge * (cell.y + kHoleCellsPerEdge * cell.z));
+  const uint steps = hole_cells[frame.holes.cells_at + kHoleCellsPerChunk * (chunk - 1u) + index];
+  return exp2(-float(steps) / kHoleCellStep);
 }
 
 #endif

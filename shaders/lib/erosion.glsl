@@ -1,10 +1,10 @@
-// The noise that smoke is eroded with (shared/erosion.h).
+// Noise of the erosion (shared/erosion.h).
 #ifndef EROSION_GLSL
 #define EROSION_GLSL
 #include "shared/erosion.h"
 
 /// The noise at a point, a channel each: large billows, small ones, threads, broad (shaders/noise.comp).
-/// It rises with the smoke; a point's drift is taken into it by the caller.
+/// It rises with the smoke; the caller adds the displacement of the noise to the point.
 vec4 smoke_noise(sampler3D noise_tile, SmokeLook look, vec3 p_world, float time) {
   return textureLod(noise_tile, (p_world - vec3(0.0, look.rise * time, 0.0)) / look.noise_period, 0.0);
 }

@@ -1,10 +1,13 @@
-// Holes whose cross-section is an image. The includer declares `uniform sampler2D hole_masks`, the mask atlas.
+// Holes whose cross-section is an image of the mask atlas.
 #ifndef HOLE_MASK_GLSL
 #define HOLE_MASK_GLSL
 #include "shared/hole.h"
+#include "shared/hole_clusters.h"
 
-/// The image at a point of the atlas, 0..1. The four texels are weighed in floats: a texture unit's weights have 8 bits,
-/// and lines of sight on a server must agree with the picture.
+layout(binding = kBindHoleMasks) uniform sampler2D hole_masks;
+
+/// The image at a point of the atlas, [0, 1]. Interpolates in floats, because the filter weights of a texture unit have
+/// 8 bits, and lines of sight on a server must match the rendered image.
 float mask_at(vec2 uv) {
   const vec2 from_centres = uv * vec2(textureSize(hole_masks, 0)) - 0.5;
   const ivec2 low = ivec2(floor(from_centres)), last = textureSize(hole_masks, 0) - 1;
@@ -15,7 +18,7 @@ float mask_at(vec2 uv) {
   return mix(top, bottom, f.y);
 }
 
-/// hole_strength, masks through their images.
+/// hole_strength including the images of masks.
 float hole_strength_masked(Hole hole, vec3 p_world, float time, float rim_noise_metres) {
   const HoleCut cut = hole_cut(hole, p_world, time, rim_noise_metres);
   if (hole.shape != kHoleMask || cut.strength <= 0.0) return cut.strength;

@@ -1,28 +1,28 @@
-// A ramp with three numbers in the lower left corner of a view. The includer has `frame` and `params`.
+// Legend of a debug view: its ramp with three numbers in the lower left corner. The includer has `params`.
 #ifndef LEGEND_GLSL
 #define LEGEND_GLSL
+#include "lib/frame.glsl"
 #include "shared/debug_view.h"
-#include "shared/frame.h"
 
-// 0 to 9, a point, m, +: rows of three pixels, the top one in the highest bits.
+// Glyphs 0 to 9, point, m, +: rows of three pixels, the top row in the highest bits.
 const uint kGlyphRows[13] = {0x7b6fu, 0x2c97u, 0x73e7u, 0x73cfu, 0x5bc9u, 0x79cfu, 0x79efu, 0x7252u, 0x7befu, 0x7bcfu,
                              0x0002u, 0x0fedu, 0x05d0u};
 
-/// Whether a pixel of a label is inked; `at` from its left upper corner, in pixels of the glyphs, four across each.
+/// Whether a pixel of a label is inked; `at` from its upper left corner, in glyph pixels. A glyph is four wide.
 bool inked(uint label, ivec2 at) {
   if (at.x < 0 || at.y < 0 || at.x >= 4 * int(kLabelGlyphs) || at.y >= 5 || at.x % 4 == 3) return false;
   const uint glyph = label >> uint(5 * (at.x / 4)) & 31u;
   return glyph != kGlyphNone && (kGlyphRows[min(glyph, 12u)] >> uint(14 - 3 * at.y - at.x % 4) & 1u) != 0u;
 }
 
-/// Glyphs of a label.
+/// Number of glyphs of a label.
 int label_length(uint label) {
   int length = 0;
   while (length < int(kLabelGlyphs) && (label >> uint(5 * length) & 31u) != kGlyphNone) ++length;
   return length;
 }
 
-/// The picture with the legend over it; none in pictures too small for one.
+/// The colour of a pixel with the legend over it. Small images have no legend.
 vec3 with_legend(vec3 colour, ivec2 px, uint ramp) {
   const ivec2 size = ivec2(frame.size_px);
   if (params.labels == uvec3(0u) || size.x < 200 || size.y < 100) return colour;

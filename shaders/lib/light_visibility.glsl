@@ -1,17 +1,20 @@
-// Shadows of every kind. Needs `frame`, `sun` and `shadows`; the includer defines BINDING_SOLID.
-#ifndef LIGHT_SHARE_GLSL
-#define LIGHT_SHARE_GLSL
+// Visibility of a light through the scene, by its shadow map or by rays through voxels.
+#ifndef LIGHT_VISIBILITY_GLSL
+#define LIGHT_VISIBILITY_GLSL
 #include "lib/lights.glsl"
 #include "lib/solid.glsl"
 
-/// Share of the light that the scene lets through to a point, whichever kind of shadow the light has. Of a surface,
-/// ask for a point a little off its plane. `on_face`: its face_coordinates.
+layout(scalar, binding = kBindSun) readonly buffer Views { ShadowView sun; };
+layout(binding = kBindShadowMaps) uniform sampler2DArrayShadow shadow_maps;
+
+/// Fraction of the light that the scene lets through to a point. For a surface pass a point slightly off its plane.
+/// `on_face`: the point's face_coordinates.
 float light_visibility(Light light, vec4 on_face, vec3 position_world) {
-  float share = shadow_at(shadows, light, on_face);
-  // A loop that runs at most once: a software rasteriser pays for branches that it does not take, not for loops.
+  float visibility = shadow_at(shadow_maps, light, on_face);
+  // A loop that runs at most once: a software rasteriser skips loops, but pays for branches that it does not take.
   for (bool by_voxels = light.shadow_layer == kShadowByVoxels; by_voxels; by_voxels = false)
-    share = free_way(position_world, light.position_world);
-  return share;
+    visibility = segment_visibility(position_world, light.position_world);
+  return visibility;
 }
 
 float light_visibility(Light light, vec3 position_world) {

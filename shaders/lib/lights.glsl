@@ -1,4 +1,4 @@
-// What a light sends to a point, with the shadows of the scene.
+// Light of a light source at a point, and its shadow map.
 #ifndef LIGHTS_GLSL
 #define LIGHTS_GLSL
 #include "shared/light.h"
@@ -9,7 +9,7 @@ struct Incident {
   float distance;   // to the light [m]
 };
 
-/// Unshadowed light. The inverse square law, taken down to 0 at the light's range by a smooth window
+/// Unshadowed light: the inverse square law, with a smooth window that reaches 0 at the light's range
 /// (Karis 2013, "Real Shading in Unreal Engine 4").
 Incident light_at(Light light, vec3 position_world) {
   Incident incident;
@@ -32,18 +32,18 @@ Incident light_at(Light light, vec3 position_world) {
   return incident;
 }
 
-/// A box in the world.
+/// A box in world space.
 struct TileBox {
   vec3 low, high;
 };
 
-/// False only where the light reaches no point of the box. Spots by the sphere around the box: Wronski 2017, "Cull
-/// that cone!".
+/// False only where the light reaches no point of the box. Tests spots against the sphere around the box: Wronski 2017,
+/// "Cull that cone!".
 bool reaches_box(Light light, TileBox box) {
   if (max(light.intensity.r, max(light.intensity.g, light.intensity.b)) <= 0.0) return false;
   if (light.kind == kLightDirectional) return true;
-  const vec3 apart = max(max(box.low - light.position_world, light.position_world - box.high), vec3(0.0));
-  if (dot(apart, apart) >= light.range * light.range) return false;
+  const vec3 gap = max(max(box.low - light.position_world, light.position_world - box.high), vec3(0.0));
+  if (dot(gap, gap) >= light.range * light.range) return false;
   if (light.kind == kLightPoint || light.cos_outer <= 0.0) return true;
   const vec3 to_box = 0.5 * (box.low + box.high) - light.position_world;
   const float radius = 0.5 * length(box.high - box.low), along = dot(to_box, light.direction);
@@ -52,8 +52,7 @@ bool reaches_box(Light light, TileBox box) {
   return light.cos_outer * aside - sin_outer * along <= radius * 1.001 && along >= -radius * 1.001;
 }
 
-/// Where a direction from a light lies on its shadow cube: uv, face, distance along the face's axis. The faces are those of
-/// shared/light.h, whose axes are the world's.
+/// Position of a direction on a light's shadow cube (shared/light.h): uv, face, distance along the face's axis.
 vec4 cube_coordinates(vec3 d) {
   const vec3 a = abs(d);
   const bool x = a.x >= a.y && a.x >= a.z, y = !x && a.y >= a.z;
@@ -62,7 +61,7 @@ vec4 cube_coordinates(vec3 d) {
   return vec4(vec2(right, -up) * (0.5 / abs(along)) + 0.5, face, abs(along));
 }
 
-/// Where a point lies on the faces of a light: uv, face, reverse depth there.
+/// Position of a point on the faces of a light: uv, face, reverse depth.
 vec4 face_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world) {
   if (light.kind == kLightDirectional) {
     const vec4 clip = sun_clip_from_world * vec4(position_world, 1.0);
@@ -72,10 +71,10 @@ vec4 face_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world
   return vec4(on_cube.xyz, kShadowNear / on_cube.w);
 }
 
-/// Share of the light that its shadow map lets through; 1 where it has none.
-float shadow_at(sampler2DArrayShadow shadows, Light light, vec4 on_face) {
+/// Fraction of the light that its shadow map lets through; 1 where it has none.
+float shadow_at(sampler2DArrayShadow maps, Light light, vec4 on_face) {
   const bool mapped = light.shadow_layer < kShadowByVoxels && on_face.xy == clamp(on_face.xy, 0.0, 1.0);
-  return mapped ? texture(shadows, vec4(on_face.xy, float(light.shadow_layer) + on_face.z, on_face.w)) : 1.0;
+  return mapped ? texture(maps, vec4(on_face.xy, float(light.shadow_layer) + on_face.z, on_face.w)) : 1.0;
 }
 
 #endif

@@ -1,17 +1,17 @@
-// Kinds of noise, each a pure function of a point, a lattice and a seed. All repeat over the unit cube: `cells` lattice
-// cells per axis in [1, 1024], wrapped, so that a tile has no seam.
+// Noise functions of a point, a lattice and a seed. All are periodic over the unit cube: `cells` lattice cells per axis
+// in [1, 1024], wrapped, so that a tile has no seam.
 #ifndef NOISE_GLSL
 #define NOISE_GLSL
 #include "lib/hash.glsl"
 
-/// Three values in [0, 1) of a lattice point in [-1, cells]. Other seeds look at places of the lattice far away.
+/// Three values in [0, 1) of a lattice point in [-1, cells]. Seeds offset the lattice.
 vec3 lattice_hash(ivec3 at, int cells, uint seed) {
   at += cells * (ivec3(lessThan(at, ivec3(0))) - ivec3(greaterThanEqual(at, ivec3(cells))));
   return hash3(uvec3(at) + seed * uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du));
 }
 
-/// Inverted cellular noise F1 (Worley 1996, "A Cellular Texture Basis Function"): 1 at the feature points, one a cell,
-/// less 1 for each cell's edge of distance from the nearest; at least 0.
+/// Inverted cellular noise F1 (Worley 1996, "A Cellular Texture Basis Function"): 1 at the feature points, one per
+/// cell, minus the distance to the nearest in cell edges; at least 0.
 float worley(vec3 p_tile, int cells, uint seed) {
   const vec3 p = fract(p_tile) * float(cells);
   const ivec3 home = min(ivec3(p), cells - 1);
@@ -20,8 +20,8 @@ float worley(vec3 p_tile, int cells, uint seed) {
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
         const ivec3 cell = home + ivec3(x, y, z);
-        const vec3 apart = vec3(cell) + lattice_hash(cell, cells, seed) - p;
-        nearest = min(nearest, dot(apart, apart));
+        const vec3 offset = vec3(cell) + lattice_hash(cell, cells, seed) - p;
+        nearest = min(nearest, dot(offset, offset));
       }
   return 1.0 - sqrt(nearest);
 }
@@ -40,16 +40,16 @@ vec4 perlin(vec3 p_tile, int cells, uint seed) {
     const vec3 c = vec3(corner);
     const vec3 gradient = normalize(2.0 * lattice_hash(home + corner, cells, seed) - 1.0);
     const float ramp = dot(gradient, f - c);
-    const vec3 share = mix(1.0 - w, w, c), slope = mix(-dw, dw, c);
-    sum.w += share.x * share.y * share.z * ramp;
-    sum.xyz += share.x * share.y * share.z * gradient +
-               ramp * slope * vec3(share.y * share.z, share.x * share.z, share.x * share.y);
+    const vec3 weight = mix(1.0 - w, w, c), slope = mix(-dw, dw, c);
+    sum.w += weight.x * weight.y * weight.z * ramp;
+    sum.xyz += weight.x * weight.y * weight.z * gradient +
+               ramp * slope * vec3(weight.y * weight.z, weight.x * weight.z, weight.x * weight.y);
   }
   return sum;
 }
 
 /// Curl of a vector potential of three gradient noises (Bridson et al. 2007, "Curl-Noise for Procedural Fluid Flow"):
-/// a field without divergence, per cell's edge; root of the mean square 1.2.
+/// divergence-free, per cell edge, RMS 1.2.
 vec3 curl_noise(vec3 p_tile, int cells, uint seed) {
   const vec3 x = perlin(p_tile, cells, seed).xyz;
   const vec3 y = perlin(p_tile, cells, seed + 1u).xyz;
@@ -57,7 +57,7 @@ vec3 curl_noise(vec3 p_tile, int cells, uint seed) {
   return vec3(z.y - y.z, x.z - z.x, y.x - x.y);
 }
 
-/// Octaves of Worley noise, each with twice the cells and half the weight of the one before. [0, 1]
+/// Octaves of Worley noise, each with twice the cells and half the weight of the previous one. [0, 1]
 float worley_octaves(vec3 p_tile, int cells, uint octaves, uint seed) {
   float sum = 0.0, weight = 1.0, total = 0.0;
   for (uint octave = 0u; octave < octaves; ++octave) {
@@ -79,15 +79,15 @@ float perlin_octaves(vec3 p_tile, int cells, uint octaves, uint seed) {
   return sum / total;
 }
 
-/// Connected as gradient noise, round as cellular noise: the first, widened by the second (Schneider 2016, "Real-Time
-/// Volumetric Cloudscapes", GPU Pro 7), whose cones are made round: billows with creases between them. [0, 1]
+/// Billows with creases: gradient noise dilated by cellular noise with rounded cones (Schneider 2016, "Real-Time
+/// Volumetric Cloudscapes", GPU Pro 7). [0, 1]
 float perlin_worley(vec3 p_tile, int cells, uint octaves, uint seed) {
   const float base = 0.5 + 0.5 * perlin_octaves(p_tile, cells, octaves, seed);
   const float far = 1.0 - worley_octaves(p_tile, cells, octaves, seed + 16u);
   return mix(base, 1.0, 1.0 - far * far);
 }
 
-/// Thin threads: gradient noise is 1 where it crosses 0 (Musgrave 1994, "Texturing and Modeling"). [0, 1]
+/// Thin threads: ridged gradient noise, 1 where the noise crosses 0 (Musgrave 1994, "Texturing and Modeling"). [0, 1]
 float threads(vec3 p_tile, int cells, uint octaves, uint seed) {
   float sum = 0.0, weight = 1.0, total = 0.0;
   for (uint octave = 0u; octave < octaves; ++octave) {
@@ -98,8 +98,10 @@ float threads(vec3 p_tile, int cells, uint octaves, uint seed) {
   return sum / total;
 }
 
-/// Spreads values with this mean and deviation over [0, 1], about as many in each part of it: what a threshold takes
-/// away is then what the threshold says. A logistic curve stands for the normal distribution's.
-float spread(float value, float mean, float deviation) { return 1.0 / (1.0 + exp(-1.702 * (value - mean) / deviation)); }
+/// Equalises values of this mean and standard deviation to about uniform in [0, 1], so that a threshold x removes a
+/// fraction x. A logistic curve approximates the normal distribution.
+float spread(float value, float mean, float deviation) {
+  return 1.0 / (1.0 + exp(-1.702 * (value - mean) / deviation));
+}
 
 #endif

@@ -1,17 +1,18 @@
-// How much smoke stands between two points. Needs `frame`, `filtered_density_atlas` and the bindings of
-// lib/smoke_bricks.glsl and lib/cell_holes.glsl.
+// Optical depth of the smoke along rays to lights.
 #ifndef OPTICAL_DEPTH_GLSL
 #define OPTICAL_DEPTH_GLSL
+#include "lib/boundary_cells.glsl"
+#include "lib/bricks.glsl"
 #include "lib/cell_holes.glsl"
-#include "lib/smoke_bricks.glsl"
 
-/// A point of the smoke as light sees it, for those who ask one at a time: with what the noise leaves in the mean of a
-/// texel, since light is as coarse as those.
+layout(binding = kBindFilteredDensity) uniform sampler3D filtered_density_atlas;
+
+/// Smoke at a point with the mean erosion of its texel: light is as coarse as the texels.
 struct MeanSmoke {
   float density;  // [0, 1]
   vec3 local_voxel;
-  int empty_edge;  // without a slot: of the aligned cube around the point that has no smoke [voxels]
-  uint slot;       // kNoSlot: no smoke anywhere near
+  int empty_edge;  // without a slot: edge of the aligned empty cube around the point [voxels]
+  uint slot;       // kNoSlot: no smoke in the brick
 };
 
 MeanSmoke mean_smoke_at(vec3 p_voxel) {
@@ -22,30 +23,30 @@ MeanSmoke mean_smoke_at(vec3 p_voxel) {
   smoke.slot = slot_at(frame.volume, ivec3(brick), smoke.empty_edge);
   if (smoke.slot != kNoSlot) {
     const vec3 uvw = (atlas_corner(frame.volume, smoke.slot) + smoke.local_voxel) * atlas_texel(frame.volume);
-    const vec2 left = textureLod(filtered_density_atlas, uvw, 0.0).rg;
-    smoke.density = left.r;
-    if (left.r < 0.0) smoke.density = boundary_sample(smoke.slot, smoke.local_voxel).density * left.g;
+    const vec2 filtered = textureLod(filtered_density_atlas, uvw, 0.0).rg;
+    smoke.density = filtered.r;
+    if (filtered.r < 0.0) smoke.density = boundary_sample(smoke.slot, smoke.local_voxel).density * filtered.g;
   }
   return smoke;
 }
 
-/// The same with what holes leave of it.
-MeanSmoke seen_smoke_at(vec3 p_voxel) {
+/// The same after holes.
+MeanSmoke cut_smoke_at(vec3 p_voxel) {
   MeanSmoke smoke = mean_smoke_at(p_voxel);
   if (smoke.density > 0.0) smoke.density *= remaining_in_cell(smoke.slot, smoke.local_voxel);
   return smoke;
 }
 
-/// Where a ray from a point leaves the cube of an edge that is aligned to it [voxels].
-float leaves_cube(vec3 p_voxel, vec3 inverse, float edge) {
+/// Distance along a ray from a point to where it leaves the aligned cube of this edge [voxels].
+float distance_out_of_cube(vec3 p_voxel, vec3 inverse, float edge) {
   const vec3 low = floor(p_voxel / edge) * edge;
-  const vec3 way = (mix(low, low + edge, greaterThan(inverse, vec3(0.0))) - p_voxel) * inverse;
-  return min(way.x, min(way.y, way.z));
+  const vec3 exits = (mix(low, low + edge, greaterThan(inverse, vec3(0.0))) - p_voxel) * inverse;
+  return min(exits.x, min(exits.y, exits.z));
 }
 
-/// Optical depth from a point along a unit direction, at most `distance_m` metres. Steps grow with the distance, as what is
-/// near decides most, and fill the way to its end or to that of the box around what may dim it: a voxel each in the mean up
-/// to 24 / coarse voxels, then ever longer.
+/// Optical depth from a point along a unit direction, up to `distance_m` metres. Steps grow with the distance, because
+/// near smoke matters most, and end at the distance or at the caster bounds: one voxel each on average up to
+/// 24 / coarse voxels, longer beyond.
 float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
   const VolumeLayout volume = frame.volume;
   const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
@@ -59,13 +60,14 @@ float optical_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse
   float depth = 0.0;
   for (float i = 0.0; i < steps && depth * per_voxel <= 12.0; ++i) {
     const float before = reach * (i / steps) * (0.5 + 0.5 * i / steps);
-    const float after = reach * ((i + 1.0) / steps) * (0.5 + 0.5 * (i + 1.0) / steps), middle = begin + 0.5 * (before + after);
+    const float after = reach * ((i + 1.0) / steps) * (0.5 + 0.5 * (i + 1.0) / steps);
+    const float middle = begin + 0.5 * (before + after);
     const vec3 p = p_voxel + direction * middle;
-    const MeanSmoke smoke = seen_smoke_at(p);
+    const MeanSmoke smoke = cut_smoke_at(p);
     depth += smoke.density * (after - before);
     if (smoke.slot == kNoSlot) {
-      // On to the step in which the ray leaves where nothing is, or a little before.
-      const float leaves = middle + leaves_cube(p, inverse, float(smoke.empty_edge)) - 0.01 - begin;
+      // Skip to the step in which the ray leaves the empty cube, or slightly before.
+      const float leaves = middle + distance_out_of_cube(p, inverse, float(smoke.empty_edge)) - 0.01 - begin;
       i = max(i, floor(steps * (sqrt(0.25 + 2.0 * leaves / reach) - 0.5)) - 1.0);
     }
   }

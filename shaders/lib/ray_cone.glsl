@@ -1,10 +1,11 @@
-// Cones around rays of the camera. Needs `frame`.
+// Cones around camera rays.
 #ifndef RAY_CONE_GLSL
 #define RAY_CONE_GLSL
 #include "lib/camera.glsl"
+#include "lib/frame.glsl"
 #include "lib/hole_reach.glsl"
 
-/// Around all rays through a rectangle of the picture.
+/// A cone around all rays through a rectangle of pixels.
 RayCone cone_of_pixels(vec2 low_px, vec2 high_px, float length_m) {
   RayCone cone;
   cone.origin_world = frame.camera.eye_world;

@@ -1,9 +1,9 @@
-// Texels of a brick by the rows of shared/smoke_light.h. The includer has `rows`.
+// Texels listed in the rows of shared/smoke_light.h. The includer has `rows`.
 #ifndef ROW_TEXELS_GLSL
 #define ROW_TEXELS_GLSL
 #include "shared/smoke_light.h"
 
-/// Entries of a row that are asked for: the first one, and the one after the last.
+/// Entries of a row selected by `texels` (phase_range or kNewTexels): the first, and one past the last.
 uvec2 row_entries(uint row, uint texels) {
   const uint head = row * kTexelListWords;
   if (texels == kNewTexels) return uvec2(0u, rows[head + kLightPhases + 1u]);

@@ -1,4 +1,4 @@
-// How a surface answers light.
+// Reflection of a surface.
 #ifndef SHADING_GLSL
 #define SHADING_GLSL
 
@@ -13,12 +13,12 @@ struct Surface {
 };
 
 /// Radiance towards `view` for unit irradiance from `to_light`, both unit vectors: Lambert and GGX with Schlick's
-/// Fresnel and the height-correlated Smith term as Hammon 2017 approximates it.
+/// Fresnel and Hammon's 2017 approximation of the height-correlated Smith term.
 vec3 reflect_light(Surface s, vec3 view, vec3 to_light) {
   const float n_l = dot(s.normal, to_light);
   if (n_l <= 0.0) return vec3(0.0);
   const float n_v = dot(s.normal, view), facing = max(n_v, 1e-3);
-  // The half vector is as long as 2 cos, cos = h.view.
+  // The sum of both vectors has the length 2 h.view.
   const float v_l = dot(view, to_light), one_over = inversesqrt(max(2.0 + 2.0 * v_l, 1e-6));
   const float n_h = max((n_l + n_v) * one_over, 0.0), h_v = (1.0 + v_l) * one_over;
   const float alpha = max(s.roughness * s.roughness, 0.02);

@@ -1,10 +1,10 @@
-// The sky behind everything.
+// Radiance of the sky.
 #ifndef SKY_GLSL
 #define SKY_GLSL
 #include "lib/hash.glsl"
 #include "shared/frame.h"
 
-/// Stars at fixed directions: at most one in a cell of a cube map's grid, few of them bright.
+/// Stars in fixed directions: at most one per cell of a cube grid, few of them bright.
 float star_light(vec3 direction) {
   const vec3 a = abs(direction);
   const float major = max(a.x, max(a.y, a.z));
@@ -13,8 +13,8 @@ float star_light(vec3 direction) {
   const vec3 random = hash3(cell), more = hash3(cell + 4096u);
   if (more.x > 0.3) return 0.0;
   const vec3 star = (floor(on_cube) + 0.1 + 0.8 * random) / 64.0;
-  const float apart = length(normalize(star) - direction);
-  return (0.04 + pow(more.y, 10.0)) * smoothstep(0.0016, 0.0003, apart);
+  const float offset = length(normalize(star) - direction);
+  return (0.04 + pow(more.y, 10.0)) * smoothstep(0.0016, 0.0003, offset);
 }
 
 vec3 sky_radiance(Sky sky, vec3 direction) {

@@ -1,13 +1,13 @@
 // Density of the smoke at a point: bricks by the texture unit, boundary cells by their planes.
-// The includer defines BINDING_DENSITY and the bindings of lib/smoke_bricks.glsl.
 #ifndef SMOKE_DENSITY_GLSL
 #define SMOKE_DENSITY_GLSL
-#include "lib/smoke_bricks.glsl"
+#include "lib/boundary_cells.glsl"
+#include "lib/bricks.glsl"
 
-layout(binding = BINDING_DENSITY) uniform sampler3D density_atlas;
+layout(binding = kBindDensity) uniform sampler3D density_atlas;
 
-/// What is at a point of a brick that has a slot; local_voxel: the point less the brick's low corner, uvw: where it lies
-/// in the atlas.
+/// Smoke at a point of a slot's brick. local_voxel: the point relative to the brick's low corner; uvw: its position in
+/// the atlas.
 SmokeSample sample_brick(uint slot, vec3 local_voxel, vec3 uvw) {
   const vec2 texel = textureLod(density_atlas, uvw, 0.0).rg;
   SmokeSample here = SmokeSample(texel.r, vec3(0.0));
@@ -15,10 +15,10 @@ SmokeSample sample_brick(uint slot, vec3 local_voxel, vec3 uvw) {
   return here;
 }
 
-/// A point of the smoke, for those who ask one at a time.
+/// Smoke at a single point.
 struct SmokePoint {
   float density;  // [0, 1]
-  uint slot;      // kNoSlot: no smoke anywhere near
+  uint slot;      // kNoSlot: no smoke in the brick
   vec3 local_voxel;
 };
 

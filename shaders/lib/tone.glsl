@@ -1,8 +1,8 @@
-// From radiance to what a screen shows.
+// From radiance to display values.
 #ifndef TONE_GLSL
 #define TONE_GLSL
 
-/// Khronos PBR Neutral (2024): base colours pass unchanged, only highlights are compressed and bleached.
+/// Khronos PBR Neutral (2024): keeps base colours, compresses and desaturates only highlights.
 vec3 tone_curve(vec3 colour) {
   const float start = 0.8 - 0.04;
   const float x = min(colour.r, min(colour.g, colour.b));

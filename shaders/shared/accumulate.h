@@ -1,23 +1,28 @@
-// Smoke gathered over the frames of a film.
+// Temporal accumulation of the marched smoke.
 #ifndef BRUME_ACCUMULATE_H
 #define BRUME_ACCUMULATE_H
 #include "shared/shim.h"
 SHARED_BEGIN
 
+SHARED_BINDING(kBindPastSmoke, 38u);
+SHARED_BINDING(kBindPastPixels, 39u);
+SHARED_BINDING(kBindMeanSmoke, 40u);
+SHARED_BINDING(kBindMeanPixels, 41u);
+
 struct AccumulateParams {
-  mat4 past_clip_from_world;  // Camera::clip_from_world of the frame before
-  uint has_past;              // 0: there is none
+  mat4 past_clip_from_world;  // Camera::clip_from_world of the previous frame
+  uint has_past;              // 0: there is no previous frame
 };
 SHARED_SIZE(AccumulateParams, 68);
 
-/// What a pixel keeps for the next frame besides its smoke.
+/// What a pixel stores for the next frame besides its smoke.
 struct AccumulatedPixel {
-  float distance_in_smoke;  // of its surface, along the view axis [m]
-  float frames;             // how many its smoke is the mean of, at most kAccumulatedFrames
+  float distance_in_smoke;  // to its surface along the view axis, clamped to the smoke [m]
+  float frames;             // whose mean its smoke is, at most kAccumulatedFrames
 };
 SHARED_SIZE(AccumulatedPixel, 8);
 
-/// Most frames that a pixel's smoke is the mean of.
+/// Upper limit of AccumulatedPixel::frames.
 SHARED_CONST float kAccumulatedFrames = 8.0f;
 
 SHARED_END

@@ -1,11 +1,11 @@
-// Every cell of a regular grid on a ray, one call a step, without branches: after Amanatides & Woo 1987 ("A
-// Fast Voxel Traversal Algorithm for Ray Tracing").
+// Visits every cell of a regular grid along a ray, one call per step, without branches: after Amanatides & Woo 1987
+// ("A Fast Voxel Traversal Algorithm for Ray Tracing").
 //
-// What "on the ray" means: plane k of an axis is crossed at t = (k - origin) * inverse, one multiplication of
-// the plane's integer, never a sum of steps, so that errors do not grow along the ray. A cell is visited when
-// the ray is in it for t of positive length: its last entering plane is crossed before its first leaving one.
-// - Planes of two axes crossed at the same t (an edge, a corner): both steps are taken at once, and the
-//   cells that are only touched there are not visited.
+// Plane k of an axis is crossed at t = (k - origin) * inverse: one multiplication of the plane's integer, never a sum
+// of steps, so errors do not grow along the ray. A cell is visited when the ray spends a positive length of t in it:
+// its last entering plane is crossed before its first leaving one.
+// - Where planes of two axes are crossed at the same t (an edge, a corner), both steps are taken at once; cells that
+//   the ray only touches are not visited.
 // - A ray that runs along a plane, in it, belongs to the cell above the plane: cell i is [i, i + 1) there.
 #ifndef BRUME_DDA_H
 #define BRUME_DDA_H
@@ -14,12 +14,12 @@ SHARED_BEGIN
 
 /// A ray in a box of cells. It has ended when t >= t_end.
 struct Dda {
-  vec3 origin;    // in units of which a cell has `cell_size`
+  vec3 origin;    // in units of which a cell edge has `cell_size`
   vec3 inverse;   // 1 / direction, at most 1e30 in size
   ivec3 stride;   // +1 or -1
   ivec3 leaving;  // 1 where the stride is +1: cell + leaving is the plane through which the ray leaves
   ivec3 crossed;  // 1 for the axes of the planes that the last step crossed
-  ivec3 cell;     // where the ray is for t up to dda_leave
+  ivec3 cell;     // that contains the ray up to dda_leave
   int cell_size;
   float t;      // where it entered the cell
   float t_end;  // where it leaves the box
@@ -49,7 +49,7 @@ SHARED_FUNCTION float dda_inverse(float x) {
   return abs(x) > 1e-30f ? 1.0f / x : (x < 0.0f ? -1e30f : 1e30f);
 }
 
-/// On to the next cell.
+/// Advances to the next cell.
 SHARED_FUNCTION Dda dda_step(Dda d) {
   vec3 leave = dda_leave(d);
   d.t = dda_min(leave);
@@ -60,8 +60,8 @@ SHARED_FUNCTION Dda dda_step(Dda d) {
 
 /// The ray from `origin` along `direction` (any length but 0; finite) for t in [t_begin, t_end), in the box
 /// of the cells low .. high - 1, each a cube of edge `cell_size`. Planes and origin within 2^20, else cells
-/// of no length may be visited too. The first cell is where the ray is just after it came into the box, or
-/// just after t_begin.
+/// of zero length may be visited too. The first cell contains the ray just after it enters the box, or just after
+/// t_begin.
 SHARED_FUNCTION Dda dda_begin(vec3 origin, vec3 direction, ivec3 low, ivec3 high, int cell_size,
                               float t_begin, float t_end) {
   Dda d;
@@ -78,7 +78,7 @@ SHARED_FUNCTION Dda dda_begin(vec3 origin, vec3 direction, ivec3 low, ivec3 high
   d.t_end = min(t_end, dda_min(leave));
   d.crossed = ivec3(step(vec3(d.t), enter));
 
-  // The cell at t: a guess, then along each axis until t lies between the planes.
+  // The cell at t: an estimate, corrected along each axis until t lies between its planes.
   d.cell = low;
   if (d.t < d.t_end) {
     vec3 at = floor((origin + direction * d.t) / float(cell_size));

@@ -1,24 +1,27 @@
-// Pictures of what the picture is made from: what each shows, and how numbers become colours. Colours are encoded as sRGB.
+// Debug views: what each one shows, and how its numbers map to colours. Colours are encoded as sRGB.
 #ifndef BRUME_DEBUG_VIEW_H
 #define BRUME_DEBUG_VIEW_H
 #include "shared/ramp.h"
 #include "shared/shim.h"
 SHARED_BEGIN
 
+SHARED_BINDING(kBindLevelWords, 46u);
+SHARED_BINDING(kBindDistances, 47u);
+
 SHARED_CONST uint kViewNone = 0u;
 SHARED_CONST uint kViewSolid = 1u;     // the level's voxels
-SHARED_CONST uint kViewDistance = 2u;  // how far smoke had to go, voxel by voxel
-SHARED_CONST uint kViewDensity = 3u;   // on a slice
-SHARED_CONST uint kViewLight = 4u;     // that the smoke on a slice sends to the eye
-SHARED_CONST uint kViewHoles = 5u;     // how much of a ray is cleared by holes
-SHARED_CONST uint kViewSteps = 6u;     // that the march takes
-SHARED_CONST uint kViewBricks = 7u;    // of the smoke that are there, and what of each is filled
+SHARED_CONST uint kViewDistance = 2u;  // from the smoke's source to each voxel
+SHARED_CONST uint kViewDensity = 3u;   // of the smoke on a slice
+SHARED_CONST uint kViewLight = 4u;     // that the smoke on a slice scatters towards the eye
+SHARED_CONST uint kViewHoles = 5u;     // length of a ray that holes clear
+SHARED_CONST uint kViewSteps = 6u;     // of the march
+SHARED_CONST uint kViewBricks = 7u;    // of the smoke, and the filled part of each
 SHARED_CONST uint kViewNormals = 8u;
 SHARED_CONST uint kViewAlbedo = 9u;
 SHARED_CONST uint kViewDepth = 10u;
 SHARED_CONST uint kViewCount = 11u;
 
-/// The ramp of a view's numbers.
+/// Colour ramp of a view.
 SHARED_FUNCTION uint ramp_of_view(uint view) {
   if (view == kViewDensity) return kRampMagma;
   if (view == kViewHoles) return kRampPlasma;
@@ -26,52 +29,53 @@ SHARED_FUNCTION uint ramp_of_view(uint view) {
   return kRampViridis;
 }
 
-/// Six glyphs of 5 bits a label, the first lowest: 0 to 9 are digits, then these.
+/// A label is six glyphs of 5 bits, the first in the lowest bits: 0 to 9 are digits, then these.
 SHARED_CONST uint kGlyphPoint = 10u;
 SHARED_CONST uint kGlyphMetre = 11u;
 SHARED_CONST uint kGlyphPlus = 12u;
 SHARED_CONST uint kGlyphNone = 31u;
 SHARED_CONST uint kLabelGlyphs = 6u;
 
-/// What a view needs besides the frame's constants.
+/// Parameters of a view besides the frame's constants.
 struct DebugViewParams {
-  ivec3 grid_size;         // voxels of the level
+  ivec3 grid_size;         // of the level [voxels]
   float voxel_size;        // [m]
   vec3 grid_origin_world;  // [m]
-  ivec3 root_size;         // nodes of 64^3 voxels
-  int slice_axis;          // 0, 1 or 2: across x, y or z
-  float slice_world;       // where the slice is along it [m]
-  float full;              // the number at the end of the ramp
-  uvec3 labels;            // of the ramp's begin, middle and end; 0: there is no ramp
+  ivec3 root_size;         // of the level [nodes of 64^3 voxels]
+  int slice_axis;          // 0, 1 or 2: perpendicular to x, y or z
+  float slice_world;       // position of the slice along that axis [m]
+  float full;              // value at the ramp's end
+  uvec3 labels;            // of the ramp's start, middle and end; 0: no ramp
 };
 SHARED_SIZE(DebugViewParams, 64);
 
-/// A distance entry of a voxel: 0 where there is no smoke, this one where there is smoke that has no way from a source, else
-/// the way in tenths of a voxel's edge, + 1.
-SHARED_CONST uint kNoWay = 0xffffffffu;
+/// Distance entry of a voxel: 0 without smoke, kUnreached where smoke has no path from a source, otherwise the length
+/// of the path in tenths of a voxel edge, plus 1.
+SHARED_CONST uint kUnreached = 0xffffffffu;
 
-/// Depth in a view of it: 1 at kDepthNear, 0 at kDepthFar [m], even in its logarithm.
+/// The depth view is 1 at kDepthNear, 0 at kDepthFar [m], and linear in the logarithm of the distance.
 SHARED_CONST float kDepthNear = 1.0f;
 SHARED_CONST float kDepthFar = 64.0f;
-SHARED_FUNCTION float depth_share(float distance_m) {
+SHARED_FUNCTION float depth_fraction(float distance_m) {
   return 1.0f - clamp(log(distance_m / kDepthNear) / log(kDepthFar / kDepthNear), 0.0f, 1.0f);
 }
 
-/// How much is seen of what lies behind a surface.
-SHARED_CONST float kSeenThrough = 0.45f;
+/// Opacity of a view where a surface occludes it.
+SHARED_CONST float kOccludedOpacity = 0.45f;
 
-/// Where nothing is.
+/// Background colour.
 SHARED_FUNCTION vec3 backdrop() {
   return vec3(0.055f, 0.062f, 0.078f);
 }
 
-/// A surface below what a view shows: grey, seen as by a light at the eye. `luminance` and `facing`, the cosine between normal and
-/// ray, in [0, 1].
+/// The scene behind a view, in grey, as if lit from the eye. `luminance` of the albedo and `facing`, the cosine between
+/// normal and ray, in [0, 1].
 SHARED_FUNCTION vec3 dimmed_surface(float luminance, float facing) {
   return mix(backdrop(), vec3(0.42f, 0.45f, 0.5f), (0.25f + 0.75f * sqrt(luminance)) * (0.2f + 0.8f * facing));
 }
 
-/// Of the face of a voxel: every direction has its own tone, so that shapes read without a light. 0: the eye is in the voxel.
+/// Colour of a voxel face: each direction has its own tone, so shapes read without a light. Normal 0: the eye is inside
+/// the voxel.
 SHARED_FUNCTION vec3 face_tone(ivec3 normal) {
   if (normal.y > 0) return vec3(0.88f, 0.89f, 0.86f);
   if (normal.y < 0) return vec3(0.36f, 0.35f, 0.38f);
@@ -80,14 +84,15 @@ SHARED_FUNCTION vec3 face_tone(ivec3 normal) {
   return vec3(0.45f, 0.2f, 0.2f);
 }
 
-/// How much of the light a corner of a face gets past three voxels that may stand on it: after Lysenko 2013 ("Ambient occlusion
+/// Ambient occlusion at a corner of a face from the three voxels that may stand on it: Lysenko 2013 ("Ambient occlusion
 /// for Minecraft-like worlds").
 SHARED_FUNCTION float corner_light(uint side_a, uint side_b, uint corner) {
-  uint stand = side_a + side_b + (side_a * side_b != 0u ? 1u : corner);
-  return 1.0f - 0.17f * float(stand);
+  uint occluders = side_a + side_b + (side_a * side_b != 0u ? 1u : corner);
+  return 1.0f - 0.17f * float(occluders);
 }
 
-/// The same at a point f in [0, 1]^2 of a face. `around`: bits of the eight voxels before the face, around it, (du + 1) + 3 (dv + 1).
+/// The same, interpolated at a point f in [0, 1]^2 of a face. `around`: a bit for each of the eight neighbours of the
+/// voxel in front of the face, (du + 1) + 3 (dv + 1).
 SHARED_FUNCTION float face_light(uint around, vec2 f) {
   uint left = around >> 3u & 1u, right = around >> 5u & 1u, low = around >> 1u & 1u, high = around >> 7u & 1u;
   float low_row = mix(corner_light(left, low, around & 1u), corner_light(right, low, around >> 2u & 1u), f.x);
@@ -95,34 +100,34 @@ SHARED_FUNCTION float face_light(uint around, vec2 f) {
   return mix(low_row, high_row, f.y);
 }
 
-/// How much of a line is at a distance from its middle; `width`, of a pixel, in the same unit.
-SHARED_FUNCTION float line_share(float apart, float width) {
-  return 1.0f - smoothstep(0.5f * width, 1.5f * width, apart);
+/// Coverage of a line at a distance from its middle; `width` of a pixel in the same unit.
+SHARED_FUNCTION float line_coverage(float distance, float width) {
+  return 1.0f - smoothstep(0.5f * width, 1.5f * width, distance);
 }
 
-/// The lines around a face at a point of it, faint where voxels are as small as pixels.
+/// Coverage of the lines around a face at a point of it; fades where voxels are as small as pixels.
 SHARED_FUNCTION float grid_line(vec2 f, float width) {
-  vec2 apart = min(f, vec2(1.0f) - f);
-  return line_share(min(apart.x, apart.y), width) * clamp(1.0f - 3.0f * width, 0.0f, 1.0f);
+  vec2 to_edge = min(f, vec2(1.0f) - f);
+  return line_coverage(min(to_edge.x, to_edge.y), width) * clamp(1.0f - 3.0f * width, 0.0f, 1.0f);
 }
 
-/// A level's voxel: `distance_m` from the eye.
+/// A voxel of the level, `distance_m` from the eye.
 SHARED_FUNCTION vec3 solid_colour(ivec3 normal, float light, float line, float distance_m) {
   vec3 colour = face_tone(normal) * light * (1.0f - 0.22f * line);
   return mix(backdrop(), colour, 0.55f + 0.45f * exp(-distance_m / 30.0f));
 }
 
-/// How light a face of the smoke's voxels is, so that its colour can still be read.
-SHARED_FUNCTION float way_tone(ivec3 normal) {
+/// Brightness of a face of a smoke voxel; keeps the colour readable.
+SHARED_FUNCTION float distance_tone(ivec3 normal) {
   return 0.45f + 0.62f * face_tone(normal).y;
 }
 
-/// A voxel of the smoke, by how far its smoke came; `way` as in the entries, not 0.
-SHARED_FUNCTION vec3 way_colour(uint way, float metres, float full) {
-  return way == kNoWay ? vec3(0.5f) : ramp_colour(kRampViridis, metres / full);
+/// A voxel of the smoke by its distance from the source. `entry` is its distance entry, not 0.
+SHARED_FUNCTION vec3 distance_colour(uint entry, float metres, float full) {
+  return entry == kUnreached ? vec3(0.5f) : ramp_colour(kRampViridis, metres / full);
 }
 
-/// A slice where there is no smoke, and where it cuts what is solid; `line`: of the voxels' edges.
+/// A slice where it is free of smoke, and where it cuts solid voxels; `line`: coverage of voxel edges.
 SHARED_FUNCTION vec3 slice_air(float line, vec3 behind) {
   return mix(behind, vec3(0.3f, 0.36f, 0.44f), 0.10f + 0.14f * line);
 }
@@ -130,14 +135,14 @@ SHARED_FUNCTION vec3 slice_wall(float line) {
   return vec3(0.012f, 0.014f, 0.02f) + vec3(0.05f * line);
 }
 
-/// Density on a slice, over what is behind it.
+/// Density on a slice, over the colour behind it.
 SHARED_FUNCTION vec3 density_colour(float density, vec3 behind) {
   return mix(behind, ramp_colour(ramp_of_view(kViewDensity), density), smoothstep(0.0f, 0.06f, density));
 }
 
-/// A number on a ramp over a dimmed scene: nothing below 0, all of the ramp's colour from a twentieth on.
-SHARED_FUNCTION vec3 heat_colour(uint ramp, float share, vec3 behind) {
-  return mix(behind, ramp_colour(ramp, share), smoothstep(0.0f, 0.05f, share));
+/// A value in [0, 1] on a ramp over the dimmed scene: transparent at 0, opaque from 0.05.
+SHARED_FUNCTION vec3 heat_colour(uint ramp, float x, vec3 behind) {
+  return mix(behind, ramp_colour(ramp, x), smoothstep(0.0f, 0.05f, x));
 }
 
 SHARED_END

@@ -1,4 +1,4 @@
-// What every pass of a frame may know: camera, sky, smoke look. One buffer, written once a frame.
+// Constants of a frame for every pass: camera, sky, smoke look. One buffer, written once per frame.
 #ifndef BRUME_FRAME_H
 #define BRUME_FRAME_H
 #include "shared/hole_clusters.h"
@@ -8,7 +8,9 @@
 #include "shared/solid_volume.h"
 SHARED_BEGIN
 
-/// A pinhole camera. A pixel's ray runs along forward + x right + y up, x and y in -1..1.
+SHARED_BINDING(kBindFrame, 0u);
+
+/// A pinhole camera. The ray of a pixel points along forward + x right + y up, x and y in [-1, 1].
 struct Camera {
   mat4 clip_from_world;  // reverse depth, infinite far plane: depth = near / distance along forward
   vec3 eye_world;
@@ -19,30 +21,30 @@ struct Camera {
 };
 SHARED_SIZE(Camera, 116);
 
-/// Light from far away: a gradient from horizon to zenith, and what surfaces get where no light shines.
+/// Distant light: a gradient from horizon to zenith, and ambient light.
 struct Sky {
   vec3 zenith;   // radiance
   vec3 horizon;  // radiance
-  vec3 ambient;  // irradiance / pi, from everywhere
+  vec3 ambient;  // irradiance / pi, from all directions
   float stars;   // radiance of the brightest star
-  float bounce;  // share of ambient that comes, from surface to surface, to where no sky is seen, [0, 1]
+  float bounce;  // fraction of ambient that surfaces reflect to where no sky is visible, [0, 1]
 };
 SHARED_SIZE(Sky, 44);
 
 /// How the smoke looks.
 struct SmokeLook {
-  vec3 albedo;             // single-scattering albedo, [0, 1]
-  float extinction;        // at density 1 [1/m]
-  float step_length;       // of the march [m]
-  float opaque_transmittance;              // transmittance at which a ray is opaque
-  float erosion;           // how much noise eats from the rim inwards, [0, 1]
-  float noise_period;      // edge of one tile of the noise [m]
-  float rise;       // upward [m/s]
-  float swirl;             // how far the noise rolls around its place [m]
-  float swirl_width;        // of one roll [m], > 0
-  float multiple_scattering;  // share of the light scattered more than once, 1: all of it, 0: single scattering
-  float hole_rim;          // how far noise moves the rim of a hole [m]
-  Phase phase;             // where scattered light goes
+  vec3 albedo;                 // single-scattering albedo, [0, 1]
+  float extinction;            // at density 1 [1/m]
+  float step_length;           // of the march, at most [m]
+  float opaque_transmittance;  // below it a ray is opaque
+  float erosion;               // strength of the noise, [0, 1]
+  float noise_period;          // edge of one tile of the noise [m]
+  float rise;                  // upward speed of the noise [m/s]
+  float swirl;                 // amplitude of the rolling displacement of the noise [m]
+  float swirl_width;           // width of one roll [m], > 0
+  float multiple_scattering;   // weight of light scattered more than once; 0: single scattering only
+  float hole_rim;              // amplitude of the noise on the rims of holes [m]
+  Phase phase;                 // phase function
 };
 SHARED_SIZE(SmokeLook, 68);
 
@@ -51,7 +53,7 @@ struct FrameConstants {
   Sky sky;
   SmokeLook look;
   VolumeLayout volume;
-  vec3 caster_bounds_min;  // where the smoke may be that dims light on its way to what is in view [voxel space]
+  vec3 caster_bounds_min;  // bounds of the smoke that may dim light on its path to visible smoke [voxel space]
   vec3 caster_bounds_max;
   SolidLayout solid;
   uvec2 size_px;
@@ -60,8 +62,8 @@ struct FrameConstants {
   uint frame_index;  // moves the dither and the jitter
   float time;        // [s]
   float exposure;    // multiplies radiance before the tone curve
-  uint march_scale;  // edge of the block of pixels that share a ray, 1, 2 or 4
-  float resolve_error;  // of a pixel, between 0 and 1 on the screen: more is not left to interpolation
+  uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
+  float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
 SHARED_SIZE(FrameConstants, 404);
 

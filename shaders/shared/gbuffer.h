@@ -1,10 +1,19 @@
-// What a draw into the G-buffer gets.
+// Inputs of draws into the G-buffer and into shadow maps.
 #ifndef BRUME_GBUFFER_H
 #define BRUME_GBUFFER_H
 #include "shared/shim.h"
 SHARED_BEGIN
 
-/// A vertex as the shaders pull it.
+SHARED_BINDING(kBindAlbedoRoughness, 23u);
+SHARED_BINDING(kBindNormalMetallic, 24u);
+SHARED_BINDING(kBindEmission, 25u);
+SHARED_BINDING(kBindDepth, 26u);
+SHARED_BINDING(kBindVertices, 32u);
+SHARED_BINDING(kBindBaseColorMap, 33u);
+SHARED_BINDING(kBindNormalMap, 34u);
+SHARED_BINDING(kBindRoughnessMap, 35u);
+
+/// A vertex, pulled by the vertex shader.
 struct Vertex {
   vec3 position;
   vec3 normal;
@@ -22,14 +31,14 @@ struct MaterialConstants {
 };
 SHARED_SIZE(MaterialConstants, 36);
 
-/// Rows of world_from_mesh, so that it fits the push constants with the material.
+/// Three rows of world_from_mesh, so that the material fits into the push constants too.
 struct DrawConstants {
   vec4 row0, row1, row2;
   MaterialConstants material;
 };
 SHARED_SIZE(DrawConstants, 84);
 
-/// A draw into a shadow layer: clip_from_mesh.
+/// A draw into a shadow layer.
 struct ShadowDraw {
   mat4 clip_from_mesh;
 };

@@ -1,24 +1,38 @@
-// Which holes reach where, so that nobody asks holes that are elsewhere, however many there are.
+// Culling of holes: a sample tests only holes that reach it, however many holes there are.
 //
-//   coarse_tile_holes   a mask of all holes for each tile of 4 x 4 groups of 8 x 8 pixels: those that may meet it, 32 a word
-//   hole_lists   for rays from the eye, first a word for each group: 0, where its block is, or kTestAllHoles. A block has
-//                for each of kHoleSlices slices of distance from the eye 0 or where its list is, and where the group's
-//                next block is, asked only where the word has kMoreChunks. A list: the holes that a ray of the
-//                group may meet there, rising, two of 16 bits a word, the lower first; kLastInSlice ends it
-//   hole_cells   for light: a uint per slot, 0 or block + 1; from cells_at on, per block of a brick 16^3 cells of half a
-//                voxel, x + 16 (y + 16 z): what the holes leave of the smoke in it on average, as -log2 in steps of
-//                1 / kHoleCellStep; sums of what each hole leaves, so that their order does not matter
-#ifndef BRUME_OPEN_HOLES_H
-#define BRUME_OPEN_HOLES_H
+//   holes        PackedHole (hole.h), all holes of the frame
+//   reaches      PackedReach (hole_reach.h), one per hole
+//   coarse_tile_holes
+//                per coarse tile of 4 x 4 tiles of 8 x 8 pixels a mask of the holes that may meet it, 32 per word
+//   hole_lists   clusters for rays from the eye. First a word per tile: 0, the index of its chunk, or kTestAllHoles. A
+//                chunk has for each of kHoleSlices slices of distance from the eye 0 or the index of its list, and the
+//                index of the tile's next chunk, valid only where the word has kMoreChunks. A list: the holes that a
+//                ray of the tile may meet in the slice, ascending, two of 16 bits per word, low half first;
+//                kLastInSlice ends it
+//   hole_cells   for rays to lights. A uint per slot, 0 or chunk + 1; from cells_at, per chunk 16^3 cells of half a
+//                voxel, x + 16 (y + 16 z): the mean fraction of the smoke that the holes leave, as -log2 in steps of
+//                1 / kHoleCellStep. Holes add up there, so their order does not matter
+#ifndef BRUME_HOLE_CLUSTERS_H
+#define BRUME_HOLE_CLUSTERS_H
 #include "shared/shim.h"
 SHARED_BEGIN
 
-/// How the march finds holes: there are none; by the lists of its rays; or every sample asks all.
+SHARED_BINDING(kBindHoles, 11u);
+SHARED_BINDING(kBindHoleReaches, 12u);
+SHARED_BINDING(kBindHoleMasks, 13u);
+SHARED_BINDING(kBindHoleLists, 14u);
+SHARED_BINDING(kBindHoleCells, 15u);
+SHARED_BINDING(kBindCoarseTileHoles, 32u);
+SHARED_BINDING(kBindHoleWordsTaken, 33u);
+SHARED_BINDING(kBindHolePairs, 34u);
+SHARED_BINDING(kBindHoleCounters, 35u);
+
+/// How the march finds holes: there are none; by the clusters of its rays; or every sample tests all.
 SHARED_CONST uint kHolesNone = 0u;
 SHARED_CONST uint kHolesClustered = 1u;
 SHARED_CONST uint kHolesAllTested = 2u;
 
-/// Most holes that are drawn at a time.
+/// Upper limit of the holes in a frame.
 SHARED_CONST uint kMaxHoles = 16384u;
 SHARED_CONST uint kHoleTilePixels = 8u;
 SHARED_CONST uint kCoarseTileTiles = 4u;  // along an axis
@@ -26,7 +40,7 @@ SHARED_CONST uint kHoleSlices = 32u;
 SHARED_CONST uint kChunkWords = kHoleSlices + 1u;
 SHARED_CONST uint kMoreChunks = 0x80000000u;
 SHARED_CONST uint kLastInSlice = 0x8000u;
-/// A group for which there was no room: its rays ask all holes.
+/// A tile whose lists did not fit: its rays test all holes.
 SHARED_CONST uint kTestAllHoles = 0xffffffffu;
 
 SHARED_CONST int kHoleCellsPerVoxel = 2;
@@ -47,7 +61,7 @@ struct HoleListsParams {
 };
 SHARED_SIZE(HoleListsParams, 4);
 
-/// What the passes that make the cells need besides.
+/// Parameters of the passes that fill the cells.
 struct HoleCellsParams {
   uint slot_count;
   uint pair_capacity;
@@ -55,7 +69,7 @@ struct HoleCellsParams {
 };
 SHARED_SIZE(HoleCellsParams, 12);
 
-/// What is counted: pairs of a brick and a hole that reaches it, and bricks that any reaches.
+/// Counters: pairs of a brick and a hole that reaches it, and bricks that any hole reaches.
 struct HoleCounters {
   uint pairs;
   uint blocks;

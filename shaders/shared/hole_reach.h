@@ -1,21 +1,44 @@
-// How far a hole reaches at a time: never less than where it takes anything away from smoke.
+// Conservative bounds of a hole at a time: no point outside loses smoke.
 #ifndef BRUME_HOLE_REACH_H
 #define BRUME_HOLE_REACH_H
 #include "shared/hole.h"
 SHARED_BEGIN
 
-/// The open part of a hole's axis, and how far from it the hole reaches.
+/// A capsule around the open part of a hole's axis.
 struct HoleReach {
   vec3 from_world;
   float radius;
   vec3 forward;    // unit
-  float length_m;  // below 0: the hole takes nothing away anywhere
+  float length_m;  // below 0: the hole is closed
 };
 SHARED_SIZE(HoleReach, 32);
 
-/// At a time on the hole's clock, with a rim that noise moves by up to `rim` [m].
+/// A HoleReach in two rows of 16 bytes.
+struct PackedReach {
+  vec4 from_radius;
+  vec4 forward_length;
+};
+SHARED_SIZE(PackedReach, 32);
+
+SHARED_FUNCTION PackedReach pack_reach(HoleReach reach) {
+  PackedReach packed;
+  packed.from_radius = vec4(reach.from_world, reach.radius);
+  packed.forward_length = vec4(reach.forward, reach.length_m);
+  return packed;
+}
+
+SHARED_FUNCTION HoleReach unpack_reach(PackedReach packed) {
+  HoleReach reach;
+  reach.from_world = vec3(packed.from_radius.x, packed.from_radius.y, packed.from_radius.z);
+  reach.radius = packed.from_radius.w;
+  reach.forward = vec3(packed.forward_length.x, packed.forward_length.y, packed.forward_length.z);
+  reach.length_m = packed.forward_length.w;
+  return reach;
+}
+
+/// Bounds at a time on the clock of Hole::time_start, with a rim that noise moves by up to `rim` [m].
 SHARED_FUNCTION HoleReach hole_reach(Hole hole, float time, float rim) {
-  // Open where the front has been and the hole is not closed again: 0 < age - per_metre z < life.
+  // Open where the front has passed and the hole has not closed: 0 < age - per_metre z < life.
   float age = time - hole.time_start;
   float per_metre = hole.time_to_reach_far / max(hole.distance_to_far, 1e-6f);
   float life = max(hole.time_to_expand, 1e-6f) + hole.time_to_stay_open + max(hole.time_to_fade, 1e-6f);
@@ -36,7 +59,7 @@ SHARED_FUNCTION HoleReach hole_reach(Hole hole, float time, float rim) {
   return reach;
 }
 
-/// The part of it whose points within its radius may lie in a box.
+/// Shortens the capsule to the part that may meet a box.
 SHARED_FUNCTION HoleReach hole_reach_within(HoleReach reach, vec3 low_world, vec3 high_world) {
   vec3 from = reach.from_world;
   vec3 along = reach.forward;

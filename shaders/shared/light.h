@@ -1,42 +1,46 @@
-// A light as the passes read it, and the faces of its shadow cube.
+// A light on the device, and the faces of its shadow cube.
 #ifndef BRUME_LIGHT_H
 #define BRUME_LIGHT_H
 #include "shared/shim.h"
 SHARED_BEGIN
 
+SHARED_BINDING(kBindLights, 18u);
+SHARED_BINDING(kBindSun, 19u);
+SHARED_BINDING(kBindShadowMaps, 20u);
+
 SHARED_CONST uint kLightPoint = 0u;
 SHARED_CONST uint kLightSpot = 1u;
 SHARED_CONST uint kLightDirectional = 2u;
 SHARED_CONST uint kNoShadow = 0xffffffffu;
-SHARED_CONST uint kShadowByVoxels = 0xfffffffeu;  // rays through the solid volume
+SHARED_CONST uint kShadowByVoxels = 0xfffffffeu;  // by rays through the solid volume
 
 struct Light {
   vec3 position_world;
-  float range;      // [m]: beyond it the light is not seen
+  float range;      // [m]: no light beyond
   vec3 intensity;   // point, spot: [W/sr]; directional: irradiance
   uint kind;
-  vec3 direction;   // where the light goes, unit
+  vec3 direction;   // of the emitted light, unit
   float cos_inner;
   float cos_outer;
-  // First layer in the shadow array: six faces, or one of a directional light; or one of the constants above.
+  // First layer in the shadow array (six faces, one for a directional light), or one of the constants above.
   uint shadow_layer;
-  vec2 padding;  // to whole rows of 16 bytes
+  vec2 padding;  // to a multiple of 16 bytes
 };
 SHARED_SIZE(Light, 64);
 
-/// Where what a light sends is below 1/100 of unit irradiance, from the greatest of its intensities [m].
+/// Distance at which the irradiance of a light falls below 0.01, from its largest intensity [m].
 SHARED_FUNCTION float light_range(float intensity) {
   return sqrt(100.0f * intensity);
 }
 
-/// Where a directional light's shadow layer looks: clip space of an orthographic view.
+/// Orthographic view of the shadow layer of a directional light.
 struct ShadowView {
   mat4 clip_from_world;
   mat4 world_from_clip;
 };
 SHARED_SIZE(ShadowView, 128);
 
-/// Of a light in smoke: less is not seen.
+/// Irradiance below which a light is ignored in smoke.
 SHARED_CONST float kLeastIrradiance = 1e-4f;
 
 SHARED_CONST float kShadowNear = 0.05f;  // [m]

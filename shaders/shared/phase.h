@@ -4,21 +4,21 @@
 #include "shared/shim.h"
 SHARED_BEGIN
 
-/// A share of Draine's function among one of Henyey and Greenstein. Without it (draine_weight 0): that alone.
+/// A blend of the phase functions of Henyey and Greenstein and of Draine.
 struct Phase {
   float g_hg;           // (-1, 1); above 0: forward
   float g_draine;       // (-1, 1)
-  float alpha;          // of Draine's function, >= 0; 0: that of Henyey and Greenstein
-  float draine_weight;  // [0, 1]
+  float alpha;          // of Draine's function, >= 0; 0: equals Henyey and Greenstein
+  float draine_weight;  // [0, 1]; 0: Henyey and Greenstein only
 };
 SHARED_SIZE(Phase, 16);
 
-/// Droplet diameters that phase_of_droplet is fitted for [micrometres].
+/// Range of droplet diameters of phase_of_droplet [micrometres].
 SHARED_CONST float kSmallestDroplet = 0.1f;
 SHARED_CONST float kLargestDroplet = 50.0f;
 
-/// Henyey and Greenstein 1941 [1/sr]; cos_angle between the light's way before and after. The denominator is
-/// 1 + g^2 - 2 g cos_angle, so written that nothing cancels where it is small, in the peak.
+/// Henyey and Greenstein 1941 [1/sr]; cos_angle between the light's directions before and after scattering. The
+/// denominator 1 + g^2 - 2 g cos_angle is written without cancellation in the peak, where it is small.
 SHARED_FUNCTION float henyey_greenstein(float g, float cos_angle) {
   float size = abs(g), towards_peak = g < 0.0f ? -cos_angle : cos_angle;
   float d = (1.0f - size) * (1.0f - size) + 2.0f * size * (1.0f - towards_peak);
@@ -31,7 +31,7 @@ SHARED_FUNCTION float draine(float g, float alpha, float cos_angle) {
   return henyey_greenstein(g, cos_angle) * tint;
 }
 
-/// Scattered light per solid angle [1/sr]; its integral over all directions is 1.
+/// Scattered fraction per solid angle [1/sr]; integrates to 1 over all directions.
 SHARED_FUNCTION float phase_value(Phase phase, float cos_angle) {
   float value = henyey_greenstein(phase.g_hg, cos_angle);
   if (phase.draine_weight > 0.0f) {
@@ -40,22 +40,23 @@ SHARED_FUNCTION float phase_value(Phase phase, float cos_angle) {
   return value;
 }
 
-/// The mean of the cosine; Draine's part from his paper.
+/// Mean cosine of the scattering angle; Draine's part from his paper.
 SHARED_FUNCTION float mean_cosine(Phase phase) {
   float g = phase.g_draine, g2 = g * g;
-  float of_draine = g * (1.0f + phase.alpha * (3.0f + 2.0f * g2) * 0.2f) / (1.0f + phase.alpha * (1.0f + 2.0f * g2) * (1.0f / 3.0f));
+  float of_draine = g * (1.0f + phase.alpha * (3.0f + 2.0f * g2) * 0.2f) /
+                    (1.0f + phase.alpha * (1.0f + 2.0f * g2) * (1.0f / 3.0f));
   return mix(phase.g_hg, of_draine, phase.draine_weight);
 }
 
-/// A phase function in between: itself for a share of 1, even in all directions for 0.
-SHARED_FUNCTION Phase rounder_phase(Phase phase, float share) {
-  phase.g_hg *= share;
-  phase.g_draine *= share;
-  phase.alpha *= share;
+/// Blends towards isotropic scattering: the function itself at 1, isotropic at 0.
+SHARED_FUNCTION Phase rounder_phase(Phase phase, float anisotropy) {
+  phase.g_hg *= anisotropy;
+  phase.g_draine *= anisotropy;
+  phase.alpha *= anisotropy;
   return phase;
 }
 
-/// Henyey and Greenstein's alone; g in (-1, 1).
+/// Henyey and Greenstein only; g in (-1, 1).
 SHARED_FUNCTION Phase phase_of_hg(float g) {
   Phase phase;
   phase.g_hg = g;
@@ -65,8 +66,8 @@ SHARED_FUNCTION Phase phase_of_hg(float g) {
   return phase;
 }
 
-/// Water droplets in air and visible light, by diameter in [kSmallestDroplet, kLargestDroplet] micrometres: the fit to
-/// Mie's theory of Jendersie and d'Eon 2023, "An Approximate Mie Scattering Function for Fog and Cloud Rendering" and
+/// Water droplets in air under visible light, diameter in [kSmallestDroplet, kLargestDroplet] micrometres: the fit to
+/// Mie theory of Jendersie and d'Eon 2023, "An Approximate Mie Scattering Function for Fog and Cloud Rendering" and
 /// its supplement. The three ranges do not meet exactly at 1.5 and 5 micrometres.
 SHARED_FUNCTION Phase phase_of_droplet(float diameter) {
   float d = clamp(diameter, kSmallestDroplet, kLargestDroplet), l = log(d);

@@ -1,9 +1,7 @@
-// Colours for numbers: ramps whose steps look equally large all along, from dark to light, so that a picture of numbers
-// reads the same in grey and to the colour-blind.
+// Perceptually uniform colour ramps from dark to light, readable in greyscale and by the colour-blind.
 //
 // viridis, inferno, magma, plasma: Smith and van der Walt 2015 ("A Better Default Colormap for Matplotlib", data in the
-// public domain, CC0). Each is their table of 256 at every sixteenth of the way, even between: at most 7
-// steps of 255 off.
+// public domain, CC0). Every sixteenth entry of their tables of 256, interpolated linearly: at most 7/255 off.
 #ifndef BRUME_RAMP_H
 #define BRUME_RAMP_H
 #include "shared/shim.h"
@@ -15,7 +13,7 @@ SHARED_CONST uint kRampMagma = 2u;
 SHARED_CONST uint kRampPlasma = 3u;
 SHARED_CONST int kRampStops = 17;
 
-/// 0xrrggbb, as screens take them (sRGB).
+/// 0xrrggbb, sRGB.
 // clang-format off
 SHARED_CONST uint kRamps[4][17] = {
   {0x440154u, 0x48186au, 0x472d7bu, 0x424086u, 0x3b528bu, 0x33638du, 0x2c728eu, 0x26818eu, 0x21908cu,

@@ -1,5 +1,17 @@
-// One header for C++ and GLSL: the names of GLSL in C++, and the words that only one of the two knows.
-// Structs in this folder use float, int, uint, vecN, ivecN, uvecN and matN only, `scalar` layout.
+// Makes one header compile as C++ and as GLSL: the names of GLSL in C++, and macros for what only one of the two has.
+// Structs in this folder use float, int, uint, vecN, ivecN, uvecN and matN only, in `scalar` layout.
+//
+// SHARED_BINDING(kBindPages, 1u) declares where a resource is bound: `layout(binding = kBindPages)` in GLSL,
+// `{shared::kBindPages, gpu::read(pages)}` in C++. What several passes read has one number in all of them:
+//
+//   0        the frame's constants           frame.h
+//   1 - 10   the smoke volume                smoke_volume.h
+//   11 - 15  holes                           hole_clusters.h
+//   16 - 17  the level                       solid_volume.h, sky_light.h
+//   18 - 20  lights and their shadow maps    light.h
+//   21 - 22  noise                           noise.h
+//   23 - 26  the G-buffer                    gbuffer.h
+//   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H
 
@@ -14,19 +26,28 @@ using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, gl
 using glm::mat3, glm::mat4, glm::bvec3;
 using glm::cos, glm::exp, glm::log, glm::pow, glm::sqrt, glm::tan;
 using glm::normalize, glm::sign, glm::smoothstep, glm::step, glm::unpackUnorm4x8;
+using glm::floatBitsToUint, glm::uintBitsToFloat;
 using uint = std::uint32_t;
+
+/// Where a shader has a resource, and what the shared header calls it.
+struct BindingIndex final {
+  uint number;
+  const char* name;
+};
 }  // namespace brume::shared
 #define SHARED_BEGIN namespace brume::shared {
 #define SHARED_END }
 #define SHARED_FUNCTION inline
 #define SHARED_CONST constexpr
 #define SHARED_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
+#define SHARED_BINDING(name, number) constexpr BindingIndex name{number, #name}
 #else
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_FUNCTION
 #define SHARED_CONST const
 #define SHARED_SIZE(type, bytes)
+#define SHARED_BINDING(name, number) const uint name = number
 #endif
 
 #endif

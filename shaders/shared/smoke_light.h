@@ -1,30 +1,38 @@
 // Light in the smoke: rays from the texels of its bricks to the lights and to the sky.
 //
-//   rows     per brick kTexelListWords words that list the texels that a sample of the march can meet, phase by phase:
-//            where each phase begins, where the last ends, and how many texels are new; then a word an entry: in the
-//            low half a texel, x + 10 (y + 10 z), in the high half a new one, one that the list before did not have or whose smoke
-//            changed at once
-//   blocks   per brick and light that reaches it kTexelsPerBrick words, one a texel: two half floats, optical depth of the
-//            smoke on the way, share of the light that the scene lets through. For the sky kSkyPages blocks one
-//            after the other, of two rays each: their depths
+//   rows     per brick kTexelListWords words: the texels that samples of the march can read, phase by phase. The head
+//            holds the start of each phase, the end of the last, and the number of new texels. Then one word per entry:
+//            in the low half a texel, x + 10 (y + 10 z), in the high half a new texel: one that the previous list
+//            lacked or whose smoke changed abruptly
+//   blocks   per brick and light that reaches it kTexelsPerBrick words, one per texel: two half floats, optical depth
+//            of the smoke along the ray and visibility of the light through the scene. For the sky kSkyPages
+//            consecutive blocks of two rays each: their optical depths
 #ifndef BRUME_SMOKE_LIGHT_H
 #define BRUME_SMOKE_LIGHT_H
 #include "shared/shim.h"
 SHARED_BEGIN
 
+SHARED_BINDING(kBindTexelLists, 32u);
+SHARED_BINDING(kBindLightRows, 33u);
+SHARED_BINDING(kBindLightChanges, 34u);
+SHARED_BINDING(kBindShadowRays, 35u);
+SHARED_BINDING(kBindLightBlocks, 36u);
+SHARED_BINDING(kBindLightGathers, 37u);
+SHARED_BINDING(kBindBrickLights, 38u);
+
 SHARED_CONST uint kSkyRays = 6u;
 SHARED_CONST uint kSkyPages = 3u;
-/// Parts of a brick's texels that can be lit in frames of their own.
+/// Time slices: subsets of a brick's texels that are lit in different frames.
 SHARED_CONST uint kLightPhases = 16u;
-/// At most as many texels of a brick are in one.
+/// Upper limit of the texels of a brick in one phase.
 SHARED_CONST uint kTexelsPerPhase = 64u;
 SHARED_CONST uint kTexelListHead = 18u;
 SHARED_CONST uint kTexelListWords = 1018u;
 SHARED_CONST uint kSkyTarget = 0xfffffff0u;
-/// Workgroups along an axis of a dispatch, after which the next axis begins.
+/// Workgroups along one axis of a dispatch before the next axis is used.
 SHARED_CONST uint kLightGroups = 32768u;
 
-/// Which of a row's texels: those of phases from a first one up to an end, or the new ones.
+/// Selects texels of a row: those of the phases [first, end), or kNewTexels.
 SHARED_FUNCTION uint phase_range(uint first, uint end) { return first | end << 8u; }
 SHARED_CONST uint kAllTexels = 0x1000u;  // phase_range(0, kLightPhases)
 SHARED_CONST uint kNewTexels = 0xffffu;
@@ -34,12 +42,12 @@ struct TexelList {
   uint slot;
   uint row;
   uint by_phase;  // 0: all texels in phase 0
-  uint had_list;  // 0: none before, no texel is new
-  uint first_change, change_count;  // new are also the texels within these changes
+  uint had_list;  // 0: no previous list, no texel counts as new
+  uint first_change, change_count;  // texels within these changes count as new too
 };
 SHARED_SIZE(TexelList, 24);
 
-/// All that is nearer than `radius` to a stretch of a line [m].
+/// An abrupt change of smoke: a capsule around a segment [m].
 struct LightChange {
   vec3 from_world;
   float radius;
@@ -48,43 +56,43 @@ struct LightChange {
 };
 SHARED_SIZE(LightChange, 32);
 
-/// Rays of texels of a brick to one light, or two of each to the sky.
+/// Rays from texels of a brick to one light, or two per texel to the sky.
 struct ShadowRays {
   uint slot;
   uint row;
-  uint light;    // of the frame's lights, or kSkyTarget + number of the sky's block
-  uint block;   // where they go
-  uint texels;  // which
+  uint light;   // index of a light, or kSkyTarget + index of the sky's block
+  uint block;   // that receives the results
+  uint texels;  // phase_range or kNewTexels
 };
 SHARED_SIZE(ShadowRays, 20);
 
-/// A brick whose light is to be put together.
+/// A brick whose in-scattered light is to be summed.
 struct LightGather {
   uint slot;
   uint row;
-  uint sky_page;   // the first of kSkyPages
+  uint sky_page;     // the first of kSkyPages blocks
   uint first_light;  // into the list of (light, block)
   uint light_count;
-  uint texels;  // which
+  uint texels;       // phase_range or kNewTexels
 };
 SHARED_SIZE(LightGather, 24);
 
-/// Which part of its list a dispatch works on.
+/// The part of its list that a dispatch works on.
 struct SmokeLightParams {
   uint first;
   uint count;
-  uint threads;  // for each entry of the list, that share its texels
+  uint threads;  // per entry of the list, looping over its texels
 };
 SHARED_SIZE(SmokeLightParams, 12);
 
-/// The phase of a texel: texels side by side are of different ones, and two bricks that hold the same voxel, each at its
-/// rim, agree on its phase, so that light of different times shows no edges of bricks.
+/// Phase of a texel. Neighbouring texels have different phases. Two bricks that hold the same voxel in their aprons
+/// agree on its phase, so light of different ages shows no brick edges.
 SHARED_FUNCTION uint light_phase(uvec3 texel) {
   uint x = texel.x, y = texel.y, z = texel.z;
   return ((x ^ y ^ z) & 1u) << 3u | ((y ^ z) & 1u) << 2u | (z & 1u) << 1u | ((x ^ y ^ z) >> 1u & 1u);
 }
 
-/// Directions of the sky rays: the corners of an octahedron, askew, so that none runs along a floor or a wall.
+/// Directions of the sky rays: the corners of a rotated octahedron, oblique to floors and walls.
 SHARED_FUNCTION vec3 sky_ray(uint i) {
   vec3 a = vec3(0.80178373f, 0.53452248f, -0.26726124f);
   vec3 b = vec3(-0.34021515f, 0.77592929f, 0.53121313f);

@@ -1,23 +1,25 @@
-// Smoke between the lights and the surfaces that they reach: an atlas of transmittances, one a direction from a light up to
-// the first surface.
+// Shadows of smoke on surfaces: an atlas of transmittances from each light to the first surface, one per direction.
 //
-// Six faces a light, those of its shadow cube; a directional light has its one view as the first. A face has a
-// rectangle of the atlas for the part of it in which there can be smoke, with a texel around that sees none; elsewhere
-// its transmittance is 1. Transmittance, not optical depth: between two texels light goes over evenly, and a small hole
-// does not shrink.
+// Six faces per light, those of its shadow cube; a directional light uses the first for its one view. A face has a
+// rectangle of the atlas for the part that may see smoke, with a border of one texel that sees none; elsewhere its
+// transmittance is 1. The atlas stores transmittance, not optical depth: light then interpolates linearly between
+// texels, and a small hole does not shrink.
 #ifndef BRUME_SMOKE_SHADOW_H
 #define BRUME_SMOKE_SHADOW_H
 #include "shared/shim.h"
 SHARED_BEGIN
 
-/// Edge of the blocks of texels that a workgroup marches.
+SHARED_BINDING(kBindSmokeShadows, 42u);
+SHARED_BINDING(kBindSmokeShadowFaces, 43u);
+
+/// Edge of the block of texels that a workgroup marches.
 SHARED_CONST uint kSmokeShadowBlock = 8u;
 SHARED_CONST uint kFacesPerLight = 6u;
 
 struct SmokeShadowFace {
   float scale;        // texels per unit of uv on the face
   vec2 offset;        // texel of the atlas = scale * uv + offset
-  uint first_block;   // how many blocks the faces before have
+  uint first_block;   // number of blocks of all faces before this one
   uvec2 first_texel;  // of the rectangle
   uvec2 size;         // texels; 0: no smoke
 };
@@ -25,14 +27,14 @@ SHARED_SIZE(SmokeShadowFace, 32);
 
 struct SmokeShadowParams {
   uint face_count;
-  float step_length;  // through the smoke [m]; longer where more than 64 would be needed
-  // Of each rectangle every `spread`th texel along both axes is marched, from its texel `first` on.
+  float step_length;  // through the smoke [m]; longer where a ray would take more than 64 steps
+  // Marches every `spread`th texel of each rectangle along both axes, starting at its texel `first`.
   uint spread;
   uvec2 first;
 };
 SHARED_SIZE(SmokeShadowParams, 20);
 
-/// Blocks of a rectangle of which every `spread`th texel is marched.
+/// Blocks per axis of a rectangle of which every `spread`th texel is marched.
 SHARED_FUNCTION uvec2 smoke_shadow_blocks(uvec2 texels, uint spread) {
   return (texels + uvec2(kSmokeShadowBlock * spread - 1u)) / (kSmokeShadowBlock * spread);
 }

@@ -1,25 +1,41 @@
-// Smoke density as the march reads it: sparse bricks, and boundary cells where a surface runs through.
+// The smoke on the device: sparse bricks of density, and boundary cells where a surface runs through.
 //
-//   pages        a table of two levels: the root, one uint per node of a window of the world, node + 1 or 0
-//                where there is no smoke, x + size.x (y + size.y z) of node - window_origin; after it the
-//                nodes, 8^3 uints each, slot + 1 or 0 per 8^3-voxel brick: x + 8 (y + 8 z) of brick - 8 node
+//   pages        page table of two levels. Root: one uint per node of a window of the world, node + 1 or 0 without
+//                smoke, x + size.x (y + size.y z) of node - window_origin. Behind it the nodes, 8^3 uints each,
+//                slot + 1 or 0 per brick of 8^3 voxels, x + 8 (y + 8 z) of brick - 8 node
 //   density      a 3D texture of 10^3-texel bricks (8^3 voxels and an apron of one texel); R: density of a
-//                free voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Trilinear: G < 1 says
-//                that the cell has a solid corner.
-//   medium       half floats of the same layout, what the eye's rays read (shaders/drift.comp); R: density, kInSolid in a
-//                solid voxel, GBA: how far the noise was carried [m]. Trilinear: R < 0 says that the cell has a solid corner.
-//   share        half floats of the same layout, what rays of light read; R: density that the noise leaves in the mean of the
-//                texel, kInSolid in a solid voxel; G: the share of the density that it leaves there
-//   cells        per slot 9^3 uints, one per cell whose points can lie in the brick: boundary cell + 1, or 0
-//                where the cell has no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
-//   filled       per slot the cells in which smoke may be, as pack_cells packs them: rays leave out the rest of the brick
+//                free voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Filtered linearly, G < 1
+//                means that the cell has a solid corner.
+//   density_displacement
+//                half floats of the same layout for rays from the eye (noise_advection.comp). R: density, kInSolid in
+//                a solid voxel; GBA: displacement of the noise [m]. Filtered linearly, R < 0 means that the cell has a
+//                solid corner.
+//   filtered_density
+//                half floats of the same layout for rays to lights. R: mean density of the texel after erosion,
+//                kInSolid in a solid voxel; G: the fraction of the density that erosion retains
+//   inscatter    half floats of the same layout: radiance scattered towards the eye, per unit of albedo
+//   cells        per slot 9^3 uints, one per cell that overlaps the brick: boundary cell + 1, or 0 where the cell has
+//                no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
+//   filled       per slot the box of cells that may hold smoke, see pack_cells; rays skip the rest of the brick
+//   slot_bricks  per slot the brick that it holds [bricks]
 //   boundary     per boundary cell up to three planes, and the first of its 2^planes corner sets
-//   corners      per set eight densities of 8 bits: what the cell's eight corners hold *for a point on those
-//                sides of the planes*. Corners in or behind a wall carry what the near side extrapolates to.
+//   corners      per set eight densities of 8 bits: those of the cell's eight corners *for a point on these sides of
+//                the planes*. Corners in or behind a wall hold values extrapolated from the near side.
 #ifndef BRUME_SMOKE_VOLUME_H
 #define BRUME_SMOKE_VOLUME_H
 #include "shared/shim.h"
 SHARED_BEGIN
+
+SHARED_BINDING(kBindPages, 1u);
+SHARED_BINDING(kBindFilled, 2u);
+SHARED_BINDING(kBindCells, 3u);
+SHARED_BINDING(kBindBoundary, 4u);
+SHARED_BINDING(kBindCorners, 5u);
+SHARED_BINDING(kBindSlotBricks, 6u);
+SHARED_BINDING(kBindDensity, 7u);
+SHARED_BINDING(kBindDensityDisplacement, 8u);
+SHARED_BINDING(kBindFilteredDensity, 9u);
+SHARED_BINDING(kBindInscatter, 10u);
 
 SHARED_CONST int kBrickVoxels = 8;
 SHARED_CONST int kBrickTexels = 10;
@@ -28,10 +44,10 @@ SHARED_CONST int kNodeBricks = 8;
 SHARED_CONST uint kPageEntries = 512u;
 SHARED_CONST uint kCellsPerBrick = 729u;
 SHARED_CONST uint kTexelsPerBrick = 1000u;
-/// So far below 0 that the least share of it outweighs any density.
+/// So far below 0 that even the smallest filter weight outweighs any density.
 SHARED_CONST float kInSolid = -16384.0f;
 
-/// A box of cells of a brick in 24 bits: its low corner, and one past its high one, each number in [0, 9].
+/// A box of cells of a brick in 24 bits: low corner, and one past the high corner, each coordinate in [0, 9].
 SHARED_FUNCTION uint pack_cells(uvec3 low, uvec3 end) {
   return low.x | low.y << 4u | low.z << 8u | end.x << 12u | end.y << 16u | end.z << 20u;
 }
@@ -42,26 +58,37 @@ SHARED_FUNCTION uvec3 cells_end(uint cells) {
   return uvec3(cells >> 12u & 15u, cells >> 16u & 15u, cells >> 20u & 15u);
 }
 
-/// One cell that a surface runs through.
+/// A cell that a surface runs through.
 struct BoundaryCell {
-  /// Planes as pack_plane makes them; 0 where there is none. Empty ones come last.
+  /// Planes packed by smoke::pack_plane; 0: no plane. Absent planes come last.
   uint plane0, plane1, plane2;
   /// Index of the first corner set. Set q is for points whose side of plane k is bit k of q.
   uint first_set;
 };
 SHARED_SIZE(BoundaryCell, 16);
 
-/// Where the window and the bricks lie.
+/// Placement of the window and of the bricks.
 struct VolumeLayout {
   vec3 origin_world;    // low corner of voxel (0, 0, 0) [m]
   float voxel_size;     // [m]
   ivec3 window_origin;  // first node of the page table, in nodes of kNodeBricks^3 bricks
   ivec3 window_size;    // nodes
-  ivec3 atlas_bricks;   // bricks per axis of the density texture; slot = x + bx * (y + by * z)
+  ivec3 atlas_bricks;   // bricks per axis of the atlases; see atlas_brick
   vec3 bounds_min;      // where density can be above 0 [voxel space]
   vec3 bounds_max;
 };
 SHARED_SIZE(VolumeLayout, 76);
+
+/// Position of a slot in an atlas of `atlas_bricks` bricks per axis [bricks]: slot = x + size.x (y + size.y z).
+SHARED_FUNCTION uvec3 atlas_brick(ivec3 atlas_bricks, uint slot) {
+  uvec3 size = uvec3(atlas_bricks);
+  return uvec3(slot % size.x, slot / size.x % size.y, slot / (size.x * size.y));
+}
+
+/// First texel of a slot's brick in the atlas: the low corner of its apron.
+SHARED_FUNCTION uvec3 atlas_first_texel(ivec3 atlas_bricks, uint slot) {
+  return atlas_brick(atlas_bricks, slot) * uint(kBrickTexels);
+}
 
 /// Plane in 32 bits: octahedral normal 2 x 10 bits, offset 12 bits over [-1, 1]. Never 0.
 /// Octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
@@ -79,8 +106,8 @@ SHARED_FUNCTION float plane_offset(uint plane) {
   return float(plane >> 20) * (2.0f / 4094.0f) - 1.0f;
 }
 
-/// On which sides of the planes of its cell a point lies: bit k is set when it is on the positive side of
-/// plane k. p_from_centre = position_voxel - (cell + 1).
+/// Sides of the cell's planes that a point lies on: bit k is set on the positive side of plane k.
+/// p_from_centre = position_voxel - (cell + 1).
 SHARED_FUNCTION uint boundary_side(BoundaryCell cell, vec3 p_from_centre) {
   uint side = 0u;
   if (cell.plane0 != 0u && dot(plane_normal(cell.plane0), p_from_centre) > plane_offset(cell.plane0))

@@ -58,19 +58,32 @@ VkPipelineColorBlendAttachmentState colour_state(const GraphicsInfo& wanted) {
   return colour;
 }
 
+std::vector<ShaderCode> stages_of(const GraphicsInfo& info) {
+  std::vector<ShaderCode> stages{*info.vertex};
+  if (info.fragment) stages.push_back(*info.fragment);
+  return stages;
+}
+
+ShaderInterface interface_of(std::span<const ShaderCode> shaders) {
+  auto interface = reflect(shaders);
+  BRUME_ASSERT(static_cast<bool>(interface), interface.failure().message);
+  return *std::move(interface);
+}
+
 }  // namespace
 
 Pipeline::Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderStageFlags stages,
-                   std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes)
+                   std::vector<ShaderCode> shaders)
     : context_(context),
+      shaders_(std::move(shaders)),
       bind_point_(bind_point),
       stages_(stages),
-      bindings_(bindings),
-      push_bytes_(push_bytes) {
+      interface_(interface_of(shaders_)) {
+  const std::uint32_t push_bytes = interface_.push_bytes;
   BRUME_ASSERT(push_bytes <= 128, std::to_string(push_bytes));
   std::vector<VkDescriptorSetLayoutBinding> entries;
-  for (std::uint32_t i = 0; i < bindings_.size(); ++i)
-    entries.push_back({i, bindings_[i], 1, stages, nullptr});
+  for (const ShaderInterface::Binding& binding : interface_.bindings)
+    entries.push_back({binding.number, binding.type, 1, stages, nullptr});
   VkDescriptorSetLayoutCreateInfo set{};
   set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   set.bindingCount = static_cast<std::uint32_t>(entries.size());
@@ -100,9 +113,8 @@ Pipeline::~Pipeline() {
   vk.DestroyDescriptorSetLayout(context_.device(), set_layout_, nullptr);
 }
 
-void Pipeline::make_first(std::vector<ShaderCode> shaders) {
-  check(make(shaders, &handle_), shaders.front().name);
-  shaders_ = std::move(shaders);
+void Pipeline::make_first() {
+  check(make(shaders_, &handle_), shaders_.front().name);
 }
 
 Result<void> Pipeline::replace_shader(const ShaderCode& code) {
@@ -121,13 +133,10 @@ Result<void> Pipeline::replace_shader(const ShaderCode& code) {
 }
 
 ComputePipeline::ComputePipeline(Context& context, const ShaderCode& shader,
-                                 std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes,
-                                 std::array<std::uint32_t, 3> group,
-                                 const std::vector<std::uint32_t>& constants)
-    : Pipeline(context, VK_PIPELINE_BIND_POINT_COMPUTE, VK_SHADER_STAGE_COMPUTE_BIT, bindings, push_bytes),
-      group_(group),
-      constants_(constants) {
-  make_first({shader});
+                                 std::vector<std::uint32_t> constants)
+    : Pipeline(context, VK_PIPELINE_BIND_POINT_COMPUTE, VK_SHADER_STAGE_COMPUTE_BIT, {shader}),
+      constants_(std::move(constants)) {
+  make_first();
 }
 
 VkResult ComputePipeline::make(std::span<const ShaderCode> shaders, VkPipeline* made) const {
@@ -143,14 +152,11 @@ VkResult ComputePipeline::make(std::span<const ShaderCode> shaders, VkPipeline* 
   return context_.vk().CreateComputePipelines(context_.device(), VK_NULL_HANDLE, 1, &info, nullptr, made);
 }
 
-GraphicsPipeline::GraphicsPipeline(Context& context, const GraphicsInfo& wanted,
-                                   std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes)
+GraphicsPipeline::GraphicsPipeline(Context& context, const GraphicsInfo& wanted)
     : Pipeline(context, VK_PIPELINE_BIND_POINT_GRAPHICS,
-               VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, bindings, push_bytes),
+               VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, stages_of(wanted)),
       info_(wanted) {
-  std::vector<ShaderCode> shaders{*wanted.vertex};
-  if (wanted.fragment) shaders.push_back(*wanted.fragment);
-  make_first(std::move(shaders));
+  make_first();
 }
 
 VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline* made) const {

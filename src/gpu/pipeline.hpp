@@ -1,13 +1,13 @@
-// Compute and graphics pipelines. A pipeline has one descriptor set, whose bindings are numbered as listed.
+// Compute and graphics pipelines. A pipeline has one descriptor set; its layout comes from the shaders
+// (reflection).
 #pragma once
 
-#include <array>
-#include <initializer_list>
 #include <span>
 #include <vector>
 
 #include "gpu/context.hpp"
 #include "gpu/shader_code.hpp"
+#include "gpu/shader_interface.hpp"
 
 namespace brume::gpu {
 
@@ -28,24 +28,25 @@ class Pipeline {
   VkDescriptorSetLayout set_layout() const { return set_layout_; }
   VkPipelineBindPoint bind_point() const { return bind_point_; }
   VkShaderStageFlags stages() const { return stages_; }
-  const std::vector<VkDescriptorType>& bindings() const { return bindings_; }
-  std::uint32_t push_bytes() const { return push_bytes_; }
-  /// The shader stages, in order.
+  /// The interface of all stages together.
+  const ShaderInterface& interface() const { return interface_; }
+  /// Its stages, in order.
   std::span<const ShaderCode> shaders() const { return shaders_; }
 
-  /// Replaces the stage of the same name by another version with the same interface. The device must have
-  /// completed all earlier recordings; the words of `code` must outlive the pipeline. Fails when the driver
-  /// rejects the shader; the pipeline is then unchanged.
+  /// Replaces the stage of the same name by a version whose interface fits (check_fit), once the device has
+  /// finished previous recordings. `code.words` must outlive the pipeline. Fails when the driver rejects the
+  /// shader; the pipeline is then unchanged.
   Result<void> replace_shader(const ShaderCode& code);
 
  protected:
+  /// The shaders' interfaces must be supported and agree, see reflect.
   Pipeline(Context& context, VkPipelineBindPoint bind_point, VkShaderStageFlags stages,
-           std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
+           std::vector<ShaderCode> shaders);
   virtual ~Pipeline();
-  /// Creates a pipeline of these stages.
+  /// Creates the pipeline of these stages.
   virtual VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const = 0;
-  /// Creates the initial pipeline.
-  void make_first(std::vector<ShaderCode> shaders);
+  /// Creates the first version, at the end of a derived constructor.
+  void make_first();
   Context& context_;
 
  private:
@@ -53,24 +54,20 @@ class Pipeline {
   std::vector<ShaderCode> shaders_;
   VkPipelineBindPoint bind_point_;
   VkShaderStageFlags stages_;
-  std::vector<VkDescriptorType> bindings_;
-  std::uint32_t push_bytes_;
+  ShaderInterface interface_;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
 };
 
 class ComputePipeline : public Pipeline {
  public:
-  /// `group` is the workgroup size declared by the shader; `constants` are its specialization constants
-  /// 0, 1...
-  ComputePipeline(Context& context, const ShaderCode& shader,
-                  std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes,
-                  std::array<std::uint32_t, 3> group, const std::vector<std::uint32_t>& constants = {});
-  const std::array<std::uint32_t, 3>& group() const { return group_; }
+  /// `constants` are the values of the specialization constants 0, 1...
+  ComputePipeline(Context& context, const ShaderCode& shader, std::vector<std::uint32_t> constants = {});
+  /// Workgroup size.
+  const std::array<std::uint32_t, 3>& group() const { return interface().group; }
 
  private:
   VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const override;
-  std::array<std::uint32_t, 3> group_;
   std::vector<std::uint32_t> constants_;
 };
 
@@ -88,8 +85,7 @@ struct GraphicsInfo {
 /// buffers.
 class GraphicsPipeline : public Pipeline {
  public:
-  GraphicsPipeline(Context& context, const GraphicsInfo& info,
-                   std::initializer_list<VkDescriptorType> bindings, std::uint32_t push_bytes);
+  GraphicsPipeline(Context& context, const GraphicsInfo& info);
 
  private:
   VkResult make(std::span<const ShaderCode> shaders, VkPipeline* made) const override;

@@ -128,9 +128,28 @@ void Recorder::flush_barriers() {
   image_barriers_.clear();
 }
 
-VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Binding> bindings) {
-  BRUME_ASSERT(bindings.size() == pipeline.bindings().size(), std::to_string(bindings.size()));
-  // Allocate the set.
+std::string binding_fault(const ShaderInterface& interface, std::span<const BoundResource> resources) {
+  const auto name = [](shared::BindingIndex at) {
+    return std::string(at.name) + " (binding " + std::to_string(at.number) + ")";
+  };
+  for (const BoundResource& bound : resources) {
+    const ShaderInterface::Binding* binding = interface.find(bound.at.number);
+    if (!binding) return "has no " + name(bound.at);
+    if (binding->type != bound.resource.type)
+      return name(bound.at) + " is a " + name_of(binding->type) + ", not a " + name_of(bound.resource.type);
+  }
+  for (const ShaderInterface::Binding& binding : interface.bindings) {
+    const auto binds = [&](const BoundResource& bound) { return bound.at.number == binding.number; };
+    const auto count = std::count_if(resources.begin(), resources.end(), binds);
+    const std::string what = "binding " + std::to_string(binding.number) + ", a " + name_of(binding.type);
+    if (count != 1) return what + (count == 0 ? ", has no resource" : ", has more than one resource");
+  }
+  return {};
+}
+
+VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const BoundResource> resources) {
+  const std::string fault = binding_fault(pipeline.interface(), resources);
+  BRUME_ASSERT(fault.empty(), std::string(pipeline.shaders().front().name) + ": " + fault);
   VkDescriptorSetAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
   info.descriptorPool = slot_.descriptors_;
@@ -140,18 +159,15 @@ VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Bi
   VkDescriptorSet set = VK_NULL_HANDLE;
   check(context_.vk().AllocateDescriptorSets(context_.device(), &info, &set), "vkAllocateDescriptorSets");
 
-  // Write its descriptors.
-  std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
-  std::vector<VkDescriptorImageInfo> images(bindings.size());
+  std::vector<VkDescriptorBufferInfo> buffers(resources.size());
+  std::vector<VkDescriptorImageInfo> images(resources.size());
   std::vector<VkWriteDescriptorSet> writes;
   std::uint32_t i = 0;
-  for (const Binding& binding : bindings) {
-    BRUME_ASSERT(binding.type == pipeline.bindings()[i],
-                 "binding " + std::to_string(i) + " is of another type");
+  for (const auto& [at, binding] : resources) {
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;
-    write.dstBinding = i;
+    write.dstBinding = at.number;
     write.descriptorCount = 1;
     write.descriptorType = binding.type;
     if (binding.buffer) {
@@ -169,20 +185,19 @@ VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Bi
   return set;
 }
 
-void Recorder::bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings,
-                    std::span<const std::byte> bytes) {
-  for (const Binding& binding : bindings) use(binding, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+void Recorder::bind(const Pipeline& pipeline, BoundResources resources, std::span<const std::byte> bytes) {
+  for (const BoundResource& bound : resources) use(bound.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
   flush_barriers();
-  bind_set(pipeline, bindings);
+  bind_set(pipeline, resources);
   if (!bytes.empty()) push(pipeline, bytes);
 }
 
-void Recorder::bind_for_draws(const Pipeline& pipeline, std::initializer_list<Binding> bindings) {
-  bind_set(pipeline, bindings);
+void Recorder::bind_for_draws(const Pipeline& pipeline, BoundResources resources) {
+  bind_set(pipeline, resources);
 }
 
-void Recorder::bind_set(const Pipeline& pipeline, std::span<const Binding> bindings) {
-  const VkDescriptorSet set = write_set(pipeline, bindings);
+void Recorder::bind_set(const Pipeline& pipeline, std::span<const BoundResource> resources) {
+  const VkDescriptorSet set = write_set(pipeline, resources);
   context_.vk().CmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
   context_.vk().CmdBindDescriptorSets(commands_, pipeline.bind_point(), pipeline.layout(), 0, 1, &set, 0,
                                       nullptr);
@@ -199,7 +214,7 @@ void Recorder::prepare_indices(const Buffer& indices) {
 }
 
 void Recorder::push(const Pipeline& pipeline, std::span<const std::byte> bytes) {
-  BRUME_ASSERT(bytes.size() == pipeline.push_bytes(), std::to_string(bytes.size()));
+  BRUME_ASSERT(bytes.size() == pipeline.interface().push_bytes, std::to_string(bytes.size()));
   context_.vk().CmdPushConstants(commands_, pipeline.layout(), pipeline.stages(), 0,
                                  static_cast<std::uint32_t>(bytes.size()), bytes.data());
 }
@@ -213,10 +228,11 @@ void Recorder::dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x
 
 void Recorder::dispatch_together(std::initializer_list<Dispatch> dispatches) {
   for (const Dispatch& dispatch : dispatches)
-    for (const Binding& binding : dispatch.bindings) use(binding, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+    for (const BoundResource& bound : dispatch.resources)
+      use(bound.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
   flush_barriers();
   for (const Dispatch& dispatch : dispatches) {
-    bind_set(dispatch.pipeline, dispatch.bindings);
+    bind_set(dispatch.pipeline, dispatch.resources);
     if (!dispatch.push.empty()) push(dispatch.pipeline, dispatch.push);
     dispatch_threads(dispatch.pipeline, dispatch.threads.x, dispatch.threads.y, dispatch.threads.z);
   }

@@ -6,11 +6,13 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gpu/pipeline.hpp"
 #include "gpu/resources.hpp"
 #include "gpu/timings.hpp"
+#include "shared/shim.h"
 
 namespace brume::gpu {
 
@@ -44,8 +46,20 @@ inline Binding read_stored(const Image& image) {
   return {kStored, nullptr, &image, nullptr, true, false};
 }
 
-/// The resources of one frame in flight besides its command buffer: descriptors, staging memory, timestamps.
-/// Reused once the device has completed the frame.
+/// A resource at a binding of a shader: `{shared::kBindPages, gpu::read(pages)}`.
+struct BoundResource {
+  shared::BindingIndex at;
+  Binding resource;
+};
+using BoundResources = std::initializer_list<BoundResource>;
+
+/// Compares bound resources with the interface of a shader: a binding that the shader lacks, one of another
+/// type, one bound twice, or one without a resource. Empty when all match, else a message that names the
+/// binding.
+std::string binding_fault(const ShaderInterface& interface, std::span<const BoundResource> resources);
+
+/// What one frame in flight needs besides its command buffer: descriptors, staging memory, timestamps.
+/// Reused when the device is done with the frame.
 class FrameSlot {
  public:
   explicit FrameSlot(Context& context);
@@ -69,22 +83,21 @@ class Recorder {
   /// `commands` is in the recording state and remains so. `slot` must not be in use by the device.
   Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands);
 
-  /// Binds resources (in the order of the pipeline's bindings) and push constants, with the required
-  /// barriers.
-  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings,
-            std::span<const std::byte> push = {});
+  /// Binds a pipeline with its resources, in any order, and its push constants, after the barriers that they
+  /// need. The resources must match the pipeline's interface (binding_fault).
+  void bind(const Pipeline& pipeline, BoundResources resources, std::span<const std::byte> push = {});
   template <typename Push>
-  void bind(const Pipeline& pipeline, std::initializer_list<Binding> bindings, const Push& push) {
-    bind(pipeline, bindings, std::as_bytes(std::span(&push, 1)));
+  void bind(const Pipeline& pipeline, BoundResources resources, const Push& push) {
+    bind(pipeline, resources, std::as_bytes(std::span(&push, 1)));
   }
   /// Runs the bound compute pipeline over at least this many threads.
   void dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y = 1,
                         std::uint32_t z = 1);
-  /// Independent dispatches: one barrier before all of them.
+  /// Independent dispatches run concurrently: the barriers of all come before the first.
   struct Dispatch {
     const ComputePipeline& pipeline;
-    std::vector<Binding> bindings;
-    glm::uvec3 threads{1};  ///< Minimum number of threads.
+    std::vector<BoundResource> resources;
+    glm::uvec3 threads{1};  ///< At least.
     std::span<const std::byte> push = {};
   };
   void dispatch_together(std::initializer_list<Dispatch> dispatches);
@@ -133,8 +146,8 @@ class Recorder {
   /// Barriers for resources that draws read; before begin_rendering.
   void prepare_for_draws(std::initializer_list<Binding> bindings);
   void prepare_indices(const Buffer& indices);
-  /// Binds inside a rendering, where barriers are impossible: the resources must have been prepared.
-  void bind_for_draws(const Pipeline& pipeline, std::initializer_list<Binding> bindings);
+  /// Binds inside a rendering, where no barrier is possible: prepare_for_draws comes first.
+  void bind_for_draws(const Pipeline& pipeline, BoundResources resources);
 
   void begin_scope(const char* name) { slot_.timings_.begin(commands_, name); }
   void end_scope() { slot_.timings_.end(commands_); }
@@ -147,8 +160,8 @@ class Recorder {
     VkDeviceSize offset;
   };
   Staged stage_bytes(std::span<const std::byte> bytes);
-  VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const Binding> bindings);
-  void bind_set(const Pipeline& pipeline, std::span<const Binding> bindings);
+  VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const BoundResource> resources);
+  void bind_set(const Pipeline& pipeline, std::span<const BoundResource> resources);
   void use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
   void use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkImageLayout layout);
   void use(const Binding& binding, VkPipelineStageFlags2 stages);

@@ -1,14 +1,13 @@
 #include "passes/accumulate.hpp"
 
 #include "brume_shaders.hpp"
+#include "shared/gbuffer.h"
+#include "shared/resolve.h"
 
 namespace brume::passes {
 
 AccumulatePass::AccumulatePass(gpu::Context& context, glm::uvec2 size_px)
-    : pipeline_(context, shaders::accumulate_comp,
-                {gpu::kUniform, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kStored,
-                 gpu::kBuffer},
-                sizeof(shared::AccumulateParams), {8, 8, 1}),
+    : pipeline_(context, shaders::accumulate_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}) {
   gpu::ImageInfo info;
@@ -27,9 +26,15 @@ void AccumulatePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, c
   const std::size_t before = current_, now = 1 - current_;
   const shared::AccumulateParams params{past_clip_from_world_, continues ? 1u : 0u};
   recorder.bind(pipeline_,
-                {gpu::uniform(frame), gpu::sampled(depth, nearest_), gpu::sampled(smoke, nearest_),
-                 gpu::sampled(smoke_[before], linear_), gpu::read(pixels_[before]), gpu::stored(smoke_[now]),
-                 gpu::write(pixels_[now])},
+                {
+                    {shared::kBindFrame, gpu::uniform(frame)},
+                    {shared::kBindDepth, gpu::sampled(depth, nearest_)},
+                    {shared::kBindSmoke, gpu::sampled(smoke, nearest_)},
+                    {shared::kBindPastSmoke, gpu::sampled(smoke_[before], linear_)},
+                    {shared::kBindPastPixels, gpu::read(pixels_[before])},
+                    {shared::kBindMeanSmoke, gpu::stored(smoke_[now])},
+                    {shared::kBindMeanPixels, gpu::write(pixels_[now])},
+                },
                 params);
   recorder.dispatch_threads(pipeline_, smoke.info().size.x, smoke.info().size.y);
   current_ = now;

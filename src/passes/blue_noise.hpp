@@ -1,4 +1,4 @@
-// A tile of blue noise: values whose neighbours differ as much as they can, for jitter and dither.
+// A tile of blue noise, for jitter and dither.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace brume::passes {
 constexpr std::uint32_t kBlueNoiseSize = 64;
 
 /// One channel of kBlueNoiseSize^2 values, rows in order: each of 0..255 equally often, tiling without a
-/// seam. Void and cluster (Ulichney 1993). The same for a seed on every machine.
+/// seam. Void and cluster (Ulichney 1993). Deterministic for a seed on every machine.
 std::vector<std::uint8_t> blue_noise_channel(std::uint32_t seed);
 
 /// Four independent channels as an RGBA8 image, ready to sample.

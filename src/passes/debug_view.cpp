@@ -7,6 +7,8 @@
 
 #include "brume_shaders.hpp"
 #include "core/error.hpp"
+#include "shared/display.h"
+#include "shared/resolve.h"
 
 namespace brume::passes {
 namespace {
@@ -117,14 +119,8 @@ DebugViewPass::DebugViewPass(gpu::Context& context)
 void DebugViewPass::reserve(const DebugSubject& subject, glm::uvec2 size_px) {
   auto& pipeline = pipelines_[static_cast<std::size_t>(subject.view)];
   if (!pipeline) {
-    pipeline.emplace(
-        context_, shaders::debug_view_comp,
-        std::initializer_list<VkDescriptorType>{
-            gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-            gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
-            gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kStored},
-        std::uint32_t{sizeof(shared::DebugViewParams)}, std::array<std::uint32_t, 3>{8, 8, 1},
-        std::vector<std::uint32_t>{static_cast<std::uint32_t>(subject.view)});
+    pipeline.emplace(context_, shaders::debug_view_comp,
+                     std::vector<std::uint32_t>{static_cast<std::uint32_t>(subject.view)});
   }
   if (needs_level(subject.view)) find_level(subject.level);
   if (subject.view == DebugView::distance) find_distances(subject);
@@ -152,7 +148,7 @@ void DebugViewPass::find_distances(const DebugSubject& subject) {
         const std::uint32_t slot = subject.volume->slot_at(voxel >> 3);
         if (slot == smoke::SmokeVolume::kNoSlot || cloud.density(rank, phase) == 0) return;
         const std::uint32_t distance = cloud.distances()[rank];
-        const std::uint32_t word = distance == sim::Cloud::kNoDistance ? shared::kNoWay : distance + 1;
+        const std::uint32_t word = distance == sim::Cloud::kNoDistance ? shared::kUnreached : distance + 1;
         std::uint32_t& entry =
             distance_words_[std::size_t{slot} * smoke::kVoxelsPerBrick + smoke::local_voxel(voxel)];
         entry = entry == 0 ? word : std::min(entry, word);
@@ -183,16 +179,28 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
   const gpu::Buffer& distances = distances_ ? distances_ : nothing_;
   const gpu::Buffer& counters = counters_ ? counters_ : nothing_;
   const gpu::ComputePipeline& pipeline = *pipelines_[static_cast<std::size_t>(subject.view)];
-  recorder.bind(
-      pipeline,
-      {gpu::uniform(in.frame), gpu::read(in.smoke.pages), gpu::sampled(in.smoke.density, linear_),
-       gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
-       gpu::sampled(in.smoke.inscatter, linear_), gpu::sampled(in.gbuffer.albedo_roughness, nearest_),
-       gpu::sampled(in.gbuffer.normal_metallic, nearest_), gpu::sampled(in.gbuffer.depth, nearest_),
-       gpu::read(in.holes.holes), gpu::read(in.holes.lists), gpu::sampled(in.holes.masks, nearest_),
-       gpu::read(in.smoke.filled), gpu::read(level), gpu::read(distances), gpu::read(counters),
-       gpu::stored(display)},
-      params);
+  recorder.bind(pipeline,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindPages, gpu::read(in.smoke.pages)},
+                    {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                    {shared::kBindCells, gpu::read(in.smoke.cells)},
+                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                    {shared::kBindInscatter, gpu::sampled(in.smoke.inscatter, linear_)},
+                    {shared::kBindAlbedoRoughness, gpu::sampled(in.gbuffer.albedo_roughness, nearest_)},
+                    {shared::kBindNormalMetallic, gpu::sampled(in.gbuffer.normal_metallic, nearest_)},
+                    {shared::kBindDepth, gpu::sampled(in.gbuffer.depth, nearest_)},
+                    {shared::kBindHoles, gpu::read(in.holes.holes)},
+                    {shared::kBindHoleLists, gpu::read(in.holes.lists)},
+                    {shared::kBindHoleMasks, gpu::sampled(in.holes.masks, nearest_)},
+                    {shared::kBindFilled, gpu::read(in.smoke.filled)},
+                    {shared::kBindLevelWords, gpu::read(level)},
+                    {shared::kBindDistances, gpu::read(distances)},
+                    {shared::kBindMarchCounters, gpu::read(counters)},
+                    {shared::kBindDisplay, gpu::stored(display)},
+                },
+                params);
   recorder.dispatch_threads(pipeline, display.info().size.x, display.info().size.y);
 }
 

@@ -1,4 +1,4 @@
-// Radiance to the 8 bits of a screen.
+// Radiance to 8-bit display values.
 #pragma once
 
 #include "gpu/recorder.hpp"
@@ -8,7 +8,7 @@ namespace brume::passes {
 class DisplayPass {
  public:
   explicit DisplayPass(gpu::Context& context);
-  /// Exposure, tone curve, sRGB and dither from `picture` (half floats) to `display` (RGBA8).
+  /// Applies exposure, tone curve, sRGB and dither, from `picture` (half floats) to `display` (RGBA8).
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& blue_noise,
               const gpu::Image& picture, const gpu::Image& display) const;
 

@@ -1,6 +1,7 @@
 #include "passes/gbuffer.hpp"
 
 #include "brume_shaders.hpp"
+#include "shared/frame.h"
 
 namespace brume::passes {
 namespace {
@@ -32,9 +33,7 @@ GBuffer::GBuffer(gpu::Context& context, glm::uvec2 size)
 
 GBufferPass::GBufferPass(gpu::Context& context)
     : pipeline_(context,
-                {&shaders::gbuffer_vert, &shaders::gbuffer_frag, {std::begin(kFormats), std::end(kFormats)}},
-                {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kSampled},
-                sizeof(shared::DrawConstants)),
+                {&shaders::gbuffer_vert, &shaders::gbuffer_frag, {std::begin(kFormats), std::end(kFormats)}}),
       sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}) {}
 
 void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
@@ -50,10 +49,15 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
   const auto draw_one = [&](const Draw& draw) {
     const MaterialImages& material = scene.materials[draw.material];
     if (draw.material != bound) {
-      recorder.bind_for_draws(pipeline_, {gpu::uniform(frame), gpu::read(scene.vertices),
-                                          gpu::sampled(scene.images[material.base_color], sampler_),
-                                          gpu::sampled(scene.images[material.normal], sampler_),
-                                          gpu::sampled(scene.images[material.roughness], sampler_)});
+      recorder.bind_for_draws(
+          pipeline_,
+          {
+              {shared::kBindFrame, gpu::uniform(frame)},
+              {shared::kBindVertices, gpu::read(scene.vertices)},
+              {shared::kBindBaseColorMap, gpu::sampled(scene.images[material.base_color], sampler_)},
+              {shared::kBindNormalMap, gpu::sampled(scene.images[material.normal], sampler_)},
+              {shared::kBindRoughnessMap, gpu::sampled(scene.images[material.roughness], sampler_)},
+          });
       bound = draw.material;
     }
     const auto constants = constants_of(draw, material.constants);

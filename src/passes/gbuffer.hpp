@@ -8,19 +8,19 @@
 
 namespace brume::passes {
 
-/// What shading reads of the nearest surface of each pixel.
+/// Material, normal and depth of the nearest surface of each pixel.
 struct GBuffer {
   gpu::Image albedo_roughness;  ///< sRGB8 albedo, roughness in alpha.
   gpu::Image normal_metallic;   ///< Half floats: world normal, metallic.
   gpu::Image emission;          ///< Half floats: radiance.
-  gpu::Image depth;             ///< Reverse depth, 0: nothing there.
+  gpu::Image depth;             ///< Reverse depth, 0: no surface.
   GBuffer(gpu::Context& context, glm::uvec2 size_px);
 };
 
 class GBufferPass {
  public:
   explicit GBufferPass(gpu::Context& context);
-  /// `moving` are drawn with the scene's own draws; `hidden` are omitted, and what `view` cannot see.
+  /// Draws the scene and `moving`, without `hidden` objects and draws outside of `view`.
   /// `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
               HiddenObjects hidden, const planning::ViewFrustum& view, const gpu::Buffer& frame,

@@ -15,18 +15,10 @@ constexpr std::uint32_t kRow = 32768;  // every device takes 65,535 workgroups a
 
 HoleClusters::HoleClusters(gpu::Context& context, gpu::CommandRunner& runner, const smoke::MaskAtlas& masks)
     : context_(context),
-      tiles_pass_(context, shaders::hole_coarse_tiles_comp, {gpu::kUniform, gpu::kBuffer, gpu::kBuffer}, 0,
-                  {256, 1, 1}),
-      groups_pass_(context, shaders::hole_clusters_comp,
-                   {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                   sizeof(shared::HoleListsParams), {128, 1, 1}),
-      bricks_pass_(context, shaders::hole_bricks_comp,
-                   {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                   sizeof(shared::HoleCellsParams), {64, 1, 1}),
-      cells_pass_(context, shaders::hole_cells_comp,
-                  {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                   gpu::kSampled},
-                  sizeof(shared::HoleCellsParams), {64, 1, 1}),
+      tiles_pass_(context, shaders::hole_coarse_tiles_comp),
+      groups_pass_(context, shaders::hole_clusters_comp),
+      bricks_pass_(context, shaders::hole_bricks_comp),
+      cells_pass_(context, shaders::hole_cells_comp),
       nearest_(context, {VK_FILTER_NEAREST}),
       counters_(context, sizeof(shared::HoleCounters),
                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT),
@@ -47,7 +39,8 @@ void HoleClusters::reserve(const planning::HolePlan& plan) {
   const std::size_t tiles = std::size_t{plan.coarse_tiles.x} * plan.coarse_tiles.y;
   const std::size_t cells = std::size_t{plan.chunk_capacity} * shared::kHoleCellsPerChunk;
   resources_.any = count > 0;
-  gpu::grow(context_, resources_.holes, count * (sizeof(shared::Hole) + sizeof(shared::HoleReach)));
+  gpu::grow(context_, resources_.holes, count * sizeof(shared::PackedHole));
+  gpu::grow(context_, resources_.reaches, count * sizeof(shared::PackedReach));
   gpu::grow(context_, coarse_tile_holes_, tiles * words * kWord);
   gpu::grow(context_, resources_.lists, (std::size_t{plan.cluster_count} + plan.word_capacity) * kWord);
   gpu::grow(context_, resources_.cells, (plan.slot_count + cells) * kWord);
@@ -59,32 +52,53 @@ void HoleClusters::record(gpu::Recorder& recorder, const planning::HolePlan& pla
   if (plan.holes.empty()) return;
   recorder.fill(counters_, 0);
   recorder.fill(words_taken_, 0);
-  const auto rows = planning::pack_holes(plan);
-  recorder.upload(resources_.holes, 0, std::as_bytes(std::span(rows)));
+  const auto holes = planning::pack_holes(plan.holes, plan.time);
+  const auto reaches = planning::pack_reaches(plan.reaches);
+  recorder.upload(resources_.holes, 0, std::as_bytes(std::span(holes)));
+  recorder.upload(resources_.reaches, 0, std::as_bytes(std::span(reaches)));
   const shared::HoleListsParams lists{plan.word_capacity};
   const shared::HoleCellsParams cells{plan.slot_count, plan.pair_capacity, plan.chunk_capacity};
   const auto bytes = [](const auto& params) { return std::as_bytes(std::span(&params, 1)); };
   constexpr std::uint32_t kPerTile = shared::kCoarseTileTiles / 2;  // workgroups, along an axis
   // Clusters, which pixels read, and cells, which light reads, do not depend on each other.
-  recorder.dispatch_together(
-      {{tiles_pass_,
-        {gpu::uniform(frame), gpu::read(resources_.holes), gpu::write(coarse_tile_holes_)},
-        {tiles_pass_.group()[0] * plan.coarse_tiles.x, plan.coarse_tiles.y, 1}},
-       {bricks_pass_,
-        {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
-         gpu::read_write(resources_.cells), gpu::write(pairs_), gpu::read_write(counters_)},
-        {64 * std::min(plan.slot_count, kRow), (plan.slot_count + kRow - 1) / kRow, 1},
-        bytes(cells)}});
+  recorder.dispatch_together({{tiles_pass_,
+                               {{shared::kBindFrame, gpu::uniform(frame)},
+                                {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                                {shared::kBindCoarseTileHoles, gpu::write(coarse_tile_holes_)}},
+                               {tiles_pass_.group()[0] * plan.coarse_tiles.x, plan.coarse_tiles.y, 1}},
+                              {bricks_pass_,
+                               {
+                                   {shared::kBindFrame, gpu::uniform(frame)},
+                                   {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
+                                   {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                                   {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
+                                   {shared::kBindHolePairs, gpu::write(pairs_)},
+                                   {shared::kBindHoleCounters, gpu::read_write(counters_)},
+                               },
+                               {64 * std::min(plan.slot_count, kRow), (plan.slot_count + kRow - 1) / kRow, 1},
+                               bytes(cells)}});
   recorder.dispatch_together(
       {{groups_pass_,
-        {gpu::uniform(frame), gpu::read(resources_.holes), gpu::read(coarse_tile_holes_),
-         gpu::write(resources_.lists), gpu::read_write(words_taken_)},
+        {
+            {shared::kBindFrame, gpu::uniform(frame)},
+            {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+            {shared::kBindCoarseTileHoles, gpu::read(coarse_tile_holes_)},
+            {shared::kBindHoleLists, gpu::write(resources_.lists)},
+            {shared::kBindHoleWordsTaken, gpu::read_write(words_taken_)},
+        },
         {groups_pass_.group()[0] * kPerTile * plan.coarse_tiles.x, kPerTile * plan.coarse_tiles.y, 1},
         bytes(lists)},
        {cells_pass_,
-        {gpu::uniform(frame), gpu::read(smoke.slot_bricks), gpu::read(resources_.holes),
-         gpu::read_write(resources_.cells), gpu::read(pairs_), gpu::read(counters_),
-         gpu::sampled(resources_.masks, nearest_)},
+        {
+            {shared::kBindFrame, gpu::uniform(frame)},
+            {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
+            {shared::kBindHoles, gpu::read(resources_.holes)},
+            {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+            {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
+            {shared::kBindHolePairs, gpu::read(pairs_)},
+            {shared::kBindHoleCounters, gpu::read(counters_)},
+            {shared::kBindHoleMasks, gpu::sampled(resources_.masks, nearest_)},
+        },
         {64 * std::min(kGroups, plan.pair_capacity), 1, 1},
         bytes(cells)}});
 }

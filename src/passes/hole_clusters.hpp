@@ -1,4 +1,4 @@
-// Clusters of holes (shared/hole_clusters.h), found again each frame: holes open, close and are shot.
+// Culling of holes (shared/hole_clusters.h), repeated each frame because holes open and close.
 #pragma once
 
 #include "passes/hole_masks.hpp"
@@ -7,9 +7,11 @@
 
 namespace brume::passes {
 
-/// What every pass that looks for holes binds.
+/// Holes on the device, for every pass that evaluates them.
 struct HoleResources {
-  gpu::Buffer holes, lists, cells;
+  gpu::Buffer holes;    ///< shared::PackedHole.
+  gpu::Buffer reaches;  ///< shared::PackedReach, one per hole.
+  gpu::Buffer lists, cells;
   gpu::Image masks;  ///< The mask atlas.
   bool any = false;  ///< Whether any hole of the frame may remove smoke.
 };

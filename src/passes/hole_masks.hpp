@@ -6,7 +6,7 @@
 
 namespace brume::passes {
 
-/// The atlas as an R8 image for lib/hole_mask.glsl. Throws resource_limit when there is no memory.
+/// The atlas as an R8 image for lib/hole_mask.glsl. Throws resource_limit.
 gpu::Image make_hole_masks(gpu::Context& context, gpu::Recorder& recorder, const smoke::MaskAtlas& masks);
 
 }  // namespace brume::passes

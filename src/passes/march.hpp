@@ -1,4 +1,4 @@
-// Marches rays through the smoke.
+// Marches rays from the eye through the smoke.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace brume::passes {
 
-/// Blocks of scale x scale pixels that are marched by one ray each.
+/// Tiles of scale x scale pixels that share a ray.
 struct MarchTiles {
   gpu::Buffer ends;  ///< shared::RayEnds, rows in order.
-  gpu::Image near;   ///< Half floats, a texel a block: the smoke up to the block's nearest surface.
+  gpu::Image near;   ///< Half floats, a texel per tile: the smoke up to the tile's nearest surface.
   gpu::Image far;    ///< The same up to its farthest.
-  gpu::Buffer list;  ///< shared::MarchList and the numbers of the blocks whose pixels are marched one by one.
+  gpu::Buffer list;  ///< shared::MarchList and the indices of the tiles whose pixels are marched one by one.
   /// `scale` is 2 or 4. Throws resource_limit.
   MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale);
 };
@@ -23,9 +23,10 @@ class MarchPass {
  public:
   struct Options {
     bool count_samples = false;  ///< record adds the texture samples taken to the first word of `counters`.
-    /// The same, and the steps of each pixel's ray behind it, rows in order: room for a word and one a pixel.
+    /// The same, and the steps of each pixel's ray behind that word, rows in order: one word plus one per
+    /// pixel.
     bool count_steps = false;
-    bool brute_force_holes = false;  ///< Every sample asks every hole: what the usual way is measured against.
+    bool brute_force_holes = false;  ///< Every sample tests every hole: the baseline of the clusters.
   };
   MarchPass(gpu::Context& context, const Options& options);
 
@@ -40,15 +41,15 @@ class MarchPass {
   /// Marches the ray of each pixel. Writes premultiplied radiance and transmittance (half floats) to `smoke`.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const gpu::Image& smoke,
               const gpu::Buffer& counters) const;
-  /// Marches one ray a block of pixels, and writes the same for its nearest and its farthest surface.
-  void record_tiles(gpu::Recorder& recorder, const Inputs& inputs, const MarchTiles& blocks,
-                     const gpu::Buffer& counters) const;
-  /// Marches the pixels of the blocks that are listed, into `smoke`.
-  void record_list(gpu::Recorder& recorder, const Inputs& inputs, const MarchTiles& blocks,
+  /// Marches one ray per tile, and writes the same for its nearest and its farthest surface.
+  void record_tiles(gpu::Recorder& recorder, const Inputs& inputs, const MarchTiles& tiles,
+                    const gpu::Buffer& counters) const;
+  /// Marches the pixels of the listed tiles, into `smoke`.
+  void record_list(gpu::Recorder& recorder, const Inputs& inputs, const MarchTiles& tiles,
                    const gpu::Image& smoke, const gpu::Buffer& counters) const;
 
  private:
-  /// What the three kinds of rays differ in; those that do not use a thing get another in its place.
+  /// Resources that differ between the three kinds of rays. Unused ones get any resource of the same type.
   struct Rays {
     const gpu::Buffer& ends;
     const gpu::Buffer& list;
@@ -58,7 +59,7 @@ class MarchPass {
   void bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const Inputs& inputs,
             const Rays& rays, const gpu::Buffer& counters) const;
 
-  std::array<gpu::ComputePipeline, 2> pixels_, blocks_, list_;  ///< Without holes, with holes.
+  std::array<gpu::ComputePipeline, 2> pixels_, tiles_, list_;  ///< Without holes, with holes.
   gpu::Sampler linear_, repeat_, nearest_;
 };
 

@@ -4,13 +4,11 @@
 
 namespace brume::passes {
 
-NoisePass::NoisePass(gpu::Context& context)
-    : pipeline_(context, shaders::noise_comp, {gpu::kStored}, sizeof(shared::NoiseParams),
-                {shared::kNoiseGroup, shared::kNoiseGroup, shared::kNoiseGroup}) {}
+NoisePass::NoisePass(gpu::Context& context) : pipeline_(context, shaders::noise_comp) {}
 
 void NoisePass::record(gpu::Recorder& recorder, const gpu::Image& tile,
                        const shared::NoiseParams& params) const {
-  recorder.bind(pipeline_, {gpu::stored(tile)}, params);
+  recorder.bind(pipeline_, {{shared::kBindNoiseTile, gpu::stored(tile)}}, params);
   recorder.dispatch_threads(pipeline_, params.size, params.size, params.size);
 }
 

@@ -1,4 +1,4 @@
-// The tile of noise that smoke is eroded with, made on the device at start.
+// The tile of noise that erodes smoke, generated on the device at start.
 #pragma once
 
 #include "gpu/recorder.hpp"
@@ -6,9 +6,9 @@
 
 namespace brume::passes {
 
-/// Fills a tile (RGBA8, params.size^3 texels) that repeats without a seam in every axis: Perlin-Worley
-/// billows, small Worley billows, threads and broad gradient noise (shaders/noise.comp). The same for the
-/// same parameters on every device, up to the rounding of 8 bits. size in [1, 2048], coarse_cells in [1,
+/// Fills a tile (RGBA8, params.size^3 texels) that tiles without a seam along every axis: Perlin-Worley
+/// billows, small Worley billows, threads and broad gradient noise (shaders/noise.comp). Equal for
+/// equal parameters on every device, up to the rounding of 8 bits. size in [1, 2048], coarse_cells in [1,
 /// 256].
 class NoisePass {
  public:
@@ -22,7 +22,7 @@ class NoisePass {
 /// An image that the pass can fill.
 gpu::Image make_noise_tile(gpu::Context& context, std::uint32_t size);
 
-/// What the smoke is eroded with: the smallest billows are five texels wide.
+/// Parameters of the smoke's noise: the smallest billows are five texels wide.
 constexpr shared::NoiseParams kSmokeNoise{64, 4, 7};
 
 }  // namespace brume::passes

@@ -6,6 +6,7 @@
 
 #include "brume_shaders.hpp"
 #include "planning/noise_motion.hpp"
+#include "shared/noise.h"
 #include "smoke/growth.hpp"
 
 namespace brume::passes {
@@ -156,10 +157,7 @@ void CloudGrowth::list_parts(const smoke::SmokeVolume& volume) {
 
 NoiseAdvectionPass::NoiseAdvectionPass(gpu::Context& context)
     : context_(context),
-      pipeline_(context, shaders::noise_advection_comp,
-                {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer,
-                 gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kStored, gpu::kBuffer},
-                sizeof(shared::NoiseAdvectionParams), {kGroup, 1, 1}),
+      pipeline_(context, shaders::noise_advection_comp),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}) {
   for (gpu::Buffer* buffer : {&parts_, &displacements_, &motions_, &slots_due_})
@@ -201,14 +199,22 @@ void NoiseAdvectionPass::record(gpu::Recorder& recorder, const planning::NoisePl
   const auto all = plan.slots_due ? static_cast<std::uint32_t>(plan.slots_due->size()) : in.smoke.needed;
   for (std::uint32_t first = 0; first < all; first += kSlotsPerDispatch) {
     const std::uint32_t count = std::min(kSlotsPerDispatch, all - first);
-    recorder.bind(
-        pipeline_,
-        {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::sampled(in.smoke.density, linear_),
-         gpu::sampled(in.noise, repeat_), gpu::read(parts_), gpu::read(displacements_), gpu::read(motions_),
-         gpu::read(impulses_), gpu::stored(in.smoke.density_displacement),
-         gpu::stored(in.smoke.filtered_density), gpu::read(slots)},
-        shared::NoiseAdvectionParams{first, count, in.smoke.slot_count,
-                                     static_cast<std::uint32_t>(plan.impulses.size())});
+    recorder.bind(pipeline_,
+                  {
+                      {shared::kBindFrame, gpu::uniform(in.frame)},
+                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                      {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                      {shared::kBindNoiseTile, gpu::sampled(in.noise, repeat_)},
+                      {shared::kBindCloudParts, gpu::read(parts_)},
+                      {shared::kBindDisplacements, gpu::read(displacements_)},
+                      {shared::kBindCloudMotions, gpu::read(motions_)},
+                      {shared::kBindImpulses, gpu::read(impulses_)},
+                      {shared::kBindDensityDisplacement, gpu::stored(in.smoke.density_displacement)},
+                      {shared::kBindFilteredDensity, gpu::stored(in.smoke.filtered_density)},
+                      {shared::kBindSlots, gpu::read(slots)},
+                  },
+                  shared::NoiseAdvectionParams{first, count, in.smoke.slot_count,
+                                               static_cast<std::uint32_t>(plan.impulses.size())});
     recorder.dispatch_threads(pipeline_, count * shared::kTexelsPerBrick);
   }
 }

@@ -1,4 +1,4 @@
-// Advects the noise in the smoke, and filters the density that rays of light read.
+// Advection of the smoke's noise, and the atlases that rays from the eye and to lights read.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@
 
 namespace brume::passes {
 
-/// How each cloud grew, brick by brick, as shaders/shared/noise_advection.h lays it out: computed when a
-/// cloud appears, dropped when it is gone.
+/// Growth of each cloud, brick by brick, in the layout of shared/noise_advection.h. Computed when a cloud
+/// appears, dropped when it disappears.
 class CloudGrowth {
  public:
   /// Follows the clouds of a state and the slots of a volume; true when the list of parts changed.
@@ -21,9 +21,9 @@ class CloudGrowth {
 
   /// Per slot (first, count), then the list.
   std::span<const glm::uvec2> parts() const { return parts_; }
-  /// kDisplacementsPerBrick entries a part.
+  /// kDisplacementsPerBrick entries per part.
   std::span<const glm::uvec2> displacements() const { return displacements_; }
-  /// Parts that are new since the last clear_new_parts.
+  /// Parts added since the last clear_new_parts.
   std::span<const std::uint32_t> new_parts() const { return new_parts_; }
   void clear_new_parts() { new_parts_.clear(); }
 

@@ -13,7 +13,7 @@
 
 namespace brume::passes {
 
-/// One draw: a range of the index buffer with a material, and where it lies.
+/// One draw: a range of the index buffer with a material and a transform.
 struct Draw {
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t first_vertex = 0;
@@ -24,7 +24,7 @@ struct Draw {
   float radius = 0;
 };
 
-/// Objects that are not drawn, in rising order.
+/// Objects that are not drawn, in ascending order.
 using HiddenObjects = std::span<const std::uint32_t>;
 
 inline bool is_hidden(const Draw& draw, HiddenObjects hidden) {
@@ -36,7 +36,7 @@ struct MaterialImages {
   std::uint32_t base_color = 0, normal = 0, roughness = 0;  ///< Into SceneResources::images.
 };
 
-using planning::kMaxFlashes;  // so many lights of a frame there is room for after those of the scene
+using planning::kMaxFlashes;  // capacity for temporary lights behind those of the scene
 
 struct SceneResources {
   gpu::Buffer vertices, indices, lights;
@@ -44,15 +44,15 @@ struct SceneResources {
   std::vector<MaterialImages> materials;
   std::vector<Draw> draws;  ///< In order of material.
   Draw grenade;  ///< Draws nothing where the scene has none.
-  std::vector<shared::Light> light_list;  ///< The first ones in `lights`; after them those of the moment.
+  std::vector<shared::Light> light_list;  ///< The first ones in `lights`; temporary lights follow.
   glm::vec3 bounds_min{0}, bounds_max{0};
 };
 
 /// Creates and uploads everything. Every index of the scene must be valid. Throws resource_limit.
 SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene);
 
-/// The lights as the shaders read them: ranges chosen so that what is cut is below 1/100 of unit irradiance,
-/// shadow layers given in order, as many as `max_layers` holds.
+/// Lights for the device: ranges cut off less than 1/100 of unit irradiance; shadow layers are assigned in
+/// order, up to `max_layers`.
 std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
 
 }  // namespace brume::passes

@@ -1,4 +1,4 @@
-// Lights the G-buffer and puts the smoke over it.
+// Shades the G-buffer and composites the smoke over it.
 #pragma once
 
 #include "passes/gbuffer.hpp"
@@ -8,7 +8,7 @@
 
 namespace brume::passes {
 
-/// What a level does to light that comes from all around.
+/// Occlusion of light by the level: solid volume and sky light.
 struct LevelLight {
   const SolidVolume& solid;
   const SkyLightPass& sky;
@@ -16,11 +16,11 @@ struct LevelLight {
 
 class ShadePass {
  public:
-  /// `cull_lights` false: every light at every pixel. The same picture, slower.
+  /// `cull_lights` false: every light at every pixel. The same image, slower.
   explicit ShadePass(gpu::Context& context, bool cull_lights = true);
   /// picture = smoke radiance + smoke transmittance * radiance of the surface or the sky, half floats.
-  /// `smoke`: premultiplied radiance and transmittance, of the picture's size. What smoke of transmittance 0
-  /// hides costs nothing. `smoke_shadows` as SmokeShadowPass makes it.
+  /// `smoke`: premultiplied radiance and transmittance, of the picture's size. Pixels behind
+  /// smoke of transmittance 0 are not shaded. `smoke_shadows` comes from SmokeShadowPass.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
               const ShadowMaps& shadows, const SmokeShadows& smoke_shadows, const LevelLight& level,
               const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& picture) const;

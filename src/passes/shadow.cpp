@@ -62,8 +62,7 @@ std::uint32_t shadow_size(std::uint32_t layers) {
 }
 
 ShadowPass::ShadowPass(gpu::Context& context)
-    : pipeline_(context, {&shaders::shadow_vert, nullptr, {}, kFormat, 2.0f, 0}, {gpu::kBuffer},
-                sizeof(shared::ShadowDraw)) {}
+    : pipeline_(context, {&shaders::shadow_vert, nullptr, {}, kFormat, 2.0f, 0}) {}
 
 ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& scene) const {
   ShadowMaps maps;
@@ -130,7 +129,7 @@ void ShadowPass::record_layer(gpu::Context& context, gpu::CommandRunner& runner,
     recorder.prepare_for_draws({gpu::read(scene.vertices)});
     recorder.prepare_indices(scene.indices);
     recorder.begin_rendering({{}, &maps.layers, view.handle()}, glm::uvec2(maps.layers.info().size));
-    recorder.bind_for_draws(pipeline_, {gpu::read(scene.vertices)});
+    recorder.bind_for_draws(pipeline_, {{shared::kBindVertices, gpu::read(scene.vertices)}});
     for (const Draw& draw : scene.draws) {
       if (!draws(draw)) continue;
       const shared::ShadowDraw constants{clip_from_world * draw.world_from_mesh};

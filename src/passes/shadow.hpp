@@ -1,4 +1,4 @@
-// Depth of the scene as each light sees it: six faces around a light, one view along a sun.
+// Shadow maps: six faces around a light, one view along a directional light.
 #pragma once
 
 #include <functional>
@@ -13,18 +13,18 @@ struct ShadowMaps {
   glm::mat4 sun_clip_from_world{1};
 };
 
-/// Edge of a shadow layer in texels: as fine as the lights leave memory for.
+/// Edge of a shadow layer in texels: smaller for more layers, to limit memory.
 std::uint32_t shadow_size(std::uint32_t layer_count);
 
 class ShadowPass {
  public:
   explicit ShadowPass(gpu::Context& context);
   ShadowMaps make_maps(gpu::Context& context, const SceneResources& scene) const;
-  /// Draws every layer without the hidden objects. The scene does not move: once is enough until others are
+  /// Draws every layer without the hidden objects. The scene is static: once suffices until other objects are
   /// hidden.
   void record(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
               HiddenObjects hidden, const ShadowMaps& maps) const;
-  /// Re-renders those layers in which one of the `changed` objects (rising) may be seen.
+  /// Redraws the layers in which one of the `changed` objects (ascending) may be visible.
   void record_changed(gpu::Context& context, gpu::CommandRunner& runner, const SceneResources& scene,
                       HiddenObjects hidden, std::span<const std::uint32_t> changed,
                       const ShadowMaps& maps) const;

@@ -1,15 +1,14 @@
 #include "passes/sky_light.hpp"
 
 #include "brume_shaders.hpp"
+#include "shared/frame.h"
 
 namespace brume::passes {
 
 SkyLightPass::SkyLightPass(gpu::Context& context)
     : context_(context),
-      rays_pipeline_(context, shaders::sky_rays_comp, {gpu::kUniform, gpu::kBuffer, gpu::kBuffer}, 0,
-                     {64, 1, 1}),
-      light_pipeline_(context, shaders::sky_light_comp, {gpu::kUniform, gpu::kBuffer, gpu::kStored}, 0,
-                      {64, 1, 1}) {}
+      rays_pipeline_(context, shaders::sky_rays_comp),
+      light_pipeline_(context, shaders::sky_light_comp) {}
 
 void SkyLightPass::reserve(const SolidVolume& solid) {
   const VkDeviceSize bytes =
@@ -28,9 +27,13 @@ void SkyLightPass::reserve(const SolidVolume& solid) {
 }
 
 void SkyLightPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SolidVolume& solid) const {
-  recorder.bind(rays_pipeline_, {gpu::uniform(frame), gpu::read(solid.words()), gpu::write(rays_)});
+  recorder.bind(rays_pipeline_, {{shared::kBindFrame, gpu::uniform(frame)},
+                                 {shared::kBindSolidWords, gpu::read(solid.words())},
+                                 {shared::kBindSkyRays, gpu::write(rays_)}});
   recorder.dispatch_threads(rays_pipeline_, solid.word_count(), shared::kSkyDirections);
-  recorder.bind(light_pipeline_, {gpu::uniform(frame), gpu::read(rays_), gpu::stored(light_)});
+  recorder.bind(light_pipeline_, {{shared::kBindFrame, gpu::uniform(frame)},
+                                  {shared::kBindSkyRays, gpu::read(rays_)},
+                                  {shared::kBindSkyLight, gpu::stored(light_)}});
   const glm::uvec3 size = light_.info().size;
   recorder.dispatch_threads(light_pipeline_, size.x, size.y * size.z);
 }

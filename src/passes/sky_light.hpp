@@ -1,4 +1,4 @@
-// How much of the sky's light comes to each place of a level, and from where.
+// Directional visibility of the sky at each point of a level.
 #pragma once
 
 #include "passes/solid_volume.hpp"
@@ -14,7 +14,7 @@ class SkyLightPass {
   void reserve(const SolidVolume& solid);
   /// Lights the level; required only when the solid volume changed. `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SolidVolume& solid) const;
-  /// Half floats, a texel for each of the solid volume's (shared/sky_light.h).
+  /// Half floats, a texel per texel of the solid volume (shared/sky_light.h).
   const gpu::Image& light() const { return light_; }
   const gpu::Buffer& rays() const {
     return rays_;

@@ -26,19 +26,9 @@ void upload(gpu::Recorder& recorder, const gpu::Buffer& buffer, const std::vecto
 
 SmokeLightPass::SmokeLightPass(gpu::Context& context)
     : context_(context),
-      texels_pass_(context, shaders::light_texels_comp,
-                   {gpu::kUniform, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                    gpu::kBuffer},
-                   sizeof(shared::SmokeLightParams), {256, 1, 1}),
-      rays_pass_(context, shaders::light_rays_comp,
-                 {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer,
-                  gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kSampled,
-                  gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                 sizeof(shared::SmokeLightParams), {kThreads, 1, 1}),
-      inscatter_pass_(context, shaders::inscatter_comp,
-                      {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-                       gpu::kStored, gpu::kSampled, gpu::kSampled, gpu::kSampled, gpu::kBuffer},
-                      sizeof(shared::SmokeLightParams), {kThreads, 1, 1}),
+      texels_pass_(context, shaders::light_texels_comp),
+      rays_pass_(context, shaders::light_rays_comp),
+      inscatter_pass_(context, shaders::inscatter_comp),
       one_group_(context.info().kind == "cpu"),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {
@@ -82,9 +72,15 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   };
   if (part.texel_lists.count > 0) {
     recorder.bind(texels_pass_,
-                  {gpu::uniform(in.frame), gpu::read(listed_bricks_), gpu::sampled(in.smoke.density, linear_),
-                   gpu::read_write(texel_lists_), gpu::read(in.smoke.cells), gpu::read(in.smoke.slot_bricks),
-                   gpu::read(changes_)},
+                  {
+                      {shared::kBindFrame, gpu::uniform(in.frame)},
+                      {shared::kBindTexelLists, gpu::read(listed_bricks_)},
+                      {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                      {shared::kBindLightRows, gpu::read_write(texel_lists_)},
+                      {shared::kBindCells, gpu::read(in.smoke.cells)},
+                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                      {shared::kBindLightChanges, gpu::read(changes_)},
+                  },
                   params(part.texel_lists, 256));
     const Groups groups = groups_of(part.texel_lists.count);
     recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
@@ -103,24 +99,43 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   };
   each(part.shadow_rays, part.sliced_rays, [&](const volume::IndexRange& range, std::uint32_t threads) {
     recorder.bind(rays_pass_,
-                  {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
-                   gpu::read(in.shadows.sun), gpu::sampled(in.shadows.layers, compare_),
-                   gpu::read(in.smoke.pages), gpu::sampled(in.smoke.filtered_density, linear_),
-                   gpu::read(in.smoke.cells), gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners),
-                   gpu::read(in.holes.cells), gpu::sampled(in.level.solid.texels(), linear_),
-                   gpu::read(shadow_rays_), gpu::read(texel_lists_), gpu::write(ray_pages_)},
+                  {
+                      {shared::kBindFrame, gpu::uniform(in.frame)},
+                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                      {shared::kBindLights, gpu::read(in.scene.lights)},
+                      {shared::kBindSun, gpu::read(in.shadows.sun)},
+                      {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                      {shared::kBindPages, gpu::read(in.smoke.pages)},
+                      {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                      {shared::kBindCells, gpu::read(in.smoke.cells)},
+                      {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                      {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                      {shared::kBindHoleCells, gpu::read(in.holes.cells)},
+                      {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                      {shared::kBindShadowRays, gpu::read(shadow_rays_)},
+                      {shared::kBindLightRows, gpu::read(texel_lists_)},
+                      {shared::kBindLightBlocks, gpu::write(ray_pages_)},
+                  },
                   params(range, threads));
     const Groups groups = groups_of(range.count);
     recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
   });
   each(part.gathers, part.sliced_gathers, [&](const volume::IndexRange& range, std::uint32_t threads) {
-    recorder.bind(
-        inscatter_pass_,
-        {gpu::uniform(in.frame), gpu::read(in.smoke.slot_bricks), gpu::read(in.scene.lights),
-         gpu::read(texel_lists_), gpu::read(ray_pages_), gpu::read(gathers_), gpu::stored(in.smoke.inscatter),
-         gpu::sampled(in.level.sky.light(), linear_), gpu::sampled(in.level.solid.texels(), linear_),
-         gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(gathered_lights_)},
-        params(range, threads));
+    recorder.bind(inscatter_pass_,
+                  {
+                      {shared::kBindFrame, gpu::uniform(in.frame)},
+                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                      {shared::kBindLights, gpu::read(in.scene.lights)},
+                      {shared::kBindLightRows, gpu::read(texel_lists_)},
+                      {shared::kBindLightBlocks, gpu::read(ray_pages_)},
+                      {shared::kBindLightGathers, gpu::read(gathers_)},
+                      {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
+                      {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
+                      {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                      {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                      {shared::kBindBrickLights, gpu::read(gathered_lights_)},
+                  },
+                  params(range, threads));
     const Groups groups = groups_of(range.count);
     recorder.dispatch_threads(inscatter_pass_, threads, groups.y, groups.z);
   });

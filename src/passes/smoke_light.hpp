@@ -1,4 +1,4 @@
-// Light from every light and from the sky at every texel of the smoke's bricks that may be in view
+// Light of all lights and of the sky at every texel of the smoke's bricks that may be visible
 // (shared/smoke_light.h).
 #pragma once
 

@@ -14,11 +14,7 @@ constexpr std::uint32_t kThreads = 256;  // four for each ray of a block
 }  // namespace
 
 SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
-    : pipeline_(context, shaders::smoke_shadow_comp,
-                {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kSampled,
-                 gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kStored, gpu::kBuffer, gpu::kBuffer,
-                 gpu::kSampled, gpu::kBuffer, gpu::kSampled},
-                sizeof(shared::SmokeShadowParams), {kThreads, 1, 1}),
+    : pipeline_(context, shaders::smoke_shadow_comp),
       linear_(context, {}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
 
@@ -49,15 +45,26 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
   params.step_length = kStepMetres;
   params.spread = update.spread;
   params.first = update.first;
-  recorder.bind(
-      pipeline_,
-      {gpu::uniform(in.frame), gpu::read(in.scene.lights), gpu::read(in.shadows.sun),
-       gpu::sampled(in.shadows.layers, nearest_), gpu::read(in.smoke.pages),
-       gpu::sampled(in.smoke.filtered_density, linear_), gpu::read(in.smoke.cells),
-       gpu::read(in.smoke.boundary), gpu::read(in.smoke.corners), gpu::stored(shadows.atlas),
-       gpu::read(in.holes.cells), gpu::read(shadows.faces), gpu::sampled(in.solid.texels(), nearest_),
-       gpu::read(in.holes.holes), gpu::sampled(in.holes.masks, nearest_)},
-      params);
+  recorder.bind(pipeline_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindLights, gpu::read(in.scene.lights)},
+                    {shared::kBindSun, gpu::read(in.shadows.sun)},
+                    {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, nearest_)},
+                    {shared::kBindPages, gpu::read(in.smoke.pages)},
+                    {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                    {shared::kBindCells, gpu::read(in.smoke.cells)},
+                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                    {shared::kBindSmokeShadows, gpu::stored(shadows.atlas)},
+                    {shared::kBindHoleCells, gpu::read(in.holes.cells)},
+                    {shared::kBindSmokeShadowFaces, gpu::read(shadows.faces)},
+                    {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), nearest_)},
+                    {shared::kBindHoles, gpu::read(in.holes.holes)},
+                    {shared::kBindHoleReaches, gpu::read(in.holes.reaches)},
+                    {shared::kBindHoleMasks, gpu::sampled(in.holes.masks, nearest_)},
+                },
+                params);
   recorder.dispatch_threads(pipeline_, kThreads * plan.blocks, 1);
 }
 

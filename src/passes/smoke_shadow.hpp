@@ -1,4 +1,4 @@
-// How much the smoke dims what each light sends to the surfaces.
+// Shadows of smoke on surfaces.
 #pragma once
 
 #include "passes/hole_clusters.hpp"

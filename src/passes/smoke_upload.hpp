@@ -28,14 +28,13 @@ std::uint32_t filled_cells(const smoke::SmokeVolume& volume, std::uint32_t slot)
 
 class SmokeUpload {
  public:
-  /// The resources are those of a world without smoke until the first record.
+  /// A volume without smoke until the first record.
   explicit SmokeUpload(gpu::Context& context);
 
-  /// Makes room for what the volume holds. Not between the begin and the end of a recording, and only when
-  /// the device is done with what it recorded before. Throws resource_limit.
+  /// Allocates for the volume. Outside of a recording, once the device has finished previous ones. Throws
+  /// resource_limit.
   void reserve(const smoke::SmokeVolume& volume);
-  /// Uploads what changed since the last record; true when anything did. The volume must be as `reserve` saw
-  /// it.
+  /// Uploads changes since the last record; true when there were any. The volume is that of `reserve`.
   bool record(gpu::Recorder& recorder, const smoke::SmokeVolume& volume);
 
   /// Uploads which slots of the volume that `reserve` saw are visible in the frame.

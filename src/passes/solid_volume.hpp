@@ -1,4 +1,4 @@
-// The level on the device: which of its voxels are solid, for rays and for light.
+// Solid voxels of the level on the device, for rays and for light.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,18 @@ using planning::LevelView;
 constexpr int kMaxSolidAxis = 256;
 constexpr std::uint32_t kMaxSolidTexels = 1u << 20;
 
-/// Voxels per edge of a texel: the least for which the texels keep to the limits above.
+/// Voxels per edge of a texel: the smallest number for which the texels stay within the limits above.
 int voxels_per_solid_texel(glm::ivec3 voxels);
 
 class SolidVolume {
  public:
-  /// The volume of a world where nothing is solid.
+  /// A volume without solid voxels.
   explicit SolidVolume(gpu::Context& context);
 
-  /// Makes room for the level. Outside of a recording, when the device is done with the one before. Levels of
-  /// one layout are taken for the same level at different times. Throws resource_limit.
+  /// Allocates for the level. Outside of a recording, once the device has finished previous ones. Levels with
+  /// equal layouts count as snapshots of one level. Throws resource_limit.
   void reserve(const LevelView& level);
-  /// Uploads what changed since the last record; true when anything did. The level must be as `reserve` saw
-  /// it.
+  /// Uploads changes since the last record; true when there were any. The level is that of `reserve`.
   bool record(gpu::Recorder& recorder, const LevelView& level);
 
   const shared::SolidLayout& layout() const { return frame_; }
@@ -42,7 +41,7 @@ class SolidVolume {
 
  private:
   void make(const voxel::GridLayout& grid);
-  /// Computes the bits of the texels in a box from the level.
+  /// Recomputes the bits of the texels in a box from the level.
   void fill_bits(const voxel::BitGrid& grid, const Box<int>& texels);
   void upload(gpu::Recorder& recorder, const Box<int>& texels) const;
 

@@ -80,20 +80,18 @@ HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
   return plan;
 }
 
-std::vector<glm::vec4> pack_holes(const HolePlan& plan) {
-  constexpr std::size_t kRows = sizeof(shared::Hole) / sizeof(glm::vec4);
-  constexpr std::size_t kReachRows = sizeof(shared::HoleReach) / sizeof(glm::vec4);
-  std::vector<glm::vec4> rows(plan.holes.size() * (kRows + kReachRows));
-  for (std::size_t i = 0; i < plan.holes.size(); ++i) {
-    shared::Hole hole = plan.holes[i];
-    if (hole.shape == shared::kHoleMask || !is_wide_open(hole, plan.time)) hole.radius = -hole.radius;
-    if (hole.shape == shared::kHoleCylinder) hole.distance_to_far = -hole.distance_to_far;
-    std::memcpy(&rows[kRows * i], &hole, sizeof hole);
-  }
-  if (!plan.reaches.empty())
-    std::memcpy(&rows[kRows * plan.holes.size()], plan.reaches.data(),
-                plan.reaches.size() * sizeof(shared::HoleReach));
-  return rows;
+std::vector<shared::PackedHole> pack_holes(std::span<const shared::Hole> holes, float time) {
+  std::vector<shared::PackedHole> packed;
+  packed.reserve(holes.size());
+  for (const shared::Hole& hole : holes) packed.push_back(shared::pack_hole(hole, is_wide_open(hole, time)));
+  return packed;
+}
+
+std::vector<shared::PackedReach> pack_reaches(std::span<const shared::HoleReach> reaches) {
+  std::vector<shared::PackedReach> packed;
+  packed.reserve(reaches.size());
+  for (const shared::HoleReach& reach : reaches) packed.push_back(shared::pack_reach(reach));
+  return packed;
 }
 
 }  // namespace brume::planning

@@ -37,9 +37,8 @@ struct HolePlan {
 HolePlan plan_holes(std::span<const shared::Hole> holes, float time, float rim,
                     const shared::VolumeLayout& volume, std::uint32_t slot_count, glm::uvec2 size_px);
 
-/// The plan's holes as shaders read them (lib/hole_rows.glsl): first all holes, then all their reaches. A
-/// radius is negative where two rows do not describe the hole: it opens or closes somewhere at the plan's
-/// time, or has a mask; a length is negative where the hole is round.
-std::vector<glm::vec4> pack_holes(const HolePlan& plan);
+/// Packs holes for the device (shared::PackedHole) as they are at `time`.
+std::vector<shared::PackedHole> pack_holes(std::span<const shared::Hole> holes, float time);
+std::vector<shared::PackedReach> pack_reaches(std::span<const shared::HoleReach> reaches);
 
 }  // namespace brume::planning

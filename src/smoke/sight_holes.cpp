@@ -105,7 +105,7 @@ void drop_even(const RayHole& h, float t0, float t1, std::size_t first, std::vec
 void add_breaks(const RayHole& h, std::vector<float>& out) {
   if (h.steady && !h.box) {  // its edge begins where the hole does
     out.insert(out.end(), {h.begin, h.end});
-    const float core = (1 - shared::kHoleSoftShare) * h.radius,
+    const float core = (1 - shared::kHoleSoftFraction) * h.radius,
                 speed = h.x_step * h.x_step + h.y_step * h.y_step;
     const float inside = core * core - h.x * h.x - h.y * h.y;
     if (inside <= 0 || !(speed > kLeastSpeed)) return;
@@ -139,7 +139,7 @@ void add_breaks(const RayHole& h, std::vector<float>& out) {
       add_texels({-h.y, -h.y_step, h.nearest, h.mask.height}, span, out);
       drop_even(h, t0, t1, first, out);
     } else {
-      add_edges(h, 1 - shared::kHoleSoftShare, span, out);
+      add_edges(h, 1 - shared::kHoleSoftFraction, span, out);
     }
   }
   out.push_back(h.end);
@@ -180,7 +180,7 @@ float RayHole::radius_at(float t) const {
 
 RayHole::Takes RayHole::takes(float t) const {
   const float from_nearest = t - nearest, px = x + x_step * from_nearest, py = y + y_step * from_nearest;
-  const float wide = steady ? radius : radius_at(t), core = (1 - shared::kHoleSoftShare) * wide;
+  const float wide = steady ? radius : radius_at(t), core = (1 - shared::kHoleSoftFraction) * wide;
   const bool closing = !steady && age + age_step * t > stay_end;
   if (mask.first) {
     if (std::max(std::abs(px), std::abs(py)) > wide) return Takes::nothing;
@@ -204,7 +204,7 @@ Float4 RayHole::strength(Float4 t) const {
     wide = max4(wide * clamp4(ages / splat(expand), 0, 1) * open, splat(1e-12f));
   }
   if (mask.first) return mask_strength(px, py, wide, open);
-  const Float4 edge = clamp4((wide - from_axis) / (wide * splat(shared::kHoleSoftShare)), 0, 1);
+  const Float4 edge = clamp4((wide - from_axis) / (wide * splat(shared::kHoleSoftFraction)), 0, 1);
   return edge * edge * (splat(3) - splat(2) * edge) * open;
 }
 

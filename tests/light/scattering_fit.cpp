@@ -29,7 +29,7 @@ double misfit(std::span<const ScatteringSample> samples, const ManyFormula& form
 double many_of(const shared::ManyFit& fit, const ScatteringSample& s) {
   const shared::ManyScatterings many = shared::multiple_scattering(
       fit, glm::vec3(static_cast<float>(s.albedo)), static_cast<float>(s.g), static_cast<float>(s.escape));
-  return double{many.share.x} * std::exp(-double{many.decay.x} * s.depth) *
+  return double{many.fraction.x} * std::exp(-double{many.decay.x} * s.depth) *
          draine(double{many.g}, 0, s.cos_angle);
 }
 

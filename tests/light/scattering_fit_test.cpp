@@ -18,7 +18,7 @@ TEST(ScatteringFit, HasTheLeastMisfit) {
   const auto print = [&](const char* name, const shared::ManyFit& f) {
     std::printf(
         "%s decay %.3f held %.3f share %.3f share_g %.3f closure %.3f even %.3f even_g %.3f: misfit %.4f\n",
-        name, double{f.decay}, double{f.held}, double{f.share}, double{f.share_g}, double{f.closure},
+        name, double{f.decay}, double{f.held}, double{f.scale}, double{f.scale_g}, double{f.closure},
         double{f.even}, double{f.even_g}, of(f));
   };
   print("found:  ", found);

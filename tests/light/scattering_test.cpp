@@ -102,7 +102,7 @@ TEST(ScatteringFit, IsCloserToRandomWalksThanOctaves) {
 TEST(ScatteringFit, IsZeroWithoutFurtherScattering) {
   const shared::ManyScatterings many =
       shared::multiple_scattering(shared::many_fit(), glm::vec3(0.9f), 0.3f, 1.0f);
-  EXPECT_EQ(many.share, glm::vec3(0));
+  EXPECT_EQ(many.fraction, glm::vec3(0));
   EXPECT_EQ(shared::multiple_scattering(shared::many_fit(), glm::vec3(0), 0.3f, 0.2f).share, glm::vec3(0));
   const shared::Phase phase = shared::phase_of_hg(0.3f);
   EXPECT_EQ(shared::scattered(phase, many, 0.5f, 0.1f),
@@ -115,11 +115,11 @@ TEST(ScatteringFit, IsFiniteAndMonotonic) {
     float before = 0;
     for (const float escape : {1.0f, 0.7f, 0.3f, 0.1f, 0.0f}) {
       const auto many = shared::multiple_scattering(shared::many_fit(), {0.5f, 0.9f, 1.0f}, g, escape);
-      EXPECT_TRUE(std::isfinite(many.share.z) && std::isfinite(many.decay.z));
-      EXPECT_GE(many.share.y, many.share.x);
-      EXPECT_GE(many.share.z, many.share.y);
-      EXPECT_GE(many.share.z, before);
-      before = many.share.z;
+      EXPECT_TRUE(std::isfinite(many.fraction.z) && std::isfinite(many.decay.z));
+      EXPECT_GE(many.fraction.y, many.fraction.x);
+      EXPECT_GE(many.fraction.z, many.fraction.y);
+      EXPECT_GE(many.fraction.z, before);
+      before = many.fraction.z;
       EXPECT_GT(many.decay.x, 0);
       EXPECT_GE(many.g, 0);
       EXPECT_LE(many.g, std::max(g, 0.0f));

@@ -87,7 +87,7 @@ class DebugViewTest : public gpu::GpuTest {
   }
   /// The same as seen past a surface, if one is nearer.
   static glm::vec3 seen(const Ray& ray, glm::vec3 colour, float metres) {
-    return metres > ray.surface_m ? glm::mix(ray.behind, colour, shared::kSeenThrough) : colour;
+    return metres > ray.surface_m ? glm::mix(ray.behind, colour, shared::kOccludedOpacity) : colour;
   }
   /// The axes of a face across `axis`.
   static glm::ivec2 face_axes(int axis) { return {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}; }

@@ -149,10 +149,10 @@ TEST_F(DebugViewTest, DistancesAreThoseOfTheCloudBeyondTheSlice) {
         beside[side < 2 ? axes.x : axes.y] = side % 2 == 0 ? -1 : 1;
         const float other = way_at(voxel + beside), x = side < 2 ? f.x : f.y;
         if (other >= 0 && std::floor(other) != std::floor(way))
-          line = std::max(line, 0.75f * shared::line_share(side % 2 == 0 ? x : 1 - x, 1.5f * width));
+          line = std::max(line, 0.75f * shared::line_coverage(side % 2 == 0 ? x : 1 - x, 1.5f * width));
       }
       const glm::vec3 colour = shared::ramp_colour(shared::kRampViridis, way / std::ceil(farthest));
-      const glm::vec3 lit = glm::min(colour * shared::way_tone(normal), 1.0f) * (1 - line);
+      const glm::vec3 lit = glm::min(colour * shared::distance_tone(normal), 1.0f) * (1 - line);
       return apart(pixel, seen(ray, lit, metres));
     });
     EXPECT_GT(met, 150);

@@ -1,6 +1,7 @@
 #include <random>
 
 #include "brume_test_shaders.hpp"
+#include "tests/passes/probes.h"
 #include "tests/passes/smoke_room.hpp"
 
 namespace brume::passes {
@@ -9,21 +10,22 @@ namespace {
 class DensityTest : public gpu::GpuTest {
  protected:
   static std::vector<float> probe(const SmokeRoom& room, const std::vector<glm::vec3>& points) {
-    const gpu::ComputePipeline pipeline(
-        context(), shaders::density_probe_comp,
-        {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-        sizeof(shared::VolumeLayout), {64, 1, 1});
+    const gpu::ComputePipeline pipeline(context(), shaders::density_probe_comp);
     const gpu::Sampler linear(context(), {});
     const gpu::Buffer in = upload(points);
     const gpu::Buffer out(context(), points.size() * sizeof(float),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     const SmokeResources& smoke = room.upload.resources();
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.bind(
-          pipeline,
-          {gpu::read(in), gpu::read(smoke.pages), gpu::sampled(smoke.density, linear), gpu::read(smoke.cells),
-           gpu::read(smoke.boundary), gpu::read(smoke.corners), gpu::write(out)},
-          room.volume.layout());
+      recorder.bind(pipeline,
+                    {{shared::kBindProbeIn, gpu::read(in)},
+                     {shared::kBindPages, gpu::read(smoke.pages)},
+                     {shared::kBindDensity, gpu::sampled(smoke.density, linear)},
+                     {shared::kBindCells, gpu::read(smoke.cells)},
+                     {shared::kBindBoundary, gpu::read(smoke.boundary)},
+                     {shared::kBindCorners, gpu::read(smoke.corners)},
+                     {shared::kBindProbeOut, gpu::write(out)}},
+                    room.volume.layout());
       recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(points.size()));
     });
     return read_back<float>(out, points.size());

@@ -5,6 +5,7 @@
 #include "brume_test_shaders.hpp"
 #include "passes/noise.hpp"
 #include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/probes.h"
 
 namespace brume::passes {
 namespace {
@@ -18,7 +19,9 @@ class ErosionTest : public gpu::GpuTest {
     const gpu::Buffer out(context(), count * sizeof(float),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.bind(probe_, {gpu::read(noises), gpu::write(out)}, Impulse{density, erosion});
+      recorder.bind(probe_,
+                    {{shared::kBindProbeIn, gpu::read(noises)}, {shared::kBindProbeOut, gpu::write(out)}},
+                    Impulse{density, erosion});
       recorder.dispatch_threads(probe_, static_cast<std::uint32_t>(count));
     });
     return read_back<float>(out, count);
@@ -42,8 +45,7 @@ class ErosionTest : public gpu::GpuTest {
   }
 
  private:
-  gpu::ComputePipeline probe_{
-      context(), shaders::erosion_probe_comp, {gpu::kBuffer, gpu::kBuffer}, 8, {64, 1, 1}};
+  gpu::ComputePipeline probe_{context(), shaders::erosion_probe_comp};
 };
 
 TEST_F(ErosionTest, RisesWithDensityFromNothing) {

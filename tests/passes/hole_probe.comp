@@ -2,7 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/hole.h"
+#include "lib/hole_mask.glsl"
+#include "probes.h"
 
 struct Pair {
   Hole hole;
@@ -12,10 +13,8 @@ struct Pair {
 };
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Pairs { Pair pairs[]; };
-layout(binding = 1) uniform sampler2D hole_masks;
-layout(scalar, binding = 2) writeonly buffer Strengths { float strengths[]; };
-#include "lib/hole_mask.glsl"
+layout(scalar, binding = kBindProbeIn) readonly buffer Pairs { Pair pairs[]; };
+layout(scalar, binding = kBindProbeOut) writeonly buffer Strengths { float strengths[]; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;

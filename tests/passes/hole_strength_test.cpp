@@ -1,7 +1,8 @@
 #include "brume_test_shaders.hpp"
-#include "passes/hole_masks.hpp"
 #include "passes/hole_clusters.hpp"
+#include "passes/hole_masks.hpp"
 #include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/probes.h"
 #include "tests/smoke/hole_pairs.hpp"
 
 namespace brume::passes {
@@ -11,8 +12,7 @@ using HoleStrength = gpu::GpuTest;
 
 TEST_F(HoleStrength, EqualsTheModelInDoubleAt1000PointsAndTimes) {
   const smoke::HolePairs questions = smoke::make_hole_pairs(1000, 5);
-  const gpu::ComputePipeline pipeline(context(), shaders::hole_probe_comp,
-                                      {gpu::kBuffer, gpu::kSampled, gpu::kBuffer}, 0, {64, 1, 1});
+  const gpu::ComputePipeline pipeline(context(), shaders::hole_probe_comp);
   const gpu::Sampler nearest(context(), {VK_FILTER_NEAREST});
   const gpu::Buffer pairs = upload(questions.pairs);
   const gpu::Buffer out(context(), questions.pairs.size() * sizeof(float),
@@ -20,7 +20,9 @@ TEST_F(HoleStrength, EqualsTheModelInDoubleAt1000PointsAndTimes) {
   gpu::Image masks;
   runner().run([&](gpu::Recorder& recorder) {
     masks = make_hole_masks(context(), recorder, questions.atlas);
-    recorder.bind(pipeline, {gpu::read(pairs), gpu::sampled(masks, nearest), gpu::write(out)});
+    recorder.bind(pipeline, {{shared::kBindProbeIn, gpu::read(pairs)},
+                             {shared::kBindHoleMasks, gpu::sampled(masks, nearest)},
+                             {shared::kBindProbeOut, gpu::write(out)}});
     recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(questions.pairs.size()));
   });
   const std::vector<float> strengths = read_back<float>(out, questions.pairs.size());
@@ -39,8 +41,8 @@ TEST_F(HoleStrength, EqualsTheModelInDoubleAt1000PointsAndTimes) {
   RecordProperty("farthest_from_the_cpu", std::to_string(apart));
 }
 
-/// As the shader reads them.
-struct LeftQuestion {
+/// As remaining_probe.comp reads it.
+struct RemainingQuery {
   glm::vec3 p_world;
   float time, rim_noise, rim;
 };
@@ -48,41 +50,36 @@ struct LeftQuestion {
 TEST_F(HoleStrength, TheMarchLeavesWhatTheModelDoesNotRemove) {
   smoke::HolePairs pairs = smoke::make_hole_pairs(1000, 6);
   for (std::size_t i = 0; i < 1000; i += 2) pairs.pairs[i].hole.time_to_stay_open += 10;  // more wide open
-  std::vector<LeftQuestion> questions;
-  std::vector<glm::vec4> rows;
-  std::size_t steady = 0;
+  std::vector<RemainingQuery> queries;
+  std::vector<shared::PackedHole> packed;
+  std::ptrdiff_t wide_open = 0;
   for (const smoke::HolePair& q : pairs.pairs) {
     const float rim = 0.25f * q.hole.radius;
-    questions.push_back({q.p_world, q.time, q.rim / rim, rim});
-    planning::HolePlan plan;
-    plan.holes = {q.hole};
-    plan.time = q.time;
-    const auto of_hole = planning::pack_holes(plan);
-    steady += of_hole[0].w > 0 ? 1u : 0u;
-    rows.insert(rows.end(), of_hole.begin(), of_hole.begin() + sizeof(shared::Hole) / sizeof(glm::vec4));
+    queries.push_back({q.p_world, q.time, q.rim / rim, rim});
+    packed.push_back(planning::pack_holes({&q.hole, 1}, q.time)[0]);
+    wide_open += shared::hole_is_partial(packed.back().origin_radius) ? 0 : 1;
   }
-  EXPECT_GT(steady, 100u);
-  EXPECT_LT(steady, 900u);
-  const gpu::ComputePipeline pipeline(
-      context(), shaders::remaining_probe_comp,
-      {gpu::kUniform, gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer}, 0, {64, 1, 1});
+  EXPECT_GT(wide_open, 100);
+  EXPECT_LT(wide_open, 900);
+  const gpu::ComputePipeline pipeline(context(), shaders::remaining_probe_comp);
   const gpu::Sampler nearest(context(), {VK_FILTER_NEAREST});
-  const gpu::Buffer frame = upload(std::vector<shared::FrameConstants>(1));
-  const gpu::Buffer asked = upload(questions), holes = upload(rows);
-  const gpu::Buffer out(context(), questions.size() * sizeof(float),
+  const gpu::Buffer in = upload(queries), packed_holes = upload(packed);
+  const gpu::Buffer out(context(), queries.size() * sizeof(float),
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
   gpu::Image masks;
   runner().run([&](gpu::Recorder& recorder) {
     masks = make_hole_masks(context(), recorder, pairs.atlas);
-    recorder.bind(pipeline, {gpu::uniform(frame), gpu::read(asked), gpu::read(holes),
-                             gpu::sampled(masks, nearest), gpu::write(out)});
-    recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(questions.size()));
+    recorder.bind(pipeline, {{shared::kBindProbeIn, gpu::read(in)},
+                             {shared::kBindHoles, gpu::read(packed_holes)},
+                             {shared::kBindHoleMasks, gpu::sampled(masks, nearest)},
+                             {shared::kBindProbeOut, gpu::write(out)}});
+    recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(queries.size()));
   });
-  const std::vector<float> left = read_back<float>(out, questions.size());
-  for (std::size_t i = 0; i < left.size(); ++i) {
+  const std::vector<float> remaining = read_back<float>(out, queries.size());
+  for (std::size_t i = 0; i < remaining.size(); ++i) {
     const reference::StrengthRange allowed = pairs.allowed(i);
-    EXPECT_GE(1 - left[i], allowed.low) << "pair " << i;
-    EXPECT_LE(1 - left[i], allowed.high) << "pair " << i;
+    EXPECT_GE(1 - remaining[i], allowed.low) << "pair " << i;
+    EXPECT_LE(1 - remaining[i], allowed.high) << "pair " << i;
   }
 }
 

@@ -5,6 +5,7 @@
 #include "shared/frame.h"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
+#include "tests/passes/probes.h"
 #include "tests/reference/sky_light.hpp"
 #include "voxel/traverse.hpp"
 
@@ -49,18 +50,18 @@ class LevelLightTest : public gpu::GpuTest {
     std::vector<glm::vec4> sky;
   };
   Answers ask(const std::vector<glm::vec3>& pairs) {
-    const gpu::ComputePipeline pipeline(
-        context(), shaders::level_probe_comp,
-        {gpu::kUniform, gpu::kSampled, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer}, 0,
-        {64, 1, 1});
+    const gpu::ComputePipeline pipeline(context(), shaders::level_probe_comp);
     const gpu::Sampler linear(context(), {});
     const std::size_t count = pairs.size() / 2;
     const auto in = upload(pairs);
     const auto free = upload(std::vector<float>(count)), sky = upload(std::vector<glm::vec4>(count));
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.bind(pipeline,
-                    {gpu::uniform(frame_), gpu::sampled(solid_.texels(), linear),
-                     gpu::sampled(sky_.light(), linear), gpu::read(in), gpu::write(free), gpu::write(sky)});
+      recorder.bind(pipeline, {{shared::kBindFrame, gpu::uniform(frame_)},
+                               {shared::kBindSolidTexels, gpu::sampled(solid_.texels(), linear)},
+                               {shared::kBindSkyLight, gpu::sampled(sky_.light(), linear)},
+                               {shared::kBindProbeIn, gpu::read(in)},
+                               {shared::kBindProbeOut, gpu::write(free)},
+                               {shared::kBindProbeOut2, gpu::write(sky)}});
       recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(count));
     });
     return {read_back<float>(free, count), read_back<glm::vec4>(sky, count)};

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "planning/noise_motion.hpp"
 #include "passes/noise.hpp"
+#include "planning/noise_motion.hpp"
 #include "shared/erosion.h"
 #include "shared/frame.h"
+#include "smoke/holes.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/passes/smoke_room.hpp"
 #include "tests/reference/noise.hpp"
-#include "smoke/holes.hpp"
 
 namespace brume::passes {
 namespace {
@@ -128,7 +128,8 @@ TEST(Impulses, OfABlastCarryOutwards) {
 
 class NoiseAdvectionTest : public gpu::GpuTest {
  protected:
-  NoiseAdvectionTest() : room_(context(), runner(), {}, {{40, 33, 37}, 0.25f, {-5, -4, -4.6f}}, {0, 0, 0}, 8000, 400) {
+  NoiseAdvectionTest()
+      : room_(context(), runner(), {}, {{40, 33, 37}, 0.25f, {-5, -4, -4.6f}}, {0, 0, 0}, 8000, 400) {
     noise_ = make_noise_tile(context(), kSmokeNoise.size);
     const NoisePass noise(context());
     runner().run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, kSmokeNoise); });
@@ -141,7 +142,8 @@ class NoiseAdvectionTest : public gpu::GpuTest {
   std::vector<glm::vec4> record(const sim::State& state, double seconds, float erosion) {
     return record(drift_, state, seconds, erosion);
   }
-  std::vector<glm::vec4> record(NoiseAdvectionPass& drift, const sim::State& state, double seconds, float erosion) {
+  std::vector<glm::vec4> record(NoiseAdvectionPass& drift, const sim::State& state, double seconds,
+                                float erosion) {
     frame_.look.erosion = erosion;
     frame_.time = static_cast<float>(seconds);
     const auto frame = upload(std::vector{frame_});
@@ -166,9 +168,7 @@ class NoiseAdvectionTest : public gpu::GpuTest {
     for (std::uint32_t slot = 0; slot < room_.volume.slot_count(); ++slot)
       for (int i = 0; i < 512; ++i) {
         const glm::ivec3 local(i & 7, i >> 3 & 7, i >> 6);
-        const auto s = static_cast<int>(slot);
-        const glm::ivec3 at =
-            10 * glm::ivec3(s % bricks.x, s / bricks.x % bricks.y, s / (bricks.x * bricks.y)) + local + 1;
+        const glm::ivec3 at = glm::ivec3(shared::atlas_first_texel(bricks, slot)) + local + 1;
         const auto texel = static_cast<std::size_t>(at.x) +
                            static_cast<std::size_t>(10 * bricks.x) *
                                (static_cast<std::size_t>(at.y) +

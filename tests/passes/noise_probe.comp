@@ -4,10 +4,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/noise.glsl"
 
+#include "probes.h"
+
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Points { vec3 points[]; };
-layout(scalar, binding = 1) writeonly buffer Values { float values[]; };
-layout(push_constant, scalar) uniform Impulse { int cells; uint seed; };
+layout(scalar, binding = kBindProbeIn) readonly buffer Points { vec3 points[]; };
+layout(scalar, binding = kBindProbeOut) writeonly buffer Values { float values[]; };
+layout(scalar, push_constant) uniform Push { int cells; uint seed; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;

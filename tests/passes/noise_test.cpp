@@ -7,6 +7,7 @@
 
 #include "brume_test_shaders.hpp"
 #include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/probes.h"
 #include "tests/reference/noise.hpp"
 
 namespace brume::passes {
@@ -42,15 +43,15 @@ class NoiseKinds : public GpuTest {
     const gpu::Buffer out(context(), points.size() * sizeof(Values),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.bind(probe_, {gpu::read(in), gpu::write(out)}, Impulse{cells, seed});
+      recorder.bind(probe_, {{shared::kBindProbeIn, gpu::read(in)}, {shared::kBindProbeOut, gpu::write(out)}},
+                    Impulse{cells, seed});
       recorder.dispatch_threads(probe_, static_cast<std::uint32_t>(points.size()));
     });
     return read_back<Values>(out, points.size());
   }
 
  private:
-  gpu::ComputePipeline probe_{
-      context(), shaders::noise_probe_comp, {gpu::kBuffer, gpu::kBuffer}, 8, {64, 1, 1}};
+  gpu::ComputePipeline probe_{context(), shaders::noise_probe_comp};
 };
 
 TEST_F(NoiseKinds, EqualTheReference) {

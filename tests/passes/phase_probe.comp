@@ -4,12 +4,14 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/phase.h"
 
+#include "probes.h"
+
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Phases { Phase phases[]; };
-layout(scalar, binding = 1) readonly buffer Cosines { float cosines[]; };
-layout(scalar, binding = 2) writeonly buffer Values { float values[]; };
-layout(scalar, binding = 3) readonly buffer Diameters { float diameters[]; };
-layout(scalar, binding = 4) writeonly buffer Droplets { Phase droplets[]; };
+layout(scalar, binding = kBindProbeIn) readonly buffer Phases { Phase phases[]; };
+layout(scalar, binding = kBindProbeIn2) readonly buffer Cosines { float cosines[]; };
+layout(scalar, binding = kBindProbeOut) writeonly buffer Values { float values[]; };
+layout(scalar, binding = kBindProbeIn3) readonly buffer Diameters { float diameters[]; };
+layout(scalar, binding = kBindProbeOut2) writeonly buffer Droplets { Phase droplets[]; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;

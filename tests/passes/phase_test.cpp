@@ -2,6 +2,7 @@
 
 #include "brume_test_shaders.hpp"
 #include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/probes.h"
 #include "tests/reference/phase.hpp"
 
 namespace brume::passes {
@@ -78,12 +79,13 @@ TEST_F(PhaseTest, BothLanguagesComputeTheSame) {
   const std::size_t count = phases.size() * at.size();
   const gpu::Buffer out_values(context(), count * sizeof(float), kOut),
       out_droplets(context(), kDiameters.size() * sizeof(shared::Phase), kOut);
-  const gpu::ComputePipeline pipeline(context(), shaders::phase_probe_comp,
-                                      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-                                      0, {64, 1, 1});
+  const gpu::ComputePipeline pipeline(context(), shaders::phase_probe_comp);
   runner().run([&](gpu::Recorder& recorder) {
-    recorder.bind(pipeline, {gpu::read(in_phases), gpu::read(in_cosines), gpu::write(out_values),
-                             gpu::read(in_diameters), gpu::write(out_droplets)});
+    recorder.bind(pipeline, {{shared::kBindProbeIn, gpu::read(in_phases)},
+                             {shared::kBindProbeIn2, gpu::read(in_cosines)},
+                             {shared::kBindProbeOut, gpu::write(out_values)},
+                             {shared::kBindProbeIn3, gpu::read(in_diameters)},
+                             {shared::kBindProbeOut2, gpu::write(out_droplets)}});
     recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(count));
   });
   const auto values = read_back<float>(out_values, count);

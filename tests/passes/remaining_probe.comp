@@ -1,8 +1,9 @@
-// What single holes leave at given points and times, as the march asks them.
+// Fraction that single holes leave at given points and times, by the function of the march.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "shared/frame.h"
+#include "lib/hole_remaining.glsl"
+#include "probes.h"
 
 struct Question {
   vec3 p_world;
@@ -12,16 +13,12 @@ struct Question {
 };
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) uniform Frame { FrameConstants frame; };
-layout(scalar, binding = 1) readonly buffer Questions { Question questions[]; };
-layout(binding = 2) readonly buffer Holes { vec4 hole_rows[]; };
-layout(binding = 3) uniform sampler2D hole_masks;
-layout(scalar, binding = 4) writeonly buffer Left { float left[]; };
-#include "lib/hole_remaining.glsl"
+layout(scalar, binding = kBindProbeIn) readonly buffer Questions { Question questions[]; };
+layout(scalar, binding = kBindProbeOut) writeonly buffer Remaining { float remaining[]; };
 
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= uint(questions.length())) return;
   const Question q = questions[i];
-  left[i] = remaining_after_hole(i, hole_front(i), q.p_world, q.time, q.rim_noise, q.rim);
+  remaining[i] = remaining_after_hole(i, hole_front(i), q.p_world, q.time, q.rim_noise, q.rim);
 }

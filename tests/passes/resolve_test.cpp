@@ -88,7 +88,7 @@ class ResolveTest : public gpu::GpuTest {
   }
   static void list_all(gpu::Recorder& recorder, const MarchTiles& blocks,
                        const shared::FrameConstants& frame) {
-    const glm::uvec2 count = shared::blocks_of(frame.size_px, frame.march_scale);
+    const glm::uvec2 count = shared::tiles_of(frame.size_px, frame.march_scale);
     const std::uint32_t all = count.x * count.y, per_block = frame.march_scale * frame.march_scale;
     std::vector<std::uint32_t> words{(all * per_block + 63) / 64, 1, 1, all};
     for (std::uint32_t i = 0; i < all; ++i) words.push_back(all - 1 - i);  // in any order
@@ -217,7 +217,7 @@ TEST_F(ResolveTest, RaysOfUnevenBlocksPassThroughAFarPixel) {
   for (const std::uint32_t scale : {2u, 4u}) {
     const auto frame = frame_at(room, {0, 0, -0.5f}, kSize, scale);
     const auto frame_buffer = upload(std::vector{frame});
-    const glm::uvec2 count = shared::blocks_of(kSize, scale);
+    const glm::uvec2 count = shared::tiles_of(kSize, scale);
     const auto all = surfaces();
     for (std::size_t s = 0; s < all.size(); ++s) {
       const auto distances = distances_of(all[s], kSize);

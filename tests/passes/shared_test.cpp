@@ -1,216 +1,161 @@
+// Structs of shaders/shared have the same layout in C++ and in GLSL: each member is compared with the
+// compiled shader.
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <spirv_cross/spirv_cross.hpp>
+
 #include "brume_test_shaders.hpp"
-#include "shared/accumulate.h"
-#include "shared/frame.h"
-#include "shared/gbuffer.h"
-#include "shared/hole.h"
-#include "shared/light.h"
-#include "shared/noise.h"
-#include "shared/resolve.h"
-#include "shared/smoke_light.h"
-#include "shared/smoke_shadow.h"
 #include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/shared_structs.h"
+#include "tests/passes/struct_members.hpp"
 
 namespace brume::passes {
 namespace {
 
-using gpu::GpuTest;
+using spirv_cross::SPIRType;
 
-/// first, first + 1, ... as the shader wrote them.
-template <typename V>
-void expect_counted(const V& v, float first) {
-  for (int i = 0; i < V::length(); ++i) EXPECT_EQ(static_cast<float>(v[i]), first + static_cast<float>(i));
-}
-
-class SharedStructs : public GpuTest {
- protected:
-  template <typename T>
-  static T one(const gpu::Buffer& buffer) {
-    return read_back<T>(buffer, 1)[0];
-  }
+/// Type of a member: that of its numbers and how many, or Struct and its size in numbers.
+struct MemberType {
+  SPIRType::BaseType base;
+  std::size_t numbers;
+  bool operator==(const MemberType&) const = default;
 };
 
-TEST_F(SharedStructs, EveryMemberIsWhereBothLanguagesSeeIt) {
-  const gpu::ComputePipeline pipeline(
-      context(), shaders::echo_comp,
-      {gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-       gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer},
-      0, {1, 1, 1});
-  std::vector<gpu::Buffer> out;
-  for (const std::size_t size :
-       {sizeof(shared::FrameConstants), sizeof(shared::Light), sizeof(shared::Hole),
-        sizeof(shared::BoundaryCell), sizeof(shared::DrawConstants), sizeof(shared::Vertex),
-        sizeof(shared::NoiseParams), sizeof(shared::SmokeLightParams), sizeof(shared::SmokeShadowParams),
-        sizeof(shared::ShadowView), sizeof(shared::RayEnds), sizeof(shared::SmokeShadowFace),
-        sizeof(shared::MarchList), sizeof(shared::AccumulateParams), sizeof(shared::AccumulatedPixel),
-        sizeof(shared::TexelList), sizeof(shared::ShadowRays), sizeof(shared::LightGather)}) {
-    out.emplace_back(context(), size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+template <typename T>
+MemberType type_of(const T&) {
+  const auto of_number = [](auto number) {
+    using Number = decltype(number);
+    return std::is_same_v<Number, float> ? SPIRType::Float
+           : std::is_same_v<Number, int> ? SPIRType::Int
+                                         : SPIRType::UInt;
+  };
+  if constexpr (std::is_arithmetic_v<T>)
+    return {of_number(T()), 1};
+  else if constexpr (requires { typename T::value_type; })
+    return {of_number(typename T::value_type()), sizeof(T) / 4};
+  else
+    return {SPIRType::Struct, sizeof(T) / 4};
+}
+
+/// Layouts in the compiled shader.
+class Layouts {
+ public:
+  explicit Layouts(const gpu::ShaderCode& shader) : compiler_(shader.words.data(), shader.words.size()) {
+    for (const spirv_cross::Resource& buffer : compiler_.get_shader_resources().storage_buffers)
+      blocks_[compiler_.get_decoration(buffer.id, spv::DecorationBinding)] = buffer.base_type_id;
   }
+
+  template <typename T>
+  void expect_same(std::uint32_t number, const char* name) const {
+    ASSERT_TRUE(blocks_.contains(number)) << name;
+    const SPIRType& block = compiler_.get_type(blocks_.at(number));
+    EXPECT_EQ(compiler_.type_struct_member_array_stride(block, 0), sizeof(T)) << name;
+    const SPIRType& type = compiler_.get_type(compiler_.get_type(block.member_types[0]).parent_type);
+    ASSERT_EQ(type.member_types.size(), member_count<T>()) << name;
+    const T value{};
+    std::uint32_t i = 0;
+    for_each_member(value, [&](const auto& member) {
+      const auto offset =
+          reinterpret_cast<const std::byte*>(&member) - reinterpret_cast<const std::byte*>(&value);
+      EXPECT_EQ(compiler_.type_struct_member_offset(type, i), offset) << name << " member " << i;
+      EXPECT_EQ(member_type(type.member_types[i]), type_of(member)) << name << " member " << i;
+      ++i;
+    });
+  }
+
+ private:
+  MemberType member_type(spirv_cross::TypeID id) const {
+    const SPIRType& type = compiler_.get_type(id);
+    if (type.basetype == SPIRType::Struct)
+      return {SPIRType::Struct, compiler_.get_declared_struct_size(type) / 4};
+    return {type.basetype, std::size_t{type.vecsize} * type.columns};
+  }
+
+  spirv_cross::Compiler compiler_;
+  std::map<std::uint32_t, spirv_cross::TypeID> blocks_;
+};
+
+TEST(SharedStructs, HaveOneLayoutInBothLanguages) {
+  const Layouts layouts(shaders::echo_comp);
+#define EXPECT_SAME(number, Type) layouts.expect_same<shared::Type>(number, #Type);
+  FOR_EACH_SHARED_STRUCT(EXPECT_SAME)
+#undef EXPECT_SAME
+}
+
+TEST(SharedStructs, AllAreListed) {
+  std::set<std::string> listed, declared;
+#define INSERT(number, Type) listed.insert(#Type);
+  FOR_EACH_SHARED_STRUCT(INSERT)
+#undef INSERT
+  const std::regex sized(R"re(\nSHARED_SIZE\((\w+),)re");
+  for (const auto& file : std::filesystem::directory_iterator(BRUME_SOURCE_DIR "/shaders/shared")) {
+    std::ifstream in(file.path());
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    for (std::sregex_iterator match(text.begin(), text.end(), sized), end; match != end; ++match)
+      declared.insert((*match)[1]);
+  }
+  EXPECT_EQ(listed, declared);
+}
+
+using SharedStructsOnTheDevice = gpu::GpuTest;
+
+TEST_F(SharedStructsOnTheDevice, AreCopiedWhole) {
+  // Two of each: the first counts up, the second is to become equal. A byte that no member covers would
+  // differ.
+  const gpu::ComputePipeline pipeline(context(), shaders::echo_comp);
+  std::vector<gpu::Buffer> buffers;
+  std::vector<std::size_t> words;
+  const auto add = [&](std::size_t bytes) {
+    std::vector<std::uint32_t> values(bytes / 2);
+    for (std::uint32_t i = 0; i < bytes / 4; ++i) values[i] = 0x3f800000u + i;  // floats from 1 on
+    buffers.push_back(upload(values));
+    words.push_back(bytes / 4);
+  };
+#define ADD(number, Type) add(sizeof(shared::Type));
+  FOR_EACH_SHARED_STRUCT(ADD)
+#undef ADD
   runner().run([&](gpu::Recorder& recorder) {
-    recorder.bind(pipeline, {gpu::write(out[0]), gpu::write(out[1]), gpu::write(out[2]), gpu::write(out[3]),
-                             gpu::write(out[4]), gpu::write(out[5]), gpu::write(out[6]), gpu::write(out[7]),
-                             gpu::write(out[8]), gpu::write(out[9]), gpu::write(out[10]), gpu::write(out[11]),
-                             gpu::write(out[12]), gpu::write(out[13]), gpu::write(out[14]),
-                             gpu::write(out[15]), gpu::write(out[16]), gpu::write(out[17])});
+#define BIND(number, Type) {{number, #Type}, gpu::read_write(buffers[number])},
+    recorder.bind(pipeline, {FOR_EACH_SHARED_STRUCT(BIND)});
+#undef BIND
     recorder.dispatch_threads(pipeline, 1);
   });
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const auto values = read_back<std::uint32_t>(buffers[i], 2 * words[i]);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(words[i]);
+    EXPECT_TRUE(std::equal(values.begin(), middle, middle)) << "struct " << i;
+  }
+}
 
-  const auto frame = one<shared::FrameConstants>(out[0]);
-  for (int i = 0; i < 4; ++i)
-    expect_counted(frame.camera.clip_from_world[i], 100.0f + 4.0f * static_cast<float>(i));
-  expect_counted(frame.camera.eye_world, 120);
-  EXPECT_EQ(frame.camera.near_z, 123);
-  expect_counted(frame.camera.forward, 124);
-  expect_counted(frame.camera.right, 127);
-  expect_counted(frame.camera.up, 130);
-  expect_counted(frame.sky.zenith, 140);
-  expect_counted(frame.sky.horizon, 143);
-  expect_counted(frame.sky.ambient, 146);
-  EXPECT_EQ(frame.sky.stars, 149);
-  EXPECT_EQ(frame.sky.bounce, 189);
-  expect_counted(frame.look.albedo, 150);
-  const float look[] = {frame.look.extinction,  frame.look.step_length,        frame.look.opaque_transmittance,
-                        frame.look.erosion,     frame.look.noise_period,       frame.look.rise,
-                        frame.look.swirl,        frame.look.swirl_width,         frame.look.multiple_scattering,
-                        frame.look.hole_rim,    frame.look.phase.g_hg,         frame.look.phase.g_draine,
-                        frame.look.phase.alpha, frame.look.phase.draine_weight};
-  for (int i = 0; i < 14; ++i) EXPECT_EQ(look[i], 153.0f + static_cast<float>(i));
-  expect_counted(frame.volume.origin_world, 170);
-  EXPECT_EQ(frame.volume.voxel_size, 173);
-  expect_counted(frame.volume.window_origin, 174);
-  expect_counted(frame.volume.window_size, 177);
-  expect_counted(frame.volume.atlas_bricks, 180);
-  expect_counted(frame.volume.bounds_min, 183);
-  expect_counted(frame.volume.bounds_max, 186);
-  expect_counted(frame.caster_bounds_min, 210);
-  expect_counted(frame.caster_bounds_max, 213);
-  expect_counted(frame.solid.origin_world, 200);
-  EXPECT_EQ(frame.solid.texel_size, 203);
-  expect_counted(frame.solid.size, 204);
-  expect_counted(frame.size_px, 190);
-  EXPECT_EQ(frame.light_count, 192u);
-  EXPECT_EQ(frame.holes.count, 193u);
-  EXPECT_EQ(frame.holes.tiles_across, 198u);
-  EXPECT_EQ(frame.holes.entries_at, 199u);
-  EXPECT_EQ(frame.holes.cells_at, 200u);
-  EXPECT_EQ(frame.frame_index, 194u);
-  EXPECT_EQ(frame.time, 195);
-  EXPECT_EQ(frame.exposure, 196);
-  EXPECT_EQ(frame.march_scale, 197u);
-  EXPECT_EQ(frame.resolve_error, 201);
+TEST(PackedHole, UnpacksToTheHole) {
+  shared::Hole hole{{1, 2, 3}, 0.5f, {4, 5, 6}, 8,  {7, 8, 9}, 10,       {11, 12, 13},
+                    14,        15,   16,        17, 0,         {18, 19}, {20, 21}};
+  for (const std::uint32_t shape : {shared::kHoleCylinder, shared::kHoleBox, shared::kHoleMask})
+    for (const bool wide_open : {false, true}) {
+      hole.shape = shape;
+      const shared::PackedHole packed = shared::pack_hole(hole, wide_open);
+      EXPECT_EQ(shared::hole_is_round(packed.forward_far), shape == shared::kHoleCylinder);
+      EXPECT_EQ(shared::hole_is_partial(packed.origin_radius), !wide_open || shape == shared::kHoleMask);
+      const shared::Hole unpacked = shared::unpack_hole(packed);
+      EXPECT_EQ(std::memcmp(&unpacked, &hole, sizeof hole), 0);
+    }
+}
 
-  const auto light = one<shared::Light>(out[1]);
-  expect_counted(light.position_world, 1);
-  EXPECT_EQ(light.range, 4);
-  expect_counted(light.intensity, 5);
-  EXPECT_EQ(light.kind, 8u);
-  expect_counted(light.direction, 9);
-  EXPECT_EQ(light.cos_inner, 12);
-  EXPECT_EQ(light.cos_outer, 13);
-  EXPECT_EQ(light.shadow_layer, 14u);
-  expect_counted(light.padding, 15);
+TEST(PackedReach, UnpacksToTheReach) {
+  const shared::HoleReach reach{{1, 2, 3}, 4, {5, 6, 7}, -1};
+  const shared::HoleReach unpacked = shared::unpack_reach(shared::pack_reach(reach));
+  EXPECT_EQ(std::memcmp(&unpacked, &reach, sizeof reach), 0);
+}
 
-  const auto hole = one<shared::Hole>(out[2]);
-  expect_counted(hole.origin_world, 1);
-  EXPECT_EQ(hole.radius, 4);
-  expect_counted(hole.forward, 5);
-  EXPECT_EQ(hole.distance_to_far, 8);
-  expect_counted(hole.right, 9);
-  EXPECT_EQ(hole.time_start, 12);
-  expect_counted(hole.up, 13);
-  EXPECT_EQ(hole.time_to_reach_far, 16);
-  EXPECT_EQ(hole.time_to_expand, 17);
-  EXPECT_EQ(hole.time_to_stay_open, 18);
-  EXPECT_EQ(hole.time_to_fade, 19);
-  EXPECT_EQ(hole.shape, 20u);
-  expect_counted(hole.uv_min, 21);
-  expect_counted(hole.uv_max, 23);
-
-  const auto cell = one<shared::BoundaryCell>(out[3]);
-  EXPECT_EQ(cell.plane0, 1u);
-  EXPECT_EQ(cell.plane1, 2u);
-  EXPECT_EQ(cell.plane2, 3u);
-  EXPECT_EQ(cell.first_set, 4u);
-
-  const auto draw = one<shared::DrawConstants>(out[4]);
-  expect_counted(draw.row0, 1);
-  expect_counted(draw.row1, 5);
-  expect_counted(draw.row2, 9);
-  expect_counted(draw.material.base_color, 13);
-  EXPECT_EQ(draw.material.roughness, 16);
-  expect_counted(draw.material.emission, 17);
-  EXPECT_EQ(draw.material.metallic, 20);
-  EXPECT_EQ(draw.material.alpha_cutoff, 21);
-
-  const auto vertex = one<shared::Vertex>(out[5]);
-  expect_counted(vertex.position, 1);
-  expect_counted(vertex.normal, 4);
-  expect_counted(vertex.tangent, 7);
-  expect_counted(vertex.uv, 11);
-
-  const auto noise = one<shared::NoiseParams>(out[6]);
-  EXPECT_EQ(noise.size, 1u);
-  EXPECT_EQ(noise.coarse_cells, 2u);
-  EXPECT_EQ(noise.seed, 3u);
-
-  const auto smoke_light = one<shared::SmokeLightParams>(out[7]);
-  EXPECT_EQ(smoke_light.first, 1u);
-  EXPECT_EQ(smoke_light.count, 2u);
-  EXPECT_EQ(smoke_light.threads, 3u);
-  const auto light_row = one<shared::TexelList>(out[15]);
-  EXPECT_EQ(light_row.slot, 1u);
-  EXPECT_EQ(light_row.row, 2u);
-  EXPECT_EQ(light_row.by_phase, 3u);
-  EXPECT_EQ(light_row.had_list, 4u);
-  EXPECT_EQ(light_row.first_change, 5u);
-  EXPECT_EQ(light_row.change_count, 6u);
-  const auto light_pair = one<shared::ShadowRays>(out[16]);
-  EXPECT_EQ(light_pair.slot, 1u);
-  EXPECT_EQ(light_pair.row, 2u);
-  EXPECT_EQ(light_pair.light, 3u);
-  EXPECT_EQ(light_pair.block, 4u);
-  EXPECT_EQ(light_pair.texels, 5u);
-  const auto light_brick = one<shared::LightGather>(out[17]);
-  EXPECT_EQ(light_brick.slot, 1u);
-  EXPECT_EQ(light_brick.row, 2u);
-  EXPECT_EQ(light_brick.sky_page, 3u);
-  EXPECT_EQ(light_brick.first_light, 4u);
-  EXPECT_EQ(light_brick.light_count, 5u);
-  EXPECT_EQ(light_brick.texels, 6u);
-
-  const auto smoke_shadow = one<shared::SmokeShadowParams>(out[8]);
-  EXPECT_EQ(smoke_shadow.face_count, 1u);
-  EXPECT_EQ(smoke_shadow.step_length, 2);
-  EXPECT_EQ(smoke_shadow.spread, 3u);
-  expect_counted(smoke_shadow.first, 4);
-
-  const auto face = one<shared::SmokeShadowFace>(out[11]);
-  EXPECT_EQ(face.scale, 1);
-  expect_counted(face.offset, 2);
-  EXPECT_EQ(face.first_block, 4u);
-  expect_counted(face.first_texel, 5);
-  expect_counted(face.size, 7);
-
-  const auto list = one<shared::MarchList>(out[12]);
-  expect_counted(list.groups, 1);
-  EXPECT_EQ(list.count, 4u);
-  const auto accumulate = one<shared::AccumulateParams>(out[13]);
-  for (int i = 0; i < 4; ++i)
-    expect_counted(accumulate.past_clip_from_world[i], 1.0f + 4.0f * static_cast<float>(i));
-  EXPECT_EQ(accumulate.has_past, 17u);
-  const auto pixel = one<shared::AccumulatedPixel>(out[14]);
-  EXPECT_EQ(pixel.distance_in_smoke, 1);
-  EXPECT_EQ(pixel.frames, 2);
-
-  const auto ends = one<shared::RayEnds>(out[10]);
-  expect_counted(ends.position_px, 1);
-  const float distances[] = {ends.near, ends.near_last, ends.far_first, ends.far};
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(distances[i], 3.0f + static_cast<float>(i));
-
-  const auto view = one<shared::ShadowView>(out[9]);
-  for (int i = 0; i < 4; ++i) {
-    expect_counted(view.clip_from_world[i], 1.0f + 4.0f * static_cast<float>(i));
-    expect_counted(view.world_from_clip[i], 17.0f + 4.0f * static_cast<float>(i));
+TEST(AtlasBrick, InvertsTheOrderOfSlots) {
+  const glm::ivec3 bricks(5, 3, 4);
+  for (std::uint32_t slot = 0; slot < 60; ++slot) {
+    const glm::uvec3 at = shared::atlas_brick(bricks, slot);
+    EXPECT_EQ(slot, at.x + 5 * (at.y + 3 * at.z));
+    EXPECT_TRUE(glm::all(glm::lessThan(at, glm::uvec3(bricks))));
+    EXPECT_EQ(shared::atlas_first_texel(bricks, slot), 10u * at);
   }
 }
 

@@ -1,26 +1,20 @@
-// Smoke along given segments in small steps, with holes, by what the march reads with.
+// Optical depth along given segments in small steps, with holes, by the functions of the march.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#define BINDING_PAGES 1
-#define BINDING_DENSITY 2
-#define BINDING_CELLS 3
-#define BINDING_BOUNDARY 4
-#define BINDING_CORNERS 5
+#include "lib/hole_mask.glsl"
 #include "lib/smoke_density.glsl"
-#include "shared/hole.h"
+#include "probes.h"
 
 struct Segment {
   vec3 a_world, b_world;
 };
 
 layout(local_size_x = 64) in;
-layout(scalar, binding = 0) readonly buffer Segments { Segment segments[]; };
-layout(scalar, binding = 6) readonly buffer Holes { Hole holes[]; };
-layout(scalar, binding = 7) writeonly buffer Depths { float depths[]; };
-layout(binding = 8) uniform sampler2D hole_masks;
-#include "lib/hole_mask.glsl"
-layout(push_constant, scalar) uniform Impulse {
+layout(scalar, binding = kBindProbeIn) readonly buffer Segments { Segment segments[]; };
+layout(scalar, binding = kBindProbeIn2) readonly buffer Holes { Hole holes[]; };
+layout(scalar, binding = kBindProbeOut) writeonly buffer Depths { float depths[]; };
+layout(scalar, push_constant) uniform Push {
   VolumeLayout volume;
   float time;
   uint hole_count;   // at most 32
@@ -40,9 +34,9 @@ bool hole_near_ray(Hole hole, vec3 origin_world, vec3 direction, float t_begin, 
     t = clamp(t, 0.0, 1.0);
     s = clamp((b * t - c) / a, 0.0, 1.0);
   }
-  const vec3 apart = r + d1 * s - d2 * t;
+  const vec3 gap = r + d1 * s - d2 * t;
   const float reach = 1.4143 * (hole.radius + rim);
-  return dot(apart, apart) <= reach * reach;
+  return dot(gap, gap) <= reach * reach;
 }
 
 void main() {
@@ -50,9 +44,9 @@ void main() {
   if (i >= uint(segments.length())) return;
   const Segment s = segments[i];
   const vec3 a = (s.a_world - volume.origin_world) / volume.voxel_size;
-  const vec3 way = (s.b_world - volume.origin_world) / volume.voxel_size - a;
-  const float reach = length(way);
-  const vec3 direction = way / reach;
+  const vec3 segment = (s.b_world - volume.origin_world) / volume.voxel_size - a;
+  const float reach = length(segment);
+  const vec3 direction = segment / reach;
 
   uint near = 0u;
   for (uint h = 0u; h < hole_count; ++h) {

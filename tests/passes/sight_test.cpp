@@ -6,7 +6,9 @@
 #include "brume_test_shaders.hpp"
 #include "passes/hole_masks.hpp"
 #include "passes/smoke_upload.hpp"
+#include "shared/hole_clusters.h"
 #include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/probes.h"
 #include "tests/smoke/sight_scene.hpp"
 
 namespace brume::passes {
@@ -30,11 +32,7 @@ class SightTest : public gpu::GpuTest {
     SmokeUpload smoke(context());
     smoke.reserve(scene.volume());
     runner().run([&](gpu::Recorder& recorder) { smoke.record(recorder, scene.volume()); });
-    const gpu::ComputePipeline pipeline(
-        context(), shaders::sight_probe_comp,
-        {gpu::kBuffer, gpu::kBuffer, gpu::kSampled, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer, gpu::kBuffer,
-         gpu::kBuffer, gpu::kSampled},
-        sizeof(ProbeConstants), {64, 1, 1});
+    const gpu::ComputePipeline pipeline(context(), shaders::sight_probe_comp);
     const gpu::Sampler linear(context(), {}), nearest(context(), {VK_FILTER_NEAREST});
     gpu::Image masks;
     runner().run(
@@ -47,9 +45,15 @@ class SightTest : public gpu::GpuTest {
                                    static_cast<std::uint32_t>(open.size()), kStep};
     runner().run([&](gpu::Recorder& recorder) {
       recorder.bind(pipeline,
-                    {gpu::read(in), gpu::read(on_device.pages), gpu::sampled(on_device.density, linear),
-                     gpu::read(on_device.cells), gpu::read(on_device.boundary), gpu::read(on_device.corners),
-                     gpu::read(holes), gpu::write(out), gpu::sampled(masks, nearest)},
+                    {{shared::kBindProbeIn, gpu::read(in)},
+                     {shared::kBindPages, gpu::read(on_device.pages)},
+                     {shared::kBindDensity, gpu::sampled(on_device.density, linear)},
+                     {shared::kBindCells, gpu::read(on_device.cells)},
+                     {shared::kBindBoundary, gpu::read(on_device.boundary)},
+                     {shared::kBindCorners, gpu::read(on_device.corners)},
+                     {shared::kBindProbeIn2, gpu::read(holes)},
+                     {shared::kBindProbeOut, gpu::write(out)},
+                     {shared::kBindHoleMasks, gpu::sampled(masks, nearest)}},
                     constants);
       recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(segments.size()));
     });
@@ -70,7 +74,7 @@ TEST_F(SightTest, MarchAndLineOfSightSeeTheSameSmoke) {
 
   const smoke::Sight plain(scene.volume(), scene.grid(), {}, 0, {1 / smoke::SightScene::kVoxel});
   const smoke::Sight sight(scene.volume(), scene.grid(), holes, scene.time(),
-                         {.extinction = 1 / smoke::SightScene::kVoxel, .masks = &scene.masks()});
+                           {.extinction = 1 / smoke::SightScene::kVoxel, .masks = &scene.masks()});
   std::vector<float> depths(segments.size()), without(segments.size());
   sight.optical_depths(segments, depths).value_or_throw();
   plain.optical_depths(segments, without).value_or_throw();

@@ -52,7 +52,7 @@ inline double hole_strength(const shared::Hole& h, glm::dvec3 p, double time, do
   const double from_axis = h.shape == shared::kHoleBox ? std::fmax(std::abs(local.x), std::abs(local.y))
                                                        : std::hypot(local.x, local.y);
   if (from_axis >= radius) return 0;
-  const double t = std::fmin(1, (radius - from_axis) / (radius * double{shared::kHoleSoftShare}));
+  const double t = std::fmin(1, (radius - from_axis) / (radius * double{shared::kHoleSoftFraction}));
   return t * t * (3 - 2 * t) * fade;
 }
 

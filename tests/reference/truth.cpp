@@ -42,9 +42,7 @@ glm::dvec3 advection_at(const TruthScene& scene, glm::dvec3 p_voxel) {
   const glm::ivec3 brick(glm::floor(p_voxel / 8.0));
   const std::uint32_t slot = scene.volume->slot_at(brick);
   if (slot == smoke::SmokeVolume::kNoSlot) return glm::dvec3(0);
-  const glm::uvec3 bricks(scene.volume->layout().atlas_bricks);
-  const glm::ivec3 corner(
-      glm::uvec3(slot % bricks.x, slot / bricks.x % bricks.y, slot / (bricks.x * bricks.y)) * 10u);
+  const glm::ivec3 corner(shared::atlas_first_texel(scene.volume->layout().atlas_bricks, slot));
   const glm::dvec3 at = p_voxel - glm::dvec3(8 * brick) + 0.5;  // a texel of apron before the brick
   const glm::ivec3 low(glm::floor(at));
   const glm::dvec3 f = at - glm::dvec3(low);
@@ -81,7 +79,7 @@ double hole_share(const shared::Hole& hole, glm::dvec3 p_world, double time, dou
   const double out =
       hole.shape == shared::kHoleCylinder ? std::hypot(x, y) : std::max(std::abs(x), std::abs(y));
   if (out >= radius) return 0;
-  return (1 - closed) * smooth((radius - out) / (radius * double{shared::kHoleSoftShare}));
+  return (1 - closed) * smooth((radius - out) / (radius * double{shared::kHoleSoftFraction}));
 }
 
 /// Distance to a triangle along a unit direction (Moeller and Trumbore 1997); nothing if the ray misses.

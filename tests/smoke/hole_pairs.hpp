@@ -35,7 +35,7 @@ struct HolePairs {
     reference::StrengthRange range = reference::strengths_within(q.hole, glm::dvec3(q.p_world), q.time, q.rim,
                                                                  &masks[mask_of[i]], metres, seconds);
     // Where in the atlas: three roundings of 1, in texels; neighbours differ by 1 at most, along both axes.
-    // Then some ten roundings of numbers up to 1 / kHoleSoftShare, by a slope of 1.5.
+    // Then some ten roundings of numbers up to 1 / kHoleSoftFraction, by a slope of 1.5.
     const double slack = 2 * 3 * kUlp * std::max(atlas.width(), atlas.height()) + 10 * 2.5 * 1.5 * kUlp;
     return {range.low - slack, range.high + slack};
   }

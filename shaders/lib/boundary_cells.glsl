@@ -1,0 +1,43 @@
+// Cells of the smoke that a surface runs through: density by the sides of its planes.
+#ifndef BOUNDARY_CELLS_GLSL
+#define BOUNDARY_CELLS_GLSL
+#include "shared/smoke_volume.h"
+
+layout(scalar, binding = kBindCells) readonly buffer Cells { uint cells[]; };
+layout(scalar, binding = kBindBoundary) readonly buffer Boundary { BoundaryCell boundary_cells[]; };
+layout(scalar, binding = kBindCorners) readonly buffer Corners { uvec2 corner_sets[]; };
+
+/// Smoke at a point of a brick.
+struct SmokeSample {
+  float density;      // [0, 1]
+  vec3 light_offset;  // from the point to its light lookup [voxels]: off the walls, so that no light leaks through
+};
+
+/// Side of a plane that a point lies on, as a bit. Moves `offset` to one voxel off the plane, where texels beyond it
+/// have no weight.
+uint plane_side(uint plane, vec3 p_from_centre, inout vec3 offset) {
+  const vec3 normal = plane_normal(plane);
+  const float height = dot(normal, p_from_centre) - plane_offset(plane);
+  const bool exists = plane != 0u;
+  offset += exists ? normal * ((height > 0.0 ? 1.0 : -1.0) * max(1.0 - abs(height), 0.0)) : vec3(0.0);
+  return exists && height > 0.0 ? 1u : 0u;
+}
+
+/// Smoke of a boundary cell at a point of the brick.
+SmokeSample boundary_sample(uint slot, vec3 local_voxel) {
+  const vec3 from_centres = local_voxel + 0.5;  // cell 0 of the brick begins half a voxel before it
+  const ivec3 cell = clamp(ivec3(from_centres), ivec3(0), ivec3(kBrickCells - 1));
+  const uint number = cells[slot * kCellsPerBrick + uint(cell.x + kBrickCells * (cell.y + kBrickCells * cell.z))];
+  if (number == 0u) return SmokeSample(0.0, vec3(0.0));
+  const BoundaryCell record = boundary_cells[number - 1u];
+  const vec3 f = from_centres - vec3(cell);
+  vec3 offset = vec3(0.0);
+  uint side = plane_side(record.plane0, f - 0.5, offset);
+  side |= plane_side(record.plane1, f - 0.5, offset) << 1u;
+  side |= plane_side(record.plane2, f - 0.5, offset) << 2u;
+  // The apron of the brick is one texel wide.
+  const vec3 light_at = clamp(local_voxel + offset, vec3(-0.5), vec3(float(kBrickVoxels) + 0.5));
+  return SmokeSample(corner_set_density(corner_sets[record.first_set + side], f), light_at - local_voxel);
+}
+
+#endif
