@@ -1,4 +1,4 @@
-// Holes of all shapes, points and times at which to ask them, and the strengths that floats may answer.
+// Holes of all shapes, points and times to test them at, and the strengths that floats may give.
 #pragma once
 
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "sim/state.hpp"
-#include "tests/smoke/hole_pairs.hpp"
 #include "smoke/holes.hpp"
+#include "tests/smoke/hole_pairs.hpp"
 
 namespace brume::smoke {
 namespace {
@@ -97,7 +97,7 @@ TEST(Hole, IsAsWideInTheNoiseOfItsRim) {
     EXPECT_EQ(hole_strength(h, vec3(0.55f, 0, 5), 0.5f, 0), 0);
     EXPECT_GT(hole_strength(h, vec3(0.55f, 0, 5), 0.5f, 0.1f), 0);
     EXPECT_EQ(hole_strength(h, vec3(0.45f, 0, 5), 0.5f, -0.1f), 0);
-    EXPECT_EQ(hole_strength(h, vec3(0), 0.5f, -0.6f), 0) << "no radius is left";
+    EXPECT_EQ(hole_strength(h, vec3(0), 0.5f, -0.6f), 0) << "no radius remains";
   }
 }
 
@@ -125,7 +125,7 @@ TEST(Hole, ShowsItsMaskUprightFromTheShooterMirroredFromBehind) {
       MaskAtlas::pack(std::vector<Mask>{{3, 3, std::vector<std::uint8_t>(9)}, quarter()}).value_or_throw();
   sim::State state;
   state.masks = atlas.key();
-  // From every side, level, up and down: what the shooter sees to the left and above is gone.
+  // From every side, level, up and down: the smoke to the shooter's left and above is gone.
   for (const glm::ivec3 way : {glm::ivec3(0, 0, -1),
                                {0, 0, 1},
                                {1, 0, 0},
@@ -134,7 +134,8 @@ TEST(Hole, ShowsItsMaskUprightFromTheShooterMirroredFromBehind) {
                                {1, -4, 1},
                                {0, 1, 0},
                                {0, -1, 0}}) {
-    sim::BulletHole open = mask_shot(glm::ivec3(700, 5000, -300), glm::ivec3(700, 5000, -300) + 2000 * way, 0);
+    sim::BulletHole open =
+        mask_shot(glm::ivec3(700, 5000, -300), glm::ivec3(700, 5000, -300) + 2000 * way, 0);
     open.shot.mask = 1;
     state.holes = {open};
     const Hole hole = holes_of(state, &atlas)[0];
@@ -189,7 +190,7 @@ TEST(Hole, OfAMaskNeedsTheMasksOfItsState) {
   state.holes = {open};
   EXPECT_THROW(holes_of(state, &atlas), Error);
   EXPECT_THROW(holes_of(state), Error);
-  EXPECT_EQ(hole_of(open, state).shape, shared::kHoleMask) << "where it goes can be asked without";
+  EXPECT_EQ(hole_of(open, state).shape, shared::kHoleMask) << "its axis does not depend on masks";
   state.holes[0].shot.shape = sim::HoleShape::cylinder;
   EXPECT_EQ(holes_of(state)[0].shape, shared::kHoleCylinder);
 }

@@ -113,7 +113,7 @@ TEST(Sight, FollowsHolesOfAnyShapeAndAge) {
 }
 
 // The shaders and sample_density read a boundary cell like any other where its solid corners weigh less than
-// 1/512 together; a line of sight asks its planes there too. All the same the two are within 1 %.
+// 1/512 together; a line of sight reads its planes there too. All the same the two are within 1 %.
 TEST(Sight, AgreesWithThePointsThatShadersRead) {
   for (std::uint32_t seed = 0; seed < 8; seed += 2) {
     const SightScene scene(seed, 8);
@@ -140,8 +140,8 @@ struct FullBox {
   explicit FullBox(const voxel::GridLayout& layout)
       : grid(layout), world(grid), volume(grid, [](glm::ivec3) { return std::span<const voxel::Plane>(); }) {
     sim::ThrowSmoke thrown;
-    thrown.from = thrown.at = sim::position_from_metres(glm::dvec3(layout.origin_world) +
-                                                   0.5 * double{layout.voxel_size} * glm::dvec3(layout.size));
+    thrown.from = thrown.at = sim::position_from_metres(
+        glm::dvec3(layout.origin_world) + 0.5 * double{layout.voxel_size} * glm::dvec3(layout.size));
     thrown.smoke.voxels = 1000000;
     world.append(thrown).value_or_throw();
     world.advance_to(200);
@@ -182,7 +182,7 @@ TEST(Sight, IsExactInUniformSmokeAndInItsRim) {
   }
 }
 
-TEST(Sight, AddsUpAlongALineAndIsTheSameBothWays) {
+TEST(Sight, AddsUpAlongALineAndIsTheSameInBothDirections) {
   const SightScene scene(2, 20);
   const Sight sight = scene.sight();
   std::mt19937 random(9);
@@ -302,7 +302,8 @@ TEST(Sight, FindsTheFirstWall) {
   EXPECT_FALSE(*sight.visible(at(2, 2.5f, 4.5f), at(20, 2.5f, 4.5f), kInf));
   EXPECT_TRUE(*sight.visible(at(2, 6, 4.5f), at(20, 6, 4.5f), 0));
   EXPECT_TRUE(*sight.visible(at(2, 2.5f, 4.5f), at(9.9f, 2.5f, 4.5f), 0));
-  // Who leans against the wall is in its voxel, seen and seeing; but not through another voxel of it.
+  // A player who leans against the wall is in its voxel, visible from there and back; not through another
+  // voxel.
   EXPECT_TRUE(*sight.visible(at(2, 2.5f, 4.5f), at(10.1f, 2.5f, 4.5f), 0));
   EXPECT_TRUE(*sight.visible(at(10.1f, 2.5f, 4.5f), at(2, 2.5f, 4.5f), 0));
   EXPECT_FALSE(*sight.visible(at(10.5f, 2.5f, 1.5f), at(10.5f, 2.5f, 6.5f), 0));

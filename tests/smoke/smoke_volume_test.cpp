@@ -92,7 +92,7 @@ void expect_same(const SmokeVolume& a, const SmokeVolume& b) {
   }
 }
 
-/// Each texel holds the density that the state says, 0 where there is no slot.
+/// Each texel holds the density of the state, 0 where there is no slot.
 void expect_densities(const SmokeVolume& volume, const sim::State& state) {
   const glm::ivec3 size = state.layout.size + 4;
   for (int i = 0; i < size.x * size.y * size.z; ++i) {
@@ -118,18 +118,18 @@ TEST(SmokeVolume, HoldsTheDensitiesOfTheStateAtEveryTick) {
   }
 }
 
-TEST(SmokeVolume, UpdatedEqualsMadeAnewAtAnyTick) {
+TEST(SmokeVolume, UpdatedEqualsRebuiltAtAnyTick) {
   const Hut hut;
   sim::World world = hut.world();
-  SmokeVolume kept(hut.grid, hut.planes);
+  SmokeVolume updated(hut.grid, hut.planes);
   std::mt19937 random(3);
   for (int i = 0; i < 60; ++i) {
     world.advance_to(static_cast<std::uint32_t>(random() % kAllOver));
-    kept.update(world);
-    expect_densities(kept, world.state());
+    updated.update(world);
+    expect_densities(updated, world.state());
     SmokeVolume fresh(hut.grid, hut.planes);
     fresh.update(world);
-    expect_same(kept, fresh);
+    expect_same(updated, fresh);
   }
 }
 
@@ -163,8 +163,10 @@ struct Tower {
     sim::EditBlocks open = sim::edit_box(level.layout(), low, high, false);
     BitGrid opened = level;
     sim::apply_edits(opened, open);
-    result.append(sim::LevelEdit{80, sim::difference(level, opened, {0, 0, 0}, level.size())}).value_or_throw();
-    result.append(sim::LevelEdit{110, sim::difference(opened, level, {0, 0, 0}, level.size())}).value_or_throw();
+    result.append(sim::LevelEdit{80, sim::difference(level, opened, {0, 0, 0}, level.size())})
+        .value_or_throw();
+    result.append(sim::LevelEdit{110, sim::difference(opened, level, {0, 0, 0}, level.size())})
+        .value_or_throw();
     return result;
   }
 };
@@ -184,13 +186,13 @@ std::map<std::tuple<int, int, int>, std::uint32_t> first_planes(const SmokeVolum
 TEST(SmokeVolume, FollowsPocketsThatFillOpenAndClose) {
   const Tower tower;
   sim::World world = tower.world();
-  SmokeVolume kept(tower.grid, tower.planes);
+  SmokeVolume updated(tower.grid, tower.planes);
   const auto planes_at = [&](std::uint32_t tick) {
     world.advance_to(tick);
-    kept.update(world);
+    updated.update(world);
     SmokeVolume fresh(tower.grid, tower.planes);
     fresh.update(world);
-    expect_same(kept, fresh);
+    expect_same(updated, fresh);
     return first_planes(fresh);
   };
   // Smoke in the room changes the planes of its walls also where it looks at them from outside.
@@ -203,7 +205,7 @@ TEST(SmokeVolume, FollowsPocketsThatFillOpenAndClose) {
   for (int i = 0; i < 40; ++i) planes_at(static_cast<std::uint32_t>(random() % 210));
 }
 
-/// What one would have who takes over what is said to be dirty, and nothing else.
+/// A reader that copies what is dirty, and nothing else.
 struct Mirror {
   std::vector<std::vector<Texel>> texels;
   std::vector<std::vector<std::uint32_t>> cells;
@@ -337,15 +339,15 @@ TEST(SmokeVolume, TakesNewPlanesWhereItIsToldTo) {
   sim::World world = hut.world();
   world.advance_to(66);
   const voxel::SurfacePlanes* planes = &hut.planes;
-  SmokeVolume kept(hut.grid, [&](glm::ivec3 cell) { return planes->at(cell); });
-  kept.update(world);
+  SmokeVolume updated(hut.grid, [&](glm::ivec3 cell) { return planes->at(cell); });
+  updated.update(world);
   planes = &other;
   // The inner wall and half a voxel around it.
-  kept.planes_changed({11, -1, 3}, {13, 8, 15});
-  kept.update(world);
+  updated.planes_changed({11, -1, 3}, {13, 8, 15});
+  updated.update(world);
   SmokeVolume fresh(hut.grid, other);
   fresh.update(world);
-  expect_same(kept, fresh);
+  expect_same(updated, fresh);
   SmokeVolume before(hut.grid, hut.planes);
   before.update(world);
   EXPECT_NE(sample_density(before, {12.5f, 4, 9}), sample_density(fresh, {12.5f, 4, 9}));

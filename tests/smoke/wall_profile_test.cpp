@@ -83,9 +83,9 @@ struct Room {
     world.advance_to(1000);
     full = !world.state().clouds.empty();
     for (const sim::LiveCloud& live : world.state().clouds) {
-      const sim::CloudPhase moment = live.cloud->phase(world.tick());
+      const sim::CloudPhase phase = live.cloud->phase(world.tick());
       for (std::uint32_t rank = 0; rank < live.cloud->voxels().size(); ++rank)
-        full &= live.cloud->density(rank, moment) == 255;
+        full &= live.cloud->density(rank, phase) == 255;
     }
     volume.update(world);
   }
@@ -263,7 +263,7 @@ TEST(WallProfile, RoundColumns) {
       Mesh mesh;
       add_column(mesh, centre.x, centre.z, radius, 8);
       const Room room(mesh, {2, 3, 2});
-      // Nobody can see what is behind.
+      // No camera sees the space behind.
       probe_round(profiles, room, label("column", radius, 0), centre, radius, false, 0, 0);
     }
     expect_even(profiles, label("column", radius, 0));
