@@ -103,7 +103,7 @@ TEST(ScatteringFit, IsZeroWithoutFurtherScattering) {
   const shared::ManyScatterings many =
       shared::multiple_scattering(shared::many_fit(), glm::vec3(0.9f), 0.3f, 1.0f);
   EXPECT_EQ(many.fraction, glm::vec3(0));
-  EXPECT_EQ(shared::multiple_scattering(shared::many_fit(), glm::vec3(0), 0.3f, 0.2f).share, glm::vec3(0));
+  EXPECT_EQ(shared::multiple_scattering(shared::many_fit(), glm::vec3(0), 0.3f, 0.2f).fraction, glm::vec3(0));
   const shared::Phase phase = shared::phase_of_hg(0.3f);
   EXPECT_EQ(shared::scattered(phase, many, 0.5f, 0.1f),
             glm::vec3(std::exp(-0.5f) * shared::phase_value(phase, 0.1f)));

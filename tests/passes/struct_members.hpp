@@ -28,29 +28,58 @@ constexpr std::size_t member_count() {
     return N;
 }
 
-// clang-format off
 /// Calls visit(member) for each member of an aggregate of at most 15.
 template <typename T, typename Visit>
 void for_each_member(const T& s, Visit visit) {
   constexpr std::size_t kCount = member_count<T>();
   static_assert(kCount >= 1 && kCount <= 15);
   const auto all = [&](const auto&... members) { (visit(members), ...); };
-  if constexpr (kCount == 1) { const auto& [a] = s; all(a); }
-  else if constexpr (kCount == 2) { const auto& [a, b] = s; all(a, b); }
-  else if constexpr (kCount == 3) { const auto& [a, b, c] = s; all(a, b, c); }
-  else if constexpr (kCount == 4) { const auto& [a, b, c, d] = s; all(a, b, c, d); }
-  else if constexpr (kCount == 5) { const auto& [a, b, c, d, e] = s; all(a, b, c, d, e); }
-  else if constexpr (kCount == 6) { const auto& [a, b, c, d, e, f] = s; all(a, b, c, d, e, f); }
-  else if constexpr (kCount == 7) { const auto& [a, b, c, d, e, f, g] = s; all(a, b, c, d, e, f, g); }
-  else if constexpr (kCount == 8) { const auto& [a, b, c, d, e, f, g, h] = s; all(a, b, c, d, e, f, g, h); }
-  else if constexpr (kCount == 9) { const auto& [a, b, c, d, e, f, g, h, i] = s; all(a, b, c, d, e, f, g, h, i); }
-  else if constexpr (kCount == 10) { const auto& [a, b, c, d, e, f, g, h, i, j] = s; all(a, b, c, d, e, f, g, h, i, j); }
-  else if constexpr (kCount == 11) { const auto& [a, b, c, d, e, f, g, h, i, j, k] = s; all(a, b, c, d, e, f, g, h, i, j, k); }
-  else if constexpr (kCount == 12) { const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = s; all(a, b, c, d, e, f, g, h, i, j, k, l); }
-  else if constexpr (kCount == 13) { const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = s; all(a, b, c, d, e, f, g, h, i, j, k, l, m); }
-  else if constexpr (kCount == 14) { const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = s; all(a, b, c, d, e, f, g, h, i, j, k, l, m, n); }
-  else { const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = s; all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o); }
+  if constexpr (kCount == 1) {
+    const auto& [a] = s;
+    all(a);
+  } else if constexpr (kCount == 2) {
+    const auto& [a, b] = s;
+    all(a, b);
+  } else if constexpr (kCount == 3) {
+    const auto& [a, b, c] = s;
+    all(a, b, c);
+  } else if constexpr (kCount == 4) {
+    const auto& [a, b, c, d] = s;
+    all(a, b, c, d);
+  } else if constexpr (kCount == 5) {
+    const auto& [a, b, c, d, e] = s;
+    all(a, b, c, d, e);
+  } else if constexpr (kCount == 6) {
+    const auto& [a, b, c, d, e, f] = s;
+    all(a, b, c, d, e, f);
+  } else if constexpr (kCount == 7) {
+    const auto& [a, b, c, d, e, f, g] = s;
+    all(a, b, c, d, e, f, g);
+  } else if constexpr (kCount == 8) {
+    const auto& [a, b, c, d, e, f, g, h] = s;
+    all(a, b, c, d, e, f, g, h);
+  } else if constexpr (kCount == 9) {
+    const auto& [a, b, c, d, e, f, g, h, i] = s;
+    all(a, b, c, d, e, f, g, h, i);
+  } else if constexpr (kCount == 10) {
+    const auto& [a, b, c, d, e, f, g, h, i, j] = s;
+    all(a, b, c, d, e, f, g, h, i, j);
+  } else if constexpr (kCount == 11) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k);
+  } else if constexpr (kCount == 12) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l);
+  } else if constexpr (kCount == 13) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  } else if constexpr (kCount == 14) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+  } else {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  }
 }
-// clang-format on
 
 }  // namespace brume::passes
