@@ -120,7 +120,7 @@ void BrickAtlas::record_texels(gpu::Recorder& recorder, const volume::SparseVolu
   regions.reserve(slots.size());
   for (const std::uint32_t slot : slots) {
     regions.push_back({volume.channel(channel, slot),
-                       volume::atlas_position(atlas_bricks_, slot) * shared::kBrickTexels,
+                       glm::ivec3(shared::atlas_first_texel(atlas_bricks_, slot)),
                        glm::uvec3(static_cast<std::uint32_t>(shared::kBrickTexels))});
   }
   recorder.upload(this->channel(channel), regions);

@@ -12,7 +12,7 @@
 namespace brume::passes {
 
 /// Follows a volume; another volume than before is uploaded as a whole. An image holds the bricks of all
-/// slots: texel t of slot s is at kBrickTexels * atlas_position(atlas_bricks, s) + t.
+/// slots: texel t of slot s is at shared::atlas_first_texel(atlas_bricks, s) + t.
 class BrickAtlas {
  public:
   /// What a record uploaded.

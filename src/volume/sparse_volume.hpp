@@ -177,10 +177,4 @@ class SparseVolume {
 /// until there is room. Throws resource_limit for more than kMaxAtlasSlots.
 glm::ivec3 grown_atlas(glm::ivec3 bricks, std::uint64_t slots);
 
-/// Where a slot's brick is in an atlas [bricks].
-inline glm::ivec3 atlas_position(glm::ivec3 atlas_bricks, std::uint32_t slot) {
-  const auto s = static_cast<std::int32_t>(slot);
-  return {s % atlas_bricks.x, s / atlas_bricks.x % atlas_bricks.y, s / (atlas_bricks.x * atlas_bricks.y)};
-}
-
 }  // namespace brume::volume

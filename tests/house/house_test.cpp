@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <set>
+#include <sstream>
 
 #include "core/file.hpp"
 #include "tests/house/house_rules.hpp"
@@ -68,9 +69,11 @@ TEST(HouseRules, SeeLinesThatAreTooWide) {
 }
 
 std::string function_of(std::size_t lines, const std::string& indent) {
-  std::string text = indent + "int f(int a,\n" + indent + "      int b) {\n";
-  for (std::size_t i = 3; i < lines; ++i) text += indent + "  ++a;\n";
-  return text + indent + "}\n";
+  std::ostringstream text;
+  text << indent << "int f(int a,\n" << indent << "      int b) {\n";
+  for (std::size_t i = 3; i < lines; ++i) text << indent << "  ++a;\n";
+  text << indent << "}\n";
+  return text.str();
 }
 
 TEST(HouseRules, SeeLongFunctions) {

@@ -57,7 +57,7 @@ class BrickAtlasTest : public gpu::GpuTest {
     const glm::ivec3 size = volume.layout().atlas_bricks * shared::kBrickTexels;
     for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
       const glm::ivec3 first =
-          volume::atlas_position(volume.layout().atlas_bricks, slot) * shared::kBrickTexels;
+          glm::ivec3(shared::atlas_first_texel(volume.layout().atlas_bricks, slot));
       const auto texels = volume.texels<Texel>(channel, slot);
       for (int row = 0; row < 100; ++row) {
         const glm::ivec3 at = first + glm::ivec3(0, row % 10, row / 10);
