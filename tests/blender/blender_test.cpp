@@ -230,7 +230,7 @@ TEST_P(BlenderFormats, UnsupportedContentIsSkippedWithAWarning) {
     first_words.insert(object.name.substr(0, object.name.find('.')));
   EXPECT_EQ(first_words, (std::set<std::string>{"cube", "flat", "Outdoor_stone"}));
   // A plane without volume that Blender shows.
-  EXPECT_FLOAT_EQ(scene::world_bounds(scene).min.y, -3);
+  EXPECT_FLOAT_EQ(scene::world_bounds(scene).low.y, -3);
   for (const char* said :
        {"the light \"dark\" has negative power or colour",
         "the camera \"flat view\" is not a perspective camera", "the image \"gone\" has no pixels",

@@ -15,7 +15,8 @@ using Strings = std::vector<std::string>;
 
 const std::filesystem::path kRoot = BRUME_SOURCE_DIR;
 
-// Calls visit(path, text) for each C++ file and shader below a folder of the project, and returns their number.
+// Calls visit(path, text) for each C++ file and shader below a folder of the project, and returns their
+// number.
 int for_each_source(const std::filesystem::path& folder,
                     const std::function<void(const std::filesystem::path&, const std::string&)>& visit) {
   int count = 0;
@@ -68,22 +69,23 @@ TEST(HouseRules, SeeLinesThatAreTooWide) {
   EXPECT_EQ(line_count("a\nb"), 2u);
 }
 
-std::string function_of(std::size_t lines, const std::string& indent) {
+/// A function of so many lines, in a block that begins with `head`.
+std::string function_of(std::size_t lines, const std::string& indent, const char* head) {
   std::ostringstream text;
-  text << indent << "int f(int a,\n" << indent << "      int b) {\n";
+  text << head << indent << "int f(int a,\n" << indent << "      int b) {\n";
   for (std::size_t i = 3; i < lines; ++i) text << indent << "  ++a;\n";
-  text << indent << "}\n";
+  text << indent << "}\n}\n";
   return text.str();
 }
 
 TEST(HouseRules, SeeLongFunctions) {
-  EXPECT_TRUE(long_functions(function_of(59, ""), 60).empty());
-  const auto found = long_functions("namespace a {\n" + function_of(70, "") + "}\n", 60);
+  EXPECT_TRUE(long_functions(function_of(59, "", "namespace a {\n"), 60).empty());
+  const auto found = long_functions(function_of(70, "", "namespace a {\n"), 60);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].lines, 70u);
   EXPECT_EQ(found[0].line, 2u);
-  EXPECT_EQ(long_functions("class A {\n public:\n" + function_of(70, "  ") + "};\n", 60).size(), 1u);
-  EXPECT_TRUE(long_functions("namespace a {\n" + std::string(100, '\n') + "}\n", 60).empty());
+  EXPECT_EQ(long_functions(function_of(70, "  ", "class A {\n public:\n"), 60).size(), 1u);
+  EXPECT_TRUE(long_functions(function_of(2, "", "namespace a {\n"), 60).empty());
 }
 
 TEST(HouseRules, SeeWordsThatTheGlossaryReplaces) {

@@ -23,8 +23,8 @@ TEST(Doors, OfASceneAreGroupedByNameWithBounds) {
   ASSERT_EQ(doors.size(), 1u);
   EXPECT_EQ(doors[0].name, "door");
   EXPECT_EQ(doors[0].objects, (std::vector<std::uint32_t>{9, 10}));
-  EXPECT_EQ(doors[0].bounds_world.min, glm::vec3(-0.02f, 0, -0.5f));
-  EXPECT_EQ(doors[0].bounds_world.max, glm::vec3(0.02f, 2, 0.5f));
+  EXPECT_EQ(doors[0].bounds_world.low, glm::vec3(-0.02f, 0, -0.5f));
+  EXPECT_EQ(doors[0].bounds_world.high, glm::vec3(0.02f, 2, 0.5f));
 }
 
 TEST(Doors, FollowTheTimeline) {

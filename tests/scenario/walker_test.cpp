@@ -261,7 +261,7 @@ BitGrid random_rooms(std::mt19937& random, float voxel) {
   for (int i = 0; i < 30; ++i) {
     const ivec3 low(below(size.x), below(size.y), below(size.z));
     const ivec3 high = low + ivec3(1 + below(6), 1 + below(4), 1 + below(6));
-    for_each_in(intersection({low, high}, {ivec3(0), size}), [&](ivec3 v) { grid.set(v, i % 4 != 3); });
+    for_each_in(intersection<int>({low, high}, {ivec3(0), size}), [&](ivec3 v) { grid.set(v, i % 4 != 3); });
   }
   for_each_in({ivec3(0), size}, [&](ivec3 v) {
     if (glm::any(glm::equal(v, ivec3(0))) || glm::any(glm::equal(v, size - 1))) grid.set(v, true);

@@ -349,7 +349,7 @@ TEST(AtlasPosition, GivesEachSlotItsOwnPlace) {
   const glm::ivec3 atlas(5, 3, 2);
   std::set<std::tuple<int, int, int>> places;
   for (std::uint32_t slot = 0; slot < 30; ++slot) {
-    const glm::ivec3 at = atlas_position(atlas, slot);
+    const glm::ivec3 at(shared::atlas_brick(atlas, slot));
     EXPECT_TRUE(glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThan(at, atlas)));
     EXPECT_EQ(static_cast<std::uint32_t>(at.x + 5 * (at.y + 3 * at.z)), slot);
     places.insert({at.x, at.y, at.z});
