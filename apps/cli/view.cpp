@@ -104,6 +104,36 @@ void view(const Options& options) {
                                        " errors; the first: " + report.validation_messages.front());
 }
 
+/// What the window starts with, and what it leaves behind.
+void declare_outputs(const Arguments& arguments, Options& options) {
+  arguments
+      .add_option("--folder", options.folder,
+                  "Folder for screenshots and recordings; default: current folder")
+      .type_name("FOLDER");
+  arguments.add_option("--record", options.record, "On exit, write the session as a timeline")
+      .type_name("FILE");
+  arguments.add_option("--exit-after", options.exit_after, "Close the window at this simulation time [s]")
+      .take_last()
+      .range(0.01, 3600.0)
+      .type_name("S");
+  arguments.add_option("--screenshot", options.screenshot, "Save an image at the time of --exit-after")
+      .type_name("FILE");
+  arguments.add_flag("--panels", options.panels, "Start with the panels open");
+  arguments.add_flag("--bare", options.bare, "Start without any overlay");
+  arguments.add_flag("--no-vsync", options.no_vertical_sync, "Do not wait for vertical sync");
+  arguments.add_option("--shaders", options.shaders, "Folder of shader sources to watch for changes")
+      .type_name("FOLDER");
+  arguments.add_flag("--validation", options.validation, "Enable the Vulkan validation layers");
+  arguments.add_option("--device", options.device, "Device by number or part of its name; see brume devices")
+      .type_name("N|NAME");
+  arguments
+      .add_option("--frame-log", options.frame_log,
+                  "Write one CSV line per frame while the window is open: times, memory")
+      .type_name("FILE");
+  arguments.add_option("--json", options.json, "Write the measurements as JSON; - for standard output")
+      .type_name("FILE");
+}
+
 void declare_tests(const Arguments& arguments, Options& options) {
   // For tests of the window.
   arguments.add_option("--lose-device", options.lose_device, "").hidden().range(0.0, 3600.0);
@@ -148,32 +178,7 @@ Command add_view(CommandLine& program) {
   arguments.add_option("--word", options->word, "Word whose letters are shot; default BRUME")
       .type_name("TEXT");
   arguments.add_option("--shot", options->picture, "Image whose shape is shot").type_name("FILE");
-  arguments
-      .add_option("--folder", options->folder,
-                  "Folder for screenshots and recordings; default: current folder")
-      .type_name("FOLDER");
-  arguments.add_option("--record", options->record, "On exit, write the session as a timeline")
-      .type_name("FILE");
-  arguments.add_option("--exit-after", options->exit_after, "Close the window at this simulation time [s]")
-      .take_last()
-      .range(0.01, 3600.0)
-      .type_name("S");
-  arguments.add_option("--screenshot", options->screenshot, "Save an image at the time of --exit-after")
-      .type_name("FILE");
-  arguments.add_flag("--panels", options->panels, "Start with the panels open");
-  arguments.add_flag("--bare", options->bare, "Start without any overlay");
-  arguments.add_flag("--no-vsync", options->no_vertical_sync, "Do not wait for vertical sync");
-  arguments.add_option("--shaders", options->shaders, "Folder of shader sources to watch for changes")
-      .type_name("FOLDER");
-  arguments.add_flag("--validation", options->validation, "Enable the Vulkan validation layers");
-  arguments.add_option("--device", options->device, "Device by number or part of its name; see brume devices")
-      .type_name("N|NAME");
-  arguments
-      .add_option("--frame-log", options->frame_log,
-                  "Write one CSV line per frame while the window is open: times, memory")
-      .type_name("FILE");
-  arguments.add_option("--json", options->json, "Write the measurements as JSON; - for standard output")
-      .type_name("FILE");
+  declare_outputs(arguments, *options);
   declare_tests(arguments, *options);
   command.run = [options] { view(*options); };
   return command;

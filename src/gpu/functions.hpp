@@ -26,7 +26,8 @@
   X(CreateCommandPool) X(DestroyCommandPool) X(ResetCommandPool) X(AllocateCommandBuffers) \
   X(BeginCommandBuffer) X(EndCommandBuffer) X(CreateSemaphore) X(DestroySemaphore) X(WaitSemaphores) \
   X(CreateQueryPool) X(DestroyQueryPool) X(GetQueryPoolResults) \
-  X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdPipelineBarrier2) \
+  X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdPushConstants) X(CmdDispatch) X(CmdDispatchIndirect) \
+  X(CmdPipelineBarrier2) \
   X(CmdCopyBuffer) X(CmdCopyBufferToImage) X(CmdCopyImageToBuffer) X(CmdUpdateBuffer) X(CmdFillBuffer) \
   X(CmdClearColorImage) X(CmdBlitImage) X(CmdBeginRendering) X(CmdEndRendering) X(CmdSetViewport) X(CmdSetScissor) \
   X(CmdSetCullMode) X(CmdBindIndexBuffer) X(CmdDrawIndexed) X(CmdDraw) X(CmdResetQueryPool) X(CmdWriteTimestamp2)

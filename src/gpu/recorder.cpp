@@ -128,25 +128,6 @@ void Recorder::flush_barriers() {
   image_barriers_.clear();
 }
 
-std::string binding_fault(const ShaderInterface& interface, std::span<const BoundResource> resources) {
-  const auto name = [](shared::BindingIndex at) {
-    return std::string(at.name) + " (binding " + std::to_string(at.number) + ")";
-  };
-  for (const BoundResource& bound : resources) {
-    const ShaderInterface::Binding* binding = interface.find(bound.at.number);
-    if (!binding) return "has no " + name(bound.at);
-    if (binding->type != bound.resource.type)
-      return name(bound.at) + " is a " + name_of(binding->type) + ", not a " + name_of(bound.resource.type);
-  }
-  for (const ShaderInterface::Binding& binding : interface.bindings) {
-    const auto binds = [&](const BoundResource& bound) { return bound.at.number == binding.number; };
-    const auto count = std::count_if(resources.begin(), resources.end(), binds);
-    const std::string what = "binding " + std::to_string(binding.number) + ", a " + name_of(binding.type);
-    if (count != 1) return what + (count == 0 ? ", has no resource" : ", has more than one resource");
-  }
-  return {};
-}
-
 VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const BoundResource> resources) {
   const std::string fault = binding_fault(pipeline.interface(), resources);
   BRUME_ASSERT(fault.empty(), std::string(pipeline.shaders().front().name) + ": " + fault);

@@ -71,6 +71,15 @@ VkPresentModeKHR Swapchain::choose_mode() const {
   return VK_PRESENT_MODE_FIFO_KHR;
 }
 
+void Swapchain::get_images() {
+  const Functions& vk = context_.vk();
+  std::uint32_t count = 0;
+  check(vk.GetSwapchainImagesKHR(context_.device(), handle_, &count, nullptr), "vkGetSwapchainImagesKHR");
+  images_.resize(count);
+  check(vk.GetSwapchainImagesKHR(context_.device(), handle_, &count, images_.data()),
+        "vkGetSwapchainImagesKHR");
+}
+
 // Recreates surface and swapchain as necessary; false when there are no images to render into.
 bool Swapchain::make() {
   const Functions& vk = context_.vk();
@@ -123,11 +132,7 @@ bool Swapchain::make() {
   check(result, "vkCreateSwapchainKHR");
   handle_ = made;
 
-  std::uint32_t count = 0;
-  check(vk.GetSwapchainImagesKHR(context_.device(), handle_, &count, nullptr), "vkGetSwapchainImagesKHR");
-  images_.resize(count);
-  check(vk.GetSwapchainImagesKHR(context_.device(), handle_, &count, images_.data()),
-        "vkGetSwapchainImagesKHR");
+  get_images();
   while (drawn_.size() < images_.size()) drawn_.push_back(make_semaphore(context_));
   out_of_date_ = false;
   return true;

@@ -42,6 +42,7 @@ class Swapchain {
 
  private:
   bool make();
+  void get_images();
   void destroy();
   VkPresentModeKHR choose_mode() const;
 

@@ -22,6 +22,10 @@ void upload(gpu::Recorder& recorder, const gpu::Buffer& buffer, const std::vecto
   if (!list.empty()) recorder.upload(buffer, 0, std::as_bytes(std::span(list)));
 }
 
+shared::SmokeLightParams params_of(const volume::IndexRange& range, std::uint32_t threads) {
+  return {range.first, range.count, threads};
+}
+
 }  // namespace
 
 SmokeLightPass::SmokeLightPass(gpu::Context& context)
@@ -67,26 +71,9 @@ void SmokeLightPass::record(gpu::Recorder& recorder, const planning::SmokeLightP
 
 void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
                                  const planning::SmokeLightPlan::Part& part) {
-  const auto params = [](const volume::IndexRange& range, std::uint32_t threads) {
-    return shared::SmokeLightParams{range.first, range.count, threads};
-  };
-  if (part.texel_lists.count > 0) {
-    recorder.bind(texels_pass_,
-                  {
-                      {shared::kBindFrame, gpu::uniform(in.frame)},
-                      {shared::kBindTexelLists, gpu::read(listed_bricks_)},
-                      {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
-                      {shared::kBindLightRows, gpu::read_write(texel_lists_)},
-                      {shared::kBindCells, gpu::read(in.smoke.cells)},
-                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
-                      {shared::kBindLightChanges, gpu::read(changes_)},
-                  },
-                  params(part.texel_lists, 256));
-    const Groups groups = groups_of(part.texel_lists.count);
-    recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
-  }
-  // First the items of all texels, then those of some phases. A thread a texel; without a GPU one group for
-  // all of them, since there threads that have none cost as much as those that have.
+  if (part.texel_lists.count > 0) record_texel_lists(recorder, in, part.texel_lists);
+  // First the items of all texels, then those of some phases. One thread per texel; without a GPU one group
+  // for all of them, because idle threads cost as much as busy ones there.
   const auto threads_for = [&](std::uint32_t texels) {
     return one_group_ ? kThreads : (texels + kThreads - 1) / kThreads * kThreads;
   };
@@ -98,47 +85,74 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
              threads_for(part.phases * shared::kTexelsPerPhase));
   };
   each(part.shadow_rays, part.sliced_rays, [&](const volume::IndexRange& range, std::uint32_t threads) {
-    recorder.bind(rays_pass_,
-                  {
-                      {shared::kBindFrame, gpu::uniform(in.frame)},
-                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
-                      {shared::kBindLights, gpu::read(in.scene.lights)},
-                      {shared::kBindSun, gpu::read(in.shadows.sun)},
-                      {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
-                      {shared::kBindPages, gpu::read(in.smoke.pages)},
-                      {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
-                      {shared::kBindCells, gpu::read(in.smoke.cells)},
-                      {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
-                      {shared::kBindCorners, gpu::read(in.smoke.corners)},
-                      {shared::kBindHoleCells, gpu::read(in.holes.cells)},
-                      {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
-                      {shared::kBindShadowRays, gpu::read(shadow_rays_)},
-                      {shared::kBindLightRows, gpu::read(texel_lists_)},
-                      {shared::kBindLightBlocks, gpu::write(ray_pages_)},
-                  },
-                  params(range, threads));
-    const Groups groups = groups_of(range.count);
-    recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
+    record_rays(recorder, in, range, threads);
   });
   each(part.gathers, part.sliced_gathers, [&](const volume::IndexRange& range, std::uint32_t threads) {
-    recorder.bind(inscatter_pass_,
-                  {
-                      {shared::kBindFrame, gpu::uniform(in.frame)},
-                      {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
-                      {shared::kBindLights, gpu::read(in.scene.lights)},
-                      {shared::kBindLightRows, gpu::read(texel_lists_)},
-                      {shared::kBindLightBlocks, gpu::read(ray_pages_)},
-                      {shared::kBindLightGathers, gpu::read(gathers_)},
-                      {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
-                      {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
-                      {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
-                      {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
-                      {shared::kBindBrickLights, gpu::read(gathered_lights_)},
-                  },
-                  params(range, threads));
-    const Groups groups = groups_of(range.count);
-    recorder.dispatch_threads(inscatter_pass_, threads, groups.y, groups.z);
+    record_gathers(recorder, in, range, threads);
   });
+}
+
+void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& in,
+                                        const volume::IndexRange& range) {
+  recorder.bind(texels_pass_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindTexelLists, gpu::read(listed_bricks_)},
+                    {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                    {shared::kBindLightRows, gpu::read_write(texel_lists_)},
+                    {shared::kBindCells, gpu::read(in.smoke.cells)},
+                    {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                    {shared::kBindLightChanges, gpu::read(changes_)},
+                },
+                params_of(range, 256));
+  const Groups groups = groups_of(range.count);
+  recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
+}
+
+void SmokeLightPass::record_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
+                                 std::uint32_t threads) {
+  recorder.bind(rays_pass_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                    {shared::kBindLights, gpu::read(in.scene.lights)},
+                    {shared::kBindSun, gpu::read(in.shadows.sun)},
+                    {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                    {shared::kBindPages, gpu::read(in.smoke.pages)},
+                    {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                    {shared::kBindCells, gpu::read(in.smoke.cells)},
+                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                    {shared::kBindHoleCells, gpu::read(in.holes.cells)},
+                    {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                    {shared::kBindShadowRays, gpu::read(shadow_rays_)},
+                    {shared::kBindLightRows, gpu::read(texel_lists_)},
+                    {shared::kBindLightBlocks, gpu::write(ray_pages_)},
+                },
+                params_of(range, threads));
+  const Groups groups = groups_of(range.count);
+  recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
+}
+
+void SmokeLightPass::record_gathers(gpu::Recorder& recorder, const Inputs& in,
+                                    const volume::IndexRange& range, std::uint32_t threads) {
+  recorder.bind(inscatter_pass_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
+                    {shared::kBindLights, gpu::read(in.scene.lights)},
+                    {shared::kBindLightRows, gpu::read(texel_lists_)},
+                    {shared::kBindLightBlocks, gpu::read(ray_pages_)},
+                    {shared::kBindLightGathers, gpu::read(gathers_)},
+                    {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
+                    {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
+                    {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                    {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                    {shared::kBindBrickLights, gpu::read(gathered_lights_)},
+                },
+                params_of(range, threads));
+  const Groups groups = groups_of(range.count);
+  recorder.dispatch_threads(inscatter_pass_, threads, groups.y, groups.z);
 }
 
 }  // namespace brume::passes

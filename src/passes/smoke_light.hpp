@@ -31,6 +31,11 @@ class SmokeLightPass {
 
  private:
   void record_part(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeLightPlan::Part& part);
+  void record_texel_lists(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range);
+  void record_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
+                   std::uint32_t threads);
+  void record_gathers(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
+                      std::uint32_t threads);
 
   gpu::Context& context_;
   gpu::ComputePipeline texels_pass_, rays_pass_, inscatter_pass_;

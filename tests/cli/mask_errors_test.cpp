@@ -105,7 +105,7 @@ TEST_F(MaskErrors, InvalidTexts) {
   fails("", {"a.toml:4:1: ", "lacks the key \"text\""});
   fails("text = \"\"", {"a.toml:9:8: ", "expected 1 to 1024 bytes"});
   fails("text = \"" + std::string(1025, 'A') + "\"", {"a.toml:9:8: ", "expected 1 to 1024 bytes"});
-  fails("text = \"  \"", {"a.toml:4:1: ", "no letter", "expected one"});
+  fails("text = \"  \"", {"a.toml:4:1: ", "no visible letter", "expected at least one"});
   fails("text = 5", {"a.toml:9:8: ", "expected a string in quotes"});
   fails("text = \"A\\tB\"", {"a.toml:4:1: ", "U+0009", "expected one line of letters"});
   fails("text = \"\xff\xfe\"", {"a.toml:9:", "utf-8"});

@@ -61,7 +61,7 @@ class AccumulateTest : public gpu::GpuTest {
   AccumulatePass pass_;
 };
 
-TEST_F(AccumulateTest, AFrameThatBeginsAnewIsItself) {
+TEST_F(AccumulateTest, AFrameWithoutHistoryIsItself) {
   (void)add(frame_at(0), even({0.5f, 0.5f, 0.5f, 0.25f}), wall(12), false);
   Texels random;
   std::mt19937 generator(1);

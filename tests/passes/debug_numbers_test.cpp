@@ -105,6 +105,23 @@ TEST_F(DebugNumbersTest, ASliceShowsTheLightThatTheSmokeSends) {
   EXPECT_GT(lit, 60);
 }
 
+/// Length of a ray over which holes remove the smoke [m].
+double cleared_length(const smoke::HolesOnRay& met) {
+  double length = 0;
+  for (const smoke::HolePiece& piece : met.pieces) {
+    constexpr int kParts = 64;  // of a piece without kinks, four samples each
+    const float width = (piece.end - piece.begin) / kParts;
+    for (int i = 0; i < kParts; ++i) {
+      smoke::Float4 t;
+      for (int k = 0; k < 4; ++k)
+        t[k] = piece.begin + (static_cast<float>(i) + 0.125f + 0.25f * static_cast<float>(k)) * width;
+      const smoke::Float4 remaining = piece.gone ? smoke::Float4{} : met.remaining(piece, t);
+      for (int k = 0; k < 4; ++k) length += 0.25 * static_cast<double>(width * (1 - remaining[k]));
+    }
+  }
+  return length;
+}
+
 TEST_F(DebugNumbersTest, HolesShowHowMuchOfARayTheyClear) {
   const glm::uvec2 size(65, 37);
   FrameConstants frame = frame_of(size);
@@ -144,17 +161,7 @@ TEST_F(DebugNumbersTest, HolesShowHowMuchOfARayTheyClear) {
       smoke::HolesOnRay met;
       const glm::vec3 origin = frame.camera.eye_world + ray.direction * begin;
       holes.find(origin, ray.direction, end - begin, met);
-      for (const smoke::HolePiece& piece : met.pieces) {
-        constexpr int kParts = 64;  // of a piece without kinks, four samples each
-        const float width = (piece.end - piece.begin) / kParts;
-        for (int i = 0; i < kParts; ++i) {
-          smoke::Float4 t;
-          for (int k = 0; k < 4; ++k)
-            t[k] = piece.begin + (static_cast<float>(i) + 0.125f + 0.25f * static_cast<float>(k)) * width;
-          const smoke::Float4 left = piece.gone ? smoke::Float4{} : met.remaining(piece, t);
-          for (int k = 0; k < 4; ++k) length += 0.25 * static_cast<double>(width * (1 - left[k]));
-        }
-      }
+      length = cleared_length(met);
     }
     cleared += length > 0.1;
     // Midpoints of steps: each of three holes rises to 1 and falls to 0 again, and a sum of steps misses at

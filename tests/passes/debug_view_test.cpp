@@ -83,37 +83,56 @@ TEST_F(DebugViewTest, SolidVoxelsAreThoseThatRaysMeet) {
   }
 }
 
-/// Voxels that hold smoke, and the way that it came to each, in tenths of a voxel.
-std::map<std::array<int, 3>, std::uint32_t> ways_of(const sim::State& state) {
-  std::map<std::array<int, 3>, std::uint32_t> ways;
+/// Voxels that hold smoke, and the distance that it came to each, in tenths of a voxel.
+std::map<std::array<int, 3>, std::uint32_t> distances_of(const sim::State& state) {
+  std::map<std::array<int, 3>, std::uint32_t> distances;
   for (const sim::LiveCloud& live : state.clouds)
     live.cloud->voxels().for_each([&](glm::ivec3 v, std::uint32_t rank) {
-      if (state.density(v) > 0) ways[{v.x, v.y, v.z}] = live.cloud->distances()[rank];
+      if (state.density(v) > 0) distances[{v.x, v.y, v.z}] = live.cloud->distances()[rank];
     });
-  return ways;
+  return distances;
+}
+
+/// Coverage of the lines on a face of a voxel: the grid, and where the distance passes a whole metre.
+float line_on_face(const auto& distance_at, glm::ivec3 voxel, glm::ivec2 axes, glm::vec2 f, float width) {
+  float line = 0.18f * shared::grid_line(f, width);
+  for (int side = 0; side < 4; ++side) {
+    glm::ivec3 beside(0);
+    beside[side < 2 ? axes.x : axes.y] = side % 2 == 0 ? -1 : 1;
+    const float other = distance_at(voxel + beside), x = side < 2 ? f.x : f.y;
+    if (other >= 0 && std::floor(other) != std::floor(distance_at(voxel)))
+      line = std::max(line, 0.75f * shared::line_coverage(side % 2 == 0 ? x : 1 - x, 1.5f * width));
+  }
+  return line;
+}
+
+float farthest_metres(const sim::Cloud& cloud) {
+  float farthest = 0;
+  for (const std::uint32_t distance : cloud.distances())
+    farthest = std::max(farthest, static_cast<float>(distance) * 0.025f);
+  return farthest;
 }
 
 TEST_F(DebugViewTest, DistancesAreThoseOfTheCloudBeyondTheSlice) {
-  const auto ways = ways_of(room_.world.state());
-  ASSERT_GT(ways.size(), 1500u);
-  const auto way_at = [&](glm::ivec3 v) {
-    const auto found = ways.find({v.x, v.y, v.z});
-    return found == ways.end() ? -1.0f
-                               : static_cast<float>(found->second) * 0.1f * room_.grid.layout().voxel_size;
+  const auto distances = distances_of(room_.world.state());
+  ASSERT_GT(distances.size(), 1500u);
+  const auto distance_at = [&](glm::ivec3 v) {
+    const auto found = distances.find({v.x, v.y, v.z});
+    return found == distances.end()
+               ? -1.0f
+               : static_cast<float>(found->second) * 0.1f * room_.grid.layout().voxel_size;
   };
-  float farthest = 0;
-  for (const std::uint32_t distance : room_.world.state().clouds[0].cloud->distances())
-    farthest = std::max(farthest, static_cast<float>(distance) * 0.025f);
+  const float farthest = farthest_metres(*room_.world.state().clouds[0].cloud);
   const glm::uvec2 size(65, 37);
   const FrameConstants frame = frame_of(size);
   const Surfaces surfaces = half_a_wall(frame);
+  const float voxel_size = room_.grid.layout().voxel_size;
   for (const ViewSlice slice : {ViewSlice{2, 5.0f}, ViewSlice{2, -0.975f}, ViewSlice{0, -1.22f}}) {
     const auto shown = show(DebugView::distance, frame, surfaces, slice);
     const int across = static_cast<int>(slice.axis);
     int met = 0, cut = 0;
     expect_rays(shown, size, kRounded, [&](glm::vec2 position_px, glm::u8vec4 pixel) {
       const Ray ray = ray_of(frame, surfaces, position_px);
-      const float voxel_size = room_.grid.layout().voxel_size;
       const float t_slice = (slice.at_world - frame.camera.eye_world[across]) / ray.direction[across];
       if (!(t_slice > 0)) return apart(pixel, ray.behind);
       const float t_begin = std::max(1.0f, t_slice) / voxel_size;
@@ -121,7 +140,7 @@ TEST_F(DebugViewTest, DistancesAreThoseOfTheCloudBeyondTheSlice) {
       float t = 0;
       voxel::visit_voxels(room_.grid.layout(), ray.eye_voxel, ray.direction, 1e6f,
                           [&](glm::ivec3 v, float enter, float leave) {
-                            if (leave > t_begin && way_at(v) >= 0) {
+                            if (leave > t_begin && distance_at(v) >= 0) {
                               voxel = v;
                               t = std::max(enter, t_begin);
                               return false;
@@ -142,16 +161,9 @@ TEST_F(DebugViewTest, DistancesAreThoseOfTheCloudBeyondTheSlice) {
       const glm::vec3 at = ray.eye_voxel + ray.direction * t - glm::vec3(voxel);
       const glm::vec2 f = glm::clamp(glm::vec2(at[axes.x], at[axes.y]), 0.0f, 1.0f);
       const float metres = t * voxel_size, width = ray.pixel_voxels(metres, std::abs(ray.direction[axis]));
-      const float way = way_at(voxel);
-      float line = 0.18f * shared::grid_line(f, width);
-      for (int side = 0; side < 4; ++side) {
-        glm::ivec3 beside(0);
-        beside[side < 2 ? axes.x : axes.y] = side % 2 == 0 ? -1 : 1;
-        const float other = way_at(voxel + beside), x = side < 2 ? f.x : f.y;
-        if (other >= 0 && std::floor(other) != std::floor(way))
-          line = std::max(line, 0.75f * shared::line_coverage(side % 2 == 0 ? x : 1 - x, 1.5f * width));
-      }
-      const glm::vec3 colour = shared::ramp_colour(shared::kRampViridis, way / std::ceil(farthest));
+      const float distance = distance_at(voxel);
+      const float line = line_on_face(distance_at, voxel, axes, f, width);
+      const glm::vec3 colour = shared::ramp_colour(shared::kRampViridis, distance / std::ceil(farthest));
       const glm::vec3 lit = glm::min(colour * shared::distance_tone(normal), 1.0f) * (1 - line);
       return apart(pixel, seen(ray, lit, metres));
     });
@@ -170,7 +182,7 @@ TEST_F(DebugViewTest, BricksShowWhereTheyAreAndNothingElsewhere) {
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const Ray ray = ray_of(frame, surfaces, middle(frame, i));
     const float t_end = ray.surface_m / room_.grid.layout().voxel_size;
-    // The longest way through one brick's filled cells; -1 where the ray is in no brick.
+    // The longest distance through one brick's filled cells; -1 where the ray is in no brick.
     float filled = -1;
     for (std::uint32_t slot = 0; slot < room_.volume.slot_count(); ++slot) {
       const glm::vec3 low(room_.volume.brick_of(slot) * 8);

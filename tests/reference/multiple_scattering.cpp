@@ -144,10 +144,10 @@ std::vector<ScatteringSample> scattering_samples(const std::vector<double>& gs,
   };
   std::vector<Place> places;
   using Shape = Body::Shape;
-  const glm::dvec3 askew = glm::normalize(glm::dvec3(0.8, 0.1, 0.6));
+  const glm::dvec3 oblique = glm::normalize(glm::dvec3(0.8, 0.1, 0.6));
   for (const double half : {0.25, 1.0, 4.0})  // slabs, lit from the front and obliquely
     for (const double z : {-0.95, -0.7, -0.3, 0.2, 0.8})
-      for (const glm::dvec3 direction : {glm::dvec3(0, 0, 1), askew})
+      for (const glm::dvec3 direction : {glm::dvec3(0, 0, 1), oblique})
         places.push_back({{Shape::slab, half}, {true, direction, {}}, {0, 0, z * half}});
   for (const Shape shape : {Shape::sphere, Shape::box})  // bodies, lit from afar and from nearby
     for (const double half : {0.4, 1.5, 3.5, 7.0})

@@ -258,8 +258,9 @@ TEST(Gltf, MaterialsAndCameras) {
   document.primitive = R"({"attributes": {"POSITION": 0}, "material": 0})";
   document.nodes = R"([{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}])";
   document.more = R"(, "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
-    "materials": [{"name": "glow", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 0.8], "metallicFactor": 0.1,
-    "roughnessFactor": 0.3}, "emissiveFactor": [1, 0.5, 0], "alphaMode": "MASK", "alphaCutoff": 0.4,
+    "materials": [{"name": "glow", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0.25, 0.8],
+    "metallicFactor": 0.1, "roughnessFactor": 0.3},
+    "emissiveFactor": [1, 0.5, 0], "alphaMode": "MASK", "alphaCutoff": 0.4,
     "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 10}}}])";
   const auto scene = document.load();
   ASSERT_TRUE(scene) << scene.failure().message;
@@ -279,7 +280,8 @@ TEST(Gltf, MissingImagesAreWarningsWithStandIns) {
   Document document;
   document.primitive = R"({"attributes": {"POSITION": 0}, "material": 0})";
   document.more = R"(, "images": [{"uri": "gone.png"}, {"bufferView": 0, "mimeType": "image/png"}],
-    "textures": [{"source": 0}, {"source": 1}], "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+    "textures": [{"source": 0}, {"source": 1}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
     "normalTexture": {"index": 1}}])";
   const Warnings warnings;
   const auto scene = document.load();
