@@ -35,12 +35,14 @@ void plan_noise_updates(FramePlan& plan, PlanHistory& history) {
   if (!smoke.volume) return;
   plan.noise = plan_noise(plan.state(), static_cast<double>(smoke.time), smoke.swirl_period);
   if (!history.noise.applies_to(plan.input.quality.light_update_fraction)) {
+    plan.noise.catches_up = history.noise.is_late();
     history.noise.invalidate();
     return;
   }
   const auto slots_due = history.noise.slots_due(
       {smoke.volume, plan.visibility.slots, plan.noise.motions, plan.noise.impulses, smoke.look, smoke.time});
   plan.noise.slots_due.emplace(slots_due.begin(), slots_due.end());
+  plan.noise.catches_up = !slots_due.empty();
 }
 
 void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
@@ -57,12 +59,11 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
 
 void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
   const FrameInput& input = plan.input;
-  const bool noise_changed = plan.noise.slots_due && !plan.noise.slots_due->empty();
   plan.smoke_light = &history.smoke_light.plan({input.smoke.volume, &plan.visibility, plan.lights,
                                                 input.smoke.holes, input.smoke.time, input.smoke.look,
                                                 input.environment.sky, input.view.camera.position_world,
                                                 plan.level_changed || input.quality.rebuild_light,
-                                                input.quality.light_update_fraction, noise_changed});
+                                                input.quality.light_update_fraction, plan.noise.catches_up});
 }
 
 }  // namespace

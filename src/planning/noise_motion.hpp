@@ -33,6 +33,8 @@ struct NoisePlan {
   std::vector<shared::Impulse> impulses;
   /// The slots whose noise the frame advects; empty: all of its slots.
   std::optional<std::vector<std::uint32_t>> slots_due;
+  /// Time-sliced noise catches up: it changes, though its inputs may be those of the frame before.
+  bool catches_up = false;
 };
 
 /// What advects the noise of a state `seconds` after tick 0, in all slots.

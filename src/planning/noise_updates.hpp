@@ -35,6 +35,8 @@ class NoiseUpdates {
   /// The slots whose noise the frame must advect, in their order; they count as up to date from then on.
   /// Valid until the next call.
   std::span<const std::uint32_t> slots_due(const NoiseInputs& inputs);
+  /// Whether some noise of the last frame, unless invalidated, is of an earlier time: not all slots were due.
+  bool is_late() const { return last_ && scheduler_.pending() > 0; }
   /// The noise was advected without this class, or not at all.
   void invalidate() { last_.reset(); }
 

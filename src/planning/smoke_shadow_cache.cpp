@@ -70,8 +70,7 @@ std::optional<SmokeShadowUpdate> SmokeShadowCache::update(SmokeShadowPlan plan,
                                                           const SmokeShadowInputs& inputs) {
   // What changed. Time-sliced noise changes after its inputs did, too.
   Key key = key_of(inputs);
-  const bool noise_changed =
-      inputs.look.erosion > 0 && inputs.noise->slots_due && !inputs.noise->slots_due->empty();
+  const bool noise_changed = inputs.look.erosion > 0 && inputs.noise->catches_up;
   const bool same_plan = key_ && plan == plan_;
   const bool same_inputs = key_ && key == *key_ && !(inputs.volume && (inputs.rebuild || noise_changed));
   plan_ = std::move(plan);

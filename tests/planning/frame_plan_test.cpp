@@ -99,6 +99,25 @@ TEST_F(FramePlanTest, OnlyAQuarterOfTheLightOrLessSlicesNoise) {
   EXPECT_EQ(next.smoke_shadows->spread, 2u);
 }
 
+TEST_F(FramePlanTest, AllOfATimeFollowsAgainWhatItsSliceFollowedThroughLateNoise) {
+  input_.smoke.look.erosion = 0.5f;
+  input_.quality.light_update_fraction = 0.25f;
+  plan();
+  // A flash: the slice marches all shadows, and follows all rays to it.
+  input_.smoke.time += 0.1f;
+  input_.environment.flashes = lights_;
+  const FramePlan slice = plan();
+  EXPECT_LT(slice.noise.slots_due.value().size(), slice.visibility.slots.size());
+  EXPECT_EQ(slice.smoke_shadows.value().spread, 1u);
+  input_.quality.light_update_fraction = 1;
+  const FramePlan all = plan();
+  EXPECT_TRUE(all.smoke_shadows);
+  const std::size_t rays = all.smoke_light->shadow_rays.size();
+  EXPECT_FALSE(plan().smoke_shadows) << "no noise is late any more";
+  history_ = PlanHistory();
+  EXPECT_EQ(rays, plan().smoke_light->shadow_rays.size());
+}
+
 TEST_F(FramePlanTest, LostLightIsPlannedAgain) {
   plan();
   FramePlan again = plan();

@@ -157,9 +157,9 @@ TEST_F(SmokeShadowCacheTest, NoiseMovesWithTheClockAndWithImpulses) {
   inputs_.look.swirl += 0.1f;
   expect_one_update("the swirl");
   // Bricks whose noise is late.
-  noise_.slots_due.emplace(1, 0);
+  noise_.catches_up = true;
   EXPECT_TRUE(update());
-  noise_.slots_due->clear();
+  noise_.catches_up = false;
   EXPECT_FALSE(update());
 }
 

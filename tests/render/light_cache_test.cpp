@@ -1,5 +1,6 @@
 // Light in smoke that is cached from frame to frame equals light that is rebuilt, bit for bit.
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "render/playback.hpp"
@@ -176,6 +177,33 @@ TEST_F(LightCacheTest, WhereNoiseMovesItHoldsOnlyWhileTimeStandsStill) {
   EXPECT_EQ(work.bricks, work.all_bricks);
   work = draw(2.05);
   EXPECT_EQ(work.rays, work.all_rays);
+}
+
+/// Slices of a time, as a player sees them, and then all of it, as a screenshot shows it: the slices followed
+/// rays through noise that was late in part.
+TEST_F(LightCacheTest, AllOfATimeIsTheRebuiltOneHoweverItWasSliced) {
+  begin(0.5f);
+  std::minstd_rand random(1);
+  const auto uniform = [&](float low, float high) {
+    return low + (high - low) * static_cast<float>(random() % 1024) / 1023;
+  };
+  double seconds = 2;
+  for (int picture = 0; picture < 24; ++picture) {
+    for (auto frames = random() % 4; frames-- > 0;) {
+      seconds += random() % 4 == 0 ? 0 : uniform(0.01f, 0.1f);
+      if (random() % 2 == 0)
+        camera_.position_world += glm::vec3(uniform(-0.2f, 0.2f), uniform(-0.1f, 0.1f), 0);
+      if (random() % 8 == 0) camera_.target_world.x = uniform(-6, 6);
+      flash_ = random() % 4 == 0 ? uniform(1, 3) : 0;
+      FrameInput input = input_at(seconds);
+      input.quality.light_update_fraction = random() % 2 == 0 ? 0.125f : 0.25f;
+      cached_->draw(input);
+    }
+    draw(seconds);
+    EXPECT_EQ(read_back<std::uint64_t>(cached_->picture()), read_back<std::uint64_t>(rebuilt_->picture()))
+        << "picture " << picture << " at " << seconds;
+    if (picture % 8 == 7) seconds += 2;
+  }
 }
 
 /// Draws with an update fraction, by two renderers. In one of them all light glares before its first frame.
