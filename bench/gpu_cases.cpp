@@ -206,13 +206,15 @@ Result<std::vector<Measurement>> light_cache(Bench& bench) {
   time("all", [](unsigned) {});
   frame.input().quality.rebuild_light = false;
   time("nothing", [](unsigned) {});
-  time("eye", [&](unsigned i) { frame.input().view.camera.position_world.x = 0.01f * static_cast<float>(i); });
+  time("eye",
+       [&](unsigned i) { frame.input().view.camera.position_world.x = 0.01f * static_cast<float>(i); });
   time("hole", [&](unsigned i) {
     changing.back().radius = holes.back().radius * (i % 2 == 0 ? 1 : 0.9f);
     frame.input().smoke.holes = changing;
   });
   // A light that changes its intensity, and one that appears.
-  time("flicker", [&](unsigned i) { frame.input().environment.flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
+  time("flicker",
+       [&](unsigned i) { frame.input().environment.flashes = {flash_beside(i % 2 == 0 ? 1 : 2)}; });
   time("flash", [&](unsigned i) {
     frame.input().environment.flashes = {flash_beside(2)};
     frame.input().environment.flashes[0].position_world.y += 0.01f * static_cast<float>(i);

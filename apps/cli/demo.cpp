@@ -13,9 +13,9 @@ namespace brume::cli {
 namespace {
 
 constexpr glm::uvec2 kPictureSize{1280, 720};
-// Where the processor draws, the film takes most of the time. Each of these looks as good as full quality in a
-// moving image: one ray per 2x2 pixels where the resolve test allows it, and a quarter of the
-// light in the smoke updated by each frame.
+// Where the processor draws, the film takes most of the time. Each of these looks as good as full quality in
+// a moving image: one ray per 2x2 pixels where the resolve test allows it, and a quarter of the light in the
+// smoke updated by each frame.
 constexpr glm::uvec2 kFilmSize{640, 360};
 constexpr std::uint32_t kFramesPerSecond = 24;
 constexpr std::uint32_t kFilmMarchScale = 2;

@@ -20,7 +20,7 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const std::
 }
 
 Result<void> save_snapshot(const std::filesystem::path& picture, const image::Image8& image,
-                         const scene::Timeline& snapshot) {
+                           const scene::Timeline& snapshot) {
   const auto timeline = std::filesystem::path(picture).replace_extension(".toml");
   if (auto done = scene::save_timeline(timeline, snapshot); !done) return done;
   return image::save_png(picture, image);

@@ -42,8 +42,8 @@ struct SceneResources {
   gpu::Buffer vertices, indices, lights;
   std::vector<gpu::Image> images;  ///< The first three: white, flat normal, white.
   std::vector<MaterialImages> materials;
-  std::vector<Draw> draws;  ///< In order of material.
-  Draw grenade;  ///< Draws nothing where the scene has none.
+  std::vector<Draw> draws;                ///< In order of material.
+  Draw grenade;                           ///< Draws nothing where the scene has none.
   std::vector<shared::Light> light_list;  ///< The first ones in `lights`; temporary lights follow.
   glm::vec3 bounds_min{0}, bounds_max{0};
 };

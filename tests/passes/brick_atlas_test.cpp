@@ -56,8 +56,7 @@ class BrickAtlasTest : public gpu::GpuTest {
     const std::vector<Texel> image = read_back<Texel>(atlas.channel(channel));
     const glm::ivec3 size = volume.layout().atlas_bricks * shared::kBrickTexels;
     for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
-      const glm::ivec3 first =
-          glm::ivec3(shared::atlas_first_texel(volume.layout().atlas_bricks, slot));
+      const glm::ivec3 first = glm::ivec3(shared::atlas_first_texel(volume.layout().atlas_bricks, slot));
       const auto texels = volume.texels<Texel>(channel, slot);
       for (int row = 0; row < 100; ++row) {
         const glm::ivec3 at = first + glm::ivec3(0, row % 10, row / 10);

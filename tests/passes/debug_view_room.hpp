@@ -144,7 +144,8 @@ class DebugViewTest : public gpu::GpuTest {
     gbuffer.normal_metallic =
         sampled_image(size, VK_FORMAT_R16G16B16A16_SFLOAT, std::as_bytes(std::span(surfaces.normal)));
     gbuffer.depth = sampled_image(size, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(surfaces.depth)));
-    const auto holes = planning::plan_holes(open_, frame.time, 0, frame.volume, room_.volume.slot_count(), size);
+    const auto holes =
+        planning::plan_holes(open_, frame.time, 0, frame.volume, room_.volume.slot_count(), size);
     holes_.reserve(holes);
     frame.holes = holes.layout();
     const auto frame_buffer = upload(std::vector{frame});

@@ -53,7 +53,8 @@ class MarchTest : public gpu::GpuTest {
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / distance);
     const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
     HoleClusters hole_clusters(context(), runner(), {});
-    const auto plan = planning::plan_holes(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
+    const auto plan =
+        planning::plan_holes(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
     hole_clusters.reserve(plan);
     frame.holes = plan.layout();
     const auto frame_buffer = upload(std::vector{frame});

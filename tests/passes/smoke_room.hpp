@@ -3,12 +3,12 @@
 
 #include <memory>
 
-#include "passes/noise_advection.hpp"
 #include "passes/noise.hpp"
+#include "passes/noise_advection.hpp"
 #include "passes/smoke_upload.hpp"
 #include "shared/frame.h"
-#include "smoke/smoke_volume.hpp"
 #include "sim/world.hpp"
+#include "smoke/smoke_volume.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -23,7 +23,8 @@ struct SmokeRoom {
 
   /// Floods the grid with `voxels` of smoke from `source_world` and shows it `tick` ticks later.
   SmokeRoom(gpu::Context& context, gpu::CommandRunner& runner, const std::vector<voxel::Triangle>& walls,
-            const voxel::GridLayout& layout, glm::dvec3 source_world, std::uint32_t voxels, std::uint32_t tick)
+            const voxel::GridLayout& layout, glm::dvec3 source_world, std::uint32_t voxels,
+            std::uint32_t tick)
       : grid(voxel::voxelize(walls, layout).value_or_throw()),
         planes(voxel::SurfacePlanes::build(walls, grid)),
         world(grid),
@@ -51,7 +52,7 @@ struct SmokeRoom {
     constants.volume = volume.layout();
     constants.look.swirl_width = 1;
     const gpu::Buffer layout(context, sizeof constants,
-                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+                             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     const gpu::Image noise = make_noise_tile(context, 8);
     const NoisePass noise_pass(context);
     NoiseAdvectionPass advection(context);

@@ -49,9 +49,9 @@ class SmokeShadowCacheTest : public ::testing::Test {
     inputs_.lights = lights_;
     inputs_.holes = &holes_;
     inputs_.noise = &noise_;
-    return cache_.update(plan_smoke_shadows({lights_, glm::mat4(1), camera_}, smoke_boxes(volume_, visibility_),
-                                            {1024, 256}),
-                         inputs_);
+    return cache_.update(
+        plan_smoke_shadows({lights_, glm::mat4(1), camera_}, smoke_boxes(volume_, visibility_), {1024, 256}),
+        inputs_);
   }
   /// Expects that something changed, and that it is up to date then.
   void expect_one_update(const char* what) {

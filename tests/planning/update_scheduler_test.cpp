@@ -25,8 +25,14 @@ TEST(UpdateScheduler, SlicesFollowInBitReversedOrder) {
 
 TEST(UpdateScheduler, AFrameTakesTheLeastPowerOfTwoThatIsNoLess) {
   UpdateScheduler scheduler(16);
-  for (const auto& [fraction, slices] : {std::pair(1.0f, 16u), {0.6f, 16u}, {0.5f, 8u}, {0.3f, 8u}, {0.25f, 4u},
-                                         {0.0626f, 2u}, {0.0625f, 1u}, {0.001f, 1u}}) {
+  for (const auto& [fraction, slices] : {std::pair(1.0f, 16u),
+                                         {0.6f, 16u},
+                                         {0.5f, 8u},
+                                         {0.3f, 8u},
+                                         {0.25f, 4u},
+                                         {0.0626f, 2u},
+                                         {0.0625f, 1u},
+                                         {0.001f, 1u}}) {
     scheduler.next_slice(fraction);
     EXPECT_EQ(scheduler.slices_per_frame(), slices) << fraction;
     EXPECT_EQ(scheduler.is_sliced(), slices < 16) << fraction;

@@ -44,7 +44,7 @@ class Eye {
     const float edge = pair.sign_px / 45 * kHalfCrop * glm::length(pair.eye - pair.target);
     input_.view.camera = {pair.eye, pair.target, 2 * std::atan(kHalfCrop)};
     input_.level.grenades = {glm::mat4(glm::vec4(edge * right, 0), glm::vec4(edge * up, 0),
-                                 glm::vec4(0.01f * back, 0), glm::vec4(pair.target, 1))};
+                                       glm::vec4(0.01f * back, 0), glm::vec4(pair.target, 1))};
     renderer_.set_march_scale(scale);
     renderer_.draw(input_);
     return renderer_;
@@ -154,8 +154,8 @@ class FairnessTest : public gpu::GpuTest {
   }
 
   /// Eyes and targets in free voxels between 2 and `reach` metres apart, with no wall between.
-  static std::vector<Pair> random_pairs(const scenario::Scenario& scenario, glm::vec3 low, glm::vec3 high, float reach,
-                                        std::size_t count) {
+  static std::vector<Pair> random_pairs(const scenario::Scenario& scenario, glm::vec3 low, glm::vec3 high,
+                                        float reach, std::size_t count) {
     std::mt19937 random(11);
     const auto between = [&](float a, float b) {
       return std::uniform_real_distribution<float>(a, b)(random);

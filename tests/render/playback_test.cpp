@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/render/boxes.hpp"
-#include "smoke/holes.hpp"
 
 namespace brume::render {
 namespace {
@@ -165,8 +165,8 @@ glm::vec3 on_the_wall(const scene::Camera& camera, glm::vec2 pixel, glm::vec2 si
   return camera.position_world + ray * ((-3 - camera.position_world.z) / ray.z);
 }
 
-/// Least and most optical depth between the light and what the 3x3 pixels around a place of the picture see of
-/// the wall, and `around` metres beside it.
+/// Least and most optical depth between the light and what the 3x3 pixels around a place of the picture see
+/// of the wall, and `around` metres beside it.
 std::pair<float, float> depths_to_the_wall(const smoke::Sight& sight, const scenario::Scenario& scenario,
                                            const scene::Camera& camera, glm::vec2 place, glm::uvec2 size,
                                            float around) {
@@ -210,8 +210,8 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
     const sim::World& world = playback.simulation().world();
     const auto holes = smoke::holes_of(world.state());
     const smoke::Sight sight(playback.simulation().volume(), world.grid(), holes,
-                           world.state().seconds(world.tick()),
-                           {.extinction = scenario.timeline.smoke.extinction});
+                             world.state().seconds(world.tick()),
+                             {.extinction = scenario.timeline.smoke.extinction});
     return depths_to_the_wall(sight, scenario, beside, place, kSize, texel);
   };
   const double clear = seen(spot, 0), clear_around = seen(around, 0), most_radiance = 0.4;
@@ -243,7 +243,8 @@ TEST_F(PlaybackTest, SmokeShadowsTheSunUnderIt) {
   scenario.timeline.smoke.albedo = glm::vec3(0);
   scenario.timeline.smoke.voxels = 700;
   scenario.timeline.smokes = {{0.2, {0, 3, 1.5f}, {0, 3, 1.5f}}};
-  scenario.timeline.edits = {{0.0, {-1.3f, 2.4f, 0.2f}, {1.3f, 2.6f, 2.8f}, true}};  // a shelf for it, not drawn
+  scenario.timeline.edits = {
+      {0.0, {-1.3f, 2.4f, 0.2f}, {1.3f, 2.6f, 2.8f}, true}};  // a shelf for it, not drawn
   Playback playback(context(), scenario, kSize);
   // An eye on the floor that looks at the floor, first under the shelf, then beside.
   const auto floor_at = [&](glm::vec3 target_world, double seconds) {

@@ -81,8 +81,9 @@ std::vector<TruthCase> truth_cases() {
   };
   add("one light", room({}, {side}), smoke_at({0, 0.2f, 0}, 1500));
   add("many lights",
-      room({}, {point_light({-2.5f, 1, 1}, red), point_light({2.6f, 1, 1.4f}, blue), point_light({0, 3.5f, -1}, green),
-                spot({1.6f, 3.5f, 2.4f}, {0.3f, 0.5f, 0}, white), point_light({0.2f, 0.8f, 0.9f}, 0.02f * white)}),
+      room({}, {point_light({-2.5f, 1, 1}, red), point_light({2.6f, 1, 1.4f}, blue),
+                point_light({0, 3.5f, -1}, green), spot({1.6f, 3.5f, 2.4f}, {0.3f, 0.5f, 0}, white),
+                point_light({0.2f, 0.8f, 0.9f}, 0.02f * white)}),
       smoke_at({0, 0.2f, 0}, 1500));
   auto pierced = smoke_at({0, 0.2f, 0}, 1800);
   pierced.shots = {shot({-3, 1.2f, 1}, {3, 1, 0.7f}, 0.4f)};
@@ -91,7 +92,8 @@ std::vector<TruthCase> truth_cases() {
   riddled.shots = {shot({0, 1.5f, 5.5f}, {-0.5f, 1, 0}, 0.4f), shot({3, 1.5f, 1}, {-1, 0.8f, 0}, 0.3f)};
   add("two holes", room({}, {side, point_light({3, 1.5f, 1}, blue)}), riddled);
   add("wall edge",
-      room({{{-1.3f, -0.1f, -0.55f}, {0.3f, 2.2f, -0.4f}}}, {point_light({-0.4f, 1.9f, -1.6f}, 2.0f * white)}),
+      room({{{-1.3f, -0.1f, -0.55f}, {0.3f, 2.2f, -0.4f}}},
+           {point_light({-0.4f, 1.9f, -1.6f}, 2.0f * white)}),
       smoke_at({0.4f, 0.2f, 0.6f}, 1500));
   add("doorway",
       room({{{-6, -0.1f, -0.6f}, {-0.6f, 4, -0.45f}},

@@ -207,7 +207,8 @@ TEST(Gltf, RejectsUrisOutsideOfTheFolder) {
   }
   Document missing;
   missing.uri = "other.bin";
-  EXPECT_HAS(missing.error(), "buffers[0].uri: the file \"other.bin\" does not exist below the scene's folder");
+  EXPECT_HAS(missing.error(),
+             "buffers[0].uri: the file \"other.bin\" does not exist below the scene's folder");
 }
 
 TEST(Gltf, DataUrisAndPercentEscapes) {

@@ -5,11 +5,11 @@
 #include <random>
 #include <vector>
 
+#include "sim/world.hpp"
+#include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
 #include "smoke/smoke_volume.hpp"
-#include "sim/world.hpp"
 #include "voxel/voxelize.hpp"
-#include "smoke/holes.hpp"
 
 namespace brume::smoke {
 
