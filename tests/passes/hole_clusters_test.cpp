@@ -10,33 +10,10 @@
 #include "passes/noise.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/passes/smoke_room.hpp"
+#include "tests/planning/random_holes.hpp"
 
 namespace brume::passes {
 namespace {
-
-/// Shots of all kinds through a box around the origin, from anywhere.
-std::vector<shared::Hole> random_holes(std::size_t count, std::uint32_t seed, float reach) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> one(-1, 1);
-  const auto point = [&] { return reach * glm::vec3(one(random), one(random), one(random)); };
-  std::vector<shared::Hole> holes(count);
-  for (shared::Hole& hole : holes) {
-    hole.origin_world = point();
-    hole.forward = glm::normalize(point() - hole.origin_world + glm::vec3(0, 0, 1e-3f));
-    const glm::vec3 helper = std::abs(hole.forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    hole.right = glm::normalize(glm::cross(hole.forward, helper));
-    hole.up = glm::cross(hole.right, hole.forward);
-    hole.radius = 0.02f + 0.3f * std::abs(one(random));
-    hole.distance_to_far = 0.1f + 2 * reach * std::abs(one(random));
-    hole.time_start = std::abs(one(random));
-    hole.time_to_reach_far = one(random) > 0 ? 0.5f * std::abs(one(random)) : 0.0f;
-    hole.time_to_expand = 0.1f * std::abs(one(random));
-    hole.time_to_stay_open = std::abs(one(random));
-    hole.time_to_fade = 0.5f * std::abs(one(random));
-    hole.shape = one(random) > 0 ? shared::kHoleBox : shared::kHoleCylinder;
-  }
-  return holes;
-}
 
 class HoleClustersTest : public gpu::GpuTest {
  protected:
@@ -115,7 +92,7 @@ TEST_F(HoleClustersTest, GivesThePictureOfAskingEveryHole) {
   // others leave exactly 1: the same floats. No more holes: a software rasterizer ends all loops of a ray
   // after 65,535 rounds, and asking every hole at each of 250 samples takes as many.
   for (const std::size_t count : {1u, 7u, 63u, 200u}) {
-    const auto holes = random_holes(count, static_cast<std::uint32_t>(count), 8);
+    const auto holes = planning::random_holes(count, static_cast<std::uint32_t>(count), 8);
     const auto listed = march(holes, false), plain = march(holes, true);
     EXPECT_EQ(largest_difference(listed, plain), 0) << count << " holes";
     if (count < 63) continue;
@@ -124,7 +101,7 @@ TEST_F(HoleClustersTest, GivesThePictureOfAskingEveryHole) {
 }
 
 TEST_F(HoleClustersTest, SeesHolesFromInsideAndAlongTheirAxes) {
-  std::vector<shared::Hole> holes = random_holes(6, 3, 8);
+  std::vector<shared::Hole> holes = planning::random_holes(6, 3, 8);
   for (std::size_t i = 0; i < holes.size(); ++i) {
     shared::Hole& hole = holes[i];
     hole.origin_world = {0.3f, 0.2f, 7.5f - 2 * static_cast<float>(i)};  // the eye is at z = 7
@@ -140,7 +117,7 @@ TEST_F(HoleClustersTest, SeesHolesFromInsideAndAlongTheirAxes) {
 }
 
 TEST_F(HoleClustersTest, GivesTheSamePictureEachTime) {
-  const auto holes = random_holes(2000, 9, 8);
+  const auto holes = planning::random_holes(2000, 9, 8);
   const auto first = march(holes, false), second = march(holes, false);
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(Half4)), 0);
 }
