@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "lib/camera.glsl"
-#include "lib/smoke_bounds.glsl"
+#include "lib/ray_bounds.glsl"
 #include "lib/upsample.glsl"
 #include "shared/accumulate.h"
 #include "shared/gbuffer.h"
@@ -19,15 +19,15 @@ layout(scalar, binding = kBindMeanPixels) writeonly buffer Pixels { AccumulatedP
 layout(scalar, push_constant) uniform Push { AccumulateParams params; };
 
 /// Distance along the view axis to the smoke of a pixel, for reprojection: the mean distance of the light that a
-/// homogeneous medium between the smoke's bounds and the surface sends to the eye. Smoke moves slowly; its parallax is
+/// homogeneous medium between the media's bounds and the surface sends to the eye. Smoke moves slowly; its parallax is
 /// that of this point, not of the surface behind.
 float smoke_distance(vec3 ray, float z_surface, float transmittance) {
-  const vec2 inside = clip_to_bounds(frame.volume, frame.camera.eye_world, ray, z_surface);
+  const vec2 inside = clip_to_media(frame.camera.eye_world, ray, z_surface);
   const float enter = inside.x, leave = inside.y;
   if (leave <= enter) return z_surface;
   // Opaque smoke is dense.
-  const bool opaque = transmittance <= max(frame.look.opaque_transmittance, 1e-3);
-  const float tau = opaque ? max(frame.look.extinction * (leave - enter), 7.0) : -log(transmittance);
+  const bool opaque = transmittance <= max(frame.media.opaque_transmittance, 1e-3);
+  const float tau = opaque ? max(frame.media.extinction * (leave - enter), 7.0) : -log(transmittance);
   // The mean of a truncated exponential distribution.
   const float fraction = tau > 0.01 ? 1.0 / tau - exp(-tau) / (1.0 - exp(-tau)) : 0.5;
   return mix(enter, leave, fraction);
@@ -49,7 +49,7 @@ History history_of(vec3 p_smoke, vec3 p_surface) {
   const AccumulatedPixel before = past[px.x + frame.size_px.x * px.y];
   // The surface behind the smoke must have been as far away, since it ends the ray.
   const vec4 surface = params.past_clip_from_world * vec4(p_surface, 1.0);
-  const float off = abs(surface.w - before.distance_in_smoke) * frame.look.extinction;
+  const float off = abs(surface.w - before.distance_in_smoke) * frame.media.extinction;
   history.smoke = textureLod(past_smoke, uv, 0.0);
   history.frames = before.frames / (1.0 + 16.0 * off * off);
   return history;

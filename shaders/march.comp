@@ -1,19 +1,20 @@
-// Marches rays through a medium: premultiplied radiance and transmittance.
+// Marches rays through the media of a frame: premultiplied radiance and transmittance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/frame.h"
+#include "shared/media.h"
 #include "shared/resolve.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kCount = kCountNothing;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
+layout(constant_id = 3) const uint kMedia = kMediumSmoke;
 #include "lib/blue_noise.glsl"
-#include "lib/medium_smoke.glsl"
 #include "lib/march.glsl"
 #include "lib/pixel_ray.glsl"
-#include "lib/smoke_bounds.glsl"
+#include "lib/ray_bounds.glsl"
 
 layout(binding = kBindBlueNoise) uniform sampler2D blue_noise_tile;
 layout(binding = kBindSmoke, rgba16f) uniform writeonly image2D smoke;
@@ -23,7 +24,7 @@ layout(scalar, binding = kBindMarchCounters) buffer Counters {
   uint ray_steps[];  // per pixel
 };
 
-vec4 premultiplied(Gathered gathered) { return vec4(gathered.radiance * medium_albedo(), gathered.transmittance); }
+vec4 premultiplied(Gathered gathered) { return vec4(gathered.radiance * media_albedo(), gathered.transmittance); }
 
 /// Writes the steps of a ray for each of its pixels.
 void write_steps(ivec2 texel, uint steps) {
@@ -38,15 +39,13 @@ void main() {
   PixelRay pixel;
   if (!find_ray(pixel)) return;
 
-  // The part of the ray inside the medium's bounds, t in metres; it ends at the surface behind.
+  // The part of the ray inside the bounds of the media, t in metres; it ends at the surface behind.
   const vec3 along = camera_ray(frame.camera, pixel.position_px, frame.size_px);
-  MarchRay ray;
-  ray.origin_world = frame.camera.eye_world;
-  ray.direction = normalize(along);
-  ray.jitter = blue_noise(blue_noise_tile, pixel.texel, frame.frame_index).r;
-  ray.medium = medium_ray(pixel.position_px);
+  const WorldRay ray = WorldRay(frame.camera.eye_world, normalize(along));
+  const MediaRay media = media_ray(pixel.position_px);
+  const float jitter = blue_noise(blue_noise_tile, pixel.texel, frame.frame_index).r;
   const float per_depth = length(along);
-  const vec2 inside = clip_to_bounds(medium_volume(), ray.origin_world, ray.direction, pixel.far * per_depth);
+  const vec2 inside = clip_to_media(ray.origin, ray.direction, pixel.far * per_depth);
 
   // A tile's ray is stored at the nearest surface of its pixels, too.
   Gathered gathered = Gathered(vec3(0.0), 1.0, 0u, 0u);
@@ -54,11 +53,11 @@ void main() {
   if (inside.x < inside.y) {
     if (kRays == kRaysOfTiles) {
       const float t_near = clamp(pixel.near * per_depth, inside.x, inside.y);
-      march(ray, inside.x, t_near, gathered);
+      march(ray, media, jitter, inside.x, t_near, gathered);
       at_near = premultiplied(gathered);
-      if (gathered.transmittance > 0.0) march(ray, t_near, inside.y, gathered);
+      if (gathered.transmittance > 0.0) march(ray, media, jitter, t_near, inside.y, gathered);
     } else {
-      march(ray, inside.x, inside.y, gathered);
+      march(ray, media, jitter, inside.x, inside.y, gathered);
     }
   }
 

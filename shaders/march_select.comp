@@ -25,7 +25,7 @@ RayEnds ends_of(ivec2 tile, ivec2 tiles) { return ends[tile.x + tiles.x * tile.y
 bool is_flat(RayEnds e) { return e.near_last > e.far_first || e.near == e.far; }
 
 Estimate estimate(RayEnds e, ivec2 tile, float z) {
-  return at_distance(e, texelFetch(near, tile, 0), texelFetch(far, tile, 0), z, frame.look, frame.volume.voxel_size);
+  return at_distance(e, texelFetch(near, tile, 0), texelFetch(far, tile, 0), z, frame.media, frame.volume.voxel_size);
 }
 
 /// Largest error of the values between two depths of which only bounds are known.

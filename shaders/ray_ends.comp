@@ -63,7 +63,7 @@ void main() {
   }
   e.near_last = e.far;
   e.far_first = e.near;
-  const bool differ = (e.far - e.near) * frame.look.extinction > 0.5 * kDoubt;
+  const bool differ = (e.far - e.near) * frame.media.extinction > 0.5 * kDoubt;
   if (differ && !is_flat(rows)) {
     // The ray passes the foreground: through the far pixel closest to the centre.
     e.near_last = e.near;

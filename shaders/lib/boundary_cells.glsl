@@ -8,7 +8,7 @@ layout(scalar, binding = kBindBoundary) readonly buffer Boundary { BoundaryCell 
 layout(scalar, binding = kBindCorners) readonly buffer Corners { uvec2 corner_sets[]; };
 
 /// Smoke at a point of a brick.
-struct SmokeSample {
+struct BrickSample {
   float density;      // [0, 1]
   vec3 light_offset;  // from the point to its light lookup [voxels]: off the walls, so that no light leaks through
 };
@@ -24,11 +24,11 @@ uint plane_side(uint plane, vec3 p_from_centre, inout vec3 offset) {
 }
 
 /// Smoke of a boundary cell at a point of the brick.
-SmokeSample boundary_sample(uint slot, vec3 local_voxel) {
+BrickSample boundary_sample(uint slot, vec3 local_voxel) {
   const vec3 from_centres = local_voxel + 0.5;  // cell 0 of the brick begins half a voxel before it
   const ivec3 cell = clamp(ivec3(from_centres), ivec3(0), ivec3(kBrickCells - 1));
   const uint number = cells[slot * kCellsPerBrick + uint(cell.x + kBrickCells * (cell.y + kBrickCells * cell.z))];
-  if (number == 0u) return SmokeSample(0.0, vec3(0.0));
+  if (number == 0u) return BrickSample(0.0, vec3(0.0));
   const BoundaryCell record = boundary_cells[number - 1u];
   const vec3 f = from_centres - vec3(cell);
   vec3 offset = vec3(0.0);
@@ -37,7 +37,7 @@ SmokeSample boundary_sample(uint slot, vec3 local_voxel) {
   side |= plane_side(record.plane2, f - 0.5, offset) << 2u;
   // The apron of the brick is one texel wide.
   const vec3 light_at = clamp(local_voxel + offset, vec3(-0.5), vec3(float(kBrickVoxels) + 0.5));
-  return SmokeSample(corner_set_density(corner_sets[record.first_set + side], f), light_at - local_voxel);
+  return BrickSample(corner_set_density(corner_sets[record.first_set + side], f), light_at - local_voxel);
 }
 
 #endif

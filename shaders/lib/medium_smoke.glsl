@@ -1,4 +1,4 @@
-// Smoke as a medium of lib/march.glsl: eroded by advected noise, cut by holes, exact at walls, lit by the in-scatter
+// Smoke as a medium of lib/media.glsl: eroded by advected noise, cut by holes, exact at walls, lit by the in-scatter
 // atlas. The includer defines the constant kHoles.
 #ifndef MEDIUM_SMOKE_GLSL
 #define MEDIUM_SMOKE_GLSL
@@ -13,54 +13,63 @@ layout(binding = kBindDensityDisplacement) uniform sampler3D density_displacemen
 layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;
 layout(binding = kBindNoiseTile) uniform sampler3D noise_tile;
 
-VolumeLayout medium_volume() { return frame.volume; }
-float medium_step_length() { return frame.look.step_length; }
-float medium_extinction() { return frame.look.extinction; }
-float medium_opaque_transmittance() { return frame.look.opaque_transmittance; }
-vec3 medium_albedo() { return frame.look.albedo; }
+layout(scalar, binding = kBindFilled) readonly buffer Filled { uint filled[]; };
 
-struct MediumRay {
+struct SmokeRay {
   RayHoles holes;
   vec3 texel, texels_per_metre;  // of the atlas, in texture coordinates
   float periods_per_metre;       // of the noise
   vec3 risen;                    // rise of the noise [periods]
 };
 
-MediumRay medium_ray(vec2 position_px) {
-  MediumRay ray;
+SmokeRay smoke_ray(vec2 position_px) {
+  SmokeRay ray;
   ray.holes = holes_of_ray(position_px);
-  ray.texel = atlas_texel(frame.volume);
+  ray.texel = atlas_texel(frame.volume.bricks);
   ray.texels_per_metre = ray.texel / frame.volume.voxel_size;
   ray.periods_per_metre = 1.0 / frame.look.noise_period;
   ray.risen = vec3(0.0, frame.look.rise * frame.time * ray.periods_per_metre, 0.0);
   return ray;
 }
 
-struct MediumBrick {
-  uint slot;
-  vec3 low_voxel;
+struct SmokeSpan {
+  BrickSpan bricks;
   vec3 uvw_offset;  // uvw = p_world * texels_per_metre + uvw_offset
 };
 
-MediumBrick medium_brick(MediumRay ray, uint slot, vec3 low_voxel) {
+SmokeSpan smoke_span(WorldRay world, SmokeRay smoke, float t, float ds) {
   const VolumeLayout volume = frame.volume;
-  const vec3 offset = (atlas_corner(volume, slot) - low_voxel) * ray.texel - volume.origin_world * ray.texels_per_metre;
-  return MediumBrick(slot, low_voxel, offset);
+  const VoxelRay ray =
+      VoxelRay((world.origin - volume.origin_world) / volume.voxel_size, world.direction / volume.voxel_size);
+  const vec3 brick = brick_of(ray, t);
+  int empty_edge;
+  const uint slot = slot_at(volume.bricks, ivec3(brick), empty_edge);
+  SmokeSpan span;
+  span.bricks = brick_span(ray, brick, slot, empty_edge, t, ds);
+  // Cell 0 of a brick begins half a voxel before it.
+  if (slot != kNoSlot) {
+    const uint box = filled[slot];
+    narrow_to(vec3(cells_low(box)) - 0.5, vec3(cells_end(box)) - 0.5, ray, t, ds, span.bricks);
+  }
+  span.uvw_offset =
+      (atlas_corner(volume.bricks, slot) - span.bricks.low) * smoke.texel - volume.origin_world * smoke.texels_per_metre;
+  return span;
 }
 
-struct MediumSample {
+struct SmokeSample {
   float density;  // after erosion and holes
   vec3 uvw, light_offset;
 };
 
-MediumSample sample_medium(MediumRay ray, MediumBrick brick, vec3 p_world, float t, inout uint texture_samples) {
+SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, inout uint texture_samples) {
   // Density, by the planes of the cell next to a surface.
   const VolumeLayout volume = frame.volume;
-  const vec3 uvw = p_world * ray.texels_per_metre + brick.uvw_offset;
+  const vec3 uvw = p_world * ray.texels_per_metre + span.uvw_offset;
   const vec4 texel = textureLod(density_displacement_atlas, uvw, 0.0);
-  SmokeSample smoke = SmokeSample(texel.r, vec3(0.0));
+  BrickSample smoke = BrickSample(texel.r, vec3(0.0));
   if (texel.r < 0.0)
-    smoke = boundary_sample(brick.slot, (p_world - volume.origin_world) / volume.voxel_size - brick.low_voxel);
+    smoke = boundary_sample(span.bricks.slot,
+                            (p_world - volume.origin_world) / volume.voxel_size - span.bricks.low);
   float density = smoke.density;
   ++texture_samples;
 
@@ -73,10 +82,10 @@ MediumSample sample_medium(MediumRay ray, MediumBrick brick, vec3 p_world, float
     if (kHoles != kHolesNone)
       density *= remaining_after_holes(ray.holes, t, p_world, 2.0 * noise.g - 1.0, density > 0.0);
   }
-  return MediumSample(density, uvw, smoke.light_offset);
+  return SmokeSample(density, uvw, smoke.light_offset);
 }
 
-vec3 medium_inscatter(MediumRay ray, MediumSample here, inout uint texture_samples) {
+vec3 smoke_inscatter(SmokeRay ray, SmokeSample here, inout uint texture_samples) {
   ++texture_samples;
   return textureLod(inscatter_atlas, here.uvw + here.light_offset * ray.texel, 0.0).rgb;
 }

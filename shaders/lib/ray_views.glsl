@@ -2,7 +2,7 @@
 #ifndef RAY_VIEWS_GLSL
 #define RAY_VIEWS_GLSL
 #include "lib/ray_holes.glsl"
-#include "lib/smoke_bounds.glsl"
+#include "lib/ray_bounds.glsl"
 #include "lib/view_pixel.glsl"
 #include "lib/voxel_rays.glsl"
 #include "shared/resolve.h"
@@ -14,7 +14,7 @@ layout(scalar, binding = kBindMarchCounters) readonly buffer Counters {
 };
 
 vec3 holes_view(ViewPixel pixel) {
-  const vec2 inside = clip_to_bounds(frame.volume, frame.camera.eye_world, pixel.direction, pixel.surface_m);
+  const vec2 inside = clip_to_smoke(frame.camera.eye_world, pixel.direction, pixel.surface_m);
   const RayHoles holes = holes_of_ray(vec2(pixel.px) + 0.5);
   // Fine enough for the narrowest shots: a quarter of the march's step.
   const float fine = clamp(ceil(4.0 * (inside.y - inside.x) / frame.look.step_length), 0.0, 4096.0);
@@ -80,7 +80,7 @@ vec3 bricks_view(ViewPixel pixel) {
   float through = 1.0;
   const vec3 origin = eye_voxel();
   const float t_end = pixel.surface_m / params.voxel_size;
-  const ivec3 first = frame.volume.window_origin * kNodeBricks, last = first + frame.volume.window_size * kNodeBricks;
+  const ivec3 first = frame.volume.bricks.window_origin * kNodeBricks, last = first + frame.volume.bricks.window_size * kNodeBricks;
   Dda d = dda_begin(origin, pixel.direction, first, last, kBrickVoxels, 0.0, t_end);
   while (d.t < d.t_end && through > 0.02) {
     const uint slot = smoke_brick(d.cell);

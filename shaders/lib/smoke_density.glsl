@@ -8,9 +8,9 @@ layout(binding = kBindDensity) uniform sampler3D density_atlas;
 
 /// Smoke at a point of a slot's brick. local_voxel: the point relative to the brick's low corner; uvw: its position in
 /// the atlas.
-SmokeSample sample_brick(uint slot, vec3 local_voxel, vec3 uvw) {
+BrickSample sample_brick(uint slot, vec3 local_voxel, vec3 uvw) {
   const vec2 texel = textureLod(density_atlas, uvw, 0.0).rg;
-  SmokeSample here = SmokeSample(texel.r, vec3(0.0));
+  BrickSample here = BrickSample(texel.r, vec3(0.0));
   if (texel.g < 1.0 - 1.0 / 512.0) { here = boundary_sample(slot, local_voxel); }
   return here;
 }
@@ -26,11 +26,11 @@ SmokePoint smoke_at(VolumeLayout volume, vec3 p_voxel) {
   const ivec3 brick = ivec3(floor(p_voxel / float(kBrickVoxels)));
   int empty_edge;
   SmokePoint point;
-  point.slot = slot_at(volume, brick, empty_edge);
+  point.slot = slot_at(volume.bricks, brick, empty_edge);
   point.local_voxel = p_voxel - vec3(brick * kBrickVoxels);
   point.density = 0.0;
   if (point.slot != kNoSlot) {
-    const vec3 uvw = (atlas_corner(volume, point.slot) + point.local_voxel) * atlas_texel(volume);
+    const vec3 uvw = (atlas_corner(volume.bricks, point.slot) + point.local_voxel) * atlas_texel(volume.bricks);
     point.density = sample_brick(point.slot, point.local_voxel, uvw).density;
   }
   return point;

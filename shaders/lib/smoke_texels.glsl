@@ -9,7 +9,7 @@ ivec3 local_texel(uint local) { return ivec3(local % 10u, local / 10u % 10u, loc
 
 /// Position of a texel of a brick in the atlas.
 ivec3 texel_in_atlas(uint slot, uint local) {
-  return ivec3(atlas_first_texel(frame.volume.atlas_bricks, slot)) + local_texel(local);
+  return ivec3(atlas_first_texel(frame.volume.bricks, slot)) + local_texel(local);
 }
 
 /// Its centre in voxel space.

@@ -5,12 +5,13 @@
 #include "shared/frame.h"
 #include "shared/resolve.h"
 
-/// Distance along the view axis to a surface from its reverse depth, clamped to the depth range of the smoke's bounds.
+/// Distance along the view axis to a surface from its reverse depth, clamped to the depth range of the media's
+/// bounds.
 float distance_in_smoke(FrameConstants frame, float depth) {
-  const VolumeLayout volume = frame.volume;
-  const vec3 middle = 0.5 * (volume.bounds_min + volume.bounds_max) * volume.voxel_size;
-  const vec3 half_size = 0.5 * (volume.bounds_max - volume.bounds_min) * volume.voxel_size;
-  const float along = dot(volume.origin_world + middle - frame.camera.eye_world, frame.camera.forward);
+  const FrameMedia media = frame.media;
+  const vec3 middle = 0.5 * (media.bounds_min + media.bounds_max) * frame.volume.voxel_size;
+  const vec3 half_size = 0.5 * (media.bounds_max - media.bounds_min) * frame.volume.voxel_size;
+  const float along = dot(frame.volume.origin_world + middle - frame.camera.eye_world, frame.camera.forward);
   const float reach = dot(abs(frame.camera.forward), half_size);
   return clamp(view_distance(frame.camera, depth), max(along - reach, 0.0), max(along + reach, 0.0));
 }
@@ -22,9 +23,9 @@ struct Estimate {
 
 /// The smoke between the eye and a surface at distance z, from the results of a ray up to e.near and up to e.far.
 /// Assumes constant density between them. The uncertainty follows from the upper limit 1 of the density.
-Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, SmokeLook look, float voxel_size) {
+Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, FrameMedia media, float voxel_size) {
   Estimate result;
-  const float sigma = look.extinction;
+  const float sigma = media.extinction;
   if (z <= e.near) {
     result.smoke = near;
     result.doubt = min(1.0 - near.a, near.a * (exp(min(sigma * (e.near - z), 20.0)) - 1.0));
@@ -41,7 +42,7 @@ Estimate at_distance(RayEnds e, vec4 near, vec4 far, float z, SmokeLook look, fl
   const float fallen = ratio < 0.999 ? (1.0 - pow(ratio, x)) / (1.0 - ratio) : x;
   result.smoke = mix(near, far, fallen);
   const float least = max(far.a, near.a * exp(-sigma * (z - e.near)));
-  const float most = min(near.a, max(far.a, look.opaque_transmittance) * exp(min(sigma * (e.far - z), 20.0)));
+  const float most = min(near.a, max(far.a, media.opaque_transmittance) * exp(min(sigma * (e.far - z), 20.0)));
   result.doubt = max(most - least, 0.0) * min(span / voxel_size, 1.0);
   return result;
 }

@@ -35,7 +35,7 @@ SHARED_SIZE(Sky, 44);
 struct SmokeLook {
   vec3 albedo;                 // single-scattering albedo, [0, 1]
   float extinction;            // at density 1 [1/m]
-  float step_length;           // of the march, at most [m]
+  float step_length;           // of a march through smoke alone, at most [m]
   float opaque_transmittance;  // below it a ray is opaque
   float erosion;               // strength of the noise, [0, 1]
   float noise_period;          // edge of one tile of the noise [m]
@@ -48,11 +48,23 @@ struct SmokeLook {
 };
 SHARED_SIZE(SmokeLook, 68);
 
+/// All media of a frame together: smoke and volumes.
+struct FrameMedia {
+  vec3 bounds_min;             // where any medium can be [voxel space of the smoke]
+  vec3 bounds_max;
+  float extinction;            // upper limit [1/m]
+  float step_length;           // of the march, at most [m]
+  float opaque_transmittance;  // below it a ray is opaque
+  uint volume_count;           // besides the smoke
+};
+SHARED_SIZE(FrameMedia, 40);
+
 struct FrameConstants {
   Camera camera;
   Sky sky;
   SmokeLook look;
-  VolumeLayout volume;
+  VolumeLayout volume;  // of the smoke
+  FrameMedia media;
   vec3 caster_bounds_min;  // bounds of the smoke that may dim light on its path to visible smoke [voxel space]
   vec3 caster_bounds_max;
   SolidLayout solid;
@@ -65,7 +77,7 @@ struct FrameConstants {
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
-SHARED_SIZE(FrameConstants, 404);
+SHARED_SIZE(FrameConstants, 452);
 
 SHARED_END
 #endif

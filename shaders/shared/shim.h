@@ -1,5 +1,5 @@
 // Makes one header compile as C++ and as GLSL: the names of GLSL in C++, and macros for what only one of the two has.
-// Structs in this folder use float, int, uint, vecN, ivecN, uvecN and matN only, in `scalar` layout.
+// Structs in this folder use float, int, uint, vecN, ivecN, uvecN, matN and mat4x3 only, in `scalar` layout.
 //
 // SHARED_BINDING(kBindPages, 1u) declares where a resource is bound: `layout(binding = kBindPages)` in GLSL,
 // `{shared::kBindPages, gpu::read(pages)}` in C++. What several passes read has one number in all of them:
@@ -11,6 +11,7 @@
 //   18 - 20  lights and their shadow maps    light.h
 //   21 - 22  noise                           noise.h
 //   23 - 26  the G-buffer                    gbuffer.h
+//   27 - 29  volumes besides the smoke       volume.h
 //   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H
@@ -23,7 +24,7 @@ namespace brume::shared {
 using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::length, glm::max, glm::min,
     glm::mix;
 using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
-using glm::mat3, glm::mat4, glm::bvec3;
+using glm::mat3, glm::mat4, glm::mat4x3, glm::bvec3;
 using glm::cos, glm::exp, glm::log, glm::pow, glm::sqrt, glm::tan;
 using glm::normalize, glm::sign, glm::smoothstep, glm::step, glm::unpackUnorm4x8;
 using glm::floatBitsToUint, glm::uintBitsToFloat;

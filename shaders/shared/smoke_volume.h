@@ -1,19 +1,16 @@
-// The smoke on the device: sparse bricks of density, and boundary cells where a surface runs through.
+// The smoke on the device: a sparse volume (shared/volume.h) of several channels, and boundary cells where a surface
+// runs through.
 //
-//   pages        page table of two levels. Root: one uint per node of a window of the world, node + 1 or 0 without
-//                smoke, x + size.x (y + size.y z) of node - window_origin. Behind it the nodes, 8^3 uints each,
-//                slot + 1 or 0 per brick of 8^3 voxels, x + 8 (y + 8 z) of brick - 8 node
-//   density      a 3D texture of 10^3-texel bricks (8^3 voxels and an apron of one texel); R: density of a
-//                free voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Filtered linearly, G < 1
-//                means that the cell has a solid corner.
+//   density      R: density of a free voxel (0 in a solid one), G: 1 in a free voxel, 0 in a solid one. Filtered
+//                linearly, G < 1 means that the cell has a solid corner.
 //   density_displacement
-//                half floats of the same layout for rays from the eye (noise_advection.comp). R: density, kInSolid in
+//                half floats, for rays from the eye (noise_advection.comp). R: density, kInSolid in
 //                a solid voxel; GBA: displacement of the noise [m]. Filtered linearly, R < 0 means that the cell has a
 //                solid corner.
 //   filtered_density
-//                half floats of the same layout for rays to lights. R: mean density of the texel after erosion,
+//                half floats, for rays to lights. R: mean density of the texel after erosion,
 //                kInSolid in a solid voxel; G: the fraction of the density that erosion retains
-//   inscatter    half floats of the same layout: radiance scattered towards the eye, per unit of albedo
+//   inscatter    half floats: radiance scattered towards the eye, per unit of albedo
 //   cells        per slot 9^3 uints, one per cell that overlaps the brick: boundary cell + 1, or 0 where the cell has
 //                no solid corner or no smoke. Cell 8 brick - 1 + (i, j, k) is entry i + 9 (j + 9 k)
 //   filled       per slot the box of cells that may hold smoke, see pack_cells; rays skip the rest of the brick
@@ -23,7 +20,7 @@
 //                the planes*. Corners in or behind a wall hold values extrapolated from the near side.
 #ifndef BRUME_SMOKE_VOLUME_H
 #define BRUME_SMOKE_VOLUME_H
-#include "shared/shim.h"
+#include "shared/volume.h"
 SHARED_BEGIN
 
 SHARED_BINDING(kBindPages, 1u);
@@ -37,13 +34,8 @@ SHARED_BINDING(kBindDensityDisplacement, 8u);
 SHARED_BINDING(kBindFilteredDensity, 9u);
 SHARED_BINDING(kBindInscatter, 10u);
 
-SHARED_CONST int kBrickVoxels = 8;
-SHARED_CONST int kBrickTexels = 10;
 SHARED_CONST int kBrickCells = 9;
-SHARED_CONST int kNodeBricks = 8;
-SHARED_CONST uint kPageEntries = 512u;
 SHARED_CONST uint kCellsPerBrick = 729u;
-SHARED_CONST uint kTexelsPerBrick = 1000u;
 /// So far below 0 that even the smallest filter weight outweighs any density.
 SHARED_CONST float kInSolid = -16384.0f;
 
@@ -66,29 +58,6 @@ struct BoundaryCell {
   uint first_set;
 };
 SHARED_SIZE(BoundaryCell, 16);
-
-/// Placement of the window and of the bricks.
-struct VolumeLayout {
-  vec3 origin_world;    // low corner of voxel (0, 0, 0) [m]
-  float voxel_size;     // [m]
-  ivec3 window_origin;  // first node of the page table, in nodes of kNodeBricks^3 bricks
-  ivec3 window_size;    // nodes
-  ivec3 atlas_bricks;   // bricks per axis of the atlases; see atlas_brick
-  vec3 bounds_min;      // where density can be above 0 [voxel space]
-  vec3 bounds_max;
-};
-SHARED_SIZE(VolumeLayout, 76);
-
-/// Position of a slot in an atlas of `atlas_bricks` bricks per axis [bricks]: slot = x + size.x (y + size.y z).
-SHARED_FUNCTION uvec3 atlas_brick(ivec3 atlas_bricks, uint slot) {
-  uvec3 size = uvec3(atlas_bricks);
-  return uvec3(slot % size.x, slot / size.x % size.y, slot / (size.x * size.y));
-}
-
-/// First texel of a slot's brick in the atlas: the low corner of its apron.
-SHARED_FUNCTION uvec3 atlas_first_texel(ivec3 atlas_bricks, uint slot) {
-  return atlas_brick(atlas_bricks, slot) * uint(kBrickTexels);
-}
 
 /// Plane in 32 bits: octahedral normal 2 x 10 bits, offset 12 bits over [-1, 1]. Never 0.
 /// Octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".

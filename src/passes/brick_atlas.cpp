@@ -1,6 +1,9 @@
 #include "passes/brick_atlas.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -46,81 +49,129 @@ void BrickAtlas::make_images(glm::ivec3 bricks) {
   atlas_bricks_ = bricks;
 }
 
-void BrickAtlas::reserve(const volume::SparseVolume& volume) {
-  BRUME_ASSERT(volume.channel_count() == channels_.size(), std::to_string(volume.channel_count()));
-  everything_ |= &volume != volume_;
-  if ((&volume == volume_ && volume.structure_generation() == reserved_generation_) ||
-      volume.slot_count() == 0)
-    return;
-  volume_ = &volume;
-  everything_ |=
-      gpu::grow(context_, pages_, volume.pages().root().size_bytes() + volume.pages().nodes().size_bytes());
-  everything_ |= gpu::grow(context_, slot_bricks_, volume.slot_count() * sizeof(glm::ivec3));
-  if (volume.layout().atlas_bricks != atlas_bricks_) {
-    everything_ = true;
-    make_images(volume.layout().atlas_bricks);
-  }
-  reserved_generation_ = volume.structure_generation();
+bool BrickAtlas::is_reserved(VolumeList volumes) const {
+  return std::ranges::equal(volumes, entries_, [](const volume::SparseVolume* volume, const Entry& entry) {
+    return volume->id() == entry.id && volume->structure_generation() == entry.reserved_generation;
+  });
 }
 
-BrickAtlas::Upload BrickAtlas::record(gpu::Recorder& recorder, const volume::SparseVolume& volume) {
-  if (volume.slot_count() == 0 || (!everything_ && volume.revision() == uploaded_revision_))
+/// Lays the volumes out one behind the other. A volume has room to grow, so that those behind it rarely move.
+std::vector<BrickAtlas::Entry> BrickAtlas::place(VolumeList volumes) const {
+  std::vector<Entry> placed;
+  std::uint32_t first_page = 0, first_slot = 0;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    const volume::SparseVolume& volume = *volumes[i];
+    BRUME_ASSERT(volume.channel_count() == channels_.size(), std::to_string(volume.channel_count()));
+    Entry entry;
+    if (i < entries_.size() && entries_[i].id == volume.id()) entry = entries_[i];
+    entry.id = volume.id();
+    entry.reserved_generation = volume.structure_generation();
+    const std::size_t pages = volume.pages().root().size() + volume.pages().nodes().size();
+    entry.pages = std::max(entry.pages, static_cast<std::uint32_t>(std::bit_ceil(pages)));
+    entry.everything |= entry.layout.first_page != first_page || entry.layout.first_slot != first_slot;
+    entry.layout = volume.layout().bricks;
+    entry.layout.first_page = first_page;
+    entry.layout.first_slot = first_slot;
+    const glm::uvec3 room(entry.layout.atlas_bricks);
+    first_page += entry.pages;
+    first_slot += room.x * room.y * room.z;
+    placed.push_back(entry);
+  }
+  return placed;
+}
+
+void BrickAtlas::reserve(VolumeList volumes) {
+  if (is_reserved(volumes)) return;
+  std::vector<Entry> placed = place(volumes);
+  std::uint64_t pages = 0, slots = 0;
+  for (const Entry& entry : placed) {
+    const glm::u64vec3 room(entry.layout.atlas_bricks);
+    pages += entry.pages;
+    slots += room.x * room.y * room.z;
+  }
+  if (slots > 0) {
+    const glm::ivec3 bricks = volume::grown_atlas({}, slots);
+    bool replaced = gpu::grow(context_, pages_, pages * sizeof(std::uint32_t));
+    replaced |= gpu::grow(context_, slot_bricks_, slots * sizeof(glm::ivec3));
+    if (bricks != atlas_bricks_) make_images(bricks), replaced = true;
+    for (Entry& entry : placed) {
+      entry.layout.atlas_bricks = atlas_bricks_;
+      entry.everything |= replaced;
+    }
+  }
+  entries_ = std::move(placed);
+}
+
+BrickAtlas::Upload BrickAtlas::record(gpu::Recorder& recorder, VolumeList volumes) {
+  Upload most = Upload::nothing;
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    most = std::max(most, record_volume(recorder, *volumes[i], entries_[i]));
+  return most;
+}
+
+BrickAtlas::Upload BrickAtlas::record_volume(gpu::Recorder& recorder, const volume::SparseVolume& volume,
+                                             Entry& entry) {
+  if (volume.slot_count() == 0 || (!entry.everything && volume.revision() == entry.uploaded_revision))
     return Upload::nothing;
   // What is dirty is only that since the revision before: a reader that missed one takes everything.
-  const bool all = everything_ || volume.revision() != uploaded_revision_ + 1;
-  uploaded_revision_ = volume.revision();
-  everything_ = false;
+  const bool all = entry.everything || volume.revision() != entry.uploaded_revision + 1;
+  entry.uploaded_revision = volume.revision();
+  entry.everything = false;
 
   const std::vector<std::uint32_t> every_slot =
       all ? all_slots(volume.slot_count()) : std::vector<std::uint32_t>();
   const auto changed = [&](std::span<const std::uint32_t> dirty) {
     return all ? std::span<const std::uint32_t>(every_slot) : dirty;
   };
-  record_pages(recorder, volume.pages(), all);
-  record_bricks(recorder, volume, changed(volume.dirty_bricks()));
+  record_pages(recorder, volume.pages(), all, entry);
+  record_bricks(recorder, volume, changed(volume.dirty_bricks()), entry);
   bool any = all || !volume.dirty_bricks().empty();
   for (std::uint32_t i = 0; i < volume.channel_count(); ++i) {
     const volume::ChannelId channel{i};
-    record_texels(recorder, volume, channel, changed(volume.dirty(channel)));
+    record_texels(recorder, volume, channel, changed(volume.dirty(channel)), entry);
     any |= !volume.dirty(channel).empty();
   }
   return all ? Upload::everything : any ? Upload::changes : Upload::nothing;
 }
 
-void BrickAtlas::record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all) {
-  const std::size_t root_bytes = pages.root().size_bytes();
-  if (all || pages.root_changed()) recorder.upload(pages_, 0, std::as_bytes(pages.root()));
+void BrickAtlas::record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all,
+                              Entry& entry) {
+  const std::size_t first = entry.layout.first_page * sizeof(std::uint32_t);
+  const std::size_t nodes_first = first + pages.root().size_bytes();
+  if (all || pages.root_changed()) recorder.upload(pages_, first, std::as_bytes(pages.root()));
   // The nodes follow the root: another window moves all of them.
-  if (all || pages.root().size() != root_entries_) {
-    recorder.upload(pages_, root_bytes, std::as_bytes(pages.nodes()));
+  if (all || pages.root().size() != entry.root_entries) {
+    recorder.upload(pages_, nodes_first, std::as_bytes(pages.nodes()));
   } else {
     for (const std::uint32_t node : pages.changed_nodes()) {
       const auto entries =
           pages.nodes().subspan(std::size_t{node} * shared::kPageEntries, shared::kPageEntries);
-      recorder.upload(pages_, root_bytes + node * entries.size_bytes(), std::as_bytes(entries));
+      recorder.upload(pages_, nodes_first + node * entries.size_bytes(), std::as_bytes(entries));
     }
   }
-  root_entries_ = pages.root().size();
+  entry.root_entries = pages.root().size();
 }
 
 void BrickAtlas::record_bricks(gpu::Recorder& recorder, const volume::SparseVolume& volume,
-                               std::span<const std::uint32_t> slots) {
+                               std::span<const std::uint32_t> slots, const Entry& entry) {
   std::vector<glm::ivec3> bricks;
   for (const SlotRun& run : runs_of(slots)) {
     bricks.clear();
     for (std::uint32_t slot = run.first; slot < run.first + run.count; ++slot)
       bricks.push_back(volume.brick_of(slot));
-    recorder.upload(slot_bricks_, run.first * sizeof(glm::ivec3), std::as_bytes(std::span(bricks)));
+    const std::size_t first = std::size_t{entry.layout.first_slot} + run.first;
+    recorder.upload(slot_bricks_, first * sizeof(glm::ivec3), std::as_bytes(std::span(bricks)));
   }
 }
 
 void BrickAtlas::record_texels(gpu::Recorder& recorder, const volume::SparseVolume& volume,
-                               volume::ChannelId channel, std::span<const std::uint32_t> slots) {
+                               volume::ChannelId channel, std::span<const std::uint32_t> slots,
+                               const Entry& entry) {
   std::vector<gpu::Recorder::Region> regions;
   regions.reserve(slots.size());
   for (const std::uint32_t slot : slots) {
     regions.push_back({volume.channel(channel, slot),
-                       glm::ivec3(shared::atlas_first_texel(atlas_bricks_, slot)),
+                       glm::ivec3(shared::atlas_first_texel(entry.layout, slot)),
                        glm::uvec3(static_cast<std::uint32_t>(shared::kBrickTexels))});
   }
   recorder.upload(this->channel(channel), regions);

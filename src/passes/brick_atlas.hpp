@@ -1,4 +1,4 @@
-// A sparse volume on the device: its page table, the brick of each slot, and a 3D image for each channel,
+// Sparse volumes on the device: their page tables, the brick of each slot, and a 3D image for each channel,
 // uploaded where they changed.
 #pragma once
 
@@ -11,14 +11,17 @@
 
 namespace brume::passes {
 
-/// Follows a volume; another volume than before is uploaded as a whole. An image holds the bricks of all
-/// slots: texel t of slot s is at shared::atlas_first_texel(atlas_bricks, s) + t.
+/// Any number of volumes with the same channels.
+using VolumeList = std::span<const volume::SparseVolume* const>;
+
+/// Follows a list of volumes; one that was not in the list before is uploaded as a whole. The images hold the
+/// bricks of all slots of all volumes, where the `layout` of each says (shared/volume.h).
 class BrickAtlas {
  public:
   /// What a record uploaded.
   enum class Upload { nothing, changes, everything };
 
-  /// `channels` are the formats of the volume's channels, in order, with texels of the same size in bytes;
+  /// `channels` are the formats of the volumes' channels, in order, with texels of the same size in bytes;
   /// `derived` those of further images of the same layout, which passes write and nothing is uploaded to. The
   /// images have room for one brick until the first `reserve`. Throws resource_limit.
   BrickAtlas(gpu::Context& context, std::span<const VkFormat> channels,
@@ -26,16 +29,20 @@ class BrickAtlas {
   BrickAtlas(const BrickAtlas&) = delete;
   BrickAtlas& operator=(const BrickAtlas&) = delete;
 
-  /// Makes room for what the volume holds. Growth replaces images, derived ones too: their content is
-  /// undefined then. Not between the begin and the end of a recording, and only when the device is done with
+  /// Makes room for what the volumes hold. Growth replaces images, derived ones too: their content is
+  /// undefined then. A volume that comes, goes or grows may move those behind it in the list, which are then
+  /// uploaded again. Not between the begin and the end of a recording, and only when the device is done with
   /// what it recorded before. Throws resource_limit when the device's 3D textures cannot hold the bricks.
-  void reserve(const volume::SparseVolume& volume);
-  /// Uploads what changed since the last record; everything when the volume has had more than one update
-  /// since or `reserve` replaced a resource. The volume must be as `reserve` saw it.
-  Upload record(gpu::Recorder& recorder, const volume::SparseVolume& volume);
+  void reserve(VolumeList volumes);
+  /// Uploads what changed since the last record; all of a volume that has had more than one update since, or
+  /// that `reserve` moved. The volumes must be as `reserve` saw them. Returns the most of any volume.
+  Upload record(gpu::Recorder& recorder, VolumeList volumes);
+
+  /// Where a volume of the list is, by its position. Alone in an atlas it is where its own layout says.
+  const shared::BrickLayout& layout(std::size_t volume) const { return entries_[volume].layout; }
 
   // References stay valid; the resources that they refer to are replaced by `reserve`.
-  /// The root of the page table, then its nodes (shared/smoke_volume.h).
+  /// Of each volume the root of the page table, then its nodes (shared/volume.h).
   const gpu::Buffer& pages() const { return pages_; }
   /// Per slot its brick, an ivec3 [bricks].
   const gpu::Buffer& slot_bricks() const { return slot_bricks_; }
@@ -46,22 +53,31 @@ class BrickAtlas {
   const gpu::Image& derived(std::size_t i) const { return derived_[i]; }
 
  private:
+  /// A volume of the list.
+  struct Entry {
+    std::uint64_t id = 0, reserved_generation = 0, uploaded_revision = 0;
+    shared::BrickLayout layout{};
+    std::uint32_t pages = 0;  // room in the page buffer
+    std::size_t root_entries = 0;
+    bool everything = true;  // nothing of it is on the device
+  };
+
+  bool is_reserved(VolumeList volumes) const;
+  std::vector<Entry> place(VolumeList volumes) const;
   void make_images(glm::ivec3 bricks);
-  void record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all);
+  Upload record_volume(gpu::Recorder& recorder, const volume::SparseVolume& volume, Entry& entry);
+  void record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all, Entry& entry);
   void record_bricks(gpu::Recorder& recorder, const volume::SparseVolume& volume,
-                     std::span<const std::uint32_t> slots);
+                     std::span<const std::uint32_t> slots, const Entry& entry);
   void record_texels(gpu::Recorder& recorder, const volume::SparseVolume& volume, volume::ChannelId channel,
-                     std::span<const std::uint32_t> slots);
+                     std::span<const std::uint32_t> slots, const Entry& entry);
 
   gpu::Context& context_;
   std::vector<VkFormat> channel_formats_, derived_formats_;
   gpu::Buffer pages_, slot_bricks_;
   std::vector<gpu::Image> channels_, derived_;  // as many as formats, always
   glm::ivec3 atlas_bricks_{0};
-  const volume::SparseVolume* volume_ = nullptr;  // that `reserve` saw last
-  std::uint64_t reserved_generation_ = 0, uploaded_revision_ = 0;
-  std::size_t root_entries_ = 0;
-  bool everything_ = true;  // a resource is new and empty
+  std::vector<Entry> entries_;  // by position in the list that `reserve` saw last
 };
 
 /// Slots one after the other.

@@ -22,22 +22,10 @@ gpu::Buffer tile_buffer(gpu::Context& context, glm::uvec2 tiles, std::size_t hea
               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
 }
 
-gpu::ComputePipeline pipeline(gpu::Context& context, const MarchPass::Options& options, std::uint32_t rays,
-                              std::uint32_t holes) {
-  return {context,
-          shaders::march_comp,
-          {options.count_steps     ? shared::kCountSteps
-           : options.count_samples ? shared::kCountSamples
-                                   : shared::kCountNothing,
-           rays, holes}};
-}
-
-/// For frames without holes, and for those with.
-std::array<gpu::ComputePipeline, 2> pipelines(gpu::Context& context, const MarchPass::Options& options,
-                                              std::uint32_t rays) {
-  return {pipeline(context, options, rays, shared::kHolesNone),
-          pipeline(context, options, rays,
-                   options.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered)};
+std::uint32_t counts_of(const MarchPass::Options& options) {
+  return options.count_steps     ? shared::kCountSteps
+         : options.count_samples ? shared::kCountSamples
+                                 : shared::kCountNothing;
 }
 
 }  // namespace
@@ -50,30 +38,47 @@ MarchTiles::MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t 
                        sizeof(std::uint32_t))) {}
 
 MarchPass::MarchPass(gpu::Context& context, const Options& options)
-    : pixels_(pipelines(context, options, shared::kRaysOfPixels)),
-      tiles_(pipelines(context, options, shared::kRaysOfTiles)),
-      list_(pipelines(context, options, shared::kRaysOfList)),
+    : context_(context),
+      options_(options),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
-      nearest_(context, {VK_FILTER_NEAREST}) {}
+      nearest_(context, {VK_FILTER_NEAREST}) {
+  reserve(shared::kMediumSmoke);
+}
+
+void MarchPass::reserve(std::uint32_t media) {
+  const std::uint32_t with_holes =
+      options_.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered;
+  for (const std::uint32_t rays : {shared::kRaysOfPixels, shared::kRaysOfTiles, shared::kRaysOfList})
+    for (const std::uint32_t holes : {shared::kHolesNone, with_holes})
+      pipelines_.try_emplace({rays, holes, media}, context_, shaders::march_comp,
+                             std::vector{counts_of(options_), rays, holes, media});
+}
+
+/// Those of a frame without holes, or with.
+const gpu::ComputePipeline& MarchPass::pipeline(std::uint32_t rays, const Inputs& in) const {
+  const std::uint32_t with_holes =
+      options_.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered;
+  return pipelines_.at({rays, in.holes.any ? with_holes : shared::kHolesNone, in.media});
+}
 
 void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Image& smoke,
                        const gpu::Buffer& counters) const {
-  const auto& pipeline = pixels_[in.holes.any ? 1 : 0];
+  const gpu::ComputePipeline& pipeline = this->pipeline(shared::kRaysOfPixels, in);
   bind(recorder, pipeline, in, {in.frame, in.frame, smoke, smoke}, counters);
   recorder.dispatch_threads(pipeline, smoke.info().size.x, smoke.info().size.y);
 }
 
 void MarchPass::record_tiles(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& tiles,
                              const gpu::Buffer& counters) const {
-  const auto& pipeline = tiles_[in.holes.any ? 1 : 0];
+  const gpu::ComputePipeline& pipeline = this->pipeline(shared::kRaysOfTiles, in);
   bind(recorder, pipeline, in, {tiles.ends, in.frame, tiles.near, tiles.far}, counters);
   recorder.dispatch_threads(pipeline, tiles.far.info().size.x, tiles.far.info().size.y);
 }
 
 void MarchPass::record_list(gpu::Recorder& recorder, const Inputs& in, const MarchTiles& tiles,
                             const gpu::Image& smoke, const gpu::Buffer& counters) const {
-  bind(recorder, list_[in.holes.any ? 1 : 0], in, {in.frame, tiles.list, smoke, smoke}, counters);
+  bind(recorder, pipeline(shared::kRaysOfList, in), in, {in.frame, tiles.list, smoke, smoke}, counters);
   recorder.dispatch_indirect(tiles.list);
 }
 
@@ -100,6 +105,9 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindHoleLists, gpu::read(in.holes.lists)},
                     {shared::kBindMarchList, gpu::read(rays.list)},
                     {shared::kBindFilled, gpu::read(in.smoke.filled)},
+                    {shared::kBindVolumes, gpu::read(in.volumes.instances)},
+                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
+                    {shared::kBindVolumeDensity, gpu::sampled(in.volumes.density, linear_)},
                 });
 }
 

@@ -1,10 +1,12 @@
-// Marches rays from the eye through the smoke.
+// Marches rays from the eye through the media of a frame.
 #pragma once
 
-#include <array>
+#include <map>
 
 #include "passes/hole_clusters.hpp"
 #include "passes/smoke_upload.hpp"
+#include "passes/volume_upload.hpp"
+#include "shared/media.h"
 #include "shared/resolve.h"
 
 namespace brume::passes {
@@ -28,11 +30,16 @@ class MarchPass {
     bool count_steps = false;
     bool brute_force_holes = false;  ///< Every sample tests every hole: the baseline of the clusters.
   };
+  /// Ready for smoke alone.
   MarchPass(gpu::Context& context, const Options& options);
+  /// Compiles what a set of media needs, once (shared/media.h). Outside of a recording.
+  void reserve(std::uint32_t media);
 
   struct Inputs {
     const gpu::Buffer& frame;
+    std::uint32_t media;  ///< Those that are marched through; `reserve` has seen the set.
     const SmokeResources& smoke;
+    VolumeResources volumes;
     const gpu::Image& noise;
     const gpu::Image& depth;
     const gpu::Image& blue_noise;
@@ -59,7 +66,16 @@ class MarchPass {
   void bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeline, const Inputs& inputs,
             const Rays& rays, const gpu::Buffer& counters) const;
 
-  std::array<gpu::ComputePipeline, 2> pixels_, tiles_, list_;  ///< Without holes, with holes.
+  /// What a pipeline is specialized for.
+  struct Variant {
+    std::uint32_t rays, holes, media;
+    auto operator<=>(const Variant&) const = default;
+  };
+  const gpu::ComputePipeline& pipeline(std::uint32_t rays, const Inputs& inputs) const;
+
+  gpu::Context& context_;
+  Options options_;
+  std::map<Variant, gpu::ComputePipeline> pipelines_;
   gpu::Sampler linear_, repeat_, nearest_;
 };
 

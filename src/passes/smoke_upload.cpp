@@ -68,7 +68,8 @@ void SmokeUpload::reserve(const smoke::SmokeVolume& volume) {
     return;
   volume_ = &volume;
   reserved_generation_ = volume.structure_generation();
-  atlas_.reserve(volume.volume());
+  const volume::SparseVolume* const bricks = &volume.volume();
+  atlas_.reserve({&bricks, 1});
   const std::size_t slots = volume.slot_count();
   everything_ |=
       gpu::grow(context_, resources_.cells, slots * shared::kCellsPerBrick * sizeof(std::uint32_t));
@@ -118,7 +119,8 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeVolume& volu
   uploaded_revision_ = volume.revision();
   everything_ = false;
 
-  const BrickAtlas::Upload bricks = atlas_.record(recorder, volume.volume());
+  const volume::SparseVolume* const bricks = &volume.volume();
+  const BrickAtlas::Upload uploaded = atlas_.record(recorder, {&bricks, 1});
   // Everything.
   if (all) {
     const std::vector<std::uint32_t> slots = all_slots(volume.slot_count());
@@ -137,7 +139,7 @@ bool SmokeUpload::record(gpu::Recorder& recorder, const smoke::SmokeVolume& volu
   record_filled(recorder, volume, changed);
   upload_ranges(recorder, resources_.boundary, volume.boundary_cells(), volume.dirty_boundary_cells());
   upload_ranges(recorder, resources_.corners, volume.corner_sets(), volume.dirty_corner_sets());
-  return volume.corner_sets_dirty() || bricks != BrickAtlas::Upload::nothing;
+  return volume.corner_sets_dirty() || uploaded != BrickAtlas::Upload::nothing;
 }
 
 }  // namespace brume::passes

@@ -72,12 +72,21 @@ struct Quality {
   bool rebuild_light = false;  ///< Light smoke and surfaces again even where nothing changed.
 };
 
-/// What one frame shows. What `smoke` and `level` point to must outlive the frame's recording.
+/// A volume in the world besides the smoke, lit by the ambient light of the environment and by itself.
+struct VolumeInput {
+  /// One channel of half floats: its density, in [0, 1]. It lies within the volume's bounds and bricks.
+  const volume::SparseVolume* volume = nullptr;
+  glm::mat4 world_from_voxel{1};  ///< Affine, with an inverse.
+  shared::VolumeLook look{};
+};
+
+/// What one frame shows. What `smoke`, `volumes` and `level` point to must outlive the frame's recording.
 struct FrameInput {
   View view;
   Environment environment;
   LevelState level;
   SmokeInput smoke;
+  std::vector<VolumeInput> volumes;  ///< At most shared::kMaxVolumes; they may overlap.
   Quality quality;
   DebugRequest debug;
 };

@@ -8,7 +8,7 @@
 namespace brume::planning {
 namespace {
 
-/// What of lights and smoke is visible.
+/// What of lights and media is visible.
 void plan_visibility(FramePlan& plan, const PlanTarget& target) {
   const smoke::SmokeVolume* volume = plan.input.smoke.volume;
   const std::vector<shared::Light>& flashes = plan.input.environment.flashes;
@@ -18,6 +18,7 @@ void plan_visibility(FramePlan& plan, const PlanTarget& target) {
   const float voxel_size = volume ? volume->layout().voxel_size : 0;
   plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size));
   if (volume) plan.visibility = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds);
+  plan.media = plan_media(plan.input, plan.visibility, plan.frustum);
 }
 
 void plan_level(FramePlan& plan, PlanHistory& history) {

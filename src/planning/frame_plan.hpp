@@ -6,6 +6,7 @@
 
 #include "planning/frame_input.hpp"
 #include "planning/hole_plan.hpp"
+#include "planning/media_plan.hpp"
 #include "planning/noise_updates.hpp"
 #include "planning/smoke_light_cache.hpp"
 #include "planning/smoke_shadow_cache.hpp"
@@ -34,6 +35,7 @@ struct FramePlan {
   ViewFrustum frustum;
   std::vector<shared::Light> lights;  ///< Of the scene and of the frame that reach what is in view.
   SmokeVisibility visibility;
+  MediaPlan media;
 
   // What changed.
   bool level_changed = false;                  ///< Walls or hidden objects.

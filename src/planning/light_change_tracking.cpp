@@ -35,7 +35,7 @@ bool LightChangeTracker::is_continuous(const SmokeLightInputs& inputs) const {
   if (!last_ || inputs.volume != last_->volume) return false;
   const shared::VolumeLayout& layout = inputs.volume->layout();
   if (layout.origin_world != layout_.origin_world || layout.voxel_size != layout_.voxel_size ||
-      layout.atlas_bricks != layout_.atlas_bricks)
+      layout.bricks.atlas_bricks != layout_.bricks.atlas_bricks)
     return false;
   // The dirty slots are those since the revision before, no older ones.
   return inputs.volume->revision() == last_->revision || inputs.volume->revision() == last_->revision + 1;

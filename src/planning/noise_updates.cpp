@@ -21,7 +21,7 @@ bool NoiseUpdates::all_are_due(const NoiseInputs& inputs) const {
   if (!last_ || last_->volume != inputs.volume) return true;
   const shared::VolumeLayout& layout = inputs.volume->layout();
   if (layout.origin_world != last_->layout.origin_world || layout.voxel_size != last_->layout.voxel_size ||
-      layout.atlas_bricks != last_->layout.atlas_bricks ||
+      layout.bricks.atlas_bricks != last_->layout.bricks.atlas_bricks ||
       std::memcmp(&inputs.look, &last_->look, sizeof inputs.look) != 0)
     return true;
   // The dirty slots are those since the revision before, no older ones.

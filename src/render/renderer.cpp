@@ -39,10 +39,8 @@ shared::FrameConstants frame_constants(const FramePlan& plan) {
   frame.sky = input.environment.sky;
   frame.look = input.smoke.look;
   frame.look.step_length *= input.quality.step_scale;
-  if (input.smoke.volume && input.smoke.volume->slot_count() > 0) frame.volume = input.smoke.volume->layout();
-  frame.volume.bounds_min = plan.visibility.visible_bounds.low;
-  frame.volume.bounds_max = plan.visibility.visible_bounds.high;
-  frame.volume.voxel_size = std::max(frame.volume.voxel_size, 1e-6f);
+  frame.volume = plan.media.smoke;
+  frame.media = plan.media.frame;
   frame.caster_bounds_min = plan.visibility.caster_bounds.low;
   frame.caster_bounds_max = plan.visibility.caster_bounds.high;
   frame.size_px = plan.size_px;
@@ -73,6 +71,7 @@ Renderer::Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scen
       resolve_pass_(context),
       display_pass_(context),
       smoke_upload_(context),
+      volume_upload_(context),
       noise_advection_pass_(context),
       solid_(context),
       sky_light_(context),
@@ -143,6 +142,8 @@ void Renderer::reserve(FramePlan& plan) {
     smoke_upload_.reserve(*input.smoke.volume);
     noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
   }
+  volume_upload_.reserve(input.volumes);
+  march_pass_.reserve(plan.media.media);
   solid_.reserve(input.level.voxels);
   sky_light_.reserve(solid_);
   hole_clusters_.reserve(plan.holes);
@@ -156,8 +157,10 @@ void Renderer::reserve(FramePlan& plan) {
 void Renderer::reserve_debug_view(const FramePlan& plan) {
   if (!debug_view_) debug_view_.emplace(context_);
   debug_view_->reserve(debug_subject(plan), size_px_);
-  if (plan.input.debug.view == planning::DebugView::steps && !counting_march_)
+  if (plan.input.debug.view != planning::DebugView::steps) return;
+  if (!counting_march_)
     counting_march_.emplace(context_, passes::MarchPass::Options{false, true, brute_force_holes_});
+  counting_march_->reserve(plan.media.media);
 }
 
 void Renderer::draw(const FrameInput& input, const std::function<void(gpu::Recorder&)>& then) {
@@ -217,6 +220,7 @@ void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan) {
   recorder.fill(march_of(plan).counters, 0);
   if (plan.input.smoke.volume) smoke_upload_.record(recorder, *plan.input.smoke.volume);
   smoke_upload_.record_visibility(recorder, plan.visibility);
+  volume_upload_.record(recorder, plan.input.volumes, plan.media.volumes);
 }
 
 void Renderer::record_gbuffer(gpu::Recorder& recorder, const FramePlan& plan) {
@@ -232,28 +236,36 @@ void Renderer::record_smoke_shadows(gpu::Recorder& recorder, const FramePlan& pl
       *plan.smoke_shadows, smoke_shadows_);
 }
 
-passes::MarchPass::Inputs Renderer::march_inputs() const {
-  return {frame_, smoke_upload_.resources(), noise_, gbuffer_.depth, blue_noise_, hole_clusters_.resources()};
+passes::MarchPass::Inputs Renderer::march_inputs(std::uint32_t media) const {
+  return {.frame = frame_,
+          .media = media,
+          .smoke = smoke_upload_.resources(),
+          .volumes = volume_upload_.resources(),
+          .noise = noise_,
+          .depth = gbuffer_.depth,
+          .blue_noise = blue_noise_,
+          .holes = hole_clusters_.resources()};
 }
 
 Renderer::March Renderer::march_of(const FramePlan& plan) const {
-  if (plan.input.debug.view == planning::DebugView::steps) return {*counting_march_, debug_view_->counters()};
-  return {march_pass_, counters_};
+  if (plan.input.debug.view == planning::DebugView::steps)
+    return {*counting_march_, debug_view_->counters(), plan.media.media};
+  return {march_pass_, counters_, plan.media.media};
 }
 
 void Renderer::record_march(gpu::Recorder& recorder, const March& march) {
   if (!march_tiles_) {
-    march.pass.record(recorder, march_inputs(), smoke_image_, march.counters);
+    march.pass.record(recorder, march_inputs(march.media), smoke_image_, march.counters);
     return;
   }
   resolve_pass_.record_ends(recorder, frame_, gbuffer_.depth, *march_tiles_);
-  march.pass.record_tiles(recorder, march_inputs(), *march_tiles_, march.counters);
+  march.pass.record_tiles(recorder, march_inputs(march.media), *march_tiles_, march.counters);
 }
 
 void Renderer::record_resolve(gpu::Recorder& recorder, const March& march) {
   resolve_pass_.record_select(recorder, frame_, gbuffer_.emission, *march_tiles_);
   resolve_pass_.record(recorder, frame_, gbuffer_.depth, *march_tiles_, smoke_image_);
-  march.pass.record_list(recorder, march_inputs(), *march_tiles_, smoke_image_, march.counters);
+  march.pass.record_list(recorder, march_inputs(march.media), *march_tiles_, smoke_image_, march.counters);
 }
 
 void Renderer::record_debug_view(gpu::Recorder& recorder, const FramePlan& plan) {

@@ -81,9 +81,10 @@ class Renderer {
   struct March {
     const passes::MarchPass& pass;
     const gpu::Buffer& counters;
+    std::uint32_t media;
   };
   March march_of(const FramePlan& plan) const;
-  passes::MarchPass::Inputs march_inputs() const;
+  passes::MarchPass::Inputs march_inputs(std::uint32_t media) const;
 
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan);
   void record_gbuffer(gpu::Recorder& recorder, const FramePlan& plan);
@@ -111,6 +112,7 @@ class Renderer {
   passes::ResolvePass resolve_pass_;
   passes::DisplayPass display_pass_;
   passes::SmokeUpload smoke_upload_;
+  passes::VolumeUpload volume_upload_;
   passes::NoiseAdvectionPass noise_advection_pass_;
   passes::SolidVolume solid_;
   passes::SkyLightPass sky_light_;

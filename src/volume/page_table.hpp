@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "shared/smoke_volume.h"
+#include "shared/volume.h"
 
 namespace brume::volume {
 

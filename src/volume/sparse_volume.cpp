@@ -1,6 +1,7 @@
 #include "volume/sparse_volume.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 
 namespace brume::volume {
@@ -9,6 +10,12 @@ namespace {
 [[noreturn]] void throw_too_many_bricks(std::uint64_t limit) {
   throw Error(ErrorCode::resource_limit,
               "a volume of more than " + std::to_string(limit) + " bricks of 8^3 voxels; use larger voxels");
+}
+
+/// A number that no volume had before.
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
 }
 
 }  // namespace
@@ -32,7 +39,7 @@ void SparseVolume::SlotSet::sort(std::uint32_t slot_count) {
   slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
 }
 
-SparseVolume::SparseVolume(const SparseVolumeInfo& info) : max_bricks_(info.max_bricks) {
+SparseVolume::SparseVolume(const SparseVolumeInfo& info) : id_(next_id()), max_bricks_(info.max_bricks) {
   BRUME_ASSERT(max_bricks_ > 0 && max_bricks_ <= kMaxAtlasSlots, std::to_string(max_bricks_));
   layout_.origin_world = info.origin_world;
   layout_.voxel_size = info.voxel_size;
@@ -117,9 +124,10 @@ void SparseVolume::end_update() {
   layout_.bounds_min = bounds_min_;
   layout_.bounds_max = bounds_max_;
   if (structure_changed_) {
-    layout_.window_origin = pages_.origin();
-    layout_.window_size = pages_.size();
-    if (slot_count() > 0) layout_.atlas_bricks = grown_atlas(layout_.atlas_bricks, slot_count());
+    layout_.bricks.window_origin = pages_.origin();
+    layout_.bricks.window_size = pages_.size();
+    glm::ivec3& atlas = layout_.bricks.atlas_bricks;
+    if (slot_count() > 0) atlas = grown_atlas(atlas, slot_count());
     ++structure_generation_;
   }
   for (Channel& channel : channels_) channel.dirty.sort(slot_count());

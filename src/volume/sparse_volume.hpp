@@ -5,7 +5,7 @@
 //
 // A brick's texels are its 8^3 voxels and an apron of one texel around them, so that trilinear filtering
 // never reads another brick. A slot is also the brick's place in the atlases on the device
-// (shaders/shared/smoke_volume.h). What the texels mean is up to the writer.
+// (shaders/shared/volume.h). What the texels mean is up to the writer.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "shared/smoke_volume.h"
+#include "shared/volume.h"
 #include "volume/page_table.hpp"
 
 namespace brume::volume {
@@ -54,6 +54,9 @@ class SparseVolume {
   static constexpr std::uint32_t kNoSlot = PageTable::kNoSlot;
 
   explicit SparseVolume(const SparseVolumeInfo& info);
+
+  /// Different from that of every other volume of the process, as long as it runs.
+  std::uint64_t id() const { return id_; }
 
   /// Clears the dirty slots and the changes of the page table.
   void begin_update();
@@ -106,7 +109,7 @@ class SparseVolume {
         reinterpret_cast<const Texel*>(texels_of(channel, slot)), shared::kTexelsPerBrick);
   }
 
-  /// As of the last update.
+  /// As of the last update, in an atlas that holds this volume alone.
   const shared::VolumeLayout& layout() const { return layout_; }
   /// Slots below slot_count() whose texels the last update marked, acquired or released, in rising order.
   std::span<const std::uint32_t> dirty(ChannelId channel) const {
@@ -161,6 +164,7 @@ class SparseVolume {
   void resize(std::size_t slot_count);
   void mark_everything(std::uint32_t slot);
 
+  std::uint64_t id_;
   std::uint32_t max_bricks_;
   shared::VolumeLayout layout_{};
   glm::vec3 bounds_min_{0}, bounds_max_{0};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "planning/media_plan.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
 
@@ -42,7 +43,7 @@ class AccumulateTest : public gpu::GpuTest {
   static Texels even(glm::vec4 value) { return Texels(kSize.x * kSize.y, value); }
 
   /// Adds a frame; what is shown of it. Surfaces are `distances` away along the view axis.
-  Texels add(const shared::FrameConstants& frame, const Texels& smoke, const std::vector<float>& distances,
+  Texels add(shared::FrameConstants frame, const Texels& smoke, const std::vector<float>& distances,
              bool continues) {
     std::vector<Half4> halves;
     for (const glm::vec4& texel : smoke) halves.push_back(to_half(texel));
@@ -50,6 +51,7 @@ class AccumulateTest : public gpu::GpuTest {
     for (const float d : distances) reverse.push_back(0.05f / d);
     const auto image = upload_image(context(), runner(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT, halves);
     const auto depth = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, reverse);
+    frame.media = planning::smoke_media(frame.volume, frame.look);
     const auto buffer = upload(std::vector{frame});
     runner().run([&](gpu::Recorder& r) { pass_.record(r, buffer, frame.camera, depth, image, continues); });
     Texels shown;

@@ -44,19 +44,23 @@ class BrickAtlasTest : public gpu::GpuTest {
   }
 
   BrickAtlas::Upload follow(BrickAtlas& atlas, const SparseVolume& volume) {
-    atlas.reserve(volume);
+    return follow(atlas, std::vector{&volume});
+  }
+  BrickAtlas::Upload follow(BrickAtlas& atlas, const std::vector<const SparseVolume*>& volumes) {
+    atlas.reserve(volumes);
     BrickAtlas::Upload done{};
-    runner().run([&](gpu::Recorder& recorder) { done = atlas.record(recorder, volume); });
+    runner().run([&](gpu::Recorder& recorder) { done = atlas.record(recorder, volumes); });
     return done;
   }
 
   /// The texels of a slot, from those of a whole image.
   template <typename Texel>
-  void expect_channel(const BrickAtlas& atlas, const SparseVolume& volume, ChannelId channel) {
+  void expect_channel(const BrickAtlas& atlas, const SparseVolume& volume, const shared::BrickLayout& layout,
+                      ChannelId channel) {
     const std::vector<Texel> image = read_back<Texel>(atlas.channel(channel));
-    const glm::ivec3 size = volume.layout().atlas_bricks * shared::kBrickTexels;
+    const glm::ivec3 size = layout.atlas_bricks * shared::kBrickTexels;
     for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
-      const glm::ivec3 first = glm::ivec3(shared::atlas_first_texel(volume.layout().atlas_bricks, slot));
+      const glm::ivec3 first = glm::ivec3(shared::atlas_first_texel(layout, slot));
       const auto texels = volume.texels<Texel>(channel, slot);
       for (int row = 0; row < 100; ++row) {
         const glm::ivec3 at = first + glm::ivec3(0, row % 10, row / 10);
@@ -67,16 +71,21 @@ class BrickAtlasTest : public gpu::GpuTest {
     }
   }
 
-  void expect_equal(const BrickAtlas& atlas, const SparseVolume& volume) {
+  /// `at`: position of the volume in the list.
+  void expect_equal(const BrickAtlas& atlas, const SparseVolume& volume, std::size_t at = 0) {
+    const shared::BrickLayout& layout = atlas.layout(at);
     const volume::PageTable& pages = volume.pages();
-    const auto entries = read_back<std::uint32_t>(atlas.pages(), pages.root().size() + pages.nodes().size());
+    auto entries = read_back<std::uint32_t>(atlas.pages(),
+                                            layout.first_page + pages.root().size() + pages.nodes().size());
+    entries.erase(entries.begin(), entries.begin() + layout.first_page);
     EXPECT_TRUE(std::equal(pages.root().begin(), pages.root().end(), entries.begin()));
     EXPECT_TRUE(std::ranges::equal(pages.nodes(), std::span(entries).subspan(pages.root().size())));
-    const auto bricks = read_back<glm::ivec3>(atlas.slot_bricks(), volume.slot_count());
+    auto bricks = read_back<glm::ivec3>(atlas.slot_bricks(), layout.first_slot + volume.slot_count());
+    bricks.erase(bricks.begin(), bricks.begin() + layout.first_slot);
     for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot)
       ASSERT_EQ(bricks[slot], volume.brick_of(slot));
-    expect_channel<std::uint8_t>(atlas, volume, ChannelId{0});
-    expect_channel<std::uint64_t>(atlas, volume, ChannelId{1});
+    expect_channel<std::uint8_t>(atlas, volume, layout, ChannelId{0});
+    expect_channel<std::uint64_t>(atlas, volume, layout, ChannelId{1});
     EXPECT_EQ(atlas.derived(0).info().size, atlas.channel(ChannelId{0}).info().size);
   }
 
@@ -92,10 +101,12 @@ TEST_F(BrickAtlasTest, HoldsTheVolumeAfterEachUpdate) {
     change(volume, i < 18 ? 7 : 2);
     partial += follow(atlas, volume) == BrickAtlas::Upload::changes;
     if (volume.slot_count() > 0) expect_equal(atlas, volume);
+    const shared::BrickLayout &here = atlas.layout(0), &alone = volume.layout().bricks;
+    EXPECT_EQ(0, std::memcmp(&here, &alone, sizeof here)) << "alone it is where its own layout says";
     EXPECT_EQ(follow(atlas, volume), BrickAtlas::Upload::nothing);
   }
   EXPECT_GT(partial, 10) << "updates that do not grow anything upload only what changed";
-  EXPECT_GT(volume.layout().atlas_bricks.x, 4) << "the atlas grew";
+  EXPECT_GT(volume.layout().bricks.atlas_bricks.x, 4) << "the atlas grew";
 }
 
 TEST_F(BrickAtlasTest, TakesEverythingAfterAMissedUpdateAndFromAnotherVolume) {
@@ -112,6 +123,24 @@ TEST_F(BrickAtlasTest, TakesEverythingAfterAMissedUpdateAndFromAnotherVolume) {
   EXPECT_EQ(other.revision(), volume.revision());
   EXPECT_EQ(follow(atlas, other), BrickAtlas::Upload::everything);
   expect_equal(atlas, other);
+}
+
+TEST_F(BrickAtlasTest, HoldsSeveralVolumesThatComeGrowAndGo) {
+  std::array<SparseVolume, 4> volumes{make_volume(), make_volume(), make_volume(), make_volume()};
+  BrickAtlas atlas(context(), kFormats, kDerived);
+  int partial = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<const SparseVolume*> list;
+    for (SparseVolume& volume : volumes) {
+      if (random_() % 3 == 0) change(volume, i < 25 ? 6 : 2);
+      if (i % 8 < 6 || random_() % 2 == 0) list.push_back(&volume);
+    }
+    partial += follow(atlas, list) == BrickAtlas::Upload::changes;
+    for (std::size_t at = 0; at < list.size(); ++at)
+      if (list[at]->slot_count() > 0) expect_equal(atlas, *list[at], at);
+    EXPECT_EQ(follow(atlas, list), BrickAtlas::Upload::nothing);
+  }
+  EXPECT_GT(partial, 5) << "volumes that do not move upload only what changed";
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ class HoleClustersTest : public gpu::GpuTest {
                                            room_.volume.slot_count(), kSize);
     hole_clusters.reserve(plan);
     frame.holes = plan.layout();
+    frame.media = planning::smoke_media(frame.volume, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / 15);
@@ -68,7 +69,8 @@ class HoleClustersTest : public gpu::GpuTest {
       hole_clusters.record(recorder, plan, frame_buffer, smoke);
       (plain ? plain_ : march_)
           .record(recorder,
-                  {frame_buffer, smoke, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
+                  {frame_buffer, shared::kMediumSmoke, smoke, volumes_.resources(), noise_tile_, depth_image,
+                   blue_noise_, hole_clusters.resources()},
                   target, counters);
     });
     return read_back<Half4>(target);
@@ -84,6 +86,7 @@ class HoleClustersTest : public gpu::GpuTest {
 
   SmokeRoom room_;
   MarchPass march_, plain_;
+  VolumeUpload volumes_{context()};
   gpu::Image noise_tile_, blue_noise_;
 };
 

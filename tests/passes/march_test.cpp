@@ -57,6 +57,7 @@ class MarchTest : public gpu::GpuTest {
         planning::plan_holes(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
     hole_clusters.reserve(plan);
     frame.holes = plan.layout();
+    frame.media = planning::smoke_media(frame.volume, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
@@ -64,8 +65,8 @@ class MarchTest : public gpu::GpuTest {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       hole_clusters.record(recorder, plan, frame_buffer, room.upload.resources());
       march_.record(recorder,
-                    {frame_buffer, room.upload.resources(), noise_tile_, depth_image, blue_noise_,
-                     hole_clusters.resources()},
+                    {frame_buffer, shared::kMediumSmoke, room.upload.resources(), volumes_.resources(),
+                     noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
                     target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
@@ -75,6 +76,7 @@ class MarchTest : public gpu::GpuTest {
   }
 
   MarchPass march_;
+  VolumeUpload volumes_{context()};
   gpu::Image noise_tile_, blue_noise_;
   std::uint32_t samples_ = 0;
 };
@@ -126,14 +128,16 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
   const HoleClusters no_holes(context(), runner(), {});
   for (const std::uint32_t scale : {1u, 2u, 4u}) {
     frame.march_scale = scale;
+    frame.media = planning::smoke_media(frame.volume, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     std::optional<MarchTiles> blocks;
     if (scale > 1) blocks.emplace(context(), kSize, scale);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room_.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       recorder.fill(counters, 0);
-      const MarchPass::Inputs in{frame_buffer, room_.upload.resources(), noise_tile_, depth,
-                                 blue_noise_,  no_holes.resources()};
+      const MarchPass::Inputs in{frame_buffer,         shared::kMediumSmoke, room_.upload.resources(),
+                                 volumes_.resources(), noise_tile_,          depth,
+                                 blue_noise_,          no_holes.resources()};
       if (scale == 1) return counting.record(recorder, in, target, counters);
       resolve.record_ends(recorder, frame_buffer, depth, *blocks);
       counting.record_tiles(recorder, in, *blocks, counters);

@@ -164,11 +164,12 @@ class NoiseAdvectionTest : public gpu::GpuTest {
   const sim::State& state() const { return room_.world.state(); }
   /// Calls visit(texel of the atlas, voxel) for all voxels of all bricks.
   void for_each_voxel(auto visit) const {
-    const glm::ivec3 bricks = room_.volume.layout().atlas_bricks;
+    const shared::BrickLayout& layout = room_.volume.layout().bricks;
+    const glm::ivec3 bricks = layout.atlas_bricks;
     for (std::uint32_t slot = 0; slot < room_.volume.slot_count(); ++slot)
       for (int i = 0; i < 512; ++i) {
         const glm::ivec3 local(i & 7, i >> 3 & 7, i >> 6);
-        const glm::ivec3 at = glm::ivec3(shared::atlas_first_texel(bricks, slot)) + local + 1;
+        const glm::ivec3 at = glm::ivec3(shared::atlas_first_texel(layout, slot)) + local + 1;
         const auto texel = static_cast<std::size_t>(at.x) +
                            static_cast<std::size_t>(10 * bricks.x) *
                                (static_cast<std::size_t>(at.y) +

@@ -45,12 +45,13 @@ class ResolveTest : public gpu::GpuTest {
     frame.look.step_length = 0.1f;
     frame.look.noise_period = 1;
     frame.exposure = 1;
+    frame.media = planning::smoke_media(frame.volume, frame.look);
     return frame;
   }
 
   enum class Way { blocks, pixels, all_listed, selected };
   /// The smoke of every pixel in front of a surface at distance_at(x, y) along the view axis.
-  std::vector<glm::vec4> smoke(const SmokeRoom& room, const shared::FrameConstants& frame,
+  std::vector<glm::vec4> smoke(const SmokeRoom& room, shared::FrameConstants frame,
                                const std::vector<float>& distances, Way way) {
     const glm::uvec2 size = frame.size_px;
     std::vector<float> reverse;
@@ -58,6 +59,7 @@ class ResolveTest : public gpu::GpuTest {
     const auto depth = upload_image(context(), runner(), size, VK_FORMAT_R32_SFLOAT, reverse);
     const auto emission = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT,
                                        std::vector<Half4>(size.x * size.y, to_half(glm::vec4(0))));
+    frame.media = planning::smoke_media(frame.volume, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
     const auto target = test_image(context(), size, VK_FORMAT_R16G16B16A16_SFLOAT);
@@ -65,8 +67,9 @@ class ResolveTest : public gpu::GpuTest {
     const auto no_holes = planning::plan_holes({}, 0, 0, frame.volume, room.volume.slot_count(), size);
     holes.reserve(no_holes);
     const MarchTiles blocks(context(), size, std::max(frame.march_scale, 2u));
-    const MarchPass::Inputs in{frame_buffer, room.upload.resources(), noise_tile_, depth,
-                               blue_noise_,  holes.resources()};
+    const MarchPass::Inputs in{frame_buffer,         shared::kMediumSmoke, room.upload.resources(),
+                               volumes_.resources(), noise_tile_,          depth,
+                               blue_noise_,          holes.resources()};
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       holes.record(recorder, no_holes, frame_buffer, room.upload.resources());
@@ -96,6 +99,7 @@ class ResolveTest : public gpu::GpuTest {
   }
 
   MarchPass march_;
+  VolumeUpload volumes_{context()};
   ResolvePass resolve_;
   gpu::Image noise_tile_, blue_noise_;
 };

@@ -23,6 +23,7 @@
 #include "shared/smoke_volume.h"
 #include "shared/solid_volume.h"
 #include "shared/ui.h"
+#include "shared/volume.h"
 
 // clang-format off
 #define FOR_EACH_SHARED_STRUCT(X) \
@@ -70,7 +71,11 @@
   X(41, UiConstants)          \
   X(42, UiVertex)             \
   X(43, Vertex)               \
-  X(44, VolumeLayout)
+  X(44, VolumeLayout)         \
+  X(45, BrickLayout)          \
+  X(46, FrameMedia)           \
+  X(47, VolumeInstance)       \
+  X(48, VolumeLook)
 // clang-format on
 
 #endif

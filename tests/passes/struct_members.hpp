@@ -28,11 +28,11 @@ constexpr std::size_t member_count() {
     return N;
 }
 
-/// Calls visit(member) for each member of an aggregate of at most 15.
+/// Calls visit(member) for each member of an aggregate of at most 16.
 template <typename T, typename Visit>
 void for_each_member(const T& s, Visit visit) {
   constexpr std::size_t kCount = member_count<T>();
-  static_assert(kCount >= 1 && kCount <= 15);
+  static_assert(kCount >= 1 && kCount <= 16);
   const auto all = [&](const auto&... members) { (visit(members), ...); };
   if constexpr (kCount == 1) {
     const auto& [a] = s;
@@ -76,9 +76,12 @@ void for_each_member(const T& s, Visit visit) {
   } else if constexpr (kCount == 14) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = s;
     all(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
-  } else {
+  } else if constexpr (kCount == 15) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = s;
     all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  } else {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
   }
 }
 

@@ -42,7 +42,7 @@ glm::dvec3 advection_at(const TruthScene& scene, glm::dvec3 p_voxel) {
   const glm::ivec3 brick(glm::floor(p_voxel / 8.0));
   const std::uint32_t slot = scene.volume->slot_at(brick);
   if (slot == smoke::SmokeVolume::kNoSlot) return glm::dvec3(0);
-  const glm::ivec3 corner(shared::atlas_first_texel(scene.volume->layout().atlas_bricks, slot));
+  const glm::ivec3 corner(shared::atlas_first_texel(scene.volume->layout().bricks, slot));
   const glm::dvec3 at = p_voxel - glm::dvec3(8 * brick) + 0.5;  // a texel of apron before the brick
   const glm::ivec3 low(glm::floor(at));
   const glm::dvec3 f = at - glm::dvec3(low);

@@ -66,11 +66,11 @@ bool same_planes(const shared::BoundaryCell& a, const shared::BoundaryCell& b) {
 
 /// The same at each place, whatever numbers slots and cells have.
 void expect_same(const SmokeVolume& a, const SmokeVolume& b) {
-  EXPECT_EQ(a.layout().window_origin, b.layout().window_origin);
-  EXPECT_EQ(a.layout().window_size, b.layout().window_size);
+  EXPECT_EQ(a.layout().bricks.window_origin, b.layout().bricks.window_origin);
+  EXPECT_EQ(a.layout().bricks.window_size, b.layout().bricks.window_size);
   EXPECT_EQ(a.layout().bounds_min, b.layout().bounds_min);
   EXPECT_EQ(a.layout().bounds_max, b.layout().bounds_max);
-  const glm::ivec3 low = 8 * a.layout().window_origin, size = 8 * a.layout().window_size;
+  const glm::ivec3 low = 8 * a.layout().bricks.window_origin, size = 8 * a.layout().bricks.window_size;
   for (int i = 0; i < size.x * size.y * size.z; ++i) {
     const glm::ivec3 brick = low + glm::ivec3(i % size.x, i / size.x % size.y, i / size.x / size.y);
     const std::uint32_t slot_a = a.slot_at(brick), slot_b = b.slot_at(brick);
@@ -325,7 +325,7 @@ TEST(SmokeVolume, BuildsOnlyWhereACloudComesOrGoes) {
   world.advance_to(1000);
   volume.update(world);
   EXPECT_EQ(volume.slot_count(), 0u);
-  EXPECT_EQ(volume.layout().window_size, glm::ivec3(0));
+  EXPECT_EQ(volume.layout().bricks.window_size, glm::ivec3(0));
   EXPECT_TRUE(volume.boundary_cells().empty());
 }
 
@@ -412,7 +412,7 @@ TEST(SmokeVolume, IsEmptyWithoutSmoke) {
   SmokeVolume volume(hut.grid, hut.planes);
   volume.update(world);
   EXPECT_EQ(volume.slot_count(), 0u);
-  EXPECT_EQ(volume.layout().window_size, glm::ivec3(0));
+  EXPECT_EQ(volume.layout().bricks.window_size, glm::ivec3(0));
   EXPECT_EQ(sample_density(volume, {3, 3, 3}), 0);
 }
 

@@ -56,8 +56,8 @@ TEST(SparseVolume, HoldsNothingAtFirst) {
   EXPECT_EQ(volume.slot_at({0, 0, 0}), SparseVolume::kNoSlot);
   EXPECT_EQ(volume.layout().origin_world, glm::vec3(1, 2, 3));
   EXPECT_EQ(volume.layout().voxel_size, 0.25f);
-  EXPECT_EQ(volume.layout().window_size, glm::ivec3(0));
-  EXPECT_EQ(volume.layout().atlas_bricks, glm::ivec3(0));
+  EXPECT_EQ(volume.layout().bricks.window_size, glm::ivec3(0));
+  EXPECT_EQ(volume.layout().bricks.atlas_bricks, glm::ivec3(0));
   EXPECT_EQ(volume.revision(), 0u);
   EXPECT_TRUE(volume.dirty(kDensity).empty());
 }
@@ -108,9 +108,9 @@ struct Model {
 
   void expect_equal(const SparseVolume& volume) const {
     ASSERT_EQ(volume.slot_count(), in_use().empty() ? 0 : *in_use().rbegin() + 1);
-    ASSERT_EQ(volume.layout().window_origin, volume.pages().origin());
-    ASSERT_EQ(volume.layout().window_size, volume.pages().size());
-    const glm::i64vec3 atlas(volume.layout().atlas_bricks);
+    ASSERT_EQ(volume.layout().bricks.window_origin, volume.pages().origin());
+    ASSERT_EQ(volume.layout().bricks.window_size, volume.pages().size());
+    const glm::i64vec3 atlas(volume.layout().bricks.atlas_bricks);
     ASSERT_GE(atlas.x * atlas.y * atlas.z, volume.slot_count());
     for (const auto& [brick, slot] : slots) {
       const glm::ivec3 at(std::get<0>(brick), std::get<1>(brick), std::get<2>(brick));
@@ -188,7 +188,7 @@ TEST(SparseVolume, EqualsAMapAndAReaderThatCopiesWhatIsDirty) {
     model.expect_reader_equal(volume);
   }
   EXPECT_GT(model.generation, 100u);
-  EXPECT_GT(volume.layout().atlas_bricks.x, 4);
+  EXPECT_GT(volume.layout().bricks.atlas_bricks.x, 4);
 }
 
 TEST(SparseVolume, GivesTheLowestFreeSlotAndDropsFreeOnesAtTheEnd) {
@@ -285,11 +285,11 @@ TEST(SparseVolume, PublishesBoundsAndLayoutAtTheEndOfAnUpdate) {
   volume.begin_update();
   volume.acquire({-8, 0, 9});
   volume.set_bounds({-64, 0, 72}, {-56, 8, 80});
-  EXPECT_EQ(volume.layout().window_size, glm::ivec3(0));
+  EXPECT_EQ(volume.layout().bricks.window_size, glm::ivec3(0));
   volume.end_update();
-  EXPECT_EQ(volume.layout().window_origin, glm::ivec3(-1, 0, 1));
-  EXPECT_EQ(volume.layout().window_size, glm::ivec3(1));
-  EXPECT_EQ(volume.layout().atlas_bricks, glm::ivec3(4));
+  EXPECT_EQ(volume.layout().bricks.window_origin, glm::ivec3(-1, 0, 1));
+  EXPECT_EQ(volume.layout().bricks.window_size, glm::ivec3(1));
+  EXPECT_EQ(volume.layout().bricks.atlas_bricks, glm::ivec3(4));
   EXPECT_EQ(volume.layout().bounds_min, glm::vec3(-64, 0, 72));
   EXPECT_EQ(volume.layout().bounds_max, glm::vec3(-56, 8, 80));
 }
@@ -316,15 +316,15 @@ TEST(SparseVolume, GrowsItsAtlasForThePeakBetweenUpdatesOnlyAtTheirEnd) {
     acquire(0, 65);
     volume.release(64);
   });
-  EXPECT_EQ(volume.layout().atlas_bricks, glm::ivec3(4));
+  EXPECT_EQ(volume.layout().bricks.atlas_bricks, glm::ivec3(4));
   update(volume, [&] { acquire(64, 65); });
-  EXPECT_EQ(volume.layout().atlas_bricks, glm::ivec3(8, 4, 4));
+  EXPECT_EQ(volume.layout().bricks.atlas_bricks, glm::ivec3(8, 4, 4));
   update(volume, [&] {
     for (std::uint32_t slot = 65; slot-- > 0;) volume.release(slot);
   });
   EXPECT_EQ(volume.slot_count(), 0u);
-  EXPECT_EQ(volume.layout().window_size, glm::ivec3(0));
-  EXPECT_EQ(volume.layout().atlas_bricks, glm::ivec3(8, 4, 4)) << "an atlas never shrinks";
+  EXPECT_EQ(volume.layout().bricks.window_size, glm::ivec3(0));
+  EXPECT_EQ(volume.layout().bricks.atlas_bricks, glm::ivec3(8, 4, 4)) << "an atlas never shrinks";
 }
 
 TEST(GrownAtlas, HasRoomAndNeverMoreThanA3DTexture) {

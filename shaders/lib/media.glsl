@@ -1,0 +1,98 @@
+// The media of a frame as one: their extinctions add up. The includer defines the constants kMedia, the set of those
+// that are present, and kHoles.
+//
+// A medium is a lib/medium_*.glsl with
+//
+//   struct XRay, XRay x_ray(...)     what the samples of a ray have in common
+//   struct XSpan, XSpan x_span(...)  what the samples before t_next have in common; those outside of [t_first, t_stop)
+//                                    are empty
+//   struct XSample, sample_x(...)    of a point: its extinction
+//   x_inscatter(...)                 radiance towards the eye where the extinction is above 0
+//
+// and a line in each function here. See docs/OVERVIEW.md, "A new medium".
+#ifndef MEDIA_GLSL
+#define MEDIA_GLSL
+#include "lib/medium_smoke.glsl"
+#include "lib/medium_volumes.glsl"
+#include "shared/media.h"
+
+const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u, kHasVolumes = (kMedia & kMediumVolumes) != 0u;
+
+struct MediaRay {
+  SmokeRay smoke;
+};
+
+MediaRay media_ray(vec2 position_px) {
+  MediaRay ray;
+  if (kHasSmoke) ray.smoke = smoke_ray(position_px);
+  return ray;
+}
+
+/// From one sample to another; samples outside of [t_first, t_stop) are empty.
+struct MediaSpan {
+  SmokeSpan smoke;
+  VolumesSpan volumes;
+  float t_first, t_stop, t_next;
+};
+
+void join_span(inout MediaSpan span, float t_first, float t_stop, float t_next) {
+  span.t_first = min(span.t_first, t_first);
+  span.t_stop = max(span.t_stop, t_stop);
+  span.t_next = min(span.t_next, t_next);
+}
+
+MediaSpan media_span(WorldRay ray, MediaRay media, float t, float ds) {
+  MediaSpan span;
+  span.t_first = span.t_next = 1e30;
+  span.t_stop = t;
+  if (kHasSmoke) {
+    span.smoke = smoke_span(ray, media.smoke, t, ds);
+    join_span(span, span.smoke.bricks.t_first, span.smoke.bricks.t_stop, span.smoke.bricks.t_next);
+  }
+  if (kHasVolumes) {
+    span.volumes = volumes_span(ray, t, ds);
+    join_span(span, span.volumes.t_first, span.volumes.t_stop, span.volumes.t_next);
+  }
+  if (kHasSmoke && kHasVolumes) span.t_stop = min(span.t_stop, span.t_next - 0.5 * ds);
+  return span;
+}
+
+struct MediaSample {
+  SmokeSample smoke;
+  VolumesSample volumes;
+};
+
+MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, inout uint texture_samples) {
+  MediaSample here;
+  if (kHasSmoke) {
+    here.smoke.density = 0.0;
+    if (!kHasVolumes || (t >= span.smoke.bricks.t_first && t < span.smoke.bricks.t_stop))
+      here.smoke = sample_smoke(ray.smoke, span.smoke, p_world, t, texture_samples);
+  }
+  if (kHasVolumes) here.volumes = sample_volumes(span.volumes, p_world, texture_samples);
+  return here;
+}
+
+/// Base-2 logarithm of the transmittance of a step.
+float log2_transmittance(MediaSample here, float ds) {
+  const float smoke = kHasSmoke ? -1.44269504 * frame.look.extinction * ds * here.smoke.density : 0.0;
+  return kHasVolumes ? smoke - 1.44269504 * ds * here.volumes.extinction : smoke;
+}
+
+/// Radiance towards the eye, per unit of media_albedo, where the transmittance is below 1.
+vec3 media_inscatter(MediaRay ray, MediaSample here, inout uint texture_samples) {
+  if (!kHasVolumes) return smoke_inscatter(ray.smoke, here.smoke, texture_samples);
+  vec3 sum = here.volumes.light;
+  float extinction = here.volumes.extinction;
+  if (kHasSmoke && here.smoke.density > 0.0) {
+    const float smoke = frame.look.extinction * here.smoke.density;
+    sum += smoke * frame.look.albedo * smoke_inscatter(ray.smoke, here.smoke, texture_samples);
+    extinction += smoke;
+  }
+  return sum / extinction;
+}
+
+/// The factor that all in-scatter has in common.
+vec3 media_albedo() { return kHasVolumes ? vec3(1.0) : frame.look.albedo; }
+
+#endif

@@ -1,0 +1,23 @@
+// Rays against bounds in the voxel space of the smoke.
+#ifndef RAY_BOUNDS_GLSL
+#define RAY_BOUNDS_GLSL
+#include "lib/frame.glsl"
+
+/// The part of a ray inside a box [voxel space of the smoke], from 0 to t_end: x >= y where there is none.
+vec2 clip_to_voxels(vec3 low_voxel, vec3 high_voxel, vec3 origin_world, vec3 direction, float t_end) {
+  const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-9);
+  const vec3 low = frame.volume.origin_world + low_voxel * frame.volume.voxel_size - origin_world;
+  const vec3 high = frame.volume.origin_world + high_voxel * frame.volume.voxel_size - origin_world;
+  const vec3 near = min(low * inverse, high * inverse), far = max(low * inverse, high * inverse);
+  return vec2(max(max(near.x, near.y), max(near.z, 0.0)), min(min(far.x, far.y), min(far.z, t_end)));
+}
+
+vec2 clip_to_smoke(vec3 origin_world, vec3 direction, float t_end) {
+  return clip_to_voxels(frame.volume.bounds_min, frame.volume.bounds_max, origin_world, direction, t_end);
+}
+
+vec2 clip_to_media(vec3 origin_world, vec3 direction, float t_end) {
+  return clip_to_voxels(frame.media.bounds_min, frame.media.bounds_max, origin_world, direction, t_end);
+}
+
+#endif

@@ -1,0 +1,91 @@
+// Sparse volumes on the device: page tables, bricks in an atlas, and placement.
+//
+//   pages   of each volume a page table of two levels. Root: one uint per node of a window, node + 1 or 0 where the
+//           volume is empty, x + size.x (y + size.y z) of node - window_origin. Behind it the nodes, 8^3 uints each,
+//           slot + 1 or 0 per brick of 8^3 voxels, x + 8 (y + 8 z) of brick - 8 node
+//   atlas   per channel a 3D texture of 10^3-texel bricks: 8^3 voxels and an apron of one texel
+//
+// Voxel space is measured in voxels: voxel (i, j, k) covers [i, i + 1) x [j, j + 1) x [k, k + 1).
+#ifndef BRUME_VOLUME_H
+#define BRUME_VOLUME_H
+#include "shared/shim.h"
+SHARED_BEGIN
+
+SHARED_BINDING(kBindVolumes, 27u);
+SHARED_BINDING(kBindVolumePages, 28u);
+SHARED_BINDING(kBindVolumeDensity, 29u);
+
+SHARED_CONST int kBrickVoxels = 8;
+SHARED_CONST int kBrickTexels = 10;
+SHARED_CONST int kNodeBricks = 8;
+SHARED_CONST uint kPageEntries = 512u;
+SHARED_CONST uint kTexelsPerBrick = 1000u;
+/// The most volumes of a frame besides the smoke.
+SHARED_CONST uint kMaxVolumes = 32u;
+
+/// Where a volume is in the page buffer and in the images of its atlas.
+struct BrickLayout {
+  ivec3 window_origin;  // first node of the page table, in nodes of kNodeBricks^3 bricks
+  ivec3 window_size;    // nodes
+  ivec3 atlas_bricks;   // bricks per axis of the atlas; see atlas_brick
+  uint first_page;      // of the root, in the page buffer
+  uint first_slot;      // of the atlas; slots of the page table count from here
+};
+SHARED_SIZE(BrickLayout, 44);
+
+/// Placement of a volume whose axes are those of the world.
+struct VolumeLayout {
+  vec3 origin_world;  // low corner of voxel (0, 0, 0) [m]
+  float voxel_size;   // [m]
+  vec3 bounds_min;    // where density can be above 0 [voxel space]
+  vec3 bounds_max;
+  BrickLayout bricks;
+};
+SHARED_SIZE(VolumeLayout, 84);
+
+/// Absorption and scattering of a volume where its density is 1.
+struct VolumeLook {
+  vec3 albedo;       // single-scattering albedo, [0, 1]
+  float extinction;  // [1/m], >= 0
+  vec3 emission;     // radiance that an opaque part of the volume emits
+};
+SHARED_SIZE(VolumeLook, 28);
+
+/// A volume of one channel, its density >= 0, under any affine transform.
+struct VolumeInstance {
+  mat4x3 voxel_from_world;  // [voxels/m]
+  vec3 bounds_min;          // where density can be above 0 [voxel space]
+  vec3 bounds_max;
+  VolumeLook look;
+  BrickLayout bricks;
+};
+SHARED_SIZE(VolumeInstance, 144);
+
+/// Entry of the root for a brick, in the page buffer; kNoPage outside of the window.
+SHARED_CONST uint kNoPage = 0xffffffffu;
+SHARED_FUNCTION uint root_page(BrickLayout bricks, ivec3 brick) {
+  ivec3 n = (brick >> 3) - bricks.window_origin, size = bricks.window_size;
+  bool outside = n.x < 0 || n.y < 0 || n.z < 0 || n.x >= size.x || n.y >= size.y || n.z >= size.z;
+  return outside ? kNoPage : bricks.first_page + uint(n.x + size.x * (n.y + size.y * n.z));
+}
+
+/// Entry for a brick in the node that its root entry names, which is not 0.
+SHARED_FUNCTION uint node_page(BrickLayout bricks, uint node, ivec3 brick) {
+  ivec3 size = bricks.window_size, b = brick & (kNodeBricks - 1);
+  uint first = uint(size.x * size.y * size.z) + (node - 1u) * kPageEntries;
+  return bricks.first_page + first + uint(b.x + kNodeBricks * (b.y + kNodeBricks * b.z));
+}
+
+/// Position of a slot in an atlas of `atlas_bricks` bricks per axis [bricks]: slot = x + size.x (y + size.y z).
+SHARED_FUNCTION uvec3 atlas_brick(ivec3 atlas_bricks, uint slot) {
+  uvec3 size = uvec3(atlas_bricks);
+  return uvec3(slot % size.x, slot / size.x % size.y, slot / (size.x * size.y));
+}
+
+/// First texel of a slot's brick in the atlas: the low corner of its apron.
+SHARED_FUNCTION uvec3 atlas_first_texel(BrickLayout bricks, uint slot) {
+  return atlas_brick(bricks.atlas_bricks, bricks.first_slot + slot) * uint(kBrickTexels);
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,37 @@
+// The volumes besides the smoke on the device: their densities in one BrickAtlas, and the instances in view.
+#pragma once
+
+#include "passes/brick_atlas.hpp"
+#include "planning/media_plan.hpp"
+
+namespace brume::passes {
+
+/// What the march binds. The references are to resources of the VolumeUpload.
+struct VolumeResources {
+  const gpu::Buffer& pages;
+  const gpu::Image& density;    ///< Half floats.
+  const gpu::Buffer& instances;  ///< A shared::VolumeInstance per volume in view.
+};
+
+class VolumeUpload {
+ public:
+  /// No volumes until the first record.
+  explicit VolumeUpload(gpu::Context& context);
+
+  /// Makes room for all volumes of a frame, visible or not. Outside of a recording, once the device has
+  /// finished previous ones. Throws resource_limit.
+  void reserve(std::span<const planning::VolumeInput> volumes);
+  /// Uploads what changed of the volumes that `reserve` saw, and the instances in view.
+  void record(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+              std::span<const planning::VisibleVolume> visible);
+
+  VolumeResources resources() const { return {atlas_.pages(), atlas_.channel(kDensity), instances_}; }
+
+ private:
+  static constexpr volume::ChannelId kDensity{0};
+
+  BrickAtlas atlas_;
+  gpu::Buffer instances_;
+};
+
+}  // namespace brume::passes

@@ -1,0 +1,91 @@
+#include "planning/media_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brume::planning {
+namespace {
+
+/// Around a box of a volume's voxel space in the world.
+Box<float> world_box(const glm::mat4& world_from_voxel, const Box<float>& box) {
+  Box<float> world = kEmptyBox;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 at(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                       corner & 4 ? box.high.z : box.low.z);
+    const glm::vec3 p(world_from_voxel * glm::vec4(at, 1));
+    world = united(world, {p, p});
+  }
+  return world;
+}
+
+bool may_be_visible(const ViewFrustum& frustum, const Box<float>& box) {
+  return frustum.may_intersect({0.5f * (box.low + box.high), 0.5f * glm::length(box.high - box.low)});
+}
+
+/// Half of the shortest edge of a voxel [m].
+float step_of(const glm::mat4& world_from_voxel) {
+  float shortest = glm::length(glm::vec3(world_from_voxel[0]));
+  for (int axis = 1; axis < 3; ++axis)
+    shortest = std::min(shortest, glm::length(glm::vec3(world_from_voxel[axis])));
+  return 0.5f * shortest;
+}
+
+glm::mat4x3 voxel_from_world(const VolumeInput& volume) {
+  const glm::dmat4 inverse = glm::inverse(glm::dmat4(volume.world_from_voxel));
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!std::isfinite(inverse[column][row]))
+        throw Error(ErrorCode::bad_input, "the transform of a volume has no inverse; give each axis a length");
+  return glm::mat4x3(glm::mat4(inverse));
+}
+
+/// Adds a volume to what the march goes through.
+void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, const Box<float>& world) {
+  const shared::VolumeLayout& layout = volume.volume->layout();
+  plan.media |= shared::kMediumVolumes;
+  plan.volumes.push_back(
+      {index, {voxel_from_world(volume), layout.bounds_min, layout.bounds_max, volume.look, {}}});
+  shared::FrameMedia& frame = plan.frame;
+  const glm::vec3 low = (world.low - plan.smoke.origin_world) / plan.smoke.voxel_size;
+  const glm::vec3 high = (world.high - plan.smoke.origin_world) / plan.smoke.voxel_size;
+  const bool first = plan.media == shared::kMediumVolumes && plan.volumes.size() == 1;
+  frame.bounds_min = first ? low : glm::min(frame.bounds_min, low);
+  frame.bounds_max = first ? high : glm::max(frame.bounds_max, high);
+  const float step = step_of(volume.world_from_voxel);
+  frame.step_length = first ? step : std::min(frame.step_length, step);
+  frame.extinction = (first ? 0 : frame.extinction) + volume.look.extinction;
+  ++frame.volume_count;
+}
+
+}  // namespace
+
+shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look) {
+  return {smoke.bounds_min, smoke.bounds_max, look.extinction, look.step_length, look.opaque_transmittance, 0};
+}
+
+MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum) {
+  if (input.volumes.size() > shared::kMaxVolumes)
+    throw Error(ErrorCode::bad_input, "a frame of " + std::to_string(input.volumes.size()) +
+                                          " volumes; at most " + std::to_string(shared::kMaxVolumes));
+  MediaPlan plan;
+  const smoke::SmokeVolume* volume = input.smoke.volume;
+  const bool has_smoke = volume && volume->slot_count() > 0;
+  plan.smoke.voxel_size = 1;
+  if (has_smoke) plan.smoke = volume->layout();
+  plan.smoke.bounds_min = visibility.visible_bounds.low;
+  plan.smoke.bounds_max = visibility.visible_bounds.high;
+  if (visibility.visible_count > 0) plan.media = shared::kMediumSmoke;
+  plan.frame = smoke_media(plan.smoke, input.smoke.look);
+  for (std::size_t i = 0; i < input.volumes.size(); ++i) {
+    const VolumeInput& other = input.volumes[i];
+    const shared::VolumeLayout& layout = other.volume->layout();
+    const Box<float> world = world_box(other.world_from_voxel, {layout.bounds_min, layout.bounds_max});
+    if (other.volume->slot_count() > 0 && may_be_visible(frustum, world)) add_volume(plan, other, i, world);
+  }
+  // A frame of nothing is one of smoke that is nowhere.
+  if (plan.media == 0) plan.media = shared::kMediumSmoke;
+  plan.frame.step_length *= input.quality.step_scale;
+  return plan;
+}
+
+}  // namespace brume::planning

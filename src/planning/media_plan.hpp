@@ -1,0 +1,32 @@
+// The media of a frame: which volumes are visible, and what the march needs to know of volumes and smoke together.
+#pragma once
+
+#include <vector>
+
+#include "planning/frame_input.hpp"
+#include "planning/smoke_visibility.hpp"
+#include "planning/view_frustum.hpp"
+#include "shared/media.h"
+
+namespace brume::planning {
+
+/// A volume that may be in view.
+struct VisibleVolume {
+  std::size_t index = 0;             ///< In FrameInput::volumes.
+  shared::VolumeInstance instance{};  ///< All but `bricks`, which the atlas knows.
+};
+
+struct MediaPlan {
+  std::uint32_t media = 0;  ///< Set of shared::kMediumSmoke and shared::kMediumVolumes.
+  std::vector<VisibleVolume> volumes;
+  shared::VolumeLayout smoke{};  ///< Of the smoke in view; without smoke a unit grid.
+  shared::FrameMedia frame{};
+};
+
+/// Of the smoke alone.
+shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look);
+
+/// Throws bad_input for a transform without an inverse and for more than shared::kMaxVolumes volumes.
+MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum);
+
+}  // namespace brume::planning

@@ -1,0 +1,250 @@
+// Several media in one frame: volumes under any affine transform, alone, overlapping, and with smoke.
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/packing.hpp>
+#include <random>
+
+#include "render/playback.hpp"
+#include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/half.hpp"
+#include "tests/render/boxes.hpp"
+
+namespace brume::render {
+namespace {
+
+/// Bricks of density 1 throughout, aprons included: a solid block of 8 voxels a brick from the origin on.
+volume::SparseVolume block(glm::ivec3 bricks) {
+  volume::SparseVolume volume({{}, 1, {{sizeof(std::uint16_t)}}});
+  volume.begin_update();
+  for_each_in(Box<int>{glm::ivec3(0), bricks}, [&](glm::ivec3 brick) {
+    for (std::uint16_t& texel : volume.texels<std::uint16_t>(volume::ChannelId{0}, volume.acquire(brick)))
+      texel = glm::packHalf1x16(1);
+  });
+  volume.set_bounds(glm::vec3(0), glm::vec3(8 * bricks));
+  volume.end_update();
+  return volume;
+}
+
+/// A voxel space of `size` m whose low corner is at `corner`, turned, sheared and, with `mirror`, flipped.
+glm::mat4 oblique(const volume::SparseVolume& volume, glm::vec3 corner, glm::vec3 size, bool mirror = false) {
+  glm::mat4 shear(1);
+  shear[1][0] = 0.3f;
+  shear[2][1] = -0.2f;
+  const glm::vec3 scale = size / volume.layout().bounds_max * glm::vec3(mirror ? -1 : 1, 1, 1);
+  return glm::translate(glm::mat4(1), corner) *
+         glm::rotate(glm::mat4(1), 0.7f, glm::normalize(glm::vec3(0.3f, 1, 0.2f))) * shear *
+         glm::scale(glm::mat4(1), scale);
+}
+
+class VolumesTest : public gpu::GpuTest {
+ protected:
+  static constexpr glm::uvec2 kSize{61, 37};
+
+  /// One for all tests: compiling its pipelines takes longer than most of them.
+  static Renderer& renderer() {
+    static Renderer instance(context(), runner(), far_floor(), RendererOptions{kSize});
+    return instance;
+  }
+  static scene::Scene far_floor() {
+    scene::Scene scene;
+    add_box(scene.meshes.emplace_back(), {-40, -31, -40}, {40, -30, 40});
+    scene.materials.resize(1);
+    scene.objects.push_back({"floor", 0, 0, glm::mat4(1), true});
+    return scene;
+  }
+
+  VolumesTest() {
+    renderer().set_march_scale(1);
+    input_.view.camera = {{0, 0, 9}, {0, 0, 0}, 0.9f};
+    input_.smoke.look.swirl_width = 1;
+    input_.smoke.look.noise_period = 1;
+  }
+
+  /// Premultiplied radiance and transmittance of each pixel.
+  std::vector<glm::vec4> draw() {
+    renderer().draw(input_);
+    std::vector<glm::vec4> pixels;
+    for (const passes::Half4& texel : read_back<passes::Half4>(renderer().smoke()))
+      pixels.push_back(passes::from_half(texel));
+    return pixels;
+  }
+
+  /// Length of each pixel's ray inside a block, in double precision [m].
+  std::vector<double> chords(const planning::VolumeInput& volume) const {
+    const shared::Camera camera = planning::FramePlan(input_, kSize).camera;
+    const glm::dmat4 inverse = glm::inverse(glm::dmat4(volume.world_from_voxel));
+    const glm::dvec3 high(volume.volume->layout().bounds_max);
+    const glm::dvec3 origin(inverse * glm::dvec4(glm::dvec3(camera.eye_world), 1));
+    std::vector<double> lengths;
+    for (std::uint32_t i = 0; i < kSize.x * kSize.y; ++i) {
+      const glm::dvec2 ndc =
+          (glm::dvec2(i % kSize.x, i / kSize.x) + 0.5) / glm::dvec2(kSize) * 2.0 - 1.0;
+      const glm::dvec3 ray = glm::normalize(glm::dvec3(camera.forward) + ndc.x * glm::dvec3(camera.right) -
+                                            ndc.y * glm::dvec3(camera.up));
+      const glm::dvec3 direction(inverse * glm::dvec4(ray, 0));
+      double enter = 0, leave = 1e30;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double a = -origin[axis] / direction[axis], b = (high[axis] - origin[axis]) / direction[axis];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+      }
+      lengths.push_back(std::max(leave - enter, 0.0));
+    }
+    return lengths;
+  }
+
+  /// Each ray's optical depth is that of its chord, up to the step at each end that a sample may miss; the mean of
+  /// all rays is closer, because of the jitter.
+  void expect_beer_lambert(const planning::VolumeInput& volume) {
+    const std::vector<glm::vec4> pixels = draw();
+    const std::vector<double> lengths = chords(volume);
+    const double step = double{planning::FramePlan(input_, kSize).input.quality.step_scale} * step_of(volume);
+    const double sigma = double{volume.look.extinction};
+    double sum = 0, expected_sum = 0;
+    int inside = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      // Half floats round the transmittance.
+      const double low = std::exp(-sigma * (lengths[i] + step)) * (1 - 1.0 / 1024);
+      const double high = std::min(std::exp(-sigma * (lengths[i] - step)), 1.0) * (1 + 1.0 / 1024);
+      ASSERT_GE(double{pixels[i].w}, low) << i << " of length " << lengths[i];
+      ASSERT_LE(double{pixels[i].w}, high) << i << " of length " << lengths[i];
+      // In-scatter is constant: what is not let through is what the volume emits.
+      ASSERT_NEAR(double{pixels[i].y}, double{volume.look.emission.y} * (1 - double{pixels[i].w}), 2e-3) << i;
+      sum += double{pixels[i].w};
+      expected_sum += std::exp(-sigma * lengths[i]);
+      inside += lengths[i] > 4 * step;
+    }
+    EXPECT_GT(inside, 150) << "rays that go through";
+    // The part of a step that jitter adds or drops has a variance of 1/6 of the step's at most.
+    const double count = static_cast<double>(pixels.size());
+    EXPECT_NEAR(sum / count, expected_sum / count, 4 * sigma * step * std::sqrt(inside / 6.0) / count + 1e-3);
+  }
+  static double step_of(const planning::VolumeInput& volume) {
+    double shortest = 1e30;
+    for (int axis = 0; axis < 3; ++axis)
+      shortest = std::min(shortest, double{glm::length(glm::vec3(volume.world_from_voxel[axis]))});
+    return 0.5 * shortest;
+  }
+
+  FrameInput input_;
+};
+
+TEST_F(VolumesTest, ATransformedBlockIsBeerLambert) {
+  const volume::SparseVolume cube = block({2, 2, 2}), bar = block({1, 5, 3});
+  for (const bool mirror : {false, true})
+    for (const volume::SparseVolume* volume : {&cube, &bar}) {
+      input_.volumes = {{volume, oblique(*volume, {-1, -1.5f, 0}, {3, 2, 4}, mirror), {}}};
+      input_.volumes[0].look = {glm::vec3(0), 0.8f, {0.2f, 0.5f, 0.1f}};
+      expect_beer_lambert(input_.volumes[0]);
+    }
+}
+
+TEST_F(VolumesTest, TheEyeMayBeInside) {
+  const volume::SparseVolume cube = block({3, 2, 4});
+  input_.volumes = {{&cube, oblique(cube, {-4, -2, 2}, {9, 5, 9}), {glm::vec3(0), 0.3f, glm::vec3(0.4f)}}};
+  const glm::vec3 middle(input_.volumes[0].world_from_voxel * glm::vec4(cube.layout().bounds_max * 0.5f, 1));
+  input_.view.camera = {middle, middle + glm::vec3(1, 0.2f, -2), 0.9f};
+  expect_beer_lambert(input_.volumes[0]);
+}
+
+// All volumes are there in every frame, so that all frames step alike; those without extinction show nothing.
+TEST_F(VolumesTest, OverlappingVolumesMultiplyTheirTransmittance) {
+  const volume::SparseVolume cube = block({2, 2, 2}), bar = block({1, 3, 2}), slab = block({4, 1, 1});
+  const std::array<const volume::SparseVolume*, 3> volumes{&cube, &bar, &slab};
+  const auto draw_with = [&](std::array<float, 3> extinction) {
+    input_.volumes.clear();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec3 corner{-2 + 0.5f * static_cast<float>(i), -1, -0.5f * static_cast<float>(i)};
+      input_.volumes.push_back({volumes[i], oblique(*volumes[i], corner, {3, 2.5f, 2}, i == 1), {}});
+      input_.volumes[i].look = {glm::vec3(0), extinction[i], glm::vec3(0.3f)};
+    }
+    return draw();
+  };
+  const auto a = draw_with({0.5f, 0, 0}), b = draw_with({0, 0.9f, 0}), c = draw_with({0, 0, 0.4f});
+  const auto all = draw_with({0.5f, 0.9f, 0.4f});
+  int overlaps = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const float product = a[i].w * b[i].w * c[i].w;
+    EXPECT_NEAR(all[i].w, product, 4 * product / 2048) << i;  // four roundings to half floats
+    EXPECT_NEAR(all[i].x, 0.3f * (1 - all[i].w), 2e-3f) << "all emit alike";
+    overlaps += a[i].w < 0.8f && b[i].w < 0.8f && c[i].w < 0.99f;
+  }
+  EXPECT_GT(overlaps, 20);
+}
+
+/// A cloud of smoke in an open world.
+class VolumesWithSmokeTest : public VolumesTest {
+ protected:
+  VolumesWithSmokeTest() {
+    sim::ThrowSmoke event;
+    event.from = event.at = sim::position_from_metres(glm::dvec3(0));
+    event.smoke.voxels = 120;
+    event.smoke.hold_ticks = 10000;
+    world_.append(event).value_or_throw();
+    world_.advance_to(300);
+    smoke_.update(world_);
+    input_.smoke.volume = &smoke_;
+    input_.smoke.state = &world_.state();
+    input_.smoke.look.albedo = glm::vec3(0.9f);
+    input_.smoke.look.step_length = 0.2f;
+    input_.level.voxels.grid = &grid_;
+  }
+
+  const voxel::BitGrid grid_{{{40, 24, 40}, 0.5f, glm::vec3(-10, -6, -10)}};
+  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
+  sim::World world_{grid_};
+  smoke::SmokeVolume smoke_{grid_, planes_};
+};
+
+TEST_F(VolumesWithSmokeTest, SmokeAndVolumesMultiplyTheirTransmittance) {
+  const volume::SparseVolume cube = block({2, 2, 2});
+  const auto draw_with = [&](float smoke, float volume) {
+    input_.smoke.look.extinction = smoke;
+    input_.volumes = {{&cube, oblique(cube, {-3, -1, -1}, {4, 3, 3}), {glm::vec3(0), volume, glm::vec3(0.3f)}}};
+    return draw();
+  };
+  const auto smoke = draw_with(1.5f, 0), volume = draw_with(0, 0.7f), both = draw_with(1.5f, 0.7f);
+  int overlaps = 0;
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const float product = smoke[i].w * volume[i].w;
+    EXPECT_NEAR(both[i].w, product, 3 * product / 2048 + 1e-6f) << i;
+    EXPECT_LE(both[i].x, smoke[i].x + volume[i].x + 2e-3f) << "each dims the other";
+    overlaps += smoke[i].w < 0.8f && volume[i].w < 0.8f;
+  }
+  EXPECT_GT(overlaps, 20);
+}
+
+TEST_F(VolumesWithSmokeTest, AVolumeOutOfViewChangesNothing) {
+  input_.smoke.look.extinction = 2;
+  const auto without = draw();
+  const volume::SparseVolume cube = block({2, 2, 2});
+  input_.volumes = {{&cube, oblique(cube, {0, 0, 30}, glm::vec3(2)), {glm::vec3(1), 1, glm::vec3(1)}}};
+  EXPECT_EQ(draw(), without);
+}
+
+TEST_F(VolumesTest, ReducedRaysAgreeWithOnePerPixel) {
+  const volume::SparseVolume cube = block({2, 2, 2});
+  input_.volumes = {{&cube, oblique(cube, {-1, -1.5f, 0}, {3, 2, 4}), {glm::vec3(0), 0.8f, glm::vec3(0.5f)}}};
+  const auto full = draw();
+  for (const std::uint32_t scale : {2u, 4u}) {
+    renderer().set_march_scale(scale);
+    const auto reduced = draw();
+    double sum = 0;
+    for (std::size_t i = 0; i < full.size(); ++i) sum += std::abs(double{full[i].w} - double{reduced[i].w});
+    EXPECT_LT(sum / static_cast<double>(full.size()), 3.0 / 255) << scale;  // shared::kResolveError
+  }
+}
+
+TEST_F(VolumesTest, RefusesTooManyAndFlatOnes) {
+  const volume::SparseVolume cube = block({1, 1, 1});
+  input_.volumes.assign(shared::kMaxVolumes, {&cube, oblique(cube, {-1, -1, -1}, glm::vec3(2)), {}});
+  for (planning::VolumeInput& volume : input_.volumes) volume.look = {glm::vec3(0), 0.1f, glm::vec3(0)};
+  EXPECT_LT(draw()[kSize.x * (kSize.y / 2) + kSize.x / 2].w, 0.2f) << "32 times the same volume";
+  input_.volumes.push_back(input_.volumes[0]);
+  EXPECT_THROW(draw(), Error);
+  input_.volumes.resize(1);
+  input_.volumes[0].world_from_voxel[1] = glm::vec4(0);
+  EXPECT_THROW(draw(), Error);
+}
+
+}  // namespace
+}  // namespace brume::render
