@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/hash.hpp"
-#include "scenario/vxl_file.hpp"
+#include "voxel/vxl_file.hpp"
 
 namespace {
 
@@ -20,10 +20,10 @@ void read(std::vector<std::byte> bytes) {
   const std::uint64_t checksum = brume::hash_bytes(bytes);
   const auto* raw = reinterpret_cast<const std::byte*>(&checksum);
   bytes.insert(bytes.end(), raw, raw + kChecksumBytes);
-  const auto contents = brume::scenario::decode_vxl(bytes, std::nullopt);
+  const auto contents = brume::voxel::decode_vxl(bytes, std::nullopt);
   if (!contents || !*contents) return;
   // Accepted contents must be consistent: written again they are read again.
-  const auto again = brume::scenario::decode_vxl(brume::scenario::encode_vxl(**contents, 1), 1);
+  const auto again = brume::voxel::decode_vxl(brume::voxel::encode_vxl(**contents, 1), 1);
   if (!again || !*again || !((*again)->planes == (*contents)->planes)) std::abort();
 }
 
@@ -31,7 +31,7 @@ void read(std::vector<std::byte> bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto* bytes = reinterpret_cast<const std::byte*>(data);
-  static_cast<void>(brume::scenario::decode_vxl({bytes, size}, std::nullopt));
+  static_cast<void>(brume::voxel::decode_vxl({bytes, size}, std::nullopt));
   if (size < kHeaderBytes) return 0;
   read({bytes, bytes + size});
 

@@ -6,9 +6,9 @@
 #include "apps/cli/json.hpp"
 #include "core/error.hpp"
 #include "image/decode.hpp"
-#include "scenario/vxl_file.hpp"
 #include "scene/load.hpp"
 #include "scene/timeline.hpp"
+#include "voxel/vxl_file.hpp"
 
 namespace brume::cli {
 namespace {
@@ -61,7 +61,7 @@ Json image_info(const std::filesystem::path& path) {
 }
 
 Json voxel_info(const std::filesystem::path& path) {
-  const auto contents = scenario::load_vxl(path, std::nullopt).value_or_throw();
+  const auto contents = voxel::load_vxl(path, std::nullopt).value_or_throw();
   BRUME_ASSERT(contents.has_value(), "loading without a key accepts any file");
   const voxel::GridLayout& frame = contents->grid.layout();
   return {{"kind", "voxels"},

@@ -5,7 +5,7 @@
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/error.hpp"
-#include "scenario/vxl_file.hpp"
+#include "scenario/voxel_cache.hpp"
 #include "scene/load.hpp"
 #include "voxel/obj_export.hpp"
 #include "voxel/voxelize.hpp"

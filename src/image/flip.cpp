@@ -109,7 +109,7 @@ Field<T> filtered(const Field<T>& in, const Kernel& across, const Kernel& down) 
 }
 
 // The image filtered by contrast sensitivity, in CIELAB.
-Field<glm::dvec3> seen(const Field<glm::dvec3>& opponent, double pixels_per_degree) {
+Field<glm::dvec3> perceived_lab(const Field<glm::dvec3>& opponent, double pixels_per_degree) {
   const int radius =
       static_cast<int>(std::ceil(3 * std::sqrt(kBlueYellow.b / (2 * kPi * kPi)) * pixels_per_degree));
   const auto blurred = [&](const Gaussian& g, double& total) {
@@ -166,28 +166,28 @@ Features features(const Field<double>& lightness, double pixels_per_degree) {
   return {lengths(slope), lengths(bend)};
 }
 
-struct Seen {
+struct Perceived {
   Field<glm::dvec3> lab;
   Features features;
 };
 
-Seen look_at(const Image8& picture, double pixels_per_degree) {
-  const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
+Perceived perceive(const Image8& image, double pixels_per_degree) {
+  const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
   Field<glm::dvec3> opponent{width, height, {}};
   Field<double> lightness{width, height, {}};
-  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-    const auto channel = [&](std::size_t c) { return linear_from_srgb(picture.rgba[i + c] / 255.0); };
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    const auto channel = [&](std::size_t c) { return linear_from_srgb(image.rgba[i + c] / 255.0); };
     opponent.values.push_back(opponent_from_rgb({channel(0), channel(1), channel(2)}));
     lightness.values.push_back((opponent.values.back().x + 16) / 116);
   }
-  return {seen(opponent, pixels_per_degree), features(lightness, pixels_per_degree)};
+  return {perceived_lab(opponent, pixels_per_degree), features(lightness, pixels_per_degree)};
 }
 
 }  // namespace
 
 Plane flip(const Image8& reference, const Image8& test, double pixels_per_degree) {
-  BRUME_ASSERT(reference.width == test.width && reference.height == test.height, "pictures of two sizes");
-  const Seen a = look_at(reference, pixels_per_degree), b = look_at(test, pixels_per_degree);
+  BRUME_ASSERT(reference.width == test.width && reference.height == test.height, "images of two sizes");
+  const Perceived a = perceive(reference, pixels_per_degree), b = perceive(test, pixels_per_degree);
   // Green and blue are the most distant colours of a screen.
   const double most =
       std::pow(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), kColourExponent);
@@ -209,16 +209,16 @@ Plane flip(const Image8& reference, const Image8& test, double pixels_per_degree
 Image8 heat_map(const Plane& map) {
   constexpr std::array<glm::vec3, 6> kStops{
       {{0, 0, 0}, {64, 18, 110}, {148, 38, 103}, {221, 81, 58}, {251, 165, 36}, {252, 253, 191}}};
-  Image8 picture{map.width, map.height, {}};
-  picture.rgba.reserve(4 * map.values.size());
+  Image8 image{map.width, map.height, {}};
+  image.rgba.reserve(4 * map.values.size());
   for (const float value : map.values) {
     const float at = std::clamp(value, 0.0f, 1.0f) * static_cast<float>(kStops.size() - 1);
     const std::size_t stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
     const glm::vec3 colour = glm::mix(kStops[stop], kStops[stop + 1], at - static_cast<float>(stop));
-    for (int c = 0; c < 3; ++c) picture.rgba.push_back(static_cast<std::uint8_t>(std::lround(colour[c])));
-    picture.rgba.push_back(255);
+    for (int c = 0; c < 3; ++c) image.rgba.push_back(static_cast<std::uint8_t>(std::lround(colour[c])));
+    image.rgba.push_back(255);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace brume::image

@@ -71,27 +71,27 @@ double psnr(double rmse, double peak) {
   return rmse > 0 ? 20 * std::log10(peak / rmse) : std::numeric_limits<double>::infinity();
 }
 
-std::vector<float> encoded_colours(const Image8& picture) {
+std::vector<float> encoded_colours(const Image8& image) {
   std::vector<float> values;
-  values.reserve(picture.rgba.size() / 4 * 3);
-  for (std::size_t i = 0; i < picture.rgba.size(); ++i)
-    if (i % 4 != 3) values.push_back(static_cast<float>(picture.rgba[i]) / 255);
+  values.reserve(image.rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    if (i % 4 != 3) values.push_back(static_cast<float>(image.rgba[i]) / 255);
   return values;
 }
 
-std::vector<float> alphas(const Image8& picture) {
+std::vector<float> alphas(const Image8& image) {
   std::vector<float> values;
-  values.reserve(picture.rgba.size() / 4);
-  for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
-    values.push_back(static_cast<float>(picture.rgba[i]) / 255);
+  values.reserve(image.rgba.size() / 4);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    values.push_back(static_cast<float>(image.rgba[i]) / 255);
   return values;
 }
 
-Plane luma(const Image8& picture) {
-  Plane plane{picture.width, picture.height, {}};
-  plane.values.reserve(picture.rgba.size() / 4);
-  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-    const auto* c = &picture.rgba[i];
+Plane luma(const Image8& image) {
+  Plane plane{image.width, image.height, {}};
+  plane.values.reserve(image.rgba.size() / 4);
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    const auto* c = &image.rgba[i];
     plane.values.push_back(static_cast<float>((0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2]) / 255));
   }
   return plane;

@@ -30,9 +30,9 @@ struct Plane {
 };
 
 /// The encoded colours [0, 1] of an image, three values per texel; its alpha; its luma (ITU-R BT.601).
-std::vector<float> encoded_colours(const Image8& picture);
-std::vector<float> alphas(const Image8& picture);
-Plane luma(const Image8& picture);
+std::vector<float> encoded_colours(const Image8& image);
+std::vector<float> alphas(const Image8& image);
+Plane luma(const Image8& image);
 
 /// Mean structural similarity, [-1, 1], 1 for equal planes (Wang et al. 2004, "Image Quality Assessment: From
 /// Error Visibility to Structural Similarity"): Gaussian windows of 11 x 11 texels with a deviation of 1.5,

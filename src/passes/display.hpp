@@ -8,9 +8,9 @@ namespace brume::passes {
 class DisplayPass {
  public:
   explicit DisplayPass(gpu::Context& context);
-  /// Applies exposure, tone curve, sRGB and dither, from `picture` (half floats) to `display` (RGBA8).
+  /// Applies exposure, tone curve, sRGB and dither, from `radiance` (half floats) to `display` (RGBA8).
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& blue_noise,
-              const gpu::Image& picture, const gpu::Image& display) const;
+              const gpu::Image& radiance, const gpu::Image& display) const;
 
  private:
   gpu::ComputePipeline pipeline_;

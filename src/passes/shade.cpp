@@ -14,7 +14,7 @@ ShadePass::ShadePass(gpu::Context& context, bool cull_lights)
 
 void ShadePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
                        const ShadowMaps& shadows, const SmokeShadows& smoke_shadows, const LevelLight& level,
-                       const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& picture) const {
+                       const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& radiance) const {
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
@@ -30,9 +30,9 @@ void ShadePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                     {shared::kBindSkyLight, gpu::sampled(level.sky.light(), linear_)},
                     {shared::kBindSolidTexels, gpu::sampled(level.solid.texels(), linear_)},
                     {shared::kBindSmokeShadowFaces, gpu::read(smoke_shadows.faces)},
-                    {shared::kBindRadiance, gpu::stored(picture)},
+                    {shared::kBindRadiance, gpu::stored(radiance)},
                 });
-  recorder.dispatch_threads(pipeline_, picture.info().size.x, picture.info().size.y);
+  recorder.dispatch_threads(pipeline_, radiance.info().size.x, radiance.info().size.y);
 }
 
 }  // namespace brume::passes

@@ -18,12 +18,12 @@ class ShadePass {
  public:
   /// `cull_lights` false: every light at every pixel. The same image, slower.
   explicit ShadePass(gpu::Context& context, bool cull_lights = true);
-  /// picture = smoke radiance + smoke transmittance * radiance of the surface or the sky, half floats.
-  /// `smoke`: premultiplied radiance and transmittance, of the picture's size. Pixels behind
+  /// radiance = smoke radiance + smoke transmittance * radiance of the surface or the sky, half floats.
+  /// `smoke`: premultiplied radiance and transmittance, of the image's size. Pixels behind
   /// smoke of transmittance 0 are not shaded. `smoke_shadows` comes from SmokeShadowPass.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
               const ShadowMaps& shadows, const SmokeShadows& smoke_shadows, const LevelLight& level,
-              const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& picture) const;
+              const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& radiance) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -45,7 +45,7 @@ glm::mat4 sun_view(const SceneResources& scene, glm::vec3 direction) {
   return glm::transpose(rows);
 }
 
-/// Whether a bounding sphere can be seen by a light's face within its reach.
+/// Whether a bounding sphere may be visible from a light in one face of its cube, within its range.
 bool face_sees(const shared::Light& light, std::uint32_t face, const Draw& draw) {
   const glm::vec3 d = draw.centre_world - light.position_world;
   if (glm::length(d) > light.range + draw.radius) return false;

@@ -18,10 +18,10 @@ SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
       linear_(context, {}),
       nearest_(context, {VK_FILTER_NEAREST}) {}
 
-SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 picture_px,
+SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 image_px,
                                            std::size_t max_lights) const {
   const std::uint64_t rays =
-      std::clamp<std::uint64_t>(std::uint64_t{picture_px.x} * picture_px.y / 8, 1u << 16, 1u << 19);
+      std::clamp<std::uint64_t>(std::uint64_t{image_px.x} * image_px.y / 8, 1u << 16, 1u << 19);
   SmokeShadows shadows;
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R16_SFLOAT;

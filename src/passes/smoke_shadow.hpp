@@ -18,9 +18,9 @@ struct SmokeShadows {
 class SmokeShadowPass {
  public:
   explicit SmokeShadowPass(gpu::Context& context);
-  /// For pictures of this size: a ray for eight pixels, at least 2^16 and at most 2^19 rays. Holds no smoke
+  /// For images of this size: a ray for eight pixels, at least 2^16 and at most 2^19 rays. Holds no smoke
   /// until the first record.
-  SmokeShadows make_shadows(gpu::Context& context, glm::uvec2 picture_px, std::size_t max_lights) const;
+  SmokeShadows make_shadows(gpu::Context& context, glm::uvec2 image_px, std::size_t max_lights) const;
 
   struct Inputs {
     const gpu::Buffer& frame;

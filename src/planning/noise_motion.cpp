@@ -86,7 +86,7 @@ void add_body(const sim::Body& body, const sim::State& state, double seconds,
   const double speed = glm::length(step) / taken;
   const double strength = 1 - smooth((seconds - static_cast<double>(state.seconds(body.tick))) / 1.5);
   if (strength <= 0) return;
-  // What it passed in the last moments follows it.
+  // What it passed shortly before follows it.
   const glm::dvec3 forward = glm::normalize(step);
   shared::Impulse impulse{};
   impulse.to_world = glm::vec3(to);

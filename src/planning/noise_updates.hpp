@@ -28,7 +28,7 @@ struct NoiseInputs {
 /// due while a cloud blooms, and all that remain where a frame of the same time is drawn again.
 class NoiseUpdates {
  public:
-  /// Whether frames of this light_update_fraction take one slice, and need `slots_due`.
+  /// Whether frames of this light_update_fraction take one slice, and require `slots_due`.
   bool applies_to(float light_update_fraction) const {
     return scheduler_.takes_one_slice(light_update_fraction);
   }

@@ -8,7 +8,7 @@
 namespace brume::planning {
 namespace {
 
-/// The part of a light's face that smoke can be seen in.
+/// The part of a light's face in which smoke may be visible.
 struct FacePart {
   std::uint32_t index = 0;             // into the plan's faces
   glm::vec2 low{1e30f}, high{-1e30f};  // uv

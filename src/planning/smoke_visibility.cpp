@@ -41,7 +41,7 @@ class LightPaths {
   }
 
  private:
-  /// Whether a shadow of the smoke along a direction may be seen on something in a box.
+  /// Whether a shadow of the smoke along a direction may be visible on something in a box.
   bool may_fall(const WorldSphere& smoke, glm::vec3 direction, const Box<float>& on) const {
     // As far as it stays between the box's lowest and its highest.
     const float down = smoke.centre.y + smoke.radius - on.low.y,
@@ -124,12 +124,12 @@ void sort_once(std::vector<std::uint32_t>& slots) {
 
 std::vector<shared::Light> visible_lights(std::span<const shared::Light> lights, const ViewFrustum& view,
                                           float slack) {
-  std::vector<shared::Light> seen;
+  std::vector<shared::Light> visible;
   for (const shared::Light& light : lights)
     if (light.kind == shared::kLightDirectional ||
         view.may_intersect({light.position_world, light.range + slack}))
-      seen.push_back(light);
-  return seen;
+      visible.push_back(light);
+  return visible;
 }
 
 SmokeVisibility cull_smoke(const smoke::SmokeVolume& volume, const ViewFrustum& view,

@@ -27,7 +27,7 @@ class UpdateScheduler {
   /// that is not less. They are the next ones in the order.
   void next_slice(float update_fraction);
   /// The slices of the frame, aligned to their number. A priority, a power of two, multiplies that number, up
-  /// to all of them; each slice still has its turn once in a round, which takes fewer frames.
+  /// to all of them; each slice is still updated once in a round, which takes fewer frames.
   SliceRange slices(std::uint32_t priority = 1) const;
   /// How many slices that are.
   std::uint32_t slices_per_frame(std::uint32_t priority = 1) const;

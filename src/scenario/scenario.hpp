@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "scenario/shot_masks.hpp"
-#include "scenario/vxl_file.hpp"
+#include "scenario/voxel_cache.hpp"
 #include "scene/timeline.hpp"
 #include "smoke/mask_atlas.hpp"
 

@@ -19,14 +19,14 @@ using Json = nlohmann::json;
 class Diff : public testing::Test {
  protected:
   Diff() {
-    image::Image8 picture{33, 17, std::vector<std::uint8_t>(33 * 17 * 4, 100)};
-    for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
-    image::save_png(folder_.path() / "a.png", picture).value_or_throw();
-    picture.rgba[4 * (8 * 33 + 16) + 1] = 120;
-    image::save_png(folder_.path() / "b.png", picture).value_or_throw();
-    picture.rgba[4 * (8 * 33 + 16) + 1] = 100;
-    picture.rgba[3] = 155;
-    image::save_png(folder_.path() / "clear.png", picture).value_or_throw();
+    image::Image8 image{33, 17, std::vector<std::uint8_t>(33 * 17 * 4, 100)};
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+    image::save_png(folder_.path() / "a.png", image).value_or_throw();
+    image.rgba[4 * (8 * 33 + 16) + 1] = 120;
+    image::save_png(folder_.path() / "b.png", image).value_or_throw();
+    image.rgba[4 * (8 * 33 + 16) + 1] = 100;
+    image.rgba[3] = 155;
+    image::save_png(folder_.path() / "clear.png", image).value_or_throw();
     const image::Image8 small{16, 17, std::vector<std::uint8_t>(16 * 17 * 4, 255)};
     image::save_png(folder_.path() / "small.png", small).value_or_throw();
   }

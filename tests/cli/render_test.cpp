@@ -28,7 +28,7 @@ class Render : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_brume(folder_.path(), arguments, options);
   }
-  image::Image8 picture(const std::string& name) const {
+  image::Image8 png(const std::string& name) const {
     return image::load_image(folder_.path() / name).value_or_throw();
   }
   WorkFolder folder_;
@@ -43,13 +43,13 @@ TEST_F(Render, ImagesAreReproducibleAndDependOnTheCamera) {
     EXPECT_EQ(statistics["frames"], 1);
     EXPECT_NE(statistics["device"], "");
   }
-  EXPECT_EQ(picture("a.png").width, 64u);
-  EXPECT_EQ(picture("a.png").height, 36u);
-  EXPECT_EQ(picture("a.png").rgba, picture("b.png").rgba);
+  EXPECT_EQ(png("a.png").width, 64u);
+  EXPECT_EQ(png("a.png").height, 36u);
+  EXPECT_EQ(png("a.png").rgba, png("b.png").rgba);
   const Outcome other = render({"-o", "c.png", "--size", "64x36", "--time", "0.8", "--smoke", "0.5,1.5,-0.5",
                                 "--camera", "1.5,1,1.5 -1,1,-1 60"});
   ASSERT_EQ(other.exit_code, 0) << other.error;
-  EXPECT_NE(picture("c.png").rgba, picture("a.png").rgba);
+  EXPECT_NE(png("c.png").rgba, png("a.png").rgba);
 }
 
 TEST_F(Render, QualityOptionsTakeEffectWithinTheirRange) {
@@ -59,8 +59,8 @@ TEST_F(Render, QualityOptionsTakeEffectWithinTheirRange) {
     ASSERT_EQ(run.exit_code, 0) << run.error;
   }
   ASSERT_EQ(render({"-o", "usual.png", "--size", "64x36", "--time", "0.8"}).exit_code, 0);
-  EXPECT_EQ(picture("1.png").rgba, picture("usual.png").rgba);
-  EXPECT_NE(picture("2.png").rgba, picture("usual.png").rgba);
+  EXPECT_EQ(png("1.png").rgba, png("usual.png").rgba);
+  EXPECT_NE(png("2.png").rgba, png("usual.png").rgba);
   for (const char* step : {"0.2", "4.5", "nan"})
     EXPECT_EQ(render({"-o", "no.png", "--step", step}).exit_code, 2) << step;
   for (const char* option : {"--resolve-error-scale", "--light-update-fraction"})
@@ -75,7 +75,7 @@ TEST_F(Render, DebugViewsAndSlices) {
     more.insert(more.end(), small.begin(), small.end());
     const Outcome run = render(more);
     EXPECT_EQ(run.exit_code, 0) << run.error;
-    return picture(name).rgba;
+    return png(name).rgba;
   };
   const auto depth = draw("depth.png", {"--view", "depth"});
   EXPECT_NE(depth, draw("solid.png", {"--view", "solid"}));
@@ -100,8 +100,8 @@ TEST_F(Render, InvalidViewsAndSlices) {
 }
 
 TEST_F(Render, ImageSequenceAndFilm) {
-  const Outcome pictures = render({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
-  ASSERT_EQ(pictures.exit_code, 0) << pictures.error;
+  const Outcome images = render({"-o", "p_%03d.png", "--frames", "2-4", "--fps", "10", "--size", "32x18"});
+  ASSERT_EQ(images.exit_code, 0) << images.error;
   const Outcome film = render({"-o", "film.mp4", "--frames", "0-5", "--size", "32x18"});
   ASSERT_EQ(film.exit_code, 0) << film.error;
   EXPECT_EQ(folder_.files(),

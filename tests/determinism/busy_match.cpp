@@ -129,10 +129,10 @@ std::uint64_t hash_sight(const smoke::SmokeVolume& volume, const sim::World& wor
   const smoke::Sight sight(volume, world.grid(), holes, world.state().seconds(world.tick()),
                            {.masks = &masks});
   std::vector<float> depths(segments.size());
-  std::vector<std::uint8_t> seen(segments.size());
+  std::vector<std::uint8_t> visible(segments.size());
   sight.optical_depths(segments, depths).value_or_throw();
-  sight.visible(segments, 2, seen).value_or_throw();
-  return hash_values(std::span<const float>(depths), hash_values(std::span<const std::uint8_t>(seen)));
+  sight.visible(segments, 2, visible).value_or_throw();
+  return hash_values(std::span<const float>(depths), hash_values(std::span<const std::uint8_t>(visible)));
 }
 
 /// A world that reports its hashes at every tick that it reaches.

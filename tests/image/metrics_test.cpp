@@ -12,10 +12,10 @@ namespace brume::image {
 namespace {
 
 Image8 filled(std::uint32_t width, std::uint32_t height, glm::u8vec3 colour) {
-  Image8 picture{width, height, {}};
+  Image8 image{width, height, {}};
   for (std::uint32_t i = 0; i < width * height; ++i)
-    picture.rgba.insert(picture.rgba.end(), {colour.r, colour.g, colour.b, 255});
-  return picture;
+    image.rgba.insert(image.rgba.end(), {colour.r, colour.g, colour.b, 255});
+  return image;
 }
 
 double mean(const Plane& plane) {
@@ -85,8 +85,8 @@ TEST(Ssim, OfOneWindowMatchesTheFormula) {
 
 TEST(Flip, IsZeroForEqualImages) {
   for (const auto& [w, h] : {std::pair{33u, 17u}, {1u, 1u}, {7u, 1u}}) {
-    const Image8 picture = random_image(w, h, true, 5);
-    for (const float value : flip(picture, picture).values) EXPECT_EQ(value, 0);
+    const Image8 image = random_image(w, h, true, 5);
+    for (const float value : flip(image, image).values) EXPECT_EQ(value, 0);
   }
 }
 
@@ -145,8 +145,8 @@ TEST(Flip, IsSymmetricAndAtMostOne) {
 TEST(HeatMap, GetsBrighter) {
   Plane ramp{256, 1, {}};
   for (int i = 0; i < 256; ++i) ramp.values.push_back(static_cast<float>(i) / 255);
-  const Image8 picture = heat_map(ramp);
-  const Plane light = luma(picture);
+  const Image8 image = heat_map(ramp);
+  const Plane light = luma(image);
   for (std::size_t i = 1; i < 256; ++i) EXPECT_GE(light.values[i] + 0.004f, light.values[i - 1]) << i;
   EXPECT_EQ(light.values[0], 0);
   EXPECT_GT(light.values[255], 0.9f);

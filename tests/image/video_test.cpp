@@ -54,7 +54,7 @@ TEST(Video, KeepsSizeCountAndColours) {
   EXPECT_EQ(folder.files(), 1u);
   EXPECT_TRUE(no_children());
 
-  // ffmpeg decodes it again, each frame to a picture.
+  // ffmpeg decodes it again, each frame to an image.
   const std::string command =
       "ffmpeg -nostdin -loglevel error -i '" + film.string() + "' '" + folder.path().string() + "/%02d.png'";
   ASSERT_EQ(std::system(command.c_str()), 0);
@@ -65,7 +65,7 @@ TEST(Video, KeepsSizeCountAndColours) {
   EXPECT_EQ(frame->height, 34u);
   // Studio range has 219 steps of luma and 224 of chroma; BT.709 gives blue the largest factor, 1.86: half a
   // step of each and of the conversion back is at most 0.5 * (255 / 219 + 1.86 * 255 / 224) + 0.5 < 2.2, for
-  // the quantizer of crf 16 on a plain picture two more.
+  // the quantizer of crf 16 on a plain image two more.
   for (std::size_t i = 0; i < frame->rgba.size(); i += 4) {
     ASSERT_NEAR(frame->rgba[i], 200, 4);
     ASSERT_NEAR(frame->rgba[i + 1], 90, 4);

@@ -58,7 +58,7 @@ TEST_F(DebugNumbersTest, ASliceShowsTheDensityThatTheProcessorReads) {
         const float density = on.solid ? 0 : smoke::sample_density(room_.volume, on.p_voxel);
         smoky += density > 0.1f;
         return apart_within(pixel, density, density > 0 ? kDensitySlack : 0, [&](float d) {
-          return seen(ray, on.solid ? on.empty : shared::density_colour(d, on.empty), on.metres);
+          return past_surface(ray, on.solid ? on.empty : shared::density_colour(d, on.empty), on.metres);
         });
       });
       EXPECT_GE(smoky, size.x > 2 && slice.at_world < 1 ? 60 : 0);
@@ -99,7 +99,7 @@ TEST_F(DebugNumbersTest, ASliceShowsTheLightThatTheSmokeSends) {
     const float density = on.solid ? 0 : smoke::sample_density(room_.volume, on.p_voxel);
     lit += density > 0.1f;
     return apart_within(pixel, density, density > 0 ? kDensitySlack : 0, [&](float d) {
-      return seen(ray, glm::mix(on.empty, light, glm::smoothstep(0.0f, 0.06f, d)), on.metres);
+      return past_surface(ray, glm::mix(on.empty, light, glm::smoothstep(0.0f, 0.06f, d)), on.metres);
     });
   });
   EXPECT_GT(lit, 60);
@@ -136,7 +136,7 @@ TEST_F(DebugNumbersTest, HolesShowHowMuchOfARayTheyClear) {
     hole.radius = 0.3f + 0.1f * static_cast<float>(i);
     hole.distance_to_far = 6;
     hole.time_to_reach_far = 0.25f;
-    hole.time_start = i == 2 ? 1.1f : 0.2f;  // the last is still on its way
+    hole.time_start = i == 2 ? 1.1f : 0.2f;  // the last has not reached its far end
     hole.time_to_expand = 0.05f;
     hole.time_to_stay_open = 5;
     hole.time_to_fade = 0.35f;

@@ -85,8 +85,8 @@ class DebugViewTest : public gpu::GpuTest {
     }
     return ray;
   }
-  /// The same as seen past a surface, if one is nearer.
-  static glm::vec3 seen(const Ray& ray, glm::vec3 colour, float metres) {
+  /// The colour at a distance, mixed over a surface that is nearer.
+  static glm::vec3 past_surface(const Ray& ray, glm::vec3 colour, float metres) {
     return metres > ray.surface_m ? glm::mix(ray.behind, colour, shared::kOccludedOpacity) : colour;
   }
   /// The axes of a face across `axis`.

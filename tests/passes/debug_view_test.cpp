@@ -39,8 +39,8 @@ TEST_F(DebugViewTest, NormalsAlbedoAndDepthAreThoseOfTheSurfaces) {
                depth = show(DebugView::depth, frame, surfaces);
     for (std::size_t i = 0; i < normals.size(); ++i) {
       if (surfaces.depth[i] == 0) {
-        for (const auto& picture : {normals, albedo, depth})
-          EXPECT_LE(apart(picture[i], shared::backdrop()), kRounded);
+        for (const auto& image : {normals, albedo, depth})
+          EXPECT_LE(apart(image[i], shared::backdrop()), kRounded);
         continue;
       }
       const glm::vec3 n = glm::normalize(glm::vec3(from_half(surfaces.normal[i])));
@@ -165,7 +165,7 @@ TEST_F(DebugViewTest, DistancesAreThoseOfTheCloudBeyondTheSlice) {
       const float line = line_on_face(distance_at, voxel, axes, f, width);
       const glm::vec3 colour = shared::ramp_colour(shared::kRampViridis, distance / std::ceil(farthest));
       const glm::vec3 lit = glm::min(colour * shared::distance_tone(normal), 1.0f) * (1 - line);
-      return apart(pixel, seen(ray, lit, metres));
+      return apart(pixel, past_surface(ray, lit, metres));
     });
     EXPECT_GT(met, 150);
     EXPECT_EQ(cut > 100, slice.at_world < 4) << cut;
@@ -230,7 +230,7 @@ TEST_F(DebugViewTest, TheLegendSaysWhatTheColoursAre) {
     for (std::uint32_t y = 164; y < 169; ++y) inked += at(depth, x, y).g > 200;
   constexpr int kSix = 12, kFour = 9, kM = 10, kEight = 13, kOne = 8;
   EXPECT_EQ(inked, kSix + kFour + kM + kEight + kM + kOne + kM);
-  // Elsewhere nothing, and nothing at all in a picture too small.
+  // Elsewhere nothing, and nothing at all in an image too small.
   for (std::uint32_t y = 0; y < 150; ++y) EXPECT_LE(apart(at(depth, 20, y), shared::backdrop()), kRounded);
   for (const glm::u8vec4 pixel : show(DebugView::depth, frame_of({199, 180}), Surfaces({199, 180})))
     EXPECT_LE(apart(pixel, shared::backdrop()), kRounded);

@@ -12,9 +12,9 @@ namespace {
 
 class DisplayTest : public gpu::GpuTest {
  protected:
-  /// What 8 bits show of a picture.
+  /// What 8 bits show of an image.
   static std::vector<glm::u8vec4> show(glm::uvec2 size, const std::vector<Half4>& radiance, float exposure) {
-    const auto picture = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT, radiance);
+    const auto image = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT, radiance);
     const auto display = test_image(context(), size, VK_FORMAT_R8G8B8A8_UNORM);
     shared::FrameConstants frame{};
     frame.size_px = size;
@@ -24,7 +24,7 @@ class DisplayTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) { noise = make_blue_noise(context(), recorder); });
     const DisplayPass pass(context());
     runner().run(
-        [&](gpu::Recorder& recorder) { pass.record(recorder, frame_buffer, noise, picture, display); });
+        [&](gpu::Recorder& recorder) { pass.record(recorder, frame_buffer, noise, image, display); });
     return read_back<glm::u8vec4>(display);
   }
 };

@@ -90,16 +90,16 @@ class HoleClustersTest : public gpu::GpuTest {
   gpu::Image noise_tile_, blue_noise_;
 };
 
-TEST_F(HoleClustersTest, GivesThePictureOfAskingEveryHole) {
+TEST_F(HoleClustersTest, GivesTheImageOfTestingEveryHole) {
   // A sample multiplies what the holes leave that contain it, in the order in which the loop does, and the
   // others leave exactly 1: the same floats. No more holes: a software rasterizer ends all loops of a ray
-  // after 65,535 rounds, and asking every hole at each of 250 samples takes as many.
+  // after 65,535 rounds, and testing every hole at each of 250 samples takes as many.
   for (const std::size_t count : {1u, 7u, 63u, 200u}) {
     const auto holes = planning::random_holes(count, static_cast<std::uint32_t>(count), 8);
     const auto listed = march(holes, false), plain = march(holes, true);
     EXPECT_EQ(largest_difference(listed, plain), 0) << count << " holes";
     if (count < 63) continue;
-    EXPECT_GT(largest_difference(listed, march({}, false)), 0.01) << "the holes are seen";
+    EXPECT_GT(largest_difference(listed, march({}, false)), 0.01) << "the holes are visible";
   }
 }
 
@@ -119,7 +119,7 @@ TEST_F(HoleClustersTest, SeesHolesFromInsideAndAlongTheirAxes) {
   EXPECT_EQ(largest_difference(march(holes, false), march(holes, true)), 0);
 }
 
-TEST_F(HoleClustersTest, GivesTheSamePictureEachTime) {
+TEST_F(HoleClustersTest, GivesTheSameImageEachTime) {
   const auto holes = planning::random_holes(2000, 9, 8);
   const auto first = march(holes, false), second = march(holes, false);
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(Half4)), 0);

@@ -218,16 +218,16 @@ TEST_F(LevelLightTest, RaysAreThoseOfTheReference) {
   const BitGrid grid = room({{40, 13, 21}, 0.5f, {}}, {3, 1, 2}, {37, 11, 19}, true);
   show({&grid, nullptr});
   const auto rays = read_back<std::uint32_t>(sky_.rays(), solid_.word_count() * shared::kSkyDirections);
-  std::size_t seen = 0, differ = 0;
+  std::size_t visible = 0, differ = 0;
   for (std::uint32_t i = 0; i < shared::kSkyDirections; ++i)
     for_each_in({glm::ivec3(0), grid.size()}, [&](glm::ivec3 v) {
       const auto word = static_cast<std::size_t>(v.x / 32 + 2 * (v.y + grid.size().y * v.z));
       const bool sees = rays[i * solid_.word_count() + word] >> (v.x % 32) & 1;
       const bool expected = reference::sees_sky_step_by_step(grid, v, glm::dvec3(shared::sky_direction(i)));
-      seen += sees;
+      visible += sees;
       differ += sees != expected;
     });
-  EXPECT_GT(seen, 100000u);
+  EXPECT_GT(visible, 100000u);
   EXPECT_EQ(differ, 0u);
 }
 
@@ -261,7 +261,7 @@ TEST_F(LevelLightTest, AWindowLetsInItsShareOfTheSky) {
       const double got = static_cast<double>(ask({world_from_voxel(frame, p_voxel), {}}).sky[0].x);
       // The window lies around the horizon, where the sky is as bright as its mean.
       sum += got;
-      expected_sum += reference::sky_share(open, glm::dvec3(p_voxel), 64);
+      expected_sum += reference::sky_fraction(open, glm::dvec3(p_voxel), 64);
       ++count;
     }
   EXPECT_NEAR(sum / count, expected_sum / count, 1.0 / 32);

@@ -37,7 +37,7 @@ TEST(CloudMotion, IsBoundedAndContinuousOverALife) {
     EXPECT_LE(now.grown, 1.5f);
     EXPECT_GE(std::hypot(now.swirl_cos, now.swirl_sin), 0.999f);
     EXPECT_LE(std::hypot(now.swirl_cos, now.swirl_sin), 3.001f);
-    // A thirtieth of a tick: no jump, neither at ticks nor at the turns of its life.
+    // A thirtieth of a tick: no jump, neither at ticks nor where its phase changes.
     EXPECT_LT(std::abs(now.grown - before.grown), 0.02f) << t;
     EXPECT_LT(std::hypot(now.swirl_cos - before.swirl_cos, now.swirl_sin - before.swirl_sin), 0.01f) << t;
     before = now;
@@ -101,7 +101,7 @@ TEST(Impulses, OfABodyFollowItAndDieDown) {
   const auto now = planning::impulses_of(world.state(), 26.0 / kTicks);
   ASSERT_EQ(now.size(), 1u);
   EXPECT_LT(glm::distance(now[0].to_world, glm::vec3(3, 1, 4)), 1e-3f);
-  EXPECT_LT(glm::distance(now[0].from_world, glm::vec3(1, 1, 4)), 1e-3f);  // half a second of its way
+  EXPECT_LT(glm::distance(now[0].from_world, glm::vec3(1, 1, 4)), 1e-3f);  // half a second of its path
   EXPECT_NEAR(now[0].along.x, 0.6, 1e-4);
   const auto later = planning::impulses_of(world.state(), 26.0 / kTicks + 0.75);
   ASSERT_EQ(later.size(), 1u);
@@ -138,26 +138,26 @@ class NoiseAdvectionTest : public gpu::GpuTest {
     frame_.look.swirl = 0.2f;
     frame_.look.swirl_width = 3;
   }
-  /// How far the noise is carried at each texel, and the share of the density that it leaves.
+  /// How far the noise is carried at each texel, and the fraction of the density that remains.
   std::vector<glm::vec4> record(const sim::State& state, double seconds, float erosion) {
-    return record(drift_, state, seconds, erosion);
+    return record(pass_, state, seconds, erosion);
   }
-  std::vector<glm::vec4> record(NoiseAdvectionPass& drift, const sim::State& state, double seconds,
+  std::vector<glm::vec4> record(NoiseAdvectionPass& pass, const sim::State& state, double seconds,
                                 float erosion) {
     frame_.look.erosion = erosion;
     frame_.time = static_cast<float>(seconds);
     const auto frame = upload(std::vector{frame_});
     const planning::NoisePlan plan = planning::plan_noise(state, seconds, 12);
-    drift.reserve(state, room_.volume, plan);
+    pass.reserve(state, room_.volume, plan);
     runner().run([&](gpu::Recorder& recorder) {
-      drift.record(recorder, plan, {frame, room_.upload.resources(), noise_});
+      pass.record(recorder, plan, {frame, room_.upload.resources(), noise_});
     });
     const auto medium = read_back<Half4>(room_.upload.resources().density_displacement);
-    const auto share = read_back<std::uint32_t>(room_.upload.resources().filtered_density);
+    const auto remaining = read_back<std::uint32_t>(room_.upload.resources().filtered_density);
     std::vector<glm::vec4> out;
     for (std::size_t i = 0; i < medium.size(); ++i) {
       const glm::vec4 texel = from_half(medium[i]);
-      out.emplace_back(texel.y, texel.z, texel.w, glm::unpackHalf2x16(share[i]).y);
+      out.emplace_back(texel.y, texel.z, texel.w, glm::unpackHalf2x16(remaining[i]).y);
     }
     return out;
   }
@@ -179,7 +179,7 @@ class NoiseAdvectionTest : public gpu::GpuTest {
   }
 
   SmokeRoom room_;
-  NoiseAdvectionPass drift_{context()};
+  NoiseAdvectionPass pass_{context()};
   gpu::Image noise_;
   shared::FrameConstants frame_{};
 };
@@ -276,7 +276,7 @@ struct ErodedRange {
   }
 };
 
-// Line of sight integrates without noise: through a grown smoke it must be about what the picture shows.
+// Line of sight integrates without noise: through a grown smoke it must about match the rendered image.
 TEST_F(NoiseAdvectionTest, LeavesTheOpticalDepthOfDenseSmoke) {
   constexpr float kErosion = 0.8f;
   const auto texels = record(state(), 6.2, kErosion);
@@ -310,7 +310,7 @@ TEST_F(NoiseAdvectionTest, LeavesTheOpticalDepthOfDenseSmoke) {
     if (line.plain == 0) continue;
     plain_sum += line.plain;
     eroded_sum += line.eroded;
-    // Each line by what the noise may do to its densities; shares are half floats.
+    // Each line by what the noise may do to its densities; fractions are half floats.
     EXPECT_GE(line.eroded, line.least * (1 - 1.0 / 1024) - 1e-6);
     EXPECT_LE(line.eroded, line.most * (1 + 1.0 / 1024) + 1e-6);
     const double off = std::abs(line.eroded / line.plain - 1);
@@ -327,7 +327,8 @@ TEST_F(NoiseAdvectionTest, LeavesTheOpticalDepthOfDenseSmoke) {
   ASSERT_GT(rim_off.size(), 50u);
   std::sort(rim_off.begin(), rim_off.end());
   std::printf(
-      "eroded share of dense lines %.3f, most off %.3f, of all %.3f; %zu lines through the rim alone: half "
+      "eroded fraction of dense lines %.3f, most off %.3f, of all %.3f; %zu lines through the rim alone: "
+      "half "
       "off by "
       "%.2f at most, nine of ten by %.2f, all by %.2f\n",
       sum / dense, most_off, eroded_sum / plain_sum, rim_off.size(), rim_off[rim_off.size() / 2],

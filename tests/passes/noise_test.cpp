@@ -130,7 +130,7 @@ TEST_F(NoiseKinds, CurlHasNoDivergence) {
         }
       divergence += sum * sum;
     }
-  // Central differences leave a share of step^2 of the third derivative, and rounding.
+  // Central differences leave a fraction of step^2 of the third derivative, and rounding.
   EXPECT_LT(std::sqrt(divergence), 0.01 * std::sqrt(slope));
 }
 

@@ -77,16 +77,16 @@ class ShadeTest : public gpu::GpuTest {
     frame.light_count = static_cast<std::uint32_t>(scene_.light_list.size());
     const auto frame_buffer = upload(std::vector{frame});
     const auto smoke_image = upload_image(context(), runner(), size_, kHalf4, smoke);
-    const auto picture = test_image(context(), size_, kHalf4);
+    const auto radiance = test_image(context(), size_, kHalf4);
     const ShadePass pass(context(), cull_lights);
     sky_.reserve(solid_);
     runner().run([&](gpu::Recorder& recorder) {
       if (solid_.record(recorder, {})) sky_.record(recorder, frame_buffer, solid_);
       pass.record(recorder, frame_buffer, scene_, shadows_, smoke_shadows_, {solid_, sky_}, gbuffer_,
-                  smoke_image, picture);
+                  smoke_image, radiance);
     });
     std::vector<glm::vec4> out;
-    for (const Half4& texel : read_back<Half4>(picture)) out.push_back(from_half(texel));
+    for (const Half4& texel : read_back<Half4>(radiance)) out.push_back(from_half(texel));
     return out;
   }
   std::vector<Half4> no_smoke() const { return {std::size_t{size_.x} * size_.y, to_half({0, 0, 0, 1})}; }
@@ -106,7 +106,7 @@ TEST_F(ShadeTest, LightsThatATileLeavesOutAreThoseThatDoNotReachIt) {
   EXPECT_EQ(culled, shade(no_smoke(), false));
   float brightest = 0;
   for (const glm::vec4& pixel : culled) brightest = std::max(brightest, pixel.g);
-  EXPECT_GT(brightest, 0.1f) << "some light is seen";
+  EXPECT_GT(brightest, 0.1f) << "some light is visible";
 }
 
 TEST_F(ShadeTest, SmokeIsOverTheSurfacesAndTheSky) {
@@ -119,7 +119,7 @@ TEST_F(ShadeTest, SmokeIsOverTheSurfacesAndTheSky) {
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const glm::vec4 s = from_half(smoke[i]);
     for (int c = 0; c < 3; ++c) {
-      // Two roundings to a half float: of the clear picture and of this one. Opaque smoke is as it is.
+      // Two roundings to a half float: of the clear image and of this one. Opaque smoke is as it is.
       const float expected = s[c] + s.w * clear[i][c];
       EXPECT_NEAR(pixels[i][c], expected, s.w == 0 ? 0 : expected / 512);
     }

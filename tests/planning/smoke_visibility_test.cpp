@@ -60,9 +60,10 @@ class SmokeVisibilityTest : public ::testing::Test {
                       scene_);
   }
   /// Whether all smoke on a segment is required: sampled twice a voxel.
-  bool all_visible(const SmokeVisibility& visibility, glm::vec3 from, glm::vec3 segment, bool seen) const {
-    const Box<float>& bounds = seen ? visibility.visible_bounds : visibility.caster_bounds;
-    const std::size_t first_slots = seen ? visibility.visible_count : visibility.slots.size();
+  bool all_visible(const SmokeVisibility& visibility, glm::vec3 from, glm::vec3 segment,
+                   bool on_screen) const {
+    const Box<float>& bounds = on_screen ? visibility.visible_bounds : visibility.caster_bounds;
+    const std::size_t first_slots = on_screen ? visibility.visible_count : visibility.slots.size();
     const int count = static_cast<int>(glm::length(segment) / (0.5f * kVoxel)) + 1;
     for (int i = 0; i <= count; ++i) {
       const glm::vec3 p = (from + segment * (static_cast<float>(i) / static_cast<float>(count))) / kVoxel;

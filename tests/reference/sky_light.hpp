@@ -32,15 +32,15 @@ inline bool sees_sky_step_by_step(const voxel::BitGrid& grid, glm::ivec3 voxel, 
 }
 
 /// Visible fraction of a uniform sky at a point: `rings` x 2 `rings` directions, even in solid angle.
-inline double sky_share(const voxel::BitGrid& grid, glm::dvec3 p_voxel, int rings) {
-  int seen = 0;
+inline double sky_fraction(const voxel::BitGrid& grid, glm::dvec3 p_voxel, int rings) {
+  int visible = 0;
   for (int j = 0; j < rings; ++j)
     for (int i = 0; i < 2 * rings; ++i) {
       const double y = 1 - (2 * j + 1.0) / rings, around = glm::pi<double>() * (i + 0.5) / rings;
       const double aside = std::sqrt(1 - y * y);
-      seen += sees_sky(grid, p_voxel, {aside * std::cos(around), y, aside * std::sin(around)});
+      visible += sees_sky(grid, p_voxel, {aside * std::cos(around), y, aside * std::sin(around)});
     }
-  return seen / (2.0 * rings * rings);
+  return visible / (2.0 * rings * rings);
 }
 
 }  // namespace brume::reference

@@ -38,7 +38,7 @@ glm::dvec4 noise_at(const NoiseTile& tile, glm::dvec3 p_tile) {
 
 /// The noise displacement at a point of the smoke.
 glm::dvec3 advection_at(const TruthScene& scene, glm::dvec3 p_voxel) {
-  if (scene.drift == nullptr) return glm::dvec3(0);
+  if (scene.displacement == nullptr) return glm::dvec3(0);
   const glm::ivec3 brick(glm::floor(p_voxel / 8.0));
   const std::uint32_t slot = scene.volume->slot_at(brick);
   if (slot == smoke::SmokeVolume::kNoSlot) return glm::dvec3(0);
@@ -50,9 +50,9 @@ glm::dvec3 advection_at(const TruthScene& scene, glm::dvec3 p_voxel) {
   for (int i = 0; i < 8; ++i) {
     const glm::ivec3 o(i & 1, i >> 1 & 1, i >> 2), t = corner + glm::min(low + o, glm::ivec3(9));
     const double w = (o.x ? f.x : 1 - f.x) * (o.y ? f.y : 1 - f.y) * (o.z ? f.z : 1 - f.z);
-    const auto index =
-        t.x + std::int64_t{scene.drift->size.x} * (t.y + std::int64_t{scene.drift->size.y} * t.z);
-    sum += w * glm::dvec3(scene.drift->texels[static_cast<std::size_t>(index)]);
+    const auto index = t.x + std::int64_t{scene.displacement->size.x} *
+                                 (t.y + std::int64_t{scene.displacement->size.y} * t.z);
+    sum += w * glm::dvec3(scene.displacement->texels[static_cast<std::size_t>(index)]);
   }
   return sum;
 }

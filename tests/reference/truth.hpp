@@ -48,10 +48,10 @@ struct TruthScene {
   std::span<const shared::Hole> holes;  ///< Without masks.
   std::span<const shared::Light> lights;
   std::span<const TruthTriangle> triangles;
-  const NoiseTile* noise = nullptr;            ///< Required if look.erosion or look.hole_rim is not 0.
-  const NoiseAdvectionField* drift = nullptr;  ///< Null: no noise displacement.
-  double view_step = 0.2;                      ///< Of the rays of the pixels [voxels].
-  double light_step = 0.4;                     ///< Of the rays to the lights [voxels].
+  const NoiseTile* noise = nullptr;                   ///< Required if look.erosion or look.hole_rim is not 0.
+  const NoiseAdvectionField* displacement = nullptr;  ///< Null: no noise displacement.
+  double view_step = 0.2;                             ///< Of the rays of the pixels [voxels].
+  double light_step = 0.4;                            ///< Of the rays to the lights [voxels].
 };
 
 /// The result at the centre of a pixel.
@@ -59,7 +59,7 @@ struct TruthPixel {
   glm::dvec3 smoke{0};       ///< In-scattered radiance that reaches the eye.
   double transmittance = 1;  ///< Of the smoke in front of the surface.
   glm::dvec3 surface{0};     ///< Radiance of the surface behind, lit through the smoke.
-  glm::dvec3 picture() const { return smoke + transmittance * surface; }
+  glm::dvec3 radiance() const { return smoke + transmittance * surface; }
 };
 
 /// Rows from the top. No ambient light, black sky. On all threads.

@@ -1,4 +1,4 @@
-// Debug views of a whole frame: each says something of its own, and none leaves a trace in the picture.
+// Debug views of a whole frame: each says something of its own, and none leaves a trace in the image.
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -69,35 +69,35 @@ class DebugViewsTest : public gpu::GpuTest {
 };
 
 TEST_F(DebugViewsTest, EachIsThereAndDiffersFromAllOthers) {
-  std::vector<std::vector<std::uint8_t>> pictures;
+  std::vector<std::vector<std::uint8_t>> images;
   for (std::uint32_t i = 0; i < shared::kViewCount; ++i) {
     const auto view = static_cast<DebugView>(i);
     playback().set_view(view, {});
-    const auto picture = playback().draw(1.6, 3).rgba;
-    EXPECT_EQ(std::count(pictures.begin(), pictures.end(), picture), 0) << passes::debug_view_name(view);
-    pictures.push_back(picture);
-    EXPECT_EQ(playback().draw(1.6, 3).rgba, picture) << passes::debug_view_name(view);
+    const auto image = playback().draw(1.6, 3).rgba;
+    EXPECT_EQ(std::count(images.begin(), images.end(), image), 0) << passes::debug_view_name(view);
+    images.push_back(image);
+    EXPECT_EQ(playback().draw(1.6, 3).rgba, image) << passes::debug_view_name(view);
     std::set<std::uint32_t> colours;
-    for (std::size_t p = 0; p < picture.size(); p += 4)
-      colours.insert(picture[p] | std::uint32_t{picture[p + 1]} << 8 | std::uint32_t{picture[p + 2]} << 16);
+    for (std::size_t p = 0; p < image.size(); p += 4)
+      colours.insert(image[p] | std::uint32_t{image[p + 1]} << 8 | std::uint32_t{image[p + 2]} << 16);
     EXPECT_GE(colours.size(), 2u) << passes::debug_view_name(view);
   }
-  // A slice elsewhere is another picture.
+  // A slice elsewhere is another image.
   for (const DebugView view : {DebugView::density, DebugView::light, DebugView::distance}) {
     playback().set_view(view, passes::ViewSlice{1, 0.5f});
-    EXPECT_EQ(std::count(pictures.begin(), pictures.end(), playback().draw(1.6, 3).rgba), 0)
+    EXPECT_EQ(std::count(images.begin(), images.end(), playback().draw(1.6, 3).rgba), 0)
         << passes::debug_view_name(view);
   }
 }
 
-TEST_F(DebugViewsTest, ThePictureIsTheSameWhateverWasShownBefore) {
+TEST_F(DebugViewsTest, TheImageIsTheSameWhateverWasShownBefore) {
   for (const std::uint32_t scale : {1u, 4u}) {
     Playback plain(context(), scenario(), options(scale, false));
     std::optional<Playback> of_blocks;
     if (scale > 1) of_blocks.emplace(context(), scenario(), options(scale, false));
     Playback& other = of_blocks ? *of_blocks : playback();
     for (std::uint32_t i = 1; i < shared::kViewCount; i += scale) {  // of the lower resolution a few
-      const double seconds = 1.6 + 0.1 * i;                          // over the moment when a wall breaks
+      const double seconds = 1.6 + 0.1 * i;                          // over the time when a wall breaks
       other.set_view(static_cast<DebugView>(i), {});
       other.draw(seconds - 0.05, 2 * i);
       if (i % 3 != 0) continue;
@@ -129,9 +129,9 @@ TEST_F(DebugViewsTest, WithoutSmokeTheSceneIsThere) {
   // Before the first smoke goes off.
   for (std::uint32_t i = 1; i < shared::kViewCount; ++i) {
     playback().set_view(static_cast<DebugView>(i), {});
-    const auto picture = playback().draw(0, 0).rgba;
+    const auto image = playback().draw(0, 0).rgba;
     std::set<std::uint8_t> greens;
-    for (std::size_t p = 1; p < picture.size(); p += 4) greens.insert(picture[p]);
+    for (std::size_t p = 1; p < image.size(); p += 4) greens.insert(image[p]);
     EXPECT_GE(greens.size(), 2u) << passes::debug_view_name(static_cast<DebugView>(i));
   }
 }

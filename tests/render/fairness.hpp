@@ -21,7 +21,7 @@ constexpr float kHalfCrop = 0.57735f * 90 / 720;
 /// Somebody who looks, and a bright sign that faces them.
 struct Pair {
   glm::vec3 eye, target;
-  float sign_px;  // edge of the sign in the picture
+  float sign_px;  // edge of the sign in the image
 };
 
 struct Shot {
@@ -29,7 +29,7 @@ struct Shot {
   std::vector<float> depth;  // reverse
 };
 
-/// One moment, seen by many.
+/// Renders one time from many places.
 class Eye {
  public:
   Eye(gpu::Context& context, gpu::CommandRunner& runner, const scenario::Scenario& scenario,

@@ -55,21 +55,21 @@ class FilmTest : public gpu::GpuTest {
     for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::abs(a.rgba[i] - b.rgba[i]);
     return sum / (0.75 * static_cast<double>(a.rgba.size()));  // alpha is the same
   }
-  static double centre(const image::Image8& picture) {
+  static double centre(const image::Image8& image) {
     double sum = 0;
     for (std::uint32_t y = 25; y < 29; ++y)
-      for (std::uint32_t x = 46; x < 50; ++x) sum += picture.rgba[4 * (x + std::size_t{kSize.x} * y) + 1];
+      for (std::uint32_t x = 46; x < 50; ++x) sum += image.rgba[4 * (x + std::size_t{kSize.x} * y) + 1];
     return sum / 16;
   }
 };
 
-TEST_F(FilmTest, AFrameThatFollowsNoneIsThePictureOfItsMoment) {
+TEST_F(FilmTest, AFrameThatFollowsNoneIsTheImageOfItsTime) {
   const scenario::Scenario scene = scenario();
   for (const std::uint32_t scale : {1u, 4u}) {
-    Playback film(context(), scene, options(scale, true)), pictures(context(), scene, options(scale, false));
-    EXPECT_EQ(film.draw(2, 48).rgba, pictures.draw(2, 48).rgba);
-    EXPECT_NE(film.draw(2.04, 49).rgba, pictures.draw(2.04, 49).rgba);
-    EXPECT_EQ(film.draw(2, 48).rgba, pictures.draw(2, 48).rgba);
+    Playback film(context(), scene, options(scale, true)), stills(context(), scene, options(scale, false));
+    EXPECT_EQ(film.draw(2, 48).rgba, stills.draw(2, 48).rgba);
+    EXPECT_NE(film.draw(2.04, 49).rgba, stills.draw(2.04, 49).rgba);
+    EXPECT_EQ(film.draw(2, 48).rgba, stills.draw(2, 48).rgba);
   }
 }
 
@@ -113,7 +113,7 @@ TEST_F(FilmTest, AHoleThatHasClosedLeavesNoGhost) {
   still.timeline.shots.clear();
   for (const std::uint32_t scale : {1u, 2u}) {
     Playback had(context(), shot, options(scale, true)), never(context(), still, options(scale, true)),
-        pictures(context(), still, options(scale, false));
+        stills(context(), still, options(scale, false));
     double most_open = 0, first_apart = 0, last_apart = 0;
     for (std::uint32_t i = 0; i < 24; ++i) {
       const double seconds = 3 + i / 24.0;
@@ -123,7 +123,7 @@ TEST_F(FilmTest, AHoleThatHasClosedLeavesNoGhost) {
         continue;
       }
       if (i == 0) continue;
-      const auto now = pictures.draw(seconds, i);
+      const auto now = stills.draw(seconds, i);
       if (first_apart == 0) first_apart = mean_difference(a, b);
       last_apart = mean_difference(a, b);
       int beyond = 0;
@@ -138,7 +138,7 @@ TEST_F(FilmTest, AHoleThatHasClosedLeavesNoGhost) {
   }
 }
 
-/// Mean difference of pictures that follow each other while the camera circles the smoke.
+/// Mean difference of images that follow each other while the camera circles the smoke.
 double flicker(Playback& playback) {
   const auto draw = [&](std::uint32_t i) {
     const float angle = 0.6f * std::sin(0.6283f * static_cast<float>(i) / 24);

@@ -188,7 +188,7 @@ TEST_F(LightCacheTest, AllOfATimeIsTheRebuiltOneHoweverItWasSliced) {
     return low + (high - low) * static_cast<float>(random() % 1024) / 1023;
   };
   double seconds = 2;
-  for (int picture = 0; picture < 24; ++picture) {
+  for (int round = 0; round < 24; ++round) {
     for (auto frames = random() % 4; frames-- > 0;) {
       seconds += random() % 4 == 0 ? 0 : uniform(0.01f, 0.1f);
       if (random() % 2 == 0)
@@ -201,8 +201,8 @@ TEST_F(LightCacheTest, AllOfATimeIsTheRebuiltOneHoweverItWasSliced) {
     }
     draw(seconds);
     EXPECT_EQ(read_back<std::uint64_t>(cached_->picture()), read_back<std::uint64_t>(rebuilt_->picture()))
-        << "picture " << picture << " at " << seconds;
-    if (picture % 8 == 7) seconds += 2;
+        << "round " << round << " at " << seconds;
+    if (round % 8 == 7) seconds += 2;
   }
 }
 

@@ -1,4 +1,4 @@
-// The lit picture at walls: along flat, slanted and round walls the smoke is as bright as it should be up to
+// The lit image at walls: along flat, slanted and round walls the smoke is as bright as it should be up to
 // the last pixel before the wall, and behind a thin wall there is none. BRUME_LIT_WALLS names a CSV file for
 // the profiles.
 #include <algorithm>
@@ -164,7 +164,7 @@ class LitWallsTest : public gpu::GpuTest {
     }
     return profile;
   }
-  /// A scenario whose smoke is grown, seen from anywhere.
+  /// A scenario whose smoke is grown, rendered from anywhere.
   struct Studio {
     explicit Studio(const scenario::Scenario& scenario)
         : simulation(scenario::Simulation::create(scenario).value_or_throw()),
@@ -204,7 +204,7 @@ class LitWallsTest : public gpu::GpuTest {
     EXPECT_TRUE(
         static_cast<bool>(write_file_atomic(path, "wall,view,light,pixel,drawn,expected\n" + csv().str())));
   }
-  /// Nowhere along the profile may the picture differ by more than three steps of 255 when its brightest is
+  /// Nowhere along the profile may the image differ by more than three steps of 255 when its brightest is
   /// white (as little as docs/resolve.md allows), and where no smoke should be there is none.
   static void expect_no_line(const Wall& wall, const View& view, const Profile& drawn,
                              const Profile& expected) {

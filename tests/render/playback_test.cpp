@@ -40,7 +40,7 @@ scenario::Scenario small_stage(scene::Scene scene) {
   timeline.smoke.voxels = 3000;
   timeline.smoke.extinction = 4;
   timeline.smoke.erosion = 0;
-  timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {0, 0.2f, 0}}};  // from outside of the picture
+  timeline.smokes = {{0.2, {5.5f, 3.5f, 5.5f}, {0, 0.2f, 0}}};  // from outside of the image
   const voxel::GridLayout frame{{52, 20, 40}, 0.25f, {-6.5f, -0.6f, -3.5f}};
   auto voxels = scenario::load_or_voxelize(scene, frame, {}).value_or_throw();
   const scene::Camera camera = *scene.camera;
@@ -50,18 +50,18 @@ scenario::Scenario small_stage(scene::Scene scene) {
 class PlaybackTest : public gpu::GpuTest {
  protected:
   static constexpr glm::uvec2 kSize{64, 36};
-  /// Mean brightness of a block of pixels around a place in the picture, 0..255.
-  static double brightness(const image::Image8& picture, double x, double y) {
-    const auto px = static_cast<std::uint32_t>(x * picture.width),
-               py = static_cast<std::uint32_t>(y * picture.height);
+  /// Mean brightness of a block of pixels around a place in the image, 0..255.
+  static double brightness(const image::Image8& image, double x, double y) {
+    const auto px = static_cast<std::uint32_t>(x * image.width),
+               py = static_cast<std::uint32_t>(y * image.height);
     double sum = 0;
     for (std::uint32_t j = 0; j < 3; ++j)
-      for (std::uint32_t i = 0; i < 3; ++i) sum += picture.rgba[4 * (px + i + picture.width * (py + j)) + 1];
+      for (std::uint32_t i = 0; i < 3; ++i) sum += image.rgba[4 * (px + i + image.width * (py + j)) + 1];
     return sum / 9;
   }
 };
 
-TEST_F(PlaybackTest, TheSameMomentIsTheSamePicture) {
+TEST_F(PlaybackTest, TheSameTimeGivesTheSameImage) {
   const scenario::Scenario scenario = small_stage(small_scene(true));
   Playback playback(context(), scenario, kSize);
   const auto first = playback.draw(0.8, 5).rgba;
@@ -76,8 +76,8 @@ TEST_F(PlaybackTest, AwkwardSizes) {
   const scenario::Scenario scenario = small_stage(small_scene(false));
   for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(7, 5), glm::uvec2(33, 17)}) {
     Playback playback(context(), scenario, size);
-    const auto picture = playback.draw(1.2, 0);
-    EXPECT_EQ(picture.rgba.size(), std::size_t{4} * size.x * size.y);
+    const auto image = playback.draw(1.2, 0);
+    EXPECT_EQ(image.rgba.size(), std::size_t{4} * size.x * size.y);
   }
 }
 
@@ -155,7 +155,7 @@ TEST_F(PlaybackTest, SmokeDimsTheSurfacesBehindIt) {
   EXPECT_NEAR(brightness(after, 0.2, 0.25), brightness(before, 0.2, 0.25), 3);
 }
 
-/// Where a camera sees the wall at z = -3 through a place of the picture, in pixels.
+/// Where a camera sees the wall at z = -3 through a place of the image, in pixels.
 glm::vec3 on_the_wall(const scene::Camera& camera, glm::vec2 pixel, glm::vec2 size) {
   const glm::vec3 forward = glm::normalize(camera.target_world - camera.position_world);
   const glm::vec3 right = glm::normalize(glm::cross(forward, {0, 1, 0})), up = glm::cross(right, forward);
@@ -165,7 +165,7 @@ glm::vec3 on_the_wall(const scene::Camera& camera, glm::vec2 pixel, glm::vec2 si
   return camera.position_world + ray * ((-3 - camera.position_world.z) / ray.z);
 }
 
-/// Least and most optical depth between the light and what the 3x3 pixels around a place of the picture see
+/// Least and most optical depth between the light and what the 3x3 pixels around a place of the image see
 /// of the wall, and `around` metres beside it.
 std::pair<float, float> depths_to_the_wall(const smoke::Sight& sight, const scenario::Scenario& scenario,
                                            const scene::Camera& camera, glm::vec2 place, glm::uvec2 size,
@@ -173,8 +173,9 @@ std::pair<float, float> depths_to_the_wall(const smoke::Sight& sight, const scen
   const glm::vec2 first = glm::floor(place * glm::vec2(size));
   std::pair<float, float> depths{1e9f, 0.0f};
   for (int i = 0; i < 81; ++i) {
-    const glm::vec3 seen = on_the_wall(camera, first + glm::vec2(i % 3, i / 3 % 3) + 0.5f, glm::vec2(size));
-    const glm::vec3 beside = seen + around * glm::vec3(i / 9 % 3 - 1, i / 27 - 1, 0);
+    const glm::vec3 on_wall =
+        on_the_wall(camera, first + glm::vec2(i % 3, i / 3 % 3) + 0.5f, glm::vec2(size));
+    const glm::vec3 beside = on_wall + around * glm::vec3(i / 9 % 3 - 1, i / 27 - 1, 0);
     const float depth = sight.optical_depth(scenario.scene.lights[0].position_world, beside).value_or_throw();
     depths = {std::min(depths.first, depth), std::max(depths.second, depth)};
   }
@@ -196,14 +197,14 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
   Playback playback(context(), scenario, kSize);
   const scene::Camera beside{{2, 1.2f, -0.7f}, {0, 1, -3}, 0.9f};
   playback.set_camera(beside);
-  // The middle of the picture looks at the wall where the shot hits it.
+  // The middle of the image looks at the wall where the shot hits it.
   const glm::vec2 spot(0.49f, 0.47f), around(0.85f, 0.47f);
-  const auto seen = [&](glm::vec2 place, double seconds) {
+  const auto brightness_at = [&](glm::vec2 place, double seconds) {
     return brightness(playback.draw(seconds, 0), static_cast<double>(place.x), static_cast<double>(place.y));
   };
-  // What lies between the light and the wall, as a line of sight has it. The picture mixes rays of the light
+  // What lies between the light and the wall, as a line of sight has it. The image mixes rays of the light
   // that are a texel apart. There are 2^16 of them or more, which grow by 1.2 until all fit, with half of
-  // them in use at least, for what smoke is seen in: 9.5 m squared at its far end, 4.75 m from the light,
+  // them in use at least, for what smoke is visible in: 9.5 m squared at its far end, 4.75 m from the light,
   // and 3.5 m squared on four more faces of the cube around it.
   const float texel = 1.2f * std::sqrt(2 * (9.5f * 9.5f + 4 * 3.5f * 3.5f) / 65536) * 7.5f / 4.75f;
   const auto depths = [&](glm::vec2 place) {
@@ -214,20 +215,20 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
                              {.extinction = scenario.timeline.smoke.extinction});
     return depths_to_the_wall(sight, scenario, beside, place, kSize, texel);
   };
-  const double clear = seen(spot, 0), clear_around = seen(around, 0), most_radiance = 0.4;
+  const double clear = brightness_at(spot, 0), clear_around = brightness_at(around, 0), most_radiance = 0.4;
   EXPECT_GT(clear, 100);
   EXPECT_GT(clear_around, 100);
   EXPECT_LT(std::max(clear, clear_around), shown(most_radiance));
   // What the smoke leaves of the light, the ambient light, and a step for rounding and noise against bands.
   const auto expect_dark = [&](glm::vec2 place, double seconds) {
-    const double value = seen(place, seconds), left = std::exp(-double{depths(place).first});
+    const double value = brightness_at(place, seconds), left = std::exp(-double{depths(place).first});
     EXPECT_LT(left, 0.01);
     EXPECT_LE(value, shown(most_radiance * left + 0.75 * 0.001) + 1);
   };
   expect_dark(spot, 2.9);
   expect_dark(around, 2.9);
   // The hole takes all that lies between: the same light, the same noise.
-  EXPECT_EQ(seen(spot, 3.6), clear);
+  EXPECT_EQ(brightness_at(spot, 3.6), clear);
   EXPECT_EQ(depths(spot).second, 0);
   expect_dark(around, 3.6);
   expect_dark(spot, 5);

@@ -1,4 +1,4 @@
-// The renderer's pictures against what they should be, pixel by pixel (tests/reference/truth.hpp).
+// The renderer's images against what they should be, pixel by pixel (tests/reference/truth.hpp).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -26,8 +26,8 @@ constexpr glm::uvec2 kSize{64, 36};
 /// What the device made of a case.
 struct Drawn {
   std::vector<glm::dvec4> smoke;  ///< Premultiplied radiance, transmittance.
-  std::vector<glm::dvec3> picture;
-  reference::NoiseAdvectionField drift;
+  std::vector<glm::dvec3> image;
+  reference::NoiseAdvectionField displacement;
 };
 
 class TruthTest : public gpu::GpuTest {
@@ -51,11 +51,11 @@ class TruthTest : public gpu::GpuTest {
     Drawn draw() {
       renderer_.draw(input);
       Drawn drawn{texels(renderer_.smoke()), {}, {}};
-      for (const glm::dvec4& texel : texels(renderer_.picture())) drawn.picture.emplace_back(texel);
+      for (const glm::dvec4& texel : texels(renderer_.picture())) drawn.image.emplace_back(texel);
       const gpu::Image& medium = renderer_.smoke_resources().density_displacement;
-      drawn.drift.size = glm::ivec3(medium.info().size);
+      drawn.displacement.size = glm::ivec3(medium.info().size);
       for (const glm::dvec4& texel : texels(medium))
-        drawn.drift.texels.emplace_back(texel.y, texel.z, texel.w);
+        drawn.displacement.texels.emplace_back(texel.y, texel.z, texel.w);
       return drawn;
     }
     std::vector<shared::Hole> holes;
@@ -84,9 +84,9 @@ glm::dvec3 tone(glm::dvec3 c) {
 }
 
 /// Tone curve and sRGB, 8 bits, without dither.
-image::Image8 shown(const std::vector<glm::dvec3>& picture, double exposure) {
+image::Image8 shown(const std::vector<glm::dvec3>& image, double exposure) {
   image::Image8 out{kSize.x, kSize.y, {}};
-  for (const glm::dvec3& radiance : picture) {
+  for (const glm::dvec3& radiance : image) {
     const glm::dvec3 c = glm::clamp(tone(exposure * radiance), 0.0, 1.0);
     for (int i = 0; i < 3; ++i) {
       const double v = c[i] <= 0.0031308 ? 12.92 * c[i] : 1.055 * std::pow(c[i], 1 / 2.4) - 0.055;
@@ -112,7 +112,7 @@ double psnr_of(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& 
   return image::psnr(image::difference(x, y).rmse, 1);
 }
 
-/// Pictures go there, if it is named: the truth, what was drawn, where one would notice.
+/// Images go there, if it is named: the truth, what was drawn, where one would notice.
 void keep(const std::string& name, const image::Image8& truth, const image::Image8& drawn) {
   const char* folder = std::getenv("BRUME_TRUTH");
   if (folder == nullptr) return;
@@ -147,28 +147,28 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     truth.triangles = triangles;
     if (one.noisy) {
       truth.noise = &noise;
-      truth.drift = &drawn.drift;
+      truth.displacement = &drawn.displacement;
     }
     const auto pixels = reference::trace_truth(truth);
 
     std::vector<glm::dvec3> expected, over_truth;
     double transmittance = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      expected.push_back(pixels[i].picture());
+      expected.push_back(pixels[i].radiance());
       // The drawn smoke over the true surface.
       over_truth.push_back(glm::dvec3(drawn.smoke[i]) + drawn.smoke[i].w * pixels[i].surface);
       transmittance += std::abs(drawn.smoke[i].w - pixels[i].transmittance) / double(pixels.size());
     }
     const double exposure = double{input.view.exposure};
     const auto truth_shown = shown(expected, exposure);
-    const auto smoke_shown = shown(over_truth, exposure), picture_shown = shown(drawn.picture, exposure);
+    const auto smoke_shown = shown(over_truth, exposure), image_shown = shown(drawn.image, exposure);
     const double linear = psnr_of(expected, over_truth, exposure), toned = psnr_of(truth_shown, smoke_shown);
     std::printf(
-        "%-20s smoke %.1f dB linear, %.1f dB shown; whole picture %.1f, %.1f; transmittance off by %.4f\n",
-        one.name.c_str(), linear, toned, psnr_of(expected, drawn.picture, exposure),
-        psnr_of(truth_shown, picture_shown), transmittance);
+        "%-20s smoke %.1f dB linear, %.1f dB shown; whole image %.1f, %.1f; transmittance off by %.4f\n",
+        one.name.c_str(), linear, toned, psnr_of(expected, drawn.image, exposure),
+        psnr_of(truth_shown, image_shown), transmittance);
     keep(one.name + " smoke", truth_shown, smoke_shown);
-    keep(one.name + " picture", truth_shown, picture_shown);
+    keep(one.name + " image", truth_shown, image_shown);
     EXPECT_GE(toned, one.least_psnr);
     // A ray with less transmittance than look.opaque_transmittance counts as opaque: its mean is off by less.
     EXPECT_LT(transmittance, double{input.smoke.look.opaque_transmittance});
@@ -197,7 +197,7 @@ TEST_F(TruthTest, InEvenLightSmokeWithoutAbsorptionIsNotSeen) {
       studio.input.smoke.look.extinction = extinction;
       studio.input.smoke.look.erosion = noise;
       const Drawn drawn = studio.draw();
-      for (const glm::dvec3& radiance : drawn.picture) {
+      for (const glm::dvec3& radiance : drawn.image) {
         darkest = std::min(darkest, radiance.g);
         brightest = std::max(brightest, radiance.g);
       }
@@ -236,23 +236,23 @@ TEST_F(TruthTest, ALightBehindASlabIsDimmedAsBeerAndLambertSay) {
   const scenario::Scenario scenario = scenario_of(scene, timeline, {{24, 20, 32}, 0.25f, {-3, -1, -4}});
   Studio studio(scenario);
   const smoke::SmokeVolume* const volume = std::exchange(studio.input.smoke.volume, nullptr);
-  const auto clear = studio.draw().picture;
+  const auto clear = studio.draw().image;
   studio.input.smoke.volume = volume;
   const shared::Camera camera = planning::device_camera(*scene.camera, kSize);
   for (const float extinction : {0.05f, 0.3f, 0.7f}) {
     studio.input.smoke.look.extinction = extinction;
-    const auto picture = studio.draw().picture;
-    int seen = 0;
-    for (std::uint32_t i = 0; i < picture.size(); ++i) {
+    const auto image = studio.draw().image;
+    int visible = 0;
+    for (std::uint32_t i = 0; i < image.size(); ++i) {
       if (clear[i].g < 0.999) continue;
       const glm::dvec2 ndc = (glm::dvec2(i % kSize.x, i / kSize.x) + 0.5) / glm::dvec2(kSize) * 2.0 - 1.0;
       const glm::dvec3 ray =
           glm::dvec3(camera.forward) + ndc.x * glm::dvec3(camera.right) - ndc.y * glm::dvec3(camera.up);
       const double expected = std::exp(-double{extinction} * glm::length(ray) * (-3.0 - 2.0) / ray.z);
-      EXPECT_NEAR(picture[i].g, expected, 0.01 * expected) << i % kSize.x << ' ' << i / kSize.x;
-      ++seen;
+      EXPECT_NEAR(image[i].g, expected, 0.01 * expected) << i % kSize.x << ' ' << i / kSize.x;
+      ++visible;
     }
-    EXPECT_GT(seen, 1000);
+    EXPECT_GT(visible, 1000);
   }
 }
 
@@ -263,7 +263,7 @@ TEST_F(TruthTest, StepsOfTheMarchDoNotShow) {
     const float length = studio.input.smoke.look.step_length;
     const auto at = [&](float share) {
       studio.input.smoke.look.step_length = share * length;
-      return shown(studio.draw().picture, 1);
+      return shown(studio.draw().image, 1);
     };
     const image::Image8 plain = at(1);
     for (const float share : {0.5f, 1.5f}) {

@@ -1,4 +1,4 @@
-// A word that is shot through smoke, read off the pictures of both sides.
+// A word that is shot through smoke, read off the images of both sides.
 #include <cmath>
 
 #include "image/font.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr glm::uvec2 kSize{192, 64};
 constexpr float kMetresHigh = 1.2f,
-                kFar = 240;  ///< What the pictures show of the word's plane; the cameras from it.
+                kFar = 240;  ///< What the images show of the word's plane; the cameras from it.
 constexpr float kCapital = 0.62f;
 const std::string kWord = "BRUME";
 
@@ -45,13 +45,13 @@ scenario::Scenario smoke_and_word() {
           {voxel::BitGrid(frame), {}}, std::move(masks.atlas), std::move(masks.of_shots)};
 }
 
-/// From so far away that rays at the picture's rim, 1.8 m aside, leave a pixel, 19 mm, by no more than one
+/// From so far away that rays at the image's rim, 1.8 m aside, leave a pixel, 19 mm, by no more than one
 /// while they are in the smoke, 2.5 m before and behind the word.
 scene::Camera camera(bool from_behind) {
   return {{0, 2, from_behind ? -kFar : kFar}, {0, 2, 0}, 2 * std::atan(0.5f * kMetresHigh / kFar)};
 }
 
-/// Letters, each at its place in a row whose middle is the picture's.
+/// Letters, each at its place in a row whose middle is the image's.
 class Row {
  public:
   Row() : font_(image::Font::load(image::default_font()).value_or_throw()) {
@@ -67,9 +67,9 @@ class Row {
   std::size_t count() const { return pens_.size(); }
   image::Glyph glyph(char letter) { return font_.glyph(static_cast<unsigned char>(letter)).value_or_throw(); }
 
-  /// How alike the picture is, around the place of a letter of the word, to this letter standing there:
+  /// How alike the image is, around the place of a letter of the word, to this letter standing there:
   /// Pearson's correlation of brightness and coverage, [-1, 1].
-  double likeness(const image::Image8& picture, std::size_t place, char letter, bool mirrored) {
+  double likeness(const image::Image8& image, std::size_t place, char letter, bool mirrored) {
     const image::Glyph glyph = this->glyph(letter), there = this->glyph(kWord[place]);
     double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
     for (std::uint32_t y = 0; y < kSize.y; ++y)
@@ -77,7 +77,7 @@ class Row {
         const std::uint32_t column = mirrored ? kSize.x - 1 - x : x;
         const glm::vec2 at = capitals(x, y) - glm::vec2(pens_[place], 0);
         if (std::abs(at.x - there.centre_x) > there.half_side) continue;
-        const double a = picture.rgba[4 * (column + std::size_t{kSize.x} * y)], b = coverage(glyph, at);
+        const double a = image.rgba[4 * (column + std::size_t{kSize.x} * y)], b = coverage(glyph, at);
         n += 1;
         sum_a += a;
         sum_b += b;
@@ -90,13 +90,13 @@ class Row {
   }
 
   /// What stands there: at each place the most alike of the alphabet.
-  std::string read(const image::Image8& picture, bool mirrored) {
+  std::string read(const image::Image8& image, bool mirrored) {
     std::string text;
     for (std::size_t place = 0; place < count(); ++place) {
       char best = '?';
       double most = 0;
       for (char letter = 'A'; letter <= 'Z'; ++letter)
-        if (const double alike = likeness(picture, place, letter, mirrored); alike > most) {
+        if (const double alike = likeness(image, place, letter, mirrored); alike > most) {
           most = alike;
           best = letter;
         }
@@ -131,12 +131,12 @@ class WordTest : public gpu::GpuTest {};
 TEST_F(WordTest, ReadsFromTheFrontMirroredFromBehindAndNotAfterItsTime) {
   const scenario::Scenario scene = smoke_and_word();
   Playback playback(context(), scene, kSize);
-  const auto seen = [&](double seconds, bool from_behind) {
+  const auto image_at = [&](double seconds, bool from_behind) {
     playback.set_camera(camera(from_behind));
     return playback.draw(seconds, 0);
   };
   Row row;
-  const auto front = seen(3, false), behind = seen(3, true);
+  const auto front = image_at(3, false), behind = image_at(3, true);
   EXPECT_EQ(row.read(front, false), kWord);
   EXPECT_EQ(row.read(behind, true), kWord) << "in a mirror";
   EXPECT_NE(row.read(front, true), kWord);
@@ -144,7 +144,7 @@ TEST_F(WordTest, ReadsFromTheFrontMirroredFromBehindAndNotAfterItsTime) {
   // Before the shots and after the holes: optical depth 20, e^-20 of a white sky, and the noise against
   // bands.
   for (const double seconds : {1.9, 3.9}) {
-    const image::Image8 closed = seen(seconds, false);
+    const image::Image8 closed = image_at(seconds, false);
     for (std::size_t i = 0; i < closed.rgba.size(); i += 4) ASSERT_LE(closed.rgba[i], 1) << seconds;
   }
 }

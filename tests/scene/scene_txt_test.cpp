@@ -132,7 +132,7 @@ TEST(SceneTxt, MissingFilesAreWarningsWithStandIns) {
   const Material& material = scene->materials[scene->objects[0].material];
   ASSERT_NE(material.base_color_image, kNone);
   EXPECT_EQ(scene->images[material.base_color_image].pixels.rgba[1], 0) << "magenta has no green";
-  EXPECT_FLOAT_EQ(material.roughness, 0.05f) << "0 means nobody chose";
+  EXPECT_FLOAT_EQ(material.roughness, 0.05f) << "0 means unset";
 }
 
 TEST(SceneTxt, RejectsNamesOutsideOfTheFolder) {

@@ -65,16 +65,16 @@ TEST(Sight, EqualsTheIntegralInSmallSteps) {
     const SightScene scene(seed, 24);
     const Sight sight = scene.sight({per_voxel});
     std::mt19937 random(seed);
-    double seen = 0, taken = 0;
+    double whole = 0, taken = 0;
     for (int i = 0; i < 40; ++i) {
       const Segment s = SightScene::segment(random);
       const SmokeIntegral expected = reference_of(scene, scene.holes(), scene.time(), s, 1.0 / 2048);
       EXPECT_NEAR(*sight.optical_depth(s.a_world, s.b_world), expected.holed, allowed(expected))
           << seed << ' ' << i;
-      seen += expected.plain;
+      whole += expected.plain;
       taken += expected.plain - expected.holed;
     }
-    EXPECT_GT(seen, 20);
+    EXPECT_GT(whole, 20);
     EXPECT_GT(taken, 0.2);
   }
 }
@@ -267,18 +267,18 @@ TEST(Sight, SeesWhatNeitherWallNorSmokeHides) {
     const SightScene scene(seed, 20);
     const Sight sight = scene.sight();
     std::mt19937 random(seed);
-    int seen = 0, by_wall = 0, by_smoke = 0;
+    int visible = 0, by_wall = 0, by_smoke = 0;
     for (int i = 0; i < 2000; ++i) {
       const Segment s = SightScene::segment(random);
       const bool wall = sight.first_wall(s.a_world, s.b_world)->has_value();
       const float depth = *sight.optical_depth(s.a_world, s.b_world);
       for (const float threshold : {0.0f, 0.5f, 3.0f, kInf})
         EXPECT_EQ(*sight.visible(s.a_world, s.b_world, threshold), !wall && depth <= threshold);
-      seen += !wall && depth <= 3;
+      visible += !wall && depth <= 3;
       by_wall += wall;
       by_smoke += !wall && depth > 3;
     }
-    EXPECT_GT(seen, 100);
+    EXPECT_GT(visible, 100);
     EXPECT_GT(by_smoke, 100);
     EXPECT_EQ(by_wall > 100, seed % 2 == 0);
   }
@@ -372,16 +372,16 @@ TEST(Sight, GivesTheSameBitsForOneAndForMany) {
   for (const unsigned threads : {1u, 2u, 8u}) {
     set_thread_count(threads);
     std::vector<float> depths(segments.size());
-    std::vector<std::uint8_t> seen(segments.size());
+    std::vector<std::uint8_t> visible(segments.size());
     std::vector<SensorSample> samples(segments.size());
     sight.optical_depths(segments, depths).value_or_throw();
-    sight.visible(segments, 1, seen).value_or_throw();
+    sight.visible(segments, 1, visible).value_or_throw();
     sight.sense(rays, {}, samples).value_or_throw();
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const auto& [a, b] = segments[i];
       EXPECT_EQ(std::bit_cast<std::uint32_t>(depths[i]),
                 std::bit_cast<std::uint32_t>(*sight.optical_depth(a, b)));
-      EXPECT_EQ(seen[i] != 0, *sight.visible(a, b, 1));
+      EXPECT_EQ(visible[i] != 0, *sight.visible(a, b, 1));
       const SensorSample one = *sight.sense(rays[i], {});
       EXPECT_EQ(std::bit_cast<std::uint32_t>(samples[i].optical_depth),
                 std::bit_cast<std::uint32_t>(one.optical_depth));

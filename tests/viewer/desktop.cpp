@@ -66,9 +66,9 @@ Window find_window(Display* display) {
   return found;
 }
 
-bool has_picture(const image::Image8& picture) {
-  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
-    if (picture.rgba[i] > 8 || picture.rgba[i + 1] > 8 || picture.rgba[i + 2] > 8) return true;
+bool has_content(const image::Image8& image) {
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+    if (image.rgba[i] > 8 || image.rgba[i + 1] > 8 || image.rgba[i + 2] > 8) return true;
   return false;
 }
 
@@ -166,7 +166,7 @@ bool Program::wait_until(const std::function<bool()>& holds, int poll_ms) {
 bool Program::wait_for_window() {
   const auto shows = [&] {
     window_ = find_window(desktop_.display());
-    return window_ && has_picture(picture());
+    return window_ && has_content(contents());
   };
   if (!wait_until(shows, kPollMs)) return false;
   ::XSetInputFocus(desktop_.display(), window_, RevertToParent, CurrentTime);
@@ -233,26 +233,26 @@ void Program::close() {
   ::XSync(display, False);
 }
 
-image::Image8 Program::picture() {
-  image::Image8 picture;
+image::Image8 Program::contents() {
+  image::Image8 image;
   XWindowAttributes attributes{};
-  if (!::XGetWindowAttributes(desktop_.display(), window_, &attributes)) return picture;
+  if (!::XGetWindowAttributes(desktop_.display(), window_, &attributes)) return image;
   const auto width = static_cast<unsigned>(attributes.width),
              height = static_cast<unsigned>(attributes.height);
-  XImage* const image = ::XGetImage(desktop_.display(), window_, 0, 0, width, height, AllPlanes, ZPixmap);
-  if (!image) return picture;
-  picture.width = width;
-  picture.height = height;
-  picture.rgba.reserve(std::size_t{4} * width * height);
+  XImage* const captured = ::XGetImage(desktop_.display(), window_, 0, 0, width, height, AllPlanes, ZPixmap);
+  if (!captured) return image;
+  image.width = width;
+  image.height = height;
+  image.rgba.reserve(std::size_t{4} * width * height);
   for (unsigned y = 0; y < height; ++y) {
     for (unsigned x = 0; x < width; ++x) {
-      const unsigned long pixel = XGetPixel(image, static_cast<int>(x), static_cast<int>(y));
-      for (const int shift : {16, 8, 0}) picture.rgba.push_back(static_cast<std::uint8_t>(pixel >> shift));
-      picture.rgba.push_back(255);
+      const unsigned long pixel = XGetPixel(captured, static_cast<int>(x), static_cast<int>(y));
+      for (const int shift : {16, 8, 0}) image.rgba.push_back(static_cast<std::uint8_t>(pixel >> shift));
+      image.rgba.push_back(255);
     }
   }
-  XDestroyImage(image);
-  return picture;
+  XDestroyImage(captured);
+  return image;
 }
 
 const std::vector<Frame>& Program::frames() {
@@ -269,8 +269,8 @@ const std::vector<Frame>& Program::frames() {
   return frames_;
 }
 
-bool Program::wait_for_picture(const std::function<bool(const image::Image8&)>& wanted) {
-  return wait_until([&] { return wanted(picture()); }, kPollMs);
+bool Program::wait_for_contents(const std::function<bool(const image::Image8&)>& wanted) {
+  return wait_until([&] { return wanted(contents()); }, kPollMs);
 }
 
 bool Program::wait_for_frame(const std::function<bool(const Frame&)>& wanted) {

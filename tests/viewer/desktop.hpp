@@ -71,14 +71,14 @@ class Program {
   void resize(unsigned width, unsigned height);
   void hide();  ///< Minimizes the window.
   void show();
-  void close();             ///< As the close button does.
-  image::Image8 picture();  ///< The current contents of the window.
+  void close();              ///< As the close button does.
+  image::Image8 contents();  ///< The current contents of the window.
 
   /// All frames drawn so far.
   const std::vector<Frame>& frames();
   // Every wait fails if the program ends or hangs.
   /// Waits until the window contents satisfy `wanted`.
-  bool wait_for_picture(const std::function<bool(const image::Image8&)>& wanted);
+  bool wait_for_contents(const std::function<bool(const image::Image8&)>& wanted);
   /// Waits until the last frame satisfies `wanted`.
   bool wait_for_frame(const std::function<bool(const Frame&)>& wanted);
   /// Waits for more frames. After two, all earlier input has been handled.

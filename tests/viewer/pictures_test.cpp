@@ -10,13 +10,13 @@ namespace {
 
 class PicturesTest : public testing::Test {
  protected:
-  static void keep(const image::Image8& picture, const char* name) {
+  static void keep(const image::Image8& image, const char* name) {
     if (const char* folder = std::getenv("BRUME_PICTURES"))
-      image::save_png(std::filesystem::path(folder) / name, picture).value_or_throw();
+      image::save_png(std::filesystem::path(folder) / name, image).value_or_throw();
   }
   static image::Image8 settled(Program& program) {
     EXPECT_TRUE(program.wait_for_best());
-    return program.picture();
+    return program.contents();
   }
 
   cli::WorkFolder folder_;

@@ -26,7 +26,7 @@ void expect_same_but_for_rounding(const image::Image8& a, const image::Image8& b
   EXPECT_LE(largest_difference(a, b), 1);
 }
 
-TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndPictures) {
+TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndImages) {
   {
     Program program(desktop_, folder_.path(),
                     {"room.toml", "--size", "192x128", "--quality", "quarter", "--word", "HI", "--record",
@@ -66,7 +66,7 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndPictures) {
   EXPECT_GT(made->camera.size(), 4u);
 
   std::vector<std::string> hashes;
-  std::vector<image::Image8> pictures;
+  std::vector<image::Image8> images;
   for (const std::string name : {"first", "second"}) {
     Program program(desktop_, folder_.path(),
                     {"--play", "made.toml", "--size", "192x128", "--exit-after",
@@ -74,11 +74,11 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndPictures) {
                      "--json", name + ".json"});
     ASSERT_EQ(program.wait(), 0) << program.error();
     hashes.push_back(read_json(file(name + ".json")).at("state_hash"));
-    pictures.push_back(png(name + ".png"));
+    images.push_back(png(name + ".png"));
   }
   EXPECT_EQ(hashes[0], hashes[1]);
-  expect_same_but_for_rounding(pictures[0], pictures[1]);
-  EXPECT_GT(count_colours(pictures[0]), 100u);
+  expect_same_but_for_rounding(images[0], images[1]);
+  EXPECT_GT(count_colours(images[0]), 100u);
   // The live session ended in the same state.
   const auto live = read_json(file("made.json")), played = read_json(file("first.json"));
   ASSERT_EQ(live.at("tick"), played.at("tick"));
@@ -105,7 +105,7 @@ TEST_F(RecordingTest, AScreenshotEqualsRenderAndTheWindow) {
   EXPECT_LE(largest_difference(screenshot, png("again.png")), 1);
   // The paused window shows the same image.
   ASSERT_TRUE(program.wait_for_best());
-  EXPECT_LE(largest_difference(program.picture(), screenshot), 1);
+  EXPECT_LE(largest_difference(program.contents(), screenshot), 1);
   program.close();
   EXPECT_EQ(program.wait(), 0) << program.error();
 }

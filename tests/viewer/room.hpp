@@ -77,10 +77,10 @@ inline int largest_difference(const image::Image8& a, const image::Image8& b) {
 }
 
 /// Number of distinct colours.
-inline std::size_t count_colours(const image::Image8& picture) {
+inline std::size_t count_colours(const image::Image8& image) {
   std::set<std::uint32_t> colours;
-  for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4)
-    colours.insert(picture.rgba[i] | picture.rgba[i + 1] << 8u | picture.rgba[i + 2] << 16u);
+  for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4)
+    colours.insert(image.rgba[i] | image.rgba[i + 1] << 8u | image.rgba[i + 2] << 16u);
   return colours.size();
 }
 

@@ -20,16 +20,16 @@ TEST(ViewsTest, ViewsAreNotBlankAndDifferFromEachOther) {
   ASSERT_TRUE(program.wait_for_clock(0.3));
   program.tap(XK_p);
   ASSERT_TRUE(program.wait_for_best());
-  std::vector<image::Image8> pictures{program.picture()};
+  std::vector<image::Image8> images{program.contents()};
   for (std::size_t view = 1; view < passes::kDebugViewNames.size(); ++view) {
     program.tap(XK_v);
     ASSERT_TRUE(program.wait_for_best()) << passes::kDebugViewNames[view];
-    pictures.push_back(program.picture());
-    EXPECT_GT(count_colours(pictures.back()), 2u) << passes::kDebugViewNames[view];
+    images.push_back(program.contents());
+    EXPECT_GT(count_colours(images.back()), 2u) << passes::kDebugViewNames[view];
   }
-  for (std::size_t i = 0; i < pictures.size(); ++i)
+  for (std::size_t i = 0; i < images.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      EXPECT_GT(mean_difference(pictures[i], pictures[j]), 1)
+      EXPECT_GT(mean_difference(images[i], images[j]), 1)
           << passes::kDebugViewNames[i] << " and " << passes::kDebugViewNames[j];
   program.close();
   EXPECT_EQ(program.wait(), 0) << program.error();

@@ -36,11 +36,11 @@ TEST(NoDisplayTest, FailsAndSuggestsRender) {
 TEST_F(WindowTest, ThrowsAndShoots) {
   Program program(desktop_, folder_.path(), arguments({"--bare"}));
   ASSERT_TRUE(program.wait_for_window()) << program.error();
-  const image::Image8 empty = program.picture();
+  const image::Image8 empty = program.contents();
   program.click(1);
   // Smoke fills the view.
-  ASSERT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, empty) > 8; }))
-      << mean_difference(program.picture(), empty);
+  ASSERT_TRUE(program.wait_for_contents([&](const auto& now) { return mean_difference(now, empty) > 8; }))
+      << mean_difference(program.contents(), empty);
   ASSERT_TRUE(program.wait_for_clock(1.5));
   // At the same tick, so that only the shot makes the two images differ; its flash is over by then.
   constexpr int kTicks = 16;
@@ -54,20 +54,20 @@ TEST_F(WindowTest, ThrowsAndShoots) {
   program.tap(XK_p);
   ASSERT_TRUE(step(XK_period));
   // A hole where the shot was aimed, and nowhere else.
-  const auto part = [](const image::Image8& picture, unsigned left, unsigned top) {
+  const auto part = [](const image::Image8& image, unsigned left, unsigned top) {
     image::Image8 cut;
     for (unsigned y = top; y < top + 12; ++y)
       for (unsigned x = 4 * left; x < 4 * (left + 12); ++x)
-        cut.rgba.push_back(picture.rgba[std::size_t{4} * picture.width * y + x]);
+        cut.rgba.push_back(image.rgba[std::size_t{4} * image.width * y + x]);
     return cut;
   };
-  const auto middle = [&](const image::Image8& picture) { return part(picture, 192 / 2 - 6, 128 / 2 - 6); };
-  const auto corner = [&](const image::Image8& picture) { return part(picture, 4, 4); };
-  const image::Image8 thick = program.picture();
+  const auto middle = [&](const image::Image8& image) { return part(image, 192 / 2 - 6, 128 / 2 - 6); };
+  const auto corner = [&](const image::Image8& image) { return part(image, 4, 4); };
+  const image::Image8 thick = program.contents();
   ASSERT_TRUE(step(XK_comma));
   program.click(3);
   ASSERT_TRUE(step(XK_period));
-  const image::Image8 pierced = program.picture();
+  const image::Image8 pierced = program.contents();
   EXPECT_GT(mean_difference(middle(pierced), middle(thick)), 10);
   EXPECT_LT(mean_difference(corner(pierced), corner(thick)), 3);
   expect_end(program);
@@ -78,13 +78,13 @@ TEST_F(WindowTest, OpensPanelsAndHelp) {
   ASSERT_TRUE(program.wait_for_window()) << program.error();
   program.tap(XK_p);
   ASSERT_TRUE(program.wait_for_best());
-  const image::Image8 bare = program.picture();
+  const image::Image8 bare = program.contents();
   program.tap(XK_Tab);
-  EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, bare) > 3; }));
+  EXPECT_TRUE(program.wait_for_contents([&](const auto& now) { return mean_difference(now, bare) > 3; }));
   program.tap(XK_Tab);
-  EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, bare) < 1; }));
+  EXPECT_TRUE(program.wait_for_contents([&](const auto& now) { return mean_difference(now, bare) < 1; }));
   program.tap(XK_h);
-  EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return mean_difference(now, bare) > 3; }));
+  EXPECT_TRUE(program.wait_for_contents([&](const auto& now) { return mean_difference(now, bare) > 3; }));
   expect_end(program);
 }
 
@@ -94,7 +94,7 @@ TEST_F(WindowTest, SurvivesResizingAndHiding) {
   for (const glm::uvec2 size : {glm::uvec2(333, 77), glm::uvec2(16, 200), glm::uvec2(640, 360),
                                 glm::uvec2(1, 1), glm::uvec2(192, 128)}) {
     program.resize(size.x, size.y);
-    EXPECT_TRUE(program.wait_for_picture(
+    EXPECT_TRUE(program.wait_for_contents(
         [&](const auto& now) { return now.width == size.x && now.height == size.y; }));
     EXPECT_TRUE(program.wait_for_frame([&](const Frame& now) { return now.size_px == size; }));
     EXPECT_TRUE(program.wait_for_frames(4));
@@ -102,7 +102,7 @@ TEST_F(WindowTest, SurvivesResizingAndHiding) {
   program.hide();
   EXPECT_TRUE(program.wait_for_frames(4));  // X allows reading a hidden window
   program.show();
-  EXPECT_TRUE(program.wait_for_picture([&](const auto& now) { return count_colours(now) > 20; }));
+  EXPECT_TRUE(program.wait_for_contents([&](const auto& now) { return count_colours(now) > 20; }));
   expect_end(program);
 }
 
@@ -140,14 +140,14 @@ TEST_F(WindowTest, ReloadsShadersAndRejectsBrokenOnes) {
     return count_colours(now) == 1 && now.rgba[0] == 255 && now.rgba[1] == 0;
   };
   rewrite(colour, red);
-  EXPECT_TRUE(program.wait_for_picture(is_red));
+  EXPECT_TRUE(program.wait_for_contents(is_red));
   // Broken: the red one stays in use.
   rewrite(red, "vec4(1.0, 0.0, 0.0, unknown)");
   EXPECT_TRUE(program.wait_for_frame([](const Frame& now) { return now.shader_faults == 1; }));
   EXPECT_TRUE(program.wait_for_frames(4));
-  EXPECT_TRUE(is_red(program.picture()));
+  EXPECT_TRUE(is_red(program.contents()));
   rewrite("vec4(1.0, 0.0, 0.0, unknown)", colour);
-  EXPECT_TRUE(program.wait_for_picture([](const auto& now) { return count_colours(now) > 20; }));
+  EXPECT_TRUE(program.wait_for_contents([](const auto& now) { return count_colours(now) > 20; }));
   expect_end(program);
   EXPECT_EQ(read_json(file("r.json")).at("shader_reloads"), 2);
 }

@@ -1,37 +1,26 @@
-#include "scenario/vxl_file.hpp"
+#include "voxel/vxl_file.hpp"
 
 #include <zstd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cstring>
 #include <string>
 
 #include "core/checked.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
-#include "core/log.hpp"
-#include "scenario/world_triangles.hpp"
 #include "voxel/voxelize.hpp"
 
-namespace brume::scenario {
+namespace brume::voxel {
 namespace {
 
 using glm::ivec3;
-using voxel::BitGrid;
-using voxel::GridLayout;
-using voxel::kBrickSize;
-using voxel::kMaxPlanes;
-using voxel::Plane;
-using voxel::SurfacePlanes;
-using voxel::Triangle;
 
 static_assert(std::endian::native == std::endian::little, "the format is the layout in memory");
 
 constexpr std::array<char, 8> kMagic = {'B', 'R', 'U', 'M', 'E', 'V', 'X', 'L'};
-constexpr std::uint32_t kVersion = 1;
 constexpr int kCompressionLevel = 3;
 constexpr std::uint64_t kMaxPayload = std::uint64_t{8} << 30;
 // zstd's densest block expands 4 bytes to 128 KiB: the maximum growth of a payload.
@@ -169,38 +158,14 @@ std::optional<std::uint64_t> payload_bytes(const Header& header) {
   return bytes;
 }
 
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-// The cache's contents, if it exists, is valid and has this key.
-std::optional<VxlContents> from_cache(const std::filesystem::path& path, std::uint64_t key) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
-  auto loaded = load_vxl(path, key);
-  if (!loaded) {
-    log_warning(loaded.failure().message + "; voxelizing again");
-    return std::nullopt;
-  }
-  if (!*loaded) log_info(path.string() + ": made from another scene or grid; voxelizing again");
-  return std::move(*loaded);
-}
-
 }  // namespace
-
-std::uint64_t vxl_key(std::span<const Triangle> triangles, const GridLayout& layout) {
-  static_assert(sizeof(Triangle) == 36 && sizeof(GridLayout) == 28, "no padding to hash");
-  std::uint64_t key = hash_values(std::span(&kVersion, 1));
-  key = hash_bytes(std::as_bytes(std::span(&layout, 1)), key);
-  return hash_bytes(std::as_bytes(triangles), key);
-}
 
 std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key) {
   const GridLayout& layout = contents.grid.layout();
   const auto bricks = numbered_bricks(contents.grid);
   const auto payload = encode_payload(bricks, contents.planes);
   Header header{kMagic,
-                kVersion,
+                kVxlVersion,
                 static_cast<std::uint32_t>(bricks.size()),
                 key,
                 contents.triangles,
@@ -230,9 +195,9 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
   if (bytes.size() < sizeof(Header) + kChecksumBytes) return damaged("not a voxel cache, or truncated");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.magic != kMagic) return damaged("not a voxel cache");
-  if (header.version != kVersion)
+  if (header.version != kVxlVersion)
     return damaged("a voxel cache of version " + std::to_string(header.version) + ", not " +
-                   std::to_string(kVersion));
+                   std::to_string(kVxlVersion));
   if (header.compressed_bytes != bytes.size() - sizeof(Header) - kChecksumBytes)
     return damaged("a voxel cache that is truncated or too long");
   std::uint64_t checksum = 0;
@@ -243,7 +208,7 @@ Result<std::optional<VxlContents>> decode_vxl(std::span<const std::byte> bytes,
 
   // The payload, as long as grid and counts allow.
   const GridLayout layout{header.size, header.voxel_size, header.origin_world};
-  if (!voxel::check_frame(layout)) return damaged("a voxel cache with an impossible grid");
+  if (!check_frame(layout)) return damaged("a voxel cache with an impossible grid");
   const auto length = payload_bytes(header);
   if (!length) return damaged("a voxel cache with impossible counts");
   std::vector<std::byte> payload(*length);
@@ -274,26 +239,4 @@ Result<void> save_vxl(const std::filesystem::path& path, const VxlContents& cont
   return write_file_atomic(path, encode_vxl(contents, key));
 }
 
-Result<Voxels> load_or_voxelize(const scene::Scene& scene, const GridLayout& layout,
-                                const std::filesystem::path& cache_path) {
-  if (auto checked = voxel::check_frame(layout); !checked) return checked.failure();
-  const std::vector<Triangle> triangles = world_triangles(scene);
-  const std::uint64_t key = vxl_key(triangles, layout);
-  if (!cache_path.empty()) {
-    if (auto contents = from_cache(cache_path, key))
-      return Voxels{std::move(contents->grid), std::move(contents->planes), true, 0, contents->triangles};
-  }
-
-  const auto start = std::chrono::steady_clock::now();
-  auto grid = voxel::voxelize(triangles, layout);
-  const double milliseconds = milliseconds_since(start);
-  if (!grid) return grid.failure();
-  VxlContents contents{std::move(*grid), {}, triangles.size()};
-  contents.planes = SurfacePlanes::build(triangles, contents.grid);
-  if (!cache_path.empty()) {
-    if (auto saved = save_vxl(cache_path, contents, key); !saved) return saved.failure();
-  }
-  return Voxels{std::move(contents.grid), std::move(contents.planes), false, milliseconds, triangles.size()};
-}
-
-}  // namespace brume::scenario
+}  // namespace brume::voxel

@@ -1,4 +1,4 @@
-// The `.vxl` cache: voxels and surface planes on disk, reused while the scene is unchanged.
+// The `.vxl` file: voxels and surface planes on disk, with a key that identifies what they were built from.
 //
 //   header     magic "BRUMEVXL", version, key, layout, counts, lengths (little-endian, see vxl_file.cpp)
 //   payload    zstd: bricks (number, 8 words), cells (key differences, plane counts), planes
@@ -16,23 +16,21 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "scene/scene.hpp"
 #include "voxel/bit_grid.hpp"
 #include "voxel/surface_planes.hpp"
-#include "voxel/triangle.hpp"
 
-namespace brume::scenario {
+namespace brume::voxel {
 
 struct VxlContents {
-  voxel::BitGrid grid;
-  voxel::SurfacePlanes planes;
+  BitGrid grid;
+  SurfacePlanes planes;
   std::uint64_t triangles = 0;  ///< Number of triangles the grid was voxelized from.
 };
 
-/// The key of a cache: a hash of the triangles in world space, the layout and the format's version.
-std::uint64_t vxl_key(std::span<const voxel::Triangle> triangles, const voxel::GridLayout& layout);
+/// The version of the format. Files of any other version are rejected.
+constexpr std::uint32_t kVxlVersion = 1;
 
-/// The bytes of a `.vxl` file. Equal contents give equal bytes.
+/// The bytes of a `.vxl` file, with a key of the caller's choice. Equal contents and keys give equal bytes.
 std::vector<std::byte> encode_vxl(const VxlContents& contents, std::uint64_t key);
 
 /// Reads the output of encode_vxl. Nothing when the bytes are valid but have another key than the expected
@@ -48,18 +46,4 @@ Result<std::optional<VxlContents>> load_vxl(const std::filesystem::path& path,
 /// Writes the file, completely or not at all. Fails as write_file_atomic does.
 Result<void> save_vxl(const std::filesystem::path& path, const VxlContents& contents, std::uint64_t key);
 
-struct Voxels {
-  voxel::BitGrid grid;
-  voxel::SurfacePlanes planes;
-  bool cached = false;      ///< Read from the cache instead of voxelized.
-  double milliseconds = 0;  ///< Time of voxelize() only; 0 when cached.
-  std::uint64_t triangles = 0;
-};
-
-/// The voxels of a scene. Uses the cache at `cache_path` (empty: none) if its key matches this scene and
-/// layout; otherwise voxelizes the scene and writes the cache. An invalid cache file causes a warning and is
-/// rewritten. Fails as check_frame does, and when the cache cannot be written.
-Result<Voxels> load_or_voxelize(const scene::Scene& scene, const voxel::GridLayout& layout,
-                                const std::filesystem::path& cache_path);
-
-}  // namespace brume::scenario
+}  // namespace brume::voxel

@@ -1,27 +1,19 @@
-#include "scenario/vxl_file.hpp"
+#include "scenario/voxel_cache.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstring>
-#include <random>
-
 #include "core/file.hpp"
-#include "core/hash.hpp"
 #include "core/log.hpp"
 
 namespace brume::scenario {
 namespace {
 
-using glm::ivec3;
 using glm::vec3;
 using voxel::BitGrid;
 using voxel::GridLayout;
-using voxel::Plane;
 
-constexpr std::uint64_t kKey = 42;
-
-// A room: a floor, a slanted roof, one loose triangle.
+// A floor and one loose triangle.
 scene::Scene small_scene() {
   scene::Scene scene;
   scene::Mesh mesh;
@@ -35,11 +27,6 @@ scene::Scene small_scene() {
 }
 
 const GridLayout kFrame{{11, 7, 9}, 0.4f, vec3(-1.3f, -0.4f, -1.1f)};
-
-VxlContents small_contents() {
-  auto voxels = load_or_voxelize(small_scene(), kFrame, {});
-  return {std::move(voxels->grid), std::move(voxels->planes), voxels->triangles};
-}
 
 void expect_same(const BitGrid& a, const BitGrid& b) {
   ASSERT_EQ(a.layout(), b.layout());
@@ -61,10 +48,10 @@ class Warnings {
   std::string last;
 };
 
-class VxlFile : public testing::Test {
+class VoxelCache : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / ("brume_vxl_" + std::to_string(::getpid()));
+    folder_ = std::filesystem::path(testing::TempDir()) / ("brume_voxel_cache_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
     path_ = folder_ / "scene.vxl";
   }
@@ -72,69 +59,7 @@ class VxlFile : public testing::Test {
   std::filesystem::path folder_, path_;
 };
 
-TEST(VxlCodec, RoundTrips) {
-  const VxlContents contents = small_contents();
-  ASSERT_GT(contents.planes.plane_count(), 10u);
-  const auto bytes = encode_vxl(contents, kKey);
-  const auto decoded = decode_vxl(bytes, kKey);
-  ASSERT_TRUE(decoded) << decoded.failure().message;
-  ASSERT_TRUE(*decoded);
-  expect_same((*decoded)->grid, contents.grid);
-  EXPECT_EQ((*decoded)->planes, contents.planes);
-  EXPECT_EQ((*decoded)->triangles, 3u);
-  EXPECT_EQ(encode_vxl(**decoded, kKey), bytes);
-  EXPECT_FALSE(*decode_vxl(bytes, kKey + 1));
-  EXPECT_TRUE(*decode_vxl(bytes, std::nullopt));
-}
-
-TEST(VxlCodec, RoundTripsAnEmptyGrid) {
-  const auto bytes = encode_vxl({BitGrid({{1, 1, 1}, 1, vec3(0)}), {}, 0}, kKey);
-  const auto decoded = decode_vxl(bytes, kKey);
-  ASSERT_TRUE(decoded && *decoded);
-  EXPECT_EQ((*decoded)->grid.count_solid(), 0u);
-}
-
-TEST(VxlCodec, RejectsEveryTruncation) {
-  const auto bytes = encode_vxl(small_contents(), kKey);
-  for (std::size_t length = 0; length < bytes.size(); ++length)
-    ASSERT_FALSE(decode_vxl(std::span(bytes).first(length), kKey)) << length;
-}
-
-TEST(VxlCodec, RejectsEveryFlippedBit) {
-  auto bytes = encode_vxl(small_contents(), kKey);
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    const auto mask = static_cast<std::byte>(1u << bit % 8);
-    bytes[bit / 8] ^= mask;
-    ASSERT_FALSE(decode_vxl(bytes, kKey)) << bit;
-    bytes[bit / 8] ^= mask;
-  }
-}
-
-TEST(VxlCodec, SurvivesFlippedBitsWithAMatchingChecksum) {
-  // Damage with a matching checksum: either rejected or another valid grid.
-  auto bytes = encode_vxl(small_contents(), kKey);
-  int refused = 0;
-  for (std::size_t bit = 0; bit < 8 * (bytes.size() - 8); ++bit) {
-    auto damaged = bytes;
-    damaged[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
-    const std::uint64_t checksum = hash_bytes(std::span(damaged).first(damaged.size() - 8));
-    std::memcpy(damaged.data() + damaged.size() - 8, &checksum, 8);
-    const auto decoded = decode_vxl(damaged, std::nullopt);
-    refused += !decoded;
-    if (!decoded || !*decoded) continue;
-    // No voxel outside of the grid: every counted one can be queried.
-    std::uint64_t inside = 0;
-    (*decoded)->grid.for_each_brick([&](ivec3 at, const BitGrid::Brick&) {
-      for (int i = 0; i < 512; ++i)
-        inside += (*decoded)->grid.solid(8 * at + ivec3(i & 7, i >> 3 & 7, i >> 6));
-    });
-    ASSERT_EQ((*decoded)->grid.count_solid(), inside);
-    for (const Plane& plane : (*decoded)->planes.planes()) ASSERT_NEAR(glm::length(plane.normal), 1, 1e-3);
-  }
-  EXPECT_GT(refused, 0);
-}
-
-TEST_F(VxlFile, SecondRunLoadsTheCache) {
+TEST_F(VoxelCache, SecondRunLoadsTheCache) {
   const Warnings warnings;
   const auto first = load_or_voxelize(small_scene(), kFrame, path_);
   const auto second = load_or_voxelize(small_scene(), kFrame, path_);
@@ -148,7 +73,7 @@ TEST_F(VxlFile, SecondRunLoadsTheCache) {
   EXPECT_EQ(warnings.count, 0);
 }
 
-TEST_F(VxlFile, RebuildsWhenAVertexObjectOrGridMoves) {
+TEST_F(VoxelCache, RebuildsWhenAVertexObjectOrGridMoves) {
   const Warnings warnings;
   const auto cached = [&](const scene::Scene& scene, const GridLayout& layout) {
     const auto voxels = load_or_voxelize(scene, layout, path_);
@@ -173,7 +98,7 @@ TEST_F(VxlFile, RebuildsWhenAVertexObjectOrGridMoves) {
   EXPECT_EQ(warnings.count, 0);
 }
 
-TEST_F(VxlFile, RebuildsDamagedAndForeignFilesWithOneWarning) {
+TEST_F(VoxelCache, RebuildsDamagedAndForeignFilesWithOneWarning) {
   ASSERT_TRUE(load_or_voxelize(small_scene(), kFrame, path_));
   const auto whole = read_file(path_);
   ASSERT_TRUE(whole);
@@ -194,7 +119,7 @@ TEST_F(VxlFile, RebuildsDamagedAndForeignFilesWithOneWarning) {
   }
 }
 
-TEST_F(VxlFile, FailsWhereTheCacheCannotBeWritten) {
+TEST_F(VoxelCache, FailsWhereTheCacheCannotBeWritten) {
   const auto voxels = load_or_voxelize(small_scene(), kFrame, folder_ / "none" / "scene.vxl");
   ASSERT_FALSE(voxels);
   EXPECT_NE(voxels.failure().message.find("none"), std::string::npos);

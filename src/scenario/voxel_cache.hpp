@@ -1,0 +1,28 @@
+// The voxels of a scene, cached in a `.vxl` file and reused while scene and layout are unchanged.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "scene/scene.hpp"
+#include "voxel/bit_grid.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::scenario {
+
+struct Voxels {
+  voxel::BitGrid grid;
+  voxel::SurfacePlanes planes;
+  bool cached = false;      ///< Read from the cache instead of voxelized.
+  double milliseconds = 0;  ///< Time of voxelize() only; 0 when cached.
+  std::uint64_t triangles = 0;
+};
+
+/// The voxels of a scene. Uses the cache at `cache_path` (empty: none) if its key matches this scene and
+/// layout; otherwise voxelizes the scene and writes the cache. An invalid cache file causes a warning and is
+/// rewritten. Fails as check_frame does, and when the cache cannot be written.
+Result<Voxels> load_or_voxelize(const scene::Scene& scene, const voxel::GridLayout& layout,
+                                const std::filesystem::path& cache_path);
+
+}  // namespace brume::scenario

@@ -1,0 +1,119 @@
+#include "voxel/vxl_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+
+#include "core/file.hpp"
+#include "core/hash.hpp"
+#include "voxel/voxelize.hpp"
+
+namespace brume::voxel {
+namespace {
+
+using glm::ivec3;
+using glm::vec3;
+
+constexpr std::uint64_t kKey = 42;
+
+// A floor and one loose triangle.
+VxlContents small_contents() {
+  const vec3 a(-1, 0.1f, -1), b(2, 0.1f, -1), c(2, 0.1f, 2), d(-1, 0.1f, 2);
+  const std::vector<Triangle> triangles{
+      {a, c, b}, {a, d, c}, {vec3(0, 1.5f, 0), vec3(1, 2, 0.5f), vec3(0.2f, 1.1f, 1)}};
+  VxlContents contents{
+      *voxelize(triangles, {{11, 7, 9}, 0.4f, vec3(-1.3f, -0.4f, -1.1f)}), {}, triangles.size()};
+  contents.planes = SurfacePlanes::build(triangles, contents.grid);
+  return contents;
+}
+
+void expect_same(const BitGrid& a, const BitGrid& b) {
+  ASSERT_EQ(a.layout(), b.layout());
+  for (int z = 0; z < a.size().z; ++z)
+    for (int y = 0; y < a.size().y; ++y)
+      for (int x = 0; x < a.size().x; ++x) ASSERT_EQ(a.solid({x, y, z}), b.solid({x, y, z}));
+}
+
+TEST(VxlCodec, RoundTrips) {
+  const VxlContents contents = small_contents();
+  ASSERT_GT(contents.planes.plane_count(), 10u);
+  const auto bytes = encode_vxl(contents, kKey);
+  const auto decoded = decode_vxl(bytes, kKey);
+  ASSERT_TRUE(decoded) << decoded.failure().message;
+  ASSERT_TRUE(*decoded);
+  expect_same((*decoded)->grid, contents.grid);
+  EXPECT_EQ((*decoded)->planes, contents.planes);
+  EXPECT_EQ((*decoded)->triangles, 3u);
+  EXPECT_EQ(encode_vxl(**decoded, kKey), bytes);
+  EXPECT_FALSE(*decode_vxl(bytes, kKey + 1));
+  EXPECT_TRUE(*decode_vxl(bytes, std::nullopt));
+}
+
+TEST(VxlCodec, RoundTripsAnEmptyGrid) {
+  const auto bytes = encode_vxl({BitGrid({{1, 1, 1}, 1, vec3(0)}), {}, 0}, kKey);
+  const auto decoded = decode_vxl(bytes, kKey);
+  ASSERT_TRUE(decoded && *decoded);
+  EXPECT_EQ((*decoded)->grid.count_solid(), 0u);
+}
+
+TEST(VxlCodec, RejectsEveryTruncation) {
+  const auto bytes = encode_vxl(small_contents(), kKey);
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    ASSERT_FALSE(decode_vxl(std::span(bytes).first(length), kKey)) << length;
+}
+
+TEST(VxlCodec, RejectsEveryFlippedBit) {
+  auto bytes = encode_vxl(small_contents(), kKey);
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    const auto mask = static_cast<std::byte>(1u << bit % 8);
+    bytes[bit / 8] ^= mask;
+    ASSERT_FALSE(decode_vxl(bytes, kKey)) << bit;
+    bytes[bit / 8] ^= mask;
+  }
+}
+
+TEST(VxlCodec, SurvivesFlippedBitsWithAMatchingChecksum) {
+  // Damage with a matching checksum: either rejected or another valid grid.
+  auto bytes = encode_vxl(small_contents(), kKey);
+  int refused = 0;
+  for (std::size_t bit = 0; bit < 8 * (bytes.size() - 8); ++bit) {
+    auto damaged = bytes;
+    damaged[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
+    const std::uint64_t checksum = hash_bytes(std::span(damaged).first(damaged.size() - 8));
+    std::memcpy(damaged.data() + damaged.size() - 8, &checksum, 8);
+    const auto decoded = decode_vxl(damaged, std::nullopt);
+    refused += !decoded;
+    if (!decoded || !*decoded) continue;
+    // No voxel outside of the grid: every counted one can be queried.
+    std::uint64_t inside = 0;
+    (*decoded)->grid.for_each_brick([&](ivec3 at, const BitGrid::Brick&) {
+      for (int i = 0; i < 512; ++i)
+        inside += (*decoded)->grid.solid(8 * at + ivec3(i & 7, i >> 3 & 7, i >> 6));
+    });
+    ASSERT_EQ((*decoded)->grid.count_solid(), inside);
+    for (const Plane& plane : (*decoded)->planes.planes()) ASSERT_NEAR(glm::length(plane.normal), 1, 1e-3);
+  }
+  EXPECT_GT(refused, 0);
+}
+
+TEST(VxlFile, LoadsWhatWasSavedAndNamesAFileThatIsDamaged) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("brume_vxl_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto path = folder / "room.vxl";
+  const VxlContents contents = small_contents();
+  ASSERT_TRUE(save_vxl(path, contents, kKey));
+  EXPECT_EQ(*read_file(path), encode_vxl(contents, kKey));
+  const auto loaded = load_vxl(path, kKey);
+  ASSERT_TRUE(loaded && *loaded);
+  EXPECT_EQ((*loaded)->planes, contents.planes);
+
+  ASSERT_TRUE(write_file_atomic(path, std::string("no voxels")));
+  const auto damaged = load_vxl(path, kKey);
+  ASSERT_FALSE(damaged);
+  EXPECT_NE(damaged.failure().message.find("room.vxl: "), std::string::npos) << damaged.failure().message;
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace brume::voxel
