@@ -65,7 +65,7 @@ Result<scenario::Scenario> smoke_in_the_yard(const Yard& yard) {
 /// Number of texture samples that the march takes per frame.
 double count_texture_samples(gpu::Context& context, const scenario::Scenario& scenario,
                              render::RendererOptions options) {
-  options.count_samples = true;
+  options.smoke.count_samples = true;
   RepeatedFrame frame(context, scenario, options, kGrown);
   frame.draw();
   return frame.texture_samples();
@@ -92,8 +92,8 @@ Result<std::vector<Measurement>> frames(Bench& bench, const std::string& name, g
   if (!scenario) return scenario.failure();
   render::RendererOptions options;
   options.size_px = size_px;
-  options.march_scale = march_scale;
-  options.masks = &scenario->masks;
+  options.smoke.march_scale = march_scale;
+  options.smoke.masks = &scenario->masks;
   return std::vector{time_frames(bench, name, *scenario, options, kGrown).all};
 }
 
@@ -124,8 +124,8 @@ Result<std::vector<Measurement>> motel_frames(Bench& bench) {
     if (!scenario) return scenario.failure();
     render::RendererOptions options;
     options.size_px = {1920, 1080};
-    options.march_scale = bench.context().info().kind == "cpu" ? 4 : 2;
-    options.masks = &scenario->masks;
+    options.smoke.march_scale = bench.context().info().kind == "cpu" ? 4 : 2;
+    options.smoke.masks = &scenario->masks;
     const std::string name = holes > 0 ? "frame/motel_holes" : "frame/motel";
     results.push_back(time_frames(bench, name, *scenario, options, kGrown).all);
   }
@@ -148,8 +148,8 @@ Result<std::vector<Measurement>> holes(Bench& bench, const std::string& base, bo
       if (!scenario) return scenario.failure();
       render::RendererOptions options;
       options.size_px = slow ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
-      options.brute_force_holes = plain;
-      options.masks = &scenario->masks;
+      options.smoke.brute_force_holes = plain;
+      options.smoke.masks = &scenario->masks;
       const std::string name = (plain ? base + "/plain/" : base + "/") + std::to_string(count);
       Measurement m = time_frames(bench, name, *scenario, options, kGrown).all;
       if (count == 0) none = m.median;

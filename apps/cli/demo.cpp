@@ -51,7 +51,7 @@ void demo(const Options& options, const CommonOptions& common) {
     finish_output();  // It can be looked at while the film is made.
   }
   render::RendererOptions options_of_film{kFilmSize};
-  options_of_film.march_scale = kFilmMarchScale;
+  options_of_film.smoke.march_scale = kFilmMarchScale;
   render::Playback playback(context, scenario, options_of_film);
   playback.set_light_update_fraction(kFilmLightUpdateFraction);
   const auto frames = static_cast<std::uint32_t>(std::ceil(seconds * kFramesPerSecond));

@@ -43,8 +43,8 @@ Plan make_plan(const Options& options) {
   Plan plan;
   plan.kind = target_kind(options.output);
   plan.renderer.size_px = parse_size("--size", options.size);
-  plan.renderer.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
-  plan.renderer.temporal = options.temporal;
+  plan.renderer.smoke.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
+  plan.renderer.smoke.temporal = options.temporal;
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
   plan.view = *passes::find_debug_view(options.view);
   if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);

@@ -19,8 +19,8 @@ gpu::Image make_canvas(gpu::Context& context, glm::uvec2 size_px) {
 
 render::RendererOptions renderer_options(const scenario::Scenario& scenario, glm::uvec2 size_px) {
   render::RendererOptions options{size_px};
-  options.temporal = true;
-  options.masks = &scenario.masks;
+  options.smoke.temporal = true;
+  options.smoke.masks = &scenario.masks;
   return options;
 }
 
@@ -50,7 +50,7 @@ void Screen::wait() {
 }
 
 void Screen::set_resolution(glm::uvec2 picture_px, std::uint32_t march_scale) {
-  if (picture_px != renderer_->size_px()) {
+  if (picture_px != renderer_->targets().size_px) {
     renderer_->resize(picture_px);
     history_lost_ = true;
   }
@@ -72,11 +72,11 @@ bool Screen::show(const render::FrameInput* input, const Quality& quality, const
     plan.emplace(renderer_->plan(frame));
   }
   ui_->reserve(ui);
-  const bool same_size = renderer_->size_px() == image->size_px;
+  const bool same_size = renderer_->targets().size_px == image->size_px;
   const auto record = [&](gpu::Recorder& recorder) {
     if (plan) renderer_->record_frame(recorder, *plan);
     const gpu::Scope scope(recorder, "window");
-    recorder.blit(renderer_->display(), canvas_, same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+    recorder.blit(renderer_->targets().display, canvas_, same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
     ui_->record(recorder, ui, canvas_);
     recorder.blit(canvas_, *image);
   };
@@ -94,7 +94,8 @@ image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
   input.quality = {};
   const gpu::Buffer pixels(context_, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            gpu::MemoryUse::readback);
-  renderer_->draw(input, [&](gpu::Recorder& recorder) { recorder.read_back(renderer_->display(), pixels); });
+  renderer_->draw(input,
+                  [&](gpu::Recorder& recorder) { recorder.read_back(renderer_->targets().display, pixels); });
   image::Image8 picture;
   picture.width = size_px.x;
   picture.height = size_px.y;

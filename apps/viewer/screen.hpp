@@ -55,7 +55,7 @@ class Screen {
   std::vector<gpu::Timings::Scope> timings() const { return runner_->timings(); }
   /// CPU time to prepare and record the last frame [s].
   double record_seconds() const { return record_seconds_; }
-  glm::uvec2 picture_px() const { return renderer_->size_px(); }
+  glm::uvec2 picture_px() const { return renderer_->targets().size_px; }
 
  private:
   void set_resolution(glm::uvec2 picture_px, std::uint32_t march_scale);

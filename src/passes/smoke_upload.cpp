@@ -81,7 +81,7 @@ void SmokeUpload::reserve(const smoke::SmokeVolume& volume) {
 
 void SmokeUpload::record_visibility(gpu::Recorder& recorder, const planning::SmokeVisibility& visibility) {
   recorder.upload(resources_.slots, 0, std::as_bytes(std::span(visibility.slots)));
-  resources_.needed = static_cast<std::uint32_t>(visibility.slots.size());
+  resources_.required_count = static_cast<std::uint32_t>(visibility.slots.size());
 }
 
 void SmokeUpload::record_cells(gpu::Recorder& recorder, const smoke::SmokeVolume& volume,

@@ -20,7 +20,7 @@ struct SmokeResources {
   gpu::Buffer filled{};  ///< Per slot the cells that smoke may be in.
   gpu::Buffer slots{};   ///< SmokeVisibility::slots of the frame.
   std::uint32_t slot_count = 0;
-  std::uint32_t needed = 0;  ///< How many `slots` has.
+  std::uint32_t required_count = 0;  ///< How many `slots` has.
 };
 
 /// The cells of a slot that smoke may be in, as shared::pack_cells packs them.

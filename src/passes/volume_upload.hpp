@@ -9,7 +9,7 @@ namespace brume::passes {
 /// What the march binds. The references are to resources of the VolumeUpload.
 struct VolumeResources {
   const gpu::Buffer& pages;
-  const gpu::Image& density;    ///< Half floats.
+  const gpu::Image& density;     ///< Half floats.
   const gpu::Buffer& instances;  ///< A shared::VolumeInstance per volume in view.
 };
 

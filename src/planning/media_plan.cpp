@@ -35,7 +35,8 @@ glm::mat4x3 voxel_from_world(const VolumeInput& volume) {
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
       if (!std::isfinite(inverse[column][row]))
-        throw Error(ErrorCode::bad_input, "the transform of a volume has no inverse; give each axis a length");
+        throw Error(ErrorCode::bad_input,
+                    "the transform of a volume has no inverse; give each axis a length");
   return glm::mat4x3(glm::mat4(inverse));
 }
 
@@ -60,7 +61,8 @@ void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, c
 }  // namespace
 
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look) {
-  return {smoke.bounds_min, smoke.bounds_max, look.extinction, look.step_length, look.opaque_transmittance, 0};
+  return {smoke.bounds_min, smoke.bounds_max,          look.extinction,
+          look.step_length, look.opaque_transmittance, 0};
 }
 
 MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum) {

@@ -1,4 +1,5 @@
-// The media of a frame: which volumes are visible, and what the march needs to know of volumes and smoke together.
+// The media of a frame: which volumes are visible, and what the march needs to know of volumes and smoke
+// together.
 #pragma once
 
 #include <vector>
@@ -12,7 +13,7 @@ namespace brume::planning {
 
 /// A volume that may be in view.
 struct VisibleVolume {
-  std::size_t index = 0;             ///< In FrameInput::volumes.
+  std::size_t index = 0;              ///< In FrameInput::volumes.
   shared::VolumeInstance instance{};  ///< All but `bricks`, which the atlas knows.
 };
 

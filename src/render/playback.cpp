@@ -4,6 +4,7 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "passes/noise.hpp"
 #include "scenario/flashes.hpp"
 #include "smoke/holes.hpp"
 
@@ -17,7 +18,7 @@ glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
 }
 
 RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
-  options.masks = &scenario.masks;
+  options.smoke.masks = &scenario.masks;
   return options;
 }
 
@@ -70,10 +71,10 @@ Playback::Playback(gpu::Context& context, const scenario::Scenario& scenario, co
       list_(context, sizeof(shared::MarchList), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
 
 double Playback::fraction_marched() const {
-  if (!renderer_.march_tiles()) return 1;
+  if (!renderer_.smoke().march_tiles()) return 1;
   shared::MarchList list{};
   std::memcpy(&list, list_.mapped(), sizeof list);
-  const glm::uvec2 blocks(renderer_.march_tiles()->far.info().size);
+  const glm::uvec2 blocks(renderer_.smoke().march_tiles()->far.info().size);
   return static_cast<double>(list.count) / (static_cast<double>(blocks.x) * blocks.y);
 }
 
@@ -90,13 +91,13 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   if (camera_) input.view.camera = *camera_;
   input.debug = debug_;
   renderer_.draw(input, [&](gpu::Recorder& recorder) {
-    recorder.read_back(renderer_.display(), pixels_);
-    if (renderer_.march_tiles())
-      recorder.read_back(renderer_.march_tiles()->list, list_, sizeof(shared::MarchList));
+    recorder.read_back(renderer_.targets().display, pixels_);
+    if (renderer_.smoke().march_tiles())
+      recorder.read_back(renderer_.smoke().march_tiles()->list, list_, sizeof(shared::MarchList));
   });
   image::Image8 image;
-  image.width = renderer_.size_px().x;
-  image.height = renderer_.size_px().y;
+  image.width = renderer_.targets().size_px.x;
+  image.height = renderer_.targets().size_px.y;
   image.rgba.resize(pixels_.size());
   std::memcpy(image.rgba.data(), pixels_.mapped(), image.rgba.size());
   return image;

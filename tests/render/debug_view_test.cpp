@@ -62,8 +62,8 @@ class DebugViewsTest : public gpu::GpuTest {
   }
   RendererOptions options(std::uint32_t march_scale, bool temporal) const {
     RendererOptions options{kSize};
-    options.march_scale = march_scale;
-    options.temporal = temporal;
+    options.smoke.march_scale = march_scale;
+    options.smoke.temporal = temporal;
     return options;
   }
 };

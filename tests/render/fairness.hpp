@@ -54,7 +54,7 @@ class Eye {
   static RendererOptions options(const scenario::Scenario& scenario) {
     RendererOptions options;
     options.size_px = kSize;
-    options.masks = &scenario.masks;
+    options.smoke.masks = &scenario.masks;
     return options;
   }
   gpu::CommandRunner& runner_;
@@ -77,7 +77,8 @@ class FairnessTest : public gpu::GpuTest {
  protected:
   Shot shot(Eye& eye, const Pair& pair, std::uint32_t scale) {
     const Renderer& renderer = eye.look(pair, scale);
-    return {read_back<std::array<std::uint8_t, 4>>(renderer.display()), read_back<float>(renderer.depth())};
+    return {read_back<std::array<std::uint8_t, 4>>(renderer.targets().display),
+            read_back<float>(renderer.targets().gbuffer.depth)};
   }
 
   /// Mean of the display over the sign less that over a rim of 3 pixels around it, 0..255.

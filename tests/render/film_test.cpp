@@ -46,8 +46,8 @@ class FilmTest : public gpu::GpuTest {
   static RendererOptions options(std::uint32_t scale, bool temporal) {
     RendererOptions options;
     options.size_px = kSize;
-    options.march_scale = scale;
-    options.temporal = temporal;
+    options.smoke.march_scale = scale;
+    options.smoke.temporal = temporal;
     return options;
   }
   static double mean_difference(const image::Image8& a, const image::Image8& b) {

@@ -87,7 +87,7 @@ class LightCacheTest : public gpu::GpuTest {
   }
   static std::vector<std::uint64_t> smoke_of(Renderer& renderer, const FrameInput& input) {
     renderer.draw(input);
-    return read_back<std::uint64_t>(renderer.smoke());
+    return read_back<std::uint64_t>(renderer.media());
   }
   /// Draws a time by both, which must be equal.
   Work draw(double seconds) {
@@ -200,7 +200,8 @@ TEST_F(LightCacheTest, AllOfATimeIsTheRebuiltOneHoweverItWasSliced) {
       cached_->draw(input);
     }
     draw(seconds);
-    EXPECT_EQ(read_back<std::uint64_t>(cached_->picture()), read_back<std::uint64_t>(rebuilt_->picture()))
+    EXPECT_EQ(read_back<std::uint64_t>(cached_->targets().radiance),
+              read_back<std::uint64_t>(rebuilt_->targets().radiance))
         << "round " << round << " at " << seconds;
     if (round % 8 == 7) seconds += 2;
   }
@@ -214,7 +215,7 @@ class SlicedLightTest : public LightCacheTest {
     FrameInput input = input_at(seconds);
     input.quality.light_update_fraction = fraction;
     const FramePlan plan = rebuilt_->plan(input);
-    const gpu::Image& light = rebuilt_->smoke_resources().inscatter;
+    const gpu::Image& light = rebuilt_->smoke().resources().inscatter;
     const glm::uvec3 size = light.info().size;
     if (size != lit_size_) {
       const std::vector<std::uint16_t> glare(std::size_t{4} * size.x * size.y * size.z, 0x7bff);  // 65,504
@@ -224,7 +225,7 @@ class SlicedLightTest : public LightCacheTest {
     }
     runner().run([&](gpu::Recorder& recorder) { rebuilt_->record_frame(recorder, plan); });
     const auto smoke = smoke_of(*cached_, input);
-    EXPECT_EQ(read_back<std::uint64_t>(rebuilt_->smoke()), smoke)
+    EXPECT_EQ(read_back<std::uint64_t>(rebuilt_->media()), smoke)
         << "light that was never computed, at " << seconds;
     return smoke;
   }
@@ -243,7 +244,8 @@ void SlicedLightTest::expect_fraction(float fraction) {
     EXPECT_TRUE(cached_->light_plan().parts.empty());
     Renderer fresh(context(), runner(), scenario_->scene, {kSize});
     EXPECT_EQ(smoke, smoke_of(fresh, input_at(seconds))) << "at " << seconds;
-    EXPECT_EQ(read_back<std::uint64_t>(cached_->picture()), read_back<std::uint64_t>(fresh.picture()))
+    EXPECT_EQ(read_back<std::uint64_t>(cached_->targets().radiance),
+              read_back<std::uint64_t>(fresh.targets().radiance))
         << "shadows on surfaces, at " << seconds;
   };
   // It grows, another comes, the eye walks.
@@ -284,7 +286,8 @@ TEST_F(SlicedLightTest, AllOfItAfterAFractionIsAllOfIt) {
   draw(2.2);
   draw_fraction(2.3, 0.25f);
   draw(2.3);
-  EXPECT_EQ(read_back<std::uint64_t>(cached_->picture()), read_back<std::uint64_t>(rebuilt_->picture()));
+  EXPECT_EQ(read_back<std::uint64_t>(cached_->targets().radiance),
+            read_back<std::uint64_t>(rebuilt_->targets().radiance));
 }
 
 }  // namespace

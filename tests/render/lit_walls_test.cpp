@@ -176,7 +176,7 @@ class LitWallsTest : public gpu::GpuTest {
       input.view.camera = camera;
       ++input.view.frame_index;
       renderer.draw(input);
-      const auto texels = read_back<passes::Half4>(renderer.smoke());
+      const auto texels = read_back<passes::Half4>(renderer.media());
       return mean_of_rows([&](std::uint32_t x, std::uint32_t y) {
         const glm::vec4 texel = passes::from_half(texels[x + std::size_t{kSize.x} * y]);
         return glm::dvec2(texel.g, texel.a);

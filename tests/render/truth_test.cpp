@@ -43,16 +43,17 @@ class TruthTest : public gpu::GpuTest {
    public:
     explicit Studio(const scenario::Scenario& scenario, double seconds = 2)
         : simulation_(scenario::Simulation::create(scenario).value_or_throw()),
-          renderer_(context(), runner(), scenario.scene, {.size_px = kSize, .masks = &scenario.masks}) {
+          renderer_(context(), runner(), scenario.scene,
+                    {.size_px = kSize, .smoke = {.masks = &scenario.masks}}) {
       simulation_->advance_to(seconds);
       input = frame_input(scenario, *simulation_, seconds, holes);
     }
     /// What `input` shows.
     Drawn draw() {
       renderer_.draw(input);
-      Drawn drawn{texels(renderer_.smoke()), {}, {}};
-      for (const glm::dvec4& texel : texels(renderer_.picture())) drawn.image.emplace_back(texel);
-      const gpu::Image& medium = renderer_.smoke_resources().density_displacement;
+      Drawn drawn{texels(renderer_.media()), {}, {}};
+      for (const glm::dvec4& texel : texels(renderer_.targets().radiance)) drawn.image.emplace_back(texel);
+      const gpu::Image& medium = renderer_.smoke().resources().density_displacement;
       drawn.displacement.size = glm::ivec3(medium.info().size);
       for (const glm::dvec4& texel : texels(medium))
         drawn.displacement.texels.emplace_back(texel.y, texel.z, texel.w);

@@ -63,7 +63,7 @@ class VolumesTest : public gpu::GpuTest {
   std::vector<glm::vec4> draw() {
     renderer().draw(input_);
     std::vector<glm::vec4> pixels;
-    for (const passes::Half4& texel : read_back<passes::Half4>(renderer().smoke()))
+    for (const passes::Half4& texel : read_back<passes::Half4>(renderer().media()))
       pixels.push_back(passes::from_half(texel));
     return pixels;
   }
@@ -76,8 +76,7 @@ class VolumesTest : public gpu::GpuTest {
     const glm::dvec3 origin(inverse * glm::dvec4(glm::dvec3(camera.eye_world), 1));
     std::vector<double> lengths;
     for (std::uint32_t i = 0; i < kSize.x * kSize.y; ++i) {
-      const glm::dvec2 ndc =
-          (glm::dvec2(i % kSize.x, i / kSize.x) + 0.5) / glm::dvec2(kSize) * 2.0 - 1.0;
+      const glm::dvec2 ndc = (glm::dvec2(i % kSize.x, i / kSize.x) + 0.5) / glm::dvec2(kSize) * 2.0 - 1.0;
       const glm::dvec3 ray = glm::normalize(glm::dvec3(camera.forward) + ndc.x * glm::dvec3(camera.right) -
                                             ndc.y * glm::dvec3(camera.up));
       const glm::dvec3 direction(inverse * glm::dvec4(ray, 0));
@@ -92,8 +91,8 @@ class VolumesTest : public gpu::GpuTest {
     return lengths;
   }
 
-  /// Each ray's optical depth is that of its chord, up to the step at each end that a sample may miss; the mean of
-  /// all rays is closer, because of the jitter.
+  /// Each ray's optical depth is that of its chord, up to the step at each end that a sample may miss; the
+  /// mean of all rays is closer, because of the jitter.
   void expect_beer_lambert(const planning::VolumeInput& volume) {
     const std::vector<glm::vec4> pixels = draw();
     const std::vector<double> lengths = chords(volume);
@@ -199,7 +198,8 @@ TEST_F(VolumesWithSmokeTest, SmokeAndVolumesMultiplyTheirTransmittance) {
   const volume::SparseVolume cube = block({2, 2, 2});
   const auto draw_with = [&](float smoke, float volume) {
     input_.smoke.look.extinction = smoke;
-    input_.volumes = {{&cube, oblique(cube, {-3, -1, -1}, {4, 3, 3}), {glm::vec3(0), volume, glm::vec3(0.3f)}}};
+    input_.volumes = {
+        {&cube, oblique(cube, {-3, -1, -1}, {4, 3, 3}), {glm::vec3(0), volume, glm::vec3(0.3f)}}};
     return draw();
   };
   const auto smoke = draw_with(1.5f, 0), volume = draw_with(0, 0.7f), both = draw_with(1.5f, 0.7f);

@@ -1,0 +1,139 @@
+#include "render/smoke_frame.hpp"
+
+#include "passes/noise.hpp"
+
+namespace brume::render {
+
+using planning::FramePlan;
+
+SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const SceneView& scene,
+                       glm::uvec2 size_px, const SmokeFrameOptions& options)
+    : context_(context),
+      runner_(runner),
+      size_px_(size_px),
+      brute_force_holes_(options.brute_force_holes),
+      smoke_upload_(context),
+      volume_upload_(context),
+      hole_clusters_(context, runner, options.masks ? *options.masks : smoke::MaskAtlas()),
+      noise_(passes::make_noise_tile(context, passes::kSmokeNoise.size)),
+      counters_(context, sizeof(std::uint32_t),
+                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT),
+      noise_advection_pass_(context),
+      shadow_pass_(context),
+      light_pass_(context),
+      march_pass_(context, {options.count_samples, false, options.brute_force_holes}),
+      resolve_pass_(context) {
+  if (options.temporal) accumulate_pass_.emplace(context, size_px);
+  resize(scene, size_px);
+  set_march_scale(options.march_scale);
+  const passes::NoisePass noise(context);
+  runner.run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, passes::kSmokeNoise); });
+}
+
+void SmokeFrame::resize(const SceneView& scene, glm::uvec2 size_px) {
+  size_px_ = size_px;
+  shadows_ = shadow_pass_.make_shadows(context_, size_px,
+                                       scene.resources().light_list.size() + planning::kMaxFlashes);
+  if (accumulate_pass_) accumulate_pass_.emplace(context_, size_px);
+  set_march_scale(march_scale_);
+}
+
+void SmokeFrame::set_march_scale(std::uint32_t scale) {
+  march_scale_ = scale;
+  march_tiles_.reset();
+  if (scale > 1) march_tiles_.emplace(context_, size_px_, scale);
+}
+
+void SmokeFrame::set_masks(const smoke::MaskAtlas& masks) {
+  hole_clusters_.set_masks(context_, runner_, masks);
+}
+
+void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
+  const planning::FrameInput& input = plan.input;
+  if (input.smoke.volume) {
+    smoke_upload_.reserve(*input.smoke.volume);
+    noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
+  }
+  volume_upload_.reserve(input.volumes);
+  hole_clusters_.reserve(plan.holes);
+  march_pass_.reserve(plan.media.media);
+  if (input.debug.view == planning::DebugView::steps) {
+    if (!counting_march_)
+      counting_march_.emplace(context_, passes::MarchPass::Options{false, true, brute_force_holes_});
+    counting_march_->reserve(plan.media.media);
+  }
+  while (!light_pass_.reserve(*plan.smoke_light)) planning::replan_smoke_light(plan, history);
+}
+
+void SmokeFrame::record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  recorder.fill(march_of(in).counters, 0);
+  if (plan.input.smoke.volume) smoke_upload_.record(recorder, *plan.input.smoke.volume);
+  smoke_upload_.record_visibility(recorder, plan.visibility);
+  volume_upload_.record(recorder, plan.input.volumes, plan.media.volumes);
+}
+
+void SmokeFrame::record_holes(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  hole_clusters_.record(recorder, plan.holes, in.frame, resources());
+}
+
+void SmokeFrame::record_noise_advection(gpu::Recorder& recorder, const FramePlan& plan,
+                                        const FrameResources& in) {
+  if (plan.input.smoke.volume)
+    noise_advection_pass_.record(recorder, plan.noise, {in.frame, resources(), noise_});
+}
+
+void SmokeFrame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  if (!plan.smoke_shadows) return;
+  shadow_pass_.record(
+      recorder,
+      {in.frame, in.scene.resources(), in.scene.shadows(), in.scene.level().solid, resources(), holes()},
+      *plan.smoke_shadows, shadows_);
+}
+
+void SmokeFrame::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  light_pass_.record(
+      recorder, *plan.smoke_light,
+      {in.frame, in.scene.resources(), in.scene.shadows(), resources(), holes(), in.scene.level()});
+}
+
+SmokeFrame::March SmokeFrame::march_of(const FrameResources& in) const {
+  if (in.step_counters) return {*counting_march_, *in.step_counters};
+  return {march_pass_, counters_};
+}
+
+passes::MarchPass::Inputs SmokeFrame::march_inputs(const FramePlan& plan, const FrameResources& in) const {
+  return {.frame = in.frame,
+          .media = plan.media.media,
+          .smoke = resources(),
+          .volumes = volume_upload_.resources(),
+          .noise = noise_,
+          .depth = in.targets.gbuffer.depth,
+          .blue_noise = in.blue_noise,
+          .holes = holes()};
+}
+
+void SmokeFrame::record_march(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  const March march = march_of(in);
+  if (!march_tiles_) {
+    march.pass.record(recorder, march_inputs(plan, in), in.targets.media, march.counters);
+    return;
+  }
+  resolve_pass_.record_ends(recorder, in.frame, in.targets.gbuffer.depth, *march_tiles_);
+  march.pass.record_tiles(recorder, march_inputs(plan, in), *march_tiles_, march.counters);
+}
+
+void SmokeFrame::record_resolve(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  const March march = march_of(in);
+  const Targets& targets = in.targets;
+  resolve_pass_.record_select(recorder, in.frame, targets.gbuffer.emission, *march_tiles_);
+  resolve_pass_.record(recorder, in.frame, targets.gbuffer.depth, *march_tiles_, targets.media);
+  march.pass.record_list(recorder, march_inputs(plan, in), *march_tiles_, targets.media, march.counters);
+}
+
+void SmokeFrame::record_accumulate(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  accumulate_pass_->record(recorder, in.frame, plan.camera, in.targets.gbuffer.depth, in.targets.media,
+                           plan.input.view.continues);
+}
+
+}  // namespace brume::render

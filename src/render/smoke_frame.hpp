@@ -1,0 +1,114 @@
+// What the media of a frame add to it: the smoke with its noise, holes, light and shadows, the volumes, and the march
+// through all of them.
+#pragma once
+
+#include <optional>
+
+#include "passes/accumulate.hpp"
+#include "passes/march.hpp"
+#include "passes/noise_advection.hpp"
+#include "passes/resolve.hpp"
+#include "passes/smoke_light.hpp"
+#include "passes/smoke_shadow.hpp"
+#include "render/scene_view.hpp"
+#include "render/targets.hpp"
+
+namespace brume::render {
+
+struct SmokeFrameOptions {
+  bool count_samples = false;               ///< Count the texture samples of the march (slower).
+  bool brute_force_holes = false;           ///< See MarchPass::Options.
+  std::uint32_t march_scale = 1;            ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  bool temporal = false;                    ///< Accumulate smoke over the frames of a film (View::continues).
+  const smoke::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
+};
+
+/// What a frame gives to each of its steps.
+struct FrameResources {
+  const gpu::Buffer& frame;  ///< FrameConstants.
+  const SceneView& scene;
+  const Targets& targets;
+  const gpu::Image& blue_noise;
+  /// Where the march counts the steps of each pixel (MarchPass::Options::count_steps); null: nowhere.
+  const gpu::Buffer* step_counters = nullptr;
+};
+
+/// Its record_ functions run in this order. They allocate no device memory besides staging, and neither submit nor
+/// wait. What needs room outside of a recording says so.
+class SmokeFrame {
+ public:
+  /// `context` and `runner` must outlive it. Throws resource_limit.
+  SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const SceneView& scene, glm::uvec2 size_px,
+             const SmokeFrameOptions& options);
+
+  // When the device is done with what was recorded before; all throw resource_limit.
+  /// Frames of another size; what was accumulated is dropped.
+  void resize(const SceneView& scene, glm::uvec2 size_px);
+  /// Rays of the march, as SmokeFrameOptions::march_scale.
+  void set_march_scale(std::uint32_t scale);
+  /// Other masks of the holes; uploads them.
+  void set_masks(const smoke::MaskAtlas& masks);
+  /// Makes room for a plan; plans the light again where the device lost what was cached of it.
+  void reserve(planning::FramePlan& plan, planning::PlanHistory& history);
+
+  void record_upload(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  void record_holes(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  void record_noise_advection(gpu::Recorder& recorder, const planning::FramePlan& plan,
+                              const FrameResources& in);
+  void record_shadows(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  void record_light(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  /// The rays of pixels or of tiles.
+  void record_march(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  /// From the rays of tiles to every pixel. Where march_tiles() has a value.
+  void record_resolve(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  /// The mean over frames. Where is_accumulated().
+  void record_accumulate(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+
+  /// Premultiplied radiance and transmittance of each pixel.
+  const gpu::Image& result(const Targets& targets) const {
+    return accumulate_pass_ ? accumulate_pass_->gathered() : targets.media;
+  }
+  std::uint32_t march_scale() const { return march_scale_; }
+  bool is_accumulated() const { return accumulate_pass_.has_value(); }
+  const passes::SmokeResources& resources() const { return smoke_upload_.resources(); }
+  const passes::HoleResources& holes() const { return hole_clusters_.resources(); }
+  const passes::SmokeShadows& shadows() const { return shadows_; }
+  /// The rays of the march; empty where each pixel has its own.
+  const std::optional<passes::MarchTiles>& march_tiles() const { return march_tiles_; }
+  const gpu::Buffer& sample_counter() const { return counters_; }
+
+ private:
+  /// What marches the frame's rays, and where it counts.
+  struct March {
+    const passes::MarchPass& pass;
+    const gpu::Buffer& counters;
+  };
+  March march_of(const FrameResources& in) const;
+  passes::MarchPass::Inputs march_inputs(const planning::FramePlan& plan, const FrameResources& in) const;
+
+  gpu::Context& context_;
+  gpu::CommandRunner& runner_;
+  glm::uvec2 size_px_;
+  bool brute_force_holes_;
+  std::uint32_t march_scale_ = 1;
+
+  // Data on the device.
+  passes::SmokeUpload smoke_upload_;
+  passes::VolumeUpload volume_upload_;
+  passes::HoleClusters hole_clusters_;
+  passes::SmokeShadows shadows_;
+  gpu::Image noise_;
+  gpu::Buffer counters_;
+  std::optional<passes::MarchTiles> march_tiles_;  ///< Where march_scale_ is above 1.
+
+  // Passes.
+  passes::NoiseAdvectionPass noise_advection_pass_;
+  passes::SmokeShadowPass shadow_pass_;
+  passes::SmokeLightPass light_pass_;
+  passes::MarchPass march_pass_;
+  std::optional<passes::MarchPass> counting_march_;  ///< For the view of steps.
+  passes::ResolvePass resolve_pass_;
+  std::optional<passes::AccumulatePass> accumulate_pass_;  ///< Where smoke is accumulated over frames.
+};
+
+}  // namespace brume::render

@@ -1,0 +1,19 @@
+// The images that every kind of frame draws into. All have the frame's size.
+#pragma once
+
+#include "passes/gbuffer.hpp"
+
+namespace brume::render {
+
+struct Targets {
+  /// `size_px`: each side in [1, 16384]. Throws resource_limit.
+  Targets(gpu::Context& context, glm::uvec2 size_px);
+
+  glm::uvec2 size_px;
+  passes::GBuffer gbuffer;
+  gpu::Image media;     ///< Half floats: premultiplied radiance and transmittance of the media.
+  gpu::Image radiance;  ///< Half floats: media and surfaces.
+  gpu::Image display;   ///< RGBA8, sRGB.
+};
+
+}  // namespace brume::render
