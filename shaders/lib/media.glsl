@@ -17,6 +17,7 @@
 #include "shared/media.h"
 
 const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u, kHasVolumes = (kMedia & kMediumVolumes) != 0u;
+const bool kSmokeAlone = kMedia == kMediumSmoke;
 
 struct MediaRay {
   SmokeRay smoke;
@@ -53,7 +54,7 @@ MediaSpan media_span(WorldRay ray, MediaRay media, float t, float ds) {
     span.volumes = volumes_span(ray, t, ds);
     join_span(span, span.volumes.t_first, span.volumes.t_stop, span.volumes.t_next);
   }
-  if (kHasSmoke && kHasVolumes) span.t_stop = min(span.t_stop, span.t_next - 0.5 * ds);
+  if (!kSmokeAlone) span.t_stop = min(span.t_stop, span.t_next - 0.5 * ds);
   return span;
 }
 
@@ -66,7 +67,7 @@ MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, in
   MediaSample here;
   if (kHasSmoke) {
     here.smoke.density = 0.0;
-    if (!kHasVolumes || (t >= span.smoke.bricks.t_first && t < span.smoke.bricks.t_stop))
+    if (kSmokeAlone || (t >= span.smoke.bricks.t_first && t < span.smoke.bricks.t_stop))
       here.smoke = sample_smoke(ray.smoke, span.smoke, p_world, t, texture_samples);
   }
   if (kHasVolumes) here.volumes = sample_volumes(span.volumes, p_world, texture_samples);
@@ -75,24 +76,29 @@ MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, in
 
 /// Base-2 logarithm of the transmittance of a step.
 float log2_transmittance(MediaSample here, float ds) {
-  const float smoke = kHasSmoke ? -1.44269504 * frame.look.extinction * ds * here.smoke.density : 0.0;
-  return kHasVolumes ? smoke - 1.44269504 * ds * here.volumes.extinction : smoke;
+  float sum = kHasSmoke ? -1.44269504 * frame.look.extinction * ds * here.smoke.density : 0.0;
+  if (kHasVolumes) sum -= 1.44269504 * ds * here.volumes.extinction;
+  return sum;
 }
 
 /// Radiance towards the eye, per unit of media_albedo, where the transmittance is below 1.
 vec3 media_inscatter(MediaRay ray, MediaSample here, inout uint texture_samples) {
-  if (!kHasVolumes) return smoke_inscatter(ray.smoke, here.smoke, texture_samples);
-  vec3 sum = here.volumes.light;
-  float extinction = here.volumes.extinction;
+  if (kSmokeAlone) return smoke_inscatter(ray.smoke, here.smoke, texture_samples);
+  vec3 sum = vec3(0.0);
+  float extinction = 0.0;
   if (kHasSmoke && here.smoke.density > 0.0) {
     const float smoke = frame.look.extinction * here.smoke.density;
     sum += smoke * frame.look.albedo * smoke_inscatter(ray.smoke, here.smoke, texture_samples);
     extinction += smoke;
   }
+  if (kHasVolumes) {
+    sum += here.volumes.light;
+    extinction += here.volumes.extinction;
+  }
   return sum / extinction;
 }
 
 /// The factor that all in-scatter has in common.
-vec3 media_albedo() { return kHasVolumes ? vec3(1.0) : frame.look.albedo; }
+vec3 media_albedo() { return kSmokeAlone ? frame.look.albedo : vec3(1.0); }
 
 #endif
