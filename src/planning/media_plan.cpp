@@ -40,22 +40,25 @@ glm::mat4x3 voxel_from_world(const VolumeInput& volume) {
   return glm::mat4x3(glm::mat4(inverse));
 }
 
-/// Adds a volume to what the march goes through.
-void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, const Box<float>& world) {
-  const shared::VolumeLayout& layout = volume.volume->layout();
-  plan.media |= shared::kMediumVolumes;
-  plan.volumes.push_back(
-      {index, {voxel_from_world(volume), layout.bounds_min, layout.bounds_max, volume.look, {}}});
+/// Adds a medium inside a box to what the march goes through. `step` is the longest that suits it [m].
+void add_medium(MediaPlan& plan, std::uint32_t bit, const Box<float>& world, float extinction, float step) {
   shared::FrameMedia& frame = plan.frame;
   const glm::vec3 low = (world.low - plan.smoke.origin_world) / plan.smoke.voxel_size;
   const glm::vec3 high = (world.high - plan.smoke.origin_world) / plan.smoke.voxel_size;
-  const bool first = plan.media == shared::kMediumVolumes && plan.volumes.size() == 1;
+  const bool first = plan.media == 0;
+  plan.media |= bit;
   frame.bounds_min = first ? low : glm::min(frame.bounds_min, low);
   frame.bounds_max = first ? high : glm::max(frame.bounds_max, high);
-  const float step = step_of(volume.world_from_voxel);
   frame.step_length = first ? step : std::min(frame.step_length, step);
-  frame.extinction = (first ? 0 : frame.extinction) + volume.look.extinction;
-  ++frame.volume_count;
+  frame.extinction = (first ? 0 : frame.extinction) + extinction;
+}
+
+void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, const Box<float>& world) {
+  const shared::VolumeLayout& layout = volume.volume->layout();
+  add_medium(plan, shared::kMediumVolumes, world, volume.look.extinction, step_of(volume.world_from_voxel));
+  plan.volumes.push_back(
+      {index, {voxel_from_world(volume), layout.bounds_min, layout.bounds_max, volume.look, {}}});
+  ++plan.frame.volume_count;
 }
 
 }  // namespace
