@@ -51,8 +51,8 @@ SmokeSpan smoke_span(WorldRay world, SmokeRay smoke, float t, float ds) {
     const uint box = filled[slot];
     narrow_to(vec3(cells_low(box)) - 0.5, vec3(cells_end(box)) - 0.5, ray, t, ds, span.bricks);
   }
-  span.uvw_offset =
-      (atlas_corner(volume.bricks, slot) - span.bricks.low) * smoke.texel - volume.origin_world * smoke.texels_per_metre;
+  const vec3 corner = atlas_corner(volume.bricks, slot) - span.bricks.low;
+  span.uvw_offset = corner * smoke.texel - volume.origin_world * smoke.texels_per_metre;
   return span;
 }
 
