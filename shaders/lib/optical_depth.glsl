@@ -22,7 +22,8 @@ MeanSmoke mean_smoke_at(vec3 p_voxel) {
   smoke.local_voxel = p_voxel - brick * float(kBrickVoxels);
   smoke.slot = slot_at(frame.volume.bricks, ivec3(brick), smoke.empty_edge);
   if (smoke.slot != kNoSlot) {
-    const vec3 uvw = (atlas_corner(frame.volume.bricks, smoke.slot) + smoke.local_voxel) * atlas_texel(frame.volume.bricks);
+    const vec3 corner = atlas_corner(frame.volume.bricks, smoke.slot);
+    const vec3 uvw = (corner + smoke.local_voxel) * atlas_texel(frame.volume.bricks);
     const vec2 filtered = textureLod(filtered_density_atlas, uvw, 0.0).rg;
     smoke.density = filtered.r;
     if (filtered.r < 0.0) smoke.density = boundary_sample(smoke.slot, smoke.local_voxel).density * filtered.g;

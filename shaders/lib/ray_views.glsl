@@ -80,7 +80,8 @@ vec3 bricks_view(ViewPixel pixel) {
   float through = 1.0;
   const vec3 origin = eye_voxel();
   const float t_end = pixel.surface_m / params.voxel_size;
-  const ivec3 first = frame.volume.bricks.window_origin * kNodeBricks, last = first + frame.volume.bricks.window_size * kNodeBricks;
+  const BrickLayout bricks = frame.volume.bricks;
+  const ivec3 first = bricks.window_origin * kNodeBricks, last = first + bricks.window_size * kNodeBricks;
   Dda d = dda_begin(origin, pixel.direction, first, last, kBrickVoxels, 0.0, t_end);
   while (d.t < d.t_end && through > 0.02) {
     const uint slot = smoke_brick(d.cell);
