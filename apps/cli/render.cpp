@@ -9,6 +9,7 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
+#include "apps/cli/scene_options.hpp"
 #include "apps/cli/targets.hpp"
 #include "core/error.hpp"
 #include "gpu/context.hpp"
@@ -21,7 +22,7 @@ namespace {
 struct Options {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
                                                view = "none", slice;
-  std::vector<std::string> smokes;
+  SceneOptions scene;
   std::optional<double> time;
   std::uint32_t fps = 24;
   bool temporal = false;
@@ -33,7 +34,7 @@ struct Plan {
   TargetKind kind = TargetKind::picture;
   render::RendererOptions renderer;
   std::optional<scene::Camera> camera;
-  std::vector<scene::SmokeEvent> smokes;
+  scenario::FirstViewOptions scene;
   std::optional<FrameRange> frames;
   passes::DebugView view = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice;
@@ -50,10 +51,9 @@ Plan make_plan(const Options& options) {
   if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);
   if (plan.slice && !passes::has_slice(plan.view))
     throw Error(ErrorCode::usage, "--slice: requires --view density, light or distance");
-  for (const std::string& text : options.smokes) {
-    const glm::vec3 place = parse_point("--smoke", text);
-    plan.smokes.push_back({0, place, place});
-  }
+  plan.scene = parse_scene_options(options.scene);
+  plan.scene.aspect =
+      static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
   // Not with range(), which accepts NaN.
   if (!(options.step >= 0.25f && options.step <= 4)) {
@@ -84,24 +84,6 @@ Plan make_plan(const Options& options) {
   check_output(plan.kind == TargetKind::sequence ? sequence_name(output, 0) : output);
   check_output(options.json);
   return plan;
-}
-
-scenario::Scenario load(const Options& options, const Plan& plan) {
-  const std::filesystem::path input = options.input;
-  const bool is_timeline = input.extension() == ".toml";
-  if (is_timeline && !options.timeline.empty()) {
-    throw Error(ErrorCode::usage, "--timeline: " + options.input + " is already a timeline; name a scene");
-  }
-  if (is_timeline || !options.timeline.empty()) {
-    scene::Timeline timeline =
-        scene::load_timeline(is_timeline ? options.input : options.timeline).value_or_throw();
-    if (!is_timeline) timeline.scene = input;
-    timeline.smokes.insert(timeline.smokes.begin(), plan.smokes.begin(), plan.smokes.end());
-    return scenario::make_scenario(std::move(timeline), {}).value_or_throw();
-  }
-  scenario::Scenario scenario = scenario::load_scenario(input, {}).value_or_throw();
-  if (!plan.smokes.empty()) scenario.timeline.smokes = plan.smokes;
-  return scenario;
 }
 
 std::string view_names() {
@@ -172,11 +154,12 @@ void write(const Options& options, const Plan& plan, const CommonOptions& common
 
 void render(const Options& options, const CommonOptions& common) {
   const Plan plan = make_plan(options);
-  const scenario::Scenario scenario = load(options, plan);
+  const scenario::Scenario scenario = load_with_options(options.input, options.timeline, plan.scene);
   stop_if_interrupted();
   gpu::Context context({options.device, false});
   render::Playback playback(context, scenario, plan.renderer);
   playback.set_camera(plan.camera);
+  if (scenario.measure_exposure) playback.measure_exposure();
   playback.set_step_scale(options.step);
   playback.set_light_update_fraction(options.light_update_fraction);
   playback.set_resolve_error_scale(options.resolve_error_scale);
@@ -261,9 +244,7 @@ Command add_render(CommandLine& program) {
       .add_option("--slice", options->slice,
                   "Slice of --view density, light and distance; default: through the middle of the smoke")
       .type_name("AXIS=M");
-  arguments.add_option("--smoke", options->smokes, "Detonate a smoke grenade here at 0 s; may be repeated")
-      .take_all()
-      .type_name("X,Y,Z");
+  declare_scene_options(arguments, options->scene);
   arguments.add_option("--device", options->device, "Device by number or part of its name; see brume devices")
       .type_name("N|NAME");
   arguments.add_option("--json", options->json, "Write statistics as JSON; - for standard output")

@@ -28,6 +28,9 @@ class Playback {
   image::Image8 draw(double seconds, std::uint32_t frame_index);
   /// Where the camera is instead of on the timeline's path; empty: on the path.
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
+  /// Sets the exposure that shows the scene at the timeline's end at a middle brightness, without smoke.
+  /// Between frames; the frames that follow have it whatever their time.
+  void measure_exposure();
   /// Quality::step_scale of the frames that follow.
   void set_step_scale(float scale) { step_scale_ = scale; }
   /// Quality::resolve_error_scale of the frames that follow.
@@ -45,6 +48,7 @@ class Playback {
   const scenario::Simulation& simulation() const { return *simulation_; }
 
  private:
+  gpu::Context& context_;
   const scenario::Scenario& scenario_;
   std::unique_ptr<scenario::Simulation> simulation_;
   gpu::CommandRunner runner_;
@@ -52,6 +56,7 @@ class Playback {
   gpu::Buffer pixels_;
   gpu::Buffer list_;  ///< shared::MarchList of the last frame.
   std::optional<scene::Camera> camera_;
+  std::optional<float> exposure_;  ///< Instead of the timeline's; a factor.
   float step_scale_ = 1, light_update_fraction_ = 1, resolve_error_scale_ = 1;
   planning::DebugRequest debug_;
   std::optional<std::uint32_t> last_frame_index_;

@@ -1,7 +1,9 @@
 #include "scenario/scenario.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "scenario/smoke_report.hpp"
 #include "scene/load.hpp"
 #include "scene/stand_ins.hpp"
 #include "voxel/voxelize.hpp"
@@ -23,47 +25,68 @@ Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const sce
   return chosen;
 }
 
+/// From a timeline and its loaded scene.
+Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, float aspect,
+                          const std::filesystem::path& cache_folder) {
+  if (auto checked = scene::check_doors(timeline, scene); !checked) return checked.failure();
+  scene::add_built_in_grenade(scene);
+  const auto layout = grid_layout(timeline, scene);
+  if (!layout) return layout.failure();
+  std::filesystem::path cache;
+  if (!cache_folder.empty()) cache = cache_folder / timeline.scene.filename().replace_extension(".vxl");
+  auto voxels = load_or_voxelize(scene, *layout, cache);
+  if (!voxels) return voxels.failure();
+  const scene::Camera camera = scene::default_camera(scene, aspect);
+  auto masks = load_masks(timeline);
+  if (!masks) return masks.failure();
+  return Scenario{.timeline = std::move(timeline),
+                  .scene = std::move(scene),
+                  .camera = camera,
+                  .voxels = std::move(*voxels),
+                  .masks = std::move(masks->atlas),
+                  .shot_masks = std::move(masks->of_shots)};
+}
+
 }  // namespace
 
-Result<Scenario> load_scenario(const std::filesystem::path& input,
-                               const std::filesystem::path& cache_folder) {
-  if (input.extension() == ".toml") {
+bool is_timeline(const std::filesystem::path& path) {
+  std::string suffix = path.extension().string();
+  std::ranges::transform(suffix, suffix.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return suffix == ".toml";
+}
+
+Result<Scenario> load_scenario(const std::filesystem::path& input, const std::filesystem::path& cache_folder,
+                               const FirstViewOptions& options) {
+  if (is_timeline(input)) {
     auto timeline = scene::load_timeline(input);
     if (!timeline) return timeline.failure();
     return make_scenario(std::move(*timeline), cache_folder);
   }
   auto scene = scene::load_scene(input);
   if (!scene) return scene.failure();
-  return make_scenario(scene::timeline_for_scene(input, *scene), cache_folder);
+  scene::Timeline timeline = prepare_first_view(input, *scene, options);
+  auto scenario = assemble(std::move(timeline), std::move(*scene), options.aspect, cache_folder);
+  if (!scenario) return scenario;
+  scenario->measure_exposure = !options.exposure;
+  if (options.smokes.empty())
+    for (scene::SmokeEvent& smoke : scenario->timeline.smokes)
+      smoke.from_world = smoke.at_world =
+          nearest_free_place(scenario->voxels.grid, smoke.at_world, scenario->timeline.smoke.voxels / 2)
+              .value_or(smoke.at_world);
+  return scenario;
 }
 
 Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder) {
   auto scene = scene::load_scene(timeline.scene);
   if (!scene) return scene.failure();
-  if (auto checked = scene::check_doors(timeline, *scene); !checked) return checked.failure();
-
   // A scene without any light gets a sun.
   if (scene->lights.empty()) {
-    scene::Light sun;
-    sun.kind = scene::LightKind::directional;
+    scene::Light sun = sun_at({});
     sun.direction_world = glm::normalize(glm::vec3(-0.5f, -0.75f, -0.4f));
-    sun.intensity = {2.6f, 2.4f, 2.1f};
     scene->lights.push_back(sun);
   }
-  scene::add_built_in_grenade(*scene);
-  const auto layout = grid_layout(timeline, *scene);
-  if (!layout) return layout.failure();
-  std::filesystem::path cache;
-  if (!cache_folder.empty()) cache = cache_folder / timeline.scene.filename().replace_extension(".vxl");
-  auto voxels = load_or_voxelize(*scene, *layout, cache);
-  if (!voxels) return voxels.failure();
-
-  // Camera and masks.
-  const scene::Camera camera = scene->camera ? *scene->camera : scene::default_camera(*scene);
-  auto masks = load_masks(timeline);
-  if (!masks) return masks.failure();
-  return Scenario{std::move(timeline), std::move(*scene),       camera,
-                  std::move(*voxels),  std::move(masks->atlas), std::move(masks->of_shots)};
+  return assemble(std::move(timeline), std::move(*scene), 16.0f / 9.0f, cache_folder);
 }
 
 }  // namespace brume::scenario

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "scenario/first_view.hpp"
 #include "scenario/shot_masks.hpp"
 #include "scenario/voxel_cache.hpp"
 #include "scene/timeline.hpp"
@@ -18,11 +19,17 @@ struct Scenario {
   Voxels voxels;
   smoke::MaskAtlas masks = {};  ///< The masks of its shots and texts.
   ShotMasks shot_masks = {};    ///< Which of them each shot and text uses.
+  /// Whether the exposure that fits its first image replaces Timeline::exposure (render::measure_exposure).
+  bool measure_exposure = false;
 };
 
-/// Loads a timeline (.toml), or a scene file with its default timeline. Voxels are cached in `cache_folder`
-/// under the scene's name (empty: not cached).
-Result<Scenario> load_scenario(const std::filesystem::path& input, const std::filesystem::path& cache_folder);
+/// Whether a file is a timeline, by its suffix .toml in any case.
+bool is_timeline(const std::filesystem::path& path);
+
+/// Loads a timeline (.toml), or a scene file as prepare_first_view completes it. Voxels are cached in
+/// `cache_folder` under the scene's name (empty: not cached).
+Result<Scenario> load_scenario(const std::filesystem::path& input, const std::filesystem::path& cache_folder,
+                               const FirstViewOptions& options = {});
 
 /// The same for a timeline in memory; loads its scene from Timeline::scene.
 Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder);

@@ -55,6 +55,7 @@ struct Object {
   std::uint32_t material = kNone;  ///< Index into Scene::materials.
   glm::mat4 world_from_mesh{1};
   bool voxelized = true;  ///< False: drawn, but smoke passes through it.
+  bool backdrop = false;  ///< Not part of the scene's bounds: a ground that reaches to the horizon.
 };
 
 enum class LightKind : std::uint32_t { point, spot, directional };
@@ -119,10 +120,12 @@ struct Scene {
   std::optional<Camera> camera;   ///< The first camera of the file.
 };
 
-/// The bounding box of all objects and spheres in world space; low > high when there is none.
+/// The bounding box of all objects but backdrops, and of spheres, in world space; low > high when there is
+/// none.
 Box<float> world_bounds(const Scene& scene);
 
-/// The scene's own camera, or one that sees all of its bounds obliquely from above.
-Camera default_camera(const Scene& scene);
+/// The scene's own camera, or one that looks at it obliquely from above and fits it into the middle four
+/// fifths of an image of `aspect` = width / height.
+Camera default_camera(const Scene& scene, float aspect = 16.0f / 9.0f);
 
 }  // namespace brume::scene

@@ -286,35 +286,4 @@ Result<void> check_doors(const Timeline& timeline, const Scene& scene) {
   return {};
 }
 
-Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scene) {
-  Timeline timeline;
-  timeline.scene = path;
-  const Camera camera = default_camera(scene);
-
-  // A scene smaller than a room gets proportionally smaller voxels.
-  const Box<float> bounds = world_bounds(scene);
-  const glm::vec3 extent = bounds.empty() ? glm::vec3(10) : bounds.high - bounds.low;
-  const float room_voxel = timeline.grid.voxel;
-  timeline.grid.voxel = std::clamp(std::max({extent.x, extent.y, extent.z}) / 40, 0.015625f, room_voxel);
-
-  // Smoke that looks as it would in a room: a ball that does not fill the whole scene.
-  const float radius_voxels = 0.25f * std::max({extent.x, extent.y, extent.z}) / timeline.grid.voxel;
-  const float ball = 4.19f * radius_voxels * radius_voxels * radius_voxels;
-  timeline.smoke.voxels =
-      static_cast<std::uint32_t>(std::clamp(ball, 50.0f, static_cast<float>(timeline.smoke.voxels)));
-  const float scale = timeline.grid.voxel / room_voxel;
-  timeline.smoke.extinction = std::min(timeline.smoke.extinction / scale, 100.0f);
-  timeline.smoke.noise_size = std::max(timeline.smoke.noise_size * scale, 0.05f);
-  timeline.smoke.swirl *= scale;
-  timeline.smoke.rise *= scale;
-
-  // One smoke, thrown to the surface in the middle of the view.
-  SmokeEvent smoke;
-  smoke.from_world = camera.position_world;
-  smoke.at_world = first_hit(scene, camera.position_world, camera.target_world - camera.position_world)
-                       .value_or(camera.target_world);
-  timeline.smokes.push_back(smoke);
-  return timeline;
-}
-
 }  // namespace brume::scene

@@ -205,9 +205,6 @@ Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::pa
 /// name.
 Result<void> check_doors(const Timeline& timeline, const Scene& scene);
 
-/// The default timeline of a bare scene file: one smoke thrown from the camera to the point it looks at.
-Timeline timeline_for_scene(const std::filesystem::path& path, const Scene& scene);
-
 /// The camera at a time [s]: passes through all keys with continuous velocity, at rest before the first and
 /// after the last; `fallback` when there are no keys. The field of view stays within that of the two
 /// neighbouring keys.

@@ -209,18 +209,32 @@ TEST(LoadScene, FindsFilesIgnoringLetterCase) {
   EXPECT_FALSE(warnings.has("does not exist"));
 }
 
-TEST(DefaultCamera, HasAllCornersOfTheBoundsInView) {
-  const auto scene = parse("Box 3 4 5 0 0 0 10 1 2\n");
-  ASSERT_TRUE(scene);
-  const Box<float> bounds = world_bounds(*scene);
-  const Camera camera = default_camera(*scene);
-  const glm::vec3 axis = glm::normalize(camera.target_world - camera.position_world);
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? bounds.low.x : bounds.high.x, corner & 2 ? bounds.low.y : bounds.high.y,
-                      corner & 4 ? bounds.low.z : bounds.high.z);
-    const float cosine = glm::dot(glm::normalize(p - camera.position_world), axis);
-    EXPECT_GE(cosine, std::cos(camera.vertical_fov / 2) - 1e-5f);
-  }
+TEST(DefaultCamera, FillsFourFifthsOfTheImage) {
+  for (const char* text :
+       {"Box 3 4 5 0 0 0 10 1 2\n", "Box 1 1 1 0 0 0 0.02 30 0.02\n", "Box 0 0 0 0 0 0 1 1 1\n"})
+    for (const float aspect : {16.0f / 9, 1.0f, 0.4f}) {
+      const auto scene = parse(text);
+      ASSERT_TRUE(scene);
+      const Box<float> bounds = world_bounds(*scene);
+      const Camera camera = default_camera(*scene, aspect);
+      const glm::vec3 forward = glm::normalize(camera.target_world - camera.position_world);
+      const glm::vec3 right = glm::normalize(glm::cross(forward, {0, 1, 0})), up = glm::cross(right, forward);
+      glm::vec2 low(1e9f), high(-1e9f);
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p(corner & 1 ? bounds.low.x : bounds.high.x,
+                          corner & 2 ? bounds.low.y : bounds.high.y,
+                          corner & 4 ? bounds.low.z : bounds.high.z);
+        const glm::vec3 off = p - camera.position_world;
+        const float depth = glm::dot(off, forward), tangent = std::tan(camera.vertical_fov / 2);
+        ASSERT_GT(depth, 0);
+        const glm::vec2 ndc = glm::vec2(glm::dot(off, right) / aspect, glm::dot(off, up)) / (depth * tangent);
+        low = glm::min(low, ndc);
+        high = glm::max(high, ndc);
+      }
+      // One axis is filled, and centred as the other is.
+      EXPECT_NEAR(std::max(high.x, high.y), 0.8f, 1e-3f) << text << aspect;
+      EXPECT_GE(std::min(low.x, low.y), -0.801f) << text << aspect;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,197 @@
+#include "scenario/first_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/log.hpp"
+#include "scene/ray.hpp"
+
+namespace brume::scenario {
+namespace {
+
+/// Diameter of a ball of the default smoke in the default voxels [m]: the scale of its noise and extinction.
+constexpr float kUsualSmoke = 3.8f;
+/// From the side of the default camera and behind it.
+constexpr SunPosition kUsualSun{1.4f, 0.85f};
+/// Voxels across the smoke.
+constexpr float kVoxelsAcross = 24;
+/// Fraction of the image's width that the smoke covers.
+constexpr float kSmokeWidth = 0.22f;
+
+float largest_extent(const Box<float>& bounds) {
+  const glm::vec3 extent = bounds.high - bounds.low;
+  return std::max({extent.x, extent.y, extent.z});
+}
+
+float chosen_scale(const scene::Scene& scene, const std::filesystem::path& path,
+                   const FirstViewOptions& options) {
+  if (options.scale) return *options.scale;
+  const Box<float> bounds = scene::world_bounds(scene);
+  const float extent = bounds.empty() ? 0 : largest_extent(bounds);
+  const float scale = fitting_scale(extent);
+  if (scale != 1) {
+    char message[160];
+    std::snprintf(message, sizeof message, ": %g units wide; scaled by %g to %g m: give --scale to choose",
+                  static_cast<double>(extent), static_cast<double>(scale),
+                  static_cast<double>(extent * scale));
+    log_warning(path.string() + message);
+  }
+  return scale;
+}
+
+/// A plane below a scene, to the horizon.
+void add_ground(scene::Scene& scene, const Box<float>& bounds) {
+  const glm::vec3 middle = 0.5f * (bounds.low + bounds.high);
+  const float extent = std::max(largest_extent(bounds), 0.1f), reach = 60 * extent;
+  const float height = bounds.low.y - 1e-3f * extent;  // under a floor that is the lowest part
+  scene::Mesh mesh;
+  mesh.name = "ground";
+  for (const glm::vec2 corner : {glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1), glm::vec2(-1, -1)}) {
+    scene::Vertex vertex;
+    vertex.position = {middle.x + reach * corner.x, height, middle.z + reach * corner.y};
+    mesh.vertices.push_back(vertex);
+  }
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  scene::Material material;
+  material.name = "ground";
+  material.base_color = {0.34f, 0.33f, 0.31f};
+  material.roughness = 0.95f;
+  scene.meshes.push_back(std::move(mesh));
+  scene.materials.push_back(material);
+  scene::Object ground;
+  ground.name = "ground";
+  ground.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+  ground.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+  ground.backdrop = true;
+  scene.objects.push_back(ground);
+}
+
+/// A sun where one is given or nothing else lights the scene; a sky that matches.
+void light_scene(scene::Scene& scene, scene::SkyOptions& sky, const std::optional<SunPosition>& sun) {
+  const auto is_sun = [](const scene::Light& light) { return light.kind == scene::LightKind::directional; };
+  if (sun) std::erase_if(scene.lights, is_sun);
+  if (sun || scene.lights.empty()) scene.lights.push_back(sun_at(sun.value_or(kUsualSun)));
+  if (std::ranges::any_of(scene.lights, is_sun)) return;
+  sky.zenith = {0.03f, 0.05f, 0.12f};
+  sky.horizon = {0.16f, 0.14f, 0.15f};
+  sky.ambient = {0.04f, 0.05f, 0.075f};
+}
+
+/// Diameter of smoke that covers its fraction of the image's width where it is [m].
+float smoke_size(const scene::Camera& camera, glm::vec3 place, const FirstViewOptions& options) {
+  if (options.smoke_size) return *options.smoke_size;
+  const float distance = glm::length(place - camera.position_world);
+  return kSmokeWidth * 2 * distance * std::tan(camera.vertical_fov / 2) * options.aspect;
+}
+
+void size_smoke(scene::Timeline& timeline, float diameter, const Box<float>& bounds,
+                const FirstViewOptions& options) {
+  const float least = std::max(0.015625f, bounds.empty() ? 0 : largest_extent(bounds) / 1000);
+  timeline.grid.voxel = options.voxel.value_or(std::clamp(diameter / kVoxelsAcross, least, 10.0f));
+  const float across = diameter / timeline.grid.voxel;
+  const float ball = std::numbers::pi_v<float> / 6 * across * across * across;
+  timeline.smoke.voxels = static_cast<std::uint32_t>(std::clamp(ball, 50.0f, 1e6f));
+  // It looks like the usual smoke enlarged.
+  const float scale = diameter / kUsualSmoke;
+  timeline.smoke.extinction = std::clamp(timeline.smoke.extinction / scale, 0.01f, 100.0f);
+  timeline.smoke.noise_size = std::clamp(timeline.smoke.noise_size * scale, 0.05f, 100.0f);
+  timeline.smoke.swirl = std::min(timeline.smoke.swirl * scale, 10.0f);
+  timeline.smoke.rise = std::min(timeline.smoke.rise * scale, 10.0f);
+  timeline.smoke.hole_rim = std::min(timeline.smoke.hole_rim * scale, 10.0f);
+  timeline.smoke.albedo = glm::vec3(0.99f);
+}
+
+/// What is in the middle of the view.
+glm::vec3 middle_of_view(const scene::Scene& scene, const scene::Camera& camera) {
+  return scene::first_hit(scene, camera.position_world, camera.target_world - camera.position_world)
+      .value_or(camera.target_world);
+}
+
+/// The floor before a surface in the middle of the view, half in it.
+glm::vec3 floor_before(const scene::Scene& scene, const scene::Camera& camera, glm::vec3 surface,
+                       float diameter) {
+  const glm::vec3 along = surface - camera.position_world;
+  const float distance = glm::length(along);
+  const glm::vec3 before = surface - along / distance * std::min(0.35f * diameter, 0.5f * distance);
+  const auto floor = scene::first_hit(scene, before, {0, -1, 0});
+  return floor ? *floor + glm::vec3(0, 0.04f * diameter, 0) : before;
+}
+
+}  // namespace
+
+scene::Light sun_at(const SunPosition& sun) {
+  scene::Light light;
+  light.kind = scene::LightKind::directional;
+  const float flat = std::cos(sun.elevation);
+  light.direction_world =
+      -glm::vec3(flat * std::sin(sun.azimuth), std::sin(sun.elevation), flat * std::cos(sun.azimuth));
+  light.intensity = {2.6f, 2.4f, 2.1f};
+  return light;
+}
+
+float fitting_scale(float extent) {
+  float scale = 1;
+  if (!(extent > 0) || !std::isfinite(extent)) return scale;
+  while (extent * scale > 4000) scale *= extent * scale > 400000 ? 0.001f : 0.1f;
+  while (extent * scale < 1) scale *= 10;
+  return scale;
+}
+
+void scale_scene(scene::Scene& scene, float factor) {
+  if (factor == 1) return;
+  const glm::mat4 larger(glm::vec4(factor, 0, 0, 0), glm::vec4(0, factor, 0, 0), glm::vec4(0, 0, factor, 0),
+                         glm::vec4(0, 0, 0, 1));
+  for (scene::Object& object : scene.objects) object.world_from_mesh = larger * object.world_from_mesh;
+  for (scene::Volume& volume : scene.volumes) volume.world_from_volume = larger * volume.world_from_volume;
+  for (scene::Decal& decal : scene.decals) decal.world_from_decal = larger * decal.world_from_decal;
+  for (scene::Emitter& emitter : scene.emitters)
+    emitter.world_from_emitter = larger * emitter.world_from_emitter;
+  for (scene::Sphere& sphere : scene.spheres) {
+    sphere.centre_world *= factor;
+    sphere.radius *= factor;
+  }
+  for (scene::Light& light : scene.lights) {
+    light.position_world *= factor;
+    // Irradiance falls with the square of the distance.
+    if (light.kind != scene::LightKind::directional) light.intensity *= factor * factor;
+  }
+  if (scene.camera) {
+    scene.camera->position_world *= factor;
+    scene.camera->target_world *= factor;
+  }
+}
+
+scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Scene& scene,
+                                   const FirstViewOptions& options) {
+  scene::Timeline timeline;
+  timeline.scene = path;
+
+  // The scene itself.
+  scale_scene(scene, chosen_scale(scene, path, options));
+  const Box<float> bounds = scene::world_bounds(scene);
+  scene::Camera camera = scene::default_camera(scene, options.aspect);
+  if (!bounds.empty() && !scene.camera) add_ground(scene, bounds);
+  light_scene(scene, timeline.sky, options.sun);
+  timeline.exposure = options.exposure.value_or(0);
+
+  // Its smoke.
+  const glm::vec3 surface = middle_of_view(scene, camera);
+  const float diameter = smoke_size(camera, surface, options);
+  size_smoke(timeline, diameter, bounds, options);
+  timeline.smokes = options.smokes;
+  if (timeline.smokes.empty()) {
+    const glm::vec3 place = floor_before(scene, camera, surface, diameter);
+    timeline.smokes.push_back({0, place, place});
+    if (!scene.camera) {
+      // The smoke belongs into the image, too.
+      scene.spheres.push_back({place + glm::vec3(0, 0.25f * diameter, 0), 0.5f * diameter, scene::kNone});
+      camera = scene::default_camera(scene, options.aspect);
+      scene.spheres.pop_back();
+    }
+  }
+  scene.camera = camera;
+  return timeline;
+}
+
+}  // namespace brume::scenario

@@ -1,0 +1,53 @@
+// What a scene without a timeline is shown with: a camera, light, ground and smoke that fit the scene,
+// whatever its size and unit.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "scene/timeline.hpp"
+
+namespace brume::scenario {
+
+/// Where the sun is.
+struct SunPosition {
+  float azimuth = 0;    ///< From +z towards +x [radians].
+  float elevation = 0;  ///< Above the horizon [radians], in (0, pi / 2].
+};
+
+/// What replaces the choices of prepare_first_view.
+struct FirstViewOptions {
+  float aspect = 16.0f / 9.0f;                 ///< Width / height of the image.
+  std::optional<float> scale;                  ///< Metres per unit of the file, > 0.
+  std::optional<float> voxel;                  ///< [m]
+  std::optional<float> smoke_size;             ///< Diameter of the grown smoke in open air [m].
+  std::vector<scene::SmokeEvent> smokes = {};  ///< In metres, after scaling.
+  std::optional<SunPosition> sun;
+  std::optional<float> exposure;  ///< [EV]; empty: measured (Scenario::measure_exposure).
+};
+
+/// Metres per unit that bring a scene's largest extent into [1 m, 4 km], by a power of ten; 1 where it is
+/// there.
+float fitting_scale(float extent);
+
+/// Sunlight from a position, as bright as a clear day.
+scene::Light sun_at(const SunPosition& sun);
+
+/// Scales a scene about the origin: objects, lights (so that they light it alike), camera and lists of
+/// places.
+void scale_scene(scene::Scene& scene, float factor);
+
+/// Completes a scene and returns its timeline:
+///
+/// - scale: as given, or fitting_scale with a warning;
+/// - camera: the scene's own, or one that fits it into four fifths of the image;
+/// - ground: a plane below a scene without a camera, to the horizon (Object::backdrop);
+/// - light: a sun and a day sky where the scene has no light, a dusk sky where it has lamps only;
+/// - smoke: on the floor in the middle of the view, about a fifth of the image's width, dense and bright.
+///
+/// `path` is the scene's file.
+scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Scene& scene,
+                                   const FirstViewOptions& options);
+
+}  // namespace brume::scenario

@@ -1,0 +1,48 @@
+// What becomes of the smokes of a scenario: where and when they go off, how much they fill, and what is
+// wrong.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/scenario.hpp"
+
+namespace brume::scenario {
+
+enum class SmokeFault {
+  none,
+  outside_grid,  ///< Goes off where there are no voxels.
+  in_solid,      ///< Goes off inside something solid.
+  confined,      ///< Fills less than half of its voxels: it is shut in.
+  after_end,     ///< Goes off after the timeline ends.
+};
+
+struct SmokeReport {
+  glm::vec3 at_world{0};     ///< Where it goes off [m].
+  double time = 0;           ///< When it goes off [s].
+  std::uint32_t voxels = 0;  ///< That it fills when grown.
+  std::uint32_t budget = 0;  ///< SmokeOptions::voxels.
+  SmokeFault fault = SmokeFault::none;
+  std::optional<glm::vec3>
+      works_at;            ///< The nearest place found where it fills all of them, for places at fault.
+  std::string place = {};  ///< SmokeEvent::place.
+};
+
+/// Of at most this many smokes, the first ones.
+constexpr std::size_t kMostReportedSmokes = 64;
+
+/// Plays the timeline's events up to the last of its smokes. Fails with bad_input as events_of.
+Result<std::vector<SmokeReport>> report_smokes(const Scenario& scenario);
+
+/// One line for people: what is wrong with smoke `number`, counted from 1, and what works. Empty where
+/// nothing is.
+std::string warning_of(const SmokeReport& report, std::size_t number, const Scenario& scenario);
+
+/// The centre of the nearest free voxel from which smoke fills at least `voxels`, the voxel of the point
+/// itself first; nothing within 48 voxels.
+std::optional<glm::vec3> nearest_free_place(const voxel::BitGrid& grid, glm::vec3 at_world,
+                                            std::uint32_t voxels);
+
+}  // namespace brume::scenario

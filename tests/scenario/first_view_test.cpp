@@ -1,0 +1,168 @@
+#include "scenario/first_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "scenario/smoke_report.hpp"
+#include "scene/load.hpp"
+
+namespace brume::scenario {
+namespace {
+
+/// A folder of its own, with a room of `size` units: a box of six walls that face both ways.
+class FirstViewTest : public testing::Test {
+ protected:
+  FirstViewTest()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("brume_first_view_" + std::to_string(::getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~FirstViewTest() override { std::filesystem::remove_all(folder_); }
+
+  /// A box of 1 x 0.5 x 0.7 times `size`, 0.2 `size` above the origin.
+  std::filesystem::path box(float size) const {
+    const auto path = folder_ / "box.obj";
+    std::ofstream out(path);
+    for (int corner = 0; corner < 8; ++corner)
+      out << "v " << size * static_cast<float>(corner & 1) << ' '
+          << size * (0.2f + 0.5f * static_cast<float>(corner >> 1 & 1)) << ' '
+          << size * 0.7f * static_cast<float>(corner >> 2) << '\n';
+    out << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    return path;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(FirstViewTest, ScalesByPowersOfTenIntoTheRange) {
+  for (const float extent : {1e-5f, 0.3f, 1.0f, 60.0f, 3999.0f, 4001.0f, 36000.0f, 5e5f, 3e8f}) {
+    const float scale = fitting_scale(extent), decade = std::log10(scale);
+    EXPECT_GE(extent * scale, 0.999f) << extent;
+    EXPECT_LE(extent * scale, 4000.5f) << extent;
+    EXPECT_NEAR(decade, std::round(decade), 1e-4f) << extent;
+    if (extent >= 1 && extent <= 4000) {
+      EXPECT_EQ(scale, 1) << extent;
+    }
+  }
+  EXPECT_EQ(fitting_scale(0), 1);
+  EXPECT_EQ(fitting_scale(INFINITY), 1);
+}
+
+// The same model in metres, millimetres and hectometres makes the same image: places, sizes and optical
+// depths are in proportion.
+TEST_F(FirstViewTest, DoesNotDependOnTheUnit) {
+  std::optional<Scenario> metres;
+  for (const float size : {8.0f, 8000.0f, 80000.0f, 0.08f}) {
+    auto scenario = load_scenario(box(size), {});
+    ASSERT_TRUE(scenario) << scenario.failure().message;
+    if (!metres) {
+      metres = std::move(*scenario);
+      continue;
+    }
+    const scene::Timeline &a = metres->timeline, &b = scenario->timeline;
+    const float ratio =
+        scene::world_bounds(scenario->scene).high.x / scene::world_bounds(metres->scene).high.x;
+    EXPECT_NEAR(b.grid.voxel / a.grid.voxel, ratio, 1e-3f * ratio) << size;
+    EXPECT_NEAR(static_cast<double>(b.smoke.voxels), static_cast<double>(a.smoke.voxels), 4) << size;
+    EXPECT_NEAR(b.smoke.extinction * b.grid.voxel, a.smoke.extinction * a.grid.voxel, 1e-3f) << size;
+    EXPECT_LT(glm::length(scenario->camera.position_world / ratio - metres->camera.position_world), 0.01f)
+        << size;
+    EXPECT_LT(glm::length(b.smokes[0].at_world / ratio - a.smokes[0].at_world), 2 * a.grid.voxel) << size;
+  }
+}
+
+TEST_F(FirstViewTest, SmokeOfALoneSceneFillsItsVoxels) {
+  for (const float size : {0.1f, 1.0f, 30.0f, 700.0f, 2500.0f}) {
+    const auto scenario = load_scenario(box(size), {});
+    ASSERT_TRUE(scenario) << scenario.failure().message;
+    const auto reports = report_smokes(*scenario);
+    ASSERT_TRUE(reports);
+    ASSERT_EQ(reports->size(), 1u);
+    EXPECT_EQ(reports->front().fault, SmokeFault::none) << warning_of(reports->front(), 1, *scenario);
+    EXPECT_EQ(reports->front().voxels, reports->front().budget) << size;
+    EXPECT_TRUE(scenario->measure_exposure);
+  }
+}
+
+TEST_F(FirstViewTest, AFloatingModelGetsAGroundOutsideOfItsBounds) {
+  scene::Scene scene = scene::load_scene(box(4)).value_or_throw();
+  const Box<float> bounds = scene::world_bounds(scene);
+  const std::size_t objects = scene.objects.size();
+  prepare_first_view("box.obj", scene, {});
+  EXPECT_TRUE(scene.camera);
+  ASSERT_EQ(scene.objects.size(), objects + 1);
+  EXPECT_TRUE(scene.objects.back().backdrop);
+  EXPECT_EQ(scene::world_bounds(scene).low.y, bounds.low.y);
+}
+
+TEST_F(FirstViewTest, OptionsReplaceWhatIsChosen) {
+  scene::Scene scene = scene::load_scene(box(4)).value_or_throw();
+  const FirstViewOptions options{.scale = 2.0f,
+                                 .voxel = 0.3f,
+                                 .smoke_size = 3.0f,
+                                 .smokes = {{1, {0, 1, 0}, {1, 1, 1}}},
+                                 .sun = SunPosition{0, 1.5707963f},
+                                 .exposure = -1.0f};
+  const scene::Timeline timeline = prepare_first_view("box.obj", scene, options);
+  EXPECT_FLOAT_EQ(scene::world_bounds(scene).high.x, 8);
+  EXPECT_EQ(timeline.grid.voxel, 0.3f);
+  EXPECT_EQ(timeline.smoke.voxels, 523u) << "a ball of ten voxels across";
+  EXPECT_EQ(timeline.smokes[0].time, 1);
+  EXPECT_EQ(timeline.exposure, -1);
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_NEAR(scene.lights[0].direction_world.y, -1, 1e-6f);
+}
+
+TEST_F(FirstViewTest, LampsAreScaledSoThatTheyLightAlike) {
+  scene::Scene scene = scene::load_scene(box(4)).value_or_throw();
+  scene.lights.push_back({scene::LightKind::point, {1, 2, 3}, {0, -1, 0}, glm::vec3(5)});
+  scale_scene(scene, 3);
+  EXPECT_EQ(scene.lights[0].position_world, glm::vec3(3, 6, 9));
+  EXPECT_EQ(scene.lights[0].intensity, glm::vec3(45));
+}
+
+/// A closed room of 6 m with walls, in voxels of 0.25 m, and open air around it.
+class SmokeReportTest : public FirstViewTest {
+ protected:
+  Scenario scenario(glm::vec3 from, glm::vec3 at, double time = 0) const {
+    scene::Timeline timeline;
+    timeline.scene = box(6);
+    timeline.smoke.voxels = 2000;
+    timeline.smokes = {{time, from, at}};
+    return make_scenario(timeline, {}).value_or_throw();
+  }
+  SmokeReport report(const Scenario& scenario) const {
+    const auto reports = report_smokes(scenario).value_or_throw();
+    return reports.at(0);
+  }
+};
+
+TEST_F(SmokeReportTest, NamesWhatIsWrongAndAPlaceThatWorks) {
+  const glm::vec3 inside{3, 2, 2}, wall{0, 2.5f, 2}, far{900, 1, 0};
+  const Scenario good = scenario(inside, inside);
+  EXPECT_EQ(report(good).fault, SmokeFault::none);
+  EXPECT_EQ(report(good).voxels, 2000u);
+  EXPECT_EQ(warning_of(report(good), 1, good), "");
+  for (const auto& [at, fault, words] : {std::tuple(wall, SmokeFault::in_solid, "lies in something solid"),
+                                         std::tuple(far, SmokeFault::outside_grid, "is outside the grid")}) {
+    const Scenario bad = scenario(at, at);
+    const SmokeReport found = report(bad);
+    EXPECT_EQ(found.fault, fault);
+    EXPECT_NE(warning_of(found, 1, bad).find(words), std::string::npos) << warning_of(found, 1, bad);
+    ASSERT_TRUE(found.works_at);
+    const Scenario mended = scenario(*found.works_at, *found.works_at);
+    EXPECT_EQ(report(mended).fault, SmokeFault::none);
+  }
+}
+
+TEST_F(SmokeReportTest, ReportsThrowsThatEndTooLate) {
+  // 20 m/s: 200 m of flight take ten seconds, of a timeline of four.
+  const Scenario late = scenario({3, 2, 2}, {3, 2, 2}, 10);
+  EXPECT_EQ(report(late).fault, SmokeFault::after_end);
+  EXPECT_NEAR(report(late).time, 10, 0.02);
+}
+
+}  // namespace
+}  // namespace brume::scenario
