@@ -205,8 +205,11 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
   if (input.debug.view != planning::DebugView::none)
     return scope("debug_view", [&] { record_debug_view(recorder, plan); });
   scope("shade", [&] {
+    const bool voxel_shadows = std::ranges::any_of(plan.lights, [](const shared::Light& light) {
+      return light.shadow_layer == shared::kShadowByVoxels;
+    });
     shade_pass_.record(recorder, frame_, scene_, shadows_, smoke_shadows_, level, gbuffer_, this->smoke(),
-                       picture_);
+                       picture_, voxel_shadows);
   });
   scope("display", [&] { display_pass_.record(recorder, frame_, blue_noise_, picture_, display_image_); });
 }
