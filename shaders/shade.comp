@@ -17,6 +17,7 @@
 #include "shared/smoke_shadow.h"
 
 layout(constant_id = 0) const uint kCullLights = 1u;  // 0: every light at every pixel
+layout(constant_id = 1) const uint kVoxelShadows = 1u;  // 0: no light is shadowed by voxels
 
 const uint kGroup = 8u;
 layout(local_size_x = kGroup, local_size_y = kGroup) in;
@@ -70,38 +71,58 @@ float smoke_transmittance(uint index, vec4 on_face) {
   return textureLod(smoke_shadows, texel / vec2(textureSize(smoke_shadows, 0)), 0.0).r;
 }
 
-/// Reflected radiance of one light, with its shadow and the smoke in between.
-vec3 light_radiance(uint index, Surface surface, vec3 view) {
-  const Light light = light_from_rows(index);
-  const Incident incident = light_at(light, surface.position_world);
-  // Against self-shadowing the lookup is one texel of the shadow off the surface.
-  const bool by_voxels = light.shadow_layer == kShadowByVoxels;
-  const float off = by_voxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
-  const vec3 off_world = surface.position_world + off * surface.normal;
-  const vec4 on_face = face_coordinates(light, sun.clip_from_world, off_world);
-  const float visibility = light_visibility(light, on_face, off_world);
-  vec3 radiance = vec3(0.0);
-  // A loop that runs at most once: a software rasteriser skips loops, not branches, and walls occlude most lights.
-  for (bool lit = visibility > 0.0; lit; lit = false) {
-    radiance = reflect_light(surface, view, incident.to_light) * incident.irradiance *
-               (visibility * smoke_transmittance(index, on_face));
-  }
-  return radiance;
+/// Lights that reach the tile, of those from `first` to below `end`: 32 at most, one bit each.
+uint reaching_lights(uint first, uint end, TileSurfaces tile) {
+  uint reaching = 0u, done = 0u;
+  do {
+    const uint mine = first + done + gl_SubgroupInvocationID;
+    const bool reaches = mine < end && reaches_tile(light_from_rows(min(mine, end - 1u)), tile);
+    reaching |= subgroupBallot(reaches).x << done;
+    done += gl_SubgroupSize;
+  } while (first + done < end);
+  return reaching;
 }
 
-/// Reflected radiance of all lights, summed in their order whatever the subgroup size.
+/// Adds the reflected radiance of up to 32 lights from `first` on, with their shadows and the smoke in between. Shades
+/// only lights that some thread sees: walls occlude many.
+void add_lights(uint first, uint lights, bool lit, Surface surface, vec3 view, inout vec3 radiance) {
+  do {
+    uint index;
+    Incident incident;
+    vec4 on_face;
+    float visibility;
+    do {
+      index = first + uint(findLSB(lights));
+      lights &= lights - 1u;
+      const Light light = light_from_rows(index);
+      incident = light_at(light, surface.position_world);
+      // Against self-shadowing the lookup is one texel of the shadow off the surface.
+      const bool by_voxels = kVoxelShadows != 0u && light.shadow_layer == kShadowByVoxels;
+      const float off = by_voxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
+      const vec3 off_world = surface.position_world + off * surface.normal;
+      on_face = face_coordinates(light, sun.clip_from_world, off_world);
+      visibility = by_voxels ? segment_visibility(off_world, light.position_world)
+                             : shadow_at(shadow_maps, light, on_face);
+    } while (lights != 0u && !subgroupAny(lit && visibility > 0.0));
+    if (visibility > 0.0)
+      radiance += reflect_light(surface, view, incident.to_light) * incident.irradiance *
+                  (visibility * smoke_transmittance(index, on_face));
+  } while (lights != 0u);
+}
+
+/// Reflected radiance of all lights, summed in their order whatever the subgroup size. Loops test at their end: where
+/// the test comes first, a software rasteriser runs the body once more, for no thread.
 vec3 lights_radiance(bool lit, Surface surface, vec3 view) {
   const TileSurfaces tile = surfaces_of_tile(lit, surface.position_world, surface.normal);
   const uint light_count = subgroupAny(lit) ? frame.light_count : 0u;
   vec3 radiance = vec3(0.0);
-  for (uint first = 0u; first < light_count; first += gl_SubgroupSize) {
-    const uint mine = first + gl_SubgroupInvocationID;
-    const bool reaches = mine < light_count && reaches_tile(light_from_rows(min(mine, light_count - 1u)), tile);
-    const uvec4 reaching = subgroupBallot(reaches);
-    for (uint word = 0u; 32u * word < gl_SubgroupSize; ++word) {
-      for (uint bits = reaching[word]; bits != 0u; bits &= bits - 1u)
-        radiance += light_radiance(first + 32u * word + uint(findLSB(bits)), surface, view);
-    }
+  uint first = 0u;
+  if (light_count > 0u) {
+    do {
+      const uint lights = reaching_lights(first, min(first + 32u, light_count), tile);
+      if (lights != 0u) add_lights(first, lights, lit, surface, view, radiance);
+      first += 32u;
+    } while (first < light_count);
   }
   return radiance;
 }

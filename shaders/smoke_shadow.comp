@@ -11,7 +11,7 @@ const uint kRayParts = 4u, kPartSteps = 16u;
 const uint kWindowThreads = kRayParts * kSmokeShadowBlock * kSmokeShadowBlock;
 layout(local_size_x = kWindowThreads) in;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
-layout(scalar, binding = kBindSun) readonly buffer Views { ShadowView sun; };
+layout(scalar, binding = kBindSun) uniform Views { ShadowView sun; };
 layout(binding = kBindShadowMaps) uniform sampler2DArray shadow_maps;
 layout(binding = kBindSmokeShadows, r16f) uniform writeonly image2D smoke_shadows;
 layout(scalar, binding = kBindSmokeShadowFaces) readonly buffer Faces { SmokeShadowFace faces[]; };

@@ -7,19 +7,22 @@
 namespace brume::passes {
 
 ShadePass::ShadePass(gpu::Context& context, bool cull_lights)
-    : pipeline_(context, shaders::shade_comp, {cull_lights ? 1u : 0u}),
+    : mapped_(context, shaders::shade_comp, {cull_lights ? 1u : 0u, 0u}),
+      mapped_and_voxels_(context, shaders::shade_comp, {cull_lights ? 1u : 0u, 1u}),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {}
 
 void ShadePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
                        const ShadowMaps& shadows, const SmokeShadows& smoke_shadows, const LevelLight& level,
-                       const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& radiance) const {
-  recorder.bind(pipeline_,
+                       const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& radiance,
+                       bool voxel_shadows) const {
+  const gpu::ComputePipeline& pipeline = voxel_shadows ? mapped_and_voxels_ : mapped_;
+  recorder.bind(pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},
                     {shared::kBindLights, gpu::read(scene.lights)},
-                    {shared::kBindSun, gpu::read(shadows.sun)},
+                    {shared::kBindSun, gpu::uniform(shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(shadows.layers, compare_)},
                     {shared::kBindAlbedoRoughness, gpu::sampled(gbuffer.albedo_roughness, nearest_)},
                     {shared::kBindNormalMetallic, gpu::sampled(gbuffer.normal_metallic, nearest_)},
@@ -32,7 +35,7 @@ void ShadePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                     {shared::kBindSmokeShadowFaces, gpu::read(smoke_shadows.faces)},
                     {shared::kBindRadiance, gpu::stored(radiance)},
                 });
-  recorder.dispatch_threads(pipeline_, radiance.info().size.x, radiance.info().size.y);
+  recorder.dispatch_threads(pipeline, radiance.info().size.x, radiance.info().size.y);
 }
 
 }  // namespace brume::passes

@@ -20,13 +20,15 @@ class ShadePass {
   explicit ShadePass(gpu::Context& context, bool cull_lights = true);
   /// radiance = smoke radiance + smoke transmittance * radiance of the surface or the sky, half floats.
   /// `smoke`: premultiplied radiance and transmittance, of the image's size. Pixels behind
-  /// smoke of transmittance 0 are not shaded. `smoke_shadows` comes from SmokeShadowPass.
+  /// smoke of transmittance 0 are not shaded. `smoke_shadows` comes from SmokeShadowPass. `voxel_shadows`:
+  /// whether any light may be shadowed by voxels (kShadowByVoxels); false is faster.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const SceneResources& scene,
               const ShadowMaps& shadows, const SmokeShadows& smoke_shadows, const LevelLight& level,
-              const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& radiance) const;
+              const GBuffer& gbuffer, const gpu::Image& smoke, const gpu::Image& radiance,
+              bool voxel_shadows = true) const;
 
  private:
-  gpu::ComputePipeline pipeline_;
+  gpu::ComputePipeline mapped_, mapped_and_voxels_;  // by the shadows that lights have
   gpu::Sampler nearest_, linear_, compare_;
 };
 

@@ -74,7 +74,7 @@ ShadowMaps ShadowPass::make_maps(gpu::Context& context, const SceneResources& sc
   info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   maps.layers = gpu::Image(context, info);
   maps.sun = gpu::Buffer(context, sizeof(shared::ShadowView),
-                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   for (const shared::Light& light : scene.light_list) {
     if (light.kind != shared::kLightDirectional || light.shadow_layer == shared::kNoShadow) continue;
     maps.sun_clip_from_world = sun_view(scene, light.direction);

@@ -116,7 +116,7 @@ void SmokeLightPass::record_rays(gpu::Recorder& recorder, const Inputs& in, cons
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
-                    {shared::kBindSun, gpu::read(in.shadows.sun)},
+                    {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
                     {shared::kBindPages, gpu::read(in.smoke.pages)},
                     {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},

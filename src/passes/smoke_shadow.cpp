@@ -49,7 +49,7 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
-                    {shared::kBindSun, gpu::read(in.shadows.sun)},
+                    {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, nearest_)},
                     {shared::kBindPages, gpu::read(in.smoke.pages)},
                     {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},

@@ -1,5 +1,7 @@
 #include "render/renderer.hpp"
 
+#include <algorithm>
+
 #include "passes/blue_noise.hpp"
 
 namespace brume::render {
@@ -127,8 +129,11 @@ void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
   if (plan.input.debug.view != planning::DebugView::none)
     return scope("debug_view", [&] { record_debug_view(recorder, plan); });
   scope("shade", [&] {
+    const bool voxel_shadows = std::ranges::any_of(plan.lights, [](const shared::Light& light) {
+      return light.shadow_layer == shared::kShadowByVoxels;
+    });
     shade_pass_.record(recorder, frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(),
-                       scene_.level(), targets_.gbuffer, media(), targets_.radiance);
+                       scene_.level(), targets_.gbuffer, media(), targets_.radiance, voxel_shadows);
   });
   scope("display",
         [&] { display_pass_.record(recorder, frame_, blue_noise_, targets_.radiance, targets_.display); });

@@ -65,7 +65,7 @@ class ShadeTest : public gpu::GpuTest {
     return {side(random_), side(random_), side(random_)};
   }
 
-  std::vector<glm::vec4> shade(const std::vector<Half4>& smoke, bool cull_lights) {
+  std::vector<glm::vec4> shade(const std::vector<Half4>& smoke, bool cull_lights, bool voxel_shadows = true) {
     shared::FrameConstants frame{};
     frame.camera.near_z = 0.05f;
     frame.camera.forward = {0, 0, -1};
@@ -83,7 +83,7 @@ class ShadeTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) {
       if (solid_.record(recorder, {})) sky_.record(recorder, frame_buffer, solid_);
       pass.record(recorder, frame_buffer, scene_, shadows_, smoke_shadows_, {solid_, sky_}, gbuffer_,
-                  smoke_image, radiance);
+                  smoke_image, radiance, voxel_shadows);
     });
     std::vector<glm::vec4> out;
     for (const Half4& texel : read_back<Half4>(radiance)) out.push_back(from_half(texel));
@@ -107,6 +107,10 @@ TEST_F(ShadeTest, LightsThatATileLeavesOutAreThoseThatDoNotReachIt) {
   float brightest = 0;
   for (const glm::vec4& pixel : culled) brightest = std::max(brightest, pixel.g);
   EXPECT_GT(brightest, 0.1f) << "some light is visible";
+}
+
+TEST_F(ShadeTest, WithoutVoxelShadowsTheImageIsTheSameWhereNoLightHasThem) {
+  EXPECT_EQ(shade(no_smoke(), true, false), shade(no_smoke(), true, true));
 }
 
 TEST_F(ShadeTest, SmokeIsOverTheSurfacesAndTheSky) {
