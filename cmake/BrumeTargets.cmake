@@ -20,9 +20,13 @@ if(BRUME_PORTABLE)
 endif()
 
 # A scene file or a command line is read once: the templates of the readers cost more to optimize than they run.
-# Release builds only; a build without optimization stays one.
+# Below -O1 under the sanitizers, whose checks multiply the code. A build without optimization stays one.
 function(brume_cold)
-  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+  set(level "$<$<CONFIG:Release>:-O1>")
+  if(BRUME_SANITIZE)
+    set(level -Og)
+  endif()
+  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "${level}")
 endfunction()
 
 # Headers of others that nearly every file reads, compiled once for all targets. A source still includes what it uses:
@@ -65,14 +69,23 @@ endfunction()
 
 # What the sources of tests have in common: they are optimized little, since to compile them is the longer part. Not at
 # all would be too little: under the sanitizers, tests then run four times as long. What is tested keeps its optimization.
-set(brume_test_optimization "$<$<CONFIG:Release,RelWithDebInfo>:-O1;-Wno-maybe-uninitialized>")
+set(brume_test_flags "$<$<CONFIG:Release,RelWithDebInfo,Debug>:-Og;-Wno-maybe-uninitialized>")
+# The checks of every pointer are most of what the undefined behaviour sanitizer adds, and a test that follows a bad
+# pointer crashes or meets the address sanitizer. The libraries keep these checks. Tests keep those of arithmetic and
+# bounds, which also cover the inline functions of our headers: the linker may take any of their copies.
+if(BRUME_SANITIZE MATCHES "undefined")
+  list(APPEND brume_test_flags
+       -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
+endif()
 function(brume_test_options target)
   if(NOT TARGET brume_test_headers)
     brume_precompiled(brume_test_headers ${brume_common_headers} <random> <gtest/gtest.h> LINKS GTest::gtest)
+    # The compiler rejects precompiled headers with other sanitizers.
+    target_compile_options(brume_test_headers PRIVATE "${brume_test_flags}")
   endif()
   brume_precompile(${target} brume_test_headers)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
-  target_compile_options(${target} PRIVATE "${brume_test_optimization}")
+  target_compile_options(${target} PRIVATE "${brume_test_flags}")
 endfunction()
 
 # brume_test_library(NAME sources... LINKS libraries...): what several test programs use, compiled once.
