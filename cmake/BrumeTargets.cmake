@@ -20,13 +20,9 @@ if(BRUME_PORTABLE)
 endif()
 
 # A scene file or a command line is read once: the templates of the readers cost more to optimize than they run.
-# Below -O1 under the sanitizers, whose checks multiply the code. A build without optimization stays one.
+# Release builds only; a build without optimization stays one.
 function(brume_cold)
-  set(level "$<$<CONFIG:Release>:-O1>")
-  if(BRUME_SANITIZE)
-    set(level -Og)
-  endif()
-  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "${level}")
+  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
 endfunction()
 
 # Headers of others that nearly every file reads, compiled once for all targets. A source still includes what it uses:
@@ -57,6 +53,10 @@ endfunction()
 
 brume_precompiled(brume_headers ${brume_common_headers})
 
+# The libraries in which the tests of the debug preset spend their time, and which its -O1 is for. The sanitizers multiply
+# the code of the others, which compile for longer than they then run: -Og for them, with all checks.
+set(brume_busy_libraries voxel volume sim smoke)
+
 # brume_library(NAME sources... LINKS libraries... PRIVATE_LINKS libraries...): the folder `NAME` as brume::NAME.
 function(brume_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS;PRIVATE_LINKS")
@@ -64,7 +64,16 @@ function(brume_library name)
   add_library(brume::${name} ALIAS brume_${name})
   target_link_libraries(brume_${name} PUBLIC brume_options ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
   set_target_properties(brume_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  if(BRUME_SANITIZE AND NOT name IN_LIST brume_busy_libraries)
+    target_compile_options(brume_${name} PRIVATE $<$<CONFIG:Debug>:-Og>)
+  endif()
   brume_precompile(brume_${name} brume_headers)
+endfunction()
+
+# brume_alone(sources...): with names that other sources of their folder also use, and which therefore do not share a
+# translation unit with them where script/determinism joins those of a folder.
+function(brume_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # What the sources of tests have in common: they are optimized little, since to compile them is the longer part. Not at
