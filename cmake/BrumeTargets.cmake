@@ -53,6 +53,10 @@ endfunction()
 
 brume_precompiled(brume_headers ${brume_common_headers})
 
+# The libraries in which the tests of the debug preset spend their time, and which its -O1 is for. The sanitizers multiply
+# the code of the others, which compile for longer than they then run: -Og for them, with all checks.
+set(brume_busy_libraries voxel volume sim smoke)
+
 # brume_library(NAME sources... LINKS libraries... PRIVATE_LINKS libraries...): the folder `NAME` as brume::NAME.
 function(brume_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINKS;PRIVATE_LINKS")
@@ -60,19 +64,37 @@ function(brume_library name)
   add_library(brume::${name} ALIAS brume_${name})
   target_link_libraries(brume_${name} PUBLIC brume_options ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS})
   set_target_properties(brume_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  if(BRUME_SANITIZE AND NOT name IN_LIST brume_busy_libraries)
+    target_compile_options(brume_${name} PRIVATE $<$<CONFIG:Debug>:-Og>)
+  endif()
   brume_precompile(brume_${name} brume_headers)
+endfunction()
+
+# brume_alone(sources...): with names that other sources of their folder also use, and which therefore do not share a
+# translation unit with them where script/determinism joins those of a folder.
+function(brume_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # What the sources of tests have in common: they are optimized little, since to compile them is the longer part. Not at
 # all would be too little: under the sanitizers, tests then run four times as long. What is tested keeps its optimization.
-set(brume_test_optimization "$<$<CONFIG:Release,RelWithDebInfo>:-O1;-Wno-maybe-uninitialized>")
+set(brume_test_flags "$<$<CONFIG:Release,RelWithDebInfo,Debug>:-Og;-Wno-maybe-uninitialized>")
+# The checks of every pointer are most of what the undefined behaviour sanitizer adds, and a test that follows a bad
+# pointer crashes or meets the address sanitizer. The libraries keep these checks. Tests keep those of arithmetic and
+# bounds, which also cover the inline functions of our headers: the linker may take any of their copies.
+if(BRUME_SANITIZE MATCHES "undefined")
+  list(APPEND brume_test_flags
+       -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
+endif()
 function(brume_test_options target)
   if(NOT TARGET brume_test_headers)
     brume_precompiled(brume_test_headers ${brume_common_headers} <random> <gtest/gtest.h> LINKS GTest::gtest)
+    # The compiler rejects precompiled headers with other sanitizers.
+    target_compile_options(brume_test_headers PRIVATE "${brume_test_flags}")
   endif()
   brume_precompile(${target} brume_test_headers)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
-  target_compile_options(${target} PRIVATE "${brume_test_optimization}")
+  target_compile_options(${target} PRIVATE "${brume_test_flags}")
 endfunction()
 
 # brume_test_library(NAME sources... LINKS libraries...): what several test programs use, compiled once.

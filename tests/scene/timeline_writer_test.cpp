@@ -9,6 +9,7 @@
 
 #include "core/file.hpp"
 #include "scene/options.hpp"
+#include "tests/sanitized.hpp"
 #include "tests/scene/random_timeline.hpp"
 
 namespace brume::scene {
@@ -91,7 +92,7 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
 }
 
 TEST(TimelineWriter, RandomTimelinesRoundTripBitForBit) {
-  for (std::uint32_t seed = 0; seed < 2000; ++seed) {
+  for (std::uint32_t seed = 0; seed < (kSanitized ? 400 : 2000); ++seed) {
     const Timeline timeline = random_timeline(seed);
     const std::string text = format_timeline(timeline, "scenes");
     const auto read = parse_timeline(text, "scenes/t.toml");

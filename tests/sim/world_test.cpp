@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/sanitized.hpp"
+
 namespace brume::sim {
 namespace {
 
@@ -238,7 +240,7 @@ TEST_F(BusyWorld, RollsBackSixtyTicksAndReplaysTheSame) {
 
 TEST_F(BusyWorld, ContinuesIdenticallyFromAThousandSnapshots) {
   std::mt19937 random(2);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < (kSanitized ? 200 : 1000); ++i) {
     const auto from = static_cast<std::uint32_t>(random() % kBusyTicks);
     const auto to = std::min(from + static_cast<std::uint32_t>(random() % 40), kBusyTicks - 1);
     World other(grid_);
@@ -303,7 +305,7 @@ TEST_F(BusyWorld, AcceptsLateEventsInAnyOrder) {
     if (by_tick.empty() || tick_of(by_tick.back().front()) != tick_of(event)) by_tick.emplace_back();
     by_tick.back().push_back(event);
   }
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < (kSanitized ? 2 : 3); ++i) {
     std::shuffle(by_tick.begin(), by_tick.end(), random);
     World late(grid_);
     late.advance_to(i == 0 ? kBusyTicks - 1 : static_cast<std::uint32_t>(random() % kBusyTicks));
@@ -352,7 +354,7 @@ TEST_F(BusyWorld, ReplacesTheEventsFromATickOn) {
   std::mt19937 random(7);
   World world(grid_);
   world.append(events_).value_or_throw();
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < (kSanitized ? 8 : 30); ++i) {
     const auto from = static_cast<std::uint32_t>(random() % kBusyTicks);
     std::vector<Event> tail;
     for (const Event& event : events_)

@@ -16,6 +16,7 @@
 
 #include "core/file.hpp"
 #include "smoke/smoke_volume.hpp"
+#include "tests/sanitized.hpp"
 #include "voxel/surface_planes.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -191,7 +192,7 @@ void probe_wall(Profiles& profiles, const std::string& name, dvec3 through, dvec
   const dvec3 up = glm::cross(side, n);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> spread(-1.2, 1.2);
-  for (int i = 0; i < 300; ++i)
+  for (int i = 0; i < (kSanitized ? 50 : 300); ++i)
     probe(profiles, room, name, through + spread(random) * side + spread(random) * up, n, thickness, 1.5,
           1.5);
 }
