@@ -32,8 +32,9 @@ TEST_F(Blender, RendersWithoutBlockingTheWindow) {
   EXPECT_GE(window["ticks"], 10);
   EXPECT_EQ(window["shown"], "Brume Render");
   EXPECT_EQ(window["ended"], true);
+  EXPECT_EQ(window["stopped"], true);
   EXPECT_EQ(window["own_window"], Json({"Brume Render"}));
-  EXPECT_EQ(window["images"], Json({"Brume Render"}));
+  EXPECT_EQ(window["images"], Json({"Brume Render", "Brume Render (previous)"}));
   EXPECT_EQ(window["image_after"], true);
   ASSERT_EQ(window["viewed"], true);
   expect_a_picture(image::load_image(blender_run().folder / "view.png").value_or_throw());

@@ -158,19 +158,25 @@ def render_without_editor(preferences, folder, editor, facts):
 
 
 def stop_by_escape(preferences, folder, view, facts):
-    """A program that never ends."""
+    """A program that never ends, and ignores SIGTERM."""
+    from brume import messages
+
     mark, deadline = os.path.join(folder, "pid"), time.monotonic() + HANG
-    commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep infinity"
+    commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; trap '' TERM; exec sleep infinity"
     preferences.program = write_program(folder, "endless", commands)
     invoke_render()
     while not os.path.exists(mark) and time.monotonic() < deadline:
         yield 0.1
     with open(mark, encoding="ascii") as file:
         child = int(file.read())
+    messages.show([])
     press_escape(view)
     while os.path.exists(f"/proc/{child}") and time.monotonic() < deadline:
         yield 0.1
     facts["ended"] = not os.path.exists(f"/proc/{child}")
+    while not messages.last() and time.monotonic() < deadline:
+        yield 0.05
+    facts["stopped"] = "Render with Brume: stopped" in [message.text for message in messages.last()]
 
 
 def walk_in(preferences, brume, folder, facts):

@@ -26,6 +26,14 @@ def _rate(scene, warnings):
     return rate // scene.frame_step
 
 
+def _movie_path(scene):
+    """The output path; Blender appends the frame range and the extension of the container if it has no .mp4."""
+    path = scene.render.filepath
+    if path.lower().endswith(".mp4"):
+        return path
+    return os.path.splitext(scene.render.frame_path(frame=scene.frame_start))[0] + ".mp4"
+
+
 class BRUME_OT_film(JobOperator, bpy.types.Operator):
     """Render the frame range of the scene to its output path: PNG images, or an .mp4 film for FFmpeg Video"""
 
@@ -49,8 +57,7 @@ class BRUME_OT_film(JobOperator, bpy.types.Operator):
         last = first + len(frames) - 1
         self._count, self._targets = len(frames), {}
         if self._is_movie:
-            path = scene.render.frame_path(frame=scene.frame_start)
-            self._targets[_MOVIE] = bpy.path.abspath(os.path.splitext(path)[0] + ".mp4")
+            self._targets[_MOVIE] = bpy.path.abspath(_movie_path(scene))
         else:
             for number, frame in enumerate(frames, first):
                 self._targets[_IMAGE % number] = bpy.path.abspath(scene.render.frame_path(frame=frame))

@@ -89,6 +89,7 @@ def _read_frame(self):
 
 def _write_frame(self, frame):
     self["at_frame"] = frame
+    self.id_data.update_tag()  # Handlers move its marker.
 
 
 def _read_time(self):
