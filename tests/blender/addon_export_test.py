@@ -172,7 +172,7 @@ class Tone(AddonCase):
         self.scene.view_settings.view_transform = "Standard"
         self.stub("--tone neutral|standard:{neutral,standard}  Tone curve")
         self.assertEqual(self.export()["tone"], "standard")
-        self.assertEqual(self.said(), ["the scene has no camera; Brume uses one with everything in view"])
+        self.assertFalse(any("tone" in text for text in self.said()))
         self.scene.brume.tone = "neutral"
         self.assertEqual(self.export()["tone"], "neutral")
 
@@ -182,6 +182,7 @@ class Tone(AddonCase):
         self.assertSaid("this brume has no tone Standard", "INFO")
 
     def test_other_view_transforms_are_noted(self):
+        self.stub("--tone")
         self.scene.view_settings.view_transform = "Filmic"
         self.export()
         self.assertSaid('Blender shows "Filmic"', "INFO")

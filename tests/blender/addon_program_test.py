@@ -9,6 +9,9 @@ from addon_case import AddonCase
 from brume import program, render, samples
 
 
+_HANG = 120  # [s]: only ends tests that hang.
+
+
 class Still(AddonCase):
     def test_any_frame_renders(self):
         folder = self.stub()
@@ -118,7 +121,7 @@ class Stop(AddonCase):
         while not os.path.exists(mark):
             self.assertTrue(job.running())
         job.kill()
-        job.wait()
+        job._child.wait(_HANG)
         self.assertEqual(job._child.returncode, -signal.SIGKILL)
         with open(mark, encoding="ascii") as file:
             child = int(file.read())

@@ -35,6 +35,10 @@ TEST_F(Blender, RendersWithoutBlockingTheWindow) {
   EXPECT_EQ(window["stopped"], true);
   EXPECT_EQ(window["own_window"], Json({"Brume Render"}));
   EXPECT_EQ(window["images"], Json({"Brume Render", "Brume Render (previous)"}));
+  EXPECT_EQ(window["windows_of_area"], 1);
+  EXPECT_EQ(window["film_stopped"], true);
+  // The outline of the smoke alone is longer than that.
+  EXPECT_GT(window["gizmo_pixels"], 200);
   EXPECT_EQ(window["image_after"], true);
   ASSERT_EQ(window["viewed"], true);
   expect_a_picture(image::load_image(blender_run().folder / "view.png").value_or_throw());

@@ -1,7 +1,7 @@
 """Run by Blender in a window: blender --factory-startup -P window.py -- ADDON.zip BRUME FOLDER
 
-Draws the panels, renders while Blender goes on, shows the picture, stops a render by Esc. Leaves window.json and
-window.png.
+Draws the panels, renders while Blender goes on, shows the picture, stops a render and a film by Esc. Leaves window.json
+and window.png.
 """
 
 import json
@@ -85,7 +85,7 @@ def press_escape(view):
 def write_program(folder, name, commands):
     path = os.path.join(folder, name)
     with open(path, "w", encoding="ascii") as script:
-        script.write(f"#!/bin/sh\n{commands}\n")
+        script.write(f'#!/bin/sh\ncase "$*" in *--help*) exit;; esac\n{commands}\n')
     os.chmod(path, 0o700)
     return path
 
@@ -155,6 +155,30 @@ def render_without_editor(preferences, folder, editor, facts):
     with bpy.context.temp_override(window=windows[-1]):
         bpy.ops.wm.window_close()
     yield 0.5
+    # Where the preferences place renders in the window, none opens.
+    bpy.context.preferences.view.render_display_type = "AREA"
+    invoke_render()
+    while not areas("IMAGE_EDITOR") and time.monotonic() < deadline:
+        yield 0.1
+    facts["windows_of_area"] = len(windows)
+    areas("IMAGE_EDITOR")[0].type = "PROPERTIES"
+
+
+def compare_gizmos(view, folder, facts):
+    """The 3D view with the sizes and paths of events, and without."""
+    pictures = []
+    for shown in (True, False):
+        bpy.context.scene.brume.gizmos = shown
+        path = os.path.join(folder, f"gizmos_{shown}.png")
+        yield 0.5
+        with inside(view):
+            bpy.ops.screen.screenshot_area(filepath=path)
+        image = bpy.data.images.load(path)
+        pictures.append(image.pixels[:])
+        bpy.data.images.remove(image)
+    bpy.context.scene.brume.gizmos = True
+    # Red of RGBA. Smoothing of edges differs a little from picture to picture.
+    facts["gizmo_pixels"] = sum(abs(a - b) > 0.1 for a, b in zip(pictures[0][::4], pictures[1][::4]))
 
 
 def stop_by_escape(preferences, folder, view, facts):
@@ -179,6 +203,27 @@ def stop_by_escape(preferences, folder, view, facts):
     facts["stopped"] = "Render with Brume: stopped" in [message.text for message in messages.last()]
 
 
+def stop_film(preferences, folder, view, facts):
+    """A program that writes one image of a film and never ends: the image remains after Esc."""
+    from brume import messages
+
+    preferences.program = write_program(
+        folder, "slow", f"cp '{folder}/first.png' image_000000.png; exec sleep infinity"
+    )
+    first, deadline = os.path.join(folder, "film", "0001.png"), time.monotonic() + HANG
+    bpy.context.scene.render.filepath = os.path.join(folder, "film", "####")
+    messages.show([])
+    with inside(view):
+        bpy.ops.brume.film("INVOKE_DEFAULT")
+    while not os.path.exists(first) and time.monotonic() < deadline:
+        yield 0.1
+    press_escape(view)
+    while not messages.last() and time.monotonic() < deadline:
+        yield 0.1
+    texts = [message.text for message in messages.last()]
+    facts["film_stopped"] = "Render Film: stopped; 1 of 96 images are written" in texts
+
+
 def walk_in(preferences, brume, folder, facts):
     """The viewer beside Blender's window, with the events of the scene; closes by itself in the test."""
     picture, deadline = os.path.join(folder, "view.png"), time.monotonic() + HANG
@@ -201,7 +246,9 @@ def steps(addon, brume, folder):
     yield from render(preferences, brume, folder, editor, facts)
     yield from take_picture(view, editor, os.path.join(folder, "window.png"))
     yield from render_without_editor(preferences, folder, editor, facts)
+    yield from compare_gizmos(view, folder, facts)
     yield from stop_by_escape(preferences, folder, view, facts)
+    yield from stop_film(preferences, folder, view, facts)
     yield from walk_in(preferences, brume, folder, facts)
     # A failing program keeps the previous image.
     preferences.program = "/bin/false"

@@ -24,21 +24,16 @@ class Exported:
 
 def _tone(context, warnings):
     """The tone of the timeline, or None if the installed program has only its own."""
-    options, view = context.scene.brume, context.scene.view_settings
-    if options.tone == "standard" and view.view_transform != "Standard":
-        warnings.note(
-            f'the tones are those of the view transform Standard; Blender shows "{view.view_transform}"'
-            " (Render Properties > Color Management)"
-        )
+    tone, shown = context.scene.brume.tone, context.scene.view_settings.view_transform
     try:
         known = program.render_has(program.find(context), "--tone")
     except (BrumeError, OSError):
         known = False
-    if known:
-        return options.tone
-    if options.tone == "standard":
-        warnings.note("this brume has no tone Standard; its image has darker shadows than Blender's")
-    return None
+    if tone == "standard" and not known:
+        warnings.note("this brume has no tone Standard: its shadows are darker than Blender's")
+    elif tone == "standard" and shown != "Standard":
+        warnings.note(f'tones are those of Standard, Blender shows "{shown}" (Render Properties > Color Management)')
+    return tone if known else None
 
 
 def export(context, path, file_format, warnings, with_timeline=True, frames=()):

@@ -103,9 +103,17 @@ class BRUME_OT_film(JobOperator, bpy.types.Operator):
         self.report({"INFO"}, f"Wrote {what}")
 
 
+def _menu(self, _context):
+    self.layout.separator()
+    self.layout.operator("brume.render", icon="RENDER_STILL")
+    self.layout.operator(BRUME_OT_film.bl_idname, text="Render Film with Brume", icon="RENDER_ANIMATION")
+
+
 def register():
     bpy.utils.register_class(BRUME_OT_film)
+    bpy.types.TOPBAR_MT_render.append(_menu)
 
 
 def unregister():
+    bpy.types.TOPBAR_MT_render.remove(_menu)
     bpy.utils.unregister_class(BRUME_OT_film)

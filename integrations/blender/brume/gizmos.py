@@ -121,16 +121,19 @@ def _draw_lines():
     names = ("UNIFORM_COLOR",) if bpy.app.version >= (4, 0, 0) else ("3D_UNIFORM_COLOR",)
     shader = gpu.shader.from_builtin(*names)
     gpu.state.blend_set("ALPHA")
-    gpu.state.depth_test_set("LESS_EQUAL")
     for thing in _shown(context):
         points = lines(context.scene, thing)
         if not points:
             continue
+        batch = batch_for_shader(shader, "LINES", {"pos": [tuple(point) for point in points]})
         chosen = thing.select_get()
         gpu.state.line_width_set(2.0 if chosen else 1.0)
-        shader.bind()
-        shader.uniform_float("color", (*_COLORS[thing.brume_event.type], 1.0 if chosen else 0.5))
-        batch_for_shader(shader, "LINES", {"pos": [tuple(point) for point in points]}).draw(shader)
+        # Faint where something is in front.
+        for depth_test, alpha in (("NONE", 0.15), ("LESS_EQUAL", 1.0 if chosen else 0.5)):
+            gpu.state.depth_test_set(depth_test)
+            shader.bind()
+            shader.uniform_float("color", (*_COLORS[thing.brume_event.type], alpha))
+            batch.draw(shader)
     gpu.state.line_width_set(1.0)
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")

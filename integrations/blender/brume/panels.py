@@ -61,19 +61,6 @@ class BRUME_PT_level(_Panel, bpy.types.Panel):
         column.operator("brume.export_level", icon="EXPORT").format = options.format
 
 
-class BRUME_PT_messages(_Panel, bpy.types.Panel):
-    bl_idname = "BRUME_PT_messages"
-    bl_label = "Messages"
-
-    @classmethod
-    def poll(cls, _context):
-        return bool(messages.last())
-
-    def draw(self, context):
-        for message in messages.last():
-            _draw_message(self.layout, context, message)
-
-
 class BRUME_PT_object(_Panel, bpy.types.Panel):
     bl_idname = "BRUME_PT_object"
     bl_label = "Object"
@@ -104,10 +91,33 @@ class BRUME_PT_object(_Panel, bpy.types.Panel):
             if name == "shape" and event.shape == "MASK":
                 column.prop(event, "mask")
         if event.type == "SMOKE":
-            column.label(text="Size and times: Smoke, for all grenades")
+            column.label(text="Size of all: panel Smoke")
         for message in messages.last():
             if message.thing == thing.name:
                 _draw_message(layout, context, message)
+
+
+class BRUME_PT_messages(_Panel, bpy.types.Panel):
+    bl_idname = "BRUME_PT_messages"
+    bl_label = "Messages"
+
+    @classmethod
+    def poll(cls, _context):
+        return bool(messages.last())
+
+    def draw(self, context):
+        for message in messages.last():
+            _draw_message(self.layout, context, message)
+
+
+class BRUME_PT_smoke(_Panel, bpy.types.Panel):
+    bl_idname = "BRUME_PT_smoke"
+    bl_label = "Smoke"
+
+    def draw(self, context):
+        column = self.begin().column()
+        for name in _SMOKE_FIELDS:
+            column.prop(context.scene.brume, name)
 
 
 class BRUME_PT_scene(_Panel, bpy.types.Panel):
@@ -128,17 +138,7 @@ class BRUME_PT_scene(_Panel, bpy.types.Panel):
             column.prop(options, name)
 
 
-class BRUME_PT_smoke(_Panel, bpy.types.Panel):
-    bl_idname = "BRUME_PT_smoke"
-    bl_label = "Smoke"
-
-    def draw(self, context):
-        column = self.begin().column()
-        for name in _SMOKE_FIELDS:
-            column.prop(context.scene.brume, name)
-
-
-_CLASSES = (BRUME_PT_level, BRUME_PT_messages, BRUME_PT_object, BRUME_PT_smoke, BRUME_PT_scene)
+_CLASSES = (BRUME_PT_level, BRUME_PT_object, BRUME_PT_messages, BRUME_PT_smoke, BRUME_PT_scene)
 
 
 def register():

@@ -32,7 +32,12 @@ def _render_help(path, _changed):
     """The help of `brume render`; empty if the program fails."""
     try:
         run = subprocess.run(
-            [path, "render", "--help"], stdin=subprocess.DEVNULL, capture_output=True, timeout=10, check=False
+            [path, "render", "--help"],
+            cwd=tempfile.gettempdir(),
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            timeout=3,
+            check=False,
         )
     except (OSError, subprocess.TimeoutExpired):
         return ""

@@ -151,12 +151,12 @@ class BrumeEvent(bpy.types.PropertyGroup):
     stay: _seconds("Stay Open", 0.6, 600.0, "Time open")
     fade: _seconds("Close Time", 0.35, 60.0, "Time to close")
     text: StringProperty(name="Word", description="One line of letters", default="SMOKE", options=_FIXED)
-    size: _plain("Letter Height", 0.5, 0.02, 10.0, "Height of a capital letter")
+    size: _plain("Height", 0.5, 0.02, 10.0, "Height of a capital letter")
     font: StringProperty(
         name="Font", description="Font file; empty: DejaVu Sans Bold", subtype="FILE_PATH", options=_FIXED
     )
-    spacing: _plain("Letter Spacing", 0.0, -0.5, 10.0, "Extra space between letters, in capital heights")
-    interval: _seconds("Letter Interval", 0.0, 10.0, "Time between letters")
+    spacing: _plain("Spacing", 0.0, -0.5, 10.0, "Extra space between letters, in capital heights")
+    interval: _seconds("Interval", 0.0, 10.0, "Time between letters")
     blast_radius: _plain("Radius", 5.0, 0.1, 100.0, "Radius of the cavity")
     blast_flash: _plain("Flash (W/sr)", 250.0, 0.0, 1e6, "Intensity of the fireball, which lasts 0.3 s")
     speed: _plain("Speed", 32.0, 1.0, 10000.0, "Speed of the front")
