@@ -5,7 +5,7 @@ import tomllib
 
 import bpy
 import level_parts
-from addon_case import FOLDER, AddonCase, box  # noqa: F401
+from addon_case import AddonCase, box
 from brume import checks, gizmos, markers, presets
 from mathutils import Vector
 
@@ -180,6 +180,15 @@ class Checks(AddonCase):
         self.assertSaid(f'"{early.name}" hits "door" at 4.0 m')
         self.assertSaid(f'"{late.name}" leaves the level')
 
+    def test_a_door_opens_before_a_shot_of_the_same_frame(self):
+        door = box("door", (1, -3, 0), (1.2, 3, 3))
+        door.brume.role = "DOOR"
+        self.event("SMOKE", (-2, 0, 1))
+        self.event("SHOT", (-3, 0, 1), frame=48, aim=level_parts.add("aim", None, location=(8, 0, 1))).name = "A"
+        self.event("DOOR", frame=48, door=door)
+        self.checked()
+        self.assertSaid('"A" leaves the level')
+
     def test_a_blast_that_reaches_no_smoke(self):
         self.event("SMOKE", (-4, 0, 1), frame=1)
         self.scene.brume.smoke_radius = 1
@@ -233,7 +242,6 @@ class Presets(AddonCase):
 class ImportTimeline(AddonCase):
     def test_exported_events_come_back(self):
         self.scene.unit_settings.scale_length = 0.5
-        level_parts.build_events(self.folder) if "camera" in bpy.data.objects else None
         hand = level_parts.add("hand", None, location=(-3, 0.5, 1))
         door = box("gate", (4, -1, 0), (4.2, 1, 2))
         door.brume.role = "DOOR"

@@ -68,6 +68,21 @@ class Visibility(AddonCase):
             triangles = sum(line.startswith("f ") for line in file)
         self.assertEqual(triangles, 2 * 6 * 4 * 2)
 
+    def test_linked_objects_follow_the_same_rule(self):
+        library = bpy.data.collections.new("library")
+        box("linked", (1, 1, 0), (2, 2, 1), collection=library).hide_viewport = True
+        path = os.path.join(self.folder, "library.blend")
+        bpy.data.libraries.write(path, {library})
+        for thing in list(library.objects):
+            bpy.data.objects.remove(thing)
+        bpy.data.collections.remove(library)
+        with bpy.data.libraries.load(path, link=True) as (_, wanted):
+            wanted.collections = ["library"]
+        instance = level_parts.add("instance", None)
+        instance.instance_type, instance.instance_collection = "COLLECTION", wanted.collections[0]
+        self.assertEqual(self.names(), ["floor", "linked"])
+        self.assertTrue(bpy.data.objects["linked"].hide_viewport)
+
     def test_the_scene_is_restored(self):
         hidden, other = box("hidden", (1, 1, 0), (2, 2, 1)), box("other", (1, 1, 0), (2, 2, 1))
         other.hide_render = True

@@ -36,6 +36,7 @@ class JobOperator:
         self._folder = tempfile.mkdtemp(prefix="brume_")
         try:
             command = [program.find(context)] + self.arguments(context, self._folder)
+            show(self._warnings.messages)
             self._job = program.Job(command, self._folder)
         except BaseException:
             self._clean(context)

@@ -1,7 +1,8 @@
 """Rays and points against the exported meshes, in Brume's axes and metres."""
 
+import bmesh
 import numpy as np
-from mathutils import Vector
+from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
 
 from . import conversion
@@ -16,20 +17,21 @@ class _Solid:
 
     def __init__(self, thing, piece, corners):
         self.thing, self._mesh, self._matrix = thing, piece.mesh, piece.world_from_mesh
-        world = self._to_world(corners)
+        world = corners @ self._matrix[:3, :3].T + self._matrix[:3, 3]
         self.low, self.high = world.min(axis=0), world.max(axis=0)
         self._tree = None
 
-    def _to_world(self, points):
-        return points @ self._matrix[:3, :3].T + self._matrix[:3, 3]
-
     def tree(self):
         if self._tree is None:
-            self._mesh.calc_loop_triangles()
-            triangles = np.empty(3 * len(self._mesh.loop_triangles), dtype=np.int32)
-            self._mesh.loop_triangles.foreach_get("vertices", triangles)
-            points = self._to_world(_points(self._mesh)).tolist()
-            self._tree = BVHTree.FromPolygons(points, triangles.reshape(-1, 3).tolist(), all_triangles=True)
+            turn = np.identity(4)
+            turn[:3, :3] = conversion.BRUME_FROM_BLENDER
+            copy = bmesh.new()
+            try:
+                copy.from_mesh(self._mesh)
+                copy.transform(Matrix((self._matrix @ turn).tolist()))
+                self._tree = BVHTree.FromBMesh(copy)
+            finally:
+                copy.free()
         return self._tree
 
     def meets(self, start, direction, far):
@@ -63,16 +65,11 @@ class _Solid:
         return count
 
 
-def _points(mesh):
-    """Mesh points in Brume's axes, as Piece.world_from_mesh expects them."""
+def _corners(mesh):
+    """The corners of the bounds of a mesh in Brume's axes, as Piece.world_from_mesh expects them."""
     points = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", points)
-    return points.reshape(-1, 3).astype(float) @ conversion.BRUME_FROM_BLENDER.T
-
-
-def _corners(mesh):
-    """The corners of the bounds of a mesh."""
-    points = _points(mesh)
+    points = points.reshape(-1, 3).astype(float) @ conversion.BRUME_FROM_BLENDER.T
     low, high = points.min(axis=0), points.max(axis=0)
     return np.array([[(high if i >> axis & 1 else low)[axis] for axis in range(3)] for i in range(8)])
 

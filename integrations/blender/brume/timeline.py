@@ -34,10 +34,16 @@ def _vector(values):
     return "[" + ", ".join(number(value) for value in values) + "]"
 
 
+# Events of one tick happen in this order.
+_ORDER = ("DOOR", "SMOKE", "SHOT", "TEXT", "BLAST")
+
+
 def events(scene, level):
-    """The events that Blender renders, in the order of their times."""
+    """The events that Blender renders, in the order in which they happen."""
     found = [thing for thing in events_of(scene) if thing in level.rendered]
-    return sorted(found, key=lambda thing: (thing.brume_event.frame, thing.name))
+    return sorted(
+        found, key=lambda thing: (thing.brume_event.frame, _ORDER.index(thing.brume_event.type), thing.name)
+    )
 
 
 def target_of(clock, thing, metres):

@@ -13,7 +13,14 @@ class AsRendered:
         self._changed, self._hidden = [], []
 
     def __enter__(self):
-        view_layer = self._context.view_layer
+        try:
+            self._enter(self._context.view_layer)
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def _enter(self, view_layer):
         self._active = view_layer.objects.active
         self._selected = [thing for thing in view_layer.objects if thing.select_get(view_layer=view_layer)]
         self._hidden = [thing for thing in view_layer.objects if thing.hide_get(view_layer=view_layer)]
@@ -28,7 +35,6 @@ class AsRendered:
         for thing in self._hidden:
             thing.hide_set(False, view_layer=view_layer)
         view_layer.update()
-        return self
 
     def __exit__(self, *_):
         view_layer = self._context.view_layer
