@@ -64,7 +64,7 @@ class Visibility(AddonCase):
         subdivision = self.floor.modifiers.new("smooth", "SUBSURF")
         subdivision.levels, subdivision.render_levels = 0, 1
         self.export()
-        with open(os.path.join(self.folder, "Meshes", os.listdir(self.folder + "/Meshes")[0]), encoding="ascii") as file:
+        with open(os.path.join(self.folder, "Meshes", "floor.obj"), encoding="ascii") as file:
             triangles = sum(line.startswith("f ") for line in file)
         self.assertEqual(triangles, 2 * 6 * 4 * 2)
 

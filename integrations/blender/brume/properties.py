@@ -1,7 +1,7 @@
 """Properties that the add-on stores in a .blend file: roles of objects, events, and settings of the scene.
 
-Names, defaults and ranges match docs/timeline.md. Lengths are stored in metres; panels show the property with the prefix
-`shown_`, which is in the units of the scene. No property is animatable, because timelines have no keys for them.
+Names, defaults and ranges match docs/timeline.md. Lengths are stored in metres; panels show the property with the
+prefix `shown_`, which is in the units of the scene. No property is animatable, because timelines have no keys for them.
 """
 
 import math
