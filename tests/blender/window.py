@@ -77,6 +77,13 @@ def choose_tab(view):
     yield 0.5
 
 
+def says(part):
+    """The text in the sidebar that contains a part, or ""."""
+    from brume import messages
+
+    return next((message.text for message in messages.last() if part in message.text), "")
+
+
 def press_escape(view):
     point_at(view.x + 50, view.y + 50)
     subprocess.run(["xdotool", "key", "Escape"], check=True)
@@ -183,8 +190,6 @@ def compare_gizmos(view, folder, facts):
 
 def stop_by_escape(preferences, folder, view, facts):
     """A program that never ends, and ignores SIGTERM."""
-    from brume import messages
-
     mark, deadline = os.path.join(folder, "pid"), time.monotonic() + HANG
     commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; trap '' TERM; exec sleep infinity"
     preferences.program = write_program(folder, "endless", commands)
@@ -193,35 +198,30 @@ def stop_by_escape(preferences, folder, view, facts):
         yield 0.1
     with open(mark, encoding="ascii") as file:
         child = int(file.read())
-    messages.show([])
     press_escape(view)
     while os.path.exists(f"/proc/{child}") and time.monotonic() < deadline:
         yield 0.1
     facts["ended"] = not os.path.exists(f"/proc/{child}")
-    while not messages.last() and time.monotonic() < deadline:
+    while not says("stopped") and time.monotonic() < deadline:
         yield 0.05
-    facts["stopped"] = "Render with Brume: stopped" in [message.text for message in messages.last()]
+    facts["stopped"] = says("stopped")
 
 
 def stop_film(preferences, folder, view, facts):
     """A program that writes one image of a film and never ends: the image remains after Esc."""
-    from brume import messages
-
     preferences.program = write_program(
         folder, "slow", f"cp '{folder}/first.png' image_000000.png; exec sleep infinity"
     )
     first, deadline = os.path.join(folder, "film", "0001.png"), time.monotonic() + HANG
     bpy.context.scene.render.filepath = os.path.join(folder, "film", "####")
-    messages.show([])
     with inside(view):
         bpy.ops.brume.film("INVOKE_DEFAULT")
     while not os.path.exists(first) and time.monotonic() < deadline:
         yield 0.1
     press_escape(view)
-    while not messages.last() and time.monotonic() < deadline:
+    while not says("stopped") and time.monotonic() < deadline:
         yield 0.1
-    texts = [message.text for message in messages.last()]
-    facts["film_stopped"] = "Render Film: stopped; 1 of 96 images are written" in texts
+    facts["film_stopped"] = says("stopped")
 
 
 def walk_in(preferences, brume, folder, facts):
