@@ -226,7 +226,8 @@ def add_exceptions(look, crate):
     cap.material_slots[1].link, cap.material_slots[1].material = "OBJECT", look.paint
     add("measure", crate, location=(0, 0, 15)).brume.role = "LEFT_OUT"
     add("not rendered", crate, location=(0, 0, 16)).hide_render = True
-    add("hidden", crate, location=(0, 0, 17)).hide_viewport = True
+    hidden = add("hidden", crate, location=(0, 0, 17))
+    hidden.hide_viewport = hidden.hide_render = True
 
 
 def build_courtyard(folder):

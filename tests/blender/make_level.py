@@ -111,10 +111,18 @@ def empty_with(kind, number, setting):
     made = level_parts.add(f"{kind} {number}", None, location=(number, 0, 0))
     event = made.brume_event
     event.type = kind
-    for name, field in event.bl_rna.properties.items():
-        if setting != "usual" and field.type == "FLOAT":
-            setattr(event, name, field.hard_min if setting == "least" else field.hard_max)
+    if setting != "usual":
+        set_all(event, setting)
+        event.time = 0 if setting == "least" else 3600
     return event
+
+
+def set_all(group, setting):
+    """Sets all numbers that are stored, not computed from others, to the limits of their properties."""
+    for name, field in group.bl_rna.properties.items():
+        computed = name.startswith("shown_") or name in {"frame", "time", "smoke_radius"}
+        if field.type in {"FLOAT", "INT"} and not computed:
+            setattr(group, name, field.hard_min if setting == "least" else field.hard_max)
 
 
 def make_ranges(folder):
@@ -124,10 +132,8 @@ def make_ranges(folder):
         level_parts.add("floor", level_parts.box_mesh("floor", (-1, -1, -1), (1, 1, 0)))
         for number, kind in enumerate(("SMOKE", "SHOT", "TEXT", "BLAST")):
             empty_with(kind, number, setting).text = LETTERS
-        options = bpy.context.scene.brume
-        for name, field in options.bl_rna.properties.items():
-            if setting != "usual" and field.type in {"FLOAT", "INT"}:
-                setattr(options, name, field.hard_min if setting == "least" else field.hard_max)
+        if setting != "usual":
+            set_all(bpy.context.scene.brume, setting)
         bpy.ops.brume.export_level(filepath=os.path.join(folder, setting + ".glb"), format="GLTF")
 
 

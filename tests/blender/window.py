@@ -1,7 +1,7 @@
 """Run by Blender in a window: blender --factory-startup -P window.py -- ADDON.zip BRUME FOLDER
 
-Draws the panels, renders while Blender goes on, shows the picture, stops a render by Esc. Leaves window.json and
-window.png.
+Draws the panels, renders while Blender goes on, shows the picture, stops a render and a film by Esc. Leaves window.json
+and window.png.
 """
 
 import json
@@ -77,6 +77,13 @@ def choose_tab(view):
     yield 0.5
 
 
+def says(part):
+    """The text in the sidebar that contains a part, or ""."""
+    from brume import messages
+
+    return next((message.text for message in messages.last() if part in message.text), "")
+
+
 def press_escape(view):
     point_at(view.x + 50, view.y + 50)
     subprocess.run(["xdotool", "key", "Escape"], check=True)
@@ -85,7 +92,7 @@ def press_escape(view):
 def write_program(folder, name, commands):
     path = os.path.join(folder, name)
     with open(path, "w", encoding="ascii") as script:
-        script.write(f"#!/bin/sh\n{commands}\n")
+        script.write(f'#!/bin/sh\ncase "$*" in *--help*) exit;; esac\n{commands}\n')
     os.chmod(path, 0o700)
     return path
 
@@ -155,12 +162,36 @@ def render_without_editor(preferences, folder, editor, facts):
     with bpy.context.temp_override(window=windows[-1]):
         bpy.ops.wm.window_close()
     yield 0.5
+    # Where the preferences place renders in the window, none opens.
+    bpy.context.preferences.view.render_display_type = "AREA"
+    invoke_render()
+    while not areas("IMAGE_EDITOR") and time.monotonic() < deadline:
+        yield 0.1
+    facts["windows_of_area"] = len(windows)
+    areas("IMAGE_EDITOR")[0].type = "PROPERTIES"
+
+
+def compare_gizmos(view, folder, facts):
+    """The 3D view with the sizes and paths of events, and without."""
+    pictures = []
+    for shown in (True, False):
+        bpy.context.scene.brume.gizmos = shown
+        path = os.path.join(folder, f"gizmos_{shown}.png")
+        yield 0.5
+        with inside(view):
+            bpy.ops.screen.screenshot_area(filepath=path)
+        image = bpy.data.images.load(path)
+        pictures.append(image.pixels[:])
+        bpy.data.images.remove(image)
+    bpy.context.scene.brume.gizmos = True
+    # Red of RGBA. Smoothing of edges differs a little from picture to picture.
+    facts["gizmo_pixels"] = sum(abs(a - b) > 0.1 for a, b in zip(pictures[0][::4], pictures[1][::4]))
 
 
 def stop_by_escape(preferences, folder, view, facts):
-    """A program that never ends."""
+    """A program that never ends, and ignores SIGTERM."""
     mark, deadline = os.path.join(folder, "pid"), time.monotonic() + HANG
-    commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; exec sleep infinity"
+    commands = f"echo $$ > '{mark}.new'; mv '{mark}.new' '{mark}'; trap '' TERM; exec sleep infinity"
     preferences.program = write_program(folder, "endless", commands)
     invoke_render()
     while not os.path.exists(mark) and time.monotonic() < deadline:
@@ -171,6 +202,26 @@ def stop_by_escape(preferences, folder, view, facts):
     while os.path.exists(f"/proc/{child}") and time.monotonic() < deadline:
         yield 0.1
     facts["ended"] = not os.path.exists(f"/proc/{child}")
+    while not says("stopped") and time.monotonic() < deadline:
+        yield 0.05
+    facts["stopped"] = says("stopped")
+
+
+def stop_film(preferences, folder, view, facts):
+    """A program that writes one image of a film and never ends: the image remains after Esc."""
+    preferences.program = write_program(
+        folder, "slow", f"cp '{folder}/first.png' image_000000.png; exec sleep infinity"
+    )
+    first, deadline = os.path.join(folder, "film", "0001.png"), time.monotonic() + HANG
+    bpy.context.scene.render.filepath = os.path.join(folder, "film", "####")
+    with inside(view):
+        bpy.ops.brume.film("INVOKE_DEFAULT")
+    while not os.path.exists(first) and time.monotonic() < deadline:
+        yield 0.1
+    press_escape(view)
+    while not says("stopped") and time.monotonic() < deadline:
+        yield 0.1
+    facts["film_stopped"] = says("stopped")
 
 
 def walk_in(preferences, brume, folder, facts):
@@ -195,7 +246,9 @@ def steps(addon, brume, folder):
     yield from render(preferences, brume, folder, editor, facts)
     yield from take_picture(view, editor, os.path.join(folder, "window.png"))
     yield from render_without_editor(preferences, folder, editor, facts)
+    yield from compare_gizmos(view, folder, facts)
     yield from stop_by_escape(preferences, folder, view, facts)
+    yield from stop_film(preferences, folder, view, facts)
     yield from walk_in(preferences, brume, folder, facts)
     # A failing program keeps the previous image.
     preferences.program = "/bin/false"

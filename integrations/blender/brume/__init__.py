@@ -13,9 +13,39 @@ bl_info = {
     "category": "Import-Export",
 }
 
-from . import export_level, panels, preferences, properties, render, view, voxels  # noqa: E402
+from . import (  # noqa: E402
+    check_operator,
+    event_operators,
+    export_level,
+    film,
+    gizmos,
+    import_timeline,
+    markers,
+    panels,
+    preferences,
+    presets,
+    properties,
+    render,
+    view,
+    voxels,
+)
 
-_MODULES = (preferences, properties, export_level, render, view, voxels, panels)
+_MODULES = (
+    preferences,
+    properties,
+    presets,
+    event_operators,
+    export_level,
+    import_timeline,
+    check_operator,
+    render,
+    film,
+    view,
+    voxels,
+    markers,
+    gizmos,
+    panels,
+)
 
 
 def register():

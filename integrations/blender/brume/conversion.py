@@ -68,3 +68,13 @@ def number(value):
     if not np.isfinite(rounded):
         raise BrumeError("a position or setting of the scene is not finite; check the transforms")
     return np.format_float_positional(rounded, unique=True, trim="0")
+
+
+def radius_of_voxels(count, voxel):
+    """The radius of a ball of `count` voxels with an edge of `voxel`."""
+    return voxel * (count * 0.75 / math.pi) ** (1 / 3)
+
+
+def voxels_of_radius(radius, voxel):
+    """The number of voxels, at least 1, whose volume is that of a ball."""
+    return max(1, round((radius / voxel) ** 3 * math.pi / 0.75))

@@ -2,9 +2,10 @@
 
 import shutil
 import tempfile
+import time
 
 from . import program
-from .messages import BrumeError, Warnings
+from .messages import BrumeError, Message, Warnings, fail, show
 
 
 class JobOperator:
@@ -12,16 +13,30 @@ class JobOperator:
 
     arguments(context, folder): exports into the temporary `folder` and returns the arguments of brume.
     finish(context, folder, out): uses the files in `folder` and the standard output of brume.
+
+    and may define:
+
+    progress(folder): called while the program runs; returns what the status bar shows.
+    stopped(folder): called when Esc has stopped the program, before `folder` is removed; returns the message.
     """
 
     stopped_by_escape = True
     _timer = None
+    _stopping = False
+
+    def progress(self, _folder):
+        return f"{time.monotonic() - self._begin:.0f} s"
+
+    def stopped(self, _folder):
+        return self.bl_label + ": stopped"
 
     def _start(self, context):
         self._warnings = Warnings()
+        self._begin = time.monotonic()
         self._folder = tempfile.mkdtemp(prefix="brume_")
         try:
             command = [program.find(context)] + self.arguments(context, self._folder)
+            show(self._warnings.messages)
             self._job = program.Job(command, self._folder)
         except BaseException:
             self._clean(context)
@@ -43,8 +58,7 @@ class JobOperator:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def _failed(self, error):
-        self.report({"ERROR"}, str(error))
-        return {"CANCELLED"}
+        return fail(self, error, self._warnings.messages)
 
     def execute(self, context):
         """Blocks until the program ends: for scripts and tests."""
@@ -64,24 +78,45 @@ class JobOperator:
             return self._failed(error)
         manager = context.window_manager
         self._timer = manager.event_timer_add(0.1, window=context.window)
-        if self.stopped_by_escape:
-            context.workspace.status_text_set(self.bl_label + ": Esc to stop")
+        self._show_progress(context)
         manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if self.stopped_by_escape and (event.type, event.value) == ("ESC", "PRESS"):
-            self.cancel(context)
-            return {"CANCELLED"}
-        if event.type != "TIMER" or self._job.running():
+        if self.stopped_by_escape and (event.type, event.value) == ("ESC", "PRESS") and not self._stopping:
+            # The process ends when the system has released its memory; the timer waits for it.
+            self._stopping = True
+            self._job.kill()
+            context.workspace.status_text_set(self.bl_label + ": stopping")
+            return {"RUNNING_MODAL"}
+        if event.type != "TIMER":
             return {"PASS_THROUGH"}
         try:
+            if self._job.running():
+                if not self._stopping:
+                    self._show_progress(context)
+                return {"PASS_THROUGH"}
+            if self._stopping:
+                return self._stopped(context)
             self._end(context)
         except BrumeError as error:
+            self.cancel(context)
             return self._failed(error)
         return {"FINISHED"}
 
+    def _show_progress(self, context):
+        if self.stopped_by_escape:
+            context.workspace.status_text_set(f"{self.bl_label}: {self.progress(self._folder)}. Esc to stop")
+
+    def _stopped(self, context):
+        text = self.stopped(self._folder)
+        self._clean(context)
+        show([*self._warnings.messages, Message("INFO", text)])
+        self.report({"INFO"}, text)
+        return {"CANCELLED"}
+
     def cancel(self, context):
-        """Stops the program: called on Esc and when Blender closes."""
-        self._job.stop()
+        """Stops the program: called after an error, and when Blender closes."""
+        self._job.kill()
+        self._job.wait()
         self._clean(context)

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from . import conversion, names
+from .visibility import AsRendered
 
 
 @dataclass
@@ -24,6 +25,7 @@ class Thing:
 
     name: str
     role: str
+    label: str  # Name in Blender.
     pieces: list = field(default_factory=list)
 
 
@@ -40,6 +42,7 @@ class Level:
     lights: list = field(default_factory=list)
     door_names: dict = field(default_factory=dict)  # Name in Blender: names of its instances in Brume.
     metres: float = 1.0  # Length of a Blender unit.
+    rendered: set = field(default_factory=set)  # Objects of the scene that Blender renders, empties included.
 
 
 # Object types that Blender renders but cannot evaluate to a mesh.
@@ -109,18 +112,8 @@ class Gathered:
             self._mode = self._context.object.mode
             bpy.ops.object.mode_set(mode="OBJECT")
         try:
-            depsgraph = self._context.evaluated_depsgraph_get()
-            depsgraph.update()
-            for instance in depsgraph.object_instances:
-                if _hidden_from_renders(instance):
-                    continue
-                if instance.object.type == "MESH":
-                    self._add_mesh(instance)
-                elif instance.object.type == "LIGHT":
-                    self._add_light(instance)
-                elif instance.object.type in _NO_MESH:
-                    what = _NO_MESH[instance.object.type]
-                    self._warnings.add(f'"{instance.object.name}" is a {what} and is not exported')
+            with AsRendered(self._context, bpy.data):
+                self._add_all()
         except BaseException:
             self.__exit__()
             raise
@@ -132,6 +125,24 @@ class Gathered:
         if self._mode:
             bpy.ops.object.mode_set(mode=self._mode)
             self._mode = None
+
+    def _add_all(self):
+        view_layer = self._context.view_layer
+        self._level.rendered = {
+            thing for thing in view_layer.objects if thing.visible_get(view_layer=view_layer)
+        }
+        depsgraph = self._context.evaluated_depsgraph_get()
+        depsgraph.update()
+        for instance in depsgraph.object_instances:
+            if _hidden_from_renders(instance):
+                continue
+            if instance.object.type == "MESH":
+                self._add_mesh(instance)
+            elif instance.object.type == "LIGHT":
+                self._add_light(instance)
+            elif instance.object.type in _NO_MESH:
+                what = _NO_MESH[instance.object.type]
+                self._warnings.add(f'"{instance.object.name}" is a {what} and is not exported')
 
     def _add_mesh(self, instance):
         evaluated, source = instance.object, instance.object.original
@@ -160,7 +171,7 @@ class Gathered:
             self._warnings.add(
                 f'"{source.name}" has "door" in its name, so the viewer opens it; rename it or set its role to Door'
             )
-        self._level.things.append(Thing(name, role, [piece]))
+        self._level.things.append(Thing(name, role, source.name, [piece]))
 
     def _add_to_door(self, instance, door, piece):
         """Adds a piece to the thing of its door: one thing per instance of the door's collection."""
@@ -174,7 +185,7 @@ class Gathered:
             name = names.safe(door.name)
             # The viewer recognizes doors by their name.
             name = self._names.take(name if "door" in name.lower() else "door_" + name)
-            self._doors[key] = Thing(name, "DOOR")
+            self._doors[key] = Thing(name, "DOOR", door.name)
             self._level.things.append(self._doors[key])
             self._level.door_names.setdefault(door.name, []).append(name)
         self._doors[key].pieces.append(piece)

@@ -1,60 +1,35 @@
-"""The sidebar tab of the 3D view, and Add > Brume."""
+"""The sidebar tab of the 3D view."""
+
+import textwrap
 
 import bpy
-from bpy.props import EnumProperty
 
-from .properties import EVENTS, HOLE_TIMES
+from . import checks, messages
+from .presets import PRESETS
+from .properties import HOLE_TIMES
 
 _FIELDS = {
     "SMOKE": ("thrown_from",),
-    "SHOT": ("aim", "shape", "radius", "roll", "flash") + HOLE_TIMES,
-    "TEXT": ("text", "aim", "size", "font", "spacing", "interval", "roll") + HOLE_TIMES,
-    "BLAST": ("blast_radius", "speed", "blast_flash", "remaining", "refill_rim", "refill_middle"),
+    "SHOT": ("aim", "shape", "shown_radius", "roll", "flash") + HOLE_TIMES,
+    "TEXT": ("text", "aim", "shown_size", "font", "spacing", "interval", "roll") + HOLE_TIMES,
+    "BLAST": ("shown_blast_radius", "shown_speed", "blast_flash", "remaining", "refill_rim", "refill_middle"),
     "DOOR": ("door", "open"),
 }
-_DISPLAY = {
-    "SMOKE": "SPHERE",
-    "SHOT": "SINGLE_ARROW",
-    "TEXT": "SINGLE_ARROW",
-    "BLAST": "SPHERE",
-    "DOOR": "PLAIN_AXES",
-}
+_SMOKE_FIELDS = ("smoke_radius", "smoke_voxels", "smoke_bloom", "smoke_hold", "smoke_dissolve", "smoke_extinction")
+_ICONS = {"ERROR": "CANCEL", "WARNING": "ERROR", "INFO": "INFO"}
 
 
-class BRUME_OT_add_event(bpy.types.Operator):
-    """Add an empty that marks an event"""
-
-    bl_idname = "brume.add_event"
-    bl_label = "Add Brume Event"
-    bl_options = {"REGISTER", "UNDO"}
-
-    type: EnumProperty(items=EVENTS[1:], name="Event")
-
-    def execute(self, context):
-        label = next(item[1] for item in EVENTS if item[0] == self.type)
-        empty = bpy.data.objects.new(label, None)
-        empty.empty_display_type = _DISPLAY[self.type]
-        empty.empty_display_size = 0.5
-        empty.location = context.scene.cursor.location
-        empty.brume_event.type = self.type
-        chosen = context.active_object
-        if self.type == "DOOR" and chosen and chosen.brume.role == "DOOR":
-            empty.brume_event.door = chosen
-        context.collection.objects.link(empty)
-        for thing in context.selected_objects:
-            thing.select_set(False)
-        empty.select_set(True)
-        context.view_layer.objects.active = empty
-        return {"FINISHED"}
+def wrapped(text, width, scale):
+    """Lines of a text that fit a width [px]; a letter is about 6.5 px wide at scale 1."""
+    return textwrap.wrap(text, max(12, int(width / (6.5 * scale)) - 8))
 
 
-class BRUME_MT_add(bpy.types.Menu):
-    bl_idname = "BRUME_MT_add"
-    bl_label = "Brume"
-
-    def draw(self, _context):
-        for identifier, label, _ in EVENTS[1:]:
-            self.layout.operator(BRUME_OT_add_event.bl_idname, text=label).type = identifier
+def _draw_message(layout, context, message):
+    column = layout.column(align=True)
+    column.scale_y = 0.75
+    scale = context.preferences.system.ui_scale
+    for number, line in enumerate(wrapped(message.text, context.region.width, scale)):
+        column.label(text=line, icon="BLANK1" if number else _ICONS[message.kind])
 
 
 class _Panel:
@@ -62,25 +37,26 @@ class _Panel:
     bl_region_type = "UI"
     bl_category = "Brume"
 
+    def begin(self):
+        """Two columns, without dots for keyframes: nothing here is animated."""
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout
+
 
 class BRUME_PT_level(_Panel, bpy.types.Panel):
     bl_idname = "BRUME_PT_level"
-    bl_label = "Level"
+    bl_label = "Brume"
 
     def draw(self, context):
-        layout, options = self.layout, context.scene.brume
-        layout.use_property_split = True
-        column = layout.column()
-        for name in ("format", "voxel", "sky", "march"):
-            column.prop(options, name)
-        column = layout.column()
-        for name in ("voxels", "bloom", "hold", "dissolve", "extinction"):
-            column.prop(options, "smoke_" + name)
-        column = layout.column()
+        options = context.scene.brume
+        column = self.begin().column()
         column.operator("brume.render", icon="RENDER_STILL")
+        column.operator("brume.film", icon="RENDER_ANIMATION")
         row = column.row(align=True)
         row.operator("brume.view", icon="VIEW_PERSPECTIVE").play = False
         row.operator("brume.view", text="Play", icon="PLAY").play = True
+        column.operator("brume.check", icon="CHECKMARK")
         column.operator("brume.voxels", icon="VIEW3D")
         column.operator("brume.export_level", icon="EXPORT").format = options.format
 
@@ -94,8 +70,7 @@ class BRUME_PT_object(_Panel, bpy.types.Panel):
         return context.object is not None
 
     def draw(self, context):
-        layout, thing = self.layout, context.object
-        layout.use_property_split = True
+        layout, thing = self.begin(), context.object
         instancer = thing.type == "EMPTY" and thing.instance_type == "COLLECTION"
         if thing.type != "EMPTY" or instancer:
             layout.prop(thing.brume, "role")
@@ -104,29 +79,74 @@ class BRUME_PT_object(_Panel, bpy.types.Panel):
         layout.prop(event, "type")
         if event.type == "NONE":
             return
-        layout.prop(event, "time")
+        column = layout.column(align=True)
+        column.prop(event, "frame")
+        column.prop(event, "time")
+        column.operator("brume.event_to_frame", icon="TIME")
+        if event.type in PRESETS:
+            layout.menu("BRUME_MT_presets")
         column = layout.column()
         for name in _FIELDS[event.type]:
             column.prop(event, name)
             if name == "shape" and event.shape == "MASK":
                 column.prop(event, "mask")
+        if event.type == "SMOKE":
+            column.label(text="Size of all: panel Smoke")
+        for message in messages.last():
+            if message.thing == thing.name:
+                _draw_message(layout, context, message)
 
 
-def _menu(self, _context):
-    self.layout.separator()
-    self.layout.menu(BRUME_MT_add.bl_idname, icon="OUTLINER_OB_VOLUME")
+class BRUME_PT_messages(_Panel, bpy.types.Panel):
+    bl_idname = "BRUME_PT_messages"
+    bl_label = "Messages"
+
+    @classmethod
+    def poll(cls, _context):
+        return bool(messages.last())
+
+    def draw(self, context):
+        for message in messages.last():
+            _draw_message(self.layout, context, message)
 
 
-_CLASSES = (BRUME_OT_add_event, BRUME_MT_add, BRUME_PT_level, BRUME_PT_object)
+class BRUME_PT_smoke(_Panel, bpy.types.Panel):
+    bl_idname = "BRUME_PT_smoke"
+    bl_label = "Smoke"
+
+    def draw(self, context):
+        column = self.begin().column()
+        for name in _SMOKE_FIELDS:
+            column.prop(context.scene.brume, name)
+
+
+class BRUME_PT_scene(_Panel, bpy.types.Panel):
+    bl_idname = "BRUME_PT_scene"
+    bl_label = "Scene"
+
+    def draw(self, context):
+        options = context.scene.brume
+        layout = self.begin()
+        column = layout.column()
+        for name in ("sky", "tone", "samples", "march"):
+            column.prop(options, name)
+        column = layout.column()
+        for name in ("format", "shown_voxel"):
+            column.prop(options, name)
+        column = layout.column(heading="Show")
+        for name in ("gizmos", "markers"):
+            column.prop(options, name)
+
+
+_CLASSES = (BRUME_PT_level, BRUME_PT_object, BRUME_PT_messages, BRUME_PT_smoke, BRUME_PT_scene)
 
 
 def register():
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.VIEW3D_MT_add.append(_menu)
 
 
 def unregister():
-    bpy.types.VIEW3D_MT_add.remove(_menu)
+    checks.ends.clear()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

@@ -1,7 +1,9 @@
 """Runs the brume program as a child process."""
 
+import functools
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
 
@@ -25,6 +27,28 @@ def find(context):
     return path
 
 
+@functools.lru_cache(maxsize=8)
+def _render_help(path, _changed):
+    """The help of `brume render`; empty if the program fails."""
+    try:
+        run = subprocess.run(
+            [path, "render", "--help"],
+            cwd=tempfile.gettempdir(),
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            timeout=3,
+            check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return run.stdout.decode("utf-8", "replace") if run.returncode == 0 else ""
+
+
+def render_has(path, option):
+    """Whether `brume render` of this program has an option, such as "--tone"."""
+    return option in _render_help(path, os.stat(path).st_mtime_ns).split()
+
+
 class Job:
     """A running program. Its output goes to files, so that it never blocks on a full pipe."""
 
@@ -38,6 +62,7 @@ class Job:
                 stdout=self._out,
                 stderr=self._error,
                 creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+                start_new_session=os.name == "posix",
             )
         except OSError as error:
             raise BrumeError(f"{arguments[0]} does not start: {error.strerror}") from error
@@ -45,13 +70,14 @@ class Job:
     def running(self):
         return self._child.poll() is None
 
-    def stop(self):
-        self._child.terminate()
-        try:
-            self._child.wait(5)
-        except subprocess.TimeoutExpired:
+    def kill(self):
+        """Ends the program and its children at once; running() reports when it has ended."""
+        if not self.running():
+            return
+        if os.name == "posix":
+            os.killpg(self._child.pid, signal.SIGKILL)
+        else:
             self._child.kill()
-            self._child.wait()
 
     def wait(self):
         self._child.wait()

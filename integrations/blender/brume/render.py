@@ -4,39 +4,58 @@ import os
 
 import bpy
 
-from . import timeline
+from . import samples
 from .export_level import EXTENSIONS, export
 from .job_operator import JobOperator
 from .messages import BrumeError
 
 IMAGE_NAME = "Brume Render"
+PREVIOUS_NAME = "Brume Render (previous)"
 
 
 def _take_image(path):
-    """Replaces the image of the previous render; packs the new one, because its file is temporary."""
-    before = bpy.data.images.get(IMAGE_NAME)
+    """Packs the image, because its file is temporary. The one before it stays, for comparison."""
     image = bpy.data.images.load(path)
     image.pack()
+    before, oldest = bpy.data.images.get(IMAGE_NAME), bpy.data.images.get(PREVIOUS_NAME)
     if before:
-        before.user_remap(image)
-        bpy.data.images.remove(before)
+        # Editors that show an image go on to show the one of the same age.
+        shown = [space for space in _image_spaces() if space.image == before]
+        if oldest:
+            oldest.user_remap(before)
+            bpy.data.images.remove(oldest)
+        before.name = PREVIOUS_NAME
+        for space in shown:
+            space.image = image
     image.name = IMAGE_NAME
 
 
+def _image_spaces():
+    areas = (area for window in bpy.context.window_manager.windows for area in window.screen.areas)
+    return [area.spaces.active for area in areas if area.type == "IMAGE_EDITOR"]
+
+
 def _show():
-    """Shows the image in all open Image Editors, or in a new window. Called by a timer, because a modal operator
-    that opens a window does not end."""
+    """Shows the image in an Image Editor; without one, where the preferences place renders. Called by a timer, because
+    a modal operator that opens a window does not end."""
     image = bpy.data.images.get(IMAGE_NAME)
-    windows = bpy.context.window_manager.windows
-    editors = [area for window in windows for area in window.screen.areas if area.type == "IMAGE_EDITOR"]
-    if not editors:
-        with bpy.context.temp_override(window=windows[0]):
-            bpy.ops.wm.window_new()
-        area = windows[-1].screen.areas[0]
+    place = bpy.context.preferences.view.render_display_type
+    spaces = _image_spaces()
+    if not spaces and place != "NONE":
+        window = bpy.context.window_manager.windows[0]
+        if place == "WINDOW":
+            with bpy.context.temp_override(window=window):
+                bpy.ops.wm.window_new()
+            area = bpy.context.window_manager.windows[-1].screen.areas[0]
+        else:
+            areas = [area for area in window.screen.areas if area.type != "VIEW_3D"] or list(window.screen.areas)
+            area = max(areas, key=lambda area: area.width * area.height)
         area.type = "IMAGE_EDITOR"
-        editors = [area]
-    for area in editors:
-        area.spaces.active.image = image
+        spaces = [area.spaces.active]
+    # An editor with another image, such as a texture, keeps it if one shows renders already.
+    showing = [space for space in spaces if space.image and space.image.name in (IMAGE_NAME, PREVIOUS_NAME)]
+    for space in [] if showing else spaces[:1]:
+        space.image = image
 
 
 class BRUME_OT_render(JobOperator, bpy.types.Operator):
@@ -47,24 +66,21 @@ class BRUME_OT_render(JobOperator, bpy.types.Operator):
 
     def arguments(self, context, folder):
         scene = context.scene
-        options, render = scene.brume, scene.render
+        options, frame = scene.brume, scene.frame_current_final
         level = os.path.join(folder, "level" + EXTENSIONS[options.format])
-        written = export(context, level, options.format, self._warnings)
-        time = timeline.seconds(scene, scene.frame_current_final)
-        if not 0 <= time <= 3600:
-            raise BrumeError(f"frame {scene.frame_current} is at {time:g} s; choose one between 0 and 3600 s")
-        width, height = (
-            max(1, side * render.resolution_percentage // 100) for side in (render.resolution_x, render.resolution_y)
-        )
-        return ["render", written, "-o", "render.png", "--time", f"{time:.6f}", "--size", f"{width}x{height}"] + [
-            "--march",
-            options.march,
-        ]
+        written = export(context, level, options.format, self._warnings, frames=[frame])
+        time = written.clock.seconds(frame)
+        if time > 3600:
+            raise BrumeError(f"frame {frame:g} is at {time:g} s; choose one in the first 3600 s")
+        self._samples = samples.factor(scene)
+        arguments = ["render", written.path, "-o", "render.png", "--time", f"{time:.6f}"]
+        return arguments + ["--size", samples.size_argument(scene), "--march", options.march]
 
     def finish(self, _context, folder, _out):
         path = os.path.join(folder, "render.png")
         if not os.path.isfile(path):
             raise BrumeError("brume wrote no image; check the program path in the preferences")
+        samples.reduce(path, self._samples)
         _take_image(path)
         if not bpy.app.background:
             bpy.app.timers.register(_show, first_interval=0)

@@ -7,6 +7,7 @@ import bpy
 from mathutils import Vector
 
 from . import conversion, files, names
+from .clock import events_of, moves
 from .conversion import number
 from .messages import BrumeError
 from .properties import HOLE_TIMES
@@ -33,79 +34,52 @@ def _vector(values):
     return "[" + ", ".join(number(value) for value in values) + "]"
 
 
-def seconds(scene, frame):
-    """The time of a frame, from the first frame of the scene [s]."""
-    return (frame - scene.frame_start) * scene.render.fps_base / scene.render.fps
+# Events of one tick happen in this order.
+_ORDER = ("DOOR", "SMOKE", "SHOT", "TEXT", "BLAST")
 
 
-def frame_of(scene, time):
-    return scene.frame_start + time * scene.render.fps / scene.render.fps_base
+def events(scene, level):
+    """The events that Blender renders, in the order in which they happen."""
+    found = [thing for thing in events_of(scene) if thing in level.rendered]
+    return sorted(
+        found, key=lambda thing: (thing.brume_event.frame, _ORDER.index(thing.brume_event.type), thing.name)
+    )
 
 
-def moves(thing):
-    """Whether the transform or the lens of an object may change over time."""
-    while thing is not None:
-        for block in (thing, thing.data):
-            animation = getattr(block, "animation_data", None)
-            if animation and (animation.action or animation.nla_tracks or animation.drivers):
-                return True
-        if thing.constraints:
-            return True
-        thing = thing.parent
-    return False
-
-
-class _Clock:
-    """Sets the frame of the scene, and restores the original one on exit."""
-
-    def __init__(self, context):
-        self._context, self._scene = context, context.scene
-        self._before = self._scene.frame_current, self._scene.frame_subframe
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._set(*self._before)
-
-    def _set(self, frame, subframe):
-        if (self._scene.frame_current, self._scene.frame_subframe) != (frame, subframe):
-            self._scene.frame_set(frame, subframe=subframe)
-
-    def matrix_at(self, thing, time):
-        """world_from_object at a time [s]."""
-        return self.evaluated_at(thing, time).matrix_world.copy()
-
-    def evaluated_at(self, thing, time):
-        if moves(thing):
-            frame = frame_of(self._scene, time)
-            self._set(math.floor(frame), frame - math.floor(frame))
-        return thing.evaluated_get(self._context.evaluated_depsgraph_get())
+def target_of(clock, thing, metres):
+    """The world-space point that the shot or text of an empty passes through, in Blender's axes and units."""
+    event = thing.brume_event
+    time = clock.seconds(event.frame)
+    if event.aim:
+        return clock.matrix_at(event.aim, time).translation
+    place = clock.matrix_at(thing, time)
+    return place.translation + place.col[2].to_3d().normalized() * (10 / metres)
 
 
 class Writer:
     """Writes a timeline. `level` has the names of doors in the scene file."""
 
-    def __init__(self, context, level, folder, warnings):
-        self._context, self._scene, self._level = context, context.scene, level
+    def __init__(self, context, level, clock, folder, warnings):
+        self._scene, self._level, self._clock = context.scene, level, clock
         self._folder, self._warnings = folder, warnings
         self._copied = names.UniqueNames()
 
-    def write(self, path, scene_file):
-        with _Clock(self._context) as clock:
-            lines = self._head(scene_file) + self._camera(clock)
-            for thing, event in self._events():
-                lines += self._event(clock, thing, event)
+    def write(self, path, scene_file, tone=None):
+        """`tone` is omitted for a program that has only one."""
+        lines = self._head(scene_file, tone) + self._camera()
+        for thing in events(self._scene, self._level):
+            lines += self._event(thing, thing.brume_event)
         files.write(path, "\n".join(lines) + "\n")
 
-    def _head(self, scene_file):
+    def _head(self, scene_file, tone):
         scene, options = self._scene, self._scene.brume
-        duration = seconds(scene, scene.frame_end + 1)
+        duration = self._clock.seconds(scene.frame_end + 1)
         if not 0.01 <= duration <= _LONGEST:
             raise BrumeError(f"the scene lasts {duration:g} s, expected 0.01 to 3600 s; change its frame range")
         exposure = min(max(scene.view_settings.exposure, -20.0), 20.0)
         lines = ["version = 1", f"scene = {quoted(scene_file)}"]
         lines += [f"duration = {number(duration)}", f"exposure = {number(exposure)}"]
+        lines += [f"tone = {quoted(tone)}"] if tone else []
         lines += ["", "[grid]", f"voxel = {number(options.voxel)}"]
         lines += ["", "[smoke]", f"voxels = {options.smoke_voxels}"]
         lines += [f"{key} = {number(getattr(options, 'smoke_' + key))}" for key in ("bloom", "hold", "dissolve")]
@@ -115,7 +89,7 @@ class Writer:
             lines += ["", "[sky]"] + [f"{key} = {color}" for key in ("zenith", "horizon", "ambient")]
         return lines
 
-    def _camera(self, clock):
+    def _camera(self):
         camera, scene = self._scene.camera, self._scene
         if camera is None or camera.type != "CAMERA":
             self._warnings.add("the scene has no camera; Brume uses one with everything in view")
@@ -127,10 +101,10 @@ class Writer:
             self._warnings.add("markers that switch cameras are not exported")
         times = [0.0]
         if moves(camera):
-            last = seconds(scene, scene.frame_end)
+            last = self._clock.seconds(scene.frame_end)
             count = max(1, math.ceil(last * _KEYS_PER_SECOND))
             times = sorted({last * i / count for i in range(count + 1)})
-        keys = [(time, self._camera_key(clock, camera, time)) for time in times]
+        keys = [(time, self._camera_key(camera, time)) for time in times]
         if all(key == keys[0][1] for _, key in keys):
             keys = keys[:1]
         lines = []
@@ -139,8 +113,8 @@ class Writer:
             lines += [f"position = {position}", f"target = {target}", f"fov = {number(fov)}"]
         return lines
 
-    def _camera_key(self, clock, camera, time):
-        evaluated = clock.evaluated_at(camera, time)
+    def _camera_key(self, camera, time):
+        evaluated = self._clock.evaluated_at(camera, time)
         matrix = evaluated.matrix_world
         metres = self._level.metres
         forward = -matrix.col[2].to_3d().normalized()
@@ -157,22 +131,16 @@ class Writer:
             min(max(math.degrees(vertical_fov(evaluated.data, self._scene)), 1.0), 170.0),
         )
 
-    def _events(self):
-        found = []
-        for thing in self._scene.objects:
-            event = thing.brume_event
-            if thing.type == "EMPTY" and event.type != "NONE":
-                found.append((event.time, thing.name, thing, event))
-        return [entry[2:] for entry in sorted(found, key=lambda entry: entry[:2])]
-
-    def _event(self, clock, thing, event):
+    def _event(self, thing, event):
+        time = self._clock.seconds(event.frame)
+        if time > _LONGEST:
+            raise BrumeError(f'the event "{thing.name}" is at {time:g} s, timelines last 3600 s; move it')
         if event.type == "DOOR":
-            return self._door(thing, event)
-        place = clock.matrix_at(thing, event.time)
-        here = place.translation
-        keys = {"type": quoted(event.type.lower()), "time": number(event.time)}
+            return self._door(thing, event, time)
+        here = self._clock.matrix_at(thing, time).translation
+        keys = {"type": quoted(event.type.lower()), "time": number(time)}
         if event.type == "SMOKE":
-            start = clock.matrix_at(event.thrown_from, event.time).translation if event.thrown_from else here
+            start = self._clock.matrix_at(event.thrown_from, time).translation if event.thrown_from else here
             keys |= {"from": self._point(thing, start), "at": self._point(thing, here)}
         elif event.type == "BLAST":
             keys["at"] = self._point(thing, here)
@@ -180,7 +148,7 @@ class Writer:
             keys |= {key: number(getattr(event, key)) for key in ("speed", "remaining", "refill_rim")}
             keys["refill_middle"] = number(max(event.refill_middle, event.refill_rim))
         else:
-            keys |= self._aimed(clock, thing, event, place)
+            keys |= self._aimed(thing, event, here)
         return ["", "[[event]]"] + [f"{key} = {value}" for key, value in keys.items()]
 
     def _point(self, thing, blender_point):
@@ -189,12 +157,9 @@ class Writer:
             raise BrumeError(f'the event "{thing.name}" is farther than 16384 m from the origin; move it closer')
         return _vector(values)
 
-    def _aimed(self, clock, thing, event, place):
+    def _aimed(self, thing, event, here):
         """The keys of a shot or a text: fired from the empty along its z axis, or at its target."""
-        here = place.translation
-        toward = here + place.col[2].to_3d().normalized() * (10 / self._level.metres)
-        if event.aim:
-            toward = clock.matrix_at(event.aim, event.time).translation
+        toward = target_of(self._clock, thing, self._level.metres)
         if (Vector(toward) - here).length < 1e-6:
             raise BrumeError(f'the event "{thing.name}" aims at its own position; move it or its target')
         keys = {"from": self._point(thing, here), "toward": self._point(thing, toward)}
@@ -211,6 +176,8 @@ class Writer:
         keys |= {"radius": number(event.radius), "flash": number(event.flash)}
         keys["shape"] = quoted(event.shape.lower())
         if event.shape == "MASK":
+            if not event.mask:
+                raise BrumeError(f'the shape of "{thing.name}" is Mask, but it names no image; choose one')
             keys["mask"] = self._copy_of(thing, event.mask, "Masks")
         return keys
 
@@ -227,7 +194,7 @@ class Writer:
         files.write(os.path.join(self._folder, name), data)
         return quoted(name)
 
-    def _door(self, thing, event):
+    def _door(self, thing, event, time):
         door = event.door
         found = self._level.door_names.get(door.name, []) if door else []
         if not found:
@@ -235,7 +202,7 @@ class Writer:
             self._warnings.add(f'the door event "{thing.name}" is not exported: {what}')
         lines = []
         for name in found:
-            lines += ["", "[[event]]", 'type = "door"', f"time = {number(event.time)}"]
+            lines += ["", "[[event]]", 'type = "door"', f"time = {number(time)}"]
             lines += [f"object = {quoted(name)}", f"open = {'true' if event.open else 'false'}"]
         return lines
 

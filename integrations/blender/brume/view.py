@@ -23,7 +23,7 @@ class BRUME_OT_view(JobOperator, bpy.types.Operator):
     def arguments(self, context, folder):
         file_format = context.scene.brume.format
         level = os.path.join(folder, "level" + EXTENSIONS[file_format])
-        written = export(context, level, file_format, self._warnings)
+        written = export(context, level, file_format, self._warnings).path
         # Screenshots and recordings outlive the exported level.
         keep = os.path.dirname(bpy.data.filepath) or os.path.expanduser("~")
         return ["view"] + (["--play"] if self.play else []) + [written, "--folder", keep]

@@ -11,7 +11,7 @@ from bpy_extras.io_utils import ImportHelper
 from . import conversion
 from .export_level import EXTENSIONS, export
 from .job_operator import JobOperator
-from .messages import BrumeError
+from .messages import BrumeError, fail
 
 OBJECT_NAME = "Brume voxels"
 
@@ -63,7 +63,7 @@ class BRUME_OT_voxels(JobOperator, bpy.types.Operator):
     def arguments(self, context, folder):
         options = context.scene.brume
         level = os.path.join(folder, "level" + EXTENSIONS[options.format])
-        written = export(context, level, options.format, self._warnings, with_timeline=False)
+        written = export(context, level, options.format, self._warnings, with_timeline=False).path
         edge = conversion.number(options.voxel)
         return ["voxelize", written, "--voxel", edge, "--obj", "voxels.obj", "--json", "-"]
 
@@ -88,8 +88,7 @@ class BRUME_OT_import_voxels(bpy.types.Operator, ImportHelper):
         try:
             add_voxels(context, bpy.path.abspath(self.filepath))
         except BrumeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return fail(self, error)
         return {"FINISHED"}
 
 

@@ -1,0 +1,192 @@
+"""Checks the scene for what its image would not show as expected: where grenades land and shots end, units, lights."""
+
+import math
+
+import numpy as np
+from mathutils import Vector
+
+from . import conversion, timeline
+
+_SMALLEST_LEVEL = 1.0  # [m]
+_GRENADE_SPEED = 20.0  # [m/s], docs/timeline.md.
+_RANGE = 4096.0  # [m]
+
+# What the last check found: name of an event: (its matrix, its end point), in Blender's axes and units.
+ends = {}
+
+
+def check_level(level, solids, warnings):
+    """Warns of a wrong unit scale; notes what Brume renders differently from Blender."""
+    extent = solids.high - solids.low
+    if extent.max() < _SMALLEST_LEVEL:
+        warnings.add(
+            f"the level is only {extent.max():.2g} m wide; check the unit scale (Scene Properties > Units)"
+        )
+    for material in {slot: None for thing in level.things for piece in thing.pieces for slot in piece.materials}:
+        if material and _emits(material):
+            warnings.note(f'the material "{material.name}" glows, but it lights nothing: add a light beside it')
+    for light in level.lights:
+        if light.data.type == "AREA":
+            warnings.note(f'the area light "{light.data.name}" casts hard shadows: Brume has no soft ones')
+
+
+def _emits(material):
+    """Whether a node of the material emits light."""
+    if not material.use_nodes or not material.node_tree:
+        return False
+    for node in material.node_tree.nodes:
+        if node.type == "EMISSION":
+            if any(output.is_linked for output in node.outputs) and node.inputs["Strength"].default_value > 0:
+                return True
+        elif node.type == "BSDF_PRINCIPLED":
+            color = node.inputs.get("Emission Color") or node.inputs.get("Emission")
+            strength = node.inputs.get("Emission Strength")
+            lit = color.is_linked or max(color.default_value[:3]) > 0
+            if lit and (strength is None or strength.is_linked or strength.default_value > 0):
+                return True
+    return False
+
+
+def _metres(length):
+    return f"{length:.1f} m"
+
+
+class _Smoke:
+    """A smoke where its grenade goes off."""
+
+    def __init__(self, point, begin, options):
+        self.point, self.begin = point, begin
+        self.end = begin + options.smoke_bloom + options.smoke_hold + options.smoke_dissolve
+        self.radius = conversion.radius_of_voxels(options.smoke_voxels, options.voxel)
+
+
+class _EventCheck:
+    def __init__(self, scene, level, solids, clock, warnings):
+        self._scene, self._level, self._clock, self._warnings = scene, level, clock, warnings
+        self._options, self._solids = scene.brume, solids
+        self._open_doors, self._smokes = set(), []
+
+    def run(self):
+        ends.clear()
+        for thing in timeline.events(self._scene, self._level):
+            check = getattr(self, "_check_" + thing.brume_event.type.lower())
+            check(thing, self._clock.seconds(thing.brume_event.frame))
+
+    def _point(self, thing, time):
+        place = self._clock.matrix_at(thing, time).translation
+        return Vector(conversion.point(place, self._level.metres))
+
+    def _set_end(self, thing, point):
+        blender = np.array(point) @ conversion.BRUME_FROM_BLENDER / self._level.metres
+        ends[thing.name] = (thing.matrix_world.copy(), Vector(blender))
+
+    def _cast(self, start, direction, far=_RANGE):
+        return self._solids.cast(start, direction, far, self._open_doors)
+
+    def _check_door(self, thing, _time):
+        event = thing.brume_event
+        names = self._level.door_names.get(event.door.name, []) if event.door else []
+        if event.open:
+            self._open_doors.update(names)
+        else:
+            self._open_doors.difference_update(names)
+
+    def _margin(self):
+        """The air around a level that smoke may fill [m]: that of src/scenario/scenario.cpp."""
+        options = self._options
+        return options.voxel * (2 + math.floor((options.smoke_voxels * 0.75 / math.pi) ** (1 / 3) * 1.2))
+
+    def _is_placed_well(self, thing, point):
+        outside = self._solids.distance_outside(np.array(point))
+        if outside > self._margin():
+            self._warnings.add(f'"{thing.name}" is {_metres(outside)} outside the level: no smoke there', thing.name)
+            return False
+        around = self._solids.around(point, self._open_doors)
+        if around:
+            self._warnings.add(f'"{thing.name}" is inside "{around}": move it out', thing.name)
+        return not around
+
+    def _check_smoke(self, thing, time):
+        event, at = thing.brume_event, self._point(thing, time)
+        start = self._point(event.thrown_from, time) if event.thrown_from else at
+        flight = (at - start).length
+        if flight < 1e-3:
+            self._land(thing, at, time, self._is_placed_well(thing, at))
+            return
+        hit = self._cast(start, (at - start) / flight)
+        if hit is None:
+            # It goes off at the empty, in the air.
+            self._land(thing, at, time + flight / _GRENADE_SPEED, self._is_placed_well(thing, at))
+            return
+        distance, label = hit
+        voxel = self._options.voxel
+        landed = start + (at - start) / flight * max(0.0, distance - voxel)
+        if distance < flight - 2 * voxel:
+            self._warnings.add(
+                f'"{thing.name}" hits "{label}" after {_metres(distance)} and goes off there, not at its empty',
+                thing.name,
+            )
+        elif distance > flight + 2 * voxel:
+            far = _metres(distance - flight)
+            self._warnings.note(f'"{thing.name}" flies {far} past its empty, to "{label}"', thing.name)
+        self._land(thing, landed, time + distance / _GRENADE_SPEED, True)
+
+    def _land(self, thing, point, time, fills):
+        self._set_end(thing, point)
+        if fills:
+            self._smokes.append(_Smoke(point, time, self._options))
+
+    def _check_shot(self, thing, time):
+        start = self._point(thing, time)
+        target = timeline.target_of(self._clock, thing, self._level.metres)
+        along = Vector(conversion.point(target, self._level.metres)) - start
+        if along.length < 1e-6:
+            return  # The timeline reports it.
+        along.normalize()
+        # A shot leaves the solid voxel that it starts in.
+        voxel = self._options.voxel
+        hit = self._cast(start + along * voxel, along)
+        hit = (hit[0] + voxel, hit[1]) if hit else None
+        length = hit[0] if hit else self._reach(start)
+        self._set_end(thing, start + along * length)
+        end = f'hits "{hit[1]}" at {_metres(hit[0])}' if hit else "leaves the level"
+        out = [smoke for smoke in self._smokes if smoke.begin <= time <= smoke.end]
+        if not out:
+            self._warnings.add(f'"{thing.name}" {end}; no smoke is out at that time', thing.name)
+            return
+        gap = min(_gap(start, along, length, smoke) for smoke in out)
+        if gap > 0:
+            self._warnings.add(f'"{thing.name}" {end}, {_metres(gap)} from the nearest smoke', thing.name)
+        else:
+            self._warnings.note(f'"{thing.name}" {end}', thing.name)
+
+    _check_text = _check_shot
+
+    def _reach(self, start):
+        """A distance beyond the far side of the level [m]."""
+        far = np.maximum(np.abs(self._solids.low - start), np.abs(self._solids.high - start))
+        return float(np.linalg.norm(far)) + self._margin()
+
+    def _check_blast(self, thing, time):
+        at = self._point(thing, time)
+        self._set_end(thing, at)
+        if not self._is_placed_well(thing, at):
+            return
+        reach = thing.brume_event.blast_radius
+        out = [smoke for smoke in self._smokes if smoke.begin <= time <= smoke.end]
+        gaps = [(smoke.point - at).length - smoke.radius - reach for smoke in out]
+        if not gaps:
+            self._warnings.add(f'"{thing.name}" clears nothing: no smoke is out at that time', thing.name)
+        elif min(gaps) > 0:
+            self._warnings.add(f'"{thing.name}" is {_metres(min(gaps))} short of the nearest smoke', thing.name)
+
+
+def _gap(start, along, length, smoke):
+    """The distance of a path from a smoke [m]; 0 where it may pass through: walls make a smoke half as wide again."""
+    nearest = start + along * min(max((smoke.point - start).dot(along), 0.0), length)
+    return max(0.0, (nearest - smoke.point).length - 1.5 * smoke.radius)
+
+
+def check_events(scene, level, solids, clock, warnings):
+    """Warns of grenades inside walls or beside the level, and of shots and blasts that reach no smoke."""
+    _EventCheck(scene, level, solids, clock, warnings).run()
