@@ -22,7 +22,7 @@ function(brume_shaders target)
       DEPENDS ${file} DEPFILE ${spv}.d VERBATIM)
     add_custom_command(
       OUTPUT ${words}
-      COMMAND ${GLSLC} ${flags} -mfmt=num -o ${words} ${CMAKE_CURRENT_SOURCE_DIR}/${file}
+      COMMAND sh -c "od -An -v -tx4 '${spv}' | sed 's/ \\([0-9a-f]*\\)/0x\\1,/g' > '${words}'"
       DEPENDS ${spv} VERBATIM)
     file(CONFIGURE OUTPUT ${cpp} CONTENT
 "#include \"@target@.hpp\"

@@ -205,7 +205,8 @@ void declare_quality(const Arguments& arguments, Options& options) {
 Command add_render(CommandLine& program) {
   Command command =
       declare(program, "render", "Renders a scene or a timeline to an image, an image sequence or a film.",
-              "  brume render room.glb -o room.png --smoke 0,1,0\n"
+              "  brume render room.glb -o room.png\n"
+              "  brume render room.glb -o room.png --throw \"0,1.7,8 -2.6,0.4,-3\" --smoke-size 4\n"
               "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
               "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
               "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");

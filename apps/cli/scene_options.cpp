@@ -89,7 +89,7 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
 scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   scenario::FirstViewOptions parsed;
   parsed.scale = checked("--scale", options.scale, 1e-6, 1e6);
-  parsed.voxel = checked("--voxel", options.voxel, 0.015625, 10);
+  parsed.voxel = checked("--voxel", options.voxel, 0.015625, 64);
   parsed.smoke_size = checked("--smoke-size", options.smoke_size, 0.05, 1000);
   parsed.exposure = checked("--exposure", options.exposure, -20, 20);
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);

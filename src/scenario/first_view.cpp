@@ -88,7 +88,7 @@ float smoke_size(const scene::Camera& camera, glm::vec3 place, const FirstViewOp
 void size_smoke(scene::Timeline& timeline, float diameter, const Box<float>& bounds,
                 const FirstViewOptions& options) {
   const float least = std::max(0.015625f, bounds.empty() ? 0 : largest_extent(bounds) / 1000);
-  timeline.grid.voxel = options.voxel.value_or(std::clamp(diameter / kVoxelsAcross, least, 10.0f));
+  timeline.grid.voxel = options.voxel.value_or(std::clamp(diameter / kVoxelsAcross, least, 64.0f));
   const float across = diameter / timeline.grid.voxel;
   const float ball = std::numbers::pi_v<float> / 6 * across * across * across;
   timeline.smoke.voxels = static_cast<std::uint32_t>(std::clamp(ball, 50.0f, 1e6f));

@@ -48,10 +48,12 @@ std::vector<glm::ivec3> free_shell(const voxel::BitGrid& grid, glm::ivec3 middle
   return shell;
 }
 
-/// Where and when each throw of a log goes off; the world ends at the last throw.
+/// Where and when a throw of the log goes off.
 struct Throw {
-  std::uint32_t id = 0, tick = 0;  // of the detonation
-  glm::ivec3 voxel{0};
+  std::uint32_t id = 0, tick = 0;   // of the detonation
+  std::optional<glm::ivec3> voxel;  // nothing: it never does
+  glm::vec3 target_world{0};        // what it was thrown at
+  bool placed = false;              // not thrown from elsewhere
 };
 
 std::vector<Throw> throws_of(sim::World& world, std::span<const sim::Event> events) {
@@ -59,10 +61,14 @@ std::vector<Throw> throws_of(sim::World& world, std::span<const sim::Event> even
   for (std::uint32_t id = 0; id < events.size() && throws.size() < kMostReportedSmokes; ++id) {
     const auto* event = std::get_if<sim::ThrowSmoke>(&events[id]);
     if (!event) continue;
+    Throw thrown{
+        id, event->tick, {}, glm::vec3(sim::metres_from_position(event->at)), event->from == event->at};
     world.advance_to(event->tick);
-    Throw thrown{id, event->tick, {}};
     for (const sim::Flight& flight : world.state().flights)
-      if (flight.id == id) thrown = {id, flight.detonation_tick, flight.landing};
+      if (flight.id == id) {
+        thrown.tick = flight.detonation_tick;
+        thrown.voxel = flight.landing;
+      }
     for (const sim::LiveCloud& cloud : world.state().clouds)
       if (cloud.id == id) thrown.voxel = cloud.cloud->origin().source;
     throws.push_back(thrown);
@@ -70,24 +76,25 @@ std::vector<Throw> throws_of(sim::World& world, std::span<const sim::Event> even
   return throws;
 }
 
+SmokeFault fault_of(const SmokeReport& report, const Throw& thrown, const voxel::BitGrid& grid,
+                    float duration) {
+  if (report.time > double{duration}) return SmokeFault::after_end;
+  if (!thrown.voxel) return SmokeFault::outside_grid;
+  if (thrown.placed && grid.solid(voxel_of(grid.layout(), thrown.target_world))) return SmokeFault::in_solid;
+  return report.voxels < report.budget / 2 ? SmokeFault::confined : SmokeFault::none;
+}
+
 SmokeReport report_throw(sim::World& world, const Throw& thrown, const Scenario& scenario) {
   const voxel::GridLayout& layout = scenario.voxels.grid.layout();
   world.advance_to(thrown.tick);
   SmokeReport report;
-  report.at_world = centre_of(layout, thrown.voxel);
+  report.at_world = thrown.voxel ? centre_of(layout, *thrown.voxel) : thrown.target_world;
   report.time = static_cast<double>(thrown.tick) / world.settings().ticks_per_second;
   report.budget = scenario.timeline.smoke.voxels;
   for (const sim::LiveCloud& cloud : world.state().clouds)
     if (cloud.id == thrown.id) report.voxels = cloud.cloud->parts().fill.size();
-  if (report.time > double{scenario.timeline.duration}) {
-    report.fault = SmokeFault::after_end;
-  } else if (!world.grid().contains(thrown.voxel)) {
-    report.fault = SmokeFault::outside_grid;
-  } else if (world.grid().solid(thrown.voxel)) {
-    report.fault = SmokeFault::in_solid;
-  } else if (report.voxels < report.budget / 2) {
-    report.fault = SmokeFault::confined;
-  }
+  report.fault = fault_of(report, thrown, world.grid(), scenario.timeline.duration);
+  if (report.fault == SmokeFault::in_solid) report.at_world = thrown.target_world;
   if (report.fault != SmokeFault::none && report.fault != SmokeFault::after_end)
     report.works_at = nearest_free_place(world.grid(), report.at_world, report.budget / 2);
   return report;

@@ -13,14 +13,14 @@ namespace brume::scenario {
 
 enum class SmokeFault {
   none,
-  outside_grid,  ///< Goes off where there are no voxels.
-  in_solid,      ///< Goes off inside something solid.
+  outside_grid,  ///< Never goes off: there are no voxels where it is thrown.
+  in_solid,      ///< Placed inside something solid; it goes off beside it.
   confined,      ///< Fills less than half of its voxels: it is shut in.
   after_end,     ///< Goes off after the timeline ends.
 };
 
 struct SmokeReport {
-  glm::vec3 at_world{0};     ///< Where it goes off [m].
+  glm::vec3 at_world{0};     ///< Where it goes off [m]; where it was to, for the two faults of places.
   double time = 0;           ///< When it goes off [s].
   std::uint32_t voxels = 0;  ///< That it fills when grown.
   std::uint32_t budget = 0;  ///< SmokeOptions::voxels.

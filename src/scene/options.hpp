@@ -38,7 +38,7 @@ void visit_timeline_options(Options& o, Visitor&& visit) {
 
 template <typename Options, typename Visitor>
 void visit_grid_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"voxel", "m", "edge length of a voxel", 0.015625, 10}, o.voxel);
+  visit(OptionInfo{"voxel", "m", "edge length of a voxel", 0.015625, 64}, o.voxel);
   visit(OptionInfo{"size", "voxels", "size of the grid", 1, 4096}, o.size);
   visit(OptionInfo{"origin", "m", "low corner of the grid", -kFarthestPoint, kFarthestPoint}, o.origin_world);
 }

@@ -124,7 +124,7 @@ TEST(Timeline, UnknownKeysSuggestTheNearest) {
 
 TEST(Timeline, ValuesOutOfRangeNamePositionAndRange) {
   EXPECT_EQ(error_of(std::string(kHead) + "[grid]\nvoxel = 0\n"),
-            "scenes/t.toml:4:9: \"voxel\": expected a number from 0.015625 to 10, found 0");
+            "scenes/t.toml:4:9: \"voxel\": expected a number from 0.015625 to 64, found 0");
   EXPECT_EQ(error_of(std::string(kHead) + "[grid]\nsize = [0, 1, 1]\n"),
             "scenes/t.toml:4:9: \"size\": expected a whole number from 1 to 4096, found 0");
   EXPECT_EQ(error_of(std::string(kHead) + "[grid]\nsize = [1, 1000000, 1]\n"),
