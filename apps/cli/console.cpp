@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "apps/cli/json.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
