@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "image/font.hpp"
 #include "scene/load.hpp"
 #include "scene/stand_ins.hpp"
 #include "voxel/voxelize.hpp"
@@ -64,6 +65,15 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   if (!masks) return masks.failure();
   return Scenario{std::move(timeline), std::move(*scene),       camera,
                   std::move(*voxels),  std::move(masks->atlas), std::move(masks->of_shots)};
+}
+
+std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
+  std::vector<std::filesystem::path> files = scenario.scene.files;
+  for (const scene::ShotEvent& shot : scenario.timeline.shots)
+    if (shot.shape == scene::ShotShape::mask) files.push_back(shot.mask);
+  for (const scene::TextEvent& text : scenario.timeline.texts)
+    files.push_back(text.font.empty() ? image::default_font() : text.font);
+  return files;
 }
 
 }  // namespace brume::scenario
