@@ -108,9 +108,11 @@ int open_nameless(const fs::path& folder) {
 
 // Creates and locks a part. A process that cleans up may remove it before the lock: then tries again.
 int open_part(const fs::path& target, fs::path& part) {
+  // Readable by others only once it has the permissions of the file that it replaces.
+  const mode_t mode = ::access(target.c_str(), F_OK) == 0 ? 0600 : 0666;
   for (;;) {
     part = fresh_part(target);
-    const int descriptor = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int descriptor = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (descriptor < 0 && errno == EEXIST) continue;
     if (descriptor < 0) return -1;
     retry_lock(descriptor, LOCK_EX);
@@ -149,7 +151,7 @@ void copy_permissions(int descriptor, const fs::path& target) {
   // Only root may give files away; the group is often allowed alone.
   if (::fchown(descriptor, info.st_uid, info.st_gid) != 0)
     (void)!::fchown(descriptor, static_cast<uid_t>(-1), info.st_gid);
-  (void)!::fchmod(descriptor, info.st_mode & 07777);
+  (void)!::fchmod(descriptor, info.st_mode & 0777);
 }
 
 }  // namespace
