@@ -44,8 +44,8 @@ void print_report(const bench::Report& report) {
   for (const std::string& skipped : report.skipped) print("skipped: " + skipped + "\n");
 }
 
-void measure(const Options& options) {
-  check_output(options.json);
+void measure(const Options& options, Outputs& outputs) {
+  outputs.writes("--json", options.json, FileKind::json);
   const auto display = progress_display();
   std::uint64_t started = 0;
   const auto starting = [&](const std::string& name) { display({name, started++, 0, 0}); };
@@ -77,7 +77,7 @@ Command add_bench(CommandLine& program) {
       .add_option("--device", options->bench.device,
                   "Device by number or part of its name; see brume devices")
       .type_name("N|NAME");
-  command.run = [options] { measure(*options); };
+  command.run = [options, common = command.common] { measure(*options, common->outputs); };
   return command;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/cli/arguments.hpp"
+#include "apps/cli/outputs.hpp"
 
 namespace brume::cli {
 
@@ -13,6 +14,8 @@ namespace brume::cli {
 struct CommonOptions {
   unsigned threads = 0;  ///< 0: one per core.
   bool quiet = false;    ///< Suppresses progress and warnings, but not results and errors.
+  bool force = false;    ///< Outputs may replace files of another kind.
+  Outputs outputs;       ///< Declared by the command while it runs.
 };
 
 /// A command for main to run. `run` throws Error on failure and Interrupted when a signal stops it.

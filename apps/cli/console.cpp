@@ -1,5 +1,6 @@
 #include "apps/cli/console.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -46,6 +47,14 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
+void reserve_standard_descriptors() {
+  // The other direction: reading from standard input and writing to the others still fails. open() takes the
+  // lowest free number, which is the closed one.
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(descriptor, F_GETFD) < 0)
+      (void)!::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 void start_console(bool quiet) {
   g_quiet = quiet;
   set_log_callback([quiet](LogLevel level, const std::string& line) {
@@ -53,11 +62,14 @@ void start_console(bool quiet) {
     end_line();
     std::fprintf(stderr, "brume: warning: %s\n", one_line(line).c_str());
   });
-  struct sigaction action {};
+  struct sigaction action {
+  }, old{};
   action.sa_handler = on_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGXCPU}) ::sigaction(signal, &action, nullptr);
+  ::sigaction(SIGHUP, nullptr, &old);
+  if (old.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
+  ::signal(SIGXFSZ, SIG_IGN);
 }
 
 void stop_if_interrupted() {
@@ -85,6 +97,12 @@ void print_failure(const std::string& message) {
   std::fprintf(stderr, "brume: %s\n", one_line(message).c_str());
 }
 
+void print_on_terminal(const std::string& line) {
+  if (g_quiet || ::isatty(STDERR_FILENO) != 1) return;
+  end_line();
+  std::fprintf(stderr, "%s\n", one_line(line).c_str());
+}
+
 void print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
 }
@@ -98,20 +116,12 @@ void write_json(const std::string& target, const Json& object) {
   }
 }
 
-void check_output(const std::filesystem::path& path) {
-  if (path.empty() || path == "-") return;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw Error(ErrorCode::bad_input, path.string() + ": is a folder; name a file inside it");
-  }
-  auto file = AtomicFile::open(path);  // The destructor removes it again.
-  if (!file) throw Error(file.failure());
-}
-
 void finish_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  const bool full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
   throw Error(ErrorCode::resource_limit,
-              std::string("standard output: cannot write: ") + std::strerror(errno) + "; free some space");
+              std::string("standard output: cannot write: ") + std::strerror(errno) +
+                  (full ? "; free some space" : "; redirect it to a file or a program"));
 }
 
 }  // namespace brume::cli

@@ -26,7 +26,7 @@ struct Options {
   std::string folder = kDefaultFolder, device;
 };
 
-void demo(const Options& options, const CommonOptions& common) {
+void demo(const Options& options, CommonOptions& common) {
   const std::filesystem::path folder = options.folder;
   const auto picture = folder / "demo.png", film = folder / "demo.mp4";
   if (options.folder == kDefaultFolder) {
@@ -35,11 +35,13 @@ void demo(const Options& options, const CommonOptions& common) {
     if (error)
       throw Error(ErrorCode::bad_input, options.folder + ": cannot create the folder: " + error.message());
   }
-  check_output(picture);
-  check_output(film);
+  const std::filesystem::path timeline = BRUME_SCENES_DIR "/demo.toml";
+  common.outputs.reads(timeline);
+  common.outputs.writes("", picture, FileKind::png);
+  common.outputs.writes("", film, FileKind::mp4);
 
-  const scenario::Scenario scenario =
-      scenario::load_scenario(BRUME_SCENES_DIR "/demo.toml", {}).value_or_throw();
+  const scenario::Scenario scenario = scenario::load_scenario(timeline, {}).value_or_throw();
+  common.outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
   gpu::Context context({options.device, false});
   const double seconds = static_cast<double>(scenario.timeline.duration);

@@ -44,8 +44,8 @@ Command add_devices(CommandLine& program) {
   auto json = std::make_shared<std::string>();
   command.arguments.add_option("--json", *json, "Write the list as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [json] {
-    check_output(*json);
+  command.run = [json, common = command.common] {
+    common->outputs.writes("--json", *json, FileKind::json);
     list_devices(*json);
   };
   return command;

@@ -94,10 +94,11 @@ void check_thresholds(const Options& options) {
   check("--psnr-below", options.psnr_below, 200);
 }
 
-void diff(const Options& options) {
+void diff(const Options& options, Outputs& outputs) {
   check_thresholds(options);
-  check_output(options.map);
-  check_output(options.json);
+  outputs.reads({options.reference, options.test});
+  outputs.writes("-o", options.map, FileKind::png);
+  outputs.writes("--json", options.json, FileKind::json);
   const image::Image8 reference = image::load_image(options.reference).value_or_throw();
   const image::Image8 test = image::load_image(options.test).value_or_throw();
   if (reference.width != test.width || reference.height != test.height) {
@@ -137,7 +138,7 @@ Command add_diff(CommandLine& program) {
       .type_name("DB");
   arguments.add_option("--json", options->json, "Write the metrics as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [options] { diff(*options); };
+  command.run = [options, common = command.common] { diff(*options, common->outputs); };
   return command;
 }
 

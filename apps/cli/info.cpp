@@ -17,8 +17,9 @@ Json point(glm::vec3 p) {
   return Json::list({p.x, p.y, p.z});
 }
 
-Json scene_info(const std::filesystem::path& path) {
+Json scene_info(const std::filesystem::path& path, Outputs& outputs) {
   const scene::Scene scene = scene::load_scene(path).value_or_throw();
+  outputs.reads(scene.files);
   std::uint64_t triangles = 0;
   for (const scene::Object& object : scene.objects) triangles += scene.meshes[object.mesh].indices.size() / 3;
   // A grenade from the file counts as one of its objects, although it is not placed in the world.
@@ -73,14 +74,14 @@ Json voxel_info(const std::filesystem::path& path) {
           {"triangles", contents->triangles}};
 }
 
-Json info_of(const std::filesystem::path& path) {
+Json info_of(const std::filesystem::path& path, Outputs& outputs) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const auto is_one_of = [&](std::initializer_list<const char*> known) {
     return std::find(known.begin(), known.end(), extension) != known.end();
   };
-  if (is_one_of({".txt", ".gltf", ".glb", ".obj"})) return scene_info(path);
+  if (is_one_of({".txt", ".gltf", ".glb", ".obj"})) return scene_info(path, outputs);
   if (is_one_of({".toml"})) return timeline_info(path);
   if (is_one_of({".vxl"})) return voxel_info(path);
   if (is_one_of({".png", ".jpg", ".jpeg"})) return image_info(path);
@@ -102,10 +103,11 @@ Command add_info(CommandLine& program) {
   command.arguments.add_option("FILE", options->input, "The file to summarize").required().type_name("");
   command.arguments.add_option("--json", options->json, "Write the summary as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [options] {
-    check_output(options->json);
+  command.run = [options, common = command.common] {
+    common->outputs.reads(std::filesystem::path(options->input));
+    common->outputs.writes("--json", options->json, FileKind::json);
     Json info{{"file", options->input}};
-    info.update(info_of(options->input));
+    info.update(info_of(options->input, common->outputs));
     if (!options->json.empty()) write_json(options->json, info);
     if (options->json == "-") return;
     for (const auto& [key, value] : info.fields())

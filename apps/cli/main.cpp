@@ -32,21 +32,27 @@ int fail(const Failure& failure) {
 
 // Runs a command and returns the exit code. Every failure is one line on standard error.
 int run(const Command& command) {
+  Outputs& outputs = command.common->outputs;
   try {
     start_console(command.common->quiet);
     set_thread_count(command.common->threads);
+    outputs.set_force(command.common->force);
     command.run();
+    if (const std::string written = outputs.written(); !written.empty())
+      print_on_terminal("wrote " + written);
     finish_output();
     return 0;
   } catch (const Error& error) {
-    return fail(error.failure());
+    return fail(outputs.explain(error.failure()));
   } catch (const Interrupted& interrupted) {
-    print_failure("interrupted");
+    if (const auto partial = outputs.explain_interruption()) return fail(*partial);
+    print_failure("interrupted" + interrupted.state);
     return 128 + interrupted.signal;
   } catch (const std::bad_alloc&) {
-    return fail({ErrorCode::resource_limit, "out of memory; use a smaller scene, grid or image"});
+    return fail(
+        outputs.explain({ErrorCode::resource_limit, "out of memory; use a smaller scene, grid or image"}));
   } catch (const std::exception& error) {
-    return fail({ErrorCode::internal, error.what()});
+    return fail(outputs.explain({ErrorCode::internal, error.what()}));
   }
 }
 
@@ -60,7 +66,10 @@ int parse_and_run(int argc, char** argv) {
 #endif
   };
   try {
-    if (!program.parse(argc, argv)) return 0;
+    if (!program.parse(argc, argv)) {
+      finish_output();
+      return 0;
+    }
   } catch (const Error& error) {
     return fail(error.failure());
   }
@@ -81,6 +90,8 @@ Command declare(CommandLine& program, const std::string& name, const std::string
       .add_option("--threads", command.common->threads, "Number of threads; default 0: one per core")
       .range(0u, 1024u)
       .type_name("N");
+  command.arguments.add_flag("--force", command.common->force,
+                             "Let outputs replace files of another kind; never an input");
   command.arguments.add_flag("-q,--quiet", command.common->quiet, "Suppress progress and warnings");
   return command;
 }
@@ -89,6 +100,7 @@ Command declare(CommandLine& program, const std::string& name, const std::string
 
 int main(int argc, char** argv) {
   try {
+    brume::cli::reserve_standard_descriptors();
     return brume::cli::parse_and_run(argc, argv);
   } catch (const std::exception& error) {  // before a command ran
     std::fprintf(stderr, "brume: %s\n", error.what());

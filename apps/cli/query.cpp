@@ -55,7 +55,6 @@ void check_options(const Options& options) {
     throw Error(ErrorCode::usage, "expected a time, such as --time 3, or --report for all of them");
   if (!options.report && (options.shots > 0 || !options.times.empty()))
     throw Error(ErrorCode::usage, "--times and --shots require --report; add it");
-  check_output(options.json);
 }
 
 /// Prints one line per field: its name and its value.
@@ -165,13 +164,16 @@ void report_coverage(const Options& options, const scenario::Scenario& scenario,
   if (options.shots > 0) print_shots(shots, options.shots);
 }
 
-void query(const Options& options) {
+void query(const Options& options, Outputs& outputs) {
   const SightLine line{parse_end("--from", options.from), parse_end("--to", options.to), options.threshold};
   check_options(options);
   if (!options.times.empty()) parse_times("--times", options.times);
   if (options.shots > 0 && line.from_world == line.to_world)
     throw Error(ErrorCode::usage, "--shots: --from and --to are the same point; give two distinct ones");
+  outputs.reads(std::filesystem::path(options.timeline));
+  outputs.writes("--json", options.json, FileKind::json);
   const scenario::Scenario scenario = scenario::load_scenario(options.timeline, {}).value_or_throw();
+  outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
   if (options.report) {
     report_coverage(options, scenario, line);
@@ -224,7 +226,7 @@ Command add_query(CommandLine& program) {
       .type_name("DEG");
   arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [options] { query(*options); };
+  command.run = [options, common = command.common] { query(*options, common->outputs); };
   return command;
 }
 

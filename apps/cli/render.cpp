@@ -1,8 +1,11 @@
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/cli/command.hpp"
@@ -12,6 +15,8 @@
 #include "apps/cli/scene_options.hpp"
 #include "apps/cli/targets.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/hash.hpp"
 #include "gpu/context.hpp"
 #include "image/png.hpp"
 #include "render/playback.hpp"
@@ -25,7 +30,7 @@ struct Options {
   SceneOptions scene;
   std::optional<double> time;
   std::uint32_t fps = 24;
-  bool temporal = false;
+  bool temporal = false, resume = false;
   float step = 1, light_update_fraction = 1, resolve_error_scale = 1;
 };
 
@@ -40,7 +45,24 @@ struct Plan {
   std::optional<passes::ViewSlice> slice;
 };
 
-Plan make_plan(const Options& options) {
+// Whether each frame depends on those before.
+bool frames_depend(const Options& options) {
+  return options.temporal || options.light_update_fraction < 1;
+}
+
+// The files that are known before any is read.
+void declare_files(const Options& options, const Plan& plan, Outputs& outputs) {
+  outputs.reads({options.input, options.timeline});
+  outputs.writes("--json", options.json, FileKind::json);
+  if (plan.kind == TargetKind::picture) outputs.writes("-o", options.output, FileKind::png);
+  if (plan.kind == TargetKind::film) outputs.writes("-o", options.output, FileKind::mp4);
+  // Without --frames the timeline decides how many there are.
+  if (plan.kind == TargetKind::sequence && plan.frames)
+    outputs.writes_frames("-o", options.output, plan.frames->first, plan.frames->last);
+  if (plan.kind == TargetKind::sequence && !plan.frames) check_writable(sequence_name(options.output, 0));
+}
+
+Plan make_plan(const Options& options, Outputs& outputs) {
   Plan plan;
   plan.kind = target_kind(options.output);
   plan.renderer.size_px = parse_size("--size", options.size);
@@ -80,9 +102,9 @@ Plan make_plan(const Options& options) {
     throw Error(ErrorCode::usage,
                 "--size '" + options.size + "': the width and height of a film must be even");
   }
-  const std::filesystem::path output = options.output;
-  check_output(plan.kind == TargetKind::sequence ? sequence_name(output, 0) : output);
-  check_output(options.json);
+  if (options.resume && plan.kind != TargetKind::sequence)
+    throw Error(ErrorCode::usage, "--resume: requires numbered frames, such as -o smoke_%04d.png");
+  declare_files(options, plan, outputs);
   return plan;
 }
 
@@ -119,8 +141,8 @@ class TimedRenderer {
     Json passes = Json::object();
     for (const auto& scope : playback_.timings()) passes.set(scope.name, scope.milliseconds);
     return {{"frames", frames_},
-            {"seconds_per_frame", seconds_ / frames_},
-            {"cpu_seconds_per_frame", cpu_seconds_ / frames_},
+            {"seconds_per_frame", seconds_ / std::max(frames_, 1)},
+            {"cpu_seconds_per_frame", cpu_seconds_ / std::max(frames_, 1)},
             {"marched_fraction_of_last_frame", playback_.fraction_marched()},
             {"gpu_milliseconds_of_last_frame", passes}};
   }
@@ -131,30 +153,69 @@ class TimedRenderer {
   int frames_ = 0;
 };
 
-void write(const Options& options, const Plan& plan, const CommonOptions& common,
-           const scene::Timeline& timeline, TimedRenderer& renderer) {
+FrameRange frames_of(const Options& options, const Plan& plan, const scene::Timeline& timeline) {
+  const auto all =
+      static_cast<std::uint32_t>(std::ceil(static_cast<double>(timeline.duration) * options.fps));
+  return plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
+}
+
+// A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files,
+// the options, the device and the program.
+std::uint64_t sequence_key(const Options& options, const Plan& plan, const scenario::Scenario& scenario,
+                           const gpu::DeviceInfo& device, std::uint32_t first) {
+  std::vector<std::filesystem::path> files = scenario::files_of(scenario);
+  files.insert(files.end(), {options.input, options.timeline, "/proc/self/exe"});
+  std::uint64_t key = 0;
+  for (const std::filesystem::path& file : files) {
+    stop_if_interrupted();
+    const auto bytes = file.empty() ? std::vector<std::byte>() : read_file(file).value_or_throw();
+    key = hash_bytes(bytes, key);
+  }
+  std::vector<std::string> texts{device.name,    device.driver, options.size, options.march,
+                                 options.camera, options.view,  options.slice};
+  const std::vector<std::string> scene = texts_of(options.scene);
+  texts.insert(texts.end(), scene.begin(), scene.end());
+  for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
+  const std::array<float, 5> numbers{static_cast<float>(options.fps), options.step,
+                                     options.light_update_fraction, options.resolve_error_scale,
+                                     frames_depend(options) ? static_cast<float>(first) : -1.0f};
+  key = hash_values(std::span<const float>(numbers), key);
+  const std::array<std::uint32_t, 3> whole{plan.renderer.size_px.x, plan.renderer.size_px.y,
+                                           options.temporal ? 1u : 0u};
+  return hash_values(std::span<const std::uint32_t>(whole), key);
+}
+
+void write(const Options& options, const Plan& plan, CommonOptions& common, const gpu::DeviceInfo& device,
+           const scenario::Scenario& scenario, TimedRenderer& renderer) {
   const double fps = options.fps;
   if (plan.kind == TargetKind::picture) {
-    const double time = options.time.value_or(static_cast<double>(timeline.duration));
+    const double time = options.time.value_or(static_cast<double>(scenario.timeline.duration));
     const image::Image8 picture = renderer.draw(time, 0);
     stop_if_interrupted();
     image::save_png(options.output, picture).value_or_throw();
     return;
   }
-  const auto all = static_cast<std::uint32_t>(std::ceil(static_cast<double>(timeline.duration) * fps));
-  const FrameRange range = plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
+  const FrameRange range = frames_of(options, plan, scenario.timeline);
   const auto draw = [&](std::uint32_t i) { return renderer.draw(i / fps, i); };
   if (plan.kind == TargetKind::film) {
     write_film(options.output, {plan.renderer.size_px, options.fps, common.threads}, range.first, range.last,
                draw);
-  } else {
-    write_sequence(options.output, range.first, range.last, draw);
+    return;
   }
+  write_sequence(
+      {options.output, range.first, range.last, plan.renderer.size_px,
+       sequence_key(options, plan, scenario, device, range.first), frames_depend(options), options.resume},
+      common.outputs, draw);
 }
 
-void render(const Options& options, const CommonOptions& common) {
-  const Plan plan = make_plan(options);
+void render(const Options& options, CommonOptions& common) {
+  const Plan plan = make_plan(options, common.outputs);
   const scenario::Scenario scenario = load_with_options(options.input, options.timeline, plan.scene);
+  if (plan.kind == TargetKind::sequence && !plan.frames) {
+    const FrameRange range = frames_of(options, plan, scenario.timeline);
+    common.outputs.writes_frames("-o", options.output, range.first, range.last);
+  }
+  common.outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
   gpu::Context context({options.device, false});
   render::Playback playback(context, scenario, plan.renderer);
@@ -165,7 +226,7 @@ void render(const Options& options, const CommonOptions& common) {
   playback.set_resolve_error_scale(options.resolve_error_scale);
   playback.set_view(plan.view, plan.slice);
   TimedRenderer renderer(playback);
-  write(options, plan, common, scenario.timeline, renderer);
+  write(options, plan, common, context.info(), scenario, renderer);
   if (options.json.empty()) return;
   Json statistics{{"output", options.output},
                   {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})},
@@ -227,6 +288,8 @@ Command add_render(CommandLine& program) {
   arguments.add_option("--frames", options->frames, "First and last frame; default: the whole timeline")
       .take_last()
       .type_name("A-B");
+  arguments.add_flag("--resume", options->resume,
+                     "Continue numbered frames: skip those that are complete and made from the same inputs");
   arguments.add_option("--fps", options->fps, "Frames per second; default 24")
       .range(1u, 1000u)
       .type_name("F");

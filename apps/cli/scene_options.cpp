@@ -86,6 +86,17 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
       .type_name("EV");
 }
 
+std::vector<std::string> texts_of(const SceneOptions& options) {
+  std::vector<std::string> texts = options.smokes;
+  texts.push_back("throws");
+  texts.insert(texts.end(), options.throws.begin(), options.throws.end());
+  texts.push_back(options.sun);
+  for (const std::optional<double>& number :
+       {options.smoke_size, options.voxel, options.scale, options.exposure})
+    texts.push_back(number ? std::to_string(*number) : "");
+  return texts;
+}
+
 scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   scenario::FirstViewOptions parsed;
   parsed.scale = checked("--scale", options.scale, 1e-6, 1e6);

@@ -19,6 +19,9 @@ struct SceneOptions {
 
 void declare_scene_options(const Arguments& arguments, SceneOptions& options);
 
+/// All that the options say, for a key of what depends on them.
+std::vector<std::string> texts_of(const SceneOptions& options);
+
 /// Checks the options' values. Throws Error (usage).
 scenario::FirstViewOptions parse_scene_options(const SceneOptions& options);
 

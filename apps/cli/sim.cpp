@@ -23,14 +23,16 @@ struct Options {
   bool hash = false;
 };
 
-void check_options(const Options& options) {
+void check_options(const Options& options, Outputs& outputs) {
   if (options.timeline.empty() == options.replay.empty())
     throw Error(ErrorCode::usage, "expected either a timeline, such as scenes/demo.toml, or --replay FILE");
   if (!options.replay.empty() && (options.ticks || options.rate || !options.record.empty()))
     throw Error(ErrorCode::usage,
                 "--replay: the recording sets the ticks; remove --ticks, --rate and --record");
-  check_output(options.record);
-  check_output(options.json);
+  for (const std::string& input : {options.timeline, options.replay})
+    outputs.reads(std::filesystem::path(input));
+  outputs.writes("--record", options.record, FileKind::brp);
+  outputs.writes("--json", options.json, FileKind::json);
 }
 
 // The result of a run: the state hash of each tick.
@@ -72,9 +74,10 @@ void report(const Options& options, const Run& run, std::uint32_t rate, bool com
   if (compared) print(std::to_string(run.hashes.size()) + " ticks match the recording\n");
 }
 
-void simulate(const Options& options) {
+void simulate(const Options& options, Outputs& outputs) {
   const std::uint32_t rate = options.rate.value_or(sim::WorldSettings{}.ticks_per_second);
   const scenario::Scenario scenario = scenario::load_scenario(options.timeline, {}).value_or_throw();
+  outputs.reads(scenario::files_of(scenario));
   const std::vector<sim::Event> events = scenario::events_of(scenario, rate).value_or_throw();
   const std::uint32_t ticks = options.ticks.value_or(
       std::clamp(scenario::tick_at(double{scenario.timeline.duration}, rate), 1u, kMaxTicks));
@@ -133,9 +136,9 @@ Command add_sim(CommandLine& program) {
       .type_name("FILE");
   arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [options] {
-    check_options(*options);
-    options->replay.empty() ? simulate(*options) : verify_replay(*options);
+  command.run = [options, common = command.common] {
+    check_options(*options, common->outputs);
+    options->replay.empty() ? simulate(*options, common->outputs) : verify_replay(*options);
   };
   return command;
 }

@@ -1,11 +1,19 @@
 #include "apps/cli/targets.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "apps/cli/console.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/hash.hpp"
 #include "core/progress.hpp"
+#include "image/decode.hpp"
 #include "image/png.hpp"
 #include "image/video.hpp"
 
@@ -26,6 +34,26 @@ std::optional<Placeholder> find_placeholder(const std::string& name) {
     return Placeholder{begin, 4, static_cast<std::size_t>(after[1] - '0')};
   }
   return std::nullopt;
+}
+
+// Names what the frame was made from.
+image::PngText frame_text(std::uint64_t key, std::uint32_t frame) {
+  const std::array<std::uint64_t, 2> parts{key, frame};
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx",
+                static_cast<unsigned long long>(hash_values(std::span<const std::uint64_t>(parts))));
+  return {"Brume frame", text};
+}
+
+// Whether the file of the frame is complete and made from the same inputs.
+bool is_frame(const SequenceSettings& settings, std::uint32_t frame) {
+  const std::filesystem::path path = sequence_name(settings.pattern, frame);
+  const auto bytes = read_file(path);
+  if (!bytes) return false;
+  const image::PngText text = frame_text(settings.key, frame);
+  if (image::find_png_text(*bytes, text.keyword) != text.text) return false;
+  const auto image = image::decode_image(*bytes, path.string());
+  return image && image->width == settings.size_px.x && image->height == settings.size_px.y;
 }
 
 }  // namespace
@@ -59,19 +87,51 @@ void write_film(const std::filesystem::path& path, const FilmSettings& settings,
   image::VideoWriter writer = image::VideoWriter::open(path, {settings.size_px.x, settings.size_px.y,
                                                               settings.frames_per_second, settings.threads})
                                   .value_or_throw();
-  Progress progress("frames", std::uint64_t{last} - first + 1, progress_display());
-  for (std::uint32_t i = first; i <= last; ++i) {
-    writer.add_frame(draw(i)).value_or_throw();
-    progress.advance();
+  const std::uint32_t count = last - first + 1;
+  std::uint32_t drawn = 0;
+  try {
+    Progress progress("frames", count, progress_display());
+    for (; drawn < count; ++drawn) {
+      writer.add_frame(draw(first + drawn)).value_or_throw();
+      progress.advance();
+    }
+  } catch (Interrupted& interrupted) {
+    interrupted.state = " after " + std::to_string(drawn) + " of " + std::to_string(count) + " frames; " +
+                        path.string() +
+                        " is not written (only numbered frames, such as -o f_%04d.png, can be "
+                        "continued)";
+    throw;
   }
   writer.finish().value_or_throw();
 }
 
-void write_sequence(const std::filesystem::path& pattern, std::uint32_t first, std::uint32_t last,
+void write_sequence(const SequenceSettings& settings, Outputs& outputs,
                     const std::function<image::Image8(std::uint32_t)>& draw) {
-  Progress progress("frames", std::uint64_t{last} - first + 1, progress_display());
-  for (std::uint32_t i = first; i <= last; ++i) {
-    image::save_png(sequence_name(pattern, i), draw(i)).value_or_throw();
+  // What is there already.
+  const std::uint32_t count = settings.last - settings.first + 1;
+  std::vector<bool> done(count);
+  outputs.set_frames_depend(settings.frames_depend);
+  for (std::uint32_t i = 0; settings.resume && i < count; ++i) {
+    stop_if_interrupted();
+    done[i] = is_frame(settings, settings.first + i);
+    if (done[i]) outputs.frame_done(settings.first + i);
+  }
+  const auto missing = static_cast<std::uint64_t>(std::count(done.begin(), done.end(), false));
+  const auto end = static_cast<std::uint32_t>(done.rend() - std::find(done.rbegin(), done.rend(), false));
+  if (missing < count)
+    print_on_terminal(std::to_string(count - missing) + " of " + std::to_string(count) + " frames are there");
+
+  // The rest. Where frames depend on each other, all up to the last missing one are drawn.
+  Progress progress("frames", missing, progress_display());
+  for (std::uint32_t i = 0; i < end; ++i) {
+    stop_if_interrupted();
+    const std::uint32_t frame = settings.first + i;
+    if (done[i] && !settings.frames_depend) continue;
+    const image::Image8 image = draw(frame);
+    if (done[i]) continue;
+    image::save_png(sequence_name(settings.pattern, frame), image, frame_text(settings.key, frame))
+        .value_or_throw();
+    outputs.frame_done(frame);
     progress.advance();
   }
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 
+#include "apps/cli/outputs.hpp"
 #include "image/image.hpp"
 
 namespace brume::cli {
@@ -24,11 +25,25 @@ struct FilmSettings {
   unsigned threads = 0;
 };
 
-/// Draws the frames first to last, inclusive, and writes them, with progress. Throws Error and whatever
-/// `draw` throws; leaves no partial file.
+/// Draws the frames first to last, inclusive, and writes them as a film, with progress. Throws Error and
+/// whatever `draw` throws; leaves no partial file.
 void write_film(const std::filesystem::path& path, const FilmSettings& settings, std::uint32_t first,
                 std::uint32_t last, const std::function<image::Image8(std::uint32_t)>& draw);
-void write_sequence(const std::filesystem::path& pattern, std::uint32_t first, std::uint32_t last,
+
+struct SequenceSettings {
+  std::filesystem::path pattern;
+  std::uint32_t first = 0, last = 0;  ///< Inclusive.
+  glm::uvec2 size_px{0};
+  std::uint64_t key = 0;       ///< Hash of everything that the frames depend on, but for their numbers.
+  bool frames_depend = false;  ///< Each frame depends on those before, back to `first`.
+  bool resume = false;         ///< Skips frames that are there already.
+};
+
+/// Draws the frames and writes each as a PNG, with progress. A frame carries the hash of key and number as
+/// its PNG text "Brume frame". With `resume` those with the right hash and size that decode without an error
+/// are skipped; all others are written again. The result is the same byte for byte. Throws as write_film
+/// does: the frames that were finished stay, and `outputs` knows them.
+void write_sequence(const SequenceSettings& settings, Outputs& outputs,
                     const std::function<image::Image8(std::uint32_t)>& draw);
 
 }  // namespace brume::cli

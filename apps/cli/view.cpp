@@ -4,6 +4,7 @@
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/viewer/quality.hpp"
+#include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/viewer.hpp"
 #include "core/error.hpp"
 
@@ -81,7 +82,7 @@ void write_report(const std::string& target, const viewer::ViewerReport& report)
                           {"validation_messages", report.validation_messages}});
 }
 
-void view(const Options& options) {
+void view(const Options& options, Outputs& outputs) {
   if (!options.input.empty() && !options.play.empty())
     throw Error(ErrorCode::usage, "--play: already names the timeline; remove INPUT");
   if (!options.screenshot.empty() && !options.exit_after)
@@ -92,9 +93,16 @@ void view(const Options& options) {
                                                               : options.input;
   viewer::ViewerOptions viewer = viewer_options(options);
   viewer.title = "Brume - " + input.filename().string();
-  for (const std::string& file : {options.screenshot, options.record, options.frame_log, options.json})
-    check_output(file);
+  outputs.reads({input, options.picture});
+  outputs.writes("--screenshot", options.screenshot, FileKind::png);
+  if (!options.screenshot.empty())
+    outputs.writes("--screenshot", viewer::snapshot_timeline(options.screenshot), FileKind::timeline);
+  outputs.writes("--record", options.record, FileKind::timeline);
+  outputs.writes("--frame-log", options.frame_log, FileKind::frame_log);
+  outputs.writes("--json", options.json, FileKind::json);
+  outputs.up_to_date(options.frame_log);  // It is written in place, line by line.
   scenario::Scenario scenario = scenario::load_scenario(input, {}).value_or_throw();
+  outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
   const viewer::ViewerReport report = viewer::run_viewer(std::move(scenario), plays, viewer);
   write_report(options.json, report);
@@ -180,7 +188,7 @@ Command add_view(CommandLine& program) {
   arguments.add_option("--shot", options->picture, "Image whose shape is shot").type_name("FILE");
   declare_outputs(arguments, *options);
   declare_tests(arguments, *options);
-  command.run = [options] { view(*options); };
+  command.run = [options, common = command.common] { view(*options, common->outputs); };
   return command;
 }
 

@@ -40,14 +40,19 @@ voxel::GridLayout choose_frame(const Options& options, const scene::Scene& scene
   return frame;
 }
 
-void voxelize(const Options& options) {
+void voxelize(const Options& options, Outputs& outputs) {
   check_options(options);
-  for (const std::string& path : {options.output, options.obj, options.json}) check_output(path);
+  outputs.reads(std::filesystem::path(options.scene));
+  outputs.writes("-o", options.output, FileKind::vxl);
+  outputs.writes("--obj", options.obj, FileKind::obj);
+  outputs.writes("--json", options.json, FileKind::json);
 
   const scene::Scene scene = scene::load_scene(options.scene).value_or_throw();
+  outputs.reads(scene.files);
   stop_if_interrupted();
   const voxel::GridLayout frame = choose_frame(options, scene);
   const scenario::Voxels voxels = scenario::load_or_voxelize(scene, frame, options.output).value_or_throw();
+  if (voxels.cached) outputs.up_to_date(options.output);
   stop_if_interrupted();
   if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, options.obj).value_or_throw();
 
@@ -95,7 +100,7 @@ Command add_voxelize(CommandLine& program) {
   arguments.add_option("--obj", options->obj, "Write the solid voxels as a mesh").type_name("FILE");
   arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [options] { voxelize(*options); };
+  command.run = [options, common = command.common] { voxelize(*options, common->outputs); };
   return command;
 }
 

@@ -14,15 +14,20 @@ std::filesystem::path free_name(const std::filesystem::path& folder, const std::
     char digits[16];
     std::snprintf(digits, sizeof digits, "_%04d", number);
     path = folder / (name + digits + extension);
-    if (std::error_code error; !std::filesystem::exists(path, error)) break;
+    std::error_code error;
+    if (!std::filesystem::exists(path, error) && !std::filesystem::exists(snapshot_timeline(path), error))
+      break;
   }
   return path;
 }
 
+std::filesystem::path snapshot_timeline(const std::filesystem::path& picture) {
+  return std::filesystem::path(picture).replace_extension(".toml");
+}
+
 Result<void> save_snapshot(const std::filesystem::path& picture, const image::Image8& image,
                            const scene::Timeline& snapshot) {
-  const auto timeline = std::filesystem::path(picture).replace_extension(".toml");
-  if (auto done = scene::save_timeline(timeline, snapshot); !done) return done;
+  if (auto done = scene::save_timeline(snapshot_timeline(picture), snapshot); !done) return done;
   return image::save_png(picture, image);
 }
 

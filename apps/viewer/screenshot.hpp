@@ -9,11 +9,14 @@
 
 namespace brume::viewer {
 
-/// "folder/name_0001.png", or with the first higher number that is not in use.
+/// "folder/name_0001.png", or with the first higher number that no file uses, a snapshot's timeline included.
 std::filesystem::path free_name(const std::filesystem::path& folder, const std::string& name,
                                 const std::string& extension);
 
-/// Saves the image and, next to it with the extension .toml, the timeline whose last frame it shows.
+/// Where save_snapshot puts the timeline of this picture: next to it, with the extension .toml.
+std::filesystem::path snapshot_timeline(const std::filesystem::path& picture);
+
+/// Saves the image and the timeline whose last frame it shows.
 Result<void> save_snapshot(const std::filesystem::path& picture, const image::Image8& image,
                            const scene::Timeline& snapshot);
 

@@ -94,6 +94,7 @@ Result<void> Session::reset() {
   keys_.clear();
   end_seconds_ = kFirstTime;
   next_letter_ = 0;
+  actions_ = 0;
   follows_path_ = false;
   seek(kFirstTime);
   return {};
@@ -126,7 +127,9 @@ Result<void> Session::add(const scene::Timeline& actions) {
   if (last_event(actions) > scene::kLatestTime)
     return Failure{ErrorCode::resource_limit, "a recording is limited to one hour; press R to reset"};
   end_seconds_ = std::max(end_seconds_, last_event(actions));
-  return live_->add(actions);
+  auto added = live_->add(actions);
+  if (added) ++actions_;
+  return added;
 }
 
 Result<void> Session::throw_smoke(glm::vec3 from_world, glm::vec3 direction_world) {

@@ -73,6 +73,8 @@ class Session {
   /// Opens or closes the door nearest to a point. Returns a message with its name.
   Result<std::string> use_door(glm::vec3 at_world);
 
+  /// Number of actions since the start or the last reset.
+  std::size_t actions() const { return actions_; }
   /// The timeline of the session with all actions, at least as long as the current time.
   scene::Timeline recording() const;
   /// A timeline that ends now: its last frame shows what `camera` sees.
@@ -88,6 +90,7 @@ class Session {
   std::vector<scene::CameraKey> keys_;
   double seconds_ = kFirstTime, end_seconds_ = kFirstTime;
   bool paused_ = false, follows_path_ = false;
+  std::size_t actions_ = 0;
   std::size_t next_letter_ = 0;  ///< Byte offset in the word.
 };
 

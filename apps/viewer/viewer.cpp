@@ -6,11 +6,13 @@
 #include <chrono>
 #include <deque>
 
+#include "apps/viewer/autosave.hpp"
 #include "apps/viewer/frame_log.hpp"
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/shader_reload.hpp"
 #include "apps/viewer/ui.hpp"
+#include "core/log.hpp"
 #include "render/playback.hpp"
 #include "scenario/aim.hpp"
 #include "scene/timeline_writer.hpp"
@@ -46,6 +48,7 @@ class Viewer {
   Viewer(scenario::Scenario scenario, bool play, const ViewerOptions& options)
       : options_(options),
         session_(Session::create(std::move(scenario), play).value_or_throw()),
+        autosave_(options.folder),
         window_(options.size_px, options.title),
         ui_(window_),
         quality_(options.frames_per_second),
@@ -67,6 +70,21 @@ class Viewer {
   }
 
   ViewerReport run() {
+    announce_recovered_sessions();
+    try {
+      run_frames();
+      ViewerReport result = report();
+      autosave_.discard();
+      return result;
+    } catch (...) {
+      if (autosave_.finish(*session_))
+        log_warning("the session is saved in " + autosave_.file().string() + "; brume view recovers it");
+      throw;
+    }
+  }
+
+ private:
+  void run_frames() {
     while (!window_.should_close() && !done_) {
       if (options_.check_signals) options_.check_signals();
       try {
@@ -75,10 +93,16 @@ class Viewer {
         recover();
       }
     }
-    return report();
   }
 
- private:
+  void announce_recovered_sessions() {
+    for (const std::filesystem::path& file : recover_sessions(options_.folder)) {
+      const std::string line = "a session that ended early is recovered: brume view --play " + file.string();
+      log_warning(line);
+      notify(line);
+    }
+  }
+
   void make_screen() {
     screen_ =
         std::make_unique<Screen>(window_, session_->live().scenario(),
@@ -141,6 +165,7 @@ class Viewer {
 
   ViewerOptions options_;
   std::unique_ptr<Session> session_;
+  Autosave autosave_;
   Window window_;
   Ui ui_;
   Player player_;
@@ -364,6 +389,7 @@ void Viewer::frame() {
   const double tick_seconds = seconds_between(begin, Clock::now());
   apply(ui_.lay_out(choices_, *session_, player_, figures_, notices()));
 
+  notify_failure(autosave_.update(*session_));
   if (const sim::MaskKey key = session_->live().scenario().masks.key(); !(key == masks_)) {
     screen_->set_masks(session_->live().scenario().masks);
     masks_ = key;

@@ -4,21 +4,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
+#include "core/atomic_file.hpp"
+
 namespace brume {
 namespace {
-
-Failure system_failure(const std::filesystem::path& path, const char* action, int error) {
-  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  std::string fix;
-  if (error == ENOENT) fix = "; check the path";
-  if (error == EACCES || error == EPERM || error == EROFS) fix = "; check its permissions";
-  if (full) fix = "; free some space or choose another folder";
-  return {full ? ErrorCode::resource_limit : ErrorCode::bad_input,
-          path.string() + ": cannot " + action + ": " + std::strerror(error) + fix};
-}
 
 struct Descriptor {
   int value = -1;
@@ -27,24 +20,22 @@ struct Descriptor {
   }
 };
 
-template <typename Container>
-Result<Container> read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
-  // Open the file and check its type and size.
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+// Reads as many bytes as `wanted` returns for the size of the file.
+template <typename Container, typename Wanted>
+Result<Container> read_bytes(const std::filesystem::path& path, const Wanted& wanted) {
+  // Open the file and check its type and size. O_NONBLOCK: a pipe without a writer is refused, not waited
+  // for.
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
   if (file.value < 0) return system_failure(path, "open", errno);
   struct stat info {};
   if (::fstat(file.value, &info) != 0) return system_failure(path, "inspect", errno);
   if (!S_ISREG(info.st_mode))
     return Failure{ErrorCode::bad_input, path.string() + ": not a regular file; check the path"};
-  const auto size = static_cast<std::uint64_t>(info.st_size);
-  if (size > max_bytes) {
-    return Failure{ErrorCode::resource_limit, path.string() + ": has " + std::to_string(size) +
-                                                  " bytes, at most " + std::to_string(max_bytes) +
-                                                  " are read"};
-  }
+  const Result<std::size_t> size = wanted(static_cast<std::uint64_t>(info.st_size));
+  if (!size) return size.failure();
 
   // Read it.
-  Container bytes(size, {});
+  Container bytes(*size, {});
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t got = ::read(file.value, bytes.data() + done, bytes.size() - done);
@@ -57,7 +48,27 @@ Result<Container> read_whole(const std::filesystem::path& path, std::uint64_t ma
   return bytes;
 }
 
+template <typename Container>
+Result<Container> read_whole(const std::filesystem::path& path, std::uint64_t max_bytes) {
+  return read_bytes<Container>(path, [&](std::uint64_t size) -> Result<std::size_t> {
+    if (size <= max_bytes) return size;
+    return Failure{ErrorCode::resource_limit, path.string() + ": has " + std::to_string(size) +
+                                                  " bytes, at most " + std::to_string(max_bytes) +
+                                                  " are read"};
+  });
+}
+
 }  // namespace
+
+Failure system_failure(const std::filesystem::path& path, const char* action, int error) {
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  std::string fix;
+  if (error == ENOENT) fix = "; check the path";
+  if (error == EACCES || error == EPERM || error == EROFS) fix = "; check its permissions";
+  if (full) fix = "; free some space or choose another folder";
+  return {full ? ErrorCode::resource_limit : ErrorCode::bad_input,
+          path.string() + ": cannot " + action + ": " + std::strerror(error) + fix};
+}
 
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
   return read_whole<std::vector<std::byte>>(path, max_bytes);
@@ -67,55 +78,23 @@ Result<std::string> read_text_file(const std::filesystem::path& path, std::uint6
   return read_whole<std::string>(path, max_bytes);
 }
 
-Result<AtomicFile> AtomicFile::open(const std::filesystem::path& path) {
-  std::filesystem::path temporary = path;
-  temporary += ".part" + std::to_string(::getpid());
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    const int error = errno;
-    const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-    std::error_code ignored;
-    if (error == ENOENT && !std::filesystem::exists(folder, ignored)) {
-      return Failure{ErrorCode::bad_input, path.string() + ": cannot write: the folder " + folder.string() +
-                                               " does not exist; create it first"};
-    }
-    return system_failure(path, "write", error);
+Result<std::string> read_file_start(const std::filesystem::path& path, std::size_t max_bytes) {
+  return read_bytes<std::string>(path, [max_bytes](std::uint64_t size) -> Result<std::size_t> {
+    return std::min<std::uint64_t>(size, max_bytes);
+  });
+}
+
+Result<std::filesystem::path> follow_links(const std::filesystem::path& path) {
+  constexpr int kMostLinks = 40;  // as the kernel
+  std::filesystem::path place = path;
+  for (int links = 0; links < kMostLinks; ++links) {
+    std::error_code error;
+    if (!std::filesystem::is_symlink(place, error)) return place;
+    const std::filesystem::path next = std::filesystem::read_symlink(place, error);
+    if (error) return system_failure(path, "follow the link", error.value());
+    place = place.parent_path() / next;  // An absolute path replaces the folder.
   }
-  return AtomicFile(path, std::move(temporary), descriptor);
-}
-
-AtomicFile::AtomicFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor)
-    : path_(std::move(path)), temporary_(std::move(temporary)), descriptor_(descriptor) {}
-
-AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : path_(std::move(other.path_)),
-      temporary_(std::move(other.temporary_)),
-      descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-AtomicFile::~AtomicFile() {
-  if (descriptor_ < 0) return;
-  ::close(descriptor_);
-  ::unlink(temporary_.c_str());
-}
-
-Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t put = ::write(descriptor_, bytes.data(), bytes.size());
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) return system_failure(path_, "write", errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(put));
-  }
-  return {};
-}
-
-Result<void> AtomicFile::commit() {
-  BRUME_ASSERT(descriptor_ >= 0, path_.string());
-  if (::fsync(descriptor_) != 0) return system_failure(path_, "write", errno);
-  const int closed = ::close(std::exchange(descriptor_, -1));
-  const int error = closed != 0 ? errno : (::rename(temporary_.c_str(), path_.c_str()) != 0 ? errno : 0);
-  if (error == 0) return {};
-  ::unlink(temporary_.c_str());
-  return system_failure(path_, "write", error);
+  return system_failure(path, "follow the link", ELOOP);
 }
 
 Result<void> write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -20,31 +20,19 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
 /// The same as text.
 Result<std::string> read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes = 1ull << 28);
 
-/// A file that appears under its name only when it is complete: bytes go to a temporary file in the same
-/// folder; `commit` syncs and renames it. Without a commit the destructor removes it.
-class AtomicFile {
- public:
-  /// Opens the temporary file. Fails with bad_input when the folder does not exist or is not writable.
-  static Result<AtomicFile> open(const std::filesystem::path& path);
-  AtomicFile(AtomicFile&& other) noexcept;
-  AtomicFile& operator=(AtomicFile&&) = delete;
-  ~AtomicFile();
-
-  /// Appends bytes. Fails with resource_limit when the disk is full.
-  Result<void> write(std::span<const std::byte> bytes);
-  /// Syncs the bytes to disk and gives the file its final name.
-  Result<void> commit();
-  /// The path until the commit, for programs that write the file themselves.
-  const std::filesystem::path& temporary_path() const { return temporary_; }
-
- private:
-  AtomicFile(std::filesystem::path path, std::filesystem::path temporary, int descriptor);
-  std::filesystem::path path_, temporary_;
-  int descriptor_ = -1;
-};
+/// The first bytes of a regular file, at most `max_bytes`. Fails as read_file does.
+Result<std::string> read_file_start(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Writes the whole file through AtomicFile.
 Result<void> write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file_atomic(const std::filesystem::path& path, const std::string& text);
+
+/// The path that remains after following every symbolic link in the last component: the file itself, or the
+/// place where writing through the links creates one. Fails with bad_input for a cycle of links.
+Result<std::filesystem::path> follow_links(const std::filesystem::path& path);
+
+/// The failure of a system call on a file, with its errno: resource_limit when the disk or a quota is full or
+/// a size limit is reached, otherwise bad_input.
+Failure system_failure(const std::filesystem::path& path, const char* action, int error);
 
 }  // namespace brume

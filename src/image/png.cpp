@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "core/file.hpp"
 #include "image/formats.hpp"
@@ -37,7 +38,7 @@ std::vector<Value> without_alpha(const std::vector<Value>& rgba) {
 
 template <typename Value>
 Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-                  const std::vector<Value>& rgba) {
+                  const std::vector<Value>& rgba, const std::optional<PngText>& text) {
   BRUME_ASSERT(rgba.size() == std::size_t{width} * height * 4, path.string());
   if (auto size = check_size(width, height, path.string()); !size) return size;
   const bool has_alpha = !opaque(rgba);
@@ -58,6 +59,16 @@ Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::u
   header.color_type = has_alpha ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR;
   if (const int error = spng_set_ihdr(context.get(), &header)) return failed(error);
   if (const int error = spng_set_srgb(context.get(), 0)) return failed(error);  // 0: perceptual intent
+  std::string text_until_encoded;  // libspng keeps a pointer to it.
+  if (text) {
+    text_until_encoded = text->text;
+    spng_text chunk{};
+    text->keyword.copy(chunk.keyword, sizeof chunk.keyword - 1);
+    chunk.type = SPNG_TEXT;
+    chunk.text = text_until_encoded.data();
+    chunk.length = text_until_encoded.size();
+    if (const int error = spng_set_text(context.get(), &chunk, 1)) return failed(error);
+  }
   if (const int error = spng_encode_image(context.get(), values.data(), values.size() * sizeof(Value),
                                           SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE)) {
     return failed(error);
@@ -73,12 +84,30 @@ Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::u
 
 }  // namespace
 
-Result<void> save_png(const std::filesystem::path& path, const Image8& image) {
-  return save(path, image.width, image.height, image.rgba);
+Result<void> save_png(const std::filesystem::path& path, const Image8& image,
+                      const std::optional<PngText>& text) {
+  return save(path, image.width, image.height, image.rgba, text);
 }
 
 Result<void> save_png(const std::filesystem::path& path, const Image16& image) {
-  return save(path, image.width, image.height, image.rgba);
+  return save(path, image.width, image.height, image.rgba, std::nullopt);
+}
+
+// A chunk is its length, a type of four letters, the data and a four-byte checksum. The data of a tEXt chunk
+// is the keyword, a zero byte and the text.
+std::optional<std::string> find_png_text(std::span<const std::byte> bytes, const std::string& keyword) {
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string wanted = keyword + '\0';
+  for (std::size_t at = 8; at + 12 <= all.size();) {
+    std::uint64_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+    if (length > all.size() - at - 12) return std::nullopt;
+    const std::string_view data = all.substr(at + 8, length);
+    if (all.substr(at + 4, 4) == "tEXt" && data.substr(0, wanted.size()) == wanted)
+      return std::string(data.substr(wanted.size()));
+    at += 12 + length;
+  }
+  return std::nullopt;
 }
 
 }  // namespace brume::image

@@ -2,8 +2,8 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/file.hpp"
+#include "core/atomic_file.hpp"
 #include "image/formats.hpp"
 
 namespace brume::image {
@@ -85,6 +85,7 @@ struct VideoWriter::Encoder {
   }
 
   Result<void> start();
+  int spawn(char* const* arguments, int input);
   int wait_for_end();
   /// The end of ffmpeg's messages.
   std::string last_messages() const;
@@ -103,35 +104,53 @@ Result<void> VideoWriter::Encoder::start() {
   const Descriptor child_end(ends[1]);
   messages = Descriptor(::memfd_create("messages", MFD_CLOEXEC));
 
-  // The child's standard input, output and error.
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, child_end.get(), STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, messages.get(), STDERR_FILENO);
-  // Its own process group: Ctrl-C reaches only us, and we stop it.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  posix_spawnattr_setpgroup(&attributes, 0);
-
-  // Start it.
-  std::vector<std::string> arguments = ffmpeg_arguments(options, "file:" + file.temporary_path().string());
+  // Start it. It writes to our open file, which has no name that a killed program could leave behind.
+  std::vector<std::string> arguments =
+      ffmpeg_arguments(options, "file:/proc/self/fd/" + std::to_string(file.descriptor()));
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
-  const int error = ::posix_spawnp(&process, "ffmpeg", &actions, &attributes, pointers.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
+  const int error = spawn(pointers.data(), child_end.get());
   if (error == 0) return {};
-  process = -1;
   if (error == ENOENT) {
     return Failure{ErrorCode::internal, path.string() +
                                             ": films need the program ffmpeg, which is not installed; "
                                             "run apt-get install ffmpeg, or write .png files"};
   }
   return Failure{ErrorCode::internal, path.string() + ": cannot start ffmpeg: " + std::strerror(error)};
+}
+
+// Not posix_spawn, which cannot tie the child's life to ours. Returns 0 or an errno.
+int VideoWriter::Encoder::spawn(char* const* arguments, int input) {
+  std::array<int, 2> ends{};  // The child's errno; closed without one by a successful exec.
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return errno;
+  const Descriptor failed(ends[0]);
+  Descriptor report(ends[1]);
+  const pid_t parent = ::getpid();
+  process = ::fork();
+  if (process < 0) return errno;
+  if (process == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(1);  // It was gone before prctl.
+    ::setpgid(0, 0);                        // Ctrl-C reaches only us, and we stop it.
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    const bool ready = ::dup2(input, STDIN_FILENO) >= 0 && ::dup2(nowhere, STDOUT_FILENO) >= 0 &&
+                       ::dup2(messages.get(), STDERR_FILENO) >= 0 &&
+                       ::fcntl(file.descriptor(), F_SETFD, 0) == 0;
+    if (ready) ::execvp("ffmpeg", arguments);
+    const int error = errno;
+    (void)!::write(report.get(), &error, sizeof error);
+    ::_exit(127);
+  }
+  report.close();
+  int error = 0;
+  ssize_t got = 0;
+  do got = ::read(failed.get(), &error, sizeof error);
+  while (got < 0 && errno == EINTR);
+  if (got <= 0) return 0;
+  wait_for_end();
+  return error;
 }
 
 int VideoWriter::Encoder::wait_for_end() {

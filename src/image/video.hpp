@@ -17,7 +17,8 @@ struct VideoOptions {
 };
 
 /// Writes one video. The file appears under its name only after a successful `finish`; a writer destroyed
-/// before that stops ffmpeg and leaves no file.
+/// before that stops ffmpeg and leaves no file; neither does a killed program. ffmpeg ends with the thread
+/// that called `open`.
 class VideoWriter {
  public:
   /// Starts ffmpeg. Fails with usage when a side is odd or zero, with bad_input when the folder does not

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/font.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scene/load.hpp"
 #include "scene/stand_ins.hpp"
@@ -87,6 +88,15 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
     scene->lights.push_back(sun);
   }
   return assemble(std::move(timeline), std::move(*scene), 16.0f / 9.0f, cache_folder);
+}
+
+std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
+  std::vector<std::filesystem::path> files = scenario.scene.files;
+  for (const scene::ShotEvent& shot : scenario.timeline.shots)
+    if (shot.shape == scene::ShotShape::mask) files.push_back(shot.mask);
+  for (const scene::TextEvent& text : scenario.timeline.texts)
+    files.push_back(text.font.empty() ? image::default_font() : text.font);
+  return files;
 }
 
 }  // namespace brume::scenario

@@ -34,4 +34,8 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
 /// The same for a timeline in memory; loads its scene from Timeline::scene.
 Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder);
 
+/// Every file that it was made from: scene, textures and buffers, masks of shots, fonts of texts. Without the
+/// timeline's own.
+std::vector<std::filesystem::path> files_of(const Scenario& scenario);
+
 }  // namespace brume::scenario

@@ -69,7 +69,9 @@ std::optional<std::string> FolderFiles::find(const std::string& name) const {
 }
 
 Result<std::vector<std::byte>> FolderFiles::read(const std::string& found) const {
-  return read_file(folder_ / found);
+  const std::filesystem::path path = folder_ / found;
+  if (std::find(read_.begin(), read_.end(), path) == read_.end()) read_.push_back(path);
+  return read_file(path);
 }
 
 void MemoryFiles::add_text(const std::string& name, const std::string& text) {

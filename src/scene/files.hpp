@@ -28,15 +28,18 @@ class SceneFiles {
   virtual Result<std::vector<std::byte>> read(const std::string& found) const = 0;
 };
 
-/// The files below one folder.
+/// The files below one folder. Not for several threads.
 class FolderFiles : public SceneFiles {
  public:
   explicit FolderFiles(std::filesystem::path folder);
   std::optional<std::string> find(const std::string& name) const override;
   Result<std::vector<std::byte>> read(const std::string& found) const override;
+  /// The paths of the files that were read, in order, each once.
+  const std::vector<std::filesystem::path>& files_read() const { return read_; }
 
  private:
   std::filesystem::path folder_;
+  mutable std::vector<std::filesystem::path> read_;
 };
 
 /// Files in memory, by name.

@@ -8,11 +8,11 @@
 
 namespace brume::scene {
 
-Result<Scene> load_scene(const std::filesystem::path& path) {
+namespace {
+
+Result<Scene> parse_file(const std::filesystem::path& path, const FolderFiles& files) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  const FolderFiles files(path.parent_path());
-
   if (extension == ".txt" || extension == ".obj") {
     const auto text = read_text_file(path);
     if (!text) return text.failure();
@@ -26,6 +26,17 @@ Result<Scene> load_scene(const std::filesystem::path& path) {
   }
   return Failure{ErrorCode::bad_input,
                  path.string() + ": not a scene file by its name; expected .txt, .gltf, .glb or .obj"};
+}
+
+}  // namespace
+
+Result<Scene> load_scene(const std::filesystem::path& path) {
+  const FolderFiles files(path.parent_path());
+  auto scene = parse_file(path, files);
+  if (!scene) return scene;
+  scene->files = {path};
+  scene->files.insert(scene->files.end(), files.files_read().begin(), files.files_read().end());
+  return scene;
 }
 
 }  // namespace brume::scene

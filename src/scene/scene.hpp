@@ -116,8 +116,9 @@ struct Scene {
   std::vector<Sphere> spheres;
   std::vector<Decal> decals;
   std::vector<Emitter> emitters;
-  std::optional<Object> grenade;  ///< Drawn in flight; its mesh is centred on its origin.
-  std::optional<Camera> camera;   ///< The first camera of the file.
+  std::optional<Object> grenade;             ///< Drawn in flight; its mesh is centred on its origin.
+  std::optional<Camera> camera;              ///< The first camera of the file.
+  std::vector<std::filesystem::path> files;  ///< Every file that load_scene read, itself first.
 };
 
 /// The bounding box of all objects but backdrops, and of spheres, in world space; low > high when there is

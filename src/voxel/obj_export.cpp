@@ -6,7 +6,7 @@
 #include <charconv>
 #include <string>
 
-#include "core/file.hpp"
+#include "core/atomic_file.hpp"
 
 namespace brume::voxel {
 namespace {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
@@ -117,17 +119,104 @@ TEST_F(Render, SceneWithoutATimeline) {
   ASSERT_EQ(with.exit_code, 0) << with.error;
 }
 
-TEST_F(Render, LeavesNothingWhenInterrupted) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+// The film has no name while it is written: a program called ffmpeg says that the real one starts.
+TEST_F(Render, LeavesNothingWhenAFilmIsInterrupted) {
+  const char* path = std::getenv("PATH");
+  std::filesystem::create_directory(folder_.path() / "bin");
+  const auto ffmpeg =
+      folder_.path() / folder_.write("bin/ffmpeg", "#!/bin/sh\n: > started\nPATH=" + std::string(path) +
+                                                       " exec ffmpeg \"$@\"\n");
+  std::filesystem::permissions(ffmpeg, std::filesystem::perms::owner_all);
+  const auto before = folder_.files();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
     RunOptions interrupt;
+    interrupt.environment = {{"PATH", (folder_.path() / "bin").string() + ":" + path}};
     interrupt.signal = signal;
-    // The temporary file exists: the film is being written.
-    interrupt.signal_when = [&] { return folder_.files().size() > 2; };
+    interrupt.signal_when = [&] { return std::filesystem::exists(folder_.path() / "started"); };
     const Outcome run = render({"-o", "long.mp4", "--frames", "0-100000", "--size", "640x360"}, interrupt);
     EXPECT_EQ(run.exit_code, 128 + signal) << run.error;
-    EXPECT_EQ(run.error, "brume: interrupted\n");
-    EXPECT_EQ(folder_.files(), (Arguments{"room.obj", "room.toml"}));
+    if (signal != SIGKILL) {
+      EXPECT_EQ(run.error.rfind("brume: interrupted after ", 0), 0u) << run.error;
+      EXPECT_NE(run.error.find("long.mp4 is not written"), std::string::npos) << run.error;
+    }
+    ASSERT_TRUE(std::filesystem::remove(folder_.path() / "started"));
+    EXPECT_EQ(folder_.files(), before);
   }
+}
+
+// The files of the folder with their contents.
+std::map<std::string, std::string> contents(const WorkFolder& folder) {
+  std::map<std::string, std::string> all;
+  for (const std::string& name : folder.files()) all[name] = *read_text_file(folder.path() / name);
+  return all;
+}
+
+TEST_F(Render, AnInterruptedSequenceSaysHowToContinue) {
+  const Arguments whole{"-o", "f_%02d.png", "--frames", "2-9", "--size", "32x18"};
+  ASSERT_EQ(render(whole).exit_code, 0);
+  const auto expected = contents(folder_);
+  for (const char* name : {"f_04.png", "f_05.png", "f_06.png", "f_07.png", "f_08.png", "f_09.png"})
+    std::filesystem::remove(folder_.path() / name);
+  Arguments again = whole;
+  again.push_back("--resume");
+  RunOptions interrupt;
+  interrupt.signal = SIGTERM;
+  interrupt.signal_when = [&] { return std::filesystem::exists(folder_.path() / "f_06.png"); };
+  const Outcome run = render(again, interrupt);
+  ASSERT_EQ(run.exit_code, 6) << run.error;
+  const std::size_t there = folder_.files().size() - 2;
+  EXPECT_EQ(run.error, "brume: interrupted; " + std::to_string(there) +
+                           " of 8 frames written; continue with --resume or --frames " +
+                           std::to_string(2 + there) + "-9\n");
+
+  again.insert(again.end(), {"--json", "-"});
+  const Outcome rest = render(again);
+  ASSERT_EQ(rest.exit_code, 0) << rest.error;
+  EXPECT_EQ(nlohmann::json::parse(rest.out)["frames"], 8 - there);
+  EXPECT_EQ(contents(folder_), expected);
+}
+
+TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
+  const Arguments whole{"-o", "f_%d.png", "--frames", "0-3", "--size", "32x18", "--resume", "--json", "-"};
+  const auto drawn = [&](const Arguments& arguments) {
+    const Outcome run = render(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return nlohmann::json::parse(run.out)["frames"].get<int>();
+  };
+  EXPECT_EQ(drawn(whole), 4);
+  EXPECT_EQ(drawn(whole), 0);
+  const auto expected = contents(folder_);
+
+  const std::string& frame = expected.at("f_1.png");
+  folder_.write("f_1.png", frame.substr(0, frame.size() - 4));
+  folder_.write("f_2.png", expected.at("f_3.png"));
+  std::string damaged = expected.at("f_3.png");
+  damaged[damaged.size() / 2] ^= 1;
+  folder_.write("f_3.png", damaged);
+  EXPECT_EQ(drawn(whole), 3);
+  EXPECT_EQ(contents(folder_), expected);
+
+  // Other settings or another scene make other frames.
+  Arguments other = whole;
+  other.insert(other.end(), {"--step", "2"});
+  EXPECT_EQ(drawn(other), 4);
+  EXPECT_EQ(drawn(whole), 4);
+  EXPECT_EQ(contents(folder_), expected);
+  folder_.write("room.obj", room_obj() + "# changed\n");
+  EXPECT_EQ(drawn(whole), 4);
+  EXPECT_EQ(render({"-o", "a.png", "--resume"}).exit_code, 2);
+}
+
+// Such frames depend on those before: resuming draws them again.
+TEST_F(Render, ResumesTemporalFramesExactly) {
+  const Arguments whole{"-o", "f_%d.png", "--frames", "0-5", "--fps", "8", "--size", "32x18", "--temporal"};
+  ASSERT_EQ(render(whole).exit_code, 0);
+  const auto expected = contents(folder_);
+  for (const char* name : {"f_2.png", "f_4.png"}) std::filesystem::remove(folder_.path() / name);
+  Arguments again = whole;
+  again.push_back("--resume");
+  ASSERT_EQ(render(again).exit_code, 0);
+  EXPECT_EQ(contents(folder_), expected);
 }
 
 TEST_F(Render, FilmOnAFullDisk) {

@@ -3,7 +3,9 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,16 +39,54 @@ void send_to(int descriptor, const std::filesystem::path& file) {
   send_to(STDERR_FILENO, error);
   for (const auto& [name, value] : options.environment) ::setenv(name.c_str(), value.c_str(), 1);
   if (options.file_bytes > 0) {
-    ::signal(SIGXFSZ, SIG_IGN);  // Writing then fails with EFBIG, as a full disk does with ENOSPC.
+    ::signal(SIGXFSZ, SIG_DFL);  // As a shell starts programs; the program must ignore it itself.
     const rlimit limit{options.file_bytes, options.file_bytes};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (options.signal_at > 0) ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
   arguments.insert(arguments.begin(), BRUME_PROGRAM);
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
+  if (options.close_standard_descriptors)
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(descriptor);
   if (::chdir(folder.c_str()) == 0) ::execv(BRUME_PROGRAM, pointers.data());
   ::_exit(127);
+}
+
+// Whether the system call that the traced thread is about to make changes files.
+bool changes_files(const __ptrace_syscall_info& call) {
+  const auto number = static_cast<long>(call.entry.nr);
+  if (number == SYS_openat) return (call.entry.args[2] & (O_WRONLY | O_RDWR)) != 0;
+  constexpr long kCalls[] = {
+      SYS_write,  SYS_sendto, SYS_fsync, SYS_fchmod, SYS_linkat, SYS_renameat, SYS_unlinkat,
+#ifdef SYS_rename
+      SYS_rename, SYS_unlink,
+#endif
+  };
+  return std::find(std::begin(kCalls), std::end(kCalls), number) != std::end(kCalls);
+}
+
+// Runs a child that called PTRACE_TRACEME, and signals it before its call number `signal_at`. Its other
+// threads and its children run freely. Returns the exit status.
+int trace(pid_t child, const RunOptions& options, std::uint64_t& calls) {
+  int status = 0;
+  ::waitpid(child, &status, 0);  // Its exec.
+  ::ptrace(PTRACE_SETOPTIONS, child, nullptr, PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
+  int deliver = 0;
+  for (bool signalled = false;;) {
+    ::ptrace(signalled ? PTRACE_CONT : PTRACE_SYSCALL, child, nullptr, deliver);
+    if (::waitpid(child, &status, 0) < 0 || !WIFSTOPPED(status)) return status;
+    deliver = WSTOPSIG(status);
+    if (deliver != (SIGTRAP | 0x80)) continue;  // A signal: passed on.
+    deliver = 0;
+    __ptrace_syscall_info call{};
+    ::ptrace(PTRACE_GET_SYSCALL_INFO, child, sizeof call, &call);
+    if (call.op != PTRACE_SYSCALL_INFO_ENTRY || !changes_files(call) || ++calls != options.signal_at)
+      continue;
+    ::kill(child, options.signal);
+    signalled = true;
+  }
 }
 
 std::filesystem::path fresh_folder() {
@@ -68,9 +108,13 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) become(folder, arguments, options, out, error);
+  Outcome run;
   int status = 0;
   bool ended = false;
-  if (options.signal != 0) {
+  if (options.signal_at > 0) {
+    status = trace(child, options, run.file_calls);
+    ended = true;
+  } else if (options.signal != 0) {
     constexpr useconds_t kPollMicroseconds = 2000;
     while (!ended && !options.signal_when()) {
       ::usleep(kPollMicroseconds);
@@ -79,7 +123,6 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
     if (!ended) ::kill(child, options.signal);
   }
   if (!ended) ::waitpid(child, &status, 0);
-  Outcome run;
   run.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   if (options.out_file.empty()) run.out = read_text(out);
   run.error = read_text(error);

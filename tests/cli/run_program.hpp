@@ -13,14 +13,19 @@ namespace brume::cli {
 struct Outcome {
   int exit_code = -1;  ///< 128 + signal if a signal ended it.
   std::string out, error;
+  std::uint64_t file_calls = 0;  ///< With `signal_at`: the number of such calls that were begun.
 };
 
 struct RunOptions {
   std::vector<std::pair<std::string, std::string>> environment;  ///< Added to the test's own.
   std::uint64_t file_bytes = 0;                                  ///< No file may grow past this; 0: any size.
   std::string out_file;                                          ///< Receives standard output instead.
+  bool close_standard_descriptors = false;                       ///< The program starts without them.
   int signal = 0;                                                ///< Sent once `signal_when` holds.
   std::function<bool()> signal_when;
+  /// Where the signal is sent instead: before the main thread's call number `signal_at` that changes files
+  /// (opens for writing, writes, sends, syncs, links, renames, removes), from 1. 0: nowhere.
+  std::uint64_t signal_at = 0;
 };
 
 /// Runs build/.../brume with these arguments in `folder`.

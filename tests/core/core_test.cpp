@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/atomic_file.hpp"
 #include "core/checked.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"

@@ -56,6 +56,24 @@ TEST(Png, Saves16BitImages) {
   for (std::size_t i = 0; i < image.rgba.size(); ++i) ASSERT_EQ(back->rgba[i], image.rgba[i] >> 8) << i;
 }
 
+TEST(Png, HoldsAText) {
+  const TemporaryFolder folder("text");
+  const auto path = folder.path() / "a.png";
+  const auto with = random_image(9, 5, true, 1);
+  ASSERT_TRUE(save_png(path, with, PngText{"Made from", "0123abc"}));
+  const auto bytes = read_file(path);
+  ASSERT_TRUE(bytes);
+  EXPECT_EQ(find_png_text(*bytes, "Made from"), "0123abc");
+  EXPECT_EQ(find_png_text(*bytes, "Made"), std::nullopt);
+  EXPECT_EQ(load_image(path)->rgba, with.rgba);
+  ASSERT_TRUE(save_png(path, with));
+  EXPECT_EQ(find_png_text(*read_file(path), "Made from"), std::nullopt);
+  for (std::size_t length = 0; length < bytes->size(); ++length) {
+    const auto found = find_png_text(std::span(*bytes).first(length), "Made from");
+    EXPECT_TRUE(!found || *found == "0123abc") << length;
+  }
+}
+
 TEST(Png, EveryTruncationIsAnError) {
   const TemporaryFolder folder("cut");
   ASSERT_TRUE(save_png(folder.path() / "a.png", random_image(7, 5, false, 3)));

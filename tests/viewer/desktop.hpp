@@ -72,6 +72,7 @@ class Program {
   void hide();  ///< Minimizes the window.
   void show();
   void close();              ///< As the close button does.
+  void kill();               ///< By SIGKILL: it can save nothing any more.
   image::Image8 contents();  ///< The current contents of the window.
 
   /// All frames drawn so far.
@@ -91,7 +92,6 @@ class Program {
 
  private:
   bool wait_until(const std::function<bool()>& holds, int poll_ms);
-  void kill();
   const Desktop& desktop_;
   std::filesystem::path error_file_, log_file_;
   std::ifstream log_;

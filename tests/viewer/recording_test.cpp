@@ -110,5 +110,50 @@ TEST_F(RecordingTest, AScreenshotEqualsRenderAndTheWindow) {
   EXPECT_EQ(program.wait(), 0) << program.error();
 }
 
+// The autosave in the folder; its name has the number of the process.
+std::filesystem::path autosave_in(const cli::WorkFolder& folder) {
+  for (const std::string& name : folder.files())
+    if (name.starts_with("autosave_")) return folder.path() / name;
+  return {};
+}
+
+TEST_F(RecordingTest, AKilledSessionIsRecovered) {
+  std::filesystem::path autosave;
+  {
+    Program program(desktop_, folder_.path(), {"room.toml", "--size", "192x128", "--quality", "smallest"});
+    ASSERT_TRUE(program.wait_for_window()) << program.error();
+    EXPECT_EQ(autosave_in(folder_), "") << "there is nothing to lose before the first action";
+    program.click(1);  // throw
+    while (autosave.empty() && program.wait_for_frames(1)) autosave = autosave_in(folder_);
+    ASSERT_NE(autosave, "") << program.error();
+    program.kill();
+  }
+  ASSERT_TRUE(std::filesystem::exists(autosave));
+  {
+    Program program(desktop_, folder_.path(), {"room.toml", "--size", "64x40", "--exit-after", "0.05"});
+    EXPECT_EQ(program.wait(), 0) << program.error();
+    EXPECT_NE(program.error().find("brume view --play ./recovered_0001.toml"), std::string::npos)
+        << program.error();
+  }
+  EXPECT_FALSE(std::filesystem::exists(autosave));
+  const auto recovered = scene::load_timeline(file("recovered_0001.toml"));
+  ASSERT_TRUE(recovered) << recovered.failure().message;
+  EXPECT_EQ(recovered->smokes.size(), 1u);
+  const cli::Outcome played = cli::run_brume(folder_.path(), {"sim", "recovered_0001.toml"});
+  EXPECT_EQ(played.exit_code, 0) << played.error;
+}
+
+TEST_F(RecordingTest, AClosedSessionLeavesNoAutosave) {
+  Program program(desktop_, folder_.path(), {"room.toml", "--size", "64x40", "--quality", "smallest"});
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  program.click(1);
+  while (autosave_in(folder_).empty() && program.wait_for_frames(1)) {
+  }
+  ASSERT_NE(autosave_in(folder_), "") << program.error();
+  program.close();
+  EXPECT_EQ(program.wait(), 0) << program.error();
+  EXPECT_EQ(autosave_in(folder_), "");
+}
+
 }  // namespace
 }  // namespace brume::viewer

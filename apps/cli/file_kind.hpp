@@ -1,0 +1,19 @@
+// The kinds of files that commands write, recognized by their first bytes.
+#pragma once
+
+#include <filesystem>
+
+#include "core/error.hpp"
+
+namespace brume::cli {
+
+enum class FileKind { png, mp4, vxl, brp, json, obj, timeline, frame_log };
+
+/// As messages call it: ".png file", "timeline".
+const char* name_of(FileKind kind);
+
+/// Whether a file may be replaced by one of this kind: it is empty or begins like one. Fails with bad_input
+/// when it cannot be read.
+Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind);
+
+}  // namespace brume::cli

@@ -1,0 +1,182 @@
+#include "apps/cli/outputs.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "apps/cli/console.hpp"
+#include "apps/cli/targets.hpp"
+#include "core/atomic_file.hpp"
+#include "core/file.hpp"
+
+namespace brume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool names_a_file(const fs::path& path) {
+  return !path.empty() && path != "-";
+}
+
+bool exists(const FileIdentity& identity) {
+  return identity.name.empty();
+}
+
+// "-o a.png", or "a.png" for an argument.
+std::string named(const std::string& option, const fs::path& file) {
+  return (option.empty() ? "" : option + " ") + file.string();
+}
+
+Error is_input(const std::string& option, const fs::path& file, const fs::path& input) {
+  const std::string which = file == input ? "" : " " + input.string();
+  return {ErrorCode::usage, named(option, file) + ": is the input" + which + "; name another file"};
+}
+
+}  // namespace
+
+FileIdentity identity_of(const fs::path& path) {
+  const auto target = follow_links(path);
+  const fs::path& place = target ? *target : path;
+  struct stat info {};
+  if (::stat(place.c_str(), &info) == 0) return {info.st_dev, info.st_ino, ""};
+  const fs::path folder = place.has_parent_path() ? place.parent_path() : fs::path(".");
+  if (::stat(folder.c_str(), &info) == 0) return {info.st_dev, info.st_ino, place.filename().string()};
+  return {0, 0, place.string()};
+}
+
+void check_writable(const fs::path& file) {
+  // The destructor discards it.
+  if (auto opened = AtomicFile::open(file); !opened) throw Error(opened.failure());
+}
+
+void Outputs::reads(const fs::path& file) {
+  if (!names_a_file(file)) return;
+  const FileIdentity identity = identity_of(file);
+  inputs_.emplace(identity, file);
+  const auto output = options_.find(identity);
+  if (output == options_.end()) return;
+  const auto same =
+      std::find_if(outputs_.begin(), outputs_.end(), [&](const Output& o) { return o.before == identity; });
+  throw is_input(output->second, same == outputs_.end() ? file : same->file, file);
+}
+
+void Outputs::reads(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) reads(file);
+}
+
+void Outputs::check_place(const std::string& option, const fs::path& file, const FileIdentity& identity,
+                          FileKind kind) const {
+  if (const auto input = inputs_.find(identity); input != inputs_.end())
+    throw is_input(option, file, input->second);
+  if (const auto other = options_.find(identity); other != options_.end()) {
+    const std::string which = other->second.empty() ? "" : " of " + other->second;
+    throw Error(ErrorCode::usage,
+                named(option, file) + ": is also the output" + which + "; name another file");
+  }
+  if (!exists(identity)) return;
+  check_writable(file);
+  if (force_ || is_of_kind(file, kind).value_or_throw()) return;
+  throw Error(ErrorCode::usage, named(option, file) + ": exists and is no " + name_of(kind) +
+                                    "; name another file, or give --force");
+}
+
+void Outputs::writes(const std::string& option, const fs::path& file, FileKind kind) {
+  if (!names_a_file(file)) return;
+  const FileIdentity identity = identity_of(file);
+  check_place(option, file, identity, kind);
+  check_writable(file);
+  options_.emplace(identity, option);
+  outputs_.push_back({option, file, identity, false});
+}
+
+void Outputs::writes_frames(const std::string& option, const fs::path& pattern, std::uint32_t first,
+                            std::uint32_t last) {
+  check_writable(sequence_name(pattern, first));
+  for (std::uint32_t frame = first; frame <= last; ++frame) {
+    const fs::path file = sequence_name(pattern, frame);
+    const FileIdentity identity = identity_of(file);
+    check_place(option, file, identity, FileKind::png);
+    // Two names of the sequence can only be the same file if it exists.
+    if (exists(identity)) options_.emplace(identity, option);
+    stop_if_interrupted();
+  }
+  frames_ = Frames{pattern, first, last, std::vector<bool>(std::size_t{last} - first + 1)};
+}
+
+void Outputs::up_to_date(const fs::path& file) {
+  for (Output& output : outputs_)
+    if (output.file == file) output.up_to_date = true;
+}
+
+void Outputs::frame_done(std::uint32_t frame) {
+  BRUME_ASSERT(frames_ && frame >= frames_->first && frame <= frames_->last, std::to_string(frame));
+  frames_->done[frame - frames_->first] = true;
+}
+
+bool Outputs::is_written(const Output& output) const {
+  const FileIdentity now = identity_of(output.file);
+  return exists(now) && now != output.before;
+}
+
+// "6 of 144 frames written; continue with --resume or --frames 6-143"
+std::string Outputs::frame_state() const {
+  const auto& done = frames_->done;
+  const auto count = std::count(done.begin(), done.end(), true);
+  std::string text = std::to_string(count) + " of " + std::to_string(done.size()) + " frames written";
+  if (count == std::ssize(done)) return text;
+  text += "; continue with --resume";
+  const auto begin = std::find(done.begin(), done.end(), false) - done.begin();
+  if (frames_depend_ || begin != count) return text;
+  const auto next = static_cast<std::uint64_t>(begin) + frames_->first;
+  return text + " or --frames " + std::to_string(next) + "-" + std::to_string(frames_->last);
+}
+
+// Which of several outputs are written; empty if all or none are.
+std::string Outputs::state() const {
+  std::string missing;
+  std::size_t done = 0, open = 0;
+  for (const Output& output : outputs_) {
+    if (output.up_to_date) continue;
+    if (is_written(output)) {
+      ++done;
+      continue;
+    }
+    ++open;
+    missing += (missing.empty() ? "" : ", ") + output.file.string();
+  }
+  std::string frames;
+  if (frames_) {
+    const bool all = std::find(frames_->done.begin(), frames_->done.end(), false) == frames_->done.end();
+    const bool any = std::find(frames_->done.begin(), frames_->done.end(), true) != frames_->done.end();
+    ++(all ? done : open);
+    if (any && !all) return frame_state();
+  }
+  if (done == 0 || open == 0) return "";
+  return "written: " + written() + (missing.empty() ? "" : "; not written: " + missing);
+}
+
+Failure Outputs::explain(const Failure& failure) const {
+  const std::string text = state();
+  if (text.empty()) return failure;
+  return {ErrorCode::partial, failure.message + "; " + text};
+}
+
+std::optional<Failure> Outputs::explain_interruption() const {
+  const std::string text = state();
+  if (text.empty()) return std::nullopt;
+  return Failure{ErrorCode::partial, "interrupted; " + text};
+}
+
+std::string Outputs::written() const {
+  std::string text;
+  const auto add = [&](const std::string& file) { text += (text.empty() ? "" : ", ") + file; };
+  if (frames_ && std::find(frames_->done.begin(), frames_->done.end(), true) != frames_->done.end()) {
+    const auto count = std::count(frames_->done.begin(), frames_->done.end(), true);
+    add(frames_->pattern.string() + " (" + std::to_string(count) + " frames)");
+  }
+  for (const Output& output : outputs_)
+    if (is_written(output)) add(output.file.string());
+  return text;
+}
+
+}  // namespace brume::cli

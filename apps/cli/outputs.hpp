@@ -1,0 +1,97 @@
+// The files that a command reads and writes. The one place that decides what may be written.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/cli/file_kind.hpp"
+#include "core/error.hpp"
+
+namespace brume::cli {
+
+/// One file, whatever path leads to it: its device and inode or, where nothing exists yet, those of its
+/// folder and its name. Symbolic links are followed.
+struct FileIdentity {
+  dev_t device = 0;
+  ino_t inode = 0;
+  std::string name;  ///< Empty for a file that exists.
+  auto operator<=>(const FileIdentity&) const = default;
+};
+FileIdentity identity_of(const std::filesystem::path& path);
+
+/// The inputs and outputs of one command. A command declares every output before its work starts, and its
+/// inputs as soon as it knows them. Each declaration checks the whole:
+///
+/// - no output is an input or another output, by file identity;
+/// - an output that exists has the kind of the new file (see is_of_kind) unless `force` is given;
+/// - it can be created: the folder exists and is writable, the old file too.
+///
+/// "-" (standard output) and empty paths are ignored.
+class Outputs {
+ public:
+  /// Allows replacing files of another kind.
+  void set_force(bool force) { force_ = force; }
+
+  /// Declares files that the command reads. Throws Error (usage) if one is an output.
+  void reads(const std::filesystem::path& file);
+  void reads(const std::vector<std::filesystem::path>& files);
+
+  /// Declares a file that the command writes for `option`, such as "-o" (the argument itself: ""). Throws
+  /// Error (usage) by the rules above, and as AtomicFile::open fails.
+  void writes(const std::string& option, const std::filesystem::path& file, FileKind kind);
+
+  /// Declares the frames first to last, inclusive, of a numbered sequence.
+  void writes_frames(const std::string& option, const std::filesystem::path& pattern, std::uint32_t first,
+                     std::uint32_t last);
+
+  /// States that a declared output needs no writing: it is up to date.
+  void up_to_date(const std::filesystem::path& file);
+  /// States that a frame of the sequence is complete: written, or already there.
+  void frame_done(std::uint32_t frame);
+  /// Whether frames depend on those before: only --resume then continues the sequence.
+  void set_frames_depend(bool depend) { frames_depend_ = depend; }
+
+  /// The failure of a command that stopped: if some of its outputs were written and some were not, it has the
+  /// code `partial` and says which, and how to continue.
+  Failure explain(const Failure& failure) const;
+  /// The same for a command that a signal stopped; nothing if none of its outputs were written.
+  std::optional<Failure> explain_interruption() const;
+
+  /// What has been written so far, for the terminal: "a.png, a.json"; empty: nothing.
+  std::string written() const;
+
+ private:
+  struct Output {
+    std::string option;
+    std::filesystem::path file;
+    FileIdentity before;  ///< Identity at its declaration: a written file is another one.
+    bool up_to_date = false;
+  };
+  struct Frames {
+    std::filesystem::path pattern;
+    std::uint32_t first = 0, last = 0;
+    std::vector<bool> done;
+  };
+  void check_place(const std::string& option, const std::filesystem::path& file, const FileIdentity& identity,
+                   FileKind kind) const;
+  bool is_written(const Output& output) const;
+  std::string frame_state() const;
+  std::string state() const;
+
+  std::map<FileIdentity, std::filesystem::path> inputs_;
+  std::map<FileIdentity, std::string> options_;  ///< Option of each output.
+  std::vector<Output> outputs_;
+  std::optional<Frames> frames_;
+  bool force_ = false, frames_depend_ = false;
+};
+
+/// Throws Error unless this file can be created: the folder exists and is writable, the file is no folder.
+void check_writable(const std::filesystem::path& file);
+
+}  // namespace brume::cli

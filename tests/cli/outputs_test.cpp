@@ -1,0 +1,199 @@
+// No command overwrites an input, another output, or a file of another kind.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "core/file.hpp"
+#include "image/png.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+constexpr const char* kTimeline =
+    "version = 1\nscene = \"room.obj\"\nduration = 0.5\n"
+    "[[event]]\ntype = \"smoke\"\ntime = 0.0\nfrom = [0.0, 1.5, 1.0]\nat = [0.0, 0.5, -1.0]\n"
+    "[[event]]\ntype = \"shot\"\ntime = 0.1\nfrom = [0.0, 1.5, 1.0]\ntoward = [0.0, 0.5, -1.0]\n"
+    "shape = \"mask\"\nmask = \"mask.png\"\n";
+
+class OutputFiles : public testing::Test {
+ protected:
+  OutputFiles() {
+    folder_.write("room.obj", "mtllib room.mtl\nusemtl wall\n" + room_obj());
+    folder_.write("room.mtl", "newmtl wall\nmap_Kd brick.png\n");
+    folder_.write("room.toml", kTimeline);
+    folder_.write("notes.txt", "my notes\n");
+    for (const char* name : {"brick.png", "mask.png", "a.png", "b.png"}) save_picture(name);
+  }
+  void save_picture(const std::string& name) const {
+    const image::Image8 picture{8, 8, std::vector<std::uint8_t>(4 * 8 * 8, 200)};
+    image::save_png(folder_.path() / name, picture).value_or_throw();
+  }
+  std::string bytes(const std::string& name) const {
+    return read_text_file(folder_.path() / name).value_or_throw();
+  }
+  // The command is refused, and no file changes.
+  void refused(const Arguments& arguments, const std::vector<std::string>& parts, int exit_code = 2) const {
+    std::vector<std::string> before;
+    for (const std::string& name : folder_.files())
+      before.push_back(fs::is_regular_file(folder_.path() / name) ? bytes(name) : "");
+    expect_failure(folder_, arguments, exit_code, parts);
+    std::vector<std::string> after;
+    for (const std::string& name : folder_.files())
+      after.push_back(fs::is_regular_file(folder_.path() / name) ? bytes(name) : "");
+    EXPECT_EQ(before, after) << testing::PrintToString(arguments);
+  }
+  // Also with --force.
+  void never(Arguments arguments, const std::string& part) const {
+    refused(arguments, {part, "is the input", "name another file"});
+    arguments.push_back("--force");
+    refused(arguments, {part, "is the input"});
+  }
+  WorkFolder folder_;
+};
+
+TEST_F(OutputFiles, AreNeverAnInput) {
+  never({"voxelize", "room.obj", "-o", "room.obj"}, "-o room.obj");
+  never({"voxelize", "room.obj", "--obj", "room.obj"}, "--obj room.obj");
+  never({"voxelize", "room.obj", "--json", "./room.obj"}, "--json ./room.obj");
+  never({"sim", "room.toml", "--record", "room.toml"}, "--record room.toml");
+  never({"diff", "a.png", "b.png", "-o", "a.png"}, "-o a.png");
+  never({"diff", "a.png", "b.png", "--json", "b.png"}, "--json b.png");
+  never({"info", "room.obj", "--json", "room.obj"}, "--json room.obj");
+  never({"query", "room.toml", "--from", "0,1,1", "--to", "0,1,-1", "--time", "0.1", "--json", "room.toml"},
+        "--json room.toml");
+  never({"render", "room.obj", "--timeline", "room.toml", "-o", "r.png", "--json", "room.toml"},
+        "--json room.toml");
+#ifdef BRUME_VIEWER
+  never({"view", "--play", "room.toml", "--record", "room.toml"}, "--record room.toml");
+  never({"view", "--play", "room.toml", "--frame-log", "room.toml"}, "--frame-log room.toml");
+  // A screenshot saves its timeline beside it.
+  never({"view", "--play", "room.toml", "--screenshot", "room.png", "--exit-after", "1"}, "room.toml");
+#endif
+}
+
+TEST_F(OutputFiles, AreNeverAFileThatTheSceneRefersTo) {
+  never({"render", "room.toml", "-o", "brick.png"}, "-o brick.png");
+  never({"render", "room.toml", "-o", "mask.png"}, "-o mask.png");
+  never({"render", "room.obj", "-o", "brick.png"}, "-o brick.png");
+  refused({"voxelize", "room.obj", "--json", "room.mtl", "--force"}, {"--json room.mtl", "is the input"});
+  refused({"info", "room.obj", "--json", "brick.png", "--force"}, {"--json brick.png", "is the input"});
+  refused({"sim", "room.toml", "--record", "room.obj", "--force"}, {"--record room.obj", "is the input"});
+}
+
+TEST_F(OutputFiles, AreComparedByFileAndNotByName) {
+  fs::create_symlink("a.png", folder_.path() / "soft.png");
+  fs::create_hard_link(folder_.path() / "a.png", folder_.path() / "hard.png");
+  fs::create_symlink(".", folder_.path() / "here");
+  never({"diff", "a.png", "b.png", "-o", "soft.png"}, "soft.png: is the input a.png");
+  never({"diff", "a.png", "b.png", "-o", "hard.png"}, "hard.png: is the input a.png");
+  never({"diff", "a.png", "b.png", "-o", "here/a.png"}, "here/a.png: is the input a.png");
+  never({"diff", "soft.png", "b.png", "-o", "a.png"}, "a.png: is the input soft.png");
+  refused({"diff", "a.png", "b.png", "-o", "map.png", "--json", "here/map.png"}, {"also the output of -o"});
+  fs::create_symlink("map.png", folder_.path() / "later.png");
+  refused({"diff", "a.png", "b.png", "-o", "map.png", "--json", "later.png"}, {"also the output of -o"});
+}
+
+TEST_F(OutputFiles, AreNotNamedTwice) {
+  refused({"render", "room.obj", "-o", "q.png", "--json", "q.png"}, {"q.png", "is also the output of"});
+  refused({"voxelize", "room.obj", "-o", "z.vxl", "--obj", "z.vxl"}, {"--obj z.vxl", "of -o"});
+  refused({"voxelize", "room.obj", "--obj", "z", "--json", "z"}, {"--json z", "of --obj"});
+  refused({"sim", "room.toml", "--record", "z", "--json", "z"}, {"--json z", "of --record"});
+}
+
+TEST_F(OutputFiles, ReplaceNoFileOfAnotherKindWithoutForce) {
+  const auto other = [&](const Arguments& arguments, const std::string& kind) {
+    refused(arguments, {"exists and is no " + kind, "--force"});
+  };
+  other({"voxelize", "room.obj", "-o", "notes.txt"}, ".vxl file");
+  other({"voxelize", "room.obj", "--obj", "notes.txt"}, ".obj file");
+  other({"voxelize", "room.obj", "--json", "notes.txt"}, "JSON file");
+  other({"sim", "room.toml", "--record", "a.png"}, ".brp file");
+  other({"diff", "a.png", "b.png", "-o", "notes.txt"}, ".png file");
+  other({"render", "room.toml", "-o", folder_.write("film.mp4", "no film at all")}, ".mp4 file");
+  other({"render", "room.toml", "-o", folder_.write("text.png", "text")}, ".png file");
+  other({"info", "room.obj", "--json", folder_.write("room.gltf", "{\"asset\": {}}")}, "JSON file");
+  other({"devices", "--json", "notes.txt"}, "JSON file");
+#ifdef BRUME_VIEWER
+  other({"view", "--play", "room.toml", "--record", "notes.txt"}, "timeline");
+  other({"view", "--play", "room.toml", "--frame-log", "notes.txt"}, "frame log");
+#endif
+
+  folder_.write("empty", "");
+  folder_.write("old.json", "  [1, 2]\n");
+  for (const Arguments& to : {Arguments{"notes.txt", "--force"}, Arguments{"empty"}, Arguments{"old.json"}}) {
+    Arguments arguments{"info", "room.obj", "--json"};
+    arguments.insert(arguments.end(), to.begin(), to.end());
+    const Outcome run = run_brume(folder_.path(), arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_EQ(bytes(to[0]).front(), '{');
+  }
+}
+
+TEST_F(OutputFiles, ThatAreNumberedFramesFollowTheSameRules) {
+  const Arguments render{"render", "room.toml", "--size", "16x16", "--frames", "0-3"};
+  const auto with = [&](Arguments more) {
+    more.insert(more.begin(), render.begin(), render.end());
+    return more;
+  };
+  save_picture("wall_2.png");
+  folder_.write("room.mtl", "newmtl wall\nmap_Kd wall_2.png\n");
+  never(with({"-o", "wall_%d.png"}), "wall_2.png");
+  refused(with({"-o", "f_%d.png", "--json", "f_3.png"}), {"f_3.png", "also the output"});
+  folder_.write("g_1.png", "not a picture");
+  refused(with({"-o", "g_%d.png"}), {"g_1.png: exists and is no .png file"});
+  save_picture("h_0.png");
+  fs::create_symlink("h_0.png", folder_.path() / "h_3.png");
+  refused(with({"-o", "h_%d.png"}), {"h_3.png: is also the output"});
+  // Without --frames the timeline says how many frames there are.
+  refused({"render", "room.toml", "--size", "16x16", "--fps", "8", "-o", "h_%d.png"}, {"h_3.png"});
+}
+
+TEST_F(OutputFiles, ThatAreNoRegularFilesAreRefused) {
+  ASSERT_EQ(::mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
+  refused({"info", "room.obj", "--json", "pipe"}, {"pipe: is not a regular file"}, 3);
+  refused({"info", "room.obj", "--json", "pipe", "--force"}, {"pipe: is not a regular file"}, 3);
+  refused({"info", "room.obj", "--json", "/dev/null"}, {"/dev/null: is not a regular file"}, 3);
+  refused({"diff", "pipe", "a.png"}, {"pipe: not a regular file"}, 3);
+}
+
+TEST_F(OutputFiles, AreWrittenThroughLinksWithTheirPermissions) {
+  folder_.write("old.json", "{}");
+  ASSERT_EQ(::chmod((folder_.path() / "old.json").c_str(), 0600), 0);
+  fs::create_symlink("old.json", folder_.path() / "link.json");
+  const Outcome run = run_brume(folder_.path(), {"info", "room.obj", "--json", "link.json"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_TRUE(fs::is_symlink(folder_.path() / "link.json"));
+  EXPECT_NE(bytes("old.json"), "{}");
+  EXPECT_EQ(fs::status(folder_.path() / "old.json").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
+}
+
+// What is printed would otherwise end up in the file that gets the number of the closed descriptor.
+TEST_F(OutputFiles, AreWholeWhenTheStandardDescriptorsAreClosed) {
+  const Arguments arguments{"voxelize", "room.obj", "--voxel", "0.5", "--obj"};
+  const auto to = [&](const std::string& name, bool closed) {
+    Arguments all = arguments;
+    all.push_back(name);
+    RunOptions options;
+    options.close_standard_descriptors = closed;
+    return run_brume(folder_.path(), all, options).exit_code;
+  };
+  ASSERT_EQ(to("open.obj", false), 0);
+  EXPECT_EQ(to("closed.obj", true), 4) << "its text cannot be printed";
+  EXPECT_EQ(bytes("closed.obj"), bytes("open.obj"));
+}
+
+TEST_F(OutputFiles, HelpFailsOnAFullDevice) {
+  RunOptions full;
+  full.out_file = "/dev/full";
+  EXPECT_EQ(run_brume(folder_.path(), {"--help"}, full).exit_code, 4);
+}
+
+}  // namespace
+}  // namespace brume::cli
