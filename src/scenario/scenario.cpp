@@ -23,23 +23,9 @@ Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const sce
   return chosen;
 }
 
-}  // namespace
-
-Result<Scenario> load_scenario(const std::filesystem::path& input,
-                               const std::filesystem::path& cache_folder) {
-  if (input.extension() == ".toml") {
-    auto timeline = scene::load_timeline(input);
-    if (!timeline) return timeline.failure();
-    return make_scenario(std::move(*timeline), cache_folder);
-  }
-  auto scene = scene::load_scene(input);
-  if (!scene) return scene.failure();
-  return make_scenario(scene::timeline_for_scene(input, *scene), cache_folder);
-}
-
-Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder) {
-  auto scene = scene::load_scene(timeline.scene);
-  if (!scene) return scene.failure();
+/// Adds what a scenario needs to its timeline and its scene, which is loaded.
+Result<Scenario> complete_scenario(scene::Timeline timeline, Result<scene::Scene> scene,
+                                   const std::filesystem::path& cache_folder) {
   if (auto checked = scene::check_doors(timeline, *scene); !checked) return checked.failure();
 
   // A scene without any light gets a sun.
@@ -64,6 +50,27 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   if (!masks) return masks.failure();
   return Scenario{std::move(timeline), std::move(*scene),       camera,
                   std::move(*voxels),  std::move(masks->atlas), std::move(masks->of_shots)};
+}
+
+}  // namespace
+
+Result<Scenario> load_scenario(const std::filesystem::path& input,
+                               const std::filesystem::path& cache_folder) {
+  if (scene::lower_extension(input) == ".toml") {
+    auto timeline = scene::load_timeline(input);
+    if (!timeline) return timeline.failure();
+    return make_scenario(std::move(*timeline), cache_folder);
+  }
+  auto scene = scene::load_scene(input);
+  if (!scene) return scene.failure();
+  scene::Timeline timeline = scene::timeline_for_scene(input, *scene);
+  return complete_scenario(std::move(timeline), std::move(scene), cache_folder);
+}
+
+Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder) {
+  auto scene = scene::load_scene(timeline.scene);
+  if (!scene) return scene.failure();
+  return complete_scenario(std::move(timeline), std::move(scene), cache_folder);
 }
 
 }  // namespace brume::scenario

@@ -8,9 +8,14 @@
 
 namespace brume::scene {
 
-Result<Scene> load_scene(const std::filesystem::path& path) {
+std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
+Result<Scene> load_scene(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
   const FolderFiles files(path.parent_path());
 
   if (extension == ".txt" || extension == ".obj") {
