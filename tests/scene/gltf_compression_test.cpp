@@ -88,11 +88,15 @@ TEST(Draco, BothMethodsKeepTheMesh) {
 }
 
 TEST(Draco, AGlbLoadsToo) {
-  Document document = draco_document(draco_square({}));
-  document.uri = "";
-  const auto scene = load_gltf(glb_of(document.json(), document.binary.data), {});
-  ASSERT_TRUE(scene) << scene.failure().message;
-  EXPECT_NEAR(area(*scene), 4, 1e-3);
+  for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
+    Document document = draco_document(draco_square({method}));
+    document.uri = "";
+    const std::string glb = glb_of(document.json(), document.binary.data);
+    keep_as_seed(method == draco::MESH_EDGEBREAKER_ENCODING ? "draco.glb" : "draco_sequential.glb", glb);
+    const auto scene = load_gltf(glb, {});
+    ASSERT_TRUE(scene) << scene.failure().message;
+    EXPECT_NEAR(area(*scene), 4, 1e-3);
+  }
 }
 
 TEST(Draco, DeclaredCountsAreLimited) {
@@ -227,7 +231,9 @@ TEST(Meshopt, AllModesAndIndexSizesKeepTheMesh) {
 TEST(Meshopt, AGlbLoadsToo) {
   Document document = meshopt_document({square_positions(), meshopt_indices("TRIANGLES", 2)});
   document.uri = "";
-  const auto scene = load_gltf(glb_of(with_fallback(document), document.binary.data), {});
+  const std::string glb = glb_of(with_fallback(document), document.binary.data);
+  keep_as_seed("meshopt.glb", glb);
+  const auto scene = load_gltf(glb, {});
   ASSERT_TRUE(scene) << scene.failure().message;
   EXPECT_EQ(area(*scene), 4);
 }
@@ -245,6 +251,8 @@ TEST(Meshopt, FiltersAreUndone) {
   const auto scene = load_meshopt(document);
   ASSERT_TRUE(scene) << scene.failure().message;
   EXPECT_NEAR(area(*scene), 4, 1e-4);
+  document.uri = "";
+  keep_as_seed("meshopt_filters.glb", glb_of(with_fallback(document), document.binary.data));
   EXPECT_LT(glm::distance(scene->meshes[0].vertices[2].normal, glm::vec3(1, 2, 2) / 3.0f), 0.02f);
 }
 
@@ -331,6 +339,8 @@ TEST(Quantization, IntegersAreScaledAsTheirAccessorsSay) {
   const auto scene = document.load();
   ASSERT_TRUE(scene) << scene.failure().message;
   expect_sound(*scene);
+  document.uri = "";
+  keep_as_seed("quantized.glb", glb_of(document.json(), document.binary.data));
   EXPECT_LT(glm::distance(world_corner(*scene, 0, 1), glm::vec3(7, 0, 0)), 1e-5f);
   const Vertex& vertex = scene->meshes[0].vertices[0];
   EXPECT_EQ(vertex.normal, glm::vec3(0, 0, 1));

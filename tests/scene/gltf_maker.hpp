@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
+#include <fstream>
 #include <string>
 
 #include "scene/gltf.hpp"
@@ -81,6 +83,13 @@ inline std::string glb_of(std::string json, std::string binary) {
   glb.add<std::uint32_t>({length(binary), 0x004e4942u});
   glb.data += binary;
   return glb.data;
+}
+
+/// Writes a file into the folder that BRUME_SEEDS names, if it is set. Seeds of the fuzzer, fuzz/corpus/gltf,
+/// are made so.
+inline void keep_as_seed(const std::string& name, const std::string& bytes) {
+  const char* folder = std::getenv("BRUME_SEEDS");
+  if (folder) std::ofstream(std::string(folder) + "/" + name, std::ios::binary) << bytes;
 }
 
 }  // namespace brume::scene

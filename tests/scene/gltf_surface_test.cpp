@@ -1,6 +1,9 @@
 // What of a glTF file reaches the look of its surfaces, and the answers to files of another kind.
 #include <webp/encode.h>
 
+#include <filesystem>
+
+#include "core/file.hpp"
 #include "tests/scene/gltf_maker.hpp"
 
 namespace brume::scene {
@@ -46,6 +49,8 @@ TEST(GltfTexture, WebpInABufferViewAndAsAFile) {
   expect_sound(*scene);
   const Material& material = scene->materials[0];
   ASSERT_EQ(scene->images.size(), 2u) << "the PNG that WebP replaces is not read";
+  document.uri = "";
+  keep_as_seed("webp.glb", glb_of(document.json(), document.binary.data));
   EXPECT_EQ(scene->images[material.base_color_image].pixels.rgba,
             (std::vector<std::uint8_t>{255, 0, 0, 255, 255, 0, 0, 255}));
   EXPECT_EQ(scene->images[material.normal_image].pixels.rgba[2], 30);
@@ -81,6 +86,8 @@ TEST(GltfTexture, TransformsMoveTheCoordinates) {
                                R"(, "textures": [{}])");
   const auto scene = document.load();
   ASSERT_TRUE(scene) << scene.failure().message;
+  document.uri = "";
+  keep_as_seed("texture_transform.glb", glb_of(document.json(), document.binary.data));
   const std::vector<Vertex>& vertices = scene->meshes[0].vertices;
   EXPECT_LT(glm::distance(vertices[0].uv, glm::vec2(0, 1)), 1e-6f);
   EXPECT_LT(glm::distance(vertices[1].uv, glm::vec2(0, 0.5f)), 1e-6f);
@@ -132,8 +139,24 @@ TEST(GltfColor, VertexColoursOfAllTypes) {
     ASSERT_TRUE(scene) << scene.failure().message;
     EXPECT_LT(glm::distance(scene->meshes[0].vertices[0].color, c.expected), 1e-6f) << c.type;
     EXPECT_EQ(scene->meshes[0].vertices[1].color.g, 0) << c.type;
+    document.uri = "";
+    keep_as_seed("vertex_colors.glb", glb_of(document.json(), document.binary.data));
   }
   EXPECT_EQ(Document().load()->meshes[0].vertices[0].color, glm::vec4(1)) << "white without any";
+}
+
+// Seeds that no longer load would lead the fuzzer nowhere.
+TEST(GltfSeeds, EveryGlbLoads) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(BRUME_SOURCE_DIR "/fuzz/corpus/gltf")) {
+    if (entry.path().extension() != ".glb") continue;  // whose buffers the fuzzer makes up
+    const auto scene =
+        parse_gltf(read_file(entry.path()).value_or_throw(), entry.path().filename().string(), MemoryFiles());
+    ASSERT_TRUE(scene) << scene.failure().message;
+    expect_sound(*scene);
+    ++count;
+  }
+  EXPECT_GE(count, 9);
 }
 
 TEST(GltfKind, VersionOneIsNamed) {
