@@ -1,11 +1,3 @@
-// The system's tinygltf is not instrumented by sanitizers: the fuzzer compiles its own from the same header.
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_INCLUDE_STB_IMAGE
-#define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
-#include <tiny_gltf.h>
-
 #include "fuzz/scene_fuzz.hpp"
 #include "scene/gltf.hpp"
 

@@ -12,13 +12,14 @@ layout(scalar, push_constant) uniform Push { DrawConstants draw; };
 layout(location = 0) in vec3 normal_world;
 layout(location = 1) in vec4 tangent_world;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 color_complement;
 
 layout(location = 0) out vec4 albedo_roughness;
 layout(location = 1) out vec4 normal_metallic;
 layout(location = 2) out vec4 emission;
 
 void main() {
-  const vec4 base = texture(base_color_map, uv);
+  const vec4 base = texture(base_color_map, uv) * (1.0 - color_complement);
   if (base.a < draw.material.alpha_cutoff) discard;
   vec3 n = normalize(normal_world);
   const vec3 t = tangent_world.xyz - n * dot(n, tangent_world.xyz);

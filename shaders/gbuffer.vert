@@ -11,6 +11,7 @@ layout(scalar, push_constant) uniform Push { DrawConstants draw; };
 layout(location = 0) out vec3 normal_world;
 layout(location = 1) out vec4 tangent_world;
 layout(location = 2) out vec2 uv;
+layout(location = 3) out vec4 color_complement;
 
 void main() {
   const Vertex vertex = vertices[gl_VertexIndex];
@@ -22,5 +23,7 @@ void main() {
   normal_world = handedness * (cofactor * vertex.normal);
   tangent_world = vec4(linear * vertex.tangent.xyz, vertex.tangent.w * handedness);
   uv = vertex.uv;
+  color_complement =
+      vec4(unpackUnorm2x16(vertex.color_complement.x), unpackUnorm2x16(vertex.color_complement.y));
   gl_Position = frame.camera.clip_from_world * vec4(position_world, 1.0);
 }

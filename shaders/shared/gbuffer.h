@@ -19,8 +19,10 @@ struct Vertex {
   vec3 normal;
   vec4 tangent;
   vec2 uv;
+  /// 1 - the vertex colour, as four unorm16. White is zero, which interpolation keeps exactly.
+  uvec2 color_complement;
 };
-SHARED_SIZE(Vertex, 48);
+SHARED_SIZE(Vertex, 56);
 
 struct MaterialConstants {
   vec3 base_color;

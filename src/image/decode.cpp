@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<std::uint8_t, 3> kJpegSignature{0xff, 0xd8, 0xff};
+constexpr std::array<std::uint8_t, 4> kRiffSignature{'R', 'I', 'F', 'F'}, kWebpForm{'W', 'E', 'B', 'P'};
 
 template <std::size_t N>
 bool starts_with(std::span<const std::byte> bytes, const std::array<std::uint8_t, N>& signature) {
@@ -37,7 +38,11 @@ Result<void> check_size(std::uint64_t width, std::uint64_t height, const std::st
 Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string& name) {
   if (starts_with(bytes, kPngSignature)) return decode_png(bytes, name);
   if (starts_with(bytes, kJpegSignature)) return decode_jpeg(bytes, name);
-  return Failure{ErrorCode::bad_input, name + ": neither a PNG nor a JPEG file; convert it to one of these"};
+  // RIFF, the size of the rest, then the kind of the container.
+  if (starts_with(bytes, kRiffSignature) &&
+      starts_with(bytes.subspan(std::min<std::size_t>(bytes.size(), 8)), kWebpForm))
+    return decode_webp(bytes, name);
+  return Failure{ErrorCode::bad_input, name + ": none of PNG, JPEG and WebP; convert it to one of these"};
 }
 
 Result<Image8> load_image(const std::filesystem::path& path) {

@@ -29,6 +29,22 @@ image::Image8 single_texel(std::uint8_t r, std::uint8_t g, std::uint8_t b) {
   return {1, 1, {r, g, b, 255}};
 }
 
+std::uint32_t unorm16_pair(float low, float high) {
+  const auto unorm16 = [](float value) {
+    return static_cast<std::uint32_t>(std::clamp(value, 0.0f, 1.0f) * 65535.0f + 0.5f);
+  };
+  return unorm16(low) | unorm16(high) << 16;
+}
+
+shared::Vertex device_vertex(const scene::Vertex& vertex) {
+  const glm::vec4 rest = 1.0f - vertex.color;
+  return {vertex.position,
+          vertex.normal,
+          vertex.tangent,
+          vertex.uv,
+          {unorm16_pair(rest.r, rest.g), unorm16_pair(rest.b, rest.a)}};
+}
+
 /// Meshes one after the other in shared buffers.
 struct Geometry {
   std::vector<shared::Vertex> vertices;
@@ -45,7 +61,7 @@ Geometry gather_geometry(const scene::Scene& scene) {
     range.first_vertex = static_cast<std::int32_t>(geometry.vertices.size());
     Box<float> bounds = kEmptyBox;
     for (const scene::Vertex& v : mesh.vertices) {
-      geometry.vertices.push_back({v.position, v.normal, v.tangent, v.uv});
+      geometry.vertices.push_back(device_vertex(v));
       bounds.low = glm::min(bounds.low, v.position);
       bounds.high = glm::max(bounds.high, v.position);
     }

@@ -51,10 +51,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, float as
 }  // namespace
 
 bool is_timeline(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  std::ranges::transform(suffix, suffix.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return suffix == ".toml";
+  return scene::lower_extension(path) == ".toml";
 }
 
 Result<Scenario> load_scenario(const std::filesystem::path& input, const std::filesystem::path& cache_folder,

@@ -43,7 +43,6 @@ class GltfLoader {
         meshes_(document, materials_, builder_) {}
 
   Result<Scene> load() {
-    check_extensions();
     walk(root_nodes());
     auto scene = std::move(builder_).finish();
     if (scene && scene->camera) aim_at_middle(*scene);
@@ -57,18 +56,6 @@ class GltfLoader {
     glm::dmat4 world_from_parent{1};
     bool voxelized = true, is_grenade = false;
   };
-
-  void check_extensions() const {
-    for (std::size_t i = 0; i < model_.extensionsRequired.size(); ++i) {
-      const std::string& name = model_.extensionsRequired[i];
-      if (name != "KHR_lights_punctual" && name != "KHR_mesh_quantization" &&
-          name != "KHR_texture_transform" && !name.starts_with("KHR_materials_")) {
-        document_.fail(
-            document_.place("extensionsRequired", i),
-            "the file requires the extension " + name + ", which is not supported; export without it");
-      }
-    }
-  }
 
   std::vector<Visit> root_nodes() const {
     std::vector<Visit> roots;

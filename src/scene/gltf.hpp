@@ -11,9 +11,9 @@
 
 namespace brume::scene {
 
-/// Reads a .gltf or .glb: the default scene's nodes with meshes (triangles, strips, fans), metallic-roughness
-/// materials, punctual lights, and the first perspective camera. Files it refers to must lie below the
-/// scene's folder.
+/// Reads a .gltf or .glb: the default scene's nodes with meshes (triangles, strips, fans), their vertex
+/// colours, metallic-roughness materials, punctual lights, and the first perspective camera. Files it refers
+/// to must lie below the scene's folder.
 /// - Missing normals become flat normals, missing tangents are computed. BLEND becomes a cutout at alpha 0.5.
 /// - Light intensities are not converted: candela count as W/sr, lux as W/m^2; exposure compensates.
 /// - A light emits along its node's -z. The camera's target is the point on its axis nearest to the middle of
@@ -22,6 +22,9 @@ namespace brume::scene {
 /// - A node with extras {"brume_ignore": true}, or whose own or mesh's name begins with IGNORE_, is not
 ///   voxelized, nor are its children.
 /// - The first node or mesh called Grenade becomes Scene::grenade.
+/// - Meshes may be compressed by Draco, meshoptimizer or quantization (KHR_draco_mesh_compression,
+///   EXT_meshopt_compression, KHR_mesh_quantization), images may be WebP (EXT_texture_webp).
+/// - Texture coordinates are those of the material's first image, after its KHR_texture_transform.
 /// - An emissive texture is replaced by its mean colour. Animations, skins, morph targets, points and lines
 /// are
 ///   ignored.

@@ -1,7 +1,9 @@
 #include "scene/gltf_check.hpp"
 
+#include <algorithm>
 #include <map>
 
+#include "scene/gltf_rewrite.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::scene {
@@ -23,12 +25,23 @@ struct Rule {
   bool required = false;
 };
 
-#define TEXTURE(path)                                                                                 \
-  {path ".index", Kind::index, 0, 0, 0, "/textures", true}, {path ".texCoord", Kind::whole, 0, 64}, { \
-    path ".extensions", Kind::object                                                                  \
+/// Extensions that a file may require. KHR_materials_* are allowed too: surfaces look plainer without them.
+constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",     "KHR_mesh_quantization",
+                                                     "KHR_texture_transform",   "KHR_draco_mesh_compression",
+                                                     "EXT_meshopt_compression", "EXT_texture_webp"};
+
+#define TEXTURE(path)                                                                               \
+  {path ".index", Kind::index, 0, 0, 0, "/textures", true}, {path ".texCoord", Kind::whole, 0, 64}, \
+      {path ".extensions", Kind::object},                                                           \
+      {path ".extensions.KHR_texture_transform.offset[]", Kind::number, -1e6, 1e6, 2},              \
+      {path ".extensions.KHR_texture_transform.rotation", Kind::number, -1e6, 1e6},                 \
+      {path ".extensions.KHR_texture_transform.scale[]", Kind::number, -1e6, 1e6, 2}, {             \
+    path ".extensions.KHR_texture_transform.texCoord", Kind::whole, 0, 64                           \
   }
 
 #define LIGHTS "extensions.KHR_lights_punctual.lights"
+#define DRACO "meshes[].primitives[].extensions.KHR_draco_mesh_compression"
+#define MESHOPT "bufferViews[].extensions.EXT_meshopt_compression"
 constexpr Rule kRules[] = {
     {"asset.version", Kind::text, 0, 0, 0, nullptr, true},
     {"extensionsRequired[]", Kind::text},
@@ -50,6 +63,9 @@ constexpr Rule kRules[] = {
     {"meshes[].primitives[].indices", Kind::index, 0, 0, 0, "/accessors"},
     {"meshes[].primitives[].attributes.*", Kind::index, 0, 0, 0, "/accessors"},
     {"meshes[].primitives[].attributes.POSITION", Kind::index, 0, 0, 0, "/accessors", true},
+    {DRACO ".bufferView", Kind::index, 0, 0, 0, "/bufferViews", true},
+    {DRACO ".attributes", Kind::object, 0, 0, 0, nullptr, true},
+    {DRACO ".attributes.*", Kind::whole, 0, 0x7fffffff},
     {"accessors[].bufferView", Kind::index, 0, 0, 0, "/bufferViews"},
     {"accessors[].byteOffset", Kind::whole, 0, kMostBytes},
     {"accessors[].count", Kind::whole, 1, kMostBytes, 0, nullptr, true},
@@ -66,6 +82,13 @@ constexpr Rule kRules[] = {
     {"bufferViews[].byteOffset", Kind::whole, 0, kMostBytes},
     {"bufferViews[].byteLength", Kind::whole, 1, 0x7fffffff, 0, nullptr, true},
     {"bufferViews[].byteStride", Kind::whole, 4, 252},
+    {MESHOPT ".buffer", Kind::index, 0, 0, 0, "/buffers", true},
+    {MESHOPT ".byteOffset", Kind::whole, 0, 0x7fffffff},
+    {MESHOPT ".byteLength", Kind::whole, 1, 0x7fffffff, 0, nullptr, true},
+    {MESHOPT ".byteStride", Kind::whole, 1, 256, 0, nullptr, true},
+    {MESHOPT ".count", Kind::whole, 1, 0x7fffffff, 0, nullptr, true},
+    {MESHOPT ".mode", Kind::text, 0, 0, 0, nullptr, true},
+    {MESHOPT ".filter", Kind::text},
     {"buffers[].byteLength", Kind::whole, 1, kMostBytes, 0, nullptr, true},
     {"buffers[].uri", Kind::text},
     {"materials[].name", Kind::text},
@@ -81,6 +104,7 @@ constexpr Rule kRules[] = {
     {"materials[].alphaCutoff", Kind::number, 0, 1e6},
     {"materials[].extensions.KHR_materials_emissive_strength.emissiveStrength", Kind::number, 0, 1e6},
     {"textures[].source", Kind::index, 0, 0, 0, "/images"},
+    {"textures[].extensions.EXT_texture_webp.source", Kind::index, 0, 0, 0, "/images", true},
     {"images[].bufferView", Kind::index, 0, 0, 0, "/bufferViews"},
     {"images[].uri", Kind::text},
     {"cameras[].type", Kind::text, 0, 0, 0, nullptr, true},
@@ -92,6 +116,8 @@ constexpr Rule kRules[] = {
     {LIGHTS "[].spot.innerConeAngle", Kind::number, 0, kPi / 2},
     {LIGHTS "[].spot.outerConeAngle", Kind::number, 0, kPi / 2},
 };
+#undef MESHOPT
+#undef DRACO
 #undef LIGHTS
 #undef TEXTURE
 
@@ -129,23 +155,73 @@ class Checker {
 
   void check() const {
     if (!document_.is_object()) fail("", "expected an object");
+    check_version();
     if (!document_.contains("asset")) fail("", "expected a member \"asset\"");
     visit(document_, "", "", 0);
-    const json none = json::array();
-    const json& views = document_.value("bufferViews", none);
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      const auto end =
-          views[i].value("byteOffset", std::uint64_t{0}) + views[i]["byteLength"].get<std::uint64_t>();
-      const auto size =
-          document_["buffers"][views[i]["buffer"].get<std::size_t>()]["byteLength"].get<std::uint64_t>();
-      if (end > size) {
-        fail("bufferViews[" + std::to_string(i) + "]",
-             "ends at byte " + std::to_string(end) + " of a buffer of " + std::to_string(size));
-      }
-    }
+    check_extensions();
+    check_views();
   }
 
  private:
+  /// glTF 1.0 has objects where 2.0 has arrays, and its files often lack the version.
+  void check_version() const {
+    const json::json_pointer version("/asset/version");
+    std::string number;
+    if (document_.contains("asset") && document_["asset"].is_object() && document_.contains(version) &&
+        document_.at(version).is_string())
+      number = document_.at(version).get<std::string>();
+    const bool is_first = number.starts_with("1.") ||
+                          (number.empty() && document_.contains("meshes") && document_["meshes"].is_object());
+    if (is_first) throw Error(ErrorCode::bad_input, file_ + ": is glTF 1.0; convert it to 2.0");
+    if (!number.empty() && !number.starts_with("2.")) {
+      throw Error(ErrorCode::bad_input,
+                  file_ + ": is glTF of version " + in_quotes(number) + "; convert it to 2.0");
+    }
+  }
+
+  void check_extensions() const {
+    if (!document_.contains("extensionsRequired")) return;
+    const json& required = document_["extensionsRequired"];
+    for (std::size_t i = 0; i < required.size(); ++i) {
+      const auto name = required[i].get<std::string>();
+      if (name.starts_with("KHR_materials_") || std::ranges::count(kSupportedExtensions, name) > 0) continue;
+      fail("extensionsRequired[" + std::to_string(i) + "]",
+           "the file requires the extension " + name + ", which is not supported; export without it");
+    }
+  }
+
+  void check_views() const {
+    if (!document_.contains("bufferViews")) return;
+    const json& views = document_["bufferViews"];
+    const json::json_pointer meshopt("/extensions/EXT_meshopt_compression");
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const std::string path = "bufferViews[" + std::to_string(i) + "]";
+      check_range(views[i], path);
+      const bool is_compressed = views[i].contains(meshopt);
+      if (is_compressed) check_range(views[i].at(meshopt), path + ".extensions.EXT_meshopt_compression");
+      if (has_no_data(is_compressed ? views[i].at(meshopt) : views[i]))
+        fail(path + ".buffer", "the buffer has no data");
+    }
+    if (!document_.contains("images")) return;
+    for (const json& image : document_["images"]) {
+      if (image.contains("bufferView") && views[image["bufferView"].get<std::size_t>()].contains(meshopt))
+        fail("images", "an image in a bufferView with EXT_meshopt_compression");
+    }
+  }
+
+  bool has_no_data(const json& range) const {
+    return is_fallback_buffer(document_["buffers"][range["buffer"].get<std::size_t>()]);
+  }
+
+  /// The bytes lie in their buffer.
+  void check_range(const json& range, const std::string& path) const {
+    const auto end = range.value("byteOffset", std::uint64_t{0}) + range["byteLength"].get<std::uint64_t>();
+    const auto size =
+        document_["buffers"][range["buffer"].get<std::size_t>()]["byteLength"].get<std::uint64_t>();
+    if (end > size)
+      fail(path, "ends at byte " + std::to_string(end) + " of a buffer of " + std::to_string(size));
+  }
+
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
     throw Error(ErrorCode::bad_input, file_ + ": " + (path.empty() ? "the document" : path) + ": " + what);
   }
@@ -217,6 +293,17 @@ class Checker {
   const std::string& file_;
 };
 
+/// A file of another kind gets a clearer answer than a syntax error.
+void check_is_json(std::string_view text, const std::string& file) {
+  if (is_utf16(text)) throw Error(ErrorCode::bad_input, file + ": is UTF-16; save it as UTF-8");
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  if (start != std::string_view::npos && text[start] == '{') return;
+  throw Error(ErrorCode::bad_input,
+              file + ": is no glTF file: it begins neither with \"{\", as .gltf files do, " +
+                  "nor with \"glTF\", as .glb files do; export or copy it again");
+}
+
 }  // namespace
 
 json checked_gltf_json(std::string_view text, const std::string& file) {
@@ -225,6 +312,7 @@ json checked_gltf_json(std::string_view text, const std::string& file) {
                                                " bytes of JSON, at most " + std::to_string(kMostGltfJson) +
                                                " are accepted; store the buffers in a .bin or .glb file");
   }
+  check_is_json(text, file);
   try {
     json document = json::parse(text.begin(), text.end());
     Checker(document, file).check();

@@ -7,6 +7,8 @@
 
 #include "core/checked.hpp"
 #include "scene/gltf_check.hpp"
+#include "scene/gltf_meshopt.hpp"
+#include "scene/gltf_rewrite.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::scene {
@@ -144,7 +146,13 @@ bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, in
 
 /// The JSON of a GLB; tinygltf checks the rest of the container.
 std::string_view json_of_glb(std::string_view glb, const std::string& name) {
-  std::uint32_t length = 0;
+  std::uint32_t version = 0, length = 0;
+  if (glb.size() >= 8) std::memcpy(&version, glb.data() + 4, sizeof version);
+  if (glb.size() >= 8 && version != 2) {
+    throw Error(ErrorCode::bad_input,
+                name + (version == 1 ? ": is glTF 1.0; convert it to 2.0"
+                                     : ": is GLB of version " + std::to_string(version) + "; expected 2"));
+  }
   if (glb.size() >= 20) std::memcpy(&length, glb.data() + 12, sizeof length);
   if (glb.size() < 20 || length > glb.size() - 20)
     throw Error(ErrorCode::bad_input, name + ": the GLB file is truncated; export or copy it again");
@@ -161,7 +169,12 @@ GltfDocument::GltfDocument(std::span<const std::byte> bytes, std::string name, c
 
   // Check the JSON, and set up access to files.
   const bool is_glb = text.starts_with("glTF");
-  FileAccess access(checked_gltf_json(is_glb ? json_of_glb(text, name_) : text, name_), name_, files);
+  nlohmann::json document = checked_gltf_json(is_glb ? json_of_glb(text, name_) : text, name_);
+  std::string rewritten;
+  if (rewrite_for_tinygltf(document))
+    rewritten = is_glb ? glb_with_json(text, document.dump()) : document.dump();
+  const std::string_view input = rewritten.empty() ? text : rewritten;
+  FileAccess access(document, name_, files);
 
   tinygltf::TinyGLTF reader;
   reader.SetFsCallbacks({&FileAccess::exists, [](const std::string& file, void*) { return file; },
@@ -170,12 +183,12 @@ GltfDocument::GltfDocument(std::span<const std::byte> bytes, std::string name, c
 
   // Load, and report the first problem.
   std::string error, warning;
-  const auto size = static_cast<std::uint32_t>(text.size());
+  const auto size = static_cast<std::uint32_t>(input.size());
   bool loaded = false;
   try {
     loaded = is_glb ? reader.LoadBinaryFromMemory(&model_, &error, &warning,
-                                                  reinterpret_cast<const unsigned char*>(text.data()), size)
-                    : reader.LoadASCIIFromString(&model_, &error, &warning, text.data(), size, "");
+                                                  reinterpret_cast<const unsigned char*>(input.data()), size)
+                    : reader.LoadASCIIFromString(&model_, &error, &warning, input.data(), size, "");
   } catch (const std::out_of_range&) {
     error = "expected a buffer with bytes";
   }
@@ -196,11 +209,38 @@ void GltfDocument::fail(const std::string& place, const std::string& what) const
 
 std::span<const std::byte> GltfDocument::view(int index) const {
   const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(index)];
+  if (view.extensions.contains("EXT_meshopt_compression")) return decompressed(index);
   return std::as_bytes(std::span(model_.buffers[static_cast<std::size_t>(view.buffer)].data))
       .subspan(view.byteOffset, view.byteLength);
 }
 
-std::vector<std::byte> GltfDocument::packed(std::size_t index) const {
+std::span<const std::byte> GltfDocument::decompressed(int index) const {
+  if (const auto known = decompressed_.find(index); known != decompressed_.end()) return known->second;
+  const auto at = static_cast<std::size_t>(index);
+  const tinygltf::BufferView& view = model_.bufferViews[at];
+  const tinygltf::Value& extension = view.extensions.at("EXT_meshopt_compression");
+  const auto number = [&](const char* member) {
+    return extension.Has(member) ? static_cast<std::size_t>(extension.Get(member).GetNumberAsInt()) : 0;
+  };
+  const auto text = [&](const char* member, const char* otherwise) {
+    return extension.Has(member) ? extension.Get(member).Get<std::string>() : otherwise;
+  };
+  const std::string here = place("bufferViews", at) + ".extensions.EXT_meshopt_compression";
+
+  // The size follows from the parameters: check it before memory is allocated for it.
+  MeshoptView source{{}, number("count"), number("byteStride"), text("mode", ""), text("filter", "NONE")};
+  if (source.count * source.byte_stride != view.byteLength)
+    fail(here, "count and byteStride do not give the byteLength of the bufferView");
+  decompressed_bytes_ += view.byteLength;
+  if (decompressed_bytes_ > kMostDecompressedBytes)
+    throw Error(ErrorCode::resource_limit, here + ": the document holds more than 4 GiB; split the scene");
+
+  source.compressed = std::as_bytes(std::span(model_.buffers[number("buffer")].data))
+                          .subspan(number("byteOffset"), number("byteLength"));
+  return decompressed_[index] = decode_meshopt(source, here);
+}
+
+PackedElements GltfDocument::packed(std::size_t index) const {
   // The element type.
   const tinygltf::Accessor& accessor = model_.accessors[index];
   const std::string here = place("accessors", index);
@@ -213,7 +253,8 @@ std::vector<std::byte> GltfDocument::packed(std::size_t index) const {
   const std::size_t element_size = size * static_cast<std::size_t>(components);
 
   // The elements: zeros, or gathered from the buffer view.
-  std::vector<std::byte> result;
+  PackedElements elements{accessor.componentType, components, {}};
+  std::vector<std::byte>& result = elements.bytes;
   if (accessor.bufferView < 0) {
     if (accessor.count > kMostZeroElements) fail(here, "has too many elements without a bufferView");
     result.assign(accessor.count * element_size, std::byte{0});
@@ -238,7 +279,7 @@ std::vector<std::byte> GltfDocument::packed(std::size_t index) const {
     }
   }
   if (accessor.sparse.isSparse) apply_sparse(accessor, element_size, here + ".sparse", result);
-  return result;
+  return elements;
 }
 
 void GltfDocument::apply_sparse(const tinygltf::Accessor& accessor, std::size_t element_size,
@@ -271,13 +312,20 @@ void GltfDocument::apply_sparse(const tinygltf::Accessor& accessor, std::size_t 
 
 std::vector<float> GltfDocument::floats(int index, int components, const std::string& user) const {
   const auto at = static_cast<std::size_t>(index);
-  const tinygltf::Accessor& accessor = model_.accessors[at];
-  if (accessor.type != components) fail(user, "expected an accessor of VEC" + std::to_string(components));
-  const std::vector<std::byte> bytes = packed(at);
-  const std::size_t size = component_size(accessor.componentType);
-  std::vector<float> values(bytes.size() / size);
+  if (model_.accessors[at].type != components)
+    fail(user, "expected an accessor of VEC" + std::to_string(components));
+  return floats(index, packed(at), components, user);
+}
+
+std::vector<float> GltfDocument::floats(int index, const PackedElements& elements, int components,
+                                        const std::string& user) const {
+  if (elements.components != components)
+    fail(user, "expected elements of " + std::to_string(components) + " components");
+  const bool normalized = model_.accessors[static_cast<std::size_t>(index)].normalized;
+  const std::size_t size = component_size(elements.component_type);
+  std::vector<float> values(elements.bytes.size() / size);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = component(bytes.data() + i * size, accessor.componentType, accessor.normalized);
+    values[i] = component(elements.bytes.data() + i * size, elements.component_type, normalized);
     if (!std::isfinite(values[i])) {
       fail(user, "element " + std::to_string(i / static_cast<std::size_t>(components)) + " of accessors[" +
                      std::to_string(index) + "] is not finite; repair the mesh");
@@ -292,7 +340,7 @@ std::vector<std::uint32_t> GltfDocument::indices(int index, const std::string& u
   const int type = accessor.componentType;
   if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_index_type(type))
     fail(user, "expected a SCALAR accessor of unsigned integers");
-  const std::vector<std::byte> bytes = packed(at);
+  const std::vector<std::byte> bytes = packed(at).bytes;
   std::vector<std::uint32_t> values(accessor.count);
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = index_at(bytes.data() + i * component_size(type), type);

@@ -6,6 +6,7 @@
 #include <tiny_gltf.h>
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,16 @@ namespace brume::scene {
 
 /// Maximum number of elements of an accessor without a buffer view, whose zeros take no space in the file.
 constexpr std::uint64_t kMostZeroElements = 1ull << 22;
+
+/// Maximum number of bytes of a document's decompressed buffer views.
+constexpr std::uint64_t kMostDecompressedBytes = 1ull << 32;
+
+/// The elements of an accessor without gaps, little-endian.
+struct PackedElements {
+  int component_type = 0;  ///< TINYGLTF_COMPONENT_TYPE_BYTE and so on.
+  int components = 0;      ///< Per element, 1-4.
+  std::vector<std::byte> bytes;
+};
 
 class GltfDocument {
  public:
@@ -31,17 +42,24 @@ class GltfDocument {
   /// An accessor's elements as finite numbers, `components` each; normalized integers are scaled. `user`
   /// names the referring value in messages.
   std::vector<float> floats(int accessor, int components, const std::string& user) const;
+  /// The same for elements that were stored elsewhere in place of the accessor's own.
+  std::vector<float> floats(int accessor, const PackedElements& elements, int components,
+                            const std::string& user) const;
   /// A scalar accessor of unsigned integers.
   std::vector<std::uint32_t> indices(int accessor, const std::string& user) const;
+  /// The bytes of a buffer view, decompressed if it is compressed.
+  std::span<const std::byte> view(int index) const;
 
  private:
-  std::vector<std::byte> packed(std::size_t accessor) const;
-  std::span<const std::byte> view(int index) const;
+  PackedElements packed(std::size_t accessor) const;
+  std::span<const std::byte> decompressed(int view) const;
   void apply_sparse(const tinygltf::Accessor& accessor, std::size_t element_size, const std::string& place,
                     std::vector<std::byte>& packed) const;
 
   tinygltf::Model model_;
   std::string name_;
+  mutable std::map<int, std::vector<std::byte>> decompressed_;  ///< Buffer views, each when first read.
+  mutable std::uint64_t decompressed_bytes_ = 0;
 };
 
 }  // namespace brume::scene

@@ -2,14 +2,38 @@
 #include <cmath>
 
 #include "core/log.hpp"
+#include "scene/color.hpp"
 #include "scene/gltf_parts.hpp"
 
 namespace brume::scene {
 namespace {
 
-/// IEC 61966-2-1.
-double linear_from_srgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+/// How a material reads one of its textures.
+struct TextureUse {
+  int uv_set = 0;
+  glm::mat3x2 image_from_uv{1, 0, 0, 1, 0, 0};
+  bool operator==(const TextureUse&) const = default;
+};
+
+/// Translation * rotation * scale, as KHR_texture_transform defines them.
+template <typename TextureInfo>
+TextureUse texture_use(const TextureInfo& texture) {
+  TextureUse use{texture.texCoord};
+  const auto found = texture.extensions.find("KHR_texture_transform");
+  if (found == texture.extensions.end()) return use;
+  const tinygltf::Value& transform = found->second;
+  const auto pair = [&](const char* member, double otherwise) {
+    if (!transform.Has(member)) return glm::dvec2(otherwise);
+    const tinygltf::Value& values = transform.Get(member);
+    return glm::dvec2(values.Get(0).GetNumberAsDouble(), values.Get(1).GetNumberAsDouble());
+  };
+  const double angle = transform.Has("rotation") ? transform.Get("rotation").GetNumberAsDouble() : 0;
+  const glm::dvec2 scale = pair("scale", 1), offset = pair("offset", 0);
+  const double c = std::cos(angle), s = std::sin(angle);
+  use.image_from_uv =
+      glm::mat3x2(glm::dmat3x2(scale.x * c, -scale.x * s, scale.y * s, scale.y * c, offset.x, offset.y));
+  if (transform.Has("texCoord")) use.uv_set = transform.Get("texCoord").GetNumberAsInt();
+  return use;
 }
 
 }  // namespace
@@ -25,7 +49,10 @@ GltfMaterials::Converted GltfMaterials::material(int index) {
   material.base_color = glm::vec3(0.6f);
   if (index >= 0) {
     const auto at = static_cast<std::size_t>(index);
-    material = convert(document_.model().materials[at], document_.place("materials", at), converted.uv_set);
+    const tinygltf::Material& source = document_.model().materials[at];
+    const std::string place = document_.place("materials", at);
+    material = convert(source, place);
+    converted = texture_coordinates(source, place);
     if (material.name.empty()) material.name = "material " + std::to_string(index);
   }
   converted.index = static_cast<std::uint32_t>(builder_.scene.materials.size());
@@ -33,10 +60,9 @@ GltfMaterials::Converted GltfMaterials::material(int index) {
   return materials_[index] = converted;
 }
 
-Material GltfMaterials::convert(const tinygltf::Material& source, const std::string& place, int& uv_set) {
-  const auto image = [&](const auto& texture, const char* name) {
-    return texture.index < 0 ? kNone
-                             : image_of_texture(texture.index, texture.extensions, place + "." + name);
+Material GltfMaterials::convert(const tinygltf::Material& source, const std::string& place) {
+  const auto image = [&](const auto& texture) {
+    return texture.index < 0 ? kNone : image_of_texture(texture.index);
   };
   const auto rgb = [](const std::vector<double>& c) { return glm::vec3(glm::dvec3(c[0], c[1], c[2])); };
 
@@ -47,12 +73,9 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   material.base_color = rgb(pbr.baseColorFactor);
   material.roughness = static_cast<float>(pbr.roughnessFactor);
   material.metallic = static_cast<float>(pbr.metallicFactor);
-  material.roughness_image = image(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
-  material.base_color_image = image(pbr.baseColorTexture, "baseColorTexture");
-  material.normal_image = image(source.normalTexture, "normalTexture");
-  uv_set = material.base_color_image != kNone ? pbr.baseColorTexture.texCoord
-           : material.normal_image != kNone   ? source.normalTexture.texCoord
-                                              : pbr.metallicRoughnessTexture.texCoord;
+  material.roughness_image = image(pbr.metallicRoughnessTexture);
+  material.base_color_image = image(pbr.baseColorTexture);
+  material.normal_image = image(source.normalTexture);
 
   // Emission.
   material.emission = rgb(source.emissiveFactor);
@@ -60,7 +83,7 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   if (strength != source.extensions.end() && strength->second.Has("emissiveStrength"))
     material.emission *= static_cast<float>(strength->second.Get("emissiveStrength").GetNumberAsDouble());
   if (source.emissiveTexture.index >= 0 && material.emission != glm::vec3(0))
-    material.emission *= mean_color(image(source.emissiveTexture, "emissiveTexture"));
+    material.emission *= mean_color(image(source.emissiveTexture));
 
   // Alpha cutoff: the renderer compares it with the texel only, so divide it by the factor.
   const std::string& mode = source.alphaMode;
@@ -73,13 +96,34 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   return material;
 }
 
-std::uint32_t GltfMaterials::image_of_texture(int texture, const tinygltf::ExtensionMap& extensions,
-                                              const std::string& place) {
-  if (extensions.contains("KHR_texture_transform")) log_warning(place + ": texture transforms are ignored");
-  const int source = document_.model().textures[static_cast<std::size_t>(texture)].source;
+GltfMaterials::Converted GltfMaterials::texture_coordinates(const tinygltf::Material& source,
+                                                            const std::string& place) const {
+  const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+  std::vector<TextureUse> uses;
+  if (pbr.baseColorTexture.index >= 0) uses.push_back(texture_use(pbr.baseColorTexture));
+  if (source.normalTexture.index >= 0) uses.push_back(texture_use(source.normalTexture));
+  if (pbr.metallicRoughnessTexture.index >= 0) uses.push_back(texture_use(pbr.metallicRoughnessTexture));
+  if (uses.empty()) return {};
+
+  // A vertex has one pair of coordinates: those of the first image.
+  for (const TextureUse& use : uses) {
+    if (use == uses.front()) continue;
+    log_warning(
+        place +
+        ": its textures differ in texCoord or KHR_texture_transform; those of the first apply to all");
+    break;
+  }
+  return {kNone, uses.front().uv_set, uses.front().image_from_uv};
+}
+
+std::uint32_t GltfMaterials::image_of_texture(int index) {
+  const tinygltf::Texture& texture = document_.model().textures[static_cast<std::size_t>(index)];
+  const auto webp = texture.extensions.find("EXT_texture_webp");
+  const int source =
+      webp == texture.extensions.end() ? texture.source : webp->second.Get("source").GetNumberAsInt();
   if (source < 0) {
-    log_warning(document_.place("textures", static_cast<std::size_t>(texture)) +
-                ": has no PNG or JPEG source; a magenta checker stands in");
+    log_warning(document_.place("textures", static_cast<std::size_t>(index)) +
+                ": has no PNG, JPEG or WebP source; a magenta checker stands in");
     return builder_.checker_image();
   }
   if (const auto known = images_.find(source); known != images_.end()) return known->second;

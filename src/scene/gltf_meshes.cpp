@@ -1,8 +1,8 @@
 #include <cmath>
-#include <numeric>
 
 #include "core/log.hpp"
 #include "scene/gltf_parts.hpp"
+#include "scene/gltf_primitive.hpp"
 #include "scene/mesh_tools.hpp"
 
 namespace brume::scene {
@@ -13,18 +13,41 @@ glm::vec3 unit_or(glm::vec3 vector, glm::vec3 otherwise) {
   return length > 1e-30 ? glm::vec3(glm::dvec3(vector) / length) : otherwise;
 }
 
-/// The corners of separate triangles, from a list, a strip or a fan of corners.
-std::vector<std::uint32_t> as_triangles(const std::vector<std::uint32_t>& corners, int mode) {
-  if (mode == TINYGLTF_MODE_TRIANGLES) return corners;
-  std::vector<std::uint32_t> triangles;
-  for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-    // Every second triangle of a strip has the opposite winding.
-    const std::size_t swap = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? i % 2 : 0;
-    triangles.push_back(corners[mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i]);
-    triangles.push_back(corners[i + 1 + swap]);
-    triangles.push_back(corners[i + 2 - swap]);
+/// The attributes of a primitive that the renderer uses; all but the positions may be empty.
+struct Attributes {
+  std::vector<float> positions, normals, tangents, uvs, colors;
+  int color_components = 0;
+};
+
+Attributes read_attributes(const GltfPrimitive& primitive, int uv_set) {
+  Attributes read;
+  read.positions = primitive.floats("POSITION", 3);
+  read.normals = primitive.floats("NORMAL", 3);
+  read.tangents = primitive.floats("TANGENT", 4);
+  read.uvs = primitive.floats("TEXCOORD_" + std::to_string(uv_set), 2);
+  read.color_components = primitive.components("COLOR_0") == 3 ? 3 : 4;
+  read.colors = primitive.floats("COLOR_0", read.color_components);
+  return read;
+}
+
+Vertex vertex_of(const Attributes& read, std::size_t i, const glm::mat3x2& image_from_uv) {
+  Vertex vertex;
+  const auto vector = [i](const std::vector<float>& values, std::size_t components) {
+    return glm::vec3(values[components * i], values[components * i + 1], values[components * i + 2]);
+  };
+  vertex.position = vector(read.positions, 3);
+  if (!read.uvs.empty()) vertex.uv = image_from_uv * glm::vec3(read.uvs[2 * i], read.uvs[2 * i + 1], 1);
+  if (!read.normals.empty()) vertex.normal = unit_or(vector(read.normals, 3), {0, 1, 0});
+  if (!read.tangents.empty()) {
+    vertex.tangent =
+        glm::vec4(unit_or(vector(read.tangents, 4), {1, 0, 0}), read.tangents[4 * i + 3] < 0 ? -1.0f : 1.0f);
   }
-  return triangles;
+  if (!read.colors.empty()) {
+    const auto components = static_cast<std::size_t>(read.color_components);
+    const float alpha = components == 4 ? read.colors[4 * i + 3] : 1.0f;
+    vertex.color = glm::clamp(glm::vec4(vector(read.colors, components), alpha), 0.0f, 1.0f);
+  }
+  return vertex;
 }
 
 /// Gives every corner a vertex of its own, so that computed normals are those of the triangles.
@@ -55,69 +78,37 @@ const std::vector<GltfMeshes::Part>& GltfMeshes::parts(int index) {
       continue;
     }
     const auto material = materials_.material(source.primitives[i].material);
-    Mesh mesh = convert(source.primitives[i], material.uv_set, place);
+    Mesh mesh = convert(source.primitives[i], material, place);
     mesh.name = source.name.empty() ? "mesh " + std::to_string(index) : source.name;
     parts.push_back({builder_.add_mesh(std::move(mesh)).value_or_throw(), material.index});
   }
   return parts_[index] = std::move(parts);
 }
 
-Mesh GltfMeshes::convert(const tinygltf::Primitive& primitive, int uv_set, const std::string& place) {
-  // The attributes.
-  const auto read = [&](const std::string& key, int components) {
-    const auto accessor = primitive.attributes.find(key);
-    return accessor == primitive.attributes.end()
-               ? std::vector<float>()
-               : document_.floats(accessor->second, components, place + ".attributes." + key);
-  };
-  const std::vector<float> positions = read("POSITION", 3), normals = read("NORMAL", 3),
-                           tangents = read("TANGENT", 4), uvs = read("TEXCOORD_" + std::to_string(uv_set), 2);
-  const std::size_t count = positions.size() / 3;
+Mesh GltfMeshes::convert(const tinygltf::Primitive& source, const GltfMaterials::Converted& material,
+                         const std::string& place) {
+  const GltfPrimitive primitive(document_, source, place);
+  const Attributes read = read_attributes(primitive, material.uv_set);
+  const std::size_t count = read.positions.size() / 3;
   if (count > kMostVertices) document_.fail(place, "has more vertices than a scene may have");
-  if ((!normals.empty() && normals.size() != count * 3) ||
-      (!tangents.empty() && tangents.size() != count * 4) || (!uvs.empty() && uvs.size() != count * 2)) {
+  const auto fits = [count](const std::vector<float>& values, int components) {
+    return values.empty() || values.size() == count * static_cast<std::size_t>(components);
+  };
+  if (!fits(read.normals, 3) || !fits(read.tangents, 4) || !fits(read.uvs, 2) ||
+      !fits(read.colors, read.color_components)) {
     document_.fail(place + ".attributes",
                    "have different counts; expected as many of each as there are positions");
   }
 
-  // Vertices.
   Mesh mesh;
-  mesh.vertices.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    Vertex& vertex = mesh.vertices[i];
-    vertex.position = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
-    if (!uvs.empty()) vertex.uv = {uvs[2 * i], uvs[2 * i + 1]};
-    if (!normals.empty())
-      vertex.normal = unit_or({normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]}, {0, 1, 0});
-    if (!tangents.empty()) {
-      const glm::vec3 tangent =
-          unit_or({tangents[4 * i], tangents[4 * i + 1], tangents[4 * i + 2]}, {1, 0, 0});
-      vertex.tangent = glm::vec4(tangent, tangents[4 * i + 3] < 0 ? -1.0f : 1.0f);
-    }
-  }
-
-  // Indices, as triangles.
-  std::vector<std::uint32_t> corners(count);
-  if (primitive.indices >= 0) {
-    corners = document_.indices(primitive.indices, place + ".indices");
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (corners[i] >= count) {
-        document_.fail(place + ".indices", "index " + std::to_string(corners[i]) + " (number " +
-                                               std::to_string(i) + ") is out of range: the primitive has " +
-                                               std::to_string(count) + " vertices");
-      }
-    }
-  } else {
-    std::iota(corners.begin(), corners.end(), 0u);
-  }
-  if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
-    document_.fail(place, "has " + std::to_string(corners.size()) + " corners; expected a multiple of 3");
-  mesh.indices = as_triangles(corners, primitive.mode);
-  if (normals.empty()) {
+  mesh.vertices.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) mesh.vertices.push_back(vertex_of(read, i, material.image_from_uv));
+  mesh.indices = primitive.triangles(count);
+  if (read.normals.empty()) {
     separate_corners(mesh);
     compute_normals(mesh);
   }
-  if (tangents.empty() || normals.empty()) compute_tangents(mesh);
+  if (read.tangents.empty() || read.normals.empty()) compute_tangents(mesh);
   return mesh;
 }
 

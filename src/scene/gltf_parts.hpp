@@ -15,16 +15,17 @@ class GltfMaterials {
   GltfMaterials(const GltfDocument& document, SceneBuilder& builder);
 
   struct Converted {
-    std::uint32_t index = kNone;  ///< Into Scene::materials.
-    int uv_set = 0;               ///< The TEXCOORD set that its images use.
+    std::uint32_t index = kNone;                  ///< Into Scene::materials.
+    int uv_set = 0;                               ///< The TEXCOORD set that its images use.
+    glm::mat3x2 image_from_uv{1, 0, 0, 1, 0, 0};  ///< Multiplies (u, v, 1).
   };
   /// The material with the document's index, or the default one for -1.
   Converted material(int index);
 
  private:
-  Material convert(const tinygltf::Material& source, const std::string& place, int& uv_set);
-  std::uint32_t image_of_texture(int texture, const tinygltf::ExtensionMap& extensions,
-                                 const std::string& place);
+  Material convert(const tinygltf::Material& source, const std::string& place);
+  Converted texture_coordinates(const tinygltf::Material& source, const std::string& place) const;
+  std::uint32_t image_of_texture(int texture);
   glm::vec3 mean_color(std::uint32_t image) const;
 
   const GltfDocument& document_;
@@ -44,7 +45,8 @@ class GltfMeshes {
   const std::vector<Part>& parts(int index);
 
  private:
-  Mesh convert(const tinygltf::Primitive& primitive, int uv_set, const std::string& place);
+  Mesh convert(const tinygltf::Primitive& primitive, const GltfMaterials::Converted& material,
+               const std::string& place);
 
   const GltfDocument& document_;
   GltfMaterials& materials_;

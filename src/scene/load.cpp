@@ -8,11 +8,16 @@
 
 namespace brume::scene {
 
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
 namespace {
 
 Result<Scene> parse_file(const std::filesystem::path& path, const FolderFiles& files) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string extension = lower_extension(path);
   if (extension == ".txt" || extension == ".obj") {
     const auto text = read_text_file(path);
     if (!text) return text.failure();

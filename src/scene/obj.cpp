@@ -5,6 +5,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "scene/color.hpp"
 #include "scene/mesh_tools.hpp"
 #include "scene/polygon.hpp"
 #include "scene/text_reader.hpp"
@@ -39,12 +40,13 @@ class ObjParser {
       if (auto read = read_statement(reader_.next_word()); !read) return read.failure();
     }
     std::erase_if(model_.parts, [](const ObjPart& part) { return part.indices.empty(); });
+    model_.has_colors = !colors_.empty();
     return std::move(model_);
   }
 
  private:
   Result<void> read_statement(std::string_view word) {
-    if (word == "v") return read_vector(positions_, 3, 3, "a position");
+    if (word == "v") return read_position();
     if (word == "vt") return read_vector(uvs_, 2, 1, "a texture coordinate");
     if (word == "vn") return read_vector(normals_, 3, 3, "a normal");
     if (word == "f") return read_face();
@@ -67,6 +69,22 @@ class ObjParser {
       value[axis] = *number;
     }
     into.push_back(value);
+    return {};
+  }
+
+  /// A position, and the vertex colour of many scanners and sculpting programs: "v x y z r g b".
+  Result<void> read_position() {
+    if (auto read = read_vector(positions_, 3, 3, "a position"); !read) return read;
+    glm::vec3 color(0);
+    int channels = 0;
+    for (std::string_view word = reader_.next_word(); !word.empty(); word = reader_.next_word()) {
+      const auto number = reader_.number_from(word, "a vertex colour");
+      if (!number || channels == 3) return {};
+      color[channels++] = *number;
+    }
+    if (channels != 3) return {};
+    colors_.resize(positions_.size(), glm::vec3(1));
+    colors_.back() = glm::clamp(color, 0.0f, 1.0f);
     return {};
   }
 
@@ -159,6 +177,11 @@ class ObjParser {
     }
   }
 
+  static glm::vec3 linear(glm::vec3 srgb) {
+    return glm::vec3(
+        glm::dvec3(linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b)));
+  }
+
   static bool is_usable(glm::vec3 normal) {
     const double square = glm::dot(glm::dvec3(normal), glm::dvec3(normal));
     return square > 1e-60;
@@ -175,7 +198,9 @@ class ObjParser {
     const auto [entry, is_new] = vertex_of_corner_.try_emplace(corner, next);
     if (!is_new) return entry->second;
     Vertex vertex;
-    vertex.position = positions_[static_cast<std::size_t>(corner.position)];
+    const auto position = static_cast<std::size_t>(corner.position);
+    vertex.position = positions_[position];
+    if (position < colors_.size()) vertex.color = glm::vec4(linear(colors_[position]), 1);
     if (corner.uv != kUnset) {
       const glm::vec3 uv = uvs_[static_cast<std::size_t>(corner.uv)];
       vertex.uv = glm::vec2(uv.x, 1.0f - uv.y);
@@ -191,6 +216,7 @@ class ObjParser {
   TextReader reader_;
   ObjModel model_;
   std::vector<glm::vec3> positions_, uvs_, normals_, face_normals_;
+  std::vector<glm::vec3> colors_;  ///< sRGB, of the first positions; the others are white.
   std::map<std::string, std::size_t> part_of_material_;
   std::size_t part_ = 0;
   std::unordered_map<Corner, std::uint32_t, CornerHash> vertex_of_corner_;
@@ -202,6 +228,7 @@ class ObjParser {
 }  // namespace
 
 Result<ObjModel> parse_obj(std::string_view text, const std::string& name) {
+  if (is_utf16(text)) return parse_obj(utf8_from_utf16(text), name);
   return ObjParser(text, name).parse();
 }
 

@@ -28,10 +28,12 @@ struct ObjModel {
   std::vector<Vertex> vertices;  ///< Without tangents. v points down, unlike in the file.
   std::vector<ObjPart> parts;    ///< Each with at least one triangle.
   std::vector<ObjLibrary> libraries;
+  bool has_colors = false;  ///< A position has a colour.
 };
 
-/// Reads positions, texture coordinates, normals, faces (any number of corners, negative indices too),
-/// usemtl and mtllib; corners without a normal get their face's. Other statements are ignored. Fails with
+/// Reads positions with or without a colour (sRGB, as programs write it), texture coordinates, normals, faces
+/// (any number of corners, negative indices too), usemtl and mtllib; corners without a normal get their
+/// face's. Other statements are ignored. The text is UTF-8, or UTF-16 with a byte order mark. Fails with
 /// bad_input and name:line:column for a word in place of a number, a number that is not finite, an index
 /// without an element above its line, or a face with fewer than 3 corners.
 Result<ObjModel> parse_obj(std::string_view text, const std::string& name);

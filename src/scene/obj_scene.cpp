@@ -91,21 +91,26 @@ class MtlParser {
   std::vector<MtlMaterial> materials_;
 };
 
-using MtlByName = std::map<std::string, MtlMaterial>;
+struct Libraries {
+  std::map<std::string, MtlMaterial> by_name;
+  bool has_all_files = true;
+};
 
-Result<MtlByName> read_libraries(const ObjModel& model, const SceneFiles& files) {
-  MtlByName materials;
+Result<Libraries> read_libraries(const ObjModel& model, const SceneFiles& files) {
+  Libraries materials;
   for (const ObjLibrary& library : model.libraries) {
     const auto found = files.find(library.file);
     if (!found) {
-      log_warning(library.place + ": the material file " + in_quotes(library.file) + " does not exist");
+      log_warning(library.place + ": the material file " + in_quotes(library.file) +
+                  " does not exist; its materials are grey");
+      materials.has_all_files = false;
       continue;
     }
     const auto bytes = files.read(*found);
     if (!bytes) return bytes.failure();
     auto parsed = parse_mtl({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *found);
     if (!parsed) return parsed.failure();
-    for (MtlMaterial& material : *parsed) materials.try_emplace(material.name, std::move(material));
+    for (MtlMaterial& material : *parsed) materials.by_name.try_emplace(material.name, std::move(material));
   }
   return materials;
 }
@@ -131,6 +136,7 @@ Material scene_material(const MtlMaterial& source, SceneBuilder& builder) {
 }  // namespace
 
 Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::string& name) {
+  if (is_utf16(text)) return parse_mtl(utf8_from_utf16(text), name);
   return MtlParser(text, name).parse();
 }
 
@@ -146,19 +152,16 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
     const ObjPart& part = model->parts[i];
 
     // The material.
-    const auto source = materials->find(part.material);
+    const auto source = materials->by_name.find(part.material);
     Material material;
-    if (source != materials->end()) {
+    if (source != materials->by_name.end()) {
       material = scene_material(source->second, builder);
     } else {
-      material.name = "default";
-      material.base_color = glm::vec3(0.6f);
-      if (!part.material.empty()) {
-        log_warning(part.place + ": no material is called " + in_quotes(part.material) +
-                    "; a magenta checker stands in");
-        material.base_color = glm::vec3(1);
-        material.base_color_image = builder.checker_image();
-      }
+      material.name = part.material.empty() ? "default" : part.material;
+      material.base_color = glm::vec3(model->has_colors ? 1.0f : 0.6f);
+      // A file that does not exist has been reported.
+      if (!part.material.empty() && materials->has_all_files)
+        log_warning(part.place + ": no material is called " + in_quotes(part.material) + "; it is grey");
     }
     builder.scene.materials.push_back(std::move(material));
 

@@ -22,7 +22,8 @@ struct Vertex {
   glm::vec3 normal{0, 1, 0};  ///< Unit length.
   /// xyz: unit length; w: +1 or -1, the bitangent is w * cross(normal, tangent).
   glm::vec4 tangent{1, 0, 0, 1};
-  glm::vec2 uv{0};  ///< v points down the image: (0, 0) is the first texel of the first row.
+  glm::vec2 uv{0};     ///< v points down the image: (0, 0) is the first texel of the first row.
+  glm::vec4 color{1};  ///< Linear RGB and alpha in [0, 1]; multiplies the material's base colour and alpha.
 };
 
 /// Triangles, three indices each, counter-clockwise seen from outside. Every index is below vertices.size().

@@ -166,6 +166,7 @@ class SceneTxtParser {
 }  // namespace
 
 Result<Scene> parse_scene_txt(std::string_view text, const std::string& name, const SceneFiles& files) {
+  if (is_utf16(text)) return parse_scene_txt(utf8_from_utf16(text), name, files);
   return SceneTxtParser(text, name, files).parse();
 }
 

@@ -13,7 +13,54 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
+void append_utf8(std::string& text, std::uint32_t code) {
+  const auto add = [&text](std::uint32_t byte) { text.push_back(static_cast<char>(byte)); };
+  const auto add_tail = [&](int shift) { add(0x80 | (code >> shift & 0x3f)); };
+  if (code < 0x80) {
+    add(code);
+  } else if (code < 0x800) {
+    add(0xc0 | code >> 6);
+    add_tail(0);
+  } else if (code < 0x10000) {
+    add(0xe0 | code >> 12);
+    add_tail(6);
+    add_tail(0);
+  } else {
+    add(0xf0 | code >> 18);
+    add_tail(12);
+    add_tail(6);
+    add_tail(0);
+  }
+}
+
 }  // namespace
+
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+
+std::string utf8_from_utf16(std::string_view text) {
+  const std::size_t high = text.starts_with("\xfe\xff") ? 0 : 1;  // Of the two bytes of a unit.
+  const auto unit = [&](std::size_t at) {
+    const auto byte = [&](std::size_t i) {
+      return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
+    };
+    return byte(at + high) << 8 | byte(at + 1 - high);
+  };
+  const auto is_surrogate = [](std::uint32_t code, std::uint32_t first) { return code >> 10 == first >> 10; };
+  std::string result;
+  for (std::size_t at = 2; at + 1 < text.size(); at += 2) {
+    std::uint32_t code = unit(at);
+    if (is_surrogate(code, 0xd800) && at + 3 < text.size() && is_surrogate(unit(at + 2), 0xdc00)) {
+      at += 2;
+      code = 0x10000 + ((code & 0x3ff) << 10) + (unit(at) & 0x3ff);
+    } else if (is_surrogate(code, 0xd800) || is_surrogate(code, 0xdc00)) {
+      code = 0xfffd;
+    }
+    append_utf8(result, code);
+  }
+  return result;
+}
 
 TextReader::TextReader(std::string_view text, std::string name, Continuation continuation)
     : rest_(text), name_(std::move(name)), continuation_(continuation) {

@@ -50,6 +50,11 @@ class TextReader {
   std::uint32_t line_number_ = 0;
 };
 
+/// True for a text that begins with the byte order mark of UTF-16, in either byte order.
+bool is_utf16(std::string_view text);
+/// Such a text as UTF-8, without the mark. Unpaired surrogates become U+FFFD.
+std::string utf8_from_utf16(std::string_view text);
+
 /// The text between quotes, cut at 40 bytes, with control bytes shown as '?'; "the end of the line" for
 /// an empty one.
 std::string in_quotes(std::string_view text);

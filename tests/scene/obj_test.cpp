@@ -137,7 +137,60 @@ TEST(ObjScene, OneObjectPerMaterial) {
   EXPECT_EQ(scene->materials[1].base_color, glm::vec3(0.5f));
   EXPECT_FLOAT_EQ(scene->materials[1].roughness, 1);
   EXPECT_TRUE(warnings.has("m.mtl:7: the image \"gone.png\" does not exist"));
-  EXPECT_TRUE(warnings.has("a.obj:12: no material is called \"lost\""));
+  EXPECT_TRUE(warnings.has("a.obj:12: no material is called \"lost\"; it is grey"));
+  EXPECT_EQ(scene->materials[2].base_color, glm::vec3(0.6f));
+  EXPECT_EQ(scene->materials[2].base_color_image, kNone);
+}
+
+TEST(ObjScene, AMissingMaterialFileIsOneWarningAndGrey) {
+  const std::string text =
+      "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n";
+  const Warnings warnings;
+  const auto scene = parse_obj_scene(text, "a.obj", MemoryFiles());
+  ASSERT_TRUE(scene) << scene.failure().message;
+  ASSERT_EQ(warnings.lines.size(), 1u);
+  EXPECT_EQ(warnings.lines[0],
+            "a.obj:1: the material file \"gone.mtl\" does not exist; its materials are grey");
+  for (const Material& material : scene->materials) {
+    EXPECT_EQ(material.base_color, glm::vec3(0.6f));
+    EXPECT_EQ(material.base_color_image, kNone);
+  }
+}
+
+TEST(ObjScene, VertexColours) {
+  const auto scene =
+      parse_obj_scene("v 0 0 0 1 0 0.5\nv 1 0 0 0 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj", MemoryFiles());
+  ASSERT_TRUE(scene) << scene.failure().message;
+  const std::vector<Vertex>& vertices = scene->meshes[0].vertices;
+  EXPECT_LT(glm::distance(vertices[0].color, glm::vec4(1, 0, 0.21404f, 1)), 1e-5f) << "decoded from sRGB";
+  EXPECT_EQ(vertices[1].color, glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(vertices[2].color, glm::vec4(1)) << "without one";
+  EXPECT_EQ(scene->materials[0].base_color, glm::vec3(1)) << "no grey on top";
+  const auto weights =
+      parse_obj_scene("v 0 0 0 0.5\nv 1 0 0 a b c\nv 0 1 0 1 1\nf 1 2 3\n", "a.obj", MemoryFiles());
+  ASSERT_TRUE(weights) << weights.failure().message;
+  EXPECT_EQ(weights->meshes[0].vertices[0].color, glm::vec4(1)) << "other values are no colours";
+}
+
+TEST(ObjScene, Utf16InBothByteOrders) {
+  // A name of one letter in one unit, and of one in two.
+  const std::u16string text =
+      u"\ufeffmtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl \u00e4\U0001f32b\nf 1 2 3\n";
+  for (const bool big : {false, true}) {
+    const auto encoded = [big](const std::u16string& units) {
+      std::string bytes;
+      for (const char16_t unit : units) {
+        for (const int shift : {big ? 8 : 0, big ? 0 : 8}) bytes.push_back(static_cast<char>(unit >> shift));
+      }
+      return bytes;
+    };
+    MemoryFiles files;
+    files.add_text("m.mtl", encoded(u"\ufeffnewmtl \u00e4\U0001f32b\nKd 1 0 0\n"));
+    const auto scene = parse_obj_scene(encoded(text), "a.obj", files);
+    ASSERT_TRUE(scene) << scene.failure().message;
+    EXPECT_EQ(scene->materials[0].name, "\xc3\xa4\xf0\x9f\x8c\xab");
+    EXPECT_EQ(scene->materials[0].base_color, glm::vec3(1, 0, 0));
+  }
 }
 
 TEST(ObjScene, MtlErrorsNameFileAndLine) {

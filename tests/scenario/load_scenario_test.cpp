@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/log.hpp"
+#include "scenario/scenario.hpp"
+
+namespace brume::scenario {
+namespace {
+
+class LoadScenario : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::path(testing::TempDir()) / ("brume_load_scenario_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+    set_log_callback([this](LogLevel, const std::string& line) { log_.push_back(line); });
+  }
+  void TearDown() override {
+    set_log_callback({});
+    std::filesystem::remove_all(folder_);
+  }
+  std::filesystem::path write(const char* name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  std::filesystem::path folder_;
+  std::vector<std::string> log_;
+};
+
+constexpr const char* kTriangle = "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST_F(LoadScenario, ASceneWithoutATimelineIsReadOnce) {
+  const auto scenario = load_scenario(write("a.obj", kTriangle), {});
+  ASSERT_TRUE(scenario) << scenario.failure().message;
+  const auto warns = [](const std::string& line) { return line.find("gone.mtl") != std::string::npos; };
+  EXPECT_EQ(std::count_if(log_.begin(), log_.end(), warns), 1);
+}
+
+TEST_F(LoadScenario, SuffixesMayBeInCapitals) {
+  write("A.OBJ", kTriangle);
+  const auto scenario = load_scenario(write("D.TOML", "version = 1\nscene = \"A.OBJ\"\n"), {});
+  EXPECT_TRUE(scenario) << scenario.failure().message;
+}
+
+}  // namespace
+}  // namespace brume::scenario
