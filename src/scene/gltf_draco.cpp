@@ -11,15 +11,15 @@
 namespace brume::scene {
 namespace {
 
-/// Limits on what a mesh may declare: memory follows from declared counts before the data behind them is
-/// seen. A flat grid of 1,000,000 triangles, which compresses best, has about 100 triangles per byte.
-constexpr std::uint64_t kMostPerByte = 256;
-/// A vertex of glTF with all attributes that its specification names takes 168 bytes.
-constexpr std::uint64_t kMostBytesPerVertex = 512;
-constexpr std::uint64_t kMostSeamTables = 16;
+/// Decoding allocates memory by declared counts before it sees the data behind them. Limits on that memory: a
+/// flat grid of 1,000,000 triangles, which compresses best, needs about 4 KiB per compressed byte.
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30, kAlwaysAllowedBytes = std::uint64_t{64} << 20,
+                        kMostBytesPerByte = 16384;
+/// About what the library's tables take. An attribute with several values at a vertex has a table of seams.
+constexpr std::uint64_t kBytesPerTriangle = 48, kBytesPerVertex = 32, kSeamBytesPerTriangle = 32;
 
 struct Limits {
-  std::uint64_t vertices, triangles;
+  std::uint64_t vertices, triangles, bytes;
 };
 
 /// A decoder of the library that refuses declared counts above the limits.
@@ -37,9 +37,10 @@ class LimitedDecoder : public Decoder {
     std::uint8_t seam_tables = 0;
     if (!draco::DecodeVarint(&first, &ahead) || !draco::DecodeVarint(&second, &ahead)) return false;
     if (kEdgebreaker && !ahead.Decode(&seam_tables)) return false;
-    const std::uint32_t vertices = kEdgebreaker ? first : second, triangles = kEdgebreaker ? second : first;
-    too_large_ =
-        vertices > limits_.vertices || triangles > limits_.triangles || seam_tables > kMostSeamTables;
+    const std::uint64_t vertices = kEdgebreaker ? first : second, triangles = kEdgebreaker ? second : first;
+    const std::uint64_t bytes =
+        triangles * (kBytesPerTriangle + kSeamBytesPerTriangle * seam_tables) + vertices * kBytesPerVertex;
+    too_large_ = vertices > limits_.vertices || triangles > limits_.triangles || bytes > limits_.bytes;
     if (too_large_) return false;
     if (!Decoder::DecodeConnectivity()) return false;
     // Vertices on seams of an attribute are split while the connectivity is decoded.
@@ -49,13 +50,13 @@ class LimitedDecoder : public Decoder {
 
   /// Called when the attributes are declared and before their values are allocated.
   bool DecodeAllAttributes() override {
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = 0;  // Per vertex; some steps hold values as 32 bits.
     for (int i = 0; i < this->mesh()->num_attributes(); ++i) {
       const draco::PointAttribute& attribute = *this->mesh()->attribute(i);
       bytes += std::uint64_t{attribute.num_components()} *
                static_cast<std::uint64_t>(std::max(draco::DataTypeLength(attribute.data_type()), 4));
     }
-    too_large_ = bytes > kMostBytesPerVertex;
+    too_large_ = bytes * this->mesh()->num_points() > limits_.bytes;
     return !too_large_ && Decoder::DecodeAllAttributes();
   }
 
@@ -85,12 +86,12 @@ int gltf_type(draco::DataType type) {
 
 class DracoReader {
  public:
-  DracoReader(std::span<const std::byte> bytes, Limits limits, const std::string& place)
-      : bytes_(bytes), limits_(limits), place_(place) {
-    const std::uint64_t possible = kMostPerByte * bytes.size();
-    limits_.vertices = std::min(limits_.vertices, possible);
-    limits_.triangles = std::min(limits_.triangles, possible);
-  }
+  DracoReader(std::span<const std::byte> bytes, std::uint64_t most_vertices, std::uint64_t most_triangles,
+              const std::string& place)
+      : bytes_(bytes),
+        limits_{most_vertices, most_triangles,
+                std::min(kMostBytes, kAlwaysAllowedBytes + kMostBytesPerByte * bytes.size())},
+        place_(place) {}
 
   DracoMesh read() {
     const draco::DracoHeader header = read_header();
@@ -158,6 +159,8 @@ class DracoReader {
     elements.component_type = gltf_type(attribute.data_type());
     elements.components = attribute.num_components();
     if (elements.component_type == 0) return;
+    if (!attribute.is_mapping_identity() && attribute.indices_map_size() < result.vertices)
+      fail("an attribute lacks values");
     const auto size = static_cast<std::size_t>(draco::DataTypeLength(attribute.data_type())) *
                       static_cast<std::size_t>(elements.components);
     elements.bytes.resize(size * result.vertices);
@@ -179,7 +182,7 @@ class DracoReader {
 
 DracoMesh decode_draco(std::span<const std::byte> bytes, std::uint64_t most_vertices,
                        std::uint64_t most_corners, const std::string& place) {
-  return DracoReader(bytes, {most_vertices, most_corners / 3}, place).read();
+  return DracoReader(bytes, most_vertices, most_corners / 3, place).read();
 }
 
 }  // namespace brume::scene

@@ -29,8 +29,10 @@ Result<Scene> parse_file(const std::filesystem::path& path, const FolderFiles& f
     if (!bytes) return bytes.failure();
     return parse_gltf(*bytes, path.string(), files);
   }
-  return Failure{ErrorCode::bad_input,
-                 path.string() + ": not a scene file by its name; expected .txt, .gltf, .glb or .obj"};
+  return Failure{
+      ErrorCode::bad_input,
+      path.string() +
+          ": not a scene file by its name; expected .txt, .gltf, .glb or .obj, or .toml for a timeline"};
 }
 
 }  // namespace

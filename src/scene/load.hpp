@@ -12,10 +12,10 @@ namespace brume::scene {
 /// The file extension in lower case (of ASCII), with its dot: ".toml" for "D.TOML".
 std::string lower_extension(const std::filesystem::path& path);
 
-/// Loads a scene by its file extension, in any case: `.txt` (Scene.txt), `.gltf`, `.glb` or `.obj`. Recoverable problems
-/// (a missing mesh or texture) give a warning with file and line, and a visible stand-in; all others fail
-/// with bad_input, file:line:column and the expectation. Every mesh index in the result is valid, every
-/// number finite.
+/// Loads a scene by its file extension, in any case: `.txt` (Scene.txt), `.gltf`, `.glb` or `.obj`.
+/// Recoverable problems (a missing mesh or texture) give a warning with file and line, and a visible
+/// stand-in; all others fail with bad_input, file:line:column and the expectation. Every mesh index in the
+/// result is valid, every number finite.
 Result<Scene> load_scene(const std::filesystem::path& path);
 
 }  // namespace brume::scene

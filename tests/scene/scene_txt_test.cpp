@@ -39,6 +39,14 @@ void expect_near(glm::vec3 a, glm::vec3 b) {
   EXPECT_LT(glm::distance(a, b), 1e-5f) << a.x << " " << a.y << " " << a.z;
 }
 
+TEST(SceneTxt, Utf16) {
+  std::string text = "\xff\xfe";
+  for (const char letter : std::string("Box 1 2 3 0 0 0 1 1 1\r\n")) text += {letter, '\0'};
+  const auto scene = parse(text);
+  ASSERT_TRUE(scene) << scene.failure().message;
+  expect_near(image_of(*scene, {0, 0, 0}), {1, 2, 3});
+}
+
 TEST(SceneTxt, RotationsAreNegatedOneAxisAtATime) {
   // A quarter turn about an axis by the negated angle: x: y -> -z; y: z -> -x; z: x -> -y.
   const auto about_x = parse("Box 0 0 0 1.5707963 0 0 1 1 1\n");
