@@ -161,27 +161,32 @@ FrameRange frames_of(const Options& options, const Plan& plan, const scene::Time
 
 // A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files,
 // the options, the device and the program.
-std::uint64_t sequence_key(const Options& options, const Plan& plan, const scenario::Scenario& scenario,
+std::uint64_t sequence_key(const Options& options, const scenario::Scenario& scenario,
                            const gpu::DeviceInfo& device, std::uint32_t first) {
+  // Names every option, so that a new one does not compile before someone decides whether it belongs here.
+  const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice,
+               scene_options, time, fps, temporal, resume, step, light_update_fraction, resolve_error_scale] =
+      options;
+
+  // Files.
   std::vector<std::filesystem::path> files = scenario::files_of(scenario);
-  files.insert(files.end(), {options.input, options.timeline, "/proc/self/exe"});
+  files.insert(files.end(), {input, timeline, "/proc/self/exe"});
   std::uint64_t key = 0;
   for (const std::filesystem::path& file : files) {
     stop_if_interrupted();
     const auto bytes = file.empty() ? std::vector<std::byte>() : read_file(file).value_or_throw();
     key = hash_bytes(bytes, key);
   }
-  std::vector<std::string> texts{device.name,    device.driver, options.size, options.march,
-                                 options.camera, options.view,  options.slice};
-  const std::vector<std::string> scene = texts_of(options.scene);
+
+  // Options and device.
+  std::vector<std::string> texts{device.name, device.driver, size, march, camera, view, slice};
+  const std::vector<std::string> scene = texts_of(scene_options);
   texts.insert(texts.end(), scene.begin(), scene.end());
   for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
-  const std::array<float, 5> numbers{static_cast<float>(options.fps), options.step,
-                                     options.light_update_fraction, options.resolve_error_scale,
-                                     frames_depend(options) ? static_cast<float>(first) : -1.0f};
+  const std::array<float, 3> numbers{step, light_update_fraction, resolve_error_scale};
   key = hash_values(std::span<const float>(numbers), key);
-  const std::array<std::uint32_t, 3> whole{plan.renderer.size_px.x, plan.renderer.size_px.y,
-                                           options.temporal ? 1u : 0u};
+  const std::array<std::uint32_t, 4> whole{fps, temporal ? 1u : 0u, frames_depend(options) ? 1u : 0u,
+                                           frames_depend(options) ? first : 0u};
   return hash_values(std::span<const std::uint32_t>(whole), key);
 }
 
@@ -204,7 +209,7 @@ void write(const Options& options, const Plan& plan, CommonOptions& common, cons
   }
   write_sequence(
       {options.output, range.first, range.last, plan.renderer.size_px,
-       sequence_key(options, plan, scenario, device, range.first), frames_depend(options), options.resume},
+       sequence_key(options, scenario, device, range.first), frames_depend(options), options.resume},
       common.outputs, draw);
 }
 

@@ -1,6 +1,7 @@
 #include "apps/cli/scene_options.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "apps/cli/parse.hpp"
@@ -92,8 +93,11 @@ std::vector<std::string> texts_of(const SceneOptions& options) {
   texts.insert(texts.end(), options.throws.begin(), options.throws.end());
   texts.push_back(options.sun);
   for (const std::optional<double>& number :
-       {options.smoke_size, options.voxel, options.scale, options.exposure})
-    texts.push_back(number ? std::to_string(*number) : "");
+       {options.smoke_size, options.voxel, options.scale, options.exposure}) {
+    char text[32] = "";
+    if (number) std::snprintf(text, sizeof text, "%.17g", *number);  // to_string() has but 6 decimals
+    texts.emplace_back(text);
+  }
   return texts;
 }
 

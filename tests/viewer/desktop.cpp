@@ -142,6 +142,10 @@ void Program::kill() {
   process_ = -1;
 }
 
+void Program::terminate() {
+  if (process_ > 0) ::kill(process_, SIGTERM);
+}
+
 int Program::wait() {
   wait_until([] { return false; }, kPollMs);
   if (runs()) kill();

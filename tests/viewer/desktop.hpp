@@ -73,6 +73,7 @@ class Program {
   void show();
   void close();              ///< As the close button does.
   void kill();               ///< By SIGKILL: it can save nothing any more.
+  void terminate();          ///< By SIGTERM.
   image::Image8 contents();  ///< The current contents of the window.
 
   /// All frames drawn so far.

@@ -1,5 +1,6 @@
 // Sessions are recorded and replay bit for bit.
 #include <X11/keysym.h>
+#include <signal.h>
 
 #include "image/decode.hpp"
 #include "scene/timeline.hpp"
@@ -141,6 +142,24 @@ TEST_F(RecordingTest, AKilledSessionIsRecovered) {
   EXPECT_EQ(recovered->smokes.size(), 1u);
   const cli::Outcome played = cli::run_brume(folder_.path(), {"sim", "recovered_0001.toml"});
   EXPECT_EQ(played.exit_code, 0) << played.error;
+}
+
+TEST_F(RecordingTest, ATerminatedSessionIsSavedAsItIs) {
+  Program program(desktop_, folder_.path(), {"room.toml", "--size", "64x40", "--quality", "smallest"});
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  program.click(1);
+  program.tap(XK_e);
+  ASSERT_TRUE(program.wait_for_frames(2));
+  program.terminate();
+  EXPECT_EQ(program.wait(), 128 + SIGTERM) << program.error();
+  const std::filesystem::path autosave = autosave_in(folder_);
+  EXPECT_NE(program.error().find("the session is saved in ./" + autosave.filename().string()),
+            std::string::npos)
+      << program.error();
+  const auto saved = scene::load_timeline(autosave);
+  ASSERT_TRUE(saved) << saved.failure().message;
+  EXPECT_EQ(saved->smokes.size(), 1u);
+  EXPECT_EQ(saved->blasts.size(), 1u);
 }
 
 TEST_F(RecordingTest, AClosedSessionLeavesNoAutosave) {
