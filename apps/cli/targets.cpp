@@ -16,6 +16,7 @@
 #include "image/decode.hpp"
 #include "image/png.hpp"
 #include "image/video.hpp"
+#include "scene/load.hpp"
 
 namespace brume::cli {
 namespace {
@@ -60,8 +61,9 @@ bool is_frame(const SequenceSettings& settings, std::uint32_t frame) {
 
 TargetKind target_kind(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  if (path.extension() == ".mp4") return TargetKind::film;
-  if (path.extension() != ".png") {
+  const std::string extension = scene::lower_extension(path);
+  if (extension == ".mp4") return TargetKind::film;
+  if (extension != ".png") {
     throw Error(ErrorCode::usage, path.string() + ": cannot write this file type; expected .png or .mp4");
   }
   if (name.find('%') == std::string::npos) return TargetKind::picture;

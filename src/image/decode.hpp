@@ -11,10 +11,10 @@
 
 namespace brume::image {
 
-/// Decodes a PNG (any colour type and depth, 16 bits are rounded down to 8), a JPEG (grey or colour) or a WebP
-/// (lossy or lossless, not animated) to 8-bit RGBA. Sizes are checked before anything is allocated: at most
-/// kMaxAxis texels per axis. `name` names the bytes in error messages. Fails with bad_input when they are none
-/// of these, damaged or truncated, and with resource_limit when the picture is too large.
+/// Decodes a PNG (any colour type and depth, 16 bits are rounded down to 8), a JPEG (grey or colour) or a
+/// WebP (lossy or lossless, not animated) to 8-bit RGBA. Sizes are checked before anything is allocated: at
+/// most kMaxAxis texels per axis. `name` names the bytes in error messages. Fails with bad_input when they
+/// are none of these, damaged or truncated, and with resource_limit when the picture is too large.
 Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads and decodes a file.

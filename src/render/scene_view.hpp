@@ -1,5 +1,5 @@
-// A scene on the device, as any kind of frame draws it: surfaces, shadow maps, and the light that the level lets
-// through.
+// A scene on the device, as any kind of frame draws it: surfaces, shadow maps, and the light that the level
+// lets through.
 #pragma once
 
 #include "passes/gbuffer.hpp"
@@ -14,13 +14,14 @@ class SceneView {
   /// resource_limit.
   SceneView(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene);
 
-  /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows. Outside
-  /// of a recording, when the device is done with the frame before. Throws resource_limit.
+  /// Makes room for the level of a plan, and re-renders the shadows of objects that it hides or shows.
+  /// Outside of a recording, when the device is done with the frame before. Throws resource_limit.
   void reserve(const planning::FramePlan& plan);
 
   /// Uploads the lights of a plan.
   void record_lights(gpu::Recorder& recorder, const planning::FramePlan& plan) const;
-  /// Updates solid voxels and sky light where the level changed. `frame` holds FrameConstants, here and below.
+  /// Updates solid voxels and sky light where the level changed. `frame` holds FrameConstants, here and
+  /// below.
   void record_level(gpu::Recorder& recorder, const planning::FramePlan& plan, const gpu::Buffer& frame);
   /// Draws the surfaces, grenades in the air included.
   void record_gbuffer(gpu::Recorder& recorder, const planning::FramePlan& plan, const gpu::Buffer& frame,

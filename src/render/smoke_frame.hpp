@@ -1,5 +1,5 @@
-// What the media of a frame add to it: the smoke with its noise, holes, light and shadows, the volumes, and the march
-// through all of them.
+// What the media of a frame add to it: the smoke with its noise, holes, light and shadows, the volumes, and
+// the march through all of them.
 #pragma once
 
 #include <optional>
@@ -33,8 +33,8 @@ struct FrameResources {
   const gpu::Buffer* step_counters = nullptr;
 };
 
-/// Its record_ functions run in this order. They allocate no device memory besides staging, and neither submit nor
-/// wait. What needs room outside of a recording says so.
+/// Its record_ functions run in this order. They allocate no device memory besides staging, and neither
+/// submit nor wait. What needs room outside of a recording says so.
 class SmokeFrame {
  public:
   /// `context` and `runner` must outlive it. Throws resource_limit.

@@ -43,7 +43,8 @@ void scale_scene(scene::Scene& scene, float factor);
 /// - scale: as given, or fitting_scale with a warning;
 /// - camera: the scene's own, or one that fits it into four fifths of the image;
 /// - ground: a plane below a scene without a camera, to the horizon (Object::backdrop);
-/// - light: a sun and a day sky where the scene has no light, a dusk sky where it has lamps only;
+/// - light: a sun and a day sky where the scene has no light, a dusk sky where it has no sun but other
+/// lights;
 /// - smoke: on the floor in the middle of the view, about a fifth of the image's width, dense and bright.
 ///
 /// `path` is the scene's file.

@@ -10,7 +10,7 @@
 namespace brume::scenario {
 namespace {
 
-/// A folder of its own, with a room of `size` units: a box of six walls that face both ways.
+/// A folder of its own, with a room of `size` units: a box of six walls.
 class FirstViewTest : public testing::Test {
  protected:
   FirstViewTest()
@@ -115,7 +115,7 @@ TEST_F(FirstViewTest, OptionsReplaceWhatIsChosen) {
   EXPECT_NEAR(scene.lights[0].direction_world.y, -1, 1e-6f);
 }
 
-TEST_F(FirstViewTest, LampsAreScaledSoThatTheyLightAlike) {
+TEST_F(FirstViewTest, PointLightsAreScaledSoThatTheyLightAlike) {
   scene::Scene scene = scene::load_scene(box(4)).value_or_throw();
   scene.lights.push_back({scene::LightKind::point, {1, 2, 3}, {0, -1, 0}, glm::vec3(5)});
   scale_scene(scene, 3);
