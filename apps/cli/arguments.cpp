@@ -1,11 +1,16 @@
 #include "apps/cli/arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
 
 #include "core/error.hpp"
 
 namespace brume::cli {
 namespace {
+
+constexpr double kUnlimited = 1e300;
 
 /// Lists commands with the first line of their description only.
 class BriefFormatter : public CLI::Formatter {
@@ -20,6 +25,29 @@ class BriefFormatter : public CLI::Formatter {
   }
 };
 
+/// A number in [low, high]. CLI11's own check accepts NaN, and names ranges with six decimals.
+CLI::Validator number_check(double low, double high, bool whole) {
+  return CLI::Validator(
+      [=](std::string& text) -> std::string {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool is_number = !text.empty() && *end == '\0' && (!whole || value == std::floor(value));
+        if (is_number && value >= low && value <= high) return "";
+        const std::string kind = whole ? "a whole number" : "a number";
+        if (low <= -kUnlimited) return "expected " + kind + ", found '" + text + "'";
+        std::ostringstream range;
+        range.precision(10);
+        range << "expected " << kind << " from " << low << " to " << high << ", found '" << text << "'";
+        return range.str();
+      },
+      "");
+}
+
+/// A finite number.
+CLI::Validator any_number() {
+  return number_check(-kUnlimited, kUnlimited, false);
+}
+
 }  // namespace
 
 const Argument& Argument::type_name(const std::string& name) const {
@@ -33,12 +61,12 @@ const Argument& Argument::required() const {
 }
 
 const Argument& Argument::range(double low, double high) const {
-  option_->check(CLI::Range(low, high));
+  option_->check(number_check(low, high, false));
   return *this;
 }
 
 const Argument& Argument::range(std::uint32_t low, std::uint32_t high) const {
-  option_->check(CLI::Range(low, high));
+  option_->check(number_check(low, high, true));
   return *this;
 }
 
@@ -72,25 +100,25 @@ Argument Arguments::add_option(const std::string& name, std::vector<std::string>
 }
 
 Argument Arguments::add_option(const std::string& name, std::uint32_t& value, const std::string& help) const {
-  return Argument(app_->add_option(name, value, help));
+  return Argument(app_->add_option(name, value, help)->check(number_check(0, 4294967295.0, true)));
 }
 
 Argument Arguments::add_option(const std::string& name, std::optional<std::uint32_t>& value,
                                const std::string& help) const {
-  return Argument(app_->add_option(name, value, help));
+  return Argument(app_->add_option(name, value, help)->check(number_check(0, 4294967295.0, true)));
 }
 
 Argument Arguments::add_option(const std::string& name, float& value, const std::string& help) const {
-  return Argument(app_->add_option(name, value, help));
+  return Argument(app_->add_option(name, value, help)->check(any_number()));
 }
 
 Argument Arguments::add_option(const std::string& name, double& value, const std::string& help) const {
-  return Argument(app_->add_option(name, value, help));
+  return Argument(app_->add_option(name, value, help)->check(any_number()));
 }
 
 Argument Arguments::add_option(const std::string& name, std::optional<double>& value,
                                const std::string& help) const {
-  return Argument(app_->add_option(name, value, help));
+  return Argument(app_->add_option(name, value, help)->check(any_number()));
 }
 
 Argument Arguments::add_flag(const std::string& name, bool& value, const std::string& help) const {

@@ -149,6 +149,12 @@ void report_coverage(const Options& options, const scenario::Scenario& scenario,
   std::vector<ShotResult> shots;
   if (options.shots > 0) {
     const double at = options.shots_at < 0 ? times.begin : options.shots_at;
+    if (at < times.begin || at > times.end) {
+      char message[128];
+      std::snprintf(message, sizeof message, "--shots-at: %g s is outside of --times %g-%g", at, times.begin,
+                    times.end);
+      throw Error(ErrorCode::usage, message);
+    }
     shots = fire(scenario, line, {options.shots, at, options.shots_every, options.spread}, times.end);
   }
   if (!options.json.empty()) {

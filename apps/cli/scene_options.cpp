@@ -49,6 +49,7 @@ void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptio
         "--scale, --sun and --smoke-size are for a scene without a timeline; set them in the timeline");
   if (options.voxel) timeline.grid.voxel = *options.voxel;
   if (options.exposure) timeline.exposure = *options.exposure;
+  if (options.tone) timeline.tone = *options.tone;
   timeline.smokes.insert(timeline.smokes.begin(), options.smokes.begin(), options.smokes.end());
 }
 
@@ -83,6 +84,13 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
       .type_name("X");
   arguments.add_option("--sun", options.sun, "Azimuth from +z towards +x and elevation of the sun [degrees]")
       .type_name("AZ,EL");
+  arguments
+      .add_option("--tone", options.tone,
+                  "Tone curve: neutral compresses highlights, standard clips them as Blender does; default: "
+                  "the timeline's, "
+                  "or neutral")
+      .one_of({"neutral", "standard"})
+      .type_name("neutral|standard");
   arguments.add_option("--exposure", options.exposure, "Exposure [EV]; default: the timeline's, or measured")
       .type_name("EV");
 }
@@ -92,6 +100,7 @@ std::vector<std::string> texts_of(const SceneOptions& options) {
   texts.push_back("throws");
   texts.insert(texts.end(), options.throws.begin(), options.throws.end());
   texts.push_back(options.sun);
+  texts.push_back(options.tone);
   for (const std::optional<double>& number :
        {options.smoke_size, options.voxel, options.scale, options.exposure}) {
     char text[32] = "";
@@ -107,6 +116,8 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   parsed.voxel = checked("--voxel", options.voxel, 0.015625, 64);
   parsed.smoke_size = checked("--smoke-size", options.smoke_size, 0.05, 1000);
   parsed.exposure = checked("--exposure", options.exposure, -20, 20);
+  if (!options.tone.empty())
+    parsed.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);
   for (const std::string& text : options.smokes) {
     const glm::vec3 place = parse_point("--smoke", text);

@@ -14,7 +14,7 @@ namespace brume::cli {
 struct SceneOptions {
   std::vector<std::string> smokes, throws;
   std::optional<double> smoke_size, voxel, scale, exposure;
-  std::string sun;
+  std::string sun, tone;
 };
 
 void declare_scene_options(const Arguments& arguments, SceneOptions& options);

@@ -67,10 +67,14 @@ void lay_out_light(Session& session, UiRequests& requests, std::vector<std::stri
 
 void lay_out_holes(Choices& choices) {
   Weapons& weapons = choices.weapons;
+  // An id of its own: the fields below have the names of kinds, too, and two widgets of one id abort at a
+  // click.
+  ImGui::PushID("kind");
   for (const ShotKind kind : {ShotKind::bullet, ShotKind::glyph, ShotKind::word, ShotKind::picture}) {
     if (kind != ShotKind::bullet) ImGui::SameLine();
     if (ImGui::RadioButton(name_of(kind), weapons.kind == kind)) weapons.kind = kind;
   }
+  ImGui::PopID();
   ImGui::InputText("word", &weapons.text.text);
   std::string picture = weapons.picture.string();
   if (ImGui::InputText("picture", &picture)) weapons.picture = picture;

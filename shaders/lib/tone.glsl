@@ -1,9 +1,10 @@
 // From radiance to display values.
 #ifndef TONE_GLSL
 #define TONE_GLSL
+#include "lib/frame.glsl"
 
 /// Khronos PBR Neutral (2024): keeps base colours, compresses and desaturates only highlights.
-vec3 tone_curve(vec3 colour) {
+vec3 neutral_tone(vec3 colour) {
   const float start = 0.8 - 0.04;
   const float x = min(colour.r, min(colour.g, colour.b));
   colour -= x < 0.08 ? x - 6.25 * x * x : 0.04;
@@ -15,6 +16,9 @@ vec3 tone_curve(vec3 colour) {
   const float bleach = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
   return mix(colour, vec3(new_peak), bleach);
 }
+
+/// The frame's tone curve.
+vec3 tone_curve(vec3 colour) { return frame.tone == kToneStandard ? colour : neutral_tone(colour); }
 
 /// IEC 61966-2-1.
 vec3 srgb_from_linear(vec3 c) {

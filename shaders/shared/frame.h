@@ -59,6 +59,10 @@ struct FrameMedia {
 };
 SHARED_SIZE(FrameMedia, 40);
 
+/// Tone curves.
+SHARED_CONST uint kToneNeutral = 0u;   // Khronos PBR Neutral
+SHARED_CONST uint kToneStandard = 1u;  // none: clipped at 1, as Blender's "Standard"
+
 struct FrameConstants {
   Camera camera;
   Sky sky;
@@ -74,10 +78,11 @@ struct FrameConstants {
   uint frame_index;  // moves the dither and the jitter
   float time;        // [s]
   float exposure;    // multiplies radiance before the tone curve
+  uint tone;         // kToneNeutral or kToneStandard
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
-SHARED_SIZE(FrameConstants, 452);
+SHARED_SIZE(FrameConstants, 456);
 
 SHARED_END
 #endif

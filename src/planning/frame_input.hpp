@@ -7,6 +7,7 @@
 
 #include "planning/debug_request.hpp"
 #include "scene/scene.hpp"
+#include "scene/timeline.hpp"
 #include "shared/frame.h"
 #include "shared/hole.h"
 #include "shared/light.h"
@@ -29,7 +30,8 @@ struct LevelView {
 
 struct View {
   scene::Camera camera;
-  float exposure = 1;             ///< Multiplies radiance before the tone curve; > 0.
+  float exposure = 1;  ///< Multiplies radiance before the tone curve; > 0.
+  scene::ToneCurve tone = scene::ToneCurve::neutral;
   std::uint32_t frame_index = 0;  ///< Moves jitter and dither; equal numbers give equal images.
   /// The next frame of a film: a renderer that accumulates smoke over frames goes on from the frames before.
   bool continues = false;

@@ -61,6 +61,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.smoke.look.multiple_scattering = smoke.multiple_scattering;
   input.smoke.look.hole_rim = smoke.hole_rim;
   input.view.exposure = std::exp2(timeline.exposure);
+  input.view.tone = timeline.tone;
   input.smoke.time = static_cast<float>(seconds);
   input.level.voxels = {&simulation.world().grid(), simulation.world().state().edits};
   input.smoke.volume = &simulation.volume();

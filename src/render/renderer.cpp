@@ -30,6 +30,7 @@ shared::FrameConstants frame_constants(const FramePlan& plan) {
   frame.frame_index = input.view.frame_index;
   frame.time = input.smoke.time;
   frame.exposure = input.view.exposure;
+  frame.tone = static_cast<std::uint32_t>(input.view.tone);
   frame.resolve_error = shared::kResolveError * input.quality.resolve_error_scale;
   return frame;
 }

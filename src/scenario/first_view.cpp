@@ -174,6 +174,7 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   if (!bounds.empty() && !scene.camera) add_ground(scene, bounds);
   light_scene(scene, timeline.sky, options.sun);
   timeline.exposure = options.exposure.value_or(0);
+  timeline.tone = options.tone.value_or(timeline.tone);
 
   // Its smoke.
   const glm::vec3 surface = middle_of_view(scene, camera);

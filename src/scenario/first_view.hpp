@@ -23,8 +23,9 @@ struct FirstViewOptions {
   std::optional<float> voxel;                  ///< [m]
   std::optional<float> smoke_size;             ///< Diameter of the grown smoke in open air [m].
   std::vector<scene::SmokeEvent> smokes = {};  ///< In metres, after scaling.
-  std::optional<SunPosition> sun;
+  std::optional<SunPosition> sun = {};
   std::optional<float> exposure;  ///< [EV]; empty: measured (Scenario::measure_exposure).
+  std::optional<scene::ToneCurve> tone = {};
 };
 
 /// Metres per unit that bring a scene's largest extent into [1 m, 4 km], by a power of ten; 1 where it is

@@ -50,6 +50,7 @@ class TimelineReader {
     if (scene.empty() || scene.find('\0') != std::string::npos)
       root.fail("scene", "\"scene\": expected the name of a scene file");
     visit_timeline_options(timeline_, OptionReader{root});
+    read_tone(root);
     const toml::table* const grid = root.table("grid");
     const toml::table* const smoke = root.table("smoke");
     const toml::table* const sky = root.table("sky");
@@ -71,6 +72,16 @@ class TimelineReader {
   }
 
  private:
+  void read_tone(TomlTable& root) {
+    std::string tone = "neutral";
+    root.read("tone", tone);
+    if (tone == "standard") {
+      timeline_.tone = ToneCurve::standard;
+    } else if (tone != "neutral") {
+      root.fail("tone", "\"tone\": expected \"neutral\" or \"standard\"");
+    }
+  }
+
   Result<void> read_grid(const toml::table& source) {
     TomlTable table(source, "[grid]", file_);
     visit_grid_options(timeline_.grid, OptionReader{table});

@@ -145,10 +145,17 @@ struct DoorEvent {
   std::string place = {};  ///< Of the object's name.
 };
 
+/// How radiance becomes display values.
+enum class ToneCurve : std::uint32_t {
+  neutral,   ///< Khronos PBR Neutral: compresses highlights.
+  standard,  ///< None: clipped at 1, as Blender's "Standard".
+};
+
 struct Timeline {
   std::filesystem::path scene;  ///< Resolved against the timeline's own folder.
   float duration = 4.0f;
   float exposure = 0.0f;
+  ToneCurve tone = ToneCurve::neutral;
   GridOptions grid;
   SmokeOptions smoke;
   SkyOptions sky;
@@ -186,16 +193,16 @@ void for_each_event_list(AnyTimeline& timeline, Visitor&& visit) {
 /// Sorts each list of events by time. Stable: events of the same time keep their order.
 void sort_events(Timeline& timeline);
 
-/// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, the tables [grid] (voxel,
-/// size, origin), [smoke] and [sky] with the members above as keys, and [[camera]] (time, position, target,
-/// fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time,
-/// from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text,
-/// from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius,
-/// speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high,
-/// solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events [-16384,
-/// 16384]. check_doors checks whether a door's object exists. Fails with bad_input and file:line:column for
-/// malformed TOML, an unknown key (suggesting the nearest known one), and a value of the wrong type or out of
-/// range.
+/// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, the tables [grid]
+/// (voxel, size, origin), [smoke] and [sky] with the members above as keys, and [[camera]] (time, position,
+/// target, fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot"
+/// (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text"
+/// (time, text, from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time,
+/// at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time,
+/// low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events
+/// [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
+/// file:line:column for malformed TOML, an unknown key (suggesting the nearest known one), and a value of the
+/// wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.

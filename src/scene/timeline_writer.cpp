@@ -169,6 +169,7 @@ class Writer {
     text_ += "version = 1\n";
     line("scene", path_from(timeline.scene, folder_).generic_string());
     options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_timeline_options(o, v); });
+    if (timeline.tone == ToneCurve::standard) line("tone", std::string("standard"));
     options(timeline.grid, GridOptions(), "\n[grid]\n", [](auto& o, auto& v) { visit_grid_options(o, v); });
     SmokeOptions smoke = timeline.smoke;
     if (smoke.droplet) smoke.anisotropy = SmokeOptions().anisotropy;

@@ -1,5 +1,6 @@
 #include "passes/display.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "passes/blue_noise.hpp"
@@ -13,12 +14,14 @@ namespace {
 class DisplayTest : public gpu::GpuTest {
  protected:
   /// What 8 bits show of an image.
-  static std::vector<glm::u8vec4> show(glm::uvec2 size, const std::vector<Half4>& radiance, float exposure) {
+  static std::vector<glm::u8vec4> show(glm::uvec2 size, const std::vector<Half4>& radiance, float exposure,
+                                       std::uint32_t tone = shared::kToneNeutral) {
     const auto image = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT, radiance);
     const auto display = test_image(context(), size, VK_FORMAT_R8G8B8A8_UNORM);
     shared::FrameConstants frame{};
     frame.size_px = size;
     frame.exposure = exposure;
+    frame.tone = tone;
     const auto frame_buffer = upload(std::vector{frame});
     gpu::Image noise;
     runner().run([&](gpu::Recorder& recorder) { noise = make_blue_noise(context(), recorder); });
@@ -35,6 +38,19 @@ double shown_grey(double x) {
   double c = x - offset;
   if (c >= 0.76) c = 1 - 0.24 * 0.24 / (c + 0.24 - 0.76);
   return 255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
+}
+
+TEST_F(DisplayTest, TheStandardCurveIsSrgbAlone) {
+  // Blender 3.4 shows (0.02, 0.03, 0.05) as 39 49 64 with its view "Standard".
+  constexpr glm::uvec2 kSize{64, 64};
+  const std::vector<Half4> radiance(kSize.x * kSize.y, to_half({0.02f, 0.03f, 0.05f, 1}));
+  glm::dvec3 mean(0);
+  for (const glm::u8vec4& texel : show(kSize, radiance, 1, shared::kToneStandard))
+    mean += glm::dvec3(texel) / 4096.0;
+  for (int channel = 0; channel < 3; ++channel)
+    EXPECT_NEAR(mean[channel], (std::array{38.7, 48.4, 63.1})[static_cast<std::size_t>(channel)], 0.3);
+  for (const glm::u8vec4& texel : show({1, 1}, {to_half(glm::vec4(3))}, 1, shared::kToneStandard))
+    EXPECT_EQ(texel.x, 255);
 }
 
 TEST_F(DisplayTest, AGreyRampShowsNoBand) {

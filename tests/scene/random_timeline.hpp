@@ -137,6 +137,7 @@ inline Timeline random_timeline(std::uint32_t seed) {
   visit_smoke_options(timeline.smoke, draw);
   if (timeline.smoke.droplet) timeline.smoke.anisotropy = SmokeOptions().anisotropy;
   visit_sky_options(timeline.sky, draw);
+  if (draw.below(3) == 0) timeline.tone = ToneCurve::standard;
   double time = draw.share();
   for (std::uint32_t keys = draw.below(4); keys > 0; --keys, time += 0.01 + draw.share()) {
     CameraKey key{time, {draw.place(), draw.place(), 1}};

@@ -383,6 +383,18 @@ TEST(CameraPath, TheFieldOfViewNeverOvershoots) {
   }
 }
 
+TEST(Timeline, HasAToneCurve) {
+  const auto parse = [](const std::string& tone) {
+    return parse_timeline("version = 1\nscene = \"a.obj\"\n" + tone, "t.toml");
+  };
+  EXPECT_EQ(parse("")->tone, ToneCurve::neutral);
+  EXPECT_EQ(parse("tone = \"neutral\"")->tone, ToneCurve::neutral);
+  EXPECT_EQ(parse("tone = \"standard\"")->tone, ToneCurve::standard);
+  const auto wrong = parse("tone = \"filmic\"");
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.failure().message.find("expected \"neutral\" or \"standard\""), std::string::npos);
+}
+
 TEST(FirstHit, IsTheNearestBeforeTheRay) {
   const auto scene = parse_obj_scene(kCubeObj, "cube.obj", MemoryFiles());
   ASSERT_TRUE(scene);

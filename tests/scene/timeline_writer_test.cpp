@@ -74,6 +74,7 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   Bits b;
   b.add(timeline.scene.string());
   visit_timeline_options(timeline, b);
+  b.add(static_cast<std::uint32_t>(timeline.tone));
   visit_grid_options(timeline.grid, b);
   visit_smoke_options(timeline.smoke, b);
   visit_sky_options(timeline.sky, b);
