@@ -10,7 +10,7 @@
 namespace brume::cli {
 namespace {
 
-constexpr double kUnlimited = 1e300;
+constexpr double kUnlimited = 1e300, kMostWhole = 4294967295.0;
 
 /// Lists commands with the first line of their description only.
 class BriefFormatter : public CLI::Formatter {
@@ -34,7 +34,7 @@ CLI::Validator number_check(double low, double high, bool whole) {
         const bool is_number = !text.empty() && *end == '\0' && (!whole || value == std::floor(value));
         if (is_number && value >= low && value <= high) return "";
         const std::string kind = whole ? "a whole number" : "a number";
-        if (low <= -kUnlimited) return "expected " + kind + ", found '" + text + "'";
+        if (low <= -kUnlimited || high >= kMostWhole) return "expected " + kind + ", found '" + text + "'";
         std::ostringstream range;
         range.precision(10);
         range << "expected " << kind << " from " << low << " to " << high << ", found '" << text << "'";
@@ -100,12 +100,12 @@ Argument Arguments::add_option(const std::string& name, std::vector<std::string>
 }
 
 Argument Arguments::add_option(const std::string& name, std::uint32_t& value, const std::string& help) const {
-  return Argument(app_->add_option(name, value, help)->check(number_check(0, 4294967295.0, true)));
+  return Argument(app_->add_option(name, value, help)->check(number_check(0, kMostWhole, true)));
 }
 
 Argument Arguments::add_option(const std::string& name, std::optional<std::uint32_t>& value,
                                const std::string& help) const {
-  return Argument(app_->add_option(name, value, help)->check(number_check(0, 4294967295.0, true)));
+  return Argument(app_->add_option(name, value, help)->check(number_check(0, kMostWhole, true)));
 }
 
 Argument Arguments::add_option(const std::string& name, float& value, const std::string& help) const {
