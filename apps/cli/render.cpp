@@ -77,17 +77,6 @@ Plan make_plan(const Options& options, Outputs& outputs) {
   plan.scene.aspect =
       static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
-  // Not with range(), which accepts NaN.
-  if (!(options.step >= 0.25f && options.step <= 4)) {
-    throw Error(ErrorCode::usage, "--step: expected a number from 0.25 to 4, such as 2");
-  }
-  if (!(options.resolve_error_scale >= 0.25f && options.resolve_error_scale <= 16)) {
-    throw Error(ErrorCode::usage, "--resolve-error-scale: expected a number from 0.25 to 16, such as 4");
-  }
-  if (!(options.light_update_fraction >= 0.0625f && options.light_update_fraction <= 1)) {
-    throw Error(ErrorCode::usage,
-                "--light-update-fraction: expected a number from 0.0625 to 1, such as 0.125");
-  }
   if (plan.kind == TargetKind::picture && plan.frames) {
     throw Error(ErrorCode::usage, options.output + ": --frames requires a film (.mp4) or %04d in the name");
   }
@@ -253,16 +242,19 @@ void declare_quality(const Arguments& arguments, Options& options) {
   arguments
       .add_option("--step", options.step,
                   "Scale of the ray march step, 0.25 to 4: larger is faster and coarser; default 1")
+      .range(0.25, 4.0)
       .type_name("X");
   arguments
       .add_option(
           "--resolve-error-scale", options.resolve_error_scale,
           "Scale of the error that --march half and quarter may interpolate over, 0.25 to 16; default 1")
+      .range(0.25, 16.0)
       .type_name("X");
   arguments
       .add_option(
           "--light-update-fraction", options.light_update_fraction,
           "Fraction of the changed light in smoke that each frame of a film updates, 0.0625 to 1; default 1")
+      .range(0.0625, 1.0)
       .type_name("X");
 }
 

@@ -11,14 +11,8 @@
 namespace brume::cli {
 namespace {
 
-std::optional<float> checked(const char* option, const std::optional<double>& value, double low,
-                             double high) {
-  if (!value) return {};
-  if (*value >= low && *value <= high) return static_cast<float>(*value);
-  char message[128];
-  std::snprintf(message, sizeof message, "%s: expected a number from %g to %g, found %g", option, low, high,
-                *value);
-  throw Error(ErrorCode::usage, message);
+std::optional<float> as_float(const std::optional<double>& value) {
+  return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
 /// "FROM TO": two points.
@@ -74,13 +68,16 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
   arguments
       .add_option("--smoke-size", options.smoke_size,
                   "Diameter of the smoke [m]; default: a fifth of the view")
+      .range(0.05, 1000.0)
       .type_name("M");
   arguments.add_option("--voxel", options.voxel, "Edge length of a voxel [m]; default: fits the smoke")
+      .range(0.015625, 64.0)
       .type_name("M");
   arguments
       .add_option("--scale", options.scale,
                   "Metres per unit of the scene, such as 0.001 for millimetres; default: 1, "
                   "or what brings it between 1 m and 4 km")
+      .range(1e-6, 1e6)
       .type_name("X");
   arguments.add_option("--sun", options.sun, "Azimuth from +z towards +x and elevation of the sun [degrees]")
       .type_name("AZ,EL");
@@ -92,6 +89,7 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
       .one_of({"neutral", "standard"})
       .type_name("neutral|standard");
   arguments.add_option("--exposure", options.exposure, "Exposure [EV]; default: the timeline's, or measured")
+      .range(-20.0, 20.0)
       .type_name("EV");
 }
 
@@ -112,10 +110,10 @@ std::vector<std::string> texts_of(const SceneOptions& options) {
 
 scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   scenario::FirstViewOptions parsed;
-  parsed.scale = checked("--scale", options.scale, 1e-6, 1e6);
-  parsed.voxel = checked("--voxel", options.voxel, 0.015625, 64);
-  parsed.smoke_size = checked("--smoke-size", options.smoke_size, 0.05, 1000);
-  parsed.exposure = checked("--exposure", options.exposure, -20, 20);
+  parsed.scale = as_float(options.scale);
+  parsed.voxel = as_float(options.voxel);
+  parsed.smoke_size = as_float(options.smoke_size);
+  parsed.exposure = as_float(options.exposure);
   if (!options.tone.empty())
     parsed.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);

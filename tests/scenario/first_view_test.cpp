@@ -158,7 +158,7 @@ TEST_F(SmokeReportTest, NamesWhatIsWrongAndAPlaceThatWorks) {
 }
 
 TEST_F(SmokeReportTest, ReportsThrowsThatEndTooLate) {
-  // 20 m/s: 200 m of flight take ten seconds, of a timeline of four.
+  // The timeline ends after four seconds.
   const Scenario late = scenario({3, 2, 2}, {3, 2, 2}, 10);
   EXPECT_EQ(report(late).fault, SmokeFault::after_end);
   EXPECT_NEAR(report(late).time, 10, 0.02);
