@@ -93,7 +93,10 @@ void BrickAtlas::reserve(VolumeList volumes) {
     const glm::ivec3 bricks = volume::grown_atlas({}, slots);
     bool replaced = gpu::grow(context_, pages_, pages * sizeof(std::uint32_t));
     replaced |= gpu::grow(context_, slot_bricks_, slots * sizeof(glm::ivec3));
-    if (bricks != atlas_bricks_) make_images(bricks), replaced = true;
+    if (bricks != atlas_bricks_) {
+      make_images(bricks);
+      replaced = true;
+    }
     for (Entry& entry : placed) {
       entry.layout.atlas_bricks = atlas_bricks_;
       entry.everything |= replaced;

@@ -1,7 +1,6 @@
 // Several media in one frame: volumes under any affine transform, alone, overlapping, and with smoke.
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
-#include <random>
 
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
@@ -96,7 +95,7 @@ class VolumesTest : public gpu::GpuTest {
   void expect_beer_lambert(const planning::VolumeInput& volume) {
     const std::vector<glm::vec4> pixels = draw();
     const std::vector<double> lengths = chords(volume);
-    const double step = double{planning::FramePlan(input_, kSize).input.quality.step_scale} * step_of(volume);
+    const double step = double{input_.quality.step_scale} * step_of(volume);
     const double sigma = double{volume.look.extinction};
     double sum = 0, expected_sum = 0;
     int inside = 0;
