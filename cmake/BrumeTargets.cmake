@@ -109,7 +109,8 @@ endfunction()
 
 # brume_test(NAME sources... LINKS libraries... LABELS labels...): a GoogleTest program that CTest runs.
 # The label one_thread is for programs that use no threads but through what others test: the thread sanitizer leaves
-# them out. COST is about how many seconds it takes where that is much: the long ones begin first. A program is one CTest entry: starting a Vulkan device for each case would cost more than the cases.
+# them out. COST is about how many seconds it takes where that is much: the long ones begin first. A program is one CTest
+# entry: starting a Vulkan device for each case would cost more than the cases.
 function(brume_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;COST" "LINKS;LABELS")
   if(NOT arg_TIMEOUT)

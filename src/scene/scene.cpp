@@ -43,12 +43,12 @@ void for_each_point(const Scene& scene, Visit visit) {
 Camera default_camera(const Scene& scene, float aspect) {
   if (scene.camera) return *scene.camera;
   Camera camera;
-  camera.vertical_fov = 0.75f;
+  camera.vertical_fov = 0.85f;
   const Box<float> bounds = world_bounds(scene);
   if (bounds.empty()) return camera;
   const float radius = std::max(glm::length(bounds.high - bounds.low) / 2, 0.05f);
   const glm::vec3 middle = (bounds.low + bounds.high) / 2.0f;
-  const glm::vec3 back = glm::normalize(glm::vec3(0.8f, 0.40f, 1));
+  const glm::vec3 back = glm::normalize(glm::vec3(0.8f, 0.52f, 1));
   const glm::vec3 right = glm::normalize(glm::cross({0, 1, 0}, back)), up = glm::cross(back, right);
 
   // A point at (x, y) of the image's plane and z towards the eye is inside where |x - centre| <= k (distance
