@@ -288,6 +288,7 @@ void Program::read_line(const std::string& line) {
     widgets_.clear();
   } else if (line.starts_with(kWidget)) {
     widgets_.push_back(widget_of(line.substr(kWidget.size())));
+    widget_uses_[widgets_.back().id] = widgets_.back().uses;
   } else if (!line.empty() && std::isdigit(static_cast<unsigned char>(line[0]))) {  // not the header line
     frames_.push_back(frame_of(line));
   }
@@ -313,6 +314,11 @@ const std::vector<Frame>& Program::frames() {
 const std::vector<WidgetLine>& Program::widgets() {
   frames();
   return widgets_;
+}
+
+std::uint64_t Program::widget_uses(const std::string& id) {
+  frames();
+  return widget_uses_[id];
 }
 
 bool Program::wait_for_contents(const std::function<bool(const image::Image8&)>& wanted) {

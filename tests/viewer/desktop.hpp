@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,8 @@ class Program {
   const std::vector<Frame>& frames();
   /// The widgets of the last frame drawn so far.
   const std::vector<WidgetLine>& widgets();
+  /// Clicks that the widget of this id took in any frame so far, also if it is gone.
+  std::uint64_t widget_uses(const std::string& id);
   // Every wait fails if the program ends or hangs.
   /// Waits until the window contents satisfy `wanted`.
   bool wait_for_contents(const std::function<bool(const image::Image8&)>& wanted);
@@ -111,6 +114,7 @@ class Program {
   std::string log_rest_;  ///< An incomplete line.
   std::vector<Frame> frames_;
   std::vector<WidgetLine> widgets_;
+  std::map<std::string, std::uint64_t> widget_uses_;
   pid_t process_ = -1;
   int status_ = 0;
   unsigned long window_ = 0;

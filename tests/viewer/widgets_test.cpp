@@ -36,7 +36,6 @@ class WidgetsTest : public testing::Test {
     std::set<std::string> ids;
     for (const WidgetLine& widget : all) {
       EXPECT_TRUE(ids.insert(widget.id).second) << widget.kind << " " << widget.label;
-      uses_[widget.id] = std::max(uses_[widget.id], widget.uses);
       kinds_[widget.kind].insert(widget.label);
     }
     return all;
@@ -101,18 +100,17 @@ class WidgetsTest : public testing::Test {
     const auto& all = widgets();
     const bool is_gone =
         std::none_of(all.begin(), all.end(), [&](const auto& w) { return w.id == widget.id; });
-    if (uses_[widget.id] == 0 && is_gone) {
+    if (program_->widget_uses(widget.id) == 0 && is_gone) {
       done_.erase(widget.id);  // a click before removed it; it takes its own when it is there again
       return;
     }
-    EXPECT_GT(uses_[widget.id], 0u) << widget.kind << " " << widget.label << " took no click";
+    EXPECT_GT(program_->widget_uses(widget.id), 0u) << widget.kind << " " << widget.label << " took no click";
   }
 
   cli::WorkFolder folder_;
   Desktop desktop_;
   std::optional<Program> program_;
   std::set<std::string> done_;
-  std::map<std::string, std::uint64_t> uses_;
   std::map<std::string, std::set<std::string>> kinds_;
 };
 
