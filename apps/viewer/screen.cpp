@@ -14,8 +14,8 @@ gpu::Image make_canvas(gpu::Context& context, glm::uvec2 size_px) {
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R8G8B8A8_UNORM;  // as Renderer::display: already sRGB-encoded
   info.size = {size_px, 1};
-  info.usage =
-      VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  info.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
   return gpu::Image(context, info);
 }
 
@@ -38,6 +38,7 @@ Screen::Screen(const Window& window, const ScreenOptions& options)
   runner_.emplace(context_);
   swapchain_.emplace(context_, window.surface(), options.vertical_sync);
   ui_.emplace(context_, *runner_, VK_FORMAT_R8G8B8A8_UNORM);
+  upscale_.emplace(context_);
   canvas_ = make_canvas(context_, size_px);
 }
 
@@ -82,8 +83,10 @@ bool Screen::show(const render::FrameInput* input, const Quality& quality, const
   const auto record = [&](gpu::Recorder& recorder) {
     if (plan) renderer_->record_frame(recorder, *plan);
     const gpu::Scope scope(recorder, "window");
-    if (renderer_) {
-      recorder.blit(renderer_->targets().display, canvas_, same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+    if (renderer_ && same_size) {
+      recorder.blit(renderer_->targets().display, canvas_, VK_FILTER_NEAREST);
+    } else if (renderer_) {
+      upscale_->record(recorder, renderer_->targets().display, canvas_);
     } else {
       recorder.clear(canvas_, VkClearColorValue{});
     }

@@ -9,6 +9,7 @@
 
 #include "apps/viewer/quality.hpp"
 #include "apps/viewer/ui_pass.hpp"
+#include "apps/viewer/upscale_pass.hpp"
 #include "apps/viewer/window.hpp"
 #include "image/image.hpp"
 #include "render/renderer.hpp"
@@ -75,6 +76,7 @@ class Screen {
   std::optional<gpu::Swapchain> swapchain_;
   std::optional<render::Renderer> renderer_;
   std::optional<UiPass> ui_;
+  std::optional<UpscalePass> upscale_;
   gpu::Image canvas_;              ///< Window-sized: the scaled image with the user interface over it.
   std::uint32_t march_scale_ = 1;  ///< Current one of the renderer.
   bool history_lost_ = false;      ///< The renderer has no previous frame to accumulate with.

@@ -79,10 +79,11 @@ void lay_out_status(const Game& game, const Figures& figures, const Notices& not
   } else {
     ImGui::TextUnformatted("begins...");
   }
-  const char* const way = game.session().follows_path() ? "along the path"
-                          : game.player().flying()      ? "flying"
-                                                        : "walking";
-  ImGui::Text("%.2f s, %s, shoots: %s", game.session().seconds(), way, name_of(game.choices().weapons.kind));
+  const char* const moves = game.session().follows_path() ? "along the path"
+                            : game.player().flying()      ? "flying"
+                                                          : "walking";
+  ImGui::Text("%.2f s, %s, shoots: %s", game.session().seconds(), moves,
+              name_of(game.choices().weapons.kind));
   if (notices.pace < 0.95 && !game.session().paused()) {
     ImGui::SameLine();
     ImGui::TextColored(kAccent, " slowed: %.1fx", notices.pace);

@@ -85,16 +85,16 @@ float remaining(double event_time, double seconds, double lifetime) {
   return age >= 0 && age < lifetime ? static_cast<float>(1 - age / lifetime) : 0.0f;
 }
 
-void draw_flash(ImDrawList& list, const Eye& eye, glm::vec3 muzzle, float left) {
+void draw_flash(ImDrawList& list, const Eye& eye, glm::vec3 muzzle, float life) {
   const auto at = eye.at(muzzle);
-  if (!at || left <= 0) return;
+  if (!at || life <= 0) return;
   const float radius = eye.pixels(muzzle, 0.13f);
-  glow(list, *at, 1.6f * radius, kFire, 0.9f * left);
-  glow(list, *at, 0.6f * radius, kHot, 2.5f * left);
+  glow(list, *at, 1.6f * radius, kFire, 0.9f * life);
+  glow(list, *at, 0.6f * radius, kHot, 2.5f * life);
 }
 
-void draw_tracer(ImDrawList& list, const Eye& eye, glm::vec3 from, glm::vec3 to, float left) {
-  if (left <= 0) return;
+void draw_tracer(ImDrawList& list, const Eye& eye, glm::vec3 from, glm::vec3 to, float life) {
+  if (life <= 0) return;
   for (int i = 0; i < kTracerParts; ++i) {
     // Parts become longer with the distance, as perspective shortens them.
     const auto place = [&](int part) {
@@ -104,7 +104,7 @@ void draw_tracer(ImDrawList& list, const Eye& eye, glm::vec3 from, glm::vec3 to,
     const glm::vec3 a = place(i), b = place(i + 1);
     const auto begin = eye.at(a), end = eye.at(b);
     if (!begin || !end) continue;
-    const float visible = eye.visibility(0.5f * (a + b)) * left;
+    const float visible = eye.visibility(0.5f * (a + b)) * life;
     if (visible < 0.01f) continue;
     const float width = std::clamp(eye.pixels(a, 0.012f), 1.2f, 5.0f);
     list.AddLine(vec(*begin), vec(*end), colour_of(kFire, 0.45f * visible), 2.6f * width);
@@ -152,13 +152,13 @@ void draw_shot(ImDrawList& list, const Eye& eye, const Game& game, glm::vec3 fro
 }
 
 void draw_fireball(ImDrawList& list, const Eye& eye, const scene::BlastEvent& blast, double seconds) {
-  const float left = remaining(blast.time, seconds, kFireballSeconds);
-  const auto at = left > 0 ? eye.at(blast.at_world) : std::nullopt;
+  const float life = remaining(blast.time, seconds, kFireballSeconds);
+  const auto at = life > 0 ? eye.at(blast.at_world) : std::nullopt;
   if (!at) return;
   const float visible = eye.visibility(blast.at_world);
-  const float radius = eye.pixels(blast.at_world, (1.15f - 0.75f * left) * 0.3f * blast.radius);
-  glow(list, *at, 1.5f * radius, kFire, 0.9f * visible * left);
-  glow(list, *at, 0.8f * radius, kHot, 1.8f * visible * left * left);
+  const float radius = eye.pixels(blast.at_world, (1.15f - 0.75f * life) * 0.3f * blast.radius);
+  glow(list, *at, 1.5f * radius, kFire, 0.9f * visible * life);
+  glow(list, *at, 0.8f * radius, kHot, 1.8f * visible * life * life);
 }
 
 }  // namespace

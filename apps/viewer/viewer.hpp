@@ -14,8 +14,8 @@ namespace brume::viewer {
 struct ViewerOptions {
   glm::uvec2 size_px{1280, 720};
   std::string level_name = "level";  ///< Its name, for the title and while it loads.
-  std::string device;           ///< As for gpu::choose_device.
-  bool validation = false;      ///< Enables the validation layers; the report holds their messages.
+  std::string device;                ///< As for gpu::choose_device.
+  bool validation = false;           ///< Enables the validation layers; the report holds their messages.
   bool vertical_sync = true;
   double frames_per_second = 60;     ///< Target of the adaptive quality.
   std::optional<std::size_t> level;  ///< Index into quality_levels() instead of adaptive quality.
