@@ -50,7 +50,7 @@ const char* name_of(ShotKind kind) {
     case ShotKind::word:
       return "word";
     case ShotKind::picture:
-      return "picture";
+      return "image";
   }
   return "";
 }

@@ -12,24 +12,23 @@ namespace {
 constexpr float kMargin = 8, kLeastScale = 0.72f;
 const ImVec4 kKey(1, 0.8f, 0.5f, 1);
 
-/// The rows of some groups.
+/// The rows of some groups, [first, end).
 struct Column {
   std::size_t first = 0, end = 0;
 };
 
-/// Splits the rows before a group, so that the columns are about equally long.
-std::vector<Column> columns_of(const std::vector<HelpRow>& rows, std::size_t count) {
-  std::vector<Column> columns(1);
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const bool is_first = rows[i].group != rows[i - 1].group;
-    const bool is_full = i * count >= columns.size() * rows.size();
-    if (is_first && is_full && columns.size() < count) {
-      columns.back().end = i;
-      columns.push_back({i, 0});
-    }
-  }
-  columns.back().end = rows.size();
-  return columns;
+/// One column of all rows.
+std::vector<Column> one_column(const std::vector<HelpRow>& rows) {
+  return {{0, rows.size()}};
+}
+
+/// Two columns, split before the group that makes the longer one shortest.
+std::vector<Column> two_columns(const std::vector<HelpRow>& rows) {
+  std::size_t best = rows.size();
+  const auto longer = [&](std::size_t split) { return std::max(split, rows.size() - split); };
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (rows[i].group != rows[i - 1].group && longer(i) < longer(best)) best = i;
+  return {{0, best}, {best, rows.size()}};
 }
 
 /// Size of a column at the usual size of the text [px].
@@ -50,9 +49,8 @@ void lay_out_column(const std::vector<HelpRow>& rows, const Column& column, floa
       if (i != column.first) ImGui::Dummy(ImVec2(0, 0.15f * ImGui::GetTextLineHeight()));
       ImGui::TextDisabled("%s", name_of(rows[i].group));
     }
-    const float x = ImGui::GetCursorPosX();
     ImGui::TextColored(kKey, "%s", rows[i].keys.c_str());
-    ImGui::SameLine(x + key_width);
+    ImGui::SameLine(key_width);
     ImGui::TextUnformatted(rows[i].does.c_str());
   }
   ImGui::EndGroup();
@@ -77,7 +75,7 @@ void lay_out_help() {
     }
     return std::clamp(std::min(room.x / size.x, room.y / (size.y + 24)), kLeastScale, 1.0f);
   };
-  const std::vector<Column> one = columns_of(rows, 1), two = columns_of(rows, 2);
+  const std::vector<Column> one = one_column(rows), two = two_columns(rows);
   const auto& columns = scale_of(two) > scale_of(one) ? two : one;
   const float scale = scale_of(columns);
 

@@ -74,7 +74,7 @@ class Eye {
 
 /// A disc that fades towards its rim.
 void glow(ImDrawList& list, glm::vec2 at, float radius, glm::vec3 colour, float alpha) {
-  constexpr int kDiscs = 7;
+  constexpr int kDiscs = 40;  // so many that no ring shows
   for (int i = 1; i <= kDiscs; ++i)
     list.AddCircleFilled(vec(at), radius * static_cast<float>(i) / kDiscs, colour_of(colour, alpha / kDiscs));
 }
@@ -88,8 +88,8 @@ float remaining(double event_time, double seconds, double lifetime) {
 void draw_flash(ImDrawList& list, const Eye& eye, glm::vec3 muzzle, float life) {
   const auto at = eye.at(muzzle);
   if (!at || life <= 0) return;
-  const float radius = eye.pixels(muzzle, 0.13f);
-  glow(list, *at, 1.6f * radius, kFire, 0.9f * life);
+  const float radius = eye.pixels(muzzle, 0.075f);
+  glow(list, *at, 1.7f * radius, kFire, 1.6f * life);
   glow(list, *at, 0.6f * radius, kHot, 2.5f * life);
 }
 
@@ -106,7 +106,7 @@ void draw_tracer(ImDrawList& list, const Eye& eye, glm::vec3 from, glm::vec3 to,
     if (!begin || !end) continue;
     const float visible = eye.visibility(0.5f * (a + b)) * life;
     if (visible < 0.01f) continue;
-    const float width = std::clamp(eye.pixels(a, 0.012f), 1.2f, 5.0f);
+    const float width = std::clamp(eye.pixels(a, 0.008f), 1.2f, 4.0f);
     list.AddLine(vec(*begin), vec(*end), colour_of(kFire, 0.45f * visible), 2.6f * width);
     list.AddLine(vec(*begin), vec(*end), colour_of(kHot, 0.95f * visible), width);
   }
