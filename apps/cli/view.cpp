@@ -124,7 +124,9 @@ void view(const Options& options, Outputs& outputs) {
   outputs.writes("--json", options.json, FileKind::json);
   outputs.up_to_date(options.frame_log);  // It is written in place, line by line.
   const auto load = [&] {
-    scenario::Scenario scenario = scenario::load_scenario(input, {}).value_or_throw();
+    scenario::FirstViewOptions first_view;
+    first_view.aspect = static_cast<float>(viewer.size_px.x) / static_cast<float>(viewer.size_px.y);
+    scenario::Scenario scenario = scenario::load_scenario(input, {}, first_view).value_or_throw();
     outputs.reads(scenario::files_of(scenario));
     return scenario;
   };
