@@ -6,7 +6,7 @@
 namespace brume::bench {
 namespace {
 
-constexpr double kGrown = 2;        // [s]: the smokes have bloomed
+constexpr double kBloomed = 2;      // [s]: the smokes have bloomed
 constexpr float kCourt = 24;        // edge of a court [m]
 constexpr float kApart = 14;        // distance between smokes [m]
 constexpr int kHiddenColumns = 32;  // columns of smokes behind the camera
@@ -72,7 +72,7 @@ Result<Measurement> time_scenario(Bench& bench, const std::string& name,
   const bool slow = bench.context().info().kind == "cpu";
   render::RendererOptions options;
   options.size_px = slow ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
-  Measurement m = time_frames(bench, name, *scenario, options, kGrown).all;
+  Measurement m = time_frames(bench, name, *scenario, options, kBloomed).all;
   m.details["smokes"] = static_cast<double>(scenario->timeline.smokes.size());
   m.details["lights"] = static_cast<double>(scenario->scene.lights.size());
   m.details["objects"] = static_cast<double>(scenario->scene.objects.size());

@@ -27,10 +27,10 @@ function(brume_shaders target)
     file(CONFIGURE OUTPUT ${cpp} CONTENT
 "#include \"@target@.hpp\"
 namespace brume::shaders {
-static const unsigned words[] = {
+static const unsigned @symbol@_words[] = {
 #include \"@name@.words\"
 };
-const gpu::ShaderCode @symbol@{\"@name@\", words};
+const gpu::ShaderCode @symbol@{\"@name@\", @symbol@_words};
 }
 " @ONLY)
     list(APPEND sources ${cpp} ${words})

@@ -16,6 +16,16 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
+/// A figure of /proc/self/statm in bytes; 0 if it cannot be read. Fields: 0 all, 1 resident, 5 data and
+/// stacks.
+std::uint64_t statm_bytes(int field) {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t pages = 0;
+  for (int i = 0; i <= field; ++i)
+    if (!(file >> pages)) return 0;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
 
 void Figures::add(FrameFigures frame) {
@@ -47,16 +57,23 @@ double Figures::frames_per_second() const {
 }
 
 std::uint64_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t all = 0, resident = 0;
-  if (!(file >> all >> resident)) return 0;
-  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return statm_bytes(1);
 }
 
 std::uint64_t heap_bytes() {
 #ifdef __GLIBC__
   const struct mallinfo2 heap = ::mallinfo2();
   return heap.uordblks + heap.hblkhd;
+#else
+  return 0;
+#endif
+}
+
+std::uint64_t mapped_bytes() {
+#ifdef __GLIBC__
+  const struct mallinfo2 heap = ::mallinfo2();
+  const std::uint64_t of_malloc = heap.arena + heap.hblkhd, all = statm_bytes(5);
+  return all > of_malloc ? all - of_malloc : 0;
 #else
   return 0;
 #endif

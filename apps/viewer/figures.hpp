@@ -50,4 +50,9 @@ std::uint64_t resident_bytes();
 /// resident_bytes it does not grow with fragmentation or when pages are first touched.
 std::uint64_t heap_bytes();
 
+/// Writable private memory mapped by others than malloc, such as drivers, compilers of shaders and thread
+/// stacks [bytes]; 0 if the system does not report it. Like heap_bytes it counts pages before they are
+/// touched.
+std::uint64_t mapped_bytes();
+
 }  // namespace brume::viewer

@@ -15,7 +15,7 @@ FrameLog::FrameLog(const std::filesystem::path& path) : path_(path) {
   file_.reset(std::fopen(path.c_str(), "w"));
   if (!file_) throw Error(ErrorCode::bad_input, path.string() + ": cannot write: " + std::strerror(errno));
   std::fputs(
-      "frame,seconds,frame_ms,tick_ms,latency_ms,width,height,picture,process_bytes,heap_bytes,device_bytes,"
+      "frame,seconds,frame_ms,tick_ms,latency_ms,width,height,picture,mapped_bytes,heap_bytes,device_bytes,"
       "shader_faults\n",
       file_.get());
 }
@@ -27,7 +27,7 @@ void FrameLog::add(const FrameLine& line) {
       file_.get(), "%llu,%.6f,%.3f,%.3f,%.3f,%u,%u,%s,%llu,%llu,%llu,%zu\n",
       static_cast<unsigned long long>(++frames_), line.seconds, line.frame_ms, line.tick_ms, line.latency_ms,
       line.size_px.x, line.size_px.y, kNames[static_cast<std::size_t>(line.picture)],
-      static_cast<unsigned long long>(resident_bytes()), static_cast<unsigned long long>(heap_bytes()),
+      static_cast<unsigned long long>(mapped_bytes()), static_cast<unsigned long long>(heap_bytes()),
       static_cast<unsigned long long>(line.device_bytes), line.shader_faults);
   if (std::fflush(file_.get()) == 0) return;
   throw Error(ErrorCode::resource_limit,

@@ -1,7 +1,9 @@
 #include "passes/blue_noise.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/tasks.hpp"
 
@@ -10,46 +12,61 @@ namespace {
 
 constexpr std::uint32_t kCount = kBlueNoiseSize * kBlueNoiseSize;
 
+// As a float, exp(-d^2 / 4.5) is 0 for all greater distances.
+constexpr std::uint32_t kReach = 22;
+
 /// The points chosen so far and how crowded each place of the torus is.
 class Pattern {
  public:
-  Pattern() : falloff_(kCount), energy_(kCount, 0), chosen_(kCount, false) {
+  Pattern() : falloff_(2 * kCount), energy_(kCount, 0), free_(kCount, -1) {
     constexpr float kSigma = 1.5f;  // Ulichney's value
-    for (std::uint32_t i = 0; i < kCount; ++i) {
-      const auto wrapped = [](std::uint32_t d) {
-        return static_cast<float>(std::min(d, kBlueNoiseSize - d));
-      };
-      const float dx = wrapped(i % kBlueNoiseSize), dy = wrapped(i / kBlueNoiseSize);
-      falloff_[i] = std::exp(-(dx * dx + dy * dy) / (2 * kSigma * kSigma));
-    }
-  }
-  void set(std::uint32_t point, bool chosen) {
-    chosen_[point] = chosen;
-    const float sign = chosen ? 1.0f : -1.0f;
-    const std::uint32_t px = point % kBlueNoiseSize, py = point / kBlueNoiseSize;
     for (std::uint32_t y = 0; y < kBlueNoiseSize; ++y) {
-      const std::uint32_t row = (y + kBlueNoiseSize - py) % kBlueNoiseSize * kBlueNoiseSize;
-      for (std::uint32_t x = 0; x < kBlueNoiseSize; ++x) {
-        energy_[y * kBlueNoiseSize + x] += sign * falloff_[row + (x + kBlueNoiseSize - px) % kBlueNoiseSize];
+      for (std::uint32_t x = 0; x < 2 * kBlueNoiseSize; ++x) {
+        const auto dx = static_cast<float>(distance(x % kBlueNoiseSize)),
+                   dy = static_cast<float>(distance(y));
+        falloff_[2 * kBlueNoiseSize * y + x] = std::exp(-(dx * dx + dy * dy) / (2 * kSigma * kSigma));
       }
     }
   }
-  std::uint32_t tightest_cluster() const { return extreme(true); }
-  std::uint32_t largest_void() const { return extreme(false); }
-  bool chosen(std::uint32_t point) const { return chosen_[point]; }
+  void set(std::uint32_t point, bool chosen) {
+    free_[point] = chosen ? 0 : -1;
+    const float sign = chosen ? 1.0f : -1.0f;
+    const std::uint32_t px = point % kBlueNoiseSize, py = point / kBlueNoiseSize;
+    for (std::uint32_t y = 0; y < kBlueNoiseSize; ++y) {
+      const std::uint32_t row = (y + kBlueNoiseSize - py) % kBlueNoiseSize;
+      if (distance(row) > kReach) continue;
+      const float* falloff = &falloff_[2 * kBlueNoiseSize * row + kBlueNoiseSize - px];
+      float* energy = &energy_[y * kBlueNoiseSize];
+      for (std::uint32_t x = 0; x < kBlueNoiseSize; ++x) energy[x] += sign * falloff[x];
+    }
+  }
+  /// The chosen point with the most energy.
+  std::uint32_t tightest_cluster() const { return least(-1, 0); }
+  /// The free point with the least energy.
+  std::uint32_t largest_void() const { return least(0, -1); }
+  bool chosen(std::uint32_t point) const { return free_[point] == 0; }
 
  private:
-  /// The chosen point with the most energy, or the free one with the least.
-  std::uint32_t extreme(bool of_chosen) const {
-    std::uint32_t best = kCount;
-    for (std::uint32_t i = 0; i < kCount; ++i) {
-      if (chosen_[i] != of_chosen) continue;
-      if (best == kCount || (of_chosen ? energy_[i] > energy_[best] : energy_[i] < energy_[best])) best = i;
-    }
-    return best;
+  static std::uint32_t distance(std::uint32_t d) { return std::min(d, kBlueNoiseSize - d); }
+  /// The bits of a float as a number with the order of the floats; 0 is never negative here.
+  static std::int32_t ordered(float value) {
+    const auto bits = std::bit_cast<std::int32_t>(value);
+    return bits ^ ((bits >> 31) & 0x7fffffff);
   }
-  std::vector<float> falloff_, energy_;
-  std::vector<bool> chosen_;
+  /// The first place whose energy, with the bits of `flip` inverted, is least, among those with free_ ==
+  /// `free`. Compares integers: the compiler vectorizes their minimum, and not that of floats.
+  std::uint32_t least(std::int32_t flip, std::int32_t free) const {
+    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
+    std::int32_t best = kNone;
+    for (std::uint32_t i = 0; i < kCount; ++i)
+      best = std::min(best, free_[i] == free ? ordered(energy_[i]) ^ flip : kNone);
+    for (std::uint32_t i = 0; i < kCount; ++i)
+      if (free_[i] == free && (ordered(energy_[i]) ^ flip) == best) return i;
+    return kCount;
+  }
+  std::vector<float> falloff_;  ///< Rows twice, so that those from any start are in one piece.
+  std::vector<float> energy_;
+  std::vector<std::int32_t> free_;  ///< -1: free, 0: chosen.
 };
 
 /// A random tenth of the points, moved from clusters to voids until nothing moves.

@@ -7,7 +7,7 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kThreads = 64;
+constexpr std::uint32_t kTexelThreads = 64;
 
 /// Workgroups of y and z for a list.
 struct Groups {
@@ -75,7 +75,7 @@ void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
   // First the items of all texels, then those of some phases. One thread per texel; without a GPU one group
   // for all of them, because idle threads cost as much as busy ones there.
   const auto threads_for = [&](std::uint32_t texels) {
-    return one_group_ ? kThreads : (texels + kThreads - 1) / kThreads * kThreads;
+    return one_group_ ? kTexelThreads : (texels + kTexelThreads - 1) / kTexelThreads * kTexelThreads;
   };
   const auto each = [&](const volume::IndexRange& range, std::uint32_t sliced, auto record) {
     if (range.count > sliced)

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kStepMetres = 0.25f;
 constexpr std::uint32_t kAtlasWidth = 1024;
-constexpr std::uint32_t kThreads = 256;  // four for each ray of a block
+constexpr std::uint32_t kRayThreads = 256;  // four for each ray of a block
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindHoleMasks, gpu::sampled(in.holes.masks, nearest_)},
                 },
                 params);
-  recorder.dispatch_threads(pipeline_, kThreads * plan.blocks, 1);
+  recorder.dispatch_threads(pipeline_, kRayThreads * plan.blocks, 1);
 }
 
 }  // namespace brume::passes

@@ -8,7 +8,7 @@ namespace brume::passes {
 namespace {
 
 /// Of smoke::SmokeVolume's channels: kDensityChannel.
-constexpr std::array kChannels{VK_FORMAT_R8G8_UNORM};
+constexpr std::array kSmokeChannels{VK_FORMAT_R8G8_UNORM};
 
 /// The images that passes write, in the order of their formats.
 enum Derived : std::size_t { kInscatter, kDensityDisplacement, kFilteredDensity };
@@ -49,7 +49,7 @@ std::uint32_t filled_cells(const smoke::SmokeVolume& volume, std::uint32_t slot)
 
 SmokeUpload::SmokeUpload(gpu::Context& context)
     : context_(context),
-      atlas_(context, kChannels, kDerivedFormats),
+      atlas_(context, kSmokeChannels, kDerivedFormats),
       resources_{.pages = atlas_.pages(),
                  .slot_bricks = atlas_.slot_bricks(),
                  .density = atlas_.channel(smoke::kDensityChannel),

@@ -5,7 +5,7 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::array kChannels{VK_FORMAT_R16_SFLOAT};
+constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT};
 
 std::vector<const volume::SparseVolume*> list_of(std::span<const planning::VolumeInput> volumes) {
   std::vector<const volume::SparseVolume*> list;
@@ -15,7 +15,7 @@ std::vector<const volume::SparseVolume*> list_of(std::span<const planning::Volum
 
 }  // namespace
 
-VolumeUpload::VolumeUpload(gpu::Context& context) : atlas_(context, kChannels) {
+VolumeUpload::VolumeUpload(gpu::Context& context) : atlas_(context, kVolumeChannels) {
   gpu::grow(context, instances_, shared::kMaxVolumes * sizeof(shared::VolumeInstance));
 }
 

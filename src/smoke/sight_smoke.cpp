@@ -77,10 +77,10 @@ Float4 densities_at(const Corners& c, Float4 at, Float4 direction, Float4 t) {
 /// The same integral times the fraction that the holes leave, within one piece: four points.
 Float4 holed_integral(const Corners& c, Float4 at, Float4 direction, float t0, float t1,
                       const HolesOnRay& holes, const HolePiece& piece) {
-  constexpr Float4 kPoints{-0.861136312f, -0.339981044f, 0.339981044f, 0.861136312f};
+  constexpr Float4 kNodes{-0.861136312f, -0.339981044f, 0.339981044f, 0.861136312f};
   constexpr Float4 kWeights{0.347854845f, 0.652145155f, 0.652145155f, 0.347854845f};
   const float half = 0.5f * (t1 - t0);
-  const Float4 t = splat(0.5f * (t0 + t1)) + kPoints * splat(half);
+  const Float4 t = splat(0.5f * (t0 + t1)) + kNodes * splat(half);
   return densities_at(c, at, direction, t) * holes.remaining(piece, t) * (kWeights * splat(half));
 }
 

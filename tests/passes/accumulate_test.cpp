@@ -10,13 +10,13 @@
 namespace brume::passes {
 namespace {
 
-constexpr glm::uvec2 kSize{33, 17};
+constexpr glm::uvec2 kFrameSize{33, 17};
 
 /// Frames of a film in a box of smoke from -10 m on along each axis, 20 m deep, before a camera at z = 8 that
 /// looks along -z.
 class AccumulateTest : public gpu::GpuTest {
  protected:
-  AccumulateTest() : pass_(context(), kSize) {}
+  AccumulateTest() : pass_(context(), kFrameSize) {}
 
   static shared::FrameConstants frame_at(float x) {
     shared::FrameConstants frame{};
@@ -34,13 +34,13 @@ class AccumulateTest : public gpu::GpuTest {
     frame.volume.voxel_size = 0.5f;
     frame.volume.origin_world = glm::vec3(-10);
     frame.volume.bounds_max = {400, 40, 40};
-    frame.size_px = kSize;
+    frame.size_px = kFrameSize;
     frame.look.extinction = 1;
     return frame;
   }
 
   using Texels = std::vector<glm::vec4>;
-  static Texels even(glm::vec4 value) { return Texels(kSize.x * kSize.y, value); }
+  static Texels even(glm::vec4 value) { return Texels(kFrameSize.x * kFrameSize.y, value); }
 
   /// Adds a frame; what is shown of it. Surfaces are `distances` away along the view axis.
   Texels add(shared::FrameConstants frame, const Texels& smoke, const std::vector<float>& distances,
@@ -49,8 +49,8 @@ class AccumulateTest : public gpu::GpuTest {
     for (const glm::vec4& texel : smoke) halves.push_back(to_half(texel));
     std::vector<float> reverse;
     for (const float d : distances) reverse.push_back(0.05f / d);
-    const auto image = upload_image(context(), runner(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT, halves);
-    const auto depth = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, reverse);
+    const auto image = upload_image(context(), runner(), kFrameSize, VK_FORMAT_R16G16B16A16_SFLOAT, halves);
+    const auto depth = upload_image(context(), runner(), kFrameSize, VK_FORMAT_R32_SFLOAT, reverse);
     frame.media = planning::smoke_media(frame.volume, frame.look);
     const auto buffer = upload(std::vector{frame});
     runner().run([&](gpu::Recorder& r) { pass_.record(r, buffer, frame.camera, depth, image, continues); });
@@ -58,7 +58,9 @@ class AccumulateTest : public gpu::GpuTest {
     for (const Half4& texel : read_back<Half4>(pass_.gathered())) shown.push_back(from_half(texel));
     return shown;
   }
-  static std::vector<float> wall(float distance) { return std::vector<float>(kSize.x * kSize.y, distance); }
+  static std::vector<float> wall(float distance) {
+    return std::vector<float>(kFrameSize.x * kFrameSize.y, distance);
+  }
 
   AccumulatePass pass_;
 };
@@ -67,7 +69,7 @@ TEST_F(AccumulateTest, AFrameWithoutHistoryIsItself) {
   (void)add(frame_at(0), even({0.5f, 0.5f, 0.5f, 0.25f}), wall(12), false);
   Texels random;
   std::mt19937 generator(1);
-  for (std::uint32_t i = 0; i < kSize.x * kSize.y; ++i)
+  for (std::uint32_t i = 0; i < kFrameSize.x * kFrameSize.y; ++i)
     random.push_back(from_half(to_half(glm::vec4(static_cast<float>(generator() % 1000) / 1000))));
   EXPECT_EQ(add(frame_at(0), random, wall(12), false), random);
 }
@@ -88,7 +90,8 @@ TEST_F(AccumulateTest, NoiseAveragesOut) {
   Texels shown;
   for (int i = 0; i < 24; ++i) {
     Texels smoke;
-    for (std::uint32_t k = 0; k < kSize.x * kSize.y; ++k) smoke.push_back(glm::vec4(0.5f + noise(generator)));
+    for (std::uint32_t k = 0; k < kFrameSize.x * kFrameSize.y; ++k)
+      smoke.push_back(glm::vec4(0.5f + noise(generator)));
     shown = add(frame_at(0), smoke, wall(12), i > 0);
   }
   double square = 0;
@@ -101,7 +104,8 @@ TEST_F(AccumulateTest, AHoleThatClosesLeavesNoGhost) {
   // A clear disc in opaque smoke, for a second; then it is shut. One step of a screen is 1/255.
   Texels open = even({0.2f, 0.2f, 0.2f, 0.0f});
   for (std::uint32_t i = 0; i < open.size(); ++i)
-    if (glm::length(glm::vec2(i % kSize.x, i / kSize.x) - glm::vec2(16, 8)) < 5) open[i] = {0, 0, 0, 1};
+    if (glm::length(glm::vec2(i % kFrameSize.x, i / kFrameSize.x) - glm::vec2(16, 8)) < 5)
+      open[i] = {0, 0, 0, 1};
   for (int i = 0; i < 24; ++i) (void)add(frame_at(0), open, wall(12), i > 0);
   for (const glm::vec4& shown : add(frame_at(0), even({0.2f, 0.2f, 0.2f, 0.0f}), wall(12), true)) {
     EXPECT_LT(shown.a, 1.0f / 255);
@@ -117,18 +121,18 @@ TEST_F(AccumulateTest, SurfacesThatComeIntoViewHaveNoPast) {
   for (std::uint32_t step = 0; step < 12; ++step) {
     std::vector<float> distances;
     Texels smoke;
-    for (std::uint32_t i = 0; i < kSize.x * kSize.y; ++i) {
-      const bool pillar = i % kSize.x >= 6 + step && i % kSize.x < 14 + step;
+    for (std::uint32_t i = 0; i < kFrameSize.x * kFrameSize.y; ++i) {
+      const bool pillar = i % kFrameSize.x >= 6 + step && i % kFrameSize.x < 14 + step;
       distances.push_back(pillar ? 2.0f : 14.0f);
       smoke.push_back(glm::vec4(pillar ? 1.0f : std::max(0.0f, 0.3f + noise(generator))));
     }
     const Texels now = add(frame_at(0), smoke, distances, step > 0);
     if (step == 0) continue;
-    for (std::uint32_t y = 0; y < kSize.y; ++y) {
+    for (std::uint32_t y = 0; y < kFrameSize.y; ++y) {
       // Left of the pillar the wall comes out from behind it.
-      const std::uint32_t seen = 5 + step + kSize.x * y;
+      const std::uint32_t seen = 5 + step + kFrameSize.x * y;
       EXPECT_NEAR(now[seen].a, smoke[seen].a, 0.01f) << step;
-      const std::uint32_t hidden = 13 + step + kSize.x * y;
+      const std::uint32_t hidden = 13 + step + kFrameSize.x * y;
       EXPECT_NEAR(now[hidden].a, smoke[hidden].a, 0.01f) << step;
     }
   }
@@ -150,11 +154,12 @@ TEST_F(AccumulateTest, SmokeIsFoundWhereACameraThatMovedSawIt) {
     frame.camera.eye_world.z = 20;
     frame.camera.clip_from_world[3].w = 20;
     const auto x_of = [&](std::uint32_t k) {
-      const float ndc = (static_cast<float>(k % kSize.x) + 0.5f) / static_cast<float>(kSize.x) * 2 - 1;
+      const float ndc =
+          (static_cast<float>(k % kFrameSize.x) + 0.5f) / static_cast<float>(kFrameSize.x) * 2 - 1;
       return frame.camera.eye_world.x + 10 * 0.8f * ndc;
     };
     Texels smoke;
-    for (std::uint32_t k = 0; k < kSize.x * kSize.y; ++k)
+    for (std::uint32_t k = 0; k < kFrameSize.x * kFrameSize.y; ++k)
       smoke.emplace_back(glm::vec3(pattern(x_of(k)) + noise(generator)), 0);
     const Texels shown = add(frame, smoke, wall(29), i > 0);
     for (std::uint32_t k = 0; i > 12 && k < shown.size(); ++k) {

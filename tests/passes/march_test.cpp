@@ -12,7 +12,7 @@
 namespace brume::passes {
 namespace {
 
-constexpr glm::uvec2 kSize{33, 17};
+constexpr glm::uvec2 kImageSize{33, 17};
 
 class MarchTest : public gpu::GpuTest {
  protected:
@@ -34,7 +34,7 @@ class MarchTest : public gpu::GpuTest {
     frame.camera.right = {0.8f, 0, 0};
     frame.camera.up = {0, 0.4f, 0};
     frame.volume = room.volume.layout();
-    frame.size_px = kSize;
+    frame.size_px = kImageSize;
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.7f;
     frame.look.step_length = 0.1f;
@@ -43,24 +43,24 @@ class MarchTest : public gpu::GpuTest {
   }
   static glm::vec3 ray(const shared::FrameConstants& frame, std::uint32_t pixel) {
     const glm::vec2 ndc =
-        (glm::vec2(pixel % kSize.x, pixel / kSize.x) + 0.5f) / glm::vec2(kSize) * 2.0f - 1.0f;
+        (glm::vec2(pixel % kImageSize.x, pixel / kImageSize.x) + 0.5f) / glm::vec2(kImageSize) * 2.0f - 1.0f;
     return frame.camera.forward + ndc.x * frame.camera.right - ndc.y * frame.camera.up;
   }
 
   /// Marches with a surface at `distance` along the view axis; radiance and transmittance of each pixel.
   std::vector<glm::vec4> march(const SmokeRoom& room, shared::FrameConstants frame, float distance,
                                const std::vector<shared::Hole>& holes = {}) {
-    const std::vector<float> depth(kSize.x * kSize.y, frame.camera.near_z / distance);
-    const auto depth_image = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT, depth);
+    const std::vector<float> depth(kImageSize.x * kImageSize.y, frame.camera.near_z / distance);
+    const auto depth_image = upload_image(context(), runner(), kImageSize, VK_FORMAT_R32_SFLOAT, depth);
     HoleClusters hole_clusters(context(), runner(), {});
     const auto plan =
-        planning::plan_holes(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kSize);
+        planning::plan_holes(holes, frame.time, 0, frame.volume, room.volume.slot_count(), kImageSize);
     hole_clusters.reserve(plan);
     frame.holes = plan.layout();
     frame.media = planning::smoke_media(frame.volume, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     const auto counters = upload(std::vector<std::uint32_t>{0});
-    const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
+    const auto target = test_image(context(), kImageSize, VK_FORMAT_R16G16B16A16_SFLOAT);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       hole_clusters.record(recorder, plan, frame_buffer, room.upload.resources());
@@ -121,17 +121,18 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
 
   const MarchPass counting(context(), {false, true, false});
   const ResolvePass resolve(context());
-  const auto depth = upload_image(context(), runner(), kSize, VK_FORMAT_R32_SFLOAT,
-                                  std::vector<float>(kSize.x * kSize.y, frame.camera.near_z / kDistance));
-  const auto counters = upload(std::vector<std::uint32_t>(1 + kSize.x * kSize.y));
-  const auto target = test_image(context(), kSize, VK_FORMAT_R16G16B16A16_SFLOAT);
+  const auto depth =
+      upload_image(context(), runner(), kImageSize, VK_FORMAT_R32_SFLOAT,
+                   std::vector<float>(kImageSize.x * kImageSize.y, frame.camera.near_z / kDistance));
+  const auto counters = upload(std::vector<std::uint32_t>(1 + kImageSize.x * kImageSize.y));
+  const auto target = test_image(context(), kImageSize, VK_FORMAT_R16G16B16A16_SFLOAT);
   const HoleClusters no_holes(context(), runner(), {});
   for (const std::uint32_t scale : {1u, 2u, 4u}) {
     frame.march_scale = scale;
     frame.media = planning::smoke_media(frame.volume, frame.look);
     const auto frame_buffer = upload(std::vector{frame});
     std::optional<MarchTiles> blocks;
-    if (scale > 1) blocks.emplace(context(), kSize, scale);
+    if (scale > 1) blocks.emplace(context(), kImageSize, scale);
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room_.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       recorder.fill(counters, 0);
@@ -142,13 +143,13 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
       resolve.record_ends(recorder, frame_buffer, depth, *blocks);
       counting.record_tiles(recorder, in, *blocks, counters);
     });
-    const auto counted = read_back<std::uint32_t>(counters, 1 + kSize.x * kSize.y);
+    const auto counted = read_back<std::uint32_t>(counters, 1 + kImageSize.x * kImageSize.y);
     // Where all is smoke, each step takes two samples: of the smoke, and of its light.
     std::uint32_t steps = 0;
-    for (std::uint32_t i = 0; i < kSize.x * kSize.y; ++i) {
-      const std::uint32_t x = i % kSize.x, y = i / kSize.x;
+    for (std::uint32_t i = 0; i < kImageSize.x * kImageSize.y; ++i) {
+      const std::uint32_t x = i % kImageSize.x, y = i / kImageSize.x;
       if (x % scale == 0 && y % scale == 0) steps += counted[1 + i];
-      EXPECT_EQ(counted[1 + i], counted[1 + x / scale * scale + kSize.x * (y / scale * scale)]);
+      EXPECT_EQ(counted[1 + i], counted[1 + x / scale * scale + kImageSize.x * (y / scale * scale)]);
       if (scale > 1) continue;
       const float way = kDistance * glm::length(ray(frame, i));
       EXPECT_EQ(counted[1 + i], static_cast<std::uint32_t>(std::ceil(way / frame.look.step_length))) << i;
@@ -194,7 +195,7 @@ TEST_F(MarchConstantTest, AHoleLetsThroughWhatItRemoves) {
   hole.distance_to_far = 20;
   hole.time_to_stay_open = 10;
   frame.time = 1;
-  constexpr std::uint32_t kCentre = 16 + 8 * kSize.x;
+  constexpr std::uint32_t kCentre = 16 + 8 * kImageSize.x;
   // Down the axis everything is removed; at the picture's corner the ray leaves the hole early.
   const auto open = march(room_, frame, 4, {hole});
   EXPECT_GT(open[kCentre].w, 0.98f);

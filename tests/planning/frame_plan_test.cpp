@@ -8,11 +8,11 @@
 namespace brume::planning {
 namespace {
 
-constexpr float kVoxel = 0.5f;
-
 /// A smoke in an open world that has stopped growing, a light above it.
 class FramePlanTest : public ::testing::Test {
  protected:
+  static constexpr float kVoxel = 0.5f;
+
   FramePlanTest() {
     sim::ThrowSmoke event;
     event.from = event.at = sim::position_from_metres(glm::dvec3(8, 1, 8));

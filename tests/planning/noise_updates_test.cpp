@@ -13,11 +13,11 @@
 namespace brume::planning {
 namespace {
 
-constexpr float kVoxel = 0.5f;
-
 /// Two smokes in an open world that have stopped growing.
 class NoiseUpdatesTest : public ::testing::Test {
  protected:
+  static constexpr float kVoxel = 0.5f;
+
   NoiseUpdatesTest() {
     for (const double x : {8.0, 30.0}) {
       sim::ThrowSmoke event;

@@ -16,11 +16,11 @@
 namespace brume::planning {
 namespace {
 
-constexpr float kVoxel = 0.5f;
-
 /// Three smokes in an open world, lights between.
 class SmokeLightCacheTest : public ::testing::Test {
  protected:
+  static constexpr float kVoxel = 0.5f;
+
   SmokeLightCacheTest() {
     for (const double x : {6.0, 20.0, 34.0}) {
       sim::ThrowSmoke event;

@@ -10,11 +10,11 @@
 namespace brume::planning {
 namespace {
 
-constexpr float kVoxel = 0.5f;
-
 /// A smoke in an open world, a light beside it and a camera before it.
 class SmokeShadowCacheTest : public ::testing::Test {
  protected:
+  static constexpr float kVoxel = 0.5f;
+
   SmokeShadowCacheTest() {
     throw_smoke(8);
     shared::Light light{};

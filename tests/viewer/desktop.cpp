@@ -77,7 +77,7 @@ Frame frame_of(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
   double frame_ms = 0, tick_ms = 0, latency_ms = 0;
   std::istringstream(line) >> frame.number >> frame.seconds >> frame_ms >> tick_ms >> latency_ms >>
-      frame.size_px.x >> frame.size_px.y >> frame.picture >> frame.process_bytes >> frame.heap_bytes >>
+      frame.size_px.x >> frame.size_px.y >> frame.picture >> frame.mapped_bytes >> frame.heap_bytes >>
       frame.device_bytes >> frame.shader_faults;
   return frame;
 }

@@ -42,7 +42,7 @@ struct Frame {
   double seconds = 0;        ///< Session time.
   glm::uvec2 size_px{0};
   std::string picture;  ///< film, still or best.
-  std::uint64_t process_bytes = 0, heap_bytes = 0, device_bytes = 0;
+  std::uint64_t mapped_bytes = 0, heap_bytes = 0, device_bytes = 0;
   std::size_t shader_faults = 0;
 };
 

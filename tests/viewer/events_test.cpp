@@ -16,8 +16,9 @@ constexpr std::array<unsigned long, 23> kKeys{
     XK_w, XK_a, XK_s, XK_d, XK_space, XK_Shift_L, XK_g, XK_1,      XK_2,   XK_3, XK_4, XK_e,
     XK_f, XK_l, XK_r, XK_p, XK_comma, XK_period,  XK_v, XK_Escape, XK_Tab, XK_o, XK_h};
 
-// Memory grows by less than half of a leak of one window-sized image per drawn frame. Allocated memory is
-// used, because resident memory also grows when earlier allocations are first touched.
+// Memory grows by less than half of a leak of one window-sized image per drawn frame: that of malloc, that of
+// the device, and what drivers and stacks map. All count what is allocated. Resident memory also grows when
+// earlier allocations are first touched, and with fragmentation, by 15 to 30 MB within a thousand events.
 void expect_no_growth(const std::vector<Frame>& frames, std::size_t from) {
   double forgotten = 0;
   for (std::size_t i = from + 1; i < frames.size(); ++i)
@@ -29,10 +30,10 @@ void expect_no_growth(const std::vector<Frame>& frames, std::size_t from) {
   testing::Test::RecordProperty("forgotten_bytes", std::to_string(forgotten));
   testing::Test::RecordProperty("heap_grown_bytes", std::to_string(grown(&Frame::heap_bytes)));
   testing::Test::RecordProperty("device_grown_bytes", std::to_string(grown(&Frame::device_bytes)));
-  testing::Test::RecordProperty("process_grown_bytes", std::to_string(grown(&Frame::process_bytes)));
+  testing::Test::RecordProperty("mapped_grown_bytes", std::to_string(grown(&Frame::mapped_bytes)));
   EXPECT_LT(grown(&Frame::heap_bytes), forgotten / 2);
   EXPECT_LT(grown(&Frame::device_bytes), forgotten / 2);
-  EXPECT_LT(grown(&Frame::process_bytes), forgotten / 2);
+  EXPECT_LT(grown(&Frame::mapped_bytes), forgotten / 2);
 }
 
 void tap(Program& program, unsigned long key) {

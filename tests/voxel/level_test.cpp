@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
+#include "tests/voxel/random.hpp"
 #include "voxel/patched_planes.hpp"
 #include "voxel/voxelize.hpp"
 
@@ -13,12 +13,8 @@ namespace {
 
 using glm::ivec3;
 using glm::vec3;
-using Random = std::mt19937_64;
 using Triangles = std::vector<Triangle>;
 
-float uniform(Random& random, float low, float high) {
-  return low + (high - low) * static_cast<float>(random() >> 40) / 16777216.0f;
-}
 int whole(Random& random, int low, int high) {
   return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
 }

@@ -3,21 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "tests/sanitized.hpp"
+#include "tests/voxel/random.hpp"
 
 namespace brume::voxel {
 namespace {
 
 using glm::ivec3;
 using glm::vec3;
-using Random = std::mt19937_64;
-
-float uniform(Random& random, float low, float high) {
-  return low + (high - low) * static_cast<float>(random() >> 40) / 16777216.0f;
-}
 
 struct Ray {
   vec3 origin, direction;

@@ -4,22 +4,16 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "core/tasks.hpp"
 #include "tests/reference/triangle_box.hpp"
+#include "tests/voxel/random.hpp"
 
 namespace brume::voxel {
 namespace {
 
 using glm::ivec3;
 using glm::vec3;
-
-using Random = std::mt19937_64;
-
-float uniform(Random& random, float low, float high) {
-  return low + (high - low) * static_cast<float>(random() >> 40) / 16777216.0f;
-}
 
 // A random corner: anywhere, or on multiples of a step, sometimes outside of the grid.
 vec3 random_corner(Random& random, const GridLayout& layout, float step) {
