@@ -9,7 +9,7 @@
 namespace brume::viewer {
 namespace {
 
-constexpr float kMargin = 8, kLeastScale = 0.72f;
+constexpr float kLeastScale = 0.72f;
 const ImVec4 kKey(1, 0.8f, 0.5f, 1);
 
 /// The rows of some groups, [first, end).

@@ -16,7 +16,6 @@ constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 constexpr ImU32 kMark = IM_COL32(255, 190, 90, 255), kShade = IM_COL32(0, 0, 0, 160);
 constexpr ImU32 kVisible = IM_COL32(110, 220, 130, 255), kHidden = IM_COL32(240, 90, 80, 255);
-constexpr float kMargin = 8;
 
 glm::vec2 display_size() {
   return {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};

@@ -6,6 +6,7 @@
 namespace brume::viewer {
 
 constexpr float kTimeBarHeight = 64;  // [px]
+constexpr float kMargin = 8;          // [px], around windows
 /// Width of the settings at the right side [px].
 float panel_width();
 
