@@ -38,7 +38,7 @@ Game::Game(std::unique_ptr<Session> session, const Choices& choices,
 }
 
 Game::Edits Game::edits(const std::string& what) const {
-  return {session_->edits(), choices_.weapons, player_.options(), what};
+  return {session_->edits(), choices_.weapons, player_.options(), player_.camera().vertical_fov, what};
 }
 
 bool Game::report(const Result<void>& done) {
@@ -80,12 +80,15 @@ void Game::step_history(Action action) {
   if (back ? !history_->can_undo() : !history_->can_redo())
     return notify_(back ? "nothing to undo" : "nothing to redo");
   const std::string what = back ? history_->present().what : "";
+  const float fov_before = history_->present().vertical_fov;
   const Edits& edits = back ? history_->undo() : history_->redo();
   if (!report(session_->restore(edits.session))) return;
   const ShotKind kind = choices_.weapons.kind;
   choices_.weapons = edits.weapons;
   choices_.weapons.kind = kind;
   player_.set_options(grid(), edits.body);
+  // A camera path changes it, too, which is no step.
+  if (edits.vertical_fov != fov_before) player_.set_vertical_fov(edits.vertical_fov);
   ++changes_;
   notify_(back ? "undone: " + what : "redone: " + edits.what);
 }

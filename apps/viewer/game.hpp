@@ -68,6 +68,7 @@ class Game {
     Session::Edits session;
     Weapons weapons;
     scenario::WalkerOptions body;
+    float vertical_fov = 0;
     std::string what;  ///< That led to it.
   };
   Edits edits(const std::string& what) const;

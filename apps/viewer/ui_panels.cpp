@@ -186,6 +186,7 @@ void lay_out_camera(Game& game, UiRequests& requests) {
   if (option_rows(camera, game.first_camera(),
                   [](auto& o, auto&& visitor) { scene::visit_camera_options(o, visitor); })) {
     player.set_vertical_fov(camera.vertical_fov);
+    game.setting_changed("field of view");
     game.session().leave_path();
     game.change_picture();
   }

@@ -99,6 +99,18 @@ TEST_F(GameTest, ADraggedSettingIsOneStepToUndo) {
   EXPECT_EQ(timeline().smoke.voxels, 904u);
 }
 
+TEST_F(GameTest, TheFieldOfViewCanBeUndone) {
+  start();
+  const float before = game_->player().camera().vertical_fov;
+  game_->player().set_vertical_fov(0.5f);
+  game_->setting_changed("field of view");
+  act(Action::throw_smoke);
+  act(Action::undo);
+  EXPECT_EQ(game_->player().camera().vertical_fov, 0.5f);
+  act(Action::undo);
+  EXPECT_EQ(game_->player().camera().vertical_fov, before);
+}
+
 TEST_F(GameTest, RewindingKeepsActionsAndRemovingThemCanBeUndone) {
   start();
   act(Action::throw_smoke);

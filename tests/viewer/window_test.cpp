@@ -132,6 +132,35 @@ TEST_F(WindowTest, ThrowsAndShoots) {
   expect_end(program);
 }
 
+// Right of the middle, below: between the weapon and where it aims.
+TEST_F(WindowTest, AShotShowsATracer) {
+  Program program(desktop_, folder_.path(), arguments({"--size", "320x240"}));
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  const auto settled = [&](unsigned long key) {
+    program.tap(key);
+    EXPECT_TRUE(program.wait_for_best());
+    const image::Image8 image = program.contents();
+    image::Image8 cut;
+    for (unsigned y = 130; y < 190; ++y)
+      for (unsigned x = 4 * 172; x < 4 * 240; ++x)
+        cut.rgba.push_back(image.rgba[std::size_t{4} * image.width * y + x]);
+    return cut;
+  };
+  settled(XK_p);
+  program.click(3);
+  const image::Image8 shot = settled(XK_period);
+  // The same without text and marks.
+  EXPECT_GT(mean_difference(shot, settled(XK_o)), 3);
+  settled(XK_o);
+  for (int tick = 0; tick < 40; ++tick) {
+    program.tap(XK_period);
+    program.wait_for_frames(2);
+  }
+  const image::Image8 later = settled(XK_period);
+  EXPECT_LT(mean_difference(later, settled(XK_o)), 0.1);
+  expect_end(program);
+}
+
 TEST_F(WindowTest, OpensPanelsAndHelp) {
   Program program(desktop_, folder_.path(), arguments({"--size", "800x500", "--bare"}));
   ASSERT_TRUE(program.wait_for_window()) << program.error();
