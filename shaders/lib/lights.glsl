@@ -65,7 +65,8 @@ vec4 cube_coordinates(vec3 d) {
 vec4 face_coordinates(Light light, mat4 sun_clip_from_world, vec3 position_world) {
   if (light.kind == kLightDirectional) {
     const vec4 clip = sun_clip_from_world * vec4(position_world, 1.0);
-    return vec4(clip.xy * 0.5 + 0.5, 0.0, clip.z);
+    // A ground to the horizon reaches beyond the far side of the scene's bounds, and is behind all that casts shadows.
+    return vec4(clip.xy * 0.5 + 0.5, 0.0, max(clip.z, 0.0));
   }
   const vec4 on_cube = cube_coordinates(position_world - light.position_world);
   return vec4(on_cube.xyz, kShadowNear / on_cube.w);

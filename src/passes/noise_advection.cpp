@@ -12,7 +12,6 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kGroup = 64;
 // Slots a dispatch: well below the 65,535 workgroups that every device takes.
 constexpr std::uint32_t kSlotsPerDispatch = 4096;
 

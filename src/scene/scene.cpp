@@ -48,7 +48,7 @@ Camera default_camera(const Scene& scene, float aspect) {
   if (bounds.empty()) return camera;
   const float radius = std::max(glm::length(bounds.high - bounds.low) / 2, 0.05f);
   const glm::vec3 middle = (bounds.low + bounds.high) / 2.0f;
-  const glm::vec3 back = glm::normalize(glm::vec3(0.8f, 0.62f, 1));
+  const glm::vec3 back = glm::normalize(glm::vec3(0.8f, 0.40f, 1));
   const glm::vec3 right = glm::normalize(glm::cross({0, 1, 0}, back)), up = glm::cross(back, right);
 
   // A point at (x, y) of the image's plane and z towards the eye is inside where |x - centre| <= k (distance

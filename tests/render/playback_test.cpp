@@ -259,6 +259,48 @@ TEST_F(PlaybackTest, SmokeShadowsTheSunUnderIt) {
   EXPECT_NEAR(floor_at(beside, 2.5), floor_at(beside, 0), 3);
 }
 
+TEST_F(PlaybackTest, TheSunLightsAGroundBeyondTheScene) {
+  scene::Scene scene = small_scene(false);
+  scene.lights[0].kind = scene::LightKind::directional;
+  scene.lights[0].direction_world = {0, -0.6f, 0.8f};
+  scene.lights[0].intensity = glm::vec3(1);
+  scene::Mesh ground;
+  add_box(ground, {-90, -0.5f, -90}, {90, -0.4f, 90});
+  scene.meshes.push_back(ground);
+  scene.objects.push_back({"ground", 2, 0, glm::mat4(1), true});
+  scene.objects.back().backdrop = true;
+  const scenario::Scenario scenario = small_stage(std::move(scene));
+  Playback playback(context(), scenario, kSize);
+  const auto ground_at = [&](float z) {
+    const glm::vec3 target(0, -0.4f, z);
+    playback.set_camera(scene::Camera{target + glm::vec3(0, 0.8f, 0.5f), target, 0.9f});
+    return brightness(playback.draw(0, 0), 0.49, 0.47);
+  };
+  // The bounds are a sphere of radius 7.9 around z = 1.4, the wall's shadow ends before 3: at 12 the ground
+  // is behind them as the sun sees it, at 60 beside them.
+  EXPECT_GT(ground_at(60), 100);
+  EXPECT_NEAR(ground_at(12), ground_at(60), 1);
+}
+
+TEST_F(PlaybackTest, TheSkyLightsAGroundBeyondTheGrid) {
+  scene::Scene scene = small_scene(false);
+  scene.lights.clear();
+  scene::Mesh ground;
+  add_box(ground, {-90, -0.5f, -90}, {90, -0.4f, 90});
+  scene.meshes.push_back(ground);
+  scene.objects.push_back({"ground", 2, 0, glm::mat4(1), true});
+  scene.objects.back().backdrop = true;
+  scenario::Scenario scenario = small_stage(std::move(scene));
+  scenario.timeline.sky.ambient = glm::vec3(0.4f);
+  Playback playback(context(), scenario, kSize);
+  const glm::vec3 target(-40, -0.4f, 60);
+  playback.set_camera(scene::Camera{target + glm::vec3(0, 0.8f, 0.5f), target, 0.9f});
+  // A sky of 0.75 + 0.375 y over the upper half, in two bands: its mean 0.46875, and 2/3 of 0.75 upwards; the
+  // ground reflects a part of it to the hidden 0.375 of 1.
+  const double irradiance = 0.46875 + 0.5 + 0.375 * double{scenario.timeline.sky.bounce};
+  EXPECT_NEAR(brightness(playback.draw(0, 0), 0.49, 0.47), shown(0.4 * irradiance), 1);
+}
+
 TEST_F(PlaybackTest, AFlashLightsWhatNoWallHides) {
   // Behind the screen it is dark, before it the muzzle shines.
   scene::Scene scene = small_scene(true);
