@@ -7,6 +7,7 @@
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/viewer.hpp"
 #include "core/error.hpp"
+#include "image/decode.hpp"
 
 namespace brume::cli {
 namespace {
@@ -17,7 +18,7 @@ struct Options {
   std::string shaders = BRUME_SHADERS_DIR;
   double frames_per_second = 60;
   std::optional<double> time, exit_after, lose_device, lose_surface;
-  bool panels = false, bare = false, no_vertical_sync = false, validation = false;
+  bool panels = false, bare = false, no_vertical_sync = false, validation = false, log_widgets = false;
 };
 
 std::vector<std::string> quality_names() {
@@ -52,7 +53,9 @@ viewer::ViewerOptions viewer_options(const Options& options) {
   viewer.screenshot = options.screenshot;
   viewer.record = options.record;
   viewer.frame_log = options.frame_log;
+  viewer.log_widgets = options.log_widgets;
   viewer.check_signals = stop_if_interrupted;
+  viewer.say = print_on_terminal;
   viewer.lose_device = options.lose_device;
   viewer.lose_surface = options.lose_surface;
   return viewer;
@@ -82,17 +85,36 @@ void write_report(const std::string& target, const viewer::ViewerReport& report)
                           {"validation_messages", report.validation_messages}});
 }
 
+/// What the window reads and writes only later must not fail then.
+void check_inputs(const Options& options) {
+  const auto is_folder = [](const char* option, const std::string& folder) {
+    if (!std::filesystem::is_directory(folder))
+      throw Error(ErrorCode::bad_input, std::string(option) + " " + folder + ": no such folder");
+  };
+  is_folder("--folder", options.folder);
+  is_folder("--shaders", options.shaders);
+  if (!options.picture.empty()) {
+    const auto image = image::load_image(options.picture);
+    if (!image) throw Error(image.failure().code, "--shot " + image.failure().message);
+  }
+  if (options.word.empty() || options.word.size() > scene::kMaxTextBytes ||
+      options.word.find_first_not_of(' ') == std::string::npos)
+    throw Error(ErrorCode::usage, "--word: expected 1 to " + std::to_string(scene::kMaxTextBytes) +
+                                      " bytes with at least one letter, such as BRUME");
+}
+
 void view(const Options& options, Outputs& outputs) {
   if (!options.input.empty() && !options.play.empty())
     throw Error(ErrorCode::usage, "--play: already names the timeline; remove INPUT");
   if (!options.screenshot.empty() && !options.exit_after)
     throw Error(ErrorCode::usage, "--screenshot: is taken at --exit-after; add that option");
+  check_inputs(options);
   const bool plays = !options.play.empty();
   const std::filesystem::path input = plays                   ? options.play
                                       : options.input.empty() ? BRUME_SCENES_DIR "/demo.toml"
                                                               : options.input;
   viewer::ViewerOptions viewer = viewer_options(options);
-  viewer.title = "Brume - " + input.filename().string();
+  viewer.level_name = input.filename().string();
   outputs.reads({input, options.picture});
   outputs.writes("--screenshot", options.screenshot, FileKind::png);
   if (!options.screenshot.empty())
@@ -101,10 +123,14 @@ void view(const Options& options, Outputs& outputs) {
   outputs.writes("--frame-log", options.frame_log, FileKind::frame_log);
   outputs.writes("--json", options.json, FileKind::json);
   outputs.up_to_date(options.frame_log);  // It is written in place, line by line.
-  scenario::Scenario scenario = scenario::load_scenario(input, {}).value_or_throw();
-  outputs.reads(scenario::files_of(scenario));
-  stop_if_interrupted();
-  const viewer::ViewerReport report = viewer::run_viewer(std::move(scenario), plays, viewer);
+  const auto load = [&] {
+    scenario::FirstViewOptions first_view;
+    first_view.aspect = static_cast<float>(viewer.size_px.x) / static_cast<float>(viewer.size_px.y);
+    scenario::Scenario scenario = scenario::load_scenario(input, {}, first_view).value_or_throw();
+    outputs.reads(scenario::files_of(scenario));
+    return scenario;
+  };
+  const viewer::ViewerReport report = viewer::run_viewer(load, plays, viewer);
   write_report(options.json, report);
   if (report.validation_messages.empty()) return;
   throw Error(ErrorCode::internal, "the validation layers reported " +
@@ -144,6 +170,7 @@ void declare_outputs(const Arguments& arguments, Options& options) {
 
 void declare_tests(const Arguments& arguments, Options& options) {
   // For tests of the window.
+  arguments.add_flag("--log-widgets", options.log_widgets, "").hidden();
   arguments.add_option("--lose-device", options.lose_device, "").hidden().range(0.0, 3600.0);
   arguments.add_option("--lose-surface", options.lose_surface, "").hidden().range(0.0, 3600.0);
 }
@@ -163,7 +190,7 @@ Command add_view(CommandLine& program) {
   arguments.add_option("INPUT", options->input, "Scene, or timeline (.toml) whose events are ignored")
       .type_name("");
   arguments.add_option("--play", options->play, "Timeline to play").type_name("FILE");
-  arguments.add_option("--time", options->time, "Start paused at this time [s]")
+  arguments.add_option("--time", options->time, "Start at this time [s]; paused, without --exit-after")
       .range(0.0, 3600.0)
       .type_name("S");
   arguments.add_option("--size", options->size, "Window size [px]; default 1280x720")

@@ -34,4 +34,20 @@ void FrameLog::add(const FrameLine& line) {
               path_.string() + ": cannot write: " + std::strerror(errno) + "; free some space");
 }
 
+void FrameLog::add_widgets(std::span<const Widget> widgets) {
+  if (!file_) return;
+  std::string text = "widgets," + std::to_string(widgets.size()) + "\n";
+  for (const Widget& widget : widgets) {
+    char numbers[160];
+    std::snprintf(numbers, sizeof numbers, "widget,%08x,%s,%.0f,%.0f,%.0f,%.0f,%d,%d,%llu,", widget.id,
+                  widget.kind, double{widget.low_px.x}, double{widget.low_px.y}, double{widget.high_px.x},
+                  double{widget.high_px.y}, widget.reachable, widget.in_popup,
+                  static_cast<unsigned long long>(widget.uses));
+    text += numbers + widget.label + "\n";
+  }
+  if (text == widgets_) return;
+  std::fputs(text.c_str(), file_.get());
+  widgets_ = std::move(text);
+}
+
 }  // namespace brume::viewer

@@ -7,6 +7,10 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
+#include <string>
+
+#include "apps/viewer/widgets.hpp"
 
 namespace brume::viewer {
 
@@ -34,6 +38,9 @@ class FrameLog {
   /// Adds a line with the frame number (from 1) and the memory of the process. Throws resource_limit if the
   /// disk is full.
   void add(const FrameLine& line);
+  /// Adds the widgets of the next frame, if they changed: "widgets,COUNT", then for each of them
+  /// "widget,ID,KIND,LEFT,TOP,RIGHT,BOTTOM,REACHABLE,IN_POPUP,USES,LABEL" (pixels; flags 0 or 1).
+  void add_widgets(std::span<const Widget> widgets);
 
  private:
   struct Close {
@@ -42,6 +49,7 @@ class FrameLog {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, Close> file_;
   std::uint64_t frames_ = 0;
+  std::string widgets_;  ///< As last added.
 };
 
 }  // namespace brume::viewer

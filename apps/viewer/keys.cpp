@@ -7,46 +7,82 @@
 namespace brume::viewer {
 namespace {
 
-constexpr std::array kBindings{
-    KeyBinding{Action::forward, false, GLFW_KEY_W, "W", "walk forward"},
-    KeyBinding{Action::left, false, GLFW_KEY_A, "A", "walk left"},
-    KeyBinding{Action::back, false, GLFW_KEY_S, "S", "walk back"},
-    KeyBinding{Action::right, false, GLFW_KEY_D, "D", "walk right"},
-    KeyBinding{Action::up, false, GLFW_KEY_SPACE, "Space", "fly up; jump"},
-    KeyBinding{Action::down, false, GLFW_KEY_LEFT_SHIFT, "Shift", "fly down; run"},
-    KeyBinding{Action::down, false, GLFW_KEY_RIGHT_SHIFT, "Right Shift", "fly down; run"},
-    KeyBinding{Action::fly, false, GLFW_KEY_G, "G", "fly or walk"},
-    KeyBinding{Action::throw_smoke, true, GLFW_MOUSE_BUTTON_LEFT, "Mouse left", "throw a smoke grenade"},
-    KeyBinding{Action::shoot, true, GLFW_MOUSE_BUTTON_RIGHT, "Mouse right", "shoot"},
-    KeyBinding{Action::free_cursor, true, GLFW_MOUSE_BUTTON_MIDDLE, "Mouse middle",
-               "hold: free the cursor, and aim with it"},
-    KeyBinding{Action::toggle_cursor, false, GLFW_KEY_ESCAPE, "Esc", "free the cursor, or capture it again"},
-    KeyBinding{Action::shape_bullet, false, GLFW_KEY_1, "1", "shoot bullets"},
-    KeyBinding{Action::shape_glyph, false, GLFW_KEY_2, "2", "shoot letters, one per shot"},
-    KeyBinding{Action::shape_word, false, GLFW_KEY_3, "3", "shoot the whole word"},
-    KeyBinding{Action::shape_picture, false, GLFW_KEY_4, "4", "shoot the shape of an image"},
-    KeyBinding{Action::blast, false, GLFW_KEY_E, "E", "set off an explosion where you look"},
-    KeyBinding{Action::door, false, GLFW_KEY_F, "F", "open or close the nearest door"},
-    KeyBinding{Action::probe, false, GLFW_KEY_L, "L",
-               "line of sight: set the first end, the second end, remove it"},
-    KeyBinding{Action::reset, false, GLFW_KEY_R, "R", "reset: back to the start, discarding all actions"},
-    KeyBinding{Action::pause, false, GLFW_KEY_P, "P", "pause or resume"},
-    KeyBinding{Action::step_back, false, GLFW_KEY_COMMA, ",", "step one tick back"},
-    KeyBinding{Action::step_on, false, GLFW_KEY_PERIOD, ".", "step one tick forward"},
-    KeyBinding{Action::next_view, false, GLFW_KEY_V, "V", "next debug view"},
-    KeyBinding{Action::screenshot, false, GLFW_KEY_F12, "F12",
-               "save a screenshot and the timeline that reproduces it"},
-    KeyBinding{Action::save_recording, false, GLFW_KEY_F5, "F5", "save the session as a timeline"},
-    KeyBinding{Action::panels, false, GLFW_KEY_TAB, "Tab", "show or hide the panels"},
-    KeyBinding{Action::overlay, false, GLFW_KEY_O, "O", "show or hide the statistics"},
-    KeyBinding{Action::full_screen, false, GLFW_KEY_F11, "F11", "toggle full screen"},
-    KeyBinding{Action::help, false, GLFW_KEY_H, "H", "this help"},
-};
+constexpr const char *kWalks = "walk; in flight, along the view", *kRuns = "run; in flight, down";
+constexpr const char* kShapes = "shoot bullets, letters, word, image";
+constexpr Modifiers kShift{true, false}, kControl{false, true}, kControlShift{true, true};
 
 }  // namespace
 
+const char* name_of(KeyGroup group) {
+  constexpr std::array kNames{"Move", "Act", "Time", "View", "Files"};
+  return kNames[static_cast<std::size_t>(group)];
+}
+
 std::span<const KeyBinding> key_bindings() {
+  using enum KeyGroup;
+  static constexpr std::array kBindings{
+      KeyBinding{Action::forward, move, false, GLFW_KEY_W, "W", kWalks},
+      KeyBinding{Action::left, move, false, GLFW_KEY_A, "A", kWalks},
+      KeyBinding{Action::back, move, false, GLFW_KEY_S, "S", kWalks},
+      KeyBinding{Action::right, move, false, GLFW_KEY_D, "D", kWalks},
+      KeyBinding{Action::up, move, false, GLFW_KEY_SPACE, "Space", "jump; in flight, up"},
+      KeyBinding{Action::down, move, false, GLFW_KEY_LEFT_SHIFT, "Shift", kRuns},
+      KeyBinding{Action::down, move, false, GLFW_KEY_RIGHT_SHIFT, "Shift", kRuns},
+      KeyBinding{Action::fly, move, false, GLFW_KEY_G, "G", "fly, or walk"},
+      KeyBinding{Action::throw_smoke, act, true, GLFW_MOUSE_BUTTON_LEFT, "Mouse left",
+                 "throw a smoke grenade"},
+      KeyBinding{Action::shoot, act, true, GLFW_MOUSE_BUTTON_RIGHT, "Mouse right", "shoot"},
+      KeyBinding{Action::shape_bullet, act, false, GLFW_KEY_1, "1", kShapes},
+      KeyBinding{Action::shape_glyph, act, false, GLFW_KEY_2, "2", kShapes},
+      KeyBinding{Action::shape_word, act, false, GLFW_KEY_3, "3", kShapes},
+      KeyBinding{Action::shape_picture, act, false, GLFW_KEY_4, "4", kShapes},
+      KeyBinding{Action::blast, act, false, GLFW_KEY_E, "E", "explosion where you look"},
+      KeyBinding{Action::door, act, false, GLFW_KEY_F, "F", "open or close the nearest door"},
+      KeyBinding{Action::probe, act, false, GLFW_KEY_L, "L", "line of sight: one end, then the other"},
+      KeyBinding{Action::undo, act, false, GLFW_KEY_Z, "Ctrl+Z", "undo action or setting", kControl},
+      KeyBinding{Action::redo, act, false, GLFW_KEY_Y, "Ctrl+Y", "redo (also Ctrl+Shift+Z)", kControl},
+      KeyBinding{Action::redo, act, false, GLFW_KEY_Z, "Ctrl+Y", "redo (also Ctrl+Shift+Z)", kControlShift},
+      KeyBinding{Action::pause, time, false, GLFW_KEY_P, "P", "pause or resume"},
+      KeyBinding{Action::step_back, time, false, GLFW_KEY_COMMA, ",", "one tick back"},
+      KeyBinding{Action::step_on, time, false, GLFW_KEY_PERIOD, ".", "one tick forward"},
+      KeyBinding{Action::rewind, time, false, GLFW_KEY_R, "R", "to the start; actions happen again"},
+      KeyBinding{Action::empty, time, false, GLFW_KEY_R, "Shift+R", "to the start; your actions are removed",
+                 kShift},
+      KeyBinding{Action::panels, view, false, GLFW_KEY_TAB, "Tab", "settings and time line"},
+      KeyBinding{Action::free_cursor, view, true, GLFW_MOUSE_BUTTON_MIDDLE, "Mouse middle",
+                 "hold: a cursor to aim with"},
+      KeyBinding{Action::toggle_cursor, view, false, GLFW_KEY_ESCAPE, "Esc",
+                 "the mouse moves a cursor, or the view"},
+      KeyBinding{Action::next_view, view, false, GLFW_KEY_V, "V", "next debug view"},
+      KeyBinding{Action::overlay, view, false, GLFW_KEY_O, "O", "show or hide text and marks"},
+      KeyBinding{Action::full_screen, view, false, GLFW_KEY_F11, "F11", "full screen"},
+      KeyBinding{Action::help, view, false, GLFW_KEY_H, "H", "this help; pauses"},
+      KeyBinding{Action::screenshot, files, false, GLFW_KEY_F12, "F12", "save a screenshot and its timeline"},
+      KeyBinding{Action::save_recording, files, false, GLFW_KEY_F5, "F5", "save the session as a timeline"},
+  };
   return kBindings;
+}
+
+std::optional<Action> action_of(bool mouse, int code, Modifiers held) {
+  std::optional<Action> plain;
+  for (const KeyBinding& binding : key_bindings()) {
+    if (binding.mouse != mouse || binding.code != code) continue;
+    if (binding.modifiers == held) return binding.action;
+    if (binding.modifiers == Modifiers{} && !held.control) plain = binding.action;
+  }
+  return plain;
+}
+
+std::vector<HelpRow> help_rows() {
+  std::vector<HelpRow> rows;
+  const char* last_name = "";
+  for (const KeyBinding& binding : key_bindings()) {
+    const bool same = !rows.empty() && rows.back().group == binding.group && rows.back().does == binding.does;
+    if (!same) rows.push_back({binding.group, binding.name, binding.does});
+    if (same && last_name != std::string(binding.name)) rows.back().keys += std::string(" ") + binding.name;
+    last_name = binding.name;
+  }
+  return rows;
 }
 
 }  // namespace brume::viewer

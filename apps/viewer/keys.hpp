@@ -1,8 +1,11 @@
-// Key and mouse bindings: one table for input handling and for the help.
+// Key and mouse bindings: one table for input handling, the help and the documentation.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace brume::viewer {
 
@@ -25,7 +28,10 @@ enum class Action {
   blast,
   door,
   probe,
-  reset,
+  rewind,
+  empty,
+  undo,
+  redo,
   pause,
   step_back,
   step_on,
@@ -40,15 +46,37 @@ enum class Action {
 };
 constexpr std::size_t kActions = static_cast<std::size_t>(Action::count);
 
+enum class KeyGroup { move, act, time, view, files, count };
+const char* name_of(KeyGroup group);
+
+/// Modifier keys that are held.
+struct Modifiers {
+  bool shift = false, control = false;
+  bool operator==(const Modifiers&) const = default;
+};
+
 struct KeyBinding {
   Action action;
+  KeyGroup group;
   bool mouse;  ///< Whether `code` is a GLFW mouse button; else a GLFW key.
   int code;
-  const char* name;  ///< Label of the key.
+  const char* name;  ///< Label of the key, modifiers included.
   const char* does;  ///< Description in the help.
+  Modifiers modifiers = {};
 };
 
 /// All bindings in the order of the help. An action may have several.
 std::span<const KeyBinding> key_bindings();
+
+/// The action of a key: of the binding with these modifiers, else, without Control, of the one with none.
+std::optional<Action> action_of(bool mouse, int code, Modifiers held);
+
+/// A row of the help: consecutive bindings with one description.
+struct HelpRow {
+  KeyGroup group;
+  std::string keys;  ///< "W A S D"
+  std::string does;
+};
+std::vector<HelpRow> help_rows();
 
 }  // namespace brume::viewer

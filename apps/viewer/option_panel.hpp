@@ -1,4 +1,4 @@
-// Panel rows generated from the option structs: scene/options.hpp is the only place that states the name,
+// Panel rows generated from the option structs: scene/options.hpp is the only place that states the key,
 // default, unit and range of a number.
 #pragma once
 
@@ -15,26 +15,29 @@
 
 namespace brume::viewer {
 
-// One row per number: a slider with unit and tooltip; right click restores the default, Ctrl+click types a
-// value. Values stay in their range. Returns whether the value changed.
-bool option_row(const scene::OptionInfo& info, float& value, float initial);
-bool option_row(const scene::OptionInfo& info, std::uint32_t& value, std::uint32_t initial);
-bool option_row(const scene::OptionInfo& info, glm::vec3& value, glm::vec3 initial);
-bool option_row(const scene::OptionInfo& info, std::optional<float>& value, std::optional<float> initial);
+// One row per number, or colour: a slider with unit and tooltip; a right click restores the value of the
+// file, Ctrl+click types a value. Values stay in their range. The labels of changed values are marked.
+// Returns whether the value changed.
+bool option_row(const scene::OptionInfo& info, float& value, float file);
+bool option_row(const scene::OptionInfo& info, std::uint32_t& value, std::uint32_t file);
+bool option_row(const scene::OptionInfo& info, glm::vec3& value, glm::vec3 file);
+bool option_row(const scene::OptionInfo& info, std::optional<float>& value, std::optional<float> file);
+/// The same for a number of voxels, shown as their volume.
+bool volume_row(const scene::OptionInfo& info, std::uint32_t& voxels, std::uint32_t file, float voxel_size);
 
 /// Rows for the members that `selects` selects, all if it is empty; `visit` wraps one of the visit_*
-/// functions. Returns whether a value changed.
+/// functions. `file` holds the values that the level began with. Returns whether a value changed.
 template <typename Options, typename Visit>
-bool option_rows(Options& options, Visit visit, const std::function<bool(const std::string&)>& selects = {}) {
-  Options initial{};
+bool option_rows(Options& options, const Options& file, Visit visit,
+                 const std::function<bool(const std::string&)>& selects = {}) {
   bool changed = false;
-  // Both visits are in the same order, so that index i is the default of member i.
-  std::vector<const void*> defaults;
-  visit(initial, [&](const scene::OptionInfo&, auto& member) { defaults.push_back(&member); });
+  // Both visits are in the same order, so that index i is the file's value of member i.
+  std::vector<const void*> initial;
+  visit(file, [&](const scene::OptionInfo&, auto& member) { initial.push_back(&member); });
   std::size_t i = 0;
   visit(options, [&](const scene::OptionInfo& info, auto& member) {
     using Member = std::remove_reference_t<decltype(member)>;
-    const auto& standard = *static_cast<const Member*>(defaults[i++]);
+    const auto& standard = *static_cast<const Member*>(initial[i++]);
     if (!selects || selects(info.key)) changed = option_row(info, member, standard) || changed;
   });
   return changed;

@@ -15,13 +15,17 @@ class Player {
 
   /// Moves to the position and view direction of a camera, on foot or flying as before.
   void go_to(const voxel::BitGrid& grid, const scene::Camera& camera);
+  /// The same at the start of a level: on foot if there is a floor within reach of a short fall, else flying.
+  void start(const voxel::BitGrid& grid, const scene::Camera& camera);
   /// Follows a camera path: camera() is exactly this one until the next move().
   void follow(const scene::Camera& camera);
   void turn(glm::dvec2 look_px);
-  void set_flying(const voxel::BitGrid& grid, bool flying);
+  /// Returns false, and goes on flying, if there is nothing to stand on below.
+  bool set_flying(const voxel::BitGrid& grid, bool flying);
   bool flying() const { return walker_.flying(); }
-  /// Moves for `seconds` as the held keys demand.
-  void move(const Input& input, const voxel::BitGrid& grid, double seconds);
+  /// Moves for `seconds` as the held keys demand. Returns false if the body fell off the level: it is back
+  /// where it last stood.
+  bool move(const Input& input, const voxel::BitGrid& grid, double seconds);
   /// Each notch of the wheel changes the flight speed by a quarter.
   void change_fly_speed(const voxel::BitGrid& grid, double notches);
 
@@ -35,9 +39,11 @@ class Player {
 
  private:
   void look_along(const scene::Camera& camera);
+  bool fell_off(const voxel::BitGrid& grid);
 
   scenario::Walker walker_;
-  float yaw_ = 0, pitch_ = 0;  ///< [rad]; 0: along -z, level. Pitch rises upwards.
+  std::optional<glm::vec3> last_stood_world_;  ///< Feet; on something solid.
+  float yaw_ = 0, pitch_ = 0;                  ///< [rad]; 0: along -z, level. Pitch rises upwards.
   float vertical_fov_ = 1;
   std::optional<scene::Camera> followed_;
 };

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "render/exposure.hpp"
+
 namespace brume::viewer {
 namespace {
 
@@ -12,8 +14,8 @@ gpu::Image make_canvas(gpu::Context& context, glm::uvec2 size_px) {
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R8G8B8A8_UNORM;  // as Renderer::display: already sRGB-encoded
   info.size = {size_px, 1};
-  info.usage =
-      VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  info.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
   return gpu::Image(context, info);
 }
 
@@ -30,14 +32,19 @@ glm::uvec2 scaled(glm::uvec2 size_px, float scale) {
 
 }  // namespace
 
-Screen::Screen(const Window& window, const scenario::Scenario& scenario, const ScreenOptions& options)
+Screen::Screen(const Window& window, const ScreenOptions& options)
     : context_({options.device, options.validation, window.presentation()}) {
   const glm::uvec2 size_px = glm::max(window.size_px(), glm::uvec2(1));
   runner_.emplace(context_);
   swapchain_.emplace(context_, window.surface(), options.vertical_sync);
-  renderer_.emplace(context_, *runner_, scenario.scene, renderer_options(scenario, size_px));
   ui_.emplace(context_, *runner_, VK_FORMAT_R8G8B8A8_UNORM);
+  upscale_.emplace(context_);
   canvas_ = make_canvas(context_, size_px);
+}
+
+void Screen::load(const scenario::Scenario& scenario, glm::uvec2 size_px) {
+  const glm::uvec2 size = glm::max(size_px, glm::uvec2(1));
+  renderer_.emplace(context_, *runner_, scenario.scene, renderer_options(scenario, size));
 }
 
 Screen::~Screen() {
@@ -72,11 +79,17 @@ bool Screen::show(const render::FrameInput* input, const Quality& quality, const
     plan.emplace(renderer_->plan(frame));
   }
   ui_->reserve(ui);
-  const bool same_size = renderer_->targets().size_px == image->size_px;
+  const bool same_size = picture_px() == image->size_px;
   const auto record = [&](gpu::Recorder& recorder) {
     if (plan) renderer_->record_frame(recorder, *plan);
     const gpu::Scope scope(recorder, "window");
-    recorder.blit(renderer_->targets().display, canvas_, same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+    if (renderer_ && same_size) {
+      recorder.blit(renderer_->targets().display, canvas_, VK_FILTER_NEAREST);
+    } else if (renderer_) {
+      upscale_->record(recorder, renderer_->targets().display, canvas_);
+    } else {
+      recorder.clear(canvas_, VkClearColorValue{});
+    }
     ui_->record(recorder, ui, canvas_);
     recorder.blit(canvas_, *image);
   };
@@ -86,12 +99,31 @@ bool Screen::show(const render::FrameInput* input, const Quality& quality, const
   return true;
 }
 
-image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
+/// Prepares for the image that `brume render` renders of `input`.
+void Screen::begin_still(render::FrameInput& input, glm::uvec2 size_px) {
   set_resolution(size_px, 1);
   history_lost_ = true;
   input.view.continues = false;
   input.view.frame_index = 0;
   input.quality = {};
+}
+
+bool Screen::refine(render::FrameInput input, const std::function<bool()>& stops) {
+  begin_still(input, glm::uvec2(canvas_.info().size));
+  const render::FramePlan plan = renderer_->plan(input);
+  for (int part = 0; part < render::Renderer::kParts; ++part) {
+    if (part > 0 && stops()) return false;
+    runner_->run([&](gpu::Recorder& recorder) { renderer_->record_part(recorder, plan, part); });
+  }
+  return true;
+}
+
+float Screen::measure_exposure(const render::FrameInput& input) {
+  return render::measure_exposure(context_, *renderer_, input);
+}
+
+image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
+  begin_still(input, size_px);
   const gpu::Buffer pixels(context_, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            gpu::MemoryUse::readback);
   renderer_->draw(input,

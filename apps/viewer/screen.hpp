@@ -2,12 +2,14 @@
 // device loss.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "apps/viewer/quality.hpp"
 #include "apps/viewer/ui_pass.hpp"
+#include "apps/viewer/upscale_pass.hpp"
 #include "apps/viewer/window.hpp"
 #include "image/image.hpp"
 #include "render/renderer.hpp"
@@ -28,20 +30,28 @@ class Screen {
   /// Frames that the device executes while the next one is prepared: one, to keep the latency low.
   static constexpr int kFramesInFlight = 1;
 
-  /// Requires an ImGui context. Window and scenario must outlive the screen. Throws what Context and Renderer
-  /// throw.
-  Screen(const Window& window, const scenario::Scenario& scenario, const ScreenOptions& options);
+  /// Requires an ImGui context. The window must outlive the screen. Throws what Context throws.
+  Screen(const Window& window, const ScreenOptions& options);
   ~Screen();
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
+
+  /// Makes the renderer of a scenario, which must outlive it. May run in another thread while no other member
+  /// is called. Throws what Renderer throws.
+  void load(const scenario::Scenario& scenario, glm::uvec2 size_px);
 
   /// Waits until the device has finished the last frame: required before every call below. Throws
   /// gpu::DeviceLost.
   void wait();
 
-  /// Renders `input` (null: repeats the previous image), draws `ui` over it and presents. Returns false if
-  /// the window currently shows nothing, for example because it is minimized.
+  /// Renders `input` (null: repeats the previous image; black before load()), draws `ui` over it and
+  /// presents. Returns false if the window currently shows nothing, for example because it is minimized.
   bool show(const render::FrameInput* input, const Quality& quality, const ImDrawData& ui);
+  /// Renders `input` at full quality in parts, to be shown next, and returns true; false as soon as `stops`
+  /// returns true between two parts: then the next frame must be rendered.
+  bool refine(render::FrameInput input, const std::function<bool()>& stops);
+  /// The exposure factor that fits `input` (render::measure_exposure).
+  float measure_exposure(const render::FrameInput& input);
   /// Renders `input` as `brume render` does, at full quality and the given size.
   image::Image8 picture(render::FrameInput input, glm::uvec2 size_px);
 
@@ -55,16 +65,18 @@ class Screen {
   std::vector<gpu::Timings::Scope> timings() const { return runner_->timings(); }
   /// CPU time to prepare and record the last frame [s].
   double record_seconds() const { return record_seconds_; }
-  glm::uvec2 picture_px() const { return renderer_->targets().size_px; }
+  glm::uvec2 picture_px() const { return renderer_ ? renderer_->targets().size_px : glm::uvec2(0); }
 
  private:
   void set_resolution(glm::uvec2 picture_px, std::uint32_t march_scale);
+  void begin_still(render::FrameInput& input, glm::uvec2 size_px);
 
   gpu::Context context_;
   std::optional<gpu::CommandRunner> runner_;
   std::optional<gpu::Swapchain> swapchain_;
   std::optional<render::Renderer> renderer_;
   std::optional<UiPass> ui_;
+  std::optional<UpscalePass> upscale_;
   gpu::Image canvas_;              ///< Window-sized: the scaled image with the user interface over it.
   std::uint32_t march_scale_ = 1;  ///< Current one of the renderer.
   bool history_lost_ = false;      ///< The renderer has no previous frame to accumulate with.

@@ -50,7 +50,7 @@ const char* name_of(ShotKind kind) {
     case ShotKind::word:
       return "word";
     case ShotKind::picture:
-      return "picture";
+      return "image";
   }
   return "";
 }
@@ -89,15 +89,54 @@ void Session::step(int ticks) {
   seek((std::floor(seconds_ / kTick + 1e-9) + ticks) * kTick);
 }
 
-Result<void> Session::reset() {
-  if (auto done = live_->reset(initial_); !done) return done;
-  keys_.clear();
-  end_seconds_ = kFirstTime;
-  next_letter_ = 0;
-  actions_ = 0;
+Result<void> Session::set_first_exposure(float exposure) {
+  if (auto done = live_->set_exposure(exposure); !done) return done;
+  initial_.exposure = exposure;
+  return {};
+}
+
+void Session::rewind() {
   follows_path_ = false;
   seek(kFirstTime);
+}
+
+Result<void> Session::empty() {
+  scene::Timeline timeline = live_->scenario().timeline;
+  scene::for_each_event_kind([&](const char*, auto list) { timeline.*list = initial_.*list; });
+  if (auto done = live_->reset(timeline); !done) return done;
+  keys_.clear();
+  end_seconds_ = std::max(kFirstTime, last_event(timeline));
+  next_letter_ = 0;
+  actions_ = 0;
+  events_ = ++last_events_;
+  rewind();
   return {};
+}
+
+Session::Edits Session::edits() const {
+  return {live_->scenario().timeline, events_, actions_, next_letter_};
+}
+
+Result<void> Session::restore(const Edits& edits) {
+  if (edits.events != events_) {
+    if (auto done = live_->reset(edits.timeline); !done) return done;
+  } else {
+    if (auto done = live_->set_smoke(edits.timeline.smoke); !done) return done;
+    if (auto done = live_->set_sky(edits.timeline.sky); !done) return done;
+    if (auto done = live_->set_exposure(edits.timeline.exposure); !done) return done;
+  }
+  events_ = edits.events;
+  actions_ = edits.actions;
+  next_letter_ = edits.next_letter;
+  end_seconds_ = std::max(end_seconds_, last_event(edits.timeline));
+  seek(seconds_);
+  return {};
+}
+
+Result<void> Session::set_smoke(const scene::SmokeOptions& smoke) {
+  auto done = live_->set_smoke(smoke);
+  seek(seconds_);
+  return done;
 }
 
 void Session::play() {
@@ -125,10 +164,14 @@ double Session::next_tick_seconds() const {
 
 Result<void> Session::add(const scene::Timeline& actions) {
   if (last_event(actions) > scene::kLatestTime)
-    return Failure{ErrorCode::resource_limit, "a recording is limited to one hour; press R to reset"};
+    return Failure{ErrorCode::resource_limit,
+                   "a recording is limited to one hour; press Shift+R to begin again"};
   end_seconds_ = std::max(end_seconds_, last_event(actions));
   auto added = live_->add(actions);
-  if (added) ++actions_;
+  if (added) {
+    ++actions_;
+    events_ = ++last_events_;
+  }
   return added;
 }
 
@@ -150,7 +193,9 @@ Result<void> Session::shoot(glm::vec3 from_world, glm::vec3 direction_world, con
     shot.toward_world = toward_world;
     if (weapons.kind == ShotKind::picture) {
       if (weapons.picture.empty())
-        return Failure{ErrorCode::usage, "no image to shoot; choose one in the panel Holes or with --shot"};
+        return Failure{ErrorCode::usage,
+                       "no image to shoot; choose one under Shots in the panels, drop a file on the window, "
+                       "or start with --shot"};
       shot.shape = scene::ShotShape::mask;
       shot.mask = weapons.picture;
     }

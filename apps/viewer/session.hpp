@@ -53,10 +53,17 @@ class Session {
   void scrub(double seconds);
   /// Pauses and seeks by a number of ticks, backwards if negative.
   void step(int ticks);
-  /// Back to the start, discarding all actions.
-  Result<void> reset();
+  /// The exposure that the level begins with, in place of the file's [EV].
+  Result<void> set_first_exposure(float exposure);
+  /// Back to the start: all actions happen again at their times.
+  void rewind();
+  /// Back to the start, without the actions of this session; its settings remain.
+  Result<void> empty();
   /// Replays all actions from the start along the recorded camera path.
   void play();
+
+  /// Changes all smokes, at the present time, too.
+  Result<void> set_smoke(const scene::SmokeOptions& smoke);
 
   // The recorded camera path.
   bool follows_path() const { return follows_path_; }
@@ -73,8 +80,21 @@ class Session {
   /// Opens or closes the door nearest to a point. Returns a message with its name.
   Result<std::string> use_door(glm::vec3 at_world);
 
-  /// Number of actions since the start or the last reset.
+  /// Number of actions since the start or the last empty().
   std::size_t actions() const { return actions_; }
+  /// The timeline that the session began with: events only if it plays them.
+  const scene::Timeline& file() const { return initial_; }
+
+  /// The events and settings at one time of the editing, for undo and redo.
+  struct Edits {
+    scene::Timeline timeline;
+    std::uint64_t events = 0;  ///< Number of the set of events, unique in a session.
+    std::size_t actions = 0, next_letter = 0;
+  };
+  Edits edits() const;
+  /// Goes back to edits of this session. The time stays; events are replayed if they differ.
+  Result<void> restore(const Edits& edits);
+
   /// The timeline of the session with all actions, at least as long as the current time.
   scene::Timeline recording() const;
   /// A timeline that ends now: its last frame shows what `camera` sees.
@@ -86,12 +106,13 @@ class Session {
   Result<void> add(const scene::Timeline& actions);
 
   std::unique_ptr<scenario::EditableScenario> live_;
-  scene::Timeline initial_;  ///< Restored by reset().
+  scene::Timeline initial_;
   std::vector<scene::CameraKey> keys_;
   double seconds_ = kFirstTime, end_seconds_ = kFirstTime;
   bool paused_ = false, follows_path_ = false;
   std::size_t actions_ = 0;
-  std::size_t next_letter_ = 0;  ///< Byte offset in the word.
+  std::uint64_t events_ = 0, last_events_ = 0;  ///< Number of the present set of events, and the latest one.
+  std::size_t next_letter_ = 0;                 ///< Byte offset in the word.
 };
 
 }  // namespace brume::viewer

@@ -3,6 +3,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
 
+#include <cstdio>
 #include <filesystem>
 
 #include "apps/viewer/ui_parts.hpp"
@@ -23,8 +24,10 @@ void choose_style() {
   style.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.07f, 0.09f, 0.88f);
   style.Colors[ImGuiCol_FrameBg] = ImVec4(0.16f, 0.18f, 0.22f, 1);
   style.Colors[ImGuiCol_Header] = ImVec4(0.17f, 0.23f, 0.30f, 1);
-  style.Colors[ImGuiCol_SliderGrab] = ImVec4(0.93f, 0.66f, 0.30f, 1);
-  style.Colors[ImGuiCol_CheckMark] = style.Colors[ImGuiCol_SliderGrab];
+  // Slider grabs are transparent: the number is behind them.
+  style.Colors[ImGuiCol_SliderGrab] = ImVec4(0.93f, 0.66f, 0.30f, 0.55f);
+  style.Colors[ImGuiCol_SliderGrabActive] = ImVec4(0.98f, 0.74f, 0.40f, 0.75f);
+  style.Colors[ImGuiCol_CheckMark] = ImVec4(0.93f, 0.66f, 0.30f, 1);
 }
 
 }  // namespace
@@ -37,10 +40,13 @@ Ui::Ui(const Window& window) {
   io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   choose_style();
-  const std::filesystem::path font = image::default_font();
+  // The regular face of the font that letters are shot with, which is bold.
+  std::filesystem::path font = image::default_font().parent_path() / "DejaVuSans.ttf";
+  if (std::error_code error; !std::filesystem::exists(font, error)) font = image::default_font();
   if (std::error_code error; std::filesystem::exists(font, error))
     io.Fonts->AddFontFromFileTTF(font.c_str(), kTextPixels);
   ImGui_ImplGlfw_InitForOther(window.handle(), true);
+  set_widget_log(&widgets_);
 }
 
 Ui::~Ui() {
@@ -51,20 +57,38 @@ Ui::~Ui() {
 void Ui::begin_frame() {
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
+  widgets_.begin_frame();
 }
 
-UiRequests Ui::lay_out(Choices& choices, Session& session, Player& player, const Figures& figures,
-                       const Notices& notices) {
+UiRequests Ui::lay_out(Game& game, const Figures& figures, const Notices& notices) {
   UiRequests requests;
-  lay_out_marks(choices, session, player);
-  if (choices.overlay) lay_out_overlay(choices, session, player, figures, notices);
+  const Choices& choices = game.choices();
+  if (choices.overlay) lay_out_shot_marks(game);
+  lay_out_marks(game);
+  if (choices.overlay) lay_out_overlay(game, figures, notices);
   if (choices.panels) {
-    lay_out_panels(choices, session, player, figures, notices, requests);
-    lay_out_time_bar(session, requests);
+    lay_out_panels(game, figures, notices, requests);
+    lay_out_time_bar(game.session(), requests);
   }
   if (choices.help) lay_out_help();
   ImGui::Render();
   return requests;
+}
+
+void Ui::lay_out_loading(const std::string& level, const std::string& work, double seconds) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float row = 1.5f * ImGui::GetFontSize();
+  const auto line = [&](const std::string& text, float rows, ImU32 colour) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    list.AddText(ImVec2(0.5f * (display.x - size.x), 0.5f * display.y + rows * row), colour, text.c_str());
+  };
+  char time[32];
+  std::snprintf(time, sizeof time, "%.0f s", seconds);
+  line("loading " + level, -1.5f, IM_COL32(235, 235, 235, 255));
+  line(work, -0.5f, IM_COL32(160, 165, 175, 255));
+  if (seconds >= 1) line(time, 0.5f, IM_COL32(160, 165, 175, 255));
+  ImGui::Render();
 }
 
 bool Ui::takes_mouse() const {
@@ -73,6 +97,10 @@ bool Ui::takes_mouse() const {
 
 bool Ui::takes_keys() const {
   return ImGui::GetIO().WantTextInput;
+}
+
+bool Ui::is_editing() const {
+  return ImGui::IsAnyItemActive();
 }
 
 }  // namespace brume::viewer

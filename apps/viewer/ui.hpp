@@ -6,35 +6,21 @@
 #include <vector>
 
 #include "apps/viewer/figures.hpp"
-#include "apps/viewer/player.hpp"
-#include "apps/viewer/probe.hpp"
+#include "apps/viewer/game.hpp"
 #include "apps/viewer/quality.hpp"
-#include "apps/viewer/session.hpp"
-#include "passes/debug_view.hpp"
+#include "apps/viewer/widgets.hpp"
 
 namespace brume::viewer {
-
-/// Settings that the player chooses by keys and panels.
-struct Choices {
-  bool panels = false, help = false, overlay = true;
-  bool free_cursor = false;  ///< The mouse moves the cursor instead of turning the view.
-  passes::DebugView view = passes::DebugView::none;
-  std::optional<passes::ViewSlice> slice;  ///< Empty: through the middle of the smoke.
-  Weapons weapons;
-  Probe probe;
-  std::optional<std::size_t> level;  ///< Index into quality_levels(); empty: adaptive.
-  double frames_per_second = 60;
-  bool temporal = true;  ///< Accumulates the smoke over frames.
-  bool vertical_sync = true;
-};
 
 /// Requests from the panels and the time slider, applied after the layout.
 struct UiRequests {
   std::optional<double> seek;  ///< [s]
   std::vector<Action> actions;
-  bool play = false;             ///< Replay from the start.
-  bool changed_picture = false;  ///< A paused image must be rendered again.
+  bool play = false;  ///< Replay from the start along the camera path.
 };
+
+/// What a paused window shows.
+enum class Refinement { none, drawing, done };
 
 /// Messages and status for the overlay and the panels.
 struct Notices {
@@ -42,6 +28,9 @@ struct Notices {
   std::string device;
   std::uint64_t device_bytes = 0;
   const Quality* quality = nullptr;
+  bool automatic = true;  ///< The quality is adaptive.
+  Refinement refinement = Refinement::none;
+  double pace = 1;  ///< Session time per real time.
   glm::uvec2 picture_px{0};
   std::string shader_errors;  ///< Empty: none.
 };
@@ -56,11 +45,18 @@ class Ui {
 
   void begin_frame();
   /// Lays out everything; ImGui::GetDrawData() holds the result until the next frame begins.
-  UiRequests lay_out(Choices& choices, Session& session, Player& player, const Figures& figures,
-                     const Notices& notices);
+  UiRequests lay_out(Game& game, const Figures& figures, const Notices& notices);
+  /// The same while a level loads: its name, and the work that goes on.
+  void lay_out_loading(const std::string& level, const std::string& work, double seconds);
   /// Whether the panels currently capture the mouse or the keyboard.
   bool takes_mouse() const;
   bool takes_keys() const;
+  /// Whether a widget is held or edited.
+  bool is_editing() const;
+  const std::vector<Widget>& widgets() const { return widgets_.widgets(); }
+
+ private:
+  WidgetLog widgets_;
 };
 
 }  // namespace brume::viewer

@@ -5,17 +5,27 @@
 
 namespace brume::viewer {
 
-/// Frame statistics and recent messages.
-void lay_out_overlay(const Choices& choices, const Session& session, const Player& player,
-                     const Figures& figures, const Notices& notices);
+constexpr float kTimeBarHeight = 64;  // [px]
+constexpr float kMargin = 8;          // [px], around windows
+/// Width of the settings at the right side [px].
+float panel_width();
+
+/// Where a world point is on the display; nothing if it is behind the near plane.
+std::optional<glm::vec2> on_display(const scene::Camera& camera, glm::vec3 world);
+
+/// Status and recent messages.
+void lay_out_overlay(const Game& game, const Figures& figures, const Notices& notices);
 /// All key bindings.
 void lay_out_help();
 /// The crosshair, the ends of the probe and its result.
-void lay_out_marks(const Choices& choices, const Session& session, const Player& player);
+void lay_out_marks(const Game& game);
+/// What was shot and blown up just now: flashes, tracers and impacts.
+void lay_out_shot_marks(const Game& game);
 /// The time slider with its buttons.
-void lay_out_time_bar(Session& session, UiRequests& requests);
-/// Settings and statistics.
-void lay_out_panels(Choices& choices, Session& session, Player& player, const Figures& figures,
-                    const Notices& notices, UiRequests& requests);
+void lay_out_time_bar(const Session& session, UiRequests& requests);
+/// All settings.
+void lay_out_panels(Game& game, const Figures& figures, const Notices& notices, UiRequests& requests);
+/// Times, memory and the state of the simulation.
+void lay_out_figures(const Session& session, const Figures& figures, const Notices& notices);
 
 }  // namespace brume::viewer

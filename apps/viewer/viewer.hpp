@@ -13,23 +13,25 @@ namespace brume::viewer {
 
 struct ViewerOptions {
   glm::uvec2 size_px{1280, 720};
-  std::string title = "Brume";
-  std::string device;       ///< As for gpu::choose_device.
-  bool validation = false;  ///< Enables the validation layers; the report holds their messages.
+  std::string level_name = "level";  ///< Its name, for the title and while it loads.
+  std::string device;                ///< As for gpu::choose_device.
+  bool validation = false;           ///< Enables the validation layers; the report holds their messages.
   bool vertical_sync = true;
   double frames_per_second = 60;     ///< Target of the adaptive quality.
   std::optional<std::size_t> level;  ///< Index into quality_levels() instead of adaptive quality.
   passes::DebugView view = passes::DebugView::none;
   bool panels = false, overlay = true;
   Weapons weapons;
-  std::filesystem::path folder = ".";               ///< For screenshots and recordings.
-  std::filesystem::path shaders;                    ///< Folder of shader sources to watch for changes.
-  std::optional<double> begin_at;                   ///< Starts paused at this session time [s].
-  std::optional<double> exit_after;                 ///< Closes the window at this session time [s].
-  std::filesystem::path screenshot;                 ///< Saved at exit_after; empty: none.
-  std::filesystem::path frame_log;                  ///< CSV file with a line per frame; empty: none.
-  std::filesystem::path record;                     ///< Timeline of the session, saved on exit; empty: none.
-  std::function<void()> check_signals;              ///< Called every frame; throws to end the program.
+  std::filesystem::path folder = ".";   ///< For screenshots and recordings.
+  std::filesystem::path shaders;        ///< Folder of shader sources to watch for changes.
+  std::optional<double> begin_at;       ///< Starts at this session time [s]; paused, without exit_after.
+  std::optional<double> exit_after;     ///< Closes the window at this session time [s].
+  std::filesystem::path screenshot;     ///< Saved at exit_after; empty: none.
+  std::filesystem::path frame_log;      ///< CSV file with a line per frame; empty: none.
+  bool log_widgets = false;             ///< The frame log lists the widgets, too.
+  std::filesystem::path record;         ///< Timeline of the session, saved on exit; empty: none.
+  std::function<void()> check_signals;  ///< Called every frame; throws to end the program.
+  std::function<void(const std::string&)> say;      ///< Shows a line on the terminal; empty: none.
   std::optional<double> lose_device, lose_surface;  ///< For tests: session times of simulated losses [s].
 };
 
@@ -47,8 +49,11 @@ struct ViewerReport {
   std::vector<std::string> validation_messages;
 };
 
-/// Opens a window on a scenario and returns when it is closed. With `play` the events of its timeline take
-/// place. Throws no_device without a display or device, bad_input for an invalid timeline.
-ViewerReport run_viewer(scenario::Scenario scenario, bool play, const ViewerOptions& options);
+using ScenarioLoader = std::function<scenario::Scenario()>;
+
+/// Opens a window, loads a scenario in another thread, and returns when the window is closed. With `play` the
+/// events of its timeline take place. Throws what `load` throws, no_device without a display or device, and
+/// bad_input for an invalid timeline.
+ViewerReport run_viewer(const ScenarioLoader& load, bool play, const ViewerOptions& options);
 
 }  // namespace brume::viewer

@@ -47,6 +47,7 @@ Window::Window(glm::uvec2 size_px, const std::string& title) {
   ::glfwSetCursorPosCallback(handle_, on_cursor);
   ::glfwSetScrollCallback(handle_, on_wheel);
   ::glfwSetWindowFocusCallback(handle_, on_focus);
+  ::glfwSetDropCallback(handle_, on_drop);
 }
 
 Window::~Window() {
@@ -95,6 +96,7 @@ void Window::poll(double wait_seconds) {
 Input Window::take_input() {
   Input taken = input_;
   input_.pressed.clear();
+  input_.dropped.clear();
   input_.look_px = glm::dvec2(0);
   input_.wheel = 0;
   return taken;
@@ -131,34 +133,54 @@ void Window::toggle_full_screen() {
   ::glfwSetWindowMonitor(handle_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-void Window::change(bool mouse, int code, bool pressed) {
-  for (const KeyBinding& binding : key_bindings()) {
-    if (binding.mouse != mouse || binding.code != code) continue;
-    input_.held[static_cast<std::size_t>(binding.action)] = pressed;
-    if (pressed) input_.pressed.push_back(binding.action);
+void Window::change(bool mouse, int code, bool pressed, int modifiers) {
+  // A key that is released ends whatever its press began, with or without modifiers.
+  if (!pressed) {
+    for (const KeyBinding& binding : key_bindings())
+      if (binding.mouse == mouse && binding.code == code)
+        input_.held[static_cast<std::size_t>(binding.action)] = false;
+    return;
   }
+  const auto action =
+      action_of(mouse, code, {(modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
+  if (!action) return;
+  input_.held[static_cast<std::size_t>(*action)] = true;
+  input_.pressed.push_back(*action);
 }
 
-void Window::on_key(GLFWwindow* window, int key, int, int change, int) {
+void Window::on_key(GLFWwindow* window, int key, int, int change, int modifiers) {
   auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
+  ++self->events_;
   if (change == GLFW_REPEAT) return;
-  self->change(false, key, change == GLFW_PRESS);
+  // The press of Shift itself reports Shift as held.
+  const bool is_shift = key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT;
+  self->change(false, key, change == GLFW_PRESS, is_shift ? modifiers & ~GLFW_MOD_SHIFT : modifiers);
 }
 
-void Window::on_button(GLFWwindow* window, int button, int change, int) {
-  static_cast<Window*>(::glfwGetWindowUserPointer(window))->change(true, button, change == GLFW_PRESS);
+void Window::on_button(GLFWwindow* window, int button, int change, int modifiers) {
+  auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
+  ++self->events_;
+  self->change(true, button, change == GLFW_PRESS, modifiers);
 }
 
 void Window::on_cursor(GLFWwindow* window, double x, double y) {
   auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
   const glm::dvec2 now(x, y);
+  ++self->events_;
   if (self->captures_mouse_ && self->cursor_known_) self->input_.look_px += now - self->last_cursor_;
   self->last_cursor_ = now;
   self->cursor_known_ = true;
 }
 
 void Window::on_wheel(GLFWwindow* window, double, double y) {
-  static_cast<Window*>(::glfwGetWindowUserPointer(window))->input_.wheel += y;
+  auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
+  ++self->events_;
+  self->input_.wheel += y;
+}
+
+void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
+  auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
+  self->input_.dropped.insert(self->input_.dropped.end(), paths, paths + count);
 }
 
 // The release of keys that are held when the window loses focus is never reported.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -18,8 +20,9 @@ namespace brume::viewer {
 struct Input {
   std::vector<Action> pressed;  ///< In order of arrival.
   std::array<bool, kActions> held{};
-  glm::dvec2 look_px{0};  ///< Mouse motion while the window captured it.
-  double wheel = 0;       ///< Notches; positive: away from the user.
+  glm::dvec2 look_px{0};                       ///< Mouse motion while the window captured it.
+  double wheel = 0;                            ///< Notches; positive: away from the user.
+  std::vector<std::filesystem::path> dropped;  ///< Files dragged into the window.
   bool is_held(Action action) const { return held[static_cast<std::size_t>(action)]; }
 };
 
@@ -43,6 +46,8 @@ class Window {
   void poll(double wait_seconds);
   /// Returns the input since the last call and clears its events.
   Input take_input();
+  /// Number of input events so far: keys, buttons, wheel and motion.
+  std::uint64_t events() const { return events_; }
   /// Captures the mouse to turn the view, or releases it to move the cursor.
   void capture_mouse(bool capture);
   bool captures_mouse() const { return captures_mouse_; }
@@ -57,10 +62,12 @@ class Window {
   static void on_cursor(GLFWwindow* window, double x, double y);
   static void on_wheel(GLFWwindow* window, double x, double y);
   static void on_focus(GLFWwindow* window, int focused);
-  void change(bool mouse, int code, bool pressed);
+  static void on_drop(GLFWwindow* window, int count, const char** paths);
+  void change(bool mouse, int code, bool pressed, int modifiers);
 
   GLFWwindow* handle_ = nullptr;
   Input input_;
+  std::uint64_t events_ = 0;
   bool captures_mouse_ = false;
   bool cursor_known_ = false;  ///< last_cursor_ was set since the mouse was captured or released.
   glm::dvec2 last_cursor_{0};

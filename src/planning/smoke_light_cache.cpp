@@ -232,7 +232,7 @@ SmokeLightCache::CachedRays& SmokeLightCache::cached_rays_of(BrickEntry& entry, 
 }
 
 SmokeLightCache::PhaseRange SmokeLightCache::phases_of(const BrickEntry& entry) const {
-  return scheduler_.slices(entry.priority_frames > 0 ? kPriority : 1);
+  return scheduler_.slices(entry.priority_frames > 0 ? entry.priority : 1);
 }
 
 /// Schedules a brick's texel list where it changed; whether it may have texels without light.
@@ -287,8 +287,15 @@ void SmokeLightCache::plan_brick(BrickEntry& entry, std::span<const std::uint32_
   // Its texels, and which of them the frame updates.
   const std::uint64_t version_before = entry.list_version;
   Work gather{.fresh = update_texel_list(entry)};
-  if (entry.last_frame + 1 != frames_)
-    entry.priority_frames = shared::kLightPhases / scheduler_.slices_per_frame(kPriority);
+  const auto prioritize = [&](std::uint32_t priority) {
+    entry.priority = priority;
+    entry.priority_frames = shared::kLightPhases / scheduler_.slices_per_frame(priority);
+  };
+  if (entry.last_frame + 1 != frames_) {
+    prioritize(kNewPriority);
+  } else if (gather.fresh && (entry.priority_frames == 0 || entry.priority == kChangedPriority)) {
+    prioritize(kChangedPriority);
+  }
   const PhaseRange phases = phases_of(entry);
 
   // Its rays: to the sky, and to each light that reaches it.

@@ -37,7 +37,7 @@ struct SmokeLightPlan {
 /// phases (shared::light_phase), and a frame updates those of some. 1 / update_fraction frames later, rounded
 /// up, all that is in view was updated once. Never late are texels that have no light yet, as smoke grew;
 /// texels in holes that open or close; lights that come, go or change. Bricks that come into view are updated
-/// four times as fast as the others.
+/// four times as fast as the others, those whose smoke changes twice as fast.
 class SmokeLightCache {
  public:
   explicit SmokeLightCache(std::uint32_t max_pages = kMaxRayPages) : pages_(max_pages) {}
@@ -52,7 +52,9 @@ class SmokeLightCache {
  private:
   using PhaseRange = UpdateScheduler::SliceRange;
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  static constexpr std::uint32_t kPriority = 4;  // of bricks that come into view
+  // Of bricks that come into view, and of those whose smoke changes: a growing cloud is several frames of light
+  // ahead of its texels' phases, but each frame of it costs more.
+  static constexpr std::uint32_t kNewPriority = 4, kChangedPriority = 2;
   static constexpr std::uint32_t kAllPhases = (1u << shared::kLightPhases) - 1;
 
   /// A brick's rays to one light, or to the sky.
@@ -74,7 +76,8 @@ class SmokeLightCache {
     std::uint64_t gathered_lights = 0;        // hash of the lights that its light was gathered from
     std::uint64_t epoch = 0;                  // of the eye and the sky then
     std::uint64_t last_frame = 0;             // that had it in view
-    std::uint32_t priority_frames = 0;        // frames in which it is updated faster
+    std::uint32_t priority = 1;               // how much faster it is updated,
+    std::uint32_t priority_frames = 0;        // for how many frames
     CachedRays sky;
     std::vector<CachedRays> lights;
   };

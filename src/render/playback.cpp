@@ -1,12 +1,11 @@
 #include "render/playback.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/packing.hpp>
 
 #include "passes/noise.hpp"
+#include "render/exposure.hpp"
 #include "scenario/flashes.hpp"
 #include "smoke/holes.hpp"
 
@@ -22,17 +21,6 @@ glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
 RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
   options.smoke.masks = &scenario.masks;
   return options;
-}
-
-/// The factor that brings the geometric mean of the luminance to a middle brightness, nearly: dark scenes
-/// stay darker than bright ones.
-float exposure_of(std::span<const glm::vec4> radiance) {
-  constexpr double kMiddle = 0.28, kStrength = 0.85;
-  double sum = 0;
-  for (const glm::vec4& pixel : radiance)
-    sum += std::log(std::max(glm::dot(glm::dvec3(pixel), glm::dvec3(0.2126, 0.7152, 0.0722)), 1e-5));
-  const double mean = std::exp(sum / static_cast<double>(radiance.size()));
-  return static_cast<float>(std::pow(kMiddle / mean, kStrength));
 }
 
 }  // namespace
@@ -86,31 +74,12 @@ Playback::Playback(gpu::Context& context, const scenario::Scenario& scenario, co
       list_(context, sizeof(shared::MarchList), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {}
 
 void Playback::measure_exposure() {
-  constexpr std::uint32_t kHeight = 72;
-  const glm::uvec2 size = renderer_.targets().size_px;
-  const glm::uvec2 small(std::clamp(kHeight * size.x / size.y, 8u, 512u), kHeight);
   const double seconds = double{scenario_.timeline.duration};
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
   FrameInput input = frame_input(scenario_, *simulation_, seconds, holes);
   if (camera_) input.view.camera = *camera_;
-  input.smoke.volume = nullptr;
-
-  // A small frame without smoke.
-  const std::size_t count = std::size_t{small.x} * small.y;
-  const gpu::Buffer radiance(context_, count * 8, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
-  renderer_.resize(small);
-  renderer_.draw(
-      input, [&](gpu::Recorder& recorder) { recorder.read_back(renderer_.targets().radiance, radiance); });
-  renderer_.resize(size);
-
-  std::vector<glm::vec4> pixels(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uint64_t half = 0;
-    std::memcpy(&half, static_cast<const std::byte*>(radiance.mapped()) + 8 * i, 8);
-    pixels[i] = glm::unpackHalf4x16(half);
-  }
-  exposure_ = exposure_of(pixels);
+  exposure_ = render::measure_exposure(context_, renderer_, input);
 }
 
 double Playback::fraction_marched() const {

@@ -7,6 +7,13 @@
 namespace brume::render {
 namespace {
 
+/// Records the commands of a pass, measured under its name.
+template <typename Record>
+void scope(gpu::Recorder& recorder, const char* name, Record record) {
+  const gpu::Scope timed(recorder, name);
+  record();
+}
+
 passes::DebugSubject debug_subject(const FramePlan& plan) {
   const FrameInput& input = plan.input;
   return {input.debug.view, plan.view_slice, input.level.voxels, input.smoke.volume, input.smoke.state};
@@ -108,35 +115,51 @@ void Renderer::draw(const FrameInput& input, const std::function<void(gpu::Recor
   });
 }
 
-void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
-  const auto scope = [&](const char* name, auto record) {
-    const gpu::Scope timed(recorder, name);
-    record();
-  };
+FrameResources Renderer::resources(const FramePlan& plan) {
   const bool counts_steps = plan.input.debug.view == planning::DebugView::steps;
-  const FrameResources in{frame_, scene_, targets_, blue_noise_,
-                          counts_steps ? &debug_view_->counters() : nullptr};
+  return {frame_, scene_, targets_, blue_noise_, counts_steps ? &debug_view_->counters() : nullptr};
+}
 
-  scope("upload", [&] { record_upload(recorder, plan, in); });
-  scope("sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
-  scope("gbuffer", [&] { scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer); });
-  scope("holes", [&] { smoke_.record_holes(recorder, plan, in); });
-  scope("noise_advection", [&] { smoke_.record_noise_advection(recorder, plan, in); });
-  scope("smoke_shadow", [&] { smoke_.record_shadows(recorder, plan, in); });
-  scope("smoke_light", [&] { smoke_.record_light(recorder, plan, in); });
-  scope("march", [&] { smoke_.record_march(recorder, plan, in); });
-  if (smoke_.march_tiles()) scope("resolve", [&] { smoke_.record_resolve(recorder, plan, in); });
-  if (smoke_.is_accumulated()) scope("accumulate", [&] { smoke_.record_accumulate(recorder, plan, in); });
+void Renderer::record_frame(gpu::Recorder& recorder, const FramePlan& plan) {
+  for (int part = 0; part < kParts; ++part) record_part(recorder, plan, part);
+}
+
+void Renderer::record_part(gpu::Recorder& recorder, const FramePlan& plan, int part) {
+  const FrameResources in = resources(plan);
+  if (part == 0) record_light(recorder, plan, in);
+  if (part == 1) record_media(recorder, plan, in);
+  if (part == 2) record_image(recorder, plan, in);
+}
+
+/// What later frames rely on, too: everything that the plan's history counts as updated.
+void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
+  scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
+  scope(recorder, "gbuffer", [&] { scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer); });
+  scope(recorder, "holes", [&] { smoke_.record_holes(recorder, plan, in); });
+  scope(recorder, "noise_advection", [&] { smoke_.record_noise_advection(recorder, plan, in); });
+  scope(recorder, "smoke_shadow", [&] { smoke_.record_shadows(recorder, plan, in); });
+  scope(recorder, "smoke_light", [&] { smoke_.record_light(recorder, plan, in); });
+}
+
+void Renderer::record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  scope(recorder, "march", [&] { smoke_.record_march(recorder, plan, in); });
+  if (smoke_.march_tiles()) scope(recorder, "resolve", [&] { smoke_.record_resolve(recorder, plan, in); });
+}
+
+void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  if (smoke_.is_accumulated())
+    scope(recorder, "accumulate", [&] { smoke_.record_accumulate(recorder, plan, in); });
   if (plan.input.debug.view != planning::DebugView::none)
-    return scope("debug_view", [&] { record_debug_view(recorder, plan); });
-  scope("shade", [&] {
+    return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
+  scope(recorder, "shade", [&] {
     const bool voxel_shadows = std::ranges::any_of(plan.lights, [](const shared::Light& light) {
       return light.shadow_layer == shared::kShadowByVoxels;
     });
     shade_pass_.record(recorder, frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(),
                        scene_.level(), targets_.gbuffer, media(), targets_.radiance, voxel_shadows);
   });
-  scope("display",
+  scope(recorder, "display",
         [&] { display_pass_.record(recorder, frame_, blue_noise_, targets_.radiance, targets_.display); });
 }
 

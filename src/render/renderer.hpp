@@ -43,6 +43,10 @@ class Renderer {
   FramePlan plan(const FrameInput& input);
   /// Records the frame of the last plan. No allocation of device memory besides staging, no submit, no wait.
   void record_frame(gpu::Recorder& recorder, const FramePlan& plan);
+  /// The same in kParts parts, which may be submitted one by one. After the first one the others may be
+  /// omitted: then the targets hold nothing of use, and the next frame does not continue a film.
+  void record_part(gpu::Recorder& recorder, const FramePlan& plan, int part);
+  static constexpr int kParts = 3;
   /// Plans and records a frame, and what `then` records after it, and waits until the device has drawn it.
   /// Throws as `plan`.
   void draw(const FrameInput& input, const std::function<void(gpu::Recorder&)>& then = {});
@@ -59,6 +63,10 @@ class Renderer {
   planning::PlanTarget plan_target() const;
   void reserve(FramePlan& plan);
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  FrameResources resources(const FramePlan& plan);
+  void record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  void record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  void record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_debug_view(gpu::Recorder& recorder, const FramePlan& plan);
 
   gpu::Context& context_;

@@ -23,6 +23,7 @@
 #include "shared/smoke_volume.h"
 #include "shared/solid_volume.h"
 #include "shared/ui.h"
+#include "shared/upscale.h"
 #include "shared/volume.h"
 
 // clang-format off
@@ -75,7 +76,8 @@
   X(45, BrickLayout)          \
   X(46, FrameMedia)           \
   X(47, VolumeInstance)       \
-  X(48, VolumeLook)
+  X(48, VolumeLook)           \
+  X(49, UpscaleConstants)
 // clang-format on
 
 #endif

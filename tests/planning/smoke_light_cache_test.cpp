@@ -166,6 +166,12 @@ class Ages {
     for (const auto& [what, made] : updated_) oldest = std::max(oldest, frame - made);
     return oldest;
   }
+  std::uint32_t oldest_of(std::uint32_t slot, std::uint32_t frame) const {
+    std::uint32_t oldest = 0;
+    for (std::uint32_t phase = 0; phase < shared::kLightPhases; ++phase)
+      oldest = std::max(oldest, frame - updated_.at({slot, phase}));
+    return oldest;
+  }
   std::size_t size() const { return updated_.size(); }
 
  private:
@@ -203,6 +209,50 @@ TEST_F(SmokeLightCacheTest, AnUpdateFractionUpdatesEveryPhaseInTime) {
     for (int i = 0; i < left; ++i) cache.plan(now);
     EXPECT_TRUE(cache.plan(now).parts.empty());
   }
+}
+
+TEST_F(SmokeLightCacheTest, BricksWhoseSmokeChangesAreUpdatedTwiceAsFast) {
+  SmokeLightCache cache;
+  Ages ages;
+  SmokeLightInputs now = inputs();
+  now.look.erosion = 0.5f;
+  now.update_fraction = 1.0f / shared::kLightPhases;
+  std::uint32_t frame = 0;
+  const auto draw = [&] {
+    now.time += 0.01f;
+    const SmokeLightPlan& plan = cache.plan(now);
+    ages.take(plan, frame++);
+    return plan.texel_lists;
+  };
+  for (int i = 0; i < 40; ++i) draw();
+
+  // An explosion in the first smoke, which refills for seconds.
+  sim::Blast blast;
+  blast.tick = 91;
+  blast.at = sim::position_from_metres(glm::dvec3(6, 1, 8));
+  blast.radius = 2 * 1024;
+  world_.append(blast).value_or_throw();
+  std::map<std::uint32_t, std::uint32_t> changing;  // slot: frames in a row
+  std::uint32_t of_changing = 0, of_others = 0;
+  for (std::uint32_t tick = 91; tick < 160; ++tick) {
+    world_.advance_to(tick);
+    volume_.update(world_);
+    std::map<std::uint32_t, std::uint32_t> changed;
+    for (const shared::TexelList& list : draw()) changed[list.slot] = changing[list.slot] + 1;
+    changing = std::move(changed);
+    for (std::uint32_t i = 0; i < visibility_.visible_count; ++i) {
+      const std::uint32_t slot = visibility_.slots[i];
+      const auto found = changing.find(slot);
+      const std::uint32_t oldest = ages.oldest_of(slot, frame - 1);
+      if (found == changing.end()) of_others = std::max(of_others, oldest);
+      if (found != changing.end() && found->second > shared::kLightPhases)
+        of_changing = std::max(of_changing, oldest);
+    }
+  }
+  EXPECT_GT(of_changing, 0u);
+  EXPECT_LE(of_changing, shared::kLightPhases / 2);
+  EXPECT_GT(of_others, shared::kLightPhases / 2);
+  EXPECT_LE(of_others, shared::kLightPhases);
 }
 
 TEST_F(SmokeLightCacheTest, TexelsSideBySideAreOfOtherPhasesAndBricksAgreeOnThem) {

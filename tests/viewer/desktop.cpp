@@ -82,6 +82,29 @@ Frame frame_of(std::string line) {
   return frame;
 }
 
+/// A line of FrameLog::add_widgets after "widget,".
+WidgetLine widget_of(const std::string& line) {
+  WidgetLine widget;
+  std::istringstream fields(line);
+  const auto next = [&] {
+    std::string field;
+    std::getline(fields, field, ',');
+    return field;
+  };
+  const auto number = [&] { return std::atoi(next().c_str()); };
+  widget.id = next();
+  widget.kind = next();
+  widget.low_px.x = number();
+  widget.low_px.y = number();
+  widget.high_px.x = number();
+  widget.high_px.y = number();
+  widget.reachable = number() != 0;
+  widget.in_popup = number() != 0;
+  widget.uses = static_cast<std::uint64_t>(number());
+  std::getline(fields, widget.label);
+  return widget;
+}
+
 }  // namespace
 
 Desktop::Desktop() {
@@ -259,18 +282,43 @@ image::Image8 Program::contents() {
   return image;
 }
 
+void Program::read_line(const std::string& line) {
+  constexpr std::string_view kList = "widgets,", kWidget = "widget,";
+  if (line.starts_with(kList)) {
+    widgets_.clear();
+  } else if (line.starts_with(kWidget)) {
+    widgets_.push_back(widget_of(line.substr(kWidget.size())));
+    widget_uses_[widgets_.back().id] = widgets_.back().uses;
+  } else if (!line.empty() && std::isdigit(static_cast<unsigned char>(line[0]))) {  // not the header line
+    frames_.push_back(frame_of(line));
+  }
+}
+
 const std::vector<Frame>& Program::frames() {
   if (!log_.is_open()) log_.open(log_file_);
   std::ostringstream more;
   if (log_.is_open() && log_.peek() != std::ifstream::traits_type::eof()) more << log_.rdbuf();
   log_.clear();
   log_rest_ += more.str();
-  std::size_t begin = 0;
-  for (std::size_t end = 0; (end = log_rest_.find('\n', begin)) != std::string::npos; begin = end + 1)
-    if (std::isdigit(static_cast<unsigned char>(log_rest_[begin])))  // skip the header line
-      frames_.push_back(frame_of(log_rest_.substr(begin, end - begin)));
-  log_rest_.erase(0, begin);
+  // Whole frames only: what precedes the line of a frame belongs to it.
+  std::size_t whole = 0;
+  for (std::size_t begin = 0, end = 0; (end = log_rest_.find('\n', begin)) != std::string::npos;
+       begin = end + 1)
+    if (std::isdigit(static_cast<unsigned char>(log_rest_[begin]))) whole = end + 1;
+  std::istringstream lines(log_rest_.substr(0, whole));
+  for (std::string line; std::getline(lines, line);) read_line(line);
+  log_rest_.erase(0, whole);
   return frames_;
+}
+
+const std::vector<WidgetLine>& Program::widgets() {
+  frames();
+  return widgets_;
+}
+
+std::uint64_t Program::widget_uses(const std::string& id) {
+  frames();
+  return widget_uses_[id];
 }
 
 bool Program::wait_for_contents(const std::function<bool(const image::Image8&)>& wanted) {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,15 @@ struct Frame {
   std::size_t shader_faults = 0;
 };
 
+/// A widget of the panels, as the frame log lists it (--log-widgets).
+struct WidgetLine {
+  std::string id, kind, label;
+  glm::ivec2 low_px{0}, high_px{0};
+  bool reachable = false;  ///< Not scrolled away.
+  bool in_popup = false;
+  std::uint64_t uses = 0;  ///< Clicks so far.
+};
+
 /// `brume view` on a desktop. Tests wait for frames, for its session time or for an image, never for
 /// wall-clock time: they pass on a machine of any speed.
 class Program {
@@ -78,6 +88,10 @@ class Program {
 
   /// All frames drawn so far.
   const std::vector<Frame>& frames();
+  /// The widgets of the last frame drawn so far.
+  const std::vector<WidgetLine>& widgets();
+  /// Clicks that the widget of this id took in any frame so far, also if it is gone.
+  std::uint64_t widget_uses(const std::string& id);
   // Every wait fails if the program ends or hangs.
   /// Waits until the window contents satisfy `wanted`.
   bool wait_for_contents(const std::function<bool(const image::Image8&)>& wanted);
@@ -92,12 +106,15 @@ class Program {
   bool wait_for_best();
 
  private:
+  void read_line(const std::string& line);
   bool wait_until(const std::function<bool()>& holds, int poll_ms);
   const Desktop& desktop_;
   std::filesystem::path error_file_, log_file_;
   std::ifstream log_;
   std::string log_rest_;  ///< An incomplete line.
   std::vector<Frame> frames_;
+  std::vector<WidgetLine> widgets_;
+  std::map<std::string, std::uint64_t> widget_uses_;
   pid_t process_ = -1;
   int status_ = 0;
   unsigned long window_ = 0;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "core/file.hpp"
 
@@ -12,19 +14,38 @@ namespace {
 
 TEST(KeysTest, EveryActionHasAKeyAndEveryKeyOneAction) {
   std::set<Action> actions;
-  std::set<std::pair<bool, int>> codes;
+  std::set<std::tuple<bool, int, bool, bool>> codes;
   for (const KeyBinding& binding : key_bindings()) {
     actions.insert(binding.action);
-    EXPECT_TRUE(codes.insert({binding.mouse, binding.code}).second) << binding.name;
+    const auto [shift, control] = binding.modifiers;
+    EXPECT_TRUE(codes.insert({binding.mouse, binding.code, shift, control}).second) << binding.name;
+    EXPECT_EQ(action_of(binding.mouse, binding.code, binding.modifiers), binding.action) << binding.name;
   }
   EXPECT_EQ(actions.size(), kActions);
 }
 
+TEST(KeysTest, ShiftRunsAndControlReservesKeys) {
+  EXPECT_EQ(action_of(false, 'W', {.shift = true}), Action::forward);
+  EXPECT_EQ(action_of(false, 'W', {.control = true}), std::nullopt);
+  EXPECT_EQ(action_of(false, 'Z', {}), std::nullopt);
+  EXPECT_EQ(action_of(false, 'R', {}), Action::rewind);
+  EXPECT_EQ(action_of(false, 'R', {.shift = true}), Action::empty);
+}
+
+TEST(KeysTest, HelpHasEachKeyOnceInGroups) {
+  const std::vector<HelpRow> rows = help_rows();
+  EXPECT_EQ(rows.front().keys, "W A S D");
+  std::set<std::string> keys;
+  for (const HelpRow& row : rows) EXPECT_TRUE(keys.insert(row.keys).second) << row.keys;
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end(),
+                             [](const HelpRow& a, const HelpRow& b) { return a.group < b.group; }));
+}
+
 TEST(KeysTest, DocumentationListsEveryKey) {
   const std::string document = read_text_file(BRUME_SOURCE_DIR "/docs/viewer.md").value_or_throw();
-  for (const KeyBinding& binding : key_bindings()) {
-    const std::string row = std::string("| ") + binding.name + " | " + binding.does + " |\n";
-    EXPECT_NE(document.find(row), std::string::npos) << row;
+  for (const HelpRow& row : help_rows()) {
+    const std::string line = "| " + row.keys + " | " + row.does + " |\n";
+    EXPECT_NE(document.find(line), std::string::npos) << line;
   }
 }
 

@@ -86,29 +86,73 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndImages) {
   EXPECT_EQ(live.at("state_hash"), played.at("state_hash"));
 }
 
+// At reduced quality, too: the light in the smoke is then brought up to date in slices.
 TEST_F(RecordingTest, AScreenshotEqualsRenderAndTheWindow) {
-  Program program(desktop_, folder_.path(),
-                  {"room.toml", "--size", "200x120", "--bare", "--quality", "full"});
+  int number = 0;
+  for (const std::string quality : {"full", "smallest"}) {
+    SCOPED_TRACE(quality);
+    Program program(desktop_, folder_.path(),
+                    {"room.toml", "--size", "200x120", "--bare", "--quality", quality});
+    ASSERT_TRUE(program.wait_for_window()) << program.error();
+    program.click(1);
+    ASSERT_TRUE(program.wait_for_clock(1.5));
+    program.click(3);
+    ASSERT_TRUE(program.wait_for_clock(0.2));
+    program.tap(XK_p);
+    // The paused window shows the image of the screenshot.
+    ASSERT_TRUE(program.wait_for_best());
+    const image::Image8 window = program.contents();
+    program.tap(XK_F12);
+    ASSERT_TRUE(program.wait_for_frames(2));
+    const std::string name = "brume_000" + std::to_string(++number);
+    ASSERT_TRUE(std::filesystem::exists(file(name + ".png"))) << program.error();
+    const image::Image8 screenshot = png(name + ".png");
+    EXPECT_LE(largest_difference(window, screenshot), 1);
+
+    const cli::Outcome rendered =
+        cli::run_brume(folder_.path(), {"render", name + ".toml", "-o", "again.png", "--size", "200x120"});
+    ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
+    EXPECT_LE(largest_difference(screenshot, png("again.png")), 1);
+    std::filesystem::remove(file("again.png"));
+    program.close();
+    EXPECT_EQ(program.wait(), 0) << program.error();
+  }
+}
+
+// A still becomes the best image in many short frames, and an input ends them.
+TEST_F(RecordingTest, APausedImageIsRefinedInSteps) {
+  Program program(desktop_, folder_.path(), {"room.toml", "--size", "192x128", "--quality", "smallest"});
   ASSERT_TRUE(program.wait_for_window()) << program.error();
   program.click(1);
-  ASSERT_TRUE(program.wait_for_clock(1.5));
-  program.click(3);
-  ASSERT_TRUE(program.wait_for_clock(0.2));
+  ASSERT_TRUE(program.wait_for_clock(1));
   program.tap(XK_p);
-  program.tap(XK_F12);
-  ASSERT_TRUE(program.wait_for_frames(2));
-  ASSERT_TRUE(std::filesystem::exists(file("brume_0001.png"))) << program.error();
-  const image::Image8 screenshot = png("brume_0001.png");
-
-  const cli::Outcome rendered =
-      cli::run_brume(folder_.path(), {"render", "brume_0001.toml", "-o", "again.png", "--size", "200x120"});
-  ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
-  EXPECT_LE(largest_difference(screenshot, png("again.png")), 1);
-  // The paused window shows the same image.
   ASSERT_TRUE(program.wait_for_best());
-  EXPECT_LE(largest_difference(program.contents(), screenshot), 1);
+  const auto is_still = [](const Frame& frame) { return frame.picture == "still"; };
+  const auto& frames = program.frames();
+  EXPECT_EQ(std::count_if(frames.begin(), frames.end(), is_still), 2 + 8);
+  program.tap(XK_v);
+  EXPECT_TRUE(program.wait_for_frame([](const Frame& frame) { return frame.picture != "best"; }));
+  EXPECT_TRUE(program.wait_for_best());
   program.close();
   EXPECT_EQ(program.wait(), 0) << program.error();
+}
+
+TEST_F(RecordingTest, ASceneWithoutATimelineGetsTheExposureThatRenderMeasures) {
+  Program program(desktop_, folder_.path(),
+                  {"room.txt", "--size", "192x128", "--exit-after", "0.05", "--record", "made.toml"});
+  ASSERT_EQ(program.wait(), 0) << program.error();
+  const auto made = scene::load_timeline(file("made.toml"));
+  ASSERT_TRUE(made) << made.failure().message;
+  EXPECT_NE(made->exposure, 0);
+  const auto render = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "room.txt", "-o", name, "--size", "96x64"});
+    const cli::Outcome rendered = cli::run_brume(folder_.path(), more);
+    EXPECT_EQ(rendered.exit_code, 0) << rendered.error;
+    return png(name);
+  };
+  const image::Image8 measured = render("measured.png", {});
+  const image::Image8 given = render("given.png", {"--exposure", std::to_string(made->exposure)});
+  EXPECT_LE(largest_difference(measured, given), 2);
 }
 
 // The autosave in the folder; its name has the number of the process.

@@ -125,14 +125,28 @@ TEST_F(SessionTest, DoorsOpenAndShut) {
   EXPECT_EQ(hidden(), 0u);
 }
 
-TEST_F(SessionTest, ResetDiscardsAllActions) {
+TEST_F(SessionTest, RewindingKeepsAllActions) {
+  ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
+  advance(0.25);
+  const std::uint64_t then = session_->simulation().world().state_hash();
+  const double seconds = session_->seconds();
+  session_->rewind();
+  EXPECT_EQ(session_->seconds(), Session::kFirstTime);
+  EXPECT_EQ(session_->recording().smokes.size(), 1u);
+  session_->seek(seconds);
+  EXPECT_EQ(session_->simulation().world().state_hash(), then);
+}
+
+TEST_F(SessionTest, EmptyingRemovesAllActionsAndKeepsSettings) {
   const std::uint64_t before = session_->simulation().world().state_hash();
   ASSERT_TRUE(session_->throw_smoke(eye_, ahead_));
   advance(0.25);
   ASSERT_NE(session_->simulation().world().state_hash(), before);
-  ASSERT_TRUE(session_->reset());
+  ASSERT_TRUE(session_->live().set_exposure(2));
+  ASSERT_TRUE(session_->empty());
   EXPECT_EQ(session_->simulation().world().state_hash(), before);
   EXPECT_EQ(session_->recording().smokes.size(), 0u);
+  EXPECT_EQ(session_->recording().exposure, 2);
 }
 
 TEST_F(SessionTest, FailuresAreOneLine) {

@@ -1,6 +1,7 @@
 // The window: input, panels, resizing, surface and device loss, shader reload.
 #include <X11/keysym.h>
 
+#include "scene/timeline.hpp"
 #include "tests/viewer/room.hpp"
 
 namespace brume::viewer {
@@ -31,6 +32,64 @@ TEST(NoDisplayTest, FailsAndSuggestsRender) {
   options.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
   cli::expect_failure(folder, {"view", BRUME_SOURCE_DIR "/scenes/demo.toml"}, 5,
                       {"cannot open a window", "brume render"}, options);
+}
+
+TEST(ArgumentsTest, WhatIsUsedLaterIsCheckedFirst) {
+  const cli::WorkFolder folder;
+  const auto refuses = [&](std::vector<std::string> words, int code, const std::string& part) {
+    words.insert(words.begin(), {"view", BRUME_SOURCE_DIR "/scenes/demo.toml"});
+    cli::expect_failure(folder, words, code, {part});
+  };
+  refuses({"--shot", "none.png"}, 3, "--shot none.png");
+  refuses({"--folder", "none"}, 3, "--folder none: no such folder");
+  refuses({"--shaders", "none"}, 3, "--shaders none: no such folder");
+  refuses({"--word", ""}, 2, "--word");
+  refuses({"--word", " "}, 2, "--word");
+}
+
+TEST_F(WindowTest, RunsFromItsTimeToItsEnd) {
+  Program program(desktop_, folder_.path(),
+                  arguments({"--time", "1", "--exit-after", "1.2", "--json", "r.json"}));
+  ASSERT_EQ(program.wait(), 0) << program.error();
+  EXPECT_NEAR(read_json(file("r.json")).at("seconds").get<double>(), 1.2, 1e-6);
+}
+
+// Help, undo and emptying by their keys; the help stops the time.
+TEST_F(WindowTest, UndoesByKeys) {
+  Program program(desktop_, folder_.path(), arguments({"--bare", "--record", "made.toml"}));
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  const auto tap = [&](unsigned long key) {
+    program.tap(key);
+    ASSERT_TRUE(program.wait_for_frames(2));
+  };
+  const auto tap_with = [&](unsigned long modifier, unsigned long key) {
+    program.key(modifier, true);
+    tap(key);
+    program.key(modifier, false);
+    ASSERT_TRUE(program.wait_for_frames(2));
+  };
+  program.click(1);
+  program.wait_for_frames(2);
+  program.click(3);
+  program.wait_for_frames(2);
+  program.click(3);
+  program.wait_for_frames(2);
+  tap_with(XK_Control_L, XK_z);
+  tap_with(XK_Shift_L, XK_r);
+  tap_with(XK_Control_L, XK_z);
+  tap_with(XK_Control_L, XK_z);
+  tap_with(XK_Control_L, XK_y);
+  tap(XK_h);
+  const double then = program.frames().back().seconds;
+  ASSERT_TRUE(program.wait_for_frames(5));
+  EXPECT_EQ(program.frames().back().seconds, then);
+  tap(XK_h);
+  ASSERT_TRUE(program.wait_for_clock(0.1));
+  expect_end(program);
+  // A smoke and one of the two shots remain.
+  const auto made = scene::load_timeline(file("made.toml")).value_or_throw();
+  EXPECT_EQ(made.smokes.size(), 1u);
+  EXPECT_EQ(made.shots.size(), 1u);
 }
 
 TEST_F(WindowTest, ThrowsAndShoots) {
@@ -70,6 +129,35 @@ TEST_F(WindowTest, ThrowsAndShoots) {
   const image::Image8 pierced = program.contents();
   EXPECT_GT(mean_difference(middle(pierced), middle(thick)), 10);
   EXPECT_LT(mean_difference(corner(pierced), corner(thick)), 3);
+  expect_end(program);
+}
+
+// Right of the middle, below: between the weapon and where it aims.
+TEST_F(WindowTest, AShotShowsATracer) {
+  Program program(desktop_, folder_.path(), arguments({"--size", "320x240"}));
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  const auto settled = [&](unsigned long key) {
+    program.tap(key);
+    EXPECT_TRUE(program.wait_for_best());
+    const image::Image8 image = program.contents();
+    image::Image8 cut;
+    for (unsigned y = 130; y < 190; ++y)
+      for (unsigned x = 4 * 172; x < 4 * 240; ++x)
+        cut.rgba.push_back(image.rgba[std::size_t{4} * image.width * y + x]);
+    return cut;
+  };
+  settled(XK_p);
+  program.click(3);
+  const image::Image8 shot = settled(XK_period);
+  // The same without text and marks.
+  EXPECT_GT(mean_difference(shot, settled(XK_o)), 3);
+  settled(XK_o);
+  for (int tick = 0; tick < 40; ++tick) {
+    program.tap(XK_period);
+    program.wait_for_frames(2);
+  }
+  const image::Image8 later = settled(XK_period);
+  EXPECT_LT(mean_difference(later, settled(XK_o)), 0.1);
   expect_end(program);
 }
 

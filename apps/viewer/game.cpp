@@ -1,0 +1,184 @@
+#include "apps/viewer/game.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "scenario/aim.hpp"
+
+namespace brume::viewer {
+namespace {
+
+const char* name_of_event(Action action) {
+  switch (action) {
+    case Action::throw_smoke:
+      return "smoke";
+    case Action::shoot:
+      return "shot";
+    case Action::blast:
+      return "explosion";
+    case Action::door:
+      return "door";
+    default:
+      return "all actions removed";
+  }
+}
+
+}  // namespace
+
+Game::Game(std::unique_ptr<Session> session, const Choices& choices,
+           std::function<void(const std::string&)> notify)
+    : session_(std::move(session)),
+      notify_(std::move(notify)),
+      choices_(choices),
+      first_weapons_(choices.weapons) {
+  go_to_start();
+  if (player_.flying()) notify_("flying, since there is no floor right below; G walks");
+  history_.emplace(edits(""));
+}
+
+Game::Edits Game::edits(const std::string& what) const {
+  return {session_->edits(), choices_.weapons, player_.options(), player_.camera().vertical_fov, what};
+}
+
+bool Game::report(const Result<void>& done) {
+  if (!done) notify_(done.failure().message);
+  return bool(done);
+}
+
+void Game::go_to_start() {
+  const scenario::Scenario& scenario = session_->live().scenario();
+  first_camera_ = scene::camera_at(scenario.timeline, scenario.camera, 0);
+  player_.start(grid(), first_camera_);
+}
+
+// Actions that change the timeline: each is a step to undo.
+void Game::perform(Action action, glm::vec3 aim_world) {
+  settle();
+  const glm::vec3 eye = player_.camera().position_world;
+  bool done = false;
+  if (action == Action::throw_smoke) done = report(session_->throw_smoke(eye, aim_world));
+  if (action == Action::shoot) done = report(session_->shoot(eye, aim_world, choices_.weapons));
+  if (action == Action::blast) done = report(session_->blast(eye, aim_world, choices_.weapons));
+  if (action == Action::door) {
+    const auto door = session_->use_door(eye);
+    notify_(door ? *door : door.failure().message);
+    done = bool(door);
+  }
+  if (action == Action::empty) {
+    done = session_->actions() > 0 && report(session_->empty());
+    session_->rewind();
+    go_to_start();
+    notify_(done ? "all actions removed; Ctrl+Z brings them back" : "no actions to remove");
+  }
+  if (done) history_->add(edits(name_of_event(action)));
+}
+
+void Game::step_history(Action action) {
+  settle();
+  const bool back = action == Action::undo;
+  if (back ? !history_->can_undo() : !history_->can_redo())
+    return notify_(back ? "nothing to undo" : "nothing to redo");
+  const std::string what = back ? history_->present().what : "";
+  const float fov_before = history_->present().vertical_fov;
+  const Edits& edits = back ? history_->undo() : history_->redo();
+  if (!report(session_->restore(edits.session))) return;
+  const ShotKind kind = choices_.weapons.kind;
+  choices_.weapons = edits.weapons;
+  choices_.weapons.kind = kind;
+  player_.set_options(grid(), edits.body);
+  // A camera path changes it, too, which is no step.
+  if (edits.vertical_fov != fov_before) player_.set_vertical_fov(edits.vertical_fov);
+  ++changes_;
+  notify_(back ? "undone: " + what : "redone: " + edits.what);
+}
+
+void Game::settle() {
+  if (!changing_) return;
+  history_->add(edits(*changing_));
+  changing_.reset();
+}
+
+void Game::choose_picture(const std::filesystem::path& file) {
+  if (!choices_.pictures.matches(file))
+    return notify_(file.filename().string() + ": expected a PNG or JPEG to shoot");
+  choices_.weapons.picture = file;
+  choices_.weapons.kind = ShotKind::picture;
+  setting_changed("image to shoot");
+  notify_("shoots the shape of " + file.filename().string());
+}
+
+void Game::pick_probe(glm::vec3 aim_world) {
+  const glm::vec3 eye = player_.camera().position_world;
+  const scenario::Aim aimed = scenario::aim(grid(), eye, aim_world);
+  // Just in front of the wall, which would block the line of sight.
+  const float back = 0.5f * grid().layout().voxel_size;
+  choices_.probe.pick(eye + std::max(aimed.meets.value_or(10) - back, 0.0f) * aim_world);
+}
+
+// Time stands still while the help covers the image.
+void Game::show_help(bool shows) {
+  choices_.help = shows;
+  if (shows) {
+    help_paused_ = !session_->paused();
+    session_->set_paused(true);
+  } else if (std::exchange(help_paused_, false)) {
+    session_->set_paused(false);
+  }
+}
+
+// Actions that change settings of the weapons or the view.
+void Game::choose(Action action) {
+  if (action == Action::shape_bullet) choices_.weapons.kind = ShotKind::bullet;
+  if (action == Action::shape_glyph) choices_.weapons.kind = ShotKind::glyph;
+  if (action == Action::shape_word) choices_.weapons.kind = ShotKind::word;
+  if (action == Action::shape_picture) choices_.weapons.kind = ShotKind::picture;
+  if (action == Action::fly && !player_.set_flying(grid(), !player_.flying()))
+    notify_("still flying: there is no floor below");
+  if (action == Action::panels) choices_.panels = !choices_.panels;
+  if (action == Action::overlay) choices_.overlay = !choices_.overlay;
+  if (action == Action::help) show_help(!choices_.help);
+  if (action == Action::toggle_cursor) choices_.free_cursor = !choices_.free_cursor;
+  if (action == Action::next_view) {
+    const auto next = (static_cast<std::size_t>(choices_.view) + 1) % passes::kDebugViewNames.size();
+    choices_.view = static_cast<passes::DebugView>(next);
+    ++changes_;
+  }
+}
+
+void Game::act(Action action, glm::vec3 aim_world) {
+  constexpr std::array kEvents{Action::throw_smoke, Action::shoot, Action::blast, Action::door,
+                               Action::empty};
+  if (std::find(kEvents.begin(), kEvents.end(), action) != kEvents.end()) return perform(action, aim_world);
+  choose(action);
+  if (action == Action::undo || action == Action::redo) step_history(action);
+  if (action == Action::probe) pick_probe(aim_world);
+  if (action == Action::rewind) {
+    session_->rewind();
+    go_to_start();
+  }
+  if (action == Action::pause) {
+    session_->set_paused(!session_->paused());
+    help_paused_ = false;
+  }
+  if (action == Action::step_back) session_->step(-1);
+  if (action == Action::step_on) session_->step(1);
+}
+
+void Game::move(const Input& input, double passed) {
+  const bool turned = input.look_px != glm::dvec2(0);
+  if (session_->follows_path()) {
+    constexpr std::array kMoves{Action::forward, Action::back, Action::left,
+                                Action::right,   Action::up,   Action::down};
+    const bool moved = std::any_of(kMoves.begin(), kMoves.end(), [&](Action a) { return input.is_held(a); });
+    if (!turned && !moved) return player_.follow(session_->path_camera());
+    session_->leave_path();
+  }
+  player_.turn(input.look_px);
+  if (input.wheel != 0) player_.change_fly_speed(grid(), input.wheel);
+  if (!player_.move(input, grid(), std::min(passed, Session::kLongestFrame)))
+    notify_("you fell off the level, and are back where you stood");
+  if (!session_->paused()) session_->record_camera(player_.camera());
+}
+
+}  // namespace brume::viewer

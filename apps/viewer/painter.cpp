@@ -1,0 +1,83 @@
+#include "apps/viewer/painter.hpp"
+
+#include "render/playback.hpp"
+
+namespace brume::viewer {
+namespace {
+
+// A still waits for further input before it is refined. Then the light of the smoke is updated in as many
+// slices, each in a frame that ends soon after an input.
+constexpr int kFramesUntilRefined = 3;
+constexpr int kLightSlices = 8;
+
+}  // namespace
+
+render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes) {
+  const Session& session = game.session();
+  render::FrameInput input =
+      render::frame_input(session.live().scenario(), session.simulation(), session.seconds(), holes);
+  input.view.camera = game.player().camera();
+  input.debug = {game.choices().view, game.choices().slice};
+  return input;
+}
+
+void Painter::restart() {
+  continues_ = false;
+  is_best_ = false;
+  rendered_ = {};
+}
+
+/// Whether the paused image is up to date.
+bool Painter::is_still(const Game& game, const Window& window) {
+  const scene::Camera camera = game.player().camera();
+  const Key now{game.session().seconds(), camera.position_world, camera.target_world,
+                camera.vertical_fov,      window.size_px(),      game.changes()};
+  if (now != rendered_) {
+    rendered_ = now;
+    still_frames_ = 0;
+    is_best_ = false;
+    return false;
+  }
+  ++still_frames_;
+  return game.session().paused();
+}
+
+bool Painter::draw_film(Screen& screen, const Game& game, const Quality& quality, float light_update_fraction,
+                        const ImDrawData& ui) {
+  std::vector<shared::Hole> holes;
+  render::FrameInput input = frame_input(game, holes);
+  input.view.continues = continues_ && game.choices().temporal;
+  input.view.frame_index = ++frame_index_;
+  input.quality.step_scale = quality.step_scale;
+  input.quality.resolve_error_scale = quality.resolve_error_scale;
+  input.quality.light_update_fraction = light_update_fraction;
+  continues_ = true;
+  return screen.show(&input, quality, ui);
+}
+
+bool Painter::draw_best(Screen& screen, const Game& game, Window& window, const Quality& quality,
+                        const ImDrawData& ui) {
+  std::vector<shared::Hole> holes;
+  const std::uint64_t events = window.events();
+  is_best_ = screen.refine(frame_input(game, holes), [&] {
+    window.poll(0);
+    return window.events() != events;
+  });
+  continues_ = false;
+  if (is_best_) return screen.show(nullptr, quality, ui);
+  still_frames_ = 0;
+  return draw_film(screen, game, quality, 1.0f / kLightSlices, ui);
+}
+
+bool Painter::draw(Screen& screen, const Game& game, Window& window, const Quality& quality,
+                   const ImDrawData& ui) {
+  in_motion_ = !is_still(game, window);
+  if (in_motion_) return draw_film(screen, game, quality, quality.light_update_fraction, ui);
+  if (is_best_ || still_frames_ < kFramesUntilRefined) return screen.show(nullptr, quality, ui);
+  const int slices = quality.light_update_fraction < 1 ? kLightSlices : 0;
+  if (still_frames_ < kFramesUntilRefined + slices)
+    return draw_film(screen, game, quality, 1.0f / kLightSlices, ui);
+  return draw_best(screen, game, window, quality, ui);
+}
+
+}  // namespace brume::viewer

@@ -1,0 +1,45 @@
+#include "render/exposure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+namespace brume::render {
+namespace {
+
+/// The factor that brings the geometric mean of the luminance to a middle brightness, nearly: dark scenes
+/// stay darker than bright ones.
+float exposure_of(std::span<const glm::vec4> radiance) {
+  constexpr double kMiddle = 0.28, kStrength = 0.85;
+  double sum = 0;
+  for (const glm::vec4& pixel : radiance)
+    sum += std::log(std::max(glm::dot(glm::dvec3(pixel), glm::dvec3(0.2126, 0.7152, 0.0722)), 1e-5));
+  const double mean = std::exp(sum / static_cast<double>(radiance.size()));
+  return static_cast<float>(std::pow(kMiddle / mean, kStrength));
+}
+
+}  // namespace
+
+float measure_exposure(gpu::Context& context, Renderer& renderer, FrameInput input) {
+  constexpr std::uint32_t kHeight = 72;
+  const glm::uvec2 size = renderer.targets().size_px;
+  const glm::uvec2 small(std::clamp(kHeight * size.x / size.y, 8u, 512u), kHeight);
+  input.smoke.volume = nullptr;
+  const std::size_t count = std::size_t{small.x} * small.y;
+  const gpu::Buffer radiance(context, count * 8, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
+  renderer.resize(small);
+  renderer.draw(input,
+                [&](gpu::Recorder& recorder) { recorder.read_back(renderer.targets().radiance, radiance); });
+  renderer.resize(size);
+
+  std::vector<glm::vec4> pixels(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint64_t half = 0;
+    std::memcpy(&half, static_cast<const std::byte*>(radiance.mapped()) + 8 * i, 8);
+    pixels[i] = glm::unpackHalf4x16(half);
+  }
+  return exposure_of(pixels);
+}
+
+}  // namespace brume::render
