@@ -110,8 +110,12 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
   }
   report.processor = processor_name();
   report.threads = thread_count();
-  report.commit = BRUME_COMMIT;
+  report.commit = commit();
   return report;
+}
+
+std::string commit() {
+  return BRUME_COMMIT;
 }
 
 Result<std::string> motel_scene() {

@@ -1,11 +1,13 @@
 #include "bench/bench.hpp"
 
 #include <cstdio>
+#include <optional>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
 #include "core/error.hpp"
+#include "core/progress.hpp"
 
 namespace brume::cli {
 namespace {
@@ -46,10 +48,13 @@ void print_report(const bench::Report& report) {
 
 void measure(const Options& options, Outputs& outputs) {
   outputs.writes("--json", options.json, FileKind::json);
-  const auto display = progress_display();
-  std::uint64_t started = 0;
-  const auto starting = [&](const std::string& name) { display({name, started++, 0, 0}); };
+  std::optional<Progress> job;
+  const auto starting = [&](const std::string& name) {
+    stop_if_interrupted();
+    job.emplace(name);
+  };
   const bench::Report report = bench::run(options.names, options.bench, starting).value_or_throw();
+  job.reset();
   stop_if_interrupted();
   if (!options.json.empty()) write_json(options.json, to_json(report));
   if (options.json != "-") print_report(report);

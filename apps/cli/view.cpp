@@ -1,6 +1,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/data_files.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/viewer/quality.hpp"
@@ -14,7 +15,7 @@ namespace {
 struct Options {
   std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
                            picture, folder = ".", screenshot, record, frame_log, json;
-  std::string shaders = BRUME_SHADERS_DIR;
+  std::string shaders;
   double frames_per_second = 60;
   std::optional<double> time, exit_after, lose_device, lose_surface;
   bool panels = false, bare = false, no_vertical_sync = false, validation = false;
@@ -46,7 +47,8 @@ viewer::ViewerOptions viewer_options(const Options& options) {
   viewer.weapons.text.text = options.word;
   viewer.weapons.picture = options.picture;
   viewer.folder = options.folder;
-  viewer.shaders = options.shaders;
+  viewer.shaders =
+      options.shaders.empty() ? find_data_file("shaders").value_or("").string() : options.shaders;
   viewer.begin_at = options.time;
   viewer.exit_after = options.exit_after;
   viewer.screenshot = options.screenshot;
@@ -89,7 +91,7 @@ void view(const Options& options, Outputs& outputs) {
     throw Error(ErrorCode::usage, "--screenshot: is taken at --exit-after; add that option");
   const bool plays = !options.play.empty();
   const std::filesystem::path input = plays                   ? options.play
-                                      : options.input.empty() ? BRUME_SCENES_DIR "/demo.toml"
+                                      : options.input.empty() ? data_file("scenes/demo.toml").string()
                                                               : options.input;
   viewer::ViewerOptions viewer = viewer_options(options);
   viewer.title = "Brume - " + input.filename().string();
@@ -187,6 +189,8 @@ Command add_view(CommandLine& program) {
       .type_name("TEXT");
   arguments.add_option("--shot", options->picture, "Image whose shape is shot").type_name("FILE");
   declare_outputs(arguments, *options);
+  // It saves its session before it ends.
+  command.common->grace_seconds = 5;
   declare_tests(arguments, *options);
   command.run = [options, common = command.common] { view(*options, common->outputs); };
   return command;

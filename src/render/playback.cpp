@@ -76,9 +76,13 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
 }
 
 Playback::Playback(gpu::Context& context, const scenario::Scenario& scenario, const RendererOptions& options)
+    : Playback(context, scenario, options, scenario::Simulation::create(scenario).value_or_throw()) {}
+
+Playback::Playback(gpu::Context& context, const scenario::Scenario& scenario, const RendererOptions& options,
+                   std::unique_ptr<scenario::Simulation> simulation)
     : context_(context),
       scenario_(scenario),
-      simulation_(scenario::Simulation::create(scenario).value_or_throw()),
+      simulation_(std::move(simulation)),
       runner_(context),
       renderer_(context, runner_, scenario.scene, with_masks(options, scenario)),
       pixels_(context, std::size_t{4} * options.size_px.x * options.size_px.y,
@@ -125,7 +129,8 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
   FrameInput input = frame_input(scenario_, *simulation_, seconds, holes);
-  input.view.frame_index = frame_index;
+  // Jitter and dither follow time, not the frame's number: the same moment is the same image at any rate.
+  input.view.frame_index = simulation_->world().tick();
   input.quality.step_scale = step_scale_;
   input.quality.light_update_fraction = light_update_fraction_;
   input.quality.resolve_error_scale = resolve_error_scale_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/progress.hpp"
 #include "core/tasks.hpp"
 #include "voxel/triangle_box.hpp"
 
@@ -282,12 +283,14 @@ Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& 
   std::atomic<std::size_t> next{0};
   const Box<int> all{ivec3(0), layout.size};
 
+  Progress job("voxelize", triangles.size());
   // Each worker draws into a grid of its own. The union does not depend on which worker drew what.
   parallel_for(workers, 1, [&](std::size_t worker, std::size_t) {
     Pen pen(grids[worker]);
     for (std::size_t task; (task = next.fetch_add(1)) < tasks;) {
       const std::size_t end = std::min(triangles.size(), (task + 1) * kTrianglesPerTask);
       for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) draw(triangles[i], layout, all, pen);
+      job.advance(end - task * kTrianglesPerTask);
     }
   });
   for (std::size_t worker = 1; worker < workers; ++worker) merge(grids[0], grids[worker]);
