@@ -40,6 +40,12 @@ std::string shown_name(const CLI::Option& option) {
          (type.empty() || option.get_items_expected_max() == 0 ? "" : " " + type);
 }
 
+HelpFormatter::HelpFormatter() {
+  label("Positionals", "Arguments");
+  label("Subcommands", "Commands");
+  label("SUBCOMMAND", "COMMAND");
+}
+
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
   const std::string text = command->get_description();
   return "  " + command->get_name() + std::string(12 - command->get_name().size(), ' ') +

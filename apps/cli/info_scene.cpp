@@ -164,7 +164,6 @@ Summary timeline_summary(const std::filesystem::path& path, bool check, Outputs&
   summary.add("scene", timeline.scene.string(), timeline.scene.string() + (exists ? "" : " (missing)"));
   summary.add("scene_exists", exists);
   summary.add("seconds", timeline.duration);
-  summary.add("voxel_size", timeline.grid.voxel);
   summary.add("camera_keys", timeline.camera.size());
   add_events(summary, timeline);
 

@@ -21,7 +21,7 @@ constexpr const char* kAbout =
     "Examples:\n"
     "  brume demo                                        # an image and a film: out/demo.png, out/demo.mp4\n"
     "  brume view                                        # walk around, throw smoke, shoot through it\n"
-    "  brume render room.glb -o room.png --smoke 0,1,0   # render a scene with smoke in it\n"
+    "  brume render room.glb -o room.png                 # render a scene with smoke in it\n"
     "  brume sim scenes/demo.toml --hash                 # simulate: the same hashes on every machine\n"
     "  brume voxelize room.glb -o room.vxl --json -      # find the solid voxels of a scene\n"
     "  brume info room.glb                               # summarize a file\n"

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include "core/progress.hpp"
 #include "passes/noise.hpp"
 #include "scenario/flashes.hpp"
 #include "smoke/holes.hpp"
@@ -126,6 +127,7 @@ double Playback::fraction_marched() const {
 }
 
 image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
+  const Progress job("render");
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
   FrameInput input = frame_input(scenario_, *simulation_, seconds, holes);

@@ -156,9 +156,9 @@ TEST_F(OutputFiles, ThatAreNumberedFramesFollowTheSameRules) {
 
 TEST_F(OutputFiles, ThatAreNoRegularFilesAreRefused) {
   ASSERT_EQ(::mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
-  refused({"info", "room.obj", "--json", "pipe"}, {"pipe: is not a regular file"}, 3);
-  refused({"info", "room.obj", "--json", "pipe", "--force"}, {"pipe: is not a regular file"}, 3);
-  refused({"info", "room.obj", "--json", "/dev/null"}, {"/dev/null: is not a regular file"}, 3);
+  refused({"info", "room.obj", "--json", "pipe"}, {"pipe: is not a regular file"});
+  refused({"info", "room.obj", "--json", "pipe", "--force"}, {"pipe: is not a regular file"});
+  refused({"info", "room.obj", "--json", "/dev/null"}, {"/dev/null: is not a regular file"});
   refused({"diff", "pipe", "a.png"}, {"pipe: not a regular file"}, 3);
 }
 

@@ -112,9 +112,8 @@ TEST(Timeline, SmokeHasEitherAnAnisotropyOrDroplets) {
 }
 
 TEST(Timeline, UnknownKeysSuggestTheNearest) {
-  EXPECT_EQ(
-      error_of(std::string(kHead) + "durration = 5\n"),
-      "scenes/t.toml:3:1: unknown key \"durration\" in the timeline; did you mean \"duration\"?");
+  EXPECT_EQ(error_of(std::string(kHead) + "durration = 5\n"),
+            "scenes/t.toml:3:1: unknown key \"durration\" in the timeline; did you mean \"duration\"?");
   EXPECT_EQ(error_of(std::string(kHead) + "[smoke]\n  blooom = 5\n"),
             "scenes/t.toml:4:3: unknown key \"blooom\" in [smoke]; did you mean \"bloom\"?");
   EXPECT_EQ(error_of(std::string(kHead) +
