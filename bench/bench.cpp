@@ -1,5 +1,7 @@
 #include "bench/bench.hpp"
 
+#include "bench/names.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -79,6 +81,12 @@ std::vector<Case> all_cases() {
   for (Case& one : gpu_cases()) cases.push_back(std::move(one));
   for (Case& one : scaling_cases()) cases.push_back(std::move(one));
   return cases;
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> names;
+  for (const Case& one : all_cases()) names.push_back(one.name);
+  return names;
 }
 
 Result<Report> run(const std::vector<std::string>& names, const BenchOptions& options,

@@ -6,6 +6,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
+#include "bench/names.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
 
@@ -46,6 +47,12 @@ void print_report(const bench::Report& report) {
   for (const std::string& skipped : report.skipped) print("skipped: " + skipped + "\n");
 }
 
+std::string names() {
+  std::string list;
+  for (const std::string& name : bench::names()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 void measure(const Options& options, Outputs& outputs) {
   outputs.writes("--json", options.json, FileKind::json);
   std::optional<Progress> job;
@@ -69,7 +76,8 @@ Command add_bench(CommandLine& program) {
   auto options = std::make_shared<Options>();
   const Arguments& arguments = command.arguments;
   arguments
-      .add_option("NAME", options->names, "Benchmarks to run, by name or leading part of it; default: all")
+      .add_option("NAME", options->names,
+                  "Benchmarks to run, by name or leading part of it; default: all. They are " + names())
       .type_name("");
   arguments.add_option("--json", options->json, "Write the results as JSON; - for standard output")
       .type_name("FILE");

@@ -74,8 +74,7 @@ int run(const Command& command, const std::string& json) {
   start_console(common.quiet);
   set_thread_count(common.threads);
   common.outputs.set_force(common.force);
-  // A file is written only if the command has accepted it as an output.
-  const auto report = [&](const Outputs::End& end) { return fail(end, common.outputs.is_declared(json)); };
+  const auto report = [&](const Outputs::End& end) { return fail(end, common.outputs.may_hold_error(json)); };
   const Attendant attendant(common.grace_seconds,
                             [&](int signal) { return report(common.outputs.explain_interruption(signal)); });
   const std::optional<Outputs::End> end = end_of(command);

@@ -2,13 +2,19 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 
 #include "core/error.hpp"
-#include "scene/text_reader.hpp"
 
 namespace brume::cli {
 namespace {
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
 
 std::optional<double> decimal_of(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -35,8 +41,8 @@ std::optional<double> checked_number(std::string_view text, const NumberRange& r
   if (kind && *value >= range.low && *value <= range.high) return value;
   fault = range.whole ? "expected a whole number" : "expected a number";
   const bool low = std::isfinite(range.low), high = std::isfinite(range.high);
-  if (low && high) fault += " from " + scene::shown(range.low) + " to " + scene::shown(range.high);
-  if (low && !high) fault += " of at least " + scene::shown(range.low);
+  if (low && high) fault += " from " + text_of(range.low) + " to " + text_of(range.high);
+  if (low && !high) fault += " of at least " + text_of(range.low);
   fault += ", found '" + std::string(text) + "'";
   return std::nullopt;
 }

@@ -118,9 +118,15 @@ void Outputs::film_progress(const fs::path& film, std::uint32_t drawn, std::uint
                 " is not written (only numbered frames, such as -o f_%04d.png, can be continued)";
 }
 
-bool Outputs::is_declared(const fs::path& file) const {
+bool Outputs::may_hold_error(const fs::path& file) const {
   const std::lock_guard lock(mutex_);
-  return std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& o) { return o.file == file; });
+  const bool declared =
+      std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& o) { return o.file == file; });
+  const FileIdentity identity = identity_of(file);
+  if (!declared || inputs_.contains(identity)) return false;
+  if (!exists(identity)) return true;
+  const auto is_json = is_of_kind(file, FileKind::json);
+  return is_json && *is_json;
 }
 
 void Outputs::up_to_date(const fs::path& file) {

@@ -74,8 +74,9 @@ class Outputs {
 
   /// What has been written so far, for the terminal: "a.png, a.json"; empty: nothing.
   std::string written() const;
-  /// Whether this file is declared as an output.
-  bool is_declared(const std::filesystem::path& file) const;
+  /// Whether an error may be written to this file: it is declared as an output, nothing that is read, and
+  /// new, empty or JSON. A scene that failed to load may refer to more files than are known: no --force here.
+  bool may_hold_error(const std::filesystem::path& file) const;
 
  private:
   struct Output {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "core/progress.hpp"
@@ -231,6 +232,12 @@ void merge(BitGrid& into, const BitGrid& from) {
   });
 }
 
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
 }  // namespace
 
 Result<void> check_frame(const GridLayout& layout) {
@@ -245,7 +252,7 @@ Result<void> check_frame(const GridLayout& layout) {
       return Failure{ErrorCode::usage, std::string("grid: the origin's ") + kAxes[axis] + " is not finite"};
   }
   if (!std::isfinite(layout.voxel_size) || layout.voxel_size <= 0)
-    return Failure{ErrorCode::usage, "grid: voxel size " + std::to_string(layout.voxel_size) +
+    return Failure{ErrorCode::usage, "grid: voxel size " + text_of(double{layout.voxel_size}) +
                                          " m; give a finite number above 0"};
   return {};
 }
@@ -267,7 +274,7 @@ Result<GridLayout> layout_around(glm::vec3 low_world, glm::vec3 high_world, floa
     const double size = std::max(high - low, 1.0);
     if (!(size <= kMaxAxis))
       return Failure{ErrorCode::resource_limit,
-                     "grid: the scene would need " + std::to_string(size) +
+                     "grid: the scene would need " + text_of(size) +
                          " voxels along an axis; at most 4096: make the voxels larger"};
     layout.size[axis] = static_cast<int>(size);
     layout.origin_world[axis] = static_cast<float>(low * voxel_size);

@@ -158,6 +158,14 @@ TEST_F(CommandLineTest, ErrorsAreJsonWhereResultsWere) {
   EXPECT_EQ(run({"info", "room.obj", "--json", "room.obj"}).exit_code, 2);
   EXPECT_EQ(run({"info", "room.obj", "--json", "room.obj", "--bogus"}).exit_code, 2);
   EXPECT_EQ(*read_text_file(folder_.path() / "room.obj"), before);
+
+  // Nor over what a scene refers to that is read, or would be if its loading had not failed before.
+  folder_.write("room.mtl", "newmtl wall\n");
+  folder_.write("with.obj", "mtllib room.mtl\n" + room_obj());
+  folder_.write("broken.obj", "v 0 0 zero\nmtllib room.mtl\n");
+  EXPECT_EQ(run({"info", "with.obj", "--json", "room.mtl", "--force"}).exit_code, 2);
+  EXPECT_EQ(run({"info", "broken.obj", "--json", "room.mtl", "--force"}).exit_code, 3);
+  EXPECT_EQ(*read_text_file(folder_.path() / "room.mtl"), "newmtl wall\n");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class Info : public testing::Test {
 
 TEST_F(Info, SizeAndPlaceOfAScene) {
   const Json room = info("room.obj");
-  EXPECT_EQ(room["objects"], 2);
+  EXPECT_EQ(room["objects"], 1);
   EXPECT_EQ(room["triangles"], 24);
   EXPECT_EQ(room["size"], (Json{4, 3, 4}));
   EXPECT_EQ(room["up"], "y");

@@ -94,6 +94,7 @@ void take_json_error(const WorkFolder& folder, const std::vector<std::string>& a
   const auto option = std::find(arguments.begin(), arguments.end(), "--json");
   if (option == arguments.end() || option + 1 == arguments.end()) return;
   const auto file = folder.path() / option[1];
+  if (!std::filesystem::is_regular_file(file)) return;
   const std::string text = read_text(file);
   if (text.find("\"error\": {") == std::string::npos) return;
   EXPECT_NE(text.find("\"code\": " + std::to_string(exit_code)), std::string::npos) << text;

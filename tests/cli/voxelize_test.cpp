@@ -147,7 +147,8 @@ TEST(Voxelize, TheMotel) {
   EXPECT_EQ(second["solid"], first["solid"]);
 
   const Json info = json_of(run_brume(folder.path(), {"info", scene, "--json", "-"}));
-  EXPECT_EQ(info["objects"], 157);
+  EXPECT_EQ(info["objects"], 156);
+  EXPECT_EQ(info["grenade"], "from the file");
   EXPECT_EQ(info["lights"].size(), 51u);
 }
 
