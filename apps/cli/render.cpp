@@ -161,7 +161,7 @@ FrameRange frames_of(const Plan& plan, const scene::Timeline& timeline) {
   return plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
 }
 
-// What is asked for beyond the end of the timeline shows its end.
+// Times beyond the end of the timeline show its end.
 void warn_of_times(const Options& options, const Plan& plan, const scene::Timeline& timeline) {
   const double end = double{timeline.duration};
   const std::string after = " after the end of the timeline at " + scene::shown(end) + " s";

@@ -50,8 +50,8 @@ std::string allocation_text(VkDeviceSize size, VkDeviceSize in_use, const VkMemo
   const auto mebibytes = [](VkDeviceSize bytes) {
     return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
   };
-  return "the device has " + mebibytes(heap.size) + " of memory, of which " + mebibytes(in_use) +
-         " are in use: allocating " + mebibytes(size);
+  return "allocating " + mebibytes(size) + " besides the " + mebibytes(in_use) + " in use, in a heap of " +
+         mebibytes(heap.size) + ",";
 }
 
 }  // namespace

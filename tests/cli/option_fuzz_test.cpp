@@ -110,96 +110,93 @@ class Dice {
 };
 
 /// Values of every kind that some option takes, and of some that none does.
-std::string random_value(Dice& dice) {
-  static const std::string values[] = {"0",
-                                       "1",
-                                       "2",
-                                       "3",
-                                       "-1",
-                                       "0.5",
-                                       "0.25",
-                                       "1e9",
-                                       "1e-9",
-                                       "nan",
-                                       "inf",
-                                       "-inf",
-                                       "24000/1001",
-                                       "1/0",
-                                       "23.976",
-                                       "",
-                                       "0,1,0",
-                                       "0.5,1,-0.5",
-                                       "1e9,0,0",
-                                       "nan,0,0",
-                                       "0, 1, 0",
-                                       "1,2",
-                                       "0,1,1.5 0,1,0 60",
-                                       "0,1,1.5 0,1,0",
-                                       "0,0,0 0,0,0 60",
-                                       "16x16",
-                                       "32x18",
-                                       "1x1",
-                                       "0x0",
-                                       "33x17",
-                                       "4x4x4",
-                                       "16x12x16",
-                                       "0x1x1",
-                                       "-1x1x1",
-                                       "0-1",
-                                       "1-2",
-                                       "2-1",
-                                       "0-0",
-                                       "9-",
-                                       "full",
-                                       "half",
-                                       "quarter",
-                                       "neutral",
-                                       "standard",
-                                       "visible",
-                                       "hidden",
-                                       "density",
-                                       "depth",
-                                       "solid",
-                                       "none",
-                                       "y=1",
-                                       "x=nan",
-                                       "60,40",
-                                       "60,0",
-                                       "room.obj",
-                                       "room.toml",
-                                       "room.vxl",
-                                       "room.brp",
-                                       "a.png",
-                                       "b.png",
-                                       "notes.txt",
-                                       "empty.obj",
-                                       "missing.glb",
-                                       ".",
-                                       "..",
-                                       "none/x.png",
-                                       "-",
-                                       "--",
-                                       "new.png",
-                                       "new_%d.png",
-                                       "new.mp4",
-                                       "new.vxl",
-                                       "new.brp",
-                                       "new.json",
-                                       "new.obj",
-                                       "NEW.PNG",
-                                       "%s.png",
-                                       "100%.png",
-                                       "\xff\xfe",
-                                       "room.toml/x",
-                                       "/dev/null",
-                                       "--json",
-                                       "\xc3\xa9",
-                                       "18446744073709551616",
-                                       "-0",
-                                       "+1",
-                                       "0x10"};
-  return dice.one_of(values);
-}
+const std::string kValues[] = {"0",
+                               "1",
+                               "2",
+                               "3",
+                               "-1",
+                               "0.5",
+                               "0.25",
+                               "1e9",
+                               "1e-9",
+                               "nan",
+                               "inf",
+                               "-inf",
+                               "24000/1001",
+                               "1/0",
+                               "23.976",
+                               "",
+                               "0,1,0",
+                               "0.5,1,-0.5",
+                               "1e9,0,0",
+                               "nan,0,0",
+                               "0, 1, 0",
+                               "1,2",
+                               "0,1,1.5 0,1,0 60",
+                               "0,1,1.5 0,1,0",
+                               "0,0,0 0,0,0 60",
+                               "16x16",
+                               "32x18",
+                               "1x1",
+                               "0x0",
+                               "33x17",
+                               "4x4x4",
+                               "16x12x16",
+                               "0x1x1",
+                               "-1x1x1",
+                               "0-1",
+                               "1-2",
+                               "2-1",
+                               "0-0",
+                               "9-",
+                               "full",
+                               "half",
+                               "quarter",
+                               "neutral",
+                               "standard",
+                               "visible",
+                               "hidden",
+                               "density",
+                               "depth",
+                               "solid",
+                               "none",
+                               "y=1",
+                               "x=nan",
+                               "60,40",
+                               "60,0",
+                               "room.obj",
+                               "room.toml",
+                               "room.vxl",
+                               "room.brp",
+                               "a.png",
+                               "b.png",
+                               "notes.txt",
+                               "empty.obj",
+                               "missing.glb",
+                               ".",
+                               "..",
+                               "none/x.png",
+                               "-",
+                               "--",
+                               "new.png",
+                               "new_%d.png",
+                               "new.mp4",
+                               "new.vxl",
+                               "new.brp",
+                               "new.json",
+                               "new.obj",
+                               "NEW.PNG",
+                               "%s.png",
+                               "100%.png",
+                               "\xff\xfe",
+                               "room.toml/x",
+                               "/dev/null",
+                               "--json",
+                               "\xc3\xa9",
+                               "18446744073709551616",
+                               "-0",
+                               "+1",
+                               "0x10"};
 
 Arguments random_call(Dice& dice, const std::map<std::string, std::vector<Option>>& options) {
   static const std::string inputs[] = {"room.obj", "room.toml", "room.vxl", "room.brp", "a.png"};
@@ -207,7 +204,7 @@ Arguments random_call(Dice& dice, const std::map<std::string, std::vector<Option
   std::advance(command, dice.below(options.size()));
   Arguments call{command->first};
   const bool positional = command->first != "devices" && !dice.once_in(16);
-  if (positional) call.push_back(dice.once_in(8) ? random_value(dice) : dice.one_of(inputs));
+  if (positional) call.push_back(dice.once_in(8) ? dice.one_of(kValues) : dice.one_of(inputs));
   if (command->first == "diff" && !dice.once_in(8)) call.emplace_back("b.png");
   // What makes most calls valid, so that they get far.
   if (command->first == "render" && !dice.once_in(8)) call.insert(call.end(), {"-o", "new.png"});
@@ -216,9 +213,9 @@ Arguments random_call(Dice& dice, const std::map<std::string, std::vector<Option
   for (std::size_t count = dice.below(4); count > 0; --count) {
     const Option& option = command->second[dice.below(command->second.size())];
     call.push_back(option.name);
-    if (option.takes_value != dice.once_in(16)) call.push_back(random_value(dice));
+    if (option.takes_value != dice.once_in(16)) call.push_back(dice.one_of(kValues));
   }
-  if (dice.once_in(16)) call.push_back(random_value(dice));
+  if (dice.once_in(16)) call.push_back(dice.one_of(kValues));
   // Rendering is what takes time: small, and seldom.
   if (command->first == "render") call.insert(call.end(), {"--size", "16x16"});
   return call;
@@ -230,8 +227,9 @@ bool may_be_replaced(const Arguments& call, const std::string& name) {
   const std::size_t arguments = call[0] == "diff" ? 3 : 2;
   for (std::size_t i = 1; i < call.size(); ++i)
     if (call[i] == name && i < arguments) return false;
-  return kinds.contains(std::filesystem::path(name).extension()) &&
-         std::find(call.begin(), call.end(), name) != call.end();
+  // An empty file may become anything.
+  const bool replaceable = kinds.contains(std::filesystem::path(name).extension()) || name == "empty.obj";
+  return replaceable && std::find(call.begin(), call.end(), name) != call.end();
 }
 
 std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {

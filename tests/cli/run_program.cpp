@@ -44,13 +44,14 @@ void send_to(int descriptor, const std::filesystem::path& file) {
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
   if (options.signal_at > 0) ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
-  arguments.insert(arguments.begin(), BRUME_PROGRAM);
+  const std::string program = options.program.empty() ? BRUME_PROGRAM : options.program;
+  arguments.insert(arguments.begin(), program);
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   if (options.close_standard_descriptors)
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(descriptor);
-  if (::chdir(folder.c_str()) == 0) ::execv(BRUME_PROGRAM, pointers.data());
+  if (::chdir(folder.c_str()) == 0) ::execv(program.c_str(), pointers.data());
   ::_exit(127);
 }
 

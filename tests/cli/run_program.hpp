@@ -18,6 +18,7 @@ struct Outcome {
 };
 
 struct RunOptions {
+  std::string program;                                           ///< Instead of build/.../brume.
   std::vector<std::pair<std::string, std::string>> environment;  ///< Added to the test's own.
   std::uint64_t file_bytes = 0;                                  ///< No file may grow past this; 0: any size.
   std::string out_file;                                          ///< Receives standard output instead.
