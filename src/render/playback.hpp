@@ -25,7 +25,7 @@ class Playback {
   Playback(gpu::Context& context, const scenario::Scenario& scenario, glm::uvec2 size_px)
       : Playback(context, scenario, RendererOptions{size_px}) {}
 
-  /// The image at a time [s]: the same for the same tick, whatever came before and whatever its index. With
+  /// The image at a time [s]: the same for the same time, whatever came before and whatever its index. With
   /// RendererOptions::temporal a frame whose index is one more than that of the draw before goes on from it;
   /// any other starts over.
   image::Image8 draw(double seconds, std::uint32_t frame_index);
