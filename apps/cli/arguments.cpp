@@ -270,6 +270,7 @@ CommandLine::~CommandLine() = default;
 Arguments CommandLine::add_command(const std::string& name, const std::string& description) {
   CLI::App* command = app_->add_subcommand(name, description);
   command->set_help_flag("-h,--help", "Print this help");
+  command->group("Commands");
   return Arguments(command);
 }
 

@@ -42,7 +42,6 @@ std::string shown_name(const CLI::Option& option) {
 
 HelpFormatter::HelpFormatter() {
   label("Positionals", "Arguments");
-  label("Subcommands", "Commands");
   label("SUBCOMMAND", "COMMAND");
 }
 

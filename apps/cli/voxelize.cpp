@@ -103,7 +103,9 @@ Command add_voxelize(CommandLine& program) {
       .type_name("FILE");
   arguments.add_option("--grid", options->grid, "Grid size in voxels; default: encloses the scene")
       .type_name("XxYxZ");
-  arguments.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25").type_name("M");
+  arguments.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25")
+      .range(1e-6, 1e6)
+      .type_name("M");
   arguments.add_option("--scale", options->scale, "Metres per unit of the scene; default 1")
       .range(1e-6, 1e6)
       .type_name("X");

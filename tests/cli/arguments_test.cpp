@@ -35,6 +35,7 @@ TEST_F(CommandLineTest, HelpVersionAndOverview) {
   EXPECT_EQ(overview.error, "");
   for (const Arguments& same : {Arguments{"--help"}, {"-h"}, {"help"}})
     EXPECT_EQ(run(same).out, overview.out);
+  EXPECT_NE(overview.out.find("\nCommands:\n  demo "), std::string::npos) << overview.out;
   EXPECT_EQ(run({"help", "sim"}).out, run({"sim", "--help"}).out);
   EXPECT_NE(run({"sim", "-h"}).out.find("--ticks N"), std::string::npos);
   const Outcome version = run({"-V"});

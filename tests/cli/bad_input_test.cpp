@@ -68,6 +68,7 @@ TEST(BadInput, InvalidGrids) {
   expect_failure(folder, voxelize("room.obj", {"--grid", "1000000x1000000x1000000"}), 4, {"1000000", "4096"});
   expect_failure(folder, voxelize("room.obj", {"--grid", "8x8x8", "--voxel", "0"}), 2, {"voxel"});
   expect_failure(folder, voxelize("room.obj", {"--voxel", "0.00001"}), 4, {"4096"});
+  expect_failure(folder, voxelize("room.obj", {"--voxel", "1e-300"}), 2, {"--voxel", "1e-06"});
   expect_failure(folder, voxelize("room.obj", {"--grid", "8x8x8", "--origin", "0,0,inf"}), 2, {"--origin"});
 }
 
