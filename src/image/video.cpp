@@ -42,7 +42,8 @@ class Descriptor {
 };
 
 std::vector<std::string> ffmpeg_arguments(const VideoOptions& options, const std::string& output) {
-  const std::string rate = std::to_string(options.frames_per_second) + "/" + std::to_string(options.rate_divisor);
+  const std::string rate =
+      std::to_string(options.frames_per_second) + "/" + std::to_string(options.rate_divisor);
   const std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
   // Explicit, because players guess BT.601 or BT.709 by the image size.
   const std::string to_bt709 = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int";

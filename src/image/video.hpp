@@ -13,7 +13,7 @@ namespace brume::image {
 struct VideoOptions {
   std::uint32_t width = 0, height = 0;  ///< Texels; even, because of 4:2:0 chroma subsampling.
   std::uint32_t frames_per_second = 24;
-  unsigned threads = 0;  ///< Threads of ffmpeg; 0: its own choice.
+  unsigned threads = 0;            ///< Threads of ffmpeg; 0: its own choice.
   std::uint32_t rate_divisor = 1;  ///< The rate is frames_per_second / rate_divisor; not 0.
 };
 

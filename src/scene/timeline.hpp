@@ -201,8 +201,8 @@ void sort_events(Timeline& timeline);
 /// at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time,
 /// low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events
 /// [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
-/// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of the
-/// wrong type or out of range.
+/// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
+/// the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.

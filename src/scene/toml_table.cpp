@@ -119,10 +119,9 @@ std::optional<std::int64_t> TomlTable::whole(const toml::node& node, std::string
   const std::optional<std::int64_t> value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
   if (value && *value >= least && *value <= most) return value;
   std::string found = value ? ", found " + std::to_string(*value) : "";
-  const std::string range = least == most
-                                ? expected(key, "") + std::to_string(least)
-                                : expected(key, "a whole number from ") + std::to_string(least) + " to " +
-                                      std::to_string(most);
+  const std::string range = least == most ? expected(key, "") + std::to_string(least)
+                                          : expected(key, "a whole number from ") + std::to_string(least) +
+                                                " to " + std::to_string(most);
   fail_at(node.source(), range + found);
   return std::nullopt;
 }

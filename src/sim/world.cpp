@@ -179,8 +179,8 @@ void World::advance_to(std::uint32_t tick) {
 /// The number of events in the log up to a tick that are not in state_ yet.
 std::uint64_t World::events_until(std::uint32_t tick) const {
   const auto next = log_.begin() + static_cast<std::ptrdiff_t>(next_event_);
-  const auto end =
-      std::upper_bound(next, log_.end(), tick, [](std::uint32_t t, const Event& e) { return t < tick_of(e); });
+  const auto end = std::upper_bound(next, log_.end(), tick,
+                                    [](std::uint32_t t, const Event& e) { return t < tick_of(e); });
   return static_cast<std::uint64_t>(end - next);
 }
 
