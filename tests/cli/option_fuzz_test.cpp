@@ -221,15 +221,19 @@ Arguments random_call(Dice& dice, const std::map<std::string, std::vector<Option
   return call;
 }
 
-/// Whether a file of the folder is an output of its own kind, and not also what the command reads.
+/// Whether a file of the folder is an output of its own kind, or of any with --force, and not also what the
+/// command reads.
 bool may_be_replaced(const Arguments& call, const std::string& name) {
   static const std::set<std::string> kinds{".vxl", ".brp", ".png"};
+  const auto has = [&](const char* word) { return std::find(call.begin(), call.end(), word) != call.end(); };
   const std::size_t arguments = call[0] == "diff" ? 3 : 2;
   for (std::size_t i = 1; i < call.size(); ++i)
     if (call[i] == name && i < arguments) return false;
+  // The timeline's scene.
+  if (name == "room.obj" && has("room.toml")) return false;
   // An empty file may become anything.
   const bool replaceable = kinds.contains(std::filesystem::path(name).extension()) || name == "empty.obj";
-  return replaceable && std::find(call.begin(), call.end(), name) != call.end();
+  return (replaceable || has("--force")) && has(name.c_str());
 }
 
 std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
