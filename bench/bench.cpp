@@ -1,5 +1,7 @@
 #include "bench/bench.hpp"
 
+#include "bench/names.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -81,6 +83,12 @@ std::vector<Case> all_cases() {
   return cases;
 }
 
+std::vector<std::string> names() {
+  std::vector<std::string> names;
+  for (const Case& one : all_cases()) names.push_back(one.name);
+  return names;
+}
+
 Result<Report> run(const std::vector<std::string>& names, const BenchOptions& options,
                    const std::function<void(const std::string&)>& starting) {
   const std::vector<Case> cases = all_cases();
@@ -110,8 +118,12 @@ Result<Report> run(const std::vector<std::string>& names, const BenchOptions& op
   }
   report.processor = processor_name();
   report.threads = thread_count();
-  report.commit = BRUME_COMMIT;
+  report.commit = commit();
   return report;
+}
+
+std::string commit() {
+  return BRUME_COMMIT;
 }
 
 Result<std::string> motel_scene() {

@@ -29,6 +29,9 @@ struct Measurement {
       details;  ///< Problem size and secondary results: triangles, texture samples...
 };
 
+/// Of the source tree, "unknown" outside of git.
+std::string commit();
+
 struct Report {
   std::string device, driver;  ///< Of the GPU cases; empty when none ran.
   std::string processor;

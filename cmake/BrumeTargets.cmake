@@ -80,7 +80,8 @@ endfunction()
 # What the sources of tests have in common: they are optimized little, since to compile them is the longer part. Not at
 # all would be too little: under the sanitizers, tests then run four times as long. What is tested keeps its optimization.
 set(brume_test_flags "$<$<CONFIG:Release,RelWithDebInfo,Debug>:-Og>"
-                     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
+                     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>"
+                     "$<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>")
 # The checks of every pointer are most of what the undefined behaviour sanitizer adds, and a test that follows a bad
 # pointer crashes or meets the address sanitizer. The libraries keep these checks. Tests keep those of arithmetic and
 # bounds, which also cover the inline functions of our headers: the linker may take any of their copies.

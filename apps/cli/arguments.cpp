@@ -1,51 +1,163 @@
 #include "apps/cli/arguments.hpp"
 
-#include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdlib>
-#include <sstream>
+#include <algorithm>
+#include <map>
 
+#include "apps/cli/console.hpp"
+#include "apps/cli/help.hpp"
+#include "apps/cli/number.hpp"
 #include "core/error.hpp"
+#include "core/similar.hpp"
+#include "scene/load.hpp"
 
 namespace brume::cli {
 namespace {
 
-constexpr double kUnlimited = 1e300, kMostWhole = 4294967295.0;
+constexpr double kMostWhole = 4294967295.0;
 
-/// Lists commands with the first line of their description only.
-class BriefFormatter : public CLI::Formatter {
- public:
-  std::string make_subcommand(const CLI::App* command) const override {
-    const std::string text = command->get_description();
-    return "  " + command->get_name() + std::string(12 - command->get_name().size(), ' ') +
-           text.substr(0, text.find('\n')) + "\n";
-  }
-  std::string make_description(const CLI::App* app) const override {
-    return CLI::Formatter::make_description(app) + "\n";
-  }
-};
-
-/// A number in [low, high]. CLI11's own check accepts NaN, and names ranges with six decimals.
-CLI::Validator number_check(double low, double high, bool whole) {
+/// Numbers of a range. Replaces the text by one that CLI11 converts: it reads no fractions.
+CLI::Validator number_check(const NumberRange& range) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool is_number = !text.empty() && *end == '\0' && (!whole || value == std::floor(value));
-        if (is_number && value >= low && value <= high) return "";
-        const std::string kind = whole ? "a whole number" : "a number";
-        if (low <= -kUnlimited || high >= kMostWhole) return "expected " + kind + ", found '" + text + "'";
-        std::ostringstream range;
-        range.precision(10);
-        range << "expected " << kind << " from " << low << " to " << high << ", found '" << text << "'";
-        return range.str();
+        std::string fault;
+        const auto value = checked_number(text, range, fault);
+        if (!value) return fault;
+        char exact[40];
+        std::snprintf(exact, sizeof exact, range.whole ? "%.0f" : "%.17g", *value);
+        text = exact;
+        return "";
       },
       "");
 }
 
-/// A finite number.
-CLI::Validator any_number() {
-  return number_check(-kUnlimited, kUnlimited, false);
+CLI::Option* number_option(CLI::Option* option, const NumberRange& range) {
+  return option->transform(number_check(range));
+}
+
+[[noreturn]] void refuse(const std::string& message, const CLI::App* command) {
+  throw Error(ErrorCode::usage,
+              message + "; see brume " + (command ? command->get_name() + " " : "") + "--help");
+}
+
+bool takes_value(const CLI::Option& option) {
+  return option.get_items_expected_max() > 0;
+}
+
+/// All names of a command's options, with dashes.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group().empty()) continue;
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// Checks the words of a command line before CLI11 does, whose messages name neither the place nor the fix.
+class WordCheck {
+ public:
+  WordCheck(const CLI::App& command, const std::vector<std::string>& words)
+      : command_(command), words_(words) {}
+
+  void run() {
+    for (; next_ < words_.size(); ++next_) {
+      const std::string& word = words_[next_];
+      if (!options_ended_ && word == "--") {
+        options_ended_ = true;
+      } else if (!options_ended_ && word.starts_with("--")) {
+        check_long(word);
+      } else if (!options_ended_ && word.size() > 1 && word[0] == '-' && !number_of(word.substr(0, 2)) &&
+                 word[1] != '.') {
+        check_short(word);
+      } else {
+        check_positional(word);
+      }
+    }
+    if (!help_) check_missing();
+  }
+
+ private:
+  void check_long(const std::string& word) {
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    const CLI::Option* option = command_.get_option_no_throw(name);
+    if (option == nullptr) refuse("unknown option " + name + nearest(name), &command_);
+    const bool has_value = equals != std::string::npos;
+    if (has_value && !takes_value(*option)) refuse(name + ": takes no value", &command_);
+    if (has_value && equals + 1 == word.size()) refuse(missing_value(name, *option), &command_);
+    take(name, *option, has_value);
+  }
+  void check_short(const std::string& word) {
+    for (std::size_t i = 1; i < word.size(); ++i) {
+      const std::string name = "-" + word.substr(i, 1);
+      const CLI::Option* option = command_.get_option_no_throw(name);
+      if (option == nullptr)
+        refuse("unknown option " + (i == 1 ? word : name) + nearest("-" + word), &command_);
+      if (!takes_value(*option)) {
+        take(name, *option, true);
+        continue;
+      }
+      return take(name, *option, i + 1 < word.size());
+    }
+  }
+  void check_positional(const std::string& word) {
+    std::size_t most = 0;
+    for (const CLI::Option* option : command_.get_options())
+      if (option->get_positional()) most += static_cast<std::size_t>(option->get_items_expected_max());
+    if (++positionals_ <= most) return;
+    std::string message = "unexpected argument '" + word + "'";
+    if (word.find(',') != std::string::npos || number_of(word))
+      message += "; put a value with blanks into quotes, such as --camera \"0,1.7,5 0,1.5,0 60\"";
+    refuse(message, &command_);
+  }
+  /// Skips the value in the next word unless the option's own word has it.
+  void take(const std::string& name, const CLI::Option& option, bool has_value) {
+    help_ = help_ || &option == command_.get_help_ptr();
+    const bool once = option.get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
+    if (++given_[&option] > 1 && once && takes_value(option))
+      refuse(name + ": is given twice; remove one", &command_);
+    if (has_value || !takes_value(option)) return;
+    if (next_ + 1 == words_.size()) refuse(missing_value(name, option), &command_);
+    ++next_;
+  }
+  void check_missing() const {
+    std::size_t positionals = 0;
+    for (const CLI::Option* option : command_.get_options()) {
+      const bool missing =
+          option->get_positional() ? positionals++ >= positionals_ : !given_.contains(option);
+      if (option->get_required() && missing)
+        refuse("expected " + shown_name(*option) + ": " + option->get_description(), &command_);
+    }
+  }
+  static std::string missing_value(const std::string& name, const CLI::Option& option) {
+    return name + ": expected a value, " + option.get_type_name();
+  }
+  std::string nearest(const std::string& name) const {
+    const auto similar = similar_name(name, option_names(command_));
+    return similar ? "; did you mean " + *similar + "?" : "";
+  }
+
+  const CLI::App& command_;
+  const std::vector<std::string>& words_;
+  std::map<const CLI::Option*, int> given_;
+  std::size_t next_ = 0, positionals_ = 0;
+  bool options_ended_ = false, help_ = false;
+};
+
+[[noreturn]] void refuse_command(const std::string& word, const std::vector<std::string>& commands) {
+  const std::string extension = scene::lower_extension(word);
+  if (word.starts_with("-")) refuse("unknown option " + word, nullptr);
+  if (extension == ".toml" || extension == ".glb" || extension == ".gltf" || extension == ".obj")
+    refuse("expected a command before " + word + ", such as brume render " + word + " -o a.png", nullptr);
+  const auto similar = similar_name(word, commands);
+  refuse("unknown command '" + word + "'" + (similar ? "; did you mean brume " + *similar + "?" : ""),
+         nullptr);
+}
+
+void print_help(const CLI::App& app, const std::string& prefix) {
+  std::string text = app.help(prefix);
+  text.erase(text.find_last_not_of('\n') + 1);
+  print(text + "\n");
 }
 
 }  // namespace
@@ -61,17 +173,22 @@ const Argument& Argument::required() const {
 }
 
 const Argument& Argument::range(double low, double high) const {
-  option_->check(number_check(low, high, false));
+  number_option(option_, {low, high});
   return *this;
 }
 
 const Argument& Argument::range(std::uint32_t low, std::uint32_t high) const {
-  option_->check(number_check(low, high, true));
+  number_option(option_, {static_cast<double>(low), static_cast<double>(high), true});
   return *this;
 }
 
 const Argument& Argument::one_of(const std::vector<std::string>& values) const {
-  option_->check(CLI::IsMember(values));
+  option_->check(CLI::Validator(
+      [values](std::string& text) -> std::string {
+        if (std::find(values.begin(), values.end(), text) != values.end()) return "";
+        return "unknown value '" + text + "'" + suggestion(text, values, "");
+      },
+      ""));
   return *this;
 }
 
@@ -100,25 +217,25 @@ Argument Arguments::add_option(const std::string& name, std::vector<std::string>
 }
 
 Argument Arguments::add_option(const std::string& name, std::uint32_t& value, const std::string& help) const {
-  return Argument(app_->add_option(name, value, help)->check(number_check(0, kMostWhole, true)));
+  return Argument(number_option(app_->add_option(name, value, help), {0, kMostWhole, true}));
 }
 
 Argument Arguments::add_option(const std::string& name, std::optional<std::uint32_t>& value,
                                const std::string& help) const {
-  return Argument(app_->add_option(name, value, help)->check(number_check(0, kMostWhole, true)));
+  return Argument(number_option(app_->add_option(name, value, help), {0, kMostWhole, true}));
 }
 
 Argument Arguments::add_option(const std::string& name, float& value, const std::string& help) const {
-  return Argument(app_->add_option(name, value, help)->check(any_number()));
+  return Argument(number_option(app_->add_option(name, value, help), {}));
 }
 
 Argument Arguments::add_option(const std::string& name, double& value, const std::string& help) const {
-  return Argument(app_->add_option(name, value, help)->check(any_number()));
+  return Argument(number_option(app_->add_option(name, value, help), {}));
 }
 
 Argument Arguments::add_option(const std::string& name, std::optional<double>& value,
                                const std::string& help) const {
-  return Argument(app_->add_option(name, value, help)->check(any_number()));
+  return Argument(number_option(app_->add_option(name, value, help), {}));
 }
 
 Argument Arguments::add_flag(const std::string& name, bool& value, const std::string& help) const {
@@ -129,33 +246,79 @@ bool Arguments::parsed() const {
   return app_->parsed();
 }
 
+bool Arguments::given(const std::string& option) const {
+  return app_->count(option) > 0;
+}
+
+void Arguments::refuse(const std::string& option, const std::string& why) const {
+  if (given(option)) throw Error(ErrorCode::usage, option + ": " + why);
+}
+
+std::string Arguments::name() const {
+  return app_->get_name();
+}
+
 CommandLine::CommandLine(const std::string& about, const std::string& name, const std::string& version)
     : app_(std::make_unique<CLI::App>(about, name)) {
-  app_->formatter(std::make_shared<BriefFormatter>());
-  app_->set_version_flag("--version", version);
-  app_->require_subcommand(1);
+  app_->formatter(std::make_shared<HelpFormatter>());
+  app_->set_version_flag("-V,--version", version, "Print the version and how the program was built");
+  app_->set_help_flag("-h,--help", "Print this help; brume COMMAND --help prints that of a command");
 }
 
 CommandLine::~CommandLine() = default;
 
 Arguments CommandLine::add_command(const std::string& name, const std::string& description) {
-  return Arguments(app_->add_subcommand(name, description));
+  CLI::App* command = app_->add_subcommand(name, description);
+  command->set_help_flag("-h,--help", "Print this help");
+  command->group("Commands");
+  return Arguments(command);
 }
 
 bool CommandLine::parse(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
+
+  // `brume`, `brume help` and `brume help COMMAND`.
+  if (!words.empty() && words[0] == "help") {
+    words.erase(words.begin());
+    words.resize(std::min<std::size_t>(words.size(), 1));
+    words.emplace_back("--help");
+  }
+  if (words.empty()) words.emplace_back("--help");
+  if (words[0] == "--help" || words[0] == "-h") {
+    print_help(*app_, "");
+    return false;
+  }
+  if (words[0] == "--version" || words[0] == "-V") {
+    print(app_->version() + "\n");
+    return false;
+  }
+
+  // A command.
+  if (std::find(commands.begin(), commands.end(), words[0]) == commands.end())
+    refuse_command(words[0], commands);
+  const CLI::App* command = app_->get_subcommand(words[0]);
+  WordCheck(*command, {words.begin() + 1, words.end()}).run();
   try {
-    app_->parse(argc, argv);
+    app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return true;
-  } catch (const CLI::Success& help) {
-    app_->exit(help);
+  } catch (const CLI::Success&) {
+    print_help(*command, "brume");
     return false;
   } catch (const CLI::ParseError& error) {
-    const auto chosen = app_->get_subcommands();
-    const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
-    if (chosen.empty() && !app_->remaining().empty())
-      throw Error(ErrorCode::usage, "unknown command '" + app_->remaining().front() + "'; see brume --help");
-    throw Error(ErrorCode::usage, std::string(error.what()) + "; see brume" + name + " --help");
+    refuse(error.what(), command);
   }
+}
+
+std::string value_of(int argc, char** argv, const std::string& option) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == option && i + 1 < argc) return argv[i + 1];
+    if (word.starts_with(option + "=")) return word.substr(option.size() + 1);
+  }
+  return "";
 }
 
 }  // namespace brume::cli

@@ -34,7 +34,8 @@ class Argument {
   CLI::Option* option_;
 };
 
-/// The arguments of one command. Parsing writes the referenced values, so they must outlive it.
+/// The arguments of one command. Parsing writes the referenced values, so they must outlive it. Numbers are
+/// those of checked_number.
 class Arguments {
  public:
   Arguments() = default;
@@ -53,6 +54,11 @@ class Arguments {
 
   /// Whether the command line selects this command.
   bool parsed() const;
+  /// Whether it gives this option, such as "--fps".
+  bool given(const std::string& option) const;
+  /// Throws Error (usage), "--fps: " + why, if it gives this option although it would do nothing.
+  void refuse(const std::string& option, const std::string& why) const;
+  std::string name() const;  ///< Of the command.
 
  private:
   CLI::App* app_ = nullptr;
@@ -67,12 +73,16 @@ class CommandLine {
   /// The list of commands shows the first line of `description`, the command's own --help all of it.
   Arguments add_command(const std::string& name, const std::string& description);
 
-  /// Parses the arguments. Returns false after printing help or the version: no command is to run then.
-  /// Throws Error (usage).
+  /// Parses the arguments. Without any, and for `help COMMAND`, --help and --version, prints that and returns
+  /// false: no command is to run then. Throws Error (usage), which names what is wrong and what was probably
+  /// meant.
   bool parse(int argc, char** argv);
 
  private:
   std::unique_ptr<CLI::App> app_;
 };
+
+/// The value that a command line gives to an option such as "--json", without parsing the rest; empty: none.
+std::string value_of(int argc, char** argv, const std::string& option);
 
 }  // namespace brume::cli

@@ -1,16 +1,19 @@
 #include "bench/bench.hpp"
 
 #include <cstdio>
+#include <optional>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
+#include "bench/names.hpp"
 #include "core/error.hpp"
+#include "core/progress.hpp"
 
 namespace brume::cli {
 namespace {
 
-struct Options {
+struct BenchOptions {
   std::vector<std::string> names;
   std::string json;
   bench::BenchOptions bench;
@@ -44,12 +47,21 @@ void print_report(const bench::Report& report) {
   for (const std::string& skipped : report.skipped) print("skipped: " + skipped + "\n");
 }
 
-void measure(const Options& options, Outputs& outputs) {
+std::string names() {
+  std::string list;
+  for (const std::string& name : bench::names()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+void measure(const BenchOptions& options, Outputs& outputs) {
   outputs.writes("--json", options.json, FileKind::json);
-  const auto display = progress_display();
-  std::uint64_t started = 0;
-  const auto starting = [&](const std::string& name) { display({name, started++, 0, 0}); };
+  std::optional<Progress> job;
+  const auto starting = [&](const std::string& name) {
+    stop_if_interrupted();
+    job.emplace(name);
+  };
   const bench::Report report = bench::run(options.names, options.bench, starting).value_or_throw();
+  job.reset();
   stop_if_interrupted();
   if (!options.json.empty()) write_json(options.json, to_json(report));
   if (options.json != "-") print_report(report);
@@ -61,10 +73,11 @@ Command add_bench(CommandLine& program) {
   Command command = declare(program, "bench", "Measures the performance of the simulation and the renderer.",
                             "  brume bench\n"
                             "  brume bench fill/1800 march --json bench.json --repetitions 31");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   const Arguments& arguments = command.arguments;
   arguments
-      .add_option("NAME", options->names, "Benchmarks to run, by name or leading part of it; default: all")
+      .add_option("NAME", options->names,
+                  "Benchmarks to run, by name or leading part of it; default: all. They are " + names())
       .type_name("");
   arguments.add_option("--json", options->json, "Write the results as JSON; - for standard output")
       .type_name("FILE");

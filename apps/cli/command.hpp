@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 
@@ -15,7 +16,9 @@ struct CommonOptions {
   unsigned threads = 0;  ///< 0: one per core.
   bool quiet = false;    ///< Suppresses progress and warnings, but not results and errors.
   bool force = false;    ///< Outputs may replace files of another kind.
-  Outputs outputs;       ///< Declared by the command while it runs.
+  /// Time that a command has to stop by itself after a signal, before it is ended [s].
+  double grace_seconds = 0.5;
+  Outputs outputs;  ///< Declared by the command while it runs.
 };
 
 /// A command for main to run. `run` throws Error on failure and Interrupted when a signal stops it.
@@ -28,6 +31,10 @@ struct Command {
 /// Declares a command with the common options. Its --help begins with `what` and the examples.
 Command declare(CommandLine& program, const std::string& name, const std::string& what,
                 const std::string& examples);
+
+/// Throws Error (usage) unless a file's suffix, in any case, is one of these, such as ".glb".
+void expect_suffix(const std::string& argument, const std::string& file,
+                   std::initializer_list<const char*> suffixes);
 
 Command add_demo(CommandLine& program);
 Command add_render(CommandLine& program);

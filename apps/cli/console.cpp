@@ -1,41 +1,74 @@
 #include "apps/cli/console.hpp"
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <cstring>
-#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
 
 #include "apps/cli/json.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "core/progress.hpp"
 
 namespace brume::cli {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+/// Version of the JSON objects: docs/json.md.
+constexpr int kJsonSchema = 1;
+constexpr std::size_t kDefaultWidth = 80;
+/// Jobs shorter than this show no progress.
+constexpr double kLongJobSeconds = 1;
+
 std::atomic<int> g_signal{0};
 std::atomic<bool> g_quiet{false};
-std::atomic<bool> g_line_shown{false};  // The cursor is on a progress line.
+std::mutex g_line_mutex;        // of standard error
+std::size_t g_line_length = 0;  // of the progress line that the cursor is on; 0: none
+std::atomic<bool> g_ending{false};
+std::string g_command, g_json_target;  // set before the command runs
+std::atomic<bool> g_json_written{false};
 
 extern "C" void on_signal(int signal) {
   g_signal = signal;
 }
 
-// Overwrites the current line; the padding erases the rest of a longer one.
-void show_line(const std::string& line) {
-  std::fprintf(stderr, "\r%-79s", line.c_str());
-  std::fflush(stderr);
-  g_line_shown = true;
+bool shows_progress() {
+  return !g_quiet && ::isatty(STDERR_FILENO) == 1;
 }
 
-void end_line() {
-  if (g_line_shown.exchange(false)) std::fputc('\n', stderr);
+std::size_t terminal_width() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefaultWidth;
+  return size.ws_col;
+}
+
+// Overwrites the current line; blanks erase the rest of a longer one. The last column stays free: a cursor
+// beyond it would move to the next line.
+void show_line() {
+  const std::lock_guard lock(g_line_mutex);
+  const std::size_t width = terminal_width() - 1;
+  std::string line;
+  if (const auto job = progress_to_show(kLongJobSeconds)) line = progress_line(*job, width);
+  if (line.empty() && g_line_length == 0) return;
+  const std::size_t blanks = std::min(width, g_line_length) - std::min({width, g_line_length, line.size()});
+  std::fprintf(stderr, "\r%s%s", line.c_str(), std::string(blanks, ' ').c_str());
+  if (line.empty()) std::fputc('\r', stderr);
+  std::fflush(stderr);
+  g_line_length = line.size();
 }
 
 std::string one_line(std::string text) {
@@ -43,6 +76,39 @@ std::string one_line(std::string text) {
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
   }
   return text;
+}
+
+// Below any progress line.
+void print_to_error(const std::string& line) {
+  const std::lock_guard lock(g_line_mutex);
+  std::fprintf(stderr, "%s%s\n", g_line_length > 0 ? "\n" : "", one_line(line).c_str());
+  g_line_length = 0;
+}
+
+const char* kind_of(int code) {
+  switch (static_cast<ErrorCode>(code)) {
+    case ErrorCode::internal:
+      return "internal";
+    case ErrorCode::usage:
+      return "usage";
+    case ErrorCode::bad_input:
+      return "bad_input";
+    case ErrorCode::resource_limit:
+      return "resource_limit";
+    case ErrorCode::no_device:
+      return "missing";
+    case ErrorCode::partial:
+      return "partial";
+    case ErrorCode::comparison_failed:
+      return "comparison_failed";
+  }
+  return "interrupted";
+}
+
+std::string json_text(const Json& object) {
+  Json whole{{"schema", kJsonSchema}, {"command", g_command}};
+  whole.update(object);
+  return whole.dump() + "\n";
 }
 
 }  // namespace
@@ -58,9 +124,7 @@ void reserve_standard_descriptors() {
 void start_console(bool quiet) {
   g_quiet = quiet;
   set_log_callback([quiet](LogLevel level, const std::string& line) {
-    if (quiet || level != LogLevel::warning) return;
-    end_line();
-    std::fprintf(stderr, "brume: warning: %s\n", one_line(line).c_str());
+    if (!quiet && level == LogLevel::warning) print_to_error("brume: warning: " + line);
   });
   struct sigaction action {
   }, old{};
@@ -72,47 +136,99 @@ void start_console(bool quiet) {
   ::signal(SIGXFSZ, SIG_IGN);
 }
 
+struct Attendant::Thread {
+  Thread(double seconds, std::function<int(int)> end) : grace_seconds(seconds), end_of(std::move(end)) {}
+
+  double grace_seconds;
+  std::function<int(int)> end_of;
+  std::mutex mutex;
+  std::condition_variable wake;
+  bool done = false;
+  std::thread thread;
+
+  void run() {
+    constexpr std::chrono::milliseconds kInterval(100);
+    std::optional<Clock::time_point> signalled;
+    std::unique_lock lock(mutex);
+    while (!wake.wait_for(lock, kInterval, [&] { return done; })) {
+      if (shows_progress()) show_line();
+      const int signal = g_signal;
+      if (signal == 0) continue;
+      const auto now = Clock::now();
+      if (!signalled) signalled = now;
+      if (now - *signalled < std::chrono::duration<double>(grace_seconds)) continue;
+      if (g_ending.exchange(true)) return;  // The command is reporting its own end.
+      ::_exit(end_of(signal));
+    }
+  }
+};
+
+Attendant::Attendant(double grace_seconds, std::function<int(int signal)> end_of)
+    : thread_(new Thread(grace_seconds, std::move(end_of))) {
+  // Signals interrupt the system calls of the main thread, not of this one.
+  sigset_t all, old;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &old);
+  thread_->thread = std::thread([thread = thread_] { thread->run(); });
+  ::pthread_sigmask(SIG_SETMASK, &old, nullptr);
+}
+
+Attendant::~Attendant() {
+  {
+    const std::lock_guard lock(thread_->mutex);
+    thread_->done = true;
+  }
+  thread_->wake.notify_one();
+  thread_->thread.join();
+  delete thread_;
+}
+
+void claim_end() {
+  if (!g_ending.exchange(true)) return;
+  for (;;) ::pause();
+}
+
 void stop_if_interrupted() {
   if (const int signal = g_signal) throw Interrupted{signal};
 }
 
-Progress::Callback progress_display() {
-  using Clock = std::chrono::steady_clock;
-  const bool shown = !g_quiet && ::isatty(STDERR_FILENO) == 1;
-  auto last = std::make_shared<Clock::time_point>();
-  return [shown, last](const Progress::State& state) {
-    stop_if_interrupted();
-    if (!shown) return;
-    const bool ended = state.total > 0 && state.done >= state.total;
-    const auto now = Clock::now();
-    if (!ended && now - *last < std::chrono::milliseconds(100)) return;
-    *last = now;
-    show_line(progress_line(state));
-    if (ended) end_line();
-  };
-}
-
 void print_failure(const std::string& message) {
-  end_line();
-  std::fprintf(stderr, "brume: %s\n", one_line(message).c_str());
+  print_to_error("brume: " + message);
 }
 
 void print_on_terminal(const std::string& line) {
-  if (g_quiet || ::isatty(STDERR_FILENO) != 1) return;
-  end_line();
-  std::fprintf(stderr, "%s\n", one_line(line).c_str());
+  if (shows_progress()) print_to_error(line);
 }
 
 void print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
 }
 
+void set_json(const std::string& command, const std::string& target) {
+  g_command = command;
+  g_json_target = target;
+}
+
 void write_json(const std::string& target, const Json& object) {
-  const std::string text = object.dump() + "\n";
+  const std::string text = json_text(object);
   if (target == "-") {
+    g_json_written = true;
     print(text);
   } else {
     write_file_atomic(target, text).value_or_throw();
+    g_json_written = true;
+  }
+}
+
+void write_json_error(int code, const std::string& message, bool may_write_file) {
+  if (g_json_target.empty() || g_json_written) return;
+  const std::string text =
+      json_text({{"error", {{"code", code}, {"kind", kind_of(code)}, {"message", message}}}});
+  if (g_json_target == "-") {
+    print(text);
+    std::fflush(stdout);
+  } else if (may_write_file) {
+    (void)write_file_atomic(g_json_target, text);
   }
 }
 

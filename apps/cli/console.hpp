@@ -1,9 +1,8 @@
 // Console output and signals: results go to standard output, progress, warnings and errors to standard error.
 #pragma once
 
+#include <functional>
 #include <string>
-
-#include "core/progress.hpp"
 
 namespace brume::cli {
 
@@ -12,7 +11,6 @@ class Json;
 /// Thrown when a command notices a signal, so that unwinding releases its resources.
 struct Interrupted {
   int signal;
-  std::string state = {};  ///< What is there and what is not, for the message; may be empty.
 };
 
 /// Opens the standard descriptors that the caller closed, without access: otherwise the next file that is
@@ -25,12 +23,27 @@ void reserve_standard_descriptors();
 /// (SIGXFSZ is ignored).
 void start_console(bool quiet);
 
+/// Shows the progress of long jobs (core/progress.hpp) on a terminal, and enforces stops, from a thread of
+/// its own, until it is destroyed: where a signal has not ended the command after `grace_seconds`, calls
+/// `end_of(signal)`, which reports it and returns the exit code, and ends the process. That leaves no half
+/// file, since files have no name until they are complete.
+class Attendant {
+ public:
+  Attendant(double grace_seconds, std::function<int(int signal)> end_of);
+  Attendant(const Attendant&) = delete;
+  ~Attendant();
+
+ private:
+  struct Thread;
+  Thread* thread_;
+};
+
 /// Throws Interrupted if a signal has arrived.
 void stop_if_interrupted();
 
-/// Progress callback for long jobs: shows a line if standard error is a terminal, and throws Interrupted on a
-/// signal.
-Progress::Callback progress_display();
+/// Returns to the first caller only, which then reports the end of the command; others wait for the process
+/// to end.
+void claim_end();
 
 /// Prints one line, "brume: ...", to standard error, below any progress line.
 void print_failure(const std::string& message);
@@ -41,8 +54,16 @@ void print_on_terminal(const std::string& line);
 /// Prints to standard output.
 void print(const std::string& text);
 
-/// Writes the object to the file `target`, or to standard output if it is "-". Throws Error.
+/// The command and the target of its --json (empty: none), for write_json and write_json_error.
+void set_json(const std::string& command, const std::string& target);
+
+/// Writes the object, after its schema and command, to the file `target`, or to standard output if it is "-".
+/// Throws Error.
 void write_json(const std::string& target, const Json& object);
+
+/// Writes {"error": {...}} where the command's result was to go, if that is standard output, or a file that
+/// `may_write_file` allows, and no result was written. Errors in doing so are ignored: one is being reported.
+void write_json_error(int code, const std::string& message, bool may_write_file);
 
 /// Flushes standard output; throws Error if it could not be written.
 void finish_output();

@@ -2,6 +2,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/data_files.hpp"
 #include "apps/cli/demo_picture.hpp"
 #include "apps/cli/targets.hpp"
 #include "core/error.hpp"
@@ -22,20 +23,20 @@ constexpr std::uint32_t kFilmMarchScale = 2;
 constexpr float kFilmLightUpdateFraction = 0.25f;
 constexpr const char* kDefaultFolder = "out";
 
-struct Options {
-  std::string folder = kDefaultFolder, device;
+struct DemoOptions {
+  std::string folder = kDefaultFolder, device, scenes;
 };
 
-void demo(const Options& options, CommonOptions& common) {
+void demo(const DemoOptions& options, CommonOptions& common) {
   const std::filesystem::path folder = options.folder;
   const auto picture = folder / "demo.png", film = folder / "demo.mp4";
+  const std::filesystem::path timeline = scenes_folder(options.scenes) / "demo.toml";
   if (options.folder == kDefaultFolder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
       throw Error(ErrorCode::bad_input, options.folder + ": cannot create the folder: " + error.message());
   }
-  const std::filesystem::path timeline = BRUME_SCENES_DIR "/demo.toml";
   common.outputs.reads(timeline);
   common.outputs.writes("", picture, FileKind::png);
   common.outputs.writes("", film, FileKind::mp4);
@@ -57,7 +58,7 @@ void demo(const Options& options, CommonOptions& common) {
   render::Playback playback(context, scenario, options_of_film);
   playback.set_light_update_fraction(kFilmLightUpdateFraction);
   const auto frames = static_cast<std::uint32_t>(std::ceil(seconds * kFramesPerSecond));
-  write_film(film, {kFilmSize, kFramesPerSecond, common.threads}, 0, frames - 1,
+  write_film(film, {kFilmSize, {kFramesPerSecond, 1}, common.threads}, 0, frames - 1, common.outputs,
              [&](std::uint32_t i) { return playback.draw(static_cast<double>(i) / kFramesPerSecond, i); });
   print(film.string() + "\n");
 }
@@ -67,10 +68,13 @@ void demo(const Options& options, CommonOptions& common) {
 Command add_demo(CommandLine& program) {
   Command command = declare(program, "demo", "Renders an image and a film of smoke flooding a building.",
                             "  brume demo\n  brume demo --out pictures --device 0");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DemoOptions>();
   command.arguments
       .add_option("-o,--out", options->folder,
                   "Existing folder to write to; default: out, created if missing")
+      .type_name("FOLDER");
+  command.arguments
+      .add_option("--scenes", options->scenes, "Folder of the demo's scene; default: the one it comes with")
       .type_name("FOLDER");
   command.arguments
       .add_option("--device", options->device, "Device by number or part of its name; see brume devices")

@@ -13,7 +13,7 @@
 namespace brume::cli {
 namespace {
 
-struct Options {
+struct DiffOptions {
   std::string reference, test, map, json;
   std::optional<double> fail_above, psnr_below;
 };
@@ -25,7 +25,9 @@ std::string size_of(const image::Image8& picture) {
 std::string number(double value) {
   std::ostringstream text;
   text.precision(6);
-  text << value;
+  // A whole number but for the rounding of floats is one.
+  constexpr double kRounding = 1e-4;
+  text << (std::abs(value - std::round(value)) < kRounding ? std::round(value) : value);
   return text.str();
 }
 
@@ -51,7 +53,18 @@ Comparison compare(const image::Image8& reference, const image::Image8& test) {
   return result;
 }
 
-Json json_of(const Options& options, const image::Image8& picture, const Comparison& c) {
+// Why the comparison fails by the thresholds; nothing: it passes.
+std::optional<std::string> failure_of(const DiffOptions& options, const Comparison& c) {
+  const std::string both = options.reference + " and " + options.test + " ";
+  if (options.fail_above && c.worst() > *options.fail_above)
+    return both + "differ by " + number(c.worst()) + " of 255, more than --fail-above " +
+           number(*options.fail_above);
+  if (options.psnr_below && c.psnr < *options.psnr_below)
+    return both + "agree to " + number(c.psnr) + " dB, less than --psnr-below " + number(*options.psnr_below);
+  return std::nullopt;
+}
+
+Json json_of(const DiffOptions& options, const image::Image8& picture, const Comparison& c) {
   // The PSNR of equal images is infinite, which JSON cannot express.
   return {{"reference", options.reference},
           {"test", options.test},
@@ -62,7 +75,8 @@ Json json_of(const Options& options, const image::Image8& picture, const Compari
           {"alpha_max", c.alpha_max},
           {"psnr", std::isfinite(c.psnr) ? Json(c.psnr) : Json(nullptr)},
           {"ssim", c.ssim},
-          {"flip", c.flip}};
+          {"flip", c.flip},
+          {"passed", !failure_of(options, c)}};
 }
 
 std::string text_of(const Comparison& c) {
@@ -71,39 +85,17 @@ std::string text_of(const Comparison& c) {
          " dB\nssim   " + number(c.ssim) + "\nflip   " + number(c.flip) + "\n";
 }
 
-void judge(const Options& options, const Comparison& c) {
-  const std::string both = options.reference + " and " + options.test + " ";
-  if (options.fail_above && c.worst() > *options.fail_above) {
-    throw Error(ErrorCode::comparison_failed, both + "differ by " + number(c.worst()) +
-                                                  " of 255, more than --fail-above " +
-                                                  number(*options.fail_above));
-  }
-  if (options.psnr_below && c.psnr < *options.psnr_below) {
-    throw Error(
-        ErrorCode::comparison_failed,
-        both + "agree to " + number(c.psnr) + " dB, less than --psnr-below " + number(*options.psnr_below));
-  }
-}
-
-void check_thresholds(const Options& options) {
-  const auto check = [](const char* name, const std::optional<double>& value, double most) {
-    if (!value || (*value >= 0 && *value <= most)) return;  // not for NaN
-    throw Error(ErrorCode::usage, std::string(name) + ": expected a number from 0 to " + number(most));
-  };
-  check("--fail-above", options.fail_above, 255);
-  check("--psnr-below", options.psnr_below, 200);
-}
-
-void diff(const Options& options, Outputs& outputs) {
-  check_thresholds(options);
+void diff(const DiffOptions& options, Outputs& outputs) {
+  if (!options.map.empty()) expect_suffix("-o", options.map, {".png"});
   outputs.reads({options.reference, options.test});
   outputs.writes("-o", options.map, FileKind::png);
   outputs.writes("--json", options.json, FileKind::json);
   const image::Image8 reference = image::load_image(options.reference).value_or_throw();
   const image::Image8 test = image::load_image(options.test).value_or_throw();
   if (reference.width != test.width || reference.height != test.height) {
-    throw Error(ErrorCode::bad_input, options.test + ": expected " + size_of(reference) + " texels as in " +
-                                          options.reference + ", found " + size_of(test));
+    throw Error(ErrorCode::comparison_failed, options.test + ": expected " + size_of(reference) +
+                                                  " texels as in " + options.reference + ", found " +
+                                                  size_of(test));
   }
   const Comparison comparison = compare(reference, test);
   stop_if_interrupted();
@@ -111,7 +103,8 @@ void diff(const Options& options, Outputs& outputs) {
     image::save_png(options.map, image::heat_map(comparison.flip_map)).value_or_throw();
   if (!options.json.empty()) write_json(options.json, json_of(options, reference, comparison));
   if (options.json != "-") print(text_of(comparison));
-  judge(options, comparison);
+  if (const auto failure = failure_of(options, comparison))
+    throw Error(ErrorCode::comparison_failed, *failure);
 }
 
 }  // namespace
@@ -122,7 +115,7 @@ Command add_diff(CommandLine& program) {
               "  brume diff reference.png test.png\n"
               "  brume diff reference.png test.png -o map.png --json -\n"
               "  brume diff reference.png test.png --psnr-below 38   # exit code 7 below 38 dB");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiffOptions>();
   const Arguments& arguments = command.arguments;
   arguments.add_option("REFERENCE", options->reference, "Reference image, .png or .jpg")
       .required()
@@ -133,8 +126,10 @@ Command add_diff(CommandLine& program) {
       .type_name("FILE");
   arguments
       .add_option("--fail-above", options->fail_above, "Fail if any channel differs by more than N [0, 255]")
+      .range(0.0, 255.0)
       .type_name("N");
   arguments.add_option("--psnr-below", options->psnr_below, "Fail if the PSNR is below DB [dB]")
+      .range(0.0, 200.0)
       .type_name("DB");
   arguments.add_option("--json", options->json, "Write the metrics as JSON; - for standard output")
       .type_name("FILE");

@@ -1,117 +1,134 @@
-#include <algorithm>
-#include <cctype>
+#include "apps/cli/info.hpp"
+
+#include <cstdio>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
-#include "apps/cli/json.hpp"
 #include "core/error.hpp"
 #include "image/decode.hpp"
 #include "scene/load.hpp"
-#include "scene/timeline.hpp"
 #include "voxel/vxl_file.hpp"
+#include "wire/replay.hpp"
 
 namespace brume::cli {
 namespace {
 
-Json point(glm::vec3 p) {
-  return Json::list({p.x, p.y, p.z});
-}
-
-Json scene_info(const std::filesystem::path& path, Outputs& outputs) {
-  const scene::Scene scene = scene::load_scene(path).value_or_throw();
-  outputs.reads(scene.files);
-  std::uint64_t triangles = 0;
-  for (const scene::Object& object : scene.objects) triangles += scene.meshes[object.mesh].indices.size() / 3;
-  // A grenade from the file counts as one of its objects, although it is not placed in the world.
-  const bool own_grenade = scene.grenade.has_value();
-  if (own_grenade) triangles += scene.meshes[scene.grenade->mesh].indices.size() / 3;
-  Json info{{"kind", "scene"},
-            {"objects", scene.objects.size() + own_grenade},
-            {"grenade", own_grenade ? "from the file" : "built in"},
-            {"meshes", scene.meshes.size()},
-            {"materials", scene.materials.size()},
-            {"images", scene.images.size()},
-            {"lights", scene.lights.size()},
-            {"triangles", triangles},
-            {"camera", scene.camera.has_value()}};
-  if (const Box<float> bounds = scene::world_bounds(scene); !bounds.empty()) {
-    info.set("bounds_min", point(bounds.low));
-    info.set("bounds_max", point(bounds.high));
-  }
-  return info;
-}
-
-Json timeline_info(const std::filesystem::path& path) {
-  const scene::Timeline timeline = scene::load_timeline(path).value_or_throw();
-  Json info{{"kind", "timeline"},
-            {"scene", timeline.scene.string()},
-            {"seconds", timeline.duration},
-            {"voxel_size", timeline.grid.voxel},
-            {"camera_keys", timeline.camera.size()}};
-  scene::for_each_event_list(timeline, [&](const char* type, const auto& events) {
-    info.set(type + std::string("s"), events.size());
-  });
-  return info;
-}
-
-Json image_info(const std::filesystem::path& path) {
+Summary image_summary(const std::filesystem::path& path) {
   const image::Image8 image = image::load_image(path).value_or_throw();
   bool opaque = true;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque = opaque && image.rgba[i] == 255;
-  return {{"kind", "image"}, {"width", image.width}, {"height", image.height}, {"opaque", opaque}};
+  Summary summary("image");
+  summary.add("width", image.width);
+  summary.add("height", image.height);
+  summary.add("opaque", opaque);
+  return summary;
 }
 
-Json voxel_info(const std::filesystem::path& path) {
+Summary voxel_summary(const std::filesystem::path& path) {
   const auto contents = voxel::load_vxl(path, std::nullopt).value_or_throw();
   BRUME_ASSERT(contents.has_value(), "loading without a key accepts any file");
-  const voxel::GridLayout& frame = contents->grid.layout();
-  return {{"kind", "voxels"},
-          {"size", Json::list({frame.size.x, frame.size.y, frame.size.z})},
-          {"voxel_size", frame.voxel_size},
-          {"origin", point(frame.origin_world)},
-          {"solid", contents->grid.count_solid()},
-          {"planes", contents->planes.plane_count()},
-          {"triangles", contents->triangles}};
+  Summary summary("voxels");
+  add_layout(summary, contents->grid.layout());
+  summary.add("solid", contents->grid.count_solid());
+  summary.add("planes", contents->planes.plane_count());
+  summary.add("triangles", contents->triangles);
+  return summary;
 }
 
-Json info_of(const std::filesystem::path& path, Outputs& outputs) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto is_one_of = [&](std::initializer_list<const char*> known) {
-    return std::find(known.begin(), known.end(), extension) != known.end();
-  };
-  if (is_one_of({".txt", ".gltf", ".glb", ".obj"})) return scene_info(path, outputs);
-  if (is_one_of({".toml"})) return timeline_info(path);
-  if (is_one_of({".vxl"})) return voxel_info(path);
-  if (is_one_of({".png", ".jpg", ".jpeg"})) return image_info(path);
-  throw Error(ErrorCode::usage, path.string() +
-                                    ": unknown file extension; expected .txt, .gltf, .glb, .obj, "
-                                    ".vxl, .toml, .png or .jpg");
+Summary replay_summary(const std::filesystem::path& path) {
+  const wire::Replay replay = wire::load_replay(path).value_or_throw();
+  Summary summary("recording");
+  summary.add("ticks", replay.checksums.size());
+  summary.add("ticks_per_second", replay.settings.ticks_per_second);
+  summary.add("events", replay.events.size());
+  add_layout(summary, replay.level.layout());
+  return summary;
+}
+
+Summary summary_of(const std::filesystem::path& path, bool check, Outputs& outputs) {
+  expect_suffix("", path,
+                {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".png", ".jpg", ".jpeg", ".webp"});
+  const std::string extension = scene::lower_extension(path);
+  if (extension == ".toml") return timeline_summary(path, check, outputs);
+  if (extension == ".vxl") return voxel_summary(path);
+  if (extension == ".brp") return replay_summary(path);
+  if (extension == ".txt" || extension == ".gltf" || extension == ".glb" || extension == ".obj")
+    return scene_summary(path, outputs);
+  return image_summary(path);
 }
 
 }  // namespace
 
+Summary::Summary(const std::string& kind) : json_(Json::object()) {
+  add("kind", kind);
+}
+
+void Summary::add(const std::string& key, const Json& value) {
+  json_.set(key, value);
+  lines_.emplace_back(key, value.text());
+}
+
+void Summary::add(const std::string& key, const Json& value, const std::string& text) {
+  json_.set(key, value);
+  lines_.emplace_back(key, text);
+}
+
+void Summary::add_line(const std::string& name, const std::string& text) {
+  lines_.emplace_back(name, text);
+}
+
+Json point_json(glm::vec3 p) {
+  return Json::list({p.x, p.y, p.z});
+}
+
+std::string point_text(glm::vec3 p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.5g,%.5g,%.5g", double{p.x}, double{p.y}, double{p.z});
+  return text;
+}
+
+void add_layout(Summary& summary, const voxel::GridLayout& layout) {
+  const glm::ivec3 n = layout.size;
+  summary.add("grid", Json::list({n.x, n.y, n.z}),
+              std::to_string(n.x) + "x" + std::to_string(n.y) + "x" + std::to_string(n.z) + " voxels");
+  summary.add("voxel_size", layout.voxel_size);
+  const glm::vec3 high = layout.origin_world + glm::vec3(n) * layout.voxel_size;
+  summary.add("origin", point_json(layout.origin_world),
+              point_text(layout.origin_world) + " to " + point_text(high) + " m");
+}
+
 Command add_info(CommandLine& program) {
   struct Options {
     std::string input, json;
+    bool check = false;
   };
-  Command command = declare(program, "info", "Summarizes a scene, timeline, voxel or image file.",
+  Command command = declare(program, "info", "Summarizes a scene, timeline, voxel, recording or image file.",
                             "  brume info room.glb\n"
+                            "  brume info scenes/demo.toml --check\n"
                             "  brume info room.vxl --json -");
   auto options = std::make_shared<Options>();
   command.arguments.add_option("FILE", options->input, "The file to summarize").required().type_name("");
+  command.arguments.add_flag(
+      "--check", options->check,
+      "Fail (exit code 3) if a timeline cannot be rendered: its scene, masks, fonts or "
+      "doors are missing or invalid");
   command.arguments.add_option("--json", options->json, "Write the summary as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [options, common = command.common] {
+  command.run = [arguments = command.arguments, options, common = command.common] {
+    if (scene::lower_extension(options->input) != ".toml")
+      arguments.refuse("--check", "is for timelines (.toml)");
     common->outputs.reads(std::filesystem::path(options->input));
     common->outputs.writes("--json", options->json, FileKind::json);
-    Json info{{"file", options->input}};
-    info.update(info_of(options->input, common->outputs));
-    if (!options->json.empty()) write_json(options->json, info);
+    const Summary summary = summary_of(options->input, options->check, common->outputs);
+    if (!options->json.empty()) {
+      Json info{{"file", options->input}};
+      info.update(summary.json());
+      write_json(options->json, info);
+    }
     if (options->json == "-") return;
-    for (const auto& [key, value] : info.fields())
-      print(key + std::string(14 - std::min<std::size_t>(13, key.size()), ' ') + value + "\n");
+    print("file            " + options->input + "\n");
+    for (const auto& [name, text] : summary.lines())
+      print(name + std::string(name.size() < 15 ? 16 - name.size() : 1, ' ') + text + "\n");
   };
   return command;
 }

@@ -1,5 +1,6 @@
 #include "apps/cli/json.hpp"
 
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 namespace brume::cli {
@@ -11,6 +12,14 @@ Json::Json(Boolean boolean) : value_(std::make_unique<Value>(boolean.value)) {}
 Json::Json(Signed number) : value_(std::make_unique<Value>(number.value)) {}
 Json::Json(Unsigned number) : value_(std::make_unique<Value>(number.value)) {}
 Json::Json(Real number) : value_(std::make_unique<Value>(number.value)) {}
+Json::Json(float value) {
+  // Infinite values and NaN become null.
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  double shortest = static_cast<double>(value);
+  std::from_chars(text, end, shortest);
+  value_ = std::make_unique<Value>(shortest);
+}
 Json::Json(const char* text) : value_(std::make_unique<Value>(text)) {}
 Json::Json(const std::string& text) : value_(std::make_unique<Value>(text)) {}
 Json::Json(const std::vector<std::string>& texts) : value_(std::make_unique<Value>(texts)) {}
@@ -56,11 +65,8 @@ std::string Json::dump() const {
   return value_->dump(2, ' ', false, Value::error_handler_t::replace);
 }
 
-std::vector<std::pair<std::string, std::string>> Json::fields() const {
-  std::vector<std::pair<std::string, std::string>> fields;
-  for (const auto& [key, value] : value_->items())
-    fields.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
-  return fields;
+std::string Json::text() const {
+  return value_->is_string() ? value_->get<std::string>() : value_->dump();
 }
 
 }  // namespace brume::cli

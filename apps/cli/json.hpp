@@ -10,7 +10,6 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace brume::cli {
@@ -25,7 +24,8 @@ class Json {
   Json(std::signed_integral auto value) : Json(Signed{value}) {}
   Json(std::unsigned_integral auto value) requires(!std::same_as<decltype(value), bool>)
       : Json(Unsigned{value}) {}
-  Json(std::floating_point auto value) : Json(Real{value}) {}
+  Json(double value) : Json(Real{value}) {}
+  Json(float value);  ///< As the shortest decimal that reads back as the same float: -5.2.
   Json(const char* text);
   Json(const std::string& text);
   Json(const std::vector<std::string>& texts);
@@ -44,8 +44,7 @@ class Json {
   void push_back(const Json& value);                    ///< Appends to this list.
 
   std::string dump() const;  ///< Text indented by two; bytes that are not UTF-8 become U+FFFD.
-  /// Name and value of each member of this object, strings without quotes.
-  std::vector<std::pair<std::string, std::string>> fields() const;
+  std::string text() const;  ///< In one line; a string without quotes.
 
  private:
   struct Boolean {

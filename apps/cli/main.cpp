@@ -1,13 +1,17 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/data_files.hpp"
 #include "core/error.hpp"
 #include "core/tasks.hpp"
+#include "scene/load.hpp"
 
 namespace brume::cli {
 namespace {
@@ -17,7 +21,7 @@ constexpr const char* kAbout =
     "Examples:\n"
     "  brume demo                                        # an image and a film: out/demo.png, out/demo.mp4\n"
     "  brume view                                        # walk around, throw smoke, shoot through it\n"
-    "  brume render room.glb -o room.png --smoke 0,1,0   # render a scene with smoke in it\n"
+    "  brume render room.glb -o room.png                 # render a scene with smoke in it\n"
     "  brume sim scenes/demo.toml --hash                 # simulate: the same hashes on every machine\n"
     "  brume voxelize room.glb -o room.vxl --json -      # find the solid voxels of a scene\n"
     "  brume info room.glb                               # summarize a file\n"
@@ -25,39 +29,61 @@ constexpr const char* kAbout =
     "  brume diff reference.png test.png                 # compare two images\n"
     "  brume devices                                     # list the Vulkan devices";
 
-int fail(const Failure& failure) {
-  print_failure(failure.message);
-  return static_cast<int>(failure.code);
+// The end of a command that failed: one line on standard error, and the same as JSON.
+int fail(const Outputs::End& end, bool may_write_json_file) {
+  print_failure(end.message);
+  write_json_error(end.code, end.message, may_write_json_file);
+  return end.code;
 }
 
-// Runs a command and returns the exit code. Every failure is one line on standard error.
-int run(const Command& command) {
+// Before a command ran. Its --json file is not touched: the command line is not understood.
+int fail(const Failure& failure) {
+  return fail({static_cast<int>(failure.code), failure.message}, false);
+}
+
+void attempt(const Command& command) {
+  command.run();
   Outputs& outputs = command.common->outputs;
+  if (const std::string written = outputs.written(); !written.empty()) print_on_terminal("wrote " + written);
+  finish_output();
+}
+
+// How a command ended; nothing: well.
+std::optional<Outputs::End> end_of(const Command& command) {
+  const Outputs& outputs = command.common->outputs;
+  const auto explained = [&](const Failure& failure) {
+    const Failure end = outputs.explain(failure);
+    return Outputs::End{static_cast<int>(end.code), end.message};
+  };
   try {
-    start_console(command.common->quiet);
-    set_thread_count(command.common->threads);
-    outputs.set_force(command.common->force);
-    command.run();
-    if (const std::string written = outputs.written(); !written.empty())
-      print_on_terminal("wrote " + written);
-    finish_output();
-    return 0;
+    attempt(command);
+    return std::nullopt;
   } catch (const Error& error) {
-    return fail(outputs.explain(error.failure()));
+    return explained(error.failure());
   } catch (const Interrupted& interrupted) {
-    if (const auto partial = outputs.explain_interruption()) return fail(*partial);
-    print_failure("interrupted" + interrupted.state);
-    return 128 + interrupted.signal;
+    return outputs.explain_interruption(interrupted.signal);
   } catch (const std::bad_alloc&) {
-    return fail(
-        outputs.explain({ErrorCode::resource_limit, "out of memory; use a smaller scene, grid or image"}));
+    return explained({ErrorCode::resource_limit, "out of memory; use a smaller scene, grid or image"});
   } catch (const std::exception& error) {
-    return fail(outputs.explain({ErrorCode::internal, error.what()}));
+    return explained({ErrorCode::internal, error.what()});
   }
 }
 
+int run(const Command& command, const std::string& json) {
+  CommonOptions& common = *command.common;
+  start_console(common.quiet);
+  set_thread_count(common.threads);
+  common.outputs.set_force(common.force);
+  const auto report = [&](const Outputs::End& end) { return fail(end, common.outputs.may_hold_error(json)); };
+  const Attendant attendant(common.grace_seconds,
+                            [&](int signal) { return report(common.outputs.explain_interruption(signal)); });
+  const std::optional<Outputs::End> end = end_of(command);
+  claim_end();
+  return end ? report(*end) : 0;
+}
+
 int parse_and_run(int argc, char** argv) {
-  CommandLine program(kAbout, "brume", BRUME_VERSION);
+  CommandLine program(kAbout, "brume", build_facts());
   const std::array commands{add_demo(program),     add_render(program),  add_sim(program),
                             add_voxelize(program), add_info(program),    add_query(program),
                             add_diff(program),     add_devices(program), add_bench(program),
@@ -65,6 +91,8 @@ int parse_and_run(int argc, char** argv) {
                             add_view(program)
 #endif
   };
+  const std::string json = value_of(argc, argv, "--json");
+  set_json(argc > 1 ? argv[1] : "", json);
   try {
     if (!program.parse(argc, argv)) {
       finish_output();
@@ -74,7 +102,7 @@ int parse_and_run(int argc, char** argv) {
     return fail(error.failure());
   }
   for (const Command& command : commands) {
-    if (command.arguments.parsed()) return run(command);
+    if (command.arguments.parsed()) return run(command, json);
   }
   return fail({ErrorCode::internal, "no command ran"});
 }
@@ -87,13 +115,29 @@ Command declare(CommandLine& program, const std::string& name, const std::string
   command.common = std::make_shared<CommonOptions>();
   command.arguments = program.add_command(name, what + "\n\nExamples:\n" + examples);
   command.arguments
-      .add_option("--threads", command.common->threads, "Number of threads; default 0: one per core")
+      .add_option("--threads", command.common->threads,
+                  "Threads of the simulation, voxelization and film encoder; default 0: one per core. The "
+                  "renderer uses the device's own")
       .range(0u, 1024u)
       .type_name("N");
   command.arguments.add_flag("--force", command.common->force,
                              "Let outputs replace files of another kind; never an input");
   command.arguments.add_flag("-q,--quiet", command.common->quiet, "Suppress progress and warnings");
   return command;
+}
+
+void expect_suffix(const std::string& argument, const std::string& file,
+                   std::initializer_list<const char*> suffixes) {
+  const std::string found = scene::lower_extension(file);
+  if (std::find(suffixes.begin(), suffixes.end(), found) != suffixes.end()) return;
+  std::string list;
+  for (const char* const* suffix = suffixes.begin(); suffix != suffixes.end(); ++suffix)
+    list += std::string(suffix == suffixes.begin()     ? ""
+                        : suffix + 1 == suffixes.end() ? " or "
+                                                       : ", ") +
+            *suffix;
+  throw Error(ErrorCode::usage,
+              (argument.empty() ? "" : argument + " ") + file + ": unknown file suffix; expected " + list);
 }
 
 }  // namespace brume::cli

@@ -46,7 +46,13 @@ FileIdentity identity_of(const fs::path& path) {
 
 void check_writable(const fs::path& file) {
   // The destructor discards it.
-  if (auto opened = AtomicFile::open(file); !opened) throw Error(opened.failure());
+  const auto opened = AtomicFile::open(file);
+  if (opened) return;
+  std::error_code ignored;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const bool bad_name = !fs::is_directory(folder, ignored) || fs::is_directory(file, ignored) ||
+                        (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored));
+  throw Error(bad_name ? ErrorCode::usage : opened.failure().code, opened.failure().message);
 }
 
 void Outputs::reads(const fs::path& file) {
@@ -85,6 +91,7 @@ void Outputs::writes(const std::string& option, const fs::path& file, FileKind k
   const FileIdentity identity = identity_of(file);
   check_place(option, file, identity, kind);
   check_writable(file);
+  const std::lock_guard lock(mutex_);
   options_.emplace(identity, option);
   outputs_.push_back({option, file, identity, false});
 }
@@ -100,15 +107,36 @@ void Outputs::writes_frames(const std::string& option, const fs::path& pattern, 
     if (exists(identity)) options_.emplace(identity, option);
     stop_if_interrupted();
   }
+  const std::lock_guard lock(mutex_);
   frames_ = Frames{pattern, first, last, std::vector<bool>(std::size_t{last} - first + 1)};
 }
 
+void Outputs::film_progress(const fs::path& film, std::uint32_t drawn, std::uint32_t frames) {
+  const std::lock_guard lock(mutex_);
+  film_state_ = " after " + std::to_string(drawn) + " of " + std::to_string(frames) + " frames; " +
+                film.string() +
+                " is not written (only numbered frames, such as -o f_%04d.png, can be continued)";
+}
+
+bool Outputs::may_hold_error(const fs::path& file) const {
+  const std::lock_guard lock(mutex_);
+  const bool declared =
+      std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& o) { return o.file == file; });
+  const FileIdentity identity = identity_of(file);
+  if (!declared || inputs_.contains(identity)) return false;
+  if (!exists(identity)) return true;
+  const auto is_json = is_of_kind(file, FileKind::json);
+  return is_json && *is_json;
+}
+
 void Outputs::up_to_date(const fs::path& file) {
+  const std::lock_guard lock(mutex_);
   for (Output& output : outputs_)
     if (output.file == file) output.up_to_date = true;
 }
 
 void Outputs::frame_done(std::uint32_t frame) {
+  const std::lock_guard lock(mutex_);
   BRUME_ASSERT(frames_ && frame >= frames_->first && frame <= frames_->last, std::to_string(frame));
   frames_->done[frame - frames_->first] = true;
 }
@@ -152,22 +180,29 @@ std::string Outputs::state() const {
     if (any && !all) return frame_state();
   }
   if (done == 0 || open == 0) return "";
-  return "written: " + written() + (missing.empty() ? "" : "; not written: " + missing);
+  return "written: " + written_unlocked() + (missing.empty() ? "" : "; not written: " + missing);
 }
 
 Failure Outputs::explain(const Failure& failure) const {
+  const std::lock_guard lock(mutex_);
   const std::string text = state();
   if (text.empty()) return failure;
   return {ErrorCode::partial, failure.message + "; " + text};
 }
 
-std::optional<Failure> Outputs::explain_interruption() const {
-  const std::string text = state();
-  if (text.empty()) return std::nullopt;
-  return Failure{ErrorCode::partial, "interrupted; " + text};
+Outputs::End Outputs::explain_interruption(int signal) const {
+  const std::lock_guard lock(mutex_);
+  if (const std::string text = state(); !text.empty())
+    return {static_cast<int>(ErrorCode::partial), "interrupted; " + text};
+  return {128 + signal, "interrupted" + film_state_};
 }
 
 std::string Outputs::written() const {
+  const std::lock_guard lock(mutex_);
+  return written_unlocked();
+}
+
+std::string Outputs::written_unlocked() const {
   std::string text;
   const auto add = [&](const std::string& file) { text += (text.empty() ? "" : ", ") + file; };
   if (frames_ && std::find(frames_->done.begin(), frames_->done.end(), true) != frames_->done.end()) {

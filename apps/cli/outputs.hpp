@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,7 @@ class Outputs {
   void reads(const std::vector<std::filesystem::path>& files);
 
   /// Declares a file that the command writes for `option`, such as "-o" (the argument itself: ""). Throws
-  /// Error (usage) by the rules above, and as AtomicFile::open fails.
+  /// Error (usage) by the rules above, and as check_writable does.
   void writes(const std::string& option, const std::filesystem::path& file, FileKind kind);
 
   /// Declares the frames first to last, inclusive, of a numbered sequence.
@@ -57,14 +58,25 @@ class Outputs {
   /// Whether frames depend on those before: only --resume then continues the sequence.
   void set_frames_depend(bool depend) { frames_depend_ = depend; }
 
+  /// States how many frames of a film are drawn. It is written only when all are.
+  void film_progress(const std::filesystem::path& film, std::uint32_t drawn, std::uint32_t frames);
+
   /// The failure of a command that stopped: if some of its outputs were written and some were not, it has the
   /// code `partial` and says which, and how to continue.
   Failure explain(const Failure& failure) const;
-  /// The same for a command that a signal stopped; nothing if none of its outputs were written.
-  std::optional<Failure> explain_interruption() const;
+  /// The exit code and message of a command that a signal stopped: 128 + signal, or `partial`. From any
+  /// thread.
+  struct End {
+    int code = 0;
+    std::string message;
+  };
+  End explain_interruption(int signal) const;
 
   /// What has been written so far, for the terminal: "a.png, a.json"; empty: nothing.
   std::string written() const;
+  /// Whether an error may be written to this file: it is declared as an output, nothing that is read, and
+  /// new, empty or JSON. A scene that failed to load may refer to more files than are known: no --force here.
+  bool may_hold_error(const std::filesystem::path& file) const;
 
  private:
   struct Output {
@@ -84,14 +96,19 @@ class Outputs {
   std::string frame_state() const;
   std::string state() const;
 
+  std::string written_unlocked() const;
+
+  mutable std::mutex mutex_;  ///< Of all below: explain_interruption runs in another thread.
   std::map<FileIdentity, std::filesystem::path> inputs_;
   std::map<FileIdentity, std::string> options_;  ///< Option of each output.
   std::vector<Output> outputs_;
   std::optional<Frames> frames_;
+  std::string film_state_;  ///< " after 3 of 48 frames; ..."; empty: no film.
   bool force_ = false, frames_depend_ = false;
 };
 
 /// Throws Error unless this file can be created: the folder exists and is writable, the file is no folder.
+/// The code is usage where another name would do, else that of AtomicFile::open.
 void check_writable(const std::filesystem::path& file);
 
 }  // namespace brume::cli

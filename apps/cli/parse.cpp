@@ -1,14 +1,18 @@
 #include "apps/cli/parse.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "apps/cli/number.hpp"
 #include "core/error.hpp"
 #include "image/image.hpp"
+#include "scene/timeline.hpp"
 
 namespace brume::cli {
 namespace {
@@ -48,13 +52,12 @@ std::optional<std::vector<Number>> numbers(std::string_view text, char separator
   return values;
 }
 
-std::optional<glm::vec3> point(std::string_view text) {
-  const auto values = numbers<float>(text, ',', 3);
+std::optional<glm::vec3> point(const std::string& text) {
+  const auto values = parse_numbers(text, 3);
   if (!values) return std::nullopt;
-  for (const float value : *values) {
-    if (!std::isfinite(value)) return std::nullopt;
-  }
-  return glm::vec3((*values)[0], (*values)[1], (*values)[2]);
+  const glm::vec3 p((*values)[0], (*values)[1], (*values)[2]);
+  const bool fits = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  return fits ? std::optional(p) : std::nullopt;
 }
 
 }  // namespace
@@ -76,31 +79,70 @@ glm::ivec3 parse_grid(const std::string& option, const std::string& text) {
   refuse(option, text, "voxels along x, y and z, such as 120x20x120");
 }
 
+std::vector<std::string> points_of(const std::string& text) {
+  std::vector<std::string> points;
+  bool joined = false;  // The next word belongs to the last point.
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (joined || (word.starts_with(',') && !points.empty())) {
+      points.back() += word;
+    } else {
+      points.push_back(word);
+    }
+    // "1, 2, 3" goes on after a comma; "1,2,3, 4,5,6" does not.
+    const auto commas = std::count(points.back().begin(), points.back().end(), ',');
+    joined = points.back().ends_with(',') && commas < 3;
+    if (points.back().ends_with(',') && commas == 3) points.back().pop_back();
+  }
+  return points;
+}
+
+std::optional<std::vector<double>> parse_numbers(const std::string& text, std::size_t count) {
+  std::string joined;
+  for (const std::string& part : points_of(text)) joined += (joined.empty() ? "" : " ") + part;
+  std::vector<double> values;
+  for (const std::string_view part : split(joined, ',')) {
+    const auto value = number_of(part);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values.size() == count ? std::optional(values) : std::nullopt;
+}
+
 glm::vec3 parse_point(const std::string& option, const std::string& text) {
   if (const auto value = point(text)) return *value;
   refuse(option, text, "three finite numbers, such as -30,0,2.5");
 }
 
+glm::vec3 parse_event_point(const std::string& option, const std::string& text) {
+  const glm::vec3 p = parse_point(option, text);
+  if (glm::all(glm::lessThanEqual(glm::abs(p), glm::vec3(scene::kFarthestEvent)))) return p;
+  refuse(option, text,
+         "coordinates within " + std::to_string(static_cast<int>(scene::kFarthestEvent)) + " m");
+}
+
 scene::Camera parse_camera(const std::string& option, const std::string& text) {
-  const auto parts = split(text, ' ');
-  if (parts.size() == 3) {
+  constexpr double kDefaultFov = 60;
+  const auto parts = points_of(text);
+  if (parts.size() == 2 || parts.size() == 3) {
     const auto position = point(parts[0]), target = point(parts[1]);
-    const auto degrees = number<float>(parts[2]);
-    if (position && target && *position != *target && degrees && *degrees > 0 && *degrees < 180) {
-      return {*position, *target, *degrees * std::numbers::pi_v<float> / 180};
-    }
+    const auto degrees = parts.size() == 3 ? number_of(parts[2]) : kDefaultFov;
+    const float radians = static_cast<float>(degrees.value_or(0) * std::numbers::pi / 180);
+    if (position && target && *position != *target && degrees && *degrees < 180 && radians > 0)
+      return {*position, *target, radians};
   }
   refuse(option, text,
-         "\"position target fov\" with two distinct points and an angle in (0, 180) degrees, such as "
-         "\"0,1.7,5 0,1.5,0 60\"");
+         "\"position target fov\" with two distinct points and an angle in (0, 180) degrees, which may be "
+         "missing, such as \"0,1.7,5 0,1.5,0 60\"");
 }
 
 passes::ViewSlice parse_slice(const std::string& option, const std::string& text) {
   const std::size_t axis = std::string_view("xyz").find(text.empty() ? '?' : text[0]);
   const bool begins = axis != std::string_view::npos && text.size() > 2 && text[1] == '=';
-  const auto at = begins ? number<float>(std::string_view(text).substr(2)) : std::nullopt;
-  if (!at || !std::isfinite(*at)) refuse(option, text, "an axis and a position in metres, such as y=1.5");
-  return {static_cast<std::uint32_t>(axis), *at};
+  const auto at = begins ? number_of(std::string_view(text).substr(2)) : std::nullopt;
+  if (!at || !std::isfinite(static_cast<float>(*at)))
+    refuse(option, text, "an axis and a position in metres, such as y=1.5");
+  return {static_cast<std::uint32_t>(axis), static_cast<float>(*at)};
 }
 
 FrameRange parse_frames(const std::string& option, const std::string& text) {
@@ -112,9 +154,11 @@ FrameRange parse_frames(const std::string& option, const std::string& text) {
 }
 
 TimeRange parse_times(const std::string& option, const std::string& text) {
-  const auto values = numbers<double>(text, '-', 2);
-  if (values && (*values)[0] >= 0 && (*values)[0] < (*values)[1] && (*values)[1] <= 3600)
-    return {(*values)[0], (*values)[1]};
+  const std::size_t dash = text.find('-', 1);
+  if (dash != std::string::npos) {
+    const auto begin = number_of(text.substr(0, dash)), end = number_of(text.substr(dash + 1));
+    if (begin && end && *begin >= 0 && *begin < *end && *end <= 3600) return {*begin, *end};
+  }
   refuse(option, text, "BEGIN-END in seconds, up to 3600, such as 1.5-6");
 }
 

@@ -6,15 +6,19 @@
 #include "apps/cli/coverage.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
+#include "apps/cli/scene_options.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "smoke/sight.hpp"
 
 namespace brume::cli {
 namespace {
 
-struct Options {
+struct QueryOptions {
   std::string timeline, from, to, times, json;
   double time = -1, shots_at = -1, shots_every = 0.1, spread = 0;
+  SceneOptions scene;
+  std::string expect;
   float threshold = 3;
   unsigned shots = 0;
   bool report = false;
@@ -39,22 +43,18 @@ glm::vec3 parse_end(const std::string& option, const std::string& text) {
   return p;
 }
 
-void check_options(const Options& options) {
-  if (options.report && options.time >= 0)
-    throw Error(ErrorCode::usage,
-                "--time: is for a single sample; with --report use --times, such as --times 0-6");
-  const std::pair<const char*, double> finite[] = {{"--time", options.time},
-                                                   {"--threshold", double{options.threshold}},
-                                                   {"--shots-at", options.shots_at},
-                                                   {"--shots-every", options.shots_every},
-                                                   {"--spread", options.spread}};
-  for (const auto& [name, value] : finite) {
-    if (std::isnan(value)) throw Error(ErrorCode::usage, std::string(name) + " 'nan': expected a number");
+void check_options(const Arguments& arguments, const QueryOptions& options) {
+  if (options.report) {
+    arguments.refuse("--time", "is for a single sample; with --report use --times, such as --times 0-6");
+  } else {
+    for (const char* option : {"--times", "--shots", "--shots-at", "--shots-every", "--spread"})
+      arguments.refuse(option, "requires --report; add it");
   }
   if (!options.report && options.time < 0)
     throw Error(ErrorCode::usage, "expected a time, such as --time 3, or --report for all of them");
-  if (!options.report && (options.shots > 0 || !options.times.empty()))
-    throw Error(ErrorCode::usage, "--times and --shots require --report; add it");
+  if (options.shots == 0)
+    for (const char* option : {"--shots-at", "--shots-every", "--spread"})
+      arguments.refuse(option, "requires --shots, such as --shots 3");
 }
 
 /// Prints one line per field: its name and its value.
@@ -62,12 +62,34 @@ void print_fields(const std::vector<std::pair<std::string, std::string>>& fields
   for (const auto& [name, value] : fields) print(name + std::string(16 - name.size(), ' ') + value + "\n");
 }
 
-void print_sample(const Options& options, const scenario::Scenario& scenario, const SightLine& line) {
+/// Warns of ends where nothing can be.
+void check_ends(const voxel::BitGrid& grid, const SightLine& line) {
+  const auto check = [&](const char* option, glm::vec3 p) {
+    const voxel::GridLayout& layout = grid.layout();
+    const glm::vec3 at = glm::floor((p - layout.origin_world) / layout.voxel_size);
+    const bool inside = glm::all(glm::greaterThanEqual(at, glm::vec3(0))) &&
+                        glm::all(glm::lessThan(at, glm::vec3(layout.size)));
+    if (inside && grid.solid(glm::ivec3(at))) log_warning(std::string(option) + " lies in something solid");
+  };
+  check("--from", line.from_world);
+  check("--to", line.to_world);
+}
+
+/// Exit code 7 unless the result is what --expect states.
+void judge(const QueryOptions& options, bool visible) {
+  if (options.expect.empty() || (options.expect == "visible") == visible) return;
+  throw Error(ErrorCode::comparison_failed,
+              std::string("--to is ") + (visible ? "visible" : "hidden") + ", expected " + options.expect);
+}
+
+void print_sample(const QueryOptions& options, const scenario::Scenario& scenario, const SightLine& line) {
   const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   simulation->advance_to(options.time);
+  check_ends(simulation->world().grid(), line);
   const SightSample sample = sample_sight(scenario, *simulation, line);
   const double transmittance = std::exp(-double{sample.optical_depth});
   const float distance = glm::length(line.to_world - line.from_world);
+  const bool visible = sample.hidden_by == HiddenBy::nothing;
   if (!options.json.empty()) {
     Json first = nullptr;
     if (const auto& wall = sample.wall)
@@ -80,21 +102,21 @@ void print_sample(const Options& options, const scenario::Scenario& scenario, co
                               {"to", point(line.to_world)},
                               {"threshold", line.threshold},
                               {"extinction", scenario.timeline.smoke.extinction},
-                              {"visible", sample.hidden_by == HiddenBy::nothing},
-                              {"hidden_by", name_of(sample.hidden_by)},
+                              {"visible", visible},
+                              {"hidden_by", visible ? Json(nullptr) : Json(name_of(sample.hidden_by))},
                               {"optical_depth", sample.optical_depth},
                               {"transmittance", transmittance},
                               {"distance", distance},
                               {"first_solid", first}});
   }
-  if (options.json == "-") return;
-  const bool visible = sample.hidden_by == HiddenBy::nothing;
+  if (options.json == "-") return judge(options, visible);
   print_fields(
       {{"visible", visible ? "yes" : std::string("no, hidden by ") + name_of(sample.hidden_by)},
        {"optical depth", number("%.3f", double{sample.optical_depth})},
        {"transmittance", number("%.4g", transmittance)},
        {"distance", number("%.2f m", double{distance})},
        {"first solid", sample.wall ? number("after %.2f m", double{sample.wall->distance}) : "none"}});
+  judge(options, visible);
 }
 
 Json coverage_json(const Coverage& coverage) {
@@ -142,9 +164,10 @@ void print_shots(const std::vector<ShotResult>& shots, unsigned count) {
   }
 }
 
-void report_coverage(const Options& options, const scenario::Scenario& scenario, const SightLine& line) {
+void report_coverage(const QueryOptions& options, const scenario::Scenario& scenario, const SightLine& line) {
   const TimeRange times = options.times.empty() ? TimeRange{0, double{scenario.timeline.duration}}
                                                 : parse_times("--times", options.times);
+  check_ends(scenario.voxels.grid, line);
   const Coverage coverage = coverage_of(scenario, line, times);
   std::vector<ShotResult> shots;
   if (options.shots > 0) {
@@ -165,20 +188,24 @@ void report_coverage(const Options& options, const scenario::Scenario& scenario,
     if (options.shots > 0) report.set("shots", shots_json(shots));
     write_json(options.json, report);
   }
-  if (options.json == "-") return;
-  print_coverage(coverage, times);
-  if (options.shots > 0) print_shots(shots, options.shots);
+  if (options.json != "-") {
+    print_coverage(coverage, times);
+    if (options.shots > 0) print_shots(shots, options.shots);
+  }
+  // Of a report: hidden at all.
+  judge(options, coverage.intervals.empty());
 }
 
-void query(const Options& options, Outputs& outputs) {
+void query(const Arguments& arguments, const QueryOptions& options, Outputs& outputs) {
   const SightLine line{parse_end("--from", options.from), parse_end("--to", options.to), options.threshold};
-  check_options(options);
+  check_options(arguments, options);
   if (!options.times.empty()) parse_times("--times", options.times);
   if (options.shots > 0 && line.from_world == line.to_world)
     throw Error(ErrorCode::usage, "--shots: --from and --to are the same point; give two distinct ones");
   outputs.reads(std::filesystem::path(options.timeline));
   outputs.writes("--json", options.json, FileKind::json);
-  const scenario::Scenario scenario = scenario::load_scenario(options.timeline, {}).value_or_throw();
+  const scenario::Scenario scenario =
+      load_with_options(options.timeline, "", parse_scene_options(options.scene));
   outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
   if (options.report) {
@@ -199,8 +226,8 @@ Command add_query(CommandLine& program) {
               "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 2-4 "
               "--shots 5 "
               "--shots-at 3");
-  auto options = std::make_shared<Options>();
-  const Arguments& arguments = command.arguments;
+  auto options = std::make_shared<QueryOptions>();
+  const Arguments arguments = command.arguments;
   arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml) or scene").required().type_name("");
   arguments.add_option("--from", options->from, "Position of the observer [m]").required().type_name("X,Y,Z");
   arguments.add_option("--to", options->to, "Position of the target [m]").required().type_name("X,Y,Z");
@@ -230,9 +257,17 @@ Command add_query(CommandLine& program) {
                   "Maximum deviation of these shots from the line [degrees]; default 0")
       .range(0.0, 45.0)
       .type_name("DEG");
+  arguments
+      .add_option("--expect", options->expect,
+                  "Exit code 7 unless the target is visible or hidden: at the time, or in the whole report")
+      .one_of({"visible", "hidden"})
+      .type_name("visible|hidden");
+  declare_size_options(arguments, options->scene);
   arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [options, common = command.common] { query(*options, common->outputs); };
+  command.run = [arguments, options, common = command.common] {
+    query(arguments, *options, common->outputs);
+  };
   return command;
 }
 

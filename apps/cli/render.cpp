@@ -17,19 +17,20 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "core/log.hpp"
 #include "gpu/context.hpp"
 #include "image/png.hpp"
 #include "render/playback.hpp"
+#include "scene/text_reader.hpp"
 
 namespace brume::cli {
 namespace {
 
-struct Options {
+struct RenderOptions {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
-                                               view = "none", slice;
+                                               view = "none", slice, fps = "24";
   SceneOptions scene;
   std::optional<double> time;
-  std::uint32_t fps = 24;
   bool temporal = false, resume = false;
   float step = 1, light_update_fraction = 1, resolve_error_scale = 1;
 };
@@ -43,26 +44,43 @@ struct Plan {
   std::optional<FrameRange> frames;
   passes::DebugView view = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice;
+  FrameRate rate;
 };
 
 // Whether each frame depends on those before.
-bool frames_depend(const Options& options) {
+bool frames_depend(const RenderOptions& options) {
   return options.temporal || options.light_update_fraction < 1;
 }
 
 // The files that are known before any is read.
-void declare_files(const Options& options, const Plan& plan, Outputs& outputs) {
+void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outputs) {
   outputs.reads({options.input, options.timeline});
   outputs.writes("--json", options.json, FileKind::json);
-  if (plan.kind == TargetKind::picture) outputs.writes("-o", options.output, FileKind::png);
-  if (plan.kind == TargetKind::film) outputs.writes("-o", options.output, FileKind::mp4);
+  if (plan.kind == TargetKind::picture) outputs.writes("-o", plain_name(options.output), FileKind::png);
+  if (plan.kind == TargetKind::film) outputs.writes("-o", plain_name(options.output), FileKind::mp4);
   // Without --frames the timeline decides how many there are.
   if (plan.kind == TargetKind::sequence && plan.frames)
     outputs.writes_frames("-o", options.output, plan.frames->first, plan.frames->last);
   if (plan.kind == TargetKind::sequence && !plan.frames) check_writable(sequence_name(options.output, 0));
 }
 
-Plan make_plan(const Options& options, Outputs& outputs) {
+// Refuses options that would do nothing.
+void refuse_idle(const Arguments& arguments, const RenderOptions& options, const Plan& plan) {
+  if (plan.kind == TargetKind::picture) {
+    const char* const needs = "requires a film (.mp4) or numbered frames, such as -o f_%04d.png";
+    for (const char* option : {"--frames", "--fps", "--temporal", "--light-update-fraction"})
+      arguments.refuse(option, needs);
+  } else {
+    arguments.refuse("--time", "is for a single image; use --frames");
+  }
+  if (plan.kind != TargetKind::sequence)
+    arguments.refuse("--resume", "requires numbered frames, such as -o f_%04d.png");
+  if (options.march == "full") arguments.refuse("--resolve-error-scale", "requires --march half or quarter");
+  if (plan.slice && !passes::has_slice(plan.view))
+    arguments.refuse("--slice", "requires --view density, light or distance");
+}
+
+Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs& outputs) {
   Plan plan;
   plan.kind = target_kind(options.output);
   plan.renderer.size_px = parse_size("--size", options.size);
@@ -71,28 +89,17 @@ Plan make_plan(const Options& options, Outputs& outputs) {
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
   plan.view = *passes::find_debug_view(options.view);
   if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);
-  if (plan.slice && !passes::has_slice(plan.view))
-    throw Error(ErrorCode::usage, "--slice: requires --view density, light or distance");
+  plan.rate = parse_rate("--fps", options.fps);
   plan.scene = parse_scene_options(options.scene);
   plan.scene.aspect =
       static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);
-  if (plan.kind == TargetKind::picture && plan.frames) {
-    throw Error(ErrorCode::usage, options.output + ": --frames requires a film (.mp4) or %04d in the name");
-  }
-  if (plan.kind == TargetKind::picture && options.temporal) {
-    throw Error(ErrorCode::usage, options.output + ": --temporal requires a film (.mp4) or %04d in the name");
-  }
-  if (plan.kind != TargetKind::picture && options.time) {
-    throw Error(ErrorCode::usage, options.output + ": --time is for a single image; use --frames");
-  }
+  refuse_idle(arguments, options, plan);
   if (plan.kind == TargetKind::film &&
       (plan.renderer.size_px.x % 2 != 0 || plan.renderer.size_px.y % 2 != 0)) {
     throw Error(ErrorCode::usage,
                 "--size '" + options.size + "': the width and height of a film must be even");
   }
-  if (options.resume && plan.kind != TargetKind::sequence)
-    throw Error(ErrorCode::usage, "--resume: requires numbered frames, such as -o smoke_%04d.png");
   declare_files(options, plan, outputs);
   return plan;
 }
@@ -113,6 +120,10 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 // Renders frames and gathers the statistics for --json.
 class TimedRenderer {
  public:
@@ -121,7 +132,7 @@ class TimedRenderer {
     const double cpu = cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
     image::Image8 picture = playback_.draw(seconds, frame_index);
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds_ += seconds_since(start);
     cpu_seconds_ += cpu_seconds() - cpu;
     ++frames_;
     return picture;
@@ -142,19 +153,40 @@ class TimedRenderer {
   int frames_ = 0;
 };
 
-FrameRange frames_of(const Options& options, const Plan& plan, const scene::Timeline& timeline) {
-  const auto all =
-      static_cast<std::uint32_t>(std::ceil(static_cast<double>(timeline.duration) * options.fps));
+FrameRange frames_of(const Plan& plan, const scene::Timeline& timeline) {
+  // A duration of a whole number of frames must not become one more by rounding.
+  constexpr double kRounding = 1e-6;
+  const double frames = static_cast<double>(timeline.duration) * plan.rate.per_second();
+  const auto all = static_cast<std::uint32_t>(std::ceil(frames - kRounding));
   return plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
+}
+
+// Times beyond the end of the timeline show its end.
+void warn_of_times(const RenderOptions& options, const Plan& plan, const scene::Timeline& timeline) {
+  const double end = double{timeline.duration};
+  const std::string after = " after the end of the timeline at " + scene::shown(end) + " s";
+  if (options.time && *options.time > end)
+    log_warning("--time " + scene::shown(*options.time) + ": is" + after);
+  if (!plan.frames) return;
+  const double last = plan.rate.time_of(plan.frames->last);
+  if (last > end)
+    log_warning("--frames " + options.frames + ": the last is at " + scene::shown(last) + " s," + after);
+}
+
+// Frames to draw before a range whose frames depend on those before: all that leave a trace. Each frame's
+// mean is that of at most shared::kAccumulatedFrames, so that (7 / 8)^32 = 1.4 % of an older one remain.
+std::uint32_t warm_up_of(const RenderOptions& options, std::uint32_t first) {
+  constexpr std::uint32_t kWarmUp = 32;
+  return frames_depend(options) ? std::min(first, kWarmUp) : 0;
 }
 
 // A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files,
 // the options, the device and the program.
-std::uint64_t sequence_key(const Options& options, const scenario::Scenario& scenario,
+std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenario& scenario,
                            const gpu::DeviceInfo& device, std::uint32_t first) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
-  const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice,
-               scene_options, time, fps, temporal, resume, step, light_update_fraction, resolve_error_scale] =
+  const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice, fps,
+               scene_options, time, temporal, resume, step, light_update_fraction, resolve_error_scale] =
       options;
 
   // Files.
@@ -167,52 +199,57 @@ std::uint64_t sequence_key(const Options& options, const scenario::Scenario& sce
     key = hash_bytes(bytes, key);
   }
 
-  // Options and device.
-  std::vector<std::string> texts{device.name, device.driver, size, march, camera, view, slice};
+  // RenderOptions and device.
+  std::vector<std::string> texts{device.name, device.driver, size, march, camera, view, slice, fps};
   const std::vector<std::string> scene = texts_of(scene_options);
   texts.insert(texts.end(), scene.begin(), scene.end());
   for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
   const std::array<float, 3> numbers{step, light_update_fraction, resolve_error_scale};
   key = hash_values(std::span<const float>(numbers), key);
-  const std::array<std::uint32_t, 4> whole{fps, temporal ? 1u : 0u, frames_depend(options) ? 1u : 0u,
+  const std::array<std::uint32_t, 3> whole{temporal ? 1u : 0u, frames_depend(options) ? 1u : 0u,
                                            frames_depend(options) ? first : 0u};
   return hash_values(std::span<const std::uint32_t>(whole), key);
 }
 
-void write(const Options& options, const Plan& plan, CommonOptions& common, const gpu::DeviceInfo& device,
-           const scenario::Scenario& scenario, TimedRenderer& renderer) {
-  const double fps = options.fps;
+void write(const RenderOptions& options, const Plan& plan, CommonOptions& common,
+           const gpu::DeviceInfo& device, const scenario::Scenario& scenario, TimedRenderer& renderer) {
   if (plan.kind == TargetKind::picture) {
     const double time = options.time.value_or(static_cast<double>(scenario.timeline.duration));
     const image::Image8 picture = renderer.draw(time, 0);
     stop_if_interrupted();
-    image::save_png(options.output, picture).value_or_throw();
+    image::save_png(plain_name(options.output), picture).value_or_throw();
     return;
   }
-  const FrameRange range = frames_of(options, plan, scenario.timeline);
-  const auto draw = [&](std::uint32_t i) { return renderer.draw(i / fps, i); };
+  const FrameRange range = frames_of(plan, scenario.timeline);
+  const auto draw = [&](std::uint32_t i) { return renderer.draw(plan.rate.time_of(i), i); };
+  const std::uint32_t warm_up = warm_up_of(options, range.first);
   if (plan.kind == TargetKind::film) {
-    write_film(options.output, {plan.renderer.size_px, options.fps, common.threads}, range.first, range.last,
-               draw);
+    write_film(plain_name(options.output), {plan.renderer.size_px, plan.rate, common.threads, warm_up},
+               range.first, range.last, common.outputs, draw);
     return;
   }
   write_sequence(
-      {options.output, range.first, range.last, plan.renderer.size_px,
+      {options.output, range.first, range.last, warm_up, plan.renderer.size_px,
        sequence_key(options, scenario, device, range.first), frames_depend(options), options.resume},
       common.outputs, draw);
 }
 
-void render(const Options& options, CommonOptions& common) {
-  const Plan plan = make_plan(options, common.outputs);
+void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
+  const auto start = std::chrono::steady_clock::now();
+  const Plan plan = make_plan(arguments, options, common.outputs);
   const scenario::Scenario scenario = load_with_options(options.input, options.timeline, plan.scene);
   if (plan.kind == TargetKind::sequence && !plan.frames) {
-    const FrameRange range = frames_of(options, plan, scenario.timeline);
+    const FrameRange range = frames_of(plan, scenario.timeline);
     common.outputs.writes_frames("-o", options.output, range.first, range.last);
   }
   common.outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
+  warn_of_times(options, plan, scenario.timeline);
   gpu::Context context({options.device, false});
-  render::Playback playback(context, scenario, plan.renderer);
+  auto simulation = scenario::Simulation::create(scenario).value_or_throw();
+  const Json smokes = report_timeline(scenario, simulation->report_smokes(scenario));
+  stop_if_interrupted();
+  render::Playback playback(context, scenario, plan.renderer, std::move(simulation));
   playback.set_camera(plan.camera);
   if (scenario.measure_exposure) playback.measure_exposure();
   playback.set_step_scale(options.step);
@@ -229,16 +266,19 @@ void render(const Options& options, CommonOptions& common) {
                   {"device", context.info().name},
                   {"driver", context.info().driver}};
   statistics.update(renderer.statistics());
+  statistics.set("seconds", seconds_since(start));
+  statistics.set("smokes", smokes);
   write_json(options.json, statistics);
 }
 
-void declare_quality(const Arguments& arguments, Options& options) {
+void declare_quality(const Arguments& arguments, RenderOptions& options) {
   arguments
       .add_option("--march", options.march,
                   "Smoke resolution: one ray per pixel, per 2x2 or per 4x4; default full")
       .one_of({"full", "half", "quarter"})
       .type_name("full|half|quarter");
-  arguments.add_flag("--temporal", options.temporal, "Accumulate the smoke of a film over its frames");
+  arguments.add_flag("--temporal", options.temporal,
+                     "Accumulate the smoke of a film over its frames; a range draws the 32 before it, too");
   arguments
       .add_option("--step", options.step,
                   "Scale of the ray march step, 0.25 to 4: larger is faster and coarser; default 1")
@@ -268,8 +308,8 @@ Command add_render(CommandLine& program) {
               "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
               "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
               "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
-  auto options = std::make_shared<Options>();
-  const Arguments& arguments = command.arguments;
+  auto options = std::make_shared<RenderOptions>();
+  const Arguments arguments = command.arguments;
   arguments.add_option("INPUT", options->input, "Timeline (.toml) or scene (.txt, .gltf, .glb, .obj)")
       .required()
       .type_name("");
@@ -287,8 +327,8 @@ Command add_render(CommandLine& program) {
       .type_name("A-B");
   arguments.add_flag("--resume", options->resume,
                      "Continue numbered frames: skip those that are complete and made from the same inputs");
-  arguments.add_option("--fps", options->fps, "Frames per second; default 24")
-      .range(1u, 1000u)
+  arguments.add_option("--fps", options->fps, "Frames per second, such as 23.976 or 24000/1001; default 24")
+      .take_last()
       .type_name("F");
   arguments.add_option("--size", options->size, "Image size [px]; default 1280x720")
       .take_last()
@@ -296,11 +336,11 @@ Command add_render(CommandLine& program) {
   declare_quality(arguments, *options);
   arguments
       .add_option("--camera", options->camera,
-                  "\"px,py,pz tx,ty,tz fov\": position, target [m], vertical fov [degrees]")
+                  "\"px,py,pz tx,ty,tz fov\": position, target [m], vertical fov [degrees; default 60]")
       .type_name("CAMERA");
   arguments.add_option("--view", options->view, "Debug view: " + view_names())
       .one_of({passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()})
-      .type_name("VIEW");
+      .type_name("NAME");
   arguments
       .add_option("--slice", options->slice,
                   "Slice of --view density, light and distance; default: through the middle of the smoke")
@@ -310,7 +350,7 @@ Command add_render(CommandLine& program) {
       .type_name("N|NAME");
   arguments.add_option("--json", options->json, "Write statistics as JSON; - for standard output")
       .type_name("FILE");
-  command.run = [options, common = command.common] { render(*options, *common); };
+  command.run = [arguments, options, common = command.common] { render(arguments, *options, *common); };
   return command;
 }
 

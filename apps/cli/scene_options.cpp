@@ -1,12 +1,15 @@
 #include "apps/cli/scene_options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
+#include "apps/cli/command.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/log.hpp"
 #include "scenario/smoke_report.hpp"
+#include "scene/text_reader.hpp"
 
 namespace brume::cli {
 namespace {
@@ -17,23 +20,21 @@ std::optional<float> as_float(const std::optional<double>& value) {
 
 /// "FROM TO": two points.
 scene::SmokeEvent parse_throw(const std::string& text) {
-  const std::size_t space = text.find(' ');
-  if (space == std::string::npos || text.find(' ', space + 1) != std::string::npos)
+  const auto points = points_of(text);
+  if (points.size() != 2)
     throw Error(ErrorCode::usage, "--throw '" + text + "': expected two points, such as \"0,1.7,8 0,0,-2\"");
-  return {0, parse_point("--throw", text.substr(0, space)), parse_point("--throw", text.substr(space + 1))};
+  return {0, parse_event_point("--throw", points[0]), parse_event_point("--throw", points[1])};
 }
 
 scenario::SunPosition parse_sun(const std::string& text) {
-  float azimuth = 0, elevation = 0;
-  char end = 0;
-  if (std::sscanf(text.c_str(), "%f,%f%c", &azimuth, &elevation, &end) != 2 || !std::isfinite(azimuth) ||
-      !(elevation > 0 && elevation <= 90))
+  const auto angles = parse_numbers(text, 2);
+  if (!angles || !((*angles)[1] > 0 && (*angles)[1] <= 90))
     throw Error(ErrorCode::usage,
                 "--sun '" + text +
                     "': expected azimuth and elevation in degrees, the elevation above 0 and up "
                     "to 90, such as 60,40");
-  constexpr float kRadians = std::numbers::pi_v<float> / 180;
-  return {azimuth * kRadians, elevation * kRadians};
+  constexpr double kRadians = std::numbers::pi / 180;
+  return {static_cast<float>((*angles)[0] * kRadians), static_cast<float>((*angles)[1] * kRadians)};
 }
 
 void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptions& options) {
@@ -47,14 +48,38 @@ void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptio
   timeline.smokes.insert(timeline.smokes.begin(), options.smokes.begin(), options.smokes.end());
 }
 
-void warn_of_smokes(const scenario::Scenario& scenario) {
-  const auto reports = scenario::report_smokes(scenario).value_or_throw();
-  for (std::size_t i = 0; i < reports.size(); ++i)
-    if (const std::string warning = scenario::warning_of(reports[i], i + 1, scenario); !warning.empty())
-      log_warning(warning);
+// One line for everything that never happens because the timeline ends before.
+void warn_of_end(const scene::Timeline& timeline) {
+  const double end = double{timeline.duration};
+  std::string late;
+  const auto count = [&](const char* what, const auto& list) {
+    const auto number =
+        std::count_if(list.begin(), list.end(), [&](const auto& one) { return one.time > end; });
+    if (number > 0)
+      late += (late.empty() ? "" : ", ") + std::to_string(number) + " " + what + (number > 1 ? "s" : "");
+  };
+  count("camera key", timeline.camera);
+  scene::for_each_event_list(timeline, [&](const char* type, const auto& events) {
+    // Smokes have a line each.
+    if (std::string_view(type) != "smoke") count(type, events);
+  });
+  if (!late.empty())
+    log_warning("after the end of the timeline at " + scene::shown(end) + " s and not shown: " + late);
 }
 
 }  // namespace
+
+void declare_size_options(const Arguments& arguments, SceneOptions& options) {
+  arguments.add_option("--voxel", options.voxel, "Edge length of a voxel [m]; default: fits the smoke")
+      .range(0.015625, 64.0)
+      .type_name("M");
+  arguments
+      .add_option("--scale", options.scale,
+                  "Metres per unit of the scene, such as 0.001 for millimetres; default: 1, "
+                  "or what brings it between 1 m and 4 km")
+      .range(1e-6, 1e6)
+      .type_name("X");
+}
 
 void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
   arguments.add_option("--smoke", options.smokes, "Smoke that goes off at this point [m]; repeatable")
@@ -70,15 +95,7 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
                   "Diameter of the smoke [m]; default: a fifth of the view")
       .range(0.05, 1000.0)
       .type_name("M");
-  arguments.add_option("--voxel", options.voxel, "Edge length of a voxel [m]; default: fits the smoke")
-      .range(0.015625, 64.0)
-      .type_name("M");
-  arguments
-      .add_option("--scale", options.scale,
-                  "Metres per unit of the scene, such as 0.001 for millimetres; default: 1, "
-                  "or what brings it between 1 m and 4 km")
-      .range(1e-6, 1e6)
-      .type_name("X");
+  declare_size_options(arguments, options);
   arguments.add_option("--sun", options.sun, "Azimuth from +z towards +x and elevation of the sun [degrees]")
       .type_name("AZ,EL");
   arguments
@@ -118,7 +135,7 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
     parsed.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);
   for (const std::string& text : options.smokes) {
-    const glm::vec3 place = parse_point("--smoke", text);
+    const glm::vec3 place = parse_event_point("--smoke", text);
     parsed.smokes.push_back({0, place, place});
   }
   for (const std::string& text : options.throws) parsed.smokes.push_back(parse_throw(text));
@@ -127,6 +144,8 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
 
 scenario::Scenario load_with_options(const std::string& input, const std::string& timeline,
                                      const scenario::FirstViewOptions& options) {
+  expect_suffix("", input, {".txt", ".gltf", ".glb", ".obj", ".toml"});
+  if (!timeline.empty()) expect_suffix("--timeline", timeline, {".toml"});
   const bool is_timeline = scenario::is_timeline(input);
   if (is_timeline && !timeline.empty())
     throw Error(ErrorCode::usage, "--timeline: " + input + " is already a timeline; name a scene");
@@ -137,8 +156,26 @@ scenario::Scenario load_with_options(const std::string& input, const std::string
     apply_to_timeline(read, options);
     return scenario::make_scenario(std::move(read), {}).value_or_throw();
   }();
-  warn_of_smokes(scenario);
   return scenario;
+}
+
+Json report_timeline(const scenario::Scenario& scenario, const std::vector<scenario::SmokeReport>& smokes) {
+  const auto point = [](glm::vec3 p) { return Json::list({p.x, p.y, p.z}); };
+  Json list = Json::list({});
+  for (std::size_t i = 0; i < smokes.size(); ++i) {
+    const scenario::SmokeReport& smoke = smokes[i];
+    if (const std::string warning = scenario::warning_of(smoke, i + 1, scenario); !warning.empty())
+      log_warning(warning);
+    list.push_back({{"place", point(smoke.at_world)},
+                    {"time", smoke.time},
+                    {"voxels", smoke.voxels},
+                    {"budget", smoke.budget},
+                    {"fault", scenario::name_of(smoke.fault)},
+                    {"works_at", smoke.works_at ? point(*smoke.works_at) : Json(nullptr)},
+                    {"defined_at", smoke.place}});
+  }
+  warn_of_end(scenario.timeline);
+  return list;
 }
 
 }  // namespace brume::cli

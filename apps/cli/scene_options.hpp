@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "apps/cli/arguments.hpp"
+#include "apps/cli/json.hpp"
 #include "scenario/first_view.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/smoke_report.hpp"
 
 namespace brume::cli {
 
@@ -25,9 +27,16 @@ std::vector<std::string> texts_of(const SceneOptions& options);
 /// Checks the options' values. Throws Error (usage).
 scenario::FirstViewOptions parse_scene_options(const SceneOptions& options);
 
-/// Loads a timeline, or a scene with `timeline` (empty: none), with the options applied; warns of smokes that
-/// cannot be seen. Throws Error.
+/// Declares --voxel and --scale alone, for commands without an image.
+void declare_size_options(const Arguments& arguments, SceneOptions& options);
+
+/// Loads a timeline, or a scene with `timeline` (empty: none), with the options applied. Throws Error; the
+/// code is usage for a file whose suffix is neither that of a timeline nor of a scene.
 scenario::Scenario load_with_options(const std::string& input, const std::string& timeline,
                                      const scenario::FirstViewOptions& options);
+
+/// Warns of each smoke that cannot be seen, and of camera keys and events after the timeline's end. Returns
+/// the reports as JSON: the list "smokes" of docs/json.md.
+Json report_timeline(const scenario::Scenario& scenario, const std::vector<scenario::SmokeReport>& smokes);
 
 }  // namespace brume::cli

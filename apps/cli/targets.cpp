@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/cli/console.hpp"
@@ -21,20 +23,38 @@
 namespace brume::cli {
 namespace {
 
-// Position of the frame number in a file name, and its minimum number of digits.
-struct Placeholder {
-  std::size_t begin = 0, length = 0, digits = 1;
+// A file name as literal parts with the frame's number in between.
+struct NamePattern {
+  std::string before, after;
+  std::optional<std::size_t> digits;  // Minimum digits of the number; nothing: there is no number.
 };
 
-std::optional<Placeholder> find_placeholder(const std::string& name) {
-  const std::size_t begin = name.find('%');
-  if (begin == std::string::npos) return std::nullopt;
-  const std::string after = name.substr(begin + 1, 3);
-  if (after.rfind("d", 0) == 0) return Placeholder{begin, 2, 1};
-  if (after.size() == 3 && after[0] == '0' && after[1] >= '1' && after[1] <= '9' && after[2] == 'd') {
-    return Placeholder{begin, 4, static_cast<std::size_t>(after[1] - '0')};
+// %d, %04d: the number. %%: a percent sign, as is one before anything but a letter or digit. Nothing for any
+// other use of %.
+std::optional<NamePattern> parse_name(const std::string& name) {
+  NamePattern pattern;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    std::string& part = pattern.digits ? pattern.after : pattern.before;
+    const std::string_view rest = std::string_view(name).substr(i + 1);
+    if (name[i] != '%') {
+      part += name[i];
+    } else if (rest.starts_with('%')) {
+      part += '%';
+      ++i;
+    } else if (!pattern.digits && rest.starts_with('d')) {
+      pattern.digits = 1;
+      ++i;
+    } else if (!pattern.digits && rest.size() >= 3 && rest[0] == '0' && rest[1] >= '1' && rest[1] <= '9' &&
+               rest[2] == 'd') {
+      pattern.digits = static_cast<std::size_t>(rest[1] - '0');
+      i += 3;
+    } else if (rest.empty() || std::isalnum(static_cast<unsigned char>(rest[0]))) {
+      return std::nullopt;
+    } else {
+      part += '%';
+    }
   }
-  return std::nullopt;
+  return pattern;
 }
 
 // Names what the frame was made from.
@@ -60,50 +80,54 @@ bool is_frame(const SequenceSettings& settings, std::uint32_t frame) {
 }  // namespace
 
 TargetKind target_kind(const std::filesystem::path& path) {
-  const std::string name = path.filename().string();
   const std::string extension = scene::lower_extension(path);
-  if (extension == ".mp4") return TargetKind::film;
-  if (extension != ".png") {
-    throw Error(ErrorCode::usage, path.string() + ": cannot write this file type; expected .png or .mp4");
-  }
-  if (name.find('%') == std::string::npos) return TargetKind::picture;
-  const auto place = find_placeholder(name);
-  if (!place || name.find('%', place->begin + 1) != std::string::npos) {
+  if (extension != ".png" && extension != ".mp4")
     throw Error(ErrorCode::usage,
-                path.string() + ": expected one %d or %04d in the name, for the frame number");
-  }
-  return TargetKind::sequence;
+                "-o " + path.string() + ": cannot write this file type; expected .png or .mp4");
+  const auto pattern = parse_name(path.filename().string());
+  if (!pattern)
+    throw Error(ErrorCode::usage,
+                "-o " + path.string() +
+                    ": expected one %d or %04d in the name, for the frame number, or %% for "
+                    "a percent sign");
+  if (extension == ".png") return pattern->digits ? TargetKind::sequence : TargetKind::picture;
+  if (pattern->digits)
+    throw Error(ErrorCode::usage, "-o " + path.string() + ": numbered frames are .png files");
+  return TargetKind::film;
 }
 
-std::filesystem::path sequence_name(const std::filesystem::path& pattern, std::uint32_t number) {
-  std::string name = pattern.filename().string();
-  const auto place = find_placeholder(name);
-  BRUME_ASSERT(place.has_value(), name);
+std::filesystem::path plain_name(const std::filesystem::path& path) {
+  return path.parent_path() / parse_name(path.filename().string()).value().before;
+}
+
+std::filesystem::path sequence_name(const std::filesystem::path& path, std::uint32_t number) {
+  const NamePattern pattern = parse_name(path.filename().string()).value();
   std::string digits = std::to_string(number);
-  if (digits.size() < place->digits) digits.insert(0, place->digits - digits.size(), '0');
-  return pattern.parent_path() / name.replace(place->begin, place->length, digits);
+  if (digits.size() < *pattern.digits) digits.insert(0, *pattern.digits - digits.size(), '0');
+  return path.parent_path() / (pattern.before + digits + pattern.after);
 }
 
 void write_film(const std::filesystem::path& path, const FilmSettings& settings, std::uint32_t first,
-                std::uint32_t last, const std::function<image::Image8(std::uint32_t)>& draw) {
-  image::VideoWriter writer = image::VideoWriter::open(path, {settings.size_px.x, settings.size_px.y,
-                                                              settings.frames_per_second, settings.threads})
-                                  .value_or_throw();
+                std::uint32_t last, Outputs& outputs,
+                const std::function<image::Image8(std::uint32_t)>& draw) {
+  image::VideoWriter writer =
+      image::VideoWriter::open(path, {settings.size_px.x, settings.size_px.y, settings.rate.numerator,
+                                      settings.threads, settings.rate.denominator})
+          .value_or_throw();
   const std::uint32_t count = last - first + 1;
-  std::uint32_t drawn = 0;
-  try {
-    Progress progress("frames", count, progress_display());
-    for (; drawn < count; ++drawn) {
-      writer.add_frame(draw(first + drawn)).value_or_throw();
-      progress.advance();
-    }
-  } catch (Interrupted& interrupted) {
-    interrupted.state = " after " + std::to_string(drawn) + " of " + std::to_string(count) + " frames; " +
-                        path.string() +
-                        " is not written (only numbered frames, such as -o f_%04d.png, can be "
-                        "continued)";
-    throw;
+  Progress progress("frames", count + settings.warm_up);
+  for (std::uint32_t i = 0; i < settings.warm_up; ++i) {
+    stop_if_interrupted();
+    draw(first - settings.warm_up + i);
+    progress.advance();
   }
+  for (std::uint32_t drawn = 0; drawn < count; ++drawn) {
+    outputs.film_progress(path, drawn, count);
+    stop_if_interrupted();
+    writer.add_frame(draw(first + drawn)).value_or_throw();
+    progress.advance();
+  }
+  stop_if_interrupted();
   writer.finish().value_or_throw();
 }
 
@@ -124,7 +148,12 @@ void write_sequence(const SequenceSettings& settings, Outputs& outputs,
     print_on_terminal(std::to_string(count - missing) + " of " + std::to_string(count) + " frames are there");
 
   // The rest. Where frames depend on each other, all up to the last missing one are drawn.
-  Progress progress("frames", missing, progress_display());
+  Progress progress("frames", missing + (missing > 0 ? settings.warm_up : 0));
+  for (std::uint32_t i = 0; missing > 0 && i < settings.warm_up; ++i) {
+    stop_if_interrupted();
+    draw(settings.first - settings.warm_up + i);
+    progress.advance();
+  }
   for (std::uint32_t i = 0; i < end; ++i) {
     stop_if_interrupted();
     const std::uint32_t frame = settings.first + i;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 
+#include "apps/cli/number.hpp"
 #include "apps/cli/outputs.hpp"
 #include "image/image.hpp"
 
@@ -13,26 +14,33 @@ namespace brume::cli {
 
 enum class TargetKind { picture, sequence, film };
 
-/// .png; .png with one %d or %04d in its file name; .mp4. Throws Error (usage) for anything else.
+/// .png; .png with one %d or %04d in its file name; .mp4; suffixes in any case. Throws Error (usage) for
+/// anything else, such as a % that might have been meant for a number.
 TargetKind target_kind(const std::filesystem::path& path);
 
-/// "smoke_%04d.png" and 7: "smoke_0007.png".
+/// The name of a picture or film: %% stands for %.
+std::filesystem::path plain_name(const std::filesystem::path& path);
+
+/// "smoke_%04d.png" and 7: "smoke_0007.png"; %% stands for %.
 std::filesystem::path sequence_name(const std::filesystem::path& pattern, std::uint32_t number);
 
 struct FilmSettings {
   glm::uvec2 size_px{0};
-  std::uint32_t frames_per_second = 24;
+  FrameRate rate;
   unsigned threads = 0;
+  std::uint32_t warm_up = 0;  ///< As in SequenceSettings.
 };
 
 /// Draws the frames first to last, inclusive, and writes them as a film, with progress. Throws Error and
 /// whatever `draw` throws; leaves no partial file.
 void write_film(const std::filesystem::path& path, const FilmSettings& settings, std::uint32_t first,
-                std::uint32_t last, const std::function<image::Image8(std::uint32_t)>& draw);
+                std::uint32_t last, Outputs& outputs,
+                const std::function<image::Image8(std::uint32_t)>& draw);
 
 struct SequenceSettings {
   std::filesystem::path pattern;
   std::uint32_t first = 0, last = 0;  ///< Inclusive.
+  std::uint32_t warm_up = 0;          ///< Frames drawn before the first, not written; at most `first`.
   glm::uvec2 size_px{0};
   std::uint64_t key = 0;       ///< Hash of everything that the frames depend on, but for their numbers.
   bool frames_depend = false;  ///< Each frame depends on those before, back to `first`.

@@ -1,6 +1,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/data_files.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/viewer/quality.hpp"
@@ -12,10 +13,10 @@
 namespace brume::cli {
 namespace {
 
-struct Options {
+struct ViewOptions {
   std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
                            picture, folder = ".", screenshot, record, frame_log, json;
-  std::string shaders = BRUME_SHADERS_DIR;
+  std::string shaders;
   double frames_per_second = 60;
   std::optional<double> time, exit_after, lose_device, lose_surface;
   bool panels = false, bare = false, no_vertical_sync = false, validation = false, log_widgets = false;
@@ -31,7 +32,7 @@ std::vector<std::string> view_names() {
   return {passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()};
 }
 
-viewer::ViewerOptions viewer_options(const Options& options) {
+viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   viewer::ViewerOptions viewer;
   viewer.size_px = parse_size("--size", options.size);
   viewer.device = options.device;
@@ -47,7 +48,8 @@ viewer::ViewerOptions viewer_options(const Options& options) {
   viewer.weapons.text.text = options.word;
   viewer.weapons.picture = options.picture;
   viewer.folder = options.folder;
-  viewer.shaders = options.shaders;
+  viewer.shaders =
+      options.shaders.empty() ? find_data_file("shaders").value_or("").string() : options.shaders;
   viewer.begin_at = options.time;
   viewer.exit_after = options.exit_after;
   viewer.screenshot = options.screenshot;
@@ -86,7 +88,7 @@ void write_report(const std::string& target, const viewer::ViewerReport& report)
 }
 
 /// What the window reads and writes only later must not fail then.
-void check_inputs(const Options& options) {
+void check_inputs(const ViewOptions& options) {
   const auto is_folder = [](const char* option, const std::string& folder) {
     if (!std::filesystem::is_directory(folder))
       throw Error(ErrorCode::bad_input, std::string(option) + " " + folder + ": no such folder");
@@ -103,7 +105,7 @@ void check_inputs(const Options& options) {
                                       " bytes with at least one letter, such as BRUME");
 }
 
-void view(const Options& options, Outputs& outputs) {
+void view(const ViewOptions& options, Outputs& outputs) {
   if (!options.input.empty() && !options.play.empty())
     throw Error(ErrorCode::usage, "--play: already names the timeline; remove INPUT");
   if (!options.screenshot.empty() && !options.exit_after)
@@ -111,7 +113,7 @@ void view(const Options& options, Outputs& outputs) {
   check_inputs(options);
   const bool plays = !options.play.empty();
   const std::filesystem::path input = plays                   ? options.play
-                                      : options.input.empty() ? BRUME_SCENES_DIR "/demo.toml"
+                                      : options.input.empty() ? data_file("scenes/demo.toml").string()
                                                               : options.input;
   viewer::ViewerOptions viewer = viewer_options(options);
   viewer.level_name = input.filename().string();
@@ -139,7 +141,7 @@ void view(const Options& options, Outputs& outputs) {
 }
 
 /// What the window starts with, and what it leaves behind.
-void declare_outputs(const Arguments& arguments, Options& options) {
+void declare_outputs(const Arguments& arguments, ViewOptions& options) {
   arguments
       .add_option("--folder", options.folder,
                   "Folder for screenshots and recordings; default: current folder")
@@ -168,7 +170,7 @@ void declare_outputs(const Arguments& arguments, Options& options) {
       .type_name("FILE");
 }
 
-void declare_tests(const Arguments& arguments, Options& options) {
+void declare_tests(const Arguments& arguments, ViewOptions& options) {
   // For tests of the window.
   arguments.add_flag("--log-widgets", options.log_widgets, "").hidden();
   arguments.add_option("--lose-device", options.lose_device, "").hidden().range(0.0, 3600.0);
@@ -185,7 +187,7 @@ Command add_view(CommandLine& program) {
               "  brume view --play scenes/demo.toml --time 4.1 --panels\n"
               "  brume view --play scenes/demo.toml      # play the events of the timeline\n"
               "  brume view --play scenes/demo.toml --exit-after 3 --screenshot end.png --size 640x360");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ViewOptions>();
   const Arguments& arguments = command.arguments;
   arguments.add_option("INPUT", options->input, "Scene, or timeline (.toml) whose events are ignored")
       .type_name("");
@@ -214,6 +216,8 @@ Command add_view(CommandLine& program) {
       .type_name("TEXT");
   arguments.add_option("--shot", options->picture, "Image whose shape is shot").type_name("FILE");
   declare_outputs(arguments, *options);
+  // It saves its session before it ends.
+  command.common->grace_seconds = 5;
   declare_tests(arguments, *options);
   command.run = [options, common = command.common] { view(*options, common->outputs); };
   return command;

@@ -1,10 +1,14 @@
+#include <chrono>
 #include <cstdio>
+#include <optional>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
+#include "scenario/first_view.hpp"
 #include "scenario/voxel_cache.hpp"
 #include "scene/load.hpp"
 #include "voxel/obj_export.hpp"
@@ -13,13 +17,14 @@
 namespace brume::cli {
 namespace {
 
-struct Options {
+struct VoxelizeOptions {
   std::string scene, grid, origin, output, obj, json;
   float voxel = 0.25f;
+  std::optional<double> scale;
 };
 
 // Checks as much of the grid layout as possible before the scene is loaded.
-void check_options(const Options& options) {
+void check_options(const VoxelizeOptions& options) {
   if (!options.origin.empty()) parse_point("--origin", options.origin);
   if (options.grid.empty()) {
     if (options.origin.empty()) return;
@@ -30,7 +35,7 @@ void check_options(const Options& options) {
 }
 
 // The requested grid layout; fits the scene where no option is given.
-voxel::GridLayout choose_frame(const Options& options, const scene::Scene& scene) {
+voxel::GridLayout choose_frame(const VoxelizeOptions& options, const scene::Scene& scene) {
   const Box<float> bounds = scene::world_bounds(scene);
   if (options.grid.empty())
     return voxel::layout_around(bounds.low, bounds.high, options.voxel, 1).value_or_throw();
@@ -40,14 +45,17 @@ voxel::GridLayout choose_frame(const Options& options, const scene::Scene& scene
   return frame;
 }
 
-void voxelize(const Options& options, Outputs& outputs) {
+void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   check_options(options);
+  const auto start = std::chrono::steady_clock::now();
+  expect_suffix("", options.scene, {".txt", ".gltf", ".glb", ".obj"});
   outputs.reads(std::filesystem::path(options.scene));
   outputs.writes("-o", options.output, FileKind::vxl);
   outputs.writes("--obj", options.obj, FileKind::obj);
   outputs.writes("--json", options.json, FileKind::json);
 
-  const scene::Scene scene = scene::load_scene(options.scene).value_or_throw();
+  scene::Scene scene = scene::load_scene(options.scene).value_or_throw();
+  if (options.scale) scenario::scale_scene(scene, static_cast<float>(*options.scale));
   outputs.reads(scene.files);
   stop_if_interrupted();
   const voxel::GridLayout frame = choose_frame(options, scene);
@@ -57,11 +65,14 @@ void voxelize(const Options& options, Outputs& outputs) {
   if (!options.obj.empty()) (void)voxel::export_obj(voxels.grid, options.obj).value_or_throw();
 
   const std::uint64_t solid = voxels.grid.count_solid();
+  if (solid == 0) log_warning("no voxel is solid: the scene lies outside the grid; move it with --origin");
+  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
   if (!options.json.empty()) {
     write_json(options.json,
                {{"scene", options.scene},
                 {"solid", solid},
-                {"milliseconds", voxels.milliseconds},
+                {"milliseconds", whole.count()},
+                {"voxelize_milliseconds", voxels.milliseconds},
                 {"triangles", voxels.triangles},
                 {"cached", voxels.cached},
                 {"grid", Json::list({frame.size.x, frame.size.y, frame.size.z})},
@@ -70,12 +81,11 @@ void voxelize(const Options& options, Outputs& outputs) {
   }
   if (options.json == "-") return;
   char text[200];
-  std::snprintf(text, sizeof text, "%llu triangles, %llu solid voxels of %dx%dx%d, ",
+  std::snprintf(text, sizeof text, "%llu triangles, %llu solid voxels of %dx%dx%d, %s in %.3g s\n",
                 static_cast<unsigned long long>(voxels.triangles), static_cast<unsigned long long>(solid),
-                frame.size.x, frame.size.y, frame.size.z);
+                frame.size.x, frame.size.y, frame.size.z,
+                voxels.cached ? "loaded from the cache" : "voxelized", whole.count() / 1000);
   print(text);
-  std::snprintf(text, sizeof text, "voxelized in %.2f ms\n", voxels.milliseconds);
-  print(voxels.cached ? "loaded from the cache\n" : text);
 }
 
 }  // namespace
@@ -85,7 +95,7 @@ Command add_voxelize(CommandLine& program) {
       program, "voxelize", "Finds the solid voxels of a scene.",
       "  brume voxelize room.glb -o room.vxl\n"
       "  brume voxelize room.glb --grid 120x20x120 --voxel 0.5 --origin -30,0,-30 --obj cubes.obj --json -");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VoxelizeOptions>();
   const Arguments& arguments = command.arguments;
   arguments.add_option("SCENE", options->scene, "Scene (.txt, .gltf, .glb, .obj)").required().type_name("");
   arguments
@@ -93,7 +103,12 @@ Command add_voxelize(CommandLine& program) {
       .type_name("FILE");
   arguments.add_option("--grid", options->grid, "Grid size in voxels; default: encloses the scene")
       .type_name("XxYxZ");
-  arguments.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25").type_name("M");
+  arguments.add_option("--voxel", options->voxel, "Edge of a voxel [m]; default 0.25")
+      .range(1e-6, 1e6)
+      .type_name("M");
+  arguments.add_option("--scale", options->scale, "Metres per unit of the scene; default 1")
+      .range(1e-6, 1e6)
+      .type_name("X");
   arguments
       .add_option("--origin", options->origin, "Minimum corner of the grid [m]; default: that of the scene")
       .type_name("X,Y,Z");

@@ -15,7 +15,7 @@ enum class ErrorCode : int {
   usage = 2,
   bad_input = 3,
   resource_limit = 4,
-  no_device = 5,
+  no_device = 5,  ///< Also: a program that is not installed.
   partial = 6,
   comparison_failed = 7,
 };

@@ -1,43 +1,88 @@
 #include "core/progress.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <mutex>
 #include <utility>
 
 namespace brume {
+namespace {
+
+struct Jobs {
+  std::mutex mutex;
+  std::vector<const Progress*> list;  // in the order in which they began
+};
+
+// Never destroyed: jobs of other threads may outlive static objects.
+Jobs& jobs() {
+  static Jobs* const instance = new Jobs;
+  return *instance;
+}
+
+std::string time_text(double seconds) {
+  char text[48];
+  if (seconds < 100) {
+    std::snprintf(text, sizeof text, "%.0f s", seconds);
+  } else {
+    std::snprintf(text, sizeof text, "%.0f min %02d s", std::floor(seconds / 60),
+                  static_cast<int>(seconds) % 60);
+  }
+  return text;
+}
+
+}  // namespace
 
 double Progress::State::seconds_left() const {
   if (total == 0 || done == 0 || seconds <= 0) return -1;
   return static_cast<double>(total - std::min(done, total)) / rate();
 }
 
-Progress::Progress(std::string name, std::uint64_t total, Callback callback)
-    : state_{std::move(name), 0, total, 0},
-      callback_(std::move(callback)),
-      start_(std::chrono::steady_clock::now()) {
-  if (callback_) callback_(state_);
+Progress::Progress(std::string name, std::uint64_t total)
+    : name_(std::move(name)), total_(total), start_(std::chrono::steady_clock::now()) {
+  const std::lock_guard lock(jobs().mutex);
+  jobs().list.push_back(this);
 }
 
-void Progress::advance(std::uint64_t count) {
-  state_.done += count;
-  state_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (callback_) callback_(state_);
+Progress::~Progress() {
+  const std::lock_guard lock(jobs().mutex);
+  std::erase(jobs().list, this);
 }
 
-std::string progress_line(const Progress::State& state) {
-  constexpr std::uint64_t kWidth = 24;
-  const std::uint64_t filled = state.total > 0 ? std::min(state.done, state.total) * kWidth / state.total : 0;
-  const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-  char text[160];
-  std::snprintf(text, sizeof text, "%-10.10s [%s] %llu/%llu  %.3g/s", state.name.c_str(), bar.c_str(),
-                static_cast<unsigned long long>(state.done), static_cast<unsigned long long>(state.total),
-                state.rate());
-  std::string line = text;
-  if (const double left = state.seconds_left(); left >= 0) {
-    std::snprintf(text, sizeof text, "  %.0f s left", left);
-    line += text;
+Progress::State Progress::state() const {
+  return {name_, done_.load(std::memory_order_relaxed), total_,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()};
+}
+
+std::optional<Progress::State> progress_to_show(double seconds) {
+  const std::lock_guard lock(jobs().mutex);
+  std::optional<Progress::State> shown;
+  for (auto job = jobs().list.rbegin(); job != jobs().list.rend(); ++job) {
+    Progress::State state = (*job)->state();
+    if (state.seconds < seconds) continue;
+    if (state.total > 0) return state;
+    if (!shown) shown = std::move(state);
   }
-  return line.substr(0, 79);
+  return shown;
+}
+
+std::string progress_line(const Progress::State& state, std::size_t width) {
+  // Texts first, so that the bar gets the room that remains.
+  char text[160];
+  std::snprintf(text, sizeof text, "%-10s", state.name.c_str());
+  const std::string name = text;
+  if (state.total == 0) return (name + " " + time_text(state.seconds)).substr(0, width);
+  std::snprintf(text, sizeof text, " %llu/%llu  %.3g/s", static_cast<unsigned long long>(state.done),
+                static_cast<unsigned long long>(state.total), state.rate());
+  std::string numbers = text;
+  if (const double left = state.seconds_left(); left >= 0) numbers += "  " + time_text(left) + " left";
+
+  constexpr std::size_t kLeastBar = 4, kFrame = 3;  // a blank and two brackets
+  const std::size_t taken = name.size() + numbers.size() + kFrame;
+  if (taken + kLeastBar > width) return (name + numbers).substr(0, width);
+  const std::size_t room = width - taken;
+  const std::size_t filled = std::min(state.done, state.total) * room / state.total;
+  return name + " [" + std::string(filled, '#') + std::string(room - filled, '.') + "]" + numbers;
 }
 
 }  // namespace brume

@@ -1,14 +1,16 @@
-// Progress of a long job: done of total, rate, remaining time. The job counts, the program displays.
+// Progress of long jobs: done of total, rate, remaining time. The job counts, the program displays.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace brume {
 
-/// One long job. `advance` may be called from one thread at a time.
+/// One long job, listed for displays while it lives. Cheap enough for jobs of a millisecond.
 class Progress {
  public:
   struct State {
@@ -20,20 +22,27 @@ class Progress {
     /// Seconds until done = total at the present rate; negative: not yet known.
     double seconds_left() const;
   };
-  using Callback = std::function<void(const State&)>;
 
-  /// The callback (may be empty) is called at the start, then at each advance.
-  Progress(std::string name, std::uint64_t total, Callback callback);
-  void advance(std::uint64_t count = 1);
-  const State& state() const { return state_; }
+  explicit Progress(std::string name, std::uint64_t total = 0);
+  Progress(const Progress&) = delete;
+  ~Progress();
+  /// May be called from any thread.
+  void advance(std::uint64_t count = 1) { done_.fetch_add(count, std::memory_order_relaxed); }
+  State state() const;
 
  private:
-  State state_;
-  Callback callback_;
+  std::string name_;
+  std::uint64_t total_;
+  std::atomic<std::uint64_t> done_{0};
   std::chrono::steady_clock::time_point start_;
 };
 
-/// "frames  [#####.....]  60/120  4.1/s  15 s left", at most 79 characters.
-std::string progress_line(const Progress::State& state);
+/// The job to display: of those that have run for at least `seconds`, the one with a total that began last,
+/// else any that began last. Nothing if there is none. From any thread.
+std::optional<Progress::State> progress_to_show(double seconds);
+
+/// "frames  [#####.....]  60/120  4.1/s  15 s left", at most `width` characters; jobs without a total show
+/// the time that they have taken.
+std::string progress_line(const Progress::State& state, std::size_t width);
 
 }  // namespace brume

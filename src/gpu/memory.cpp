@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -44,6 +45,15 @@ void give(std::map<VkDeviceSize, VkDeviceSize>& holes, VkDeviceSize offset, VkDe
   holes[offset] = size;
 }
 
+// What an allocation needs and what there is, for its failure.
+std::string allocation_text(VkDeviceSize size, VkDeviceSize in_use, const VkMemoryHeap& heap) {
+  const auto mebibytes = [](VkDeviceSize bytes) {
+    return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
+  };
+  return "allocating " + mebibytes(size) + " besides the " + mebibytes(in_use) + " in use, in a heap of " +
+         mebibytes(heap.size) + ",";
+}
+
 }  // namespace
 
 Memory::Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device)
@@ -78,7 +88,9 @@ Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, bo
   block.tiled = tiled;
   block.holes[0] = size;
   const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
-  check(vk_.AllocateMemory(device_, &info, nullptr, &block.memory), "vkAllocateMemory");
+  const VkMemoryHeap& heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex];
+  check(vk_.AllocateMemory(device_, &info, nullptr, &block.memory),
+        allocation_text(size, bytes_in_use_, heap).c_str());
   if (mapped) {
     void* pointer = nullptr;
     const VkResult result = vk_.MapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &pointer);

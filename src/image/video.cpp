@@ -42,7 +42,8 @@ class Descriptor {
 };
 
 std::vector<std::string> ffmpeg_arguments(const VideoOptions& options, const std::string& output) {
-  const std::string rate = std::to_string(options.frames_per_second);
+  const std::string rate =
+      std::to_string(options.frames_per_second) + "/" + std::to_string(options.rate_divisor);
   const std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
   // Explicit, because players guess BT.601 or BT.709 by the image size.
   const std::string to_bt709 = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int";
@@ -114,9 +115,10 @@ Result<void> VideoWriter::Encoder::start() {
   const int error = spawn(pointers.data(), child_end.get());
   if (error == 0) return {};
   if (error == ENOENT) {
-    return Failure{ErrorCode::internal, path.string() +
-                                            ": films need the program ffmpeg, which is not installed; "
-                                            "run apt-get install ffmpeg, or write .png files"};
+    return Failure{ErrorCode::no_device,
+                   path.string() +
+                       ": films require the program ffmpeg, which is not on the PATH; install it, or write "
+                       "numbered frames, such as -o f_%04d.png"};
   }
   return Failure{ErrorCode::internal, path.string() + ": cannot start ffmpeg: " + std::strerror(error)};
 }
@@ -195,7 +197,7 @@ Result<VideoWriter> VideoWriter::open(const std::filesystem::path& path, const V
                                          std::to_string(options.height) +
                                          " is not possible: both sides must be even; change the size by one"};
   }
-  if (options.frames_per_second == 0) {
+  if (options.frames_per_second == 0 || options.rate_divisor == 0) {
     return Failure{ErrorCode::usage, path.string() + ": a film needs at least 1 frame per second"};
   }
   auto file = AtomicFile::open(path);

@@ -13,7 +13,8 @@ namespace brume::image {
 struct VideoOptions {
   std::uint32_t width = 0, height = 0;  ///< Texels; even, because of 4:2:0 chroma subsampling.
   std::uint32_t frames_per_second = 24;
-  unsigned threads = 0;  ///< Threads of ffmpeg; 0: its own choice.
+  unsigned threads = 0;            ///< Threads of ffmpeg; 0: its own choice.
+  std::uint32_t rate_divisor = 1;  ///< The rate is frames_per_second / rate_divisor; not 0.
 };
 
 /// Writes one video. The file appears under its name only after a successful `finish`; a writer destroyed
@@ -22,7 +23,7 @@ struct VideoOptions {
 class VideoWriter {
  public:
   /// Starts ffmpeg. Fails with usage when a side is odd or zero, with bad_input when the folder does not
-  /// exist or is not writable, and with internal when there is no ffmpeg program.
+  /// exist or is not writable, and with no_device when there is no ffmpeg program.
   static Result<VideoWriter> open(const std::filesystem::path& path, const VideoOptions& options);
   VideoWriter(VideoWriter&& other) noexcept;
   VideoWriter& operator=(VideoWriter&&) = delete;

@@ -19,10 +19,13 @@ class Playback {
  public:
   /// `scenario` must outlive it. Throws what Renderer and Simulation::create throw.
   Playback(gpu::Context& context, const scenario::Scenario& scenario, const RendererOptions& options);
+  /// With a simulation of the scenario, at any time.
+  Playback(gpu::Context& context, const scenario::Scenario& scenario, const RendererOptions& options,
+           std::unique_ptr<scenario::Simulation> simulation);
   Playback(gpu::Context& context, const scenario::Scenario& scenario, glm::uvec2 size_px)
       : Playback(context, scenario, RendererOptions{size_px}) {}
 
-  /// The image at a time [s]: the same for the same time and frame index, whatever came before. With
+  /// The image at a time [s]: the same for the same time, whatever came before and whatever its index. With
   /// RendererOptions::temporal a frame whose index is one more than that of the draw before goes on from it;
   /// any other starts over.
   image::Image8 draw(double seconds, std::uint32_t frame_index);

@@ -12,20 +12,6 @@
 namespace brume::scenario {
 namespace {
 
-Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const scene::Scene& scene) {
-  // The margin holds a whole smoke in open air: a ball of its voxels with its soft rim.
-  const auto& grid = timeline.grid;
-  const int margin =
-      2 + static_cast<int>(std::cbrt(static_cast<float>(timeline.smoke.voxels) * 0.75f / 3.14159f) * 1.2f);
-  const Box<float> bounds = scene::world_bounds(scene);
-  auto layout = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
-  if (!layout && !(grid.size && grid.origin_world)) return layout;
-  voxel::GridLayout chosen = layout ? *layout : voxel::GridLayout{glm::ivec3(1), grid.voxel, glm::vec3(0)};
-  if (grid.size) chosen.size = *grid.size;
-  if (grid.origin_world) chosen.origin_world = *grid.origin_world;
-  return chosen;
-}
-
 /// From a timeline and its loaded scene.
 Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, float aspect,
                           const std::filesystem::path& cache_folder) {
@@ -49,6 +35,20 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, float as
 }
 
 }  // namespace
+
+Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const scene::Scene& scene) {
+  // The margin holds a whole smoke in open air: a ball of its voxels with its soft rim.
+  const auto& grid = timeline.grid;
+  const int margin =
+      2 + static_cast<int>(std::cbrt(static_cast<float>(timeline.smoke.voxels) * 0.75f / 3.14159f) * 1.2f);
+  const Box<float> bounds = scene::world_bounds(scene);
+  auto layout = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
+  if (!layout && !(grid.size && grid.origin_world)) return layout;
+  voxel::GridLayout chosen = layout ? *layout : voxel::GridLayout{glm::ivec3(1), grid.voxel, glm::vec3(0)};
+  if (grid.size) chosen.size = *grid.size;
+  if (grid.origin_world) chosen.origin_world = *grid.origin_world;
+  return chosen;
+}
 
 bool is_timeline(const std::filesystem::path& path) {
   return scene::lower_extension(path) == ".toml";

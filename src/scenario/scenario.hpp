@@ -34,6 +34,10 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
 /// The same for a timeline in memory; loads its scene from Timeline::scene.
 Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder);
 
+/// Where the voxels of a timeline's scene are: as the timeline says, or around the scene's bounds with room
+/// for a whole smoke. Fails as voxel::layout_around.
+Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const scene::Scene& scene);
+
 /// Every file that it was made from: scene, textures and buffers, masks of shots, fonts of texts. Without the
 /// timeline's own.
 std::vector<std::filesystem::path> files_of(const Scenario& scenario);

@@ -41,6 +41,10 @@ void Simulation::advance_to(double seconds) {
   volume_.update(world_);
 }
 
+std::vector<SmokeReport> Simulation::report_smokes(const Scenario& scenario) {
+  return scenario::report_smokes(scenario, world_);
+}
+
 Result<void> Simulation::add(std::vector<OrderedEvent> events, std::vector<LevelEvent> changes) {
   if (!events.empty()) {
     // Merge the new events with the log from the first of them on.

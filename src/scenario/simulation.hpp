@@ -8,6 +8,7 @@
 #include "scenario/events.hpp"
 #include "scenario/level_events.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/smoke_report.hpp"
 #include "sim/world.hpp"
 #include "smoke/smoke_volume.hpp"
 
@@ -22,6 +23,9 @@ class Simulation {
   /// Moves world and smoke to the tick at or before a time [s].
   void advance_to(double seconds);
   const sim::World& world() const { return world_; }
+  /// What happens to the smokes of its timeline: report_smokes. Moves the world but not the smoke volume;
+  /// both are at the same tick again after the next advance_to.
+  std::vector<SmokeReport> report_smokes(const Scenario& scenario);
   const smoke::SmokeVolume& volume() const { return volume_; }
   /// The surface planes of the level at the present tick.
   const voxel::PatchedPlanes& planes() const { return planes_; }

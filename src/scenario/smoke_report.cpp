@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenario/events.hpp"
 #include "sim/fill.hpp"
 #include "sim/walk.hpp"
 #include "sim/world.hpp"
@@ -56,7 +55,8 @@ struct Throw {
   bool placed = false;              // not thrown from elsewhere
 };
 
-std::vector<Throw> throws_of(sim::World& world, std::span<const sim::Event> events) {
+std::vector<Throw> throws_of(sim::World& world) {
+  const std::span<const sim::Event> events = world.log();
   std::vector<Throw> throws;
   for (std::uint32_t id = 0; id < events.size() && throws.size() < kMostReportedSmokes; ++id) {
     const auto* event = std::get_if<sim::ThrowSmoke>(&events[id]);
@@ -125,19 +125,30 @@ std::optional<glm::vec3> nearest_free_place(const voxel::BitGrid& grid, glm::vec
   return {};
 }
 
-Result<std::vector<SmokeReport>> report_smokes(const Scenario& scenario) {
-  auto events = events_of(scenario);
-  if (!events) return events.failure();
-  sim::World world(scenario.voxels.grid, {.masks = scenario.masks.key()});
-  const std::vector<sim::Event> log = *events;
-  if (auto added = world.append(std::move(*events)); !added) return added.failure();
-  const std::vector<Throw> throws = throws_of(world, log);
+std::vector<SmokeReport> report_smokes(const Scenario& scenario, sim::World& world) {
+  const std::vector<Throw> throws = throws_of(world);
   std::vector<SmokeReport> reports;
   for (std::size_t i = 0; i < throws.size(); ++i) {
     reports.push_back(report_throw(world, throws[i], scenario));
     if (i < scenario.timeline.smokes.size()) reports.back().place = scenario.timeline.smokes[i].place;
   }
   return reports;
+}
+
+const char* name_of(SmokeFault fault) {
+  switch (fault) {
+    case SmokeFault::none:
+      return "none";
+    case SmokeFault::outside_grid:
+      return "outside_grid";
+    case SmokeFault::in_solid:
+      return "in_solid";
+    case SmokeFault::confined:
+      return "confined";
+    case SmokeFault::after_end:
+      return "after_end";
+  }
+  return "";
 }
 
 std::string warning_of(const SmokeReport& report, std::size_t number, const Scenario& scenario) {

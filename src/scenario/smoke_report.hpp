@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenario/scenario.hpp"
+#include "sim/world.hpp"
 
 namespace brume::scenario {
 
@@ -33,8 +34,11 @@ struct SmokeReport {
 /// Of at most this many smokes, the first ones.
 constexpr std::size_t kMostReportedSmokes = 64;
 
-/// Plays the timeline's events up to the last of its smokes. Fails with bad_input as events_of.
-Result<std::vector<SmokeReport>> report_smokes(const Scenario& scenario);
+/// "none", "outside_grid", "in_solid", "confined" or "after_end".
+const char* name_of(SmokeFault fault);
+
+/// Plays a world with the timeline's events up to the last of its smokes, and leaves it there.
+std::vector<SmokeReport> report_smokes(const Scenario& scenario, sim::World& world);
 
 /// One line for people: what is wrong with smoke `number`, counted from 1, and what works. Empty where
 /// nothing is.

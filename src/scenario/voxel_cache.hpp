@@ -15,7 +15,7 @@ struct Voxels {
   voxel::BitGrid grid;
   voxel::SurfacePlanes planes;
   bool cached = false;      ///< Read from the cache instead of voxelized.
-  double milliseconds = 0;  ///< Time of voxelize() only; 0 when cached.
+  double milliseconds = 0;  ///< Time of voxelize() alone, without planes; 0 when cached.
   std::uint64_t triangles = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "scene/load.hpp"
 
 #include "core/file.hpp"
+#include "core/progress.hpp"
 #include "scene/files.hpp"
 #include "scene/gltf.hpp"
 #include "scene/obj.hpp"
@@ -38,6 +39,7 @@ Result<Scene> parse_file(const std::filesystem::path& path, const FolderFiles& f
 }  // namespace
 
 Result<Scene> load_scene(const std::filesystem::path& path) {
+  const Progress job("load");
   const FolderFiles files(path.parent_path());
   auto scene = parse_file(path, files);
   if (!scene) return scene;

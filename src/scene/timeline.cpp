@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/file.hpp"
+#include "core/similar.hpp"
 #include "scene/files.hpp"
 #include "scene/options.hpp"
 #include "scene/ray.hpp"
@@ -285,14 +286,13 @@ Result<void> check_doors(const Timeline& timeline, const Scene& scene) {
     const auto& objects = scene.objects;
     if (std::any_of(objects.begin(), objects.end(), [&](const Object& o) { return o.name == door.object; }))
       continue;
-    std::string message =
+    const std::string message =
         (door.place.empty() ? "" : door.place + ": ") + "the scene has no object " + in_quotes(door.object);
-    const auto distance = [&](const Object& o) { return edit_distance(o.name, door.object); };
-    const auto nearest =
-        std::min_element(objects.begin(), objects.end(),
-                         [&](const Object& a, const Object& b) { return distance(a) < distance(b); });
-    if (nearest != objects.end()) message += "; the nearest name is " + in_quotes(nearest->name);
-    return Failure{ErrorCode::bad_input, message};
+    std::vector<std::string> names;
+    for (const Object& object : objects)
+      if (!object.name.empty() && std::ranges::find(names, object.name) == names.end())
+        names.push_back(object.name);
+    return Failure{ErrorCode::bad_input, message + suggestion(door.object, names, "\"")};
   }
   return {};
 }

@@ -201,15 +201,15 @@ void sort_events(Timeline& timeline);
 /// at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time,
 /// low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events
 /// [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
-/// file:line:column for malformed TOML, an unknown key (suggesting the nearest known one), and a value of the
-/// wrong type or out of range.
+/// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
+/// the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path);
 
-/// Fails with bad_input at the first door whose object is missing from the scene, suggesting the nearest
-/// name.
+/// Fails with bad_input at the first door whose object is missing from the scene, suggesting what was
+/// probably meant.
 Result<void> check_doors(const Timeline& timeline, const Scene& scene);
 
 /// The camera at a time [s]: passes through all keys with continuous velocity, at rest before the first and

@@ -1,8 +1,8 @@
 #include "scene/toml_table.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "core/similar.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::scene {
@@ -15,6 +15,12 @@ std::string expected(std::string_view key, const char* what) {
   text += "\": expected ";
   text += what;
   return text;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
 }
 
 /// The first non-ASCII byte outside of comments and single-line strings.
@@ -91,8 +97,12 @@ void TomlTable::fail(std::string_view key, const std::string& what) {
 }
 
 void TomlTable::require(std::string_view key) {
-  if (table_.get(key) == nullptr)
-    fail_at(table_.source(), name_ + " lacks the key \"" + std::string(key) + "\"");
+  if (table_.get(key) != nullptr) return;
+  const std::string message = name_ + " lacks the key \"" + std::string(key) + "\"";
+  for (const auto& [other, value] : table_)
+    if (lower(other.str()) == key)
+      return fail_at(other.source(), message + "; keys are in lower case, found " + in_quotes(other.str()));
+  fail_at(table_.source(), message);
 }
 
 std::optional<double> TomlTable::number(const toml::node& node, std::string_view key, double least,
@@ -109,8 +119,10 @@ std::optional<std::int64_t> TomlTable::whole(const toml::node& node, std::string
   const std::optional<std::int64_t> value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
   if (value && *value >= least && *value <= most) return value;
   std::string found = value ? ", found " + std::to_string(*value) : "";
-  fail_at(node.source(), expected(key, "a whole number from ") + std::to_string(least) + " to " +
-                             std::to_string(most) + found);
+  const std::string range = least == most ? expected(key, "") + std::to_string(least)
+                                          : expected(key, "a whole number from ") + std::to_string(least) +
+                                                " to " + std::to_string(most);
+  fail_at(node.source(), range + found);
   return std::nullopt;
 }
 
@@ -224,12 +236,8 @@ Result<void> TomlTable::finish() {
   for (const auto& [key, value] : table_) {
     const std::string_view name = key.str();
     if (failure_ || std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    std::string message = "unknown key " + in_quotes(name) + " in " + name_;
-    const auto nearest = std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) {
-      return edit_distance(a, name) < edit_distance(b, name);
-    });
-    if (nearest != known_.end()) message += "; the nearest known one is \"" + *nearest + "\"";
-    fail_at(key.source(), message);
+    const std::string message = "unknown key " + in_quotes(name) + " in " + name_;
+    fail_at(key.source(), message + suggestion(name, known_, "\""));
   }
   return failure_ ? Result<void>(*failure_) : Result<void>();
 }
@@ -239,6 +247,8 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
     return Failure{ErrorCode::bad_input, file + ":" + std::to_string(line) + ":" + std::to_string(column) +
                                              ": " + std::string(what)};
   };
+  if (text.find('\0') != std::string_view::npos)
+    return Failure{ErrorCode::bad_input, file + ": is binary or UTF-16; expected a text file in UTF-8"};
   if (const auto byte = misplaced_letter(text)) {
     const LineColumn at = line_column(text, *byte);
     return failure(at.line, at.column,
@@ -251,24 +261,6 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
   if (parsed) return std::move(parsed).table();
   const toml::source_position at = parsed.error().source().begin;
   return failure(at.line, at.column, parsed.error().description());
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // Long keys are not typing errors, and comparing them would take long.
-  a = a.substr(0, 64);
-  b = b.substr(0, 64);
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const std::size_t above = row[k + 1];
-      row[k + 1] = std::min({above + 1, row[k] + 1, diagonal + (a[i] == b[k] ? 0u : 1u)});
-      diagonal = above;
-    }
-  }
-  return row.back();
 }
 
 }  // namespace brume::scene

@@ -47,7 +47,7 @@ class TomlTable {
   void require(std::string_view key);
   /// Fails at a key's value, or at the table if the key is missing.
   void fail(std::string_view key, const std::string& what);
-  /// The first failure; otherwise the first key that was never read, with the nearest known one.
+  /// The first failure; otherwise the first key that was never read, with what was probably meant.
   Result<void> finish();
 
  private:
@@ -69,9 +69,5 @@ class TomlTable {
 /// single-line strings: elsewhere, and while it recovers from a malformed value, toml++ 3.3 tests for white
 /// space and reaches undefined behaviour for some of them (U+024C).
 Result<toml::table> parse_toml(std::string_view text, const std::string& file);
-
-/// Minimum number of single-character insertions, deletions and replacements that turn a into b (Levenshtein
-/// 1966).
-std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace brume::scene

@@ -6,10 +6,12 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 
 namespace brume::sim {
 namespace {
@@ -17,6 +19,7 @@ namespace {
 constexpr std::uint32_t kUnreached = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kNoBrick = std::numeric_limits<std::uint32_t>::max();
 constexpr int kMoves = 26;
+constexpr std::uint32_t kVoxelsOfLongJob = 1u << 18;
 /// Voxel index x + kRow y + kLayer z, ordered as the indices of any grid.
 constexpr std::int64_t kRow = std::int64_t{1} << 18, kLayer = kRow << 18;
 
@@ -228,6 +231,8 @@ std::vector<FilledVoxel> Fill::run(glm::ivec3 source, std::uint32_t budget) {
   open_ = 1;
 
   // Settle the voxels bucket by bucket, those of one distance by index.
+  std::optional<Progress> job;
+  if (budget >= kVoxelsOfLongJob) job.emplace("flood", budget);
   std::vector<Open> nearest;
   for (std::uint32_t distance = 0; open_ > 0; ++distance) {
     nearest.clear();
@@ -240,6 +245,7 @@ std::vector<FilledVoxel> Fill::run(glm::ivec3 source, std::uint32_t budget) {
       filled.push_back({voxel_of(open), distance});
       if (filled.size() == budget) return filled;
     }
+    if (job) job->advance(nearest.size());
     for (const Open& open : nearest) spread(open, distance);
   }
   return filled;

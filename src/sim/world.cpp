@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "core/progress.hpp"
 #include "core/tasks.hpp"
 
 namespace brume::sim {
@@ -17,6 +18,16 @@ constexpr int kSmokeMargin = 2;
 /// Minimum distance and maximum number of checkpoints.
 constexpr std::uint32_t kCheckpointTicks = 64;
 constexpr std::size_t kMaxCheckpoints = 256;
+/// A cloud of this many voxels takes longer to make than a checkpoint to keep.
+constexpr std::uint32_t kLargeCloud = 1u << 18;
+constexpr std::uint64_t kEventsOfLongJob = 256;
+
+/// Whether a large cloud began in the state's own tick.
+bool made_large_cloud(const State& state) {
+  return std::any_of(state.clouds.begin(), state.clouds.end(), [&](const LiveCloud& live) {
+    return live.cloud->origin().detonation_tick == state.tick && live.cloud->voxels().size() >= kLargeCloud;
+  });
+}
 
 bool inside(glm::ivec3 v, glm::ivec3 low, glm::ivec3 high) {
   return glm::all(glm::greaterThanEqual(v, low)) && glm::all(glm::lessThanEqual(v, high));
@@ -150,13 +161,35 @@ void World::replace_log(std::uint32_t first, std::size_t retained, std::vector<E
 void World::advance_to(std::uint32_t tick) {
   tick = std::max(tick, first_.tick);
   if (tick < state_.tick) go_back_before(tick + 1);
+  go_forward_to(tick);
+  const std::uint64_t events = events_until(tick);
+  std::optional<Progress> job;
+  if (events >= kEventsOfLongJob) job.emplace("simulate", events);
   for (;;) {
     const std::uint32_t event_tick = next_event_ < log_.size() ? tick_of(log_[next_event_]) : kNever;
     const std::uint32_t due = std::min(event_tick, next_end_);
     if (due > tick || due == kNever) break;
+    const std::size_t before = next_event_;
     play_tick(due);
+    if (job) job->advance(next_event_ - before);
   }
   state_.tick = tick;
+}
+
+/// The number of events in the log up to a tick that are not in state_ yet.
+std::uint64_t World::events_until(std::uint32_t tick) const {
+  const auto next = log_.begin() + static_cast<std::ptrdiff_t>(next_event_);
+  const auto end = std::upper_bound(next, log_.end(), tick,
+                                    [](std::uint32_t t, const Event& e) { return t < tick_of(e); });
+  return static_cast<std::uint64_t>(end - next);
+}
+
+/// Adopts the last checkpoint up to a tick that is later than state_: time has been there before.
+void World::go_forward_to(std::uint32_t tick) {
+  const auto after = std::upper_bound(checkpoints_.begin(), checkpoints_.end(), tick,
+                                      [](std::uint32_t t, const State& state) { return t < state.tick; });
+  if (after == checkpoints_.begin() || std::prev(after)->tick <= state_.tick) return;
+  adopt(*std::prev(after), false);
 }
 
 void World::play_tick(std::uint32_t tick) {
@@ -171,8 +204,11 @@ void World::play_tick(std::uint32_t tick) {
   remove_ended(state_);
   next_end_ = next_end(state_);
 
-  // A checkpoint every kCheckpointTicks at most.
-  if (!checkpoints_.empty() && tick < checkpoints_.back().tick + kCheckpointTicks) return;
+  // A checkpoint every kCheckpointTicks at most, and where a large cloud was made, which takes long.
+  const std::uint32_t last = checkpoints_.empty() ? 0 : checkpoints_.back().tick;
+  const bool is_due = checkpoints_.empty() || tick >= last + kCheckpointTicks;
+  const bool is_costly = tick > last && made_large_cloud(state_);
+  if (!is_due && !is_costly) return;
   checkpoints_.push_back(state_);
   if (checkpoints_.size() <= kMaxCheckpoints) return;
 
@@ -198,19 +234,19 @@ void World::go_back_before(std::uint32_t tick) {
   const bool is_previous =
       previous_ && previous_->tick < tick && (!has_checkpoint || std::prev(after)->tick < previous_->tick);
   const bool is_first = !has_checkpoint && !is_previous;
-  const State target = is_previous ? *previous_ : is_first ? first_ : *std::prev(after);
+  adopt(is_previous ? *previous_ : is_first ? first_ : *std::prev(after), is_first);
+}
+
+/// Makes a retained state the present one.
+void World::adopt(State target, bool is_first) {
   previous_.reset();
   change_edits(target.edits);
-  state_ = target;
-  changed_at_ = target.tick;
+  state_ = std::move(target);
+  changed_at_ = state_.tick;
 
   // The next event to play. Events already in first_ are no longer in the log.
   next_event_ = 0;
-  if (!is_first)
-    next_event_ = static_cast<std::size_t>(
-        std::upper_bound(log_.begin(), log_.end(), target.tick,
-                         [](std::uint32_t t, const Event& e) { return t < tick_of(e); }) -
-        log_.begin());
+  if (!is_first) next_event_ = static_cast<std::size_t>(events_until(state_.tick));
   next_end_ = next_end(state_);
 }
 

@@ -82,6 +82,9 @@ class World {
   void replace_log(std::uint32_t first, std::size_t retained, std::vector<Event> events);
   void set_masks(const MaskKey& masks);
   void go_back_before(std::uint32_t tick);
+  void go_forward_to(std::uint32_t tick);
+  void adopt(State target, bool is_first);
+  std::uint64_t events_until(std::uint32_t tick) const;
   void change_edits(const std::shared_ptr<const EditBlocks>& edits);
   void play_tick(std::uint32_t tick);
   void apply(const ThrowSmoke& event);

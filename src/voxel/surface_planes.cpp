@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "core/tasks.hpp"
 
 namespace brume::voxel {
@@ -338,10 +339,12 @@ SurfacePlanes SurfacePlanes::build_in(std::span<const Triangle> triangles, const
     // A few cells take less time than starting another thread.
     const glm::i64vec3 size(cells.high - cells.low);
     const std::size_t grain = size.x * size.y * size.z < kCellsForThreads ? slabs.size() : 1;
+    Progress job("surfaces", slabs.size());
     parallel_for(slabs.size(), grain, [&](std::size_t begin, std::size_t end) {
       SlabBuilder builder(triangles, grid, cells, cleared);
       for (std::size_t i = begin; i < end; ++i)
         slabs[i] = builder.build(slab_triangles.of(i), cells.low.z + static_cast<int>(i));
+      job.advance(end - begin);
     });
   }
 

@@ -2,8 +2,10 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
+#include "core/progress.hpp"
 #include "core/tasks.hpp"
 #include "voxel/triangle_box.hpp"
 
@@ -230,6 +232,12 @@ void merge(BitGrid& into, const BitGrid& from) {
   });
 }
 
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
 }  // namespace
 
 Result<void> check_frame(const GridLayout& layout) {
@@ -244,7 +252,7 @@ Result<void> check_frame(const GridLayout& layout) {
       return Failure{ErrorCode::usage, std::string("grid: the origin's ") + kAxes[axis] + " is not finite"};
   }
   if (!std::isfinite(layout.voxel_size) || layout.voxel_size <= 0)
-    return Failure{ErrorCode::usage, "grid: voxel size " + std::to_string(layout.voxel_size) +
+    return Failure{ErrorCode::usage, "grid: voxel size " + text_of(double{layout.voxel_size}) +
                                          " m; give a finite number above 0"};
   return {};
 }
@@ -266,7 +274,7 @@ Result<GridLayout> layout_around(glm::vec3 low_world, glm::vec3 high_world, floa
     const double size = std::max(high - low, 1.0);
     if (!(size <= kMaxAxis))
       return Failure{ErrorCode::resource_limit,
-                     "grid: the scene would need " + std::to_string(size) +
+                     "grid: the scene would need " + text_of(size) +
                          " voxels along an axis; at most 4096: make the voxels larger"};
     layout.size[axis] = static_cast<int>(size);
     layout.origin_world[axis] = static_cast<float>(low * voxel_size);
@@ -282,12 +290,14 @@ Result<BitGrid> voxelize(std::span<const Triangle> triangles, const GridLayout& 
   std::atomic<std::size_t> next{0};
   const Box<int> all{ivec3(0), layout.size};
 
+  Progress job("voxelize", triangles.size());
   // Each worker draws into a grid of its own. The union does not depend on which worker drew what.
   parallel_for(workers, 1, [&](std::size_t worker, std::size_t) {
     Pen pen(grids[worker]);
     for (std::size_t task; (task = next.fetch_add(1)) < tasks;) {
       const std::size_t end = std::min(triangles.size(), (task + 1) * kTrianglesPerTask);
       for (std::size_t i = task * kTrianglesPerTask; i < end; ++i) draw(triangles[i], layout, all, pen);
+      job.advance(end - task * kTrianglesPerTask);
     }
   });
   for (std::size_t worker = 1; worker < workers; ++worker) merge(grids[0], grids[worker]);

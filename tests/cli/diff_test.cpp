@@ -95,12 +95,13 @@ TEST_F(Diff, RejectsIncomparableImages) {
     EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
     EXPECT_EQ(folder_.files(), before);
   };
-  refuses({"a.png", "small.png"}, 3, "small.png: expected 33x17 texels as in a.png, found 16x17");
+  refuses({"a.png", "small.png"}, 7, "small.png: expected 33x17 texels as in a.png, found 16x17");
   refuses({"a.png", "missing.png"}, 3, "missing.png");
   refuses({"a.png"}, 2, "TEST");
+  refuses({"a.png", "b.png", "-o", "map.jpg"}, 2, "-o map.jpg: unknown file suffix; expected .png");
   refuses({"a.png", "b.png", "--fail-above", "256"}, 2, "--fail-above");
   refuses({"a.png", "b.png", "--psnr-below", "nan"}, 2, "--psnr-below");
-  refuses({"a.png", "b.png", "-o", "no/such/folder/map.png"}, 3, "no/such/folder");
+  refuses({"a.png", "b.png", "-o", "no/such/folder/map.png"}, 2, "no/such/folder");
 }
 
 }  // namespace

@@ -105,6 +105,22 @@ TEST_F(Query, ReportsHiddenIntervals) {
   EXPECT_EQ(part["intervals"][0]["end"], 1.25);
 }
 
+TEST_F(Query, ExitCodeOfAnExpectation) {
+  EXPECT_EQ(query(across({"--time", "1", "--expect", "hidden"})).exit_code, 0);
+  EXPECT_EQ(query(across({"--time", "2.9", "--expect", "visible"})).exit_code, 0);
+  EXPECT_EQ(query(across({"--report", "--expect", "hidden"})).exit_code, 0);
+  const Outcome hidden = query(across({"--time", "1", "--expect", "visible"}));
+  EXPECT_EQ(hidden.exit_code, 7);
+  EXPECT_EQ(hidden.error, "brume: --to is hidden, expected visible\n");
+  EXPECT_NE(hidden.out.find("hidden by smoke"), std::string::npos) << "the result is there all the same";
+}
+
+TEST_F(Query, WarnsOfEndsInsideOfWalls) {
+  const Outcome run = query({"--from", "2,1,0", "--to", "0,1,0", "--time", "0"});
+  EXPECT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_EQ(run.error, "brume: warning: --from lies in something solid\n");
+}
+
 TEST_F(Query, CountsTheShotsUntilVisible) {
   const auto shots = [&](const Arguments& more) {
     Arguments arguments = across({"--report", "--times", "0.5-1.4"});
@@ -144,13 +160,16 @@ TEST_F(Query, RejectsInvalidArguments) {
   refuses(across({"--time", "nan"}), 2, "--time");
   refuses(across({"--time", "1", "--report"}), 2, "--times");
   refuses(across({"--time", "1", "--shots", "2"}), 2, "--report");
+  refuses(across({"--time", "1", "--spread", "2"}), 2, "--report");
+  refuses(across({"--report", "--shots-at", "1"}), 2, "--shots-at: requires --shots");
   refuses(across({"--report", "--times", "3-1"}), 2, "--times");
+  refuses(across({"--time", "1", "--scale", "2"}), 2, "--scale");
   refuses(across({"--report", "--times", "0-nan"}), 2, "--times");
   refuses(across({"--time", "1", "--threshold", "-2"}), 2, "--threshold");
   refuses({"--from", "0,nan,0", "--to", "1,1,1", "--time", "1"}, 2, "--from");
   refuses({"--from", "0,0,0", "--to", "1,1e6,1", "--time", "1"}, 2, "--to");
   refuses({"--from", "0,1,0", "--to", "0,1,0", "--report", "--shots", "1"}, 2, "--shots");
-  refuses(across({"--time", "1", "--json", "no/such/folder/a.json"}), 3, "no/such/folder");
+  refuses(across({"--time", "1", "--json", "no/such/folder/a.json"}), 2, "no/such/folder");
   const Outcome missing =
       run_brume(folder_.path(), {"query", "missing.toml", "--from", "0,0,0", "--to", "1,1,1", "--time", "1"});
   EXPECT_EQ(missing.exit_code, 3);

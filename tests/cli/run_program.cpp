@@ -44,13 +44,14 @@ void send_to(int descriptor, const std::filesystem::path& file) {
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
   if (options.signal_at > 0) ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
-  arguments.insert(arguments.begin(), BRUME_PROGRAM);
+  const std::string program = options.program.empty() ? BRUME_PROGRAM : options.program;
+  arguments.insert(arguments.begin(), program);
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   if (options.close_standard_descriptors)
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(descriptor);
-  if (::chdir(folder.c_str()) == 0) ::execv(BRUME_PROGRAM, pointers.data());
+  if (::chdir(folder.c_str()) == 0) ::execv(program.c_str(), pointers.data());
   ::_exit(127);
 }
 
@@ -89,6 +90,18 @@ int trace(pid_t child, const RunOptions& options, std::uint64_t& calls) {
   }
 }
 
+// Checks and removes the error in the new file of --json, if there is one.
+void take_json_error(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code) {
+  const auto option = std::find(arguments.begin(), arguments.end(), "--json");
+  if (option == arguments.end() || option + 1 == arguments.end()) return;
+  const auto file = folder.path() / option[1];
+  if (!std::filesystem::is_regular_file(file)) return;
+  const std::string text = read_text(file);
+  if (text.find("\"error\": {") == std::string::npos) return;
+  EXPECT_NE(text.find("\"code\": " + std::to_string(exit_code)), std::string::npos) << text;
+  std::filesystem::remove(file);
+}
+
 std::filesystem::path fresh_folder() {
   static std::atomic<int> number{0};
   const auto path = std::filesystem::temp_directory_path() /
@@ -122,7 +135,12 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
     }
     if (!ended) ::kill(child, options.signal);
   }
-  if (!ended) ::waitpid(child, &status, 0);
+  rusage usage{};
+  if (!ended) ::wait4(child, &status, 0, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  run.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   run.exit_code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   if (options.out_file.empty()) run.out = read_text(out);
   run.error = read_text(error);
@@ -161,6 +179,7 @@ void expect_failure(const WorkFolder& folder, const std::vector<std::string>& ar
   EXPECT_EQ(run.error.rfind("brume: ", 0), 0u) << run.error;
   EXPECT_EQ(run.error.rfind("brume: warning", 0), std::string::npos) << run.error;
   for (const std::string& part : parts) EXPECT_NE(run.error.find(part), std::string::npos) << run.error;
+  take_json_error(folder, arguments, exit_code);
   EXPECT_EQ(folder.files(), before);
 }
 

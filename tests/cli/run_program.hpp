@@ -13,10 +13,12 @@ namespace brume::cli {
 struct Outcome {
   int exit_code = -1;  ///< 128 + signal if a signal ended it.
   std::string out, error;
+  double cpu_seconds = 0;        ///< Of all its threads.
   std::uint64_t file_calls = 0;  ///< With `signal_at`: the number of such calls that were begun.
 };
 
 struct RunOptions {
+  std::string program;                                           ///< Instead of build/.../brume.
   std::vector<std::pair<std::string, std::string>> environment;  ///< Added to the test's own.
   std::uint64_t file_bytes = 0;                                  ///< No file may grow past this; 0: any size.
   std::string out_file;                                          ///< Receives standard output instead.
@@ -49,7 +51,8 @@ class WorkFolder {
 };
 
 /// Fails unless the program ends with the exit code, prints nothing to standard output and one line to
-/// standard error that contains all parts, and leaves the folder unchanged.
+/// standard error that contains all parts, and leaves the folder unchanged, but for the same line as JSON in
+/// the file of --json.
 void expect_failure(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code,
                     const std::vector<std::string>& parts, const RunOptions& options = {});
 

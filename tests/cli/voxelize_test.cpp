@@ -35,7 +35,29 @@ TEST(Voxelize, ReportsTheResultAndLoadsTheCacheNextTime) {
 
   const Json info = json_of(run_brume(folder.path(), {"info", "room.vxl", "--json", "-"}));
   EXPECT_EQ(info["solid"], first["solid"]);
-  EXPECT_EQ(info["size"], first["grid"]);
+  EXPECT_EQ(info["grid"], first["grid"]);
+  // Both commands count the same triangles.
+  const Json scene = json_of(run_brume(folder.path(), {"info", "room.obj", "--json", "-"}));
+  EXPECT_EQ(scene["solid_triangles"], first["triangles"]);
+}
+
+TEST(Voxelize, ScalesTheScene) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  const Json metres = json_of(run_brume(folder.path(), {"voxelize", "room.obj", "--json", "-"}));
+  const Json large = json_of(
+      run_brume(folder.path(), {"voxelize", "room.obj", "--scale", "2", "--voxel", "0.5", "--json", "-"}));
+  EXPECT_EQ(large["solid"], metres["solid"]);
+  EXPECT_EQ(large["grid"], metres["grid"]);
+}
+
+TEST(Voxelize, WarnsOfAGridBesideTheScene) {
+  const WorkFolder folder;
+  folder.write("room.obj", room_obj());
+  const Outcome run =
+      run_brume(folder.path(), {"voxelize", "room.obj", "--grid", "10x10x10", "--origin", "1000,0,0"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NE(run.error.find("warning: no voxel is solid"), std::string::npos) << run.error;
 }
 
 TEST(Voxelize, RebuildsWhenTheSceneChanges) {
@@ -125,8 +147,9 @@ TEST(Voxelize, TheMotel) {
   EXPECT_EQ(second["solid"], first["solid"]);
 
   const Json info = json_of(run_brume(folder.path(), {"info", scene, "--json", "-"}));
-  EXPECT_EQ(info["objects"], 157);
-  EXPECT_EQ(info["lights"], 51);
+  EXPECT_EQ(info["objects"], 156);
+  EXPECT_EQ(info["grenade"], "from the file");
+  EXPECT_EQ(info["lights"].size(), 51u);
 }
 
 }  // namespace

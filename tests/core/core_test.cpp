@@ -12,6 +12,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/progress.hpp"
+#include "core/similar.hpp"
 #include "core/tasks.hpp"
 #include "core/utf8.hpp"
 
@@ -104,8 +105,53 @@ TEST(Tasks, AcceptsNoWork) {
 TEST(Progress, ReportsRateAndRemainingTime) {
   const Progress::State state{"frames", 30, 120, 10.0};
   EXPECT_DOUBLE_EQ(state.seconds_left(), 30.0);
-  EXPECT_EQ(progress_line(state), "frames     [######..................] 30/120  3/s  30 s left");
+  EXPECT_EQ(progress_line(state, 60), "frames     [######..................] 30/120  3/s  30 s left");
   EXPECT_LT((Progress::State{"x", 0, 10, 0}.seconds_left()), 0);
+  EXPECT_EQ(progress_line({"load", 0, 0, 12.4}, 60), "load       12 s");
+}
+
+TEST(Progress, LinesFillTheWidthAndNeverExceedIt) {
+  for (std::size_t width = 0; width < 200; ++width) {
+    const std::string line = progress_line({"frames", 30, 120, 400.0}, width);
+    EXPECT_LE(line.size(), width);
+    EXPECT_TRUE(width < 60 || line.size() == width) << width;
+  }
+}
+
+TEST(Progress, ShowsTheInnermostJobThatHasRunForLong) {
+  EXPECT_FALSE(progress_to_show(0));
+  Progress outer("outer", 10);
+  outer.advance(3);
+  EXPECT_EQ(progress_to_show(0)->name, "outer");
+  EXPECT_EQ(progress_to_show(0)->done, 3u);
+  {
+    const Progress inner("inner", 5), uncounted("uncounted");
+    EXPECT_EQ(progress_to_show(0)->name, "inner");
+    EXPECT_FALSE(progress_to_show(1e6)) << "none has run for that long";
+  }
+  EXPECT_EQ(progress_to_show(0)->name, "outer");
+}
+
+TEST(SimilarName, EditDistance) {
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("same", "same"), 0u);
+  EXPECT_EQ(edit_distance("tiem", "time"), 1u);
+}
+
+TEST(SimilarName, IsOfferedOnlyWhenNear) {
+  const std::vector<std::string> keys{"time", "from", "smoke", "render", "light-update-fraction"};
+  EXPECT_EQ(similar_name("tiem", keys), "time");
+  EXPECT_EQ(similar_name("item", keys), std::nullopt) << "half of it differs";
+  EXPECT_EQ(similar_name("tim", keys), "time");
+  EXPECT_EQ(similar_name("Smoke", keys), "smoke");
+  EXPECT_EQ(similar_name("rendr", keys), "render");
+  EXPECT_EQ(similar_name("light", keys), "light-update-fraction");
+  EXPECT_EQ(similar_name("radius", keys), std::nullopt);
+  EXPECT_EQ(similar_name("x", keys), std::nullopt);
+  EXPECT_EQ(suggestion("tim", keys, "'"), "; did you mean 'time'?");
+  EXPECT_EQ(suggestion("radius", std::vector<std::string>{"a", "b"}, ""), "; expected one of a, b");
+  EXPECT_EQ(suggestion("radius", std::vector<std::string>(13, "abcdefgh"), ""), "");
 }
 
 TEST(Utf8, MatchesTheStandard) {

@@ -34,7 +34,7 @@ class Eye {
  public:
   Eye(gpu::Context& context, gpu::CommandRunner& runner, const scenario::Scenario& scenario,
       const scenario::Simulation& simulation)
-      : runner_(runner), renderer_(context, runner, scenario.scene, options(scenario)) {
+      : renderer_(context, runner, scenario.scene, options(scenario)) {
     input_ = frame_input(scenario, simulation, kSeconds, holes_);
   }
   const Renderer& look(const Pair& pair, std::uint32_t scale) {
@@ -57,7 +57,6 @@ class Eye {
     options.smoke.masks = &scenario.masks;
     return options;
   }
-  gpu::CommandRunner& runner_;
   Renderer renderer_;
   std::vector<shared::Hole> holes_;
   FrameInput input_;

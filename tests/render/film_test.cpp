@@ -144,7 +144,8 @@ double flicker(Playback& playback) {
     const float angle = 0.6f * std::sin(0.6283f * static_cast<float>(i) / 24);
     playback.set_camera(
         scene::Camera{{5.5f * std::sin(angle), 1.5f, 5.5f * std::cos(angle)}, {0, 1.5f, 0}, 0.9f});
-    return playback.draw(2, i);
+    // The shortest time with another jitter.
+    return playback.draw(2 + (i % 120) / 360.0, i);
   };
   double sum = 0;
   for (const std::uint32_t first : {0u, 120u}) {

@@ -242,7 +242,7 @@ TEST_F(EditableScenarioTest, AddsAllActionsOrNone) {
   EXPECT_EQ(refused([](auto& t) { t.shots[0].radius = 20; }),
             "shot at 0.5 s: \"radius\": expected a number from 0.01 to 10, found 20");
   EXPECT_EQ(refused([](auto& t) { t.doors[0].object = "dor"; }),
-            "the scene has no object \"dor\"; the nearest name is \"door\"");
+            "the scene has no object \"dor\"; did you mean \"door\"?");
   EXPECT_NE(refused([](auto& t) {
               t.blasts = {{1, vec3(0)}};
               t.blasts[0].radius = 100;

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "scenario/simulation.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scene/load.hpp"
 
@@ -77,11 +78,10 @@ TEST_F(FirstViewTest, SmokeOfALoneSceneFillsItsVoxels) {
   for (const float size : {0.1f, 1.0f, 30.0f, 700.0f, 2500.0f}) {
     const auto scenario = load_scenario(box(size), {});
     ASSERT_TRUE(scenario) << scenario.failure().message;
-    const auto reports = report_smokes(*scenario);
-    ASSERT_TRUE(reports);
-    ASSERT_EQ(reports->size(), 1u);
-    EXPECT_EQ(reports->front().fault, SmokeFault::none) << warning_of(reports->front(), 1, *scenario);
-    EXPECT_EQ(reports->front().voxels, reports->front().budget) << size;
+    const auto reports = Simulation::create(*scenario).value_or_throw()->report_smokes(*scenario);
+    ASSERT_EQ(reports.size(), 1u);
+    EXPECT_EQ(reports.front().fault, SmokeFault::none) << warning_of(reports.front(), 1, *scenario);
+    EXPECT_EQ(reports.front().voxels, reports.front().budget) << size;
     EXPECT_TRUE(scenario->measure_exposure);
   }
 }
@@ -134,8 +134,7 @@ class SmokeReportTest : public FirstViewTest {
     return make_scenario(timeline, {}).value_or_throw();
   }
   SmokeReport report(const Scenario& scenario) const {
-    const auto reports = report_smokes(scenario).value_or_throw();
-    return reports.at(0);
+    return Simulation::create(scenario).value_or_throw()->report_smokes(scenario).at(0);
   }
 };
 

@@ -156,7 +156,7 @@ TEST(LevelEvents, AnUnknownDoorFails) {
   scenario.timeline.doors = {{1.0, "dor", true, "t.toml:3:4"}};
   for (const Failure& failure : {level_events(scenario).failure(), events_of(scenario).failure(),
                                  Simulation::create(scenario).failure()})
-    EXPECT_EQ(failure.message, "t.toml:3:4: the scene has no object \"dor\"; the nearest name is \"door\"");
+    EXPECT_EQ(failure.message, "t.toml:3:4: the scene has no object \"dor\"; did you mean \"door\"?");
 }
 
 TEST(LevelEvents, AnEventOutOfRangeNamesItsPosition) {

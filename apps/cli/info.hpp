@@ -1,0 +1,46 @@
+// What `brume info` reports of a file: the same facts as text and as JSON.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/cli/json.hpp"
+#include "apps/cli/outputs.hpp"
+#include "voxel/bit_grid.hpp"
+
+namespace brume::cli {
+
+/// The facts in order. docs/json.md lists the keys.
+class Summary {
+ public:
+  explicit Summary(const std::string& kind);
+  void add(const std::string& key, const Json& value);
+  void add(const std::string& key, const Json& value, const std::string& text);
+  /// A line that JSON expresses in another way.
+  void add_line(const std::string& name, const std::string& text);
+  const Json& json() const { return json_; }
+  const std::vector<std::pair<std::string, std::string>>& lines() const { return lines_; }
+
+ private:
+  Json json_;
+  std::vector<std::pair<std::string, std::string>> lines_;
+};
+
+Json point_json(glm::vec3 p);
+/// "1,0.5,-3", as arguments take it.
+std::string point_text(glm::vec3 p);
+/// Size, voxel and place of a grid.
+void add_layout(Summary& summary, const voxel::GridLayout& layout);
+
+/// A scene file: counts, size, lights, and what `render` shows of it without a timeline: camera, grid and a
+/// place for smoke. Throws Error.
+Summary scene_summary(const std::filesystem::path& path, Outputs& outputs);
+
+/// A timeline: its events and, if its files exist, grid, doors and what happens to each smoke; otherwise a
+/// warning or, with `check`, an Error (bad_input).
+Summary timeline_summary(const std::filesystem::path& path, bool check, Outputs& outputs);
+
+}  // namespace brume::cli

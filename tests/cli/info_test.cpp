@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/file.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::json;
+
+class Info : public testing::Test {
+ protected:
+  Info() { folder_.write("room.obj", room_obj()); }
+  Json info(const std::string& file) const {
+    const Outcome run = run_brume(folder_.path(), {"info", file, "--json", "-"});
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return Json::parse(run.out, nullptr, false);
+  }
+  std::string text(const std::string& file) const {
+    const Outcome run = run_brume(folder_.path(), {"info", file});
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return run.out;
+  }
+  WorkFolder folder_;
+};
+
+TEST_F(Info, SizeAndPlaceOfAScene) {
+  const Json room = info("room.obj");
+  EXPECT_EQ(room["objects"], 1);
+  EXPECT_EQ(room["triangles"], 24);
+  EXPECT_EQ(room["size"], (Json{4, 3, 4}));
+  EXPECT_EQ(room["up"], "y");
+  EXPECT_EQ(room["ground"], 0);
+  EXPECT_EQ(room["camera"]["from_file"], false);
+  EXPECT_TRUE(room["lights"].empty());
+  EXPECT_NE(text("room.obj").find("4 m wide (x), 3 m high (y), 4 m deep (z)"), std::string::npos);
+}
+
+// The options that it prints are those that show the scene.
+TEST_F(Info, ItsSmokeAndCameraWork) {
+  const std::string printed = text("room.obj");
+  const auto option = [&](const std::string& name, char end) {
+    const std::size_t at = printed.find(name) + name.size();
+    return printed.substr(at, printed.find(end, at) - at);
+  };
+  const std::string smoke = option("--smoke ", '\n'), camera = option("--camera \"", '"');
+  const Outcome run = run_brume(folder_.path(), {"render", "room.obj", "-o", "a.png", "--size", "32x18",
+                                                 "--smoke", smoke, "--camera", camera, "--json", "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_EQ(run.error, "") << "no warning of the smoke";
+  const Json result = Json::parse(run.out);
+  ASSERT_EQ(result["smokes"].size(), 1u);
+  EXPECT_EQ(result["smokes"][0]["fault"], "none");
+}
+
+TEST_F(Info, EventsOfATimeline) {
+  folder_.write(
+      "room.toml",
+      "version = 1\nscene = \"room.obj\"\nduration = 2.0\n"
+      "[[event]]\ntype = \"text\"\ntime = 0.5\ntext = \"A\"\nfrom = [0, 1, 1]\ntoward = [0, 1, -1]\n"
+      "[[event]]\ntype = \"shot\"\ntime = 2.5\nfrom = [0, 1, 1]\ntoward = [0, 1, -1]\n");
+  const Json result = info("room.toml");
+  EXPECT_EQ(result["events"]["text"], 1);
+  EXPECT_EQ(result["events"]["shot"], 1);
+  EXPECT_EQ(result["events"]["smoke"], 0);
+  EXPECT_EQ(result["scene_exists"], true);
+  EXPECT_EQ(result["grid"].size(), 3u);
+  EXPECT_TRUE(result["smokes"].empty());
+  const Outcome run = run_brume(folder_.path(), {"info", "room.toml", "--check"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NE(run.out.find("events          1 shot, 1 text\n"), std::string::npos) << run.out;
+  EXPECT_EQ(run.error, "brume: warning: after the end of the timeline at 2 s and not shown: 1 shot\n");
+}
+
+TEST_F(Info, ChecksWhatRenderingWouldLoad) {
+  const std::string head = "version = 1\nduration = 2.0\nscene = ";
+  const std::string shot =
+      "[[event]]\ntype = \"shot\"\ntime = 0.5\nfrom = [0, 1, 1]\ntoward = [0, 1, -1]\nshape = \"mask\"\nmask "
+      "= ";
+  const std::pair<std::string, std::string> cases[] = {
+      {head + "\"none.obj\"\n", "none.obj"},
+      {head + "\"room.obj\"\n" + shot + "\"none.png\"\n", "none.png"},
+      {head + "\"room.obj\"\n[[event]]\ntype = \"door\"\ntime = 1.0\nobject = \"gate\"\nopen = true\n",
+       "gate"},
+  };
+  for (const auto& [timeline, part] : cases) {
+    folder_.write("a.toml", timeline);
+    expect_failure(folder_, {"info", "a.toml", "--check"}, 3, {part});
+    const Outcome without = run_brume(folder_.path(), {"info", "a.toml"});
+    EXPECT_EQ(without.exit_code, 0);
+    EXPECT_NE(without.error.find("warning: cannot be rendered: "), std::string::npos) << without.error;
+    EXPECT_NE(info("a.toml")["problem"].get<std::string>().find(part), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace brume::cli

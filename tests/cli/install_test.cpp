@@ -1,0 +1,41 @@
+// An installed program finds its files.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/file.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Install, TheProgramFindsItsScenesBesideItAndInShare) {
+  const WorkFolder folder;
+  const fs::path prefix = folder.path() / "usr";
+  const std::string install = "cmake --install '" BRUME_BUILD_DIR "' --prefix '" + prefix.string() + "' > '" +
+                              (folder.path() / "log").string() + "' 2>&1";
+  ASSERT_EQ(std::system(install.c_str()), 0) << *read_text_file(folder.path() / "log");
+  for (const char* file : {"bin/brume", "share/brume/scenes/demo.toml", "share/brume/scenes/demo.glb",
+                           "share/bash-completion/completions/brume"})
+    EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
+
+  // Which timeline it reads shows where it is damaged.
+  RunOptions installed;
+  installed.program = (prefix / "bin/brume").string();
+  const auto read_first = [&](const fs::path& scenes) {
+    fs::create_directories(scenes);
+    folder.write((scenes / "demo.toml").lexically_relative(folder.path()).string(), "version = 9\n");
+    const Outcome run = run_brume(folder.path(), {"demo", "--out", "."}, installed);
+    EXPECT_EQ(run.exit_code, 3);
+    return run.error.rfind("brume: " + (scenes / "demo.toml").string() + ":1:", 0) == 0;
+  };
+  EXPECT_TRUE(read_first(prefix / "share/brume/scenes"));
+  EXPECT_TRUE(read_first(prefix / "bin/scenes"));
+  expect_failure(folder, {"demo", "--out", ".", "--scenes", "usr"}, 2, {"--scenes usr", "demo.toml"},
+                 installed);
+}
+
+}  // namespace
+}  // namespace brume::cli
