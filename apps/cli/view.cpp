@@ -94,7 +94,7 @@ void check_inputs(const ViewOptions& options) {
       throw Error(ErrorCode::bad_input, std::string(option) + " " + folder + ": no such folder");
   };
   is_folder("--folder", options.folder);
-  is_folder("--shaders", options.shaders);
+  if (!options.shaders.empty()) is_folder("--shaders", options.shaders);
   if (!options.picture.empty()) {
     const auto image = image::load_image(options.picture);
     if (!image) throw Error(image.failure().code, "--shot " + image.failure().message);

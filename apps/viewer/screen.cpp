@@ -104,7 +104,6 @@ void Screen::begin_still(render::FrameInput& input, glm::uvec2 size_px) {
   set_resolution(size_px, 1);
   history_lost_ = true;
   input.view.continues = false;
-  input.view.frame_index = 0;
   input.quality = {};
 }
 

@@ -38,6 +38,8 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   const scene::Timeline& timeline = scenario.timeline;
   FrameInput input;
   input.view.camera = scene::camera_at(timeline, scenario.camera, seconds);
+  // Jitter and dither follow time, not the frame's number: the same time is the same image at any rate.
+  input.view.frame_index = static_cast<std::uint32_t>(std::floor(seconds * kJitterRate + kRounding));
   input.environment.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient,
                            timeline.sky.stars, timeline.sky.bounce};
   const scene::SmokeOptions& smoke = timeline.smoke;
@@ -107,8 +109,6 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
   FrameInput input = frame_input(scenario_, *simulation_, seconds, holes);
-  // Jitter and dither follow time, not the frame's number: the same time is the same image at any rate.
-  input.view.frame_index = static_cast<std::uint32_t>(std::floor(seconds * kJitterRate + kRounding));
   input.quality.step_scale = step_scale_;
   input.quality.light_update_fraction = light_update_fraction_;
   input.quality.resolve_error_scale = resolve_error_scale_;

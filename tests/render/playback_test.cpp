@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "image/metrics.hpp"
 #include "smoke/holes.hpp"
 #include "smoke/sight.hpp"
 #include "tests/gpu/gpu_test.hpp"
@@ -58,6 +59,11 @@ class PlaybackTest : public gpu::GpuTest {
     for (std::uint32_t j = 0; j < 3; ++j)
       for (std::uint32_t i = 0; i < 3; ++i) sum += image.rgba[4 * (px + i + image.width * (py + j)) + 1];
     return sum / 9;
+  }
+  /// The largest difference of two images, in steps of 255; that of one image at two times without smoke is
+  /// the noise against bands, which follows time: a step.
+  static double difference(const image::Image8& a, const image::Image8& b) {
+    return std::round(255 * image::difference(image::encoded_colours(a), image::encoded_colours(b)).max);
   }
 };
 
@@ -227,8 +233,8 @@ TEST_F(PlaybackTest, AHoleThrowsLightOnTheWallBehindTheSmoke) {
   };
   expect_dark(spot, 2.9);
   expect_dark(around, 2.9);
-  // The hole takes all that lies between: the same light, the same noise.
-  EXPECT_EQ(brightness_at(spot, 3.6), clear);
+  // The hole takes all that lies between: the same light, up to the noise against bands.
+  EXPECT_NEAR(brightness_at(spot, 3.6), clear, 1);
   EXPECT_EQ(depths(spot).second, 0);
   expect_dark(around, 3.6);
   expect_dark(spot, 5);
@@ -311,7 +317,7 @@ TEST_F(PlaybackTest, AFlashLightsWhatNoWallHides) {
   EXPECT_LE(brightness(before, 0.2, 0.4), 2);
   EXPECT_GT(brightness(flash, 0.2, 0.4), 50);
   EXPECT_LE(brightness(flash, 0.75, 0.4), 2);
-  EXPECT_EQ(after.rgba, playback.draw(1.5, 0).rgba);
+  EXPECT_LE(difference(after, playback.draw(1.5, 0)), 1);
 }
 
 TEST_F(PlaybackTest, TheGrenadeFlies) {
@@ -350,7 +356,7 @@ TEST_F(PlaybackTest, AnOpenDoorShowsWhatIsBehindItAndLetsTheLightThrough) {
   const auto shut = playback.draw(0.5, 0), open = playback.draw(1.5, 0), again = playback.draw(2.5, 0);
   EXPECT_LT(brightness(shut, 0.5, 0.47), 30);
   EXPECT_GT(brightness(open, 0.5, 0.47), 60);
-  EXPECT_EQ(again.rgba, shut.rgba);
+  EXPECT_LE(difference(again, shut), 1);
   EXPECT_EQ(playback.draw(1.5, 0).rgba, open.rgba);  // and backwards
   // The light is on this side: what it adds to the wall behind came through the door.
   EXPECT_GT(brightness(open, 0.5, 0.47), brightness(unlit.draw(1.5, 0), 0.5, 0.47) + 10);
