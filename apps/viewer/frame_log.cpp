@@ -23,12 +23,12 @@ FrameLog::FrameLog(const std::filesystem::path& path) : path_(path) {
 void FrameLog::add(const FrameLine& line) {
   if (!file_) return;
   constexpr std::array kNames{"film", "still", "best"};
-  std::fprintf(
-      file_.get(), "%llu,%.6f,%.3f,%.3f,%.3f,%u,%u,%s,%llu,%llu,%llu,%zu\n",
-      static_cast<unsigned long long>(++frames_), line.seconds, line.frame_ms, line.tick_ms, line.latency_ms,
-      line.size_px.x, line.size_px.y, kNames[static_cast<std::size_t>(line.picture)],
-      static_cast<unsigned long long>(mapped_bytes()), static_cast<unsigned long long>(heap_bytes()),
-      static_cast<unsigned long long>(line.device_bytes), line.shader_faults);
+  std::fprintf(file_.get(), "%llu,%.6f,%.3f,%.3f,%.3f,%u,%u,%s,%llu,%llu,%llu,%zu\n",
+               static_cast<unsigned long long>(++frames_), line.seconds, line.frame_ms, line.tick_ms,
+               line.latency_ms, line.size_px.x, line.size_px.y,
+               kNames[static_cast<std::size_t>(line.picture)],
+               static_cast<unsigned long long>(mapped_bytes()), static_cast<unsigned long long>(heap_bytes()),
+               static_cast<unsigned long long>(line.device_bytes), line.shader_faults);
   if (std::fflush(file_.get()) == 0) return;
   throw Error(ErrorCode::resource_limit,
               path_.string() + ": cannot write: " + std::strerror(errno) + "; free some space");

@@ -52,8 +52,8 @@ class SmokeLightCache {
  private:
   using PhaseRange = UpdateScheduler::SliceRange;
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  // Of bricks that come into view, and of those whose smoke changes: a growing cloud is several frames of light
-  // ahead of its texels' phases, but each frame of it costs more.
+  // Of bricks that come into view, and of those whose smoke changes: a growing cloud is several frames of
+  // light ahead of its texels' phases, but each frame of it costs more.
   static constexpr std::uint32_t kNewPriority = 4, kChangedPriority = 2;
   static constexpr std::uint32_t kAllPhases = (1u << shared::kLightPhases) - 1;
 
