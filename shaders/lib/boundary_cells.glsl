@@ -23,12 +23,19 @@ uint plane_side(uint plane, vec3 p_from_centre, inout vec3 offset) {
   return exists && height > 0.0 ? 1u : 0u;
 }
 
-/// Smoke of a boundary cell at a point of the brick.
+/// What boundary_sample returns where no surface runs through the cell: on its faces, rounding finds another cell than
+/// the texture unit, which met a texel in the wall. The plain texels a bit off the faces are right there.
+const float kNoBoundary = -1.0;
+
+/// From a point of a brick towards the middle of its cell, by more than the resolution of the texture unit [voxels].
+vec3 off_faces(vec3 local_voxel) { return (0.5 - fract(local_voxel + 0.5)) / 64.0; }
+
+/// Smoke of a boundary cell at a point of the brick; of density kNoBoundary outside of such cells.
 BrickSample boundary_sample(uint slot, vec3 local_voxel) {
   const vec3 from_centres = local_voxel + 0.5;  // cell 0 of the brick begins half a voxel before it
   const ivec3 cell = clamp(ivec3(from_centres), ivec3(0), ivec3(kBrickCells - 1));
   const uint number = cells[slot * kCellsPerBrick + uint(cell.x + kBrickCells * (cell.y + kBrickCells * cell.z))];
-  if (number == 0u) return BrickSample(0.0, vec3(0.0));
+  if (number == 0u) return BrickSample(kNoBoundary, vec3(0.0));
   const BoundaryCell record = boundary_cells[number - 1u];
   const vec3 f = from_centres - vec3(cell);
   vec3 offset = vec3(0.0);

@@ -67,9 +67,12 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, in
   const vec3 uvw = p_world * ray.texels_per_metre + span.uvw_offset;
   const vec4 texel = textureLod(density_displacement_atlas, uvw, 0.0);
   BrickSample smoke = BrickSample(texel.r, vec3(0.0));
-  if (texel.r < 0.0)
-    smoke = boundary_sample(span.bricks.slot,
-                            (p_world - volume.origin_world) / volume.voxel_size - span.bricks.low);
+  if (texel.r < 0.0) {
+    const vec3 local_voxel = (p_world - volume.origin_world) / volume.voxel_size - span.bricks.low;
+    smoke = boundary_sample(span.bricks.slot, local_voxel);
+    if (smoke.density == kNoBoundary)
+      smoke.density = textureLod(density_displacement_atlas, uvw + off_faces(local_voxel) * ray.texel, 0.0).r;
+  }
   float density = smoke.density;
   ++texture_samples;
 

@@ -11,7 +11,10 @@ layout(binding = kBindDensity) uniform sampler3D density_atlas;
 BrickSample sample_brick(uint slot, vec3 local_voxel, vec3 uvw) {
   const vec2 texel = textureLod(density_atlas, uvw, 0.0).rg;
   BrickSample here = BrickSample(texel.r, vec3(0.0));
-  if (texel.g < 1.0 - 1.0 / 512.0) { here = boundary_sample(slot, local_voxel); }
+  if (texel.g < 1.0 - 1.0 / 512.0) {
+    here = boundary_sample(slot, local_voxel);
+    if (here.density == kNoBoundary) here.density = texel.r;
+  }
   return here;
 }
 

@@ -37,7 +37,7 @@ SHARED_BINDING(kBindInscatter, 10u);
 SHARED_CONST int kBrickCells = 9;
 SHARED_CONST uint kCellsPerBrick = 729u;
 /// So far below 0 that even the smallest filter weight outweighs any density.
-SHARED_CONST float kInSolid = -16384.0f;
+SHARED_CONST float kInSolid = -65504.0f;
 
 /// A box of cells of a brick in 24 bits: low corner, and one past the high corner, each coordinate in [0, 9].
 SHARED_FUNCTION uint pack_cells(uvec3 low, uvec3 end) {
