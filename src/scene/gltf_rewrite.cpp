@@ -10,6 +10,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kAnyBytes = "data:application/octet-stream;base64,";
+constexpr const char* kOneByte = "data:application/octet-stream;base64,AA==";
 constexpr std::size_t kGlbHeaderBytes = 20;
 
 bool rewrite_media_types(json& elements) {
@@ -62,7 +63,7 @@ bool rewrite_for_tinygltf(json& document) {
     changed = rewrite_media_types(document["buffers"]) || changed;
     for (json& buffer : document["buffers"]) {
       if (!is_fallback_buffer(buffer)) continue;
-      buffer["uri"] = std::string(kAnyBytes) + "AA==";
+      buffer["uri"] = kOneByte;
       buffer["byteLength"] = 1;
       changed = true;
     }
