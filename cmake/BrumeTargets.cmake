@@ -4,7 +4,9 @@ include_guard(GLOBAL)
 # Options that every target shares.
 add_library(brume_options INTERFACE)
 target_compile_features(brume_options INTERFACE cxx_std_20)
-target_compile_options(brume_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
+target_compile_options(brume_options INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror
+                                               # which -Wconversion of clang includes, and that of g++ does not
+                                               $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
 # One rounding everywhere: no fused multiply-add, which g++ makes of a * b + c where the processor has one, and
 # which rounds once instead of twice (docs/determinism.md).
 target_compile_options(brume_options INTERFACE -ffp-contract=off)
@@ -80,8 +82,7 @@ endfunction()
 # What the sources of tests have in common: they are optimized little, since to compile them is the longer part. Not at
 # all would be too little: under the sanitizers, tests then run four times as long. What is tested keeps its optimization.
 set(brume_test_flags "$<$<CONFIG:Release,RelWithDebInfo,Debug>:-Og>"
-                     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>"
-                     "$<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>")
+                     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
 # The checks of every pointer are most of what the undefined behaviour sanitizer adds, and a test that follows a bad
 # pointer crashes or meets the address sanitizer. The libraries keep these checks. Tests keep those of arithmetic and
 # bounds, which also cover the inline functions of our headers: the linker may take any of their copies.
