@@ -43,7 +43,7 @@ float chosen_scale(const scene::Scene& scene, const std::filesystem::path& path,
 /// A plane below a scene, to the horizon.
 void add_ground(scene::Scene& scene, const Box<float>& bounds) {
   const glm::vec3 middle = 0.5f * (bounds.low + bounds.high);
-  const float extent = std::max(largest_extent(bounds), 0.1f), reach = 60 * extent;
+  const float extent = std::max(largest_extent(bounds), 0.1f), reach = 1000 * extent;
   const float height = bounds.low.y - 1e-3f * extent;  // under a floor that is the lowest part
   scene::Mesh mesh;
   mesh.name = "ground";
