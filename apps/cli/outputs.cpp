@@ -71,10 +71,11 @@ void Outputs::reads(const std::vector<fs::path>& files) {
 }
 
 void Outputs::check_place(const std::string& option, const fs::path& file, const FileIdentity& identity,
-                          FileKind kind) const {
+                          FileKind kind) {
   if (const auto input = inputs_.find(identity); input != inputs_.end())
     throw is_input(option, file, input->second);
   if (const auto other = options_.find(identity); other != options_.end()) {
+    named_twice_.insert(identity);
     const std::string which = other->second.empty() ? "" : " of " + other->second;
     throw Error(ErrorCode::usage,
                 named(option, file) + ": is also the output" + which + "; name another file");
@@ -123,7 +124,7 @@ bool Outputs::may_hold_error(const fs::path& file) const {
   const bool declared =
       std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& o) { return o.file == file; });
   const FileIdentity identity = identity_of(file);
-  if (!declared || inputs_.contains(identity)) return false;
+  if (!declared || inputs_.contains(identity) || named_twice_.contains(identity)) return false;
   if (!exists(identity)) return true;
   const auto is_json = is_of_kind(file, FileKind::json);
   return is_json && *is_json;

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,7 @@ class Outputs {
 
   /// What has been written so far, for the terminal: "a.png, a.json"; empty: nothing.
   std::string written() const;
-  /// Whether an error may be written to this file: it is declared as an output, nothing that is read, and
+  /// Whether an error may be written to this file: it is declared as one output, nothing that is read, and
   /// new, empty or JSON. A scene that failed to load may refer to more files than are known: no --force here.
   bool may_hold_error(const std::filesystem::path& file) const;
 
@@ -91,7 +92,7 @@ class Outputs {
     std::vector<bool> done;
   };
   void check_place(const std::string& option, const std::filesystem::path& file, const FileIdentity& identity,
-                   FileKind kind) const;
+                   FileKind kind);
   bool is_written(const Output& output) const;
   std::string frame_state() const;
   std::string state() const;
@@ -101,6 +102,7 @@ class Outputs {
   mutable std::mutex mutex_;  ///< Of all below: explain_interruption runs in another thread.
   std::map<FileIdentity, std::filesystem::path> inputs_;
   std::map<FileIdentity, std::string> options_;  ///< Option of each output.
+  std::set<FileIdentity> named_twice_;
   std::vector<Output> outputs_;
   std::optional<Frames> frames_;
   std::string film_state_;  ///< " after 3 of 48 frames; ..."; empty: no film.
