@@ -104,6 +104,10 @@ TEST_F(OutputFiles, AreNotNamedTwice) {
   refused({"voxelize", "room.obj", "-o", "z.vxl", "--obj", "z.vxl"}, {"--obj z.vxl", "of -o"});
   refused({"voxelize", "room.obj", "--obj", "z", "--json", "z"}, {"--json z", "of --obj"});
   refused({"sim", "room.toml", "--record", "z", "--json", "z"}, {"--json z", "of --record"});
+  // Nor does the error itself go into the file that was to be an image, from where expect_failure would take
+  // it.
+  run_brume(folder_.path(), {"render", "room.obj", "-o", "q.png", "--json", "q.png"});
+  EXPECT_FALSE(fs::exists(folder_.path() / "q.png"));
 }
 
 TEST_F(OutputFiles, ReplaceNoFileOfAnotherKindWithoutForce) {
