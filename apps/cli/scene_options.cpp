@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/log.hpp"
 #include "scenario/smoke_report.hpp"
+#include "scene/options.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::cli {
@@ -26,22 +26,22 @@ scene::SmokeEvent parse_throw(const std::string& text) {
   return {0, parse_event_point("--throw", points[0]), parse_event_point("--throw", points[1])};
 }
 
-scenario::SunPosition parse_sun(const std::string& text) {
+scene::SunOptions parse_sun(const std::string& text) {
   const auto angles = parse_numbers(text, 2);
-  if (!angles || !((*angles)[1] > 0 && (*angles)[1] <= 90))
+  if (!angles || !(std::abs((*angles)[0]) <= 360 && (*angles)[1] >= 0.1 && (*angles)[1] <= 90))
     throw Error(ErrorCode::usage,
                 "--sun '" + text +
-                    "': expected azimuth and elevation in degrees, the elevation above 0 and up "
-                    "to 90, such as 60,40");
-  constexpr double kRadians = std::numbers::pi / 180;
-  return {static_cast<float>((*angles)[0] * kRadians), static_cast<float>((*angles)[1] * kRadians)};
+                    "': expected azimuth and elevation in degrees, -360 to 360 and 0.1 to 90, such as 60,40");
+  return {static_cast<float>((*angles)[0] * scene::kRadiansOfDegree),
+          static_cast<float>((*angles)[1] * scene::kRadiansOfDegree)};
 }
 
 void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptions& options) {
-  if (options.scale || options.sun || options.smoke_size)
-    throw Error(
-        ErrorCode::usage,
-        "--scale, --sun and --smoke-size are for a scene without a timeline; set them in the timeline");
+  if (options.smoke_size)
+    throw Error(ErrorCode::usage,
+                "--smoke-size: is for a scene without a timeline; set [smoke] voxels in the timeline");
+  if (options.scale) timeline.scale = *options.scale;
+  if (options.sun) timeline.sun = *options.sun;
   if (options.voxel) timeline.grid.voxel = *options.voxel;
   if (options.exposure) timeline.exposure = *options.exposure;
   if (options.tone) timeline.tone = *options.tone;
@@ -90,6 +90,10 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options) {
                   "\"FROM TO\": grenade thrown from a point towards another [m]; repeatable")
       .take_all()
       .type_name("POINTS");
+  declare_level_options(arguments, options);
+}
+
+void declare_level_options(const Arguments& arguments, SceneOptions& options) {
   arguments
       .add_option("--smoke-size", options.smoke_size,
                   "Diameter of the smoke [m]; default: a fifth of the view")

@@ -21,6 +21,9 @@ struct SceneOptions {
 
 void declare_scene_options(const Arguments& arguments, SceneOptions& options);
 
+/// The same without --smoke and --throw, for the viewer.
+void declare_level_options(const Arguments& arguments, SceneOptions& options);
+
 /// All that the options say, for a key of what depends on them.
 std::vector<std::string> texts_of(const SceneOptions& options);
 

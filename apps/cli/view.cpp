@@ -4,6 +4,7 @@
 #include "apps/cli/data_files.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
+#include "apps/cli/scene_options.hpp"
 #include "apps/viewer/quality.hpp"
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/viewer.hpp"
@@ -17,6 +18,7 @@ struct ViewOptions {
   std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
                            picture, folder = ".", screenshot, record, frame_log, json;
   std::string shaders;
+  SceneOptions scene;
   double frames_per_second = 60;
   std::optional<double> time, exit_after, lose_device, lose_surface;
   bool panels = false, bare = false, no_vertical_sync = false, validation = false, log_widgets = false;
@@ -116,6 +118,8 @@ void view(const ViewOptions& options, Outputs& outputs) {
                                       : options.input.empty() ? data_file("scenes/demo.toml").string()
                                                               : options.input;
   viewer::ViewerOptions viewer = viewer_options(options);
+  scenario::FirstViewOptions first_view = parse_scene_options(options.scene);
+  first_view.aspect = static_cast<float>(viewer.size_px.x) / static_cast<float>(viewer.size_px.y);
   viewer.level_name = input.filename().string();
   outputs.reads({input, options.picture});
   outputs.writes("--screenshot", options.screenshot, FileKind::png);
@@ -126,9 +130,7 @@ void view(const ViewOptions& options, Outputs& outputs) {
   outputs.writes("--json", options.json, FileKind::json);
   outputs.up_to_date(options.frame_log);  // It is written in place, line by line.
   const auto load = [&] {
-    scenario::FirstViewOptions first_view;
-    first_view.aspect = static_cast<float>(viewer.size_px.x) / static_cast<float>(viewer.size_px.y);
-    scenario::Scenario scenario = scenario::load_scenario(input, {}, first_view).value_or_throw();
+    scenario::Scenario scenario = load_with_options(input, {}, first_view);
     outputs.reads(scenario::files_of(scenario));
     return scenario;
   };
@@ -215,6 +217,7 @@ Command add_view(CommandLine& program) {
   arguments.add_option("--word", options->word, "Word whose letters are shot; default BRUME")
       .type_name("TEXT");
   arguments.add_option("--shot", options->picture, "Image whose shape is shot").type_name("FILE");
+  declare_level_options(arguments, options->scene);
   declare_outputs(arguments, *options);
   // It saves its session before it ends.
   command.common->grace_seconds = 5;

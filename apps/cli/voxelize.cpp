@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -45,6 +46,18 @@ voxel::GridLayout choose_frame(const VoxelizeOptions& options, const scene::Scen
   return frame;
 }
 
+// The scene is taken as it is, other than by the commands that show it.
+void warn_of_units(const std::string& file, const Box<float>& bounds) {
+  if (bounds.empty()) return;
+  const glm::vec3 extent = bounds.high - bounds.low;
+  const float largest = std::max({extent.x, extent.y, extent.z});
+  if (scenario::fitting_scale(largest) == 1) return;
+  char message[160];
+  std::snprintf(message, sizeof message, ": %g m wide; if its unit is another, give --scale, such as %g",
+                static_cast<double>(largest), static_cast<double>(scenario::fitting_scale(largest)));
+  log_warning(file + message);
+}
+
 void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   check_options(options);
   const auto start = std::chrono::steady_clock::now();
@@ -55,7 +68,11 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   outputs.writes("--json", options.json, FileKind::json);
 
   scene::Scene scene = scene::load_scene(options.scene).value_or_throw();
-  if (options.scale) scenario::scale_scene(scene, static_cast<float>(*options.scale));
+  if (options.scale) {
+    scenario::scale_scene(scene, static_cast<float>(*options.scale));
+  } else {
+    warn_of_units(options.scene, scene::world_bounds(scene));
+  }
   outputs.reads(scene.files);
   stop_if_interrupted();
   const voxel::GridLayout frame = choose_frame(options, scene);

@@ -74,9 +74,10 @@ Result<void> Autosave::update(const Session& session) {
   return {};
 }
 
-bool Autosave::finish(const Session& session) {
+Result<bool> Autosave::finish(const Session& session) {
   wait();
-  if (session.actions() > 0) (void)!scene::save_timeline(file_, session.recording());
+  if (session.actions() > 0)
+    if (auto saved = scene::save_timeline(file_, session.recording()); !saved) return saved.failure();
   std::error_code error;
   return fs::exists(file_, error);
 }

@@ -25,8 +25,8 @@ class Autosave {
   Result<void> update(const Session& session);
 
   /// For a program that ends early: saves the session as it is now. Returns whether there is anything to
-  /// recover.
-  bool finish(const Session& session);
+  /// recover; fails if this session could not be saved.
+  Result<bool> finish(const Session& session);
 
   /// For a program that ends as the user wants: removes what it saved.
   void discard();

@@ -72,7 +72,9 @@ class Viewer {
       autosave_.discard();
       return result;
     } catch (...) {
-      if (autosave_.finish(session()))
+      const auto saved = autosave_.finish(session());
+      if (!saved) log_warning("the session is lost: " + saved.failure().message);
+      if (saved && *saved)
         log_warning("the session is saved in " + autosave_.file().string() + "; brume view recovers it");
       throw;
     }
@@ -129,6 +131,13 @@ class Viewer {
   }
   void notify_failure(const Result<void>& done) {
     if (!done) notify(done.failure().message);
+  }
+
+  // Failures also go to the terminal, which outlives the window.
+  void update_autosave() {
+    const auto saved = autosave_.update(session());
+    notify_failure(saved);
+    if (!saved) log_warning("the session cannot be saved: " + saved.failure().message);
   }
 
   void begin(const ScenarioLoader& load, bool play);
@@ -343,7 +352,7 @@ void Viewer::frame() {
   apply(ui_.lay_out(*game_, figures_, notices()));
   if (!ui_.is_editing()) game_->settle();
 
-  notify_failure(autosave_.update(session()));
+  update_autosave();
   if (const sim::MaskKey key = session().live().scenario().masks.key(); !(key == masks_)) {
     screen_->set_masks(session().live().scenario().masks);
     masks_ = key;

@@ -48,6 +48,7 @@ Window::Window(glm::uvec2 size_px, const std::string& title) {
   ::glfwSetScrollCallback(handle_, on_wheel);
   ::glfwSetWindowFocusCallback(handle_, on_focus);
   ::glfwSetDropCallback(handle_, on_drop);
+  ::glfwSetWindowSizeCallback(handle_, on_size);
 }
 
 Window::~Window() {
@@ -181,6 +182,11 @@ void Window::on_wheel(GLFWwindow* window, double, double y) {
 void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
   auto* const self = static_cast<Window*>(::glfwGetWindowUserPointer(window));
   self->input_.dropped.insert(self->input_.dropped.end(), paths, paths + count);
+}
+
+// The cursor has another place in a window of another size.
+void Window::on_size(GLFWwindow* window, int, int) {
+  static_cast<Window*>(::glfwGetWindowUserPointer(window))->cursor_known_ = false;
 }
 
 // The release of keys that are held when the window loses focus is never reported.

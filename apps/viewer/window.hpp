@@ -62,6 +62,7 @@ class Window {
   static void on_cursor(GLFWwindow* window, double x, double y);
   static void on_wheel(GLFWwindow* window, double x, double y);
   static void on_focus(GLFWwindow* window, int focused);
+  static void on_size(GLFWwindow* window, int width, int height);
   static void on_drop(GLFWwindow* window, int count, const char** paths);
   void change(bool mouse, int code, bool pressed, int modifiers);
 

@@ -13,7 +13,11 @@ namespace {
 /// Diameter of a ball of the default smoke in the default voxels [m]: the scale of its noise and extinction.
 constexpr float kUsualSmoke = 3.8f;
 /// From the side of the default camera and behind it.
-constexpr SunPosition kUsualSun{1.4f, 0.85f};
+constexpr scene::SunOptions kUsualSun{1.4f, 0.85f};
+/// Largest coordinate of a scene, half of that of its events [m].
+constexpr float kFarthestScene = static_cast<float>(scene::kFarthestEvent / 2);
+/// Extent below which a scene's ground shrinks no more [m].
+constexpr float kSmallestExtent = 0.1f;
 /// Voxels across the smoke.
 constexpr float kVoxelsAcross = 24;
 /// Fraction of the image's width that the smoke covers.
@@ -22,6 +26,12 @@ constexpr float kSmokeWidth = 0.22f;
 float largest_extent(const Box<float>& bounds) {
   const glm::vec3 extent = bounds.high - bounds.low;
   return std::max({extent.x, extent.y, extent.z});
+}
+
+/// Whether a box has no extent along two axes or more.
+bool is_line(const Box<float>& box) {
+  const glm::vec3 extent = box.high - box.low;
+  return int(extent.x > 0) + int(extent.y > 0) + int(extent.z > 0) < 2;
 }
 
 float chosen_scale(const scene::Scene& scene, const std::filesystem::path& path,
@@ -40,11 +50,27 @@ float chosen_scale(const scene::Scene& scene, const std::filesystem::path& path,
   return scale;
 }
 
-/// A plane below a scene, to the horizon.
-void add_ground(scene::Scene& scene, const Box<float>& bounds) {
-  const glm::vec3 middle = 0.5f * (bounds.low + bounds.high);
-  const float extent = std::max(largest_extent(bounds), 0.1f), reach = 1000 * extent;
-  const float height = bounds.low.y - 1e-3f * extent;  // under a floor that is the lowest part
+/// The middle of a scene that lies too far away to throw smoke at, in whole units of the file.
+glm::vec3 chosen_origin(const scene::Scene& scene, const std::filesystem::path& path, float scale) {
+  const Box<float> bounds = scene::world_bounds(scene);
+  if (bounds.empty()) return glm::vec3(0);
+  const glm::vec3 corner = glm::max(glm::abs(bounds.low), glm::abs(bounds.high)) * scale;
+  const float farthest = std::max({corner.x, corner.y, corner.z});
+  if (!(farthest > kFarthestScene) || !std::isfinite(farthest)) return glm::vec3(0);
+  const glm::vec3 middle = glm::round(0.5f * (bounds.low + bounds.high));
+  char message[160];
+  std::snprintf(message, sizeof message, ": %.4g m from its origin, which is moved to %.9g, %.9g, %.9g",
+                static_cast<double>(farthest), static_cast<double>(middle.x), static_cast<double>(middle.y),
+                static_cast<double>(middle.z));
+  log_warning(path.string() + message);
+  return middle;
+}
+
+/// A plane to the horizon.
+void add_ground(scene::Scene& scene, float height) {
+  const Box<float> bounds = scene::world_bounds(scene);
+  const glm::vec3 middle = bounds.empty() ? glm::vec3(0) : 0.5f * (bounds.low + bounds.high);
+  const float reach = 1000 * (bounds.empty() ? 1 : std::max(largest_extent(bounds), kSmallestExtent));
   scene::Mesh mesh;
   mesh.name = "ground";
   for (const glm::vec2 corner : {glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1), glm::vec2(-1, -1)}) {
@@ -67,12 +93,36 @@ void add_ground(scene::Scene& scene, const Box<float>& bounds) {
   scene.objects.push_back(ground);
 }
 
+/// Just below a scene that is to be moved and scaled, under a floor that is the lowest part; none for an
+/// empty one.
+std::optional<float> ground_below(const scene::Scene& scene, const scene::Timeline& timeline) {
+  const Box<float> bounds = scene::world_bounds(scene);
+  if (bounds.empty()) return std::nullopt;
+  return timeline.scale * (bounds.low.y - timeline.origin.y) -
+         1e-3f * std::max(timeline.scale * largest_extent(bounds), kSmallestExtent);
+}
+
+bool is_sun(const scene::Light& light) {
+  return light.kind == scene::LightKind::directional;
+}
+
+scene::Light sunlight(const scene::SunOptions& sun) {
+  scene::Light light;
+  light.kind = scene::LightKind::directional;
+  const float flat = std::cos(sun.elevation);
+  light.direction_world =
+      -glm::vec3(flat * std::sin(sun.azimuth), std::sin(sun.elevation), flat * std::cos(sun.azimuth));
+  light.intensity = sun.irradiance;
+  return light;
+}
+
 /// A sun where one is given or nothing else lights the scene; a sky that matches.
-void light_scene(scene::Scene& scene, scene::SkyOptions& sky, const std::optional<SunPosition>& sun) {
-  const auto is_sun = [](const scene::Light& light) { return light.kind == scene::LightKind::directional; };
-  if (sun) std::erase_if(scene.lights, is_sun);
-  if (sun || scene.lights.empty()) scene.lights.push_back(sun_at(sun.value_or(kUsualSun)));
-  if (std::ranges::any_of(scene.lights, is_sun)) return;
+void choose_light(scene::Timeline& timeline, const scene::Scene& scene,
+                  const std::optional<scene::SunOptions>& sun) {
+  timeline.sun = sun;
+  if (!sun && scene.lights.empty()) timeline.sun = kUsualSun;
+  if (timeline.sun || std::ranges::any_of(scene.lights, is_sun)) return;
+  scene::SkyOptions& sky = timeline.sky;
   sky.zenith = {0.03f, 0.05f, 0.12f};
   sky.horizon = {0.16f, 0.14f, 0.15f};
   sky.ambient = {0.04f, 0.05f, 0.075f};
@@ -120,16 +170,6 @@ glm::vec3 floor_before(const scene::Scene& scene, const scene::Camera& camera, g
 
 }  // namespace
 
-scene::Light sun_at(const SunPosition& sun) {
-  scene::Light light;
-  light.kind = scene::LightKind::directional;
-  const float flat = std::cos(sun.elevation);
-  light.direction_world =
-      -glm::vec3(flat * std::sin(sun.azimuth), std::sin(sun.elevation), flat * std::cos(sun.azimuth));
-  light.intensity = {2.6f, 2.4f, 2.1f};
-  return light;
-}
-
 float fitting_scale(float extent) {
   float scale = 1;
   if (!(extent > 0) || !std::isfinite(extent)) return scale;
@@ -162,17 +202,45 @@ void scale_scene(scene::Scene& scene, float factor) {
   }
 }
 
+void move_scene(scene::Scene& scene, glm::vec3 by) {
+  if (by == glm::vec3(0)) return;
+  const auto move = [by](glm::mat4& matrix) { matrix[3] += glm::vec4(by, 0); };
+  for (scene::Object& object : scene.objects) move(object.world_from_mesh);
+  for (scene::Volume& volume : scene.volumes) move(volume.world_from_volume);
+  for (scene::Decal& decal : scene.decals) move(decal.world_from_decal);
+  for (scene::Emitter& emitter : scene.emitters) move(emitter.world_from_emitter);
+  for (scene::Sphere& sphere : scene.spheres) sphere.centre_world += by;
+  for (scene::Light& light : scene.lights) light.position_world += by;
+  if (scene.camera) {
+    scene.camera->position_world += by;
+    scene.camera->target_world += by;
+  }
+}
+
+void apply_level_options(const scene::Timeline& timeline, scene::Scene& scene) {
+  move_scene(scene, -timeline.origin);
+  scale_scene(scene, timeline.scale);
+  if (timeline.ground) add_ground(scene, *timeline.ground);
+  if (timeline.sun) std::erase_if(scene.lights, is_sun);
+  if (timeline.sun || scene.lights.empty())
+    scene.lights.push_back(sunlight(timeline.sun.value_or(scene::SunOptions{})));
+}
+
 scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Scene& scene,
                                    const FirstViewOptions& options) {
   scene::Timeline timeline;
   timeline.scene = path;
 
   // The scene itself.
-  scale_scene(scene, chosen_scale(scene, path, options));
+  timeline.scale = chosen_scale(scene, path, options);
+  timeline.origin = chosen_origin(scene, path, timeline.scale);
+  choose_light(timeline, scene, options.sun);
+  if (!scene.camera) timeline.ground = ground_below(scene, timeline);
+  apply_level_options(timeline, scene);
   const Box<float> bounds = scene::world_bounds(scene);
+  if (!bounds.empty() && is_line(bounds))
+    log_warning(path.string() + ": nothing to see: none of its triangles has an area");
   scene::Camera camera = scene::default_camera(scene, options.aspect);
-  if (!bounds.empty() && !scene.camera) add_ground(scene, bounds);
-  light_scene(scene, timeline.sky, options.sun);
   timeline.exposure = options.exposure.value_or(0);
   timeline.tone = options.tone.value_or(timeline.tone);
 

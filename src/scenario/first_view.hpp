@@ -10,12 +10,6 @@
 
 namespace brume::scenario {
 
-/// Where the sun is.
-struct SunPosition {
-  float azimuth = 0;    ///< From +z towards +x [radians].
-  float elevation = 0;  ///< Above the horizon [radians], in (0, pi / 2].
-};
-
 /// What replaces the choices of prepare_first_view.
 struct FirstViewOptions {
   float aspect = 16.0f / 9.0f;                 ///< Width / height of the image.
@@ -23,7 +17,7 @@ struct FirstViewOptions {
   std::optional<float> voxel;                  ///< [m]
   std::optional<float> smoke_size;             ///< Diameter of the grown smoke in open air [m].
   std::vector<scene::SmokeEvent> smokes = {};  ///< In metres, after scaling.
-  std::optional<SunPosition> sun = {};
+  std::optional<scene::SunOptions> sun = {};
   std::optional<float> exposure;  ///< [EV]; empty: measured (Scenario::measure_exposure).
   std::optional<scene::ToneCurve> tone = {};
 };
@@ -32,18 +26,24 @@ struct FirstViewOptions {
 /// there.
 float fitting_scale(float extent);
 
-/// Sunlight from a position, as bright as a clear day.
-scene::Light sun_at(const SunPosition& sun);
-
 /// Scales a scene about the origin: objects, lights (so that they light it alike), camera and lists of
 /// places.
 void scale_scene(scene::Scene& scene, float factor);
 
-/// Completes a scene and returns its timeline:
+/// Moves a scene: objects, lights, camera and lists of places.
+void move_scene(scene::Scene& scene, glm::vec3 by);
+
+/// Makes a loaded scene the level of a timeline: applies Timeline::origin, scale, ground and sun,
+/// and lights a scene without any light by SunOptions{}.
+void apply_level_options(const scene::Timeline& timeline, scene::Scene& scene);
+
+/// Completes a loaded scene and returns its timeline. Saved and loaded again, the timeline gives the same
+/// level; only the camera is not part of it.
 ///
 /// - scale: as given, or fitting_scale with a warning;
+/// - origin: moved to the middle of a scene that lies farther away than events may, with a warning;
 /// - camera: the scene's own, or one that fits it into four fifths of the image;
-/// - ground: a plane below a scene without a camera, to the horizon (Object::backdrop);
+/// - ground: below a scene without a camera, to the horizon (Object::backdrop);
 /// - light: a sun and a day sky where the scene has no light, a dusk sky where it has no sun but other
 /// lights;
 /// - smoke: on the floor in the middle of the view, about a fifth of the image's width, dense and bright.

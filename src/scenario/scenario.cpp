@@ -78,12 +78,7 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
 Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder) {
   auto scene = scene::load_scene(timeline.scene);
   if (!scene) return scene.failure();
-  // A scene without any light gets a sun.
-  if (scene->lights.empty()) {
-    scene::Light sun = sun_at({});
-    sun.direction_world = glm::normalize(glm::vec3(-0.5f, -0.75f, -0.4f));
-    scene->lights.push_back(sun);
-  }
+  apply_level_options(timeline, *scene);
   return assemble(std::move(timeline), std::move(*scene), 16.0f / 9.0f, cache_folder);
 }
 

@@ -36,6 +36,17 @@ void visit_timeline_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"exposure", "EV", "radiance is multiplied by 2^exposure", -20, 20}, o.exposure);
 }
 
+/// How the scene's file becomes the level: settings that a running simulation cannot change.
+template <typename Options, typename Visitor>
+void visit_level_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"origin", "units", "point of the scene file that becomes the world's origin", -1e9, 1e9},
+        o.origin);
+  visit(OptionInfo{"scale", "", "metres per unit of the scene file", 1e-9, 1e9}, o.scale);
+  visit(OptionInfo{"ground", "m", "height of a ground that reaches to the horizon", -kFarthestPoint,
+                   kFarthestPoint},
+        o.ground);
+}
+
 template <typename Options, typename Visitor>
 void visit_grid_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"voxel", "m", "edge length of a voxel", 0.015625, 64}, o.voxel);
@@ -76,6 +87,13 @@ void visit_sky_options(Options& o, Visitor&& visit) {
                    "fraction of `ambient` that reaches places without a view of the sky, by interreflection",
                    0, 1},
         o.bounce);
+}
+
+template <typename Options, typename Visitor>
+void visit_sun_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"azimuth", kDegrees, "where the sun is, from +z towards +x", -360, 360}, o.azimuth);
+  visit(OptionInfo{"elevation", kDegrees, "how high it is above the horizon", 0.1, 90}, o.elevation);
+  visit(OptionInfo{"irradiance", "W/m^2", "irradiance of a surface that faces it", 0, 1e6}, o.irradiance);
 }
 
 /// Only the field of view: position and target are not settings.

@@ -51,10 +51,12 @@ class TimelineReader {
     if (scene.empty() || scene.find('\0') != std::string::npos)
       root.fail("scene", "\"scene\": expected the name of a scene file");
     visit_timeline_options(timeline_, OptionReader{root});
+    visit_level_options(timeline_, OptionReader{root});
     read_tone(root);
     const toml::table* const grid = root.table("grid");
     const toml::table* const smoke = root.table("smoke");
     const toml::table* const sky = root.table("sky");
+    const toml::table* const sun = root.table("sun");
     const auto cameras = root.tables("camera");
     const auto events = root.tables("event");
     if (auto done = root.finish(); !done) return done.failure();
@@ -64,6 +66,7 @@ class TimelineReader {
     if (grid != nullptr && outcome) outcome = read_grid(*grid);
     if (smoke != nullptr && outcome) outcome = read_smoke(*smoke);
     if (sky != nullptr && outcome) outcome = read_sky(*sky);
+    if (sun != nullptr && outcome) outcome = read_sun(*sun);
     for (std::size_t i = 0; i < cameras.size() && outcome; ++i) outcome = read_camera(*cameras[i]);
     for (std::size_t i = 0; i < events.size() && outcome; ++i) outcome = read_event(*events[i]);
     if (!outcome) return outcome.failure();
@@ -100,6 +103,12 @@ class TimelineReader {
   Result<void> read_sky(const toml::table& source) {
     TomlTable table(source, "[sky]", file_);
     visit_sky_options(timeline_.sky, OptionReader{table});
+    return table.finish();
+  }
+
+  Result<void> read_sun(const toml::table& source) {
+    TomlTable table(source, "[sun]", file_);
+    visit_sun_options(timeline_.sun.emplace(), OptionReader{table});
     return table.finish();
   }
 

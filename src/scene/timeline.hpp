@@ -51,6 +51,13 @@ struct SkyOptions {
   float bounce = 0.2f;
 };
 
+/// The one sun of a scene, in the place of its own.
+struct SunOptions {
+  float azimuth = 0.87266463f;    ///< 50 degrees.
+  float elevation = 0.87266463f;  ///< 50 degrees.
+  glm::vec3 irradiance{2.6f, 2.4f, 2.1f};
+};
+
 struct CameraKey {
   double time = 0;  ///< [s], [0, 3600].
   Camera camera;
@@ -156,9 +163,13 @@ struct Timeline {
   float duration = 4.0f;
   float exposure = 0.0f;
   ToneCurve tone = ToneCurve::neutral;
+  glm::vec3 origin{0};
+  float scale = 1;
+  std::optional<float> ground;
   GridOptions grid;
   SmokeOptions smoke;
   SkyOptions sky;
+  std::optional<SunOptions> sun;
   std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal.
   // Events, each list sorted by time; events of the same time in file order. A new kind of event needs a line
   // in for_each_event_kind.
@@ -193,13 +204,14 @@ void for_each_event_list(AnyTimeline& timeline, Visitor&& visit) {
 /// Sorts each list of events by time. Stable: events of the same time keep their order.
 void sort_events(Timeline& timeline);
 
-/// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, the tables [grid]
-/// (voxel, size, origin), [smoke] and [sky] with the members above as keys, and [[camera]] (time, position,
-/// target, fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot"
-/// (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text"
-/// (time, text, from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time,
-/// at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time,
-/// low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events
+/// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, `origin`, `scale`,
+/// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
+/// keys, and [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with
+/// type = "smoke" (time, from, at), "shot" (time, from, toward, radius, reach, expand, stay, fade, shape,
+/// mask, roll in degrees, flash), "text" (time, text, from, toward, size, font, spacing, interval, reach,
+/// expand, stay, fade, roll), "blast" (time, at, radius, speed, remaining, refill_rim, refill_middle, flash),
+/// "move" (time, body, to), "edit" (time, low, high, solid) or "door" (time, object, open). Points are in
+/// metres, [-10^6, 10^6]; those of events
 /// [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
 /// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
 /// the wrong type or out of range.

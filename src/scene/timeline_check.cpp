@@ -145,12 +145,14 @@ Result<void> check_settings(const Timeline& timeline) {
   // The timeline's own settings, then those of its tables.
   Checker look("the timeline");
   visit_timeline_options(timeline, look);
+  visit_level_options(timeline, look);
   if (auto done = look.done(); !done) return done;
-  Checker grid("[grid]"), smoke("[smoke]"), sky("[sky]");
+  Checker grid("[grid]"), smoke("[smoke]"), sky("[sky]"), sun("[sun]");
   visit_grid_options(timeline.grid, grid);
   visit_smoke_options(timeline.smoke, smoke);
   visit_sky_options(timeline.sky, sky);
-  for (const Checker* checker : {&grid, &smoke, &sky})
+  if (timeline.sun) visit_sun_options(*timeline.sun, sun);
+  for (const Checker* checker : {&grid, &smoke, &sky, &sun})
     if (auto done = checker->done(); !done) return done;
 
   // The camera keys, in strictly rising order of time.

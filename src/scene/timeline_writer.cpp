@@ -170,11 +170,15 @@ class Writer {
     line("scene", path_from(timeline.scene, folder_).generic_string());
     options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_timeline_options(o, v); });
     if (timeline.tone == ToneCurve::standard) line("tone", std::string("standard"));
+    options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_level_options(o, v); });
     options(timeline.grid, GridOptions(), "\n[grid]\n", [](auto& o, auto& v) { visit_grid_options(o, v); });
     SmokeOptions smoke = timeline.smoke;
     if (smoke.droplet) smoke.anisotropy = SmokeOptions().anisotropy;
     options(smoke, SmokeOptions(), "\n[smoke]\n", [](auto& o, auto& v) { visit_smoke_options(o, v); });
     options(timeline.sky, SkyOptions(), "\n[sky]\n", [](auto& o, auto& v) { visit_sky_options(o, v); });
+    if (!timeline.sun) return;
+    text_ += "\n[sun]\n";
+    options(*timeline.sun, SunOptions(), "", [](auto& o, auto& v) { visit_sun_options(o, v); });
   }
 
   /// Writes all events by time; events of the same time in the order in which they happen.

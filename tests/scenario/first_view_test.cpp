@@ -7,6 +7,7 @@
 #include "scenario/simulation.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scene/load.hpp"
+#include "scene/timeline_writer.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -22,12 +23,13 @@ class FirstViewTest : public testing::Test {
   }
   ~FirstViewTest() override { std::filesystem::remove_all(folder_); }
 
-  /// A box of 1 x 0.5 x 0.7 times `size`, 0.2 `size` above the origin.
-  std::filesystem::path box(float size) const {
+  /// A box of 1 x 0.5 x 0.7 times `size`, 0.2 `size` above the origin and `east` of it.
+  std::filesystem::path box(float size, float east = 0) const {
     const auto path = folder_ / "box.obj";
     std::ofstream out(path);
+    out.precision(9);
     for (int corner = 0; corner < 8; ++corner)
-      out << "v " << size * static_cast<float>(corner & 1) << ' '
+      out << "v " << east + size * static_cast<float>(corner & 1) << ' '
           << size * (0.2f + 0.5f * static_cast<float>(corner >> 1 & 1)) << ' '
           << size * 0.7f * static_cast<float>(corner >> 2) << '\n';
     out << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
@@ -103,7 +105,7 @@ TEST_F(FirstViewTest, OptionsReplaceWhatIsChosen) {
                                  .voxel = 0.3f,
                                  .smoke_size = 3.0f,
                                  .smokes = {{1, {0, 1, 0}, {1, 1, 1}}},
-                                 .sun = SunPosition{0, 1.5707963f},
+                                 .sun = scene::SunOptions{0, 1.5707963f},
                                  .exposure = -1.0f};
   const scene::Timeline timeline = prepare_first_view("box.obj", scene, options);
   EXPECT_FLOAT_EQ(scene::world_bounds(scene).high.x, 8);
@@ -113,6 +115,42 @@ TEST_F(FirstViewTest, OptionsReplaceWhatIsChosen) {
   EXPECT_EQ(timeline.exposure, -1);
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_NEAR(scene.lights[0].direction_world.y, -1, 1e-6f);
+}
+
+// A session that the viewer saves is rendered from its timeline alone.
+TEST_F(FirstViewTest, ASavedTimelineGivesTheSameLevel) {
+  for (const float size : {0.05f, 4.0f, 20000.0f}) {
+    const auto path = box(size, 20 * size);
+    const Scenario first = load_scenario(path, {}).value_or_throw();
+    ASSERT_TRUE(scene::save_timeline(folder_ / "saved.toml", first.timeline));
+    const Scenario again = load_scenario(folder_ / "saved.toml", {}).value_or_throw();
+    ASSERT_EQ(again.scene.objects.size(), first.scene.objects.size());
+    for (std::size_t i = 0; i < first.scene.objects.size(); ++i) {
+      const scene::Object &a = first.scene.objects[i], &b = again.scene.objects[i];
+      EXPECT_EQ(a.world_from_mesh, b.world_from_mesh) << a.name;
+      EXPECT_EQ(a.backdrop, b.backdrop) << a.name;
+      const auto &from = first.scene.meshes[a.mesh].vertices, &to = again.scene.meshes[b.mesh].vertices;
+      ASSERT_EQ(from.size(), to.size()) << a.name;
+      for (std::size_t v = 0; v < from.size(); ++v) EXPECT_EQ(from[v].position, to[v].position) << a.name;
+    }
+    ASSERT_EQ(again.scene.lights.size(), 1u);
+    EXPECT_LT(glm::length(again.scene.lights[0].direction_world - first.scene.lights[0].direction_world),
+              1e-6f);
+    EXPECT_EQ(again.scene.lights[0].intensity, first.scene.lights[0].intensity);
+    EXPECT_EQ(again.voxels.grid.count_solid(), first.voxels.grid.count_solid());
+    EXPECT_EQ(again.voxels.grid.layout().origin_world, first.voxels.grid.layout().origin_world);
+    EXPECT_EQ(again.timeline.smoke, first.timeline.smoke);
+    EXPECT_EQ(again.timeline.smokes.at(0).at_world, first.timeline.smokes.at(0).at_world);
+  }
+}
+
+TEST_F(FirstViewTest, AFarModelMovesToTheOrigin) {
+  const Scenario far = load_scenario(box(8, 43200), {}).value_or_throw();
+  EXPECT_EQ(far.timeline.origin, glm::vec3(43204, 4, 3));
+  const Box<float> bounds = scene::world_bounds(far.scene);
+  EXPECT_LT(glm::length(bounds.low + bounds.high), 2);
+  const auto reports = Simulation::create(far).value_or_throw()->report_smokes(far);
+  EXPECT_EQ(reports.at(0).voxels, reports.at(0).budget);
 }
 
 TEST_F(FirstViewTest, PointLightsAreScaledSoThatTheyLightAlike) {

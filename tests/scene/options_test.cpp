@@ -91,14 +91,17 @@ void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows
 TEST(Options, MatchTheTableInTheDocs) {
   const auto text =
       read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/timeline.md").value_or_throw();
-  RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), camera("`[[camera]]` ");
+  RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), sun("`[sun]` "),
+      camera("`[[camera]]` ");
   visit_timeline_options(static_cast<const Timeline&>(Timeline()), top);
+  visit_level_options(static_cast<const Timeline&>(Timeline()), top);
   visit_grid_options(static_cast<const GridOptions&>(GridOptions()), grid);
   visit_smoke_options(static_cast<const SmokeOptions&>(SmokeOptions()), smoke);
   visit_sky_options(static_cast<const SkyOptions&>(SkyOptions()), sky);
+  visit_sun_options(static_cast<const SunOptions&>(SunOptions()), sun);
   visit_camera_options(static_cast<const Camera&>(Camera()), camera);
   const std::string head = part_of(text, "| key |");
-  for (const RowMaker* maker : {&top, &grid, &smoke, &sky, &camera}) expect_rows(head, maker->rows);
+  for (const RowMaker* maker : {&top, &grid, &smoke, &sky, &sun, &camera}) expect_rows(head, maker->rows);
 
   RowMaker shot("... "), letters("... "), blast("... ");
   visit_shot_options(static_cast<const ShotEvent&>(ShotEvent()), shot);
@@ -150,9 +153,11 @@ std::size_t met(Options options, Visit visit) {
 TEST(Options, AreCompleteWithDefaultsInRange) {
 #define MET(options, visit) met(options, [](auto& o, auto& v) { visit(o, v); })
   EXPECT_EQ(MET(Timeline(), visit_timeline_options), 2u);
+  EXPECT_EQ(MET(Timeline(), visit_level_options), 3u);
   EXPECT_EQ(MET(GridOptions(), visit_grid_options), 3u);
   EXPECT_EQ(MET(SmokeOptions(), visit_smoke_options), 15u);
   EXPECT_EQ(MET(SkyOptions(), visit_sky_options), 5u);
+  EXPECT_EQ(MET(SunOptions(), visit_sun_options), 3u);
   EXPECT_EQ(MET(Camera(), visit_camera_options), 1u);
   EXPECT_EQ(MET(ShotEvent(), visit_shot_options), 7u);
   EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);

@@ -133,10 +133,12 @@ inline Timeline random_timeline(std::uint32_t seed) {
   Timeline timeline;
   timeline.scene = "scenes/" + std::string(draw.below(2) == 0 ? "demo.gltf" : "level \"1\"/Scene.txt");
   visit_timeline_options(timeline, draw);
+  visit_level_options(timeline, draw);
   visit_grid_options(timeline.grid, draw);
   visit_smoke_options(timeline.smoke, draw);
   if (timeline.smoke.droplet) timeline.smoke.anisotropy = SmokeOptions().anisotropy;
   visit_sky_options(timeline.sky, draw);
+  if (draw.below(2) == 0) visit_sun_options(timeline.sun.emplace(), draw);
   if (draw.below(3) == 0) timeline.tone = ToneCurve::standard;
   double time = draw.share();
   for (std::uint32_t keys = draw.below(4); keys > 0; --keys, time += 0.01 + draw.share()) {

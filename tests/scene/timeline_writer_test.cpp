@@ -74,10 +74,13 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   Bits b;
   b.add(timeline.scene.string());
   visit_timeline_options(timeline, b);
+  visit_level_options(timeline, b);
   b.add(static_cast<std::uint32_t>(timeline.tone));
   visit_grid_options(timeline.grid, b);
   visit_smoke_options(timeline.smoke, b);
   visit_sky_options(timeline.sky, b);
+  b.add(timeline.sun.has_value());
+  if (timeline.sun) visit_sun_options(*timeline.sun, b);
   const auto add_all = [&](const auto& list) {
     b.add(static_cast<std::uint32_t>(list.size()));
     for (const auto& event : list) b.add(event.time), add_event(b, event);

@@ -155,6 +155,29 @@ TEST_F(RecordingTest, ASceneWithoutATimelineGetsTheExposureThatRenderMeasures) {
   EXPECT_LE(largest_difference(measured, given), 2);
 }
 
+// Its scale, ground and sun are in the screenshot's timeline.
+TEST_F(RecordingTest, AScreenshotOfAModelEqualsRender) {
+  std::string model;
+  for (int i = 0; i < 8; ++i)
+    model += "v " + std::to_string(20000 * (i & 1)) + " " + std::to_string(12000 * (i >> 1 & 1)) + " " +
+             std::to_string(15000 * (i >> 2 & 1)) + "\n";
+  folder_.write("model.obj", model + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--scale", "0.0005", "--sun", "-30,20"}}) {
+    std::vector<std::string> arguments{"model.obj",    "--size", "200x120",      "--bare", "--force",
+                                       "--exit-after", "0.1",    "--screenshot", "s.png"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    Program program(desktop_, folder_.path(), arguments);
+    ASSERT_EQ(program.wait(), 0) << program.error();
+    EXPECT_EQ(program.error().find("scaled by") != std::string::npos, options.empty()) << program.error();
+    const cli::Outcome rendered = cli::run_brume(
+        folder_.path(), {"render", "s.toml", "-o", "again.png", "--size", "200x120", "--force"});
+    ASSERT_EQ(rendered.exit_code, 0) << rendered.error;
+    EXPECT_LE(largest_difference(png("s.png"), png("again.png")), 1);
+    EXPECT_GT(count_colours(png("s.png")), 100u);
+  }
+}
+
 // The autosave in the folder; its name has the number of the process.
 std::filesystem::path autosave_in(const cli::WorkFolder& folder) {
   for (const std::string& name : folder.files())

@@ -1,0 +1,115 @@
+// Volume grids as files hold them: sparse values with a transform and metadata. Nothing is resampled or
+// rounded, so that a file that is read and written again holds the same voxels.
+//
+// Index space is OpenVDB's: voxel (i, j, k) is centred at (i, j, k) and reaches half a voxel to each side.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/box.hpp"
+
+namespace brume::grids {
+
+/// The numbers are those of the file format (docs/brv-format.md).
+enum class ValueType : std::uint8_t {
+  float32 = 1,
+  float64 = 2,
+  int32 = 3,
+  int64 = 4,
+  boolean = 5,  ///< One byte, 0 or 1.
+  mask = 6,     ///< No value: a voxel is active or not.
+  vec3f = 7,
+  vec3d = 8,
+  vec3i = 9,
+};
+
+/// Of one value: 0 (mask) to kMaxValueBytes.
+std::size_t bytes_of(ValueType type);
+inline constexpr std::size_t kMaxValueBytes = 24;
+/// "float32".
+const char* name_of(ValueType type);
+
+/// What a grid's values mean, as OpenVDB names it.
+enum class GridClass : std::uint8_t { unknown = 0, level_set = 1, fog_volume = 2, staggered = 3 };
+/// "fog volume".
+const char* name_of(GridClass grid_class);
+
+/// One value in the machine's byte order; bytes beyond its type's are 0.
+using Value = std::array<std::byte, kMaxValueBytes>;
+
+inline constexpr int kBrickEdge = 8;
+inline constexpr std::size_t kBrickVoxels = 512;
+
+/// 8^3 voxels at indices aligned to 8. Voxel (x, y, z) of it has the number x + 8 (y + 8 z).
+struct Brick {
+  glm::ivec3 origin{0};                   ///< Index of voxel 0.
+  std::array<std::uint64_t, 8> active{};  ///< Bit x + 8 y of word z.
+  bool is_active(std::size_t voxel) const { return (active[voxel / 64] >> (voxel % 64) & 1) != 0; }
+};
+
+/// A cube of one value: voxels of a region that a file does not store one by one.
+struct Tile {
+  glm::ivec3 origin{0};    ///< Index of its first voxel, aligned to its edge.
+  std::uint32_t edge = 8;  ///< [voxels]: 8, 128 or 4096, OpenVDB's.
+  bool active = false;
+  Value value{};
+};
+
+/// A named value of a file or grid, typed as OpenVDB types it: "string", "float", "vec3i".
+struct Metadata {
+  std::string name, type;
+  std::vector<std::byte>
+      bytes;  ///< As OpenVDB stores the value: text without a terminator, numbers little-endian.
+  bool operator==(const Metadata&) const = default;
+};
+
+struct Grid {
+  std::string name;
+  ValueType type = ValueType::float32;
+  GridClass grid_class = GridClass::unknown;
+  bool saved_as_half = false;  ///< Its file stores floats in half precision.
+  /// Affine: from index space to the file's world.
+  glm::dmat4 world_from_index{1};
+  Value background{};  ///< Of voxels outside of bricks and tiles, all inactive.
+  std::vector<Metadata> metadata;
+  std::vector<Brick> bricks;      ///< Rising by z, then y, then x of the origin; none twice.
+  std::vector<std::byte> values;  ///< kBrickVoxels values per brick, those of inactive voxels included.
+  std::vector<Tile> tiles;        ///< In the same order; none overlaps another or a brick.
+
+  /// The values of a brick.
+  std::span<const std::byte> values_of(std::size_t brick) const {
+    const std::size_t bytes = kBrickVoxels * bytes_of(type);
+    return std::span(values).subspan(brick * bytes, bytes);
+  }
+};
+
+/// The grids of a file and its own metadata.
+struct GridFile {
+  std::vector<Grid> grids;
+  std::vector<Metadata> metadata;
+};
+
+/// Voxels that are active, those of tiles included.
+std::uint64_t count_active(const Grid& grid);
+
+/// Around all active voxels, in index space: whole voxels, so that one voxel at 0 gives [-0.5, 0.5]. Empty
+/// (low > high) without any.
+Box<double> active_bounds(const Grid& grid);
+
+/// Bytes that its bricks, values and tiles take.
+std::uint64_t memory_of(const Grid& grid);
+
+/// Whether `a` goes before `b` in Grid::bricks and Grid::tiles.
+bool goes_before(glm::ivec3 a, glm::ivec3 b);
+
+/// The brick of an origin; nullopt: none.
+std::optional<std::size_t> find_brick(const Grid& grid, glm::ivec3 origin);
+
+}  // namespace brume::grids
