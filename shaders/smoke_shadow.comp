@@ -1,15 +1,17 @@
-// Fills the atlas of shared/smoke_shadow.h: a ray per texel, from the light through the smoke to the first surface.
+// Fills the atlas of shared/smoke_shadow.h: a ray per texel, from the light through all media to the first surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "shared/light.h"
+#include "shared/media.h"
 #include "shared/smoke_shadow.h"
 
 // Neighbouring threads split a ray: it is little work behind long memory latency.
 const uint kRayParts = 4u, kPartSteps = 16u;
 const uint kWindowThreads = kRayParts * kSmokeShadowBlock * kSmokeShadowBlock;
 layout(local_size_x = kWindowThreads) in;
+layout(constant_id = 0) const uint kMedia = kMediumSmoke;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kBindSun) uniform Views { ShadowView sun; };
 layout(binding = kBindShadowMaps) uniform sampler2DArray shadow_maps;
@@ -20,6 +22,7 @@ layout(scalar, push_constant) uniform Push { SmokeShadowParams params; };
 #include "lib/hole_window.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/solid.glsl"
+#include "lib/volume_values.glsl"
 
 // Limit of exact holes per block of texels; beyond it their averages over cells are used.
 const uint kBlockHoles = 64u;
@@ -140,6 +143,25 @@ float part_depth(RaySteps ray) {
   return depth;
 }
 
+/// Optical depth of the thread's part of a segment through the volumes: each in equal steps inside its bounds.
+float volumes_part_depth(RaySegment segment, uint part) {
+  const float distance = length(segment.to - segment.from);
+  const vec3 direction = (segment.to - segment.from) / max(distance, 1e-6);
+  float depth = 0.0;
+  for (uint v = 0u; v < frame.media.volume_count; ++v) {
+    const VoxelRay ray = VoxelRay(volumes[v].voxel_from_world * vec4(segment.from, 1.0),
+                                  volumes[v].voxel_from_world * vec4(direction, 0.0));
+    const vec2 inside = span_in_box(ray, volumes[v].bounds_min, volumes[v].bounds_max);
+    const float begin = max(inside.x, 0.0), end = min(inside.y, distance);
+    const float ds = (end - begin) / float(kRayParts * kPartSteps);
+    for (uint i = 0u; i < kPartSteps && ds > 0.0; ++i) {
+      const float t = begin + (float(kRayParts * i + part) + 0.5) * ds;
+      depth += ds * volumes[v].look.extinction * volume_value(volumes[v].bricks, ray.origin + ray.per_metre * t);
+    }
+  }
+  return depth;
+}
+
 void main() {
   const uint face_index = face_of(gl_WorkGroupID.x);
   const SmokeShadowFace face = faces[face_index];
@@ -156,7 +178,9 @@ void main() {
   const uint ray = gl_LocalInvocationIndex / kRayParts, part = gl_LocalInvocationIndex % kRayParts;
   const uvec2 at = first + params.first + params.spread * uvec2(ray % kSmokeShadowBlock, ray / kSmokeShadowBlock);
   const RaySegment segment = light_segment(light, side, (vec2(at) + 0.5 - face.offset) / face.scale);
-  part_depths[gl_LocalInvocationIndex] = part_depth(steps_of(segment, part));
+  float mine = (kMedia & kMediumSmoke) != 0u ? part_depth(steps_of(segment, part)) : 0.0;
+  if ((kMedia & kMediumVolumes) != 0u) mine += volumes_part_depth(segment, part);
+  part_depths[gl_LocalInvocationIndex] = mine;
   barrier();
   float depth = 0.0;
   for (uint i = 0u; i < kRayParts; ++i) depth += part_depths[kRayParts * ray + i];

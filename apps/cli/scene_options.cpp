@@ -7,6 +7,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/parse.hpp"
 #include "core/log.hpp"
+#include "grids/files.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scene/options.hpp"
 #include "scene/text_reader.hpp"
@@ -148,7 +149,9 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
 
 scenario::Scenario load_with_options(const std::string& input, const std::string& timeline,
                                      const scenario::FirstViewOptions& options) {
-  expect_suffix("", input, {".txt", ".gltf", ".glb", ".obj", ".toml"});
+  expect_suffix("", input, {".txt", ".gltf", ".glb", ".obj", ".toml", ".vdb", ".nvdb", ".brv"});
+  if (grids::is_grid_file(input) && options.smoke_size)
+    throw Error(ErrorCode::usage, "--smoke-size: is for a scene; " + input + " is a volume");
   if (!timeline.empty()) expect_suffix("--timeline", timeline, {".toml"});
   const bool is_timeline = scenario::is_timeline(input);
   if (is_timeline && !timeline.empty())

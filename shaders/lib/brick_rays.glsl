@@ -24,6 +24,13 @@ struct BrickSpan {
 
 vec3 inverse_of(VoxelRay ray) { return 1.0 / (ray.per_metre + vec3(equal(ray.per_metre, vec3(0.0))) * 1e-9); }
 
+/// Where a ray enters and leaves a box [voxels]: x >= y where it misses.
+vec2 span_in_box(VoxelRay ray, vec3 low, vec3 high) {
+  const vec3 inverse = inverse_of(ray), a = (low - ray.origin) * inverse, b = (high - ray.origin) * inverse;
+  const vec3 enters = min(a, b), leaves = max(a, b);
+  return vec2(max(enters.x, max(enters.y, enters.z)), min(leaves.x, min(leaves.y, leaves.z)));
+}
+
 /// The brick of the sample at t.
 vec3 brick_of(VoxelRay ray, float t) { return floor((ray.origin + ray.per_metre * t) / float(kBrickVoxels)); }
 

@@ -8,6 +8,7 @@
 //                                    are empty
 //   struct XSample, sample_x(...)    of a point: its extinction
 //   x_inscatter(...)                 radiance towards the eye where the extinction is above 0
+//   x_glow                           of a sample: radiance per metre, for a medium that glows without an extinction
 //
 // and a line in each function here. See docs/OVERVIEW.md, "A new medium".
 #ifndef MEDIA_GLSL
@@ -20,11 +21,13 @@ const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u, kHasVolumes = (kMedia & kM
 const bool kSmokeAlone = kMedia == kMediumSmoke;
 
 struct MediaRay {
+  WorldRay world;
   SmokeRay smoke;
 };
 
-MediaRay media_ray(vec2 position_px) {
+MediaRay media_ray(WorldRay world, vec2 position_px) {
   MediaRay ray;
+  ray.world = world;
   if (kHasSmoke) ray.smoke = smoke_ray(position_px);
   return ray;
 }
@@ -70,7 +73,7 @@ MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, in
     if (kSmokeAlone || (t >= span.smoke.bricks.t_first && t < span.smoke.bricks.t_stop))
       here.smoke = sample_smoke(ray.smoke, span.smoke, p_world, t, texture_samples);
   }
-  if (kHasVolumes) here.volumes = sample_volumes(span.volumes, p_world, texture_samples);
+  if (kHasVolumes) here.volumes = sample_volumes(span.volumes, ray.world, p_world, texture_samples);
   return here;
 }
 
@@ -96,6 +99,13 @@ vec3 media_inscatter(MediaRay ray, MediaSample here, inout uint texture_samples)
     extinction += here.volumes.extinction;
   }
   return sum / extinction;
+}
+
+/// Radiance that leaves a step towards the eye from what glows, whether or not it has an extinction. It is constant
+/// over the step and dimmed by what lies before it: (1 - exp(-x)) / x of its length, x the step's optical depth.
+vec3 media_glow(MediaSample here, float passed_log2, float ds) {
+  const float x = -0.693147181 * passed_log2;
+  return here.volumes.glow * (x > 1e-2 ? ds * (1.0 - exp(-x)) / x : ds * (1.0 - 0.5 * x));
 }
 
 /// The factor that all in-scatter has in common.

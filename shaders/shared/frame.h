@@ -56,8 +56,10 @@ struct FrameMedia {
   float step_length;           // of the march, at most [m]
   float opaque_transmittance;  // below it a ray is opaque
   uint volume_count;           // besides the smoke
+  vec3 to_sun;                 // unit
+  vec3 sun_irradiance;         // on the volumes; 0: no sun
 };
-SHARED_SIZE(FrameMedia, 40);
+SHARED_SIZE(FrameMedia, 64);
 
 /// Tone curves.
 SHARED_CONST uint kToneNeutral = 0u;   // Khronos PBR Neutral
@@ -82,7 +84,7 @@ struct FrameConstants {
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
-SHARED_SIZE(FrameConstants, 456);
+SHARED_SIZE(FrameConstants, 480);
 
 SHARED_END
 #endif

@@ -11,7 +11,7 @@
 //   18 - 20  lights and their shadow maps    light.h
 //   21 - 22  noise                           noise.h
 //   23 - 26  the G-buffer                    gbuffer.h
-//   27 - 29  volumes besides the smoke       volume.h
+//   27 - 31  volumes besides the smoke       volume.h
 //   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H

@@ -13,7 +13,9 @@ SHARED_BEGIN
 
 SHARED_BINDING(kBindVolumes, 27u);
 SHARED_BINDING(kBindVolumePages, 28u);
-SHARED_BINDING(kBindVolumeDensity, 29u);
+SHARED_BINDING(kBindVolumeValues, 29u);
+SHARED_BINDING(kBindVolumeLight, 30u);
+SHARED_BINDING(kBindVolumeColors, 31u);
 
 SHARED_CONST int kBrickVoxels = 8;
 SHARED_CONST int kBrickTexels = 10;
@@ -45,21 +47,37 @@ SHARED_SIZE(VolumeLayout, 84);
 
 /// Absorption and scattering of a volume where its density is 1.
 struct VolumeLook {
-  vec3 albedo;       // single-scattering albedo, [0, 1]
-  float extinction;  // [1/m], >= 0
-  vec3 emission;     // radiance that an opaque part of the volume emits
+  vec3 albedo;                 // single-scattering albedo, [0, 1]
+  float extinction;            // [1/m], >= 0
+  vec3 emission;               // radiance that an opaque part of the volume emits
+  float anisotropy;            // Henyey-Greenstein g, (-1, 1)
+  float multiple_scattering;   // weight of light scattered more than once; 0: single scattering only
 };
-SHARED_SIZE(VolumeLook, 28);
+SHARED_SIZE(VolumeLook, 36);
+
+/// A second grid of a volume, which glows: where its value is h, as much light leaves a metre as
+/// look.extinction times the colour at h in the volume's row of the colours.
+struct VolumeHeat {
+  mat4x3 voxel_from_world;
+  BrickLayout bricks;
+  float per_value;  // position in the row of a value of 1; 0: the volume has no heat
+};
+SHARED_SIZE(VolumeHeat, 96);
+
+/// Colours of a row, from a value of 0 to that at the end of the row.
+SHARED_CONST uint kVolumeColors = 256u;
 
 /// A volume of one channel, its density >= 0, under any affine transform.
 struct VolumeInstance {
   mat4x3 voxel_from_world;  // [voxels/m]
+  mat4x3 world_from_voxel;
   vec3 bounds_min;          // where density can be above 0 [voxel space]
   vec3 bounds_max;
   VolumeLook look;
   BrickLayout bricks;
+  VolumeHeat heat;
 };
-SHARED_SIZE(VolumeInstance, 144);
+SHARED_SIZE(VolumeInstance, 296);
 
 /// Entry of the root for a brick, in the page buffer; kNoPage outside of the window.
 SHARED_CONST uint kNoPage = 0xffffffffu;

@@ -107,7 +107,9 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindFilled, gpu::read(in.smoke.filled)},
                     {shared::kBindVolumes, gpu::read(in.volumes.instances)},
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                    {shared::kBindVolumeDensity, gpu::sampled(in.volumes.density, linear_)},
+                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                    {shared::kBindVolumeLight, gpu::sampled(in.volume_light, linear_)},
+                    {shared::kBindVolumeColors, gpu::sampled(in.volumes.colors, linear_)},
                 });
 }
 

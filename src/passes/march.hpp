@@ -40,6 +40,7 @@ class MarchPass {
     std::uint32_t media;  ///< Those that are marched through; `reserve` has seen the set.
     const SmokeResources& smoke;
     VolumeResources volumes;
+    const gpu::Image& volume_light;  ///< VolumeLightPass::light.
     const gpu::Image& noise;
     const gpu::Image& depth;
     const gpu::Image& blue_noise;

@@ -14,9 +14,13 @@ constexpr std::uint32_t kRayThreads = 256;  // four for each ray of a block
 }  // namespace
 
 SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
-    : pipeline_(context, shaders::smoke_shadow_comp),
-      linear_(context, {}),
-      nearest_(context, {VK_FILTER_NEAREST}) {}
+    : context_(context), linear_(context, {}), nearest_(context, {VK_FILTER_NEAREST}) {
+  reserve(shared::kMediumSmoke);
+}
+
+void SmokeShadowPass::reserve(std::uint32_t media) {
+  pipelines_.try_emplace(media, context_, shaders::smoke_shadow_comp, std::vector{media});
+}
 
 SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 image_px,
                                            std::size_t max_lights) const {
@@ -45,7 +49,8 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
   params.step_length = kStepMetres;
   params.spread = update.spread;
   params.first = update.first;
-  recorder.bind(pipeline_,
+  const gpu::ComputePipeline& pipeline = pipelines_.at(in.media);
+  recorder.bind(pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
@@ -63,9 +68,12 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindHoles, gpu::read(in.holes.holes)},
                     {shared::kBindHoleReaches, gpu::read(in.holes.reaches)},
                     {shared::kBindHoleMasks, gpu::sampled(in.holes.masks, nearest_)},
+                    {shared::kBindVolumes, gpu::read(in.volumes.instances)},
+                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
+                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
                 },
                 params);
-  recorder.dispatch_threads(pipeline_, kRayThreads * plan.blocks, 1);
+  recorder.dispatch_threads(pipeline, kRayThreads * plan.blocks, 1);
 }
 
 }  // namespace brume::passes

@@ -1,10 +1,13 @@
-// Shadows of smoke on surfaces.
+// Shadows of smoke and volumes on surfaces.
 #pragma once
+
+#include <map>
 
 #include "passes/hole_clusters.hpp"
 #include "passes/shadow.hpp"
 #include "passes/smoke_upload.hpp"
 #include "passes/solid_volume.hpp"
+#include "passes/volume_upload.hpp"
 #include "planning/smoke_shadow_cache.hpp"
 
 namespace brume::passes {
@@ -29,13 +32,18 @@ class SmokeShadowPass {
     const SolidVolume& solid;
     const SmokeResources& smoke;
     const HoleResources& holes;
+    const VolumeResources& volumes;
+    std::uint32_t media = 0;  ///< Those that can cast shadows; `reserve` has seen the set.
   };
+  /// Makes room for a set of media. Outside of a recording.
+  void reserve(std::uint32_t media);
   /// Marches the rays of an update for the atlas; its plan's lights are those of the scene's buffer.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeShadowUpdate& update,
               const SmokeShadows& shadows) const;
 
  private:
-  gpu::ComputePipeline pipeline_;
+  gpu::Context& context_;
+  std::map<std::uint32_t, gpu::ComputePipeline> pipelines_;  ///< By media.
   gpu::Sampler linear_, nearest_;
 };
 

@@ -1,4 +1,5 @@
-// The volumes besides the smoke on the device: their densities in one BrickAtlas, and the instances in view.
+// The volumes besides the smoke on the device: their grids in one BrickAtlas, the instances in view, and the
+// colours of those that glow.
 #pragma once
 
 #include "passes/brick_atlas.hpp"
@@ -9,8 +10,9 @@ namespace brume::passes {
 /// What the march binds. The references are to resources of the VolumeUpload.
 struct VolumeResources {
   const gpu::Buffer& pages;
-  const gpu::Image& density;     ///< Half floats.
+  const gpu::Image& values;      ///< Half floats.
   const gpu::Buffer& instances;  ///< A shared::VolumeInstance per volume in view.
+  const gpu::Image& colors;  ///< Half floats: shared::kVolumeColors colours a row, a row per volume in view.
 };
 
 class VolumeUpload {
@@ -25,13 +27,15 @@ class VolumeUpload {
   void record(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
               std::span<const planning::VisibleVolume> visible);
 
-  VolumeResources resources() const { return {atlas_.pages(), atlas_.channel(kDensity), instances_}; }
+  VolumeResources resources() const { return {atlas_.pages(), atlas_.channel(kValues), instances_, colors_}; }
 
  private:
-  static constexpr volume::ChannelId kDensity{0};
+  static constexpr volume::ChannelId kValues{0};
 
   BrickAtlas atlas_;
   gpu::Buffer instances_;
+  gpu::Image colors_;
+  std::vector<glm::vec3> glows_;  ///< What each row of colors_ was made from.
 };
 
 }  // namespace brume::passes

@@ -74,12 +74,22 @@ struct Quality {
   bool rebuild_light = false;  ///< Light smoke and surfaces again even where nothing changed.
 };
 
-/// A volume in the world besides the smoke, lit by the ambient light of the environment and by itself.
+/// A grid of a volume that glows.
+struct HeatInput {
+  const volume::SparseVolume* volume = nullptr;  ///< Like VolumeInput::volume; null: nothing glows.
+  glm::mat4 world_from_voxel{1};
+  float kelvin = 1000;  ///< Temperature where its value is 1.
+  float high = 1;       ///< Its largest value, > 0.
+  float emission = 1;   ///< Multiplies the radiance.
+};
+
+/// A volume in the world besides the smoke, lit by all lights of the frame and by itself.
 struct VolumeInput {
-  /// One channel of half floats: its density, in [0, 1]. It lies within the volume's bounds and bricks.
+  /// One channel of half floats: its density, >= 0. It lies within the volume's bounds and bricks.
   const volume::SparseVolume* volume = nullptr;
   glm::mat4 world_from_voxel{1};  ///< Affine, with an inverse.
   shared::VolumeLook look{};
+  HeatInput heat{};
 };
 
 /// What one frame shows. What `smoke`, `volumes` and `level` point to must outlive the frame's recording.

@@ -18,7 +18,7 @@ void plan_visibility(FramePlan& plan, const PlanTarget& target) {
   const float voxel_size = volume ? volume->layout().voxel_size : 0;
   plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size));
   if (volume) plan.visibility = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds);
-  plan.media = plan_media(plan.input, plan.visibility, plan.frustum);
+  plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights);
 }
 
 void plan_level(FramePlan& plan, PlanHistory& history) {
@@ -51,11 +51,13 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
   const Quality& quality = plan.input.quality;
   std::vector<Box<float>> boxes;
   if (smoke.volume) boxes = smoke_boxes(*smoke.volume, plan.visibility);
+  for (const VisibleVolume& volume : plan.media.volumes) boxes.push_back(volume.bounds_world);
   plan.smoke_shadows = history.smoke_shadows.update(
       plan_smoke_shadows({plan.lights, target.sun_clip_from_world, plan.camera}, boxes,
                          target.smoke_shadow_atlas),
       {smoke.volume, &plan.visibility, plan.lights, &plan.holes, &plan.noise, smoke.look, smoke.time,
-       plan.level_changed || quality.rebuild_light, quality.light_update_fraction});
+       plan.level_changed || plan.volume_light.update || quality.rebuild_light,
+       quality.light_update_fraction});
 }
 
 void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
@@ -65,6 +67,13 @@ void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
                                                 input.environment.sky, input.view.camera.position_world,
                                                 plan.level_changed || input.quality.rebuild_light,
                                                 input.quality.light_update_fraction, plan.noise.catches_up});
+}
+
+void plan_volume_light(FramePlan& plan, PlanHistory& history) {
+  const FrameInput& input = plan.input;
+  plan.volume_light = history.volume_light.plan({&plan.media, input.volumes, plan.lights, input.smoke.volume,
+                                                 input.smoke.look, input.smoke.time, input.environment.sky,
+                                                 plan.level_changed || input.quality.rebuild_light});
 }
 
 }  // namespace
@@ -89,6 +98,7 @@ FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHist
   plan.holes = plan_holes(smoke.holes, smoke.time, smoke.look.hole_rim,
                           slots > 0 ? smoke.volume->layout() : shared::VolumeLayout(), slots, target.size_px);
   plan_noise_updates(plan, history);
+  plan_volume_light(plan, history);
   plan_smoke_shadow_update(plan, target, history);
   plan_smoke_light(plan, history);
   plan.view_slice = input.debug.slice.value_or(

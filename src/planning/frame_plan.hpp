@@ -11,6 +11,7 @@
 #include "planning/smoke_light_cache.hpp"
 #include "planning/smoke_shadow_cache.hpp"
 #include "planning/view_frustum.hpp"
+#include "planning/volume_light_plan.hpp"
 
 namespace brume::planning {
 
@@ -47,6 +48,8 @@ struct FramePlan {
   std::optional<SmokeShadowUpdate> smoke_shadows;  ///< Empty: those of the frame before hold.
   const SmokeLightPlan* smoke_light = nullptr;  ///< In the history, until it plans again; not null in a plan.
 
+  VolumeLightPlan volume_light;
+
   ViewSlice view_slice;  ///< Where debug views cut.
 
   /// The state whose clouds and events the frame shows; an empty one where the input has none.
@@ -58,6 +61,7 @@ struct PlanHistory {
   NoiseUpdates noise;
   SmokeShadowCache smoke_shadows;
   SmokeLightCache smoke_light;
+  VolumeLightCache volume_light;
   LevelView level;
   std::vector<std::uint32_t> hidden_objects;
 };

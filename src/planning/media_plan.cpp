@@ -30,8 +30,8 @@ float step_of(const glm::mat4& world_from_voxel) {
   return 0.5f * shortest;
 }
 
-glm::mat4x3 voxel_from_world(const VolumeInput& volume) {
-  const glm::dmat4 inverse = glm::inverse(glm::dmat4(volume.world_from_voxel));
+glm::mat4x3 inverse_of(const glm::mat4& world_from_voxel) {
+  const glm::dmat4 inverse = glm::inverse(glm::dmat4(world_from_voxel));
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 4; ++row)
       if (!std::isfinite(inverse[column][row]))
@@ -56,19 +56,39 @@ void add_medium(MediaPlan& plan, std::uint32_t bit, const Box<float>& world, flo
 void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, const Box<float>& world) {
   const shared::VolumeLayout& layout = volume.volume->layout();
   add_medium(plan, shared::kMediumVolumes, world, volume.look.extinction, step_of(volume.world_from_voxel));
-  plan.volumes.push_back(
-      {index, {voxel_from_world(volume), layout.bounds_min, layout.bounds_max, volume.look, {}}});
+  shared::VolumeHeat heat{};
+  if (volume.heat.volume && volume.heat.volume->slot_count() > 0)
+    heat = {inverse_of(volume.heat.world_from_voxel), {}, 1 / volume.heat.high};
+  plan.volumes.push_back({index, world,
+                          {inverse_of(volume.world_from_voxel),
+                           glm::mat4x3(volume.world_from_voxel),
+                           layout.bounds_min,
+                           layout.bounds_max,
+                           volume.look,
+                           {},
+                           heat}});
   ++plan.frame.volume_count;
+}
+
+/// The sun of the volumes: the first directional light.
+void add_sun(MediaPlan& plan, std::span<const shared::Light> lights) {
+  const auto sun = std::ranges::find(lights, shared::kLightDirectional, &shared::Light::kind);
+  if (sun == lights.end()) return;
+  plan.sun = static_cast<std::uint32_t>(sun - lights.begin());
+  plan.frame.to_sun = -sun->direction;
+  plan.frame.sun_irradiance = sun->intensity;
 }
 
 }  // namespace
 
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look) {
-  return {smoke.bounds_min, smoke.bounds_max,          look.extinction,
-          look.step_length, look.opaque_transmittance, 0};
+  return {
+      smoke.bounds_min,   smoke.bounds_max, look.extinction, look.step_length, look.opaque_transmittance, 0,
+      glm::vec3(0, 1, 0), glm::vec3(0)};
 }
 
-MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum) {
+MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
+                     std::span<const shared::Light> lights) {
   if (input.volumes.size() > shared::kMaxVolumes)
     throw Error(ErrorCode::bad_input, "a frame of " + std::to_string(input.volumes.size()) +
                                           " volumes; at most " + std::to_string(shared::kMaxVolumes));
@@ -87,6 +107,7 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
     const Box<float> world = world_box(other.world_from_voxel, {layout.bounds_min, layout.bounds_max});
     if (other.volume->slot_count() > 0 && may_be_visible(frustum, world)) add_volume(plan, other, i, world);
   }
+  add_sun(plan, lights);
   // A frame of nothing is one of smoke that is nowhere.
   if (plan.media == 0) plan.media = shared::kMediumSmoke;
   plan.frame.step_length *= input.quality.step_scale;

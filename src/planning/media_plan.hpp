@@ -7,14 +7,17 @@
 #include "planning/frame_input.hpp"
 #include "planning/smoke_visibility.hpp"
 #include "planning/view_frustum.hpp"
+#include "shared/light.h"
 #include "shared/media.h"
+#include "shared/volume_light.h"
 
 namespace brume::planning {
 
 /// A volume that may be in view.
 struct VisibleVolume {
   std::size_t index = 0;              ///< In FrameInput::volumes.
-  shared::VolumeInstance instance{};  ///< All but `bricks`, which the atlas knows.
+  Box<float> bounds_world;
+  shared::VolumeInstance instance{};  ///< All but the places of its bricks, which the atlas knows.
 };
 
 struct MediaPlan {
@@ -22,12 +25,14 @@ struct MediaPlan {
   std::vector<VisibleVolume> volumes;
   shared::VolumeLayout smoke{};  ///< Of the smoke in view; without smoke a unit grid.
   shared::FrameMedia frame{};
+  std::uint32_t sun = shared::kNoSun;  ///< In the frame's lights: that of FrameMedia::to_sun.
 };
 
 /// Of the smoke alone.
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look);
 
 /// Throws bad_input for a transform without an inverse and for more than shared::kMaxVolumes volumes.
-MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum);
+MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
+                     std::span<const shared::Light> lights);
 
 }  // namespace brume::planning

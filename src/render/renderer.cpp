@@ -140,6 +140,7 @@ void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, cons
   scope(recorder, "noise_advection", [&] { smoke_.record_noise_advection(recorder, plan, in); });
   scope(recorder, "smoke_shadow", [&] { smoke_.record_shadows(recorder, plan, in); });
   scope(recorder, "smoke_light", [&] { smoke_.record_light(recorder, plan, in); });
+  scope(recorder, "volume_light", [&] { smoke_.record_volume_light(recorder, plan, in); });
 }
 
 void Renderer::record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {

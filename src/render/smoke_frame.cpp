@@ -6,6 +6,17 @@ namespace brume::render {
 
 using planning::FramePlan;
 
+namespace {
+
+/// The media that can cast shadows, in view or not.
+std::uint32_t casting_media(const FramePlan& plan) {
+  const smoke::SmokeVolume* smoke = plan.input.smoke.volume;
+  const std::uint32_t volumes = plan.media.media & shared::kMediumVolumes;
+  return volumes == 0 || (smoke && smoke->slot_count() > 0) ? volumes | shared::kMediumSmoke : volumes;
+}
+
+}  // namespace
+
 SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const SceneView& scene,
                        glm::uvec2 size_px, const SmokeFrameOptions& options)
     : context_(context),
@@ -22,6 +33,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       noise_advection_pass_(context),
       shadow_pass_(context),
       light_pass_(context),
+      volume_light_pass_(context),
       march_pass_(context, {options.count_samples, false, options.brute_force_holes}),
       resolve_pass_(context) {
   if (options.temporal) accumulate_pass_.emplace(context, size_px);
@@ -56,7 +68,9 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
     noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
   }
   volume_upload_.reserve(input.volumes);
+  if (volume_light_pass_.reserve(plan.volume_light, plan.media.media)) plan.volume_light.update = true;
   hole_clusters_.reserve(plan.holes);
+  shadow_pass_.reserve(casting_media(plan));
   march_pass_.reserve(plan.media.media);
   if (input.debug.view == planning::DebugView::steps) {
     if (!counting_march_)
@@ -85,16 +99,27 @@ void SmokeFrame::record_noise_advection(gpu::Recorder& recorder, const FramePlan
 
 void SmokeFrame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   if (!plan.smoke_shadows) return;
-  shadow_pass_.record(
-      recorder,
-      {in.frame, in.scene.resources(), in.scene.shadows(), in.scene.level().solid, resources(), holes()},
-      *plan.smoke_shadows, shadows_);
+  const passes::VolumeResources volumes = volume_upload_.resources();
+  shadow_pass_.record(recorder,
+                      {in.frame, in.scene.resources(), in.scene.shadows(), in.scene.level().solid,
+                       resources(), holes(), volumes, casting_media(plan)},
+                      *plan.smoke_shadows, shadows_);
 }
 
 void SmokeFrame::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   light_pass_.record(
       recorder, *plan.smoke_light,
       {in.frame, in.scene.resources(), in.scene.shadows(), resources(), holes(), in.scene.level()});
+}
+
+void SmokeFrame::record_volume_light(gpu::Recorder& recorder, const FramePlan& plan,
+                                     const FrameResources& in) {
+  const passes::VolumeResources volumes = volume_upload_.resources();
+  const passes::LevelLight level = in.scene.level();
+  volume_light_pass_.record(recorder,
+                            {in.frame, plan.media.media, in.scene.resources(), in.scene.shadows(), level,
+                             resources(), holes(), volumes},
+                            plan.volume_light);
 }
 
 SmokeFrame::March SmokeFrame::march_of(const FrameResources& in) const {
@@ -107,6 +132,7 @@ passes::MarchPass::Inputs SmokeFrame::march_inputs(const FramePlan& plan, const 
           .media = plan.media.media,
           .smoke = resources(),
           .volumes = volume_upload_.resources(),
+          .volume_light = volume_light_pass_.light(),
           .noise = noise_,
           .depth = in.targets.gbuffer.depth,
           .blue_noise = in.blue_noise,

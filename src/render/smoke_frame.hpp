@@ -10,6 +10,7 @@
 #include "passes/resolve.hpp"
 #include "passes/smoke_light.hpp"
 #include "passes/smoke_shadow.hpp"
+#include "passes/volume_light.hpp"
 #include "render/scene_view.hpp"
 #include "render/targets.hpp"
 
@@ -57,6 +58,8 @@ class SmokeFrame {
                               const FrameResources& in);
   void record_shadows(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
   void record_light(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  void record_volume_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
+                           const FrameResources& in);
   /// The rays of pixels or of tiles.
   void record_march(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
   /// From the rays of tiles to every pixel. Where march_tiles() has a value.
@@ -105,6 +108,7 @@ class SmokeFrame {
   passes::NoiseAdvectionPass noise_advection_pass_;
   passes::SmokeShadowPass shadow_pass_;
   passes::SmokeLightPass light_pass_;
+  passes::VolumeLightPass volume_light_pass_;
   passes::MarchPass march_pass_;
   std::optional<passes::MarchPass> counting_march_;  ///< For the view of steps.
   passes::ResolvePass resolve_pass_;

@@ -183,7 +183,6 @@ void scale_scene(scene::Scene& scene, float factor) {
   const glm::mat4 larger(glm::vec4(factor, 0, 0, 0), glm::vec4(0, factor, 0, 0), glm::vec4(0, 0, factor, 0),
                          glm::vec4(0, 0, 0, 1));
   for (scene::Object& object : scene.objects) object.world_from_mesh = larger * object.world_from_mesh;
-  for (scene::Volume& volume : scene.volumes) volume.world_from_volume = larger * volume.world_from_volume;
   for (scene::Decal& decal : scene.decals) decal.world_from_decal = larger * decal.world_from_decal;
   for (scene::Emitter& emitter : scene.emitters)
     emitter.world_from_emitter = larger * emitter.world_from_emitter;
@@ -206,7 +205,6 @@ void move_scene(scene::Scene& scene, glm::vec3 by) {
   if (by == glm::vec3(0)) return;
   const auto move = [by](glm::mat4& matrix) { matrix[3] += glm::vec4(by, 0); };
   for (scene::Object& object : scene.objects) move(object.world_from_mesh);
-  for (scene::Volume& volume : scene.volumes) move(volume.world_from_volume);
   for (scene::Decal& decal : scene.decals) move(decal.world_from_decal);
   for (scene::Emitter& emitter : scene.emitters) move(emitter.world_from_emitter);
   for (scene::Sphere& sphere : scene.spheres) sphere.centre_world += by;

@@ -1,10 +1,13 @@
 #include "scenario/scenario.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "grids/files.hpp"
 #include "image/font.hpp"
 #include "scenario/smoke_report.hpp"
+#include "scenario/volume_view.hpp"
 #include "scene/load.hpp"
 #include "scene/stand_ins.hpp"
 #include "voxel/voxelize.hpp"
@@ -13,8 +16,8 @@ namespace brume::scenario {
 namespace {
 
 /// From a timeline and its loaded scene.
-Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, float aspect,
-                          const std::filesystem::path& cache_folder) {
+Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::shared_ptr<Volumes> volumes,
+                          float aspect, const std::filesystem::path& cache_folder) {
   if (auto checked = scene::check_doors(timeline, scene); !checked) return checked.failure();
   scene::add_built_in_grenade(scene);
   const auto layout = grid_layout(timeline, scene);
@@ -31,7 +34,27 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, float as
                   .camera = camera,
                   .voxels = std::move(*voxels),
                   .masks = std::move(masks->atlas),
-                  .shot_masks = std::move(masks->of_shots)};
+                  .shot_masks = std::move(masks->of_shots),
+                  .volumes = std::move(volumes)};
+}
+
+/// Where the volumes of a timeline are, for the scene's bounds.
+void place_volumes(const scene::Timeline& timeline, const Volumes& volumes, scene::Scene& scene) {
+  for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
+    scene.volumes.push_back(
+        {timeline.volumes[i].file.filename().string(), volumes.first_bounds(timeline.volumes, i)});
+}
+
+Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewOptions& options) {
+  auto volumes = Volumes::load(std::array{scene::VolumeOptions{file}});
+  if (!volumes) return volumes.failure();
+  scene::Scene scene;
+  scene::Timeline timeline = prepare_volume_view(file, (*volumes)->first_frame(0), options);
+  place_volumes(timeline, **volumes, scene);
+  apply_level_options(timeline, scene);
+  auto scenario = assemble(std::move(timeline), std::move(scene), std::move(*volumes), options.aspect, {});
+  if (scenario) scenario->measure_exposure = false;
+  return scenario;
 }
 
 }  // namespace
@@ -61,10 +84,14 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
     if (!timeline) return timeline.failure();
     return make_scenario(std::move(*timeline), cache_folder);
   }
+  if (grids::is_grid_file(input)) return load_volume(input, options);
   auto scene = scene::load_scene(input);
   if (!scene) return scene.failure();
   scene::Timeline timeline = prepare_first_view(input, *scene, options);
-  auto scenario = assemble(std::move(timeline), std::move(*scene), options.aspect, cache_folder);
+  auto volumes = Volumes::load({});
+  if (!volumes) return volumes.failure();
+  auto scenario =
+      assemble(std::move(timeline), std::move(*scene), std::move(*volumes), options.aspect, cache_folder);
   if (!scenario) return scenario;
   scenario->measure_exposure = !options.exposure;
   if (options.smokes.empty())
@@ -76,14 +103,22 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
 }
 
 Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder) {
-  auto scene = scene::load_scene(timeline.scene);
+  // A file of grids in the place of a scene is a level of nothing.
+  const bool is_volume = grids::is_grid_file(timeline.scene);
+  if (is_volume && timeline.volumes.empty()) timeline.volumes.push_back({timeline.scene});
+  auto scene = is_volume ? Result<scene::Scene>(scene::Scene()) : scene::load_scene(timeline.scene);
   if (!scene) return scene.failure();
+  auto volumes = Volumes::load(timeline.volumes);
+  if (!volumes) return volumes.failure();
+  place_volumes(timeline, **volumes, *scene);
   apply_level_options(timeline, *scene);
-  return assemble(std::move(timeline), std::move(*scene), 16.0f / 9.0f, cache_folder);
+  return assemble(std::move(timeline), std::move(*scene), std::move(*volumes), 16.0f / 9.0f, cache_folder);
 }
 
 std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
   std::vector<std::filesystem::path> files = scenario.scene.files;
+  if (scenario.volumes)
+    for (std::filesystem::path& file : scenario.volumes->files()) files.push_back(std::move(file));
   for (const scene::ShotEvent& shot : scenario.timeline.shots)
     if (shot.shape == scene::ShotShape::mask) files.push_back(shot.mask);
   for (const scene::TextEvent& text : scenario.timeline.texts)

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "scenario/first_view.hpp"
 #include "scenario/shot_masks.hpp"
+#include "scenario/volumes.hpp"
 #include "scenario/voxel_cache.hpp"
 #include "scene/timeline.hpp"
 #include "smoke/mask_atlas.hpp"
@@ -15,18 +16,20 @@ namespace brume::scenario {
 struct Scenario {
   scene::Timeline timeline;
   scene::Scene scene;
-  scene::Camera camera;  ///< Used when the timeline has no camera keys.
+  scene::Camera camera;              ///< Used when the timeline has no camera keys.
   Voxels voxels;
   smoke::MaskAtlas masks = {};  ///< The masks of its shots and texts.
   ShotMasks shot_masks = {};    ///< Which of them each shot and text uses.
   /// Whether the exposure that fits its first image replaces Timeline::exposure (render::measure_exposure).
   bool measure_exposure = false;
+  std::shared_ptr<Volumes> volumes = {};  ///< Of Timeline::volumes; null: none.
 };
 
 /// Whether a file is a timeline, by its suffix .toml in any case.
 bool is_timeline(const std::filesystem::path& path);
 
-/// Loads a timeline (.toml), or a scene file as prepare_first_view completes it. Voxels are cached in
+/// Loads a timeline (.toml), a scene file as prepare_first_view completes it, or a file of grids as
+/// prepare_volume_view does. Voxels are cached in
 /// `cache_folder` under the scene's name (empty: not cached).
 Result<Scenario> load_scenario(const std::filesystem::path& input, const std::filesystem::path& cache_folder,
                                const FirstViewOptions& options = {});

@@ -96,6 +96,22 @@ void visit_sun_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"irradiance", "W/m^2", "irradiance of a surface that faces it", 0, 1e6}, o.irradiance);
 }
 
+/// Settings of VolumeOptions without its place.
+template <typename Options, typename Visitor>
+void visit_volume_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"rotation", "degrees each", "rotation about x, then y, then z", -360, 360}, o.rotation);
+  visit(OptionInfo{"scale", "", "metres per unit of the file", 1e-9, 1e9}, o.scale);
+  visit(OptionInfo{"extinction", "1/m", "extinction where the density is 1", 0, 1e6}, o.extinction);
+  visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1}, o.albedo);
+  visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -0.9, 0.9},
+        o.anisotropy);
+  visit(OptionInfo{"emission", "", "brightness of what glows", 0, 1e6}, o.emission);
+  visit(OptionInfo{"kelvin", "K", "temperature where the heat is 1", 0, 1e5}, o.kelvin);
+  visit(OptionInfo{"frame_rate", "1/s", "frames of a sequence a second", 0.01, 1000}, o.frame_rate);
+  visit(OptionInfo{"start", "s", "time of the first frame of a sequence", -kLatestTime, kLatestTime},
+        o.start);
+}
+
 /// Only the field of view: position and target are not settings.
 template <typename Options, typename Visitor>
 void visit_camera_options(Options& o, Visitor&& visit) {

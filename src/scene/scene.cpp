@@ -19,12 +19,14 @@ Box<float> world_bounds(const Scene& scene) {
     bounds.low = glm::min(bounds.low, sphere.centre_world - sphere.radius);
     bounds.high = glm::max(bounds.high, sphere.centre_world + sphere.radius);
   }
+  for (const Volume& volume : scene.volumes) bounds = united(bounds, volume.bounds_world);
   return bounds;
 }
 
 namespace {
 
-/// Calls visit(point in the world) for all corners of objects but backdrops, and for boxes around spheres.
+/// Calls visit(point in the world) for all corners of objects but backdrops, and of boxes around spheres and
+/// volumes.
 template <typename Visit>
 void for_each_point(const Scene& scene, Visit visit) {
   for (const Object& object : scene.objects) {
@@ -36,6 +38,10 @@ void for_each_point(const Scene& scene, Visit visit) {
     for (int corner = 0; corner < 8; ++corner)
       visit(sphere.centre_world +
             sphere.radius * (2.0f * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f));
+  for (const Volume& volume : scene.volumes)
+    for (int corner = 0; corner < 8; ++corner)
+      visit(glm::mix(volume.bounds_world.low, volume.bounds_world.high,
+                     glm::bvec3(corner & 1, corner & 2, corner & 4)));
 }
 
 }  // namespace

@@ -77,11 +77,10 @@ struct Camera {
   float vertical_fov = 1.0472f;  ///< Radians, (0, pi).
 };
 
-/// A participating medium from a file, placed in the world.
+/// Where a volume of the timeline is.
 struct Volume {
   std::string name;
-  std::filesystem::path file;      ///< Ready to open.
-  glm::mat4 world_from_volume{1};  ///< Affine, from the file's own world space [m].
+  Box<float> bounds_world;  ///< Around what can be dense.
 };
 
 struct Sphere {
@@ -122,7 +121,7 @@ struct Scene {
   std::vector<std::filesystem::path> files;  ///< Every file that load_scene read, itself first.
 };
 
-/// The bounding box of all objects but backdrops, and of spheres, in world space; low > high when there is
+/// The bounding box of all objects but backdrops, of spheres and of volumes, in world space; low > high when there is
 /// none.
 Box<float> world_bounds(const Scene& scene);
 

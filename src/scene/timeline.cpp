@@ -57,6 +57,7 @@ class TimelineReader {
     const toml::table* const smoke = root.table("smoke");
     const toml::table* const sky = root.table("sky");
     const toml::table* const sun = root.table("sun");
+    const auto volumes = root.tables("volume");
     const auto cameras = root.tables("camera");
     const auto events = root.tables("event");
     if (auto done = root.finish(); !done) return done.failure();
@@ -67,6 +68,7 @@ class TimelineReader {
     if (smoke != nullptr && outcome) outcome = read_smoke(*smoke);
     if (sky != nullptr && outcome) outcome = read_sky(*sky);
     if (sun != nullptr && outcome) outcome = read_sun(*sun);
+    for (std::size_t i = 0; i < volumes.size() && outcome; ++i) outcome = read_volume(*volumes[i]);
     for (std::size_t i = 0; i < cameras.size() && outcome; ++i) outcome = read_camera(*cameras[i]);
     for (std::size_t i = 0; i < events.size() && outcome; ++i) outcome = read_event(*events[i]);
     if (!outcome) return outcome.failure();
@@ -109,6 +111,25 @@ class TimelineReader {
   Result<void> read_sun(const toml::table& source) {
     TomlTable table(source, "[sun]", file_);
     visit_sun_options(timeline_.sun.emplace(), OptionReader{table});
+    return table.finish();
+  }
+
+  Result<void> read_volume(const toml::table& source) {
+    TomlTable table(source, "[[volume]]", file_);
+    VolumeOptions volume;
+    std::string file;
+    table.require("file");
+    table.read("file", file);
+    if (file.empty() || file.find('\0') != std::string::npos)
+      table.fail("file", "\"file\": expected the name of a file of grids");
+    volume.file = path_.parent_path() / file;
+    table.read("density", volume.density);
+    table.read("heat", volume.heat);
+    table.read("position", volume.position_world, -kFarthestPoint, kFarthestPoint);
+    visit_volume_options(volume, OptionReader{table});
+    table.read("loop", volume.loop);
+    volume.place = table.place("file");
+    timeline_.volumes.push_back(std::move(volume));
     return table.finish();
   }
 

@@ -58,6 +58,27 @@ struct SunOptions {
   glm::vec3 irradiance{2.6f, 2.4f, 2.1f};
 };
 
+/// A volume of a file of grids (grids/files.hpp), placed in the world: rotated about x, then y, then z of the
+/// file's world, scaled, moved.
+struct VolumeOptions {
+  /// Resolved. A sequence has the number of a frame as %d or %04d.
+  std::filesystem::path file;
+  std::string density = {};  ///< Name of the grid of densities; empty: the first of the usual names.
+  std::string heat = {};     ///< Of the grid that glows; empty: the first of the usual names, or none.
+  glm::vec3 position_world{0};
+  glm::vec3 rotation{0};  ///< About x, y and z [degrees].
+  float scale = 1;
+  float extinction = 1;
+  glm::vec3 albedo{0.9f};
+  float anisotropy = 0.2f;
+  float emission = 1;
+  float kelvin = 1000;
+  float frame_rate = 24;
+  float start = 0;
+  bool loop = false;
+  std::string place = {};  ///< "file:line:column" for error messages.
+};
+
 struct CameraKey {
   double time = 0;  ///< [s], [0, 3600].
   Camera camera;
@@ -170,6 +191,7 @@ struct Timeline {
   SmokeOptions smoke;
   SkyOptions sky;
   std::optional<SunOptions> sun;
+  std::vector<VolumeOptions> volumes;
   std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal.
   // Events, each list sorted by time; events of the same time in file order. A new kind of event needs a line
   // in for_each_event_kind.
@@ -206,12 +228,12 @@ void sort_events(Timeline& timeline);
 
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, `origin`, `scale`,
 /// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
-/// keys, and [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with
-/// type = "smoke" (time, from, at), "shot" (time, from, toward, radius, reach, expand, stay, fade, shape,
-/// mask, roll in degrees, flash), "text" (time, text, from, toward, size, font, spacing, interval, reach,
-/// expand, stay, fade, roll), "blast" (time, at, radius, speed, remaining, refill_rim, refill_middle, flash),
-/// "move" (time, body, to), "edit" (time, low, high, solid) or "door" (time, object, open). Points are in
-/// metres, [-10^6, 10^6]; those of events
+/// keys, [[volume]] (file, density, heat, position, loop and its members), and [[camera]] (time, position,
+/// target, fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot"
+/// (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text"
+/// (time, text, from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time,
+/// at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time,
+/// low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events
 /// [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
 /// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
 /// the wrong type or out of range.

@@ -155,6 +155,16 @@ Result<void> check_settings(const Timeline& timeline) {
   for (const Checker* checker : {&grid, &smoke, &sky, &sun})
     if (auto done = checker->done(); !done) return done;
 
+  for (const VolumeOptions& volume : timeline.volumes) {
+    Checker of_volume("[[volume]] " + volume.file.filename().string());
+    of_volume.text("file", volume.file.string());
+    of_volume.text("density", volume.density);
+    of_volume.text("heat", volume.heat);
+    of_volume.point("position", volume.position_world, kFarthestPoint);
+    visit_volume_options(volume, of_volume);
+    if (auto done = of_volume.done(); !done) return done;
+  }
+
   // The camera keys, in strictly rising order of time.
   double last = -1;
   for (const CameraKey& key : timeline.camera) {

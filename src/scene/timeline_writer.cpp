@@ -151,6 +151,7 @@ class Writer {
 
   std::string write(const Timeline& timeline) {
     write_head(timeline);
+    for (const VolumeOptions& volume : timeline.volumes) write_volume(volume);
     for (const CameraKey& key : timeline.camera) {
       text_ += "\n[[camera]]\n";
       line("time", key.time);
@@ -179,6 +180,16 @@ class Writer {
     if (!timeline.sun) return;
     text_ += "\n[sun]\n";
     options(*timeline.sun, SunOptions(), "", [](auto& o, auto& v) { visit_sun_options(o, v); });
+  }
+
+  void write_volume(const VolumeOptions& volume) {
+    text_ += "\n[[volume]]\n";
+    line("file", path_from(volume.file, folder_).generic_string());
+    if (!volume.density.empty()) line("density", volume.density);
+    if (!volume.heat.empty()) line("heat", volume.heat);
+    line("position", volume.position_world);
+    options(volume, VolumeOptions(), "", [](auto& o, auto& v) { visit_volume_options(o, v); });
+    if (volume.loop) line("loop", volume.loop);
   }
 
   /// Writes all events by time; events of the same time in the order in which they happen.

@@ -64,10 +64,11 @@ class MarchTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       hole_clusters.record(recorder, plan, frame_buffer, room.upload.resources());
-      march_.record(recorder,
-                    {frame_buffer, shared::kMediumSmoke, room.upload.resources(), volumes_.resources(),
-                     noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
-                    target, counters);
+      march_.record(
+          recorder,
+          {frame_buffer, shared::kMediumSmoke, room.upload.resources(), volumes_.resources(),
+           volumes_.resources().values, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
+          target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
     std::vector<glm::vec4> out;
@@ -136,9 +137,15 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room_.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       recorder.fill(counters, 0);
-      const MarchPass::Inputs in{frame_buffer,         shared::kMediumSmoke, room_.upload.resources(),
-                                 volumes_.resources(), noise_tile_,          depth,
-                                 blue_noise_,          no_holes.resources()};
+      const MarchPass::Inputs in{frame_buffer,
+                                 shared::kMediumSmoke,
+                                 room_.upload.resources(),
+                                 volumes_.resources(),
+                                 volumes_.resources().values,
+                                 noise_tile_,
+                                 depth,
+                                 blue_noise_,
+                                 no_holes.resources()};
       if (scale == 1) return counting.record(recorder, in, target, counters);
       resolve.record_ends(recorder, frame_buffer, depth, *blocks);
       counting.record_tiles(recorder, in, *blocks, counters);

@@ -67,9 +67,15 @@ class ResolveTest : public gpu::GpuTest {
     const auto no_holes = planning::plan_holes({}, 0, 0, frame.volume, room.volume.slot_count(), size);
     holes.reserve(no_holes);
     const MarchTiles blocks(context(), size, std::max(frame.march_scale, 2u));
-    const MarchPass::Inputs in{frame_buffer,         shared::kMediumSmoke, room.upload.resources(),
-                               volumes_.resources(), noise_tile_,          depth,
-                               blue_noise_,          holes.resources()};
+    const MarchPass::Inputs in{frame_buffer,
+                               shared::kMediumSmoke,
+                               room.upload.resources(),
+                               volumes_.resources(),
+                               volumes_.resources().values,
+                               noise_tile_,
+                               depth,
+                               blue_noise_,
+                               holes.resources()};
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       holes.record(recorder, no_holes, frame_buffer, room.upload.resources());

@@ -25,59 +25,63 @@
 #include "shared/ui.h"
 #include "shared/upscale.h"
 #include "shared/volume.h"
+#include "shared/volume_light.h"
 
 // clang-format off
 #define FOR_EACH_SHARED_STRUCT(X) \
-  X(0, AccumulateParams)      \
-  X(1, AccumulatedPixel)      \
-  X(2, BoundaryCell)          \
-  X(3, Camera)                \
-  X(4, CloudMotion)           \
-  X(5, Dda)                   \
-  X(6, DebugViewParams)       \
-  X(7, DrawConstants)         \
-  X(8, FrameConstants)        \
-  X(9, Hole)                  \
-  X(10, HoleCellsParams)      \
-  X(11, HoleClusterLayout)    \
-  X(12, HoleCounters)         \
-  X(13, HoleCut)              \
-  X(14, HoleListsParams)      \
-  X(15, HoleOpening)          \
-  X(16, HoleReach)            \
-  X(17, Impulse)              \
-  X(18, Light)                \
-  X(19, LightChange)          \
-  X(20, LightGather)          \
-  X(21, ManyFit)              \
-  X(22, ManyScatterings)      \
-  X(23, MarchList)            \
-  X(24, MaterialConstants)    \
-  X(25, NoiseAdvectionParams) \
-  X(26, NoiseParams)          \
-  X(27, PackedHole)           \
-  X(28, PackedReach)          \
-  X(29, Phase)                \
-  X(30, RayEnds)              \
-  X(31, ShadowDraw)           \
-  X(32, ShadowRays)           \
-  X(33, ShadowView)           \
-  X(34, Sky)                  \
-  X(35, SmokeLightParams)     \
-  X(36, SmokeLook)            \
-  X(37, SmokeShadowFace)      \
-  X(38, SmokeShadowParams)    \
-  X(39, SolidLayout)          \
-  X(40, TexelList)            \
-  X(41, UiConstants)          \
-  X(42, UiVertex)             \
-  X(43, Vertex)               \
-  X(44, VolumeLayout)         \
-  X(45, BrickLayout)          \
-  X(46, FrameMedia)           \
-  X(47, VolumeInstance)       \
-  X(48, VolumeLook)           \
-  X(49, UpscaleConstants)
+  X(0, AccumulateParams)   \
+  X(1, AccumulatedPixel)   \
+  X(2, BoundaryCell)       \
+  X(3, BrickLayout)        \
+  X(4, Camera)             \
+  X(5, CloudMotion)        \
+  X(6, Dda)                \
+  X(7, DebugViewParams)    \
+  X(8, DrawConstants)      \
+  X(9, FrameConstants)     \
+  X(10, FrameMedia)        \
+  X(11, Hole)              \
+  X(12, HoleCellsParams)   \
+  X(13, HoleClusterLayout) \
+  X(14, HoleCounters)      \
+  X(15, HoleCut)           \
+  X(16, HoleListsParams)   \
+  X(17, HoleOpening)       \
+  X(18, HoleReach)         \
+  X(19, Impulse)           \
+  X(20, Light)             \
+  X(21, LightChange)       \
+  X(22, LightGather)       \
+  X(23, ManyFit)           \
+  X(24, ManyScatterings)   \
+  X(25, MarchList)         \
+  X(26, MaterialConstants) \
+  X(27, NoiseAdvectionParams) \
+  X(28, NoiseParams)       \
+  X(29, PackedHole)        \
+  X(30, PackedReach)       \
+  X(31, Phase)             \
+  X(32, RayEnds)           \
+  X(33, ShadowDraw)        \
+  X(34, ShadowRays)        \
+  X(35, ShadowView)        \
+  X(36, Sky)               \
+  X(37, SmokeLightParams)  \
+  X(38, SmokeLook)         \
+  X(39, SmokeShadowFace)   \
+  X(40, SmokeShadowParams) \
+  X(41, SolidLayout)       \
+  X(42, TexelList)         \
+  X(43, UiConstants)       \
+  X(44, UiVertex)          \
+  X(45, UpscaleConstants)  \
+  X(46, Vertex)            \
+  X(47, VolumeHeat)        \
+  X(48, VolumeInstance)    \
+  X(49, VolumeLayout)      \
+  X(50, VolumeLightParams) \
+  X(51, VolumeLook)        \
+  X(52, VolumeSweep)
 // clang-format on
 
 #endif

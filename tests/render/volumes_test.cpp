@@ -34,6 +34,11 @@ glm::mat4 oblique(const volume::SparseVolume& volume, glm::vec3 corner, glm::vec
          glm::scale(glm::mat4(1), scale);
 }
 
+/// Absorbs and emits, but scatters nothing.
+shared::VolumeLook glowing(float extinction, glm::vec3 emission) {
+  return {glm::vec3(0), extinction, emission, 0, 0};
+}
+
 class VolumesTest : public gpu::GpuTest {
  protected:
   static constexpr glm::uvec2 kSize{61, 37};
@@ -131,14 +136,14 @@ TEST_F(VolumesTest, ATransformedBlockIsBeerLambert) {
   for (const bool mirror : {false, true})
     for (const volume::SparseVolume* volume : {&cube, &bar}) {
       input_.volumes = {{volume, oblique(*volume, {-1, -1.5f, 0}, {3, 2, 4}, mirror), {}}};
-      input_.volumes[0].look = {glm::vec3(0), 0.8f, {0.2f, 0.5f, 0.1f}};
+      input_.volumes[0].look = glowing(0.8f, {0.2f, 0.5f, 0.1f});
       expect_beer_lambert(input_.volumes[0]);
     }
 }
 
 TEST_F(VolumesTest, TheEyeMayBeInside) {
   const volume::SparseVolume cube = block({3, 2, 4});
-  input_.volumes = {{&cube, oblique(cube, {-4, -2, 2}, {9, 5, 9}), {glm::vec3(0), 0.3f, glm::vec3(0.4f)}}};
+  input_.volumes = {{&cube, oblique(cube, {-4, -2, 2}, {9, 5, 9}), glowing(0.3f, glm::vec3(0.4f))}};
   const glm::vec3 middle(input_.volumes[0].world_from_voxel * glm::vec4(cube.layout().bounds_max * 0.5f, 1));
   input_.view.camera = {middle, middle + glm::vec3(1, 0.2f, -2), 0.9f};
   expect_beer_lambert(input_.volumes[0]);
@@ -153,7 +158,7 @@ TEST_F(VolumesTest, OverlappingVolumesMultiplyTheirTransmittance) {
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::vec3 corner{-2 + 0.5f * static_cast<float>(i), -1, -0.5f * static_cast<float>(i)};
       input_.volumes.push_back({volumes[i], oblique(*volumes[i], corner, {3, 2.5f, 2}, i == 1), {}});
-      input_.volumes[i].look = {glm::vec3(0), extinction[i], glm::vec3(0.3f)};
+      input_.volumes[i].look = glowing(extinction[i], glm::vec3(0.3f));
     }
     return draw();
   };
@@ -197,8 +202,7 @@ TEST_F(VolumesWithSmokeTest, SmokeAndVolumesMultiplyTheirTransmittance) {
   const volume::SparseVolume cube = block({2, 2, 2});
   const auto draw_with = [&](float smoke, float volume) {
     input_.smoke.look.extinction = smoke;
-    input_.volumes = {
-        {&cube, oblique(cube, {-3, -1, -1}, {4, 3, 3}), {glm::vec3(0), volume, glm::vec3(0.3f)}}};
+    input_.volumes = {{&cube, oblique(cube, {-3, -1, -1}, {4, 3, 3}), glowing(volume, glm::vec3(0.3f))}};
     return draw();
   };
   const auto smoke = draw_with(1.5f, 0), volume = draw_with(0, 0.7f), both = draw_with(1.5f, 0.7f);
@@ -216,13 +220,13 @@ TEST_F(VolumesWithSmokeTest, AVolumeOutOfViewChangesNothing) {
   input_.smoke.look.extinction = 2;
   const auto without = draw();
   const volume::SparseVolume cube = block({2, 2, 2});
-  input_.volumes = {{&cube, oblique(cube, {0, 0, 30}, glm::vec3(2)), {glm::vec3(1), 1, glm::vec3(1)}}};
+  input_.volumes = {{&cube, oblique(cube, {0, 0, 30}, glm::vec3(2)), glowing(1, glm::vec3(1))}};
   EXPECT_EQ(draw(), without);
 }
 
 TEST_F(VolumesTest, ReducedRaysAgreeWithOnePerPixel) {
   const volume::SparseVolume cube = block({2, 2, 2});
-  input_.volumes = {{&cube, oblique(cube, {-1, -1.5f, 0}, {3, 2, 4}), {glm::vec3(0), 0.8f, glm::vec3(0.5f)}}};
+  input_.volumes = {{&cube, oblique(cube, {-1, -1.5f, 0}, {3, 2, 4}), glowing(0.8f, glm::vec3(0.5f))}};
   const auto full = draw();
   for (const std::uint32_t scale : {2u, 4u}) {
     renderer().set_march_scale(scale);
@@ -236,7 +240,7 @@ TEST_F(VolumesTest, ReducedRaysAgreeWithOnePerPixel) {
 TEST_F(VolumesTest, RefusesTooManyAndFlatOnes) {
   const volume::SparseVolume cube = block({1, 1, 1});
   input_.volumes.assign(shared::kMaxVolumes, {&cube, oblique(cube, {-1, -1, -1}, glm::vec3(2)), {}});
-  for (planning::VolumeInput& volume : input_.volumes) volume.look = {glm::vec3(0), 0.1f, glm::vec3(0)};
+  for (planning::VolumeInput& volume : input_.volumes) volume.look = glowing(0.1f, glm::vec3(0));
   EXPECT_LT(draw()[kSize.x * (kSize.y / 2) + kSize.x / 2].w, 0.2f) << "32 times the same volume";
   input_.volumes.push_back(input_.volumes[0]);
   EXPECT_THROW(draw(), Error);

@@ -92,16 +92,18 @@ TEST(Options, MatchTheTableInTheDocs) {
   const auto text =
       read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/timeline.md").value_or_throw();
   RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), sun("`[sun]` "),
-      camera("`[[camera]]` ");
+      volume("`[[volume]]` "), camera("`[[camera]]` ");
   visit_timeline_options(static_cast<const Timeline&>(Timeline()), top);
   visit_level_options(static_cast<const Timeline&>(Timeline()), top);
   visit_grid_options(static_cast<const GridOptions&>(GridOptions()), grid);
   visit_smoke_options(static_cast<const SmokeOptions&>(SmokeOptions()), smoke);
   visit_sky_options(static_cast<const SkyOptions&>(SkyOptions()), sky);
   visit_sun_options(static_cast<const SunOptions&>(SunOptions()), sun);
+  visit_volume_options(static_cast<const VolumeOptions&>(VolumeOptions()), volume);
   visit_camera_options(static_cast<const Camera&>(Camera()), camera);
   const std::string head = part_of(text, "| key |");
-  for (const RowMaker* maker : {&top, &grid, &smoke, &sky, &sun, &camera}) expect_rows(head, maker->rows);
+  for (const RowMaker* maker : {&top, &grid, &smoke, &sky, &sun, &volume, &camera})
+    expect_rows(head, maker->rows);
 
   RowMaker shot("... "), letters("... "), blast("... ");
   visit_shot_options(static_cast<const ShotEvent&>(ShotEvent()), shot);
@@ -158,6 +160,7 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(SmokeOptions(), visit_smoke_options), 15u);
   EXPECT_EQ(MET(SkyOptions(), visit_sky_options), 5u);
   EXPECT_EQ(MET(SunOptions(), visit_sun_options), 3u);
+  EXPECT_EQ(MET(VolumeOptions(), visit_volume_options), 9u);
   EXPECT_EQ(MET(Camera(), visit_camera_options), 1u);
   EXPECT_EQ(MET(ShotEvent(), visit_shot_options), 7u);
   EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);

@@ -139,6 +139,15 @@ inline Timeline random_timeline(std::uint32_t seed) {
   if (timeline.smoke.droplet) timeline.smoke.anisotropy = SmokeOptions().anisotropy;
   visit_sky_options(timeline.sky, draw);
   if (draw.below(2) == 0) visit_sun_options(timeline.sun.emplace(), draw);
+  for (std::uint32_t volumes = draw.below(3); volumes > 0; --volumes) {
+    VolumeOptions& volume = timeline.volumes.emplace_back();
+    volume.file = "scenes/" + std::to_string(volumes) + "_%04d.vdb";
+    if (draw.below(2) == 0) volume.density = draw.text();
+    if (draw.below(2) == 0) volume.heat = draw.text();
+    volume.position_world = draw.place();
+    visit_volume_options(volume, draw);
+    volume.loop = draw.below(2) == 0;
+  }
   if (draw.below(3) == 0) timeline.tone = ToneCurve::standard;
   double time = draw.share();
   for (std::uint32_t keys = draw.below(4); keys > 0; --keys, time += 0.01 + draw.share()) {

@@ -70,6 +70,7 @@ void spoil(Timeline& t, Spoiler& s) {
   visit_smoke_options(t.smoke, s);
   visit_sky_options(t.sky, s);
   if (t.sun) visit_sun_options(*t.sun, s);
+  for (VolumeOptions& v : t.volumes) s.place(v.position_world), visit_volume_options(v, s);
   for (CameraKey& key : t.camera) s.time(key.time), visit_camera_options(key.camera, s);
   for (SmokeEvent& e : t.smokes) s.time(e.time), s.place(e.from_world), s.place(e.at_world);
   for (ShotEvent& e : t.shots) s.time(e.time), s.place(e.toward_world), visit_shot_options(e, s);

@@ -81,6 +81,12 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   visit_sky_options(timeline.sky, b);
   b.add(timeline.sun.has_value());
   if (timeline.sun) visit_sun_options(*timeline.sun, b);
+  b.add(static_cast<std::uint32_t>(timeline.volumes.size()));
+  for (const VolumeOptions& volume : timeline.volumes) {
+    b.add(volume.file.string()), b.add(volume.density), b.add(volume.heat), b.add(volume.position_world);
+    visit_volume_options(volume, b);
+    b.add(volume.loop);
+  }
   const auto add_all = [&](const auto& list) {
     b.add(static_cast<std::uint32_t>(list.size()));
     for (const auto& event : list) b.add(event.time), add_event(b, event);

@@ -1,0 +1,108 @@
+// Light in the volumes in view: gathers the sun and the sky from their sweeps, and marches to the other lights
+// (shared/volume_light.h). A thread per cell of a volume's cube.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lib/frame.glsl"
+#include "shared/light.h"
+#include "shared/scattering.h"
+#include "shared/volume_light.h"
+
+layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
+layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweeps[]; };
+layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
+layout(binding = kBindSkyDepths) uniform sampler3D sky_depths;
+layout(binding = kBindVolumeLightTarget, rgba16f) uniform writeonly image3D light_target;
+layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
+#include "lib/light_visibility.glsl"
+#include "lib/sky_light.glsl"
+#include "lib/volume_values.glsl"
+
+const uint kStepsToLight = 16u;
+const float kPerSphere = 0.0795774715;  // 1 / (4 pi)
+
+/// Whether a sample that reads this cell can lie in a brick.
+bool is_near_bricks(uint volume, vec3 p_voxel, vec3 cell_voxels) {
+  for (uint corner = 0u; corner < 9u; ++corner) {
+    const vec3 side = corner == 8u ? vec3(0.0) : vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u) * 2.0 - 1.0;
+    int empty_edge;
+    const ivec3 brick = ivec3(floor((p_voxel + side * cell_voxels) / float(kBrickVoxels)));
+    if (volume_slot_at(volumes[volume].bricks, brick, empty_edge) != kNoSlot) return true;
+  }
+  return false;
+}
+
+/// Optical depth of a sweep at a point: of the cube of this number.
+float swept_depth(sampler3D depths, uint volume, uint number, VolumeSweep sweep, vec3 p_world) {
+  const vec3 size = vec3(textureSize(depths, 0)), at = sweep.sweep_from_world * vec4(p_world, 1.0);
+  const float edge = size.y;
+  const vec3 first = edge * vec3(number, 0u, volume);
+  return textureLod(depths, (first + clamp(at * edge, vec3(0.5), vec3(edge - 0.5))) / size, 0.0).r;
+}
+
+/// Mean transmittance of the directions of the sky.
+float escape_at(uint volume, vec3 p_world) {
+  float sum = 0.0;
+  for (uint i = 0u; i < kSkySweeps; ++i) {
+    const VolumeSweep sweep = sweeps[volume * kSweepsOfVolume + 1u + i];
+    sum += exp(-swept_depth(sky_depths, volume, i, sweep, p_world));
+  }
+  return sum / float(kSkySweeps);
+}
+
+/// Optical depth of the volumes along a ray to a light.
+float depth_to_light(vec3 p_world, Incident incident) {
+  const float ds = incident.distance / float(kStepsToLight);
+  float depth = 0.0;
+  for (uint i = 0u; i < kStepsToLight; ++i)
+    depth += ds * volumes_extinction(frame.media.volume_count,
+                                     p_world + incident.to_light * (ds * (float(i) + 0.5)));
+  return depth;
+}
+
+/// Light of all lights but the sun, scattered equally in all directions.
+vec3 other_lights(vec3 p_world, vec3 albedo, ManyScatterings many) {
+  vec3 sum = vec3(0.0);
+  for (uint i = 0u; i < frame.light_count; ++i) {
+    if (i == params.sun) continue;
+    const Incident incident = light_at(lights[i], p_world);
+    if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
+    const float lit = light_visibility(lights[i], p_world);
+    if (lit <= 0.0) continue;
+    const float depth = depth_to_light(p_world, incident);
+    const vec3 scattered_light = exp(-depth) * albedo + many.fraction * exp(-many.decay * depth);
+    sum += incident.irradiance * (lit * kPerSphere) * scattered_light;
+  }
+  return sum;
+}
+
+void main() {
+  const uvec3 at = gl_GlobalInvocationID;
+  const uint volume = at.z / params.edge;
+  if (any(greaterThanEqual(at.xy, uvec2(params.edge))) || volume >= frame.media.volume_count) return;
+  const vec3 cell = vec3(at.xy, at.z % params.edge) + 0.5;
+  const vec3 low = volumes[volume].bounds_min, size = volumes[volume].bounds_max - low;
+  const vec3 p_voxel = low + cell / float(params.edge) * size;
+  vec4 light = vec4(0.0);
+  if (is_near_bricks(volume, p_voxel, size / float(params.edge))) {
+    const vec3 p_world = volumes[volume].world_from_voxel * vec4(p_voxel, 1.0);
+    const VolumeLook look = volumes[volume].look;
+    const float escape = escape_at(volume, p_world);
+    ManyScatterings many = multiple_scattering(many_fit(), look.albedo, look.anisotropy, escape);
+    many.fraction *= look.multiple_scattering * look.albedo;
+    if (params.sun != kNoSun) {
+      const Light sunlight = lights[params.sun];
+      const float lit = light_visibility(sunlight, p_world);
+      const float depth = swept_depth(sun_depths, volume, 0u, sweeps[volume * kSweepsOfVolume], p_world);
+      light.a = lit * exp(-depth);
+      light.rgb = sunlight.intensity * (lit * kPerSphere) * many.fraction * exp(-many.decay * depth);
+    }
+    light.rgb += other_lights(p_world, look.albedo, many);
+    const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
+    // A uniform sky: what does not arrive directly was scattered in a medium as bright as here.
+    const vec3 sky = vec3(escape) / (1.0 - look.albedo * (1.0 - escape));
+    light.rgb += look.albedo * frame.sky.ambient * open_sky * sky;
+  }
+  imageStore(light_target, ivec3(at), light);
+}

@@ -1,0 +1,63 @@
+// Optical depth along parallel rays through the bounds of each volume in view: a thread follows one ray, from the light
+// on, through all media (shared/volume_light.h).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "lib/frame.glsl"
+#include "shared/media.h"
+#include "shared/volume_light.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kMedia = kMediumVolumes;
+layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweeps[]; };
+layout(binding = kBindDepths, r16f) uniform writeonly image3D depths;
+layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
+#include "lib/optical_depth.glsl"
+#include "lib/volume_values.glsl"
+
+/// Beyond it nothing of the light is left, and half floats end at 65504.
+const float kMostDepth = 60.0;
+/// Steps before the bounds.
+const uint kStepsBeyond = 32u;
+
+/// Extinction of all media at a point [1/m].
+float extinction_at(vec3 p_world) {
+  float sum = volumes_extinction(frame.media.volume_count, p_world);
+  if ((kMedia & kMediumSmoke) != 0u) {
+    const vec3 p_voxel = (p_world - frame.volume.origin_world) / frame.volume.voxel_size;
+    if (all(greaterThan(p_voxel, frame.caster_bounds_min)) && all(lessThan(p_voxel, frame.caster_bounds_max)))
+      sum += frame.look.extinction * cut_smoke_at(p_voxel).density;
+  }
+  return sum;
+}
+
+/// Optical depth of what other media there are between the light and the bounds.
+float depth_beyond(vec3 enters_world, vec3 to_light) {
+  const float ds = params.beyond_m / float(kStepsBeyond);
+  float depth = 0.0;
+  for (uint i = 0u; i < kStepsBeyond && ds > 0.0; ++i)
+    depth += ds * extinction_at(enters_world + to_light * (ds * (float(i) + 0.5)));
+  return depth;
+}
+
+void main() {
+  const uvec2 column = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(column, uvec2(params.edge)))) return;
+  const uint volume = gl_GlobalInvocationID.z / params.sweeps, number = gl_GlobalInvocationID.z % params.sweeps;
+  const VolumeSweep sweep = sweeps[volume * kSweepsOfVolume + params.first_sweep + number];
+  const vec2 uv = (vec2(column) + 0.5) / float(params.edge);
+  const vec3 enters = sweep.world_from_sweep * vec4(uv, 0.0, 1.0);
+  const vec3 per_unit = sweep.world_from_sweep * vec4(0.0, 0.0, 1.0, 0.0);
+  const uint samples = params.edge * kSweepSamples;
+  const float ds = sweep.length_m / float(samples);
+  float depth = depth_beyond(enters, -per_unit / sweep.length_m);
+  for (uint k = 0u; k < params.edge; ++k) {
+    float cell = 0.0;
+    for (uint i = 0u; i < kSweepSamples && depth < kMostDepth; ++i)
+      cell += ds * extinction_at(enters + per_unit * ((float(k * kSweepSamples + i) + 0.5) / float(samples)));
+    // Of the middle of the cell.
+    const uvec3 at = uvec3(number * params.edge + column.x, column.y, volume * params.edge + k);
+    imageStore(depths, ivec3(at), vec4(min(depth + 0.5 * cell, kMostDepth)));
+    depth += cell;
+  }
+}

@@ -1,0 +1,93 @@
+#include "passes/volume_light.hpp"
+
+#include "brume_shaders.hpp"
+
+namespace brume::passes {
+namespace {
+
+/// `count` cubes along z, `side_by_side` of them along x.
+gpu::Image cubes(gpu::Context& context, VkFormat format, std::uint32_t edge, std::uint32_t count,
+                 std::uint32_t side_by_side) {
+  gpu::ImageInfo info;
+  info.format = format;
+  info.size = {edge * side_by_side, edge, edge * count};
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  return gpu::Image(context, info);
+}
+
+}  // namespace
+
+VolumeLightPass::VolumeLightPass(gpu::Context& context)
+    : context_(context),
+      linear_(context, {}),
+      compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
+      light_pipeline_(context, shaders::volume_light_comp),
+      light_(cubes(context, VK_FORMAT_R16G16B16A16_SFLOAT, 1, 1, 1)) {}
+
+bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32_t media) {
+  if (plan.sweeps.empty()) return false;
+  const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
+  sweep_pipelines_.try_emplace(media, context_, shaders::volume_sweep_comp, std::vector{media});
+  gpu::grow(context_, sweeps_, plan.sweeps.size() * sizeof(shared::VolumeSweep));
+  const glm::uvec3 has = light_.info().size;
+  if (has.x == plan.edge && has.z >= plan.edge * count) return false;
+  light_ = cubes(context_, VK_FORMAT_R16G16B16A16_SFLOAT, plan.edge, count, 1);
+  sun_depths_ = cubes(context_, VK_FORMAT_R16_SFLOAT, plan.edge, count, 1);
+  sky_depths_ = cubes(context_, VK_FORMAT_R16_SFLOAT, shared::kSkyEdge, count, shared::kSkySweeps);
+  return true;
+}
+
+void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
+                             const planning::VolumeLightPlan& plan) {
+  if (!plan.update || plan.sweeps.empty()) return;
+  const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
+  recorder.upload(sweeps_, 0, std::as_bytes(std::span(plan.sweeps)));
+  const shared::VolumeLightParams sun{plan.edge, 0, 1, plan.sun, plan.beyond_m};
+  const shared::VolumeLightParams sky{shared::kSkyEdge, 1, shared::kSkySweeps, plan.sun, plan.beyond_m};
+  record_sweeps(recorder, in, sun, sun_depths_, count);
+  record_sweeps(recorder, in, sky, sky_depths_, count * shared::kSkySweeps);
+  recorder.bind(light_pipeline_,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindLights, gpu::read(in.scene.lights)},
+                    {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                    {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                    {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                    {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
+                    {shared::kBindVolumes, gpu::read(in.volumes.instances)},
+                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
+                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                    {shared::kBindSweeps, gpu::read(sweeps_)},
+                    {shared::kBindSunDepths, gpu::sampled(sun_depths_, linear_)},
+                    {shared::kBindSkyDepths, gpu::sampled(sky_depths_, linear_)},
+                    {shared::kBindVolumeLightTarget, gpu::stored(light_)},
+                },
+                sun);
+  recorder.dispatch_threads(light_pipeline_, plan.edge, plan.edge, plan.edge * count);
+}
+
+void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,
+                                    const shared::VolumeLightParams& params, const gpu::Image& depths,
+                                    std::uint32_t sweeps) {
+  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.media);
+  recorder.bind(pipeline,
+                {
+                    {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindPages, gpu::read(in.smoke.pages)},
+                    {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                    {shared::kBindCells, gpu::read(in.smoke.cells)},
+                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                    {shared::kBindHoleCells, gpu::read(in.holes.cells)},
+                    {shared::kBindVolumes, gpu::read(in.volumes.instances)},
+                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
+                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                    {shared::kBindSweeps, gpu::read(sweeps_)},
+                    {shared::kBindDepths, gpu::stored(depths)},
+                },
+                params);
+  recorder.dispatch_threads(pipeline, params.edge, params.edge, sweeps);
+}
+
+}  // namespace brume::passes

@@ -1,0 +1,49 @@
+// Light in the volumes besides the smoke: sweeps along the sun and the axes, then a cube of light per volume
+// (shaders/shared/volume_light.h).
+#pragma once
+
+#include <map>
+
+#include "passes/hole_clusters.hpp"
+#include "passes/shade.hpp"
+#include "passes/smoke_upload.hpp"
+#include "passes/volume_upload.hpp"
+#include "planning/volume_light_plan.hpp"
+
+namespace brume::passes {
+
+class VolumeLightPass {
+ public:
+  struct Inputs {
+    const gpu::Buffer& frame;  ///< FrameConstants.
+    std::uint32_t media = 0;   ///< Of the frame.
+    const SceneResources& scene;
+    const ShadowMaps& shadows;
+    const LevelLight& level;
+    const SmokeResources& smoke;
+    const HoleResources& holes;
+    const VolumeResources& volumes;
+  };
+
+  explicit VolumeLightPass(gpu::Context& context);
+  /// Makes room for the light of a plan. True when the light of earlier frames is lost. Outside of a
+  /// recording, once the device has finished previous ones. Throws resource_limit.
+  bool reserve(const planning::VolumeLightPlan& plan, std::uint32_t media);
+  /// Where the plan updates.
+  void record(gpu::Recorder& recorder, const Inputs& in, const planning::VolumeLightPlan& plan);
+  /// The cubes of all volumes in view.
+  const gpu::Image& light() const { return light_; }
+
+ private:
+  void record_sweeps(gpu::Recorder& recorder, const Inputs& in, const shared::VolumeLightParams& params,
+                     const gpu::Image& depths, std::uint32_t sweeps);
+
+  gpu::Context& context_;
+  gpu::Sampler linear_, compare_;
+  std::map<std::uint32_t, gpu::ComputePipeline> sweep_pipelines_;  ///< By media.
+  gpu::ComputePipeline light_pipeline_;
+  gpu::Image sun_depths_, sky_depths_, light_;
+  gpu::Buffer sweeps_;
+};
+
+}  // namespace brume::passes

@@ -1,0 +1,122 @@
+#include "planning/volume_light_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "core/box.hpp"
+
+namespace brume::planning {
+namespace {
+
+/// Voxels per cell of light, and limits of its edge.
+constexpr float kVoxelsPerCell = 4;
+constexpr std::uint32_t kLeastEdge = 32, kMostEdge = 128;
+/// Cells of light of all volumes: 256 MiB.
+constexpr std::uint64_t kMostCells = 1u << 25;
+
+constexpr std::array<glm::vec3, shared::kSkySweeps> kSkyDirections{glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0),
+                                                                   glm::vec3(0, 1, 0), glm::vec3(0, -1, 0),
+                                                                   glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)};
+
+/// Collects what a key is made of, byte by byte.
+class KeyBytes {
+ public:
+  template <typename T>
+  requires std::is_trivially_copyable_v<T>
+  void add(const T& value) {
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+std::vector<std::byte> key_of(const VolumeLightInputs& in) {
+  KeyBytes key;
+  for (const VisibleVolume& visible : in.media->volumes) {
+    const volume::SparseVolume& volume = *in.volumes[visible.index].volume;
+    key.add(volume.id());
+    key.add(volume.revision());
+    key.add(visible.instance.voxel_from_world);
+    key.add(visible.instance.bounds_min);
+    key.add(visible.instance.bounds_max);
+    key.add(visible.instance.look);
+  }
+  for (const shared::Light& light : in.lights) key.add(light);
+  key.add(in.sky.ambient);
+  key.add(in.sky.bounce);
+  if ((in.media->media & shared::kMediumSmoke) != 0 && in.smoke && in.smoke->slot_count() > 0) {
+    key.add(in.smoke->revision());
+    key.add(in.smoke_look);
+    key.add(in.time);
+  }
+  return key.take();
+}
+
+std::uint32_t edge_of(const MediaPlan& media) {
+  float longest = 0;
+  for (const VisibleVolume& visible : media.volumes) {
+    const glm::vec3 size = visible.instance.bounds_max - visible.instance.bounds_min;
+    longest = std::max({longest, size.x, size.y, size.z});
+  }
+  const auto cells = static_cast<std::uint32_t>(std::min(longest / kVoxelsPerCell, float{kMostEdge}));
+  std::uint32_t edge = std::clamp(std::bit_ceil(std::max(cells, 1u)), kLeastEdge, kMostEdge);
+  while (edge > kLeastEdge && std::uint64_t{edge} * edge * edge * media.volumes.size() > kMostCells)
+    edge /= 2;
+  return edge;
+}
+
+}  // namespace
+
+shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec3 direction) {
+  // Axes across the direction, and the extent of the bounds along all three.
+  const glm::vec3 side = std::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+  const glm::vec3 u = glm::normalize(glm::cross(side, direction)), v = glm::cross(direction, u);
+  Box<float> box = kEmptyBox;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+    const glm::vec3 p =
+        volume.world_from_voxel * glm::vec4(glm::mix(volume.bounds_min, volume.bounds_max, high), 1);
+    const glm::vec3 at(glm::dot(u, p), glm::dot(v, p), glm::dot(direction, p));
+    box = united(box, {at, at});
+  }
+  const glm::vec3 size = glm::max(box.high - box.low, 1e-6f);
+
+  // Its matrices.
+  shared::VolumeSweep sweep{};
+  const glm::vec3 origin = u * box.low.x + v * box.low.y + direction * box.low.z;
+  sweep.world_from_sweep = glm::mat4x3(u * size.x, v * size.y, direction * size.z, origin);
+  const glm::mat3 rows = glm::transpose(glm::mat3(u / size.x, v / size.y, direction / size.z));
+  sweep.sweep_from_world = glm::mat4x3(rows[0], rows[1], rows[2], -(rows * origin));
+  sweep.length_m = size.z;
+  return sweep;
+}
+
+VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in) {
+  VolumeLightPlan plan;
+  if (in.media->volumes.empty()) return plan;
+  plan.edge = edge_of(*in.media);
+  plan.sun = in.media->sun;
+  for (const VisibleVolume& visible : in.media->volumes) {
+    plan.sweeps.push_back(sweep_through(visible.instance, -in.media->frame.to_sun));
+    // Light from the sky in +x travels towards -x.
+    for (const glm::vec3 direction : kSkyDirections)
+      plan.sweeps.push_back(sweep_through(visible.instance, -direction));
+  }
+  const bool alone = in.media->volumes.size() == 1 && in.media->media == shared::kMediumVolumes;
+  if (!alone) {
+    const shared::FrameMedia& frame = in.media->frame;
+    plan.beyond_m = glm::length(frame.bounds_max - frame.bounds_min) * in.media->smoke.voxel_size;
+  }
+  std::vector<std::byte> key = key_of(in);
+  plan.update = in.rebuild || key != key_;
+  key_ = std::move(key);
+  return plan;
+}
+
+}  // namespace brume::planning

@@ -1,0 +1,50 @@
+// How the light in the volumes of a frame is found (shaders/shared/volume_light.h), and whether that of the
+// frame before still holds.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "planning/media_plan.hpp"
+#include "shared/light.h"
+#include "shared/volume_light.h"
+
+namespace brume::planning {
+
+struct VolumeLightPlan {
+  std::uint32_t sun = shared::kNoSun;       ///< MediaPlan::sun.
+  std::uint32_t edge = 1;                   ///< Cells of a volume's cube of light along an axis.
+  std::vector<shared::VolumeSweep> sweeps;  ///< kSweepsOfVolume per volume in view.
+  float beyond_m = 0;                       ///< As VolumeLightParams.
+  bool update = false;                      ///< False: the light of the frame before holds.
+};
+
+/// What the light in the volumes follows from.
+struct VolumeLightInputs {
+  const MediaPlan* media = nullptr;       ///< Not null.
+  std::span<const VolumeInput> volumes;   ///< Of the frame.
+  std::span<const shared::Light> lights;  ///< Of the frame.
+  const smoke::SmokeVolume* smoke = nullptr;
+  shared::SmokeLook smoke_look{};
+  float time = 0;  ///< Of the smoke's noise and holes [s].
+  shared::Sky sky{};
+  bool rebuild = false;  ///< The level changed, or light is to be found again for another reason.
+};
+
+/// Tracks what the device's light was computed from.
+class VolumeLightCache {
+ public:
+  /// The plan of a frame. It counts as done from then on.
+  VolumeLightPlan plan(const VolumeLightInputs& inputs);
+  /// The device lost its light.
+  void invalidate() { key_.clear(); }
+
+ private:
+  std::vector<std::byte> key_;  ///< Bytes of all inputs of the last update; empty: none.
+};
+
+/// The rays along `direction` (unit) through a volume's bounds.
+shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec3 direction);
+
+}  // namespace brume::planning

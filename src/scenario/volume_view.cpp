@@ -1,0 +1,71 @@
+#include "scenario/volume_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/log.hpp"
+
+namespace brume::scenario {
+namespace {
+
+/// From the side of the default camera, low enough to shade.
+constexpr scene::SunOptions kVolumeSun{1.75f, 0.6f};
+/// Voxels of the smoke's grid across the volume.
+constexpr float kVoxelsAcross = 48;
+
+float chosen_scale(const std::filesystem::path& path, float extent, const FirstViewOptions& options) {
+  if (options.scale) return *options.scale;
+  const float scale = fitting_scale(extent);
+  if (scale != 1) {
+    char message[160];
+    std::snprintf(message, sizeof message, ": %g units wide; scaled by %g to %g m: give --scale to choose",
+                  double{extent}, double{scale}, double{extent * scale});
+    log_warning(path.string() + message);
+  }
+  return scale;
+}
+
+}  // namespace
+
+scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
+                                    const FirstViewOptions& options) {
+  scene::Timeline timeline;
+  timeline.scene = path;
+
+  // Its place: the middle of its bottom at the origin.
+  scene::VolumeOptions volume;
+  volume.file = path;
+  const glm::vec3 size = frame.bounds.high - frame.bounds.low;
+  const float extent = std::max({size.x, size.y, size.z});
+  volume.scale = chosen_scale(path, extent, options);
+  if (frame.z_is_up) volume.rotation.x = -90;
+  const glm::mat4 turned = world_from_file(volume);
+  Box<float> box = kEmptyBox;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+    const glm::vec3 p(turned * glm::vec4(glm::mix(frame.bounds.low, frame.bounds.high, high), 1));
+    box = united(box, {p, p});
+  }
+  const glm::vec3 middle = 0.5f * (box.low + box.high);
+  volume.position_world = -glm::vec3(middle.x, box.low.y, middle.z);
+
+  // Its look.
+  const double across = std::cbrt(frame.filled_volume) * double{volume.scale};
+  const double depth = frame.mean_density * across;
+  if (depth > 0) volume.extinction = static_cast<float>(std::clamp(double{kViewDepth} / depth, 1e-6, 1e6));
+  volume.albedo = glm::vec3(frame.heat ? 0.7f : 0.99f);
+  timeline.volumes.push_back(volume);
+
+  // Light, ground and smoke.
+  timeline.sun = options.sun.value_or(kVolumeSun);
+  timeline.exposure = options.exposure.value_or(0);
+  timeline.tone = options.tone.value_or(timeline.tone);
+  if (frame.heat) timeline.ground = 0.0f;
+  timeline.grid.voxel =
+      options.voxel.value_or(std::clamp(extent * volume.scale / kVoxelsAcross, 0.015625f, 64.0f));
+  timeline.smokes = options.smokes;
+  return timeline;
+}
+
+}  // namespace brume::scenario
