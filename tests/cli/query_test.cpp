@@ -163,7 +163,7 @@ TEST_F(Query, RejectsInvalidArguments) {
   refuses(across({"--time", "1", "--spread", "2"}), 2, "--report");
   refuses(across({"--report", "--shots-at", "1"}), 2, "--shots-at: requires --shots");
   refuses(across({"--report", "--times", "3-1"}), 2, "--times");
-  refuses(across({"--time", "1", "--scale", "2"}), 2, "--scale");
+  refuses(across({"--time", "1", "--scale", "0"}), 2, "--scale");
   refuses(across({"--report", "--times", "0-nan"}), 2, "--times");
   refuses(across({"--time", "1", "--threshold", "-2"}), 2, "--threshold");
   refuses({"--from", "0,nan,0", "--to", "1,1,1", "--time", "1"}, 2, "--from");
