@@ -449,6 +449,10 @@ void Recorder::draw_indexed(const Buffer& indices, std::uint32_t count, std::uin
   context_.vk().CmdDrawIndexed(commands_, count, 1, first, first_vertex, 0);
 }
 
+void Recorder::draw(std::uint32_t vertex_count) {
+  context_.vk().CmdDraw(commands_, vertex_count, 1, 0, 0);
+}
+
 void Recorder::set_culling(bool back_faces) {
   context_.vk().CmdSetCullMode(commands_, back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
 }
