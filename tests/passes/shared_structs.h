@@ -2,6 +2,7 @@
 #ifndef BRUME_SHARED_STRUCTS_H
 #define BRUME_SHARED_STRUCTS_H
 #include "shared/accumulate.h"
+#include "shared/cloud.h"
 #include "shared/dda.h"
 #include "shared/debug_view.h"
 #include "shared/display.h"
@@ -15,6 +16,7 @@
 #include "shared/noise.h"
 #include "shared/noise_advection.h"
 #include "shared/phase.h"
+#include "shared/raycast.h"
 #include "shared/resolve.h"
 #include "shared/scattering.h"
 #include "shared/sky_light.h"
@@ -77,7 +79,12 @@
   X(46, FrameMedia)           \
   X(47, VolumeInstance)       \
   X(48, VolumeLook)           \
-  X(49, UpscaleConstants)
+  X(49, UpscaleConstants)     \
+  X(50, CloudShape)           \
+  X(51, CloudParams)          \
+  X(52, RaycastView)          \
+  X(53, RaycastVolume)        \
+  X(54, RaycastDraw)
 // clang-format on
 
 #endif
