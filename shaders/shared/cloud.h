@@ -49,8 +49,10 @@ SHARED_FUNCTION float edge_ramp(uint hash, vec3 offset) {
 }
 
 /// Gradient noise on the integer lattice with quintic weights (Perlin 2002, "Improving Noise"). A hash of the lattice
-/// point replaces the permutation table, so that it does not repeat. Mean 0; 0 at lattice points.
+/// point replaces the permutation table, so that it does not repeat. Mean 0; 0 at lattice points, and so from 2^23 cells
+/// on, where floats are whole numbers.
 SHARED_FUNCTION float lattice_noise(vec3 p, uint seed) {
+  if (max(abs(p.x), max(abs(p.y), abs(p.z))) >= 8388608.0f) return 0.0f;
   vec3 cell = floor(p), f = p - cell;
   vec3 w = f * f * f * (f * (f * 6.0f - 15.0f) + 10.0f);
   uvec3 first = uvec3(ivec3(cell)) + seed * uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
