@@ -5,6 +5,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "core/error.hpp"
+#include "grids/files.hpp"
 #include "image/decode.hpp"
 #include "scene/load.hpp"
 #include "voxel/vxl_file.hpp"
@@ -47,11 +48,13 @@ Summary replay_summary(const std::filesystem::path& path) {
 
 Summary summary_of(const std::filesystem::path& path, bool check, Outputs& outputs) {
   expect_suffix("", path,
-                {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".png", ".jpg", ".jpeg", ".webp"});
+                {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".png",
+                 ".jpg", ".jpeg", ".webp"});
   const std::string extension = scene::lower_extension(path);
   if (extension == ".toml") return timeline_summary(path, check, outputs);
   if (extension == ".vxl") return voxel_summary(path);
   if (extension == ".brp") return replay_summary(path);
+  if (grids::is_grid_file(path)) return grids_summary(path);
   if (extension == ".txt" || extension == ".gltf" || extension == ".glb" || extension == ".obj")
     return scene_summary(path, outputs);
   return image_summary(path);
@@ -102,10 +105,12 @@ Command add_info(CommandLine& program) {
     std::string input, json;
     bool check = false;
   };
-  Command command = declare(program, "info", "Summarizes a scene, timeline, voxel, recording or image file.",
-                            "  brume info room.glb\n"
-                            "  brume info scenes/demo.toml --check\n"
-                            "  brume info room.vxl --json -");
+  Command command =
+      declare(program, "info", "Summarizes a scene, timeline, voxel, volume, recording or image file.",
+              "  brume info room.glb\n"
+              "  brume info scenes/demo.toml --check\n"
+              "  brume info room.vxl --json -\n"
+              "  brume info smoke.vdb");
   auto options = std::make_shared<Options>();
   command.arguments.add_option("FILE", options->input, "The file to summarize").required().type_name("");
   command.arguments.add_flag(

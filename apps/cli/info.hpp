@@ -19,6 +19,8 @@ class Summary {
   explicit Summary(const std::string& kind);
   void add(const std::string& key, const Json& value);
   void add(const std::string& key, const Json& value, const std::string& text);
+  /// A value that the lines express in another way.
+  void set(const std::string& key, const Json& value) { json_.set(key, value); }
   /// A line that JSON expresses in another way.
   void add_line(const std::string& name, const std::string& text);
   const Json& json() const { return json_; }
@@ -42,5 +44,8 @@ Summary scene_summary(const std::filesystem::path& path, Outputs& outputs);
 /// A timeline: its events and, if its files exist, grid, doors and what happens to each smoke; otherwise a
 /// warning or, with `check`, an Error (bad_input).
 Summary timeline_summary(const std::filesystem::path& path, bool check, Outputs& outputs);
+
+/// The grids of a volume file. Throws Error.
+Summary grids_summary(const std::filesystem::path& path);
 
 }  // namespace brume::cli

@@ -4,20 +4,13 @@
 // brume-vdb, a child process with limits that speaks .brv over a pipe: their readers crash on damaged files.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 
 #include "core/error.hpp"
 #include "grids/grid.hpp"
+#include "grids/limits.hpp"
 
 namespace brume::grids {
-
-/// Beyond these a file is refused (resource_limit) before anything of that size is allocated.
-struct GridLimits {
-  std::uint64_t bytes = 1ull << 33;          ///< Of memory_of() all grids.
-  std::uint64_t active_voxels = 1ull << 33;  ///< Of a grid, tiles included.
-  double seconds = 600;                      ///< Processor time of the child process.
-};
 
 /// Whether a file holds volume grids, by its suffix in any case.
 bool is_grid_file(const std::filesystem::path& path);

@@ -1,14 +1,9 @@
 #include "image/video.hpp"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -17,29 +12,11 @@
 #include <vector>
 
 #include "core/atomic_file.hpp"
+#include "core/child_process.hpp"
 #include "image/formats.hpp"
 
 namespace brume::image {
 namespace {
-
-class Descriptor {
- public:
-  explicit Descriptor(int value = -1) : value_(value) {}
-  Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    close();
-    value_ = std::exchange(other.value_, -1);
-    return *this;
-  }
-  ~Descriptor() { close(); }
-  int get() const { return value_; }
-  void close() {
-    if (value_ >= 0) ::close(std::exchange(value_, -1));
-  }
-
- private:
-  int value_;
-};
 
 std::vector<std::string> ffmpeg_arguments(const VideoOptions& options, const std::string& output) {
   const std::string rate =
@@ -58,38 +35,20 @@ std::vector<std::string> ffmpeg_arguments(const VideoOptions& options, const std
           output};
 }
 
-std::string last_line(const std::string& text) {
-  const std::size_t end = text.find_last_not_of("\r\n");
-  if (end == std::string::npos) return "";
-  const std::size_t begin = text.find_last_of("\r\n", end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin + 1) + 1);
-}
-
 }  // namespace
 
 struct VideoWriter::Encoder {
   std::filesystem::path path;
   VideoOptions options;
   AtomicFile file;
-  Descriptor frames;    // Our end of ffmpeg's standard input.
-  Descriptor messages;  // ffmpeg's messages: a file in memory, which unlike a pipe never fills up.
-  pid_t process = -1;
+  Descriptor frames;  // Our end of ffmpeg's standard input.
+  ChildProcess process;
   std::vector<std::uint8_t> rgb;
 
   Encoder(std::filesystem::path target, const VideoOptions& film, AtomicFile&& output)
       : path(std::move(target)), options(film), file(std::move(output)) {}
-  Encoder(const Encoder&) = delete;
-  ~Encoder() {
-    if (process <= 0) return;
-    ::kill(process, SIGKILL);
-    wait_for_end();
-  }
 
   Result<void> start();
-  int spawn(char* const* arguments, int input);
-  int wait_for_end();
-  /// The end of ffmpeg's messages.
-  std::string last_messages() const;
   /// The failure, once ffmpeg has exited.
   Failure stopped(int status) const;
 };
@@ -103,16 +62,11 @@ Result<void> VideoWriter::Encoder::start() {
   }
   frames = Descriptor(ends[0]);
   const Descriptor child_end(ends[1]);
-  messages = Descriptor(::memfd_create("messages", MFD_CLOEXEC));
 
   // Start it. It writes to our open file, which has no name that a killed program could leave behind.
-  std::vector<std::string> arguments =
-      ffmpeg_arguments(options, "file:/proc/self/fd/" + std::to_string(file.descriptor()));
-  std::vector<char*> pointers;
-  pointers.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  const int error = spawn(pointers.data(), child_end.get());
+  const int error =
+      process.start(ffmpeg_arguments(options, "file:/proc/self/fd/" + std::to_string(file.descriptor())),
+                    {.input = child_end.get(), .inherited = file.descriptor()});
   if (error == 0) return {};
   if (error == ENOENT) {
     return Failure{ErrorCode::no_device,
@@ -123,57 +77,8 @@ Result<void> VideoWriter::Encoder::start() {
   return Failure{ErrorCode::internal, path.string() + ": cannot start ffmpeg: " + std::strerror(error)};
 }
 
-// Not posix_spawn, which cannot tie the child's life to ours. Returns 0 or an errno.
-int VideoWriter::Encoder::spawn(char* const* arguments, int input) {
-  std::array<int, 2> ends{};  // The child's errno; closed without one by a successful exec.
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return errno;
-  const Descriptor failed(ends[0]);
-  Descriptor report(ends[1]);
-  const pid_t parent = ::getpid();
-  process = ::fork();
-  if (process < 0) return errno;
-  if (process == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);  // It was gone before prctl.
-    ::setpgid(0, 0);                        // Ctrl-C reaches only us, and we stop it.
-    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-    const bool ready = ::dup2(input, STDIN_FILENO) >= 0 && ::dup2(nowhere, STDOUT_FILENO) >= 0 &&
-                       ::dup2(messages.get(), STDERR_FILENO) >= 0 &&
-                       ::fcntl(file.descriptor(), F_SETFD, 0) == 0;
-    if (ready) ::execvp("ffmpeg", arguments);
-    const int error = errno;
-    (void)!::write(report.get(), &error, sizeof error);
-    ::_exit(127);
-  }
-  report.close();
-  int error = 0;
-  ssize_t got = 0;
-  do got = ::read(failed.get(), &error, sizeof error);
-  while (got < 0 && errno == EINTR);
-  if (got <= 0) return 0;
-  wait_for_end();
-  return error;
-}
-
-int VideoWriter::Encoder::wait_for_end() {
-  int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  process = -1;
-  return status;
-}
-
-std::string VideoWriter::Encoder::last_messages() const {
-  std::string text(4096, '\0');
-  const off_t length = ::lseek(messages.get(), 0, SEEK_END);
-  const off_t begin = std::max<off_t>(0, length - static_cast<off_t>(text.size()));
-  const ssize_t got = ::pread(messages.get(), text.data(), text.size(), begin);
-  text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-  return text;
-}
-
 Failure VideoWriter::Encoder::stopped(int status) const {
-  const std::string text = last_messages();
+  const std::string text = process.messages();
   std::string reason = last_line(text);
   bool full = WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ;
   for (const int error : {ENOSPC, EDQUOT, EFBIG})
@@ -208,7 +113,7 @@ Result<VideoWriter> VideoWriter::open(const std::filesystem::path& path, const V
 }
 
 Result<void> VideoWriter::add_frame(const Image8& frame) {
-  BRUME_ASSERT(encoder_ && encoder_->process > 0, "after finish or a failure");
+  BRUME_ASSERT(encoder_ && encoder_->process.running(), "after finish or a failure");
   BRUME_ASSERT(frame.width == encoder_->options.width && frame.height == encoder_->options.height,
                std::to_string(frame.width) + "x" + std::to_string(frame.height));
   std::vector<std::uint8_t>& rgb = encoder_->rgb;
@@ -219,18 +124,18 @@ Result<void> VideoWriter::add_frame(const Image8& frame) {
   for (std::size_t done = 0; done < rgb.size();) {
     const ssize_t put = ::send(encoder_->frames.get(), &rgb[done], rgb.size() - done, MSG_NOSIGNAL);
     if (put < 0 && errno == EINTR) continue;
-    if (put < 0) return encoder_->stopped(encoder_->wait_for_end());
+    if (put < 0) return encoder_->stopped(encoder_->process.wait());
     done += static_cast<std::size_t>(put);
   }
   return {};
 }
 
 Result<void> VideoWriter::finish() {
-  BRUME_ASSERT(encoder_ && encoder_->process > 0, "after finish or a failure");
+  BRUME_ASSERT(encoder_ && encoder_->process.running(), "after finish or a failure");
   encoder_->frames.close();  // End of input: ffmpeg completes the file and exits.
-  const int status = encoder_->wait_for_end();
+  const int status = encoder_->process.wait();
   // An error message counts even when the exit code is 0.
-  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && encoder_->last_messages().empty();
+  const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && encoder_->process.messages().empty();
   if (!well) return encoder_->stopped(status);
   return encoder_->file.commit();
 }

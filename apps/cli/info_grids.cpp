@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "apps/cli/info.hpp"
+#include "grids/files.hpp"
+
+namespace brume::cli {
+namespace {
+
+using grids::Grid;
+using grids::kBrickVoxels;
+using grids::ValueType;
+
+constexpr std::size_t kBins = 16;
+
+/// The distribution of the values of a grid's active voxels; of vectors, of their lengths.
+struct Values {
+  bool any = false;  ///< Whether one is a number.
+  double low = 0, high = 0;
+  std::array<std::uint64_t, kBins> histogram{};  ///< Voxels in equal parts of [low, high].
+};
+
+template <typename T>
+T read_as(const std::byte* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
+
+double number_of(ValueType type, const std::byte* bytes) {
+  switch (type) {
+    case ValueType::float32:
+      return static_cast<double>(read_as<float>(bytes));
+    case ValueType::float64:
+      return read_as<double>(bytes);
+    case ValueType::int32:
+      return static_cast<double>(read_as<std::int32_t>(bytes));
+    case ValueType::int64:
+      return static_cast<double>(read_as<std::int64_t>(bytes));
+    case ValueType::boolean:
+      return static_cast<double>(read_as<std::uint8_t>(bytes));
+    case ValueType::mask:
+      return 1;
+    case ValueType::vec3f:
+      return glm::length(glm::dvec3(read_as<glm::vec3>(bytes)));
+    case ValueType::vec3d:
+      return glm::length(read_as<glm::dvec3>(bytes));
+    case ValueType::vec3i:
+      return glm::length(glm::dvec3(read_as<glm::ivec3>(bytes)));
+  }
+  return 0;
+}
+
+// Calls `use` with each finite value of active voxels, and how many voxels have it.
+void for_each_value(const Grid& grid, const std::function<void(double, std::uint64_t)>& use) {
+  const std::size_t bytes = bytes_of(grid.type);
+  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
+    const std::byte* values = grid.values_of(i).data();
+    for (std::size_t z = 0; z < grid.bricks[i].active.size(); ++z)
+      for (std::uint64_t word = grid.bricks[i].active[z]; word != 0; word &= word - 1) {
+        const std::size_t voxel = z * 64 + static_cast<std::size_t>(std::countr_zero(word));
+        const double value = number_of(grid.type, values + voxel * bytes);
+        if (std::isfinite(value)) use(value, 1);
+      }
+  }
+  for (const grids::Tile& tile : grid.tiles) {
+    const double value = number_of(grid.type, tile.value.data());
+    if (tile.active && std::isfinite(value)) use(value, std::uint64_t{tile.edge} * tile.edge * tile.edge);
+  }
+}
+
+Values values_of(const Grid& grid) {
+  Values values{false, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), {}};
+  for_each_value(grid, [&](double value, std::uint64_t) {
+    values.any = true;
+    values.low = std::min(values.low, value);
+    values.high = std::max(values.high, value);
+  });
+  if (!values.any) return values;
+  const double range = values.high - values.low;
+  for_each_value(grid, [&](double value, std::uint64_t count) {
+    const double part = range > 0 ? (value - values.low) / range * kBins : 0;
+    values.histogram[std::min(static_cast<std::size_t>(part), kBins - 1)] += count;
+  });
+  return values;
+}
+
+// One character per bin, as dark as it is full.
+std::string histogram_text(const Values& values) {
+  constexpr std::string_view kShades = " .:-=+*#%@";
+  const std::uint64_t most = *std::max_element(values.histogram.begin(), values.histogram.end());
+  std::string text;
+  for (const std::uint64_t count : values.histogram) {
+    const double part = static_cast<double>(count) / static_cast<double>(std::max<std::uint64_t>(most, 1));
+    // What is not empty is visible.
+    const auto shade = static_cast<std::size_t>(std::ceil(part * static_cast<double>(kShades.size() - 1)));
+    text += kShades[shade];
+  }
+  return "[" + text + "]";
+}
+
+std::string format(const char* pattern, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
+std::string vector_text(const glm::dvec3& v) {
+  return format("%.6g", v.x) + "," + format("%.6g", v.y) + "," + format("%.6g", v.z);
+}
+
+Json vector_json(const glm::dvec3& v) {
+  return Json::list({v.x, v.y, v.z});
+}
+
+Json box_json(const Box<double>& box) {
+  return Json{{"min", vector_json(box.low)}, {"max", vector_json(box.high)}};
+}
+
+std::string box_text(const Box<double>& box) {
+  return vector_text(box.low) + " to " + vector_text(box.high);
+}
+
+// Around the corners of a box in index space.
+Box<double> in_world(const Grid& grid, const Box<double>& box) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Box<double> world{glm::dvec3(kFar), glm::dvec3(-kFar)};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 at(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                        corner & 4 ? box.high.z : box.low.z);
+    const glm::dvec3 p(grid.world_from_index * glm::dvec4(at, 1));
+    world.low = glm::min(world.low, p);
+    world.high = glm::max(world.high, p);
+  }
+  return world;
+}
+
+// A name from a file, which may hold anything, on one line.
+std::string printable(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return name;
+}
+
+glm::dvec3 voxel_size(const Grid& grid) {
+  const glm::dmat3 axes(grid.world_from_index);
+  return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
+}
+
+Json add_grid(Summary& summary, const Grid& grid) {
+  const std::uint64_t active = count_active(grid);
+  const Box<double> bounds = active_bounds(grid);
+  const Values values = values_of(grid);
+
+  // As text.
+  summary.add_line("", "");
+  summary.add_line(printable(grid.name), std::string(name_of(grid.type)) + ", " + name_of(grid.grid_class) +
+                                             (grid.saved_as_half ? ", saved in half precision" : ""));
+  summary.add_line("  active", std::to_string(active) + " voxels; " + std::to_string(grid.bricks.size()) +
+                                   " bricks, " + std::to_string(grid.tiles.size()) + " tiles");
+  if (active > 0) {
+    summary.add_line("  index", box_text(bounds));
+    summary.add_line("  world", box_text(in_world(grid, bounds)));
+  }
+  summary.add_line("  voxel size", vector_text(voxel_size(grid)));
+  if (values.any)
+    summary.add_line("  values", format("%.6g", values.low) + " " + histogram_text(values) + " " +
+                                     format("%.6g", values.high));
+  summary.add_line("  memory", format("%.1f MiB", static_cast<double>(memory_of(grid)) / (1 << 20)));
+
+  // As JSON.
+  Json histogram = Json::list({});
+  for (const std::uint64_t count : values.histogram) histogram.push_back(count);
+  Json json{{"name", grid.name},
+            {"type", name_of(grid.type)},
+            {"class", name_of(grid.grid_class)},
+            {"saved_as_half", grid.saved_as_half},
+            {"active_voxels", active},
+            {"bricks", grid.bricks.size()},
+            {"tiles", grid.tiles.size()},
+            {"index_bounds", active > 0 ? box_json(bounds) : Json(nullptr)},
+            {"world_bounds", active > 0 ? box_json(in_world(grid, bounds)) : Json(nullptr)},
+            {"voxel_size", vector_json(voxel_size(grid))},
+            {"min", values.any ? Json(values.low) : Json(nullptr)},
+            {"max", values.any ? Json(values.high) : Json(nullptr)},
+            {"histogram", histogram},
+            {"memory_bytes", memory_of(grid)}};
+  return json;
+}
+
+}  // namespace
+
+Summary grids_summary(const std::filesystem::path& path) {
+  const grids::GridFile file = grids::load_grid_file(path).value_or_throw();
+  Summary summary("volumes");
+  Json list = Json::list({});
+  for (const Grid& grid : file.grids) list.push_back(add_grid(summary, grid));
+  summary.set("grids", list);
+  return summary;
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,192 @@
+#include "grids/worker.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/atomic_file.hpp"
+#include "core/child_process.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+#include "core/progress.hpp"
+#include "grids/brv_file.hpp"
+#include "grids/suffix.hpp"
+
+namespace brume::grids {
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::vector<std::byte>;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kPrefix = "brume-vdb: ";
+constexpr const char* kWarning = "warning: ";
+constexpr std::size_t kMaxWarnings = 8;
+constexpr std::size_t kReadBytes = 1 << 20;
+/// A child whose processor time is used up ends by itself. This ends one that hangs otherwise: it gives a
+/// machine with other work this many times as long, and never less than a minute.
+constexpr double kWallFactor = 10, kLeastWallSeconds = 60;
+
+std::string program() {
+  if (const char* named = std::getenv("BRUME_VDB"); named != nullptr && *named != '\0') return named;
+  std::error_code ignored;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "brume-vdb";
+  return fs::exists(beside, ignored) ? beside.string() : "brume-vdb";
+}
+
+Failure cannot_start(const fs::path& path, int error) {
+  if (error == ENOENT)
+    return {ErrorCode::no_device, path.string() +
+                                      ": requires the program brume-vdb, which is neither beside "
+                                      "brume nor on the PATH; install it with cmake --install"};
+  return {ErrorCode::internal, path.string() + ": cannot start brume-vdb: " + std::strerror(error)};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind(kPrefix, 0) == 0) lines.push_back(line.substr(std::strlen(kPrefix)));
+  return lines;
+}
+
+void pass_warnings(const fs::path& path, const std::string& messages) {
+  std::size_t count = 0;
+  for (const std::string& line : lines_of(messages))
+    if (line.rfind(kWarning, 0) == 0 && count++ < kMaxWarnings)
+      log_warning(path.string() + ": " + line.substr(std::strlen(kWarning)));
+}
+
+// Why the child ended without success.
+Failure failure_of(const fs::path& path, int status, const std::string& messages) {
+  const std::string file = path.string();
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    if (signal == SIGXCPU || signal == SIGKILL)
+      return {ErrorCode::resource_limit,
+              file + (signal == SIGXCPU ? ": takes more processor time than a file of its size may"
+                                        : ": brume-vdb was killed; is there enough memory?")};
+    if (signal == SIGXFSZ) return system_failure(path, "write", EFBIG);
+    return {ErrorCode::bad_input, file + ": OpenVDB's reader crashed on it (signal " +
+                                      std::to_string(signal) + "); the file is damaged"};
+  }
+  const int code = WEXITSTATUS(status);
+  const std::vector<std::string> lines = lines_of(messages);
+  std::string reason = lines.empty() ? last_line(messages) : lines.back();
+  if (reason.empty()) reason = "brume-vdb ended with exit code " + std::to_string(code);
+  const bool known =
+      code == static_cast<int>(ErrorCode::bad_input) || code == static_cast<int>(ErrorCode::resource_limit);
+  return {known ? static_cast<ErrorCode>(code) : ErrorCode::internal, file + ": " + reason};
+}
+
+// All that the child writes until it closes its end; nothing when that is too much or takes too long.
+Result<Bytes> read_all(int descriptor, const fs::path& path, std::uint64_t max_bytes, double max_seconds) {
+  const auto end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_seconds));
+  Bytes bytes;
+  for (std::size_t used = 0;;) {
+    const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+    if (rest <= 0) return Failure{ErrorCode::resource_limit, path.string() + ": brume-vdb does not answer"};
+    pollfd waiting{descriptor, POLLIN, 0};
+    if (::poll(&waiting, 1, static_cast<int>(std::min<std::int64_t>(rest, 1000))) <= 0) continue;
+    if (bytes.size() < used + kReadBytes) bytes.resize(std::max(2 * bytes.size(), used + kReadBytes));
+    const ssize_t got = ::read(descriptor, &bytes[used], bytes.size() - used);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) {
+      bytes.resize(used);
+      return bytes;
+    }
+    used += static_cast<std::size_t>(got);
+    if (used > max_bytes)
+      return Failure{ErrorCode::resource_limit,
+                     path.string() + ": brume-vdb returned more than the limits allow"};
+  }
+}
+
+}  // namespace
+
+Result<GridFile> read_in_child(const fs::path& path, const GridLimits& limits) {
+  // The file exists, and the child can be reached.
+  if (const auto start = read_file_start(path, 1); !start) return start.failure();
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return system_failure(path, "read", errno);
+  const Descriptor results(ends[0]);
+  Descriptor child_end(ends[1]);
+  ChildProcess child;
+  const int error = child.start(
+      {program(), "read", path.string(), "--bytes", std::to_string(limits.bytes), "--active-voxels",
+       std::to_string(limits.active_voxels), "--seconds", std::to_string(limits.seconds)},
+      {.output = child_end.get()});
+  if (error != 0) return cannot_start(path, error);
+  child_end.close();
+
+  // Its bytes. The directory takes less than the bricks; what is not a volume fits into the rest.
+  const Progress progress("read " + path.filename().string());
+  const auto bytes =
+      read_all(results.get(), path, limits.bytes + limits.bytes / 8 + (std::uint64_t{64} << 20),
+               std::max(kLeastWallSeconds, kWallFactor * limits.seconds));
+  if (!bytes) return bytes.failure();
+  const int status = child.wait();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return failure_of(path, status, child.messages());
+  pass_warnings(path, child.messages());
+  auto file = decode_brv(*bytes, limits);
+  if (file) return file;
+  return Failure{file.failure().code, path.string() + ": " + file.failure().message};
+}
+
+Result<void> write_in_child(const fs::path& path, const GridFile& file) {
+  auto target = AtomicFile::open(path);
+  if (!target) return target.failure();
+
+  // A socket pair instead of a pipe: MSG_NOSIGNAL avoids SIGPIPE when the child ends early.
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    return system_failure(path, "write", errno);
+  Descriptor ours(ends[0]);
+  Descriptor child_end(ends[1]);
+  ChildProcess child;
+  const int error = child.start({program(), "write", lower_suffix(path).substr(1)},
+                                {.input = child_end.get(), .output = target->descriptor()});
+  if (error != 0) return cannot_start(path, error);
+  child_end.close();
+
+  // It writes to our open file, which has no name until it is complete.
+  const Progress progress("write " + path.filename().string());
+  bool closed = false;
+  BrvWriter writer(
+      [&](std::span<const std::byte> bytes) {
+        while (!bytes.empty() && !closed) {
+          const ssize_t put = ::send(ours.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+          if (put < 0 && errno == EINTR) continue;
+          closed = put < 0;  // Why, its exit code tells.
+          if (!closed) bytes = bytes.subspan(static_cast<std::size_t>(put));
+        }
+        return Result<void>();
+      },
+      {.compression_level = 0});
+  for (const Grid& grid : file.grids) {
+    const auto added = writer.add(grid);
+    if (!added) return Failure{added.failure().code, path.string() + ": " + added.failure().message};
+  }
+  if (auto finished = writer.finish(file.metadata); !finished) return finished;
+  ours.close();
+  const int status = child.wait();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return failure_of(path, status, child.messages());
+  pass_warnings(path, child.messages());
+  return target->commit();
+}
+
+}  // namespace brume::grids
