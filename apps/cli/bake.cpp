@@ -50,7 +50,7 @@ grids::CloudSettings settings_of(const BakeOptions& options) {
   const auto shape = std::find(kShapes.begin(), kShapes.end(), options.shape) - kShapes.begin();
   cloud.kind = static_cast<grids::CloudKind>(shape);
   const double side = cloud.edge * cloud.voxel_size;
-  cloud.radius = options.radius.value_or(side * (cloud.kind == grids::CloudKind::pyroclastic ? 0.25 : 0.4));
+  cloud.radius = options.radius.value_or(side * (cloud.kind == grids::CloudKind::pyroclastic ? 0.28 : 0.4));
   cloud.edge_width = options.binary ? 0 : options.softness.value_or(2 * cloud.voxel_size);
   return cloud;
 }
@@ -157,7 +157,7 @@ void add_shape_options(const Arguments& arguments, BakeOptions& options) {
   arguments
       .add_option(
           "--radius", options.radius,
-          "Radius [m], of a pyroclastic cloud before its displacement; default: 0.25 of the cube's side, "
+          "Radius [m], of a pyroclastic cloud before its displacement; default: 0.28 of the cube's side, "
           "0.4 for the other shapes")
       .range(1e-6, 1e9)
       .type_name("M");
@@ -173,8 +173,7 @@ void add_shape_options(const Arguments& arguments, BakeOptions& options) {
   arguments.add_option("--octaves", cloud.octaves, "Octaves of the noise; default 6")
       .range(1u, grids::kMaxCloudOctaves)
       .type_name("N");
-  arguments
-      .add_option("--amplitude", cloud.amplitude, "Displacement where |fBm| is 1, in radii; default 0.75")
+  arguments.add_option("--amplitude", cloud.amplitude, "Displacement where |fBm| is 1, in radii; default 0.6")
       .range(0.0, 10.0)
       .type_name("X");
   arguments

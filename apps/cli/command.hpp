@@ -40,6 +40,7 @@ Command add_demo(CommandLine& program);
 Command add_render(CommandLine& program);
 Command add_sim(CommandLine& program);
 Command add_voxelize(CommandLine& program);
+Command add_bake(CommandLine& program);
 Command add_info(CommandLine& program);
 Command add_diff(CommandLine& program);
 Command add_query(CommandLine& program);

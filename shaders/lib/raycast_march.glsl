@@ -1,8 +1,8 @@
 // The march that both forms of raycasting share, so that they step alike.
 //
-// Steps lie on a lattice of the ray, [n ds, (n + 1) ds) from the eye, clipped to the interval inside the volume; each is
-// sampled in its middle. What a step weighs and where it is sampled are continuous functions of the interval's ends, so
-// that rounding of the ends cannot change a pixel visibly.
+// Steps lie on a lattice of the ray, [n ds, (n + 1) ds) from the eye, clipped to the interval inside the volume; each
+// is sampled in its middle. What a step weighs and where it is sampled are continuous functions of the interval's ends,
+// so that rounding of the ends cannot change a pixel visibly.
 #ifndef RAYCAST_MARCH_GLSL
 #define RAYCAST_MARCH_GLSL
 #include "lib/volume_bricks.glsl"

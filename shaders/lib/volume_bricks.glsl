@@ -6,7 +6,7 @@
 layout(scalar, binding = kBindVolumePages) readonly buffer VolumePages { uint volume_pages[]; };
 layout(binding = kBindVolumeDensity) uniform sampler3D volume_density_atlas;
 
-/// The slot of a brick, or kNoSlot; then `empty_edge` is that of the empty cube around it, aligned to its size [voxels].
+/// The slot of a brick, or kNoSlot; then `empty_edge` is that of the empty cube around it, aligned to it [voxels].
 uint volume_slot_at(BrickLayout bricks, ivec3 brick, out int empty_edge) {
   empty_edge = kBrickVoxels * kNodeBricks;
   const uint root = root_page(bricks, brick);

@@ -49,8 +49,8 @@ SHARED_FUNCTION float edge_ramp(uint hash, vec3 offset) {
 }
 
 /// Gradient noise on the integer lattice with quintic weights (Perlin 2002, "Improving Noise"). A hash of the lattice
-/// point replaces the permutation table, so that it does not repeat. Mean 0; 0 at lattice points, and so from 2^23 cells
-/// on, where floats are whole numbers.
+/// point replaces the permutation table, so that it does not repeat. Mean 0; 0 at lattice points, and so from 2^23
+/// cells on, where floats are whole numbers.
 SHARED_FUNCTION float lattice_noise(vec3 p, uint seed) {
   if (max(abs(p.x), max(abs(p.y), abs(p.z))) >= 8388608.0f) return 0.0f;
   vec3 cell = floor(p), f = p - cell;
@@ -81,9 +81,9 @@ SHARED_FUNCTION float cloud_fbm(CloudShape shape, vec3 p) {
 /// How deep a point lies behind the surface [m]; below 0 outside.
 ///
 /// Pyroclastic: a sphere displaced outwards by the absolute value of fBm, which folds the noise into billows with
-/// creases between them (M. Wrenninge, N. Bin Zafar et al., "Volumetric Methods in Visual Effects", SIGGRAPH 2010 course
-/// notes; J. Tessendorf and M. Kowalski, "Resolution Independent Volumes", SIGGRAPH 2011 course notes). The noise is
-/// that of the point itself, as in the demo of P. Rideout, "Single-Pass Raycasting", 2011.
+/// creases between them (SIGGRAPH 2010 course "Volumetric Methods in Visual Effects"; J. Tessendorf and M. Kowalski,
+/// "Resolution Independent Volumes"). The noise is that of the point itself, not of the sphere's surface below it, as
+/// in the demo of P. Rideout, "Single-Pass Raycasting", 2011: billows overhang, and small ones may float.
 SHARED_FUNCTION float cloud_depth(CloudShape shape, vec3 p) {
   if (shape.kind == kCloudSlab) {
     vec3 inside = shape.radius * vec3(1.0f, 0.25f, 1.0f) - abs(p);

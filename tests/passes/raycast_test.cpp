@@ -6,33 +6,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "planning/device_camera.hpp"
-#include "tests/gpu/gpu_test.hpp"
-#include "tests/passes/half.hpp"
+#include "tests/passes/raycast_fixture.hpp"
 #include "tests/reference/raycast.hpp"
 
 namespace brume::passes {
 namespace {
-
-using volume::SparseVolume;
-
-/// Of a voxel's density by its index; bricks with `has` only, and aprons that continue it.
-template <typename Has, typename Density>
-SparseVolume make_volume(glm::ivec3 bricks, Has has, Density density) {
-  SparseVolume volume({{}, 1, {{sizeof(std::uint16_t)}}});
-  volume.begin_update();
-  for_each_in(Box<int>{glm::ivec3(0), bricks}, [&](glm::ivec3 brick) {
-    if (!has(brick)) return;
-    auto texels = volume.texels<std::uint16_t>(volume::ChannelId{0}, volume.acquire(brick));
-    for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(10)}, [&](glm::ivec3 t) {
-      texels[static_cast<std::size_t>(t.x + 10 * (t.y + 10 * t.z))] =
-          glm::packHalf1x16(density(8 * brick + t - 1));
-    });
-  });
-  volume.set_bounds(glm::vec3(0), glm::vec3(8 * bricks));
-  volume.end_update();
-  return volume;
-}
 
 /// Density 1 everywhere in its bounds.
 SparseVolume solid_block(glm::ivec3 bricks) {
@@ -54,67 +32,9 @@ SparseVolume billows(glm::ivec3 bricks) {
   });
 }
 
-/// A volume in the world, seen by a camera.
-struct Placed {
-  const SparseVolume* volume;
-  glm::mat4 world_from_voxel{1};
-  shared::VolumeLook look{glm::vec3(0.8f), 1, glm::vec3(0)};
-};
-
-class RaycastTest : public gpu::GpuTest {
+class RaycastTest : public RaycastFixture {
  protected:
-  RaycastTest() {
-    light_.to_sun = glm::normalize(glm::vec3(0.4f, 0.8f, 0.3f));
-    light_.sun_irradiance = glm::vec3(6, 5, 4);
-    light_.ambient = glm::vec3(0.1f, 0.15f, 0.2f);
-    light_.phase = shared::phase_of_hg(0.3f);
-    depth_ = depth_image(std::vector(size_.x * size_.y, 0.0f));
-  }
-
-  gpu::Image depth_image(const std::vector<float>& depth) {
-    return upload_image(context(), runner(), size_, VK_FORMAT_R32_SFLOAT, depth);
-  }
-  RaycastPass& pass(RaycastForm form) {
-    static RaycastPass two(context(), RaycastForm::two_pass, kSize),
-        single(context(), RaycastForm::single_pass, kSize);
-    return form == RaycastForm::two_pass ? two : single;
-  }
-  shared::Camera device_camera() const { return planning::device_camera(camera_, size_); }
-
-  /// Instances of the volumes, without their bricks.
-  static std::vector<planning::VisibleVolume> visible(const std::vector<Placed>& placed) {
-    std::vector<planning::VisibleVolume> visible;
-    for (const Placed& one : placed) {
-      shared::VolumeInstance instance{};
-      instance.voxel_from_world = glm::mat4x3(glm::mat4(glm::inverse(glm::dmat4(one.world_from_voxel))));
-      instance.bounds_min = one.volume->layout().bounds_min;
-      instance.bounds_max = one.volume->layout().bounds_max;
-      instance.look = one.look;
-      visible.push_back({visible.size(), instance});
-    }
-    return visible;
-  }
-
-  /// Premultiplied radiance and transmittance of each pixel.
-  std::vector<glm::vec4> draw(RaycastForm form, const std::vector<Placed>& placed) {
-    std::vector<planning::VolumeInput> inputs;
-    for (const Placed& one : placed) inputs.push_back({one.volume, one.world_from_voxel, one.look});
-    const auto in_view = visible(placed);
-    upload_.reserve(inputs);
-    gpu::ImageInfo info;
-    info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-    info.size = {size_, 1};
-    info.usage = kRaycastTargetUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    const gpu::Image target(context(), info);
-    runner().run([&](gpu::Recorder& recorder) {
-      upload_.record(recorder, inputs, in_view);
-      pass(form).record(recorder, {upload_.resources(), depth_},
-                        plan_raycast(device_camera(), size_, in_view, light_, steps_), target);
-    });
-    std::vector<glm::vec4> pixels;
-    for (const Half4& texel : read_back<Half4>(target)) pixels.push_back(from_half(texel));
-    return pixels;
-  }
+  RaycastTest() : RaycastFixture({37, 21}) {}
 
   /// Unit direction of the ray through a point of the image.
   glm::dvec3 direction(glm::dvec2 position_px) const {
@@ -204,14 +124,7 @@ class RaycastTest : public gpu::GpuTest {
     EXPECT_LT(difference / static_cast<double>(pixels.size()), 2.0 / 2048);
   }
 
-  static constexpr glm::uvec2 kSize{37, 21};
-  glm::uvec2 size_ = kSize;
   std::mt19937 random_{17};
-  scene::Camera camera_{{0, 0, 6}, {0, 0, 0}, 0.9f};
-  RaycastLight light_;
-  RaycastSteps steps_;
-  VolumeUpload upload_{context()};
-  gpu::Image depth_;
 };
 
 TEST_F(RaycastTest, BothFormsAgreeForAnyCameraAndTransform) {
