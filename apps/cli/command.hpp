@@ -41,6 +41,7 @@ Command add_render(CommandLine& program);
 Command add_sim(CommandLine& program);
 Command add_voxelize(CommandLine& program);
 Command add_info(CommandLine& program);
+Command add_convert(CommandLine& program);
 Command add_diff(CommandLine& program);
 Command add_query(CommandLine& program);
 Command add_devices(CommandLine& program);
