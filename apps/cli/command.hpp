@@ -42,6 +42,7 @@ Command add_sim(CommandLine& program);
 Command add_voxelize(CommandLine& program);
 Command add_bake(CommandLine& program);
 Command add_info(CommandLine& program);
+Command add_convert(CommandLine& program);
 Command add_diff(CommandLine& program);
 Command add_query(CommandLine& program);
 Command add_devices(CommandLine& program);

@@ -70,6 +70,8 @@ const char* name_of(FileKind kind) {
       return ".vdb file";
     case FileKind::nvdb:
       return ".nvdb file";
+    case FileKind::raw:
+      return ".raw file";
     case FileKind::json:
       return "JSON file";
     case FileKind::obj:
@@ -102,6 +104,8 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
       return begins_with(start, std::string_view(" BDV\0\0\0\0", 8));
     case FileKind::nvdb:
       return begins_with(start, "NanoVDB");
+    case FileKind::raw:
+      return file.extension() == ".raw";  // An array of numbers begins like anything.
     case FileKind::json:
       return is_json(start, file);
     case FileKind::obj:
