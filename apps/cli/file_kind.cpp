@@ -64,6 +64,14 @@ const char* name_of(FileKind kind) {
       return ".vxl file";
     case FileKind::brp:
       return ".brp file";
+    case FileKind::brv:
+      return ".brv file";
+    case FileKind::vdb:
+      return ".vdb file";
+    case FileKind::nvdb:
+      return ".nvdb file";
+    case FileKind::raw:
+      return ".raw file";
     case FileKind::json:
       return "JSON file";
     case FileKind::obj:
@@ -90,6 +98,14 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
       return begins_with(start, "BRUMEVXL");
     case FileKind::brp:
       return begins_with(start, "BRUMERPL");
+    case FileKind::brv:
+      return begins_with(start, "BRUMEBRV");
+    case FileKind::vdb:
+      return begins_with(start, std::string_view(" BDV\0\0\0\0", 8));
+    case FileKind::nvdb:
+      return begins_with(start, "NanoVDB");
+    case FileKind::raw:
+      return file.extension() == ".raw";  // An array of numbers begins like anything.
     case FileKind::json:
       return is_json(start, file);
     case FileKind::obj:

@@ -4,8 +4,8 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/volumes.hpp"
 #include "core/error.hpp"
-#include "grids/files.hpp"
 #include "image/decode.hpp"
 #include "scene/load.hpp"
 #include "voxel/vxl_file.hpp"
@@ -48,13 +48,13 @@ Summary replay_summary(const std::filesystem::path& path) {
 
 Summary summary_of(const std::filesystem::path& path, bool check, Outputs& outputs) {
   expect_suffix("", path,
-                {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".png",
-                 ".jpg", ".jpeg", ".webp"});
+                {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".json",
+                 ".png", ".jpg", ".jpeg", ".webp"});
   const std::string extension = scene::lower_extension(path);
   if (extension == ".toml") return timeline_summary(path, check, outputs);
   if (extension == ".vxl") return voxel_summary(path);
   if (extension == ".brp") return replay_summary(path);
-  if (grids::is_grid_file(path)) return grids_summary(path);
+  if (is_volume_file(path)) return volume_summary(path, outputs);
   if (extension == ".txt" || extension == ".gltf" || extension == ".glb" || extension == ".obj")
     return scene_summary(path, outputs);
   return image_summary(path);

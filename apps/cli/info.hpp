@@ -46,6 +46,6 @@ Summary scene_summary(const std::filesystem::path& path, Outputs& outputs);
 Summary timeline_summary(const std::filesystem::path& path, bool check, Outputs& outputs);
 
 /// The grids of a volume file. Throws Error.
-Summary grids_summary(const std::filesystem::path& path);
+Summary volume_summary(const std::filesystem::path& path, Outputs& outputs);
 
 }  // namespace brume::cli

@@ -24,7 +24,9 @@ constexpr const char* kAbout =
     "  brume render room.glb -o room.png                 # render a scene with smoke in it\n"
     "  brume sim scenes/demo.toml --hash                 # simulate: the same hashes on every machine\n"
     "  brume voxelize room.glb -o room.vxl --json -      # find the solid voxels of a scene\n"
+    "  brume bake pyroclastic -o cloud.brv               # write a cloud as a volume\n"
     "  brume info room.glb                               # summarize a file\n"
+    "  brume convert smoke.vdb smoke.nvdb                # convert volumes\n"
     "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --time 3   # line of sight\n"
     "  brume diff reference.png test.png                 # compare two images\n"
     "  brume devices                                     # list the Vulkan devices";
@@ -84,9 +86,10 @@ int run(const Command& command, const std::string& json) {
 
 int parse_and_run(int argc, char** argv) {
   CommandLine program(kAbout, "brume", build_facts());
-  const std::array commands{add_demo(program),     add_render(program),  add_sim(program),
-                            add_voxelize(program), add_info(program),    add_query(program),
-                            add_diff(program),     add_devices(program), add_bench(program),
+  const std::array commands{add_demo(program),     add_render(program), add_sim(program),
+                            add_voxelize(program), add_bake(program),   add_info(program),
+                            add_convert(program),  add_query(program),  add_diff(program),
+                            add_devices(program),  add_bench(program),
 #ifdef BRUME_VIEWER
                             add_view(program)
 #endif

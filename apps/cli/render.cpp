@@ -28,7 +28,7 @@ namespace {
 
 struct RenderOptions {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
-                                               view = "none", slice, fps = "24";
+                                               view = "none", slice, fps = "24", raycast;
   SceneOptions scene;
   std::optional<double> time;
   bool temporal = false, resume = false;
@@ -84,6 +84,12 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   Plan plan;
   plan.kind = target_kind(options.output);
   plan.renderer.size_px = parse_size("--size", options.size);
+  if (!options.raycast.empty()) {
+    if (options.march != "full")
+      throw Error(ErrorCode::usage, "--raycast: has a ray per pixel; remove --march");
+    plan.renderer.smoke.raycast =
+        options.raycast == "two-pass" ? passes::RaycastForm::two_pass : passes::RaycastForm::single_pass;
+  }
   plan.renderer.smoke.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
   plan.renderer.smoke.temporal = options.temporal;
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
@@ -186,8 +192,8 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
                            const gpu::DeviceInfo& device, std::uint32_t first) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice, fps,
-               scene_options, time, temporal, resume, step, light_update_fraction, resolve_error_scale] =
-      options;
+               raycast, scene_options, time, temporal, resume, step, light_update_fraction,
+               resolve_error_scale] = options;
 
   // Files.
   std::vector<std::filesystem::path> files = scenario::files_of(scenario);
@@ -200,7 +206,7 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
   }
 
   // RenderOptions and device.
-  std::vector<std::string> texts{device.name, device.driver, size, march, camera, view, slice, fps};
+  std::vector<std::string> texts{device.name, device.driver, size, march, camera, view, slice, fps, raycast};
   const std::vector<std::string> scene = texts_of(scene_options);
   texts.insert(texts.end(), scene.begin(), scene.end());
   for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
@@ -277,6 +283,11 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
                   "Smoke resolution: one ray per pixel, per 2x2 or per 4x4; default full")
       .one_of({"full", "half", "quarter"})
       .type_name("full|half|quarter");
+  arguments
+      .add_option("--raycast", options.raycast,
+                  "Draw volumes one by one without cached light, in one of two forms; see docs/raycasting.md")
+      .one_of({"two-pass", "single-pass"})
+      .type_name("FORM");
   arguments.add_flag("--temporal", options.temporal,
                      "Accumulate the smoke of a film over its frames; a range draws the 32 before it, too");
   arguments

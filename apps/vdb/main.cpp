@@ -42,7 +42,7 @@ constexpr std::uint64_t kMaxGrowth = 4096;
 /// Both trees of a grid, and the bytes on their path to the pipe.
 constexpr std::uint64_t kCopies = 3;
 /// A damaged file may make the libraries count to 2^32. A valid one takes a fraction of this time.
-constexpr double kBaseSeconds = 5, kSecondsPerMiB = 1;
+constexpr double kBaseSeconds = 2, kSecondsPerMiB = 1;
 /// What is written besides the pipe: messages.
 constexpr std::uint64_t kMessageBytes = 65536;
 constexpr unsigned kMaxThreads = 4;

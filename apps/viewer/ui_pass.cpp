@@ -21,7 +21,7 @@ gpu::GraphicsInfo pipeline_info(VkFormat target) {
   info.fragment = &shaders::ui_frag;
   info.colours = {target};
   info.depth = VK_FORMAT_UNDEFINED;
-  info.blend = true;
+  info.blend = gpu::Blend::alpha;
   return info;
 }
 

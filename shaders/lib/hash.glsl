@@ -1,19 +1,7 @@
 // Random numbers from integers.
 #ifndef HASH_GLSL
 #define HASH_GLSL
-
-/// PCG in three dimensions (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering").
-uvec3 pcg3d(uvec3 v) {
-  v = v * 1664525u + 1013904223u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  return v;
-}
+#include "shared/hash.h"
 
 /// Three values in [0, 1).
 vec3 hash3(uvec3 v) { return vec3(pcg3d(v) >> 8u) * (1.0 / 16777216.0); }

@@ -18,14 +18,18 @@ uint volume_slot_at(BrickLayout bricks, ivec3 brick, out int empty_edge) {
   return volume_pages[node_page(bricks, node, brick)] - 1u;
 }
 
+/// The value at a point of a brick.
+float volume_value(BrickLayout bricks, vec3 brick, uint slot, vec3 p_voxel) {
+  const vec3 uvw = (atlas_corner(bricks, slot) + p_voxel - brick * float(kBrickVoxels)) * atlas_texel(bricks);
+  return textureLod(volume_values, uvw, 0.0).r;
+}
+
 /// The value at a point of a volume's voxel space; 0 outside of its bricks.
 float volume_value(BrickLayout bricks, vec3 p_voxel) {
   const vec3 brick = floor(p_voxel / float(kBrickVoxels));
   int empty_edge;
   const uint slot = volume_slot_at(bricks, ivec3(brick), empty_edge);
-  if (slot == kNoSlot) return 0.0;
-  const vec3 uvw = (atlas_corner(bricks, slot) + p_voxel - brick * float(kBrickVoxels)) * atlas_texel(bricks);
-  return textureLod(volume_values, uvw, 0.0).r;
+  return slot == kNoSlot ? 0.0 : volume_value(bricks, brick, slot, p_voxel);
 }
 
 /// Extinction of a volume at a point [1/m].

@@ -47,14 +47,21 @@ VkPipelineRasterizationStateCreateInfo raster_state(const GraphicsInfo& wanted) 
   return raster;
 }
 
-VkPipelineColorBlendAttachmentState colour_state(const GraphicsInfo& wanted) {
+VkPipelineColorBlendAttachmentState colour_state(Blend blend) {
   VkPipelineColorBlendAttachmentState colour{};
   colour.colorWriteMask = 0xf;
-  colour.blendEnable = wanted.blend ? VK_TRUE : VK_FALSE;
-  colour.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-  colour.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-  colour.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-  colour.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  colour.blendEnable = blend != Blend::none ? VK_TRUE : VK_FALSE;
+  if (blend == Blend::medium) {
+    colour.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    colour.dstColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+    colour.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+    colour.dstAlphaBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  } else {
+    colour.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+    colour.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    colour.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    colour.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  }
   return colour;
 }
 
@@ -187,7 +194,7 @@ VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline*
   depth.depthTestEnable = depth.depthWriteEnable = info_.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
   depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
   const std::vector<VkPipelineColorBlendAttachmentState> attachments(info_.colours.size(),
-                                                                     colour_state(info_));
+                                                                     colour_state(info_.blend));
   VkPipelineColorBlendStateCreateInfo blend{};
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());

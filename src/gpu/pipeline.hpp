@@ -71,6 +71,13 @@ class ComputePipeline : public Pipeline {
   std::vector<std::uint32_t> constants_;
 };
 
+/// How a fragment joins the colour behind it.
+enum class Blend {
+  none,
+  alpha,   ///< Alpha of the fragment: its opacity.
+  medium,  ///< Premultiplied radiance and, in alpha, transmittance, in both.
+};
+
 struct GraphicsInfo {
   const ShaderCode* vertex = nullptr;
   const ShaderCode* fragment = nullptr;  ///< null: depth only.
@@ -78,7 +85,7 @@ struct GraphicsInfo {
   VkFormat depth = VK_FORMAT_D32_SFLOAT;  ///< VK_FORMAT_UNDEFINED: no depth.
   float depth_bias_slope = 0;  ///< Pushes surfaces away from the eye (reverse depth) by their slope.
   float depth_bias_constant = 0;
-  bool blend = false;  ///< Alpha blending over the existing colour.
+  Blend blend = Blend::none;
 };
 
 /// Triangles with reverse depth (greater is nearer) and dynamic cull mode; shaders pull vertices from

@@ -449,6 +449,10 @@ void Recorder::draw_indexed(const Buffer& indices, std::uint32_t count, std::uin
   context_.vk().CmdDrawIndexed(commands_, count, 1, first, first_vertex, 0);
 }
 
+void Recorder::draw(std::uint32_t vertex_count) {
+  context_.vk().CmdDraw(commands_, vertex_count, 1, 0, 0);
+}
+
 void Recorder::set_culling(bool back_faces) {
   context_.vk().CmdSetCullMode(commands_, back_faces ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
 }
@@ -456,41 +460,6 @@ void Recorder::set_culling(bool back_faces) {
 void Recorder::set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px) {
   const VkRect2D rectangle{{offset_px.x, offset_px.y}, {size_px.x, size_px.y}};
   context_.vk().CmdSetScissor(commands_, 0, 1, &rectangle);
-}
-
-CommandRunner::CommandRunner(Context& context) : context_(context), slot_(context) {
-  VkCommandPoolCreateInfo pool{};
-  pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-  pool.queueFamilyIndex = context.queue_family();
-  check(context.vk().CreateCommandPool(context.device(), &pool, nullptr, &pool_), "vkCreateCommandPool");
-  VkCommandBufferAllocateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  info.commandPool = pool_;
-  info.commandBufferCount = 1;
-  const VkResult result = context.vk().AllocateCommandBuffers(context.device(), &info, &commands_);
-  if (result != VK_SUCCESS) context.vk().DestroyCommandPool(context.device(), pool_, nullptr);
-  check(result, "vkAllocateCommandBuffers");
-}
-
-CommandRunner::~CommandRunner() {
-  context_.vk().DestroyCommandPool(context_.device(), pool_, nullptr);
-}
-
-void CommandRunner::run(const std::function<void(Recorder&)>& record) {
-  start(record, {});
-  context_.wait();
-}
-
-void CommandRunner::start(const std::function<void(Recorder&)>& record, const WindowSemaphores& window) {
-  const Functions& vk = context_.vk();
-  check(vk.ResetCommandPool(context_.device(), pool_, 0), "vkResetCommandPool");
-  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
-                                       VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
-  check(vk.BeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
-  Recorder recorder(context_, slot_, commands_);
-  record(recorder);
-  check(vk.EndCommandBuffer(commands_), "vkEndCommandBuffer");
-  context_.submit(commands_, window);
 }
 
 }  // namespace brume::gpu

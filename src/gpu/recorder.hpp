@@ -45,6 +45,9 @@ inline Binding stored(const Image& image) {
 inline Binding read_stored(const Image& image) {
   return {kStored, nullptr, &image, nullptr, true, false};
 }
+inline Binding read_write_stored(const Image& image) {
+  return {kStored, nullptr, &image, nullptr, true, true};
+}
 
 /// A resource at a binding of a shader: `{shared::kBindPages, gpu::read(pages)}`.
 struct BoundResource {
@@ -141,6 +144,8 @@ class Recorder {
   void end_rendering();
   void draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,
                     std::int32_t first_vertex);
+  /// Draws without indices.
+  void draw(std::uint32_t vertex_count);
   void set_culling(bool back_faces);
   void set_scissor(glm::ivec2 offset_px, glm::uvec2 size_px);
   /// Barriers for resources that draws read; before begin_rendering.

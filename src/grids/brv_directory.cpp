@@ -8,6 +8,7 @@
 #include "grids/brv_file.hpp"
 #include "grids/bytes.hpp"
 #include "grids/check.hpp"
+#include "grids/metadata.hpp"
 
 namespace brume::grids {
 namespace {
@@ -48,30 +49,6 @@ bool read_origins(ByteReader& in, std::vector<Cube>& cubes) {
     }
   }
   return true;
-}
-
-void write_metadata(ByteWriter& out, const std::vector<Metadata>& metadata) {
-  out.number(static_cast<std::uint32_t>(metadata.size()));
-  for (const Metadata& entry : metadata) {
-    out.text(entry.name);
-    out.text(entry.type);
-    out.number(static_cast<std::uint32_t>(entry.bytes.size()));
-    out.raw(entry.bytes);
-  }
-}
-
-// Grows with the bytes that are read, not with the count.
-std::vector<Metadata> read_metadata(ByteReader& in) {
-  std::vector<Metadata> metadata;
-  const auto count = in.number<std::uint32_t>();
-  for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
-    Metadata& entry = metadata.emplace_back();
-    entry.name = in.text();
-    entry.type = in.text();
-    const auto bytes = in.raw(in.number<std::uint32_t>());
-    entry.bytes.assign(bytes.begin(), bytes.end());
-  }
-  return metadata;
 }
 
 void write_value(ByteWriter& out, ValueType type, const Value& value) {

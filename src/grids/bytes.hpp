@@ -20,7 +20,11 @@ class ByteWriter {
   template <typename T>
   requires std::is_arithmetic_v<T>
   void number(T value) { raw(std::as_bytes(std::span(&value, 1))); }
-  void raw(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  void raw(std::span<const std::byte> bytes) {
+    const std::size_t end = bytes_.size();
+    bytes_.resize(end + bytes.size());
+    if (!bytes.empty()) std::memcpy(&bytes_[end], bytes.data(), bytes.size());
+  }
   /// Its length in 32 bits, then the bytes.
   void text(const std::string& text) {
     number(static_cast<std::uint32_t>(text.size()));

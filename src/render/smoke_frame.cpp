@@ -34,6 +34,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       shadow_pass_(context),
       light_pass_(context),
       volume_light_pass_(context),
+      raycast_(options.raycast),
       march_pass_(context, {options.count_samples, false, options.brute_force_holes}),
       resolve_pass_(context) {
   if (options.temporal) accumulate_pass_.emplace(context, size_px);
@@ -48,6 +49,7 @@ void SmokeFrame::resize(const SceneView& scene, glm::uvec2 size_px) {
   shadows_ = shadow_pass_.make_shadows(context_, size_px,
                                        scene.resources().light_list.size() + planning::kMaxFlashes);
   if (accumulate_pass_) accumulate_pass_.emplace(context_, size_px);
+  if (raycast_) raycast_pass_.emplace(context_, *raycast_, size_px);
   set_march_scale(march_scale_);
 }
 
@@ -139,7 +141,19 @@ passes::MarchPass::Inputs SmokeFrame::march_inputs(const FramePlan& plan, const 
           .holes = holes()};
 }
 
+void SmokeFrame::record_raycast(gpu::Recorder& recorder, const FramePlan& plan,
+                                const FrameResources& in) const {
+  const shared::FrameMedia& media = plan.media.frame;
+  const auto& volumes = plan.media.volumes;
+  const float anisotropy = volumes.empty() ? 0 : volumes.front().instance.look.anisotropy;
+  const planning::RaycastLight light{media.to_sun, media.sun_irradiance, plan.input.environment.sky.ambient,
+                                     shared::phase_of_hg(anisotropy)};
+  raycast_pass_->record(recorder, {volume_upload_.resources(), in.targets.gbuffer.depth},
+                        planning::plan_raycast(plan.camera, size_px_, volumes, light, {}), in.targets.media);
+}
+
 void SmokeFrame::record_march(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  if (raycast_pass_) return record_raycast(recorder, plan, in);
   const March march = march_of(in);
   if (!march_tiles_) {
     march.pass.record(recorder, march_inputs(plan, in), in.targets.media, march.counters);

@@ -7,6 +7,7 @@
 #include "passes/accumulate.hpp"
 #include "passes/march.hpp"
 #include "passes/noise_advection.hpp"
+#include "passes/raycast.hpp"
 #include "passes/resolve.hpp"
 #include "passes/smoke_light.hpp"
 #include "passes/smoke_shadow.hpp"
@@ -17,9 +18,11 @@
 namespace brume::render {
 
 struct SmokeFrameOptions {
-  bool count_samples = false;               ///< Count the texture samples of the march (slower).
-  bool brute_force_holes = false;           ///< See MarchPass::Options.
-  std::uint32_t march_scale = 1;            ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  bool count_samples = false;      ///< Count the texture samples of the march (slower).
+  bool brute_force_holes = false;  ///< See MarchPass::Options.
+  std::uint32_t march_scale = 1;   ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  /// Draws the volumes alone, one by one, without light from each other; needs march_scale 1.
+  std::optional<passes::RaycastForm> raycast = {};
   bool temporal = false;                    ///< Accumulate smoke over the frames of a film (View::continues).
   const smoke::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
 };
@@ -81,6 +84,8 @@ class SmokeFrame {
   const gpu::Buffer& sample_counter() const { return counters_; }
 
  private:
+  void record_raycast(gpu::Recorder& recorder, const planning::FramePlan& plan,
+                      const FrameResources& in) const;
   /// What marches the frame's rays, and where it counts.
   struct March {
     const passes::MarchPass& pass;
@@ -109,6 +114,8 @@ class SmokeFrame {
   passes::SmokeShadowPass shadow_pass_;
   passes::SmokeLightPass light_pass_;
   passes::VolumeLightPass volume_light_pass_;
+  std::optional<passes::RaycastForm> raycast_;
+  std::optional<passes::RaycastPass> raycast_pass_;  ///< In the place of the march.
   passes::MarchPass march_pass_;
   std::optional<passes::MarchPass> counting_march_;  ///< For the view of steps.
   passes::ResolvePass resolve_pass_;

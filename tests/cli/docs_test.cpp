@@ -133,7 +133,7 @@ TEST_F(Documents, ExamplesOfTheHelpRun) {
   const Outcome help = run_brume(folder_.path(), {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
-  std::vector<std::string> commands{"demo",  "render", "voxelize", "info",
+  std::vector<std::string> commands{"demo",  "render", "voxelize", "bake", "info",
                                     "query", "diff",   "devices",  "bench"};
 #ifdef BRUME_VIEWER
   commands.push_back("view");

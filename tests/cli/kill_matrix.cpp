@@ -57,6 +57,7 @@ std::vector<WritingCommand> writing_commands() {
       {render({"-o", "out/f_%02d.png", "--frames", "1-6", "--json", "out/a.json"}), true},
       {render({"-o", "out/a.mp4", "--frames", "0-5"})},
       {{"diff", "a.png", "b.png", "-o", "out/map.png", "--json", "out/a.json"}},
+      {{"bake", "pyroclastic", "--edge", "48", "-o", "out/a.brv", "--json", "out/a.json"}},
       {{"info", "room.obj", "--json", "out/a.json"}},
       {{"query", "room.toml", "--from", "0,1,1", "--to", "0,1,-1", "--time", "0.2", "--json", "out/a.json"}},
       {{"devices", "--json", "out/a.json"}},

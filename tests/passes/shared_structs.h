@@ -2,6 +2,7 @@
 #ifndef BRUME_SHARED_STRUCTS_H
 #define BRUME_SHARED_STRUCTS_H
 #include "shared/accumulate.h"
+#include "shared/cloud.h"
 #include "shared/dda.h"
 #include "shared/debug_view.h"
 #include "shared/display.h"
@@ -15,6 +16,7 @@
 #include "shared/noise.h"
 #include "shared/noise_advection.h"
 #include "shared/phase.h"
+#include "shared/raycast.h"
 #include "shared/resolve.h"
 #include "shared/scattering.h"
 #include "shared/sky_light.h"
@@ -29,59 +31,64 @@
 
 // clang-format off
 #define FOR_EACH_SHARED_STRUCT(X) \
-  X(0, AccumulateParams)   \
-  X(1, AccumulatedPixel)   \
-  X(2, BoundaryCell)       \
-  X(3, BrickLayout)        \
-  X(4, Camera)             \
-  X(5, CloudMotion)        \
-  X(6, Dda)                \
-  X(7, DebugViewParams)    \
-  X(8, DrawConstants)      \
-  X(9, FrameConstants)     \
-  X(10, FrameMedia)        \
-  X(11, Hole)              \
-  X(12, HoleCellsParams)   \
-  X(13, HoleClusterLayout) \
-  X(14, HoleCounters)      \
-  X(15, HoleCut)           \
-  X(16, HoleListsParams)   \
-  X(17, HoleOpening)       \
-  X(18, HoleReach)         \
-  X(19, Impulse)           \
-  X(20, Light)             \
-  X(21, LightChange)       \
-  X(22, LightGather)       \
-  X(23, ManyFit)           \
-  X(24, ManyScatterings)   \
-  X(25, MarchList)         \
-  X(26, MaterialConstants) \
-  X(27, NoiseAdvectionParams) \
-  X(28, NoiseParams)       \
-  X(29, PackedHole)        \
-  X(30, PackedReach)       \
-  X(31, Phase)             \
-  X(32, RayEnds)           \
-  X(33, ShadowDraw)        \
-  X(34, ShadowRays)        \
-  X(35, ShadowView)        \
-  X(36, Sky)               \
-  X(37, SmokeLightParams)  \
-  X(38, SmokeLook)         \
-  X(39, SmokeShadowFace)   \
-  X(40, SmokeShadowParams) \
-  X(41, SolidLayout)       \
-  X(42, TexelList)         \
-  X(43, UiConstants)       \
-  X(44, UiVertex)          \
-  X(45, UpscaleConstants)  \
-  X(46, Vertex)            \
-  X(47, VolumeHeat)        \
-  X(48, VolumeInstance)    \
-  X(49, VolumeLayout)      \
-  X(50, VolumeLightParams) \
-  X(51, VolumeLook)        \
-  X(52, VolumeSweep)
+  X(0, AccumulateParams) \
+  X(1, AccumulatedPixel) \
+  X(2, BoundaryCell) \
+  X(3, BrickLayout) \
+  X(4, Camera) \
+  X(5, CloudMotion) \
+  X(6, CloudParams) \
+  X(7, CloudShape) \
+  X(8, Dda) \
+  X(9, DebugViewParams) \
+  X(10, DrawConstants) \
+  X(11, FrameConstants) \
+  X(12, FrameMedia) \
+  X(13, Hole) \
+  X(14, HoleCellsParams) \
+  X(15, HoleClusterLayout) \
+  X(16, HoleCounters) \
+  X(17, HoleCut) \
+  X(18, HoleListsParams) \
+  X(19, HoleOpening) \
+  X(20, HoleReach) \
+  X(21, Impulse) \
+  X(22, Light) \
+  X(23, LightChange) \
+  X(24, LightGather) \
+  X(25, ManyFit) \
+  X(26, ManyScatterings) \
+  X(27, MarchList) \
+  X(28, MaterialConstants) \
+  X(29, NoiseAdvectionParams) \
+  X(30, NoiseParams) \
+  X(31, PackedHole) \
+  X(32, PackedReach) \
+  X(33, Phase) \
+  X(34, RayEnds) \
+  X(35, RaycastDraw) \
+  X(36, RaycastView) \
+  X(37, RaycastVolume) \
+  X(38, ShadowDraw) \
+  X(39, ShadowRays) \
+  X(40, ShadowView) \
+  X(41, Sky) \
+  X(42, SmokeLightParams) \
+  X(43, SmokeLook) \
+  X(44, SmokeShadowFace) \
+  X(45, SmokeShadowParams) \
+  X(46, SolidLayout) \
+  X(47, TexelList) \
+  X(48, UiConstants) \
+  X(49, UiVertex) \
+  X(50, UpscaleConstants) \
+  X(51, Vertex) \
+  X(52, VolumeHeat) \
+  X(53, VolumeInstance) \
+  X(54, VolumeLayout) \
+  X(55, VolumeLightParams) \
+  X(56, VolumeLook) \
+  X(57, VolumeSweep)
 // clang-format on
 
 #endif

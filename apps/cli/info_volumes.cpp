@@ -8,7 +8,8 @@
 #include <limits>
 
 #include "apps/cli/info.hpp"
-#include "grids/files.hpp"
+#include "apps/cli/volumes.hpp"
+#include "grids/metadata.hpp"
 
 namespace brume::cli {
 namespace {
@@ -141,11 +142,17 @@ Box<double> in_world(const Grid& grid, const Box<double>& box) {
   return world;
 }
 
-// A name from a file, which may hold anything, on one line.
-std::string printable(std::string name) {
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  return name;
+Json metadata_json(const std::vector<grids::Metadata>& metadata) {
+  Json json = Json::object();
+  for (const grids::Metadata& entry : metadata) json.set(entry.name, text_of(entry));
+  return json;
+}
+
+Json transform_json(const Grid& grid) {
+  Json columns = Json::list({});
+  for (int column = 0; column < 4; ++column)
+    columns.push_back(vector_json(glm::dvec3(grid.world_from_index[column])));
+  return columns;
 }
 
 glm::dvec3 voxel_size(const Grid& grid) {
@@ -172,6 +179,10 @@ Json add_grid(Summary& summary, const Grid& grid) {
   if (values.any)
     summary.add_line("  values", format("%.6g", values.low) + " " + histogram_text(values) + " " +
                                      format("%.6g", values.high));
+  // Without the statistics of the file, which the lines above give.
+  for (const grids::Metadata& entry : grid.metadata)
+    if (entry.name.rfind("file_", 0) != 0)
+      summary.add_line("  " + printable(entry.name), printable(text_of(entry)));
   summary.add_line("  memory", format("%.1f MiB", static_cast<double>(memory_of(grid)) / (1 << 20)));
 
   // As JSON.
@@ -187,21 +198,24 @@ Json add_grid(Summary& summary, const Grid& grid) {
             {"index_bounds", active > 0 ? box_json(bounds) : Json(nullptr)},
             {"world_bounds", active > 0 ? box_json(in_world(grid, bounds)) : Json(nullptr)},
             {"voxel_size", vector_json(voxel_size(grid))},
+            {"world_from_index", transform_json(grid)},
             {"min", values.any ? Json(values.low) : Json(nullptr)},
             {"max", values.any ? Json(values.high) : Json(nullptr)},
             {"histogram", histogram},
             {"memory_bytes", memory_of(grid)}};
+  json.set("metadata", metadata_json(grid.metadata));
   return json;
 }
 
 }  // namespace
 
-Summary grids_summary(const std::filesystem::path& path) {
-  const grids::GridFile file = grids::load_grid_file(path).value_or_throw();
+Summary volume_summary(const std::filesystem::path& path, Outputs& outputs) {
+  const grids::GridFile file = load_volumes(path, outputs);
   Summary summary("volumes");
   Json list = Json::list({});
   for (const Grid& grid : file.grids) list.push_back(add_grid(summary, grid));
   summary.set("grids", list);
+  summary.set("metadata", metadata_json(file.metadata));
   return summary;
 }
 

@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "grids/files.hpp"
+#include "grids/generate.hpp"
+#include "image/png.hpp"
+#include "passes/generate_cloud.hpp"
+#include "scene/load.hpp"
+
+namespace brume::cli {
+namespace {
+
+struct BakeOptions {
+  std::string shape, output, json, device;
+  grids::CloudSettings cloud;
+  std::optional<double> radius, softness;
+  bool binary = false, gpu = false;
+};
+
+const std::vector<std::string> kShapes{"pyroclastic", "sphere", "slab", "torus"};
+
+FileKind kind_of(const std::string& file) {
+  const std::string suffix = scene::lower_extension(file);
+  return suffix == ".png"    ? FileKind::png
+         : suffix == ".vdb"  ? FileKind::vdb
+         : suffix == ".nvdb" ? FileKind::nvdb
+                             : FileKind::brv;
+}
+
+void refuse_idle_options(const BakeOptions& options, const Arguments& arguments) {
+  if (options.binary) arguments.refuse("--edge-softness", "would do nothing with --binary");
+  if (options.shape != kShapes.front())
+    for (const char* option : {"--seed", "--octaves", "--amplitude", "--frequency", "--gain", "--lacunarity"})
+      arguments.refuse(option, "is for the shape pyroclastic");
+  if (!options.gpu) arguments.refuse("--device", "requires --gpu");
+}
+
+// The displacement of a pyroclastic cloud rarely exceeds its amplitude: a quarter of the cube leaves room for
+// it.
+grids::CloudSettings settings_of(const BakeOptions& options) {
+  grids::CloudSettings cloud = options.cloud;
+  const auto shape = std::find(kShapes.begin(), kShapes.end(), options.shape) - kShapes.begin();
+  cloud.kind = static_cast<grids::CloudKind>(shape);
+  const double side = cloud.edge * cloud.voxel_size;
+  cloud.radius = options.radius.value_or(side * (cloud.kind == grids::CloudKind::pyroclastic ? 0.28 : 0.4));
+  cloud.edge_width = options.binary ? 0 : options.softness.value_or(2 * cloud.voxel_size);
+  return cloud;
+}
+
+grids::Grid generate(const BakeOptions& options, const grids::CloudSettings& settings) {
+  if (!options.gpu) return grids::generate_cloud(settings);
+  gpu::Context context(gpu::ContextOptions{options.device, false});
+  gpu::CommandRunner runner(context);
+  passes::CloudGenerator generator(context);
+  return grids::generate_cloud(
+      settings, [&](const shared::CloudParams& params, std::span<const glm::ivec3> bricks,
+                    std::span<float> values) { generator.evaluate(runner, params, bricks, values); });
+}
+
+void warn_of_what_is_missing(const grids::Grid& grid, const grids::CloudSettings& settings) {
+  const Box<double> bounds = grids::active_bounds(grid);
+  const double end = settings.edge - 1.0;
+  if (bounds.empty()) {
+    log_warning("no voxel has density; give a larger --radius or smaller voxels");
+  } else if (glm::any(glm::lessThan(bounds.low, glm::dvec3(0))) ||
+             glm::any(glm::greaterThan(bounds.high, glm::dvec3(end)))) {
+    log_warning(
+        "the shape reaches the sides of its cube, where it may be cut; give a smaller --radius or a larger "
+        "--edge");
+  }
+}
+
+/// Slices across z from the lowest on, at most 32, in rows of eight from the top left; y runs up.
+image::Image8 slices_of(const grids::Grid& grid, std::uint32_t edge) {
+  constexpr std::uint32_t kSlices = 32, kColumns = 8;
+  const std::uint32_t count = std::min(kSlices, edge), columns = std::min(kColumns, count);
+  image::Image8 image{edge * columns, edge * ((count + columns - 1) / columns), {}};
+  image.rgba.assign(std::size_t{4} * image.width * image.height, 0);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  for (std::size_t brick = 0; brick < grid.bricks.size(); ++brick)
+    for (std::uint32_t slice = 0; slice < count; ++slice) {
+      const glm::uvec3 origin(grid.bricks[brick].origin);
+      const std::uint32_t z = (2 * slice + 1) * edge / (2 * count) - origin.z;
+      if (z >= grids::kBrickEdge) continue;  // below the brick, too: unsigned
+      for (std::uint32_t i = 0; i < 64; ++i) {
+        const std::uint32_t x = origin.x + i % 8, y = origin.y + i / 8;
+        if (x >= edge || y >= edge) continue;
+        float value = 0;
+        std::memcpy(&value, grid.values_of(brick).data() + (i + 64 * std::size_t{z}) * sizeof value,
+                    sizeof value);
+        const std::size_t column = x + edge * (slice % columns);
+        const std::size_t row = edge - 1 - y + edge * (slice / columns);
+        const auto grey = static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+        std::fill_n(image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * (column + image.width * row)), 3,
+                    grey);
+      }
+    }
+  return image;
+}
+
+void save(const std::string& output, grids::Grid grid, std::uint32_t edge) {
+  if (kind_of(output) == FileKind::png)
+    return image::save_png(output, slices_of(grid, edge)).value_or_throw();
+  grids::GridFile file;
+  file.grids.push_back(std::move(grid));
+  grids::save_grid_file(output, file).value_or_throw();
+}
+
+void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outputs) {
+  const auto start = std::chrono::steady_clock::now();
+  refuse_idle_options(options, arguments);
+  expect_suffix("-o", options.output, {".brv", ".vdb", ".nvdb", ".png"});
+  outputs.writes("-o", options.output, kind_of(options.output));
+  outputs.writes("--json", options.json, FileKind::json);
+
+  const grids::CloudSettings settings = settings_of(options);
+  grids::Grid grid = generate(options, settings);
+  stop_if_interrupted();
+  warn_of_what_is_missing(grid, settings);
+  const std::uint64_t active = grids::count_active(grid), bricks = grid.bricks.size();
+  save(options.output, std::move(grid), settings.edge);
+
+  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+  if (!options.json.empty())
+    write_json(options.json, {{"output", options.output},
+                              {"shape", options.shape},
+                              {"edge", settings.edge},
+                              {"voxel_size", settings.voxel_size},
+                              {"radius", settings.radius},
+                              {"active_voxels", active},
+                              {"bricks", bricks},
+                              {"milliseconds", whole.count()}});
+  if (options.json == "-") return;
+  char text[200];
+  std::snprintf(text, sizeof text, "%s of radius %g m, %llu active voxels in %llu bricks, in %.3g s\n",
+                options.shape.c_str(), settings.radius, static_cast<unsigned long long>(active),
+                static_cast<unsigned long long>(bricks), whole.count() / 1000);
+  print(text);
+}
+
+void add_shape_options(const Arguments& arguments, BakeOptions& options) {
+  grids::CloudSettings& cloud = options.cloud;
+  arguments.add_option("--edge", cloud.edge, "Voxels along each side of the cube; default 128")
+      .range(1u, grids::kMaxCloudEdge)
+      .type_name("N");
+  arguments.add_option("--voxel", cloud.voxel_size, "Edge of a voxel [m]; default 0.05")
+      .range(1e-6, 1e6)
+      .type_name("M");
+  arguments
+      .add_option(
+          "--radius", options.radius,
+          "Radius [m], of a pyroclastic cloud before its displacement; default: 0.28 of the cube's side, "
+          "0.4 for the other shapes")
+      .range(1e-6, 1e9)
+      .type_name("M");
+  arguments
+      .add_option("--edge-softness", options.softness,
+                  "Depth below the surface where density reaches 1 [m]; default: two voxels")
+      .range(1e-9, 1e9)
+      .type_name("M");
+  arguments.add_flag("--binary", options.binary, "Density is 1 up to the surface");
+  arguments.add_option("--seed", cloud.seed, "Seed of the noise; default 0")
+      .range(0u, 4294967295u)
+      .type_name("N");
+  arguments.add_option("--octaves", cloud.octaves, "Octaves of the noise; default 6")
+      .range(1u, grids::kMaxCloudOctaves)
+      .type_name("N");
+  arguments.add_option("--amplitude", cloud.amplitude, "Displacement where |fBm| is 1, in radii; default 0.6")
+      .range(0.0, 10.0)
+      .type_name("X");
+  arguments
+      .add_option("--frequency", cloud.frequency, "Noise cells of the first octave per radius; default 1.5")
+      .range(0.01, 100.0)
+      .type_name("X");
+  arguments.add_option("--gain", cloud.gain, "Weight of each octave relative to the one before; default 0.5")
+      .range(0.0, 1.0)
+      .type_name("X");
+  arguments
+      .add_option("--lacunarity", cloud.lacunarity,
+                  "Frequency of each octave relative to the one before; default 2")
+      .range(1.0, 4.0)
+      .type_name("X");
+}
+
+}  // namespace
+
+Command add_bake(CommandLine& program) {
+  Command command =
+      declare(program, "bake", "Writes a cloud or a simple shape of fog as a volume.",
+              "  brume bake pyroclastic -o cloud.brv\n"
+              "  brume bake pyroclastic -o slices.png --edge 96 --seed 7 --octaves 7 --amplitude 1\n"
+              "  brume bake sphere -o ball.brv --edge 64 --voxel 0.1 --radius 3 --binary --json -");
+  auto options = std::make_shared<BakeOptions>();
+  const Arguments& arguments = command.arguments;
+  arguments.add_option("SHAPE", options->shape, "pyroclastic, sphere, slab or torus")
+      .required()
+      .one_of(kShapes)
+      .type_name("");
+  arguments
+      .add_option("-o,--output", options->output,
+                  "Volume (.brv, .vdb, .nvdb), or a picture of up to 32 slices across z (.png)")
+      .required()
+      .type_name("FILE");
+  add_shape_options(arguments, *options);
+  arguments.add_flag("--gpu", options->gpu,
+                     "Evaluate the formula on a Vulkan device: values differ by rounding");
+  arguments.add_option("--device", options->device, "Device of --gpu by number or name (see brume devices)")
+      .type_name("NAME");
+  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
+      .type_name("FILE");
+  command.run = [options, arguments, common = command.common] { bake(*options, arguments, common->outputs); };
+  return command;
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "apps/cli/json.hpp"
+#include "apps/cli/volumes.hpp"
+#include "core/error.hpp"
+#include "grids/files.hpp"
+#include "grids/raw_file.hpp"
+#include "scene/load.hpp"
+
+namespace brume::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ConvertOptions {
+  std::string input, output, json;
+  std::vector<std::string> grids;
+};
+
+FileKind kind_of(const fs::path& path) {
+  const std::string suffix = scene::lower_extension(path);
+  return suffix == kVdb    ? FileKind::vdb
+         : suffix == kNvdb ? FileKind::nvdb
+         : suffix == kBrv  ? FileKind::brv
+                           : FileKind::json;
+}
+
+// Keeps the grids with these names. Several may have one name.
+void select(grids::GridFile& file, const std::string& input, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  std::string known;
+  for (const grids::Grid& grid : file.grids) known += (known.empty() ? "" : ", ") + printable(grid.name);
+  for (const std::string& name : names)
+    if (std::none_of(file.grids.begin(), file.grids.end(),
+                     [&](const auto& grid) { return grid.name == name; }))
+      throw Error(ErrorCode::usage, "--grid " + name + ": " + input + " has no such grid; it has " +
+                                        (known.empty() ? "none" : known));
+  std::erase_if(file.grids, [&](const grids::Grid& grid) {
+    return std::find(names.begin(), names.end(), grid.name) == names.end();
+  });
+}
+
+void save(const fs::path& path, const grids::GridFile& file) {
+  if (grids::is_grid_file(path)) return grids::save_grid_file(path, file).value_or_throw();
+  if (file.grids.size() != 1)
+    throw Error(ErrorCode::usage, path.string() + ": a raw file holds one grid, not " +
+                                      std::to_string(file.grids.size()) + "; choose it with --grid");
+  grids::save_raw(path, file.grids.front()).value_or_throw();
+}
+
+void convert(const ConvertOptions& options, Outputs& outputs) {
+  const auto start = std::chrono::steady_clock::now();
+  for (const std::string& name : {options.input, options.output})
+    expect_suffix("", name, {kVdb, kNvdb, kBrv, kRaw});
+  const fs::path output = options.output;
+  outputs.reads(fs::path(options.input));
+  outputs.writes("", output, kind_of(output));
+  if (grids::is_raw_description(output)) outputs.writes("", grids::raw_path_of(output), FileKind::raw);
+  outputs.writes("--json", options.json, FileKind::json);
+
+  grids::GridFile file = load_volumes(options.input, outputs);
+  stop_if_interrupted();
+  select(file, options.input, options.grids);
+  save(output, file);
+
+  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+  std::uint64_t active = 0;
+  for (const grids::Grid& grid : file.grids) active += count_active(grid);
+  if (!options.json.empty()) {
+    Json grids = Json::list({});
+    for (const grids::Grid& grid : file.grids) grids.push_back(grid.name);
+    write_json(options.json, {{"input", options.input},
+                              {"output", options.output},
+                              {"grids", grids},
+                              {"active_voxels", active},
+                              {"bytes", std::uint64_t{fs::file_size(output)}},
+                              {"milliseconds", whole.count()}});
+  }
+  if (options.json == "-") return;
+  char text[120];
+  std::snprintf(text, sizeof text, "%zu %s, %llu active voxels, in %.3g s\n", file.grids.size(),
+                file.grids.size() == 1 ? "grid" : "grids", static_cast<unsigned long long>(active),
+                whole.count() / 1000);
+  print(text);
+}
+
+}  // namespace
+
+Command add_convert(CommandLine& program) {
+  Command command =
+      declare(program, "convert", "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json).",
+              "  brume convert smoke.vdb smoke.brv\n"
+              "  brume convert smoke.vdb density.json --grid density");
+  auto options = std::make_shared<ConvertOptions>();
+  const Arguments& arguments = command.arguments;
+  arguments.add_option("INPUT", options->input, "Volume file (.vdb, .nvdb, .brv, or .json of a raw array)")
+      .required()
+      .type_name("");
+  arguments
+      .add_option("OUTPUT", options->output,
+                  "Volume file to write; a .json file describes the .raw file written beside it")
+      .required()
+      .type_name("");
+  arguments.add_option("--grid", options->grids, "Convert only the grids of this name; repeatable")
+      .take_all()
+      .type_name("NAME");
+  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
+      .type_name("FILE");
+  command.run = [options, common = command.common] { convert(*options, common->outputs); };
+  return command;
+}
+
+}  // namespace brume::cli

@@ -1,0 +1,23 @@
+// Volume files of every kind that commands read.
+#pragma once
+
+#include <filesystem>
+
+#include "apps/cli/outputs.hpp"
+#include "grids/grid.hpp"
+
+namespace brume::cli {
+
+/// The suffixes of volume files, as expect_suffix takes them.
+inline constexpr const char *kVdb = ".vdb", *kNvdb = ".nvdb", *kBrv = ".brv", *kRaw = ".json";
+
+/// Whether a file holds volumes, by its suffix.
+bool is_volume_file(const std::filesystem::path& path);
+
+/// Reads a volume file, or an array with its description, and declares what it read. Throws Error.
+grids::GridFile load_volumes(const std::filesystem::path& path, Outputs& outputs);
+
+/// A name from a file, which may hold anything, on one line.
+std::string printable(std::string name);
+
+}  // namespace brume::cli

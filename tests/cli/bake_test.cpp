@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/box.hpp"
+#include "grids/files.hpp"
+#include "grids/generate.hpp"
+#include "image/decode.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::json;
+
+TEST(Bake, WritesTheGridOfItsOptions) {
+  const WorkFolder folder;
+  const Outcome run = run_brume(folder.path(), {"bake",
+                                                "pyroclastic",
+                                                "-o",
+                                                "a.brv",
+                                                "--edge",
+                                                "33",
+                                                "--voxel",
+                                                "0.25",
+                                                "--seed",
+                                                "7",
+                                                "--octaves",
+                                                "3",
+                                                "--radius",
+                                                "2",
+                                                "--edge-softness",
+                                                "0.5",
+                                                "--amplitude",
+                                                "0.4",
+                                                "--gain",
+                                                "0.6",
+                                                "--lacunarity",
+                                                "2.5",
+                                                "--frequency",
+                                                "1",
+                                                "--json",
+                                                "-"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const grids::Grid expected =
+      grids::generate_cloud({grids::CloudKind::pyroclastic, 33, 0.25, 2, 0.5, 0.4, 1, 0.6, 2.5, 3, 7});
+  const grids::GridFile file = grids::load_grid_file(folder.path() / "a.brv").value_or_throw();
+  ASSERT_EQ(file.grids.size(), 1u);
+  EXPECT_EQ(file.grids[0].values, expected.values);
+  EXPECT_EQ(file.grids[0].world_from_index, expected.world_from_index);
+  EXPECT_EQ(file.grids[0].grid_class, grids::GridClass::fog_volume);
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["active_voxels"], grids::count_active(expected));
+  EXPECT_EQ(json["bricks"], expected.bricks.size());
+  EXPECT_EQ(json["radius"], 2);
+}
+
+TEST(Bake, LaysSlicesOutInRows) {
+  const WorkFolder folder;
+  const Outcome run = run_brume(folder.path(), {"bake", "sphere", "-o", "a.png", "--edge", "40", "--voxel",
+                                                "1", "--radius", "12.5", "--binary"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const image::Image8 image = image::load_image(folder.path() / "a.png").value_or_throw();
+  ASSERT_EQ(image.width, 8u * 40);
+  ASSERT_EQ(image.height, 4u * 40);
+  for (std::uint32_t slice = 0; slice < 32; ++slice) {
+    const double z = static_cast<double>((2 * slice + 1) * 40 / 64) - 19.5;
+    int white = 0, expected = 0;
+    for (std::uint32_t y = 0; y < 40; ++y)
+      for (std::uint32_t x = 0; x < 40; ++x) {
+        const std::size_t texel = (slice % 8 * 40 + x) + image.width * (slice / 8 * 40 + y);
+        const double r2 = (x - 19.5) * (x - 19.5) + (y - 19.5) * (y - 19.5) + z * z;
+        white += image.rgba[4 * texel] == 255;
+        expected += r2 < 12.5 * 12.5;
+      }
+    EXPECT_EQ(white, expected) << slice;
+  }
+}
+
+TEST(Bake, SlicesHaveTheirHighestRowOnTop) {
+  const WorkFolder folder;
+  grids::CloudSettings settings;
+  settings.edge = 7;
+  settings.radius = 0.28 * 7 * settings.voxel_size;
+  settings.edge_width = 0;
+  const shared::CloudParams params = grids::cloud_params(settings);
+  const Outcome run =
+      run_brume(folder.path(), {"bake", "pyroclastic", "-o", "a.png", "--edge", "7", "--binary", "-q"});
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  const image::Image8 image = image::load_image(folder.path() / "a.png").value_or_throw();
+  ASSERT_EQ(image.width, 7u * 7) << "as many slices as the cube has";
+  ASSERT_EQ(image.height, 7u);
+  for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(7)}, [&](glm::ivec3 at) {
+    const auto texel = static_cast<std::size_t>(7 * at.z + at.x + 49 * (6 - at.y));
+    EXPECT_EQ(image.rgba[4 * texel], shared::cloud_voxel(params, at) > 0 ? 255 : 0);
+  });
+}
+
+TEST(Bake, WarnsOfACutAndOfAnEmptyShape) {
+  const WorkFolder folder;
+  const auto warning = [&](const Arguments& more) {
+    Arguments arguments{"bake"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.insert(arguments.end(), {"-o", "a.brv", "--edge", "16"});
+    const Outcome run = run_brume(folder.path(), arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return run.error;
+  };
+  EXPECT_EQ(warning({"sphere"}), "");
+  EXPECT_NE(warning({"sphere", "--radius", "2"}).find("may be cut"), std::string::npos);
+  EXPECT_NE(warning({"torus", "--radius", "0.0001"}).find("no voxel has density"), std::string::npos);
+}
+
+TEST(Bake, RefusesOptionsThatWouldDoNothing) {
+  const WorkFolder folder;
+  const auto refusal = [&](const Arguments& more) {
+    Arguments arguments{"bake"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome run = run_brume(folder.path(), arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    return run.error;
+  };
+  EXPECT_EQ(refusal({"sphere", "-o", "a.brv", "--seed", "1"}),
+            "brume: --seed: is for the shape pyroclastic\n");
+  EXPECT_EQ(refusal({"sphere", "-o", "a.brv", "--binary", "--edge-softness", "1"}),
+            "brume: --edge-softness: would do nothing with --binary\n");
+  EXPECT_EQ(refusal({"sphere", "-o", "a.brv", "--device", "1"}), "brume: --device: requires --gpu\n");
+  EXPECT_NE(refusal({"sphere", "-o", "a.vxl"}).find("expected .brv, .vdb, .nvdb or .png"), std::string::npos);
+  EXPECT_EQ(folder.files(), Arguments{});
+}
+
+TEST(Bake, TheDeviceGivesTheSameVoxelsUpToRounding) {
+  const WorkFolder folder;
+  for (const Arguments& where : {Arguments{}, Arguments{"--gpu"}}) {
+    Arguments arguments{"bake", "pyroclastic", "--edge", "24", "-o", where.empty() ? "cpu.brv" : "gpu.brv"};
+    arguments.insert(arguments.end(), where.begin(), where.end());
+    const Outcome run = run_brume(folder.path(), arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+  }
+  const auto count = [&](const char* file) {
+    return grids::count_active(grids::load_grid_file(folder.path() / file).value_or_throw().grids[0]);
+  };
+  const auto cpu = static_cast<double>(count("cpu.brv"));
+  EXPECT_NEAR(static_cast<double>(count("gpu.brv")), cpu, 0.01 * cpu);
+}
+
+}  // namespace
+}  // namespace brume::cli
