@@ -143,7 +143,6 @@ std::vector<Bomb> vdb_bombs(const std::string& folder) {
   };
   const auto position = [&](std::size_t offset, std::uint64_t value) { return planted(base, offset, value); };
   std::vector<std::pair<std::string, Bytes>> list{
-      {"version", word(at.version, kMost32)},
       {"old version", word(at.version, 1)},
       {"number of metadata", word(at.file_metadata.count, kMost32)},
       {"length of a metadata's name", word(at.file_metadata.name_length, kMost32)},

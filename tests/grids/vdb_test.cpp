@@ -97,6 +97,16 @@ TEST_F(Vdb, OpenVdbFindsWhatIsWritten) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
+// OpenVDB tries, and prints a warning where results go.
+TEST_F(Vdb, ReadsAFileOfALaterVersion) {
+  const GridFile file{{smoke_grid("density", 11)}, {}};
+  save_grid_file(path("a.vdb"), file).value_or_throw();
+  std::string bytes = *read_text_file(path("a.vdb"));
+  bytes[8] = '\xff';
+  folder_.write("b.vdb", bytes);
+  expect_same(load_grid_file(path("b.vdb")).value_or_throw(), file);
+}
+
 TEST_F(Vdb, ReplacesNoFileUnlessItIsComplete) {
   const GridFile good{{smoke_grid("density", 3)}, {}};
   for (const char* name : {"a.vdb", "a.nvdb", "a.brv"}) {
