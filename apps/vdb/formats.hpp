@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 
+#include "core/error.hpp"
 #include "grids/grid.hpp"
 #include "grids/limits.hpp"
 
@@ -24,13 +26,16 @@ void check_limits(const std::string& name, std::uint64_t active, std::uint64_t b
 /// Reads a .vdb file. Returns the file's metadata.
 std::vector<grids::Metadata> read_vdb(const std::string& path, const grids::GridLimits& limits,
                                       const Reader& reader);
-/// Writes a .vdb file over the file that standard output is.
-void write_vdb(const grids::GridFile& file);
+/// Writes a .vdb file over the open file `output`.
+void write_vdb(const grids::GridFile& file, int output);
 
 /// Reads a .nvdb file. Returns the file's metadata, if it is one of ours.
 std::vector<grids::Metadata> read_nvdb(const std::string& path, const grids::GridLimits& limits,
                                        const Reader& reader);
-/// Writes a .nvdb file to standard output. Throws Error (bad_input) for a grid of a type that NanoVDB lacks.
-void write_nvdb(const grids::GridFile& file);
+/// Writes a .nvdb file to a descriptor. Throws Error (bad_input) for a grid of a type that NanoVDB lacks.
+void write_nvdb(const grids::GridFile& file, int output);
+
+/// Writes all bytes to a descriptor. Fails with resource_limit.
+Result<void> write_all(int output, std::span<const std::byte> bytes);
 
 }  // namespace brume::vdb

@@ -6,6 +6,7 @@
 //
 // Files are untrusted, and the libraries crash on damaged ones: the program limits its own memory, processor
 // time and files before it opens one.
+#include <fcntl.h>
 #include <malloc.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -60,16 +61,17 @@ void print_line(const std::string& text) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-void set_limit(__rlimit_resource_t resource, std::uint64_t value) {
+// The soft limit of processor time ends the program with a signal of its own, the hard one kills it.
+void set_limit(__rlimit_resource_t resource, std::uint64_t value, std::uint64_t beyond = 0) {
   rlimit limit{};
   if (::getrlimit(resource, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(value, limit.rlim_max);
-  limit.rlim_max = limit.rlim_cur;
+  limit.rlim_max = std::min<rlim_t>(value + beyond, limit.rlim_max);
   ::setrlimit(resource, &limit);
 }
 
 // A small file gets little: it cannot need more.
-void limit_reading(const std::string& path, const grids::GridLimits& limits) {
+void limit_reading(const std::string& path, const grids::GridLimits& limits, int output) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0)
     throw Error(ErrorCode::bad_input, std::string("cannot read it: ") + std::strerror(errno));
@@ -79,20 +81,9 @@ void limit_reading(const std::string& path, const grids::GridLimits& limits) {
   if (kLimitsMemory)
     set_limit(RLIMIT_AS,
               kBaseBytes + std::min(kCopies * limits.bytes, kMaxGrowth * std::max(bytes, std::uint64_t{1})));
-  set_limit(RLIMIT_CPU, static_cast<std::uint64_t>(seconds) + 1);
+  set_limit(RLIMIT_CPU, static_cast<std::uint64_t>(seconds) + 1, 1);
   // Unless the result goes to a file, as a shell may direct it.
-  if (::fstat(STDOUT_FILENO, &info) == 0 && !S_ISREG(info.st_mode)) set_limit(RLIMIT_FSIZE, kMessageBytes);
-}
-
-Result<void> write_all(std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t put = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0)
-      return Failure{ErrorCode::resource_limit, std::string("cannot write: ") + std::strerror(errno)};
-    bytes = bytes.subspan(static_cast<std::size_t>(put));
-  }
-  return {};
+  if (::fstat(output, &info) == 0 && !S_ISREG(info.st_mode)) set_limit(RLIMIT_FSIZE, kMessageBytes);
 }
 
 Bytes read_all() {
@@ -110,9 +101,10 @@ Bytes read_all() {
   }
 }
 
-void read(const std::string& path, const grids::GridLimits& limits) {
-  limit_reading(path, limits);
-  grids::BrvWriter writer(write_all, {.compression_level = 0});
+void read(const std::string& path, const grids::GridLimits& limits, int output) {
+  limit_reading(path, limits, output);
+  grids::BrvWriter writer([&](std::span<const std::byte> bytes) { return write_all(output, bytes); },
+                          {.compression_level = 0});
   const Reader reader{[&](const grids::Grid& grid) { writer.add(grid).value_or_throw(); },
                       [](const std::string& text) { print_line("warning: " + text); }};
   const std::string suffix = grids::lower_suffix(path);
@@ -122,14 +114,14 @@ void read(const std::string& path, const grids::GridLimits& limits) {
       .value_or_throw();
 }
 
-void write(const std::string& format) {
+void write(const std::string& format, int output) {
   if (format != "vdb" && format != "nvdb") throw Error(ErrorCode::usage, "expected vdb or nvdb");
   grids::GridFile file;
   {
     const Bytes bytes = read_all();
     file = grids::decode_brv(bytes, {.bytes = UINT64_MAX, .active_voxels = UINT64_MAX}).value_or_throw();
   }
-  format == "vdb" ? write_vdb(file) : write_nvdb(file);
+  format == "vdb" ? write_vdb(file, output) : write_nvdb(file, output);
 }
 
 template <typename Number>
@@ -158,8 +150,12 @@ void run(const std::vector<std::string>& arguments) {
     else
       throw Error(ErrorCode::usage, kUsage);
   }
-  if (arguments[0] == "read") return read(arguments[1], limits);
-  if (arguments[0] == "write") return write(arguments[1]);
+  // OpenVDB logs to standard output.
+  const int output = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (output < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0)
+    throw Error(ErrorCode::internal, std::string("standard output: ") + std::strerror(errno));
+  if (arguments[0] == "read") return read(arguments[1], limits, output);
+  if (arguments[0] == "write") return write(arguments[1], output);
   throw Error(ErrorCode::usage, kUsage);
 }
 
@@ -184,6 +180,17 @@ int run_and_report(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
+
+Result<void> write_all(int output, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(output, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0)
+      return Failure{ErrorCode::resource_limit, std::string("cannot write: ") + std::strerror(errno)};
+    bytes = bytes.subspan(static_cast<std::size_t>(put));
+  }
+  return {};
+}
 
 void check_limits(const std::string& name, std::uint64_t active, std::uint64_t bytes, std::uint64_t& used,
                   const grids::GridLimits& limits) {

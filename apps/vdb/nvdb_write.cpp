@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstring>
 #include <sstream>
 
@@ -358,14 +357,9 @@ Handle handle_of(const Grid& grid, const std::vector<grids::Metadata>& of_file) 
                                         std::string(name_of(grid.type)) + "; write a .vdb file");
 }
 
-void print(const void* data, std::size_t size) {
-  if (std::fwrite(data, 1, size, stdout) != size)
-    throw Error(ErrorCode::resource_limit, std::string("cannot write: ") + std::strerror(errno));
-}
-
 }  // namespace
 
-void write_nvdb(const grids::GridFile& file) {
+void write_nvdb(const grids::GridFile& file, int output) {
   if (file.grids.empty()) throw Error(ErrorCode::bad_input, "a .nvdb file holds at least one grid");
   // A segment for each grid, so that only one is in memory.
   for (std::size_t i = 0; i < file.grids.size(); ++i) {
@@ -375,11 +369,10 @@ void write_nvdb(const grids::GridFile& file) {
     segment.meta[0].fileSize = handle.size();
     std::ostringstream head;
     segment.write(head);
-    print(head.str().data(), head.str().size());
-    print(handle.data(), handle.size());
+    const std::string text = head.str();
+    write_all(output, std::as_bytes(std::span(text))).value_or_throw();
+    write_all(output, std::as_bytes(std::span(handle.data(), handle.size()))).value_or_throw();
   }
-  if (std::fflush(stdout) != 0)
-    throw Error(ErrorCode::resource_limit, std::string("cannot write: ") + std::strerror(errno));
 }
 
 }  // namespace brume::vdb

@@ -312,13 +312,13 @@ std::vector<Metadata> read_vdb(const std::string& path, const grids::GridLimits&
   return metadata_of(*file.getMetadata());
 }
 
-void write_vdb(const grids::GridFile& file) {
+void write_vdb(const grids::GridFile& file, int output) {
   const Library library;
   openvdb::GridPtrVec list;
   for (const Grid& grid : file.grids) list.push_back(kind_of_values(grid.type).write(grid));
   openvdb::MetaMap metadata;
   put_metadata(metadata, file.metadata);
-  openvdb::io::File("/proc/self/fd/1").write(list, metadata);
+  openvdb::io::File("/proc/self/fd/" + std::to_string(output)).write(list, metadata);
 }
 
 }  // namespace brume::vdb

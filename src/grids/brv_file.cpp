@@ -26,6 +26,8 @@ constexpr std::array<char, 8> kEndMagic{'B', 'R', 'V', 'I', 'N', 'D', 'E', 'X'};
 constexpr std::size_t kHeaderBytes = 16, kTrailerBytes = 40;
 /// zstd's densest block expands 4 bytes to 128 KiB.
 constexpr std::uint64_t kMaxGrowth = 32768;
+/// A directory takes 12 bytes for a brick before compression, and the brick takes a part of its chunk.
+constexpr std::uint64_t kDirectoryGrowth = 64, kLeastDirectory = 1 << 20;
 constexpr std::size_t kChunksAtOnce = 64;
 
 Failure damaged(const std::string& what) {
@@ -246,7 +248,9 @@ Result<BrvDirectory> open_brv(View file, const GridLimits& limits) {
     return damaged("the checksum of its directory is wrong");
 
   // The directory.
-  if (!may_unpack(stored.size(), trailer->raw_bytes)) return damaged("a directory of an impossible length");
+  if (!may_unpack(stored.size(), trailer->raw_bytes) ||
+      trailer->raw_bytes > std::max(kLeastDirectory, kDirectoryGrowth * file.size()))
+    return damaged("a directory of an impossible length");
   if (auto fits = check_memory(trailer->raw_bytes, limits); !fits) return fits.failure();
   Bytes raw(static_cast<std::size_t>(trailer->raw_bytes));
   if (!unpack(stored, raw)) return damaged("its directory does not unpack");

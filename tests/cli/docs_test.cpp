@@ -74,11 +74,20 @@ class Documents : public testing::Test {
     if (path.extension() == ".glb")
       std::filesystem::create_symlink(BRUME_SOURCE_DIR "/scenes/demo.glb", path);
     if (path.extension() == ".obj") folder_.write(word, room_obj());
+    if (path.extension() == ".vdb" || path.extension() == ".json") provide_volume(word);
     if (path.extension() == ".png") {
       const image::Image8 picture{
           32, 18, std::vector<std::uint8_t>(4 * 32 * 18, 255)};  // the size that render is called with
       image::save_png(path, picture).value_or_throw();
     }
+  }
+  // A grid "density" of 2 x 2 x 2 voxels.
+  void provide_volume(const std::string& word) const {
+    folder_.write("volume.json",
+                  R"({"format": "brume raw volume", "version": 1, "raw": "volume.raw", "size": [2, 2, 2]})");
+    folder_.write("volume.raw", std::string(32, '?'));
+    const Outcome made = run_brume(folder_.path(), {"convert", "volume.json", word});
+    EXPECT_EQ(made.exit_code, 0) << made.error;
   }
   // Runs a command with few pixels and frames. `demo` and `bench` take minutes and are run by scripts.
   void expect_works(const std::string& source, Arguments call) const {
@@ -133,7 +142,7 @@ TEST_F(Documents, ExamplesOfTheHelpRun) {
   const Outcome help = run_brume(folder_.path(), {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
-  std::vector<std::string> commands{"demo",  "render", "voxelize", "bake", "info",
+  std::vector<std::string> commands{"demo",  "render", "voxelize", "bake", "info", "convert",
                                     "query", "diff",   "devices",  "bench"};
 #ifdef BRUME_VIEWER
   commands.push_back("view");

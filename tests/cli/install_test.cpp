@@ -17,9 +17,17 @@ TEST(Install, TheProgramFindsItsScenesBesideItAndInShare) {
   const std::string install = "cmake --install '" BRUME_BUILD_DIR "' --prefix '" + prefix.string() + "' > '" +
                               (folder.path() / "log").string() + "' 2>&1";
   ASSERT_EQ(std::system(install.c_str()), 0) << *read_text_file(folder.path() / "log");
-  for (const char* file : {"bin/brume", "share/brume/scenes/demo.toml", "share/brume/scenes/demo.glb",
-                           "share/bash-completion/completions/brume"})
+  for (const char* file : {"bin/brume", "bin/brume-vdb", "share/brume/scenes/demo.toml",
+                           "share/brume/scenes/demo.glb", "share/bash-completion/completions/brume"})
     EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
+
+  // So does its helper.
+  folder.write("a.json",
+               R"({"format": "brume raw volume", "version": 1, "raw": "a.raw", "size": [1, 1, 2]})");
+  folder.write("a.raw", "????????");
+  RunOptions converter;
+  converter.program = (prefix / "bin/brume").string();
+  EXPECT_EQ(run_brume(folder.path(), {"convert", "a.json", "a.vdb"}, converter).exit_code, 0);
 
   // Which timeline it reads shows where it is damaged.
   RunOptions installed;

@@ -1,0 +1,125 @@
+// Volumes keep all that they hold on their way through OpenVDB and NanoVDB.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/file.hpp"
+#include "grids/files.hpp"
+#include "tests/grids/child.hpp"
+#include "tests/grids/sample_grids.hpp"
+
+namespace brume::grids {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Vdb : public testing::Test {
+ protected:
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+  GridFile through(const std::string& name, const GridFile& file) const {
+    save_grid_file(path(name), file).value_or_throw();
+    return load_grid_file(path(name)).value_or_throw();
+  }
+  // What OpenVDB's own program prints of a file, or the shell's complaint that it is not there.
+  std::string vdb_print(const std::string& name) const {
+    const std::string out = path("print.txt").string();
+    const std::string command = "vdb_print -l '" + path(name).string() + "' > '" + out + "' 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << "script/bootstrap test installs libopenvdb-tools";
+    return *read_text_file(out);
+  }
+
+  WorkFolder folder_;
+  ChildProgram program_;
+};
+
+// OpenVDB sorts grids by name.
+GridFile sorted(GridFile file) {
+  std::stable_sort(file.grids.begin(), file.grids.end(),
+                   [](const Grid& a, const Grid& b) { return a.name < b.name; });
+  return file;
+}
+
+GridFile file_of_all_types(bool with_vec3i) {
+  GridFile file;
+  for (const ValueType type : kAllTypes)
+    if (type != ValueType::vec3i || with_vec3i) file.grids.push_back(random_grid(type, 7));
+  file.grids.push_back(smoke_grid("density", 11));
+  file.grids.push_back(smoke_grid("density", 5));  // A file may hold one name twice.
+  file.grids.push_back(Grid{});
+  file.metadata = sample_metadata();
+  return file;
+}
+
+TEST_F(Vdb, KeepsGridsOfEveryType) {
+  const GridFile file = file_of_all_types(true);
+  const GridFile again = through("a.vdb", file);
+  expect_same(sorted(again), sorted(file));
+  expect_same(sorted(through("b.vdb", again)), sorted(file));
+}
+
+TEST_F(Vdb, NanoKeepsGridsOfEveryTypeThatItHas) {
+  const GridFile file = file_of_all_types(false);
+  expect_same(through("a.nvdb", file), file);
+  // The same bytes, on every machine.
+  save_grid_file(path("b.nvdb"), file).value_or_throw();
+  EXPECT_TRUE(*read_file(path("a.nvdb")) == *read_file(path("b.nvdb")));
+  const auto no_vec3i = save_grid_file(path("c.nvdb"), {{random_grid(ValueType::vec3i, 1)}, {}});
+  ASSERT_FALSE(no_vec3i);
+  EXPECT_EQ(no_vec3i.failure().code, ErrorCode::bad_input);
+  EXPECT_FALSE(fs::exists(path("c.nvdb")));
+}
+
+TEST_F(Vdb, NanoKeepsLongNames) {
+  GridFile file{{smoke_grid(std::string(300, 'n'), 3), smoke_grid(std::string(255, 'm'), 3)}, {}};
+  expect_same(through("a.nvdb", file), file);
+}
+
+TEST_F(Vdb, KeepsGridsOnEveryPathAmongTheFormats) {
+  const GridFile file = sorted(file_of_all_types(false));
+  const GridFile first = through("a.vdb", file);
+  expect_same(through("e.vdb", through("d.nvdb", through("c.brv", first))), file);
+  // OpenVDB's own program finds the same in both, other than what the path in between has no influence on.
+  const auto described = [&](const std::string& name) { return vdb_print(name); };
+  EXPECT_EQ(described("a.vdb"), described("e.vdb"));
+}
+
+TEST_F(Vdb, OpenVdbFindsWhatIsWritten) {
+  save_grid_file(path("a.vdb"), {{smoke_grid("density", 11)}, {}}).value_or_throw();
+  const std::string text = vdb_print("a.vdb");
+  const std::uint64_t active = count_active(smoke_grid("density", 11));
+  std::string count = std::to_string(active);
+  for (std::size_t i = count.size(); i > 3; i -= 3) count.insert(i - 3, ",");
+  for (const std::string& part : std::vector<std::string>{
+           "Name: density", "Type: Tree_float_5_4_3", "Number of active voxels:       " + count,
+           "Bounding box of active voxels: [-10, -10, -10] -> [10, 10, 10]", "class: fog volume",
+           "is_saved_as_half_float: true", "voxel size: 0.125", "[-1, 2, 0.5, 1]"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+// OpenVDB tries, and prints a warning where results go.
+TEST_F(Vdb, ReadsAFileOfALaterVersion) {
+  const GridFile file{{smoke_grid("density", 11)}, {}};
+  save_grid_file(path("a.vdb"), file).value_or_throw();
+  std::string bytes = *read_text_file(path("a.vdb"));
+  bytes[8] = '\xff';
+  folder_.write("b.vdb", bytes);
+  expect_same(load_grid_file(path("b.vdb")).value_or_throw(), file);
+}
+
+TEST_F(Vdb, ReplacesNoFileUnlessItIsComplete) {
+  const GridFile good{{smoke_grid("density", 3)}, {}};
+  for (const char* name : {"a.vdb", "a.nvdb", "a.brv"}) {
+    save_grid_file(path(name), good).value_or_throw();
+    GridFile bad = good;
+    bad.grids[0].values.pop_back();
+    const auto saved = save_grid_file(path(name), bad);
+    ASSERT_FALSE(saved);
+    EXPECT_EQ(saved.failure().code, ErrorCode::bad_input);
+    expect_same(load_grid_file(path(name)).value_or_throw(), good);
+  }
+  EXPECT_EQ(folder_.files(), (std::vector<std::string>{"a.brv", "a.nvdb", "a.vdb"}));
+}
+
+}  // namespace
+}  // namespace brume::grids
