@@ -58,12 +58,20 @@ const char* name_of(FileKind kind) {
   switch (kind) {
     case FileKind::png:
       return ".png file";
+    case FileKind::exr:
+      return ".exr file";
     case FileKind::mp4:
       return ".mp4 file";
     case FileKind::vxl:
       return ".vxl file";
     case FileKind::brp:
       return ".brp file";
+    case FileKind::brv:
+      return ".brv file";
+    case FileKind::vdb:
+      return ".vdb file";
+    case FileKind::nvdb:
+      return ".nvdb file";
     case FileKind::json:
       return "JSON file";
     case FileKind::obj:
@@ -84,12 +92,20 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
   switch (kind) {
     case FileKind::png:
       return begins_with(start, "\x89PNG\r\n\x1a\n");
+    case FileKind::exr:
+      return begins_with(start, "\x76\x2f\x31\x01");
     case FileKind::mp4:
       return is_mp4(start);
     case FileKind::vxl:
       return begins_with(start, "BRUMEVXL");
     case FileKind::brp:
       return begins_with(start, "BRUMERPL");
+    case FileKind::brv:
+      return begins_with(start, "BRUMEBRV");
+    case FileKind::vdb:
+      return begins_with(start, std::string_view(" BDV\0\0\0\0", 8));
+    case FileKind::nvdb:
+      return begins_with(start, "NanoVDB");
     case FileKind::json:
       return is_json(start, file);
     case FileKind::obj:

@@ -141,13 +141,6 @@ Box<double> in_world(const Grid& grid, const Box<double>& box) {
   return world;
 }
 
-// A name from a file, which may hold anything, on one line.
-std::string printable(std::string name) {
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  return name;
-}
-
 glm::dvec3 voxel_size(const Grid& grid) {
   const glm::dmat3 axes(grid.world_from_index);
   return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
