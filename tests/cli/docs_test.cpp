@@ -74,6 +74,9 @@ class Documents : public testing::Test {
     if (path.extension() == ".glb")
       std::filesystem::create_symlink(BRUME_SOURCE_DIR "/scenes/demo.glb", path);
     if (path.extension() == ".obj") folder_.write(word, room_obj());
+    if (path.extension() == ".vdb") {
+      EXPECT_EQ(run_brume(folder_.path(), {"sim", "room.obj", "--volumes", word}).exit_code, 0);
+    }
     if (path.extension() == ".png") {
       const image::Image8 picture{
           32, 18, std::vector<std::uint8_t>(4 * 32 * 18, 255)};  // the size that render is called with
@@ -133,8 +136,8 @@ TEST_F(Documents, ExamplesOfTheHelpRun) {
   const Outcome help = run_brume(folder_.path(), {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
-  std::vector<std::string> commands{"demo",  "render", "voxelize", "info",
-                                    "query", "diff",   "devices",  "bench"};
+  std::vector<std::string> commands{"demo", "render",  "voxelize", "info", "query",
+                                    "diff", "devices", "bench",    "sim"};
 #ifdef BRUME_VIEWER
   commands.push_back("view");
 #endif
