@@ -8,7 +8,7 @@
 #include "shared/volume_light.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kMedia = kMediumVolumes;
+layout(constant_id = 0) const uint kMedia = kMediumSmoke;  // besides the volumes
 layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweeps[]; };
 layout(binding = kBindDepths, r16f) uniform writeonly image3D depths;
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };

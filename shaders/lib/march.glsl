@@ -38,7 +38,7 @@ void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, i
       const MediaSample here = sample_media(media, span, p_world, t, gathered.texture_samples);
       ++gathered.steps;
       const float passed_log2 = log2_transmittance(here, ds);
-      if (kHasVolumes) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, ds);
+      if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, ds);
       if (passed_log2 < 0.0) {
         // In-scatter is constant over the step, so its integral is exact: the energy does not depend on the step
         // length.

@@ -23,12 +23,14 @@ const bool kSmokeAlone = kMedia == kMediumSmoke;
 struct MediaRay {
   WorldRay world;
   SmokeRay smoke;
+  VolumesRay volumes;
 };
 
 MediaRay media_ray(WorldRay world, vec2 position_px) {
   MediaRay ray;
   ray.world = world;
   if (kHasSmoke) ray.smoke = smoke_ray(position_px);
+  if (kHasVolumes) ray.volumes = volumes_ray(world);
   return ray;
 }
 
@@ -54,7 +56,7 @@ MediaSpan media_span(WorldRay ray, MediaRay media, float t, float ds) {
     join_span(span, span.smoke.bricks.t_first, span.smoke.bricks.t_stop, span.smoke.bricks.t_next);
   }
   if (kHasVolumes) {
-    span.volumes = volumes_span(ray, t, ds);
+    span.volumes = volumes_span(ray, media.volumes, t, ds);
     join_span(span, span.volumes.t_first, span.volumes.t_stop, span.volumes.t_next);
   }
   if (!kSmokeAlone) span.t_stop = min(span.t_stop, span.t_next - 0.5 * ds);
@@ -73,7 +75,7 @@ MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, in
     if (kSmokeAlone || (t >= span.smoke.bricks.t_first && t < span.smoke.bricks.t_stop))
       here.smoke = sample_smoke(ray.smoke, span.smoke, p_world, t, texture_samples);
   }
-  if (kHasVolumes) here.volumes = sample_volumes(span.volumes, ray.world, p_world, texture_samples);
+  if (kHasVolumes) here.volumes = sample_volumes(span.volumes, ray.volumes, ray.world, p_world, t, texture_samples);
   return here;
 }
 

@@ -4,36 +4,91 @@
 #define MEDIUM_VOLUMES_GLSL
 #include "lib/frame.glsl"
 #include "lib/volume_values.glsl"
+#include "shared/media.h"
 #include "shared/phase.h"
+
+/// A constant of the pipeline: a software rasteriser pays for branches that it does not take.
+const bool kHasHeat = (kMedia & kMediumHeat) != 0u;
 
 layout(binding = kBindVolumeLight) uniform sampler3D volume_light;
 layout(binding = kBindVolumeColors) uniform sampler2D volume_colors;
 
+/// A ray in the voxel space of a volume, and where it is inside the bounds [m].
+struct VolumeRay {
+  VoxelRay ray;
+  vec2 inside;
+};
+
+VolumeRay volume_ray(VolumeInstance volume, WorldRay world) {
+  const VoxelRay ray = VoxelRay(volume.voxel_from_world * vec4(world.origin, 1.0),
+                                volume.voxel_from_world * vec4(world.direction, 0.0));
+  return VolumeRay(ray, span_in_box(ray, volume.bounds_min, volume.bounds_max));
+}
+
+/// Phase function of the sun's light towards the eye.
+float volume_phase(VolumeInstance volume, WorldRay world) {
+  return henyey_greenstein(volume.look.anisotropy, dot(frame.media.to_sun, world.direction));
+}
+
+/// Texels of a volume's cube of light per voxel, and of its bounds' low corner.
+vec3 light_per_voxel(VolumeInstance volume, float edge) { return edge / (volume.bounds_max - volume.bounds_min); }
+vec3 light_first(VolumeInstance volume, uint i, float edge) {
+  return vec3(0.0, 0.0, float(i) * edge) - volume.bounds_min * light_per_voxel(volume, edge);
+}
+
+/// A line through a texture: at + t along.
+struct TextureRay {
+  vec3 at, along;
+};
+
+/// What the samples of a ray have in common: the first volume's ray, since most frames have no other.
+struct VolumesRay {
+  VolumeRay first;
+  TextureRay light;  // in its cube of light [texels]
+  float phase;
+};
+
+VolumesRay volumes_ray(WorldRay world) {
+  VolumesRay rays;
+  rays.first = volume_ray(volumes[0], world);
+  const float edge = float(textureSize(volume_light, 0).x);
+  const vec3 per_voxel = light_per_voxel(volumes[0], edge);
+  rays.light = TextureRay(light_first(volumes[0], 0u, edge) + rays.first.ray.origin * per_voxel,
+                          rays.first.ray.per_metre * per_voxel);
+  rays.phase = volume_phase(volumes[0], world);
+  return rays;
+}
+
 struct VolumesSpan {
-  uint present;  // bit i: samples in [t_first, t_stop) may be inside volume i
+  uint present;       // bit i: samples in [t_first, t_stop) may be inside volume i
+  TextureRay values;  // of the first volume, in the atlas, where it alone is present
   float t_first, t_stop, t_next;
 };
 
 /// The span of one volume: a brick, an empty cube, or all samples before or behind its bounds.
-BrickSpan volume_span(uint i, WorldRay world, float t, float ds) {
-  const VoxelRay ray = VoxelRay(volumes[i].voxel_from_world * vec4(world.origin, 1.0),
-                                volumes[i].voxel_from_world * vec4(world.direction, 0.0));
-  const vec2 inside = span_in_box(ray, volumes[i].bounds_min, volumes[i].bounds_max);
-  if (inside.x >= inside.y || t >= inside.y) return BrickSpan(vec3(0.0), kNoSlot, t, t, 1e30);
-  const float t_inside = sample_from(inside.x, t, ds);
+BrickSpan volume_span(VolumeInstance volume, VolumeRay ray, float t, float ds) {
+  if (ray.inside.x >= ray.inside.y || t >= ray.inside.y) return BrickSpan(vec3(0.0), kNoSlot, t, t, 1e30);
+  const float t_inside = sample_from(ray.inside.x, t, ds);
   if (t_inside > t) return BrickSpan(vec3(0.0), kNoSlot, t, t, t_inside);
-  const vec3 brick = brick_of(ray, t);
+  const vec3 brick = brick_of(ray.ray, t);
   int empty_edge;
-  const uint slot = volume_slot_at(volumes[i].bricks, ivec3(brick), empty_edge);
-  return brick_span(ray, brick, slot, empty_edge, t, ds);
+  const uint slot = volume_slot_at(volume.bricks, ivec3(brick), empty_edge);
+  return brick_span(ray.ray, brick, slot, empty_edge, t, ds);
 }
 
-VolumesSpan volumes_span(WorldRay ray, float t, float ds) {
-  VolumesSpan span = VolumesSpan(0u, t, t, 1e30);
-  for (uint i = 0u; i < frame.media.volume_count; ++i) {
-    const BrickSpan bricks = volume_span(i, ray, t, ds);
-    span.t_next = min(span.t_next, bricks.t_next);
-    if (bricks.slot != kNoSlot) span.present |= 1u << i;
+VolumesSpan volumes_span(WorldRay world, VolumesRay rays, float t, float ds) {
+  VolumesSpan span;
+  const BrickSpan first = volume_span(volumes[0], rays.first, t, ds);
+  span.t_first = span.t_stop = t;
+  span.t_next = first.t_next;
+  span.present = first.slot != kNoSlot ? 1u : 0u;
+  const vec3 texel = atlas_texel(volumes[0].bricks);
+  const vec3 corner = atlas_corner(volumes[0].bricks, first.slot) - first.low;
+  span.values = TextureRay((corner + rays.first.ray.origin) * texel, rays.first.ray.per_metre * texel);
+  for (uint i = 1u; i < frame.media.volume_count; ++i) {
+    const BrickSpan other = volume_span(volumes[i], volume_ray(volumes[i], world), t, ds);
+    span.t_next = min(span.t_next, other.t_next);
+    if (other.slot != kNoSlot) span.present |= 1u << i;
   }
   if (span.present != 0u) span.t_stop = span.t_next - 0.5 * ds;
   return span;
@@ -46,43 +101,53 @@ struct VolumesSample {
   vec3 glow;         // radiance that leaves per metre, whatever the extinction
 };
 
-/// Radiance towards the eye that a volume scatters, per extinction: from its cube of the light, in its bounds.
-vec3 volume_inscatter(uint i, vec3 p_voxel, float cos_angle) {
-  const vec3 size = vec3(textureSize(volume_light, 0));
-  const vec3 at = (p_voxel - volumes[i].bounds_min) / (volumes[i].bounds_max - volumes[i].bounds_min);
-  const vec3 texel = vec3(0.0, 0.0, float(i) * size.x) + clamp(at * size.x, vec3(0.5), vec3(size.x - 0.5));
-  const vec4 light = textureLod(volume_light, texel / size, 0.0);
-  const VolumeLook look = volumes[i].look;
-  return light.rgb + look.albedo * frame.media.sun_irradiance *
-                         (light.a * henyey_greenstein(look.anisotropy, cos_angle));
+/// Radiance towards the eye that a volume scatters, per extinction, at a texel of its cube of light.
+vec3 volume_inscatter(VolumeInstance volume, uint i, vec3 texel, float phase) {
+  const vec3 size = vec3(textureSize(volume_light, 0)), first = vec3(0.0, 0.0, float(i) * size.x);
+  const vec4 light = textureLod(volume_light, clamp(texel, first + 0.5, first + size.x - 0.5) / size, 0.0);
+  return light.rgb + volume.look.albedo * frame.media.sun_irradiance * (light.a * phase);
 }
 
 /// What a volume's heat emits at a point, per metre and per look.extinction.
-vec3 volume_glow(uint i, vec3 p_world) {
-  const float heat = volume_value(volumes[i].heat.bricks, volumes[i].heat.voxel_from_world * vec4(p_world, 1.0));
+vec3 volume_glow(VolumeInstance volume, uint i, vec3 p_world) {
+  const float heat = volume_value(volume.heat.bricks, volume.heat.voxel_from_world * vec4(p_world, 1.0));
   if (heat <= 0.0) return vec3(0.0);
   const vec2 size = vec2(textureSize(volume_colors, 0));
-  const float column = clamp(heat * volumes[i].heat.per_value, 0.0, 1.0) * (size.x - 1.0) + 0.5;
+  const float column = clamp(heat * volume.heat.per_value, 0.0, 1.0) * (size.x - 1.0) + 0.5;
   return textureLod(volume_colors, vec2(column, float(i) + 0.5) / size, 0.0).rgb;
 }
 
-VolumesSample sample_volumes(VolumesSpan span, WorldRay ray, vec3 p_world, inout uint texture_samples) {
+void add_volume(VolumeInstance volume, uint i, float value, vec3 light_texel, float phase, vec3 p_world,
+                inout VolumesSample sum, inout uint texture_samples) {
+  const float extinction = volume.look.extinction * value;
+  ++texture_samples;
+  if (extinction > 0.0) {
+    sum.extinction += extinction;
+    sum.light += extinction * (volume_inscatter(volume, i, light_texel, phase) + volume.look.emission);
+    ++texture_samples;
+  }
+  if (kHasHeat && volume.heat.per_value > 0.0) {
+    sum.glow += volume.look.extinction * volume_glow(volume, i, p_world);
+    ++texture_samples;
+  }
+}
+
+VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, vec3 p_world, float t,
+                             inout uint texture_samples) {
   VolumesSample sum = VolumesSample(0.0, vec3(0.0), vec3(0.0));
-  const float cos_angle = dot(frame.media.to_sun, ray.direction);
+  if (span.present == 1u) {
+    const float value = textureLod(volume_values, span.values.at + t * span.values.along, 0.0).r;
+    const vec3 texel = rays.light.at + t * rays.light.along;
+    add_volume(volumes[0], 0u, value, texel, rays.phase, p_world, sum, texture_samples);
+    return sum;
+  }
+  const float edge = float(textureSize(volume_light, 0).x);
   for (uint left = span.present; left != 0u; left &= left - 1u) {
     const uint i = uint(findLSB(left));
     const vec3 p_voxel = volumes[i].voxel_from_world * vec4(p_world, 1.0);
-    const float extinction = volumes[i].look.extinction * volume_value(volumes[i].bricks, p_voxel);
-    ++texture_samples;
-    if (extinction > 0.0) {
-      sum.extinction += extinction;
-      sum.light += extinction * (volume_inscatter(i, p_voxel, cos_angle) + volumes[i].look.emission);
-      ++texture_samples;
-    }
-    if (volumes[i].heat.per_value > 0.0) {
-      sum.glow += volumes[i].look.extinction * volume_glow(i, p_world);
-      ++texture_samples;
-    }
+    const vec3 texel = light_first(volumes[i], i, edge) + p_voxel * light_per_voxel(volumes[i], edge);
+    add_volume(volumes[i], i, volume_value(volumes[i].bricks, p_voxel), texel, volume_phase(volumes[i], world),
+               p_world, sum, texture_samples);
   }
   return sum;
 }

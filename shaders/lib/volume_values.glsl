@@ -3,7 +3,8 @@
 #define VOLUME_VALUES_GLSL
 #include "lib/brick_rays.glsl"
 
-layout(scalar, binding = kBindVolumes) readonly buffer Volumes { VolumeInstance volumes[]; };
+// Uniform, because most frames have one volume: what is read of volumes[0] is then a constant of the frame.
+layout(scalar, binding = kBindVolumes) uniform Volumes { VolumeInstance volumes[kMaxVolumes]; };
 layout(scalar, binding = kBindVolumePages) readonly buffer VolumePages { uint volume_pages[]; };
 layout(binding = kBindVolumeValues) uniform sampler3D volume_values;
 
@@ -27,14 +28,17 @@ float volume_value(BrickLayout bricks, vec3 p_voxel) {
   return textureLod(volume_values, uvw, 0.0).r;
 }
 
+/// Extinction of a volume at a point [1/m].
+float volume_extinction(VolumeInstance volume, vec3 p_world) {
+  const vec3 p_voxel = volume.voxel_from_world * vec4(p_world, 1.0);
+  if (any(lessThan(p_voxel, volume.bounds_min)) || any(greaterThan(p_voxel, volume.bounds_max))) return 0.0;
+  return volume.look.extinction * volume_value(volume.bricks, p_voxel);
+}
+
 /// Extinction of all volumes of the frame at a point [1/m].
 float volumes_extinction(uint volume_count, vec3 p_world) {
-  float sum = 0.0;
-  for (uint i = 0u; i < volume_count; ++i) {
-    const vec3 p_voxel = volumes[i].voxel_from_world * vec4(p_world, 1.0);
-    if (all(greaterThan(p_voxel, volumes[i].bounds_min)) && all(lessThan(p_voxel, volumes[i].bounds_max)))
-      sum += volumes[i].look.extinction * volume_value(volumes[i].bricks, p_voxel);
-  }
+  float sum = volume_extinction(volumes[0], p_world);
+  for (uint i = 1u; i < volume_count; ++i) sum += volume_extinction(volumes[i], p_world);
   return sum;
 }
 

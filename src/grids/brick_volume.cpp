@@ -231,19 +231,26 @@ void fill_volume(const Numbers& numbers, const std::vector<glm::ivec3>& bricks, 
 
   // Bounds: filtering carries a voxel half a voxel beyond its own.
   glm::vec3 low(1e30f), high(-1e30f);
+  glm::dvec3 places(0), squares(0);
   out.low = kLargestHalf;
   for (std::size_t i = 0; i < numbers.bricks.size(); ++i)
     for (int voxel = 0; voxel < int{kBrickVoxels}; ++voxel) {
       const float value = numbers.bricks[i][static_cast<std::size_t>(voxel)];
       out.low = std::min(out.low, value);
       out.high = std::max(out.high, value);
-      out.sum += double{value};
       if (value <= 0) continue;
-      const glm::vec3 p(numbers.at[i] * 8 + glm::ivec3(voxel & 7, voxel >> 3 & 7, voxel >> 6));
-      low = glm::min(low, p - 0.5f);
-      high = glm::max(high, p + 1.5f);
+      const glm::dvec3 p(numbers.at[i] * 8 + glm::ivec3(voxel & 7, voxel >> 3 & 7, voxel >> 6));
+      low = glm::min(low, glm::vec3(p) - 0.5f);
+      high = glm::max(high, glm::vec3(p) + 1.5f);
+      out.sum += double{value};
+      places += double{value} * (p + 0.5);
+      squares += double{value} * (p + 0.5) * (p + 0.5);
     }
   if (low.x > high.x) low = high = glm::vec3(0), out.low = 0;
+  if (out.sum > 0) {
+    out.mean = places / out.sum;
+    out.deviation = glm::sqrt(glm::max(squares / out.sum - out.mean * out.mean, 0.0));
+  }
   volume.set_bounds(low, high);
   volume.end_update();
 }

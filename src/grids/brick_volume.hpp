@@ -24,6 +24,7 @@ struct BrickVolume {
   glm::dmat4 world_from_voxel{1};                ///< To the file's world.
   float low = 0, high = 0;                       ///< Range of the values.
   double sum = 0;                                ///< Of all values.
+  glm::dvec3 mean{0}, deviation{0};              ///< Of the values' places, weighted by value [voxel space].
   int level = 0;                                 ///< Halvings of the resolution: 0 is the file's own.
   double rms_error = 0;                          ///< Of the halvings, over active voxels; 0 at level 0.
 };

@@ -106,7 +106,7 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindHoleLists, gpu::read(in.holes.lists)},
                     {shared::kBindMarchList, gpu::read(rays.list)},
                     {shared::kBindFilled, gpu::read(in.smoke.filled)},
-                    {shared::kBindVolumes, gpu::read(in.volumes.instances)},
+                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
                     {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
                     {shared::kBindVolumeLight, gpu::sampled(in.volume_light, linear_)},

@@ -28,6 +28,7 @@ VolumeLightPass::VolumeLightPass(gpu::Context& context)
 bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32_t media) {
   if (plan.sweeps.empty()) return false;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
+  media &= shared::kMediumSmoke;
   sweep_pipelines_.try_emplace(media, context_, shaders::volume_sweep_comp, std::vector{media});
   gpu::grow(context_, sweeps_, plan.sweeps.size() * sizeof(shared::VolumeSweep));
   const glm::uvec3 has = light_.info().size;
@@ -55,7 +56,7 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
                     {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
                     {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
-                    {shared::kBindVolumes, gpu::read(in.volumes.instances)},
+                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
                     {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
                     {shared::kBindSweeps, gpu::read(sweeps_)},
@@ -70,7 +71,7 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
 void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,
                                     const shared::VolumeLightParams& params, const gpu::Image& depths,
                                     std::uint32_t sweeps) {
-  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.media);
+  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.media & shared::kMediumSmoke);
   recorder.bind(pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -80,7 +81,7 @@ void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
                     {shared::kBindCorners, gpu::read(in.smoke.corners)},
                     {shared::kBindHoleCells, gpu::read(in.holes.cells)},
-                    {shared::kBindVolumes, gpu::read(in.volumes.instances)},
+                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
                     {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
                     {shared::kBindSweeps, gpu::read(sweeps_)},

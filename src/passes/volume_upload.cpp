@@ -46,9 +46,10 @@ std::vector<std::uint64_t> colors_of(const planning::HeatInput& heat) {
 }  // namespace
 
 VolumeUpload::VolumeUpload(gpu::Context& context)
-    : atlas_(context, kVolumeChannels), colors_(make_colors(context)) {
-  gpu::grow(context, instances_, shared::kMaxVolumes * sizeof(shared::VolumeInstance));
-}
+    : atlas_(context, kVolumeChannels),
+      instances_(context, shared::kMaxVolumes * sizeof(shared::VolumeInstance),
+                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT),
+      colors_(make_colors(context)) {}
 
 void VolumeUpload::reserve(std::span<const planning::VolumeInput> volumes) {
   atlas_.reserve(list_of(volumes));

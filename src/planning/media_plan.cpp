@@ -22,12 +22,13 @@ bool may_be_visible(const ViewFrustum& frustum, const Box<float>& box) {
   return frustum.may_intersect({0.5f * (box.low + box.high), 0.5f * glm::length(box.high - box.low)});
 }
 
-/// Half of the shortest edge of a voxel [m].
+/// The shortest edge of a voxel [m]: filtered values are linear in between, and half as long a step changes
+/// the image of a cloud by 0.07 of 255 on average.
 float step_of(const glm::mat4& world_from_voxel) {
   float shortest = glm::length(glm::vec3(world_from_voxel[0]));
   for (int axis = 1; axis < 3; ++axis)
     shortest = std::min(shortest, glm::length(glm::vec3(world_from_voxel[axis])));
-  return 0.5f * shortest;
+  return shortest;
 }
 
 glm::mat4x3 inverse_of(const glm::mat4& world_from_voxel) {
@@ -57,9 +58,12 @@ void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, c
   const shared::VolumeLayout& layout = volume.volume->layout();
   add_medium(plan, shared::kMediumVolumes, world, volume.look.extinction, step_of(volume.world_from_voxel));
   shared::VolumeHeat heat{};
-  if (volume.heat.volume && volume.heat.volume->slot_count() > 0)
+  if (volume.heat.volume && volume.heat.volume->slot_count() > 0) {
+    plan.media |= shared::kMediumHeat;
     heat = {inverse_of(volume.heat.world_from_voxel), {}, 1 / volume.heat.high};
-  plan.volumes.push_back({index, world,
+  }
+  plan.volumes.push_back({index,
+                          world,
                           {inverse_of(volume.world_from_voxel),
                            glm::mat4x3(volume.world_from_voxel),
                            layout.bounds_min,

@@ -108,7 +108,7 @@ VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in) {
     for (const glm::vec3 direction : kSkyDirections)
       plan.sweeps.push_back(sweep_through(visible.instance, -direction));
   }
-  const bool alone = in.media->volumes.size() == 1 && in.media->media == shared::kMediumVolumes;
+  const bool alone = in.media->volumes.size() == 1 && (in.media->media & shared::kMediumSmoke) == 0;
   if (!alone) {
     const shared::FrameMedia& frame = in.media->frame;
     plan.beyond_m = glm::length(frame.bounds_max - frame.bounds_min) * in.media->smoke.voxel_size;

@@ -41,8 +41,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
 /// Where the volumes of a timeline are, for the scene's bounds.
 void place_volumes(const scene::Timeline& timeline, const Volumes& volumes, scene::Scene& scene) {
   for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
-    scene.volumes.push_back(
-        {timeline.volumes[i].file.filename().string(), volumes.first_bounds(timeline.volumes, i)});
+    scene.volumes.push_back(place_of(timeline.volumes[i], volumes.first_frame(i)));
 }
 
 Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewOptions& options) {

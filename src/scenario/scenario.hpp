@@ -16,7 +16,7 @@ namespace brume::scenario {
 struct Scenario {
   scene::Timeline timeline;
   scene::Scene scene;
-  scene::Camera camera;              ///< Used when the timeline has no camera keys.
+  scene::Camera camera;  ///< Used when the timeline has no camera keys.
   Voxels voxels;
   smoke::MaskAtlas masks = {};  ///< The masks of its shots and texts.
   ShotMasks shot_masks = {};    ///< Which of them each shot and text uses.

@@ -9,8 +9,9 @@
 namespace brume::scenario {
 namespace {
 
-/// From the side of the default camera, low enough to shade.
-constexpr scene::SunOptions kVolumeSun{1.75f, 0.6f};
+/// From the side of the default camera, low enough to shade, warm before a blue sky.
+constexpr scene::SunOptions kVolumeSun{1.83f, 0.49f, {3.4f, 3.0f, 2.5f}};
+constexpr float kVolumeExposure = 0.5f;
 /// Voxels of the smoke's grid across the volume.
 constexpr float kVoxelsAcross = 48;
 
@@ -55,11 +56,15 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   const double depth = frame.mean_density * across;
   if (depth > 0) volume.extinction = static_cast<float>(std::clamp(double{kViewDepth} / depth, 1e-6, 1e6));
   volume.albedo = glm::vec3(frame.heat ? 0.7f : 0.99f);
+  volume.anisotropy = frame.heat ? 0.2f : 0.5f;
   timeline.volumes.push_back(volume);
 
   // Light, ground and smoke.
   timeline.sun = options.sun.value_or(kVolumeSun);
-  timeline.exposure = options.exposure.value_or(0);
+  timeline.sky.zenith = {0.06f, 0.16f, 0.42f};
+  timeline.sky.horizon = {0.30f, 0.43f, 0.62f};
+  timeline.sky.ambient = {0.20f, 0.26f, 0.36f};
+  timeline.exposure = options.exposure.value_or(frame.heat ? 0 : kVolumeExposure);
   timeline.tone = options.tone.value_or(timeline.tone);
   if (frame.heat) timeline.ground = 0.0f;
   timeline.grid.voxel =

@@ -13,7 +13,7 @@ namespace brume::scenario {
 /// - scale: as given, or fitting_scale with a warning;
 /// - up: as its program writes files (VolumeFrame::z_is_up);
 /// - extinction: an optical depth of kViewDepth through a ball of the volume's size, whatever its units;
-/// - light: a sun and a day sky; exposure 0 unless given;
+/// - light: a sun before a blue sky, exposed for white clouds;
 /// - ground: below a volume that glows.
 ///
 /// Smoke is thrown only where the options say so.

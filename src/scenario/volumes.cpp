@@ -133,6 +133,11 @@ Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, cons
   const shared::VolumeLayout& layout = frame->density.volume->layout();
   frame->bounds =
       transformed(glm::mat4(frame->density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
+  // Of a ball, 2.2 standard deviations are the radius.
+  const Box<float> core{glm::vec3(frame->density.mean - 2.2 * frame->density.deviation),
+                        glm::vec3(frame->density.mean + 2.2 * frame->density.deviation)};
+  frame->core = transformed(glm::mat4(frame->density.world_from_voxel),
+                            intersection(core, {layout.bounds_min, layout.bounds_max}));
   frame->z_is_up = is_z_up(**density);
   return std::shared_ptr<const VolumeFrame>(std::move(frame));
 }
@@ -157,6 +162,11 @@ glm::mat4 world_from_file(const scene::VolumeOptions& options) {
     matrix = glm::rotate(matrix, glm::radians(options.rotation[axis]), around);
   }
   return glm::scale(matrix, glm::vec3(options.scale));
+}
+
+scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
+  const glm::mat4 world = world_from_file(options);
+  return {options.file.filename().string(), transformed(world, frame.bounds), transformed(world, frame.core)};
 }
 
 Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& file,
@@ -207,10 +217,6 @@ std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options,
     volumes.push_back(std::move(at));
   }
   return volumes;
-}
-
-Box<float> Volumes::first_bounds(std::span<const scene::VolumeOptions> options, std::size_t volume) const {
-  return transformed(world_from_file(options[volume]), sequences_[volume].first->bounds);
 }
 
 std::vector<fs::path> Volumes::files() const {

@@ -12,6 +12,7 @@
 #include "core/box.hpp"
 #include "core/error.hpp"
 #include "grids/brick_volume.hpp"
+#include "scene/scene.hpp"
 #include "scene/timeline.hpp"
 
 namespace brume::scenario {
@@ -23,6 +24,7 @@ struct VolumeFrame {
   double mean_density = 0;   ///< Of the active voxels.
   double filled_volume = 0;  ///< That all active voxels take, in the file's world.
   Box<float> bounds;         ///< Around what can be dense, in the file's world.
+  Box<float> core;           ///< Around most of it: a ball, but none of the wisps around it.
   bool z_is_up = false;      ///< As Blender writes files; other programs have y up.
 };
 
@@ -44,8 +46,6 @@ class Volumes {
   /// shows the last one that was. Frames remain loaded as long as they are shown.
   std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds);
 
-  /// Around a volume's first frame in the world [m].
-  Box<float> first_bounds(std::span<const scene::VolumeOptions> options, std::size_t volume) const;
   const VolumeFrame& first_frame(std::size_t volume) const { return *sequences_[volume].first; }
   /// All files of all sequences.
   std::vector<std::filesystem::path> files() const;
@@ -58,6 +58,9 @@ class Volumes {
   };
   std::vector<Sequence> sequences_;
 };
+
+/// Where the first frame of a volume is.
+scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
 
 /// From the world of a volume's file to that of the scene [m].
 glm::mat4 world_from_file(const scene::VolumeOptions& options);

@@ -25,8 +25,8 @@ Box<float> world_bounds(const Scene& scene) {
 
 namespace {
 
-/// Calls visit(point in the world) for all corners of objects but backdrops, and of boxes around spheres and
-/// volumes.
+/// Calls visit(point in the world) for all corners of objects but backdrops, of boxes around spheres, and of
+/// the cores of volumes.
 template <typename Visit>
 void for_each_point(const Scene& scene, Visit visit) {
   for (const Object& object : scene.objects) {
@@ -40,7 +40,7 @@ void for_each_point(const Scene& scene, Visit visit) {
             sphere.radius * (2.0f * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f));
   for (const Volume& volume : scene.volumes)
     for (int corner = 0; corner < 8; ++corner)
-      visit(glm::mix(volume.bounds_world.low, volume.bounds_world.high,
+      visit(glm::mix(volume.core_world.low, volume.core_world.high,
                      glm::bvec3(corner & 1, corner & 2, corner & 4)));
 }
 

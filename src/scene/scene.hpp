@@ -81,6 +81,7 @@ struct Camera {
 struct Volume {
   std::string name;
   Box<float> bounds_world;  ///< Around what can be dense.
+  Box<float> core_world;    ///< Around most of it: what a camera frames.
 };
 
 struct Sphere {
@@ -121,8 +122,8 @@ struct Scene {
   std::vector<std::filesystem::path> files;  ///< Every file that load_scene read, itself first.
 };
 
-/// The bounding box of all objects but backdrops, of spheres and of volumes, in world space; low > high when there is
-/// none.
+/// The bounding box of all objects but backdrops, of spheres and of volumes, in world space; low > high when
+/// there is none.
 Box<float> world_bounds(const Scene& scene);
 
 /// The scene's own camera, or one that looks at it obliquely from above and fits it into the middle four

@@ -125,7 +125,7 @@ class VolumesTest : public gpu::GpuTest {
     double shortest = 1e30;
     for (int axis = 0; axis < 3; ++axis)
       shortest = std::min(shortest, double{glm::length(glm::vec3(volume.world_from_voxel[axis]))});
-    return 0.5 * shortest;
+    return shortest;
   }
 
   FrameInput input_;
