@@ -25,7 +25,7 @@ FrameCost RepeatedFrame::draw() {
     const double begin = thread_cpu_ms();
     renderer_.record_frame(recorder, plan);
     cost.record_cpu = thread_cpu_ms() - begin;
-    recorder.read_back(renderer_.smoke().sample_counter(), counter_, sizeof(std::uint32_t));
+    recorder.read_back(renderer_.smoke().march_counters(), counter_, sizeof(std::uint32_t));
   });
   for (const auto& scope : runner_.timings()) cost.passes[scope.name] = scope.milliseconds;
   return cost;

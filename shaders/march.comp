@@ -21,17 +21,17 @@ layout(binding = kBindSmoke, rgba16f) uniform writeonly image2D smoke;
 layout(binding = kBindSmokeNear, rgba16f) uniform writeonly image2D smoke_near;
 layout(scalar, binding = kBindMarchCounters) buffer Counters {
   uint texture_samples;
-  uint ray_steps[];  // per pixel
+  uint of_pixel[];  // steps, or the bits of the entry, by kCount
 };
 
 vec4 premultiplied(Gathered gathered) { return vec4(gathered.radiance * media_albedo(), gathered.transmittance); }
 
-/// Writes the steps of a ray for each of its pixels.
-void write_steps(ivec2 texel, uint steps) {
+/// Writes what is recorded of a ray for each of its pixels.
+void write_of_pixels(ivec2 texel, uint value) {
   const uint edge = kRays == kRaysOfTiles ? frame.march_scale : 1u;
   for (uint i = 0u; i < edge * edge; ++i) {
     const uvec2 px = uvec2(texel) * edge + uvec2(i % edge, i / edge);
-    if (all(lessThan(px, frame.size_px))) ray_steps[px.x + frame.size_px.x * px.y] = steps;
+    if (all(lessThan(px, frame.size_px))) of_pixel[px.x + frame.size_px.x * px.y] = value;
   }
 }
 
@@ -48,7 +48,7 @@ void main() {
   const vec2 inside = clip_to_media(ray.origin, ray.direction, pixel.far * per_depth);
 
   // A tile's ray is stored at the nearest surface of its pixels, too.
-  Gathered gathered = Gathered(vec3(0.0), 1.0, 0u, 0u);
+  Gathered gathered = nothing_gathered();
   vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
   if (inside.x < inside.y) {
     if (kRays == kRaysOfTiles) {
@@ -63,6 +63,7 @@ void main() {
 
   imageStore(smoke, pixel.texel, premultiplied(gathered));
   if (kRays == kRaysOfTiles) imageStore(smoke_near, pixel.texel, at_near);
-  if (kCount != kCountNothing) atomicAdd(texture_samples, gathered.texture_samples);
-  if (kCount == kCountSteps) write_steps(pixel.texel, gathered.steps);
+  if (kCount == kCountSamples || kCount == kCountSteps) atomicAdd(texture_samples, gathered.texture_samples);
+  if (kCount == kCountSteps) write_of_pixels(pixel.texel, gathered.steps);
+  if (kCount == kCountEntries) write_of_pixels(pixel.texel, floatBitsToUint(gathered.entry));
 }

@@ -58,6 +58,8 @@ const char* name_of(FileKind kind) {
   switch (kind) {
     case FileKind::png:
       return ".png file";
+    case FileKind::exr:
+      return ".exr file";
     case FileKind::mp4:
       return ".mp4 file";
     case FileKind::vxl:
@@ -92,6 +94,8 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
   switch (kind) {
     case FileKind::png:
       return begins_with(start, "\x89PNG\r\n\x1a\n");
+    case FileKind::exr:
+      return begins_with(start, "\x76\x2f\x31\x01");
     case FileKind::mp4:
       return is_mp4(start);
     case FileKind::vxl:

@@ -6,7 +6,9 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/volumes.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "image/decode.hpp"
+#include "image/exr.hpp"
 #include "scene/load.hpp"
 #include "voxel/vxl_file.hpp"
 #include "wire/replay.hpp"
@@ -22,6 +24,25 @@ Summary image_summary(const std::filesystem::path& path) {
   summary.add("width", image.width);
   summary.add("height", image.height);
   summary.add("opaque", opaque);
+  return summary;
+}
+
+Summary layers_summary(const std::filesystem::path& path) {
+  const auto bytes = read_file(path).value_or_throw();
+  const auto parts = image::decode_exr_parts(bytes, path.string()).value_or_throw();
+  Summary summary("layers");
+  Json list = Json::list({});
+  for (const image::ExrPart& part : parts) {
+    Json layers = Json::list({});
+    if (!part.name.empty()) summary.add_line("part", printable(part.name));
+    summary.add_line("size", std::to_string(part.width) + "x" + std::to_string(part.height));
+    for (const auto& [name, type] : part.channels) {
+      summary.add_line(printable(name), type);
+      layers.push_back({{"name", name}, {"type", type}});
+    }
+    list.push_back({{"name", part.name}, {"width", part.width}, {"height", part.height}, {"layers", layers}});
+  }
+  summary.set("parts", list);
   return summary;
 }
 
@@ -49,11 +70,12 @@ Summary replay_summary(const std::filesystem::path& path) {
 Summary summary_of(const std::filesystem::path& path, bool check, Outputs& outputs) {
   expect_suffix("", path,
                 {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".json",
-                 ".png", ".jpg", ".jpeg", ".webp"});
+                 ".png", ".exr", ".jpg", ".jpeg", ".webp"});
   const std::string extension = scene::lower_extension(path);
   if (extension == ".toml") return timeline_summary(path, check, outputs);
   if (extension == ".vxl") return voxel_summary(path);
   if (extension == ".brp") return replay_summary(path);
+  if (extension == ".exr") return layers_summary(path);
   if (is_volume_file(path)) return volume_summary(path, outputs);
   if (extension == ".txt" || extension == ".gltf" || extension == ".glb" || extension == ".obj")
     return scene_summary(path, outputs);
@@ -82,6 +104,12 @@ void Summary::add_line(const std::string& name, const std::string& text) {
 
 Json point_json(glm::vec3 p) {
   return Json::list({p.x, p.y, p.z});
+}
+
+std::string printable(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return name;
 }
 
 std::string point_text(glm::vec3 p) {

@@ -31,6 +31,8 @@ class Summary {
   std::vector<std::pair<std::string, std::string>> lines_;
 };
 
+/// A name from a file, which may hold anything, on one line.
+std::string printable(std::string name);
 Json point_json(glm::vec3 p);
 /// "1,0.5,-3", as arguments take it.
 std::string point_text(glm::vec3 p);

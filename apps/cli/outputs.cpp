@@ -97,13 +97,13 @@ void Outputs::writes(const std::string& option, const fs::path& file, FileKind k
   outputs_.push_back({option, file, identity, false});
 }
 
-void Outputs::writes_frames(const std::string& option, const fs::path& pattern, std::uint32_t first,
-                            std::uint32_t last) {
+void Outputs::writes_frames(const std::string& option, const fs::path& pattern, FileKind kind,
+                            std::uint32_t first, std::uint32_t last) {
   check_writable(sequence_name(pattern, first));
   for (std::uint32_t frame = first; frame <= last; ++frame) {
     const fs::path file = sequence_name(pattern, frame);
     const FileIdentity identity = identity_of(file);
-    check_place(option, file, identity, FileKind::png);
+    check_place(option, file, identity, kind);
     // Two names of the sequence can only be the same file if it exists.
     if (exists(identity)) options_.emplace(identity, option);
     stop_if_interrupted();
@@ -153,11 +153,12 @@ std::string Outputs::frame_state() const {
   const auto count = std::count(done.begin(), done.end(), true);
   std::string text = std::to_string(count) + " of " + std::to_string(done.size()) + " frames written";
   if (count == std::ssize(done)) return text;
-  text += "; continue with --resume";
   const auto begin = std::find(done.begin(), done.end(), false) - done.begin();
-  if (frames_depend_ || begin != count) return text;
   const auto next = static_cast<std::uint64_t>(begin) + frames_->first;
-  return text + " or --frames " + std::to_string(next) + "-" + std::to_string(frames_->last);
+  const std::string rest = "--frames " + std::to_string(next) + "-" + std::to_string(frames_->last);
+  if (!resumable_) return text + "; continue with " + rest;
+  text += "; continue with --resume";
+  return frames_depend_ || begin != count ? text : text + " or " + rest;
 }
 
 // Which of several outputs are written; empty if all or none are.

@@ -49,8 +49,8 @@ class Outputs {
   void writes(const std::string& option, const std::filesystem::path& file, FileKind kind);
 
   /// Declares the frames first to last, inclusive, of a numbered sequence.
-  void writes_frames(const std::string& option, const std::filesystem::path& pattern, std::uint32_t first,
-                     std::uint32_t last);
+  void writes_frames(const std::string& option, const std::filesystem::path& pattern, FileKind kind,
+                     std::uint32_t first, std::uint32_t last);
 
   /// States that a declared output needs no writing: it is up to date.
   void up_to_date(const std::filesystem::path& file);
@@ -58,6 +58,8 @@ class Outputs {
   void frame_done(std::uint32_t frame);
   /// Whether frames depend on those before: only --resume then continues the sequence.
   void set_frames_depend(bool depend) { frames_depend_ = depend; }
+  /// Whether the command has --resume to continue the sequence; yes unless it says otherwise.
+  void set_resumable(bool resumable) { resumable_ = resumable; }
 
   /// States how many frames of a film are drawn. It is written only when all are.
   void film_progress(const std::filesystem::path& film, std::uint32_t drawn, std::uint32_t frames);
@@ -106,7 +108,7 @@ class Outputs {
   std::vector<Output> outputs_;
   std::optional<Frames> frames_;
   std::string film_state_;  ///< " after 3 of 48 frames; ..."; empty: no film.
-  bool force_ = false, frames_depend_ = false;
+  bool force_ = false, frames_depend_ = false, resumable_ = true;
 };
 
 /// Throws Error unless this file can be created: the folder exists and is writable, the file is no folder.

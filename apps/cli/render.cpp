@@ -19,7 +19,6 @@
 #include "core/hash.hpp"
 #include "core/log.hpp"
 #include "gpu/context.hpp"
-#include "image/png.hpp"
 #include "render/playback.hpp"
 #include "scene/text_reader.hpp"
 
@@ -45,6 +44,8 @@ struct Plan {
   passes::DebugView view = passes::DebugView::none;
   std::optional<passes::ViewSlice> slice;
   FrameRate rate;
+  // Whether frames are written as numbers.
+  bool has_layers() const { return renderer.smoke.record_entries; }
 };
 
 // Whether each frame depends on those before.
@@ -56,11 +57,11 @@ bool frames_depend(const RenderOptions& options) {
 void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outputs) {
   outputs.reads({options.input, options.timeline});
   outputs.writes("--json", options.json, FileKind::json);
-  if (plan.kind == TargetKind::picture) outputs.writes("-o", plain_name(options.output), FileKind::png);
-  if (plan.kind == TargetKind::film) outputs.writes("-o", plain_name(options.output), FileKind::mp4);
+  const FileKind kind = target_file_kind(options.output);
+  if (plan.kind != TargetKind::sequence) outputs.writes("-o", plain_name(options.output), kind);
   // Without --frames the timeline decides how many there are.
   if (plan.kind == TargetKind::sequence && plan.frames)
-    outputs.writes_frames("-o", options.output, plan.frames->first, plan.frames->last);
+    outputs.writes_frames("-o", options.output, kind, plan.frames->first, plan.frames->last);
   if (plan.kind == TargetKind::sequence && !plan.frames) check_writable(sequence_name(options.output, 0));
 }
 
@@ -76,6 +77,8 @@ void refuse_idle(const Arguments& arguments, const RenderOptions& options, const
   if (plan.kind != TargetKind::sequence)
     arguments.refuse("--resume", "requires numbered frames, such as -o f_%04d.png");
   if (options.march == "full") arguments.refuse("--resolve-error-scale", "requires --march half or quarter");
+  if (plan.has_layers())
+    arguments.refuse("--view", "is for .png and .mp4; an .exr file has layers of its own");
   if (plan.slice && !passes::has_slice(plan.view))
     arguments.refuse("--slice", "requires --view density, light or distance");
 }
@@ -92,6 +95,7 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   }
   plan.renderer.smoke.march_scale = options.march == "full" ? 1 : options.march == "half" ? 2 : 4;
   plan.renderer.smoke.temporal = options.temporal;
+  plan.renderer.smoke.record_entries = target_file_kind(options.output) == FileKind::exr;
   if (!options.camera.empty()) plan.camera = parse_camera("--camera", options.camera);
   plan.view = *passes::find_debug_view(options.view);
   if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);
@@ -135,13 +139,10 @@ class TimedRenderer {
  public:
   explicit TimedRenderer(render::Playback& playback) : playback_(playback) {}
   image::Image8 draw(double seconds, std::uint32_t frame_index) {
-    const double cpu = cpu_seconds();
-    const auto start = std::chrono::steady_clock::now();
-    image::Image8 picture = playback_.draw(seconds, frame_index);
-    seconds_ += seconds_since(start);
-    cpu_seconds_ += cpu_seconds() - cpu;
-    ++frames_;
-    return picture;
+    return timed([&] { return playback_.draw(seconds, frame_index); });
+  }
+  image::LayeredImage draw_layers(double seconds, std::uint32_t frame_index) {
+    return timed([&] { return playback_.draw_layers(seconds, frame_index); });
   }
   Json statistics() const {
     Json passes = Json::object();
@@ -154,6 +155,17 @@ class TimedRenderer {
   }
 
  private:
+  template <typename Draw>
+  std::invoke_result_t<Draw> timed(Draw draw) {
+    const double cpu = cpu_seconds();
+    const auto start = std::chrono::steady_clock::now();
+    auto picture = draw();
+    seconds_ += seconds_since(start);
+    cpu_seconds_ += cpu_seconds() - cpu;
+    ++frames_;
+    return picture;
+  }
+
   render::Playback& playback_;
   double seconds_ = 0, cpu_seconds_ = 0;
   int frames_ = 0;
@@ -219,25 +231,28 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
 
 void write(const RenderOptions& options, const Plan& plan, CommonOptions& common,
            const gpu::DeviceInfo& device, const scenario::Scenario& scenario, TimedRenderer& renderer) {
+  const auto draw = [&](double seconds, std::uint32_t i) -> Picture {
+    if (plan.has_layers()) return renderer.draw_layers(seconds, i);
+    return renderer.draw(seconds, i);
+  };
   if (plan.kind == TargetKind::picture) {
-    const double time = options.time.value_or(static_cast<double>(scenario.timeline.duration));
-    const image::Image8 picture = renderer.draw(time, 0);
+    const Picture picture = draw(options.time.value_or(static_cast<double>(scenario.timeline.duration)), 0);
     stop_if_interrupted();
-    image::save_png(plain_name(options.output), picture).value_or_throw();
+    save_picture(plain_name(options.output), picture);
     return;
   }
   const FrameRange range = frames_of(plan, scenario.timeline);
-  const auto draw = [&](std::uint32_t i) { return renderer.draw(plan.rate.time_of(i), i); };
   const std::uint32_t warm_up = warm_up_of(options, range.first);
   if (plan.kind == TargetKind::film) {
     write_film(plain_name(options.output), {plan.renderer.size_px, plan.rate, common.threads, warm_up},
-               range.first, range.last, common.outputs, draw);
+               range.first, range.last, common.outputs,
+               [&](std::uint32_t i) { return renderer.draw(plan.rate.time_of(i), i); });
     return;
   }
   write_sequence(
       {options.output, range.first, range.last, warm_up, plan.renderer.size_px,
        sequence_key(options, scenario, device, range.first), frames_depend(options), options.resume},
-      common.outputs, draw);
+      common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
 }
 
 void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
@@ -246,7 +261,8 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   const scenario::Scenario scenario = load_with_options(options.input, options.timeline, plan.scene);
   if (plan.kind == TargetKind::sequence && !plan.frames) {
     const FrameRange range = frames_of(plan, scenario.timeline);
-    common.outputs.writes_frames("-o", options.output, range.first, range.last);
+    common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
+                                 range.last);
   }
   common.outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
@@ -318,6 +334,7 @@ Command add_render(CommandLine& program) {
               "  brume render room.glb -o room.png --throw \"0,1.7,8 -2.6,0.4,-3\" --smoke-size 4\n"
               "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
               "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
+              "  brume render scenes/demo.toml -o demo.exr --time 2.5\n"
               "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
   auto options = std::make_shared<RenderOptions>();
   const Arguments arguments = command.arguments;
@@ -325,7 +342,8 @@ Command add_render(CommandLine& program) {
       .required()
       .type_name("");
   arguments
-      .add_option("-o,--output", options->output, "Output file: .png, .png with %04d for a sequence, or .mp4")
+      .add_option("-o,--output", options->output,
+                  "Output file: .png or .exr (numbers in layers), with %04d for a sequence, or .mp4")
       .required()
       .type_name("FILE");
   arguments.add_option("--timeline", options->timeline, "Timeline to play in the scene INPUT")

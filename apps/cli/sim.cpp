@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <vector>
@@ -7,10 +8,17 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
+#include "apps/cli/parse.hpp"
 #include "apps/cli/scene_options.hpp"
+#include "apps/cli/targets.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "core/progress.hpp"
+#include "grids/files.hpp"
 #include "scenario/events.hpp"
+#include "scenario/smoke_grid.hpp"
+#include "scene/load.hpp"
+#include "scene/text_reader.hpp"
 #include "wire/packet.hpp"
 #include "wire/replay.hpp"
 
@@ -20,11 +28,37 @@ namespace {
 constexpr std::uint32_t kMaxTicks = 1u << 22;  // 18 hours at 64 Hz
 
 struct SimOptions {
-  std::string timeline, record, replay, json;
+  std::string timeline, record, replay, json, volumes, frames, fps = "24", up = "y";
   SceneOptions scene;
   std::optional<std::uint32_t> ticks, rate;
   bool hash = false;
 };
+
+FileKind volume_kind(const std::filesystem::path& path) {
+  const std::string extension = scene::lower_extension(path);
+  return extension == ".vdb" ? FileKind::vdb : extension == ".nvdb" ? FileKind::nvdb : FileKind::brv;
+}
+
+// Refuses options that would do nothing, and names that cannot be written. Numbered files without --frames
+// are declared when the timeline is known.
+void check_volumes(const Arguments& arguments, const SimOptions& options, Outputs& outputs) {
+  if (options.volumes.empty()) {
+    for (const char* option : {"--frames", "--fps", "--up"}) arguments.refuse(option, "requires --volumes");
+    return;
+  }
+  expect_suffix("--volumes", options.volumes, {".vdb", ".nvdb", ".brv"});
+  parse_rate("--fps", options.fps);
+  if (!is_numbered("--volumes", options.volumes)) {
+    for (const char* option : {"--frames", "--fps"})
+      arguments.refuse(option, "requires numbered files, such as --volumes smoke_%04d.vdb");
+    outputs.writes("--volumes", plain_name(options.volumes), volume_kind(options.volumes));
+    return;
+  }
+  outputs.set_resumable(false);
+  if (options.frames.empty()) return check_writable(sequence_name(options.volumes, 0));
+  const FrameRange range = parse_frames("--frames", options.frames);
+  outputs.writes_frames("--volumes", options.volumes, volume_kind(options.volumes), range.first, range.last);
+}
 
 void check_options(const Arguments& arguments, const SimOptions& options, Outputs& outputs) {
   if (options.timeline.empty() && options.replay.empty())
@@ -33,7 +67,7 @@ void check_options(const Arguments& arguments, const SimOptions& options, Output
     if (!options.timeline.empty())
       throw Error(ErrorCode::usage, "--replay: needs no timeline; remove " + options.timeline +
                                         " or --replay " + options.replay);
-    for (const char* option : {"--ticks", "--rate", "--record", "--voxel", "--scale"})
+    for (const char* option : {"--ticks", "--rate", "--record", "--volumes", "--voxel", "--scale"})
       arguments.refuse(option, "cannot be combined with --replay, whose recording sets it; remove one");
     expect_suffix("--replay", options.replay, {".brp"});
   }
@@ -41,7 +75,98 @@ void check_options(const Arguments& arguments, const SimOptions& options, Output
     outputs.reads(std::filesystem::path(input));
   outputs.writes("--record", options.record, FileKind::brp);
   outputs.writes("--json", options.json, FileKind::json);
+  check_volumes(arguments, options, outputs);
 }
+
+// The ticks to simulate, and those of them whose smoke becomes a volume file.
+struct Schedule {
+  std::uint32_t rate = 0, ticks = 0;
+  FrameRate frame_rate;
+  FrameRange frames;
+
+  std::uint32_t tick_of(std::uint32_t frame) const {
+    return scenario::tick_at(frame_rate.time_of(frame), rate);
+  }
+};
+
+// Frames beyond the timeline's end are simulated unless --ticks excludes them.
+void extend_to_frames(const SimOptions& options, const scene::Timeline& timeline, Schedule& schedule) {
+  const std::string frames = "--frames " + options.frames + ": the last is at ";
+  const std::uint32_t last = schedule.tick_of(schedule.frames.last);
+  if (last < schedule.ticks) return;
+  const std::uint32_t most = options.ticks.value_or(kMaxTicks);
+  if (last >= most)
+    throw Error(ErrorCode::usage, frames + "tick " + std::to_string(last) + ", after the last one, " +
+                                      std::to_string(most - 1));
+  const double seconds = schedule.frame_rate.time_of(schedule.frames.last), end{timeline.duration};
+  if (seconds > end)
+    log_warning(frames + scene::shown(seconds) + " s, after the end of the timeline at " + scene::shown(end) +
+                " s");
+  schedule.ticks = last + 1;
+}
+
+Schedule schedule_of(const SimOptions& options, const scene::Timeline& timeline) {
+  Schedule schedule;
+  schedule.rate = options.rate.value_or(sim::WorldSettings{}.ticks_per_second);
+  schedule.frame_rate = parse_rate("--fps", options.fps);
+  schedule.ticks = options.ticks.value_or(
+      std::clamp(scenario::tick_at(double{timeline.duration}, schedule.rate), 1u, kMaxTicks));
+  if (!options.frames.empty()) {
+    schedule.frames = parse_frames("--frames", options.frames);
+    extend_to_frames(options, timeline, schedule);
+  } else {
+    const double frames = schedule.ticks * schedule.frame_rate.per_second() / schedule.rate;
+    schedule.frames.last = static_cast<std::uint32_t>(std::ceil(frames));
+    while (schedule.frames.last > 0 && schedule.tick_of(schedule.frames.last) >= schedule.ticks)
+      --schedule.frames.last;
+  }
+  return schedule;
+}
+
+// Writes the smoke of the frames, or of the last tick, as the ticks pass.
+class VolumeFiles {
+ public:
+  VolumeFiles(const SimOptions& options, const scenario::Scenario& scenario, const Schedule& schedule,
+              Outputs& outputs)
+      : path_(options.volumes),
+        numbered_(!path_.empty() && is_numbered("--volumes", path_)),
+        schedule_(schedule),
+        frame_(schedule.frames.first),
+        outputs_(outputs) {
+    grid_options_.up = options.up == "z" ? scenario::UpAxis::z : scenario::UpAxis::y;
+    grid_options_.extinction = scenario.timeline.smoke.extinction;
+    if (numbered_ && options.frames.empty())
+      outputs.writes_frames("--volumes", path_, volume_kind(path_), schedule.frames.first,
+                            schedule.frames.last);
+  }
+
+  void take(const sim::State& state) {
+    if (path_.empty()) return;
+    if (!numbered_) {
+      if (state.tick + 1 == schedule_.ticks) save(plain_name(path_), state);
+      return;
+    }
+    for (; frame_ <= schedule_.frames.last && schedule_.tick_of(frame_) == state.tick; ++frame_) {
+      save(sequence_name(path_, frame_), state);
+      outputs_.frame_done(frame_);
+    }
+  }
+  std::uint32_t written() const { return written_; }
+
+ private:
+  void save(const std::filesystem::path& path, const sim::State& state) {
+    stop_if_interrupted();
+    grids::save_grid_file(path, {{scenario::smoke_grid(state, grid_options_)}, {}}).value_or_throw();
+    ++written_;
+  }
+
+  std::filesystem::path path_;
+  bool numbered_;
+  const Schedule& schedule_;
+  std::uint32_t frame_, written_ = 0;
+  scenario::SmokeGridOptions grid_options_;
+  Outputs& outputs_;
+};
 
 // The result of a run: the state hash of each tick.
 struct Run {
@@ -60,9 +185,15 @@ std::string hex(std::uint64_t hash) {
   return text;
 }
 
+// What a run reports besides its hashes; of a replay nothing.
+struct Simulated {
+  Json smokes;
+  std::uint32_t volumes = 0;  // files
+};
+
 void report(const SimOptions& options, const Run& run, std::uint32_t rate,
-            const std::optional<Json>& smokes) {
-  const bool compared = !smokes;
+            const std::optional<Simulated>& simulated) {
+  const bool compared = !simulated;
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - run.start;
   if (!options.json.empty()) {
     Json result{{"ticks", run.hashes.size()},
@@ -70,7 +201,8 @@ void report(const SimOptions& options, const Run& run, std::uint32_t rate,
                 {"hash", hex(run.hashes.back())},
                 {"milliseconds", took.count()}};
     if (compared) result.set("same", true);
-    if (smokes) result.set("smokes", *smokes);
+    if (simulated) result.set("smokes", simulated->smokes);
+    if (!options.volumes.empty()) result.set("volumes", simulated->volumes);
     if (options.hash) {
       Json hashes = Json::list({});
       for (const std::uint64_t hash : run.hashes) hashes.push_back(hex(hash));
@@ -88,30 +220,30 @@ void report(const SimOptions& options, const Run& run, std::uint32_t rate,
 }
 
 void simulate(const SimOptions& options, Outputs& outputs) {
-  const std::uint32_t rate = options.rate.value_or(sim::WorldSettings{}.ticks_per_second);
   Run run;
   const scenario::Scenario scenario =
       load_with_options(options.timeline, "", parse_scene_options(options.scene));
   outputs.reads(scenario::files_of(scenario));
   stop_if_interrupted();
-  const std::vector<sim::Event> events = scenario::events_of(scenario, rate).value_or_throw();
-  const std::uint32_t ticks = options.ticks.value_or(
-      std::clamp(scenario::tick_at(double{scenario.timeline.duration}, rate), 1u, kMaxTicks));
+  const Schedule schedule = schedule_of(options, scenario.timeline);
+  VolumeFiles volumes(options, scenario, schedule, outputs);
+  const std::vector<sim::Event> events = scenario::events_of(scenario, schedule.rate).value_or_throw();
 
-  const sim::WorldSettings settings{rate, scenario.masks.key()};
+  const sim::WorldSettings settings{schedule.rate, scenario.masks.key()};
   wire::Replay replay = wire::replay_of(scenario.voxels.grid, settings, events);
   sim::World world(scenario.voxels.grid, settings);
   world.append(events).value_or_throw();
   const Json smokes = report_timeline(scenario, scenario::report_smokes(scenario, world));
-  Progress job("ticks", ticks);
-  for (std::uint32_t tick = 0; tick < ticks; ++tick) {
+  Progress job("ticks", schedule.ticks);
+  for (std::uint32_t tick = 0; tick < schedule.ticks; ++tick) {
     world.advance_to(tick);
     run.take(world.state());
     if (!options.record.empty()) replay.checksums.push_back(wire::checksum_of(world.state()));
+    volumes.take(world.state());
     job.advance();
   }
   if (!options.record.empty()) wire::save_replay(options.record, replay).value_or_throw();
-  report(options, run, rate, smokes);
+  report(options, run, schedule.rate, Simulated{smokes, volumes.written()});
 }
 
 void verify_replay(const SimOptions& options) {
@@ -139,7 +271,8 @@ Command add_sim(CommandLine& program) {
       declare(program, "sim", "Simulates a timeline without rendering; records it, or verifies a recording.",
               "  brume sim scenes/demo.toml --ticks 64 --hash\n"
               "  brume sim scenes/demo.toml --record demo.brp\n"
-              "  brume sim --replay demo.brp");
+              "  brume sim --replay demo.brp\n"
+              "  brume sim scenes/demo.toml --volumes smoke_%04d.vdb --frames 48-50 --up z");
   auto options = std::make_shared<SimOptions>();
   const Arguments arguments = command.arguments;
   arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml) or scene").type_name("");
@@ -157,6 +290,20 @@ Command add_sim(CommandLine& program) {
       .add_option("--replay", options->replay,
                   "Simulate a recording and compare; exit code 7 if a tick differs")
       .type_name("FILE");
+  arguments
+      .add_option("--volumes", options->volumes,
+                  "Write the smoke as .vdb, .nvdb or .brv: of each frame with %04d, else of the last tick")
+      .type_name("FILE");
+  arguments.add_option("--frames", options->frames, "First and last frame of --volumes; default: all")
+      .take_last()
+      .type_name("A-B");
+  arguments.add_option("--fps", options->fps, "Frames of --volumes per second; default 24")
+      .take_last()
+      .type_name("F");
+  arguments
+      .add_option("--up", options->up, "Axis of --volumes that points up: y or, for Blender, z; default y")
+      .one_of({"y", "z"})
+      .type_name("y|z");
   arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
       .type_name("FILE");
   command.run = [arguments, options, common = command.common] {

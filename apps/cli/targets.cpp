@@ -16,6 +16,7 @@
 #include "core/hash.hpp"
 #include "core/progress.hpp"
 #include "image/decode.hpp"
+#include "image/exr.hpp"
 #include "image/png.hpp"
 #include "image/video.hpp"
 #include "scene/load.hpp"
@@ -58,7 +59,7 @@ std::optional<NamePattern> parse_name(const std::string& name) {
 }
 
 // Names what the frame was made from.
-image::PngText frame_text(std::uint64_t key, std::uint32_t frame) {
+image::ImageText frame_text(std::uint64_t key, std::uint32_t frame) {
   const std::array<std::uint64_t, 2> parts{key, frame};
   char text[17];
   std::snprintf(text, sizeof text, "%016llx",
@@ -66,34 +67,69 @@ image::PngText frame_text(std::uint64_t key, std::uint32_t frame) {
   return {"Brume frame", text};
 }
 
+// Whether a PNG has a text and a size, and decodes.
+bool is_png_frame(std::span<const std::byte> bytes, const image::ImageText& text, glm::uvec2 size_px) {
+  if (image::find_png_text(bytes, text.keyword) != text.text) return false;
+  const auto image = image::decode_image(bytes, "");
+  return image && image->width == size_px.x && image->height == size_px.y;
+}
+
+bool is_exr_frame(std::span<const std::byte> bytes, const image::ImageText& text, glm::uvec2 size_px) {
+  const auto parts = image::decode_exr_parts(bytes, "");
+  if (!parts || parts->size() != 1) return false;
+  const image::ExrPart& part = parts->front();
+  const bool made_from_it = std::any_of(part.texts.begin(), part.texts.end(), [&](const image::ImageText& t) {
+    return t.keyword == text.keyword && t.text == text.text;
+  });
+  return made_from_it && part.width == size_px.x && part.height == size_px.y &&
+         static_cast<bool>(image::decode_exr(bytes, ""));
+}
+
 // Whether the file of the frame is complete and made from the same inputs.
 bool is_frame(const SequenceSettings& settings, std::uint32_t frame) {
-  const std::filesystem::path path = sequence_name(settings.pattern, frame);
-  const auto bytes = read_file(path);
+  const auto bytes = read_file(sequence_name(settings.pattern, frame));
   if (!bytes) return false;
-  const image::PngText text = frame_text(settings.key, frame);
-  if (image::find_png_text(*bytes, text.keyword) != text.text) return false;
-  const auto image = image::decode_image(*bytes, path.string());
-  return image && image->width == settings.size_px.x && image->height == settings.size_px.y;
+  const image::ImageText text = frame_text(settings.key, frame);
+  return target_file_kind(settings.pattern) == FileKind::exr ? is_exr_frame(*bytes, text, settings.size_px)
+                                                             : is_png_frame(*bytes, text, settings.size_px);
 }
 
 }  // namespace
 
-TargetKind target_kind(const std::filesystem::path& path) {
-  const std::string extension = scene::lower_extension(path);
-  if (extension != ".png" && extension != ".mp4")
-    throw Error(ErrorCode::usage,
-                "-o " + path.string() + ": cannot write this file type; expected .png or .mp4");
+bool is_numbered(const std::string& option, const std::filesystem::path& path) {
   const auto pattern = parse_name(path.filename().string());
   if (!pattern)
     throw Error(ErrorCode::usage,
-                "-o " + path.string() +
+                option + " " + path.string() +
                     ": expected one %d or %04d in the name, for the frame number, or %% for "
                     "a percent sign");
-  if (extension == ".png") return pattern->digits ? TargetKind::sequence : TargetKind::picture;
-  if (pattern->digits)
-    throw Error(ErrorCode::usage, "-o " + path.string() + ": numbered frames are .png files");
+  return pattern->digits.has_value();
+}
+
+TargetKind target_kind(const std::filesystem::path& path) {
+  const std::string extension = scene::lower_extension(path);
+  if (extension != ".png" && extension != ".exr" && extension != ".mp4")
+    throw Error(ErrorCode::usage,
+                "-o " + path.string() + ": cannot write this file type; expected .png, .exr or .mp4");
+  const bool numbered = is_numbered("-o", path);
+  if (extension != ".mp4") return numbered ? TargetKind::sequence : TargetKind::picture;
+  if (numbered)
+    throw Error(ErrorCode::usage, "-o " + path.string() + ": numbered frames are .png or .exr files");
   return TargetKind::film;
+}
+
+FileKind target_file_kind(const std::filesystem::path& path) {
+  const std::string extension = scene::lower_extension(path);
+  return extension == ".exr" ? FileKind::exr : extension == ".mp4" ? FileKind::mp4 : FileKind::png;
+}
+
+void save_picture(const std::filesystem::path& path, const Picture& picture,
+                  const std::optional<image::ImageText>& text) {
+  if (const auto* colours = std::get_if<image::Image8>(&picture)) {
+    image::save_png(path, *colours, text).value_or_throw();
+  } else {
+    image::save_exr(path, std::get<image::LayeredImage>(picture), text).value_or_throw();
+  }
 }
 
 std::filesystem::path plain_name(const std::filesystem::path& path) {
@@ -132,7 +168,7 @@ void write_film(const std::filesystem::path& path, const FilmSettings& settings,
 }
 
 void write_sequence(const SequenceSettings& settings, Outputs& outputs,
-                    const std::function<image::Image8(std::uint32_t)>& draw) {
+                    const std::function<Picture(std::uint32_t)>& draw) {
   // What is there already.
   const std::uint32_t count = settings.last - settings.first + 1;
   std::vector<bool> done(count);
@@ -158,10 +194,9 @@ void write_sequence(const SequenceSettings& settings, Outputs& outputs,
     stop_if_interrupted();
     const std::uint32_t frame = settings.first + i;
     if (done[i] && !settings.frames_depend) continue;
-    const image::Image8 image = draw(frame);
+    const Picture picture = draw(frame);
     if (done[i]) continue;
-    image::save_png(sequence_name(settings.pattern, frame), image, frame_text(settings.key, frame))
-        .value_or_throw();
+    save_picture(sequence_name(settings.pattern, frame), picture, frame_text(settings.key, frame));
     outputs.frame_done(frame);
     progress.advance();
   }

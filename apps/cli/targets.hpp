@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
+#include <variant>
 
 #include "apps/cli/number.hpp"
 #include "apps/cli/outputs.hpp"
@@ -14,9 +16,23 @@ namespace brume::cli {
 
 enum class TargetKind { picture, sequence, film };
 
-/// .png; .png with one %d or %04d in its file name; .mp4; suffixes in any case. Throws Error (usage) for
-/// anything else, such as a % that might have been meant for a number.
+/// Whether a file name has a frame's number: one %d or %04d. %% stands for %. Throws Error (usage) for any
+/// other % that might have been meant for a number.
+bool is_numbered(const std::string& option, const std::filesystem::path& path);
+
+/// .png or .exr; the same with one %d or %04d in its file name; .mp4; suffixes in any case. Throws Error
+/// (usage) for anything else, and as is_numbered.
 TargetKind target_kind(const std::filesystem::path& path);
+
+/// The kind of the file, or of each frame, of a target: png, exr or mp4.
+FileKind target_file_kind(const std::filesystem::path& path);
+
+/// A frame as a file holds it: colours in a .png, numbers in an .exr.
+using Picture = std::variant<image::Image8, image::LayeredImage>;
+
+/// Writes a picture in the format of its kind. Throws Error.
+void save_picture(const std::filesystem::path& path, const Picture& picture,
+                  const std::optional<image::ImageText>& text = std::nullopt);
 
 /// The name of a picture or film: %% stands for %.
 std::filesystem::path plain_name(const std::filesystem::path& path);
@@ -47,11 +63,11 @@ struct SequenceSettings {
   bool resume = false;         ///< Skips frames that are there already.
 };
 
-/// Draws the frames and writes each as a PNG, with progress. A frame carries the hash of key and number as
-/// its PNG text "Brume frame". With `resume` those with the right hash and size that decode without an error
+/// Draws the frames and writes each as a file, with progress. A frame carries the hash of key and number as
+/// its text "Brume frame". With `resume` those with the right hash and size that decode without an error
 /// are skipped; all others are written again. The result is the same byte for byte. Throws as write_film
 /// does: the frames that were finished stay, and `outputs` knows them.
 void write_sequence(const SequenceSettings& settings, Outputs& outputs,
-                    const std::function<image::Image8(std::uint32_t)>& draw);
+                    const std::function<Picture(std::uint32_t)>& draw);
 
 }  // namespace brume::cli

@@ -1,15 +1,28 @@
 // Marches a ray through the media of a frame (lib/media.glsl): equal steps with one jitter, span by span, until the ray
-// is opaque.
+// is opaque. The includer defines the constant kCount, what is recorded of a ray (shared/resolve.h).
 #ifndef MARCH_GLSL
 #define MARCH_GLSL
 #include "lib/media.glsl"
+#include "shared/resolve.h"
+
+/// Infinity: a ray that does not enter the media.
+float no_entry() { return uintBitsToFloat(0x7f800000u); }
 
 /// Result of a ray so far.
 struct Gathered {
   vec3 radiance;  // per unit of media_albedo
   float transmittance;
   uint texture_samples, steps;
+  float entry;  // distance at which the transmittance falls to kEntryTransmittance [m]; no_entry() so far
 };
+
+Gathered nothing_gathered() { return Gathered(vec3(0.0), 1.0, 0u, 0u, no_entry()); }
+
+/// Notes the entry if it lies in the step [begin, begin + ds), in which the extinction is constant.
+void note_entry(float begin, float ds, float passed_log2, inout Gathered gathered) {
+  const float to_entry_log2 = log2(kEntryTransmittance / gathered.transmittance);
+  if (to_entry_log2 <= 0.0 && to_entry_log2 > passed_log2) gathered.entry = begin + ds * to_entry_log2 / passed_log2;
+}
 
 /// Marches the part [begin, end) of a ray in equal steps no longer than the media's. Each sample is at `jitter` in its
 /// step, [0, 1). What the samples of a span have in common is computed once per span; little is carried from step to
@@ -29,6 +42,7 @@ void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, i
       if (passed_log2 < 0.0) {
         // In-scatter is constant over the step, so its integral is exact: the energy does not depend on the step
         // length.
+        if (kCount == kCountEntries) note_entry(t - jitter * ds, ds, passed_log2, gathered);
         const float passed = exp2(passed_log2);
         const vec3 light = media_inscatter(media, here, gathered.texture_samples);
         gathered.radiance += gathered.transmittance * (1.0 - passed) * light;

@@ -16,10 +16,15 @@ SHARED_CONST uint kRaysOfPixels = 0u;
 SHARED_CONST uint kRaysOfTiles = 1u;
 SHARED_CONST uint kRaysOfList = 2u;
 
-/// What the march counts: nothing; all texture samples; texture samples and the steps of each ray.
+/// What the march records besides its images: nothing; all texture samples; texture samples and the steps of each ray;
+/// where each ray enters the media.
 SHARED_CONST uint kCountNothing = 0u;
 SHARED_CONST uint kCountSamples = 1u;
 SHARED_CONST uint kCountSteps = 2u;
+SHARED_CONST uint kCountEntries = 3u;
+
+/// A ray enters the media where its transmittance falls to this.
+SHARED_CONST float kEntryTransmittance = 0.99f;
 
 /// The ray of a tile, and the surfaces of its pixels [m along the view axis], split into two groups halfway between
 /// near and far:

@@ -38,7 +38,7 @@ std::vector<Value> without_alpha(const std::vector<Value>& rgba) {
 
 template <typename Value>
 Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-                  const std::vector<Value>& rgba, const std::optional<PngText>& text) {
+                  const std::vector<Value>& rgba, const std::optional<ImageText>& text) {
   BRUME_ASSERT(rgba.size() == std::size_t{width} * height * 4, path.string());
   if (auto size = check_size(width, height, path.string()); !size) return size;
   const bool has_alpha = !opaque(rgba);
@@ -85,7 +85,7 @@ Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::u
 }  // namespace
 
 Result<void> save_png(const std::filesystem::path& path, const Image8& image,
-                      const std::optional<PngText>& text) {
+                      const std::optional<ImageText>& text) {
   return save(path, image.width, image.height, image.rgba, text);
 }
 

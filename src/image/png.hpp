@@ -19,16 +19,11 @@ struct Image16 {
   std::vector<std::uint16_t> rgba;
 };
 
-/// A text in a PNG file (a tEXt chunk). Keyword: 1 to 79 letters; both in ASCII.
-struct PngText {
-  std::string keyword, text;
-};
-
 /// Writes an sRGB PNG: RGB when every texel is opaque, otherwise RGBA. The file appears under its name only
 /// when it is complete. Fails with bad_input when the folder does not exist and with resource_limit when the
-/// disk is full. With a `text` the file holds it too.
+/// disk is full. With a `text` the file holds it too (a tEXt chunk).
 Result<void> save_png(const std::filesystem::path& path, const Image8& image,
-                      const std::optional<PngText>& text = std::nullopt);
+                      const std::optional<ImageText>& text = std::nullopt);
 Result<void> save_png(const std::filesystem::path& path, const Image16& image);
 
 /// The text of the first tEXt chunk with this keyword. Does not check whether the file is complete.

@@ -23,7 +23,8 @@ gpu::Buffer tile_buffer(gpu::Context& context, glm::uvec2 tiles, std::size_t hea
 }
 
 std::uint32_t counts_of(const MarchPass::Options& options) {
-  return options.count_steps     ? shared::kCountSteps
+  return options.record_entries  ? shared::kCountEntries
+         : options.count_steps   ? shared::kCountSteps
          : options.count_samples ? shared::kCountSamples
                                  : shared::kCountNothing;
 }

@@ -29,6 +29,11 @@ class MarchPass {
     /// pixel.
     bool count_steps = false;
     bool brute_force_holes = false;  ///< Every sample tests every hole: the baseline of the clusters.
+    /// `counters` receives, behind its first word, the entry of each pixel's ray into the media, rows in
+    /// order: the bits of the distance [m] at which the transmittance falls to shared::kEntryTransmittance,
+    /// infinity where it does not. Instead of the counts above. The pixels of a tile have the entry of its
+    /// ray.
+    bool record_entries = false;
   };
   /// Ready for smoke alone.
   MarchPass(gpu::Context& context, const Options& options);

@@ -121,7 +121,8 @@ double Playback::fraction_marched() const {
   return static_cast<double>(list.count) / (static_cast<double>(blocks.x) * blocks.y);
 }
 
-image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
+void Playback::draw_frame(double seconds, std::uint32_t frame_index,
+                          const std::function<void(gpu::Recorder&)>& read_back) {
   const Progress job("render");
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
@@ -135,16 +136,28 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
   if (exposure_) input.view.exposure = *exposure_;
   input.debug = debug_;
   renderer_.draw(input, [&](gpu::Recorder& recorder) {
-    recorder.read_back(renderer_.targets().display, pixels_);
+    read_back(recorder);
     if (renderer_.smoke().march_tiles())
       recorder.read_back(renderer_.smoke().march_tiles()->list, list_, sizeof(shared::MarchList));
   });
+}
+
+image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
+  draw_frame(seconds, frame_index,
+             [&](gpu::Recorder& recorder) { recorder.read_back(renderer_.targets().display, pixels_); });
   image::Image8 image;
   image.width = renderer_.targets().size_px.x;
   image.height = renderer_.targets().size_px.y;
   image.rgba.resize(pixels_.size());
   std::memcpy(image.rgba.data(), pixels_.mapped(), image.rgba.size());
   return image;
+}
+
+image::LayeredImage Playback::draw_layers(double seconds, std::uint32_t frame_index) {
+  BRUME_ASSERT(debug_.view == passes::DebugView::none, "a debug view has no radiance");
+  if (!layers_) layers_.emplace(context_, renderer_.targets().size_px);
+  draw_frame(seconds, frame_index, [&](gpu::Recorder& recorder) { layers_->record(recorder, renderer_); });
+  return layers_->image();
 }
 
 }  // namespace brume::render

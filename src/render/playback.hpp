@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "image/image.hpp"
+#include "render/frame_layers.hpp"
 #include "render/renderer.hpp"
 #include "scenario/simulation.hpp"
 
@@ -29,6 +30,9 @@ class Playback {
   /// RendererOptions::temporal a frame whose index is one more than that of the draw before goes on from it;
   /// any other starts over.
   image::Image8 draw(double seconds, std::uint32_t frame_index);
+  /// The same frame as numbers (FrameLayers). Without a debug view, and with
+  /// RendererOptions::smoke.record_entries.
+  image::LayeredImage draw_layers(double seconds, std::uint32_t frame_index);
   /// Where the camera is instead of on the timeline's path; empty: on the path.
   void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
   /// Sets the exposure that shows the scene at the timeline's end at a middle brightness, without smoke.
@@ -51,13 +55,17 @@ class Playback {
   const scenario::Simulation& simulation() const { return *simulation_; }
 
  private:
+  void draw_frame(double seconds, std::uint32_t frame_index,
+                  const std::function<void(gpu::Recorder&)>& read_back);
+
   gpu::Context& context_;
   const scenario::Scenario& scenario_;
   std::unique_ptr<scenario::Simulation> simulation_;
   gpu::CommandRunner runner_;
   Renderer renderer_;
   gpu::Buffer pixels_;
-  gpu::Buffer list_;  ///< shared::MarchList of the last frame.
+  std::optional<FrameLayers> layers_;  ///< From the first draw_layers on.
+  gpu::Buffer list_;                   ///< shared::MarchList of the last frame.
   std::optional<scene::Camera> camera_;
   std::optional<float> exposure_;  ///< Instead of the timeline's; a factor.
   float step_scale_ = 1, light_update_fraction_ = 1, resolve_error_scale_ = 1;

@@ -15,6 +15,12 @@ std::uint32_t casting_media(const FramePlan& plan) {
   return volumes == 0 || (smoke && smoke->slot_count() > 0) ? volumes | shared::kMediumSmoke : volumes;
 }
 
+gpu::Buffer make_counters(gpu::Context& context, std::size_t pixels) {
+  return {context, (1 + pixels) * sizeof(std::uint32_t),
+          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+              VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
+}
+
 }  // namespace
 
 SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const SceneView& scene,
@@ -23,19 +29,17 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       runner_(runner),
       size_px_(size_px),
       brute_force_holes_(options.brute_force_holes),
+      record_entries_(options.record_entries),
       smoke_upload_(context),
       volume_upload_(context),
       hole_clusters_(context, runner, options.masks ? *options.masks : smoke::MaskAtlas()),
       noise_(passes::make_noise_tile(context, passes::kSmokeNoise.size)),
-      counters_(context, sizeof(std::uint32_t),
-                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT),
       noise_advection_pass_(context),
       shadow_pass_(context),
       light_pass_(context),
       volume_light_pass_(context),
       raycast_(options.raycast),
-      march_pass_(context, {options.count_samples, false, options.brute_force_holes}),
+      march_pass_(context, {options.count_samples, false, options.brute_force_holes, options.record_entries}),
       resolve_pass_(context) {
   if (options.temporal) accumulate_pass_.emplace(context, size_px);
   resize(scene, size_px);
@@ -46,6 +50,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
 
 void SmokeFrame::resize(const SceneView& scene, glm::uvec2 size_px) {
   size_px_ = size_px;
+  counters_ = make_counters(context_, record_entries_ ? std::size_t{size_px.x} * size_px.y : 0);
   shadows_ = shadow_pass_.make_shadows(context_, size_px,
                                        scene.resources().light_list.size() + planning::kMaxFlashes);
   if (accumulate_pass_) accumulate_pass_.emplace(context_, size_px);

@@ -25,6 +25,7 @@ struct SmokeFrameOptions {
   std::optional<passes::RaycastForm> raycast = {};
   bool temporal = false;                    ///< Accumulate smoke over the frames of a film (View::continues).
   const smoke::MaskAtlas* masks = nullptr;  ///< Of the holes; null: none. Uploaded by the constructor.
+  bool record_entries = false;              ///< See MarchPass::Options: into march_counters().
 };
 
 /// What a frame gives to each of its steps.
@@ -81,7 +82,8 @@ class SmokeFrame {
   const passes::SmokeShadows& shadows() const { return shadows_; }
   /// The rays of the march; empty where each pixel has its own.
   const std::optional<passes::MarchTiles>& march_tiles() const { return march_tiles_; }
-  const gpu::Buffer& sample_counter() const { return counters_; }
+  /// What SmokeFrameOptions lets the march count: a word, and one per pixel where it records entries.
+  const gpu::Buffer& march_counters() const { return counters_; }
 
  private:
   void record_raycast(gpu::Recorder& recorder, const planning::FramePlan& plan,
@@ -97,7 +99,7 @@ class SmokeFrame {
   gpu::Context& context_;
   gpu::CommandRunner& runner_;
   glm::uvec2 size_px_;
-  bool brute_force_holes_;
+  bool brute_force_holes_, record_entries_;
   std::uint32_t march_scale_ = 1;
 
   // Data on the device.

@@ -28,6 +28,8 @@ std::string old_file(const fs::path& name) {
   using namespace std::string_literals;
   const std::string extension = name.extension().string();
   if (extension == ".png") return "\x89PNG\r\n\x1a\nold";
+  if (extension == ".exr") return "\x76\x2f\x31\x01old";
+  if (extension == ".brv") return "BRUMEBRVold";
   if (extension == ".mp4")
     return "\0\0\0\x08"
            "ftypold"s;
@@ -61,6 +63,8 @@ std::vector<WritingCommand> writing_commands() {
       {{"info", "room.obj", "--json", "out/a.json"}},
       {{"query", "room.toml", "--from", "0,1,1", "--to", "0,1,-1", "--time", "0.2", "--json", "out/a.json"}},
       {{"devices", "--json", "out/a.json"}},
+      {render({"-o", "out/a.exr"})},
+      {{"sim", "room.toml", "--volumes", "out/s_%d.brv", "--frames", "4-6"}},
       {{"bench", "fill/1800", "--repetitions", "1", "--json", "out/a.json"}},
   };
 }

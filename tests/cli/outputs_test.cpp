@@ -121,6 +121,10 @@ TEST_F(OutputFiles, ReplaceNoFileOfAnotherKindWithoutForce) {
   other({"diff", "a.png", "b.png", "-o", folder_.write("map.png", "no map")}, ".png file");
   other({"render", "room.toml", "-o", folder_.write("film.mp4", "no film at all")}, ".mp4 file");
   other({"render", "room.toml", "-o", folder_.write("text.png", "text")}, ".png file");
+  other({"render", "room.toml", "-o", folder_.write("text.exr", "text")}, ".exr file");
+  other({"sim", "room.toml", "--volumes", folder_.write("text.vdb", "text")}, ".vdb file");
+  folder_.write("text_1.brv", "text");
+  other({"sim", "room.toml", "--volumes", "text_%d.brv"}, ".brv file");
   other({"info", "room.obj", "--json", folder_.write("room.gltf", "{\"asset\": {}}")}, "JSON file");
   other({"devices", "--json", "notes.txt"}, "JSON file");
 #ifdef BRUME_VIEWER

@@ -262,6 +262,50 @@ TEST_F(Render, ResumeRendersDamagedAndOtherFramesAgain) {
   EXPECT_EQ(render({"-o", "a.png", "--resume"}).exit_code, 2);
 }
 
+TEST_F(Render, NumbersInLayers) {
+  const Outcome still = render({"-o", "a.exr", "--size", "33x17", "--time", "0.8", "--json", "-"});
+  ASSERT_EQ(still.exit_code, 0) << still.error;
+  EXPECT_EQ(nlohmann::json::parse(still.out)["frames"], 1);
+  const Outcome info = run_brume(folder_.path(), {"info", "a.exr", "--json", "-"});
+  ASSERT_EQ(info.exit_code, 0) << info.error;
+  const auto parts = nlohmann::json::parse(info.out)["parts"];
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0]["width"], 33);
+  EXPECT_EQ(parts[0]["height"], 17);
+  std::map<std::string, std::string> layers;
+  for (const auto& layer : parts[0]["layers"]) layers[layer["name"]] = layer["type"];
+  for (const char* half : {"R", "G", "B", "A", "transmittance", "albedo.R", "media.B"})
+    EXPECT_EQ(layers[half], "half") << half;
+  for (const char* number : {"Z", "depth_in"}) EXPECT_EQ(layers[number], "float") << number;
+  EXPECT_NE(run_brume(folder_.path(), {"info", "a.exr"}).out.find("\nZ               float\n"),
+            std::string::npos);
+
+  EXPECT_EQ(render({"-o", "b.exr", "--view", "depth"}).exit_code, 2);
+  EXPECT_EQ(render({"-o", "b.exr", "--frames", "0-1"}).exit_code, 2);
+  folder_.write("cut.exr", read_text_file(folder_.path() / "a.exr")->substr(0, 100));
+  EXPECT_EQ(run_brume(folder_.path(), {"info", "cut.exr"}).exit_code, 3);
+}
+
+TEST_F(Render, NumberedLayersResume) {
+  const Arguments whole{"-o",      "f_%d.exr", "--frames", "0-2",    "--size", "32x18",
+                        "--march", "quarter",  "--resume", "--json", "-"};
+  const auto drawn = [&] {
+    const Outcome run = render(whole);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    return nlohmann::json::parse(run.out)["frames"].get<int>();
+  };
+  EXPECT_EQ(drawn(), 3);
+  const auto expected = contents(folder_);
+  EXPECT_EQ(drawn(), 0);
+  const std::string& frame = expected.at("f_1.exr");
+  folder_.write("f_1.exr", frame.substr(0, frame.size() - 4));
+  std::string damaged = expected.at("f_2.exr");
+  damaged[damaged.size() * 3 / 4] ^= 1;
+  folder_.write("f_2.exr", damaged);
+  EXPECT_EQ(drawn(), 2);
+  EXPECT_EQ(contents(folder_), expected);
+}
+
 // Such frames depend on those before: resuming draws them again.
 TEST_F(Render, ResumesTemporalFramesExactly) {
   const Arguments whole{"-o", "f_%d.png", "--frames", "0-5", "--fps", "8", "--size", "32x18", "--temporal"};

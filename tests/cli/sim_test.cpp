@@ -130,6 +130,13 @@ TEST(Sim, FailuresAreOneLine) {
   expect_failure({"sim", "--replay", "room.brp", "--ticks", "3"}, 2, "--ticks");
   expect_failure({"sim", "room.toml", "--ticks", "0"}, 2, "--ticks");
   expect_failure({"sim", "room.toml", "--rate", "1001"}, 2, "--rate");
+  expect_failure({"sim", "--replay", "room.brp", "--volumes", "a.brv"}, 2, "--volumes");
+  expect_failure({"sim", "room.toml", "--frames", "0-1"}, 2, "--frames");
+  expect_failure({"sim", "room.toml", "--volumes", "a.raw"}, 2, "a.raw: unknown file suffix");
+  expect_failure({"sim", "room.toml", "--volumes", "a_%s.brv"}, 2, "%04d");
+  expect_failure({"sim", "room.toml", "--volumes", "a.brv", "--fps", "30"}, 2, "numbered files");
+  expect_failure({"sim", "room.toml", "--volumes", "a_%d.brv", "--frames", "8-9", "--ticks", "20"}, 2,
+                 "tick 24");
   expect_failure({"sim", "none.toml"}, 3, "none.toml");
   expect_failure({"sim", "--replay", "none.brp"}, 3, "none.brp");
   expect_failure({"sim", "--replay", "room.toml"}, 2, "room.toml: unknown file suffix; expected .brp");

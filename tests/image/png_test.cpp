@@ -60,7 +60,7 @@ TEST(Png, HoldsAText) {
   const TemporaryFolder folder("text");
   const auto path = folder.path() / "a.png";
   const auto with = random_image(9, 5, true, 1);
-  ASSERT_TRUE(save_png(path, with, PngText{"Made from", "0123abc"}));
+  ASSERT_TRUE(save_png(path, with, ImageText{"Made from", "0123abc"}));
   const auto bytes = read_file(path);
   ASSERT_TRUE(bytes);
   EXPECT_EQ(find_png_text(*bytes, "Made from"), "0123abc");

@@ -1,0 +1,102 @@
+#include "render/frame_layers.hpp"
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+#include <span>
+
+#include "planning/device_camera.hpp"
+#include "scene/color.hpp"
+
+namespace brume::render {
+namespace {
+
+using Half = std::uint16_t;
+using Halves = std::vector<Half>;
+
+gpu::Buffer readback(gpu::Context& context, std::size_t bytes) {
+  return {context, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback};
+}
+
+template <typename T>
+std::span<const T> values_of(const gpu::Buffer& buffer, std::size_t count) {
+  return {reinterpret_cast<const T*>(buffer.mapped()), count};
+}
+
+/// A channel of an image with four values per pixel.
+Halves channel_of(std::span<const Half> rgba, std::size_t channel) {
+  Halves values(rgba.size() / 4);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = rgba[4 * i + channel];
+  return values;
+}
+
+/// The linear value of each sRGB one.
+std::array<Half, 256> linear_halves() {
+  std::array<Half, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = glm::packHalf1x16(static_cast<float>(scene::linear_from_srgb(static_cast<double>(i) / 255)));
+  return table;
+}
+
+Halves linear_channel_of(std::span<const std::uint8_t> rgba, std::size_t channel) {
+  static const std::array<Half, 256> table = linear_halves();
+  Halves values(rgba.size() / 4);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = table[rgba[4 * i + channel]];
+  return values;
+}
+
+}  // namespace
+
+FrameLayers::FrameLayers(gpu::Context& context, glm::uvec2 size_px)
+    : size_px_(size_px),
+      radiance_(readback(context, std::size_t{8} * size_px.x * size_px.y)),
+      media_(readback(context, radiance_.size())),
+      albedo_(readback(context, radiance_.size() / 2)),
+      depth_(readback(context, radiance_.size() / 2)),
+      entries_(readback(context, sizeof(std::uint32_t) + radiance_.size() / 2)) {}
+
+void FrameLayers::record(gpu::Recorder& recorder, const Renderer& renderer) {
+  const Targets& targets = renderer.targets();
+  BRUME_ASSERT(targets.size_px == size_px_, "frames of another size");
+  recorder.read_back(targets.radiance, radiance_);
+  recorder.read_back(renderer.media(), media_);
+  recorder.read_back(targets.gbuffer.albedo_roughness, albedo_);
+  recorder.read_back(targets.gbuffer.depth, depth_);
+  recorder.read_back(renderer.smoke().march_counters(), entries_, entries_.size());
+}
+
+image::LayeredImage FrameLayers::image() const {
+  // As the device has them.
+  const std::size_t count = std::size_t{size_px_.x} * size_px_.y;
+  const auto radiance = values_of<Half>(radiance_, 4 * count), media = values_of<Half>(media_, 4 * count);
+  const auto albedo = values_of<std::uint8_t>(albedo_, 4 * count);
+  const auto depth = values_of<float>(depth_, count);
+  const auto entries = values_of<float>(entries_, 1 + count).subspan(1);
+
+  // What is computed from them.
+  Halves alpha(count);
+  std::vector<float> z(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool surface = depth[i] > 0;
+    alpha[i] = glm::packHalf1x16(surface ? 1.0f : 1.0f - glm::unpackHalf1x16(media[4 * i + 3]));
+    z[i] = surface ? planning::kNearPlane / depth[i] : std::numeric_limits<float>::infinity();
+  }
+
+  image::LayeredImage image{size_px_.x, size_px_.y, {}};
+  const std::array<const char*, 3> names{"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::string name = names[c];
+    image.layers.push_back({name, channel_of(radiance, c)});
+    image.layers.push_back({"albedo." + name, linear_channel_of(albedo, c)});
+    image.layers.push_back({"media." + name, channel_of(media, c)});
+  }
+  image.layers.push_back({"A", std::move(alpha)});
+  image.layers.push_back({"Z", std::move(z)});
+  image.layers.push_back({"transmittance", channel_of(media, 3)});
+  image.layers.push_back({"depth_in", std::vector<float>(entries.begin(), entries.end())});
+  return image;
+}
+
+}  // namespace brume::render

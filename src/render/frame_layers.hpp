@@ -1,0 +1,38 @@
+// The numbers behind a frame as layers of an image: radiance, distances, media and surfaces (docs/exr.md).
+#pragma once
+
+#include "image/image.hpp"
+#include "render/renderer.hpp"
+
+namespace brume::render {
+
+/// Reads the images of frames of one size back from the device.
+class FrameLayers {
+ public:
+  /// `size_px`: that of the frames. Throws resource_limit.
+  FrameLayers(gpu::Context& context, glm::uvec2 size_px);
+
+  /// Copies what `renderer` drew, after its record_frame in the same recording. The renderer has
+  /// SmokeFrameOptions::record_entries, its frame no debug view.
+  void record(gpu::Recorder& recorder, const Renderer& renderer);
+
+  /// The layers, when the device is done:
+  ///
+  ///   R, G, B            half: radiance before exposure and tone curve
+  ///   A                  half: 1 where there is a surface, else 1 - transmittance
+  ///   Z                  float: distance of the nearest surface along the view axis [m]; infinity: none
+  ///   transmittance      half: of all media, up to the surface
+  ///   depth_in           float: distance along the ray at which the transmittance falls to
+  ///                      shared::kEntryTransmittance [m]; infinity: it does not
+  ///   albedo.R, .G, .B   half: of the nearest surface, linear; 0: none
+  ///   media.R, .G, .B    half: radiance of the media alone, premultiplied
+  ///
+  /// R, G, B, media and transmittance are the bits of the device.
+  image::LayeredImage image() const;
+
+ private:
+  glm::uvec2 size_px_;
+  gpu::Buffer radiance_, media_, albedo_, depth_, entries_;
+};
+
+}  // namespace brume::render
