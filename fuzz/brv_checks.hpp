@@ -66,4 +66,16 @@ inline void check_brv(std::span<const std::byte> bytes) {
   BRUME_ASSERT(encode_brv(*reread, options).value_or_throw() == *again, "grids change");
 }
 
+/// An input of the fuzzer: as a file, and as a directory and chunks with right checksums, where the first two
+/// bytes are the length of the directory.
+inline void check_brv_input(std::span<const std::byte> bytes) {
+  check_brv(bytes);
+  if (bytes.size() < 2) return;
+  const std::size_t length =
+      std::min(std::to_integer<std::size_t>(bytes[0]) + 256 * std::to_integer<std::size_t>(bytes[1]),
+               bytes.size() - 2);
+  const auto directory = bytes.subspan(2, length);
+  check_brv(forge_brv({directory.begin(), directory.end()}, bytes.subspan(2 + length)));
+}
+
 }  // namespace brume::grids

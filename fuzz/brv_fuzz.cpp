@@ -1,5 +1,4 @@
-// An arbitrary `.brv` file is rejected or gives valid grids. The bytes are also tried as a directory and
-// chunks with right checksums: their length is in the first two bytes.
+// An arbitrary `.brv` file is rejected or gives valid grids.
 #include <cstdint>
 
 #include "core/tasks.hpp"
@@ -11,12 +10,6 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace brume::grids;
-  const std::span bytes(reinterpret_cast<const std::byte*>(data), size);
-  check_brv(bytes);
-  if (size < 2) return 0;
-  const std::size_t length = std::min<std::size_t>(data[0] + 256u * data[1], size - 2);
-  const auto directory = bytes.subspan(2, length);
-  check_brv(forge_brv({directory.begin(), directory.end()}, bytes.subspan(2 + length)));
+  brume::grids::check_brv_input({reinterpret_cast<const std::byte*>(data), size});
   return 0;
 }

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 #include <random>
 
+#include "core/file.hpp"
 #include "core/tasks.hpp"
 #include "fuzz/brv_checks.hpp"
 #include "grids/brv_file.hpp"
@@ -178,6 +180,15 @@ TEST(Brv, SurvivesForgedDirectories) {
       changed[random() % changed.size()] = static_cast<std::byte>(random() % 4 == 0 ? 0xff : random() % 256);
     check_brv(forge_brv(changed, chunks));
   }
+}
+
+TEST(Brv, SurvivesTheCorpusOfItsFuzzer) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(BRUME_SOURCE_DIR "/fuzz/corpus/brv")) {
+    check_brv_input(read_file(entry.path()).value_or_throw());
+    ++count;
+  }
+  EXPECT_GT(count, 5);
 }
 
 }  // namespace
