@@ -4,6 +4,7 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/info.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/volumes.hpp"
 #include "core/error.hpp"

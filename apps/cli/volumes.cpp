@@ -16,10 +16,4 @@ grids::GridFile load_volumes(const std::filesystem::path& path, Outputs& outputs
   return grids::load_raw(path).value_or_throw();
 }
 
-std::string printable(std::string name) {
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  return name;
-}
-
 }  // namespace brume::cli

@@ -17,7 +17,4 @@ bool is_volume_file(const std::filesystem::path& path);
 /// Reads a volume file, or an array with its description, and declares what it read. Throws Error.
 grids::GridFile load_volumes(const std::filesystem::path& path, Outputs& outputs);
 
-/// A name from a file, which may hold anything, on one line.
-std::string printable(std::string name);
-
 }  // namespace brume::cli
