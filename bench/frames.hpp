@@ -44,8 +44,9 @@ struct FrameTimes {
   Measurement march;
 };
 
-/// Measures the frame at `seconds` of a scenario: about 200 draws on a GPU, three on a software device.
+/// Measures the frame at `seconds` of a scenario, marched in steps of Quality::step_scale: about 200 draws on
+/// a GPU, three on a software device.
 FrameTimes time_frames(Bench& bench, const std::string& name, const scenario::Scenario& scenario,
-                       const render::RendererOptions& options, double seconds);
+                       const render::RendererOptions& options, double seconds, float step_scale = 1);
 
 }  // namespace brume::bench

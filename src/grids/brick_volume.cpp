@@ -6,9 +6,11 @@
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
+#include <iterator>
 #include <unordered_map>
 #include <vector>
 
+#include "core/box.hpp"
 #include "core/tasks.hpp"
 
 namespace brume::grids {
@@ -214,45 +216,63 @@ void fill_texels(const Numbers& numbers, glm::ivec3 brick, std::span<std::uint16
       }
 }
 
-void fill_volume(const Numbers& numbers, const std::vector<glm::ivec3>& bricks, BrickVolume& out) {
-  volume::SparseVolumeInfo info;
-  info.channels = {{sizeof(std::uint16_t)}};
-  out.volume = std::make_unique<volume::SparseVolume>(info);
-  volume::SparseVolume& volume = *out.volume;
-  const volume::ChannelId channel{0};
-  volume.begin_update();
-  std::vector<std::uint32_t> slots;
-  slots.reserve(bricks.size());
-  for (const glm::ivec3 brick : bricks) slots.push_back(volume.acquire(brick));
-  parallel_for(bricks.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      fill_texels(numbers, bricks[i], volume.texels<std::uint16_t>(channel, slots[i]));
-  });
+/// Around all that filtering carries the values to: half a voxel beyond their own.
+Box<float> bounds_of(const Numbers& numbers) {
+  Box<float> bounds = kEmptyBox;
+  for (std::size_t i = 0; i < numbers.bricks.size(); ++i)
+    for (int voxel = 0; voxel < int{kBrickVoxels}; ++voxel) {
+      if (numbers.bricks[i][static_cast<std::size_t>(voxel)] <= 0) continue;
+      const glm::vec3 p(numbers.at[i] * 8 + glm::ivec3(voxel & 7, voxel >> 3 & 7, voxel >> 6));
+      bounds = united(bounds, {p - 0.5f, p + 1.5f});
+    }
+  return bounds;
+}
 
-  // Bounds: filtering carries a voxel half a voxel beyond its own.
-  glm::vec3 low(1e30f), high(-1e30f);
+/// Range, sum and distribution of the values.
+void measure(const Numbers& numbers, BrickVolume& out) {
   glm::dvec3 places(0), squares(0);
-  out.low = kLargestHalf;
+  out.low = numbers.bricks.empty() ? 0 : kLargestHalf;
   for (std::size_t i = 0; i < numbers.bricks.size(); ++i)
     for (int voxel = 0; voxel < int{kBrickVoxels}; ++voxel) {
       const float value = numbers.bricks[i][static_cast<std::size_t>(voxel)];
       out.low = std::min(out.low, value);
       out.high = std::max(out.high, value);
-      if (value <= 0) continue;
       const glm::dvec3 p(numbers.at[i] * 8 + glm::ivec3(voxel & 7, voxel >> 3 & 7, voxel >> 6));
-      low = glm::min(low, glm::vec3(p) - 0.5f);
-      high = glm::max(high, glm::vec3(p) + 1.5f);
       out.sum += double{value};
       places += double{value} * (p + 0.5);
       squares += double{value} * (p + 0.5) * (p + 0.5);
     }
-  if (low.x > high.x) low = high = glm::vec3(0), out.low = 0;
-  if (out.sum > 0) {
-    out.mean = places / out.sum;
-    out.deviation = glm::sqrt(glm::max(squares / out.sum - out.mean * out.mean, 0.0));
-  }
-  volume.set_bounds(low, high);
-  volume.end_update();
+  if (out.sum <= 0) return;
+  out.mean = places / out.sum;
+  out.deviation = glm::sqrt(glm::max(squares / out.sum - out.mean * out.mean, 0.0));
+}
+
+std::unique_ptr<volume::SparseVolume> fill_volume(const Numbers& numbers,
+                                                  const std::vector<glm::ivec3>& bricks,
+                                                  const Box<float>& bounds) {
+  volume::SparseVolumeInfo info;
+  info.channels = {{sizeof(std::uint16_t)}};
+  auto volume = std::make_unique<volume::SparseVolume>(info);
+  const volume::ChannelId channel{0};
+  volume->begin_update();
+  std::vector<std::uint32_t> slots;
+  slots.reserve(bricks.size());
+  for (const glm::ivec3 brick : bricks) slots.push_back(volume->acquire(brick));
+  parallel_for(bricks.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      fill_texels(numbers, bricks[i], volume->texels<std::uint16_t>(channel, slots[i]));
+  });
+  volume->set_bounds(bounds.empty() ? glm::vec3(0) : bounds.low, bounds.empty() ? glm::vec3(0) : bounds.high);
+  volume->end_update();
+  return volume;
+}
+
+/// The bricks of both, rising.
+std::vector<glm::ivec3> sampled_bricks(const Numbers& numbers, const Numbers& also) {
+  const std::vector<glm::ivec3> a = sampled_bricks(numbers), b = sampled_bricks(also);
+  std::vector<glm::ivec3> both;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both), goes_before);
+  return both;
 }
 
 }  // namespace
@@ -263,20 +283,24 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   constexpr std::size_t kMostBricks = std::size_t{1} << 23;
   auto numbers = numbers_of(grid, kMostBricks);
   if (!numbers) return numbers.failure();
+  auto also = options.also ? numbers_of(*options.also, kMostBricks) : Result<Numbers>(Numbers());
+  if (!also) return also.failure();
   BrickVolume out;
   double square_error = 0;
-  std::vector<glm::ivec3> bricks = sampled_bricks(*numbers);
+  std::vector<glm::ivec3> bricks = sampled_bricks(*numbers, *also);
   while (bricks.size() > options.max_bricks) {
     // Each level's error counts once per voxel of the file.
-    double lost = 0;
+    double lost = 0, ignored = 0;
     *numbers = halved(*numbers, lost);
+    *also = halved(*also, ignored);
     square_error += lost * std::exp2(3 * out.level);
     ++out.level;
-    bricks = sampled_bricks(*numbers);
+    bricks = sampled_bricks(*numbers, *also);
   }
+  measure(*numbers, out);
+  out.volume = fill_volume(*numbers, bricks, united(bounds_of(*numbers), bounds_of(*also)));
   const auto active = static_cast<double>(count_active(grid));
   out.rms_error = active > 0 ? std::sqrt(square_error / active) : 0;
-  fill_volume(*numbers, bricks, out);
   // Voxel i of level l has its centre at index 2^l (i + 1/2) - 1/2.
   const double scale = std::exp2(out.level);
   out.world_from_voxel = grid.world_from_index * glm::translate(glm::dmat4(1), glm::dvec3(-0.5)) *

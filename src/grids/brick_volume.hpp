@@ -15,6 +15,9 @@ struct BrickVolumeOptions {
   /// Bricks that the device has room for; a grid of more is averaged over 2^3 voxels, again and again, until
   /// it fits.
   std::uint32_t max_bricks = 1u << 21;
+  /// A grid with the same transform: bricks and bounds reach to wherever this one is above 0, too. For a
+  /// density beside which something glows. Null: none.
+  const Grid* also = nullptr;
 };
 
 /// One channel of half floats, filtered trilinearly. Bricks are stored wherever a filtered value can differ

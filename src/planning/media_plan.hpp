@@ -15,7 +15,7 @@ namespace brume::planning {
 
 /// A volume that may be in view.
 struct VisibleVolume {
-  std::size_t index = 0;              ///< In FrameInput::volumes.
+  std::size_t index = 0;  ///< In FrameInput::volumes.
   Box<float> bounds_world;
   shared::VolumeInstance instance{};  ///< All but the places of its bricks, which the atlas knows.
 };

@@ -114,11 +114,13 @@ Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, cons
   const auto heat = choose_grid(grids, options.heat, kHeatNames);
   if (!heat) return heat.failure();
   auto frame = std::make_shared<VolumeFrame>();
-  auto bricks = grids::make_brick_volume(**density);
+  const bool glows = *heat && *heat != *density;
+  const bool alike = glows && (*heat)->world_from_index == (*density)->world_from_index;
+  auto bricks = grids::make_brick_volume(**density, {.also = alike ? *heat : nullptr});
   if (!bricks) return bricks.failure();
   frame->density = std::move(*bricks);
   warn_of_level(file, **density, frame->density);
-  if (*heat && *heat != *density) {
+  if (glows) {
     auto hot = grids::make_brick_volume(**heat);
     if (!hot) return hot.failure();
     warn_of_level(file, **heat, *hot);

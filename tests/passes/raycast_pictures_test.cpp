@@ -73,7 +73,7 @@ TEST_F(RaycastPicturesTest, ShowIntervalSurfacesAndTheCloud) {
   const SparseVolume volume = cloud();
   const Placed placed{&volume,
                       glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.05f)), glm::vec3(-0.5f * kEdge)),
-                      {glm::vec3(0.95f), 6, {}}};
+                      {glm::vec3(0.95f), 6, {}, 0, 0}};
   const auto two = draw(RaycastForm::two_pass, {placed}), single = draw(RaycastForm::single_pass, {placed});
   const IntervalSurfaces& surfaces = pass(RaycastForm::two_pass).surfaces();
   const auto entries = read_back<glm::vec4>(surfaces.entries), exits = read_back<glm::vec4>(surfaces.exits);

@@ -2,6 +2,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include "planning/blackbody.hpp"
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
@@ -10,13 +11,13 @@
 namespace brume::render {
 namespace {
 
-/// Bricks of density 1 throughout, aprons included: a solid block of 8 voxels a brick from the origin on.
-volume::SparseVolume block(glm::ivec3 bricks) {
+/// Bricks of one density throughout, aprons included: a solid block of 8 voxels a brick from the origin on.
+volume::SparseVolume block(glm::ivec3 bricks, float density = 1) {
   volume::SparseVolume volume({{}, 1, {{sizeof(std::uint16_t)}}});
   volume.begin_update();
   for_each_in(Box<int>{glm::ivec3(0), bricks}, [&](glm::ivec3 brick) {
     for (std::uint16_t& texel : volume.texels<std::uint16_t>(volume::ChannelId{0}, volume.acquire(brick)))
-      texel = glm::packHalf1x16(1);
+      texel = glm::packHalf1x16(density);
   });
   volume.set_bounds(glm::vec3(0), glm::vec3(8 * bricks));
   volume.end_update();
@@ -172,6 +173,80 @@ TEST_F(VolumesTest, OverlappingVolumesMultiplyTheirTransmittance) {
     overlaps += a[i].w < 0.8f && b[i].w < 0.8f && c[i].w < 0.99f;
   }
   EXPECT_GT(overlaps, 20);
+}
+
+/// A sun straight above.
+shared::Light sun_above(float irradiance) {
+  shared::Light sun{};
+  sun.kind = shared::kLightDirectional;
+  sun.direction = {0, -1, 0};
+  sun.intensity = glm::vec3(irradiance);
+  sun.shadow_layer = shared::kNoShadow;
+  return sun;
+}
+
+// Single scattering in a block below the sun: at depth d below its top the sun's light is E exp(-sigma d),
+// and a level ray of length L gathers albedo E / (4 pi) exp(-sigma d) (1 - exp(-sigma L)).
+TEST_F(VolumesTest, SunlightInABlockIsThatOfSingleScattering) {
+  const volume::SparseVolume cube = block({4, 4, 4});
+  constexpr float kSigma = 0.4f, kEdge = 4, kIrradiance = 5;
+  const glm::mat4 placed =
+      glm::scale(glm::translate(glm::mat4(1), glm::vec3(-kEdge / 2)), kEdge / cube.layout().bounds_max);
+  input_.volumes = {{&cube, placed, {glm::vec3(0.5f), kSigma, glm::vec3(0), 0, 0}, {}}};
+  input_.environment.flashes = {sun_above(kIrradiance)};
+  input_.view.camera = {{0, 0, 400}, {0, 0, 0}, 0.011f};  // nearly parallel rays
+  const std::vector<glm::vec4> pixels = draw();
+  int compared = 0;
+  const float tall = 800 * std::tan(0.0055f);
+  for (std::uint32_t y = 0; y < kSize.y; ++y) {
+    const float height = tall * (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(kSize.y));
+    const float depth = kEdge / 2 - height;
+    if (depth < 0.3f || depth > kEdge - 0.3f) continue;
+    const glm::vec4 pixel = pixels[y * kSize.x + kSize.x / 2];
+    const float expected =
+        0.5f * kIrradiance / 12.5663706f * std::exp(-kSigma * depth) * (1 - std::exp(-kSigma * kEdge));
+    // A cell of light is an eighth of a metre: exp is linear in it but for (sigma / 8)^2 / 8, and the image
+    // is half floats. The step at each end that a sample may miss is 1 / 32 of the ray.
+    EXPECT_NEAR(pixel.x, expected, 0.035f * expected) << "at depth " << depth;
+    ++compared;
+  }
+  EXPECT_GT(compared, 15);
+}
+
+// An opaque cloud under a uniform sky that absorbs nothing is as bright as the sky.
+TEST_F(VolumesTest, WithoutAbsorptionACloudIsAsBrightAsTheSky) {
+  const volume::SparseVolume cube = block({3, 3, 3});
+  input_.volumes = {
+      {&cube, oblique(cube, {-2, -2, -2}, glm::vec3(4)), {glm::vec3(1), 6, glm::vec3(0), 0.3f, 1}, {}}};
+  input_.environment.sky.ambient = glm::vec3(0.7f);
+  input_.environment.sky.bounce = 1;
+  int opaque = 0;
+  for (const glm::vec4& pixel : draw()) {
+    if (pixel.w > 0.002f) continue;
+    EXPECT_NEAR(pixel.x, 0.7f, 0.02f);
+    ++opaque;
+  }
+  EXPECT_GT(opaque, 100);
+}
+
+// Heat alone, in bricks without density: radiance emission * extinction * length.
+TEST_F(VolumesTest, HeatGlowsWithoutAnyDensity) {
+  const volume::SparseVolume empty = block({2, 2, 2}, 0), hot = block({2, 2, 2});
+  const glm::mat4 placed = oblique(empty, {-1, -1.5f, 0}, {3, 2, 4});
+  planning::HeatInput heat{&hot, placed, planning::kUnitGlow, 1, 1};
+  input_.volumes = {{&empty, placed, {glm::vec3(0), 0.2f, glm::vec3(0), 0, 0}, heat}};
+  const std::vector<glm::vec4> pixels = draw();
+  const std::vector<double> lengths = chords(input_.volumes[0]);
+  const float glow = planning::blackbody_color(planning::kUnitGlow).r;
+  const double step = step_of(input_.volumes[0]);
+  int inside = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    EXPECT_EQ(pixels[i].w, 1) << i;
+    const double per_metre = 0.2 * double{glow};
+    EXPECT_NEAR(double{pixels[i].x}, per_metre * lengths[i], per_metre * step * 1.02 + 2e-3) << i;
+    inside += lengths[i] > 1;
+  }
+  EXPECT_GT(inside, 150);
 }
 
 /// A cloud of smoke in an open world.

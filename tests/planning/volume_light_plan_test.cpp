@@ -1,0 +1,129 @@
+#include "planning/volume_light_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+#include "planning/blackbody.hpp"
+
+namespace brume::planning {
+namespace {
+
+TEST(VolumeSweep, FitsTheBoundsAndRunsAlongTheLight) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> draw(-1, 1);
+  for (int round = 0; round < 200; ++round) {
+    shared::VolumeInstance volume{};
+    glm::mat4 matrix(1);
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 3; ++row) matrix[column][row] = 3 * draw(random);
+    volume.world_from_voxel = glm::mat4x3(matrix);
+    volume.bounds_min = glm::vec3(draw(random), draw(random), draw(random));
+    volume.bounds_max = volume.bounds_min + 7.0f;
+    const glm::vec3 direction = glm::normalize(glm::vec3(draw(random), draw(random), 0.1f + draw(random)));
+    const shared::VolumeSweep sweep = sweep_through(volume, direction);
+
+    // Corners of the bounds fill the unit cube along each axis.
+    glm::vec3 low(1e9f), high(-1e9f);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::bvec3 side(corner & 1, corner & 2, corner & 4);
+      const glm::vec3 p =
+          volume.world_from_voxel * glm::vec4(glm::mix(volume.bounds_min, volume.bounds_max, side), 1);
+      const glm::vec3 at = sweep.sweep_from_world * glm::vec4(p, 1);
+      low = glm::min(low, at);
+      high = glm::max(high, at);
+      EXPECT_LT(glm::length(sweep.world_from_sweep * glm::vec4(at, 1) - p), 1e-3f) << round;
+    }
+    EXPECT_LT(glm::length(low), 1e-3f) << round;
+    EXPECT_LT(glm::length(high - 1.0f), 1e-3f) << round;
+    const glm::vec3 along = sweep.world_from_sweep * glm::vec4(0, 0, 1, 0);
+    EXPECT_NEAR(glm::length(along), sweep.length_m, 1e-3f * sweep.length_m) << round;
+    EXPECT_LT(glm::length(along / sweep.length_m - direction), 1e-4f) << round;
+  }
+}
+
+/// A brick of density.
+class VolumeLightCacheTest : public testing::Test {
+ protected:
+  VolumeLightCacheTest() {
+    volume::SparseVolumeInfo info;
+    info.channels = {{2}};
+    volume_ = std::make_unique<volume::SparseVolume>(info);
+    volume_->begin_update();
+    volume_->acquire({0, 0, 0});
+    volume_->set_bounds(glm::vec3(0), glm::vec3(8));
+    volume_->end_update();
+    inputs_ = {{volume_.get(), glm::mat4(1), {glm::vec3(1), 1, glm::vec3(0), 0, 1}, {}}};
+    shared::Light sun{};
+    sun.kind = shared::kLightDirectional;
+    sun.direction = {0, -1, 0};
+    lights_ = {sun};
+  }
+  VolumeLightPlan plan() {
+    MediaPlan media;
+    media.media = shared::kMediumVolumes;
+    VisibleVolume visible;
+    visible.instance.voxel_from_world = visible.instance.world_from_voxel =
+        glm::mat4x3(inputs_[0].world_from_voxel);
+    visible.instance.bounds_max = glm::vec3(8);
+    visible.instance.look = inputs_[0].look;
+    media.volumes = {visible};
+    media.sun = 0;
+    media.frame.to_sun = -lights_[0].direction;
+    return cache_.plan({&media, inputs_, lights_, nullptr, {}, time_, {}, rebuild_});
+  }
+
+  std::unique_ptr<volume::SparseVolume> volume_;
+  std::vector<VolumeInput> inputs_;
+  std::vector<shared::Light> lights_;
+  float time_ = 0;
+  bool rebuild_ = false;
+  VolumeLightCache cache_;
+};
+
+TEST_F(VolumeLightCacheTest, UpdatesOnlyWhereAnInputOfTheLightChanged) {
+  EXPECT_TRUE(plan().update);
+  EXPECT_EQ(plan().sweeps.size(), shared::kSweepsOfVolume);
+  EXPECT_FALSE(plan().update);
+  time_ = 2;  // without smoke no clock matters
+  EXPECT_FALSE(plan().update);
+  inputs_[0].look.extinction = 2;
+  EXPECT_TRUE(plan().update);
+  EXPECT_FALSE(plan().update);
+  lights_[0].direction = {1, 0, 0};
+  EXPECT_TRUE(plan().update);
+  volume_->begin_update();
+  volume_->mark_dirty(volume::ChannelId{0}, 0);
+  volume_->end_update();
+  EXPECT_TRUE(plan().update);
+  rebuild_ = true;
+  EXPECT_TRUE(plan().update);
+  rebuild_ = false;
+  EXPECT_FALSE(plan().update);
+  cache_.invalidate();
+  EXPECT_TRUE(plan().update);
+}
+
+TEST(Blackbody, HasTheColoursOfTheLocus) {
+  EXPECT_EQ(blackbody_color(0), glm::vec3(0));
+  EXPECT_EQ(blackbody_color(NAN), glm::vec3(0));
+  const auto luminance = [](glm::vec3 c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; };
+  // Red before green before blue, and no blue at all, where things only glow.
+  const glm::vec3 ember = blackbody_color(1200);
+  EXPECT_GT(ember.r, 2 * ember.g);
+  EXPECT_EQ(ember.b, 0);
+  // Chromaticity of 6504 K on the Planckian locus: x = 0.3135, y = 0.3237 (Wyszecki and Stiles), near the
+  // white of sRGB.
+  const glm::vec3 white = blackbody_color(6504) / luminance(blackbody_color(6504));
+  EXPECT_NEAR(white.r, 1, 0.05f);
+  EXPECT_NEAR(white.g, 1, 0.03f);
+  EXPECT_NEAR(white.b, 1, 0.06f);
+  // The fourth power, where no component is cut off.
+  EXPECT_NEAR(luminance(blackbody_color(8000)) / luminance(blackbody_color(4000)), 16, 0.05f);
+  EXPECT_NEAR(luminance(blackbody_color(4000)), std::pow(4000 / kUnitGlow, 4), 0.05f);
+}
+
+}  // namespace
+}  // namespace brume::planning

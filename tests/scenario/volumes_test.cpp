@@ -1,0 +1,131 @@
+#include "scenario/volumes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "grids/files.hpp"
+#include "scenario/scenario.hpp"
+
+namespace brume::scenario {
+namespace {
+
+/// A folder of its own with volume files.
+class VolumesTest : public testing::Test {
+ protected:
+  VolumesTest()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("brume_volumes_" + std::to_string(::getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~VolumesTest() override { std::filesystem::remove_all(folder_); }
+
+  /// A brick full of one value.
+  static grids::Grid cube(const std::string& name, float value) {
+    grids::Grid grid;
+    grid.name = name;
+    grid.grid_class = grids::GridClass::fog_volume;
+    grid.bricks.emplace_back().active.fill(~std::uint64_t{0});
+    for (std::size_t voxel = 0; voxel < grids::kBrickVoxels; ++voxel) {
+      const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
+      grid.values.insert(grid.values.end(), bytes, bytes + sizeof value);
+    }
+    return grid;
+  }
+  std::filesystem::path save(const std::string& name, std::vector<grids::Grid> grids) const {
+    const std::filesystem::path path = folder_ / name;
+    grids::save_grid_file(path, {std::move(grids), {}}).value_or_throw();
+    return path;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(VolumesTest, ASequenceShowsTheFrameOfATime) {
+  for (const int number : {3, 4, 6})
+    save("f_000" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number))});
+  save("f_x.brv", {cube("density", 9)});
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "f_%04d.brv";
+  options[0].frame_rate = 10;
+  options[0].start = 1;
+  const auto volumes = Volumes::load(options).value_or_throw();
+  EXPECT_EQ(volumes->files().size(), 3u);
+  const auto shown = [&](double seconds) { return volumes->at(options, seconds)[0].frame->density.high; };
+  for (const auto& [seconds, frame] :
+       {std::pair(0.0, 3), {1.0, 3}, {1.0999, 3}, {1.1, 4}, {1.2, 4}, {1.3, 6}, {99.0, 6}, {1.1, 4}})
+    EXPECT_EQ(shown(seconds), static_cast<float>(frame)) << seconds;
+  options[0].loop = true;
+  for (const auto& [seconds, frame] : {std::pair(1.4, 3), {1.5, 4}, {0.9, 6}, {1.8, 3}})
+    EXPECT_EQ(shown(seconds), static_cast<float>(frame)) << seconds;
+}
+
+TEST_F(VolumesTest, ADamagedFrameShowsTheOneBefore) {
+  save("f_1.brv", {cube("density", 1)});
+  std::ofstream(folder_ / "f_2.brv") << "not a volume";
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "f_%d.brv";
+  options[0].frame_rate = 1;
+  const auto volumes = Volumes::load(options).value_or_throw();
+  EXPECT_EQ(volumes->at(options, 1.5)[0].frame->density.high, 1);
+}
+
+TEST_F(VolumesTest, ChoosesGridsByNameAndByTheUsualNames) {
+  const auto path = save("a.brv", {cube("temperature", 2), cube("fuel", 3), cube("density", 4)});
+  scene::VolumeOptions options;
+  options.file = path;
+  const auto usual = load_volume_frame(path, options).value_or_throw();
+  EXPECT_EQ(usual->density.high, 4);
+  ASSERT_TRUE(usual->heat);
+  EXPECT_EQ(usual->heat->high, 2);
+  options.density = "fuel";
+  EXPECT_EQ(load_volume_frame(path, options).value_or_throw()->density.high, 3);
+  options.density = "densty";
+  const auto wrong = load_volume_frame(path, options);
+  EXPECT_EQ(wrong.failure().code, ErrorCode::bad_input);
+  EXPECT_NE(wrong.failure().message.find("did you mean \"density\""), std::string::npos)
+      << wrong.failure().message;
+  // No usual name: the first grid of numbers.
+  const auto odd = save("b.brv", {cube("cloud_17", 5)});
+  EXPECT_EQ(load_volume_frame(odd, {}).value_or_throw()->density.high, 5);
+}
+
+TEST_F(VolumesTest, APlacedVolumeIsWhereTheTimelineSays) {
+  save("a.brv", {cube("density", 1)});
+  std::ofstream(folder_ / "t.toml")
+      << "version = 1\nscene = \"a.brv\"\n[[volume]]\nfile = \"a.brv\"\nposition = [10.0, 0.0, 0.0]\n"
+         "rotation = [-90.0, 0.0, 0.0]\nscale = 2.0\n";
+  const Scenario scenario = load_scenario(folder_ / "t.toml", {}).value_or_throw();
+  // Voxels 0 to 7 with half a voxel around them, and another half that filtering reaches: z becomes y, y -z.
+  const Box<float> bounds = scene::world_bounds(scenario.scene);
+  EXPECT_LT(glm::length(bounds.low - glm::vec3(8, -2, -16)), 1e-4f);
+  EXPECT_LT(glm::length(bounds.high - glm::vec3(26, 16, 2)), 1e-4f);
+  EXPECT_EQ(files_of(scenario).size(), 1u);
+}
+
+// Alone it gets a look that does not depend on its unit.
+TEST_F(VolumesTest, TheFirstViewDoesNotDependOnTheUnit) {
+  std::optional<Scenario> metres;
+  for (const double unit : {1.0, 1000.0, 1e-3}) {
+    grids::Grid grid = cube("density", 0.3f);
+    grid.world_from_index = glm::dmat4(unit);
+    grid.world_from_index[3][3] = 1;
+    Scenario scenario = load_scenario(save("a.brv", {grid}), {}).value_or_throw();
+    EXPECT_TRUE(scenario.timeline.smokes.empty());
+    if (!metres) {
+      metres = std::move(scenario);
+      continue;
+    }
+    const float ratio =
+        scene::world_bounds(scenario.scene).high.y / scene::world_bounds(metres->scene).high.y;
+    EXPECT_NEAR(scenario.timeline.volumes[0].extinction * ratio, metres->timeline.volumes[0].extinction,
+                1e-3f * metres->timeline.volumes[0].extinction);
+    EXPECT_LT(glm::length(scenario.camera.position_world / ratio - metres->camera.position_world), 0.01f);
+  }
+}
+
+}  // namespace
+}  // namespace brume::scenario
