@@ -56,20 +56,6 @@ std::vector<std::pair<std::string, Grid>> huge_grids() {
           {"8,000 tiles of two million voxels", with_tiles(128, 20)}};
 }
 
-// The bricks of a grid with indices from 0 on, which share one lower node.
-Grid octant(const Grid& grid) {
-  Grid part = grid;
-  part.bricks.clear();
-  part.values.clear();
-  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
-    if (glm::any(glm::lessThan(grid.bricks[i].origin, glm::ivec3(0)))) continue;
-    part.bricks.push_back(grid.bricks[i]);
-    const auto values = grid.values_of(i);
-    part.values.insert(part.values.end(), values.begin(), values.end());
-  }
-  return part;
-}
-
 std::vector<Bomb> bombs_of(const std::string& suffix,
                            const std::vector<std::pair<std::string, Bytes>>& list) {
   std::vector<Bomb> bombs;

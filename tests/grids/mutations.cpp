@@ -37,12 +37,16 @@ std::vector<Base> bases(const WorkFolder& folder) {
     list.push_back({suffix, read_file(path).value_or_throw()});
   };
   for (const std::string suffix : {".vdb", ".nvdb"}) {
-    add(suffix, smoke_grid("density", 5));
+    // Small, of few nodes: what changes then matters more often.
+    add(suffix, octant(smoke_grid("density", 5)));
     add(suffix, huge_tile());
-    add(suffix, random_grid(ValueType::boolean, 3, 2));
-    Grid grid = random_grid(ValueType::vec3f, 3, 4);
-    grid.tiles.clear();
-    add(suffix, grid);
+    for (const ValueType type : {ValueType::boolean, ValueType::vec3f}) {
+      Grid grid = octant(random_grid(type, 3, 60));
+      grid.bricks.resize(2);
+      grid.values.resize(2 * kBrickVoxels * bytes_of(type));
+      std::erase_if(grid.tiles, [](const Tile& tile) { return tile.edge < 4096; });
+      add(suffix, grid);
+    }
   }
   return list;
 }

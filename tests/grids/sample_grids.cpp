@@ -153,6 +153,19 @@ Grid smoke_grid(const std::string& name, int radius) {
   return grid;
 }
 
+Grid octant(const Grid& grid) {
+  Grid part = grid;
+  part.bricks.clear();
+  part.values.clear();
+  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
+    if (glm::any(glm::lessThan(grid.bricks[i].origin, glm::ivec3(0)))) continue;
+    part.bricks.push_back(grid.bricks[i]);
+    const auto values = grid.values_of(i);
+    part.values.insert(part.values.end(), values.begin(), values.end());
+  }
+  return part;
+}
+
 Grid huge_tile() {
   Grid grid;
   grid.name = "density";

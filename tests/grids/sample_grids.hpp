@@ -20,6 +20,9 @@ Grid random_grid(ValueType type, std::uint32_t seed, std::size_t bricks = 12);
 /// A ball of smoke, as simulations save it: half precision, a fog volume.
 Grid smoke_grid(const std::string& name, int radius);
 
+/// The bricks of a grid with indices from 0 on: near the origin, they share the nodes of a tree.
+Grid octant(const Grid& grid);
+
 /// One tile of 4096^3 active voxels: a .vdb file of some hundred bytes.
 Grid huge_tile();
 
