@@ -7,8 +7,8 @@
 #include "shared/media.h"
 #include "shared/phase.h"
 
-/// A constant of the pipeline: a software rasteriser pays for branches that it does not take.
-const bool kHasHeat = (kMedia & kMediumHeat) != 0u;
+// Constants of the pipeline: a software rasteriser pays for branches that it does not take.
+const bool kHasHeat = (kMedia & kMediumHeat) != 0u, kIsLit = (kMedia & kMediumLit) != 0u;
 
 layout(binding = kBindVolumeLight) uniform sampler3D volume_light;
 layout(binding = kBindVolumeColors) uniform sampler2D volume_colors;
@@ -121,8 +121,8 @@ void add_volume(VolumeInstance volume, uint i, float value, vec3 light_texel, fl
                 inout VolumesSample sum, inout uint texture_samples) {
   const float extinction = volume.look.extinction * value;
   ++texture_samples;
-  if (extinction > 0.0) {
-    sum.extinction += extinction;
+  sum.extinction += extinction;
+  if (kIsLit && extinction > 0.0) {
     sum.light += extinction * (volume_inscatter(volume, i, light_texel, phase) + volume.look.emission);
     ++texture_samples;
   }

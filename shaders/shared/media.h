@@ -7,7 +7,9 @@ SHARED_BEGIN
 /// Bits of a set of media.
 SHARED_CONST uint kMediumSmoke = 1u;
 SHARED_CONST uint kMediumVolumes = 2u;
-SHARED_CONST uint kMediumHeat = 4u;  // of a volume: never without kMediumVolumes
+// Properties of volumes in view, never without kMediumVolumes.
+SHARED_CONST uint kMediumHeat = 4u;  // one glows with heat
+SHARED_CONST uint kMediumLit = 8u;   // one scatters light, or emits; else all only absorb
 
 SHARED_END
 #endif

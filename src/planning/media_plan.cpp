@@ -57,6 +57,8 @@ void add_medium(MediaPlan& plan, std::uint32_t bit, const Box<float>& world, flo
 void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, const Box<float>& world) {
   const shared::VolumeLayout& layout = volume.volume->layout();
   add_medium(plan, shared::kMediumVolumes, world, volume.look.extinction, step_of(volume.world_from_voxel));
+  const glm::vec3 light = volume.look.albedo + volume.look.emission;
+  if (std::max({light.r, light.g, light.b}) > 0) plan.media |= shared::kMediumLit;
   shared::VolumeHeat heat{};
   if (volume.heat.volume && volume.heat.volume->slot_count() > 0) {
     plan.media |= shared::kMediumHeat;

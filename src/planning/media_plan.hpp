@@ -21,7 +21,7 @@ struct VisibleVolume {
 };
 
 struct MediaPlan {
-  std::uint32_t media = 0;  ///< Set of shared::kMediumSmoke, kMediumVolumes and kMediumHeat.
+  std::uint32_t media = 0;  ///< Set of shared::kMedium...
   std::vector<VisibleVolume> volumes;
   shared::VolumeLayout smoke{};  ///< Of the smoke in view; without smoke a unit grid.
   shared::FrameMedia frame{};
