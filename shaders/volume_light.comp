@@ -95,7 +95,7 @@ void main() {
       const Light sunlight = lights[params.sun];
       const float lit = light_visibility(sunlight, p_world);
       const float depth = swept_depth(sun_depths, volume, 0u, sweeps[volume * kSweepsOfVolume], p_world);
-      light.a = lit * exp(-depth);
+      light.a = lit;
       light.rgb = sunlight.intensity * (lit * kPerSphere) * many.fraction * exp(-many.decay * depth);
     }
     light.rgb += other_lights(p_world, look.albedo, many);

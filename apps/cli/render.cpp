@@ -269,6 +269,12 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   warn_of_times(options, plan, scenario.timeline);
   gpu::Context context({options.device, false});
   auto simulation = scenario::Simulation::create(scenario).value_or_throw();
+  if (!options.raycast.empty()) {
+    if (scenario.timeline.volumes.empty())
+      throw Error(ErrorCode::usage, "--raycast: " + options.input + " has no volume; remove the option");
+    if (!scenario.timeline.smokes.empty())
+      log_warning("--raycast draws volumes alone: the smoke of the timeline is not shown");
+  }
   const Json smokes = report_timeline(scenario, simulation->report_smokes(scenario));
   stop_if_interrupted();
   render::Playback playback(context, scenario, plan.renderer, std::move(simulation));

@@ -6,11 +6,14 @@
 #include "lib/volume_values.glsl"
 #include "shared/media.h"
 #include "shared/phase.h"
+#include "shared/volume_light.h"
 
 // Constants of the pipeline: a software rasteriser pays for branches that it does not take.
 const bool kHasHeat = (kMedia & kMediumHeat) != 0u, kIsLit = (kMedia & kMediumLit) != 0u;
+const bool kHasSun = (kMedia & kMediumSun) != 0u;
 
 layout(binding = kBindVolumeLight) uniform sampler3D volume_light;
+layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
 layout(binding = kBindVolumeColors) uniform sampler2D volume_colors;
 
 /// A ray in the voxel space of a volume, and where it is inside the bounds [m].
@@ -44,7 +47,7 @@ struct TextureRay {
 /// What the samples of a ray have in common: the first volume's ray, since most frames have no other.
 struct VolumesRay {
   VolumeRay first;
-  TextureRay light;  // in its cube of light [texels]
+  TextureRay light, sun;  // in its cubes of light and of the sun's depths [texels]
   float phase;
 };
 
@@ -55,7 +58,12 @@ VolumesRay volumes_ray(WorldRay world) {
   const vec3 per_voxel = light_per_voxel(volumes[0], edge);
   rays.light = TextureRay(light_first(volumes[0], 0u, edge) + rays.first.ray.origin * per_voxel,
                           rays.first.ray.per_metre * per_voxel);
-  rays.phase = volume_phase(volumes[0], world);
+  if (kHasSun) {
+    const float sun_edge = float(textureSize(sun_depths, 0).y);
+    rays.sun = TextureRay(volumes[0].sun_from_voxel * vec4(rays.first.ray.origin, 1.0) * sun_edge,
+                          volumes[0].sun_from_voxel * vec4(rays.first.ray.per_metre, 0.0) * sun_edge);
+    rays.phase = volume_phase(volumes[0], world);
+  }
   return rays;
 }
 
@@ -101,11 +109,24 @@ struct VolumesSample {
   vec3 glow;         // radiance that leaves per metre, whatever the extinction
 };
 
-/// Radiance towards the eye that a volume scatters, per extinction, at a texel of its cube of light.
-vec3 volume_inscatter(VolumeInstance volume, uint i, vec3 texel, float phase) {
-  const vec3 size = vec3(textureSize(volume_light, 0)), first = vec3(0.0, 0.0, float(i) * size.x);
-  const vec4 light = textureLod(volume_light, clamp(texel, first + 0.5, first + size.x - 0.5) / size, 0.0);
-  return light.rgb + volume.look.albedo * frame.media.sun_irradiance * (light.a * phase);
+/// Where the samples of the cubes of light are read [texels].
+struct LightTexels {
+  vec3 light, sun;
+};
+
+/// The texel of cube i of an image of cubes along z, in texture coordinates.
+vec3 in_cube(uint i, vec3 texel, vec3 size) {
+  const vec3 first = vec3(0.0, 0.0, float(i) * size.y);
+  return clamp(texel, first + 0.5, first + size.y - 0.5) / size;
+}
+
+/// Radiance towards the eye that a volume scatters, per extinction.
+vec3 volume_inscatter(VolumeInstance volume, uint i, LightTexels at, float phase) {
+  const vec4 light = textureLod(volume_light, in_cube(i, at.light, vec3(textureSize(volume_light, 0))), 0.0);
+  if (!kHasSun) return light.rgb;
+  const vec3 size = vec3(textureSize(sun_depths, 0));
+  const float arrives = light.a * exp(-textureLod(sun_depths, in_cube(i, at.sun, size), 0.0).r);
+  return light.rgb + volume.look.albedo * frame.media.sun_irradiance * (arrives * phase);
 }
 
 /// What a volume's heat emits at a point, per metre and per look.extinction.
@@ -117,14 +138,14 @@ vec3 volume_glow(VolumeInstance volume, uint i, vec3 p_world) {
   return textureLod(volume_colors, vec2(column, float(i) + 0.5) / size, 0.0).rgb;
 }
 
-void add_volume(VolumeInstance volume, uint i, float value, vec3 light_texel, float phase, vec3 p_world,
+void add_volume(VolumeInstance volume, uint i, float value, LightTexels at, float phase, vec3 p_world,
                 inout VolumesSample sum, inout uint texture_samples) {
   const float extinction = volume.look.extinction * value;
   ++texture_samples;
   sum.extinction += extinction;
   if (kIsLit && extinction > 0.0) {
-    sum.light += extinction * (volume_inscatter(volume, i, light_texel, phase) + volume.look.emission);
-    ++texture_samples;
+    sum.light += extinction * (volume_inscatter(volume, i, at, phase) + volume.look.emission);
+    texture_samples += kHasSun ? 2u : 1u;
   }
   if (kHasHeat && volume.heat.per_value > 0.0) {
     sum.glow += volume.look.extinction * volume_glow(volume, i, p_world);
@@ -137,17 +158,21 @@ VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, 
   VolumesSample sum = VolumesSample(0.0, vec3(0.0), vec3(0.0));
   if (span.present == 1u) {
     const float value = textureLod(volume_values, span.values.at + t * span.values.along, 0.0).r;
-    const vec3 texel = rays.light.at + t * rays.light.along;
-    add_volume(volumes[0], 0u, value, texel, rays.phase, p_world, sum, texture_samples);
+    LightTexels at;
+    at.light = rays.light.at + t * rays.light.along;
+    if (kHasSun) at.sun = rays.sun.at + t * rays.sun.along;
+    add_volume(volumes[0], 0u, value, at, rays.phase, p_world, sum, texture_samples);
     return sum;
   }
-  const float edge = float(textureSize(volume_light, 0).x);
+  const float edge = float(textureSize(volume_light, 0).x), sun_edge = float(textureSize(sun_depths, 0).y);
   for (uint left = span.present; left != 0u; left &= left - 1u) {
     const uint i = uint(findLSB(left));
     const vec3 p_voxel = volumes[i].voxel_from_world * vec4(p_world, 1.0);
-    const vec3 texel = light_first(volumes[i], i, edge) + p_voxel * light_per_voxel(volumes[i], edge);
-    add_volume(volumes[i], i, volume_value(volumes[i].bricks, p_voxel), texel, volume_phase(volumes[i], world),
-               p_world, sum, texture_samples);
+    const LightTexels at = LightTexels(
+        light_first(volumes[i], i, edge) + p_voxel * light_per_voxel(volumes[i], edge),
+        (volumes[i].sun_from_voxel * vec4(p_voxel, 1.0) + vec3(0.0, 0.0, float(i))) * sun_edge);
+    add_volume(volumes[i], i, volume_value(volumes[i].bricks, p_voxel), at, volume_phase(volumes[i], world), p_world,
+               sum, texture_samples);
   }
   return sum;
 }

@@ -10,6 +10,7 @@ SHARED_CONST uint kMediumVolumes = 2u;
 // Properties of volumes in view, never without kMediumVolumes.
 SHARED_CONST uint kMediumHeat = 4u;  // one glows with heat
 SHARED_CONST uint kMediumLit = 8u;   // one scatters light, or emits; else all only absorb
+SHARED_CONST uint kMediumSun = 16u;  // a sun lights them
 
 SHARED_END
 #endif

@@ -76,8 +76,9 @@ struct VolumeInstance {
   VolumeLook look;
   BrickLayout bricks;
   VolumeHeat heat;
+  mat4x3 sun_from_voxel;  // to the cube of the sun's depths, [0, 1]^3 (volume_light.h)
 };
-SHARED_SIZE(VolumeInstance, 296);
+SHARED_SIZE(VolumeInstance, 344);
 
 /// Entry of the root for a brick, in the page buffer; kNoPage outside of the window.
 SHARED_CONST uint kNoPage = 0xffffffffu;

@@ -16,7 +16,9 @@
 namespace brume::grids {
 namespace {
 
-constexpr float kLargestHalf = 65504;
+/// Largest values within these bounds are stored as they are.
+constexpr float kLeastHigh = 1.0f / 64, kMostHigh = 1024;
+constexpr float kLargestValue = 1e30f;
 
 /// Voxels of the ramp behind the surface of a level set, as sdfToFogVolume's default.
 constexpr double kFogRamp = 3;
@@ -32,7 +34,7 @@ class Reader {
   float at(const std::byte* values, std::size_t index) const {
     double value = number(values + index * bytes_);
     if (level_set_) value = std::min(-value / ramp_, 1.0);
-    return value > 0 ? static_cast<float>(std::min<double>(value, kLargestHalf)) : 0.0f;
+    return value > 0 ? static_cast<float>(std::min<double>(value, kLargestValue)) : 0.0f;
   }
 
  private:
@@ -200,7 +202,7 @@ std::vector<glm::ivec3> sampled_bricks(const Numbers& numbers) {
 }
 
 /// The texels of a brick with its apron.
-void fill_texels(const Numbers& numbers, glm::ivec3 brick, std::span<std::uint16_t> texels) {
+void fill_texels(const Numbers& numbers, float per_value, glm::ivec3 brick, std::span<std::uint16_t> texels) {
   std::array<const Values*, 27> around{};
   for (int n = 0; n < 27; ++n)
     around[static_cast<std::size_t>(n)] = numbers.find(brick + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1);
@@ -210,9 +212,9 @@ void fill_texels(const Numbers& numbers, glm::ivec3 brick, std::span<std::uint16
       for (int x = -1; x <= 8; ++x, ++out) {
         const glm::ivec3 p(x, y, z), side = (p >> 3) + 1, q = p & 7;
         const Values* const values = around[static_cast<std::size_t>(side.x + 3 * side.y + 9 * side.z)];
-        texels[out] = values
-                          ? glm::packHalf1x16((*values)[static_cast<std::size_t>(q.x + 8 * (q.y + 8 * q.z))])
-                          : std::uint16_t{0};
+        texels[out] = values ? glm::packHalf1x16(
+                                   per_value * (*values)[static_cast<std::size_t>(q.x + 8 * (q.y + 8 * q.z))])
+                             : std::uint16_t{0};
       }
 }
 
@@ -231,7 +233,7 @@ Box<float> bounds_of(const Numbers& numbers) {
 /// Range, sum and distribution of the values.
 void measure(const Numbers& numbers, BrickVolume& out) {
   glm::dvec3 places(0), squares(0);
-  out.low = numbers.bricks.empty() ? 0 : kLargestHalf;
+  out.low = numbers.bricks.empty() ? 0 : kLargestValue;
   for (std::size_t i = 0; i < numbers.bricks.size(); ++i)
     for (int voxel = 0; voxel < int{kBrickVoxels}; ++voxel) {
       const float value = numbers.bricks[i][static_cast<std::size_t>(voxel)];
@@ -243,11 +245,12 @@ void measure(const Numbers& numbers, BrickVolume& out) {
       squares += double{value} * (p + 0.5) * (p + 0.5);
     }
   if (out.sum <= 0) return;
+  if (out.high < kLeastHigh || out.high > kMostHigh) out.unit = std::exp2(std::floor(std::log2(out.high)));
   out.mean = places / out.sum;
   out.deviation = glm::sqrt(glm::max(squares / out.sum - out.mean * out.mean, 0.0));
 }
 
-std::unique_ptr<volume::SparseVolume> fill_volume(const Numbers& numbers,
+std::unique_ptr<volume::SparseVolume> fill_volume(const Numbers& numbers, float unit,
                                                   const std::vector<glm::ivec3>& bricks,
                                                   const Box<float>& bounds) {
   volume::SparseVolumeInfo info;
@@ -260,7 +263,7 @@ std::unique_ptr<volume::SparseVolume> fill_volume(const Numbers& numbers,
   for (const glm::ivec3 brick : bricks) slots.push_back(volume->acquire(brick));
   parallel_for(bricks.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      fill_texels(numbers, bricks[i], volume->texels<std::uint16_t>(channel, slots[i]));
+      fill_texels(numbers, 1 / unit, bricks[i], volume->texels<std::uint16_t>(channel, slots[i]));
   });
   volume->set_bounds(bounds.empty() ? glm::vec3(0) : bounds.low, bounds.empty() ? glm::vec3(0) : bounds.high);
   volume->end_update();
@@ -298,7 +301,7 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
     bricks = sampled_bricks(*numbers, *also);
   }
   measure(*numbers, out);
-  out.volume = fill_volume(*numbers, bricks, united(bounds_of(*numbers), bounds_of(*also)));
+  out.volume = fill_volume(*numbers, out.unit, bricks, united(bounds_of(*numbers), bounds_of(*also)));
   const auto active = static_cast<double>(count_active(grid));
   out.rms_error = active > 0 ? std::sqrt(square_error / active) : 0;
   // Voxel i of level l has its centre at index 2^l (i + 1/2) - 1/2.

@@ -25,6 +25,7 @@ struct BrickVolumeOptions {
 struct BrickVolume {
   std::unique_ptr<volume::SparseVolume> volume;  ///< Voxel space: voxel i covers [i, i + 1).
   glm::dmat4 world_from_voxel{1};                ///< To the file's world.
+  float unit = 1;                                ///< Value that the bricks store as 1: a power of two.
   float low = 0, high = 0;                       ///< Range of the values.
   double sum = 0;                                ///< Of all values.
   glm::dvec3 mean{0}, deviation{0};              ///< Of the values' places, weighted by value [voxel space].
@@ -33,9 +34,10 @@ struct BrickVolume {
 };
 
 /// Values above 0 of a grid of numbers; the length of vectors. A level set becomes a fog that is 0 outside,
-/// grows along three voxels behind the surface, and is 1 inside (as OpenVDB's sdfToFogVolume). Values are
-/// clamped to [0, 65504]; NaN becomes 0. The background must be 0, or that of a level set. Fails with
-/// bad_input for a grid without numbers, resource_limit where tiles alone are more than fit at any level.
+/// grows along three voxels behind the surface, and is 1 inside (as OpenVDB's sdfToFogVolume). NaN becomes 0;
+/// values that half floats lack are stored in a larger or smaller unit. The background must be 0, or that of
+/// a level set. Fails with bad_input for a grid without numbers, resource_limit where tiles alone are more
+/// than fit at any level.
 Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions& options = {});
 
 }  // namespace brume::grids

@@ -3,6 +3,7 @@
 #include "brume_shaders.hpp"
 #include "shared/gbuffer.h"
 #include "shared/noise.h"
+#include "shared/volume_light.h"
 
 namespace brume::passes {
 
@@ -110,6 +111,7 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
                     {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
                     {shared::kBindVolumeLight, gpu::sampled(in.volume_light, linear_)},
+                    {shared::kBindSunDepths, gpu::sampled(in.sun_depths, linear_)},
                     {shared::kBindVolumeColors, gpu::sampled(in.volumes.colors, linear_)},
                 });
 }

@@ -46,6 +46,7 @@ class MarchPass {
     const SmokeResources& smoke;
     VolumeResources volumes;
     const gpu::Image& volume_light;  ///< VolumeLightPass::light.
+    const gpu::Image& sun_depths;    ///< VolumeLightPass::sun_depths.
     const gpu::Image& noise;
     const gpu::Image& depth;
     const gpu::Image& blue_noise;

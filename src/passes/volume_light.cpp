@@ -23,6 +23,7 @@ VolumeLightPass::VolumeLightPass(gpu::Context& context)
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
       light_pipeline_(context, shaders::volume_light_comp),
+      sun_depths_(cubes(context, VK_FORMAT_R16_SFLOAT, 1, 1, 1)),
       light_(cubes(context, VK_FORMAT_R16G16B16A16_SFLOAT, 1, 1, 1)) {}
 
 bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32_t media) {
@@ -31,10 +32,12 @@ bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32
   media &= shared::kMediumSmoke;
   sweep_pipelines_.try_emplace(media, context_, shaders::volume_sweep_comp, std::vector{media});
   gpu::grow(context_, sweeps_, plan.sweeps.size() * sizeof(shared::VolumeSweep));
-  const glm::uvec3 has = light_.info().size;
-  if (has.x == plan.edge && has.z >= plan.edge * count) return false;
+  const auto fits = [count](const gpu::Image& image, std::uint32_t edge) {
+    return image.info().size.y == edge && image.info().size.z >= edge * count;
+  };
+  if (fits(light_, plan.edge) && fits(sun_depths_, plan.sun_edge)) return false;
   light_ = cubes(context_, VK_FORMAT_R16G16B16A16_SFLOAT, plan.edge, count, 1);
-  sun_depths_ = cubes(context_, VK_FORMAT_R16_SFLOAT, plan.edge, count, 1);
+  sun_depths_ = cubes(context_, VK_FORMAT_R16_SFLOAT, plan.sun_edge, count, 1);
   sky_depths_ = cubes(context_, VK_FORMAT_R16_SFLOAT, shared::kSkyEdge, count, shared::kSkySweeps);
   return true;
 }
@@ -44,7 +47,8 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
   if (!plan.update || plan.sweeps.empty()) return;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
   recorder.upload(sweeps_, 0, std::as_bytes(std::span(plan.sweeps)));
-  const shared::VolumeLightParams sun{plan.edge, 0, 1, plan.sun, plan.beyond_m};
+  const shared::VolumeLightParams sun{plan.sun_edge, 0, 1, plan.sun, plan.beyond_m};
+  const shared::VolumeLightParams light{plan.edge, 0, 1, plan.sun, plan.beyond_m};
   const shared::VolumeLightParams sky{shared::kSkyEdge, 1, shared::kSkySweeps, plan.sun, plan.beyond_m};
   record_sweeps(recorder, in, sun, sun_depths_, count);
   record_sweeps(recorder, in, sky, sky_depths_, count * shared::kSkySweeps);
@@ -64,7 +68,7 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindSkyDepths, gpu::sampled(sky_depths_, linear_)},
                     {shared::kBindVolumeLightTarget, gpu::stored(light_)},
                 },
-                sun);
+                light);
   recorder.dispatch_threads(light_pipeline_, plan.edge, plan.edge, plan.edge * count);
 }
 

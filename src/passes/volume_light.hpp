@@ -33,6 +33,7 @@ class VolumeLightPass {
   void record(gpu::Recorder& recorder, const Inputs& in, const planning::VolumeLightPlan& plan);
   /// The cubes of all volumes in view.
   const gpu::Image& light() const { return light_; }
+  const gpu::Image& sun_depths() const { return sun_depths_; }
 
  private:
   void record_sweeps(gpu::Recorder& recorder, const Inputs& in, const shared::VolumeLightParams& params,

@@ -74,6 +74,11 @@ void plan_volume_light(FramePlan& plan, PlanHistory& history) {
   plan.volume_light = history.volume_light.plan({&plan.media, input.volumes, plan.lights, input.smoke.volume,
                                                  input.smoke.look, input.smoke.time, input.environment.sky,
                                                  plan.level_changed || input.quality.rebuild_light});
+  for (std::size_t i = 0; i < plan.media.volumes.size(); ++i) {
+    shared::VolumeInstance& volume = plan.media.volumes[i].instance;
+    const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
+    volume.sun_from_voxel = glm::mat4x3(glm::mat4(sun.sweep_from_world) * glm::mat4(volume.world_from_voxel));
+  }
 }
 
 }  // namespace

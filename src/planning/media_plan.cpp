@@ -72,7 +72,8 @@ void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, c
                            layout.bounds_max,
                            volume.look,
                            {},
-                           heat}});
+                           heat,
+                           {}}});
   ++plan.frame.volume_count;
 }
 
@@ -81,6 +82,7 @@ void add_sun(MediaPlan& plan, std::span<const shared::Light> lights) {
   const auto sun = std::ranges::find(lights, shared::kLightDirectional, &shared::Light::kind);
   if (sun == lights.end()) return;
   plan.sun = static_cast<std::uint32_t>(sun - lights.begin());
+  if (plan.frame.volume_count > 0) plan.media |= shared::kMediumSun;
   plan.frame.to_sun = -sun->direction;
   plan.frame.sun_irradiance = sun->intensity;
 }

@@ -11,9 +11,15 @@
 namespace brume::planning {
 namespace {
 
-/// Voxels per cell of light, and limits of its edge.
-constexpr float kVoxelsPerCell = 4;
-constexpr std::uint32_t kLeastEdge = 32, kMostEdge = 128;
+/// Voxels per cell, and the limit of its edge.
+struct Resolution {
+  float voxels_per_cell;
+  std::uint32_t most;
+};
+constexpr Resolution kLightCells{4, 128}, kSunCells{2, 256};
+constexpr std::uint32_t kLeastEdge = 32;
+/// Texels of 3D images along z.
+constexpr std::uint32_t kMostDepth = 2048;
 /// Cells of light of all volumes: 256 MiB.
 constexpr std::uint64_t kMostCells = 1u << 25;
 
@@ -58,16 +64,20 @@ std::vector<std::byte> key_of(const VolumeLightInputs& in) {
   return key.take();
 }
 
-std::uint32_t edge_of(const MediaPlan& media) {
+std::uint32_t edge_of(const MediaPlan& media, Resolution resolution) {
   float longest = 0;
   for (const VisibleVolume& visible : media.volumes) {
     const glm::vec3 size = visible.instance.bounds_max - visible.instance.bounds_min;
     longest = std::max({longest, size.x, size.y, size.z});
   }
-  const auto cells = static_cast<std::uint32_t>(std::min(longest / kVoxelsPerCell, float{kMostEdge}));
-  std::uint32_t edge = std::clamp(std::bit_ceil(std::max(cells, 1u)), kLeastEdge, kMostEdge);
-  while (edge > kLeastEdge && std::uint64_t{edge} * edge * edge * media.volumes.size() > kMostCells)
-    edge /= 2;
+  const float most = static_cast<float>(resolution.most);
+  const auto cells = static_cast<std::uint32_t>(std::min(longest / resolution.voxels_per_cell, most));
+  std::uint32_t edge = std::clamp(std::bit_ceil(std::max(cells, 1u)), kLeastEdge, resolution.most);
+  const auto too_many = [&] {
+    const std::uint64_t count = media.volumes.size();
+    return std::uint64_t{edge} * edge * edge * count > kMostCells || edge * count > kMostDepth;
+  };
+  while (edge > kLeastEdge && too_many()) edge /= 2;
   return edge;
 }
 
@@ -100,7 +110,8 @@ shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec
 VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in) {
   VolumeLightPlan plan;
   if (in.media->volumes.empty()) return plan;
-  plan.edge = edge_of(*in.media);
+  plan.edge = edge_of(*in.media, kLightCells);
+  plan.sun_edge = edge_of(*in.media, kSunCells);
   plan.sun = in.media->sun;
   for (const VisibleVolume& visible : in.media->volumes) {
     plan.sweeps.push_back(sweep_through(visible.instance, -in.media->frame.to_sun));

@@ -15,6 +15,7 @@ namespace brume::planning {
 struct VolumeLightPlan {
   std::uint32_t sun = shared::kNoSun;       ///< MediaPlan::sun.
   std::uint32_t edge = 1;                   ///< Cells of a volume's cube of light along an axis.
+  std::uint32_t sun_edge = 1;               ///< The same of its cube of the sun's depths.
   std::vector<shared::VolumeSweep> sweeps;  ///< kSweepsOfVolume per volume in view.
   float beyond_m = 0;                       ///< As VolumeLightParams.
   bool update = false;                      ///< False: the light of the frame before holds.

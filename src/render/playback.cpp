@@ -38,10 +38,12 @@ std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scena
   for (const scenario::VolumeAt& volume : scenario.volumes->at(options, seconds)) {
     const scene::VolumeOptions& look = options[inputs.size()];
     planning::VolumeInput input{volume.frame->density.volume.get(), volume.world_from_density, {}, {}};
-    input.look = {look.albedo, look.extinction, glm::vec3(0), look.anisotropy, 1};
-    if (volume.frame->heat)
-      input.heat = {volume.frame->heat->volume.get(), volume.world_from_heat, look.kelvin,
-                    volume.frame->heat->high, look.emission};
+    const grids::BrickVolume& density = volume.frame->density;
+    input.look = {look.albedo, look.extinction * density.unit, glm::vec3(0), look.anisotropy, 1};
+    if (const auto& heat = volume.frame->heat)
+      // What glows is a multiple of the look's extinction, which is that of the stored density.
+      input.heat = {heat->volume.get(), volume.world_from_heat, look.kelvin * heat->unit,
+                    heat->high / heat->unit, look.emission / density.unit};
     inputs.push_back(input);
   }
   return inputs;

@@ -140,6 +140,7 @@ passes::MarchPass::Inputs SmokeFrame::march_inputs(const FramePlan& plan, const 
           .smoke = resources(),
           .volumes = volume_upload_.resources(),
           .volume_light = volume_light_pass_.light(),
+          .sun_depths = volume_light_pass_.sun_depths(),
           .noise = noise_,
           .depth = in.targets.gbuffer.depth,
           .blue_noise = in.blue_noise,

@@ -54,7 +54,7 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   // Its look.
   const double across = std::cbrt(frame.filled_volume) * double{volume.scale};
   const double depth = frame.mean_density * across;
-  if (depth > 0) volume.extinction = static_cast<float>(std::clamp(double{kViewDepth} / depth, 1e-6, 1e6));
+  if (depth > 0) volume.extinction = static_cast<float>(std::clamp(double{kViewDepth} / depth, 1e-36, 1e12));
   volume.albedo = glm::vec3(frame.heat ? 0.7f : 0.99f);
   volume.anisotropy = frame.heat ? 0.2f : 0.5f;
   timeline.volumes.push_back(volume);

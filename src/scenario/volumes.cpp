@@ -136,8 +136,8 @@ Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, cons
   frame->bounds =
       transformed(glm::mat4(frame->density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
   // Of a ball, 2.2 standard deviations are the radius.
-  const Box<float> core{glm::vec3(frame->density.mean - 2.2 * frame->density.deviation),
-                        glm::vec3(frame->density.mean + 2.2 * frame->density.deviation)};
+  const glm::dvec3 reach = 2.2 * frame->density.deviation + 1.0;
+  const Box<float> core{glm::vec3(frame->density.mean - reach), glm::vec3(frame->density.mean + reach)};
   frame->core = transformed(glm::mat4(frame->density.world_from_voxel),
                             intersection(core, {layout.bounds_min, layout.bounds_max}));
   frame->z_is_up = is_z_up(**density);
@@ -173,13 +173,12 @@ scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& f
 
 Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& file,
                                                              const scene::VolumeOptions& options) {
+  const std::string where = options.place.empty() ? "" : options.place + ": ";
   const auto grids = grids::load_grid_file(file);
-  if (!grids) return grids.failure();
+  if (!grids) return Failure{grids.failure().code, where + grids.failure().message};
   auto frame = make_frame(file, *grids, options);
-  if (!frame) {
-    const std::string where = options.place.empty() ? "" : options.place + ": ";
-    return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
-  }
+  if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
+  if ((*frame)->density.high <= 0) log_warning(file.string() + ": nothing to see: no voxel is above 0");
   return frame;
 }
 
@@ -187,7 +186,9 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
   auto volumes = std::make_shared<Volumes>();
   for (const scene::VolumeOptions& one : options) {
     auto files = files_of(one.file);
-    if (!files) return files.failure();
+    if (!files)
+      return Failure{files.failure().code,
+                     (one.place.empty() ? "" : one.place + ": ") + files.failure().message};
     Sequence sequence{std::move(*files), nullptr, nullptr, 0};
     auto frame = load_volume_frame(sequence.files.begin()->second, one);
     if (!frame) return frame.failure();

@@ -101,7 +101,7 @@ template <typename Options, typename Visitor>
 void visit_volume_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"rotation", "degrees each", "rotation about x, then y, then z", -360, 360}, o.rotation);
   visit(OptionInfo{"scale", "", "metres per unit of the file", 1e-9, 1e9}, o.scale);
-  visit(OptionInfo{"extinction", "1/m", "extinction where the density is 1", 0, 1e6}, o.extinction);
+  visit(OptionInfo{"extinction", "1/m", "extinction where the density is 1", 0, 1e12}, o.extinction);
   visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1}, o.albedo);
   visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -0.9, 0.9},
         o.anisotropy);

@@ -104,6 +104,26 @@ TEST(BrickVolume, HalvesUntilItFitsAndKeepsTheSum) {
   EXPECT_LT(glm::length(a - b), 0.5 * 0.5 * std::exp2(coarse.level));
 }
 
+// Densities of 1e-8 and 1e20 are far outside of half floats.
+TEST(BrickVolume, ValuesThatHalfFloatsLackHaveAUnit) {
+  for (const float factor : {1e-8f, 1e-3f, 1.0f, 300.0f, 1e6f, 1e20f}) {
+    Grid grid = random_grid(3);
+    for (std::size_t i = 0; i < grid.values.size(); i += 4) {
+      float value = 0;
+      std::memcpy(&value, &grid.values[i], sizeof value);
+      value *= factor;
+      std::memcpy(&grid.values[i], &value, sizeof value);
+    }
+    const BrickVolume bricks = make_brick_volume(grid).value_or_throw();
+    EXPECT_EQ(bricks.unit == 1, factor > 0.01f && factor < 500) << factor;
+    for (int x = -16; x < 8; ++x) {
+      const float expected = value_at(grid, {x, 3, 5});
+      EXPECT_NEAR(filtered(*bricks.volume, glm::vec3(x, 3, 5) + 0.5f) * bricks.unit, expected, factor / 500)
+          << factor;
+    }
+  }
+}
+
 TEST(BrickVolume, ALevelSetIsSolidInsideAndEmptyOutside) {
   Grid grid;
   grid.grid_class = GridClass::level_set;

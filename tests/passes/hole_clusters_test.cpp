@@ -71,7 +71,7 @@ class HoleClustersTest : public gpu::GpuTest {
           .record(
               recorder,
               {frame_buffer, shared::kMediumSmoke, smoke, volumes_.resources(), volumes_.resources().values,
-               noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
+               volumes_.resources().values, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
               target, counters);
     });
     return read_back<Half4>(target);

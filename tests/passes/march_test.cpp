@@ -64,11 +64,11 @@ class MarchTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) {
       recorder.clear(room.upload.resources().inscatter, {{0.5f, 0.25f, 1.0f, 1.0f}});
       hole_clusters.record(recorder, plan, frame_buffer, room.upload.resources());
-      march_.record(
-          recorder,
-          {frame_buffer, shared::kMediumSmoke, room.upload.resources(), volumes_.resources(),
-           volumes_.resources().values, noise_tile_, depth_image, blue_noise_, hole_clusters.resources()},
-          target, counters);
+      march_.record(recorder,
+                    {frame_buffer, shared::kMediumSmoke, room.upload.resources(), volumes_.resources(),
+                     volumes_.resources().values, volumes_.resources().values, noise_tile_, depth_image,
+                     blue_noise_, hole_clusters.resources()},
+                    target, counters);
     });
     samples_ = read_back<std::uint32_t>(counters, 1)[0];
     std::vector<glm::vec4> out;
@@ -141,6 +141,7 @@ TEST_F(MarchConstantTest, CountsTheStepsOfEachRay) {
                                  shared::kMediumSmoke,
                                  room_.upload.resources(),
                                  volumes_.resources(),
+                                 volumes_.resources().values,
                                  volumes_.resources().values,
                                  noise_tile_,
                                  depth,

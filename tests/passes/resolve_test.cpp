@@ -72,6 +72,7 @@ class ResolveTest : public gpu::GpuTest {
                                room.upload.resources(),
                                volumes_.resources(),
                                volumes_.resources().values,
+                               volumes_.resources().values,
                                noise_tile_,
                                depth,
                                blue_noise_,
