@@ -26,9 +26,7 @@ const float kPerSphere = 0.0795774715;  // 1 / (4 pi)
 bool is_near_bricks(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   for (uint corner = 0u; corner < 9u; ++corner) {
     const vec3 side = corner == 8u ? vec3(0.0) : vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u) * 2.0 - 1.0;
-    int empty_edge;
-    const ivec3 brick = ivec3(floor((p_voxel + side * cell_voxels) / float(kBrickVoxels)));
-    if (volume_slot_at(volumes[volume].bricks, brick, empty_edge) != kNoSlot) return true;
+    if (volume_brick(volumes[volume].bricks, p_voxel + side * cell_voxels).slot != kNoSlot) return true;
   }
   return false;
 }

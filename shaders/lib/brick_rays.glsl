@@ -4,6 +4,8 @@
 #include "shared/volume.h"
 
 const uint kNoSlot = 0xffffffffu;
+/// Of a brick whose texels are all alike, and not stored.
+const uint kUniformSlot = 0xfffffffeu;
 
 struct WorldRay {
   vec3 origin, direction;  // unit
@@ -18,6 +20,7 @@ struct VoxelRay {
 struct BrickSpan {
   vec3 low;  // low corner [voxels]
   uint slot;
+  float uniform_value;
   float t_first, t_stop;  // samples in [t_first, t_stop) may be inside the medium
   float t_next;           // the first sample behind the brick
 };
@@ -31,24 +34,18 @@ vec2 span_in_box(VoxelRay ray, vec3 low, vec3 high) {
   return vec2(max(enters.x, max(enters.y, enters.z)), min(leaves.x, min(leaves.y, leaves.z)));
 }
 
-/// The brick of the sample at t.
-vec3 brick_of(VoxelRay ray, float t) { return floor((ray.origin + ray.per_metre * t) / float(kBrickVoxels)); }
+/// What a page table knows of a point: its brick, or an empty cube around it.
+struct BrickAt {
+  vec3 low;    // low corner [voxels]
+  float edge;  // [voxels]
+  uint slot;      // kNoSlot: the medium is nowhere in the cube; kUniformSlot
+  float uniform_value;  // that of all texels of a uniform brick
+};
 
-/// The first sample at or behind t_from, which is not before the sample at t.
-float sample_from(float t_from, float t, float ds) { return t + ds * max(0.0, ceil((t_from - t) / ds - 1e-3)); }
-
-/// From the sample at t, in a brick with a slot or in an empty cube of `empty_edge` voxels.
-BrickSpan brick_span(VoxelRay ray, vec3 brick, uint slot, int empty_edge, float t, float ds) {
-  BrickSpan span;
-  span.slot = slot;
-  const int edge = slot != kNoSlot ? kBrickVoxels : empty_edge;
-  span.low = floor(brick * float(kBrickVoxels) / float(edge)) * float(edge);
-  const vec3 inverse = inverse_of(ray);
-  const vec3 to_low = (span.low - ray.origin) * inverse, exits = max(to_low, to_low + float(edge) * inverse);
-  span.t_next = t + ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds));
-  span.t_first = t;
-  span.t_stop = slot == kNoSlot ? t : span.t_next - 0.5 * ds;
-  return span;
+/// The empty cube around a brick, from its entry in the root.
+BrickAt empty_nodes(ivec3 brick, uint distance) {
+  const int reach = max(int(distance), 1) - 1, edge = kNodeBricks * kBrickVoxels;
+  return BrickAt(vec3(((brick >> 3) - reach) * edge), float((2 * reach + 1) * edge), kNoSlot, 0.0);
 }
 
 /// Low corner of a brick's voxels in the atlas [texels].
@@ -56,6 +53,23 @@ vec3 atlas_corner(BrickLayout bricks, uint slot) { return vec3(atlas_first_texel
 
 /// Size of a texel of the atlas in texture coordinates.
 vec3 atlas_texel(BrickLayout bricks) { return 1.0 / vec3(bricks.atlas_bricks * kBrickTexels); }
+
+/// The first sample at or behind t_from, which is not before the sample at t.
+float sample_from(float t_from, float t, float ds) { return t + ds * max(0.0, ceil((t_from - t) / ds - 1e-3)); }
+
+/// From the sample at t, which is in the brick.
+BrickSpan brick_span(VoxelRay ray, BrickAt at, float t, float ds) {
+  BrickSpan span;
+  span.slot = at.slot;
+  span.low = at.low;
+  span.uniform_value = at.uniform_value;
+  const vec3 inverse = inverse_of(ray);
+  const vec3 to_low = (span.low - ray.origin) * inverse, exits = max(to_low, to_low + at.edge * inverse);
+  span.t_next = t + ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds));
+  span.t_first = t;
+  span.t_stop = at.slot == kNoSlot ? t : span.t_next - 0.5 * ds;
+  return span;
+}
 
 /// Narrows a span to a box of its brick [voxels from its low corner].
 void narrow_to(vec3 low, vec3 end, VoxelRay ray, float t, float ds, inout BrickSpan span) {

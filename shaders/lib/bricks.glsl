@@ -12,7 +12,7 @@ uint slot_at(BrickLayout bricks, ivec3 brick, out int empty_edge) {
   empty_edge = kBrickVoxels * kNodeBricks;
   const uint root = root_page(bricks, brick);
   const uint node = root == kNoPage ? 0u : pages[root];
-  if (node == 0u) return kNoSlot;
+  if (node < kFirstNode) return kNoSlot;
   empty_edge = kBrickVoxels;
   return pages[node_page(bricks, node, brick)] - 1u;
 }

@@ -41,11 +41,12 @@ SmokeSpan smoke_span(WorldRay world, SmokeRay smoke, float t, float ds) {
   const VolumeLayout volume = frame.volume;
   const VoxelRay ray =
       VoxelRay((world.origin - volume.origin_world) / volume.voxel_size, world.direction / volume.voxel_size);
-  const vec3 brick = brick_of(ray, t);
-  int empty_edge;
-  const uint slot = slot_at(volume.bricks, ivec3(brick), empty_edge);
+  const ivec3 brick = ivec3(floor((ray.origin + ray.per_metre * t) / float(kBrickVoxels)));
+  int edge = 0;
+  const uint slot = slot_at(volume.bricks, brick, edge);
+  edge = slot != kNoSlot ? kBrickVoxels : edge;
   SmokeSpan span;
-  span.bricks = brick_span(ray, brick, slot, empty_edge, t, ds);
+  span.bricks = brick_span(ray, BrickAt(vec3((brick * kBrickVoxels) & -edge), float(edge), slot, 0.0), t, ds);
   // Cell 0 of a brick begins half a voxel before it.
   if (slot != kNoSlot) {
     const uint box = filled[slot];

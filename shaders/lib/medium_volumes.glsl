@@ -10,7 +10,7 @@
 
 // Constants of the pipeline: a software rasteriser pays for branches that it does not take.
 const bool kHasHeat = (kMedia & kMediumHeat) != 0u, kIsLit = (kMedia & kMediumLit) != 0u;
-const bool kHasSun = (kMedia & kMediumSun) != 0u;
+const bool kHasSun = (kMedia & kMediumSun) != 0u, kHasSeveral = (kMedia & kMediumSeveral) != 0u;
 
 layout(binding = kBindVolumeLight) uniform sampler3D volume_light;
 layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
@@ -49,6 +49,11 @@ struct VolumesRay {
   VolumeRay first;
   TextureRay light, sun;  // in its cubes of light and of the sun's depths [texels]
   float phase;
+  // Of each volume its brick, since bricks do not end at the same samples. Only where there are several.
+  uint present;               // bit i: the ray is in a brick of volume i, which is not the first
+  float t_next[kMaxVolumes];  // the first sample behind the brick
+  vec3 corner[kMaxVolumes];   // of the brick in the atlas, less its place in voxel space [texels]
+  float uniform_value[kMaxVolumes];  // of the brick; below 0: it differs from voxel to voxel
 };
 
 VolumesRay volumes_ray(WorldRay world) {
@@ -67,24 +72,48 @@ VolumesRay volumes_ray(WorldRay world) {
   return rays;
 }
 
+/// Before samples in other places than those before.
+void restart_volumes(inout VolumesRay rays) {
+  if (!kHasSeveral) return;
+  rays.present = 0u;
+  for (uint i = 1u; i < frame.media.volume_count; ++i) rays.t_next[i] = -1e30;
+}
+
 struct VolumesSpan {
   uint present;       // bit i: samples in [t_first, t_stop) may be inside volume i
   TextureRay values;  // of the first volume, in the atlas, where it alone is present
+  float uniform_value;  // of the first volume in a uniform brick; else below 0
   float t_first, t_stop, t_next;
 };
 
 /// The span of one volume: a brick, an empty cube, or all samples before or behind its bounds.
 BrickSpan volume_span(VolumeInstance volume, VolumeRay ray, float t, float ds) {
-  if (ray.inside.x >= ray.inside.y || t >= ray.inside.y) return BrickSpan(vec3(0.0), kNoSlot, t, t, 1e30);
+  if (ray.inside.x >= ray.inside.y || t >= ray.inside.y) return BrickSpan(vec3(0.0), kNoSlot, 0.0, t, t, 1e30);
   const float t_inside = sample_from(ray.inside.x, t, ds);
-  if (t_inside > t) return BrickSpan(vec3(0.0), kNoSlot, t, t, t_inside);
-  const vec3 brick = brick_of(ray.ray, t);
-  int empty_edge;
-  const uint slot = volume_slot_at(volume.bricks, ivec3(brick), empty_edge);
-  return brick_span(ray.ray, brick, slot, empty_edge, t, ds);
+  if (t_inside > t) return BrickSpan(vec3(0.0), kNoSlot, 0.0, t, t, t_inside);
+  const vec3 p_voxel = ray.ray.origin + ray.ray.per_metre * t;
+  return brick_span(ray.ray, volume_brick(volume.bricks, p_voxel), t, ds);
 }
 
-VolumesSpan volumes_span(WorldRay world, VolumesRay rays, float t, float ds) {
+/// Moves the spans that end at or before the sample at t.
+void move_others(WorldRay world, float t, float ds, inout VolumesRay rays, inout VolumesSpan span) {
+  for (uint i = 1u; i < frame.media.volume_count; ++i) {
+    if (t > rays.t_next[i] - 0.5 * ds) {
+      const BrickSpan at = volume_span(volumes[i], volume_ray(volumes[i], world), t, ds);
+      rays.t_next[i] = at.t_next;
+      rays.present &= ~(1u << i);
+      if (at.slot != kNoSlot) {
+        rays.present |= 1u << i;
+        rays.corner[i] = atlas_corner(volumes[i].bricks, at.slot) - at.low;
+        rays.uniform_value[i] = at.slot == kUniformSlot ? at.uniform_value : -1.0;
+      }
+    }
+    span.t_next = min(span.t_next, rays.t_next[i]);
+  }
+  span.present |= rays.present;
+}
+
+VolumesSpan volumes_span(WorldRay world, float t, float ds, inout VolumesRay rays) {
   VolumesSpan span;
   const BrickSpan first = volume_span(volumes[0], rays.first, t, ds);
   span.t_first = span.t_stop = t;
@@ -92,11 +121,12 @@ VolumesSpan volumes_span(WorldRay world, VolumesRay rays, float t, float ds) {
   span.present = first.slot != kNoSlot ? 1u : 0u;
   const vec3 texel = atlas_texel(volumes[0].bricks);
   const vec3 corner = atlas_corner(volumes[0].bricks, first.slot) - first.low;
+  span.uniform_value = first.slot == kUniformSlot ? first.uniform_value : -1.0;
   span.values = TextureRay((corner + rays.first.ray.origin) * texel, rays.first.ray.per_metre * texel);
-  for (uint i = 1u; i < frame.media.volume_count; ++i) {
-    const BrickSpan other = volume_span(volumes[i], volume_ray(volumes[i], world), t, ds);
-    span.t_next = min(span.t_next, other.t_next);
-    if (other.slot != kNoSlot) span.present |= 1u << i;
+  if (kHasSeveral) {
+    rays.corner[0] = corner;
+    rays.uniform_value[0] = span.uniform_value;
+    move_others(world, t, ds, rays, span);
   }
   if (span.present != 0u) span.t_stop = span.t_next - 0.5 * ds;
   return span;
@@ -156,8 +186,9 @@ void add_volume(VolumeInstance volume, uint i, float value, LightTexels at, floa
 VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, vec3 p_world, float t,
                              inout uint texture_samples) {
   VolumesSample sum = VolumesSample(0.0, vec3(0.0), vec3(0.0));
-  if (span.present == 1u) {
-    const float value = textureLod(volume_values, span.values.at + t * span.values.along, 0.0).r;
+  if (!kHasSeveral || span.present == 1u) {
+    float value = span.uniform_value;
+    if (value < 0.0) value = textureLod(volume_values, span.values.at + t * span.values.along, 0.0).r;
     LightTexels at;
     at.light = rays.light.at + t * rays.light.along;
     if (kHasSun) at.sun = rays.sun.at + t * rays.sun.along;
@@ -171,8 +202,10 @@ VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, 
     const LightTexels at = LightTexels(
         light_first(volumes[i], i, edge) + p_voxel * light_per_voxel(volumes[i], edge),
         (volumes[i].sun_from_voxel * vec4(p_voxel, 1.0) + vec3(0.0, 0.0, float(i))) * sun_edge);
-    add_volume(volumes[i], i, volume_value(volumes[i].bricks, p_voxel), at, volume_phase(volumes[i], world), p_world,
-               sum, texture_samples);
+    const vec3 uvw = (rays.corner[i] + p_voxel) * atlas_texel(volumes[i].bricks);
+    float value = rays.uniform_value[i];
+    if (value < 0.0) value = textureLod(volume_values, uvw, 0.0).r;
+    add_volume(volumes[i], i, value, at, volume_phase(volumes[i], world), p_world, sum, texture_samples);
   }
   return sum;
 }

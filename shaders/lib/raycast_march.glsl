@@ -43,19 +43,15 @@ vec2 intersect_box(uint volume, VoxelRay ray) {
 
 /// The brick around the last sample; looked up again only behind it.
 struct BrickCursor {
-  vec3 brick;
-  uint slot;
-  float t_leave;  // where the ray leaves the brick, or the empty cube
+  BrickAt brick;
+  float t_leave;  // where the ray leaves it
 };
 
 void move_to(BrickLayout bricks, VoxelRay ray, float t, inout BrickCursor cursor) {
   if (t < cursor.t_leave) return;
-  cursor.brick = brick_of(ray, t);
-  int empty_edge;
-  cursor.slot = volume_slot_at(bricks, ivec3(cursor.brick), empty_edge);
-  const float edge = float(cursor.slot != kNoSlot ? kBrickVoxels : empty_edge);
-  const vec3 low = floor(cursor.brick * float(kBrickVoxels) / edge) * edge, inverse = inverse_of(ray);
-  const vec3 to_low = (low - ray.origin) * inverse, exits = max(to_low, to_low + edge * inverse);
+  cursor.brick = volume_brick(bricks, ray.origin + ray.per_metre * t);
+  const vec3 inverse = inverse_of(ray), to_low = (cursor.brick.low - ray.origin) * inverse;
+  const vec3 exits = max(to_low, to_low + cursor.brick.edge * inverse);
   cursor.t_leave = min(exits.x, min(exits.y, exits.z));
 }
 
@@ -71,7 +67,7 @@ RaycastStep raycast_step(float n, float t_first, float ds, vec2 interval) {
 
 /// The step behind step n, or the first whose middle is not in the empty cube.
 float next_step(float n, float t_first, float ds, BrickCursor cursor) {
-  return cursor.slot != kNoSlot ? n + 1.0 : max(n + 1.0, ceil((cursor.t_leave - t_first) / ds - 0.5));
+  return cursor.brick.slot != kNoSlot ? n + 1.0 : max(n + 1.0, ceil((cursor.t_leave - t_first) / ds - 0.5));
 }
 
 /// Integral of density from a point to where its ray to the sun leaves the box [m].
@@ -79,14 +75,14 @@ float density_towards_sun(uint volume, vec3 p_voxel) {
   const VoxelRay ray = VoxelRay(p_voxel, raycast[volume].to_sun);
   const vec2 interval = vec2(0.0, intersect_box(volume, ray).y);
   const float ds = raycast[volume].light_step_length, count = ceil(interval.y / ds);
-  BrickCursor cursor = BrickCursor(vec3(0.0), kNoSlot, 0.0);
+  BrickCursor cursor = BrickCursor(BrickAt(vec3(0.0), 0.0, kNoSlot, 0.0), 0.0);
   float sum = 0.0;
   for (float n = 0.0; n < count; n = next_step(n, 0.0, ds, cursor)) {
     const RaycastStep here = raycast_step(n, 0.0, ds, interval);
     move_to(volumes[volume].bricks, ray, here.t, cursor);
-    if (cursor.slot == kNoSlot) continue;
+    if (cursor.brick.slot == kNoSlot) continue;
     const vec3 p = ray.origin + ray.per_metre * here.t;
-    sum += here.ds * volume_value(volumes[volume].bricks, cursor.brick, cursor.slot, p);
+    sum += here.ds * volume_value(volumes[volume].bricks, cursor.brick, p);
   }
   return sum;
 }
@@ -98,15 +94,15 @@ vec4 raycast_march(uint volume, RaycastRay ray, vec2 interval) {
   const vec3 sun = view.sun_irradiance * phase_value(view.phase, dot(ray.direction, view.sun_direction));
   const float ds = raycast[volume].step_length, t_first = floor(interval.x / ds) * ds;
   const float count = ceil((interval.y - t_first) / ds);
-  BrickCursor cursor = BrickCursor(vec3(0.0), kNoSlot, 0.0);
+  BrickCursor cursor = BrickCursor(BrickAt(vec3(0.0), 0.0, kNoSlot, 0.0), 0.0);
   vec3 radiance = vec3(0.0);
   float transmittance = 1.0;
   for (float n = 0.0; n < count; n = next_step(n, t_first, ds, cursor)) {
     const RaycastStep here = raycast_step(n, t_first, ds, interval);
     move_to(volumes[volume].bricks, ray.voxel, here.t, cursor);
-    if (cursor.slot == kNoSlot) continue;
+    if (cursor.brick.slot == kNoSlot) continue;
     const vec3 p = ray.voxel.origin + ray.voxel.per_metre * here.t;
-    const float density = volume_value(volumes[volume].bricks, cursor.brick, cursor.slot, p);
+    const float density = volume_value(volumes[volume].bricks, cursor.brick, p);
     if (density <= 0.0) continue;
     // In-scatter is constant over the step, so its integral is exact.
     const float passed = exp(-look.extinction * density * here.ds);

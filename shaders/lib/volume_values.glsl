@@ -8,28 +8,28 @@ layout(scalar, binding = kBindVolumes) uniform Volumes { VolumeInstance volumes[
 layout(scalar, binding = kBindVolumePages) readonly buffer VolumePages { uint volume_pages[]; };
 layout(binding = kBindVolumeValues) uniform sampler3D volume_values;
 
-/// As slot_at of the smoke.
-uint volume_slot_at(BrickLayout bricks, ivec3 brick, out int empty_edge) {
-  empty_edge = kBrickVoxels * kNodeBricks;
-  const uint root = root_page(bricks, brick);
-  const uint node = root == kNoPage ? 0u : volume_pages[root];
-  if (node == 0u) return kNoSlot;
-  empty_edge = kBrickVoxels;
-  return volume_pages[node_page(bricks, node, brick)] - 1u;
+BrickAt volume_brick(BrickLayout bricks, vec3 p_voxel) {
+  const ivec3 brick = ivec3(floor(p_voxel / float(kBrickVoxels)));
+  const uint page = root_page(bricks, brick);
+  const uint root = page == kNoPage ? 0u : volume_pages[page];
+  if (root < kFirstNode) return empty_nodes(brick, root);
+  const uint entry = volume_pages[node_page(bricks, root, brick)];
+  const bool is_uniform = (entry & kUniformBrick) != 0u;
+  return BrickAt(vec3(brick * kBrickVoxels), float(kBrickVoxels), is_uniform ? kUniformSlot : entry - 1u,
+                 unpackHalf2x16(entry).x);
 }
 
-/// The value at a point of a brick.
-float volume_value(BrickLayout bricks, vec3 brick, uint slot, vec3 p_voxel) {
-  const vec3 uvw = (atlas_corner(bricks, slot) + p_voxel - brick * float(kBrickVoxels)) * atlas_texel(bricks);
+/// The value at a point of a brick, which is not empty.
+float volume_value(BrickLayout bricks, BrickAt brick, vec3 p_voxel) {
+  if (brick.slot == kUniformSlot) return brick.uniform_value;
+  const vec3 uvw = (atlas_corner(bricks, brick.slot) + p_voxel - brick.low) * atlas_texel(bricks);
   return textureLod(volume_values, uvw, 0.0).r;
 }
 
 /// The value at a point of a volume's voxel space; 0 outside of its bricks.
 float volume_value(BrickLayout bricks, vec3 p_voxel) {
-  const vec3 brick = floor(p_voxel / float(kBrickVoxels));
-  int empty_edge;
-  const uint slot = volume_slot_at(bricks, ivec3(brick), empty_edge);
-  return slot == kNoSlot ? 0.0 : volume_value(bricks, brick, slot, p_voxel);
+  const BrickAt brick = volume_brick(bricks, p_voxel);
+  return brick.slot == kNoSlot ? 0.0 : volume_value(bricks, brick, p_voxel);
 }
 
 /// Extinction of a volume at a point [1/m].

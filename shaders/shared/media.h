@@ -11,6 +11,7 @@ SHARED_CONST uint kMediumVolumes = 2u;
 SHARED_CONST uint kMediumHeat = 4u;  // one glows with heat
 SHARED_CONST uint kMediumLit = 8u;   // one scatters light, or emits; else all only absorb
 SHARED_CONST uint kMediumSun = 16u;  // a sun lights them
+SHARED_CONST uint kMediumSeveral = 32u;  // there are more than one
 
 SHARED_END
 #endif

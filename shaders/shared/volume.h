@@ -1,8 +1,9 @@
 // Sparse volumes on the device: page tables, bricks in an atlas, and placement.
 //
-//   pages   of each volume a page table of two levels. Root: one uint per node of a window, node + 1 or 0 where the
-//           volume is empty, x + size.x (y + size.y z) of node - window_origin. Behind it the nodes, 8^3 uints each,
-//           slot + 1 or 0 per brick of 8^3 voxels, x + 8 (y + 8 z) of brick - 8 node
+//   pages   of each volume a page table of two levels. Root: one uint per node of a window, x + size.x (y + size.y z)
+//           of node - window_origin: node + kFirstNode, or how far the nearest node is. Behind it the nodes, 8^3 uints,
+//           one per brick of 8^3 voxels, x + 8 (y + 8 z) of brick - 8 node: slot + 1; 0 where it is empty; kUniformBrick
+//           and a half float where all its texels are that one, of the only channel
 //   atlas   per channel a 3D texture of 10^3-texel bricks: 8^3 voxels and an apron of one texel
 //
 // Voxel space is measured in voxels: voxel (i, j, k) covers [i, i + 1) x [j, j + 1) x [k, k + 1).
@@ -21,6 +22,10 @@ SHARED_CONST int kBrickVoxels = 8;
 SHARED_CONST int kBrickTexels = 10;
 SHARED_CONST int kNodeBricks = 8;
 SHARED_CONST uint kPageEntries = 512u;
+/// Entries of the root below it are empty: in the cube of nodes less than that many nodes away, along any axis, there is
+/// none. 0 says as little as 1.
+SHARED_CONST uint kFirstNode = 256u;
+SHARED_CONST uint kUniformBrick = 0x80000000u;
 SHARED_CONST uint kTexelsPerBrick = 1000u;
 /// The most volumes of a frame besides the smoke.
 SHARED_CONST uint kMaxVolumes = 32u;
@@ -88,10 +93,10 @@ SHARED_FUNCTION uint root_page(BrickLayout bricks, ivec3 brick) {
   return outside ? kNoPage : bricks.first_page + uint(n.x + size.x * (n.y + size.y * n.z));
 }
 
-/// Entry for a brick in the node that its root entry names, which is not 0.
-SHARED_FUNCTION uint node_page(BrickLayout bricks, uint node, ivec3 brick) {
+/// Entry for a brick in the node that its root entry names.
+SHARED_FUNCTION uint node_page(BrickLayout bricks, uint root, ivec3 brick) {
   ivec3 size = bricks.window_size, b = brick & (kNodeBricks - 1);
-  uint first = uint(size.x * size.y * size.z) + (node - 1u) * kPageEntries;
+  uint first = uint(size.x * size.y * size.z) + (root - kFirstNode) * kPageEntries;
   return bricks.first_page + first + uint(b.x + kNodeBricks * (b.y + kNodeBricks * b.z));
 }
 

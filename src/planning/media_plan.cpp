@@ -74,7 +74,7 @@ void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, c
                            {},
                            heat,
                            {}}});
-  ++plan.frame.volume_count;
+  if (++plan.frame.volume_count > 1) plan.media |= shared::kMediumSeveral;
 }
 
 /// The sun of the volumes: the first directional light.

@@ -1,24 +1,26 @@
 #include "volume/page_table.hpp"
 
+#include <algorithm>
+
 namespace brume::volume {
 
-void PageTable::set(glm::ivec3 brick, std::uint32_t slot) {
+void PageTable::set_entry(glm::ivec3 brick, std::uint32_t value) {
   std::uint32_t node = node_at(brick >> 3);
-  if (node == 0) {
-    if (slot == kNoSlot) return;
+  if (node == kNoNode) {
+    if (value == 0) return;
     node = take_node(brick >> 3);
   }
-  Node& info = info_[node - 1];
-  std::uint32_t& entry = nodes_[first_of(node - 1) + local_of(brick)];
-  if (entry == slot + 1) return;
-  info.used += (slot != kNoSlot) - (entry != 0);
-  entry = slot + 1;
-  if (!info.changed) changed_nodes_.push_back(node - 1);
+  Node& info = info_[node];
+  std::uint32_t& entry = nodes_[first_of(node) + local_of(brick)];
+  if (entry == value) return;
+  info.used += (value != 0) - (entry != 0);
+  entry = value;
+  if (!info.changed) changed_nodes_.push_back(node);
   info.changed = true;
-  if (info.used == 0) drop_node(node - 1);
+  if (info.used == 0) drop_node(node);
 }
 
-/// Allocates the node at a place and enters it in the root; returns its number + 1.
+/// Allocates the node at a place and enters it in the root.
 std::uint32_t PageTable::take_node(glm::ivec3 at) {
   std::uint32_t node = static_cast<std::uint32_t>(info_.size());
   if (free_nodes_.empty()) {
@@ -35,9 +37,9 @@ std::uint32_t PageTable::take_node(glm::ivec3 at) {
     const glm::ivec3 low = glm::min(origin_, at), high = glm::max(origin_ + size_, at + 1);
     if (low != origin_ || high != origin_ + size_) set_window(low, high - low);
   }
-  root_[entry_of(at - origin_)] = node + 1;
+  root_[entry_of(at - origin_)] = shared::kFirstNode + node;
   root_changed_ = true;
-  return node + 1;
+  return node;
 }
 
 void PageTable::drop_node(std::uint32_t node) {
@@ -65,8 +67,34 @@ void PageTable::set_window(glm::ivec3 origin, glm::ivec3 size) {
   root_.assign(entries.x * entries.y * entries.z, 0);
   for (std::size_t node = 0; node < info_.size(); ++node)
     if (info_[node].used > 0)
-      root_[entry_of(info_[node].at - origin_)] = static_cast<std::uint32_t>(node + 1);
+      root_[entry_of(info_[node].at - origin_)] = shared::kFirstNode + static_cast<std::uint32_t>(node);
   root_changed_ = true;
+}
+
+/// Chessboard distances in two sweeps: A. Rosenfeld, J. Pfaltz, "Sequential operations in digital picture
+/// processing", 1966.
+void PageTable::find_distances() {
+  for (std::uint32_t& entry : root_)
+    if (entry < shared::kFirstNode) entry = shared::kFirstNode - 1;
+  for (const int way : {1, -1}) {
+    const glm::ivec3 first = way > 0 ? glm::ivec3(0) : size_ - 1, behind = way > 0 ? size_ : glm::ivec3(-1);
+    for (int z = first.z; z != behind.z; z += way)
+      for (int y = first.y; y != behind.y; y += way)
+        for (int x = first.x; x != behind.x; x += way) near_swept({x, y, z}, way);
+  }
+  root_changed_ = true;
+}
+
+/// One more than the least of the neighbours that a sweep came by before.
+void PageTable::near_swept(glm::ivec3 at, int way) {
+  std::uint32_t& entry = root_[entry_of(at)];
+  if (entry >= shared::kFirstNode) return;
+  for (int n = 0; n < 13; ++n) {
+    const glm::ivec3 beside = at + way * (glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1);
+    if (glm::any(glm::lessThan(beside, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(beside, size_))) continue;
+    const std::uint32_t other = root_[entry_of(beside)];
+    entry = std::min(entry, other < shared::kFirstNode ? other + 1 : 1);
+  }
 }
 
 void PageTable::clear_changes() {

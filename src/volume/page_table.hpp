@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,18 +22,30 @@ class PageTable {
   /// The slot of a brick, or kNoSlot.
   std::uint32_t at(glm::ivec3 brick) const {
     const std::uint32_t node = node_at(brick >> 3);
-    return node == 0 ? kNoSlot : nodes_[first_of(node - 1) + local_of(brick)] - 1;  // 0 wraps to kNoSlot
+    const std::uint32_t entry = node == kNoNode ? 0 : nodes_[first_of(node) + local_of(brick)];
+    return (entry & shared::kUniformBrick) != 0 ? kNoSlot : entry - 1;  // 0 wraps to kNoSlot
+  }
+  /// The texel of a uniform brick, a half float.
+  std::optional<std::uint16_t> uniform_at(glm::ivec3 brick) const {
+    const std::uint32_t node = node_at(brick >> 3);
+    const std::uint32_t entry = node == kNoNode ? 0 : nodes_[first_of(node) + local_of(brick)];
+    if ((entry & shared::kUniformBrick) == 0) return std::nullopt;
+    return static_cast<std::uint16_t>(entry);
   }
   /// Sets the slot of a brick; kNoSlot removes the brick. The window becomes the smallest around all nodes
   /// that hold a brick.
-  void set(glm::ivec3 brick, std::uint32_t slot);
+  void set(glm::ivec3 brick, std::uint32_t slot) { set_entry(brick, slot + 1); }
+  /// Makes a brick uniform: all its texels are this half float, and it has no slot.
+  void set_uniform(glm::ivec3 brick, std::uint16_t texel) { set_entry(brick, shared::kUniformBrick | texel); }
+  /// Writes into the root's empty entries how far the nearest node is. Until then they are 0.
+  void find_distances();
 
   /// The window [nodes]; without any brick both are 0.
   glm::ivec3 origin() const { return origin_; }
   glm::ivec3 size() const { return size_; }
-  /// Node + 1, or 0: x + size.x (y + size.y z).
+  /// shared::kFirstNode + node, or a distance: x + size.x (y + size.y z).
   std::span<const std::uint32_t> root() const { return root_; }
-  /// Slot + 1, or 0, kPageEntries a node: x + 8 (y + 8 z). Free nodes hold 0.
+  /// Slot + 1, 0, or that of a uniform brick, kPageEntries a node: x + 8 (y + 8 z). Free nodes hold 0.
   std::span<const std::uint32_t> nodes() const { return nodes_; }
 
   /// Whether the root changed since the last clear_changes, and which nodes did, in no order.
@@ -41,6 +54,7 @@ class PageTable {
   void clear_changes();
 
  private:
+  static constexpr std::uint32_t kNoNode = ~std::uint32_t{0};
   struct Node {
     glm::ivec3 at{0};
     std::uint32_t used = 0;  // bricks with a slot; 0: the node is free
@@ -56,12 +70,16 @@ class PageTable {
   }
   std::uint32_t node_at(glm::ivec3 node) const {
     const glm::ivec3 n = node - origin_;
-    if (n.x < 0 || n.y < 0 || n.z < 0 || n.x >= size_.x || n.y >= size_.y || n.z >= size_.z) return 0;
-    return root_[entry_of(n)];
+    if (n.x < 0 || n.y < 0 || n.z < 0 || n.x >= size_.x || n.y >= size_.y || n.z >= size_.z)
+      return kNoNode;
+    const std::uint32_t entry = root_[entry_of(n)];
+    return entry < shared::kFirstNode ? kNoNode : entry - shared::kFirstNode;
   }
+  void set_entry(glm::ivec3 brick, std::uint32_t entry);
   std::uint32_t take_node(glm::ivec3 at);
   void drop_node(std::uint32_t node);
   void set_window(glm::ivec3 origin, glm::ivec3 size);
+  void near_swept(glm::ivec3 at, int way);
 
   glm::ivec3 origin_{0}, size_{0};
   std::vector<std::uint32_t> root_, nodes_;

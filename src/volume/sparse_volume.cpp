@@ -74,6 +74,13 @@ std::uint32_t SparseVolume::acquire(glm::ivec3 brick) {
   return slot;
 }
 
+void SparseVolume::set_uniform(glm::ivec3 brick, std::uint16_t texel) {
+  BRUME_ASSERT(updating_ && slot_at(brick) == kNoSlot, "outside of an update, or the brick has a slot");
+  BRUME_ASSERT(channels_.size() == 1 && channels_[0].format.bytes_per_texel == sizeof texel, "one half float");
+  pages_.set_uniform(brick, texel);
+  structure_changed_ = true;
+}
+
 void SparseVolume::release(std::uint32_t slot) {
   BRUME_ASSERT(updating_ && slot < slot_count() && in_use(slot), std::to_string(slot));
   pages_.set(slots_[slot].brick, kNoSlot);
@@ -124,6 +131,7 @@ void SparseVolume::end_update() {
   layout_.bounds_min = bounds_min_;
   layout_.bounds_max = bounds_max_;
   if (structure_changed_) {
+    if (pages_.root_changed()) pages_.find_distances();
     layout_.bricks.window_origin = pages_.origin();
     layout_.bricks.window_size = pages_.size();
     glm::ivec3& atlas = layout_.bricks.atlas_bricks;

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
@@ -63,6 +64,9 @@ class SparseVolume {
   /// Gives the brick the lowest free slot. Its texels are 0 and dirty in every channel. The brick must have
   /// none. Throws resource_limit, with nothing changed, when the volume has max_bricks bricks.
   std::uint32_t acquire(glm::ivec3 brick);
+  /// Makes a brick, which must have no slot, uniform: it takes none, and all texels of its only channel are
+  /// this half float. For volumes that are not changed.
+  void set_uniform(glm::ivec3 brick, std::uint16_t texel);
   /// Takes the slot from its brick. Its texels become 0 and dirty in every channel; slot_count() falls when
   /// no slot above it is in use.
   void release(std::uint32_t slot);
@@ -75,6 +79,8 @@ class SparseVolume {
 
   /// The slot of a brick, or kNoSlot.
   std::uint32_t slot_at(glm::ivec3 brick) const { return pages_.at(brick); }
+  /// The texel of a uniform brick.
+  std::optional<std::uint16_t> uniform_at(glm::ivec3 brick) const { return pages_.uniform_at(brick); }
   NeighbourSlots slots_around(glm::ivec3 brick) const;
   /// One past the highest slot in use. Lower ones may be free.
   std::uint32_t slot_count() const { return static_cast<std::uint32_t>(slots_.size()); }

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 #include <tuple>
+#include <vector>
+
+#include "core/box.hpp"
 
 namespace brume::volume {
 namespace {
@@ -54,6 +58,43 @@ TEST(PageTable, HasTheSmallestWindowOfItsNodes) {
   EXPECT_EQ(table.size(), glm::ivec3(1));
   EXPECT_EQ(table.at({-1, 0, 0}), 5u);
   EXPECT_EQ(table.at({17, -9, 3}), PageTable::kNoSlot);
+}
+
+TEST(PageTable, KnowsHowFarTheNearestNodeIs) {
+  std::mt19937 random(6);
+  for (int i = 0; i < 60; ++i) {
+    PageTable table;
+    std::vector<glm::ivec3> nodes;
+    const int count = 1 + static_cast<int>(random() % 6), spread = 1 + static_cast<int>(random() % 12);
+    for (int n = 0; n < count; ++n) {
+      nodes.push_back(glm::ivec3(random() % 40, random() % 40, random() % 40) % spread - 3);
+      table.set(8 * nodes.back() + 7, 1);
+    }
+    table.find_distances();
+    for_each_in(Box<int>{glm::ivec3(0), table.size()}, [&](glm::ivec3 at) {
+      int nearest = 1000;
+      for (const glm::ivec3 node : nodes) {
+        const glm::ivec3 away = glm::abs(node - at - table.origin());
+        nearest = std::min(nearest, std::max({away.x, away.y, away.z}));
+      }
+      const std::uint32_t entry = table.root()[static_cast<std::size_t>(
+          at.x + table.size().x * (at.y + table.size().y * at.z))];
+      if (nearest == 0)
+        ASSERT_GE(entry, shared::kFirstNode);
+      else
+        ASSERT_EQ(entry, static_cast<std::uint32_t>(nearest));
+    });
+  }
+}
+
+TEST(PageTable, CountsDistancesUpToTheFirstNode) {
+  PageTable table;
+  table.set({0, 0, 0}, 1);
+  table.set({8 * 700, 0, 0}, 2);
+  table.find_distances();
+  EXPECT_EQ(table.root()[350], shared::kFirstNode - 1);
+  EXPECT_EQ(table.root()[100], 100u);
+  EXPECT_EQ(table.root()[690], 10u);
 }
 
 }  // namespace
