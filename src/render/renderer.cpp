@@ -87,6 +87,8 @@ planning::PlanTarget Renderer::plan_target() const {
 FramePlan Renderer::plan(const FrameInput& input) {
   const std::vector<std::uint32_t> hidden_objects = history_.hidden_objects;
   try {
+    for (const std::uint64_t missing : smoke_.reserve_volumes(input.volumes))
+      history_.volume_streaming.lose(missing);
     FramePlan plan = planning::plan_frame(input, plan_target(), history_);
     reserve(plan);
     return plan;
