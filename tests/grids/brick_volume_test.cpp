@@ -197,7 +197,7 @@ TEST(BrickVolume, TilesAndBricksAreHalvedAlike) {
     const int edge = 1 << level;
     std::mt19937 random(1);
     for (int i = 0; i < 3000; ++i) {
-      const glm::ivec3 at = glm::ivec3(random() % 280, random() % 140, random() % 140) - 24 >> level;
+      const glm::ivec3 at = (glm::ivec3(random() % 280, random() % 140, random() % 140) - 24) >> level;
       double sum = 0;
       for_each_in(Box<int>{at * edge, (at + 1) * edge}, [&](glm::ivec3 v) { sum += double{value(v)}; });
       const double mean = sum / (edge * edge * edge);
