@@ -27,12 +27,20 @@ gpu::Image make_image(gpu::Context& context, glm::ivec3 bricks, VkFormat format,
   return gpu::Image(context, info);
 }
 
+/// A multiple of an eighth of a power of two, so that the next frame of a sequence takes as many in most
+/// cases.
+std::uint64_t rounded_slots(std::uint64_t slots) {
+  const std::uint64_t step = std::max<std::uint64_t>(std::bit_floor(slots) / 8, 1);
+  return (slots + step - 1) / step * step;
+}
+
 /// Slots of a volume in the atlas: with room to grow, or not.
 std::uint32_t room_of(const volume::SparseVolume& volume, bool tight) {
   const glm::uvec3 room(volume.layout().bricks.atlas_bricks);
   const std::uint32_t slots = room.x * room.y * room.z;
   if (!tight || slots <= kVolumeSlotStep) return slots;
-  return (volume.slot_count() + kVolumeSlotStep - 1) / kVolumeSlotStep * kVolumeSlotStep;
+  return static_cast<std::uint32_t>(
+      std::max<std::uint64_t>(rounded_slots(volume.slot_count()), kVolumeSlotStep));
 }
 
 }  // namespace
@@ -46,6 +54,7 @@ glm::ivec3 tight_atlas(std::uint64_t slots, int most) {
                     " bricks of 8^3 voxels are more than the device's 3D textures hold");
   const glm::ivec3 grown = slots <= kSmall ? volume::grown_atlas({}, slots) : glm::ivec3(most + 1);
   if (glm::all(glm::lessThanEqual(grown, glm::ivec3(most)))) return grown;
+  slots = std::min(rounded_slots(slots), longest * longest * longest);
   std::uint64_t edge = 1;
   while (edge < longest && edge * edge * edge < slots) ++edge;
   return {static_cast<int>(edge), static_cast<int>(edge),

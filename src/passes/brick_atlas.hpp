@@ -21,11 +21,12 @@ struct StreamedBricks {
   std::span<const std::uint32_t> slots = {};  ///< Rising.
 };
 
-/// Slots of a volume in a tight atlas are a multiple of this, if there are more.
+/// A volume of fewer slots has up to as many in a tight atlas; one of more up to an eighth more than it
+/// holds.
 inline constexpr std::uint32_t kVolumeSlotStep = 1u << 12;
 
 /// Bricks per axis of an atlas for `slots` bricks: as volume::grown_atlas up to 256 MiB of half floats, then
-/// with at most a hundredth of it unused. None is longer than `most` bricks. Throws resource_limit for more
+/// with little more than an eighth unused. None is longer than `most` bricks. Throws resource_limit for more
 /// than fit.
 glm::ivec3 tight_atlas(std::uint64_t slots, int most);
 

@@ -94,6 +94,13 @@ void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::Vol
   record_colors(recorder, volumes, visible);
 }
 
+void VolumeUpload::record_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                               std::span<const planning::VolumeResidency> part) {
+  GridList list = list_of(volumes, part);
+  for (StreamedBricks& stream : list.streams) stream.streamed = true;
+  atlas_.record(recorder, list.grids, list.streams);
+}
+
 void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                                     std::span<const planning::VisibleVolume> visible,
                                     const gpu::Buffer& to) const {

@@ -31,6 +31,10 @@ class VolumeUpload {
               std::span<const planning::VolumeResidency> residency,
               std::span<const planning::VisibleVolume> visible, std::span<const planning::VisibleVolume> lit);
 
+  /// Uploads what `part` says of volumes that are streamed, and nothing else.
+  void record_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                   std::span<const planning::VolumeResidency> part);
+
   VolumeResources resources() const { return {atlas_.pages(), atlas_.channel(kValues), instances_, colors_}; }
   /// The same with the instances that light meets.
   VolumeResources lit_resources() const {

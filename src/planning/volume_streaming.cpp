@@ -12,8 +12,10 @@ using volume::SparseVolume;
 
 /// A sparse volume that is streamed.
 struct VolumeStreaming::Item {
+  std::size_t owner = 0;  ///< The volume of the frame.
   const SparseVolume* volume = nullptr;
   glm::mat4 world_from_voxel{1};
+  bool has_preview = false;
   BrickUpload* upload = nullptr;
   State* state = nullptr;
   bool visible_missing = false;  ///< After this frame.
@@ -61,7 +63,8 @@ constexpr int kNodeVoxels = shared::kNodeBricks * shared::kBrickVoxels;
 /// The uploads of one frame.
 class VolumeStreaming::Frame {
  public:
-  Frame(std::span<Item> items, const ViewFrustum& frustum, glm::vec3 eye_world, std::uint64_t budget_bytes)
+  /// Without a frustum all is in view.
+  Frame(std::span<Item> items, const ViewFrustum* frustum, glm::vec3 eye_world, std::uint64_t budget_bytes)
       : items_(items),
         frustum_(frustum),
         eye_world_(eye_world),
@@ -85,6 +88,10 @@ class VolumeStreaming::Frame {
     }
   };
 
+  bool may_be_visible(const WorldSphere& sphere) const {
+    return !frustum_ || frustum_->may_intersect(sphere);
+  }
+
   void upload_pages(Item& item) {
     if (item.state->pages) return;
     const std::uint64_t bytes = item.page_bytes();
@@ -100,7 +107,7 @@ class VolumeStreaming::Frame {
         const Node& node = items_[i].state->nodes[n];
         if (node.missing == 0) continue;
         const WorldSphere sphere = items_[i].sphere(node.at * kNodeVoxels, kNodeVoxels);
-        candidates.push_back({i, n, frustum_.may_intersect(sphere), distance_to(sphere, eye_world_)});
+        candidates.push_back({i, n, may_be_visible(sphere), distance_to(sphere, eye_world_)});
       }
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       return std::tuple(!a.visible, a.distance, a.item, a.node) <
@@ -141,7 +148,7 @@ class VolumeStreaming::Frame {
       if (entry == 0 || item.state->resident[entry - 1]) continue;
       const glm::ivec3 first = item.volume->brick_of(entry - 1) * shared::kBrickVoxels;
       const WorldSphere sphere = item.sphere(first, shared::kBrickVoxels);
-      if (!visible_only || frustum_.may_intersect(sphere))
+      if (!visible_only || may_be_visible(sphere))
         bricks.push_back({distance_to(sphere, eye_world_), entry - 1});
     }
     std::sort(bricks.begin(), bricks.end());
@@ -149,7 +156,7 @@ class VolumeStreaming::Frame {
   }
 
   std::span<Item> items_;
-  const ViewFrustum& frustum_;
+  const ViewFrustum* frustum_;
   glm::vec3 eye_world_;
   std::uint64_t remaining_;  ///< Of the budget [bytes].
   bool any_ = false;         ///< Something is uploaded.
@@ -180,40 +187,70 @@ VolumeStreaming::State& VolumeStreaming::state_of(const SparseVolume& volume) {
   return found != states_.end() ? *found : states_.emplace_back(make_state(volume));
 }
 
-void VolumeStreaming::drop_others(std::span<const Item> items) {
+bool VolumeStreaming::is_streamed(const SparseVolume* volume, const SparseVolume* preview) {
+  return volume && (preview || volume->slot_count() > kSmallVolumeBricks);
+}
+
+/// What is streamed of the volumes; the states of others are dropped.
+std::vector<VolumeStreaming::Item> VolumeStreaming::items_of(std::span<const VolumeInput> volumes,
+                                                             std::vector<VolumeResidency>& result) {
+  std::vector<Item> items;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    const VolumeInput& in = volumes[i];
+    if (is_streamed(in.volume, in.preview))
+      items.push_back({i, in.volume, in.world_from_voxel, in.preview != nullptr, &result[i].volume});
+    if (is_streamed(in.heat.volume, in.heat.preview))
+      items.push_back(
+          {i, in.heat.volume, in.heat.world_from_voxel, in.heat.preview != nullptr, &result[i].heat});
+  }
   std::erase_if(states_, [&](const State& state) {
     return std::ranges::none_of(items, [&](const Item& item) { return item.volume->id() == state.id; });
   });
+  for (const Item& item : items) state_of(*item.volume);
+  for (Item& item : items) {
+    item.state = &state_of(*item.volume);
+    item.upload->streamed = true;
+  }
+  return items;
 }
 
 std::vector<VolumeResidency> VolumeStreaming::plan(std::span<const VolumeInput> volumes,
                                                    const ViewFrustum& frustum, glm::vec3 eye_world,
                                                    std::uint64_t budget_bytes) {
-  // What is streamed: a density with a preview, and a heat with one.
   std::vector<VolumeResidency> result(volumes.size());
-  std::vector<Item> items;
-  std::vector<std::size_t> owner;
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    const auto add = [&](const SparseVolume* volume, const glm::mat4& world_from_voxel, BrickUpload& upload) {
-      upload.streamed = true;
-      items.push_back({volume, world_from_voxel, &upload});
-      owner.push_back(i);
-    };
-    const HeatInput& heat = volumes[i].heat;
-    if (volumes[i].preview) add(volumes[i].volume, volumes[i].world_from_voxel, result[i].volume);
-    if (heat.volume && heat.preview) add(heat.volume, heat.world_from_voxel, result[i].heat);
-  }
-  drop_others(items);
-  for (const Item& item : items) state_of(*item.volume);
-  for (Item& item : items) item.state = &state_of(*item.volume);
-
-  // What of it is missing after this frame.
-  Frame(items, frustum, eye_world, budget_bytes).plan();
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    result[owner[i]].shows_preview |= items[i].visible_missing || !items[i].state->pages;
-    result[owner[i]].lit_by_preview |= items[i].state->missing > 0 || !items[i].state->pages;
+  std::vector<Item> items = items_of(volumes, result);
+  // What must be there comes whatever the budget.
+  const auto end_of_whole =
+      std::ranges::stable_partition(items, [&](const Item& item) { return !item.has_preview; }).begin();
+  const auto whole = static_cast<std::size_t>(end_of_whole - items.begin());
+  Frame(std::span(items).first(whole), &frustum, eye_world, 0).plan();
+  Frame(std::span(items).subspan(whole), &frustum, eye_world, budget_bytes).plan();
+  for (const Item& item : items) {
+    result[item.owner].shows_preview |= item.visible_missing || !item.state->pages;
+    result[item.owner].lit_by_preview |= !item.state->is_complete();
   }
   return result;
+}
+
+std::vector<VolumeResidency> VolumeStreaming::plan_part(std::span<const VolumeInput> volumes,
+                                                        std::uint64_t budget_bytes,
+                                                        std::uint64_t part_bytes) {
+  std::vector<VolumeResidency> result(volumes.size());
+  std::vector<Item> items = items_of(volumes, result);
+  if (budget_bytes > 0) std::erase_if(items, [](const Item& item) { return item.has_preview; });
+  Frame(items, nullptr, glm::vec3(0), part_bytes).plan();
+  return result;
+}
+
+bool VolumeStreaming::is_ready(std::span<const VolumeInput> volumes, std::uint64_t budget_bytes) const {
+  const auto is_there = [&](const SparseVolume* volume, const SparseVolume* preview) {
+    if (!is_streamed(volume, preview) || (preview && budget_bytes > 0)) return true;
+    const auto state = std::ranges::find(states_, volume->id(), &State::id);
+    return state != states_.end() && state->is_complete();
+  };
+  return std::ranges::all_of(volumes, [&](const VolumeInput& volume) {
+    return is_there(volume.volume, volume.preview) && is_there(volume.heat.volume, volume.heat.preview);
+  });
 }
 
 void VolumeStreaming::lose(std::uint64_t volume_id) {
@@ -221,7 +258,7 @@ void VolumeStreaming::lose(std::uint64_t volume_id) {
 }
 
 bool VolumeStreaming::complete() const {
-  return std::ranges::all_of(states_, [](const State& state) { return state.pages && state.missing == 0; });
+  return std::ranges::all_of(states_, [](const State& state) { return state.is_complete(); });
 }
 
 }  // namespace brume::planning

@@ -25,7 +25,10 @@ struct VolumeResidency {
   bool shows_preview = false, lit_by_preview = false;
 };
 
-/// What is on the device of the volumes that have a preview.
+/// Volumes of at most this many bricks, without a preview, are uploaded at once.
+inline constexpr std::uint32_t kSmallVolumeBricks = 4096;
+
+/// What is on the device of large volumes and of those that have a preview.
 class VolumeStreaming {
  public:
   /// Per volume of the frame. Uploads at most `budget_bytes` of bricks and page tables (0: no limit), but for
@@ -34,6 +37,13 @@ class VolumeStreaming {
   /// eye before others, then the rest in the same order. It counts as done from then on.
   std::vector<VolumeResidency> plan(std::span<const VolumeInput> volumes, const ViewFrustum& frustum,
                                     glm::vec3 eye_world, std::uint64_t budget_bytes);
+  /// The next part of what the frame of these inputs must find on the device: volumes without a preview, and
+  /// with budget_bytes = 0 all. To be uploaded before that frame, at most `part_bytes` as above, until
+  /// complete(): parts take less staging memory than all at once.
+  std::vector<VolumeResidency> plan_part(std::span<const VolumeInput> volumes, std::uint64_t budget_bytes,
+                                         std::uint64_t part_bytes);
+  /// Whether the frame of these inputs finds all that it must.
+  bool is_ready(std::span<const VolumeInput> volumes, std::uint64_t budget_bytes) const;
   /// Nothing of a volume is on the device any more.
   void lose(std::uint64_t volume_id);
   /// Whether all of the last plan's volumes are on the device.
@@ -53,6 +63,7 @@ class VolumeStreaming {
     std::vector<bool> resident;  ///< By slot.
     std::vector<Node> nodes;     ///< Rising.
     std::uint32_t missing = 0;   ///< Of all nodes.
+    bool is_complete() const { return pages && missing == 0; }
   };
   struct Item;
   struct Candidate;
@@ -60,7 +71,8 @@ class VolumeStreaming {
 
   static State make_state(const volume::SparseVolume& volume);
   State& state_of(const volume::SparseVolume& volume);
-  void drop_others(std::span<const Item> items);
+  std::vector<Item> items_of(std::span<const VolumeInput> volumes, std::vector<VolumeResidency>& result);
+  static bool is_streamed(const volume::SparseVolume* volume, const volume::SparseVolume* preview);
 
   std::vector<State> states_;
 };

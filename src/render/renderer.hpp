@@ -63,6 +63,7 @@ class Renderer {
 
  private:
   planning::PlanTarget plan_target() const;
+  void upload_volumes(const FrameInput& input);
   void reserve(FramePlan& plan);
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   FrameResources resources(const FramePlan& plan);

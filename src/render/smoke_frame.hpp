@@ -58,6 +58,11 @@ class SmokeFrame {
   std::vector<std::uint64_t> reserve_volumes(std::span<const planning::VolumeInput> volumes) {
     return volume_upload_.reserve(volumes);
   }
+  /// Uploads a part of large volumes, before the frame that they are shown in.
+  void record_volume_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                          std::span<const planning::VolumeResidency> part) {
+    volume_upload_.record_part(recorder, volumes, part);
+  }
   /// Makes room for a plan; plans the light again where the device lost what was cached of it.
   void reserve(planning::FramePlan& plan, planning::PlanHistory& history);
 

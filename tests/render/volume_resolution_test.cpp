@@ -136,7 +136,7 @@ TEST_F(VolumeResolutionTest, ASphereHasItsOpticalDepthUnderAnyTransform) {
     const glm::vec3 eye = 12.0f * glm::normalize(vector() + 0.01f);
     input_.view.camera = {eye, glm::vec3(0), 0.7f};
     const double chord = (2 * settings.radius - settings.edge_width) /
-                         glm::length(glm::inverse(glm::dmat3(matrix)) * glm::dvec3(glm::normalize(eye)));
+                         glm::length(glm::inverse(glm::dmat3(glm::mat3(matrix))) * glm::dvec3(glm::normalize(eye)));
     // A transmittance of 0.1 is 1700 steps of its half float.
     const double sigma = 2.3 / chord;
     input_.volumes = {{sphere.volume.get(), matrix, {}, {}}};
@@ -186,15 +186,15 @@ TEST_F(StreamingTest, EndsAtThePictureOfAllAtOnce) {
 TEST_F(StreamingTest, AMovingCameraNeverMeetsABrickThatIsMissing) {
   // As close as this, most of the cloud is out of view.
   const auto camera = [](int frame) {
-    const float angle = 0.35f * static_cast<float>(frame);
+    const float angle = 0.35f * static_cast<float>(frame / 3);
     const glm::vec3 eye(2.1f * std::sin(angle), 0.3f, 2.1f * std::cos(angle));
-    return scene::Camera{eye, glm::vec3(eye.z, 0, -eye.x), 0.4f};
+    return scene::Camera{eye, 0.6f * glm::vec3(eye.z, 0, -eye.x), 0.4f};
   };
   Renderer streamed(context(), runner(), far_floor(), RendererOptions{kSize});
   int fine = 0, coarse = 0;
   for (int frame = 0; frame < 18; ++frame) {
     input_.view.camera = camera(frame);
-    input_.quality.volume_upload_bytes = 128 << 10;
+    input_.quality.volume_upload_bytes = 40 << 10;
     const planning::FramePlan plan = streamed.plan(input_);
     runner().run([&](gpu::Recorder& recorder) { streamed.record_frame(recorder, plan); });
     std::vector<passes::Half4> transmittance = read_back<passes::Half4>(streamed.media());
@@ -227,7 +227,7 @@ TEST_F(VolumeResolutionTest, AFileLargerThanTheDeviceIsShownCoarser) {
   std::vector<std::string> warnings;
   set_log_callback([&](LogLevel, const std::string& line) { warnings.push_back(line); });
   const scenario::Scenario scenario = scenario::load_scenario(folder / "cloud.brv", {}).value_or_throw();
-  scenario.volumes->limit(volume_room(context(), 1)).value_or_throw();
+  scenario.volumes->limit(volume_room(context(), 1 << 20)).value_or_throw();
   set_log_callback({});
   std::filesystem::remove_all(folder);
   ASSERT_EQ(warnings.size(), 1u);
@@ -241,14 +241,13 @@ TEST_F(VolumeResolutionTest, AFileLargerThanTheDeviceIsShownCoarser) {
 TEST_F(VolumeResolutionTest, TheRoomOfADeviceHoldsWhatAnAtlasOfItTakes) {
   const scenario::VolumeRoom room = volume_room(context());
   const int most = static_cast<int>(context().limits().maxImageDimension3D) / shared::kBrickTexels;
-  for (const std::uint64_t slots :
-       {std::uint64_t{1}, room.bricks / 3, room.bricks, (room.bricks * 65) / 64}) {
+  for (const std::uint64_t slots : {std::uint64_t{1}, room.bricks / 3, room.bricks, room.bricks * 4 / 3}) {
     const glm::ivec3 atlas = passes::tight_atlas(slots, most);
     EXPECT_LE(std::max({atlas.x, atlas.y, atlas.z}), most);
     const glm::u64vec3 edges(atlas);
     EXPECT_GE(edges.x * edges.y * edges.z, slots);
     if (slots > 1u << 17) {
-      EXPECT_LE(2000 * edges.x * edges.y * edges.z, 2060 * slots);
+      EXPECT_LE(edges.x * edges.y * edges.z, slots + slots / 6);
     }
   }
   EXPECT_THROW(passes::tight_atlas(std::uint64_t{1} << 40, most), Error);
