@@ -20,6 +20,7 @@
 #include "core/log.hpp"
 #include "gpu/context.hpp"
 #include "render/playback.hpp"
+#include "render/volume_room.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::cli {
@@ -32,6 +33,7 @@ struct RenderOptions {
   std::optional<double> time;
   bool temporal = false, resume = false;
   float step = 1, light_update_fraction = 1, resolve_error_scale = 1;
+  std::uint32_t volume_memory = 0;  // [MiB]; 0: as much as suits the device
 };
 
 // The parsed options, checked before any file is read.
@@ -205,7 +207,7 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice, fps,
                raycast, scene_options, time, temporal, resume, step, light_update_fraction,
-               resolve_error_scale] = options;
+               resolve_error_scale, volume_memory] = options;
 
   // Files.
   std::vector<std::filesystem::path> files = scenario::files_of(scenario);
@@ -224,7 +226,8 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
   for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
   const std::array<float, 3> numbers{step, light_update_fraction, resolve_error_scale};
   key = hash_values(std::span<const float>(numbers), key);
-  const std::array<std::uint32_t, 3> whole{temporal ? 1u : 0u, frames_depend(options) ? 1u : 0u,
+  const std::array<std::uint32_t, 4> whole{volume_memory, temporal ? 1u : 0u,
+                                           frames_depend(options) ? 1u : 0u,
                                            frames_depend(options) ? first : 0u};
   return hash_values(std::span<const std::uint32_t>(whole), key);
 }
@@ -268,6 +271,9 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   stop_if_interrupted();
   warn_of_times(options, plan, scenario.timeline);
   gpu::Context context({options.device, false});
+  if (scenario.volumes)
+    scenario.volumes->limit(render::volume_room(context, std::uint64_t{options.volume_memory} << 20))
+        .value_or_throw();
   auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   if (!options.raycast.empty()) {
     if (scenario.timeline.volumes.empty())
@@ -329,6 +335,7 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
           "Fraction of the changed light in smoke that each frame of a film updates, 0.0625 to 1; default 1")
       .range(0.0625, 1.0)
       .type_name("X");
+  declare_volume_memory(arguments, options.volume_memory);
 }
 
 }  // namespace

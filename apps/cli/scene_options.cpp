@@ -115,6 +115,15 @@ void declare_level_options(const Arguments& arguments, SceneOptions& options) {
       .type_name("EV");
 }
 
+void declare_volume_memory(const Arguments& arguments, std::uint32_t& mebibytes) {
+  arguments
+      .add_option("--volume-memory", mebibytes,
+                  "Device memory for volumes [MiB]: larger ones are shown at a lower resolution; default: "
+                  "half of all")
+      .range(1u, 1u << 20)
+      .type_name("MIB");
+}
+
 std::vector<std::string> texts_of(const SceneOptions& options) {
   std::vector<std::string> texts = options.smokes;
   texts.push_back("throws");

@@ -24,6 +24,9 @@ void declare_scene_options(const Arguments& arguments, SceneOptions& options);
 /// The same without --smoke and --throw, for the viewer.
 void declare_level_options(const Arguments& arguments, SceneOptions& options);
 
+/// Declares --volume-memory.
+void declare_volume_memory(const Arguments& arguments, std::uint32_t& mebibytes);
+
 /// All that the options say, for a key of what depends on them.
 std::vector<std::string> texts_of(const SceneOptions& options);
 

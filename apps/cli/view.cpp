@@ -19,6 +19,7 @@ struct ViewOptions {
                            picture, folder = ".", screenshot, record, frame_log, json;
   std::string shaders;
   SceneOptions scene;
+  std::uint32_t volume_memory = 0;  // [MiB]
   double frames_per_second = 60;
   std::optional<double> time, exit_after, lose_device, lose_surface;
   bool panels = false, bare = false, no_vertical_sync = false, validation = false, log_widgets = false;
@@ -40,6 +41,7 @@ viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   viewer.device = options.device;
   viewer.validation = options.validation;
   viewer.vertical_sync = !options.no_vertical_sync;
+  viewer.volume_bytes = std::uint64_t{options.volume_memory} << 20;
   viewer.frames_per_second = options.frames_per_second;
   const auto levels = viewer::quality_levels();
   for (std::size_t i = 0; i < levels.size(); ++i)
@@ -218,6 +220,7 @@ Command add_view(CommandLine& program) {
       .type_name("TEXT");
   arguments.add_option("--shot", options->picture, "Image whose shape is shot").type_name("FILE");
   declare_level_options(arguments, options->scene);
+  declare_volume_memory(arguments, options->volume_memory);
   declare_outputs(arguments, *options);
   // It saves its session before it ends.
   command.common->grace_seconds = 5;

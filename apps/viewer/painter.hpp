@@ -12,13 +12,15 @@
 namespace brume::viewer {
 
 /// What a renderer shows of a game; `holes` keeps the holes that the result refers to.
-render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes);
+render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes,
+                               scenario::VolumeWait wait = scenario::VolumeWait::until_loaded);
 
 class Painter {
  public:
   /// Shows a frame with `ui` over it; false if the window currently shows nothing. A paused image is repeated
   /// until it becomes the best one, the image of `brume render`: first the light in the smoke is brought up
-  /// to date in slices, then the image is rendered in parts. An input ends all that soon.
+  /// to date in slices and volumes are loaded and uploaded, then the image is rendered in parts. An input
+  /// ends all that soon.
   bool draw(Screen& screen, const Game& game, Window& window, const Quality& quality, const ImDrawData& ui);
 
   /// The image of the last draw.
@@ -40,7 +42,7 @@ class Painter {
     std::uint64_t changes = 0;
     bool operator==(const Key&) const = default;
   };
-  bool is_still(const Game& game, const Window& window);
+  bool is_still(const Screen& screen, const Game& game, const Window& window);
   bool draw_film(Screen& screen, const Game& game, const Quality& quality, float light_update_fraction,
                  const ImDrawData& ui);
   bool draw_best(Screen& screen, const Game& game, Window& window, const Quality& quality,

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "render/exposure.hpp"
+#include "render/volume_room.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -42,7 +43,14 @@ Screen::Screen(const Window& window, const ScreenOptions& options)
   canvas_ = make_canvas(context_, size_px);
 }
 
-void Screen::load(const scenario::Scenario& scenario, glm::uvec2 size_px) {
+void Screen::load(const scenario::Scenario& scenario, glm::uvec2 size_px, std::uint64_t volume_bytes) {
+  if (scenario.volumes) {
+    scenario::VolumeRoom room = render::volume_room(context_, volume_bytes);
+    const std::uint64_t previews = 2 * scenario::kPreviewBricks * scenario.timeline.volumes.size();
+    room.bricks -= std::min(room.bricks / 4, previews);
+    scenario.volumes->limit(room).value_or_throw();
+    scenario.volumes->make_previews();
+  }
   const glm::uvec2 size = glm::max(size_px, glm::uvec2(1));
   renderer_.emplace(context_, *runner_, scenario.scene, renderer_options(scenario, size));
 }

@@ -36,9 +36,10 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// Makes the renderer of a scenario, which must outlive it. May run in another thread while no other member
-  /// is called. Throws what Renderer throws.
-  void load(const scenario::Scenario& scenario, glm::uvec2 size_px);
+  /// Makes the renderer of a scenario, which must outlive it, and reduces its volumes to what the device has
+  /// room for: at most `volume_bytes` (0: no such limit). May run in another thread while no other member is
+  /// called. Throws what Renderer throws.
+  void load(const scenario::Scenario& scenario, glm::uvec2 size_px, std::uint64_t volume_bytes = 0);
 
   /// Waits until the device has finished the last frame: required before every call below. Throws
   /// gpu::DeviceLost.
@@ -54,6 +55,9 @@ class Screen {
   float measure_exposure(const render::FrameInput& input);
   /// Renders `input` as `brume render` does, at full quality and the given size.
   image::Image8 picture(render::FrameInput input, glm::uvec2 size_px);
+
+  /// Whether volumes of the last frame have bricks that are still to be uploaded.
+  bool streams_volumes() const { return renderer_ && renderer_->streams_volumes(); }
 
   void set_masks(const smoke::MaskAtlas& masks) { renderer_->set_masks(masks); }
   void set_vertical_sync(bool enabled) { swapchain_->set_vertical_sync(enabled); }

@@ -109,7 +109,7 @@ class Viewer {
     painter_.restart();
   }
   void load_screen(const scenario::Scenario& scenario) {
-    screen_->load(scenario, window_.size_px());
+    screen_->load(scenario, window_.size_px(), options_.volume_bytes);
     masks_ = scenario.masks.key();
   }
 

@@ -18,6 +18,7 @@ struct ViewerOptions {
   bool validation = false;           ///< Enables the validation layers; the report holds their messages.
   bool vertical_sync = true;
   double frames_per_second = 60;     ///< Target of the adaptive quality.
+  std::uint64_t volume_bytes = 0;    ///< Device memory for volumes; 0: as much as suits the device.
   std::optional<std::size_t> level;  ///< Index into quality_levels() instead of adaptive quality.
   passes::DebugView view = passes::DebugView::none;
   bool panels = false, overlay = true;

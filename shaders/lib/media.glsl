@@ -69,6 +69,9 @@ MediaSpan media_span(WorldRay ray, float t, float ds, inout MediaRay media) {
   return span;
 }
 
+/// Whether all samples of a span are alike.
+bool is_constant(MediaSpan span) { return !kHasSmoke && kHasVolumes && is_constant(span.volumes); }
+
 struct MediaSample {
   SmokeSample smoke;
   VolumesSample volumes;

@@ -132,6 +132,11 @@ VolumesSpan volumes_span(WorldRay world, float t, float ds, inout VolumesRay ray
   return span;
 }
 
+/// Whether all samples of a span are alike: in a brick of one value, where nothing but the extinction matters.
+bool is_constant(VolumesSpan span) {
+  return !kIsLit && !kHasHeat && span.present == 1u && span.uniform_value >= 0.0;
+}
+
 /// Sums over the volumes.
 struct VolumesSample {
   float extinction;  // [1/m]

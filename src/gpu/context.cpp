@@ -84,8 +84,12 @@ void Context::create_device(const Presentation& presentation) {
 void Context::read_properties() {
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  VkPhysicalDeviceMaintenance3Properties maintenance{};
+  maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  properties.pNext = &maintenance;
   vk_.GetPhysicalDeviceProperties2(info_.handle, &properties);
   limits_ = properties.properties.limits;
+  max_allocation_bytes_ = maintenance.maxMemoryAllocationSize;
   memory_ = std::make_unique<Memory>(vk_, info_.handle, device_);
 }
 

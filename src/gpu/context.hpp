@@ -58,6 +58,8 @@ class Context {
   VkDevice device() const { return device_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  /// The largest allocation of memory that the device promises.
+  std::uint64_t max_allocation_bytes() const { return max_allocation_bytes_; }
   std::uint32_t queue_family() const { return queue_family_; }
   /// Nanoseconds per timestamp tick.
   double timestamp_period() const { return static_cast<double>(limits_.timestampPeriod); }
@@ -91,6 +93,7 @@ class Context {
   std::uint64_t submitted_ = 0;
   std::uint32_t queue_family_ = 0;
   VkPhysicalDeviceLimits limits_{};
+  std::uint64_t max_allocation_bytes_ = 0;
   std::unique_ptr<Memory> memory_;
   std::vector<Pipeline*> pipelines_;
 };

@@ -3,180 +3,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
 #include <iterator>
-#include <unordered_map>
-#include <vector>
+#include <limits>
 
 #include "core/box.hpp"
 #include "core/tasks.hpp"
+#include "grids/grid_numbers.hpp"
 
 namespace brume::grids {
 namespace {
 
 /// Largest values within these bounds are stored as they are.
 constexpr float kLeastHigh = 1.0f / 64, kMostHigh = 1024;
-constexpr float kLargestValue = 1e30f;
+/// Enough for any grid: indices have 32 bits.
+constexpr int kMostLevels = 29;
 
-/// Voxels of the ramp behind the surface of a level set, as sdfToFogVolume's default.
-constexpr double kFogRamp = 3;
-
-/// Reads values of a grid as the numbers that are rendered.
-class Reader {
- public:
-  explicit Reader(const Grid& grid)
-      : type_(grid.type), bytes_(bytes_of(grid.type)), level_set_(grid.grid_class == GridClass::level_set) {
-    ramp_ = kFogRamp * std::cbrt(std::abs(glm::determinant(glm::dmat3(grid.world_from_index))));
-  }
-
-  float at(const std::byte* values, std::size_t index) const {
-    double value = number(values + index * bytes_);
-    if (level_set_) value = std::min(-value / ramp_, 1.0);
-    return value > 0 ? static_cast<float>(std::min<double>(value, kLargestValue)) : 0.0f;
-  }
-
- private:
-  template <typename T>
-  static T read(const std::byte* at) {
-    T value;
-    std::memcpy(&value, at, sizeof value);
-    return value;
-  }
-  double number(const std::byte* at) const {
-    switch (type_) {
-      case ValueType::float32:
-        return double{read<float>(at)};
-      case ValueType::float64:
-        return read<double>(at);
-      case ValueType::int32:
-        return read<std::int32_t>(at);
-      case ValueType::int64:
-        return static_cast<double>(read<std::int64_t>(at));
-      case ValueType::boolean:
-        return read<std::uint8_t>(at);
-      case ValueType::vec3f:
-        return glm::length(glm::dvec3(read<glm::vec3>(at)));
-      case ValueType::vec3d:
-        return glm::length(read<glm::dvec3>(at));
-      case ValueType::vec3i:
-        return glm::length(glm::dvec3(read<glm::ivec3>(at)));
-      case ValueType::mask:
-        break;
-    }
-    return 0;
-  }
-
-  ValueType type_;
-  std::size_t bytes_;
-  bool level_set_;
-  double ramp_ = 1;
-};
-
-using Values = std::array<float, kBrickVoxels>;
-
-struct Hash {
-  std::size_t operator()(glm::ivec3 p) const {
-    const auto mix = [](std::uint64_t a, std::int32_t b) {
-      return (a ^ static_cast<std::uint32_t>(b)) * 0x9e3779b97f4a7c15ull;
-    };
-    return mix(mix(mix(0, p.x), p.y), p.z) >> 16;
-  }
-};
-
-/// Bricks of numbers by brick coordinate, some of them of one value.
-struct Numbers {
-  std::unordered_map<glm::ivec3, std::size_t, Hash> index;  ///< Into bricks.
-  std::vector<glm::ivec3> at;
-  std::vector<Values> bricks;
-
-  Values& add(glm::ivec3 brick) {
-    const auto [found, added] = index.try_emplace(brick, bricks.size());
-    if (added) {
-      at.push_back(brick);
-      bricks.emplace_back().fill(0);
-    }
-    return bricks[found->second];
-  }
-  const Values* find(glm::ivec3 brick) const {
-    const auto found = index.find(brick);
-    return found == index.end() ? nullptr : &bricks[found->second];
-  }
-};
-
-glm::ivec3 brick_of(glm::ivec3 origin) {
-  return origin >> 3;
-}
-
-/// Adds the bricks of a tile. False where there are more than `limit`.
-bool add_tile(const Tile& tile, float value, std::size_t limit, Numbers& numbers) {
-  const int bricks = static_cast<int>(tile.edge / 8);
-  const auto volume = static_cast<std::uint64_t>(bricks) * static_cast<std::uint64_t>(bricks) *
-                      static_cast<std::uint64_t>(bricks);
-  if (volume > limit - std::min<std::uint64_t>(limit, numbers.bricks.size())) return false;
-  const glm::ivec3 first = brick_of(tile.origin);
-  for (int z = 0; z < bricks; ++z)
-    for (int y = 0; y < bricks; ++y)
-      for (int x = 0; x < bricks; ++x) numbers.add(first + glm::ivec3(x, y, z)).fill(value);
-  return true;
-}
-
-/// The numbers of a grid, without bricks of zeros.
-Result<Numbers> numbers_of(const Grid& grid, std::size_t limit) {
-  const Reader reader(grid);
-  Numbers numbers;
-  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
-    const std::byte* const values = grid.values_of(i).data();
-    Values brick;
-    bool any = false;
-    for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
-      brick[voxel] = reader.at(values, voxel);
-      any |= brick[voxel] > 0;
-    }
-    if (any) numbers.add(brick_of(grid.bricks[i].origin)) = brick;
-  }
-  for (const Tile& tile : grid.tiles) {
-    const float value = reader.at(tile.value.data(), 0);
-    if (value > 0 && !add_tile(tile, value, limit, numbers))
-      return Failure{ErrorCode::resource_limit,
-                     "grid " + grid.name + ": its constant regions are larger than " + std::to_string(limit) +
-                         " bricks of 8^3 voxels; make them sparser"};
-  }
-  return numbers;
-}
-
-/// Means over 2^3 voxels. Adds the squares of what they lose to `square_error`.
-Numbers halved(const Numbers& fine, double& square_error) {
-  Numbers coarse;
-  for (std::size_t i = 0; i < fine.bricks.size(); ++i) {
-    const glm::ivec3 to = fine.at[i] >> 1, octant = (fine.at[i] & 1) * 4;
-    Values& brick = coarse.add(to);
-    const Values& from = fine.bricks[i];
-    for (int voxel = 0; voxel < 64; ++voxel) {
-      const glm::ivec3 p(voxel & 3, voxel >> 2 & 3, voxel >> 4);
-      const auto number = [](glm::ivec3 q) { return static_cast<std::size_t>(q.x + 8 * (q.y + 8 * q.z)); };
-      double sum = 0, squares = 0;
-      for (int corner = 0; corner < 8; ++corner) {
-        const double value =
-            double{from[number(2 * p + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2))]};
-        sum += value;
-        squares += value * value;
-      }
-      square_error += squares - sum * sum / 8;
-      brick[number(octant + p)] = static_cast<float>(sum / 8);
-    }
-  }
-  return coarse;
+glm::ivec3 voxel_at(int voxel) {
+  return {voxel & 7, voxel >> 3 & 7, voxel >> 6};
 }
 
 /// The bricks beside a brick into which filtering carries one of its values: bit of the neighbour
 /// x + 3 y + 9 z, itself in the middle.
-std::uint32_t neighbours_reached(const Values& values) {
+std::uint32_t neighbours_reached(const GridNumbers& numbers, std::size_t i) {
   std::uint32_t reached = 0;
   for (int voxel = 0; voxel < int{kBrickVoxels}; ++voxel) {
-    if (values[static_cast<std::size_t>(voxel)] <= 0) continue;
-    const glm::ivec3 p(voxel & 7, voxel >> 3 & 7, voxel >> 6);
+    if (numbers.at(i, static_cast<std::size_t>(voxel)) <= 0) continue;
+    const glm::ivec3 p = voxel_at(voxel);
     const glm::ivec3 low(p.x == 0 ? 0 : 1, p.y == 0 ? 0 : 1, p.z == 0 ? 0 : 1);
     const glm::ivec3 high(p.x == 7 ? 2 : 1, p.y == 7 ? 2 : 1, p.z == 7 ? 2 : 1);
     for (int z = low.z; z <= high.z; ++z)
@@ -186,128 +40,290 @@ std::uint32_t neighbours_reached(const Values& values) {
   return reached;
 }
 
-/// All bricks in which a filtered value can differ from 0, rising.
-std::vector<glm::ivec3> sampled_bricks(const Numbers& numbers) {
-  std::vector<std::uint32_t> reached(numbers.bricks.size());
-  parallel_for(numbers.bricks.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) reached[i] = neighbours_reached(numbers.bricks[i]);
-  });
-  std::vector<glm::ivec3> bricks;
-  for (std::size_t i = 0; i < reached.size(); ++i)
-    for (int n = 0; n < 27; ++n)
-      if (reached[i] >> n & 1u) bricks.push_back(numbers.at[i] + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1);
-  std::sort(bricks.begin(), bricks.end(), goes_before);
-  bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
-  return bricks;
+constexpr std::uint32_t kItself = 1u << 13;
+
+glm::ivec3 neighbour(glm::ivec3 brick, int n) {
+  return brick + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1;
 }
 
+/// What a volume may take.
+struct Room {
+  std::uint32_t bricks = 0, pages = 0;
+};
+
+/// A level of a grid: its numbers, where each brick of them is, and all bricks in which a filtered value can
+/// differ from 0, rising.
+struct Level {
+  GridNumbers numbers;
+  volume::PageTable index;
+  std::vector<glm::ivec3> sampled;
+
+  bool is_filtered = true;  ///< False: nothing is carried beyond the bricks of the numbers.
+
+  explicit Level(GridNumbers values, bool filtered = true)
+      : numbers(std::move(values)), is_filtered(filtered) {}
+
+  /// Whether the numbers may be indexed: their bricks are few and near enough.
+  bool may_fit(const Room& room) const {
+    if (numbers.brick_count() > room.bricks) return false;
+    const Box<int> box = numbers.brick_box();
+    const glm::dvec3 nodes = glm::dvec3((box.high >> 3) - (box.low >> 3)) + 1.0;
+    return nodes.x * nodes.y * nodes.z <= static_cast<double>(room.pages);
+  }
+  void find_sampled() {
+    numbers.expand_cubes();
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      index.set(numbers.brick(i), static_cast<std::uint32_t>(i));
+    std::vector<std::uint32_t> reached(numbers.size());
+    parallel_for(numbers.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        reached[i] = is_filtered ? neighbours_reached(numbers, i) : kItself;
+    });
+    sampled.clear();
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      if (reached[i] != 0) sampled.push_back(numbers.brick(i));
+      for (int n = 0; n < 27; ++n)
+        if ((reached[i] >> n & 1u) != 0 &&
+            index.at(neighbour(numbers.brick(i), n)) == volume::PageTable::kNoSlot)
+          sampled.push_back(neighbour(numbers.brick(i), n));
+    }
+    std::sort(sampled.begin(), sampled.end(), goes_before);
+    sampled.erase(std::unique(sampled.begin(), sampled.end()), sampled.end());
+  }
+};
+
+/// Entries of the page table of these bricks.
+std::uint64_t page_count(const std::vector<glm::ivec3>& bricks) {
+  if (bricks.empty()) return 0;
+  std::vector<glm::ivec3> nodes;
+  Box<int> box{bricks[0] >> 3, (bricks[0] >> 3) + 1};
+  for (const glm::ivec3 brick : bricks) {
+    const glm::ivec3 node = brick >> 3;
+    box = united(box, {node, node + 1});
+    if (nodes.empty() || nodes.back() != node) nodes.push_back(node);
+  }
+  std::sort(nodes.begin(), nodes.end(), goes_before);
+  const auto count = std::unique(nodes.begin(), nodes.end()) - nodes.begin();
+  const glm::u64vec3 window(box.high - box.low);
+  return window.x * window.y * window.z + static_cast<std::uint64_t>(count) * shared::kPageEntries;
+}
+
+/// A density and what glows beside it, halved together.
+struct Levels {
+  Level density, also;
+  std::vector<glm::ivec3> bricks;  ///< The sampled ones of both, rising.
+  int halvings = 0;
+  double square_error = 0;
+
+  /// Finds the bricks. False where they take more than the room.
+  bool fit(const Room& room) {
+    if (!density.may_fit(room) || !also.may_fit(room)) return false;
+    density.find_sampled();
+    also.find_sampled();
+    bricks.clear();
+    std::set_union(density.sampled.begin(), density.sampled.end(), also.sampled.begin(), also.sampled.end(),
+                   std::back_inserter(bricks), goes_before);
+    return bricks.size() <= room.bricks && page_count(bricks) <= room.pages;
+  }
+  /// Halves until they fit.
+  void reduce(const Room& room) {
+    while (!fit(room) && halvings < kMostLevels) {
+      double lost = 0, ignored = 0;
+      density = Level(density.numbers.halved(lost));
+      also = Level(also.numbers.halved(ignored), also.is_filtered);
+      // Each level's error counts once per voxel of the file.
+      square_error += lost * std::exp2(3 * halvings);
+      ++halvings;
+    }
+  }
+};
+
 /// The texels of a brick with its apron.
-void fill_texels(const Numbers& numbers, float per_value, glm::ivec3 brick, std::span<std::uint16_t> texels) {
-  std::array<const Values*, 27> around{};
-  for (int n = 0; n < 27; ++n)
-    around[static_cast<std::size_t>(n)] = numbers.find(brick + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1);
+void fill_texels(const Level& level, float per_value, glm::ivec3 brick, std::span<std::uint16_t> texels) {
+  std::array<std::uint32_t, 27> around{};
+  for (int n = 0; n < 27; ++n) around[static_cast<std::size_t>(n)] = level.index.at(neighbour(brick, n));
   std::size_t out = 0;
   for (int z = -1; z <= 8; ++z)
     for (int y = -1; y <= 8; ++y)
       for (int x = -1; x <= 8; ++x, ++out) {
         const glm::ivec3 p(x, y, z), side = (p >> 3) + 1, q = p & 7;
-        const Values* const values = around[static_cast<std::size_t>(side.x + 3 * side.y + 9 * side.z)];
-        texels[out] = values ? glm::packHalf1x16(
-                                   per_value * (*values)[static_cast<std::size_t>(q.x + 8 * (q.y + 8 * q.z))])
-                             : std::uint16_t{0};
+        const std::uint32_t from = around[static_cast<std::size_t>(side.x + 3 * side.y + 9 * side.z)];
+        if (from == volume::PageTable::kNoSlot) continue;  // texels are 0
+        const float value = level.numbers.at(from, static_cast<std::size_t>(q.x + 8 * (q.y + 8 * q.z)));
+        texels[out] = glm::packHalf1x16(per_value * value);
       }
 }
 
-/// Around all that filtering carries the values to: half a voxel beyond their own.
-Box<float> bounds_of(const Numbers& numbers) {
-  Box<float> bounds = kEmptyBox;
-  for (std::size_t i = 0; i < numbers.bricks.size(); ++i)
-    for (int voxel = 0; voxel < int{kBrickVoxels}; ++voxel) {
-      if (numbers.bricks[i][static_cast<std::size_t>(voxel)] <= 0) continue;
-      const glm::vec3 p(numbers.at[i] * 8 + glm::ivec3(voxel & 7, voxel >> 3 & 7, voxel >> 6));
-      bounds = united(bounds, {p - 0.5f, p + 1.5f});
+/// Of each brick the texel that all are equal to; 0 where they differ, or are 0.
+std::vector<std::uint16_t> uniform_texels(const Levels& levels, float per_value) {
+  std::vector<std::uint16_t> uniform(levels.bricks.size(), 0);
+  parallel_for(uniform.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t from = levels.density.index.at(levels.bricks[i]);
+      if (from == volume::PageTable::kNoSlot || !levels.density.numbers.is_uniform(from)) continue;
+      std::array<std::uint16_t, shared::kTexelsPerBrick> texels{};
+      fill_texels(levels.density, per_value, levels.bricks[i], texels);
+      if (std::ranges::all_of(texels, [&](std::uint16_t texel) { return texel == texels[0]; }))
+        uniform[i] = texels[0];
     }
-  return bounds;
+  });
+  return uniform;
 }
 
-/// Range, sum and distribution of the values.
-void measure(const Numbers& numbers, BrickVolume& out) {
-  glm::dvec3 places(0), squares(0);
-  out.low = numbers.bricks.empty() ? 0 : kLargestValue;
-  for (std::size_t i = 0; i < numbers.bricks.size(); ++i)
+/// Range, sum and distribution of the numbers of a level, and the box around all that filtering carries them
+/// to: half a voxel beyond their own.
+struct Measures {
+  float low = std::numeric_limits<float>::infinity(), high = 0;
+  double sum = 0;
+  glm::dvec3 places{0}, squares{0};
+  Box<float> bounds = kEmptyBox;
+
+  void add(const GridNumbers& numbers, std::size_t i) {
     for (int voxel = 0; voxel < int{kBrickVoxels}; ++voxel) {
-      const float value = numbers.bricks[i][static_cast<std::size_t>(voxel)];
-      out.low = std::min(out.low, value);
-      out.high = std::max(out.high, value);
-      const glm::dvec3 p(numbers.at[i] * 8 + glm::ivec3(voxel & 7, voxel >> 3 & 7, voxel >> 6));
-      out.sum += double{value};
+      const float value = numbers.at(i, static_cast<std::size_t>(voxel));
+      low = std::min(low, value);
+      high = std::max(high, value);
+      if (value <= 0) continue;
+      const glm::dvec3 p(numbers.brick(i) * 8 + voxel_at(voxel));
+      sum += double{value};
       places += double{value} * (p + 0.5);
       squares += double{value} * (p + 0.5) * (p + 0.5);
+      bounds = united(bounds, {glm::vec3(p) - 0.5f, glm::vec3(p) + 1.5f});
     }
-  if (out.sum <= 0) return;
-  if (out.high < kLeastHigh || out.high > kMostHigh) out.unit = std::exp2(std::floor(std::log2(out.high)));
-  out.mean = places / out.sum;
-  out.deviation = glm::sqrt(glm::max(squares / out.sum - out.mean * out.mean, 0.0));
+  }
+  void add(const Measures& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+    sum += other.sum;
+    places += other.places;
+    squares += other.squares;
+    bounds = united(bounds, other.bounds);
+  }
+};
+
+/// Summed in order, whatever thread measured a part.
+Measures measure(const GridNumbers& numbers) {
+  constexpr std::size_t kPart = 256;
+  std::vector<Measures> parts((numbers.size() + kPart - 1) / kPart);
+  parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part)
+      for (std::size_t i = part * kPart; i < std::min(numbers.size(), (part + 1) * kPart); ++i)
+        parts[part].add(numbers, i);
+  });
+  Measures all;
+  for (const Measures& part : parts) all.add(part);
+  if (numbers.size() == 0) all.low = 0;
+  return all;
 }
 
-std::unique_ptr<volume::SparseVolume> fill_volume(const Numbers& numbers, float unit,
-                                                  const std::vector<glm::ivec3>& bricks,
-                                                  const Box<float>& bounds) {
+void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& out) {
   volume::SparseVolumeInfo info;
   info.channels = {{sizeof(std::uint16_t)}};
-  auto volume = std::make_unique<volume::SparseVolume>(info);
+  out.volume = std::make_unique<volume::SparseVolume>(info);
   const volume::ChannelId channel{0};
-  volume->begin_update();
-  std::vector<std::uint32_t> slots;
-  slots.reserve(bricks.size());
-  for (const glm::ivec3 brick : bricks) slots.push_back(volume->acquire(brick));
+  out.volume->begin_update();
+  // Bricks with slots; those of a new volume are in the order in which they are acquired.
+  const std::vector<std::uint16_t> uniform = uniform_texels(levels, 1 / out.unit);
+  std::vector<glm::ivec3> bricks;
+  for (std::size_t i = 0; i < uniform.size(); ++i) {
+    if (uniform[i] != 0) {
+      out.volume->set_uniform(levels.bricks[i], uniform[i]);
+    } else {
+      out.volume->acquire(levels.bricks[i]);
+      bricks.push_back(levels.bricks[i]);
+    }
+  }
+  out.ranges.resize(bricks.size());
   parallel_for(bricks.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      fill_texels(numbers, 1 / unit, bricks[i], volume->texels<std::uint16_t>(channel, slots[i]));
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto texels = out.volume->texels<std::uint16_t>(channel, static_cast<std::uint32_t>(i));
+      fill_texels(levels.density, 1 / out.unit, bricks[i], texels);
+      out.ranges[i] = filtered_range(texels);
+    }
   });
-  volume->set_bounds(bounds.empty() ? glm::vec3(0) : bounds.low, bounds.empty() ? glm::vec3(0) : bounds.high);
-  volume->end_update();
-  return volume;
+  out.volume->set_bounds(bounds.empty() ? glm::vec3(0) : bounds.low,
+                         bounds.empty() ? glm::vec3(0) : bounds.high);
+  out.volume->end_update();
 }
 
-/// The bricks of both, rising.
-std::vector<glm::ivec3> sampled_bricks(const Numbers& numbers, const Numbers& also) {
-  const std::vector<glm::ivec3> a = sampled_bricks(numbers), b = sampled_bricks(also);
-  std::vector<glm::ivec3> both;
-  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both), goes_before);
-  return both;
+/// What a level looks like in a unit (0: the one that suits it) and in bounds (empty: its own). Without its
+/// place.
+BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds) {
+  BrickVolume out;
+  const Measures all = measure(levels.density.numbers);
+  out.low = all.low;
+  out.high = all.high;
+  out.sum = all.sum;
+  if (all.sum > 0) {
+    if (out.high < kLeastHigh || out.high > kMostHigh) out.unit = std::exp2(std::floor(std::log2(out.high)));
+    out.mean = all.places / all.sum;
+    out.deviation = glm::sqrt(glm::max(all.squares / all.sum - out.mean * out.mean, 0.0));
+  }
+  if (unit > 0) out.unit = unit;
+  fill_volume(levels, bounds.empty() ? united(all.bounds, measure(levels.also.numbers).bounds) : bounds, out);
+  return out;
+}
+
+/// From the voxels of a level to those before it was halved: voxel i of level l has its centre at index
+/// 2^l (i + 1/2) - 1/2.
+glm::dmat4 scale_of(const Levels& levels) {
+  return glm::scale(glm::dmat4(1), glm::dvec3(std::exp2(levels.halvings)));
 }
 
 }  // namespace
 
+ValueRange filtered_range(std::span<const std::uint16_t, shared::kTexelsPerBrick> texels) {
+  if (std::all_of(texels.begin(), texels.end(), [&](std::uint16_t texel) { return texel == texels[0]; })) {
+    const float value = glm::unpackHalf1x16(texels[0]);
+    return {value, value};
+  }
+  std::array<double, shared::kTexelsPerBrick> values;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = double{glm::unpackHalf1x16(texels[i])};
+  // The first and last texel along each axis become the values at the faces.
+  for (const std::size_t stride : {std::size_t{1}, std::size_t{10}, std::size_t{100}})
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t along = i / stride % 10;
+      if (along == 0) values[i] = 0.5 * (values[i] + values[i + stride]);
+      if (along == 9) values[i] = 0.5 * (values[i] + values[i - stride]);
+    }
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  ValueRange range{static_cast<float>(*low), static_cast<float>(*high)};
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  if (double{range.low} > *low) range.low = std::nextafter(range.low, -kFar);
+  if (double{range.high} < *high) range.high = std::nextafter(range.high, kFar);
+  return range;
+}
+
 Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions& options) {
   if (grid.type == ValueType::mask)
     return Failure{ErrorCode::bad_input, "grid " + grid.name + ": is a mask, which has no values to render"};
-  constexpr std::size_t kMostBricks = std::size_t{1} << 23;
-  auto numbers = numbers_of(grid, kMostBricks);
-  if (!numbers) return numbers.failure();
-  auto also = options.also ? numbers_of(*options.also, kMostBricks) : Result<Numbers>(Numbers());
-  if (!also) return also.failure();
-  BrickVolume out;
-  double square_error = 0;
-  std::vector<glm::ivec3> bricks = sampled_bricks(*numbers, *also);
-  while (bricks.size() > options.max_bricks) {
-    // Each level's error counts once per voxel of the file.
-    double lost = 0, ignored = 0;
-    *numbers = halved(*numbers, lost);
-    *also = halved(*also, ignored);
-    square_error += lost * std::exp2(3 * out.level);
-    ++out.level;
-    bricks = sampled_bricks(*numbers, *also);
-  }
-  measure(*numbers, out);
-  out.volume = fill_volume(*numbers, out.unit, bricks, united(bounds_of(*numbers), bounds_of(*also)));
+  BRUME_ASSERT(options.max_bricks >= kFewestVolumeBricks && options.max_pages >= kFewestVolumePages,
+               std::to_string(options.max_bricks) + " " + std::to_string(options.max_pages));
+  Levels levels{Level(GridNumbers(grid)), Level(GridNumbers(options.also ? *options.also : Grid())), {}};
+  levels.reduce({options.max_bricks, options.max_pages});
+  BrickVolume out = volume_of(levels, 0, kEmptyBox);
   const auto active = static_cast<double>(count_active(grid));
-  out.rms_error = active > 0 ? std::sqrt(square_error / active) : 0;
-  // Voxel i of level l has its centre at index 2^l (i + 1/2) - 1/2.
-  const double scale = std::exp2(out.level);
-  out.world_from_voxel = grid.world_from_index * glm::translate(glm::dmat4(1), glm::dvec3(-0.5)) *
-                         glm::scale(glm::dmat4(1), glm::dvec3(scale));
+  out.level = levels.halvings;
+  out.rms_error = active > 0 ? std::sqrt(levels.square_error / active) : 0;
+  out.world_from_voxel =
+      grid.world_from_index * glm::translate(glm::dmat4(1), glm::dvec3(-0.5)) * scale_of(levels);
+  return out;
+}
+
+BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks) {
+  BRUME_ASSERT(max_bricks >= kFewestVolumeBricks, std::to_string(max_bricks));
+  // Where the fine one has bricks of zeros, something else may glow.
+  Levels levels{Level(GridNumbers(*fine.volume, false)), Level(GridNumbers(*fine.volume, true), false), {}};
+  levels.reduce({max_bricks, kMostVolumePages});
+  const shared::VolumeLayout& layout = fine.volume->layout();
+  const auto per_voxel = static_cast<float>(std::exp2(-levels.halvings));
+  BrickVolume out = volume_of(levels, 1, {layout.bounds_min * per_voxel, layout.bounds_max * per_voxel});
+  out.unit = fine.unit;
+  out.low *= fine.unit;
+  out.high *= fine.unit;
+  out.sum *= double{fine.unit};
+  out.level = fine.level + levels.halvings;
+  out.world_from_voxel = fine.world_from_voxel * scale_of(levels);
   return out;
 }
 

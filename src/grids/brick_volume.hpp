@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <vector>
 
 #include "core/error.hpp"
 #include "grids/grid.hpp"
@@ -11,33 +12,59 @@
 
 namespace brume::grids {
 
+/// The most bricks of a volume, and the fewest to which any grid can be reduced.
+inline constexpr std::uint32_t kMostVolumeBricks = 1u << 21, kFewestVolumeBricks = 8;
+/// The same for entries of its page table: 128 MiB, and those of 8 nodes far apart.
+inline constexpr std::uint32_t kMostVolumePages = 1u << 25, kFewestVolumePages = 1u << 13;
+
 struct BrickVolumeOptions {
-  /// Bricks that the device has room for; a grid of more is averaged over 2^3 voxels, again and again, until
-  /// it fits.
-  std::uint32_t max_bricks = 1u << 21;
+  /// Bricks that there is room for, at least kFewestVolumeBricks; a grid of more is averaged over 2^3 voxels,
+  /// again and again, until it fits.
+  std::uint32_t max_bricks = kMostVolumeBricks;
+  /// The same for the entries of its page table, at least kFewestVolumePages: bricks far apart take many.
+  std::uint32_t max_pages = kMostVolumePages;
   /// A grid with the same transform: bricks and bounds reach to wherever this one is above 0, too. For a
   /// density beside which something glows. Null: none.
   const Grid* also = nullptr;
+};
+
+/// What the values in a brick lie between.
+struct ValueRange {
+  float low = 0, high = 0;
+  bool operator==(const ValueRange&) const = default;
 };
 
 /// One channel of half floats, filtered trilinearly. Bricks are stored wherever a filtered value can differ
 /// from 0.
 struct BrickVolume {
   std::unique_ptr<volume::SparseVolume> volume;  ///< Voxel space: voxel i covers [i, i + 1).
-  glm::dmat4 world_from_voxel{1};                ///< To the file's world.
-  float unit = 1;                                ///< Value that the bricks store as 1: a power of two.
-  float low = 0, high = 0;                       ///< Range of the values.
-  double sum = 0;                                ///< Of all values.
-  glm::dvec3 mean{0}, deviation{0};              ///< Of the values' places, weighted by value [voxel space].
-  int level = 0;                                 ///< Halvings of the resolution: 0 is the file's own.
-  double rms_error = 0;                          ///< Of the halvings, over active voxels; 0 at level 0.
+  /// Of each slot: the least and the largest value that filtering can give anywhere in its brick, faces
+  /// included, in stored halves. The largest bounds the extinction in it: a majorant.
+  std::vector<ValueRange> ranges;
+  glm::dmat4 world_from_voxel{1};    ///< To the file's world.
+  float unit = 1;                    ///< Value that the bricks store as 1: a power of two.
+  float low = 0, high = 0;           ///< Range of the values.
+  double sum = 0;                    ///< Of all values.
+  glm::dvec3 mean{0}, deviation{0};  ///< Of the values' places, weighted by value [voxel space].
+  int level = 0;                     ///< Halvings of the resolution: 0 is the file's own.
+  double rms_error = 0;              ///< Of the halvings, over active voxels; 0 at level 0.
 };
 
 /// Values above 0 of a grid of numbers; the length of vectors. A level set becomes a fog that is 0 outside,
 /// grows along three voxels behind the surface, and is 1 inside (as OpenVDB's sdfToFogVolume). NaN becomes 0;
 /// values that half floats lack are stored in a larger or smaller unit. The background must be 0, or that of
-/// a level set. Fails with bad_input for a grid without numbers, resource_limit where tiles alone are more
-/// than fit at any level.
+/// a level set. Fails with bad_input for a
+/// grid without numbers.
 Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions& options = {});
+
+/// The same at the first lower resolution that takes at most `max_bricks` bricks (at least
+/// kFewestVolumeBricks), in the same unit and bounds: means of the stored halves.
+BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks);
+
+/// The range of what filtering gives in a brick whose texels these are (SparseVolume::channel). Filtering is
+/// linear along each axis between texel centres, and the faces of a brick lie in the middle between two: its
+/// extremes are values at voxel centres and means of two, four or eight texels on faces. Each is exact in
+/// double precision; rounding to float goes outwards.
+ValueRange filtered_range(std::span<const std::uint16_t, shared::kTexelsPerBrick> texels);
 
 }  // namespace brume::grids

@@ -277,9 +277,19 @@ Result<void> read_brv_chunk(View file, const BrvGrid& of, std::size_t number, st
   return {};
 }
 
-Result<GridFile> decode_brv(View bytes, const GridLimits& limits) {
+Result<GridFile> decode_brv(View bytes, const GridLimits& limits, const GridChoice& choice) {
   auto directory = open_brv(bytes, limits);
   if (!directory) return directory.failure();
+  if (choice) {
+    std::vector<const Grid*> heads;
+    for (const BrvGrid& grid : directory->grids) heads.push_back(&grid.grid);
+    const auto chosen = choice(heads);
+    if (!chosen) return chosen.failure();
+    std::vector<BrvGrid> grids;
+    for (std::size_t i = 0; i < directory->grids.size(); ++i)
+      if (std::ranges::find(*chosen, i) != chosen->end()) grids.push_back(std::move(directory->grids[i]));
+    directory->grids = std::move(grids);
+  }
 
   // That every chunk can be what it claims, before memory is taken for all.
   for (const BrvGrid& grid : directory->grids)
@@ -290,12 +300,11 @@ Result<GridFile> decode_brv(View bytes, const GridLimits& limits) {
   GridFile file;
   file.metadata = std::move(directory->metadata);
   for (BrvGrid& of : directory->grids) {
-    std::vector<Brick> bricks = of.grid.bricks;
+    // Chunks are counted by the bricks of the grid, which stay in place.
     Bytes values(of.grid.bricks.size() * kBrickVoxels * bytes_of(of.grid.type));
     std::optional<Failure> failure;
-    decode_chunks(bytes, of, bricks, values, failure);
+    decode_chunks(bytes, of, of.grid.bricks, values, failure);
     if (failure) return *failure;
-    of.grid.bricks = std::move(bricks);
     of.grid.values = std::move(values);
     if (auto active = check_active(of.grid, limits); !active) return active.failure();
     file.grids.push_back(std::move(of.grid));

@@ -56,8 +56,9 @@ class BrvWriter {
 Result<std::vector<std::byte>> encode_brv(const GridFile& file, const BrvOptions& options = {});
 
 /// Reads a whole file from memory, over all threads. Fails with bad_input for any damage, resource_limit
-/// beyond the limits.
-Result<GridFile> decode_brv(std::span<const std::byte> bytes, const GridLimits& limits = {});
+/// beyond the limits. With `choice` reads those grids alone; fails as it does.
+Result<GridFile> decode_brv(std::span<const std::byte> bytes, const GridLimits& limits = {},
+                            const GridChoice& choice = {});
 
 /// Reads the directory of a file, whose chunks read_brv_chunk then reads in any order. Fails as decode_brv.
 Result<BrvDirectory> open_brv(std::span<const std::byte> file, const GridLimits& limits = {});

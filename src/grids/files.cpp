@@ -15,10 +15,10 @@ Failure in_file(const fs::path& path, const Failure& failure) {
   return {failure.code, path.string() + ": " + failure.message};
 }
 
-Result<GridFile> load_brv(const fs::path& path, const GridLimits& limits) {
+Result<GridFile> load_brv(const fs::path& path, const GridLimits& limits, const GridChoice& choice) {
   const auto bytes = read_file(path, limits.bytes);
   if (!bytes) return bytes.failure();
-  auto file = decode_brv(*bytes, limits);
+  auto file = decode_brv(*bytes, limits, choice);
   if (!file) return in_file(path, file.failure());
   return file;
 }
@@ -41,11 +41,11 @@ bool is_grid_file(const fs::path& path) {
   return suffix == ".brv" || suffix == ".vdb" || suffix == ".nvdb";
 }
 
-Result<GridFile> load_grid_file(const fs::path& path, const GridLimits& limits) {
+Result<GridFile> load_grid_file(const fs::path& path, const GridLimits& limits, const GridChoice& choice) {
   if (!is_grid_file(path))
     return Failure{ErrorCode::bad_input,
                    path.string() + ": unknown file suffix; expected .brv, .vdb or .nvdb"};
-  return lower_suffix(path) == ".brv" ? load_brv(path, limits) : read_in_child(path, limits);
+  return lower_suffix(path) == ".brv" ? load_brv(path, limits, choice) : read_in_child(path, limits);
 }
 
 Result<void> save_grid_file(const fs::path& path, const GridFile& file) {

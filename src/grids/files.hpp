@@ -18,7 +18,9 @@ bool is_grid_file(const std::filesystem::path& path);
 /// Reads all grids of a file; skips those of types that ValueType lacks, with a warning. Fails with bad_input
 /// for a missing, damaged or foreign file, resource_limit beyond the limits, and no_device when brume-vdb is
 /// not installed beside the program.
-Result<GridFile> load_grid_file(const std::filesystem::path& path, const GridLimits& limits = {});
+/// With `choice`, other grids of a .brv file are not read, and not in the result; fails as `choice`.
+Result<GridFile> load_grid_file(const std::filesystem::path& path, const GridLimits& limits = {},
+                                const GridChoice& choice = {});
 
 /// Writes all grids, completely or not at all. Fails as write_file_atomic does, and with bad_input for a grid
 /// that the format cannot hold.

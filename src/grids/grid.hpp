@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "core/error.hpp"
 
 namespace brume::grids {
 
@@ -95,6 +97,10 @@ struct GridFile {
   std::vector<Grid> grids;
   std::vector<Metadata> metadata;
 };
+
+/// Of the grids of a file, which to read: by position, of grids that have their bricks' origins and tiles
+/// only.
+using GridChoice = std::function<Result<std::vector<std::size_t>>(std::span<const Grid* const> grids)>;
 
 /// Voxels that are active, those of tiles included.
 std::uint64_t count_active(const Grid& grid);

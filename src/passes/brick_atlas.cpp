@@ -27,13 +27,46 @@ gpu::Image make_image(gpu::Context& context, glm::ivec3 bricks, VkFormat format,
   return gpu::Image(context, info);
 }
 
+/// A multiple of an eighth of a power of two, so that the next frame of a sequence takes as many in most
+/// cases.
+std::uint64_t rounded_slots(std::uint64_t slots) {
+  const std::uint64_t step = std::max<std::uint64_t>(std::bit_floor(slots) / 8, 1);
+  return (slots + step - 1) / step * step;
+}
+
+/// Slots of a volume in the atlas: with room to grow, or not.
+std::uint32_t room_of(const volume::SparseVolume& volume, bool tight) {
+  const glm::uvec3 room(volume.layout().bricks.atlas_bricks);
+  const std::uint32_t slots = room.x * room.y * room.z;
+  if (!tight || slots <= kVolumeSlotStep) return slots;
+  return static_cast<std::uint32_t>(
+      std::max<std::uint64_t>(rounded_slots(volume.slot_count()), kVolumeSlotStep));
+}
+
 }  // namespace
 
+glm::ivec3 tight_atlas(std::uint64_t slots, int most) {
+  constexpr std::uint64_t kSmall = 1u << 17;
+  const auto longest = static_cast<std::uint64_t>(most);
+  if (slots > longest * longest * longest)
+    throw Error(ErrorCode::resource_limit,
+                "volumes of " + std::to_string(slots) +
+                    " bricks of 8^3 voxels are more than the device's 3D textures hold");
+  const glm::ivec3 grown = slots <= kSmall ? volume::grown_atlas({}, slots) : glm::ivec3(most + 1);
+  if (glm::all(glm::lessThanEqual(grown, glm::ivec3(most)))) return grown;
+  slots = std::min(rounded_slots(slots), longest * longest * longest);
+  std::uint64_t edge = 1;
+  while (edge < longest && edge * edge * edge < slots) ++edge;
+  return {static_cast<int>(edge), static_cast<int>(edge),
+          static_cast<int>((slots + edge * edge - 1) / (edge * edge))};
+}
+
 BrickAtlas::BrickAtlas(gpu::Context& context, std::span<const VkFormat> channels,
-                       std::span<const VkFormat> derived)
+                       std::span<const VkFormat> derived, bool tight)
     : context_(context),
       channel_formats_(channels.begin(), channels.end()),
       derived_formats_(derived.begin(), derived.end()),
+      tight_(tight),
       channels_(channels.size()),
       derived_(derived.size()) {
   gpu::grow(context, pages_, 1);
@@ -42,6 +75,11 @@ BrickAtlas::BrickAtlas(gpu::Context& context, std::span<const VkFormat> channels
 }
 
 void BrickAtlas::make_images(glm::ivec3 bricks) {
+  // Large ones do not fit twice.
+  if (tight_) {
+    atlas_bricks_ = glm::ivec3(0);
+    for (gpu::Image& image : channels_) image = gpu::Image();
+  }
   for (std::size_t i = 0; i < channels_.size(); ++i)
     channels_[i] = make_image(context_, bricks, channel_formats_[i], 0);
   for (std::size_t i = 0; i < derived_.size(); ++i)
@@ -67,14 +105,17 @@ std::vector<BrickAtlas::Entry> BrickAtlas::place(VolumeList volumes) const {
     entry.id = volume.id();
     entry.reserved_generation = volume.structure_generation();
     const std::size_t pages = volume.pages().root().size() + volume.pages().nodes().size();
-    entry.pages = std::max(entry.pages, static_cast<std::uint32_t>(std::bit_ceil(pages)));
+    constexpr std::size_t kPageStep = 1u << 14;
+    const std::size_t page_room =
+        tight_ && pages > kPageStep ? (pages + kPageStep - 1) / kPageStep * kPageStep : std::bit_ceil(pages);
+    entry.pages = std::max(entry.pages, static_cast<std::uint32_t>(page_room));
     entry.everything |= entry.layout.first_page != first_page || entry.layout.first_slot != first_slot;
     entry.layout = volume.layout().bricks;
     entry.layout.first_page = first_page;
     entry.layout.first_slot = first_slot;
-    const glm::uvec3 room(entry.layout.atlas_bricks);
+    entry.slots = room_of(volume, tight_);
     first_page += entry.pages;
-    first_slot += room.x * room.y * room.z;
+    first_slot += entry.slots;
     placed.push_back(entry);
   }
   return placed;
@@ -85,12 +126,11 @@ void BrickAtlas::reserve(VolumeList volumes) {
   std::vector<Entry> placed = place(volumes);
   std::uint64_t pages = 0, slots = 0;
   for (const Entry& entry : placed) {
-    const glm::u64vec3 room(entry.layout.atlas_bricks);
     pages += entry.pages;
-    slots += room.x * room.y * room.z;
+    slots += entry.slots;
   }
   if (slots > 0) {
-    const glm::ivec3 bricks = volume::grown_atlas({}, slots);
+    const glm::ivec3 bricks = atlas_for(slots);
     bool replaced = gpu::grow(context_, pages_, pages * sizeof(std::uint32_t));
     replaced |= gpu::grow(context_, slot_bricks_, slots * sizeof(glm::ivec3));
     if (bricks != atlas_bricks_) {
@@ -105,11 +145,36 @@ void BrickAtlas::reserve(VolumeList volumes) {
   entries_ = std::move(placed);
 }
 
-BrickAtlas::Upload BrickAtlas::record(gpu::Recorder& recorder, VolumeList volumes) {
+glm::ivec3 BrickAtlas::atlas_for(std::uint64_t slots) const {
+  if (!tight_) return volume::grown_atlas({}, slots);
+  return tight_atlas(slots, static_cast<int>(context_.limits().maxImageDimension3D) / shared::kBrickTexels);
+}
+
+BrickAtlas::Upload BrickAtlas::record(gpu::Recorder& recorder, VolumeList volumes,
+                                      std::span<const StreamedBricks> streams) {
   Upload most = Upload::nothing;
-  for (std::size_t i = 0; i < volumes.size(); ++i)
-    most = std::max(most, record_volume(recorder, *volumes[i], entries_[i]));
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (!streams.empty() && streams[i].streamed) {
+      record_stream(recorder, *volumes[i], streams[i], entries_[i]);
+      if (!streams[i].slots.empty()) most = std::max(most, Upload::changes);
+    } else {
+      most = std::max(most, record_volume(recorder, *volumes[i], entries_[i]));
+    }
+  }
   return most;
+}
+
+void BrickAtlas::record_stream(gpu::Recorder& recorder, const volume::SparseVolume& volume,
+                               const StreamedBricks& stream, Entry& entry) {
+  if (stream.pages) {
+    record_pages(recorder, volume.pages(), true, entry);
+    entry.everything = false;
+    entry.uploaded_revision = volume.revision();
+  }
+  BRUME_ASSERT(stream.slots.empty() || !entry.everything, "bricks before the page table that finds them");
+  record_bricks(recorder, volume, stream.slots, entry);
+  for (std::uint32_t i = 0; i < volume.channel_count(); ++i)
+    record_texels(recorder, volume, volume::ChannelId{i}, stream.slots, entry);
 }
 
 BrickAtlas::Upload BrickAtlas::record_volume(gpu::Recorder& recorder, const volume::SparseVolume& volume,

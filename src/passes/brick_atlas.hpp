@@ -14,6 +14,22 @@ namespace brume::passes {
 /// Any number of volumes with the same channels.
 using VolumeList = std::span<const volume::SparseVolume* const>;
 
+/// What a record uploads of a volume whose bricks come over several frames.
+struct StreamedBricks {
+  bool streamed = false;                      ///< False: as any other volume.
+  bool pages = false;                         ///< Its page table.
+  std::span<const std::uint32_t> slots = {};  ///< Rising.
+};
+
+/// A volume of fewer slots has up to as many in a tight atlas; one of more up to an eighth more than it
+/// holds.
+inline constexpr std::uint32_t kVolumeSlotStep = 1u << 12;
+
+/// Bricks per axis of an atlas for `slots` bricks: as volume::grown_atlas up to 256 MiB of half floats, then
+/// with little more than an eighth unused. None is longer than `most` bricks. Throws resource_limit for more
+/// than fit.
+glm::ivec3 tight_atlas(std::uint64_t slots, int most);
+
 /// Follows a list of volumes; one that was not in the list before is uploaded as a whole. The images hold the
 /// bricks of all slots of all volumes, where the `layout` of each says (shared/volume.h).
 class BrickAtlas {
@@ -23,9 +39,10 @@ class BrickAtlas {
 
   /// `channels` are the formats of the volumes' channels, in order, with texels of the same size in bytes;
   /// `derived` those of further images of the same layout, which passes write and nothing is uploaded to. The
-  /// images have room for one brick until the first `reserve`. Throws resource_limit.
+  /// images have room for one brick until the first `reserve`. `tight`: volumes do not grow, and images are
+  /// as small as tight_atlas makes them. Throws resource_limit.
   BrickAtlas(gpu::Context& context, std::span<const VkFormat> channels,
-             std::span<const VkFormat> derived = {});
+             std::span<const VkFormat> derived = {}, bool tight = false);
   BrickAtlas(const BrickAtlas&) = delete;
   BrickAtlas& operator=(const BrickAtlas&) = delete;
 
@@ -36,7 +53,10 @@ class BrickAtlas {
   void reserve(VolumeList volumes);
   /// Uploads what changed since the last record; all of a volume that has had more than one update since, or
   /// that `reserve` moved. The volumes must be as `reserve` saw them. Returns the most of any volume.
-  Upload record(gpu::Recorder& recorder, VolumeList volumes);
+  /// `streams`: of each volume of the list; empty: none is streamed.
+  Upload record(gpu::Recorder& recorder, VolumeList volumes, std::span<const StreamedBricks> streams = {});
+  /// Whether nothing of a volume is on the device since the last `reserve`.
+  bool is_missing(std::size_t volume) const { return entries_[volume].everything; }
 
   /// Where a volume of the list is, by its position. Alone in an atlas it is where its own layout says.
   const shared::BrickLayout& layout(std::size_t volume) const { return entries_[volume].layout; }
@@ -58,6 +78,7 @@ class BrickAtlas {
     std::uint64_t id = 0, reserved_generation = 0, uploaded_revision = 0;
     shared::BrickLayout layout{};
     std::uint32_t pages = 0;  // room in the page buffer
+    std::uint32_t slots = 0;  // room in the atlas
     std::size_t root_entries = 0;
     bool everything = true;  // nothing of it is on the device
   };
@@ -65,7 +86,10 @@ class BrickAtlas {
   bool is_reserved(VolumeList volumes) const;
   std::vector<Entry> place(VolumeList volumes) const;
   void make_images(glm::ivec3 bricks);
+  glm::ivec3 atlas_for(std::uint64_t slots) const;
   Upload record_volume(gpu::Recorder& recorder, const volume::SparseVolume& volume, Entry& entry);
+  void record_stream(gpu::Recorder& recorder, const volume::SparseVolume& volume,
+                     const StreamedBricks& stream, Entry& entry);
   void record_pages(gpu::Recorder& recorder, const volume::PageTable& pages, bool all, Entry& entry);
   void record_bricks(gpu::Recorder& recorder, const volume::SparseVolume& volume,
                      std::span<const std::uint32_t> slots, const Entry& entry);
@@ -74,6 +98,7 @@ class BrickAtlas {
 
   gpu::Context& context_;
   std::vector<VkFormat> channel_formats_, derived_formats_;
+  bool tight_;
   gpu::Buffer pages_, slot_bricks_;
   std::vector<gpu::Image> channels_, derived_;  // as many as formats, always
   glm::ivec3 atlas_bricks_{0};

@@ -1,5 +1,6 @@
 #include "passes/volume_upload.hpp"
 
+#include <algorithm>
 #include <array>
 #include <glm/gtc/packing.hpp>
 
@@ -10,13 +11,35 @@ namespace {
 
 constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT};
 
-/// The grids of all volumes: the densities, then those that glow.
-std::vector<const volume::SparseVolume*> list_of(std::span<const planning::VolumeInput> volumes) {
-  std::vector<const volume::SparseVolume*> list;
-  for (const planning::VolumeInput& volume : volumes) list.push_back(volume.volume);
-  for (const planning::VolumeInput& volume : volumes)
-    if (volume.heat.volume) list.push_back(volume.heat.volume);
+/// The grids of all volumes: the densities, those that glow, and the previews of both.
+struct GridList {
+  std::vector<const volume::SparseVolume*> grids;
+  std::vector<StreamedBricks> streams;  ///< Of each, if residency is known.
+
+  void add(const volume::SparseVolume* grid, const planning::BrickUpload* upload) {
+    if (!grid) return;
+    grids.push_back(grid);
+    streams.emplace_back();
+    if (upload) streams.back() = {upload->streamed, upload->pages, upload->slots};
+  }
+};
+GridList list_of(std::span<const planning::VolumeInput> volumes,
+                 std::span<const planning::VolumeResidency> residency = {}) {
+  GridList list;
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    list.add(volumes[i].volume, residency.empty() ? nullptr : &residency[i].volume);
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    list.add(volumes[i].heat.volume, residency.empty() ? nullptr : &residency[i].heat);
+  for (const planning::VolumeInput& volume : volumes) {
+    list.add(volume.preview, nullptr);
+    list.add(volume.heat.preview, nullptr);
+  }
   return list;
+}
+
+gpu::Buffer make_instances(gpu::Context& context) {
+  return {context, shared::kMaxVolumes * sizeof(shared::VolumeInstance),
+          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
 }
 
 gpu::Image make_colors(gpu::Context& context) {
@@ -46,31 +69,60 @@ std::vector<std::uint64_t> colors_of(const planning::HeatInput& heat) {
 }  // namespace
 
 VolumeUpload::VolumeUpload(gpu::Context& context)
-    : atlas_(context, kVolumeChannels),
-      instances_(context, shared::kMaxVolumes * sizeof(shared::VolumeInstance),
-                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT),
+    : atlas_(context, kVolumeChannels, {}, true),
+      instances_(make_instances(context)),
+      lit_instances_(make_instances(context)),
       colors_(make_colors(context)) {}
 
-void VolumeUpload::reserve(std::span<const planning::VolumeInput> volumes) {
-  atlas_.reserve(list_of(volumes));
+std::vector<std::uint64_t> VolumeUpload::reserve(std::span<const planning::VolumeInput> volumes) {
+  const GridList list = list_of(volumes);
+  atlas_.reserve(list.grids);
+  std::vector<std::uint64_t> missing;
+  for (std::size_t i = 0; i < list.grids.size(); ++i)
+    if (atlas_.is_missing(i)) missing.push_back(list.grids[i]->id());
+  return missing;
 }
 
 void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                          std::span<const planning::VisibleVolume> visible) {
-  atlas_.record(recorder, list_of(volumes));
-  std::vector<std::size_t> heat_at;  // of each volume, in the list
-  std::size_t next = volumes.size();
-  for (const planning::VolumeInput& volume : volumes) heat_at.push_back(volume.heat.volume ? next++ : 0);
+                          std::span<const planning::VolumeResidency> residency,
+                          std::span<const planning::VisibleVolume> visible,
+                          std::span<const planning::VisibleVolume> lit) {
+  const GridList list = list_of(volumes, residency);
+  atlas_.record(recorder, list.grids, list.streams);
+  record_instances(recorder, volumes, visible, instances_);
+  record_instances(recorder, volumes, lit, lit_instances_);
+  record_colors(recorder, volumes, visible);
+}
+
+void VolumeUpload::record_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                               std::span<const planning::VolumeResidency> part) {
+  GridList list = list_of(volumes, part);
+  for (StreamedBricks& stream : list.streams) stream.streamed = true;
+  atlas_.record(recorder, list.grids, list.streams);
+}
+
+void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                                    std::span<const planning::VisibleVolume> visible,
+                                    const gpu::Buffer& to) const {
+  const std::vector<const volume::SparseVolume*> grids = list_of(volumes).grids;
+  const auto layout_of = [&](const volume::SparseVolume* grid) {
+    return atlas_.layout(static_cast<std::size_t>(std::ranges::find(grids, grid) - grids.begin()));
+  };
   std::vector<shared::VolumeInstance> instances;
-  std::vector<glm::vec3> glows;
   for (const planning::VisibleVolume& volume : visible) {
+    const planning::VolumeInput shown = planning::shown_volume(volumes[volume.index], volume.is_preview);
     shared::VolumeInstance instance = volume.instance;
-    instance.bricks = atlas_.layout(volume.index);
-    if (instance.heat.per_value > 0) instance.heat.bricks = atlas_.layout(heat_at[volume.index]);
-    glows.push_back(glow_of(volumes[volume.index].heat));
+    instance.bricks = layout_of(shown.volume);
+    if (instance.heat.per_value > 0) instance.heat.bricks = layout_of(shown.heat.volume);
     instances.push_back(instance);
   }
-  recorder.upload(instances_, 0, std::as_bytes(std::span(instances)));
+  recorder.upload(to, 0, std::as_bytes(std::span(instances)));
+}
+
+void VolumeUpload::record_colors(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                                 std::span<const planning::VisibleVolume> visible) {
+  std::vector<glm::vec3> glows;
+  for (const planning::VisibleVolume& volume : visible) glows.push_back(glow_of(volumes[volume.index].heat));
   if (glows == glows_) return;
   glows_ = std::move(glows);
   std::vector<std::uint64_t> colors;

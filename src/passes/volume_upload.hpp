@@ -4,6 +4,7 @@
 
 #include "passes/brick_atlas.hpp"
 #include "planning/media_plan.hpp"
+#include "planning/volume_streaming.hpp"
 
 namespace brume::passes {
 
@@ -20,20 +21,36 @@ class VolumeUpload {
   /// No volumes until the first record.
   explicit VolumeUpload(gpu::Context& context);
 
-  /// Makes room for all volumes of a frame, visible or not. Outside of a recording, once the device has
-  /// finished previous ones. Throws resource_limit.
-  void reserve(std::span<const planning::VolumeInput> volumes);
-  /// Uploads what changed of the volumes that `reserve` saw, and the instances in view.
+  /// Makes room for all volumes of a frame, visible or not, and for their previews. Outside of a recording,
+  /// once the device has finished previous ones. Returns the volumes of which nothing is on the device
+  /// (SparseVolume::id). Throws resource_limit.
+  std::vector<std::uint64_t> reserve(std::span<const planning::VolumeInput> volumes);
+  /// Uploads what changed of the volumes that `reserve` saw, or what `residency` says of those that are
+  /// streamed, and the instances in view: as rays of the eye meet them, and as light does.
   void record(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-              std::span<const planning::VisibleVolume> visible);
+              std::span<const planning::VolumeResidency> residency,
+              std::span<const planning::VisibleVolume> visible, std::span<const planning::VisibleVolume> lit);
+
+  /// Uploads what `part` says of volumes that are streamed, and nothing else.
+  void record_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                   std::span<const planning::VolumeResidency> part);
 
   VolumeResources resources() const { return {atlas_.pages(), atlas_.channel(kValues), instances_, colors_}; }
+  /// The same with the instances that light meets.
+  VolumeResources lit_resources() const {
+    return {atlas_.pages(), atlas_.channel(kValues), lit_instances_, colors_};
+  }
 
  private:
+  void record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                        std::span<const planning::VisibleVolume> visible, const gpu::Buffer& to) const;
+  void record_colors(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                     std::span<const planning::VisibleVolume> visible);
+
   static constexpr volume::ChannelId kValues{0};
 
   BrickAtlas atlas_;
-  gpu::Buffer instances_;
+  gpu::Buffer instances_, lit_instances_;
   gpu::Image colors_;
   std::vector<glm::vec3> glows_;  ///< What each row of colors_ was made from.
 };

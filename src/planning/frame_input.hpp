@@ -72,6 +72,9 @@ struct Quality {
   /// (SmokeShadowCache) and the advection of slow noise (NoiseUpdates) are spread over four frames.
   float light_update_fraction = 1;
   bool rebuild_light = false;  ///< Light smoke and surfaces again even where nothing changed.
+  /// Bytes of volumes with a preview that are uploaded in this frame; 0: all that is missing. Below their
+  /// size such a frame depends on the frames before (VolumeStreaming).
+  std::uint64_t volume_upload_bytes = 0;
 };
 
 /// A grid of a volume that glows.
@@ -81,6 +84,9 @@ struct HeatInput {
   float kelvin = 1000;  ///< Temperature where its value is 1.
   float high = 1;       ///< Its largest value, > 0.
   float emission = 1;   ///< Multiplies the radiance.
+  /// As VolumeInput::preview.
+  const volume::SparseVolume* preview = nullptr;
+  glm::mat4 world_from_preview{1};
 };
 
 /// A volume in the world besides the smoke, lit by all lights of the frame and by itself.
@@ -90,6 +96,10 @@ struct VolumeInput {
   glm::mat4 world_from_voxel{1};  ///< Affine, with an inverse.
   shared::VolumeLook look{};
   HeatInput heat{};
+  /// The same at a lower resolution, to be shown until enough of the volume is on the device; of the same
+  /// bounds in the world. Null: all of the volume is uploaded at once.
+  const volume::SparseVolume* preview = nullptr;
+  glm::mat4 world_from_preview{1};
 };
 
 /// What one frame shows. What `smoke`, `volumes` and `level` point to must outlive the frame's recording.

@@ -8,8 +8,8 @@
 namespace brume::planning {
 namespace {
 
-/// What of lights and media is visible.
-void plan_visibility(FramePlan& plan, const PlanTarget& target) {
+/// What of lights and media is visible, and at which resolution.
+void plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
   const smoke::SmokeVolume* volume = plan.input.smoke.volume;
   const std::vector<shared::Light>& flashes = plan.input.environment.flashes;
   std::vector<shared::Light> lights(target.lights.begin(), target.lights.end());
@@ -18,7 +18,17 @@ void plan_visibility(FramePlan& plan, const PlanTarget& target) {
   const float voxel_size = volume ? volume->layout().voxel_size : 0;
   plan.lights = visible_lights(lights, plan.frustum, light_interpolation_margin(voxel_size));
   if (volume) plan.visibility = cull_smoke(*volume, plan.frustum, plan.lights, target.scene_bounds);
-  plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights);
+  plan.residency =
+      history.volume_streaming.plan(plan.input.volumes, plan.frustum, plan.input.view.camera.position_world,
+                                    plan.input.quality.volume_upload_bytes);
+  std::vector<bool> shown, lit;
+  for (const VolumeResidency& residency : plan.residency) {
+    shown.push_back(residency.shows_preview);
+    lit.push_back(residency.lit_by_preview);
+  }
+  plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown);
+  plan.lit_media = plan.media;
+  if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
 }
 
 void plan_level(FramePlan& plan, PlanHistory& history) {
@@ -71,13 +81,16 @@ void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
 
 void plan_volume_light(FramePlan& plan, PlanHistory& history) {
   const FrameInput& input = plan.input;
-  plan.volume_light = history.volume_light.plan({&plan.media, input.volumes, plan.lights, input.smoke.volume,
-                                                 input.smoke.look, input.smoke.time, input.environment.sky,
-                                                 plan.level_changed || input.quality.rebuild_light});
+  plan.volume_light = history.volume_light.plan(
+      {&plan.lit_media, input.volumes, plan.lights, input.smoke.volume, input.smoke.look, input.smoke.time,
+       input.environment.sky, plan.level_changed || input.quality.rebuild_light});
   for (std::size_t i = 0; i < plan.media.volumes.size(); ++i) {
-    shared::VolumeInstance& volume = plan.media.volumes[i].instance;
     const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
-    volume.sun_from_voxel = glm::mat4x3(glm::mat4(sun.sweep_from_world) * glm::mat4(volume.world_from_voxel));
+    for (MediaPlan* media : {&plan.media, &plan.lit_media}) {
+      shared::VolumeInstance& volume = media->volumes[i].instance;
+      volume.sun_from_voxel =
+          glm::mat4x3(glm::mat4(sun.sweep_from_world) * glm::mat4(volume.world_from_voxel));
+    }
   }
 }
 
@@ -96,7 +109,7 @@ const sim::State& FramePlan::state() const {
 
 FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history) {
   FramePlan plan(input, target.size_px);
-  plan_visibility(plan, target);
+  plan_visibility(plan, target, history);
   plan_level(plan, history);
   const SmokeInput& smoke = plan.input.smoke;
   const std::uint32_t slots = smoke.volume ? smoke.volume->slot_count() : 0;

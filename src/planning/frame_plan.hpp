@@ -12,6 +12,7 @@
 #include "planning/smoke_shadow_cache.hpp"
 #include "planning/view_frustum.hpp"
 #include "planning/volume_light_plan.hpp"
+#include "planning/volume_streaming.hpp"
 
 namespace brume::planning {
 
@@ -37,12 +38,15 @@ struct FramePlan {
   std::vector<shared::Light> lights;  ///< Of the scene and of the frame that reach what is in view.
   SmokeVisibility visibility;
   MediaPlan media;
+  /// The media as light is found in them and shadows are cast by them: volumes may have other resolutions.
+  MediaPlan lit_media;
 
   // What changed.
   bool level_changed = false;                  ///< Walls or hidden objects.
   std::vector<std::uint32_t> changed_objects;  ///< Hidden or shown since the frame before, rising.
 
   // What is updated.
+  std::vector<VolumeResidency> residency;  ///< Of the input's volumes.
   HolePlan holes;
   NoisePlan noise;
   std::optional<SmokeShadowUpdate> smoke_shadows;  ///< Empty: those of the frame before hold.
@@ -62,6 +66,7 @@ struct PlanHistory {
   SmokeShadowCache smoke_shadows;
   SmokeLightCache smoke_light;
   VolumeLightCache volume_light;
+  VolumeStreaming volume_streaming;
   LevelView level;
   std::vector<std::uint32_t> hidden_objects;
 };

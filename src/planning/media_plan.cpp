@@ -54,26 +54,32 @@ void add_medium(MediaPlan& plan, std::uint32_t bit, const Box<float>& world, flo
   frame.extinction = (first ? 0 : frame.extinction) + extinction;
 }
 
-void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, const Box<float>& world) {
+bool has_heat(const VolumeInput& volume) {
+  return volume.heat.volume && volume.heat.volume->slot_count() > 0;
+}
+
+shared::VolumeInstance instance_of(const VolumeInput& volume) {
   const shared::VolumeLayout& layout = volume.volume->layout();
+  shared::VolumeHeat heat{};
+  if (has_heat(volume)) heat = {inverse_of(volume.heat.world_from_voxel), {}, 1 / volume.heat.high};
+  return {inverse_of(volume.world_from_voxel),
+          glm::mat4x3(volume.world_from_voxel),
+          layout.bounds_min,
+          layout.bounds_max,
+          volume.look,
+          {},
+          heat,
+          {}};
+}
+
+void add_volume(MediaPlan& plan, const VolumeInput& volume, const VisibleVolume& visible) {
+  const Box<float>& world = visible.bounds_world;
   add_medium(plan, shared::kMediumVolumes, world, volume.look.extinction, step_of(volume.world_from_voxel));
   const glm::vec3 light = volume.look.albedo + volume.look.emission;
   if (std::max({light.r, light.g, light.b}) > 0) plan.media |= shared::kMediumLit;
-  shared::VolumeHeat heat{};
-  if (volume.heat.volume && volume.heat.volume->slot_count() > 0) {
-    plan.media |= shared::kMediumHeat;
-    heat = {inverse_of(volume.heat.world_from_voxel), {}, 1 / volume.heat.high};
-  }
-  plan.volumes.push_back({index,
-                          world,
-                          {inverse_of(volume.world_from_voxel),
-                           glm::mat4x3(volume.world_from_voxel),
-                           layout.bounds_min,
-                           layout.bounds_max,
-                           volume.look,
-                           {},
-                           heat,
-                           {}}});
+  if (has_heat(volume)) plan.media |= shared::kMediumHeat;
+  plan.volumes.push_back(visible);
+  plan.volumes.back().instance = instance_of(volume);
   if (++plan.frame.volume_count > 1) plan.media |= shared::kMediumSeveral;
 }
 
@@ -95,8 +101,29 @@ shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::
       glm::vec3(0, 1, 0), glm::vec3(0)};
 }
 
+VolumeInput shown_volume(const VolumeInput& volume, bool preview) {
+  VolumeInput shown = volume;
+  if (preview && volume.preview) {
+    shown.volume = volume.preview;
+    shown.world_from_voxel = volume.world_from_preview;
+  }
+  if (preview && volume.heat.preview) {
+    shown.heat.volume = volume.heat.preview;
+    shown.heat.world_from_voxel = volume.heat.world_from_preview;
+  }
+  return shown;
+}
+
+void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
+                     const std::vector<bool>& previews) {
+  for (VisibleVolume& visible : plan.volumes) {
+    visible.is_preview = !previews.empty() && previews[visible.index];
+    visible.instance = instance_of(shown_volume(volumes[visible.index], visible.is_preview));
+  }
+}
+
 MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
-                     std::span<const shared::Light> lights) {
+                     std::span<const shared::Light> lights, const std::vector<bool>& previews) {
   if (input.volumes.size() > shared::kMaxVolumes)
     throw Error(ErrorCode::bad_input, "a frame of " + std::to_string(input.volumes.size()) +
                                           " volumes; at most " + std::to_string(shared::kMaxVolumes));
@@ -113,7 +140,9 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
     const VolumeInput& other = input.volumes[i];
     const shared::VolumeLayout& layout = other.volume->layout();
     const Box<float> world = world_box(other.world_from_voxel, {layout.bounds_min, layout.bounds_max});
-    if (other.volume->slot_count() > 0 && may_be_visible(frustum, world)) add_volume(plan, other, i, world);
+    if (other.volume->slot_count() == 0 || !may_be_visible(frustum, world)) continue;
+    const bool preview = !previews.empty() && previews[i];
+    add_volume(plan, shown_volume(other, preview), {i, world, {}, preview});
   }
   add_sun(plan, lights);
   // A frame of nothing is one of smoke that is nowhere.

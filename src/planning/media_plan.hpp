@@ -2,6 +2,7 @@
 // together.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "planning/frame_input.hpp"
@@ -18,6 +19,7 @@ struct VisibleVolume {
   std::size_t index = 0;  ///< In FrameInput::volumes.
   Box<float> bounds_world;
   shared::VolumeInstance instance{};  ///< All but the places of its bricks, which the atlas knows.
+  bool is_preview = false;            ///< Of the previews of density and heat, where they have one.
 };
 
 struct MediaPlan {
@@ -31,8 +33,16 @@ struct MediaPlan {
 /// Of the smoke alone.
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look);
 
+/// A volume as it is, or its previews in their places.
+VolumeInput shown_volume(const VolumeInput& volume, bool preview);
+
+/// The same volumes in view at other resolutions: `previews` as for plan_media.
+void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
+                     const std::vector<bool>& previews);
+
+/// `previews`: of each volume of the input, whether its preview is shown; empty: none.
 /// Throws bad_input for a transform without an inverse and for more than shared::kMaxVolumes volumes.
 MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility, const ViewFrustum& frustum,
-                     std::span<const shared::Light> lights);
+                     std::span<const shared::Light> lights, const std::vector<bool>& previews = {});
 
 }  // namespace brume::planning

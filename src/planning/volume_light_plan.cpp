@@ -45,7 +45,7 @@ class KeyBytes {
 std::vector<std::byte> key_of(const VolumeLightInputs& in) {
   KeyBytes key;
   for (const VisibleVolume& visible : in.media->volumes) {
-    const volume::SparseVolume& volume = *in.volumes[visible.index].volume;
+    const volume::SparseVolume& volume = *shown_volume(in.volumes[visible.index], visible.is_preview).volume;
     key.add(volume.id());
     key.add(volume.revision());
     key.add(visible.instance.voxel_from_world);

@@ -32,10 +32,11 @@ constexpr double kJitterRate = 360;
 constexpr double kRounding = 1e-3;
 
 /// The volumes at a time, which stay loaded until another one is read.
-std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scenario, double seconds) {
+std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scenario, double seconds,
+                                                 scenario::VolumeWait wait) {
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
   std::vector<planning::VolumeInput> inputs;
-  for (const scenario::VolumeAt& volume : scenario.volumes->at(options, seconds)) {
+  for (const scenario::VolumeAt& volume : scenario.volumes->at(options, seconds, wait)) {
     const scene::VolumeOptions& look = options[inputs.size()];
     planning::VolumeInput input{volume.frame->density.volume.get(), volume.world_from_density, {}, {}};
     const grids::BrickVolume& density = volume.frame->density;
@@ -44,6 +45,14 @@ std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scena
       // What glows is a multiple of the look's extinction, which is that of the stored density.
       input.heat = {heat->volume.get(), volume.world_from_heat, look.kelvin * heat->unit,
                     heat->high / heat->unit, look.emission / density.unit};
+    if (const auto& preview = volume.preview; preview && preview->density) {
+      input.preview = preview->density->volume.get();
+      input.world_from_preview = volume.world_from_density_preview;
+    }
+    if (const auto& preview = volume.preview; preview && preview->heat && input.heat.volume) {
+      input.heat.preview = preview->heat->volume.get();
+      input.heat.world_from_preview = volume.world_from_heat_preview;
+    }
     inputs.push_back(input);
   }
   return inputs;
@@ -52,7 +61,7 @@ std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scena
 }  // namespace
 
 FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
-                       double seconds, std::vector<shared::Hole>& holes) {
+                       double seconds, std::vector<shared::Hole>& holes, scenario::VolumeWait wait) {
   const scene::Timeline& timeline = scenario.timeline;
   FrameInput input;
   input.view.camera = scene::camera_at(timeline, scenario.camera, seconds);
@@ -86,7 +95,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.environment.flashes = scenario::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
     input.level.grenades.push_back(grenade_matrix(grenade));
-  if (scenario.volumes) input.volumes = volume_inputs(scenario, seconds);
+  if (scenario.volumes) input.volumes = volume_inputs(scenario, seconds, wait);
   const auto hidden = simulation.hidden_objects();
   input.level.hidden_objects.assign(hidden.begin(), hidden.end());
   return input;

@@ -13,7 +13,8 @@ namespace brume::render {
 
 /// What a renderer shows of a scenario at a time. `holes` keeps the holes that the result refers to.
 FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
-                       double seconds, std::vector<shared::Hole>& holes);
+                       double seconds, std::vector<shared::Hole>& holes,
+                       scenario::VolumeWait wait = scenario::VolumeWait::until_loaded);
 
 /// A scenario on a device, frame after frame.
 class Playback {

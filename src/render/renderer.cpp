@@ -87,6 +87,7 @@ planning::PlanTarget Renderer::plan_target() const {
 FramePlan Renderer::plan(const FrameInput& input) {
   const std::vector<std::uint32_t> hidden_objects = history_.hidden_objects;
   try {
+    upload_volumes(input);
     FramePlan plan = planning::plan_frame(input, plan_target(), history_);
     reserve(plan);
     return plan;
@@ -95,6 +96,19 @@ FramePlan Renderer::plan(const FrameInput& input) {
     history_ = planning::PlanHistory();
     history_.hidden_objects = hidden_objects;
     throw;
+  }
+}
+
+/// Makes room for the volumes of a frame, and uploads those that it must find whole.
+void Renderer::upload_volumes(const FrameInput& input) {
+  constexpr std::uint64_t kPartBytes = 64u << 20;
+  const std::uint64_t budget = input.quality.volume_upload_bytes;
+  planning::VolumeStreaming& streaming = history_.volume_streaming;
+  for (const std::uint64_t missing : smoke_.reserve_volumes(input.volumes)) streaming.lose(missing);
+  while (!streaming.is_ready(input.volumes, budget)) {
+    const std::vector<planning::VolumeResidency> part =
+        streaming.plan_part(input.volumes, budget, kPartBytes);
+    runner_.run([&](gpu::Recorder& recorder) { smoke_.record_volume_part(recorder, input.volumes, part); });
   }
 }
 

@@ -56,11 +56,14 @@ class Renderer {
   const gpu::Image& media() const { return smoke_.result(targets_); }
   const SmokeFrame& smoke() const { return smoke_; }
   const SceneView& scene() const { return scene_; }
+  /// Whether volumes of the last frame have bricks that are still to be uploaded.
+  bool streams_volumes() const { return !history_.volume_streaming.complete(); }
   /// What of the light in the smoke the last frame updated.
   const planning::SmokeLightPlan& light_plan() const { return history_.smoke_light.last_plan(); }
 
  private:
   planning::PlanTarget plan_target() const;
+  void upload_volumes(const FrameInput& input);
   void reserve(FramePlan& plan);
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   FrameResources resources(const FramePlan& plan);

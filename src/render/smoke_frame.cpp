@@ -74,7 +74,6 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
     smoke_upload_.reserve(*input.smoke.volume);
     noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
   }
-  volume_upload_.reserve(input.volumes);
   if (volume_light_pass_.reserve(plan.volume_light, plan.media.media)) plan.volume_light.update = true;
   hole_clusters_.reserve(plan.holes);
   shadow_pass_.reserve(casting_media(plan));
@@ -91,7 +90,8 @@ void SmokeFrame::record_upload(gpu::Recorder& recorder, const FramePlan& plan, c
   recorder.fill(march_of(in).counters, 0);
   if (plan.input.smoke.volume) smoke_upload_.record(recorder, *plan.input.smoke.volume);
   smoke_upload_.record_visibility(recorder, plan.visibility);
-  volume_upload_.record(recorder, plan.input.volumes, plan.media.volumes);
+  volume_upload_.record(recorder, plan.input.volumes, plan.residency, plan.media.volumes,
+                        plan.lit_media.volumes);
 }
 
 void SmokeFrame::record_holes(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
@@ -106,7 +106,7 @@ void SmokeFrame::record_noise_advection(gpu::Recorder& recorder, const FramePlan
 
 void SmokeFrame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   if (!plan.smoke_shadows) return;
-  const passes::VolumeResources volumes = volume_upload_.resources();
+  const passes::VolumeResources volumes = volume_upload_.lit_resources();
   shadow_pass_.record(recorder,
                       {in.frame, in.scene.resources(), in.scene.shadows(), in.scene.level().solid,
                        resources(), holes(), volumes, casting_media(plan)},
@@ -121,7 +121,7 @@ void SmokeFrame::record_light(gpu::Recorder& recorder, const FramePlan& plan, co
 
 void SmokeFrame::record_volume_light(gpu::Recorder& recorder, const FramePlan& plan,
                                      const FrameResources& in) {
-  const passes::VolumeResources volumes = volume_upload_.resources();
+  const passes::VolumeResources volumes = volume_upload_.lit_resources();
   const passes::LevelLight level = in.scene.level();
   volume_light_pass_.record(recorder,
                             {in.frame, plan.media.media, in.scene.resources(), in.scene.shadows(), level,

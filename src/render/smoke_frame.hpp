@@ -53,6 +53,16 @@ class SmokeFrame {
   void set_march_scale(std::uint32_t scale);
   /// Other masks of the holes; uploads them.
   void set_masks(const smoke::MaskAtlas& masks);
+  /// Makes room for the volumes of a frame, before it is planned. Returns those of which nothing is on the
+  /// device (SparseVolume::id). Throws resource_limit.
+  std::vector<std::uint64_t> reserve_volumes(std::span<const planning::VolumeInput> volumes) {
+    return volume_upload_.reserve(volumes);
+  }
+  /// Uploads a part of large volumes, before the frame that they are shown in.
+  void record_volume_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                          std::span<const planning::VolumeResidency> part) {
+    volume_upload_.record_part(recorder, volumes, part);
+  }
   /// Makes room for a plan; plans the light again where the device lost what was cached of it.
   void reserve(planning::FramePlan& plan, planning::PlanHistory& history);
 

@@ -1,24 +1,18 @@
 #include "scenario/volumes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
 #include <regex>
 
 #include "core/log.hpp"
-#include "core/similar.hpp"
-#include "grids/files.hpp"
 
 namespace brume::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The names that Blender, Houdini and EmberGen give, in order.
-constexpr std::array kDensityNames{"density", "Density", "smoke", "fog", "soot", "surface"};
-constexpr std::array kHeatNames{"temperature", "heat", "flame", "flames", "fire", "burn"};
 
 /// Where the number of a frame stands in a name: "%04d" or "%d".
 struct NumberPlace {
@@ -51,99 +45,6 @@ Result<std::map<std::int64_t, fs::path>> files_of(const fs::path& file) {
   return found;
 }
 
-bool is_number_grid(const grids::Grid& grid) {
-  return grid.type == grids::ValueType::float32 || grid.type == grids::ValueType::float64;
-}
-
-/// The grid of a name; without one the first of the usual names; null: none.
-Result<const grids::Grid*> choose_grid(const grids::GridFile& file, const std::string& name,
-                                       std::span<const char* const> usual) {
-  std::vector<std::string> known;
-  for (const grids::Grid& grid : file.grids) {
-    if (!name.empty() && grid.name == name) return &grid;
-    known.push_back(grid.name);
-  }
-  if (!name.empty())
-    return Failure{ErrorCode::bad_input, "has no grid \"" + name + "\"" + suggestion(name, known, "\"")};
-  for (const char* const one : usual)
-    for (const grids::Grid& grid : file.grids)
-      if (grid.name == one && is_number_grid(grid)) return &grid;
-  return static_cast<const grids::Grid*>(nullptr);
-}
-
-Result<const grids::Grid*> choose_density(const grids::GridFile& file, const std::string& name) {
-  auto grid = choose_grid(file, name, kDensityNames);
-  if (!grid || *grid) return grid;
-  const auto first = std::ranges::find_if(file.grids, is_number_grid);
-  if (first == file.grids.end()) return Failure{ErrorCode::bad_input, "has no grid of numbers to render"};
-  return &*first;
-}
-
-/// Whether the file says so: Blender's solver names the resolution of its domain.
-bool is_z_up(const grids::Grid& grid) {
-  return std::ranges::any_of(grid.metadata, [](const grids::Metadata& one) {
-    return one.name == "file_base_resolution" || one.name.starts_with("blender");
-  });
-}
-
-Box<float> transformed(const glm::mat4& matrix, const Box<float>& box) {
-  Box<float> result = kEmptyBox;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
-    const glm::vec3 p(matrix * glm::vec4(glm::mix(box.low, box.high, high), 1));
-    result = united(result, {p, p});
-  }
-  return result;
-}
-
-void warn_of_level(const fs::path& file, const grids::Grid& grid, const grids::BrickVolume& volume) {
-  if (volume.level == 0) return;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                ": grid %s is shown at 1/%d of its resolution, off by %.2g of its largest value on average; "
-                "it is too large for the device",
-                grid.name.c_str(), 1 << volume.level,
-                volume.rms_error / std::max(double{volume.high}, 1e-30));
-  log_warning(file.string() + text);
-}
-
-Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
-                                                      const scene::VolumeOptions& options) {
-  const auto density = choose_density(grids, options.density);
-  if (!density) return density.failure();
-  const auto heat = choose_grid(grids, options.heat, kHeatNames);
-  if (!heat) return heat.failure();
-  auto frame = std::make_shared<VolumeFrame>();
-  const bool glows = *heat && *heat != *density;
-  const bool alike = glows && (*heat)->world_from_index == (*density)->world_from_index;
-  auto bricks = grids::make_brick_volume(**density, {.also = alike ? *heat : nullptr});
-  if (!bricks) return bricks.failure();
-  frame->density = std::move(*bricks);
-  warn_of_level(file, **density, frame->density);
-  if (glows) {
-    auto hot = grids::make_brick_volume(**heat);
-    if (!hot) return hot.failure();
-    warn_of_level(file, **heat, *hot);
-    if (hot->high > 0) frame->heat = std::move(*hot);
-  }
-
-  // What a first view is made from.
-  const double voxel = std::abs(glm::determinant(glm::dmat3((*density)->world_from_index)));
-  const auto active = static_cast<double>(count_active(**density));
-  frame->filled_volume = active * voxel;
-  frame->mean_density = active > 0 ? frame->density.sum * std::exp2(3 * frame->density.level) / active : 0;
-  const shared::VolumeLayout& layout = frame->density.volume->layout();
-  frame->bounds =
-      transformed(glm::mat4(frame->density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
-  // Of a ball, 2.2 standard deviations are the radius.
-  const glm::dvec3 reach = 2.2 * frame->density.deviation + 1.0;
-  const Box<float> core{glm::vec3(frame->density.mean - reach), glm::vec3(frame->density.mean + reach)};
-  frame->core = transformed(glm::mat4(frame->density.world_from_voxel),
-                            intersection(core, {layout.bounds_min, layout.bounds_max}));
-  frame->z_is_up = is_z_up(**density);
-  return std::shared_ptr<const VolumeFrame>(std::move(frame));
-}
-
 /// The number of the frame at a time, before missing ones are replaced.
 std::int64_t number_at(const scene::VolumeOptions& options, std::int64_t first, std::int64_t last,
                        double seconds) {
@@ -152,6 +53,17 @@ std::int64_t number_at(const scene::VolumeOptions& options, std::int64_t first, 
   const std::int64_t count = last - first + 1;
   if (!options.loop) return first + std::clamp<std::int64_t>(passed, 0, count - 1);
   return first + (passed % count + count) % count;
+}
+
+VolumeAt placed(const LoadedVolume& loaded, const scene::VolumeOptions& options) {
+  VolumeAt at{loaded.frame, loaded.preview, {}, {}, {}, {}};
+  const glm::dmat4 world(world_from_file(options));
+  const auto place = [&](const grids::BrickVolume& grid) { return glm::mat4(world * grid.world_from_voxel); };
+  at.world_from_density = place(at.frame->density);
+  if (at.frame->heat) at.world_from_heat = place(*at.frame->heat);
+  if (at.preview && at.preview->density) at.world_from_density_preview = place(*at.preview->density);
+  if (at.preview && at.preview->heat) at.world_from_heat_preview = place(*at.preview->heat);
+  return at;
 }
 
 }  // namespace
@@ -171,15 +83,17 @@ scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& f
   return {options.file.filename().string(), transformed(world, frame.bounds), transformed(world, frame.core)};
 }
 
-Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& file,
-                                                             const scene::VolumeOptions& options) {
-  const std::string where = options.place.empty() ? "" : options.place + ": ";
-  const auto grids = grids::load_grid_file(file);
-  if (!grids) return Failure{grids.failure().code, where + grids.failure().message};
-  auto frame = make_frame(file, *grids, options);
-  if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
-  if ((*frame)->density.high <= 0) log_warning(file.string() + ": nothing to see: no voxel is above 0");
-  return frame;
+std::vector<std::uint64_t> fair_parts(std::span<const std::uint64_t> wanted, std::uint64_t total) {
+  std::vector<std::size_t> order(wanted.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return wanted[i]; });
+  std::vector<std::uint64_t> parts(wanted.size());
+  std::uint64_t remaining = total;
+  for (std::size_t done = 0; done < order.size(); ++done) {
+    parts[order[done]] = std::min(wanted[order[done]], remaining / (order.size() - done));
+    remaining -= parts[order[done]];
+  }
+  return parts;
 }
 
 Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOptions> options) {
@@ -189,36 +103,142 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
     if (!files)
       return Failure{files.failure().code,
                      (one.place.empty() ? "" : one.place + ": ") + files.failure().message};
-    Sequence sequence{std::move(*files), nullptr, nullptr, 0};
+    Sequence sequence{one, std::move(*files), {}, {}, 0, {}, {}};
     auto frame = load_volume_frame(sequence.files.begin()->second, one);
     if (!frame) return frame.failure();
-    sequence.first = sequence.shown = std::move(*frame);
+    sequence.first = sequence.shown = {std::move(*frame), nullptr};
     sequence.shown_number = sequence.files.begin()->first;
     volumes->sequences_.push_back(std::move(sequence));
   }
+  volumes->start_loader();
   return volumes;
 }
 
-std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options, double seconds) {
-  BRUME_ASSERT(options.size() == sequences_.size(), std::to_string(options.size()));
-  std::vector<VolumeAt> volumes;
-  for (std::size_t i = 0; i < options.size(); ++i) {
-    Sequence& sequence = sequences_[i];
-    const std::int64_t wanted =
-        number_at(options[i], sequence.files.begin()->first, sequence.files.rbegin()->first, seconds);
-    const auto [number, file] = *std::prev(sequence.files.upper_bound(wanted));
-    if (number != sequence.shown_number) {
-      auto frame = load_volume_frame(file, options[i]);
-      if (frame) sequence.shown = std::move(*frame);
-      if (!frame) log_warning(frame.failure().message + "; the frame before it is shown");
-      sequence.shown_number = number;
-    }
-    VolumeAt at{sequence.shown};
-    const glm::dmat4 world(world_from_file(options[i]));
-    at.world_from_density = glm::mat4(world * at.frame->density.world_from_voxel);
-    if (at.frame->heat) at.world_from_heat = glm::mat4(world * at.frame->heat->world_from_voxel);
-    volumes.push_back(std::move(at));
+/// Another loader: what the one before has loaded or is loading is no longer of use.
+void Volumes::start_loader() {
+  struct Source {
+    scene::VolumeOptions options;
+    std::map<std::int64_t, fs::path> files;
+    VolumeRoom room;
+  };
+  // A copy: the thread shares nothing with the sequences.
+  auto sources = std::make_shared<std::vector<Source>>();
+  for (const Sequence& sequence : sequences_)
+    sources->push_back({sequence.options, sequence.files, sequence.room});
+  loader_ = std::make_unique<VolumeLoader>(
+      [sources, previews = has_previews_](const VolumeLoader::Key& key) -> Result<LoadedVolume> {
+        const Source& source = (*sources)[key.volume];
+        auto frame = load_volume_frame(source.files.at(key.number), source.options, source.room);
+        if (!frame) return frame.failure();
+        auto preview = previews ? scenario::make_previews(**frame) : nullptr;
+        return LoadedVolume{std::move(*frame), std::move(preview)};
+      });
+}
+
+Result<void> Volumes::limit(const VolumeRoom& room) {
+  std::vector<std::uint64_t> bricks, pages;
+  for (const Sequence& sequence : sequences_) {
+    const VolumeRoom takes = room_of(*sequence.first.frame);
+    bricks.push_back(takes.bricks);
+    pages.push_back(takes.pages);
   }
+  const std::vector<std::uint64_t> brick_parts = fair_parts(bricks, room.bricks),
+                                   page_parts = fair_parts(pages, room.pages);
+  VolumeRoom unused = room;
+  for (std::size_t i = 0; i < sequences_.size(); ++i) {
+    Sequence& sequence = sequences_[i];
+    VolumeRoom takes{bricks[i], pages[i]};
+    if (brick_parts[i] < bricks[i] || page_parts[i] < pages[i]) {
+      auto frame = load_volume_frame(sequence.files.begin()->second, sequence.options,
+                                     {brick_parts[i], page_parts[i]});
+      if (!frame) return frame.failure();
+      sequence.first = sequence.shown = {std::move(*frame), nullptr};
+      sequence.shown_number = sequence.files.begin()->first;
+      takes = room_of(*sequence.first.frame);
+    }
+    sequence.room = takes;
+    unused.bricks -= std::min(unused.bricks, takes.bricks);
+    unused.pages -= std::min(unused.pages, takes.pages);
+  }
+  // Later frames may be larger.
+  for (Sequence& sequence : sequences_) {
+    sequence.room.bricks += unused.bricks / sequences_.size();
+    sequence.room.pages += unused.pages / sequences_.size();
+  }
+  if (has_previews_) make_previews();
+  start_loader();
+  return {};
+}
+
+void Volumes::make_previews() {
+  has_previews_ = true;
+  for (Sequence& sequence : sequences_)
+    for (LoadedVolume* loaded : {&sequence.first, &sequence.shown})
+      if (!loaded->preview) loaded->preview = scenario::make_previews(*loaded->frame);
+  start_loader();
+}
+
+/// The frame that a time shows: the one before a missing one.
+std::int64_t Volumes::frame_at(const Sequence& sequence, const scene::VolumeOptions& options,
+                               double seconds) const {
+  const std::int64_t number =
+      number_at(options, sequence.files.begin()->first, sequence.files.rbegin()->first, seconds);
+  return std::prev(sequence.files.upper_bound(number))->first;
+}
+
+/// The frame that follows in time, if it is to be loaded.
+std::optional<std::int64_t> Volumes::frame_after(const Sequence& sequence,
+                                                 const scene::VolumeOptions& options,
+                                                 std::int64_t number) const {
+  auto next = sequence.files.upper_bound(number);
+  if (next == sequence.files.end()) {
+    if (!options.loop) return std::nullopt;
+    next = sequence.files.begin();
+  }
+  if (next->first == sequence.shown_number || sequence.unreadable.contains(next->first)) return std::nullopt;
+  return next->first;
+}
+
+void Volumes::show(std::size_t volume, std::int64_t number, Result<LoadedVolume> loaded) {
+  Sequence& sequence = sequences_[volume];
+  sequence.shown_number = number;
+  if (loaded) {
+    sequence.shown = std::move(*loaded);
+  } else {
+    log_warning(loaded.failure().message + "; the frame before it is shown");
+    sequence.unreadable.insert(number);
+  }
+}
+
+std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options, double seconds,
+                                  VolumeWait wait) {
+  BRUME_ASSERT(options.size() == sequences_.size(), std::to_string(options.size()));
+  // What to load: the frames of this time, then those after them.
+  std::vector<VolumeLoader::Key> wanted, ahead;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const std::int64_t number = frame_at(sequences_[i], options[i], seconds);
+    if (number != sequences_[i].shown_number && !sequences_[i].unreadable.contains(number))
+      wanted.push_back({i, number});
+    if (const auto next = frame_after(sequences_[i], options[i], number)) ahead.push_back({i, *next});
+  }
+  std::vector<VolumeLoader::Key> all = wanted;
+  all.insert(all.end(), ahead.begin(), ahead.end());
+  VolumeLoader::Results late = loader_->want(all);
+
+  // What is there.
+  is_behind_ = false;
+  for (const VolumeLoader::Key& key : wanted) {
+    auto loaded = wait == VolumeWait::until_loaded ? loader_->wait(key) : loader_->take(key);
+    is_behind_ |= !loaded;
+    if (loaded) {
+      show(key.volume, key.number, std::move(*loaded));
+      continue;
+    }
+    for (auto& [other, result] : late)
+      if (other.volume == key.volume && result) show(other.volume, other.number, std::move(result));
+  }
+  std::vector<VolumeAt> volumes;
+  for (std::size_t i = 0; i < options.size(); ++i) volumes.push_back(placed(sequences_[i].shown, options[i]));
   return volumes;
 }
 

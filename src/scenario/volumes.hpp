@@ -6,35 +6,34 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
-#include "core/box.hpp"
 #include "core/error.hpp"
-#include "grids/brick_volume.hpp"
+#include "scenario/volume_frame.hpp"
+#include "scenario/volume_loader.hpp"
 #include "scene/scene.hpp"
 #include "scene/timeline.hpp"
 
 namespace brume::scenario {
 
-/// The grids of one file that are rendered.
-struct VolumeFrame {
-  grids::BrickVolume density;
-  std::optional<grids::BrickVolume> heat;
-  double mean_density = 0;   ///< Of the active voxels.
-  double filled_volume = 0;  ///< That all active voxels take, in the file's world.
-  Box<float> bounds;         ///< Around what can be dense, in the file's world.
-  Box<float> core;           ///< Around most of it: a ball, but none of the wisps around it.
-  bool z_is_up = false;      ///< As Blender writes files; other programs have y up.
-};
-
 /// A volume at one time.
 struct VolumeAt {
   std::shared_ptr<const VolumeFrame> frame;
+  std::shared_ptr<const VolumePreview> preview;         ///< Null: none was made.
   glm::mat4 world_from_density{1}, world_from_heat{1};  ///< From the voxels of the grids.
+  glm::mat4 world_from_density_preview{1}, world_from_heat_preview{1};
 };
 
-/// Not for several threads at a time.
+/// What to do about a frame that is not loaded yet.
+enum class VolumeWait {
+  until_loaded,  ///< Wait: what is shown does not depend on timing.
+  never,         ///< Show the frame before it until it is.
+};
+
+/// Loads frames in a thread of its own, the next one of each sequence ahead. Not for several threads at a
+/// time.
 class Volumes {
  public:
   /// Loads the first frame of each. Fails as grids::load_grid_file, and with bad_input for a sequence without
@@ -42,31 +41,52 @@ class Volumes {
   static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options);
 
   /// All volumes, in the order of the options. A frame that is missing from a sequence shows the one before
-  /// it, so do times after the last; before the first, the first. Warns of a frame that cannot be read, which
-  /// shows the last one that was. Frames remain loaded as long as they are shown.
-  std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds);
+  /// it, so do times after the last; before the first, the first. Warns once of a frame that cannot be read,
+  /// which shows the last one that was. Frames remain loaded as long as they are shown.
+  std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds,
+                           VolumeWait wait = VolumeWait::until_loaded);
+  /// Whether the last `at` showed frames of other times, since theirs were not loaded.
+  bool is_behind() const { return is_behind_; }
 
-  const VolumeFrame& first_frame(std::size_t volume) const { return *sequences_[volume].first; }
+  /// Makes room for all volumes together: where the first frames take more, those that take more than a fair
+  /// part are loaded again at a lower resolution, each with a warning; so are frames that are loaded later.
+  /// Fails as `load`.
+  Result<void> limit(const VolumeRoom& room);
+  /// Makes previews of all frames, those that are loaded included.
+  void make_previews();
+
+  const VolumeFrame& first_frame(std::size_t volume) const { return *sequences_[volume].first.frame; }
   /// All files of all sequences.
   std::vector<std::filesystem::path> files() const;
 
  private:
   struct Sequence {
+    scene::VolumeOptions options;
     std::map<std::int64_t, std::filesystem::path> files;  ///< By number of the frame.
-    std::shared_ptr<const VolumeFrame> first, shown;
+    LoadedVolume first, shown;
     std::int64_t shown_number = 0;
+    std::set<std::int64_t> unreadable;  ///< Frames of which a warning was given.
+    VolumeRoom room{};                  ///< Of each frame.
   };
+  std::int64_t frame_at(const Sequence& sequence, const scene::VolumeOptions& options, double seconds) const;
+  std::optional<std::int64_t> frame_after(const Sequence& sequence, const scene::VolumeOptions& options,
+                                          std::int64_t number) const;
+  void show(std::size_t volume, std::int64_t number, Result<LoadedVolume> loaded);
+  void start_loader();
+
   std::vector<Sequence> sequences_;
+  bool has_previews_ = false, is_behind_ = false;
+  std::unique_ptr<VolumeLoader> loader_;  ///< Of the rooms and previews as they are.
 };
+
+/// The part of `total` that each of several gets: what it wants where that is at most a fair part, and else
+/// as much as all others that get less than they want. The sum of the parts is at most `total`.
+std::vector<std::uint64_t> fair_parts(std::span<const std::uint64_t> wanted, std::uint64_t total);
 
 /// Where the first frame of a volume is.
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
 
 /// From the world of a volume's file to that of the scene [m].
 glm::mat4 world_from_file(const scene::VolumeOptions& options);
-
-/// Loads the grids that the options name.
-Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const std::filesystem::path& file,
-                                                             const scene::VolumeOptions& options);
 
 }  // namespace brume::scenario

@@ -19,11 +19,13 @@ class PageTable {
  public:
   static constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};
 
+  /// Whether an entry of a node is slot + 1: neither 0 nor that of a uniform brick.
+  static bool is_slot(std::uint32_t entry) { return entry != 0 && (entry & shared::kUniformBrick) == 0; }
   /// The slot of a brick, or kNoSlot.
   std::uint32_t at(glm::ivec3 brick) const {
     const std::uint32_t node = node_at(brick >> 3);
     const std::uint32_t entry = node == kNoNode ? 0 : nodes_[first_of(node) + local_of(brick)];
-    return (entry & shared::kUniformBrick) != 0 ? kNoSlot : entry - 1;  // 0 wraps to kNoSlot
+    return is_slot(entry) ? entry - 1 : kNoSlot;
   }
   /// The texel of a uniform brick, a half float.
   std::optional<std::uint16_t> uniform_at(glm::ivec3 brick) const {

@@ -59,7 +59,8 @@ void SparseVolume::begin_update() {
 }
 
 std::uint32_t SparseVolume::acquire(glm::ivec3 brick) {
-  BRUME_ASSERT(updating_ && slot_at(brick) == kNoSlot, "outside of an update, or the brick has a slot");
+  BRUME_ASSERT(updating_ && slot_at(brick) == kNoSlot && !uniform_at(brick),
+               "outside of an update, or the brick exists");
   std::uint32_t slot = slot_count();
   if (free_slots_.empty()) {
     if (slot == max_bricks_) throw_too_many_bricks(max_bricks_);
@@ -75,9 +76,11 @@ std::uint32_t SparseVolume::acquire(glm::ivec3 brick) {
 }
 
 void SparseVolume::set_uniform(glm::ivec3 brick, std::uint16_t texel) {
-  BRUME_ASSERT(updating_ && slot_at(brick) == kNoSlot, "outside of an update, or the brick has a slot");
+  BRUME_ASSERT(updating_ && slot_at(brick) == kNoSlot && !uniform_at(brick),
+               "outside of an update, or the brick exists");
   BRUME_ASSERT(channels_.size() == 1 && channels_[0].format.bytes_per_texel == sizeof texel, "one half float");
   pages_.set_uniform(brick, texel);
+  uniform_bricks_.push_back({brick, texel});
   structure_changed_ = true;
 }
 
@@ -154,6 +157,7 @@ NeighbourSlots SparseVolume::slots_around(glm::ivec3 brick) const {
 std::uint64_t SparseVolume::bytes() const {
   std::uint64_t sum =
       slots_.capacity() * sizeof(Slot) + pages_.root().size_bytes() + pages_.nodes().size_bytes();
+  sum += uniform_bricks_.capacity() * sizeof(UniformBrick);
   for (const Channel& channel : channels_)
     sum += channel.texels.size() *
            (sizeof(void*) + std::uint64_t{channel.format.bytes_per_texel} * shared::kTexelsPerBrick);

@@ -44,6 +44,12 @@ struct SparseVolumeInfo {
   std::uint32_t max_bricks = kMaxAtlasSlots;  ///< In [1, kMaxAtlasSlots].
 };
 
+/// A brick whose texels, apron included, are all this half float.
+struct UniformBrick {
+  glm::ivec3 at{0};
+  std::uint16_t texel = 0;
+};
+
 /// The slots of the 3^3 bricks around one, itself in the middle: x + 3 y + 9 z of brick - at + 1; kNoSlot
 /// where there is no brick.
 using NeighbourSlots = std::array<std::uint32_t, 27>;
@@ -64,8 +70,8 @@ class SparseVolume {
   /// Gives the brick the lowest free slot. Its texels are 0 and dirty in every channel. The brick must have
   /// none. Throws resource_limit, with nothing changed, when the volume has max_bricks bricks.
   std::uint32_t acquire(glm::ivec3 brick);
-  /// Makes a brick, which must have no slot, uniform: it takes none, and all texels of its only channel are
-  /// this half float. For volumes that are not changed.
+  /// Makes a brick that does not exist uniform: without a slot, all texels of its only channel this half
+  /// float. It remains so.
   void set_uniform(glm::ivec3 brick, std::uint16_t texel);
   /// Takes the slot from its brick. Its texels become 0 and dirty in every channel; slot_count() falls when
   /// no slot above it is in use.
@@ -79,6 +85,8 @@ class SparseVolume {
 
   /// The slot of a brick, or kNoSlot.
   std::uint32_t slot_at(glm::ivec3 brick) const { return pages_.at(brick); }
+  /// In the order in which they were set.
+  std::span<const UniformBrick> uniform_bricks() const { return uniform_bricks_; }
   /// The texel of a uniform brick.
   std::optional<std::uint16_t> uniform_at(glm::ivec3 brick) const { return pages_.uniform_at(brick); }
   NeighbourSlots slots_around(glm::ivec3 brick) const;
@@ -178,6 +186,7 @@ class SparseVolume {
   std::vector<Slot> slots_;
   std::set<std::uint32_t> free_slots_;  // those of slots_ that no brick has
   std::vector<Channel> channels_;
+  std::vector<UniformBrick> uniform_bricks_;
   SlotSet dirty_bricks_;
   bool updating_ = false, structure_changed_ = false;
   std::uint64_t revision_ = 0, structure_generation_ = 0;

@@ -43,13 +43,10 @@ float value_at(const Grid& grid, glm::ivec3 at) {
   return value;
 }
 
-/// What filtering of the bricks gives at a point of voxel space, as the device does.
-float filtered(const volume::SparseVolume& volume, glm::vec3 p) {
-  const glm::ivec3 brick = glm::ivec3(glm::floor(p / 8.0f));
-  const std::uint32_t slot = volume.slot_at(brick);
-  if (slot == volume::SparseVolume::kNoSlot) return 0;
+/// What filtering gives at a point of a brick [voxels from its low corner], as the device does.
+float filtered_in(const volume::SparseVolume& volume, std::uint32_t slot, glm::vec3 p) {
   const auto texels = volume.texels<std::uint16_t>(volume::ChannelId{0}, slot);
-  const glm::vec3 q = p - glm::vec3(brick * 8) + 0.5f;  // texel centres at whole numbers, the apron's at 0
+  const glm::vec3 q = p + 0.5f;  // texel centres at whole numbers, the apron's at 0
   const glm::ivec3 first = glm::ivec3(glm::floor(q));
   const glm::vec3 weight = q - glm::vec3(first);
   float sum = 0;
@@ -60,6 +57,13 @@ float filtered(const volume::SparseVolume& volume, glm::vec3 p) {
            glm::unpackHalf1x16(texels[static_cast<std::size_t>(texel.x + 10 * (texel.y + 10 * texel.z))]);
   }
   return sum;
+}
+
+/// The same at a point of voxel space.
+float filtered(const volume::SparseVolume& volume, glm::vec3 p) {
+  const glm::ivec3 brick = glm::ivec3(glm::floor(p / 8.0f));
+  const std::uint32_t slot = volume.slot_at(brick);
+  return slot == volume::SparseVolume::kNoSlot ? 0 : filtered_in(volume, slot, p - glm::vec3(brick * 8));
 }
 
 TEST(BrickVolume, FiltersAsTheGridEverywhere) {
@@ -147,19 +151,142 @@ TEST(BrickVolume, ALevelSetIsSolidInsideAndEmptyOutside) {
         << x;
 }
 
-TEST(BrickVolume, RefusesMasksAndHugeTiles) {
+TEST(BrickVolume, RefusesMasksAndTakesNothing) {
   Grid grid;
   grid.type = ValueType::mask;
   EXPECT_EQ(make_brick_volume(grid).failure().code, ErrorCode::bad_input);
   grid.type = ValueType::float32;
-  Tile tile{glm::ivec3(0), 4096, true, {}};
-  const float one = 1;
-  std::memcpy(tile.value.data(), &one, sizeof one);
-  grid.tiles = {tile};
-  EXPECT_EQ(make_brick_volume(grid).failure().code, ErrorCode::resource_limit);
-  grid.tiles.clear();
   const BrickVolume nothing = make_brick_volume(grid).value_or_throw();
   EXPECT_EQ(nothing.volume->slot_count(), 0u);
+  EXPECT_TRUE(nothing.ranges.empty());
+}
+
+Tile tile_of(glm::ivec3 origin, std::uint32_t edge, float value) {
+  Tile tile{origin, edge, true, {}};
+  std::memcpy(tile.value.data(), &value, sizeof value);
+  return tile;
+}
+
+// 2^36 voxels of one value: level 6 has 8^3 bricks of them, and a brick around.
+TEST(BrickVolume, AHugeTileIsHalvedWithoutBecomingBricks) {
+  Grid grid;
+  grid.tiles = {tile_of(glm::ivec3(0), 4096, 0.75f)};
+  const BrickVolume bricks = make_brick_volume(grid, {1000}).value_or_throw();
+  EXPECT_EQ(bricks.level, 6);
+  EXPECT_EQ(bricks.volume->slot_count(), 1000u);
+  EXPECT_EQ(bricks.sum, 0.75 * 64 * 64 * 64);
+  EXPECT_EQ(bricks.rms_error, 0) << "nothing of a constant is lost";
+  EXPECT_EQ(filtered(*bricks.volume, glm::vec3(1, 20, 63)), 0.75f);
+  const glm::dvec4 end = bricks.world_from_voxel * glm::dvec4(glm::dvec3(64), 1);
+  EXPECT_EQ(glm::dvec3(end), glm::dvec3(4095.5)) << "where the last voxel ends";
+}
+
+// A tile of 128 beside bricks of another value, at every level from 0 on, against means of the file's voxels.
+TEST(BrickVolume, TilesAndBricksAreHalvedAlike) {
+  Grid grid = random_grid(11);
+  grid.tiles = {tile_of({128, 0, 0}, 128, 1.5f), tile_of({24, 0, 8}, 8, 0.5f)};
+  const auto value = [&](glm::ivec3 at) {
+    for (const Tile& tile : grid.tiles)
+      if (Box<int>{tile.origin, tile.origin + static_cast<int>(tile.edge)}.contains(at))
+        return tile.edge == 8 ? 0.5f : 1.5f;
+    return value_at(grid, at);
+  };
+  for (const auto& [max_bricks, level] : {std::pair(100000u, 0), {2000u, 1}, {300u, 2}}) {
+    const BrickVolume bricks = make_brick_volume(grid, {max_bricks}).value_or_throw();
+    ASSERT_EQ(bricks.level, level);
+    const int edge = 1 << level;
+    std::mt19937 random(1);
+    for (int i = 0; i < 3000; ++i) {
+      const glm::ivec3 at = (glm::ivec3(random() % 280, random() % 140, random() % 140) - 24) >> level;
+      double sum = 0;
+      for_each_in(Box<int>{at * edge, (at + 1) * edge}, [&](glm::ivec3 v) { sum += double{value(v)}; });
+      const double mean = sum / (edge * edge * edge);
+      EXPECT_NEAR(double{filtered(*bricks.volume, glm::vec3(at) + 0.5f)}, mean, mean / 2048) << level;
+    }
+  }
+}
+
+// Two bricks at the ends of index space would have a page table of 2^75 entries.
+TEST(BrickVolume, BricksFarApartAreHalvedUntilATableFindsThem) {
+  Grid grid;
+  const float one = 1;
+  for (const int at : {-(1 << 30), (1 << 30) - 8}) {
+    Brick& brick = grid.bricks.emplace_back();
+    brick.origin = glm::ivec3(at);
+    brick.active.fill(~std::uint64_t{0});
+    for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
+      const auto* const bytes = reinterpret_cast<const std::byte*>(&one);
+      grid.values.insert(grid.values.end(), bytes, bytes + sizeof one);
+    }
+  }
+  const BrickVolume bricks = make_brick_volume(grid, {.max_pages = kFewestVolumePages}).value_or_throw();
+  EXPECT_GT(bricks.level, 20);
+  const volume::PageTable& pages = bricks.volume->pages();
+  EXPECT_LE(pages.root().size() + pages.nodes().size(), kFewestVolumePages);
+  EXPECT_NEAR(bricks.sum * std::exp2(3 * bricks.level), 2 * 512, 1e-3) << "the mass remains";
+  EXPECT_NEAR(bricks.rms_error, 1, 1e-3) << "all that was 1 is nearly 0";
+}
+
+// Random points never leave the range of their brick, and its ends are values at the points where filtering
+// has its extremes: voxel centres and middles between texels on faces.
+TEST(BrickVolume, TheRangeOfABrickIsThatOfItsSamples) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> inside(0, 8);
+  for (const float factor : {1.0f, 1e-6f}) {
+    Grid grid = random_grid(9);
+    for (std::size_t i = 0; i < grid.values.size(); i += 4) {
+      float value = 0;
+      std::memcpy(&value, &grid.values[i], sizeof value);
+      value *= factor * (random() % 64 == 0 ? 50.0f : 1.0f);
+      std::memcpy(&grid.values[i], &value, sizeof value);
+    }
+    const BrickVolume bricks = make_brick_volume(grid).value_or_throw();
+    ASSERT_EQ(bricks.ranges.size(), bricks.volume->slot_count());
+    for (std::uint32_t slot = 0; slot < bricks.volume->slot_count(); ++slot) {
+      const ValueRange range = bricks.ranges[slot];
+      const glm::vec3 low(bricks.volume->brick_of(slot) * 8);
+      // The sampler of this test rounds each of its 8 products and sums.
+      const float rounding = 16 * range.high * 6e-8f;
+      for (int i = 0; i < 300; ++i) {
+        glm::vec3 p = low + glm::vec3(inside(random), inside(random), inside(random));
+        if (i % 3 == 0) p[i / 3 % 3] = low[i / 3 % 3];  // on a face
+        const float value = filtered(*bricks.volume, p);
+        EXPECT_GE(value, range.low - rounding);
+        EXPECT_LE(value, range.high + rounding);
+      }
+      float least = range.high, most = 0;
+      for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(10)}, [&](glm::ivec3 at) {
+        // A face belongs to the next brick: the sampler takes the last float before it.
+        const glm::vec3 q = glm::clamp(glm::vec3(at) - 0.5f, 0.0f, 7.9999995f);
+        const float value = filtered_in(*bricks.volume, slot, q);
+        least = std::min(least, value);
+        most = std::max(most, value);
+      });
+      EXPECT_NEAR(least, range.low, 1e-6f * range.high + rounding);
+      EXPECT_NEAR(most, range.high, 1e-6f * range.high + rounding);
+    }
+  }
+}
+
+TEST(BrickVolume, APreviewIsTheSameAtALowerResolution) {
+  const Grid grid = random_grid(13);
+  const BrickVolume fine = make_brick_volume(grid).value_or_throw();
+  const BrickVolume preview = make_preview(fine, 24);
+  EXPECT_GE(preview.level, 1);
+  EXPECT_LE(preview.volume->slot_count(), 24u);
+  EXPECT_EQ(preview.unit, fine.unit);
+  // Halves round by 2^-11 of a value.
+  EXPECT_NEAR(preview.sum * std::exp2(3 * preview.level), fine.sum, fine.sum / 2048);
+  // The same bounds in the world: light that is stored by them holds for both.
+  for (const bool high : {false, true}) {
+    const shared::VolumeLayout &a = fine.volume->layout(), &b = preview.volume->layout();
+    const glm::dvec4 at(high ? a.bounds_max : a.bounds_min, 1), same(high ? b.bounds_max : b.bounds_min, 1);
+    EXPECT_LT(glm::length(glm::dvec4(fine.world_from_voxel * at) - preview.world_from_voxel * same), 1e-5);
+  }
+  // A brick wherever the fine one has one, for what glows there.
+  for (std::uint32_t slot = 0; slot < fine.volume->slot_count(); ++slot)
+    EXPECT_NE(preview.volume->slot_at(fine.volume->brick_of(slot) >> preview.level),
+              volume::SparseVolume::kNoSlot);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ class RaycastFixture : public gpu::GpuTest {
     info.usage = kRaycastTargetUsage | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     const gpu::Image target(context(), info);
     runner().run([&](gpu::Recorder& recorder) {
-      upload_.record(recorder, inputs, in_view);
+      upload_.record(recorder, inputs, {}, in_view, in_view);
       pass(form).record(recorder, {upload_.resources(), depth_},
                         planning::plan_raycast(device_camera(), size_, in_view, light_, steps_), target);
     });

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/log.hpp"
 #include "grids/files.hpp"
 #include "scenario/scenario.hpp"
 
@@ -71,6 +72,104 @@ TEST_F(VolumesTest, ADamagedFrameShowsTheOneBefore) {
   options[0].frame_rate = 1;
   const auto volumes = Volumes::load(options).value_or_throw();
   EXPECT_EQ(volumes->at(options, 1.5)[0].frame->density.high, 1);
+}
+
+// The next frame is read ahead; a viewer that does not wait ends at the same frames.
+TEST_F(VolumesTest, WithoutWaitingItEndsAtTheSameFrame) {
+  for (const int number : {1, 2, 3, 4})
+    save("f_" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number))});
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "f_%d.brv";
+  options[0].frame_rate = 1;
+  const auto volumes = Volumes::load(options).value_or_throw();
+  for (const double seconds : {0.5, 2.5, 1.5, 3.5, 0.5}) {
+    float shown = 0;
+    do {
+      shown = volumes->at(options, seconds, VolumeWait::never)[0].frame->density.high;
+    } while (volumes->is_behind());
+    EXPECT_EQ(shown, std::floor(seconds) + 1);
+  }
+}
+
+TEST_F(VolumesTest, AnUnreadableFrameWarnsOnce) {
+  save("f_1.brv", {cube("density", 1)});
+  std::ofstream(folder_ / "f_2.brv") << "not a volume";
+  save("f_3.brv", {cube("density", 3)});
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "f_%d.brv";
+  options[0].frame_rate = 1;
+  std::vector<std::string> warnings;
+  set_log_callback([&](LogLevel, const std::string& line) { warnings.push_back(line); });
+  const auto volumes = Volumes::load(options).value_or_throw();
+  for (const double seconds : {1.5, 0.5, 1.5, 2.5, 1.5, 0.5, 1.5}) volumes->at(options, seconds);
+  set_log_callback({});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("f_2.brv: not a .brv file; the frame before it is shown"), std::string::npos)
+      << warnings[0];
+}
+
+// Quitting in the middle of any of it.
+TEST_F(VolumesTest, EndsWhileItLoads) {
+  for (int number = 1; number <= 30; ++number)
+    save("f_" + std::to_string(number) + ".brv", {cube("density", 1)});
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "f_%d.brv";
+  options[0].frame_rate = 1;
+  for (int i = 0; i < 20; ++i) {
+    const auto volumes = Volumes::load(options).value_or_throw();
+    for (int frame = 0; frame <= i; ++frame) volumes->at(options, frame, VolumeWait::never);
+  }
+}
+
+TEST(FairParts, GiveWhatIsWantedOrAFairPart) {
+  const auto parts = [](std::vector<std::uint64_t> wanted, std::uint64_t total) {
+    return fair_parts(wanted, total);
+  };
+  using Parts = std::vector<std::uint64_t>;
+  EXPECT_EQ(parts({}, 10), Parts());
+  EXPECT_EQ(parts({3, 4}, 10), Parts({3, 4}));
+  EXPECT_EQ(parts({30, 4}, 10), Parts({6, 4}));
+  EXPECT_EQ(parts({30, 40, 1}, 11), Parts({5, 5, 1}));
+  EXPECT_EQ(parts({30, 40, 50}, 0), Parts({0, 0, 0}));
+}
+
+// Of three volumes that do not fit together, the small one stays as it is, and each large one has a warning.
+TEST_F(VolumesTest, VolumesThatDoNotFitTogetherAreReducedAlike) {
+  const auto cubes = [](int edge) {
+    grids::Grid grid = cube("density", 1);
+    const std::vector<std::byte> values = grid.values;
+    const grids::Brick brick = grid.bricks[0];
+    grid.bricks.clear();
+    grid.values.clear();
+    for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(edge)}, [&](glm::ivec3 at) {
+      grid.bricks.push_back(brick);
+      grid.bricks.back().origin = 8 * at;
+      grid.values.insert(grid.values.end(), values.begin(), values.end());
+    });
+    return grid;
+  };
+  std::vector<scene::VolumeOptions> options(3);
+  options[0].file = save("large.brv", {cubes(8)});   // 10^3 bricks with those around
+  options[1].file = save("small.brv", {cubes(1)});   // 3^3
+  options[2].file = save("larger.brv", {cubes(9)});  // 11^3
+  std::vector<std::string> warnings;
+  set_log_callback([&](LogLevel, const std::string& line) { warnings.push_back(line); });
+  const auto volumes = Volumes::load(options).value_or_throw();
+  volumes->limit({3000, 1u << 20}).value_or_throw();
+  EXPECT_TRUE(warnings.empty()) << "all fit";
+  volumes->limit({1200, 1u << 20}).value_or_throw();
+  set_log_callback({});
+  std::uint64_t bricks = 0;
+  std::vector<int> levels;
+  for (const VolumeAt& at : volumes->at(options, 0)) {
+    bricks += room_of(*at.frame).bricks;
+    levels.push_back(at.frame->density.level);
+  }
+  EXPECT_LE(bricks, 1200u);
+  EXPECT_EQ(levels, (std::vector<int>{1, 0, 1}));
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("large.brv: grid density is shown at 1/2"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("larger.brv: grid density is shown at 1/2"), std::string::npos) << warnings[1];
 }
 
 TEST_F(VolumesTest, ChoosesGridsByNameAndByTheUsualNames) {

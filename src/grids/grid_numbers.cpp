@@ -1,0 +1,202 @@
+#include "grids/grid_numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <numeric>
+
+#include "core/tasks.hpp"
+
+namespace brume::grids {
+namespace {
+
+constexpr float kLargestValue = 1e30f;
+
+/// Voxels of the ramp behind the surface of a level set, as sdfToFogVolume's default.
+constexpr double kFogRamp = 3;
+
+template <typename T>
+T read(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+std::size_t voxel_number(glm::ivec3 v) {
+  return static_cast<std::size_t>(v.x + 8 * (v.y + 8 * v.z));
+}
+
+}  // namespace
+
+NumberReader::NumberReader(const Grid& grid)
+    : type_(grid.type), bytes_(bytes_of(grid.type)), level_set_(grid.grid_class == GridClass::level_set) {
+  ramp_ = kFogRamp * std::cbrt(std::abs(glm::determinant(glm::dmat3(grid.world_from_index))));
+}
+
+float NumberReader::at(const std::byte* values, std::size_t index) const {
+  double value = number(values + index * bytes_);
+  if (level_set_) value = std::min(-value / ramp_, 1.0);
+  return value > 0 ? static_cast<float>(std::min<double>(value, kLargestValue)) : 0.0f;
+}
+
+double NumberReader::number(const std::byte* at) const {
+  switch (type_) {
+    case ValueType::float32:
+      return double{read<float>(at)};
+    case ValueType::float64:
+      return read<double>(at);
+    case ValueType::int32:
+      return read<std::int32_t>(at);
+    case ValueType::int64:
+      return static_cast<double>(read<std::int64_t>(at));
+    case ValueType::boolean:
+      return read<std::uint8_t>(at);
+    case ValueType::vec3f:
+      return glm::length(glm::dvec3(read<glm::vec3>(at)));
+    case ValueType::vec3d:
+      return glm::length(read<glm::dvec3>(at));
+    case ValueType::vec3i:
+      return glm::length(glm::dvec3(read<glm::ivec3>(at)));
+    case ValueType::mask:
+      break;
+  }
+  return 0;
+}
+
+GridNumbers::GridNumbers(const Grid& grid) : reader_(grid) {
+  std::vector<std::uint8_t> any(grid.bricks.size());
+  parallel_for(grid.bricks.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::byte* const values = grid.values_of(i).data();
+      for (std::size_t voxel = 0; voxel < kBrickVoxels && any[i] == 0; ++voxel)
+        any[i] = reader_.at(values, voxel) > 0;
+    }
+  });
+  for (std::size_t i = 0; i < grid.bricks.size(); ++i) {
+    if (any[i] == 0) continue;
+    at_.push_back(grid.bricks[i].origin >> 3);
+    sources_.push_back({grid.values_of(i).data(), nullptr, nullptr, 0});
+  }
+  for (const Tile& tile : grid.tiles)
+    if (const float number = reader_.at(tile.value.data(), 0); number > 0)
+      add_cube({tile.origin >> 3, static_cast<int>(tile.edge / 8), number});
+}
+
+GridNumbers::GridNumbers(const volume::SparseVolume& volume, bool only_presence) : reader_(Grid()) {
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
+    const auto texels = volume.texels<std::uint16_t>(volume::ChannelId{0}, slot);
+    at_.push_back(volume.brick_of(slot));
+    sources_.push_back({nullptr, only_presence ? nullptr : texels.data(), nullptr, 1});
+  }
+  for (const volume::UniformBrick& brick : volume.uniform_bricks()) {
+    at_.push_back(brick.at);
+    sources_.push_back({nullptr, nullptr, nullptr, only_presence ? 1 : glm::unpackHalf1x16(brick.texel)});
+  }
+}
+
+bool GridNumbers::is_uniform(std::size_t i) const {
+  const Source& source = sources_[i];
+  if (!source.values && !source.halves && !source.numbers) return true;
+  const float first = at(i, 0);
+  for (std::size_t voxel = 1; voxel < kBrickVoxels; ++voxel)
+    if (at(i, voxel) != first) return false;
+  return true;
+}
+
+float GridNumbers::half_at(const std::uint16_t* texels, std::size_t voxel) {
+  return glm::unpackHalf1x16(texels[111 + voxel % 8 + 10 * (voxel / 8 % 8) + 100 * (voxel / 64)]);
+}
+
+void GridNumbers::add_cube(const Cube& cube) {
+  if (cube.edge > 1) {
+    cubes_.push_back(cube);
+    return;
+  }
+  at_.push_back(cube.origin);
+  sources_.push_back({nullptr, nullptr, nullptr, cube.number});
+}
+
+GridNumbers GridNumbers::halved(double& square_error) const {
+  // The bricks that share a coarse one, one behind the other.
+  std::vector<std::uint32_t> order(at_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto coarse_at = [&](std::uint32_t i) { return at_[i] >> 1; };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (coarse_at(a) != coarse_at(b)) return goes_before(coarse_at(a), coarse_at(b));
+    return a < b;
+  });
+  std::vector<std::size_t> first;
+  GridNumbers coarse(reader_);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && coarse_at(order[i]) == coarse_at(order[i - 1])) continue;
+    first.push_back(i);
+    coarse.at_.push_back(coarse_at(order[i]));
+  }
+  first.push_back(order.size());
+
+  // Their means. The errors are summed in order, whatever thread found them.
+  const std::size_t count = coarse.at_.size();
+  coarse.owned_.resize(count);
+  coarse.sources_.resize(count);
+  std::vector<double> lost(count);
+  parallel_for(count, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      coarse.owned_[i] = std::make_unique<BrickNumbers>();
+      coarse.sources_[i].numbers = coarse.owned_[i].get();
+      for (std::size_t from = first[i]; from < first[i + 1]; ++from) {
+        const std::uint32_t fine = order[from];
+        const glm::ivec3 octant = (at_[fine] & 1) * 4;
+        for (int voxel = 0; voxel < 64; ++voxel) {
+          const glm::ivec3 p(voxel & 3, voxel >> 2 & 3, voxel >> 4);
+          double sum = 0, squares = 0;
+          for (int corner = 0; corner < 8; ++corner) {
+            const glm::ivec3 q = 2 * p + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+            const double value{at(fine, voxel_number(q))};
+            sum += value;
+            squares += value * value;
+          }
+          lost[i] += squares - sum * sum / 8;
+          (*coarse.owned_[i])[voxel_number(octant + p)] = static_cast<float>(sum / 8);
+        }
+      }
+    }
+  });
+  square_error = std::accumulate(lost.begin(), lost.end(), square_error);
+
+  // Cubes begin at multiples of their edge, so that half of one is one.
+  for (const Cube& cube : cubes_) coarse.add_cube({cube.origin >> 1, cube.edge / 2, cube.number});
+  return coarse;
+}
+
+std::uint64_t GridNumbers::brick_count() const {
+  std::uint64_t count = at_.size();
+  for (const Cube& cube : cubes_) {
+    const auto edge = static_cast<std::uint64_t>(cube.edge);
+    count += edge * edge * edge;
+  }
+  return count;
+}
+
+Box<int> GridNumbers::brick_box() const {
+  Box<int> box;
+  bool any = false;
+  const auto add = [&](const Box<int>& other) {
+    box = any ? united(box, other) : other;
+    any = true;
+  };
+  for (const glm::ivec3 at : at_) add({at, at + 1});
+  for (const Cube& cube : cubes_) add({cube.origin, cube.origin + cube.edge});
+  return box;
+}
+
+void GridNumbers::expand_cubes() {
+  for (const Cube& cube : cubes_)
+    for_each_in(Box<int>{cube.origin, cube.origin + cube.edge}, [&](glm::ivec3 brick) {
+      at_.push_back(brick);
+      sources_.push_back({nullptr, nullptr, nullptr, cube.number});
+    });
+  cubes_.clear();
+}
+
+}  // namespace brume::grids

@@ -1,0 +1,92 @@
+// The values of a grid as the numbers that are rendered: at the file's resolution without a copy, or halved.
+// Internal to this folder; brick_volume.hpp is the interface.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "core/box.hpp"
+#include "grids/grid.hpp"
+#include "volume/sparse_volume.hpp"
+
+namespace brume::grids {
+
+using BrickNumbers = std::array<float, kBrickVoxels>;
+
+/// Reads values of a grid as numbers >= 0: the length of vectors; of a level set a fog (brick_volume.hpp).
+class NumberReader {
+ public:
+  explicit NumberReader(const Grid& grid);
+  float at(const std::byte* values, std::size_t index) const;
+
+ private:
+  double number(const std::byte* at) const;
+
+  ValueType type_;
+  std::size_t bytes_;
+  bool level_set_;
+  double ramp_ = 1;
+};
+
+/// Bricks and cubes of numbers, without those of zeros.
+class GridNumbers {
+ public:
+  /// Those of a grid, which must outlive it.
+  explicit GridNumbers(const Grid& grid);
+
+  /// The stored halves of a volume of one channel, which must outlive it; with `only_presence` 1 throughout
+  /// each of its bricks.
+  GridNumbers(const volume::SparseVolume& volume, bool only_presence);
+
+  /// Means over 2^3 voxels. Adds the squares of what they lose to `square_error`.
+  GridNumbers halved(double& square_error) const;
+
+  /// Bricks, those of all cubes included.
+  std::uint64_t brick_count() const;
+  /// Around all of them [bricks]; empty without any.
+  Box<int> brick_box() const;
+  /// Cubes become bricks, in their order behind the others. brick_count() of them must fit the memory.
+  void expand_cubes();
+
+  // Of bricks, after expand_cubes.
+  std::size_t size() const { return at_.size(); }
+  /// Its coordinate: origin / 8.
+  glm::ivec3 brick(std::size_t i) const { return at_[i]; }
+  /// Whether all its numbers are equal.
+  bool is_uniform(std::size_t i) const;
+  float at(std::size_t i, std::size_t voxel) const {
+    const Source& source = sources_[i];
+    if (source.values) return reader_.at(source.values, voxel);
+    if (source.halves) return half_at(source.halves, voxel);
+    return source.numbers ? (*source.numbers)[voxel] : source.constant;
+  }
+
+ private:
+  /// Where the numbers of a brick are: in the grid, in a volume's texels, in `owned_`, or one for all voxels.
+  struct Source {
+    const std::byte* values = nullptr;
+    const std::uint16_t* halves = nullptr;
+    const BrickNumbers* numbers = nullptr;
+    float constant = 0;
+  };
+  /// A cube of one number, of an edge of 16 or more.
+  struct Cube {
+    glm::ivec3 origin{0};  // [bricks]
+    int edge = 0;          // [bricks]
+    float number = 0;
+  };
+
+  explicit GridNumbers(const NumberReader& reader) : reader_(reader) {}
+  static float half_at(const std::uint16_t* texels, std::size_t voxel);
+  void add_cube(const Cube& cube);
+
+  NumberReader reader_;
+  std::vector<glm::ivec3> at_;
+  std::vector<Source> sources_;
+  std::vector<std::unique_ptr<BrickNumbers>> owned_;
+  std::vector<Cube> cubes_;
+};
+
+}  // namespace brume::grids

@@ -1,0 +1,178 @@
+#include "scenario/volume_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "core/log.hpp"
+#include "core/similar.hpp"
+#include "grids/files.hpp"
+
+namespace brume::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The names that Blender, Houdini and EmberGen give, in order.
+constexpr std::array kDensityNames{"density", "Density", "smoke", "fog", "soot", "surface"};
+constexpr std::array kHeatNames{"temperature", "heat", "flame", "flames", "fire", "burn"};
+
+bool is_number_grid(const grids::Grid* grid) {
+  return grid->type == grids::ValueType::float32 || grid->type == grids::ValueType::float64;
+}
+
+/// The grid of a name; without one the first of the usual names; null: none.
+using GridList = std::span<const grids::Grid* const>;
+Result<const grids::Grid*> choose_grid(GridList grids, const std::string& name,
+                                       std::span<const char* const> usual) {
+  std::vector<std::string> known;
+  for (const grids::Grid* grid : grids) {
+    if (!name.empty() && grid->name == name) return grid;
+    known.push_back(grid->name);
+  }
+  if (!name.empty())
+    return Failure{ErrorCode::bad_input, "has no grid \"" + name + "\"" + suggestion(name, known, "\"")};
+  for (const char* const one : usual)
+    for (const grids::Grid* grid : grids)
+      if (grid->name == one && is_number_grid(grid)) return grid;
+  return static_cast<const grids::Grid*>(nullptr);
+}
+
+Result<const grids::Grid*> choose_density(GridList grids, const std::string& name) {
+  auto grid = choose_grid(grids, name, kDensityNames);
+  if (!grid || *grid) return grid;
+  const auto first = std::ranges::find_if(grids, is_number_grid);
+  if (first == grids.end()) return Failure{ErrorCode::bad_input, "has no grid of numbers to render"};
+  return *first;
+}
+
+/// What is rendered of a file.
+struct Chosen {
+  const grids::Grid* density = nullptr;
+  const grids::Grid* heat = nullptr;  ///< Null: nothing glows.
+};
+Result<Chosen> choose(GridList grids, const scene::VolumeOptions& options) {
+  const auto density = choose_density(grids, options.density);
+  if (!density) return density.failure();
+  const auto heat = choose_grid(grids, options.heat, kHeatNames);
+  if (!heat) return heat.failure();
+  return Chosen{*density, *heat == *density ? nullptr : *heat};
+}
+
+/// Whether the file says so: Blender's solver names the resolution of its domain.
+bool is_z_up(const grids::Grid& grid) {
+  return std::ranges::any_of(grid.metadata, [](const grids::Metadata& one) {
+    return one.name == "file_base_resolution" || one.name.starts_with("blender");
+  });
+}
+
+void warn_of_level(const fs::path& file, const grids::Grid& grid, const grids::BrickVolume& volume) {
+  if (volume.level == 0) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                ": grid %s is shown at 1/%d of its resolution, off by %.2g of its largest value on average; "
+                "it is too large for the device",
+                grid.name.c_str(), 1 << volume.level,
+                volume.rms_error / std::max(double{volume.high}, 1e-30));
+  log_warning(file.string() + text);
+}
+
+Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
+                                                      const scene::VolumeOptions& options,
+                                                      const VolumeRoom& room) {
+  std::vector<const grids::Grid*> list;
+  for (const grids::Grid& grid : grids.grids) list.push_back(&grid);
+  const auto chosen = choose(list, options);
+  if (!chosen) return chosen.failure();
+  const auto [density, heat] = *chosen;
+  auto frame = std::make_shared<VolumeFrame>();
+  const bool alike = heat && heat->world_from_index == density->world_from_index;
+  // Heat has the same room as the density.
+  const auto part = [&, has_heat = heat != nullptr](std::uint64_t of, std::uint32_t fewest,
+                                                    std::uint32_t most) {
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(has_heat ? of / 2 : of, fewest, most));
+  };
+  const std::uint32_t max_bricks = part(room.bricks, grids::kFewestVolumeBricks, grids::kMostVolumeBricks);
+  const std::uint32_t max_pages = part(room.pages, grids::kFewestVolumePages, grids::kMostVolumePages);
+  auto bricks = grids::make_brick_volume(*density, {max_bricks, max_pages, alike ? heat : nullptr});
+  if (!bricks) return bricks.failure();
+  frame->density = std::move(*bricks);
+  warn_of_level(file, *density, frame->density);
+  if (heat) {
+    auto hot = grids::make_brick_volume(*heat, {max_bricks, max_pages});
+    if (!hot) return hot.failure();
+    warn_of_level(file, *heat, *hot);
+    if (hot->high > 0) frame->heat = std::move(*hot);
+  }
+
+  // What a first view is made from.
+  const double voxel = std::abs(glm::determinant(glm::dmat3(density->world_from_index)));
+  const auto active = static_cast<double>(count_active(*density));
+  frame->filled_volume = active * voxel;
+  frame->mean_density = active > 0 ? frame->density.sum * std::exp2(3 * frame->density.level) / active : 0;
+  const shared::VolumeLayout& layout = frame->density.volume->layout();
+  frame->bounds =
+      transformed(glm::mat4(frame->density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
+  // Of a ball, 2.2 standard deviations are the radius.
+  const glm::dvec3 reach = 2.2 * frame->density.deviation + 1.0;
+  const Box<float> core{glm::vec3(frame->density.mean - reach), glm::vec3(frame->density.mean + reach)};
+  frame->core = transformed(glm::mat4(frame->density.world_from_voxel),
+                            intersection(core, {layout.bounds_min, layout.bounds_max}));
+  frame->z_is_up = is_z_up(*density);
+  return std::shared_ptr<const VolumeFrame>(std::move(frame));
+}
+
+}  // namespace
+
+Box<float> transformed(const glm::mat4& matrix, const Box<float>& box) {
+  Box<float> result = kEmptyBox;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+    const glm::vec3 p(matrix * glm::vec4(glm::mix(box.low, box.high, high), 1));
+    result = united(result, {p, p});
+  }
+  return result;
+}
+
+Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& file,
+                                                             const scene::VolumeOptions& options,
+                                                             const VolumeRoom& room) {
+  const std::string where = options.place.empty() ? "" : options.place + ": ";
+  const auto grids = grids::load_grid_file(file, {}, [&](GridList heads) -> Result<std::vector<std::size_t>> {
+    const auto chosen = choose(heads, options);
+    if (!chosen) return chosen.failure();
+    std::vector<std::size_t> positions;
+    for (std::size_t i = 0; i < heads.size(); ++i)
+      if (heads[i] == chosen->density || heads[i] == chosen->heat) positions.push_back(i);
+    return positions;
+  });
+  if (!grids) return Failure{grids.failure().code, where + grids.failure().message};
+  auto frame = make_frame(file, *grids, options, room);
+  if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
+  if ((*frame)->density.high <= 0) log_warning(file.string() + ": nothing to see: no voxel is above 0");
+  return frame;
+}
+
+VolumeRoom room_of(const VolumeFrame& frame) {
+  VolumeRoom room{0, 0};
+  const auto add = [&](const grids::BrickVolume& grid) {
+    const volume::PageTable& pages = grid.volume->pages();
+    room.bricks += grid.volume->slot_count();
+    room.pages += pages.root().size() + pages.nodes().size();
+  };
+  add(frame.density);
+  if (frame.heat) add(*frame.heat);
+  return room;
+}
+
+std::shared_ptr<const VolumePreview> make_previews(const VolumeFrame& frame) {
+  auto preview = std::make_shared<VolumePreview>();
+  if (frame.density.volume->slot_count() > kPreviewBricks)
+    preview->density = grids::make_preview(frame.density, kPreviewBricks);
+  if (frame.heat && frame.heat->volume->slot_count() > kPreviewBricks)
+    preview->heat = grids::make_preview(*frame.heat, kPreviewBricks);
+  return preview;
+}
+
+}  // namespace brume::scenario

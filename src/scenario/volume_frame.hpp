@@ -1,0 +1,54 @@
+// One file of grids as the renderer shows it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "core/box.hpp"
+#include "core/error.hpp"
+#include "grids/brick_volume.hpp"
+#include "scene/timeline.hpp"
+
+namespace brume::scenario {
+
+/// The grids of one file that are rendered.
+struct VolumeFrame {
+  grids::BrickVolume density;
+  std::optional<grids::BrickVolume> heat;
+  double mean_density = 0;   ///< Of the active voxels.
+  double filled_volume = 0;  ///< That all active voxels take, in the file's world.
+  Box<float> bounds;         ///< Around what can be dense, in the file's world.
+  Box<float> core;           ///< Around most of it: a ball, but none of the wisps around it.
+  bool z_is_up = false;      ///< As Blender writes files; other programs have y up.
+};
+
+/// The same at a lower resolution, for as long as not all of it is on the device; empty where it is small.
+struct VolumePreview {
+  std::optional<grids::BrickVolume> density, heat;
+};
+
+/// Bricks of a preview at most: 8 MiB, uploaded in one frame.
+inline constexpr std::uint32_t kPreviewBricks = 4096;
+
+/// What a volume may take of the device: its density and its heat together.
+struct VolumeRoom {
+  std::uint64_t bricks = grids::kMostVolumeBricks;
+  std::uint64_t pages = grids::kMostVolumePages;  ///< Entries of page tables.
+  bool operator==(const VolumeRoom&) const = default;
+};
+VolumeRoom room_of(const VolumeFrame& frame);
+
+/// Loads the grids that the options name, reduced until they fit into the room, with a warning that names the
+/// error. Fails as grids::load_grid_file, and with bad_input for grids that do not exist.
+Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const std::filesystem::path& file,
+                                                             const scene::VolumeOptions& options,
+                                                             const VolumeRoom& room = {});
+
+/// Around a box under an affine transform.
+Box<float> transformed(const glm::mat4& matrix, const Box<float>& box);
+
+/// The previews of grids of more than kPreviewBricks bricks.
+std::shared_ptr<const VolumePreview> make_previews(const VolumeFrame& frame);
+
+}  // namespace brume::scenario

@@ -1,0 +1,65 @@
+// Loads frames of volumes in a thread of its own, so that what shows them does not wait.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "scenario/volume_frame.hpp"
+
+namespace brume::scenario {
+
+/// A frame of a volume with its previews, if any were made.
+struct LoadedVolume {
+  std::shared_ptr<const VolumeFrame> frame;
+  std::shared_ptr<const VolumePreview> preview;
+};
+
+/// The members may be called by one thread at a time.
+class VolumeLoader {
+ public:
+  /// A frame of one of several volumes.
+  struct Key {
+    std::size_t volume = 0;
+    std::int64_t number = 0;
+    auto operator<=>(const Key&) const = default;
+  };
+  using Load = std::function<Result<LoadedVolume>(const Key&)>;
+
+  /// `load` runs in the thread, for one key after another. What it throws becomes a failure.
+  explicit VolumeLoader(Load load) : load_(std::move(load)) {}
+  /// Ends when the frame that is being loaded is: none is begun after it.
+  ~VolumeLoader();
+  VolumeLoader(const VolumeLoader&) = delete;
+  VolumeLoader& operator=(const VolumeLoader&) = delete;
+
+  using Results = std::map<Key, Result<LoadedVolume>>;
+  /// Loads these, the first first, instead of those that earlier calls wanted and that have not begun.
+  /// Returns what was loaded of others: a frame that took longer than it was wanted is still newer than the
+  /// one that is shown.
+  Results want(std::vector<Key> keys);
+  /// The result of a key, once: it is loaded again if it is wanted again. Empty until it is there.
+  std::optional<Result<LoadedVolume>> take(const Key& key);
+  /// The same; waits for it. The last `want` must hold the key.
+  Result<LoadedVolume> wait(const Key& key);
+
+ private:
+  void run();
+  std::optional<Key> next() const;
+
+  Load load_;
+  std::mutex mutex_;  ///< Of all below but the thread.
+  std::condition_variable changed_;
+  std::vector<Key> wanted_;
+  std::optional<Key> loading_;
+  Results done_;
+  bool ends_ = false;
+  std::thread thread_;  ///< From the first wanted key on.
+};
+
+}  // namespace brume::scenario
