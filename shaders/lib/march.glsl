@@ -35,17 +35,17 @@ void march(WorldRay ray, inout MediaRay media, float jitter, float begin, float 
     const MediaSpan span = media_span(ray, t, ds, media);
     const float t_stop = min(span.t_stop, after_last);
     // Steps that are all alike are one.
-    const float alike = is_constant(span) ? max(ceil((t_stop - span.t_first) / ds), 1.0) : 1.0, length = alike * ds;
-    for (t = span.t_first; t < t_stop; t += length) {
+    const float alike = is_constant(span) ? max(ceil((t_stop - span.t_first) / ds), 1.0) : 1.0, dt = alike * ds;
+    for (t = span.t_first; t < t_stop; t += dt) {
       const vec3 p_world = ray.origin + ray.direction * t;
       const MediaSample here = sample_media(media, span, p_world, t, gathered.texture_samples);
       ++gathered.steps;
-      const float passed_log2 = log2_transmittance(here, length);
-      if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, length);
+      const float passed_log2 = log2_transmittance(here, dt);
+      if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, dt);
       if (passed_log2 < 0.0) {
         // In-scatter is constant over the step, so its integral is exact: the energy does not depend on the step
         // length.
-        if (kCount == kCountEntries) note_entry(t - jitter * ds, length, passed_log2, gathered);
+        if (kCount == kCountEntries) note_entry(t - jitter * ds, dt, passed_log2, gathered);
         const float passed = exp2(passed_log2);
         const vec3 light = media_inscatter(media, here, gathered.texture_samples);
         gathered.radiance += gathered.transmittance * (1.0 - passed) * light;
