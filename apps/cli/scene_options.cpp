@@ -119,7 +119,7 @@ void declare_volume_memory(const Arguments& arguments, std::uint32_t& mebibytes)
   arguments
       .add_option("--volume-memory", mebibytes,
                   "Device memory for volumes [MiB]: larger ones are shown at a lower resolution; default: "
-                  "half of all")
+                  "3/4 of all")
       .range(1u, 1u << 20)
       .type_name("MIB");
 }

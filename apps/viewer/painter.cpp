@@ -9,8 +9,8 @@ namespace {
 // slices, each in a frame that ends soon after an input.
 constexpr int kFramesUntilRefined = 3;
 constexpr int kLightSlices = 8;
-// Of bricks of volumes in a frame: 5 ms of a bus of 6 GB/s.
-constexpr std::uint64_t kVolumeUploadBytes = 32u << 20;
+// Of bricks of volumes in a frame: 3 ms of a bus of 6 GB/s.
+constexpr std::uint64_t kVolumeUploadBytes = 16u << 20;
 
 /// Whether volumes are shown at another time or resolution than they will be.
 bool volumes_arrive(const Screen& screen, const Game& game) {

@@ -137,11 +137,11 @@ Result<Trailer> read_trailer(View file) {
 }
 
 void decode_chunks(View file, BrvGrid& of, std::span<Brick> bricks, std::span<std::byte> values,
-                   std::optional<Failure>& failure) {
+                   const GridLimits& limits, std::optional<Failure>& failure) {
   std::mutex mutex;
   const std::size_t brick = kBrickVoxels * bytes_of(of.grid.type);
   parallel_for(of.chunks.size(), 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end && !limits.is_stopped(); ++i) {
       const std::size_t first = of.first_brick(i), count = of.brick_count(i);
       const auto read = read_brv_chunk(file, of, i, bricks.subspan(first, count),
                                        values.subspan(first * brick, count * brick));
@@ -303,8 +303,9 @@ Result<GridFile> decode_brv(View bytes, const GridLimits& limits, const GridChoi
     // Chunks are counted by the bricks of the grid, which stay in place.
     Bytes values(of.grid.bricks.size() * kBrickVoxels * bytes_of(of.grid.type));
     std::optional<Failure> failure;
-    decode_chunks(bytes, of, of.grid.bricks, values, failure);
+    decode_chunks(bytes, of, of.grid.bricks, values, limits, failure);
     if (failure) return *failure;
+    if (limits.is_stopped()) return Failure{ErrorCode::internal, "stopped"};
     of.grid.values = std::move(values);
     if (auto active = check_active(of.grid, limits); !active) return active.failure();
     file.grids.push_back(std::move(of.grid));

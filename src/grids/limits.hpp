@@ -1,6 +1,7 @@
 // How much of a volume file is read.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 
 namespace brume::grids {
@@ -10,6 +11,10 @@ struct GridLimits {
   std::uint64_t bytes = 1ull << 33;          ///< Of memory_of() all grids.
   std::uint64_t active_voxels = 1ull << 33;  ///< Of a grid, tiles included.
   double seconds = 600;                      ///< Processor time of the child process.
+  /// Once it is true, reading fails soon: what is read is no longer wanted. Null: never.
+  const std::atomic<bool>* stopped = nullptr;
+
+  bool is_stopped() const { return stopped && *stopped; }
 };
 
 }  // namespace brume::grids

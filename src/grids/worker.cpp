@@ -93,15 +93,20 @@ Failure failure_of(const fs::path& path, int status, const std::string& messages
 }
 
 // All that the child writes until it closes its end; nothing when that is too much or takes too long.
-Result<Bytes> read_all(int descriptor, const fs::path& path, std::uint64_t max_bytes, double max_seconds) {
+Result<Bytes> read_all(int descriptor, const fs::path& path, const GridLimits& limits) {
+  // The directory takes less than the bricks; what is not a volume fits into the rest.
+  const std::uint64_t max_bytes = limits.bytes + limits.bytes / 8 + (std::uint64_t{64} << 20);
+  const double max_seconds = std::max(kLeastWallSeconds, kWallFactor * limits.seconds);
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(max_seconds));
   Bytes bytes;
   for (std::size_t used = 0;;) {
     const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+    if (limits.is_stopped()) return Failure{ErrorCode::internal, path.string() + ": stopped"};
     if (rest <= 0) return Failure{ErrorCode::resource_limit, path.string() + ": brume-vdb does not answer"};
     pollfd waiting{descriptor, POLLIN, 0};
-    if (::poll(&waiting, 1, static_cast<int>(std::min<std::int64_t>(rest, 1000))) <= 0) continue;
+    if (::poll(&waiting, 1, static_cast<int>(std::min<std::int64_t>(rest, limits.stopped ? 100 : 1000))) <= 0)
+      continue;
     if (bytes.size() < used + kReadBytes) bytes.resize(std::max(2 * bytes.size(), used + kReadBytes));
     const ssize_t got = ::read(descriptor, &bytes[used], bytes.size() - used);
     if (got < 0 && errno == EINTR) continue;
@@ -133,11 +138,9 @@ Result<GridFile> read_in_child(const fs::path& path, const GridLimits& limits) {
   if (error != 0) return cannot_start(path, error);
   child_end.close();
 
-  // Its bytes. The directory takes less than the bricks; what is not a volume fits into the rest.
+  // Its bytes.
   const Progress progress("read " + path.filename().string());
-  const auto bytes =
-      read_all(results.get(), path, limits.bytes + limits.bytes / 8 + (std::uint64_t{64} << 20),
-               std::max(kLeastWallSeconds, kWallFactor * limits.seconds));
+  const auto bytes = read_all(results.get(), path, limits);
   if (!bytes) return bytes.failure();
   const int status = child.wait();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return failure_of(path, status, child.messages());

@@ -54,7 +54,6 @@ glm::ivec3 tight_atlas(std::uint64_t slots, int most) {
                     " bricks of 8^3 voxels are more than the device's 3D textures hold");
   const glm::ivec3 grown = slots <= kSmall ? volume::grown_atlas({}, slots) : glm::ivec3(most + 1);
   if (glm::all(glm::lessThanEqual(grown, glm::ivec3(most)))) return grown;
-  slots = std::min(rounded_slots(slots), longest * longest * longest);
   std::uint64_t edge = 1;
   while (edge < longest && edge * edge * edge < slots) ++edge;
   return {static_cast<int>(edge), static_cast<int>(edge),

@@ -23,11 +23,10 @@ struct StreamedBricks {
 
 /// A volume of fewer slots has up to as many in a tight atlas; one of more up to an eighth more than it
 /// holds.
-inline constexpr std::uint32_t kVolumeSlotStep = 1u << 12;
+inline constexpr std::uint32_t kVolumeSlotStep = 1u << 9;
 
 /// Bricks per axis of an atlas for `slots` bricks: as volume::grown_atlas up to 256 MiB of half floats, then
-/// with little more than an eighth unused. None is longer than `most` bricks. Throws resource_limit for more
-/// than fit.
+/// with less than a layer unused. None is longer than `most` bricks. Throws resource_limit for more than fit.
 glm::ivec3 tight_atlas(std::uint64_t slots, int most);
 
 /// Follows a list of volumes; one that was not in the list before is uploaded as a whole. The images hold the

@@ -137,17 +137,21 @@ Box<float> transformed(const glm::mat4& matrix, const Box<float>& box) {
 
 Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& file,
                                                              const scene::VolumeOptions& options,
-                                                             const VolumeRoom& room) {
+                                                             const VolumeRoom& room,
+                                                             const std::atomic<bool>* stopped) {
   const std::string where = options.place.empty() ? "" : options.place + ": ";
-  const auto grids = grids::load_grid_file(file, {}, [&](GridList heads) -> Result<std::vector<std::size_t>> {
-    const auto chosen = choose(heads, options);
-    if (!chosen) return chosen.failure();
-    std::vector<std::size_t> positions;
-    for (std::size_t i = 0; i < heads.size(); ++i)
-      if (heads[i] == chosen->density || heads[i] == chosen->heat) positions.push_back(i);
-    return positions;
-  });
+  const auto grids = grids::load_grid_file(file, {.stopped = stopped},
+                                           [&](GridList heads) -> Result<std::vector<std::size_t>> {
+                                             const auto chosen = choose(heads, options);
+                                             if (!chosen) return chosen.failure();
+                                             std::vector<std::size_t> positions;
+                                             for (std::size_t i = 0; i < heads.size(); ++i)
+                                               if (heads[i] == chosen->density || heads[i] == chosen->heat)
+                                                 positions.push_back(i);
+                                             return positions;
+                                           });
   if (!grids) return Failure{grids.failure().code, where + grids.failure().message};
+  if (stopped && *stopped) return Failure{ErrorCode::internal, file.string() + ": stopped"};
   auto frame = make_frame(file, *grids, options, room);
   if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
   if ((*frame)->density.high <= 0) log_warning(file.string() + ": nothing to see: no voxel is above 0");

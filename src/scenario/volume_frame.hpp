@@ -1,6 +1,7 @@
 // One file of grids as the renderer shows it.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -39,11 +40,13 @@ struct VolumeRoom {
 };
 VolumeRoom room_of(const VolumeFrame& frame);
 
-/// Loads the grids that the options name, reduced until they fit into the room, with a warning that names the
-/// error. Fails as grids::load_grid_file, and with bad_input for grids that do not exist.
+/// Loads the grids that the options name, reduced until they fit into the room, with a warning that names
+/// the error. Fails as grids::load_grid_file, and with bad_input for grids that do not exist; soon once
+/// `stopped` (null: never) is true.
 Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const std::filesystem::path& file,
                                                              const scene::VolumeOptions& options,
-                                                             const VolumeRoom& room = {});
+                                                             const VolumeRoom& room = {},
+                                                             const std::atomic<bool>* stopped = nullptr);
 
 /// Around a box under an affine transform.
 Box<float> transformed(const glm::mat4& matrix, const Box<float>& box);

@@ -6,9 +6,10 @@
 namespace brume::scenario {
 namespace {
 
-Result<LoadedVolume> guarded(const VolumeLoader::Load& load, const VolumeLoader::Key& key) {
+Result<LoadedVolume> guarded(const VolumeLoader::Load& load, const VolumeLoader::Key& key,
+                             const std::atomic<bool>& stopped) {
   try {
-    return load(key);
+    return load(key, stopped);
   } catch (const Error& error) {
     return Failure{error.code(), error.what()};
   } catch (const std::bad_alloc&) {
@@ -25,6 +26,7 @@ VolumeLoader::~VolumeLoader() {
     const std::lock_guard lock(mutex_);
     ends_ = true;
   }
+  ends_.notify_all();
   changed_.notify_all();
   if (thread_.joinable()) thread_.join();
 }
@@ -80,7 +82,7 @@ void VolumeLoader::run() {
     const Key key = *next();
     loading_ = key;
     lock.unlock();
-    Result<LoadedVolume> result = guarded(load_, key);
+    Result<LoadedVolume> result = guarded(load_, key, ends_);
     lock.lock();
     loading_.reset();
     done_.insert_or_assign(key, std::move(result));

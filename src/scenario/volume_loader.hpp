@@ -1,6 +1,7 @@
 // Loads frames of volumes in a thread of its own, so that what shows them does not wait.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -29,11 +30,12 @@ class VolumeLoader {
     std::int64_t number = 0;
     auto operator<=>(const Key&) const = default;
   };
-  using Load = std::function<Result<LoadedVolume>(const Key&)>;
+  /// `stopped` becomes true when the result is no longer wanted: the load may then fail.
+  using Load = std::function<Result<LoadedVolume>(const Key&, const std::atomic<bool>& stopped)>;
 
   /// `load` runs in the thread, for one key after another. What it throws becomes a failure.
   explicit VolumeLoader(Load load) : load_(std::move(load)) {}
-  /// Ends when the frame that is being loaded is: none is begun after it.
+  /// Stops the frame that is being loaded, and waits for it; none is begun after it.
   ~VolumeLoader();
   VolumeLoader(const VolumeLoader&) = delete;
   VolumeLoader& operator=(const VolumeLoader&) = delete;
@@ -58,7 +60,7 @@ class VolumeLoader {
   std::vector<Key> wanted_;
   std::optional<Key> loading_;
   Results done_;
-  bool ends_ = false;
+  std::atomic<bool> ends_{false};
   std::thread thread_;  ///< From the first wanted key on.
 };
 

@@ -126,9 +126,10 @@ void Volumes::start_loader() {
   for (const Sequence& sequence : sequences_)
     sources->push_back({sequence.options, sequence.files, sequence.room});
   loader_ = std::make_unique<VolumeLoader>(
-      [sources, previews = has_previews_](const VolumeLoader::Key& key) -> Result<LoadedVolume> {
+      [sources, previews = has_previews_](const VolumeLoader::Key& key,
+                                          const std::atomic<bool>& stopped) -> Result<LoadedVolume> {
         const Source& source = (*sources)[key.volume];
-        auto frame = load_volume_frame(source.files.at(key.number), source.options, source.room);
+        auto frame = load_volume_frame(source.files.at(key.number), source.options, source.room, &stopped);
         if (!frame) return frame.failure();
         auto preview = previews ? scenario::make_previews(**frame) : nullptr;
         return LoadedVolume{std::move(*frame), std::move(preview)};

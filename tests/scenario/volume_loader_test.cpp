@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <mutex>
 #include <new>
 #include <semaphore>
@@ -24,7 +25,7 @@ LoadedVolume volume_of(const Key& key) {
 class Gate {
  public:
   VolumeLoader::Load load() {
-    return [this](const Key& key) -> Result<LoadedVolume> {
+    return [this](const Key& key, const std::atomic<bool>&) -> Result<LoadedVolume> {
       begun_.release();
       may_load_.acquire();
       const std::lock_guard lock(mutex_);
@@ -75,7 +76,7 @@ TEST(VolumeLoader, AnotherTimeReplacesWhatHasNotBegun) {
 }
 
 TEST(VolumeLoader, WhatTheLoaderThrowsIsAFailure) {
-  VolumeLoader loader([](const Key& key) -> Result<LoadedVolume> {
+  VolumeLoader loader([](const Key& key, const std::atomic<bool>&) -> Result<LoadedVolume> {
     if (key.number == 1) throw Error(ErrorCode::bad_input, "no such grid");
     if (key.number == 2) throw std::bad_alloc();
     return volume_of(key);
@@ -99,9 +100,26 @@ TEST(VolumeLoader, EndsDuringALoadWithoutBeginningAnother) {
   VolumeLoader(gate.load()).want({});
 }
 
+TEST(VolumeLoader, StopsTheLoadThatItEndsIn) {
+  std::binary_semaphore begun{0};
+  std::atomic<int> stopped_loads{0};
+  {
+    VolumeLoader loader([&](const Key&, const std::atomic<bool>& stopped) -> Result<LoadedVolume> {
+      begun.release();
+      stopped.wait(false);
+      ++stopped_loads;
+      return Failure{ErrorCode::internal, "stopped"};
+    });
+    loader.want({{0, 1}});
+    begun.acquire();
+  }
+  EXPECT_EQ(stopped_loads, 1);
+}
+
 // As a viewer does: every frame wants a time and the one after it, and takes what is there.
 TEST(VolumeLoader, AMovingTimeShowsEveryFrameOrALaterOne) {
-  VolumeLoader loader([](const Key& key) -> Result<LoadedVolume> { return volume_of(key); });
+  VolumeLoader loader(
+      [](const Key& key, const std::atomic<bool>&) -> Result<LoadedVolume> { return volume_of(key); });
   std::int64_t shown = 0;
   for (std::int64_t now = 1; shown < 100; ++now) {
     const std::int64_t before = shown;

@@ -2,6 +2,7 @@
 // it (shaders/shared/volume.h), against all bricks of the volume and all voxels on the ray.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
