@@ -11,6 +11,10 @@ SHARED_CONST uint kMediumVolumes = 2u;
 SHARED_CONST uint kMediumHeat = 4u;  // one glows with heat
 SHARED_CONST uint kMediumLit = 8u;   // one scatters light, or emits; else all only absorb
 SHARED_CONST uint kMediumSun = 16u;  // a sun lights them
+SHARED_CONST uint kMediumTransfer = 32u;  // one has a transfer function
+SHARED_CONST uint kMediumColors = 64u;    // one has a grid of colours
+/// Those with which the albedo differs from point to point.
+SHARED_CONST uint kMediaOfAlbedos = 96u;
 
 SHARED_END
 #endif

@@ -230,6 +230,19 @@ Box<float> bounds_of(const Numbers& numbers) {
   return bounds;
 }
 
+/// Needs the range of the values.
+void count_values(const Numbers& numbers, BrickVolume& out) {
+  if (out.high <= out.low) return;
+  out.histogram.assign(kHistogramBins, 0);
+  const float per_value = static_cast<float>(kHistogramBins) / (out.high - out.low);
+  for (const Values& brick : numbers.bricks)
+    for (const float value : brick) {
+      if (value <= 0) continue;
+      const auto bin = static_cast<std::size_t>(per_value * (value - out.low));
+      ++out.histogram[std::min(bin, kHistogramBins - 1)];
+    }
+}
+
 /// Range, sum and distribution of the values.
 void measure(const Numbers& numbers, BrickVolume& out) {
   glm::dvec3 places(0), squares(0);
@@ -245,6 +258,7 @@ void measure(const Numbers& numbers, BrickVolume& out) {
       squares += double{value} * (p + 0.5) * (p + 0.5);
     }
   if (out.sum <= 0) return;
+  count_values(numbers, out);
   if (out.high < kLeastHigh || out.high > kMostHigh) out.unit = std::exp2(std::floor(std::log2(out.high)));
   out.mean = places / out.sum;
   out.deviation = glm::sqrt(glm::max(squares / out.sum - out.mean * out.mean, 0.0));

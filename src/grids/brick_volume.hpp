@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <vector>
 
 #include "core/error.hpp"
 #include "grids/grid.hpp"
@@ -20,6 +21,8 @@ struct BrickVolumeOptions {
   const Grid* also = nullptr;
 };
 
+inline constexpr std::size_t kHistogramBins = 256;
+
 /// One channel of half floats, filtered trilinearly. Bricks are stored wherever a filtered value can differ
 /// from 0.
 struct BrickVolume {
@@ -28,9 +31,12 @@ struct BrickVolume {
   float unit = 1;                                ///< Value that the bricks store as 1: a power of two.
   float low = 0, high = 0;                       ///< Range of the values.
   double sum = 0;                                ///< Of all values.
-  glm::dvec3 mean{0}, deviation{0};              ///< Of the values' places, weighted by value [voxel space].
-  int level = 0;                                 ///< Halvings of the resolution: 0 is the file's own.
-  double rms_error = 0;                          ///< Of the halvings, over active voxels; 0 at level 0.
+  /// How many values above 0 are in each of kHistogramBins parts of equal length from low to high; empty
+  /// without any.
+  std::vector<std::uint64_t> histogram;
+  glm::dvec3 mean{0}, deviation{0};  ///< Of the values' places, weighted by value [voxel space].
+  int level = 0;                     ///< Halvings of the resolution: 0 is the file's own.
+  double rms_error = 0;              ///< Of the halvings, over active voxels; 0 at level 0.
 };
 
 /// Values above 0 of a grid of numbers; the length of vectors. A level set becomes a fog that is 0 outside,

@@ -1,14 +1,16 @@
 #include "passes/volume_upload.hpp"
 
+#include <algorithm>
 #include <array>
 #include <glm/gtc/packing.hpp>
 
 #include "planning/blackbody.hpp"
+#include "planning/transfer_table.hpp"
 
 namespace brume::passes {
 namespace {
 
-constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT};
+constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT}, kColorChannels{VK_FORMAT_R16G16B16A16_SFLOAT};
 
 /// The grids of all volumes: the densities, then those that glow.
 std::vector<const volume::SparseVolume*> list_of(std::span<const planning::VolumeInput> volumes) {
@@ -16,6 +18,14 @@ std::vector<const volume::SparseVolume*> list_of(std::span<const planning::Volum
   for (const planning::VolumeInput& volume : volumes) list.push_back(volume.volume);
   for (const planning::VolumeInput& volume : volumes)
     if (volume.heat.volume) list.push_back(volume.heat.volume);
+  return list;
+}
+
+/// The grids of colours.
+std::vector<const volume::SparseVolume*> color_list_of(std::span<const planning::VolumeInput> volumes) {
+  std::vector<const volume::SparseVolume*> list;
+  for (const planning::VolumeInput& volume : volumes)
+    if (volume.colors) list.push_back(volume.colors);
   return list;
 }
 
@@ -46,31 +56,51 @@ std::vector<std::uint64_t> colors_of(const planning::HeatInput& heat) {
 }  // namespace
 
 VolumeUpload::VolumeUpload(gpu::Context& context)
-    : atlas_(context, kVolumeChannels),
+    : context_(context),
+      atlas_(context, kVolumeChannels),
+      color_atlas_(context, kColorChannels),
       instances_(context, shared::kMaxVolumes * sizeof(shared::VolumeInstance),
                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT),
-      colors_(make_colors(context)) {}
+      colors_(make_colors(context)) {
+  gpu::grow(context_, transfers_, sizeof(glm::vec4));
+}
 
 void VolumeUpload::reserve(std::span<const planning::VolumeInput> volumes) {
   atlas_.reserve(list_of(volumes));
+  color_atlas_.reserve(color_list_of(volumes));
+  const auto has_transfer = [](const planning::VolumeInput& volume) { return !volume.transfer.empty(); };
+  if (std::ranges::none_of(volumes, has_transfer)) return;
+  const std::size_t entries = volumes.size() * shared::kTransferEntries;
+  if (gpu::grow(context_, transfers_, entries * sizeof(glm::vec4))) transfer_sources_.clear();
 }
 
 void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                           std::span<const planning::VisibleVolume> visible) {
   atlas_.record(recorder, list_of(volumes));
-  std::vector<std::size_t> heat_at;  // of each volume, in the list
-  std::size_t next = volumes.size();
-  for (const planning::VolumeInput& volume : volumes) heat_at.push_back(volume.heat.volume ? next++ : 0);
+  color_atlas_.record(recorder, color_list_of(volumes));
+  std::vector<std::size_t> heat_at, colors_at;  // of each volume, in the lists
+  std::size_t next_heat = volumes.size(), next_colors = 0;
+  for (const planning::VolumeInput& volume : volumes) {
+    heat_at.push_back(volume.heat.volume ? next_heat++ : 0);
+    colors_at.push_back(volume.colors ? next_colors++ : 0);
+  }
   std::vector<shared::VolumeInstance> instances;
-  std::vector<glm::vec3> glows;
   for (const planning::VisibleVolume& volume : visible) {
     shared::VolumeInstance instance = volume.instance;
     instance.bricks = atlas_.layout(volume.index);
     if (instance.heat.per_value > 0) instance.heat.bricks = atlas_.layout(heat_at[volume.index]);
-    glows.push_back(glow_of(volumes[volume.index].heat));
+    if (instance.colors.present) instance.colors.bricks = color_atlas_.layout(colors_at[volume.index]);
     instances.push_back(instance);
   }
   recorder.upload(instances_, 0, std::as_bytes(std::span(instances)));
+  record_glows(recorder, volumes, visible);
+  record_transfers(recorder, volumes, visible);
+}
+
+void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                                std::span<const planning::VisibleVolume> visible) {
+  std::vector<glm::vec3> glows;
+  for (const planning::VisibleVolume& volume : visible) glows.push_back(glow_of(volumes[volume.index].heat));
   if (glows == glows_) return;
   glows_ = std::move(glows);
   std::vector<std::uint64_t> colors;
@@ -82,6 +112,19 @@ void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::Vol
   const gpu::Recorder::Region used{
       std::as_bytes(std::span(colors)), glm::ivec3(0), {shared::kVolumeColors, rows, 1}};
   if (rows > 0) recorder.upload(colors_, {&used, 1});
+}
+
+void VolumeUpload::record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                                    std::span<const planning::VisibleVolume> visible) {
+  transfer_sources_.resize(visible.size());
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    const planning::VolumeInput& volume = volumes[visible[i].index];
+    TransferSource source{volume.transfer, volume.look.albedo};
+    if (volume.transfer.empty() || source == transfer_sources_[i]) continue;
+    const std::vector<glm::vec4> table = planning::transfer_table(volume.transfer, volume.look.albedo);
+    recorder.upload(transfers_, i * table.size() * sizeof(glm::vec4), std::as_bytes(std::span(table)));
+    transfer_sources_[i] = std::move(source);
+  }
 }
 
 }  // namespace brume::passes

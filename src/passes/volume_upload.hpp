@@ -13,6 +13,8 @@ struct VolumeResources {
   const gpu::Image& values;      ///< Half floats.
   const gpu::Buffer& instances;  ///< A shared::VolumeInstance per volume in view.
   const gpu::Image& colors;  ///< Half floats: shared::kVolumeColors colours a row, a row per volume in view.
+  const gpu::Buffer& transfers;   ///< shared::kTransferEntries per volume in view, where one has any.
+  const gpu::Image& color_grids;  ///< Half floats: the atlas of VolumeColors.
 };
 
 class VolumeUpload {
@@ -27,15 +29,32 @@ class VolumeUpload {
   void record(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
               std::span<const planning::VisibleVolume> visible);
 
-  VolumeResources resources() const { return {atlas_.pages(), atlas_.channel(kValues), instances_, colors_}; }
+  VolumeResources resources() const {
+    return {atlas_.pages(), atlas_.channel(kValues),      instances_, colors_,
+            transfers_,     color_atlas_.channel(kValues)};
+  }
 
  private:
   static constexpr volume::ChannelId kValues{0};
 
-  BrickAtlas atlas_;
-  gpu::Buffer instances_;
+  void record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                    std::span<const planning::VisibleVolume> visible);
+  void record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                        std::span<const planning::VisibleVolume> visible);
+
+  /// What a table of transfers_ was made from.
+  struct TransferSource {
+    planning::TransferInput transfer;
+    glm::vec3 albedo;
+    bool operator==(const TransferSource&) const = default;
+  };
+
+  gpu::Context& context_;
+  BrickAtlas atlas_, color_atlas_;
+  gpu::Buffer instances_, transfers_;
   gpu::Image colors_;
   std::vector<glm::vec3> glows_;  ///< What each row of colors_ was made from.
+  std::vector<TransferSource> transfer_sources_;
 };
 
 }  // namespace brume::passes

@@ -83,6 +83,17 @@ struct HeatInput {
   float emission = 1;   ///< Multiplies the radiance.
 };
 
+/// How the values of a volume become opacity and colour (scene/transfer.hpp).
+struct TransferInput {
+  std::vector<scene::OpacityPoint> opacity;  ///< Empty: the value is the density.
+  scene::ColorMap color_map;                 ///< Empty: VolumeLook::albedo.
+  glm::vec2 range{0, 1};                     ///< Of the values that both span; x < y.
+  float glow = 0;      ///< Fraction of the colours that is emitted instead of scattered, [0, 1].
+  float emission = 1;  ///< Radiance of an opaque part per colour that is emitted.
+  bool empty() const { return opacity.empty() && color_map.empty() && glow <= 0; }
+  bool operator==(const TransferInput&) const = default;
+};
+
 /// A volume in the world besides the smoke, lit by all lights of the frame and by itself.
 struct VolumeInput {
   /// One channel of half floats: its density, >= 0. It lies within the volume's bounds and bricks.
@@ -90,6 +101,10 @@ struct VolumeInput {
   glm::mat4 world_from_voxel{1};  ///< Affine, with an inverse.
   shared::VolumeLook look{};
   HeatInput heat{};
+  TransferInput transfer = {};
+  /// One channel of four half floats: colours in [0, 1] that multiply the albedo, in the same bricks and
+  /// slots as `volume`. null: none.
+  const volume::SparseVolume* colors = nullptr;
 };
 
 /// What one frame shows. What `smoke`, `volumes` and `level` point to must outlive the frame's recording.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/transfer_table.hpp"
+
 namespace brume::planning {
 namespace {
 
@@ -57,7 +59,17 @@ void add_medium(MediaPlan& plan, std::uint32_t bit, const Box<float>& world, flo
 void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, const Box<float>& world) {
   const shared::VolumeLayout& layout = volume.volume->layout();
   add_medium(plan, shared::kMediumVolumes, world, volume.look.extinction, step_of(volume.world_from_voxel));
-  const glm::vec3 light = volume.look.albedo + volume.look.emission;
+  const shared::VolumeTransfer transfer = device_transfer(volume.transfer);
+  shared::VolumeLook look = volume.look;
+  if (transfer.kind != shared::kTransferNone) {
+    // For where a cell of light has no extinction; samples have colours of their own.
+    const glm::vec3 color = mean_color(volume.transfer, look.albedo);
+    look.albedo = transfer.scattered * color;
+    look.emission = transfer.emitted * color;
+    plan.media |= shared::kMediumTransfer;
+  }
+  if (volume.colors) plan.media |= shared::kMediumColors;
+  const glm::vec3 light = look.albedo + look.emission;
   if (std::max({light.r, light.g, light.b}) > 0) plan.media |= shared::kMediumLit;
   shared::VolumeHeat heat{};
   if (volume.heat.volume && volume.heat.volume->slot_count() > 0) {
@@ -70,10 +82,12 @@ void add_volume(MediaPlan& plan, const VolumeInput& volume, std::size_t index, c
                            glm::mat4x3(volume.world_from_voxel),
                            layout.bounds_min,
                            layout.bounds_max,
-                           volume.look,
+                           look,
                            {},
                            heat,
-                           {}}});
+                           {},
+                           transfer,
+                           {{}, volume.colors ? 1u : 0u}}});
   ++plan.frame.volume_count;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/log.hpp"
 #include "core/similar.hpp"
+#include "grids/color_bricks.hpp"
 #include "grids/files.hpp"
 
 namespace brume::scenario {
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 
 /// The names that Blender, Houdini and EmberGen give, in order.
 constexpr std::array kDensityNames{"density", "Density", "smoke", "fog", "soot", "surface"};
+constexpr std::array kColorNames{"Cd", "color", "colour", "Color", "Colour"};
 constexpr std::array kHeatNames{"temperature", "heat", "flame", "flames", "fire", "burn"};
 
 /// Where the number of a frame stands in a name: "%04d" or "%d".
@@ -57,7 +59,8 @@ bool is_number_grid(const grids::Grid& grid) {
 
 /// The grid of a name; without one the first of the usual names; null: none.
 Result<const grids::Grid*> choose_grid(const grids::GridFile& file, const std::string& name,
-                                       std::span<const char* const> usual) {
+                                       std::span<const char* const> usual,
+                                       bool (*fits)(const grids::Grid&) = is_number_grid) {
   std::vector<std::string> known;
   for (const grids::Grid& grid : file.grids) {
     if (!name.empty() && grid.name == name) return &grid;
@@ -67,7 +70,7 @@ Result<const grids::Grid*> choose_grid(const grids::GridFile& file, const std::s
     return Failure{ErrorCode::bad_input, "has no grid \"" + name + "\"" + suggestion(name, known, "\"")};
   for (const char* const one : usual)
     for (const grids::Grid& grid : file.grids)
-      if (grid.name == one && is_number_grid(grid)) return &grid;
+      if (grid.name == one && fits(grid)) return &grid;
   return static_cast<const grids::Grid*>(nullptr);
 }
 
@@ -107,6 +110,23 @@ void warn_of_level(const fs::path& file, const grids::Grid& grid, const grids::B
   log_warning(file.string() + text);
 }
 
+/// What a first view is made from.
+void measure_first_view(const grids::Grid& density, VolumeFrame& frame) {
+  const double voxel = std::abs(glm::determinant(glm::dmat3(density.world_from_index)));
+  const auto active = static_cast<double>(count_active(density));
+  frame.filled_volume = active * voxel;
+  frame.mean_density = active > 0 ? frame.density.sum * std::exp2(3 * frame.density.level) / active : 0;
+  const shared::VolumeLayout& layout = frame.density.volume->layout();
+  frame.bounds =
+      transformed(glm::mat4(frame.density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
+  // Of a ball, 2.2 standard deviations are the radius.
+  const glm::dvec3 reach = 2.2 * frame.density.deviation + 1.0;
+  const Box<float> core{glm::vec3(frame.density.mean - reach), glm::vec3(frame.density.mean + reach)};
+  frame.core = transformed(glm::mat4(frame.density.world_from_voxel),
+                           intersection(core, {layout.bounds_min, layout.bounds_max}));
+  frame.z_is_up = is_z_up(density);
+}
+
 Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
                                                       const scene::VolumeOptions& options) {
   const auto density = choose_density(grids, options.density);
@@ -127,21 +147,23 @@ Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, cons
     if (hot->high > 0) frame->heat = std::move(*hot);
   }
 
-  // What a first view is made from.
-  const double voxel = std::abs(glm::determinant(glm::dmat3((*density)->world_from_index)));
-  const auto active = static_cast<double>(count_active(**density));
-  frame->filled_volume = active * voxel;
-  frame->mean_density = active > 0 ? frame->density.sum * std::exp2(3 * frame->density.level) / active : 0;
-  const shared::VolumeLayout& layout = frame->density.volume->layout();
-  frame->bounds =
-      transformed(glm::mat4(frame->density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
-  // Of a ball, 2.2 standard deviations are the radius.
-  const glm::dvec3 reach = 2.2 * frame->density.deviation + 1.0;
-  const Box<float> core{glm::vec3(frame->density.mean - reach), glm::vec3(frame->density.mean + reach)};
-  frame->core = transformed(glm::mat4(frame->density.world_from_voxel),
-                            intersection(core, {layout.bounds_min, layout.bounds_max}));
-  frame->z_is_up = is_z_up(**density);
+  const auto color = choose_grid(grids, options.color, kColorNames, grids::is_color_grid);
+  if (!color) return color.failure();
+  if (*color) {
+    auto colors = grids::make_color_bricks(**color, frame->density);
+    if (!colors) return colors.failure();
+    frame->colors = std::move(*colors);
+  }
+  for (const grids::Grid& grid : grids.grids) {
+    if (is_number_grid(grid)) frame->number_grids.push_back(grid.name);
+    if (grids::is_color_grid(grid)) frame->color_grids.push_back(grid.name);
+  }
+  measure_first_view(**density, *frame);
   return std::shared_ptr<const VolumeFrame>(std::move(frame));
+}
+
+std::array<std::string, 3> chosen_grids(const scene::VolumeOptions& options) {
+  return {options.density, options.heat, options.color};
 }
 
 /// The number of the frame at a time, before missing ones are replaced.
@@ -164,6 +186,12 @@ glm::mat4 world_from_file(const scene::VolumeOptions& options) {
     matrix = glm::rotate(matrix, glm::radians(options.rotation[axis]), around);
   }
   return glm::scale(matrix, glm::vec3(options.scale));
+}
+
+glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first) {
+  if (options.range) return *options.range;
+  const float low = first.density.low, high = first.density.high;
+  return {low, high > low ? high : low + 1};
 }
 
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
@@ -189,7 +217,7 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
     if (!files)
       return Failure{files.failure().code,
                      (one.place.empty() ? "" : one.place + ": ") + files.failure().message};
-    Sequence sequence{std::move(*files), nullptr, nullptr, 0};
+    Sequence sequence{std::move(*files), nullptr, nullptr, 0, chosen_grids(one)};
     auto frame = load_volume_frame(sequence.files.begin()->second, one);
     if (!frame) return frame.failure();
     sequence.first = sequence.shown = std::move(*frame);
@@ -199,11 +227,28 @@ Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOpti
   return volumes;
 }
 
+Result<void> Volumes::choose_grids(std::size_t volume, const scene::VolumeOptions& options) {
+  Sequence& sequence = sequences_[volume];
+  if (sequence.grids == chosen_grids(options)) return {};
+  const auto& [number, file] = *sequence.files.begin();
+  auto frame = load_volume_frame(file, options);
+  if (!frame) return frame.failure();
+  sequence.first = sequence.shown = std::move(*frame);
+  sequence.shown_number = number;
+  sequence.grids = chosen_grids(options);
+  return {};
+}
+
 std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options, double seconds) {
   BRUME_ASSERT(options.size() == sequences_.size(), std::to_string(options.size()));
   std::vector<VolumeAt> volumes;
   for (std::size_t i = 0; i < options.size(); ++i) {
     Sequence& sequence = sequences_[i];
+    if (sequence.grids != chosen_grids(options[i]))
+      if (const auto done = choose_grids(i, options[i]); !done) {
+        log_warning(done.failure().message + "; the grids before are shown");
+        sequence.grids = chosen_grids(options[i]);
+      }
     const std::int64_t wanted =
         number_at(options[i], sequence.files.begin()->first, sequence.files.rbegin()->first, seconds);
     const auto [number, file] = *std::prev(sequence.files.upper_bound(wanted));

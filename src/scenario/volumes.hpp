@@ -2,6 +2,7 @@
 // time comes.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -21,11 +22,14 @@ namespace brume::scenario {
 struct VolumeFrame {
   grids::BrickVolume density;
   std::optional<grids::BrickVolume> heat;
-  double mean_density = 0;   ///< Of the active voxels.
-  double filled_volume = 0;  ///< That all active voxels take, in the file's world.
-  Box<float> bounds;         ///< Around what can be dense, in the file's world.
-  Box<float> core;           ///< Around most of it: a ball, but none of the wisps around it.
-  bool z_is_up = false;      ///< As Blender writes files; other programs have y up.
+  std::unique_ptr<volume::SparseVolume> colors;  ///< As grids::make_color_bricks; null: none.
+  double mean_density = 0;                       ///< Of the active voxels.
+  double filled_volume = 0;                      ///< That all active voxels take, in the file's world.
+  Box<float> bounds;                             ///< Around what can be dense, in the file's world.
+  Box<float> core;       ///< Around most of it: a ball, but none of the wisps around it.
+  bool z_is_up = false;  ///< As Blender writes files; other programs have y up.
+  /// Names of the file's grids that can be dense or glow, and of those that can hold colours.
+  std::vector<std::string> number_grids, color_grids;
 };
 
 /// A volume at one time.
@@ -41,10 +45,15 @@ class Volumes {
   /// files and for grids that do not exist.
   static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options);
 
-  /// All volumes, in the order of the options. A frame that is missing from a sequence shows the one before
-  /// it, so do times after the last; before the first, the first. Warns of a frame that cannot be read, which
-  /// shows the last one that was. Frames remain loaded as long as they are shown.
+  /// All volumes, in the order of the options, with the grids that they name. A frame that is missing from a
+  /// sequence shows the one before it, so do times after the last; before the first, the first. Warns of a
+  /// frame that cannot be read, which shows the last one that was. Frames remain loaded as long as they are
+  /// shown.
   std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds);
+
+  /// Chooses the grids that the options of a volume name, from its first frame on. On failure, as load,
+  /// nothing changes.
+  Result<void> choose_grids(std::size_t volume, const scene::VolumeOptions& options);
 
   const VolumeFrame& first_frame(std::size_t volume) const { return *sequences_[volume].first; }
   /// All files of all sequences.
@@ -55,9 +64,14 @@ class Volumes {
     std::map<std::int64_t, std::filesystem::path> files;  ///< By number of the frame.
     std::shared_ptr<const VolumeFrame> first, shown;
     std::int64_t shown_number = 0;
+    std::array<std::string, 3> grids;  ///< Names of density, heat and colours, as chosen.
   };
   std::vector<Sequence> sequences_;
 };
+
+/// The values that the curves of a volume span, in the unit of its grid: as chosen, or those of its first
+/// frame.
+glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first);
 
 /// Where the first frame of a volume is.
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
