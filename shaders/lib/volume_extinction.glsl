@@ -3,23 +3,13 @@
 #define VOLUME_EXTINCTION_GLSL
 #include "lib/volume_transfer.glsl"
 
-bool is_outside(VolumeInstance volume, vec3 p_voxel) {
-  return any(lessThan(p_voxel, volume.bounds_min)) || any(greaterThan(p_voxel, volume.bounds_max));
-}
-
-/// The value at a point of a volume's voxel space.
-float bounded_value(VolumeInstance volume, vec3 p_voxel) {
-  return is_outside(volume, p_voxel) ? 0.0 : volume_value(volume.bricks, p_voxel);
-}
-
 /// Extinction of volume i at a point [1/m]; with a transfer function that of the segment p_world - half_world to
 /// p_world + half_world.
 float volume_extinction(VolumeInstance volume, uint i, vec3 p_world, vec3 half_world) {
   const vec3 p_voxel = volume.voxel_from_world * vec4(p_world, 1.0);
-  if (!kHasTransfer) return volume.look.extinction * bounded_value(volume, p_voxel);
-  const vec3 half_voxels = volume.voxel_from_world * vec4(half_world, 0.0);
-  const vec2 values =
-      vec2(bounded_value(volume, p_voxel - half_voxels), bounded_value(volume, p_voxel + half_voxels));
+  if (any(lessThan(p_voxel, volume.bounds_min)) || any(greaterThan(p_voxel, volume.bounds_max))) return 0.0;
+  if (!kHasTransfer) return volume.look.extinction * volume_value(volume.bricks, p_voxel);
+  const vec2 values = end_values(volume, p_voxel, volume.voxel_from_world * vec4(half_world, 0.0));
   return volume.look.extinction * matter_of(volume, i, values).density;
 }
 

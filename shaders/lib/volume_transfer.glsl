@@ -69,12 +69,19 @@ vec3 grid_color(VolumeInstance volume, vec3 brick, uint slot, vec3 p_voxel) {
   return textureLod(color_grids, uvw, 0.0).rgb;
 }
 
+/// The values at the ends of a segment inside of a volume's bounds.
+vec2 end_values(VolumeInstance volume, vec3 p_voxel, vec3 half_voxels) {
+  // What is on a high bound is in the brick behind it.
+  const vec3 low = volume.bounds_min + 1e-3, high = volume.bounds_max - 1e-3;
+  return vec2(volume_value(volume.bricks, clamp(p_voxel - half_voxels, low, high)),
+              volume_value(volume.bricks, clamp(p_voxel + half_voxels, low, high)));
+}
+
 /// The matter of a segment around a point of the volume's voxel space: from p_voxel - half_voxels to + half_voxels.
 VolumeMatter matter_around(VolumeInstance volume, uint i, vec3 p_voxel, vec3 half_voxels) {
   if (!kHasAlbedos) return VolumeMatter(volume_value(volume.bricks, p_voxel), volume.look.albedo, volume.look.emission);
-  vec2 values;
-  values.x = volume_value(volume.bricks, kHasTransfer ? p_voxel - half_voxels : p_voxel);
-  values.y = kHasTransfer ? volume_value(volume.bricks, p_voxel + half_voxels) : values.x;
+  const vec2 values =
+      kHasTransfer ? end_values(volume, p_voxel, half_voxels) : vec2(volume_value(volume.bricks, p_voxel));
   VolumeMatter matter = matter_of(volume, i, values);
   if (kHasColorGrids && volume.colors.present != 0u) {
     const vec3 brick = floor(p_voxel / float(kBrickVoxels));

@@ -72,7 +72,6 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
                     {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
                     {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
-                    {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
                 },
                 params);
   recorder.dispatch_threads(pipeline, kRayThreads * plan.blocks, 1);

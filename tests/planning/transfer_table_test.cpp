@@ -14,7 +14,7 @@ TEST(TransferTable, HoldsTheIntegralsOfTheCurves) {
   EXPECT_EQ(table[1], glm::vec4(0));
   EXPECT_EQ(table.back(), glm::vec4(0, 0, 0.5f, 0.5f));
   for (std::uint32_t cell = 0; cell <= shared::kTransferCells; cell += 64) {
-    const double at = double{cell} / shared::kTransferCells;
+    const double at = double(cell) / shared::kTransferCells;
     EXPECT_NEAR(double{table[1 + cell].a}, scene::opacity_integral(transfer.opacity, at), 1e-7);
   }
   // The colour (1 - x, 0, x), weighted by opacity.
