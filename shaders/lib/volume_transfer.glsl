@@ -1,8 +1,8 @@
 // Transfer functions of volumes, after filtering. A function is read over the values of a ray segment, not at a point:
-// with the value linear between the segment's ends, the mean of the curve over these values is exact, and a peak that is
-// narrower than the difference of two samples keeps its optical depth (pre-integration: Engel, Kraus and Ertl 2001,
-// "High-Quality Pre-Integrated Volume Rendering Using Hardware-Accelerated Pixel Shading"). The integrals of the curves
-// give the means between any two ends.
+// with the value linear between the segment's ends, the mean of the curve over these values is exact, and a peak
+// that is narrower than the difference of two samples keeps its optical depth (pre-integration: Engel, Kraus and
+// Ertl 2001, "High-Quality Pre-Integrated Volume Rendering Using Hardware-Accelerated Pixel Shading"). The integrals of
+// the curves give the means between any two ends.
 //
 // The includer defines the constant kMedia.
 #ifndef VOLUME_TRANSFER_GLSL
@@ -27,7 +27,8 @@ struct VolumeMatter {
 vec4 transfer_integral(uint i, float position) {
   const float at = position * float(kTransferCells);
   const uint cell = min(uint(at), kTransferCells - 1u), entry = i * kTransferEntries + 1u + cell;
-  return mix(transfers[entry], transfers[entry + 1u], at - float(cell));
+  // Not mix, which rounds where both are equal: the difference of two integrals there must be 0.
+  return transfers[entry] + (transfers[entry + 1u] - transfers[entry]) * (at - float(cell));
 }
 
 /// The mean of table i between two positions, at least over a cell; beyond the range it is that of the range's end.
@@ -49,7 +50,7 @@ VolumeMatter matter_of(VolumeInstance volume, uint i, vec2 values) {
   VolumeMatter matter = VolumeMatter(0.5 * (values.x + values.y), volume.look.albedo, volume.look.emission);
   if (volume.transfer.kind == kTransferNone || matter.density <= 0.0) return matter;
   const vec4 mean = transfer_mean(i, values * volume.transfer.per_value + volume.transfer.first);
-  const vec3 color = mean.a > 0.0 ? mean.rgb / mean.a : vec3(0.0);
+  const vec3 color = mean.a > 0.0 ? min(mean.rgb / mean.a, vec3(1.0)) : vec3(0.0);
   matter.albedo = volume.transfer.scattered * color;
   matter.emission = volume.transfer.emitted * color;
   if (volume.transfer.kind == kTransferOpacity) matter.density = mean.a;

@@ -191,7 +191,8 @@ glm::mat4 world_from_file(const scene::VolumeOptions& options) {
 glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first) {
   if (options.range) return *options.range;
   const float low = first.density.low, high = first.density.high;
-  return {low, high > low ? high : low + 1};
+  if (high > low) return {low, high};
+  return {0, high > 0 ? high : 1};
 }
 
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {

@@ -70,7 +70,7 @@ class Volumes {
 };
 
 /// The values that the curves of a volume span, in the unit of its grid: as chosen, or those of its first
-/// frame.
+/// frame; from 0 on where all are the same.
 glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first);
 
 /// Where the first frame of a volume is.
