@@ -32,16 +32,19 @@ double mean_factor(const VolumeFrame& frame, const scene::VolumeOptions& options
   if (options.opacity.empty()) return frame.mean_density;
   const grids::BrickVolume& density = frame.density;
   const glm::dvec2 range(range_of(options, frame));
+  const auto factor = [&](double value) {
+    const double at = std::clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+    return scene::opacity_at(options.opacity, at);
+  };
+  if (density.histogram.empty()) return factor(double{density.high});
   double sum = 0, count = 0;
   for (std::size_t bin = 0; bin < density.histogram.size(); ++bin) {
     const double part = (static_cast<double>(bin) + 0.5) / static_cast<double>(density.histogram.size());
-    const double value = glm::mix(double{density.low}, double{density.high}, part);
-    const double at = std::clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
     const auto voxels = static_cast<double>(density.histogram[bin]);
-    sum += voxels * scene::opacity_at(options.opacity, at);
+    sum += voxels * factor(glm::mix(double{density.low}, double{density.high}, part));
     count += voxels;
   }
-  return count > 0 ? sum / count : 0;
+  return sum / std::max(count, 1.0);
 }
 
 }  // namespace
