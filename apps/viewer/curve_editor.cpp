@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/color_space.hpp>
 
+#include "apps/viewer/option_panel.hpp"
 #include "apps/viewer/widgets.hpp"
 
 namespace brume::viewer {
@@ -60,6 +61,20 @@ void draw_curve(ImDrawList& list, const Area& area, std::span<const scene::Opaci
   }
   for (const scene::OpacityPoint& point : curve)
     list.AddCircleFilled(im_of(area.on_display({point.at, point.opacity})), kPointRadius, kLine);
+}
+
+void draw_bar(const Area& area, const scene::ColorMap& map) {
+  constexpr int kParts = 64;
+  const auto color_of = [&](int part) {
+    const glm::vec3 srgb(glm::convertLinearToSRGB(scene::color_at(map, double(part) / kParts)));
+    return ImGui::GetColorU32(ImVec4(srgb.r, srgb.g, srgb.b, 1));
+  };
+  for (int i = 0; i < kParts; ++i) {
+    const ImU32 left = color_of(i), right = color_of(i + 1);
+    const glm::vec2 a = area.on_display({float(i) / kParts, 1}),
+                    b = area.on_display({float(i + 1) / kParts, 0});
+    ImGui::GetWindowDrawList()->AddRectFilledMultiColor(im_of(a), im_of(b), left, right, right, left);
+  }
 }
 
 glm::vec2 limited(glm::vec2 place) {
@@ -143,23 +158,98 @@ bool edit_curve(const char* label, std::vector<scene::OpacityPoint>& curve, cons
   return changed;
 }
 
+std::optional<std::size_t> add_color(std::vector<scene::ColorPoint>& points, float at) {
+  if (points.size() >= scene::kMostPoints) return std::nullopt;
+  at = std::clamp(at, 0.0f, 1.0f);
+  const glm::vec3 color(scene::color_at({"", points}, double{at}));
+  const auto behind = std::ranges::upper_bound(points, at, {}, &scene::ColorPoint::at);
+  const auto index = static_cast<std::size_t>(behind - points.begin());
+  points.insert(behind, {at, color});
+  return index;
+}
+
+void move_color(std::vector<scene::ColorPoint>& points, std::size_t point, float at) {
+  const float low = point > 0 ? points[point - 1].at : 0.0f;
+  const float high = point + 1 < points.size() ? points[point + 1].at : 1.0f;
+  points[point].at = std::clamp(at, low, high);
+}
+
+bool remove_color(std::vector<scene::ColorPoint>& points, std::size_t point) {
+  if (points.size() <= 2) return false;
+  points.erase(points.begin() + static_cast<std::ptrdiff_t>(point));
+  return true;
+}
+
+std::vector<scene::ColorPoint> points_of(const scene::ColorMap& map) {
+  if (map.name.empty()) return map.points;
+  constexpr int kPoints = 9;
+  std::vector<scene::ColorPoint> points;
+  for (int i = 0; i < kPoints; ++i) {
+    const double at = double(i) / (kPoints - 1);
+    points.push_back({static_cast<float>(at), glm::vec3(scene::color_at(map, at))});
+  }
+  return points;
+}
+
 void draw_color_map(const scene::ColorMap& map) {
-  constexpr int kParts = 64;
   const glm::vec2 low = vec_of(ImGui::GetCursorScreenPos());
   const float width = ImGui::GetContentRegionAvail().x;
-  const auto color_of = [&](int part) {
-    const glm::dvec3 srgb = glm::convertLinearToSRGB(scene::color_at(map, double(part) / kParts));
-    return ImGui::GetColorU32(
-        ImVec4(static_cast<float>(srgb.r), static_cast<float>(srgb.g), static_cast<float>(srgb.b), 1));
-  };
-  for (int i = 0; i < kParts; ++i) {
-    const ImU32 left = color_of(i), right = color_of(i + 1);
-    const float a = low.x + width * static_cast<float>(i) / kParts,
-                b = low.x + width * static_cast<float>(i + 1) / kParts;
-    ImGui::GetWindowDrawList()->AddRectFilledMultiColor(ImVec2(a, low.y), ImVec2(b, low.y + kBarHeight), left,
-                                                        right, right, left);
-  }
+  draw_bar({low, low + glm::vec2(width, kBarHeight)}, map);
   ImGui::Dummy(ImVec2(width, kBarHeight));
+}
+
+bool edit_color_map(const char* label, std::vector<scene::ColorPoint>& points) {
+  ImGui::PushID(label);
+  canvas(label, kBarHeight + 2 * kPointRadius);
+  const Area area{vec_of(ImGui::GetItemRectMin()), vec_of(ImGui::GetItemRectMax())};
+  const float at = area.place(vec_of(ImGui::GetIO().MousePos)).x, reach = kReach / area.size().x;
+  ImGuiStorage& storage = *ImGui::GetStateStorage();
+  const ImGuiID held = ImGui::GetID("held");
+  const auto near = [&]() -> std::optional<std::size_t> {
+    const auto nearest = std::ranges::min_element(
+        points, {}, [&](const scene::ColorPoint& point) { return std::abs(point.at - at); });
+    if (std::abs(nearest->at - at) > reach) return std::nullopt;
+    return static_cast<std::size_t>(nearest - points.begin());
+  };
+  bool changed = false;
+
+  // As in a curve; the point that is held remains chosen.
+  if (ImGui::IsItemClicked(ImGuiMouseButton_Left)) {
+    auto point = near();
+    if (!point) {
+      point = add_color(points, at);
+      changed = point.has_value();
+    }
+    if (point) storage.SetInt(held, static_cast<int>(*point));
+  }
+  if (ImGui::IsItemClicked(ImGuiMouseButton_Right))
+    if (const auto point = near()) changed = remove_color(points, *point) || changed;
+  const std::size_t chosen = std::min(static_cast<std::size_t>(storage.GetInt(held, 0)), points.size() - 1);
+  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1)) {
+    const float before = points[chosen].at;
+    move_color(points, chosen, at);
+    changed = changed || points[chosen].at != before;
+  }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("click: a colour, whose patch is below; drag: move it; right click: remove it");
+
+  // Drawing, and the colour.
+  draw_bar({area.low, area.high - glm::vec2(0, 2 * kPointRadius)}, {"", points});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::vec2 tip(area.on_display({points[i].at, 0}).x, area.high.y - 2 * kPointRadius);
+    const glm::vec2 side(kPointRadius, 0), down(0, 2 * kPointRadius);
+    ImGui::GetWindowDrawList()->AddTriangleFilled(im_of(tip), im_of(tip + down - side),
+                                                  im_of(tip + down + side), i == chosen ? kLine : kBars);
+  }
+  glm::vec3 color = points[chosen].color;
+  if (color_patch(color)) {
+    points[chosen].color = glm::clamp(color, glm::vec3(0), glm::vec3(1));
+    changed = true;
+  }
+  ImGui::SameLine();
+  ImGui::TextDisabled("colour at %.3g of the range", double{points[chosen].at});
+  ImGui::PopID();
+  return changed;
 }
 
 }  // namespace brume::viewer

@@ -1,4 +1,4 @@
-// An opacity curve that is drawn and dragged.
+// An opacity curve and a colour map that are drawn and dragged.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,17 @@ struct CurveBackdrop {
 /// curve changed.
 bool edit_curve(const char* label, std::vector<scene::OpacityPoint>& curve, const CurveBackdrop& backdrop);
 
+// The same for the points of a colour map; a new point has the colour that the map has there.
+std::optional<std::size_t> add_color(std::vector<scene::ColorPoint>& points, float at);
+void move_color(std::vector<scene::ColorPoint>& points, std::size_t point, float at);
+bool remove_color(std::vector<scene::ColorPoint>& points, std::size_t point);
+/// Points of any map but an empty one, as near to it as a few points are; those of a map of points.
+std::vector<scene::ColorPoint> points_of(const scene::ColorMap& map);
+
 /// Draws a colour map as a bar.
 void draw_color_map(const scene::ColorMap& map);
+/// Lays out the editor of a map of points: the bar, whose points are edited as those of a curve, and the
+/// colour of the one that was clicked last. Returns whether a point changed.
+bool edit_color_map(const char* label, std::vector<scene::ColorPoint>& points);
 
 }  // namespace brume::viewer

@@ -101,23 +101,27 @@ bool range_row(scene::VolumeOptions& options, const scenario::VolumeFrame& frame
 }
 
 bool color_map_row(scene::ColorMap& map) {
+  constexpr const char* kOwnColors = "own colours";
   begin_row("colour map", "colours of the values, in place of the albedo");
-  const char* const shown = !map.name.empty()     ? map.name.c_str()
-                            : !map.points.empty() ? "points of the file"
-                                                  : "none";
-  bool changed = false;
+  const scene::ColorMap before = map;
+  const char* const shown = !map.name.empty() ? map.name.c_str() : !map.points.empty() ? kOwnColors : "none";
   if (begin_combo("##colour map", shown)) {
-    std::optional<std::string> choice;
-    if (selectable("none", map.empty())) choice = "";
+    bool chosen = false;
+    const auto choose = [&](const char* label, bool is_present, const scene::ColorMap& choice) {
+      if (!selectable(label, is_present)) return;
+      map = choice;
+      chosen = true;
+    };
+    choose("none", map.empty(), {});
     for (const std::string_view name : scene::color_map_names())
-      if (selectable(std::string(name).c_str(), map.name == name)) choice = name;
-    if (choice) {
-      changed = map != scene::ColorMap{*choice, {}};
-      map = {*choice, {}};
-      ImGui::CloseCurrentPopup();
-    }
+      choose(std::string(name).c_str(), map.name == name, {std::string(name), {}});
+    const scene::ColorMap grey{"grey", {}};
+    choose(kOwnColors, !map.points.empty(), {"", points_of(before.empty() ? grey : before)});
+    if (chosen) ImGui::CloseCurrentPopup();
     end_combo();
   }
+  bool changed = map != before;
+  if (!map.points.empty()) return edit_color_map("##colours", map.points) || changed;
   if (!map.empty()) draw_color_map(map);
   return changed;
 }

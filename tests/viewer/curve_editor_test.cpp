@@ -55,5 +55,27 @@ TEST(CurveEditor, AnyEditsLeaveAValidCurve) {
   EXPECT_EQ(curve.size(), 2u);
 }
 
+TEST(CurveEditor, ColoursStayValidAndANewOneChangesNothing) {
+  scene::ColorMap map{"", points_of({"cool-warm", {}})};
+  ASSERT_FALSE(fault_of(map));
+  EXPECT_EQ(points_of(map), map.points);
+  const glm::dvec3 before = scene::color_at(map, 0.3);
+  EXPECT_EQ(add_color(map.points, 0.3f), 3u);
+  EXPECT_LT(glm::length(scene::color_at(map, 0.3) - before), 1e-6);
+  move_color(map.points, 3, 2);
+  EXPECT_EQ(map.points[3].at, map.points[4].at);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> draw(-0.2f, 1.2f);
+  for (int edit = 0; edit < 500; ++edit) {
+    if (edit % 2 == 0) add_color(map.points, draw(random));
+    move_color(map.points, random() % map.points.size(), draw(random));
+    if (edit % 3 == 0) remove_color(map.points, random() % map.points.size());
+    ASSERT_FALSE(fault_of(map)) << edit;
+  }
+  while (remove_color(map.points, 0)) {
+  }
+  EXPECT_EQ(map.points.size(), 2u);
+}
+
 }  // namespace
 }  // namespace brume::viewer

@@ -120,5 +120,27 @@ TEST_F(VolumePanelTest, ChoicesShowAtOnceAndCanBeUndone) {
   EXPECT_EQ(volume.opacity.size(), 2u);
 }
 
+TEST_F(VolumePanelTest, ColoursAreAddedAndMoved) {
+  run();
+  click("Smoke");
+  click("Volumes");
+  click("fog.brv");
+  click("##colour map");
+  click("own colours");
+  const WidgetLine bar = widget("##colours");
+  click(on(bar, {0.3f, 0.5f}));
+  move_to(on(bar, {0.3f, 0.5f}));
+  program_->button(1, true);
+  program_->wait_for_frames(2);
+  for (const float at : {0.31f, 0.33f, 0.35f}) move_to(on(bar, {at, 0.5f}));
+  program_->button(1, false);
+  program_->wait_for_frames(3);
+  click(on(bar, {0.5f, 0.5f}), 3);  // removes the middle one
+  const scene::VolumeOptions volume = saved();
+  ASSERT_EQ(volume.color_map.points.size(), 9u);
+  EXPECT_NEAR(volume.color_map.points[3].at, 0.35f, 0.02f);
+  EXPECT_EQ(volume.color_map.points[4].at, 0.625f);
+}
+
 }  // namespace
 }  // namespace brume::viewer
