@@ -150,7 +150,7 @@ bool edit_curve(const char* label, std::vector<scene::OpacityPoint>& curve, cons
   list.AddRectFilled(im_of(area.low), im_of(area.high), kBackground, 3);
   draw_histogram(list, area, backdrop);
   draw_curve(list, area, curve);
-  if (ImGui::IsItemHovered()) {
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
     const float value = glm::mix(backdrop.values.x, backdrop.values.y, std::clamp(place.x, 0.0f, 1.0f));
     ImGui::SetTooltip("value %.4g: opacity %.3g\nclick: a point; drag: move it; right click: remove it",
                       double{value}, scene::opacity_at(curve, double{place.x}));
@@ -230,7 +230,7 @@ bool edit_color_map(const char* label, std::vector<scene::ColorPoint>& points) {
     move_color(points, chosen, at);
     changed = changed || points[chosen].at != before;
   }
-  if (ImGui::IsItemHovered())
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
     ImGui::SetTooltip("click: a colour, whose patch is below; drag: move it; right click: remove it");
 
   // Drawing, and the colour.

@@ -29,8 +29,8 @@ constexpr std::array<std::pair<std::string_view, const char*>, 49> kLabels{{
     {"rise", "billows rise by"},
     {"hole_rim", "ragged holes"},
     // Of volumes, where they differ.
-    {"emission", "brightness of glow"},
-    {"kelvin", "temperature of heat 1"},
+    {"emission", "brightness"},
+    {"kelvin", "temperature"},
     {"glow", "unlit"},
     // Of the sky.
     {"zenith", "sky above"},

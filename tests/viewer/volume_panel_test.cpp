@@ -139,7 +139,8 @@ TEST_F(VolumePanelTest, ColoursAreAddedAndMoved) {
   const scene::VolumeOptions volume = saved();
   ASSERT_EQ(volume.color_map.points.size(), 9u);
   EXPECT_NEAR(volume.color_map.points[3].at, 0.35f, 0.02f);
-  EXPECT_EQ(volume.color_map.points[4].at, 0.625f);
+  EXPECT_EQ(volume.color_map.points[4].at, 0.375f);
+  EXPECT_EQ(volume.color_map.points[5].at, 0.625f);
 }
 
 }  // namespace
