@@ -22,7 +22,7 @@ layout(scalar, push_constant) uniform Push { SmokeShadowParams params; };
 #include "lib/hole_window.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/solid.glsl"
-#include "lib/volume_values.glsl"
+#include "lib/volume_transfer.glsl"
 
 // Limit of exact holes per block of texels; beyond it their averages over cells are used.
 const uint kBlockHoles = 64u;
@@ -156,7 +156,10 @@ float volumes_part_depth(RaySegment segment, uint part) {
     const float ds = (end - begin) / float(kRayParts * kPartSteps);
     for (uint i = 0u; i < kPartSteps && ds > 0.0; ++i) {
       const float t = begin + (float(kRayParts * i + part) + 0.5) * ds;
-      depth += ds * volumes[v].look.extinction * volume_value(volumes[v].bricks, ray.origin + ray.per_metre * t);
+      const vec3 p_voxel = ray.origin + ray.per_metre * t;
+      const float density = kHasTransfer ? matter_around(volumes[v], v, p_voxel, 0.5 * ds * ray.per_metre).density
+                                         : volume_value(volumes[v].bricks, p_voxel);
+      depth += ds * volumes[v].look.extinction * density;
     }
   }
   return depth;

@@ -5,10 +5,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "shared/light.h"
+#include "shared/media.h"
 #include "shared/scattering.h"
 #include "shared/volume_light.h"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+layout(constant_id = 0) const uint kMedia = kMediumVolumes;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweeps[]; };
 layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
@@ -17,7 +19,7 @@ layout(binding = kBindVolumeLightTarget, rgba16f) uniform writeonly image3D ligh
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 #include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
-#include "lib/volume_values.glsl"
+#include "lib/volume_extinction.glsl"
 
 const uint kStepsToLight = 16u;
 const float kPerSphere = 0.0795774715;  // 1 / (4 pi)
@@ -54,8 +56,8 @@ float depth_to_light(vec3 p_world, Incident incident) {
   const float ds = incident.distance / float(kStepsToLight);
   float depth = 0.0;
   for (uint i = 0u; i < kStepsToLight; ++i)
-    depth += ds * volumes_extinction(frame.media.volume_count,
-                                     p_world + incident.to_light * (ds * (float(i) + 0.5)));
+    depth += ds * volumes_extinction(frame.media.volume_count, p_world + incident.to_light * (ds * (float(i) + 0.5)),
+                                     incident.to_light * (0.5 * ds));
   return depth;
 }
 
@@ -75,6 +77,21 @@ vec3 other_lights(vec3 p_world, vec3 albedo, ManyScatterings many) {
   return sum;
 }
 
+/// The mean albedo of a cell, by extinction; that of the look where there is none.
+vec3 mean_albedo(uint i, vec3 p_voxel, vec3 cell_voxels) {
+  vec3 sum = vec3(0.0);
+  float extinction = 0.0;
+  for (uint octant = 0u; octant < 8u; ++octant) {
+    const vec3 side = vec3(octant & 1u, octant >> 1u & 1u, octant >> 2u) * 2.0 - 1.0;
+    // From the middle to each corner.
+    const VolumeMatter matter =
+        matter_around(volumes[i], i, p_voxel + side * (0.25 * cell_voxels), side * (0.25 * cell_voxels));
+    sum += matter.density * matter.albedo;
+    extinction += matter.density;
+  }
+  return extinction > 0.0 ? sum / extinction : volumes[i].look.albedo;
+}
+
 void main() {
   const uvec3 at = gl_GlobalInvocationID;
   const uint volume = at.z / params.edge;
@@ -85,10 +102,13 @@ void main() {
   vec4 light = vec4(0.0);
   if (is_near_bricks(volume, p_voxel, size / float(params.edge))) {
     const vec3 p_world = volumes[volume].world_from_voxel * vec4(p_voxel, 1.0);
-    const VolumeLook look = volumes[volume].look;
+    VolumeLook look = volumes[volume].look;
+    if (kHasAlbedos) look.albedo = mean_albedo(volume, p_voxel, size / float(params.edge));
+    // All light here has been scattered at least once. With albedos of their own, samples multiply it by them.
+    const vec3 albedo = kHasAlbedos ? vec3(1.0) : look.albedo;
     const float escape = escape_at(volume, p_world);
     ManyScatterings many = multiple_scattering(many_fit(), look.albedo, look.anisotropy, escape);
-    many.fraction *= look.multiple_scattering * look.albedo;
+    many.fraction *= look.multiple_scattering * albedo;
     if (params.sun != kNoSun) {
       const Light sunlight = lights[params.sun];
       const float lit = light_visibility(sunlight, p_world);
@@ -96,11 +116,11 @@ void main() {
       light.a = lit;
       light.rgb = sunlight.intensity * (lit * kPerSphere) * many.fraction * exp(-many.decay * depth);
     }
-    light.rgb += other_lights(p_world, look.albedo, many);
+    light.rgb += other_lights(p_world, albedo, many);
     const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
     // A uniform sky: what does not arrive directly was scattered in a medium as bright as here.
     const vec3 sky = vec3(escape) / (1.0 - look.albedo * (1.0 - escape));
-    light.rgb += look.albedo * frame.sky.ambient * open_sky * sky;
+    light.rgb += albedo * frame.sky.ambient * open_sky * sky;
   }
   imageStore(light_target, ivec3(at), light);
 }

@@ -8,21 +8,21 @@
 #include "shared/volume_light.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint kMedia = kMediumSmoke;  // besides the volumes
+layout(constant_id = 0) const uint kMedia = kMediumSmoke;
 layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweeps[]; };
 layout(binding = kBindDepths, r16f) uniform writeonly image3D depths;
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 #include "lib/optical_depth.glsl"
-#include "lib/volume_values.glsl"
+#include "lib/volume_extinction.glsl"
 
 /// Beyond it nothing of the light is left, and half floats end at 65504.
 const float kMostDepth = 60.0;
 /// Steps before the bounds.
 const uint kStepsBeyond = 32u;
 
-/// Extinction of all media at a point [1/m].
-float extinction_at(vec3 p_world) {
-  float sum = volumes_extinction(frame.media.volume_count, p_world);
+/// Extinction of all media around the middle of a step [1/m].
+float extinction_at(vec3 p_world, vec3 step_world) {
+  float sum = volumes_extinction(frame.media.volume_count, p_world, 0.5 * step_world);
   if ((kMedia & kMediumSmoke) != 0u) {
     const vec3 p_voxel = (p_world - frame.volume.origin_world) / frame.volume.voxel_size;
     if (all(greaterThan(p_voxel, frame.caster_bounds_min)) && all(lessThan(p_voxel, frame.caster_bounds_max)))
@@ -36,7 +36,7 @@ float depth_beyond(vec3 enters_world, vec3 to_light) {
   const float ds = params.beyond_m / float(kStepsBeyond);
   float depth = 0.0;
   for (uint i = 0u; i < kStepsBeyond && ds > 0.0; ++i)
-    depth += ds * extinction_at(enters_world + to_light * (ds * (float(i) + 0.5)));
+    depth += ds * extinction_at(enters_world + to_light * (ds * (float(i) + 0.5)), to_light * ds);
   return depth;
 }
 
@@ -49,12 +49,15 @@ void main() {
   const vec3 enters = sweep.world_from_sweep * vec4(uv, 0.0, 1.0);
   const vec3 per_unit = sweep.world_from_sweep * vec4(0.0, 0.0, 1.0, 0.0);
   const uint samples = params.edge * kSweepSamples;
+  const vec3 step_world = per_unit / float(samples);
   const float ds = sweep.length_m / float(samples);
   float depth = depth_beyond(enters, -per_unit / sweep.length_m);
   for (uint k = 0u; k < params.edge; ++k) {
     float cell = 0.0;
-    for (uint i = 0u; i < kSweepSamples && depth < kMostDepth; ++i)
-      cell += ds * extinction_at(enters + per_unit * ((float(k * kSweepSamples + i) + 0.5) / float(samples)));
+    for (uint i = 0u; i < kSweepSamples && depth < kMostDepth; ++i) {
+      const float at = (float(k * kSweepSamples + i) + 0.5) / float(samples);
+      cell += ds * extinction_at(enters + per_unit * at, step_world);
+    }
     // Of the middle of the cell.
     const uvec3 at = uvec3(number * params.edge + column.x, column.y, volume * params.edge + k);
     imageStore(depths, ivec3(at), vec4(min(depth + 0.5 * cell, kMostDepth)));

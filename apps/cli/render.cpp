@@ -258,6 +258,19 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
       common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
 }
 
+// What --raycast cannot draw.
+void check_raycast(const RenderOptions& options, const scene::Timeline& timeline) {
+  if (options.raycast.empty()) return;
+  if (timeline.volumes.empty())
+    throw Error(ErrorCode::usage, "--raycast: " + options.input + " has no volume; remove the option");
+  for (const scene::VolumeOptions& volume : timeline.volumes)
+    if (!volume.opacity.empty() || !volume.color_map.empty() || volume.glow > 0)
+      throw Error(ErrorCode::usage, "--raycast: draws no transfer functions; remove the option, or that of " +
+                                        volume.file.filename().string());
+  if (!timeline.smokes.empty())
+    log_warning("--raycast draws volumes alone: the smoke of the timeline is not shown");
+}
+
 void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
   const auto start = std::chrono::steady_clock::now();
   const Plan plan = make_plan(arguments, options, common.outputs);
@@ -275,12 +288,7 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
     scenario.volumes->limit(render::volume_room(context, std::uint64_t{options.volume_memory} << 20))
         .value_or_throw();
   auto simulation = scenario::Simulation::create(scenario).value_or_throw();
-  if (!options.raycast.empty()) {
-    if (scenario.timeline.volumes.empty())
-      throw Error(ErrorCode::usage, "--raycast: " + options.input + " has no volume; remove the option");
-    if (!scenario.timeline.smokes.empty())
-      log_warning("--raycast draws volumes alone: the smoke of the timeline is not shown");
-  }
+  check_raycast(options, scenario.timeline);
   const Json smokes = report_timeline(scenario, simulation->report_smokes(scenario));
   stop_if_interrupted();
   render::Playback playback(context, scenario, plan.renderer, std::move(simulation));

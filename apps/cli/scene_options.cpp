@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
+#include <utility>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/parse.hpp"
@@ -37,16 +39,73 @@ scene::SunOptions parse_sun(const std::string& text) {
           static_cast<float>((*angles)[1] * scene::kRadiansOfDegree)};
 }
 
+/// "0:0,0.3:0.5,1:1"
+std::vector<scene::OpacityPoint> parse_opacity(const std::string& text) {
+  std::vector<scene::OpacityPoint> curve;
+  std::string points = text + ",";
+  for (std::size_t end = 0; (end = points.find(',')) != std::string::npos; points.erase(0, end + 1)) {
+    std::string point = points.substr(0, end);
+    std::ranges::replace(point, ':', ',');
+    const auto numbers = parse_numbers(point, 2);
+    if (!numbers)
+      throw Error(ErrorCode::usage,
+                  "--opacity '" + text + "': expected points position:opacity, such as 0:0,0.3:0,1:1");
+    curve.push_back({static_cast<float>((*numbers)[0]), static_cast<float>((*numbers)[1])});
+  }
+  if (const auto fault = scene::fault_of(std::span(std::as_const(curve))))
+    throw Error(ErrorCode::usage,
+                "--opacity '" + text + "'" +
+                    (fault->point ? " point " + std::to_string(*fault->point + 1) : std::string()) + ": " +
+                    fault->what);
+  return curve;
+}
+
+glm::vec2 parse_range(const std::string& text) {
+  const auto numbers = parse_numbers(text, 2);
+  if (!numbers)
+    throw Error(ErrorCode::usage,
+                "--range '" + text + "': expected the lowest and the highest value, such as 0,1500");
+  const glm::vec2 range((*numbers)[0], (*numbers)[1]);
+  if (const auto fault = scene::fault_of_range(range))
+    throw Error(ErrorCode::usage, "--range '" + text + "': " + *fault);
+  return range;
+}
+
+/// The options that are for a volume without a timeline.
+void refuse_transfer(const scenario::FirstViewOptions& options, const std::string& reason) {
+  for (const auto& [option, is_given] : {std::pair("--opacity", !options.opacity.empty()),
+                                         std::pair("--color-map", !options.color_map.empty()),
+                                         std::pair("--range", options.range.has_value())})
+    if (is_given) throw Error(ErrorCode::usage, std::string(option) + ": " + reason);
+}
+
 void apply_to_timeline(scene::Timeline& timeline, const scenario::FirstViewOptions& options) {
   if (options.smoke_size)
     throw Error(ErrorCode::usage,
                 "--smoke-size: is for a scene without a timeline; set [smoke] voxels in the timeline");
+  refuse_transfer(options, "is for a volume without a timeline; set it in [[volume]] of the timeline");
   if (options.scale) timeline.scale = *options.scale;
   if (options.sun) timeline.sun = *options.sun;
   if (options.voxel) timeline.grid.voxel = *options.voxel;
   if (options.exposure) timeline.exposure = *options.exposure;
   if (options.tone) timeline.tone = *options.tone;
   timeline.smokes.insert(timeline.smokes.begin(), options.smokes.begin(), options.smokes.end());
+}
+
+void declare_transfer(const Arguments& arguments, SceneOptions& options) {
+  std::string names;
+  for (const std::string_view name : scene::color_map_names())
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  arguments.add_option("--color-map", options.color_map, "Colours of a volume's values: " + names)
+      .type_name("NAME");
+  arguments
+      .add_option("--opacity", options.opacity,
+                  "Opacity of a volume's values: points of position in the range and factor, each 0 to 1")
+      .type_name("X:Y,X:Y");
+  arguments
+      .add_option("--range", options.range,
+                  "Values that --color-map and --opacity span; default: all of the volume")
+      .type_name("LOW,HIGH");
 }
 
 // One line for everything that never happens because the timeline ends before.
@@ -113,6 +172,7 @@ void declare_level_options(const Arguments& arguments, SceneOptions& options) {
   arguments.add_option("--exposure", options.exposure, "Exposure [EV]; default: the timeline's, or measured")
       .range(-20.0, 20.0)
       .type_name("EV");
+  declare_transfer(arguments, options);
 }
 
 void declare_volume_memory(const Arguments& arguments, std::uint32_t& mebibytes) {
@@ -129,7 +189,8 @@ std::vector<std::string> texts_of(const SceneOptions& options) {
   texts.push_back("throws");
   texts.insert(texts.end(), options.throws.begin(), options.throws.end());
   texts.push_back(options.sun);
-  texts.push_back(options.tone);
+  for (const std::string& text : {options.tone, options.opacity, options.color_map, options.range})
+    texts.push_back(text);
   for (const std::optional<double>& number :
        {options.smoke_size, options.voxel, options.scale, options.exposure}) {
     char text[32] = "";
@@ -148,6 +209,11 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
   if (!options.tone.empty())
     parsed.tone = options.tone == "standard" ? scene::ToneCurve::standard : scene::ToneCurve::neutral;
   if (!options.sun.empty()) parsed.sun = parse_sun(options.sun);
+  if (!options.opacity.empty()) parsed.opacity = parse_opacity(options.opacity);
+  if (!options.range.empty()) parsed.range = parse_range(options.range);
+  parsed.color_map.name = options.color_map;
+  if (const auto fault = scene::fault_of(parsed.color_map))
+    throw Error(ErrorCode::usage, "--color-map: " + fault->what);
   for (const std::string& text : options.smokes) {
     const glm::vec3 place = parse_event_point("--smoke", text);
     parsed.smokes.push_back({0, place, place});
@@ -161,6 +227,8 @@ scenario::Scenario load_with_options(const std::string& input, const std::string
   expect_suffix("", input, {".txt", ".gltf", ".glb", ".obj", ".toml", ".vdb", ".nvdb", ".brv"});
   if (grids::is_grid_file(input) && options.smoke_size)
     throw Error(ErrorCode::usage, "--smoke-size: is for a scene; " + input + " is a volume");
+  if (!grids::is_grid_file(input) && !scenario::is_timeline(input))
+    refuse_transfer(options, "is for a volume; " + input + " is a scene");
   if (!timeline.empty()) expect_suffix("--timeline", timeline, {".toml"});
   const bool is_timeline = scenario::is_timeline(input);
   if (is_timeline && !timeline.empty())

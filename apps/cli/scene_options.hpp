@@ -16,7 +16,7 @@ namespace brume::cli {
 struct SceneOptions {
   std::vector<std::string> smokes, throws;
   std::optional<double> smoke_size, voxel, scale, exposure;
-  std::string sun, tone;
+  std::string sun, tone, opacity, color_map, range;
 };
 
 void declare_scene_options(const Arguments& arguments, SceneOptions& options);

@@ -7,7 +7,7 @@
 namespace brume::viewer {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, const char*>, 46> kLabels{{
+constexpr std::array<std::pair<std::string_view, const char*>, 49> kLabels{{
     // Of the film and the grid.
     {"duration", "length of the film"},
     {"exposure", "exposure"},
@@ -28,6 +28,10 @@ constexpr std::array<std::pair<std::string_view, const char*>, 46> kLabels{{
     {"swirl_period", "time of a swirl"},
     {"rise", "billows rise by"},
     {"hole_rim", "ragged holes"},
+    // Of volumes, where they differ.
+    {"emission", "brightness"},
+    {"kelvin", "temperature"},
+    {"glow", "unlit"},
     // Of the sky.
     {"zenith", "sky above"},
     {"horizon", "sky at the horizon"},

@@ -108,6 +108,10 @@ bool pick_colour(glm::vec3& colour, float strength) {
 
 }  // namespace
 
+bool color_patch(glm::vec3& color) {
+  return pick_colour(color, 1);
+}
+
 bool option_row(const scene::OptionInfo& info, float& value, float file) {
   Row row(info, value != file, number(shown(info, file)));
   float edited = shown(info, value);

@@ -25,6 +25,9 @@ bool option_row(const scene::OptionInfo& info, std::optional<float>& value, std:
 /// The same for a number of voxels, shown as their volume.
 bool volume_row(const scene::OptionInfo& info, std::uint32_t& voxels, std::uint32_t file, float voxel_size);
 
+/// A patch of a linear colour in [0, 1] whose popup edits it. Returns whether it changed.
+bool color_patch(glm::vec3& color);
+
 /// Rows for the members that `selects` selects, all if it is empty; `visit` wraps one of the visit_*
 /// functions. `file` holds the values that the level began with. Returns whether a value changed.
 template <typename Options, typename Visit>

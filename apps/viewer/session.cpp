@@ -123,6 +123,7 @@ Result<void> Session::restore(const Edits& edits) {
   } else {
     if (auto done = live_->set_smoke(edits.timeline.smoke); !done) return done;
     if (auto done = live_->set_sky(edits.timeline.sky); !done) return done;
+    if (auto done = live_->set_volumes(edits.timeline.volumes); !done) return done;
     if (auto done = live_->set_exposure(edits.timeline.exposure); !done) return done;
   }
   events_ = edits.events;

@@ -225,6 +225,7 @@ void lay_out_panels(Game& game, const Figures& figures, const Notices& notices, 
     smoke_rows(game, "smoke", [](const std::string& key) { return !is_shape(key) && !is_lighting(key); });
   if (header("Shots and explosions", false)) lay_out_shots(game);
   if (header("Shape of the smoke", false)) smoke_rows(game, "shape of the smoke", is_shape);
+  if (!game.session().file().volumes.empty() && header("Volumes", false)) lay_out_volumes(game);
   if (header("Light", false)) lay_out_light(game);
   if (header("Camera", false)) lay_out_camera(game, requests);
   if (header("Quality", false)) lay_out_quality(game.choices(), notices);

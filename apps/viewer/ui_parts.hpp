@@ -25,6 +25,8 @@ void lay_out_shot_marks(const Game& game);
 void lay_out_time_bar(const Session& session, UiRequests& requests);
 /// All settings.
 void lay_out_panels(Game& game, const Figures& figures, const Notices& notices, UiRequests& requests);
+/// Look and transfer functions of the volumes.
+void lay_out_volumes(Game& game);
 /// Times, memory and the state of the simulation.
 void lay_out_figures(const Session& session, const Figures& figures, const Notices& notices);
 

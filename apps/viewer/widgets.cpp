@@ -3,6 +3,8 @@
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+
 namespace brume::viewer {
 namespace {
 
@@ -82,6 +84,21 @@ bool swatch(const char* label, glm::vec3 srgb) {
   const ImVec4 colour(srgb.x, srgb.y, srgb.z, 1);
   const ImVec2 size(2.2f * ImGui::GetFrameHeight(), ImGui::GetFrameHeight());
   return added("swatch", label, ImGui::ColorButton(label, colour, ImGuiColorEditFlags_NoTooltip, size));
+}
+bool begin_combo(const char* label, const char* shown) {
+  // Only while it is closed: then the last item is the combo, otherwise its list.
+  const bool is_open = ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLarge);
+  if (!is_open) added("combo", label, false);
+  return is_open;
+}
+void end_combo() {
+  ImGui::EndCombo();
+}
+bool canvas(const char* label, float height) {
+  const ImVec2 size(std::max(ImGui::GetContentRegionAvail().x, 16.0f), height);
+  return added("canvas", label,
+               ImGui::InvisibleButton(label, size,
+                                      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight));
 }
 bool colour_picker(const char* label, glm::vec3* srgb) {
   constexpr ImGuiColorEditFlags kFlags = ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoLabel |

@@ -3,7 +3,7 @@
 #ifndef MEDIUM_VOLUMES_GLSL
 #define MEDIUM_VOLUMES_GLSL
 #include "lib/frame.glsl"
-#include "lib/volume_values.glsl"
+#include "lib/volume_transfer.glsl"
 #include "shared/media.h"
 #include "shared/phase.h"
 #include "shared/volume_light.h"
@@ -38,11 +38,6 @@ vec3 light_per_voxel(VolumeInstance volume, float edge) { return edge / (volume.
 vec3 light_first(VolumeInstance volume, uint i, float edge) {
   return vec3(0.0, 0.0, float(i) * edge) - volume.bounds_min * light_per_voxel(volume, edge);
 }
-
-/// A line through a texture: at + t along.
-struct TextureRay {
-  vec3 at, along;
-};
 
 /// What the samples of a ray have in common: the first volume's ray, since most frames have no other.
 struct VolumesRay {
@@ -80,9 +75,11 @@ void restart_volumes(inout VolumesRay rays) {
 }
 
 struct VolumesSpan {
-  uint present;       // bit i: samples in [t_first, t_stop) may be inside volume i
-  TextureRay values;  // of the first volume, in the atlas, where it alone is present
+  uint present;         // bit i: samples in [t_first, t_stop) may be inside volume i
+  TextureRay values;    // of the first volume, in the atlas, where it alone is present
+  TextureRay colors;    // the same in the atlas of colours
   float uniform_value;  // of the first volume in a uniform brick; else below 0
+  float ds;             // of the steps, where there are transfer functions
   float t_first, t_stop, t_next;
 };
 
@@ -123,6 +120,8 @@ VolumesSpan volumes_span(WorldRay world, float t, float ds, inout VolumesRay ray
   const vec3 corner = atlas_corner(volumes[0].bricks, first.slot) - first.low;
   span.uniform_value = first.slot == kUniformSlot ? first.uniform_value : -1.0;
   span.values = TextureRay((corner + rays.first.ray.origin) * texel, rays.first.ray.per_metre * texel);
+  if (kHasColorGrids) span.colors = texture_ray(volumes[0].colors.bricks, first, rays.first.ray);
+  if (kHasTransfer) span.ds = ds;
   if (kHasSeveral) {
     rays.corner[0] = corner;
     rays.uniform_value[0] = span.uniform_value;
@@ -156,12 +155,13 @@ vec3 in_cube(uint i, vec3 texel, vec3 size) {
 }
 
 /// Radiance towards the eye that a volume scatters, per extinction.
-vec3 volume_inscatter(VolumeInstance volume, uint i, LightTexels at, float phase) {
-  const vec4 light = textureLod(volume_light, in_cube(i, at.light, vec3(textureSize(volume_light, 0))), 0.0);
+vec3 volume_inscatter(vec3 albedo, uint i, LightTexels at, float phase) {
+  vec4 light = textureLod(volume_light, in_cube(i, at.light, vec3(textureSize(volume_light, 0))), 0.0);
+  if (kHasAlbedos) light.rgb *= albedo;
   if (!kHasSun) return light.rgb;
   const vec3 size = vec3(textureSize(sun_depths, 0));
   const float arrives = light.a * exp(-textureLod(sun_depths, in_cube(i, at.sun, size), 0.0).r);
-  return light.rgb + volume.look.albedo * frame.media.sun_irradiance * (arrives * phase);
+  return light.rgb + albedo * frame.media.sun_irradiance * (arrives * phase);
 }
 
 /// What a volume's heat emits at a point, per metre and per look.extinction.
@@ -173,13 +173,14 @@ vec3 volume_glow(VolumeInstance volume, uint i, vec3 p_world) {
   return textureLod(volume_colors, vec2(column, float(i) + 0.5) / size, 0.0).rgb;
 }
 
-void add_volume(VolumeInstance volume, uint i, float value, LightTexels at, float phase, vec3 p_world,
+void add_volume(VolumeInstance volume, uint i, VolumeMatter matter, LightTexels at, float phase, vec3 p_world,
                 inout VolumesSample sum, inout uint texture_samples) {
-  const float extinction = volume.look.extinction * value;
-  ++texture_samples;
+  const float extinction = volume.look.extinction * matter.density;
+  texture_samples += kHasTransfer ? 2u : 1u;
+  if (kHasColorGrids) ++texture_samples;
   sum.extinction += extinction;
   if (kIsLit && extinction > 0.0) {
-    sum.light += extinction * (volume_inscatter(volume, i, at, phase) + volume.look.emission);
+    sum.light += extinction * (volume_inscatter(matter.albedo, i, at, phase) + matter.emission);
     texture_samples += kHasSun ? 2u : 1u;
   }
   if (kHasHeat && volume.heat.per_value > 0.0) {
@@ -192,12 +193,13 @@ VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, 
                              inout uint texture_samples) {
   VolumesSample sum = VolumesSample(0.0, vec3(0.0), vec3(0.0));
   if (!kHasSeveral || span.present == 1u) {
-    float value = span.uniform_value;
-    if (value < 0.0) value = textureLod(volume_values, span.values.at + t * span.values.along, 0.0).r;
+    const vec3 per_metre = rays.first.ray.per_metre;
+    const VolumeMatter matter =
+        matter_along(volumes[0], span.values, span.colors, span.uniform_value, per_metre, span.ds, t);
     LightTexels at;
     at.light = rays.light.at + t * rays.light.along;
     if (kHasSun) at.sun = rays.sun.at + t * rays.sun.along;
-    add_volume(volumes[0], 0u, value, at, rays.phase, p_world, sum, texture_samples);
+    add_volume(volumes[0], 0u, matter, at, rays.phase, p_world, sum, texture_samples);
     return sum;
   }
   const float edge = float(textureSize(volume_light, 0).x), sun_edge = float(textureSize(sun_depths, 0).y);
@@ -207,10 +209,15 @@ VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, 
     const LightTexels at = LightTexels(
         light_first(volumes[i], i, edge) + p_voxel * light_per_voxel(volumes[i], edge),
         (volumes[i].sun_from_voxel * vec4(p_voxel, 1.0) + vec3(0.0, 0.0, float(i))) * sun_edge);
-    const vec3 uvw = (rays.corner[i] + p_voxel) * atlas_texel(volumes[i].bricks);
-    float value = rays.uniform_value[i];
-    if (value < 0.0) value = textureLod(volume_values, uvw, 0.0).r;
-    add_volume(volumes[i], i, value, at, volume_phase(volumes[i], world), p_world, sum, texture_samples);
+    VolumeMatter matter = VolumeMatter(rays.uniform_value[i], volumes[i].look.albedo, volumes[i].look.emission);
+    if (kHasAlbedos) {
+      const vec3 per_metre = volumes[i].voxel_from_world * vec4(world.direction, 0.0);
+      matter = matter_around(volumes[i], i, p_voxel, per_metre * half_segment(per_metre, span.ds));
+    } else if (matter.density < 0.0) {
+      const vec3 uvw = (rays.corner[i] + p_voxel) * atlas_texel(volumes[i].bricks);
+      matter.density = textureLod(volume_values, uvw, 0.0).r;
+    }
+    add_volume(volumes[i], i, matter, at, volume_phase(volumes[i], world), p_world, sum, texture_samples);
   }
   return sum;
 }

@@ -1,4 +1,4 @@
-// Values of the volumes besides the smoke, and their extinction at a point.
+// Values of the volumes besides the smoke.
 #ifndef VOLUME_VALUES_GLSL
 #define VOLUME_VALUES_GLSL
 #include "lib/brick_rays.glsl"
@@ -30,20 +30,6 @@ float volume_value(BrickLayout bricks, BrickAt brick, vec3 p_voxel) {
 float volume_value(BrickLayout bricks, vec3 p_voxel) {
   const BrickAt brick = volume_brick(bricks, p_voxel);
   return brick.slot == kNoSlot ? 0.0 : volume_value(bricks, brick, p_voxel);
-}
-
-/// Extinction of a volume at a point [1/m].
-float volume_extinction(VolumeInstance volume, vec3 p_world) {
-  const vec3 p_voxel = volume.voxel_from_world * vec4(p_world, 1.0);
-  if (any(lessThan(p_voxel, volume.bounds_min)) || any(greaterThan(p_voxel, volume.bounds_max))) return 0.0;
-  return volume.look.extinction * volume_value(volume.bricks, p_voxel);
-}
-
-/// Extinction of all volumes of the frame at a point [1/m].
-float volumes_extinction(uint volume_count, vec3 p_world) {
-  float sum = volume_extinction(volumes[0], p_world);
-  for (uint i = 1u; i < volume_count; ++i) sum += volume_extinction(volumes[i], p_world);
-  return sum;
 }
 
 #endif

@@ -11,7 +11,11 @@ SHARED_CONST uint kMediumVolumes = 2u;
 SHARED_CONST uint kMediumHeat = 4u;  // one glows with heat
 SHARED_CONST uint kMediumLit = 8u;   // one scatters light, or emits; else all only absorb
 SHARED_CONST uint kMediumSun = 16u;  // a sun lights them
-SHARED_CONST uint kMediumSeveral = 32u;  // there are more than one
+SHARED_CONST uint kMediumSeveral = 32u;   // there are more than one
+SHARED_CONST uint kMediumTransfer = 64u;  // one has a transfer function
+SHARED_CONST uint kMediumColors = 128u;   // one has a grid of colours
+/// Those with which the albedo differs from point to point.
+SHARED_CONST uint kMediaOfAlbedos = 192u;
 
 SHARED_END
 #endif

@@ -12,6 +12,7 @@
 //   21 - 22  noise                           noise.h
 //   23 - 26  the G-buffer                    gbuffer.h
 //   27 - 31  volumes besides the smoke       volume.h
+//   53 - 54  their transfer functions and colours
 //   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H

@@ -17,6 +17,8 @@ SHARED_BINDING(kBindVolumePages, 28u);
 SHARED_BINDING(kBindVolumeValues, 29u);
 SHARED_BINDING(kBindVolumeLight, 30u);
 SHARED_BINDING(kBindVolumeColors, 31u);
+SHARED_BINDING(kBindTransfers, 53u);
+SHARED_BINDING(kBindColorGrids, 54u);
 
 SHARED_CONST int kBrickVoxels = 8;
 SHARED_CONST int kBrickTexels = 10;
@@ -72,6 +74,35 @@ SHARED_SIZE(VolumeHeat, 96);
 /// Colours of a row, from a value of 0 to that at the end of the row.
 SHARED_CONST uint kVolumeColors = 256u;
 
+/// Kinds of transfer functions.
+SHARED_CONST uint kTransferNone = 0u;
+SHARED_CONST uint kTransferColors = 1u;   // colours by value; the value is the density
+SHARED_CONST uint kTransferOpacity = 2u;  // colours and densities by value
+/// Cells that a table divides its range of values into.
+SHARED_CONST uint kTransferCells = 1024u;
+/// Entries of a table, each a vec4 of colour times opacity, and opacity: the curve at the low end of the range, its
+/// integrals from there to each border of the cells in units of the range, the curve at the high end.
+SHARED_CONST uint kTransferEntries = 1027u;
+/// Beyond this many ranges below or above the range, values count as there.
+SHARED_CONST float kTransferReach = 64.0f;
+
+/// The transfer function of a volume: a value v is at the position v per_value + first of its table, whose range is
+/// [0, 1].
+struct VolumeTransfer {
+  float first, per_value;
+  float scattered;  // fraction of the colour that is the albedo
+  float emitted;    // radiance of an opaque part per colour
+  uint kind;
+};
+SHARED_SIZE(VolumeTransfer, 20);
+
+/// Colours that multiply a volume's albedo, in bricks of the same slots as its own.
+struct VolumeColors {
+  BrickLayout bricks;
+  uint present;
+};
+SHARED_SIZE(VolumeColors, 48);
+
 /// A volume of one channel, its density >= 0, under any affine transform.
 struct VolumeInstance {
   mat4x3 voxel_from_world;  // [voxels/m]
@@ -82,8 +113,10 @@ struct VolumeInstance {
   BrickLayout bricks;
   VolumeHeat heat;
   mat4x3 sun_from_voxel;  // to the cube of the sun's depths, [0, 1]^3 (volume_light.h)
+  VolumeTransfer transfer;
+  VolumeColors colors;
 };
-SHARED_SIZE(VolumeInstance, 344);
+SHARED_SIZE(VolumeInstance, 412);
 
 /// Entry of the root for a brick, in the page buffer; kNoPage outside of the window.
 SHARED_CONST uint kNoPage = 0xffffffffu;

@@ -216,14 +216,29 @@ Measures measure(const GridNumbers& numbers) {
   return all;
 }
 
-void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& out) {
+/// Needs the range of the values.
+void count_values(const GridNumbers& numbers, BrickVolume& out) {
+  if (out.high <= out.low) return;
+  out.histogram.assign(kHistogramBins, 0);
+  const float per_value = static_cast<float>(kHistogramBins) / (out.high - out.low);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t voxel = 0; voxel < kBrickVoxels; ++voxel) {
+      const float value = numbers.at(i, voxel);
+      if (value <= 0) continue;
+      const auto bin = static_cast<std::size_t>(per_value * (value - out.low));
+      ++out.histogram[std::min(bin, kHistogramBins - 1)];
+    }
+}
+
+void fill_volume(const Levels& levels, const Box<float>& bounds, bool may_be_uniform, BrickVolume& out) {
   volume::SparseVolumeInfo info;
   info.channels = {{sizeof(std::uint16_t)}};
   out.volume = std::make_unique<volume::SparseVolume>(info);
   const volume::ChannelId channel{0};
   out.volume->begin_update();
   // Bricks with slots; those of a new volume are in the order in which they are acquired.
-  const std::vector<std::uint16_t> uniform = uniform_texels(levels, 1 / out.unit);
+  std::vector<std::uint16_t> uniform(levels.bricks.size(), 0);
+  if (may_be_uniform) uniform = uniform_texels(levels, 1 / out.unit);
   std::vector<glm::ivec3> bricks;
   for (std::size_t i = 0; i < uniform.size(); ++i) {
     if (uniform[i] != 0) {
@@ -248,7 +263,8 @@ void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& ou
 
 /// What a level looks like in a unit (0: the one that suits it) and in bounds (empty: its own). Without its
 /// place.
-BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds) {
+BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds,
+                      bool may_be_uniform = true) {
   BrickVolume out;
   const Measures all = measure(levels.density.numbers);
   out.low = all.low;
@@ -257,10 +273,12 @@ BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds
   if (all.sum > 0) {
     if (out.high < kLeastHigh || out.high > kMostHigh) out.unit = std::exp2(std::floor(std::log2(out.high)));
     out.mean = all.places / all.sum;
+    count_values(levels.density.numbers, out);
     out.deviation = glm::sqrt(glm::max(all.squares / all.sum - out.mean * out.mean, 0.0));
   }
   if (unit > 0) out.unit = unit;
-  fill_volume(levels, bounds.empty() ? united(all.bounds, measure(levels.also.numbers).bounds) : bounds, out);
+  fill_volume(levels, bounds.empty() ? united(all.bounds, measure(levels.also.numbers).bounds) : bounds,
+              may_be_uniform, out);
   return out;
 }
 
@@ -301,7 +319,7 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
                std::to_string(options.max_bricks) + " " + std::to_string(options.max_pages));
   Levels levels{Level(GridNumbers(grid)), Level(GridNumbers(options.also ? *options.also : Grid())), {}};
   levels.reduce({options.max_bricks, options.max_pages});
-  BrickVolume out = volume_of(levels, 0, kEmptyBox);
+  BrickVolume out = volume_of(levels, 0, kEmptyBox, options.may_be_uniform);
   const auto active = static_cast<double>(count_active(grid));
   out.level = levels.halvings;
   out.rms_error = active > 0 ? std::sqrt(levels.square_error / active) : 0;

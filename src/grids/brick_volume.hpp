@@ -26,6 +26,8 @@ struct BrickVolumeOptions {
   /// A grid with the same transform: bricks and bounds reach to wherever this one is above 0, too. For a
   /// density beside which something glows. Null: none.
   const Grid* also = nullptr;
+  /// Whether bricks of one value are uniform (SparseVolume::uniform_bricks): they take no memory.
+  bool may_be_uniform = true;
 };
 
 /// What the values in a brick lie between.
@@ -34,8 +36,11 @@ struct ValueRange {
   bool operator==(const ValueRange&) const = default;
 };
 
+/// Parts that a histogram divides the range of values into.
+inline constexpr std::size_t kHistogramBins = 256;
+
 /// One channel of half floats, filtered trilinearly. Bricks are stored wherever a filtered value can differ
-/// from 0.
+/// from 0; those of one value throughout, apron included, without texels.
 struct BrickVolume {
   std::unique_ptr<volume::SparseVolume> volume;  ///< Voxel space: voxel i covers [i, i + 1).
   /// Of each slot: the least and the largest value that filtering can give anywhere in its brick, faces
@@ -45,6 +50,9 @@ struct BrickVolume {
   float unit = 1;                    ///< Value that the bricks store as 1: a power of two.
   float low = 0, high = 0;           ///< Range of the values.
   double sum = 0;                    ///< Of all values.
+  /// How many values above 0 are in each of kHistogramBins parts of equal length from low to high; empty
+  /// without any.
+  std::vector<std::uint64_t> histogram;
   glm::dvec3 mean{0}, deviation{0};  ///< Of the values' places, weighted by value [voxel space].
   int level = 0;                     ///< Halvings of the resolution: 0 is the file's own.
   double rms_error = 0;              ///< Of the halvings, over active voxels; 0 at level 0.
@@ -53,8 +61,7 @@ struct BrickVolume {
 /// Values above 0 of a grid of numbers; the length of vectors. A level set becomes a fog that is 0 outside,
 /// grows along three voxels behind the surface, and is 1 inside (as OpenVDB's sdfToFogVolume). NaN becomes 0;
 /// values that half floats lack are stored in a larger or smaller unit. The background must be 0, or that of
-/// a level set. Fails with bad_input for a
-/// grid without numbers.
+/// a level set. Fails with bad_input for a grid without numbers.
 Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions& options = {});
 
 /// The same at the first lower resolution that takes at most `max_bricks` bricks (at least

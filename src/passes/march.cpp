@@ -113,6 +113,8 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindVolumeLight, gpu::sampled(in.volume_light, linear_)},
                     {shared::kBindSunDepths, gpu::sampled(in.sun_depths, linear_)},
                     {shared::kBindVolumeColors, gpu::sampled(in.volumes.colors, linear_)},
+                    {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
+                    {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
                 });
 }
 

@@ -71,6 +71,7 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
                     {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                    {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
                 },
                 params);
   recorder.dispatch_threads(pipeline, kRayThreads * plan.blocks, 1);

@@ -5,6 +5,10 @@
 namespace brume::passes {
 namespace {
 
+/// What the pipelines differ by.
+constexpr std::uint32_t kSweepMedia = shared::kMediumSmoke | shared::kMediumTransfer;
+constexpr std::uint32_t kLightMedia = shared::kMediaOfAlbedos;
+
 /// `count` cubes along z, `side_by_side` of them along x.
 gpu::Image cubes(gpu::Context& context, VkFormat format, std::uint32_t edge, std::uint32_t count,
                  std::uint32_t side_by_side) {
@@ -22,15 +26,15 @@ VolumeLightPass::VolumeLightPass(gpu::Context& context)
     : context_(context),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}),
-      light_pipeline_(context, shaders::volume_light_comp),
       sun_depths_(cubes(context, VK_FORMAT_R16_SFLOAT, 1, 1, 1)),
       light_(cubes(context, VK_FORMAT_R16G16B16A16_SFLOAT, 1, 1, 1)) {}
 
 bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32_t media) {
   if (plan.sweeps.empty()) return false;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
-  media &= shared::kMediumSmoke;
-  sweep_pipelines_.try_emplace(media, context_, shaders::volume_sweep_comp, std::vector{media});
+  const std::uint32_t sweep = media & kSweepMedia, light = media & kLightMedia;
+  sweep_pipelines_.try_emplace(sweep, context_, shaders::volume_sweep_comp, std::vector{sweep});
+  light_pipelines_.try_emplace(light, context_, shaders::volume_light_comp, std::vector{light});
   gpu::grow(context_, sweeps_, plan.sweeps.size() * sizeof(shared::VolumeSweep));
   const auto fits = [count](const gpu::Image& image, std::uint32_t edge) {
     return image.info().size.y == edge && image.info().size.z >= edge * count;
@@ -52,7 +56,8 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
   const shared::VolumeLightParams sky{shared::kSkyEdge, 1, shared::kSkySweeps, plan.sun, plan.beyond_m};
   record_sweeps(recorder, in, sun, sun_depths_, count);
   record_sweeps(recorder, in, sky, sky_depths_, count * shared::kSkySweeps);
-  recorder.bind(light_pipeline_,
+  const gpu::ComputePipeline& light_pipeline = light_pipelines_.at(in.media & kLightMedia);
+  recorder.bind(light_pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
@@ -63,19 +68,21 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
                     {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                    {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
+                    {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
                     {shared::kBindSweeps, gpu::read(sweeps_)},
                     {shared::kBindSunDepths, gpu::sampled(sun_depths_, linear_)},
                     {shared::kBindSkyDepths, gpu::sampled(sky_depths_, linear_)},
                     {shared::kBindVolumeLightTarget, gpu::stored(light_)},
                 },
                 light);
-  recorder.dispatch_threads(light_pipeline_, plan.edge, plan.edge, plan.edge * count);
+  recorder.dispatch_threads(light_pipeline, plan.edge, plan.edge, plan.edge * count);
 }
 
 void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,
                                     const shared::VolumeLightParams& params, const gpu::Image& depths,
                                     std::uint32_t sweeps) {
-  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.media & shared::kMediumSmoke);
+  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.media & kSweepMedia);
   recorder.bind(pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -88,6 +95,7 @@ void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
                     {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                    {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
                     {shared::kBindSweeps, gpu::read(sweeps_)},
                     {shared::kBindDepths, gpu::stored(depths)},
                 },

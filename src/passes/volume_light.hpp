@@ -41,8 +41,7 @@ class VolumeLightPass {
 
   gpu::Context& context_;
   gpu::Sampler linear_, compare_;
-  std::map<std::uint32_t, gpu::ComputePipeline> sweep_pipelines_;  ///< By media.
-  gpu::ComputePipeline light_pipeline_;
+  std::map<std::uint32_t, gpu::ComputePipeline> sweep_pipelines_, light_pipelines_;  ///< By media.
   gpu::Image sun_depths_, sky_depths_, light_;
   gpu::Buffer sweeps_;
 };

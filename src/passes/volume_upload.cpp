@@ -5,11 +5,12 @@
 #include <glm/gtc/packing.hpp>
 
 #include "planning/blackbody.hpp"
+#include "planning/transfer_table.hpp"
 
 namespace brume::passes {
 namespace {
 
-constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT};
+constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT}, kColorChannels{VK_FORMAT_R16G16B16A16_SFLOAT};
 
 /// The grids of all volumes: the densities, those that glow, and the previews of both.
 struct GridList {
@@ -42,6 +43,14 @@ gpu::Buffer make_instances(gpu::Context& context) {
           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
 }
 
+/// The grids of colours.
+std::vector<const volume::SparseVolume*> color_list_of(std::span<const planning::VolumeInput> volumes) {
+  std::vector<const volume::SparseVolume*> list;
+  for (const planning::VolumeInput& volume : volumes)
+    if (volume.colors) list.push_back(volume.colors);
+  return list;
+}
+
 gpu::Image make_colors(gpu::Context& context) {
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -69,17 +78,26 @@ std::vector<std::uint64_t> colors_of(const planning::HeatInput& heat) {
 }  // namespace
 
 VolumeUpload::VolumeUpload(gpu::Context& context)
-    : atlas_(context, kVolumeChannels, {}, true),
+    : context_(context),
+      atlas_(context, kVolumeChannels, {}, true),
+      color_atlas_(context, kColorChannels, {}, true),
       instances_(make_instances(context)),
       lit_instances_(make_instances(context)),
-      colors_(make_colors(context)) {}
+      colors_(make_colors(context)) {
+  gpu::grow(context_, transfers_, sizeof(glm::vec4));
+}
 
 std::vector<std::uint64_t> VolumeUpload::reserve(std::span<const planning::VolumeInput> volumes) {
   const GridList list = list_of(volumes);
   atlas_.reserve(list.grids);
+  color_atlas_.reserve(color_list_of(volumes));
   std::vector<std::uint64_t> missing;
   for (std::size_t i = 0; i < list.grids.size(); ++i)
     if (atlas_.is_missing(i)) missing.push_back(list.grids[i]->id());
+  const auto has_transfer = [](const planning::VolumeInput& volume) { return !volume.transfer.empty(); };
+  if (std::ranges::none_of(volumes, has_transfer)) return missing;
+  const std::size_t entries = volumes.size() * shared::kTransferEntries;
+  if (gpu::grow(context_, transfers_, entries * sizeof(glm::vec4))) transfer_sources_.clear();
   return missing;
 }
 
@@ -89,9 +107,11 @@ void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::Vol
                           std::span<const planning::VisibleVolume> lit) {
   const GridList list = list_of(volumes, residency);
   atlas_.record(recorder, list.grids, list.streams);
+  color_atlas_.record(recorder, color_list_of(volumes));
   record_instances(recorder, volumes, visible, instances_);
   record_instances(recorder, volumes, lit, lit_instances_);
-  record_colors(recorder, volumes, visible);
+  record_glows(recorder, volumes, visible);
+  record_transfers(recorder, volumes, visible);
 }
 
 void VolumeUpload::record_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
@@ -105,22 +125,26 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
                                     std::span<const planning::VisibleVolume> visible,
                                     const gpu::Buffer& to) const {
   const std::vector<const volume::SparseVolume*> grids = list_of(volumes).grids;
-  const auto layout_of = [&](const volume::SparseVolume* grid) {
-    return atlas_.layout(static_cast<std::size_t>(std::ranges::find(grids, grid) - grids.begin()));
+  const std::vector<const volume::SparseVolume*> color_grids = color_list_of(volumes);
+  const auto position = [](const std::vector<const volume::SparseVolume*>& list,
+                           const volume::SparseVolume* grid) {
+    return static_cast<std::size_t>(std::ranges::find(list, grid) - list.begin());
   };
+  const auto layout_of = [&](const volume::SparseVolume* grid) { return atlas_.layout(position(grids, grid)); };
   std::vector<shared::VolumeInstance> instances;
   for (const planning::VisibleVolume& volume : visible) {
     const planning::VolumeInput shown = planning::shown_volume(volumes[volume.index], volume.is_preview);
     shared::VolumeInstance instance = volume.instance;
     instance.bricks = layout_of(shown.volume);
     if (instance.heat.per_value > 0) instance.heat.bricks = layout_of(shown.heat.volume);
+    if (instance.colors.present) instance.colors.bricks = color_atlas_.layout(position(color_grids, shown.colors));
     instances.push_back(instance);
   }
   recorder.upload(to, 0, std::as_bytes(std::span(instances)));
 }
 
-void VolumeUpload::record_colors(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                                 std::span<const planning::VisibleVolume> visible) {
+void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                                std::span<const planning::VisibleVolume> visible) {
   std::vector<glm::vec3> glows;
   for (const planning::VisibleVolume& volume : visible) glows.push_back(glow_of(volumes[volume.index].heat));
   if (glows == glows_) return;
@@ -134,6 +158,19 @@ void VolumeUpload::record_colors(gpu::Recorder& recorder, std::span<const planni
   const gpu::Recorder::Region used{
       std::as_bytes(std::span(colors)), glm::ivec3(0), {shared::kVolumeColors, rows, 1}};
   if (rows > 0) recorder.upload(colors_, {&used, 1});
+}
+
+void VolumeUpload::record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                                    std::span<const planning::VisibleVolume> visible) {
+  transfer_sources_.resize(visible.size());
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    const planning::VolumeInput& volume = volumes[visible[i].index];
+    TransferSource source{volume.transfer, volume.look.albedo};
+    if (volume.transfer.empty() || source == transfer_sources_[i]) continue;
+    const std::vector<glm::vec4> table = planning::transfer_table(volume.transfer, volume.look.albedo);
+    recorder.upload(transfers_, i * table.size() * sizeof(glm::vec4), std::as_bytes(std::span(table)));
+    transfer_sources_[i] = std::move(source);
+  }
 }
 
 }  // namespace brume::passes

@@ -14,6 +14,8 @@ struct VolumeResources {
   const gpu::Image& values;      ///< Half floats.
   const gpu::Buffer& instances;  ///< A shared::VolumeInstance per volume in view.
   const gpu::Image& colors;  ///< Half floats: shared::kVolumeColors colours a row, a row per volume in view.
+  const gpu::Buffer& transfers;   ///< shared::kTransferEntries per volume in view, where one has any.
+  const gpu::Image& color_grids;  ///< Half floats: the atlas of VolumeColors.
 };
 
 class VolumeUpload {
@@ -35,24 +37,37 @@ class VolumeUpload {
   void record_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                    std::span<const planning::VolumeResidency> part);
 
-  VolumeResources resources() const { return {atlas_.pages(), atlas_.channel(kValues), instances_, colors_}; }
+  VolumeResources resources() const { return resources_with(instances_); }
   /// The same with the instances that light meets.
-  VolumeResources lit_resources() const {
-    return {atlas_.pages(), atlas_.channel(kValues), lit_instances_, colors_};
-  }
+  VolumeResources lit_resources() const { return resources_with(lit_instances_); }
 
  private:
-  void record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                        std::span<const planning::VisibleVolume> visible, const gpu::Buffer& to) const;
-  void record_colors(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                     std::span<const planning::VisibleVolume> visible);
-
   static constexpr volume::ChannelId kValues{0};
 
-  BrickAtlas atlas_;
-  gpu::Buffer instances_, lit_instances_;
+  VolumeResources resources_with(const gpu::Buffer& instances) const {
+    return {atlas_.pages(), atlas_.channel(kValues),      instances, colors_,
+            transfers_,     color_atlas_.channel(kValues)};
+  }
+  void record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                        std::span<const planning::VisibleVolume> visible, const gpu::Buffer& to) const;
+  void record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                    std::span<const planning::VisibleVolume> visible);
+  void record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
+                        std::span<const planning::VisibleVolume> visible);
+
+  /// What a table of transfers_ was made from.
+  struct TransferSource {
+    planning::TransferInput transfer;
+    glm::vec3 albedo;
+    bool operator==(const TransferSource&) const = default;
+  };
+
+  gpu::Context& context_;
+  BrickAtlas atlas_, color_atlas_;
+  gpu::Buffer instances_, lit_instances_, transfers_;
   gpu::Image colors_;
   std::vector<glm::vec3> glows_;  ///< What each row of colors_ was made from.
+  std::vector<TransferSource> transfer_sources_;
 };
 
 }  // namespace brume::passes

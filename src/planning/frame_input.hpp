@@ -89,6 +89,17 @@ struct HeatInput {
   glm::mat4 world_from_preview{1};
 };
 
+/// How the values of a volume become opacity and colour (scene/transfer.hpp).
+struct TransferInput {
+  std::vector<scene::OpacityPoint> opacity;  ///< Empty: the value is the density.
+  scene::ColorMap color_map;                 ///< Empty: VolumeLook::albedo.
+  glm::vec2 range{0, 1};                     ///< Of the values that both span; x < y.
+  float glow = 0;      ///< Fraction of the colours that is emitted instead of scattered, [0, 1].
+  float emission = 1;  ///< Radiance of an opaque part per colour that is emitted.
+  bool empty() const { return opacity.empty() && color_map.empty() && glow <= 0; }
+  bool operator==(const TransferInput&) const = default;
+};
+
 /// A volume in the world besides the smoke, lit by all lights of the frame and by itself.
 struct VolumeInput {
   /// One channel of half floats: its density, >= 0. It lies within the volume's bounds and bricks.
@@ -100,6 +111,10 @@ struct VolumeInput {
   /// bounds in the world. Null: all of the volume is uploaded at once.
   const volume::SparseVolume* preview = nullptr;
   glm::mat4 world_from_preview{1};
+  TransferInput transfer = {};
+  /// One channel of four half floats: colours in [0, 1] that multiply the albedo, in the same bricks and
+  /// slots as `volume`. null: none.
+  const volume::SparseVolume* colors = nullptr;
 };
 
 /// What one frame shows. What `smoke`, `volumes` and `level` point to must outlive the frame's recording.

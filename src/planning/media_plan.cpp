@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/transfer_table.hpp"
+
 namespace brume::planning {
 namespace {
 
@@ -58,6 +60,18 @@ bool has_heat(const VolumeInput& volume) {
   return volume.heat.volume && volume.heat.volume->slot_count() > 0;
 }
 
+/// The look of a volume where it has no colours of its own.
+shared::VolumeLook look_of(const VolumeInput& volume) {
+  const shared::VolumeTransfer transfer = device_transfer(volume.transfer);
+  shared::VolumeLook look = volume.look;
+  if (transfer.kind == shared::kTransferNone) return look;
+  // For where a cell of light has no extinction; samples have colours of their own.
+  const glm::vec3 color = mean_color(volume.transfer, look.albedo);
+  look.albedo = transfer.scattered * color;
+  look.emission = transfer.emitted * color;
+  return look;
+}
+
 shared::VolumeInstance instance_of(const VolumeInput& volume) {
   const shared::VolumeLayout& layout = volume.volume->layout();
   shared::VolumeHeat heat{};
@@ -66,16 +80,21 @@ shared::VolumeInstance instance_of(const VolumeInput& volume) {
           glm::mat4x3(volume.world_from_voxel),
           layout.bounds_min,
           layout.bounds_max,
-          volume.look,
+          look_of(volume),
           {},
           heat,
-          {}};
+          {},
+          device_transfer(volume.transfer),
+          {{}, volume.colors ? 1u : 0u}};
 }
 
 void add_volume(MediaPlan& plan, const VolumeInput& volume, const VisibleVolume& visible) {
   const Box<float>& world = visible.bounds_world;
   add_medium(plan, shared::kMediumVolumes, world, volume.look.extinction, step_of(volume.world_from_voxel));
-  const glm::vec3 light = volume.look.albedo + volume.look.emission;
+  if (device_transfer(volume.transfer).kind != shared::kTransferNone) plan.media |= shared::kMediumTransfer;
+  if (volume.colors) plan.media |= shared::kMediumColors;
+  const shared::VolumeLook look = look_of(volume);
+  const glm::vec3 light = look.albedo + look.emission;
   if (std::max({light.r, light.g, light.b}) > 0) plan.media |= shared::kMediumLit;
   if (has_heat(volume)) plan.media |= shared::kMediumHeat;
   plan.volumes.push_back(visible);
@@ -106,6 +125,7 @@ VolumeInput shown_volume(const VolumeInput& volume, bool preview) {
   if (preview && volume.preview) {
     shown.volume = volume.preview;
     shown.world_from_voxel = volume.world_from_preview;
+    shown.colors = nullptr;
   }
   if (preview && volume.heat.preview) {
     shown.heat.volume = volume.heat.preview;

@@ -72,7 +72,7 @@ std::optional<SmokeShadowUpdate> SmokeShadowCache::update(SmokeShadowPlan plan,
   Key key = key_of(inputs);
   const bool noise_changed = inputs.look.erosion > 0 && inputs.noise->catches_up;
   const bool same_plan = key_ && plan == plan_;
-  const bool same_inputs = key_ && key == *key_ && !(inputs.volume && (inputs.rebuild || noise_changed));
+  const bool same_inputs = key_ && key == *key_ && !inputs.rebuild && !(inputs.volume && noise_changed);
   plan_ = std::move(plan);
   key_ = std::move(key);
 

@@ -42,6 +42,14 @@ class KeyBytes {
   std::vector<std::byte> bytes_;
 };
 
+void add_transfer(KeyBytes& key, const TransferInput& transfer) {
+  for (const scene::OpacityPoint& point : transfer.opacity) key.add(point);
+  for (const scene::ColorPoint& point : transfer.color_map.points) key.add(point);
+  for (const char letter : transfer.color_map.name) key.add(letter);
+  key.add(transfer.opacity.size());
+  key.add(transfer.color_map.points.size());
+}
+
 std::vector<std::byte> key_of(const VolumeLightInputs& in) {
   KeyBytes key;
   for (const VisibleVolume& visible : in.media->volumes) {
@@ -52,6 +60,11 @@ std::vector<std::byte> key_of(const VolumeLightInputs& in) {
     key.add(visible.instance.bounds_min);
     key.add(visible.instance.bounds_max);
     key.add(visible.instance.look);
+    key.add(visible.instance.transfer);
+    add_transfer(key, in.volumes[visible.index].transfer);
+    const volume::SparseVolume* const colors = in.volumes[visible.index].colors;
+    key.add(colors ? colors->id() : 0);
+    key.add(colors ? colors->revision() : 0);
   }
   for (const shared::Light& light : in.lights) key.add(light);
   key.add(in.sky.ambient);

@@ -7,6 +7,7 @@
 #include "core/progress.hpp"
 #include "passes/noise.hpp"
 #include "render/exposure.hpp"
+#include "render/volume_inputs.hpp"
 #include "scenario/flashes.hpp"
 #include "smoke/holes.hpp"
 
@@ -30,33 +31,6 @@ RendererOptions with_masks(RendererOptions options, const scenario::Scenario& sc
 constexpr double kJitterRate = 360;
 /// So that a time that is rounded down belongs to its own step.
 constexpr double kRounding = 1e-3;
-
-/// The volumes at a time, which stay loaded until another one is read.
-std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scenario, double seconds,
-                                                 scenario::VolumeWait wait) {
-  const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
-  std::vector<planning::VolumeInput> inputs;
-  for (const scenario::VolumeAt& volume : scenario.volumes->at(options, seconds, wait)) {
-    const scene::VolumeOptions& look = options[inputs.size()];
-    planning::VolumeInput input{volume.frame->density.volume.get(), volume.world_from_density, {}, {}};
-    const grids::BrickVolume& density = volume.frame->density;
-    input.look = {look.albedo, look.extinction * density.unit, glm::vec3(0), look.anisotropy, 1};
-    if (const auto& heat = volume.frame->heat)
-      // What glows is a multiple of the look's extinction, which is that of the stored density.
-      input.heat = {heat->volume.get(), volume.world_from_heat, look.kelvin * heat->unit,
-                    heat->high / heat->unit, look.emission / density.unit};
-    if (const auto& preview = volume.preview; preview && preview->density) {
-      input.preview = preview->density->volume.get();
-      input.world_from_preview = volume.world_from_density_preview;
-    }
-    if (const auto& preview = volume.preview; preview && preview->heat && input.heat.volume) {
-      input.heat.preview = preview->heat->volume.get();
-      input.heat.world_from_preview = volume.world_from_heat_preview;
-    }
-    inputs.push_back(input);
-  }
-  return inputs;
-}
 
 }  // namespace
 
@@ -95,7 +69,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.environment.flashes = scenario::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
     input.level.grenades.push_back(grenade_matrix(grenade));
-  if (scenario.volumes) input.volumes = volume_inputs(scenario, seconds, wait);
+  input.volumes = volume_inputs(scenario, seconds, wait);
   const auto hidden = simulation.hidden_objects();
   input.level.hidden_objects.assign(hidden.begin(), hidden.end());
   return input;

@@ -11,7 +11,8 @@ namespace {
 /// The media that can cast shadows, in view or not.
 std::uint32_t casting_media(const FramePlan& plan) {
   const smoke::SmokeVolume* smoke = plan.input.smoke.volume;
-  const std::uint32_t volumes = plan.media.media & shared::kMediumVolumes;
+  constexpr std::uint32_t kOfVolumes = shared::kMediumVolumes | shared::kMediumTransfer;
+  const std::uint32_t volumes = plan.media.media & kOfVolumes;
   return volumes == 0 || (smoke && smoke->slot_count() > 0) ? volumes | shared::kMediumSmoke : volumes;
 }
 

@@ -200,6 +200,23 @@ Result<void> EditableScenario::set_sky(const scene::SkyOptions& sky) {
   return {};
 }
 
+Result<void> EditableScenario::set_volumes(std::vector<scene::VolumeOptions> volumes) {
+  const std::vector<scene::VolumeOptions>& present = scenario_.timeline.volumes;
+  BRUME_ASSERT(volumes.size() == present.size(), std::to_string(volumes.size()));
+  scene::Timeline chosen;
+  chosen.volumes = std::move(volumes);
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    auto done = scenario_.volumes->choose_grids(i, chosen.volumes[i]);
+    if (done) continue;
+    // Volumes::at warns where those before cannot be read again.
+    for (std::size_t k = 0; k < i; ++k) static_cast<void>(scenario_.volumes->choose_grids(k, present[k]));
+    return done;
+  }
+  scenario_.timeline.volumes = std::move(chosen.volumes);
+  return {};
+}
+
 Result<void> EditableScenario::set_exposure(float exposure) {
   scene::Timeline chosen;
   chosen.exposure = exposure;

@@ -42,6 +42,9 @@ class EditableScenario {
   /// Changes all smokes, existing ones included; a change of their amount or life replays them all.
   Result<void> set_smoke(const scene::SmokeOptions& smoke);
   Result<void> set_sky(const scene::SkyOptions& sky);
+  /// Changes the look of the volumes and the grids that they show; as many as there are, of the same files.
+  /// Fails with bad_input as check_settings and Volumes::choose_grids do.
+  Result<void> set_volumes(std::vector<scene::VolumeOptions> volumes);
   /// [EV]
   Result<void> set_exposure(float exposure);
   /// Length of the film [s].

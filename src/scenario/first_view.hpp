@@ -20,6 +20,10 @@ struct FirstViewOptions {
   std::optional<scene::SunOptions> sun = {};
   std::optional<float> exposure;  ///< [EV]; empty: measured (Scenario::measure_exposure).
   std::optional<scene::ToneCurve> tone = {};
+  // Of a volume alone, as in scene::VolumeOptions.
+  std::vector<scene::OpacityPoint> opacity = {};
+  scene::ColorMap color_map = {};
+  std::optional<glm::vec2> range = {};
 };
 
 /// Metres per unit that bring a scene's largest extent into [1 m, 4 km], by a power of ten; 1 where it is

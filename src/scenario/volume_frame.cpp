@@ -7,6 +7,7 @@
 
 #include "core/log.hpp"
 #include "core/similar.hpp"
+#include "grids/color_bricks.hpp"
 #include "grids/files.hpp"
 
 namespace brume::scenario {
@@ -16,16 +17,22 @@ namespace fs = std::filesystem;
 
 /// The names that Blender, Houdini and EmberGen give, in order.
 constexpr std::array kDensityNames{"density", "Density", "smoke", "fog", "soot", "surface"};
+constexpr std::array kColorNames{"Cd", "color", "colour", "Color", "Colour"};
 constexpr std::array kHeatNames{"temperature", "heat", "flame", "flames", "fire", "burn"};
 
 bool is_number_grid(const grids::Grid* grid) {
   return grid->type == grids::ValueType::float32 || grid->type == grids::ValueType::float64;
 }
 
+bool is_colors(const grids::Grid* grid) {
+  return grids::is_color_grid(*grid);
+}
+
 /// The grid of a name; without one the first of the usual names; null: none.
 using GridList = std::span<const grids::Grid* const>;
 Result<const grids::Grid*> choose_grid(GridList grids, const std::string& name,
-                                       std::span<const char* const> usual) {
+                                       std::span<const char* const> usual,
+                                       bool (*fits)(const grids::Grid*) = is_number_grid) {
   std::vector<std::string> known;
   for (const grids::Grid* grid : grids) {
     if (!name.empty() && grid->name == name) return grid;
@@ -35,7 +42,7 @@ Result<const grids::Grid*> choose_grid(GridList grids, const std::string& name,
     return Failure{ErrorCode::bad_input, "has no grid \"" + name + "\"" + suggestion(name, known, "\"")};
   for (const char* const one : usual)
     for (const grids::Grid* grid : grids)
-      if (grid->name == one && is_number_grid(grid)) return grid;
+      if (grid->name == one && fits(grid)) return grid;
   return static_cast<const grids::Grid*>(nullptr);
 }
 
@@ -51,13 +58,18 @@ Result<const grids::Grid*> choose_density(GridList grids, const std::string& nam
 struct Chosen {
   const grids::Grid* density = nullptr;
   const grids::Grid* heat = nullptr;  ///< Null: nothing glows.
+  const grids::Grid* color = nullptr;  ///< Null: no colours.
+
+  bool has(const grids::Grid* grid) const { return grid == density || grid == heat || grid == color; }
 };
 Result<Chosen> choose(GridList grids, const scene::VolumeOptions& options) {
   const auto density = choose_density(grids, options.density);
   if (!density) return density.failure();
   const auto heat = choose_grid(grids, options.heat, kHeatNames);
   if (!heat) return heat.failure();
-  return Chosen{*density, *heat == *density ? nullptr : *heat};
+  const auto color = choose_grid(grids, options.color, kColorNames, is_colors);
+  if (!color) return color.failure();
+  return Chosen{*density, *heat == *density ? nullptr : *heat, *color};
 }
 
 /// Whether the file says so: Blender's solver names the resolution of its domain.
@@ -78,14 +90,31 @@ void warn_of_level(const fs::path& file, const grids::Grid& grid, const grids::B
   log_warning(file.string() + text);
 }
 
-Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
+/// What a first view is made from.
+void measure_first_view(const grids::Grid& density, VolumeFrame& frame) {
+  const double voxel = std::abs(glm::determinant(glm::dmat3(density.world_from_index)));
+  const auto active = static_cast<double>(count_active(density));
+  frame.filled_volume = active * voxel;
+  frame.mean_density = active > 0 ? frame.density.sum * std::exp2(3 * frame.density.level) / active : 0;
+  const shared::VolumeLayout& layout = frame.density.volume->layout();
+  frame.bounds =
+      transformed(glm::mat4(frame.density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
+  // Of a ball, 2.2 standard deviations are the radius.
+  const glm::dvec3 reach = 2.2 * frame.density.deviation + 1.0;
+  const Box<float> core{glm::vec3(frame.density.mean - reach), glm::vec3(frame.density.mean + reach)};
+  frame.core = transformed(glm::mat4(frame.density.world_from_voxel),
+                           intersection(core, {layout.bounds_min, layout.bounds_max}));
+  frame.z_is_up = is_z_up(density);
+}
+
+Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
                                                       const scene::VolumeOptions& options,
                                                       const VolumeRoom& room) {
   std::vector<const grids::Grid*> list;
   for (const grids::Grid& grid : grids.grids) list.push_back(&grid);
   const auto chosen = choose(list, options);
   if (!chosen) return chosen.failure();
-  const auto [density, heat] = *chosen;
+  const auto [density, heat, color] = *chosen;
   auto frame = std::make_shared<VolumeFrame>();
   const bool alike = heat && heat->world_from_index == density->world_from_index;
   // Heat has the same room as the density.
@@ -95,7 +124,9 @@ Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, cons
   };
   const std::uint32_t max_bricks = part(room.bricks, grids::kFewestVolumeBricks, grids::kMostVolumeBricks);
   const std::uint32_t max_pages = part(room.pages, grids::kFewestVolumePages, grids::kMostVolumePages);
-  auto bricks = grids::make_brick_volume(*density, {max_bricks, max_pages, alike ? heat : nullptr});
+  // Bricks of colours have the slots of the density's.
+  auto bricks =
+      grids::make_brick_volume(*density, {max_bricks, max_pages, alike ? heat : nullptr, color == nullptr});
   if (!bricks) return bricks.failure();
   frame->density = std::move(*bricks);
   warn_of_level(file, *density, frame->density);
@@ -105,22 +136,13 @@ Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, cons
     warn_of_level(file, *heat, *hot);
     if (hot->high > 0) frame->heat = std::move(*hot);
   }
-
-  // What a first view is made from.
-  const double voxel = std::abs(glm::determinant(glm::dmat3(density->world_from_index)));
-  const auto active = static_cast<double>(count_active(*density));
-  frame->filled_volume = active * voxel;
-  frame->mean_density = active > 0 ? frame->density.sum * std::exp2(3 * frame->density.level) / active : 0;
-  const shared::VolumeLayout& layout = frame->density.volume->layout();
-  frame->bounds =
-      transformed(glm::mat4(frame->density.world_from_voxel), {layout.bounds_min, layout.bounds_max});
-  // Of a ball, 2.2 standard deviations are the radius.
-  const glm::dvec3 reach = 2.2 * frame->density.deviation + 1.0;
-  const Box<float> core{glm::vec3(frame->density.mean - reach), glm::vec3(frame->density.mean + reach)};
-  frame->core = transformed(glm::mat4(frame->density.world_from_voxel),
-                            intersection(core, {layout.bounds_min, layout.bounds_max}));
-  frame->z_is_up = is_z_up(*density);
-  return std::shared_ptr<const VolumeFrame>(std::move(frame));
+  if (color) {
+    auto colors = grids::make_color_bricks(*color, frame->density);
+    if (!colors) return colors.failure();
+    frame->colors = std::move(*colors);
+  }
+  measure_first_view(*density, *frame);
+  return frame;
 }
 
 }  // namespace
@@ -140,13 +162,18 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
                                                              const VolumeRoom& room,
                                                              const std::atomic<bool>* stopped) {
   const std::string where = options.place.empty() ? "" : options.place + ": ";
+  std::vector<std::string> number_grids, color_grids;
   const auto grids = grids::load_grid_file(file, {.stopped = stopped},
                                            [&](GridList heads) -> Result<std::vector<std::size_t>> {
+                                             for (const grids::Grid* head : heads) {
+                                               if (is_number_grid(head)) number_grids.push_back(head->name);
+                                               if (is_colors(head)) color_grids.push_back(head->name);
+                                             }
                                              const auto chosen = choose(heads, options);
                                              if (!chosen) return chosen.failure();
                                              std::vector<std::size_t> positions;
                                              for (std::size_t i = 0; i < heads.size(); ++i)
-                                               if (heads[i] == chosen->density || heads[i] == chosen->heat)
+                                               if (chosen->has(heads[i]))
                                                  positions.push_back(i);
                                              return positions;
                                            });
@@ -154,8 +181,10 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
   if (stopped && *stopped) return Failure{ErrorCode::internal, file.string() + ": stopped"};
   auto frame = make_frame(file, *grids, options, room);
   if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
+  (*frame)->number_grids = std::move(number_grids);
+  (*frame)->color_grids = std::move(color_grids);
   if ((*frame)->density.high <= 0) log_warning(file.string() + ": nothing to see: no voxel is above 0");
-  return frame;
+  return std::shared_ptr<const VolumeFrame>(std::move(*frame));
 }
 
 VolumeRoom room_of(const VolumeFrame& frame) {

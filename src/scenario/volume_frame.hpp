@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/box.hpp"
 #include "core/error.hpp"
@@ -17,11 +19,14 @@ namespace brume::scenario {
 struct VolumeFrame {
   grids::BrickVolume density;
   std::optional<grids::BrickVolume> heat;
-  double mean_density = 0;   ///< Of the active voxels.
-  double filled_volume = 0;  ///< That all active voxels take, in the file's world.
-  Box<float> bounds;         ///< Around what can be dense, in the file's world.
-  Box<float> core;           ///< Around most of it: a ball, but none of the wisps around it.
-  bool z_is_up = false;      ///< As Blender writes files; other programs have y up.
+  std::unique_ptr<volume::SparseVolume> colors;  ///< As grids::make_color_bricks; null: none.
+  double mean_density = 0;                       ///< Of the active voxels.
+  double filled_volume = 0;                      ///< That all active voxels take, in the file's world.
+  Box<float> bounds;                             ///< Around what can be dense, in the file's world.
+  Box<float> core;       ///< Around most of it: a ball, but none of the wisps around it.
+  bool z_is_up = false;  ///< As Blender writes files; other programs have y up.
+  /// Names of the file's grids that can be dense or glow, and of those that can hold colours.
+  std::vector<std::string> number_grids, color_grids;
 };
 
 /// The same at a lower resolution, for as long as not all of it is on the device; empty where it is small.

@@ -27,6 +27,26 @@ float chosen_scale(const std::filesystem::path& path, float extent, const FirstV
   return scale;
 }
 
+/// The mean factor of the extinction of all voxels above 0.
+double mean_factor(const VolumeFrame& frame, const scene::VolumeOptions& options) {
+  if (options.opacity.empty()) return frame.mean_density;
+  const grids::BrickVolume& density = frame.density;
+  const glm::dvec2 range(range_of(options, frame));
+  const auto factor = [&](double value) {
+    const double at = std::clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+    return scene::opacity_at(options.opacity, at);
+  };
+  if (density.histogram.empty()) return factor(double{density.high});
+  double sum = 0, count = 0;
+  for (std::size_t bin = 0; bin < density.histogram.size(); ++bin) {
+    const double part = (static_cast<double>(bin) + 0.5) / static_cast<double>(density.histogram.size());
+    const auto voxels = static_cast<double>(density.histogram[bin]);
+    sum += voxels * factor(glm::mix(double{density.low}, double{density.high}, part));
+    count += voxels;
+  }
+  return sum / std::max(count, 1.0);
+}
+
 }  // namespace
 
 scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
@@ -52,8 +72,11 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   volume.position_world = -glm::vec3(middle.x, box.low.y, middle.z);
 
   // Its look.
+  volume.opacity = options.opacity;
+  volume.color_map = options.color_map;
+  volume.range = options.range;
   const double across = std::cbrt(frame.filled_volume) * double{volume.scale};
-  const double depth = frame.mean_density * across;
+  const double depth = mean_factor(frame, volume) * across;
   if (depth > 0) volume.extinction = static_cast<float>(std::clamp(double{kViewDepth} / depth, 1e-36, 1e12));
   volume.albedo = glm::vec3(frame.heat ? 0.7f : 0.99f);
   volume.anisotropy = frame.heat ? 0.2f : 0.5f;

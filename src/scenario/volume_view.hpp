@@ -12,7 +12,8 @@ namespace brume::scenario {
 ///
 /// - scale: as given, or fitting_scale with a warning;
 /// - up: as its program writes files (VolumeFrame::z_is_up);
-/// - extinction: an optical depth of kViewDepth through a ball of the volume's size, whatever its units;
+/// - extinction: an optical depth of kViewDepth through a ball of the volume's size, whatever its units and
+///   opacity curve;
 /// - light: a sun before a blue sky, exposed for white clouds;
 /// - ground: below a volume that glows.
 ///

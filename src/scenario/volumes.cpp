@@ -45,6 +45,11 @@ Result<std::map<std::int64_t, fs::path>> files_of(const fs::path& file) {
   return found;
 }
 
+/// Names of density, heat and colours, as chosen.
+std::array<std::string, 3> chosen_grids(const scene::VolumeOptions& options) {
+  return {options.density, options.heat, options.color};
+}
+
 /// The number of the frame at a time, before missing ones are replaced.
 std::int64_t number_at(const scene::VolumeOptions& options, std::int64_t first, std::int64_t last,
                        double seconds) {
@@ -76,6 +81,13 @@ glm::mat4 world_from_file(const scene::VolumeOptions& options) {
     matrix = glm::rotate(matrix, glm::radians(options.rotation[axis]), around);
   }
   return glm::scale(matrix, glm::vec3(options.scale));
+}
+
+glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first) {
+  if (options.range) return *options.range;
+  const float low = first.density.low, high = first.density.high;
+  if (high > low) return {low, high};
+  return {0, high > 0 ? high : 1};
 }
 
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
@@ -134,6 +146,21 @@ void Volumes::start_loader() {
         auto preview = previews ? scenario::make_previews(**frame) : nullptr;
         return LoadedVolume{std::move(*frame), std::move(preview)};
       });
+}
+
+Result<void> Volumes::choose_grids(std::size_t volume, const scene::VolumeOptions& options) {
+  Sequence& sequence = sequences_[volume];
+  if (chosen_grids(sequence.options) == chosen_grids(options)) return {};
+  const auto& [number, file] = *sequence.files.begin();
+  auto frame = load_volume_frame(file, options, sequence.room);
+  if (!frame) return frame.failure();
+  auto preview = has_previews_ ? scenario::make_previews(**frame) : nullptr;
+  sequence.first = sequence.shown = {std::move(*frame), std::move(preview)};
+  sequence.shown_number = number;
+  sequence.unreadable.clear();
+  sequence.options = options;
+  start_loader();
+  return {};
 }
 
 Result<void> Volumes::limit(const VolumeRoom& room) {
@@ -214,6 +241,12 @@ void Volumes::show(std::size_t volume, std::int64_t number, Result<LoadedVolume>
 std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options, double seconds,
                                   VolumeWait wait) {
   BRUME_ASSERT(options.size() == sequences_.size(), std::to_string(options.size()));
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (const auto done = choose_grids(i, options[i]); !done) {
+      log_warning(done.failure().message + "; the grids before are shown");
+      sequences_[i].options = options[i];
+    }
+  }
   // What to load: the frames of this time, then those after them.
   std::vector<VolumeLoader::Key> wanted, ahead;
   for (std::size_t i = 0; i < options.size(); ++i) {

@@ -2,6 +2,7 @@
 // time comes.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -40,13 +41,18 @@ class Volumes {
   /// files and for grids that do not exist.
   static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options);
 
-  /// All volumes, in the order of the options. A frame that is missing from a sequence shows the one before
-  /// it, so do times after the last; before the first, the first. Warns once of a frame that cannot be read,
-  /// which shows the last one that was. Frames remain loaded as long as they are shown.
+  /// All volumes, in the order of the options, with the grids that they name. A frame that is missing from a
+  /// sequence shows the one before it, so do times after the last; before the first, the first. Warns once of
+  /// a frame that cannot be read, which shows the last one that was. Frames remain loaded as long as they are
+  /// shown.
   std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds,
                            VolumeWait wait = VolumeWait::until_loaded);
   /// Whether the last `at` showed frames of other times, since theirs were not loaded.
   bool is_behind() const { return is_behind_; }
+
+  /// Chooses the grids that the options of a volume name, from its first frame on. On failure, as load,
+  /// nothing changes.
+  Result<void> choose_grids(std::size_t volume, const scene::VolumeOptions& options);
 
   /// Makes room for all volumes together: where the first frames take more, those that take more than a fair
   /// part are loaded again at a lower resolution, each with a warning; so are frames that are loaded later.
@@ -61,7 +67,7 @@ class Volumes {
 
  private:
   struct Sequence {
-    scene::VolumeOptions options;
+    scene::VolumeOptions options;                         ///< Those that loading follows.
     std::map<std::int64_t, std::filesystem::path> files;  ///< By number of the frame.
     LoadedVolume first, shown;
     std::int64_t shown_number = 0;
@@ -82,6 +88,9 @@ class Volumes {
 /// The part of `total` that each of several gets: what it wants where that is at most a fair part, and else
 /// as much as all others that get less than they want. The sum of the parts is at most `total`.
 std::vector<std::uint64_t> fair_parts(std::span<const std::uint64_t> wanted, std::uint64_t total);
+/// The values that the curves of a volume span, in the unit of its grid: as chosen, or those of its first
+/// frame; from 0 on where all are the same.
+glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first);
 
 /// Where the first frame of a volume is.
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame);

@@ -110,6 +110,8 @@ void visit_volume_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"frame_rate", "1/s", "frames of a sequence a second", 0.01, 1000}, o.frame_rate);
   visit(OptionInfo{"start", "s", "time of the first frame of a sequence", -kLatestTime, kLatestTime},
         o.start);
+  visit(OptionInfo{"glow", "", "fraction of the colours that is emitted, unlit, instead of scattered", 0, 1},
+        o.glow);
 }
 
 /// Only the field of view: position and target are not settings.

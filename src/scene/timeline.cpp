@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/file.hpp"
 #include "core/similar.hpp"
@@ -126,11 +127,46 @@ class TimelineReader {
     table.read("density", volume.density);
     table.read("heat", volume.heat);
     table.read("position", volume.position_world, -kFarthestPoint, kFarthestPoint);
+    table.read("color", volume.color);
     visit_volume_options(volume, OptionReader{table});
     table.read("loop", volume.loop);
+    read_transfer(table, volume);
     volume.place = table.place("file");
     timeline_.volumes.push_back(std::move(volume));
     return table.finish();
+  }
+
+  static void read_transfer(TomlTable& table, VolumeOptions& volume) {
+    const auto fail = [&](const char* key, const std::optional<PointFault>& fault) {
+      if (!fault) return;
+      const std::string point = fault->point ? " point " + std::to_string(*fault->point + 1) : "";
+      const std::string what = in_quotes(key) + point + ": " + fault->what;
+      fault->point ? table.fail(key, *fault->point, what) : table.fail(key, what);
+    };
+    table.read("range", volume.range, -kFarthestValue, kFarthestValue);
+    if (volume.range)
+      if (const auto fault = fault_of_range(*volume.range)) table.fail("range", "\"range\": " + *fault);
+
+    std::vector<std::vector<float>> rows;
+    if (table.has("opacity")) {
+      table.read("opacity", rows, 2);
+      for (const auto& row : rows)
+        if (row.size() == 2) volume.opacity.push_back({row[0], row[1]});
+      fail("opacity", fault_of(std::span(std::as_const(volume.opacity))));
+    }
+
+    ColorMap& map = volume.color_map;
+    if (table.is_text("color_map")) {
+      table.read("color_map", map.name);
+      if (map.name.empty()) table.fail("color_map", "\"color_map\": expected a name or points");
+      fail("color_map", fault_of(map));
+    } else if (table.has("color_map")) {
+      rows.clear();
+      table.read("color_map", rows, 4);
+      for (const auto& row : rows)
+        if (row.size() == 4) map.points.push_back({row[0], {row[1], row[2], row[3]}});
+      fail("color_map", fault_of(std::span(std::as_const(map.points))));
+    }
   }
 
   Result<void> read_camera(const toml::table& source) {

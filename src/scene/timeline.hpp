@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "scene/scene.hpp"
+#include "scene/transfer.hpp"
 
 namespace brume::scene {
 
@@ -65,6 +66,7 @@ struct VolumeOptions {
   std::filesystem::path file;
   std::string density = {};  ///< Name of the grid of densities; empty: the first of the usual names.
   std::string heat = {};     ///< Of the grid that glows; empty: the first of the usual names, or none.
+  std::string color = {};    ///< Of the grid of colours that multiply the albedo; the same.
   glm::vec3 position_world{0};
   glm::vec3 rotation{0};  ///< About x, y and z [degrees].
   float scale = 1;
@@ -76,6 +78,11 @@ struct VolumeOptions {
   float frame_rate = 24;
   float start = 0;
   bool loop = false;
+  // Transfer functions of the density's values.
+  std::optional<glm::vec2> range = {};     ///< Values that they span; empty: those of the first frame.
+  std::vector<OpacityPoint> opacity = {};  ///< Replaces the value as factor of the extinction.
+  ColorMap color_map = {};                 ///< Replaces the albedo.
+  float glow = 0;
   std::string place = {};  ///< "file:line:column" for error messages.
 };
 
@@ -228,12 +235,13 @@ void sort_events(Timeline& timeline);
 
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, `origin`, `scale`,
 /// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
-/// keys, [[volume]] (file, density, heat, position, loop and its members), and [[camera]] (time, position,
-/// target, fov in degrees, [1, 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot"
-/// (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text"
-/// (time, text, from, toward, size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time,
-/// at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time,
-/// low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events
+/// keys, [[volume]] (file, density, heat, color, position, loop, range, opacity, color_map and its members),
+/// and [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type =
+/// "smoke" (time, from, at), "shot" (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll
+/// in degrees, flash), "text" (time, text, from, toward, size, font, spacing, interval, reach, expand, stay,
+/// fade, roll), "blast" (time, at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time,
+/// body, to), "edit" (time, low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6,
+/// 10^6]; those of events
 /// [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
 /// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
 /// the wrong type or out of range.

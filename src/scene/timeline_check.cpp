@@ -131,6 +131,17 @@ Result<void> check(const DoorEvent& event) {
   return look.done();
 }
 
+void check_transfer(const VolumeOptions& volume, Checker& look) {
+  const auto expect_none = [&](const char* key, const std::optional<PointFault>& fault) {
+    if (fault)
+      look.fail(key, (fault->point ? "point " + std::to_string(*fault->point + 1) + ": " : "") + fault->what);
+  };
+  if (volume.range)
+    if (const auto fault = fault_of_range(*volume.range)) look.fail("range", *fault);
+  if (!volume.opacity.empty()) expect_none("opacity", fault_of(std::span(volume.opacity)));
+  expect_none("color_map", fault_of(volume.color_map));
+}
+
 }  // namespace
 
 Result<void> check_events(const Timeline& timeline) {
@@ -160,6 +171,8 @@ Result<void> check_settings(const Timeline& timeline) {
     of_volume.text("file", volume.file.string());
     of_volume.text("density", volume.density);
     of_volume.text("heat", volume.heat);
+    of_volume.text("color", volume.color);
+    check_transfer(volume, of_volume);
     of_volume.point("position", volume.position_world, kFarthestPoint);
     visit_volume_options(volume, of_volume);
     if (auto done = of_volume.done(); !done) return done;

@@ -80,6 +80,22 @@ std::string triple(const Vector& v) {
   return text;
 }
 
+std::string text_of(const std::vector<float>& numbers) {
+  std::string text;
+  for (const float number : numbers) text += (text.empty() ? "[" : ", ") + text_of(number);
+  return text + ']';
+}
+
+std::string text_of(const glm::vec2& v) {
+  return text_of(std::vector{v.x, v.y});
+}
+
+std::string text_of(const std::vector<std::vector<float>>& rows) {
+  std::string text;
+  for (const std::vector<float>& row : rows) text += (text.empty() ? "[" : ", ") + text_of(row);
+  return text + ']';
+}
+
 std::string text_of(const glm::vec3& v) {
   return triple(v);
 }
@@ -187,9 +203,18 @@ class Writer {
     line("file", path_from(volume.file, folder_).generic_string());
     if (!volume.density.empty()) line("density", volume.density);
     if (!volume.heat.empty()) line("heat", volume.heat);
+    if (!volume.color.empty()) line("color", volume.color);
     line("position", volume.position_world);
     options(volume, VolumeOptions(), "", [](auto& o, auto& v) { visit_volume_options(o, v); });
     if (volume.loop) line("loop", volume.loop);
+    if (volume.range) line("range", *volume.range);
+    std::vector<std::vector<float>> rows;
+    for (const OpacityPoint& point : volume.opacity) rows.push_back({point.at, point.opacity});
+    if (!rows.empty()) line("opacity", rows);
+    rows.clear();
+    for (const auto& [at, color] : volume.color_map.points) rows.push_back({at, color.r, color.g, color.b});
+    if (!volume.color_map.name.empty()) line("color_map", volume.color_map.name);
+    if (!rows.empty()) line("color_map", rows);
   }
 
   /// Writes all events by time; events of the same time in the order in which they happen.

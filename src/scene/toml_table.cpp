@@ -96,6 +96,18 @@ void TomlTable::fail(std::string_view key, const std::string& what) {
   fail_at(node ? node->source() : table_.source(), what);
 }
 
+void TomlTable::fail(std::string_view key, std::size_t element, const std::string& what) {
+  const toml::node* node = table_.get(key);
+  const toml::array* array = node ? node->as_array() : nullptr;
+  if (array == nullptr || element >= array->size()) return fail(key, what);
+  fail_at((*array)[element].source(), what);
+}
+
+bool TomlTable::is_text(std::string_view key) const {
+  const toml::node* node = table_.get(key);
+  return node != nullptr && node->is_string();
+}
+
 void TomlTable::require(std::string_view key) {
   if (table_.get(key) != nullptr) return;
   const std::string message = name_ + " lacks the key \"" + std::string(key) + "\"";
@@ -174,6 +186,39 @@ void TomlTable::read(std::string_view key, std::optional<glm::vec3>& value, doub
     result[axis] = static_cast<float>(*found);
   }
   value = result;
+}
+
+void TomlTable::read(std::string_view key, std::optional<glm::vec2>& value, double least, double most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->size() != 2)
+    return fail_at(node->source(), expected(key, "two numbers, like [0.0, 1.0]"));
+  const auto low = number((*array)[0], key, least, most);
+  const auto high = low ? number((*array)[1], key, least, most) : std::nullopt;
+  if (high) value = glm::vec2(static_cast<float>(*low), static_cast<float>(*high));
+}
+
+void TomlTable::read(std::string_view key, std::vector<std::vector<float>>& rows, std::size_t columns) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  const std::string form =
+      "points of " + std::to_string(columns) + " numbers, like " +
+      (columns == 2 ? "[[0.0, 0.0], [1.0, 1.0]]" : "[[0.0, 0.2, 0.3, 0.8], [1.0, 0.7, 0.0, 0.1]]");
+  const toml::array* array = node->as_array();
+  if (array == nullptr) return fail_at(node->source(), expected(key, form.c_str()));
+  rows.clear();
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const toml::array* const row = (*array)[i].as_array();
+    if (row == nullptr || row->size() != columns)
+      return fail_at((*array)[i].source(), expected(key, form.c_str()));
+    std::vector<float>& numbers = rows.emplace_back();
+    for (std::size_t column = 0; column < columns; ++column) {
+      const auto found = number((*row)[column], key, 0, 1);
+      if (!found) return;
+      numbers.push_back(static_cast<float>(*found));
+    }
+  }
 }
 
 void TomlTable::read(std::string_view key, std::optional<glm::ivec3>& value, std::int64_t least,

@@ -31,6 +31,10 @@ class TomlTable {
   void read(std::string_view key, std::uint32_t& value, std::int64_t least, std::int64_t most);
   void read(std::string_view key, glm::vec3& value, double least, double most);
   void read(std::string_view key, std::optional<glm::vec3>& value, double least, double most);
+  /// Two numbers.
+  void read(std::string_view key, std::optional<glm::vec2>& value, double least, double most);
+  /// Rows of `columns` numbers in [0, 1] each.
+  void read(std::string_view key, std::vector<std::vector<float>>& rows, std::size_t columns);
   void read(std::string_view key, std::optional<glm::ivec3>& value, std::int64_t least, std::int64_t most);
   void read(std::string_view key, std::string& value);
   void read(std::string_view key, bool& value);
@@ -47,6 +51,11 @@ class TomlTable {
   void require(std::string_view key);
   /// Fails at a key's value, or at the table if the key is missing.
   void fail(std::string_view key, const std::string& what);
+  /// The same at an element of an array.
+  void fail(std::string_view key, std::size_t element, const std::string& what);
+  bool has(std::string_view key) const { return table_.get(key) != nullptr; }
+  /// Whether a key's value is a string.
+  bool is_text(std::string_view key) const;
   /// The first failure; otherwise the first key that was never read, with what was probably meant.
   Result<void> finish();
 

@@ -83,12 +83,14 @@
   X(49, UiVertex) \
   X(50, UpscaleConstants) \
   X(51, Vertex) \
-  X(52, VolumeHeat) \
-  X(53, VolumeInstance) \
-  X(54, VolumeLayout) \
-  X(55, VolumeLightParams) \
-  X(56, VolumeLook) \
-  X(57, VolumeSweep)
+  X(52, VolumeColors) \
+  X(53, VolumeHeat) \
+  X(54, VolumeInstance) \
+  X(55, VolumeLayout) \
+  X(56, VolumeLightParams) \
+  X(57, VolumeLook) \
+  X(58, VolumeSweep) \
+  X(59, VolumeTransfer)
 // clang-format on
 
 #endif

@@ -120,6 +120,26 @@ TEST_F(SmokeShadowCacheTest, WhatIsReadIsMarchedAgain) {
   expect_one_update("smoke");
 }
 
+// The shadows of volumes in a frame without smoke.
+TEST_F(SmokeShadowCacheTest, VolumesAloneAreMarchedAgainWhenTheyChange) {
+  const auto update_alone = [&] {
+    inputs_.volume = nullptr;
+    inputs_.visibility = &visibility_;
+    inputs_.lights = lights_;
+    inputs_.holes = &holes_;
+    inputs_.noise = &noise_;
+    const Box<float> volume{glm::vec3(6, 0, 6), glm::vec3(10, 4, 10)};
+    return cache_.update(
+        plan_smoke_shadows({lights_, glm::mat4(1), camera_}, std::vector{volume}, {1024, 256}), inputs_);
+  };
+  EXPECT_TRUE(update_alone());
+  EXPECT_FALSE(update_alone());
+  inputs_.rebuild = true;
+  EXPECT_TRUE(update_alone());
+  inputs_.rebuild = false;
+  EXPECT_FALSE(update_alone());
+}
+
 TEST_F(SmokeShadowCacheTest, SlotsThatCastShadowsInViewOrOutOfItAreTheSame) {
   ASSERT_GT(visibility_.slots.size(), 3u);
   update();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
@@ -98,6 +99,21 @@ TEST_F(VolumeLightCacheTest, UpdatesOnlyWhereAnInputOfTheLightChanged) {
   volume_->mark_dirty(volume::ChannelId{0}, 0);
   volume_->end_update();
   EXPECT_TRUE(plan().update);
+  for (const auto& change : std::vector<std::function<void(TransferInput&)>>{
+           [](TransferInput& transfer) {
+             transfer.opacity = {{0, 0}, {1, 1}};
+           },
+           [](TransferInput& transfer) { transfer.opacity[1].opacity = 0.5f; },
+           [](TransferInput& transfer) { transfer.color_map.name = "viridis"; },
+           [](TransferInput& transfer) { transfer.color_map.name = "inferno"; },
+           [](TransferInput& transfer) {
+             transfer.color_map = {"", {{0, {1, 0, 0}}, {1, {0, 0, 1}}}};
+           },
+           [](TransferInput& transfer) { transfer.color_map.points[0].color.g = 0.5f; }}) {
+    change(inputs_[0].transfer);
+    EXPECT_TRUE(plan().update);
+    EXPECT_FALSE(plan().update);
+  }
   rebuild_ = true;
   EXPECT_TRUE(plan().update);
   rebuild_ = false;

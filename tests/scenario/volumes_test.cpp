@@ -192,6 +192,44 @@ TEST_F(VolumesTest, ChoosesGridsByNameAndByTheUsualNames) {
   EXPECT_EQ(load_volume_frame(odd, {}).value_or_throw()->density.high, 5);
 }
 
+TEST_F(VolumesTest, GridsOfColoursAndOtherGridsAreChosenWhileItPlays) {
+  grids::Grid colors = cube("Cd", 0.5f);
+  colors.type = grids::ValueType::vec3f;
+  colors.values.resize(grids::kBrickVoxels * sizeof(glm::vec3));
+  save("a.brv", {cube("density", 2), cube("fuel", 3), colors});
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "a.brv";
+  const auto volumes = Volumes::load(options).value_or_throw();
+  ASSERT_TRUE(volumes->first_frame(0).colors);
+  EXPECT_EQ(volumes->first_frame(0).colors->slot_count(),
+            volumes->first_frame(0).density.volume->slot_count());
+  EXPECT_EQ(volumes->first_frame(0).color_grids, std::vector<std::string>{"Cd"});
+  EXPECT_EQ(volumes->first_frame(0).number_grids, (std::vector<std::string>{"density", "fuel"}));
+  EXPECT_EQ(range_of(options[0], volumes->first_frame(0)), glm::vec2(0, 2));
+  options[0].density = "fuel";
+  EXPECT_EQ(volumes->at(options, 0)[0].frame->density.high, 3);
+  // On failure those before remain.
+  scene::VolumeOptions wrong = options[0];
+  wrong.color = "fuel";
+  const auto refused = volumes->choose_grids(0, wrong);
+  EXPECT_NE(refused.failure().message.find("expected colours, which are vec3f or vec3d"), std::string::npos)
+      << refused.failure().message;
+  EXPECT_EQ(volumes->first_frame(0).density.high, 3);
+}
+
+TEST_F(VolumesTest, AnOpacityCurveDoesNotChangeHowDenseTheFirstViewIs) {
+  save("a.brv", {cube("density", 0.3f)});
+  const auto extinction = [&](std::vector<scene::OpacityPoint> opacity) {
+    FirstViewOptions options;
+    options.opacity = std::move(opacity);
+    return load_scenario(folder_ / "a.brv", {}, options).value_or_throw().timeline.volumes[0].extinction;
+  };
+  // The value is everywhere 0.3, and the curve there its half: twice the extinction of a factor of 1.
+  const float plain = extinction({}) * 0.3f;
+  EXPECT_NEAR(extinction({{0, 1}, {1, 1}}), plain, 1e-3f * plain);
+  EXPECT_NEAR(extinction({{0, 0.5f}, {1, 0.5f}}), 2 * plain, 2e-3f * plain);
+}
+
 TEST_F(VolumesTest, APlacedVolumeIsWhereTheTimelineSays) {
   save("a.brv", {cube("density", 1)});
   std::ofstream(folder_ / "t.toml")

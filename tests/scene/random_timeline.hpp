@@ -128,6 +128,26 @@ inline EditEvent random_edit(Drawing& draw) {
   return edit;
 }
 
+/// Positions that rise, some of them twice.
+inline std::vector<float> random_positions(Drawing& draw) {
+  std::vector<float> positions;
+  for (std::uint32_t count = 2 + draw.below(5); count > 0; --count) positions.push_back(draw.real(0, 1));
+  std::sort(positions.begin(), positions.end());
+  return positions;
+}
+
+inline void draw_transfer(Drawing& draw, VolumeOptions& volume) {
+  if (draw.below(2) == 0) volume.range = glm::vec2(draw.real(-1e30, -1e-20), draw.real(0, 1e30));
+  if (draw.below(2) == 0)
+    for (const float at : random_positions(draw)) volume.opacity.push_back({at, draw.real(0, 1)});
+  if (draw.below(3) == 0) {
+    const auto names = color_map_names();
+    volume.color_map.name = names[draw.below(static_cast<std::uint32_t>(names.size()))];
+  } else if (draw.below(2) == 0) {
+    for (const float at : random_positions(draw)) volume.color_map.points.push_back({at, draw.point(0, 1)});
+  }
+}
+
 inline Timeline random_timeline(std::uint32_t seed) {
   Drawing draw(seed);
   Timeline timeline;
@@ -144,8 +164,10 @@ inline Timeline random_timeline(std::uint32_t seed) {
     volume.file = "scenes/" + std::to_string(volumes) + "_%04d.vdb";
     if (draw.below(2) == 0) volume.density = draw.text();
     if (draw.below(2) == 0) volume.heat = draw.text();
+    if (draw.below(2) == 0) volume.color = draw.text();
     volume.position_world = draw.place();
     visit_volume_options(volume, draw);
+    draw_transfer(draw, volume);
     volume.loop = draw.below(2) == 0;
   }
   if (draw.below(3) == 0) timeline.tone = ToneCurve::standard;

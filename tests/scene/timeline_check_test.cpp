@@ -37,6 +37,12 @@ class Spoiler {
   void place(glm::vec3& place) {
     if (draw_.below(one_in_) == 0) place.z = odd(-kFarthestEvent, kFarthestEvent);
   }
+  void fraction(float& number) {
+    if (draw_.below(one_in_) == 0) number = odd(0, 1);
+  }
+  void end(float& value) {
+    if (draw_.below(one_in_) == 0) value = odd(-1e30, 1e30);
+  }
   void time(double& time) {
     if (draw_.below(one_in_) == 0) time = double{odd(0, kLatestTime)};
   }
@@ -70,7 +76,12 @@ void spoil(Timeline& t, Spoiler& s) {
   visit_smoke_options(t.smoke, s);
   visit_sky_options(t.sky, s);
   if (t.sun) visit_sun_options(*t.sun, s);
-  for (VolumeOptions& v : t.volumes) s.place(v.position_world), visit_volume_options(v, s);
+  for (VolumeOptions& v : t.volumes) {
+    s.place(v.position_world), visit_volume_options(v, s);
+    for (OpacityPoint& point : v.opacity) s.fraction(point.at), s.fraction(point.opacity);
+    for (ColorPoint& point : v.color_map.points) s.fraction(point.at), s.fraction(point.color.g);
+    if (v.range) s.end(v.range->y);
+  }
   for (CameraKey& key : t.camera) s.time(key.time), visit_camera_options(key.camera, s);
   for (SmokeEvent& e : t.smokes) s.time(e.time), s.place(e.from_world), s.place(e.at_world);
   for (ShotEvent& e : t.shots) s.time(e.time), s.place(e.toward_world), visit_shot_options(e, s);

@@ -70,6 +70,15 @@ void add_event(Bits& b, const DoorEvent& e) {
   b.add(e.object), b.add(e.open);
 }
 
+void add_transfer(Bits& b, const VolumeOptions& volume) {
+  b.add(volume.color), b.add(volume.range.has_value()), b.add(volume.color_map.name);
+  if (volume.range) b.add(volume.range->x), b.add(volume.range->y);
+  b.add(static_cast<std::uint32_t>(volume.opacity.size()));
+  for (const OpacityPoint& point : volume.opacity) b.add(point.at), b.add(point.opacity);
+  b.add(static_cast<std::uint32_t>(volume.color_map.points.size()));
+  for (const ColorPoint& point : volume.color_map.points) b.add(point.at), b.add(point.color);
+}
+
 std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   Bits b;
   b.add(timeline.scene.string());
@@ -86,6 +95,7 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
     b.add(volume.file.string()), b.add(volume.density), b.add(volume.heat), b.add(volume.position_world);
     visit_volume_options(volume, b);
     b.add(volume.loop);
+    add_transfer(b, volume);
   }
   const auto add_all = [&](const auto& list) {
     b.add(static_cast<std::uint32_t>(list.size()));

@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "apps/viewer/option_labels.hpp"
-#include "tests/viewer/room.hpp"
+#include "tests/viewer/foggy_room.hpp"
 
 namespace brume::viewer {
 namespace {
 
 class GameTest : public testing::Test {
  protected:
-  GameTest() { write_room(folder_); }
+  GameTest() { write_foggy_room(folder_); }
 
   std::unique_ptr<Session> session(const std::string& name) const {
     return Session::create(scenario::load_scenario(folder_.path() / name, {}).value_or_throw(), false)
@@ -97,6 +97,37 @@ TEST_F(GameTest, ADraggedSettingIsOneStepToUndo) {
   EXPECT_EQ(timeline().smoke, before);
   act(Action::redo);
   EXPECT_EQ(timeline().smoke.voxels, 904u);
+}
+
+TEST_F(GameTest, TheLookAndTheGridsOfAVolumeCanBeUndone) {
+  start("foggy.toml");
+  const auto set = [&](auto change) {
+    std::vector<scene::VolumeOptions> volumes = timeline().volumes;
+    change(volumes[0]);
+    const auto done = game_->session().live().set_volumes(std::move(volumes));
+    if (done) game_->setting_changed("volume");
+    game_->settle();
+    return done;
+  };
+  ASSERT_TRUE(set([](auto& volume) { volume.opacity = {{0, 0}, {1, 1}}; }));
+  ASSERT_TRUE(set([](auto& volume) { volume.density = "fuel"; }));
+  const auto shown = [&] {
+    const scenario::Scenario& scenario = game_->session().live().scenario();
+    return scenario.volumes->at(scenario.timeline.volumes, 0)[0].frame->density.high;
+  };
+  EXPECT_EQ(shown(), 0.25f);
+  const auto wrong = set([](auto& volume) { volume.density = "fule"; });
+  EXPECT_NE(wrong.failure().message.find("did you mean \"fuel\"?"), std::string::npos);
+  EXPECT_EQ(timeline().volumes[0].density, "fuel");
+  act(Action::undo);
+  EXPECT_EQ(lines_.back(), "undone: volume");
+  EXPECT_EQ(shown(), 0.5f);
+  EXPECT_EQ(timeline().volumes[0].opacity.size(), 2u);
+  act(Action::undo);
+  EXPECT_TRUE(timeline().volumes[0].opacity.empty());
+  act(Action::redo);
+  act(Action::redo);
+  EXPECT_EQ(shown(), 0.25f);
 }
 
 TEST_F(GameTest, TheFieldOfViewCanBeUndone) {

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "core/file.hpp"
-#include "tests/viewer/room.hpp"
+#include "tests/viewer/foggy_room.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -17,11 +17,11 @@ constexpr glm::ivec2 kBesideThePanels(40, 300);
 
 class WidgetsTest : public testing::Test {
  protected:
-  WidgetsTest() { write_room(folder_); }
+  WidgetsTest() { write_foggy_room(folder_); }
 
   void run(const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{
-        "room.toml",     "--size",       std::to_string(kWidth) + "x" + std::to_string(kHeight),
+        "foggy.toml",    "--size",       std::to_string(kWidth) + "x" + std::to_string(kHeight),
         "--panels",      "--quality",    "smallest",
         "--log-widgets", "--validation", "--json",
         "r.json"};
@@ -125,12 +125,12 @@ TEST_F(WidgetsTest, EveryWidgetOfEveryPanelTakesAClick) {
   ASSERT_TRUE(program_->runs()) << program_->error();
 
   // The log misses no kind of widget that the panels have.
-  EXPECT_EQ(kinds_["open"].size(), 12u);  // 8 sections, 4 parts of them
+  EXPECT_EQ(kinds_["open"].size(), 14u);  // 9 sections, 5 parts of them
   EXPECT_EQ(kinds_["text"].size(), 2u);
   EXPECT_TRUE(kinds_["choice"].contains("../"));
   EXPECT_TRUE(kinds_["choice"].contains("walls_diffuse.png"));
   EXPECT_GE(kinds_["button"].size(), 8u);
-  for (const char* kind : {"swatch", "picker", "slider", "drag", "checkbox", "radio"})
+  for (const char* kind : {"swatch", "picker", "slider", "drag", "checkbox", "radio", "combo", "canvas"})
     EXPECT_FALSE(kinds_[kind].empty()) << kind;
   RecordProperty("widgets", std::to_string(done_.size()));
   EXPECT_GT(done_.size(), 100u);

@@ -1,0 +1,171 @@
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "apps/viewer/curve_editor.hpp"
+#include "apps/viewer/option_panel.hpp"
+#include "apps/viewer/ui_parts.hpp"
+#include "apps/viewer/widgets.hpp"
+
+namespace brume::viewer {
+namespace {
+
+constexpr float kLabelWidth = 0.42f;  // of the panel
+constexpr const char* kUsualNames = "by the usual names";
+
+/// The label of a row, before its widgets.
+void begin_row(const char* label, const char* about) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", about);
+  ImGui::SameLine(kLabelWidth * ImGui::GetWindowWidth());
+  ImGui::SetNextItemWidth(-1);
+}
+
+/// A choice among grids; an empty name is the usual one.
+bool grid_row(const char* label, const char* about, std::string& chosen,
+              const std::vector<std::string>& names) {
+  begin_row(label, about);
+  if (!begin_combo((std::string("##") + label).c_str(), chosen.empty() ? kUsualNames : chosen.c_str()))
+    return false;
+  std::optional<std::string> choice;
+  if (selectable(kUsualNames, chosen.empty())) choice = "";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (selectable(names[i].c_str(), names[i] == chosen)) choice = names[i];
+    ImGui::PopID();
+  }
+  if (choice) ImGui::CloseCurrentPopup();
+  end_combo();
+  if (!choice || *choice == chosen) return false;
+  chosen = *choice;
+  return true;
+}
+
+bool grid_rows(scene::VolumeOptions& options, const scenario::VolumeFrame& frame) {
+  bool changed = grid_row("density grid", "what is dense", options.density, frame.number_grids);
+  changed = grid_row("heat grid", "what glows", options.heat, frame.number_grids) || changed;
+  if (!frame.color_grids.empty())
+    changed = grid_row("colour grid", "colours that multiply the albedo", options.color, frame.color_grids) ||
+              changed;
+  return changed;
+}
+
+bool look_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file, bool has_heat) {
+  bool changed = false;
+  const auto shows = [&](std::string_view key) {
+    return key == "extinction" || key == "albedo" || key == "anisotropy" || key == "emission" ||
+           key == "glow" || (key == "kelvin" && has_heat);
+  };
+  std::vector<const void*> initial;
+  scene::visit_volume_options(
+      file, [&](const scene::OptionInfo&, const auto& member) { initial.push_back(&member); });
+  std::size_t i = 0;
+  scene::visit_volume_options(options, [&](scene::OptionInfo info, auto& member) {
+    using Member = std::remove_reference_t<decltype(member)>;
+    const auto& standard = *static_cast<const Member*>(initial[i++]);
+    if (!shows(info.key)) return;
+    // The range of the file is too wide for a slider.
+    if (std::string_view(info.key) == "extinction" && file.extinction > 0)
+      info.high = std::min(info.high, 100 * double{file.extinction});
+    if (std::string_view(info.key) == "emission") info.high = 1000;
+    if (std::string_view(info.key) == "kelvin") info.high = 20000;
+    changed = option_row(info, member, standard) || changed;
+  });
+  return changed;
+}
+
+/// The values that the curves span: those of the first frame, or chosen.
+bool range_row(scene::VolumeOptions& options, const scenario::VolumeFrame& frame) {
+  begin_row("range of values", "what the curve and the colours span");
+  bool is_set = options.range.has_value();
+  bool changed = checkbox("##range set", &is_set);
+  const glm::vec2 before = range_of(options, frame);
+  if (changed) options.range = is_set ? std::optional(before) : std::nullopt;
+  if (!options.range) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%.4g to %.4g", double{before.x}, double{before.y});
+    return changed;
+  }
+  glm::vec2 range = *options.range;
+  const float speed = 0.004f * (range.y - range.x), limit = static_cast<float>(scene::kFarthestValue);
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - kLabelWidth * ImGui::GetWindowWidth());
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(0.7f * width);
+  changed = drag("##lowest", &range.x, speed, -limit, limit, "%.4g") || changed;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  changed = drag("##highest", &range.y, speed, -limit, limit, "%.4g") || changed;
+  if (range.x < range.y) options.range = range;
+  return changed;
+}
+
+bool color_map_row(scene::ColorMap& map) {
+  constexpr const char* kOwnColors = "own colours";
+  begin_row("colour map", "colours of the values, in place of the albedo");
+  const scene::ColorMap before = map;
+  const char* const shown = !map.name.empty() ? map.name.c_str() : !map.points.empty() ? kOwnColors : "none";
+  if (begin_combo("##colour map", shown)) {
+    bool chosen = false;
+    const auto choose = [&](const char* label, bool is_present, const scene::ColorMap& choice) {
+      if (!selectable(label, is_present)) return;
+      map = choice;
+      chosen = true;
+    };
+    choose("none", map.empty(), {});
+    for (const std::string_view name : scene::color_map_names())
+      choose(std::string(name).c_str(), map.name == name, {std::string(name), {}});
+    const scene::ColorMap grey{"grey", {}};
+    choose(kOwnColors, !map.points.empty(), {"", points_of(before.empty() ? grey : before)});
+    if (chosen) ImGui::CloseCurrentPopup();
+    end_combo();
+  }
+  bool changed = map != before;
+  if (!map.points.empty()) return edit_color_map("##colours", map.points) || changed;
+  if (!map.empty()) draw_color_map(map);
+  return changed;
+}
+
+bool transfer_rows(scene::VolumeOptions& options, const scenario::VolumeFrame& frame) {
+  bool changed = color_map_row(options.color_map);
+  begin_row("opacity curve", "opacity of the values, in place of the values themselves");
+  bool has_curve = !options.opacity.empty();
+  if (checkbox("##opacity set", &has_curve)) {
+    options.opacity.clear();
+    if (has_curve) options.opacity = {{0, 0}, {1, 1}};
+    changed = true;
+  }
+  if (has_curve || !options.color_map.empty()) changed = range_row(options, frame) || changed;
+  if (!has_curve) return changed;
+  const glm::vec2 range = range_of(options, frame);
+  const grids::BrickVolume& density = frame.density;
+  const glm::vec2 own = (glm::vec2(density.low, density.high) - range.x) / (range.y - range.x);
+  return edit_curve("##curve", options.opacity, {density.histogram, own, range}) || changed;
+}
+
+}  // namespace
+
+void lay_out_volumes(Game& game) {
+  scenario::EditableScenario& live = game.session().live();
+  std::vector<scene::VolumeOptions> volumes = live.scenario().timeline.volumes;
+  const std::vector<scene::VolumeOptions>& file = game.session().file().volumes;
+  bool changed = false;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (begin_tree(volumes[i].file.filename().string().c_str())) {
+      const scenario::VolumeFrame& frame = live.scenario().volumes->first_frame(i);
+      changed = grid_rows(volumes[i], frame) || changed;
+      changed = look_rows(volumes[i], file[i], frame.heat.has_value()) || changed;
+      changed = transfer_rows(volumes[i], frame) || changed;
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+  }
+  if (!changed) return;
+  if (const auto done = live.set_volumes(std::move(volumes)); !done)
+    return game.notify(done.failure().message);
+  game.setting_changed("volume");
+  game.change_picture();
+}
+
+}  // namespace brume::viewer

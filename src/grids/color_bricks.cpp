@@ -1,0 +1,144 @@
+#include "grids/color_bricks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+#include "core/tasks.hpp"
+
+namespace brume::grids {
+namespace {
+
+glm::vec3 read_color(ValueType type, const std::byte* at) {
+  glm::dvec3 color(0);
+  if (type == ValueType::vec3d) {
+    std::memcpy(&color, at, sizeof color);
+  } else {
+    glm::vec3 narrow;
+    std::memcpy(&narrow, at, sizeof narrow);
+    color = glm::dvec3(narrow);
+  }
+  for (int i = 0; i < 3; ++i) color[i] = color[i] > 0 ? std::min(color[i], 1.0) : 0.0;
+  return glm::vec3(color);
+}
+
+/// Looks up voxels of a grid; remembers the brick of the last one.
+class Lookup {
+ public:
+  explicit Lookup(const Grid& grid) : grid_(grid) {}
+
+  /// nullopt: the voxel is not active.
+  std::optional<glm::vec3> at(glm::ivec3 index) {
+    const glm::ivec3 origin = (index >> 3) * 8;
+    if (!known_ || origin != origin_) {
+      brick_ = find_brick(grid_, origin).value_or(grid_.bricks.size());
+      origin_ = origin;
+      known_ = true;
+    }
+    if (brick_ == grid_.bricks.size()) return of_tile(index);
+    const glm::ivec3 in = index & 7;
+    const auto voxel = static_cast<std::size_t>(in.x + 8 * (in.y + 8 * in.z));
+    if (!grid_.bricks[brick_].is_active(voxel)) return std::nullopt;
+    return read_color(grid_.type, grid_.values_of(brick_).data() + voxel * bytes_of(grid_.type));
+  }
+
+ private:
+  std::optional<glm::vec3> of_tile(glm::ivec3 index) const {
+    if (grid_.tiles.empty()) return std::nullopt;
+    for (const int edge : {8, 128, 4096}) {
+      const glm::ivec3 origin = index & ~(edge - 1);
+      const auto tile =
+          std::lower_bound(grid_.tiles.begin(), grid_.tiles.end(), origin,
+                           [](const Tile& one, glm::ivec3 at) { return goes_before(one.origin, at); });
+      if (tile == grid_.tiles.end() || tile->origin != origin || int(tile->edge) != edge) continue;
+      if (!tile->active) return std::nullopt;
+      return read_color(grid_.type, tile->value.data());
+    }
+    return std::nullopt;
+  }
+
+  const Grid& grid_;
+  glm::ivec3 origin_{0};
+  std::size_t brick_ = 0;  // its number, or that of all: none
+  bool known_ = false;
+};
+
+/// The mean of colours by weight.
+class Mean {
+ public:
+  void add(const std::optional<glm::vec3>& color, float weight) {
+    if (!color || weight <= 0) return;
+    sum_ += weight * *color;
+    weight_ += weight;
+  }
+  bool empty() const { return weight_ <= 0; }
+  glm::vec3 color() const { return sum_ / weight_; }
+
+ private:
+  glm::vec3 sum_{0};
+  float weight_ = 0;
+};
+
+/// The colour at a point of index space.
+glm::vec3 color_at(Lookup& lookup, glm::dvec3 p_index) {
+  // Voxels whose centres are off by rounding alone count as they are.
+  constexpr double kRounding = 1e-4;
+  const glm::dvec3 low = glm::floor(p_index + kRounding);
+  const glm::vec3 weight(glm::clamp(p_index - low, 0.0, 1.0));
+  Mean filtered, around;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::vec3 w = glm::mix(1.0f - weight, weight, glm::vec3(side));
+    const float product = w.x * w.y * w.z;
+    if (product > static_cast<float>(kRounding)) filtered.add(lookup.at(glm::ivec3(low) + side), product);
+  }
+  if (!filtered.empty()) return filtered.color();
+  for (int n = 0; n < 27; ++n)
+    around.add(lookup.at(glm::ivec3(glm::round(p_index)) + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1), 1);
+  return around.empty() ? glm::vec3(1) : around.color();
+}
+
+}  // namespace
+
+bool is_color_grid(const Grid& grid) {
+  return grid.type == ValueType::vec3f || grid.type == ValueType::vec3d;
+}
+
+Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colors,
+                                                                const BrickVolume& volume) {
+  if (!is_color_grid(colors))
+    return Failure{ErrorCode::bad_input, "grid " + colors.name + ": holds values of " + name_of(colors.type) +
+                                             "; expected colours, which are vec3f or vec3d"};
+  const glm::dmat4 index_from_voxel = glm::inverse(colors.world_from_index) * volume.world_from_voxel;
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!std::isfinite(index_from_voxel[column][row]))
+        return Failure{ErrorCode::bad_input, "grid " + colors.name + ": its transform has no inverse"};
+
+  // The same bricks in the same slots.
+  volume::SparseVolumeInfo info;
+  info.channels = {{sizeof(std::uint64_t)}};
+  auto bricks = std::make_unique<volume::SparseVolume>(info);
+  const volume::ChannelId channel{0};
+  const std::uint32_t slots = volume.volume->slot_count();
+  bricks->begin_update();
+  for (std::uint32_t slot = 0; slot < slots; ++slot) bricks->acquire(volume.volume->brick_of(slot));
+  parallel_for(slots, 16, [&](std::size_t begin, std::size_t end) {
+    Lookup lookup(colors);
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const auto texels = bricks->texels<std::uint64_t>(channel, static_cast<std::uint32_t>(slot));
+      const glm::ivec3 first = 8 * volume.volume->brick_of(static_cast<std::uint32_t>(slot)) - 1;
+      for (int i = 0; i < int{shared::kTexelsPerBrick}; ++i) {
+        const glm::dvec3 p_voxel = glm::dvec3(first + glm::ivec3(i % 10, i / 10 % 10, i / 100)) + 0.5;
+        const glm::vec3 color = color_at(lookup, glm::dvec3(index_from_voxel * glm::dvec4(p_voxel, 1)));
+        texels[static_cast<std::size_t>(i)] = glm::packHalf4x16(glm::vec4(color, 1));
+      }
+    }
+  });
+  bricks->set_bounds(volume.volume->layout().bounds_min, volume.volume->layout().bounds_max);
+  bricks->end_update();
+  return bricks;
+}
+
+}  // namespace brume::grids

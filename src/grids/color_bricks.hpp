@@ -1,0 +1,23 @@
+// Grids of colours in the bricks of another volume, which the renderer samples beside it.
+#pragma once
+
+#include <memory>
+
+#include "core/error.hpp"
+#include "grids/brick_volume.hpp"
+#include "grids/grid.hpp"
+
+namespace brume::grids {
+
+/// Whether a grid can hold colours: vectors of floats.
+bool is_color_grid(const Grid& grid);
+
+/// One channel of four half floats, red, green, blue and 1, in the same bricks and slots as `volume`: the
+/// grid's colours at the centres of the volume's voxels, filtered trilinearly where the grids' voxels differ.
+/// Only active voxels have a colour; a voxel without one gets the mean of its 26 neighbours' colours, so that
+/// filtering at the rim does not darken, and is white beyond. Colours are limited to [0, 1]; NaN is 0. Fails
+/// with bad_input for a grid that holds none, and a transform without an inverse.
+Result<std::unique_ptr<volume::SparseVolume>> make_color_bricks(const Grid& colors,
+                                                                const BrickVolume& volume);
+
+}  // namespace brume::grids

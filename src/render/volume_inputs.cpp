@@ -1,0 +1,47 @@
+#include "render/volume_inputs.hpp"
+
+namespace brume::render {
+namespace {
+
+planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
+                               const scenario::VolumeFrame& first) {
+  const grids::BrickVolume& density = volume.frame->density;
+  planning::VolumeInput input;
+  input.volume = density.volume.get();
+  input.world_from_voxel = volume.world_from_density;
+  input.colors = volume.frame->colors.get();
+  input.transfer = {options.opacity, options.color_map, scenario::range_of(options, first) / density.unit,
+                    options.glow, options.emission};
+  // Values are stored in a unit, which an opacity curve cancels.
+  const float unit = options.opacity.empty() ? density.unit : 1;
+  input.look = {options.albedo, options.extinction * unit, glm::vec3(0), options.anisotropy, 1};
+  if (const auto& heat = volume.frame->heat)
+    // What glows is a multiple of the look's extinction.
+    input.heat = {heat->volume.get(), volume.world_from_heat, options.kelvin * heat->unit,
+                  heat->high / heat->unit, options.emission / unit};
+  if (const auto& preview = volume.preview; preview && preview->density) {
+    input.preview = preview->density->volume.get();
+    input.world_from_preview = volume.world_from_density_preview;
+  }
+  if (const auto& preview = volume.preview; preview && preview->heat && input.heat.volume) {
+    input.heat.preview = preview->heat->volume.get();
+    input.heat.world_from_preview = volume.world_from_heat_preview;
+  }
+  return input;
+}
+
+}  // namespace
+
+std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scenario, double seconds,
+                                                 scenario::VolumeWait wait) {
+  if (!scenario.volumes) return {};
+  const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
+  std::vector<planning::VolumeInput> inputs;
+  for (const scenario::VolumeAt& volume : scenario.volumes->at(options, seconds, wait)) {
+    const std::size_t i = inputs.size();
+    inputs.push_back(input_of(options[i], volume, scenario.volumes->first_frame(i)));
+  }
+  return inputs;
+}
+
+}  // namespace brume::render

@@ -1,0 +1,147 @@
+// The panel of volumes: what is clicked and dragged is in the picture and in the saved timeline.
+#include <X11/keysym.h>
+
+#include "scene/timeline.hpp"
+#include "tests/viewer/foggy_room.hpp"
+
+namespace brume::viewer {
+namespace {
+
+class VolumePanelTest : public testing::Test {
+ protected:
+  VolumePanelTest() { write_foggy_room(folder_); }
+
+  void run() {
+    program_.emplace(desktop_, folder_.path(),
+                     std::vector<std::string>{"foggy.toml", "--size", "640x700", "--panels", "--quality",
+                                              "smallest", "--log-widgets", "--record", "made.toml"});
+    ASSERT_TRUE(program_->wait_for_window()) << program_->error();
+    program_->tap(XK_p);
+  }
+  /// The widget of this label, unfolded and scrolled into view.
+  WidgetLine widget(const std::string& label) {
+    for (int turns = 0; turns < 60 && program_->runs(); ++turns) {
+      const auto& all = program_->widgets();
+      const auto found = std::ranges::find(all, label, &WidgetLine::label);
+      if (found != all.end() && found->reachable) return *found;
+      program_->place_mouse(580, 300);
+      program_->click(found != all.end() && found->low_px.y < 300 ? 4 : 5);  // the wheel
+      program_->wait_for_frames(3);
+    }
+    ADD_FAILURE() << label << " is never in view; " << program_->error();
+    return {};
+  }
+  void move_to(glm::ivec2 place) {
+    program_->place_mouse(place.x, place.y);
+    program_->wait_for_frames(2);
+  }
+  void click(glm::ivec2 place, unsigned button = 1) {
+    move_to(place);
+    program_->click(button);
+    program_->wait_for_frames(5);
+  }
+  void click(const std::string& label) {
+    const WidgetLine at = widget(label);
+    click((at.low_px + at.high_px) / 2);
+  }
+  /// A place of the curve on the display.
+  static glm::ivec2 on(const WidgetLine& canvas, glm::vec2 place) {
+    const glm::vec2 size(canvas.high_px - canvas.low_px);
+    return canvas.low_px + glm::ivec2(glm::round(glm::vec2(place.x, 1 - place.y) * size));
+  }
+  scene::VolumeOptions saved() {
+    program_->close();
+    EXPECT_EQ(program_->wait(), 0) << program_->error();
+    return scene::load_timeline(folder_.path() / "made.toml").value_or_throw().volumes.at(0);
+  }
+
+  cli::WorkFolder folder_;
+  Desktop desktop_;
+  std::optional<Program> program_;
+};
+
+TEST_F(VolumePanelTest, TheCurveIsDrawnAndDraggedAndSaved) {
+  run();
+  click("Smoke");  // folds, so that the panel is short
+  click("Volumes");
+  click("fog.brv");
+  click("##opacity set");
+  const WidgetLine canvas = widget("##curve");
+  click(on(canvas, {0.5f, 0.25f}));  // a new point
+  // Drag it.
+  move_to(on(canvas, {0.5f, 0.25f}));
+  program_->button(1, true);
+  program_->wait_for_frames(2);
+  for (const float part : {0.3f, 0.6f, 1.0f})
+    move_to(on(canvas, glm::mix(glm::vec2(0.5f, 0.25f), glm::vec2(0.25f, 0.75f), part)));
+  program_->button(1, false);
+  program_->wait_for_frames(3);
+  click(on(canvas, {0.75f, 0.5f}));     // another one,
+  click(on(canvas, {0.75f, 0.5f}), 3);  // removed
+  const scene::VolumeOptions volume = saved();
+  ASSERT_EQ(volume.opacity.size(), 3u);
+  EXPECT_EQ(volume.opacity[0], (scene::OpacityPoint{0, 0}));
+  EXPECT_NEAR(volume.opacity[1].at, 0.25f, 0.02f);
+  EXPECT_NEAR(volume.opacity[1].opacity, 0.75f, 0.02f);
+  EXPECT_EQ(volume.opacity[2], (scene::OpacityPoint{1, 1}));
+}
+
+TEST_F(VolumePanelTest, ChoicesShowAtOnceAndCanBeUndone) {
+  run();
+  click("Smoke");
+  click("Volumes");
+  click("fog.brv");
+  click("##density grid");
+  click("fuel");
+  click("##opacity set");
+  ASSERT_TRUE(program_->wait_for_best());
+  const image::Image8 plain = program_->contents();
+  click("##colour map");
+  click("inferno");
+  ASSERT_TRUE(program_->wait_for_best());
+  // Left of the panel, without the lines of text above and below.
+  const auto difference = [&](const image::Image8& a, const image::Image8& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+      if (i / 4 % a.width < 300 && i / 4 / a.width > 200 && i / 4 / a.width < 500)
+        sum += std::abs(int{a.rgba[i]} - int{b.rgba[i]});
+    return sum / static_cast<double>(a.width * a.height);
+  };
+  EXPECT_GT(difference(plain, program_->contents()), 0.5);
+  move_to({100, 300});
+  program_->key(XK_Control_L, true);
+  program_->tap(XK_z);
+  program_->key(XK_Control_L, false);
+  ASSERT_TRUE(program_->wait_for_best());
+  EXPECT_LT(difference(plain, program_->contents()), 0.2);
+  const scene::VolumeOptions volume = saved();
+  EXPECT_EQ(volume.density, "fuel");
+  EXPECT_EQ(volume.color_map.name, "");
+  EXPECT_EQ(volume.opacity.size(), 2u);
+}
+
+TEST_F(VolumePanelTest, ColoursAreAddedAndMoved) {
+  run();
+  click("Smoke");
+  click("Volumes");
+  click("fog.brv");
+  click("##colour map");
+  click("own colours");
+  const WidgetLine bar = widget("##colours");
+  click(on(bar, {0.3f, 0.5f}));
+  move_to(on(bar, {0.3f, 0.5f}));
+  program_->button(1, true);
+  program_->wait_for_frames(2);
+  for (const float at : {0.31f, 0.33f, 0.35f}) move_to(on(bar, {at, 0.5f}));
+  program_->button(1, false);
+  program_->wait_for_frames(3);
+  click(on(bar, {0.5f, 0.5f}), 3);  // removes the middle one
+  const scene::VolumeOptions volume = saved();
+  ASSERT_EQ(volume.color_map.points.size(), 9u);
+  EXPECT_NEAR(volume.color_map.points[3].at, 0.35f, 0.02f);
+  EXPECT_EQ(volume.color_map.points[4].at, 0.375f);
+  EXPECT_EQ(volume.color_map.points[5].at, 0.625f);
+}
+
+}  // namespace
+}  // namespace brume::viewer
