@@ -39,7 +39,8 @@ std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scena
     const scene::VolumeOptions& look = options[inputs.size()];
     planning::VolumeInput input{volume.frame->density.volume.get(), volume.world_from_density, {}, {}};
     const grids::BrickVolume& density = volume.frame->density;
-    input.look = {look.albedo, look.extinction * density.unit, glm::vec3(0), look.anisotropy, 1};
+    input.look = {look.albedo, look.extinction * density.unit, glm::vec3(0), look.anisotropy,
+                  look.multiple_scattering};
     if (const auto& heat = volume.frame->heat)
       // What glows is a multiple of the look's extinction, which is that of the stored density.
       input.heat = {heat->volume.get(), volume.world_from_heat, look.kelvin * heat->unit,
