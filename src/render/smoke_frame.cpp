@@ -30,6 +30,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       size_px_(size_px),
       brute_force_holes_(options.brute_force_holes),
       record_entries_(options.record_entries),
+      any_march_scale_(options.any_march_scale),
       smoke_upload_(context),
       volume_upload_(context),
       hole_clusters_(context, runner, options.masks ? *options.masks : smoke::MaskAtlas()),
@@ -39,7 +40,8 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       light_pass_(context),
       volume_light_pass_(context),
       raycast_(options.raycast),
-      march_pass_(context, {options.count_samples, false, options.brute_force_holes, options.record_entries}),
+      march_pass_(context,
+                  {options.count_samples, false, options.brute_force_holes, options.record_entries, 0}),
       resolve_pass_(context) {
   if (options.temporal) accumulate_pass_.emplace(context, size_px);
   resize(scene, size_px);
@@ -78,11 +80,15 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
   if (volume_light_pass_.reserve(plan.volume_light, plan.media.media)) plan.volume_light.update = true;
   hole_clusters_.reserve(plan.holes);
   shadow_pass_.reserve(casting_media(plan));
-  march_pass_.reserve(plan.media.media);
+  const auto rays = any_march_scale_    ? passes::MarchRays::all
+                    : march_scale_ == 1 ? passes::MarchRays::of_pixels
+                                        : passes::MarchRays::of_tiles;
+  march_pass_.reserve(plan.media.media, rays);
   if (input.debug.view == planning::DebugView::steps) {
     if (!counting_march_)
-      counting_march_.emplace(context_, passes::MarchPass::Options{false, true, brute_force_holes_});
-    counting_march_->reserve(plan.media.media);
+      counting_march_.emplace(context_,
+                              passes::MarchPass::Options{false, true, brute_force_holes_, false, 0});
+    counting_march_->reserve(plan.media.media, rays);
   }
   while (!light_pass_.reserve(*plan.smoke_light)) planning::replan_smoke_light(plan, history);
 }
