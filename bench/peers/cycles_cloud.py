@@ -60,7 +60,10 @@ def build(scene):
     volume.render.precision = "FULL"
     volume.render.clipping = 0
     volume.materials.append(medium(scene))
-    place("cloud", volume, Matrix())
+    # Blender 3 draws samples in the middles of voxels that begin at the integers of index space; they lie at the
+    # integers. The results name what is left of such an offset.
+    beside = 0.5 * scene["voxel"] if bpy.app.version < (4, 0) else 0
+    place("cloud", volume, Matrix.Translation((-beside, -beside, -beside)))
 
     sun = bpy.data.lights.new("sun", "SUN")
     sun.energy = scene["irradiance"]

@@ -1,7 +1,7 @@
 """Writes the results of script/bench-peers as Markdown and as a plot."""
 import math
 
-COLUMNS = (("renderer", "renderer"), ("cpu", "CPU s"), ("wall", "wall s"), ("memory", "peak MB"),
+COLUMNS = (("renderer", "renderer"), ("cpu", "CPU s"), ("wall", "wall s"), ("gpu_ms", "GPU ms"), ("memory", "peak MB"),
            ("rmse", "RMSE %"), ("mean", "mean difference %"), ("largest", "largest %"), ("ratio", "brightness"))
 COLOURS = {"Brume": "#c8641e", "vdb_render": "#3b6fb6", "Cycles": "#4c8c4a"}
 WIDE, HIGH, LEFT, TOP = 620, 380, 70, 30
@@ -28,14 +28,16 @@ def markdown(results):
     scene, parts = results["scene"], [f"# {results['title']}\n"]
     parts.append(f"{scene['voxels']} active voxels of {scene['edge']}^3, extinction {scene['extinction']} per voxel, "
                  f"{scene['size'][0]}x{scene['size'][1]}, one sun, single scattering. {results['machine']}.\n")
-    parts.append(table(results["renderers"], COLUMNS))
-    parts.append("CPU s and peak MB: the whole process with those it started. Differences are from the reference, in "
-                 "percent of its mean over the pixels of the cloud; RMSE over all pixels.\n")
+    on_gpu = any(row.get("gpu_ms") for row in results["renderers"])
+    parts.append(table(results["renderers"], [column for column in COLUMNS if on_gpu or column[0] != "gpu_ms"]))
+    parts.append("CPU s, wall s and peak MB: the whole process with those it started. Differences are from the "
+                 "reference, in percent of its mean over the pixels of the cloud; RMSE over all pixels.\n")
     parts += [f"Skipped: {line}\n" for line in results["skipped"]]
     if results["parts"]:
         parts.append("Where Brume's time goes:\n")
         parts.append(table(results["parts"], (("part", "part"), ("device", "device"), ("cpu", "CPU s"))))
-    parts.append("Convergence of the reference, as differences from its finest picture:\n")
+    parts.append("Convergence of the reference (two points are used), as differences from four Gauss points per cell, "
+                 "{}x{}:\n".format(*results["convergence"][0]["size"]))
     parts.append(table(results["convergence"], (("reference", "reference"), ("cpu", "CPU s"), ("rmse", "RMSE %"),
                                                 ("mean", "mean difference %"))))
     if results["nanovdb"]:
@@ -85,9 +87,9 @@ def plot(rows, title):
             x, y = across.at(row["cpu"]), upwards.at(row["rmse"])
             colour = next((c for name, c in COLOURS.items() if row["renderer"].startswith(name)), "#555")
             end = x > LEFT + WIDE * 0.6
-            out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{colour}"/><text x="{x + (-9 if end else 9):.1f}" '
-                       f'y="{y + 5:.1f}" text-anchor="{"end" if end else "start"}" fill="{colour}">'
-                       f'{row["renderer"]}</text>')
+            out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{colour}"/>'
+                       f'<text x="{x + (-9 if end else 9):.1f}" y="{y + 5:.1f}" fill="{colour}" '
+                       f'text-anchor="{"end" if end else "start"}">{row["renderer"]}</text>')
     out.append(f'<text x="{LEFT + WIDE / 2}" y="{TOP + HIGH + 44}" text-anchor="middle">CPU seconds</text>')
     out.append(f'<text transform="translate(20 {TOP + HIGH / 2}) rotate(-90)" text-anchor="middle">'
                "RMSE, % of the cloud's mean radiance</text>")

@@ -22,7 +22,7 @@ class Scene:
         return ",".join(f"{number:.9g}" for number in numbers)
 
     def timeline(self, file):
-        """A Brume timeline; without a file, of nothing."""
+        """A Brume timeline; without a file, of a triangle that the eye does not see."""
         volume = f"""
 [[volume]]
 file = "{file}"
@@ -32,7 +32,7 @@ anisotropy = 0.0
 multiple_scattering = 0.0
 """ if file else ""
         return f"""version = 1
-scene = "nothing.obj"
+scene = "{file or 'triangle.obj'}"
 duration = 10.0
 
 [grid]
@@ -75,4 +75,4 @@ fov = {self.fov}
     def description(self, file):
         """For cycles_cloud.py."""
         keys = ("edge", "size", "extinction", "albedo", "fov", "eye", "to_sun", "irradiance")
-        return {"file": str(file), "target": [0, 0, 0], **{key: getattr(self, key) for key in keys}}
+        return {"file": str(file), "voxel": 1, "target": [0, 0, 0], **{key: getattr(self, key) for key in keys}}
