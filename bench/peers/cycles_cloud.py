@@ -103,6 +103,9 @@ def settings(scene, out, samples):
     cycles.pixel_filter_type = "BOX"
     cycles.filter_width = 0.01
     cycles.light_sampling_threshold = 0
+    # It draws a volume inside a mesh around its voxels, and each time that a ray to the sun enters or leaves counts;
+    # rays with more would be blocked.
+    cycles.transparent_max_bounces = 1024
 
 
 def main():
