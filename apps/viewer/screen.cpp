@@ -23,6 +23,7 @@ gpu::Image make_canvas(gpu::Context& context, glm::uvec2 size_px) {
 render::RendererOptions renderer_options(const scenario::Scenario& scenario, glm::uvec2 size_px) {
   render::RendererOptions options{size_px};
   options.smoke.temporal = true;
+  options.smoke.prepare_all = true;
   options.smoke.masks = &scenario.masks;
   return options;
 }

@@ -45,23 +45,27 @@ MarchPass::MarchPass(gpu::Context& context, const Options& options)
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
       nearest_(context, {VK_FILTER_NEAREST}) {
-  reserve(shared::kMediumSmoke);
+  if (options.media != 0) reserve(options.media);
 }
 
-void MarchPass::reserve(std::uint32_t media) {
-  const std::uint32_t with_holes =
-      options_.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered;
-  for (const std::uint32_t rays : {shared::kRaysOfPixels, shared::kRaysOfTiles, shared::kRaysOfList})
-    for (const std::uint32_t holes : {shared::kHolesNone, with_holes})
-      pipelines_.try_emplace({rays, holes, media}, context_, shaders::march_comp,
-                             std::vector{counts_of(options_), rays, holes, media});
+/// The variant for frames with holes, which are in smoke only.
+std::uint32_t MarchPass::with_holes(std::uint32_t media) const {
+  if ((media & shared::kMediumSmoke) == 0) return shared::kHolesNone;
+  return options_.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered;
 }
 
-/// Those of a frame without holes, or with.
+void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
+  std::vector<std::uint32_t> kinds;
+  if (rays != MarchRays::of_tiles) kinds.push_back(shared::kRaysOfPixels);
+  if (rays != MarchRays::of_pixels) kinds.insert(kinds.end(), {shared::kRaysOfTiles, shared::kRaysOfList});
+  for (const std::uint32_t kind : kinds)
+    for (const std::uint32_t holes : {shared::kHolesNone, with_holes(media)})
+      pipelines_.try_emplace({kind, holes, media}, context_, shaders::march_comp,
+                             std::vector{counts_of(options_), kind, holes, media});
+}
+
 const gpu::ComputePipeline& MarchPass::pipeline(std::uint32_t rays, const Inputs& in) const {
-  const std::uint32_t with_holes =
-      options_.brute_force_holes ? shared::kHolesAllTested : shared::kHolesClustered;
-  return pipelines_.at({rays, in.holes.any ? with_holes : shared::kHolesNone, in.media});
+  return pipelines_.at({rays, in.holes.any ? with_holes(in.media) : shared::kHolesNone, in.media});
 }
 
 void MarchPass::record(gpu::Recorder& recorder, const Inputs& in, const gpu::Image& smoke,

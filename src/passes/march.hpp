@@ -21,6 +21,9 @@ struct MarchTiles {
   MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t scale);
 };
 
+/// Kinds of rays that frames march: those of pixels; those of tiles, and of the pixels of listed tiles.
+enum class MarchRays { of_pixels, of_tiles, all };
+
 class MarchPass {
  public:
   struct Options {
@@ -34,15 +37,17 @@ class MarchPass {
     /// infinity where it does not. Instead of the counts above. The pixels of a tile have the entry of its
     /// ray.
     bool record_entries = false;
+    /// The media that the constructor reserves, with all kinds of rays; 0: none.
+    std::uint32_t media = shared::kMediumSmoke;
   };
-  /// Ready for smoke alone.
   MarchPass(gpu::Context& context, const Options& options);
-  /// Compiles what a set of media needs, once (shared/media.h). Outside of a recording.
-  void reserve(std::uint32_t media);
+  /// Compiles what rays through a set of media need (shared/media.h), once: each pipeline takes a driver up
+  /// to a tenth of a second. Outside of a recording.
+  void reserve(std::uint32_t media, MarchRays rays = MarchRays::all);
 
   struct Inputs {
     const gpu::Buffer& frame;
-    std::uint32_t media;  ///< Those that are marched through; `reserve` has seen the set.
+    std::uint32_t media;  ///< Those that are marched through; reserved, with the kind of rays.
     const SmokeResources& smoke;
     VolumeResources volumes;
     const gpu::Image& volume_light;  ///< VolumeLightPass::light.
@@ -79,6 +84,7 @@ class MarchPass {
     auto operator<=>(const Variant&) const = default;
   };
   const gpu::ComputePipeline& pipeline(std::uint32_t rays, const Inputs& inputs) const;
+  std::uint32_t with_holes(std::uint32_t media) const;
 
   gpu::Context& context_;
   Options options_;

@@ -31,6 +31,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       size_px_(size_px),
       brute_force_holes_(options.brute_force_holes),
       record_entries_(options.record_entries),
+      prepare_all_(options.prepare_all),
       smoke_upload_(context),
       volume_upload_(context),
       hole_clusters_(context, runner, options.masks ? *options.masks : smoke::MaskAtlas()),
@@ -40,13 +41,20 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       light_pass_(context),
       volume_light_pass_(context),
       raycast_(options.raycast),
-      march_pass_(context, {options.count_samples, false, options.brute_force_holes, options.record_entries}),
+      march_pass_(context,
+                  {options.count_samples, false, options.brute_force_holes, options.record_entries, 0}),
       resolve_pass_(context) {
   if (options.temporal) accumulate_pass_.emplace(context, size_px);
   resize(scene, size_px);
   set_march_scale(options.march_scale);
-  const passes::NoisePass noise(context);
-  runner.run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, passes::kSmokeNoise); });
+  if (prepare_all_) make_noise();
+}
+
+void SmokeFrame::make_noise() {
+  if (has_noise_) return;
+  const passes::NoisePass noise(context_);
+  runner_.run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, passes::kSmokeNoise); });
+  has_noise_ = true;
 }
 
 void SmokeFrame::resize(const SceneView& scene, glm::uvec2 size_px) {
@@ -72,17 +80,22 @@ void SmokeFrame::set_masks(const smoke::MaskAtlas& masks) {
 void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
   const planning::FrameInput& input = plan.input;
   if (input.smoke.volume) {
+    if (input.smoke.volume->slot_count() > 0) make_noise();
     smoke_upload_.reserve(*input.smoke.volume);
     noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
   }
   if (volume_light_pass_.reserve(plan.volume_light, plan.media.media)) plan.volume_light.update = true;
   hole_clusters_.reserve(plan.holes);
   shadow_pass_.reserve(casting_media(plan));
-  march_pass_.reserve(plan.media.media);
+  const auto rays = prepare_all_        ? passes::MarchRays::all
+                    : march_scale_ == 1 ? passes::MarchRays::of_pixels
+                                        : passes::MarchRays::of_tiles;
+  march_pass_.reserve(plan.media.media, rays);
   if (input.debug.view == planning::DebugView::steps) {
     if (!counting_march_)
-      counting_march_.emplace(context_, passes::MarchPass::Options{false, true, brute_force_holes_});
-    counting_march_->reserve(plan.media.media);
+      counting_march_.emplace(context_,
+                              passes::MarchPass::Options{false, true, brute_force_holes_, false, 0});
+    counting_march_->reserve(plan.media.media, rays);
   }
   while (!light_pass_.reserve(*plan.smoke_light)) planning::replan_smoke_light(plan, history);
 }

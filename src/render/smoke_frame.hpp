@@ -21,6 +21,9 @@ struct SmokeFrameOptions {
   bool count_samples = false;      ///< Count the texture samples of the march (slower).
   bool brute_force_holes = false;  ///< See MarchPass::Options.
   std::uint32_t march_scale = 1;   ///< Pixels per ray of the march along each axis: 1, 2 or 4.
+  /// Prepares at once what any later frame may need, so that none waits for it: pipelines of all march
+  /// scales, the noise of smoke. Otherwise each is prepared for the first frame that needs it.
+  bool prepare_all = false;
   /// Draws the volumes alone, one by one, without light from each other; needs march_scale 1.
   std::optional<passes::RaycastForm> raycast = {};
   bool temporal = false;                    ///< Accumulate smoke over the frames of a film (View::continues).
@@ -103,6 +106,7 @@ class SmokeFrame {
     const passes::MarchPass& pass;
     const gpu::Buffer& counters;
   };
+  void make_noise();
   March march_of(const FrameResources& in) const;
   passes::MarchPass::Inputs march_inputs(const planning::FramePlan& plan, const FrameResources& in) const;
 
@@ -110,6 +114,7 @@ class SmokeFrame {
   gpu::CommandRunner& runner_;
   glm::uvec2 size_px_;
   bool brute_force_holes_, record_entries_;
+  bool prepare_all_, has_noise_ = false;
   std::uint32_t march_scale_ = 1;
 
   // Data on the device.

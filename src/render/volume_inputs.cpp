@@ -14,7 +14,8 @@ planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenar
                     options.glow, options.emission};
   // Values are stored in a unit, which an opacity curve cancels.
   const float unit = options.opacity.empty() ? density.unit : 1;
-  input.look = {options.albedo, options.extinction * unit, glm::vec3(0), options.anisotropy, 1};
+  input.look = {options.albedo, options.extinction * unit, glm::vec3(0), options.anisotropy,
+                options.multiple_scattering};
   if (const auto& heat = volume.frame->heat)
     // What glows is a multiple of the look's extinction.
     input.heat = {heat->volume.get(), volume.world_from_heat, options.kelvin * heat->unit,

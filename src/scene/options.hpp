@@ -105,6 +105,9 @@ void visit_volume_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1}, o.albedo);
   visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -0.9, 0.9},
         o.anisotropy);
+  visit(
+      OptionInfo{"multiple_scattering", "", "weight of multiple scattering; 0: single scattering only", 0, 1},
+      o.multiple_scattering);
   visit(OptionInfo{"emission", "", "brightness of what glows", 0, 1e6}, o.emission);
   visit(OptionInfo{"kelvin", "K", "temperature where the heat is 1", 0, 1e5}, o.kelvin);
   visit(OptionInfo{"frame_rate", "1/s", "frames of a sequence a second", 0.01, 1000}, o.frame_rate);

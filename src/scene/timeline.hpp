@@ -73,6 +73,7 @@ struct VolumeOptions {
   float extinction = 1;
   glm::vec3 albedo{0.9f};
   float anisotropy = 0.2f;
+  float multiple_scattering = 1;
   float emission = 1;
   float kelvin = 1000;
   float frame_rate = 24;
