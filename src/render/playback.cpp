@@ -35,12 +35,15 @@ constexpr double kRounding = 1e-3;
 std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scenario, double seconds) {
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
   std::vector<planning::VolumeInput> inputs;
-  for (const scenario::VolumeAt& volume : scenario.volumes->at(options, seconds)) {
-    const scene::VolumeOptions& look = options[inputs.size()];
+  const std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds);
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    const scenario::VolumeAt& volume = volumes[i];
+    const scene::VolumeOptions& look = options[i];
+    if (!volume.frame) continue;
     planning::VolumeInput input{volume.frame->density.volume.get(), volume.world_from_density, {}, {}};
     const grids::BrickVolume& density = volume.frame->density;
     input.look = {look.albedo, look.extinction * density.unit, glm::vec3(0), look.anisotropy, 1};
-    if (const auto& heat = volume.frame->heat)
+    if (const auto& heat = volume.frame->heat; heat && look.emission > 0)
       // What glows is a multiple of the look's extinction, which is that of the stored density.
       input.heat = {heat->volume.get(), volume.world_from_heat, look.kelvin * heat->unit,
                     heat->high / heat->unit, look.emission / density.unit};

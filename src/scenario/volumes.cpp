@@ -31,8 +31,9 @@ std::optional<NumberPlace> number_place(const std::string& name) {
   return NumberPlace{match.prefix(), match.suffix()};
 }
 
-/// The files of a sequence, by number.
-Result<std::map<std::int64_t, fs::path>> files_of(const fs::path& file) {
+/// The files of a sequence's frames, by number.
+Result<std::map<std::int64_t, fs::path>> files_of(const scene::VolumeOptions& options) {
+  const fs::path& file = options.file;
   const auto place = number_place(file.filename().string());
   if (!place) return std::map<std::int64_t, fs::path>{{0, file}};
   std::map<std::int64_t, fs::path> found;
@@ -47,6 +48,9 @@ Result<std::map<std::int64_t, fs::path>> files_of(const fs::path& file) {
     const auto read = std::from_chars(name.data() + place->before.size(), last, number);
     if (read.ec == std::errc() && read.ptr == last) found.emplace(number, file.parent_path() / name);
   }
+  std::erase_if(found, [&](const auto& one) {
+    return (options.first && one.first < *options.first) || (options.last && one.first > *options.last);
+  });
   if (found.empty()) return Failure{ErrorCode::bad_input, file.string() + ": no such frames"};
   return found;
 }
@@ -144,14 +148,30 @@ Result<std::shared_ptr<const VolumeFrame>> make_frame(const fs::path& file, cons
   return std::shared_ptr<const VolumeFrame>(std::move(frame));
 }
 
-/// The number of the frame at a time, before missing ones are replaced.
-std::int64_t number_at(const scene::VolumeOptions& options, std::int64_t first, std::int64_t last,
-                       double seconds) {
+/// The number of the frame at a time, before missing ones are replaced; empty: none is shown.
+std::optional<std::int64_t> number_at(const scene::VolumeOptions& options, std::int64_t first,
+                                      std::int64_t last, double seconds) {
+  // A frame whose start and rate are rounded to float32, within the first hours, does not show the one
+  // before.
+  constexpr double kRounding = 2e-3;
   const double frames = (seconds - double{options.start}) * double{options.frame_rate};
-  const auto passed = static_cast<std::int64_t>(std::floor(frames + 1e-6));
+  const auto passed = static_cast<std::int64_t>(std::floor(frames + kRounding));
   const std::int64_t count = last - first + 1;
-  if (!options.loop) return first + std::clamp<std::int64_t>(passed, 0, count - 1);
-  return first + (passed % count + count) % count;
+  const auto repeated = [&](std::int64_t period) { return (passed % period + period) % period; };
+  if (options.clip && (passed < 0 || passed >= count)) return std::nullopt;
+  if (options.loop) return first + repeated(count);
+  if (options.ping_pong) {
+    const std::int64_t period = std::max<std::int64_t>(2 * count - 2, 1);
+    return first + std::min(repeated(period), period - repeated(period));
+  }
+  return first + std::clamp<std::int64_t>(passed, 0, count - 1);
+}
+
+/// Whether the axes of a volume span space.
+bool has_inverse(const scene::VolumeOptions& options) {
+  const glm::dmat3 axes(options.x_axis, options.y_axis, options.z_axis);
+  const double product = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
+  return std::abs(glm::determinant(axes)) > 1e-9 * product;
 }
 
 }  // namespace
@@ -163,7 +183,8 @@ glm::mat4 world_from_file(const scene::VolumeOptions& options) {
     around[axis] = 1;
     matrix = glm::rotate(matrix, glm::radians(options.rotation[axis]), around);
   }
-  return glm::scale(matrix, glm::vec3(options.scale));
+  const glm::mat3 axes(options.x_axis, options.y_axis, options.z_axis);
+  return glm::scale(matrix, glm::vec3(options.scale)) * glm::mat4(axes);
 }
 
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
@@ -185,10 +206,12 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
 Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOptions> options) {
   auto volumes = std::make_shared<Volumes>();
   for (const scene::VolumeOptions& one : options) {
-    auto files = files_of(one.file);
-    if (!files)
-      return Failure{files.failure().code,
-                     (one.place.empty() ? "" : one.place + ": ") + files.failure().message};
+    const std::string where = one.place.empty() ? "" : one.place + ": ";
+    if (!has_inverse(one))
+      return Failure{ErrorCode::bad_input,
+                     where + one.file.string() + ": its axes lie in a plane; expected three that span space"};
+    auto files = files_of(one);
+    if (!files) return Failure{files.failure().code, where + files.failure().message};
     Sequence sequence{std::move(*files), nullptr, nullptr, 0};
     auto frame = load_volume_frame(sequence.files.begin()->second, one);
     if (!frame) return frame.failure();
@@ -204,9 +227,15 @@ std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options,
   std::vector<VolumeAt> volumes;
   for (std::size_t i = 0; i < options.size(); ++i) {
     Sequence& sequence = sequences_[i];
-    const std::int64_t wanted =
-        number_at(options[i], sequence.files.begin()->first, sequence.files.rbegin()->first, seconds);
-    const auto [number, file] = *std::prev(sequence.files.upper_bound(wanted));
+    const auto& files = sequence.files;
+    const auto wanted = number_at(options[i], options[i].first.value_or(files.begin()->first),
+                                  options[i].last.value_or(files.rbegin()->first), seconds);
+    if (!wanted) {
+      volumes.emplace_back();
+      continue;
+    }
+    const auto after = files.upper_bound(*wanted);
+    const auto [number, file] = after == files.begin() ? *after : *std::prev(after);
     if (number != sequence.shown_number) {
       auto frame = load_volume_frame(file, options[i]);
       if (frame) sequence.shown = std::move(*frame);

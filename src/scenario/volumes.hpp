@@ -30,7 +30,7 @@ struct VolumeFrame {
 
 /// A volume at one time.
 struct VolumeAt {
-  std::shared_ptr<const VolumeFrame> frame;
+  std::shared_ptr<const VolumeFrame> frame;             ///< null: not shown.
   glm::mat4 world_from_density{1}, world_from_heat{1};  ///< From the voxels of the grids.
 };
 
@@ -38,12 +38,13 @@ struct VolumeAt {
 class Volumes {
  public:
   /// Loads the first frame of each. Fails as grids::load_grid_file, and with bad_input for a sequence without
-  /// files and for grids that do not exist.
+  /// files, for axes without an inverse, and for grids that do not exist.
   static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options);
 
   /// All volumes, in the order of the options. A frame that is missing from a sequence shows the one before
-  /// it, so do times after the last; before the first, the first. Warns of a frame that cannot be read, which
-  /// shows the last one that was. Frames remain loaded as long as they are shown.
+  /// it, so do times after the last, unless the options repeat or clip it; before the first, the first. Warns
+  /// of a frame that cannot be read, which shows the last one that was. Frames remain loaded as long as they
+  /// are shown.
   std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds);
 
   const VolumeFrame& first_frame(std::size_t volume) const { return *sequences_[volume].first; }

@@ -1,11 +1,13 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace brume::scene {
 
-Box<float> world_bounds(const Scene& scene) {
+Box<float> level_bounds(const Scene& scene) {
   Box<float> bounds = kEmptyBox;
   for (const Object& object : scene.objects) {
     if (object.backdrop) continue;
@@ -19,6 +21,11 @@ Box<float> world_bounds(const Scene& scene) {
     bounds.low = glm::min(bounds.low, sphere.centre_world - sphere.radius);
     bounds.high = glm::max(bounds.high, sphere.centre_world + sphere.radius);
   }
+  return bounds;
+}
+
+Box<float> world_bounds(const Scene& scene) {
+  Box<float> bounds = level_bounds(scene);
   for (const Volume& volume : scene.volumes) bounds = united(bounds, volume.bounds_world);
   return bounds;
 }
@@ -26,9 +33,9 @@ Box<float> world_bounds(const Scene& scene) {
 namespace {
 
 /// Calls visit(point in the world) for all corners of objects but backdrops, of boxes around spheres, and of
-/// the cores of volumes.
+/// the cores or bounds of volumes.
 template <typename Visit>
-void for_each_point(const Scene& scene, Visit visit) {
+void for_each_point(const Scene& scene, Box<float> Volume::*box, Visit visit) {
   for (const Object& object : scene.objects) {
     if (object.backdrop) continue;
     for (const Vertex& vertex : scene.meshes[object.mesh].vertices)
@@ -40,8 +47,15 @@ void for_each_point(const Scene& scene, Visit visit) {
             sphere.radius * (2.0f * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f));
   for (const Volume& volume : scene.volumes)
     for (int corner = 0; corner < 8; ++corner)
-      visit(glm::mix(volume.core_world.low, volume.core_world.high,
-                     glm::bvec3(corner & 1, corner & 2, corner & 4)));
+      visit(glm::mix((volume.*box).low, (volume.*box).high, glm::bvec3(corner & 1, corner & 2, corner & 4)));
+}
+
+/// The largest cosine of the angles between two [radians].
+double largest_cosine(double from, double to) {
+  const double low = std::min(from, to), high = std::max(from, to);
+  constexpr double kTurn = 2 * std::numbers::pi;
+  if (std::floor(high / kTurn) >= std::ceil(low / kTurn)) return 1;
+  return std::max(std::cos(low), std::cos(high));
 }
 
 }  // namespace
@@ -63,7 +77,7 @@ Camera default_camera(const Scene& scene, float aspect) {
   const float vertical = 0.8f * std::tan(camera.vertical_fov / 2), horizontal = vertical * aspect;
   glm::vec2 plus(-1e30f), minus(-1e30f);
   float nearest = -1e30f;
-  for_each_point(scene, [&](glm::vec3 p) {
+  for_each_point(scene, &Volume::core_world, [&](glm::vec3 p) {
     const glm::vec3 off = p - middle;
     const glm::vec2 scaled(glm::dot(off, right) / horizontal, glm::dot(off, up) / vertical);
     const float z = glm::dot(off, back);
@@ -77,6 +91,49 @@ Camera default_camera(const Scene& scene, float aspect) {
   camera.target_world = middle + centre.x * right + centre.y * up;
   camera.position_world = camera.target_world + distance * back;
   return camera;
+}
+
+Camera orbited(const Camera& camera, glm::vec3 centre_world, double radians) {
+  if (radians == 0) return camera;
+  const double c = std::cos(radians), s = std::sin(radians);
+  const auto rotated = [&](glm::vec3 p) {
+    const glm::dvec3 centre(centre_world), off = glm::dvec3(p) - centre;
+    return glm::vec3(centre + glm::dvec3(c * off.x + s * off.z, off.y, c * off.z - s * off.x));
+  };
+  return {rotated(camera.position_world), rotated(camera.target_world), camera.vertical_fov};
+}
+
+Camera fitted_to_orbit(const Scene& scene, const Camera& camera, glm::vec3 centre_world, double radians,
+                       float aspect) {
+  const glm::dvec3 centre(centre_world), target(camera.target_world);
+  const glm::dvec3 toward_eye = glm::dvec3(camera.position_world) - target;
+  const double distance = glm::length(toward_eye);
+  const glm::dvec3 back = toward_eye / distance;
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)),
+                   up = glm::cross(back, right);
+  const double vertical = std::tan(double{camera.vertical_fov} / 2), horizontal = vertical * double{aspect};
+
+  // A point that is off the target by q is inside where |x| <= k (distance - z), as in default_camera: where
+  // the distance is at least the product of q with each of four vectors. Circling the centre rotates the
+  // point the other way, so that the horizontal part of a product is a cosine.
+  const std::array limits{back + right / horizontal, back - right / horizontal, back + up / vertical,
+                          back - up / vertical};
+  double required = 0;
+  for_each_point(scene, &Volume::bounds_world, [&](glm::vec3 p) {
+    const glm::dvec3 off = glm::dvec3(p) - centre;
+    const double reach = std::hypot(off.x, off.z), azimuth = std::atan2(off.x, off.z);
+    for (const glm::dvec3& limit : limits) {
+      const double begin = azimuth - std::atan2(limit.x, limit.z);
+      required =
+          std::max(required, reach * std::hypot(limit.x, limit.z) * largest_cosine(begin, begin - radians) +
+                                 off.y * limit.y + glm::dot(limit, centre - target));
+    }
+  });
+  constexpr double kRounding = 1e-4;
+  if (required <= distance * (1 + kRounding)) return camera;
+  Camera moved = camera;
+  moved.position_world = glm::vec3(target + required * back);
+  return moved;
 }
 
 }  // namespace brume::scene
