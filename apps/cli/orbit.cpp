@@ -1,6 +1,7 @@
 #include "apps/cli/orbit.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "core/error.hpp"
 #include "scene/options.hpp"
@@ -10,6 +11,16 @@ namespace {
 
 /// Horizontal distance from the axis, relative to that from the centre, below which a turn shows nothing.
 constexpr float kLeastReach = 1e-4f;
+
+/// Of boxes around all that is visible before time passes.
+std::vector<glm::vec3> corners_of(const scenario::Scenario& scenario) {
+  std::vector<glm::vec3> corners = scene::level_corners(scenario.scene);
+  for (std::size_t i = 0; i < scenario.timeline.volumes.size(); ++i) {
+    const auto more = scenario::corners_of(scenario.timeline.volumes[i], scenario.volumes->first_frame(i));
+    corners.insert(corners.end(), more.begin(), more.end());
+  }
+  return corners;
+}
 
 }  // namespace
 
@@ -22,7 +33,7 @@ Orbit::Orbit(const scenario::Scenario& scenario, const std::optional<scene::Came
     const Box<float> bounds = scene::world_bounds(scenario.scene);
     if (scenario.camera_is_fitted && !bounds.empty()) {
       centre_world_ = 0.5f * (bounds.low + bounds.high);
-      still_ = scene::fitted_to_orbit(scenario.scene, *still_, *centre_world_, radians_, aspect);
+      still_ = scene::fitted_to_orbit(corners_of(scenario), *still_, *centre_world_, radians_, aspect);
     }
   }
 

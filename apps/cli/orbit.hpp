@@ -14,12 +14,9 @@ class Orbit {
   /// `degrees` over the frames of the range, counter-clockwise as seen from above; negative: clockwise.
   /// `chosen` replaces the scenario's camera. The camera circles
   ///
-  /// - the centre of the scene's bounds, if it frames the scene: it is moved back until nothing that is in
-  /// the
-  ///   bounds leaves an image of `aspect` = width / height on the turn;
-  /// - its target, if it is chosen, that of the scene's file, or that of camera keys, which it follows while
-  /// it
-  ///   turns.
+  /// - the centre of the scene's bounds, if it frames the scene: it is moved back until nothing of it, and of
+  ///   the first frames of volumes, leaves an image of `aspect` = width / height on the turn;
+  /// - its target otherwise. It follows camera keys while it turns.
   ///
   /// Throws Error (usage) if the camera is above or below what it circles, where no turn changes the image.
   /// `scenario` must outlive it.

@@ -192,6 +192,26 @@ scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& f
   return {options.file.filename().string(), transformed(world, frame.bounds), transformed(world, frame.core)};
 }
 
+std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
+  const volume::SparseVolume& volume = *frame.density.volume;
+  const glm::dmat4 world = glm::dmat4(world_from_file(options)) * frame.density.world_from_voxel;
+  std::vector<glm::vec3> corners;
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
+    if (!volume.in_use(slot)) continue;
+    // Bricks inside of others are inside of their corners' hull.
+    const volume::NeighbourSlots around = volume.slots_around(volume.brick_of(slot));
+    if (std::ranges::find(around, volume::SparseVolume::kNoSlot) == around.end()) continue;
+    const glm::vec3 low = glm::vec3(volume.brick_of(slot) * shared::kBrickVoxels);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::vec3 p =
+          low + float{shared::kBrickVoxels} * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2);
+      const glm::vec3 inside = glm::clamp(p, volume.layout().bounds_min, volume.layout().bounds_max);
+      corners.emplace_back(world * glm::dvec4(inside, 1));
+    }
+  }
+  return corners;
+}
+
 Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& file,
                                                              const scene::VolumeOptions& options) {
   const std::string where = options.place.empty() ? "" : options.place + ": ";

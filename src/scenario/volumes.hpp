@@ -63,6 +63,9 @@ class Volumes {
 /// Where the first frame of a volume is.
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
 
+/// Corners of boxes around all that is dense in the first frame of a volume, in the world.
+std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
+
 /// From the world of a volume's file to that of the scene [m].
 glm::mat4 world_from_file(const scene::VolumeOptions& options);
 

@@ -32,10 +32,9 @@ Box<float> world_bounds(const Scene& scene) {
 
 namespace {
 
-/// Calls visit(point in the world) for all corners of objects but backdrops, of boxes around spheres, and of
-/// the cores or bounds of volumes.
+/// Calls visit(point in the world) for all corners of objects but backdrops and of boxes around spheres.
 template <typename Visit>
-void for_each_point(const Scene& scene, Box<float> Volume::*box, Visit visit) {
+void for_each_corner(const Scene& scene, Visit visit) {
   for (const Object& object : scene.objects) {
     if (object.backdrop) continue;
     for (const Vertex& vertex : scene.meshes[object.mesh].vertices)
@@ -45,9 +44,16 @@ void for_each_point(const Scene& scene, Box<float> Volume::*box, Visit visit) {
     for (int corner = 0; corner < 8; ++corner)
       visit(sphere.centre_world +
             sphere.radius * (2.0f * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f));
+}
+
+/// The same, and for those of the cores of volumes.
+template <typename Visit>
+void for_each_point(const Scene& scene, Visit visit) {
+  for_each_corner(scene, visit);
   for (const Volume& volume : scene.volumes)
     for (int corner = 0; corner < 8; ++corner)
-      visit(glm::mix((volume.*box).low, (volume.*box).high, glm::bvec3(corner & 1, corner & 2, corner & 4)));
+      visit(glm::mix(volume.core_world.low, volume.core_world.high,
+                     glm::bvec3(corner & 1, corner & 2, corner & 4)));
 }
 
 /// The largest cosine of the angles between two [radians].
@@ -77,7 +83,7 @@ Camera default_camera(const Scene& scene, float aspect) {
   const float vertical = 0.8f * std::tan(camera.vertical_fov / 2), horizontal = vertical * aspect;
   glm::vec2 plus(-1e30f), minus(-1e30f);
   float nearest = -1e30f;
-  for_each_point(scene, &Volume::core_world, [&](glm::vec3 p) {
+  for_each_point(scene, [&](glm::vec3 p) {
     const glm::vec3 off = p - middle;
     const glm::vec2 scaled(glm::dot(off, right) / horizontal, glm::dot(off, up) / vertical);
     const float z = glm::dot(off, back);
@@ -103,8 +109,14 @@ Camera orbited(const Camera& camera, glm::vec3 centre_world, double radians) {
   return {rotated(camera.position_world), rotated(camera.target_world), camera.vertical_fov};
 }
 
-Camera fitted_to_orbit(const Scene& scene, const Camera& camera, glm::vec3 centre_world, double radians,
-                       float aspect) {
+std::vector<glm::vec3> level_corners(const Scene& scene) {
+  std::vector<glm::vec3> corners;
+  for_each_corner(scene, [&](glm::vec3 p) { corners.push_back(p); });
+  return corners;
+}
+
+Camera fitted_to_orbit(std::span<const glm::vec3> points_world, const Camera& camera, glm::vec3 centre_world,
+                       double radians, float aspect) {
   const glm::dvec3 centre(centre_world), target(camera.target_world);
   const glm::dvec3 toward_eye = glm::dvec3(camera.position_world) - target;
   const double distance = glm::length(toward_eye);
@@ -119,7 +131,7 @@ Camera fitted_to_orbit(const Scene& scene, const Camera& camera, glm::vec3 centr
   const std::array limits{back + right / horizontal, back - right / horizontal, back + up / vertical,
                           back - up / vertical};
   double required = 0;
-  for_each_point(scene, &Volume::bounds_world, [&](glm::vec3 p) {
+  for (const glm::vec3 p : points_world) {
     const glm::dvec3 off = glm::dvec3(p) - centre;
     const double reach = std::hypot(off.x, off.z), azimuth = std::atan2(off.x, off.z);
     for (const glm::dvec3& limit : limits) {
@@ -128,7 +140,7 @@ Camera fitted_to_orbit(const Scene& scene, const Camera& camera, glm::vec3 centr
           std::max(required, reach * std::hypot(limit.x, limit.z) * largest_cosine(begin, begin - radians) +
                                  off.y * limit.y + glm::dot(limit, centre - target));
     }
-  });
+  }
   constexpr double kRounding = 1e-4;
   if (required <= distance * (1 + kRounding)) return camera;
   Camera moved = camera;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -137,10 +138,12 @@ Camera default_camera(const Scene& scene, float aspect = 16.0f / 9.0f);
 /// camera.
 Camera orbited(const Camera& camera, glm::vec3 centre_world, double radians);
 
-/// A camera moved back along its line of sight until all corners of objects but backdrops, of boxes around
-/// spheres, and of the bounds of volumes stay inside an image of `aspect` = width / height while it circles
-/// `centre_world` from 0 to an angle [radians]. The same camera if they do.
-Camera fitted_to_orbit(const Scene& scene, const Camera& camera, glm::vec3 centre_world, double radians,
-                       float aspect);
+/// A camera moved back along its line of sight until all points stay inside an image of `aspect` = width /
+/// height while it circles `centre_world` from 0 to an angle [radians]. The same camera if they do.
+Camera fitted_to_orbit(std::span<const glm::vec3> points_world, const Camera& camera, glm::vec3 centre_world,
+                       double radians, float aspect);
+
+/// All corners of objects but backdrops and of boxes around spheres.
+std::vector<glm::vec3> level_corners(const Scene& scene);
 
 }  // namespace brume::scene

@@ -172,6 +172,20 @@ TEST_F(VolumesTest, AVolumeMayBeLargerThanAnyGridOfSmoke) {
   }
 }
 
+// Their hull is that of all bricks, cut to the bounds.
+TEST_F(VolumesTest, CornersSurroundWhatIsDense) {
+  grids::Grid grid = cube("density", 1);
+  scene::VolumeOptions options;
+  options.file = save("a.brv", {grid});
+  options.position_world = {1, 2, 3};
+  const auto frame = load_volume_frame(options.file, options).value_or_throw();
+  const std::vector<glm::vec3> corners = corners_of(options, *frame);
+  Box<float> box = kEmptyBox;
+  for (const glm::vec3 p : corners) box = united(box, {p, p});
+  const Box<float> bounds = place_of(options, *frame).bounds_world;
+  EXPECT_LT(glm::length(box.low - bounds.low) + glm::length(box.high - bounds.high), 1e-5f);
+}
+
 TEST_F(VolumesTest, AxesPlaceAVolumeByAnyAffineTransform) {
   scene::VolumeOptions options;
   options.position_world = {1, 2, 3};
