@@ -118,7 +118,8 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   // A file of grids in the place of a scene is a level of nothing.
   const bool is_volume = grids::is_grid_file(timeline.scene);
   if (is_volume && timeline.volumes.empty()) timeline.volumes.push_back({timeline.scene});
-  auto scene = is_volume ? Result<scene::Scene>(scene::Scene()) : scene::load_scene(timeline.scene, !timeline.volumes.empty());
+  auto scene = is_volume ? Result<scene::Scene>(scene::Scene())
+                         : scene::load_scene(timeline.scene, !timeline.volumes.empty());
   if (!scene) return scene.failure();
   auto volumes = Volumes::load(timeline.volumes);
   if (!volumes) return volumes.failure();

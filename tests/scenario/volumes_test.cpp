@@ -99,7 +99,7 @@ TEST_F(VolumesTest, ASequenceEndsClippedOrPlaysToAndFro) {
 // Starts and rates are float32, and written with fewer digits still.
 TEST_F(VolumesTest, ARoundedStartShowsItsFrame) {
   for (const int number : {0, 1})
-    save("f_" + std::to_string(number) + ".brv", {cube("density", number + 1.0f)});
+    save("f_" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number + 1))});
   std::vector<scene::VolumeOptions> options(1);
   options[0].file = folder_ / "f_%d.brv";
   options[0].clip = true;
