@@ -20,6 +20,7 @@
 #include "core/hash.hpp"
 #include "core/log.hpp"
 #include "gpu/context.hpp"
+#include "grids/files.hpp"
 #include "render/playback.hpp"
 #include "scene/text_reader.hpp"
 
@@ -219,7 +220,8 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
 
   // Files.
   std::vector<std::filesystem::path> files = scenario::files_of(scenario);
-  files.insert(files.end(), {input, timeline, "/proc/self/exe"});
+  files.insert(files.end(), {timeline, "/proc/self/exe"});
+  if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.
   std::uint64_t key = 0;
   for (const std::filesystem::path& file : files) {
     stop_if_interrupted();

@@ -167,6 +167,21 @@ std::optional<std::int64_t> number_at(const scene::VolumeOptions& options, std::
   return first + std::clamp<std::int64_t>(passed, 0, count - 1);
 }
 
+/// Around the voxels of a brick and its apron that are not 0, and the filter's reach: a voxel from their
+/// centres [voxel space].
+Box<float> dense_box(const volume::SparseVolume& volume, std::uint32_t slot) {
+  const auto texels = volume.texels<std::uint16_t>(volume::ChannelId{0}, slot);
+  const glm::vec3 apron = glm::vec3(shared::kBrickVoxels * volume.brick_of(slot) - 1);
+  Box<float> box = kEmptyBox;
+  for (int i = 0; i < static_cast<int>(shared::kTexelsPerBrick); ++i) {
+    if (texels[static_cast<std::size_t>(i)] == 0) continue;
+    constexpr int kEdge = shared::kBrickTexels;
+    const glm::vec3 low = apron + glm::vec3(i % kEdge, i / kEdge % kEdge, i / (kEdge * kEdge)) - 0.5f;
+    box = united(box, {low, low + 2.0f});
+  }
+  return box;
+}
+
 /// Whether the axes of a volume span space.
 bool has_inverse(const scene::VolumeOptions& options) {
   const glm::dmat3 axes(options.x_axis, options.y_axis, options.z_axis);
@@ -198,13 +213,13 @@ std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const Vol
   std::vector<glm::vec3> corners;
   for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
     if (!volume.in_use(slot)) continue;
-    // Bricks inside of others are inside of their corners' hull.
+    // A brick inside of others, whose aprons reach its corners, is inside of their hull.
     const volume::NeighbourSlots around = volume.slots_around(volume.brick_of(slot));
     if (std::ranges::find(around, volume::SparseVolume::kNoSlot) == around.end()) continue;
-    const glm::vec3 low = glm::vec3(volume.brick_of(slot) * shared::kBrickVoxels);
+    const Box<float> box = dense_box(volume, slot);
+    if (box.empty()) continue;
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::vec3 p =
-          low + float{shared::kBrickVoxels} * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2);
+      const glm::vec3 p = glm::mix(box.low, box.high, glm::bvec3(corner & 1, corner & 2, corner & 4));
       const glm::vec3 inside = glm::clamp(p, volume.layout().bounds_min, volume.layout().bounds_max);
       corners.emplace_back(world * glm::dvec4(inside, 1));
     }
