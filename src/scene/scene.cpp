@@ -130,22 +130,27 @@ Camera fitted_to_orbit(std::span<const glm::vec3> points_world, const Camera& ca
   // point the other way, so that the horizontal part of a product is a cosine.
   const std::array limits{back + right / horizontal, back - right / horizontal, back + up / vertical,
                           back - up / vertical};
-  double required = 0;
+  std::array<double, 4> around{-1e30, -1e30, -1e30, -1e30};  // distances with the centre as target
   for (const glm::vec3 p : points_world) {
     const glm::dvec3 off = glm::dvec3(p) - centre;
     const double reach = std::hypot(off.x, off.z), azimuth = std::atan2(off.x, off.z);
-    for (const glm::dvec3& limit : limits) {
-      const double begin = azimuth - std::atan2(limit.x, limit.z);
-      required =
-          std::max(required, reach * std::hypot(limit.x, limit.z) * largest_cosine(begin, begin - radians) +
-                                 off.y * limit.y + glm::dot(limit, centre - target));
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      const double begin = azimuth - std::atan2(limits[i].x, limits[i].z);
+      const double across = reach * std::hypot(limits[i].x, limits[i].z);
+      around[i] = std::max(around[i], across * largest_cosine(begin, begin - radians) + off.y * limits[i].y);
     }
   }
+  double required = 0;
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    required = std::max(required, around[i] + glm::dot(limits[i], centre - target));
   constexpr double kRounding = 1e-4;
   if (required <= distance * (1 + kRounding)) return camera;
-  Camera moved = camera;
-  moved.position_world = glm::vec3(target + required * back);
-  return moved;
+
+  // The target that requires the least distance.
+  const glm::dvec3 aim = centre + 0.5 * (around[0] - around[1]) * horizontal * right +
+                         0.5 * (around[2] - around[3]) * vertical * up;
+  const double least = 0.5 * std::max(around[0] + around[1], around[2] + around[3]);
+  return {glm::vec3(aim + least * back), glm::vec3(aim), camera.vertical_fov};
 }
 
 }  // namespace brume::scene

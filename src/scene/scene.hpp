@@ -138,8 +138,9 @@ Camera default_camera(const Scene& scene, float aspect = 16.0f / 9.0f);
 /// camera.
 Camera orbited(const Camera& camera, glm::vec3 centre_world, double radians);
 
-/// A camera moved back along its line of sight until all points stay inside an image of `aspect` = width /
-/// height while it circles `centre_world` from 0 to an angle [radians]. The same camera if they do.
+/// The camera that looks in the same direction from the nearest place where all points stay inside an image
+/// of `aspect` = width / height while it circles `centre_world` from 0 to an angle [radians]. The same camera
+/// if they stay inside of its image.
 Camera fitted_to_orbit(std::span<const glm::vec3> points_world, const Camera& camera, glm::vec3 centre_world,
                        double radians, float aspect);
 
