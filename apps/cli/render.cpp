@@ -11,6 +11,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
+#include "apps/cli/orbit.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/cli/scene_options.hpp"
 #include "apps/cli/targets.hpp"
@@ -19,6 +20,7 @@
 #include "core/hash.hpp"
 #include "core/log.hpp"
 #include "gpu/context.hpp"
+#include "grids/files.hpp"
 #include "render/playback.hpp"
 #include "render/volume_room.hpp"
 #include "scene/text_reader.hpp"
@@ -30,7 +32,7 @@ struct RenderOptions {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
                                                view = "none", slice, fps = "24", raycast;
   SceneOptions scene;
-  std::optional<double> time;
+  std::optional<double> time, orbit;
   bool temporal = false, resume = false;
   float step = 1, light_update_fraction = 1, resolve_error_scale = 1;
   std::uint32_t volume_memory = 0;  // [MiB]; 0: as much as suits the device
@@ -71,11 +73,12 @@ void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outp
 void refuse_idle(const Arguments& arguments, const RenderOptions& options, const Plan& plan) {
   if (plan.kind == TargetKind::picture) {
     const char* const needs = "requires a film (.mp4) or numbered frames, such as -o f_%04d.png";
-    for (const char* option : {"--frames", "--fps", "--temporal", "--light-update-fraction"})
+    for (const char* option : {"--frames", "--fps", "--temporal", "--light-update-fraction", "--orbit"})
       arguments.refuse(option, needs);
   } else {
     arguments.refuse("--time", "is for a single image; use --frames");
   }
+  if (options.orbit == 0.0) arguments.refuse("--orbit", "0 degrees are no turn; give 360 for a full one");
   if (plan.kind != TargetKind::sequence)
     arguments.refuse("--resume", "requires numbered frames, such as -o f_%04d.png");
   if (options.march == "full") arguments.refuse("--resolve-error-scale", "requires --march half or quarter");
@@ -139,11 +142,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 // Renders frames and gathers the statistics for --json.
 class TimedRenderer {
  public:
-  explicit TimedRenderer(render::Playback& playback) : playback_(playback) {}
+  /// `orbit`: empty for the camera of the playback.
+  TimedRenderer(render::Playback& playback, const std::optional<Orbit>& orbit)
+      : playback_(playback), orbit_(orbit) {}
   image::Image8 draw(double seconds, std::uint32_t frame_index) {
+    turn(seconds, frame_index);
     return timed([&] { return playback_.draw(seconds, frame_index); });
   }
   image::LayeredImage draw_layers(double seconds, std::uint32_t frame_index) {
+    turn(seconds, frame_index);
     return timed([&] { return playback_.draw_layers(seconds, frame_index); });
   }
   Json statistics() const {
@@ -157,6 +164,9 @@ class TimedRenderer {
   }
 
  private:
+  void turn(double seconds, std::uint32_t frame_index) {
+    if (orbit_) playback_.set_camera(orbit_->at(seconds, frame_index));
+  }
   template <typename Draw>
   std::invoke_result_t<Draw> timed(Draw draw) {
     const double cpu = cpu_seconds();
@@ -169,6 +179,7 @@ class TimedRenderer {
   }
 
   render::Playback& playback_;
+  std::optional<Orbit> orbit_;
   double seconds_ = 0, cpu_seconds_ = 0;
   int frames_ = 0;
 };
@@ -203,15 +214,16 @@ std::uint32_t warm_up_of(const RenderOptions& options, std::uint32_t first) {
 // A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files,
 // the options, the device and the program.
 std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenario& scenario,
-                           const gpu::DeviceInfo& device, std::uint32_t first) {
+                           const gpu::DeviceInfo& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice, fps,
-               raycast, scene_options, time, temporal, resume, step, light_update_fraction,
-               resolve_error_scale, volume_memory] = options;
+                raycast, scene_options, time, orbit, temporal, resume, step, light_update_fraction,
+                resolve_error_scale, volume_memory] = options;
 
   // Files.
   std::vector<std::filesystem::path> files = scenario::files_of(scenario);
-  files.insert(files.end(), {input, timeline, "/proc/self/exe"});
+  files.insert(files.end(), {timeline, "/proc/self/exe"});
+  if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.
   std::uint64_t key = 0;
   for (const std::filesystem::path& file : files) {
     stop_if_interrupted();
@@ -226,9 +238,12 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
   for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
   const std::array<float, 3> numbers{step, light_update_fraction, resolve_error_scale};
   key = hash_values(std::span<const float>(numbers), key);
-  const std::array<std::uint32_t, 4> whole{volume_memory, temporal ? 1u : 0u,
+  const double degrees = orbit.value_or(0);
+  key = hash_values(std::span<const double>(&degrees, 1), key);
+  const std::array<std::uint32_t, 6> whole{volume_memory, temporal ? 1u : 0u,
                                            frames_depend(options) ? 1u : 0u,
-                                           frames_depend(options) ? first : 0u};
+                                           frames_depend(options) ? range.first : 0u,
+                                           orbit ? range.first : 0u, orbit ? range.last : 0u};
   return hash_values(std::span<const std::uint32_t>(whole), key);
 }
 
@@ -252,10 +267,9 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
                [&](std::uint32_t i) { return renderer.draw(plan.rate.time_of(i), i); });
     return;
   }
-  write_sequence(
-      {options.output, range.first, range.last, warm_up, plan.renderer.size_px,
-       sequence_key(options, scenario, device, range.first), frames_depend(options), options.resume},
-      common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
+  write_sequence({options.output, range.first, range.last, warm_up, plan.renderer.size_px,
+                  sequence_key(options, scenario, device, range), frames_depend(options), options.resume},
+                 common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
 }
 
 // What --raycast cannot draw.
@@ -291,14 +305,18 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
   check_raycast(options, scenario.timeline);
   const Json smokes = report_timeline(scenario, simulation->report_smokes(scenario));
   stop_if_interrupted();
+  std::optional<Orbit> orbit;
+  if (options.orbit)
+    orbit.emplace(scenario, plan.camera, *options.orbit, frames_of(plan, scenario.timeline),
+                  plan.scene.aspect);
   render::Playback playback(context, scenario, plan.renderer, std::move(simulation));
-  playback.set_camera(plan.camera);
+  playback.set_camera(orbit ? orbit->still_camera() : plan.camera);
   if (scenario.measure_exposure) playback.measure_exposure();
   playback.set_step_scale(options.step);
   playback.set_light_update_fraction(options.light_update_fraction);
   playback.set_resolve_error_scale(options.resolve_error_scale);
   playback.set_view(plan.view, plan.slice);
-  TimedRenderer renderer(playback);
+  TimedRenderer renderer(playback, orbit);
   write(options, plan, common, context.info(), scenario, renderer);
   if (options.json.empty()) return;
   Json statistics{{"output", options.output},
@@ -346,6 +364,26 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
   declare_volume_memory(arguments, options.volume_memory);
 }
 
+void declare_view(const Arguments& arguments, RenderOptions& options) {
+  arguments
+      .add_option("--camera", options.camera,
+                  "\"px,py,pz tx,ty,tz fov\": position, target [m], vertical fov [degrees; default 60]")
+      .type_name("CAMERA");
+  arguments
+      .add_option("--orbit", options.orbit,
+                  "Angle by which the camera circles what it shows over the frames [degrees]: 360 is a full "
+                  "turn, counter-clockwise from above")
+      .range(-36000.0, 36000.0)
+      .type_name("DEGREES");
+  arguments.add_option("--view", options.view, "Debug view: " + view_names())
+      .one_of({passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()})
+      .type_name("NAME");
+  arguments
+      .add_option("--slice", options.slice,
+                  "Slice of --view density, light and distance; default: through the middle of the smoke")
+      .type_name("AXIS=M");
+}
+
 }  // namespace
 
 Command add_render(CommandLine& program) {
@@ -355,6 +393,7 @@ Command add_render(CommandLine& program) {
               "  brume render room.glb -o room.png --throw \"0,1.7,8 -2.6,0.4,-3\" --smoke-size 4\n"
               "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
               "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
+              "  brume render cloud.vdb -o turntable.mp4 --orbit 360 --frames 0-239\n"
               "  brume render scenes/demo.toml -o demo.exr --time 2.5\n"
               "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
   auto options = std::make_shared<RenderOptions>();
@@ -384,17 +423,7 @@ Command add_render(CommandLine& program) {
       .take_last()
       .type_name("WxH");
   declare_quality(arguments, *options);
-  arguments
-      .add_option("--camera", options->camera,
-                  "\"px,py,pz tx,ty,tz fov\": position, target [m], vertical fov [degrees; default 60]")
-      .type_name("CAMERA");
-  arguments.add_option("--view", options->view, "Debug view: " + view_names())
-      .one_of({passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()})
-      .type_name("NAME");
-  arguments
-      .add_option("--slice", options->slice,
-                  "Slice of --view density, light and distance; default: through the middle of the smoke")
-      .type_name("AXIS=M");
+  declare_view(arguments, *options);
   declare_scene_options(arguments, options->scene);
   arguments.add_option("--device", options->device, "Device by number or part of its name; see brume devices")
       .type_name("N|NAME");

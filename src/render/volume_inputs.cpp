@@ -16,7 +16,7 @@ planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenar
   const float unit = options.opacity.empty() ? density.unit : 1;
   input.look = {options.albedo, options.extinction * unit, glm::vec3(0), options.anisotropy,
                 options.multiple_scattering};
-  if (const auto& heat = volume.frame->heat)
+  if (const auto& heat = volume.frame->heat; heat && options.emission > 0)
     // What glows is a multiple of the look's extinction.
     input.heat = {heat->volume.get(), volume.world_from_heat, options.kelvin * heat->unit,
                   heat->high / heat->unit, options.emission / unit};
@@ -38,10 +38,9 @@ std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scena
   if (!scenario.volumes) return {};
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
   std::vector<planning::VolumeInput> inputs;
-  for (const scenario::VolumeAt& volume : scenario.volumes->at(options, seconds, wait)) {
-    const std::size_t i = inputs.size();
-    inputs.push_back(input_of(options[i], volume, scenario.volumes->first_frame(i)));
-  }
+  const std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    if (volumes[i].frame) inputs.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i)));
   return inputs;
 }
 

@@ -26,6 +26,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
   if (!cache_folder.empty()) cache = cache_folder / timeline.scene.filename().replace_extension(".vxl");
   auto voxels = load_or_voxelize(scene, *layout, cache);
   if (!voxels) return voxels.failure();
+  const bool is_fitted = !scene.camera;
   const scene::Camera camera = scene::default_camera(scene, aspect);
   auto masks = load_masks(timeline);
   if (!masks) return masks.failure();
@@ -35,7 +36,8 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
                   .voxels = std::move(*voxels),
                   .masks = std::move(masks->atlas),
                   .shot_masks = std::move(masks->of_shots),
-                  .volumes = std::move(volumes)};
+                  .volumes = std::move(volumes),
+                  .camera_is_fitted = is_fitted};
 }
 
 /// Where the volumes of a timeline are, for the scene's bounds.
@@ -63,8 +65,17 @@ Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const sce
   const auto& grid = timeline.grid;
   const int margin =
       2 + static_cast<int>(std::cbrt(static_cast<float>(timeline.smoke.voxels) * 0.75f / 3.14159f) * 1.2f);
-  const Box<float> bounds = scene::world_bounds(scene);
+  Box<float> bounds = scene::world_bounds(scene);
   auto layout = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
+  if (!layout && layout.failure().code == ErrorCode::resource_limit && !scene.volumes.empty()) {
+    // Volumes may be larger than any grid of smoke: it covers the level, or the middle of volumes without
+    // one.
+    constexpr float kVoxels = 128;
+    const glm::vec3 middle = 0.5f * (bounds.low + bounds.high);
+    bounds = scene::level_bounds(scene);
+    if (bounds.empty()) bounds = {middle - kVoxels * grid.voxel, middle + kVoxels * grid.voxel};
+    layout = voxel::layout_around(bounds.low, bounds.high, grid.voxel, margin);
+  }
   if (!layout && !(grid.size && grid.origin_world)) return layout;
   voxel::GridLayout chosen = layout ? *layout : voxel::GridLayout{glm::ivec3(1), grid.voxel, glm::vec3(0)};
   if (grid.size) chosen.size = *grid.size;
@@ -86,12 +97,14 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
   if (grids::is_grid_file(input)) return load_volume(input, options);
   auto scene = scene::load_scene(input);
   if (!scene) return scene.failure();
+  const bool is_fitted = !scene->camera;
   scene::Timeline timeline = prepare_first_view(input, *scene, options);
   auto volumes = Volumes::load({});
   if (!volumes) return volumes.failure();
   auto scenario =
       assemble(std::move(timeline), std::move(*scene), std::move(*volumes), options.aspect, cache_folder);
   if (!scenario) return scenario;
+  scenario->camera_is_fitted = is_fitted;
   scenario->measure_exposure = !options.exposure;
   if (options.smokes.empty())
     for (scene::SmokeEvent& smoke : scenario->timeline.smokes)
@@ -105,7 +118,8 @@ Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::
   // A file of grids in the place of a scene is a level of nothing.
   const bool is_volume = grids::is_grid_file(timeline.scene);
   if (is_volume && timeline.volumes.empty()) timeline.volumes.push_back({timeline.scene});
-  auto scene = is_volume ? Result<scene::Scene>(scene::Scene()) : scene::load_scene(timeline.scene);
+  auto scene = is_volume ? Result<scene::Scene>(scene::Scene())
+                         : scene::load_scene(timeline.scene, !timeline.volumes.empty());
   if (!scene) return scene.failure();
   auto volumes = Volumes::load(timeline.volumes);
   if (!volumes) return volumes.failure();

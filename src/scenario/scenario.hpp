@@ -23,6 +23,8 @@ struct Scenario {
   /// Whether the exposure that fits its first image replaces Timeline::exposure (render::measure_exposure).
   bool measure_exposure = false;
   std::shared_ptr<Volumes> volumes = {};  ///< Of Timeline::volumes; null: none.
+  /// Whether `camera` is none of the scene's file: it frames the scene.
+  bool camera_is_fitted = false;
 };
 
 /// Whether a file is a timeline, by its suffix .toml in any case.
@@ -38,7 +40,7 @@ Result<Scenario> load_scenario(const std::filesystem::path& input, const std::fi
 Result<Scenario> make_scenario(scene::Timeline timeline, const std::filesystem::path& cache_folder);
 
 /// Where the voxels of a timeline's scene are: as the timeline says, or around the scene's bounds with room
-/// for a whole smoke. Fails as voxel::layout_around.
+/// for a whole smoke; without the volumes where these are too large. Fails as voxel::layout_around.
 Result<voxel::GridLayout> grid_layout(const scene::Timeline& timeline, const scene::Scene& scene);
 
 /// Every file that it was made from: scene, textures and buffers, masks of shots, fonts of texts. Without the

@@ -1,6 +1,7 @@
 #include "scenario/volumes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -25,8 +26,9 @@ std::optional<NumberPlace> number_place(const std::string& name) {
   return NumberPlace{match.prefix(), match.suffix()};
 }
 
-/// The files of a sequence, by number.
-Result<std::map<std::int64_t, fs::path>> files_of(const fs::path& file) {
+/// The files of a sequence's frames, by number.
+Result<std::map<std::int64_t, fs::path>> files_of(const scene::VolumeOptions& options) {
+  const fs::path& file = options.file;
   const auto place = number_place(file.filename().string());
   if (!place) return std::map<std::int64_t, fs::path>{{0, file}};
   std::map<std::int64_t, fs::path> found;
@@ -41,6 +43,9 @@ Result<std::map<std::int64_t, fs::path>> files_of(const fs::path& file) {
     const auto read = std::from_chars(name.data() + place->before.size(), last, number);
     if (read.ec == std::errc() && read.ptr == last) found.emplace(number, file.parent_path() / name);
   }
+  std::erase_if(found, [&](const auto& one) {
+    return (options.first && one.first < *options.first) || (options.last && one.first > *options.last);
+  });
   if (found.empty()) return Failure{ErrorCode::bad_input, file.string() + ": no such frames"};
   return found;
 }
@@ -50,14 +55,45 @@ std::array<std::string, 3> chosen_grids(const scene::VolumeOptions& options) {
   return {options.density, options.heat, options.color};
 }
 
-/// The number of the frame at a time, before missing ones are replaced.
-std::int64_t number_at(const scene::VolumeOptions& options, std::int64_t first, std::int64_t last,
-                       double seconds) {
+/// The number of the frame at a time, before missing ones are replaced; empty: none is shown.
+std::optional<std::int64_t> number_at(const scene::VolumeOptions& options, std::int64_t first,
+                                      std::int64_t last, double seconds) {
+  // A frame whose start and rate are rounded to float32, within the first hours, does not show the one
+  // before.
+  constexpr double kRounding = 2e-3;
   const double frames = (seconds - double{options.start}) * double{options.frame_rate};
-  const auto passed = static_cast<std::int64_t>(std::floor(frames + 1e-6));
+  const auto passed = static_cast<std::int64_t>(std::floor(frames + kRounding));
   const std::int64_t count = last - first + 1;
-  if (!options.loop) return first + std::clamp<std::int64_t>(passed, 0, count - 1);
-  return first + (passed % count + count) % count;
+  const auto repeated = [&](std::int64_t period) { return (passed % period + period) % period; };
+  if (options.clip && (passed < 0 || passed >= count)) return std::nullopt;
+  if (options.loop) return first + repeated(count);
+  if (options.ping_pong) {
+    const std::int64_t period = std::max<std::int64_t>(2 * count - 2, 1);
+    return first + std::min(repeated(period), period - repeated(period));
+  }
+  return first + std::clamp<std::int64_t>(passed, 0, count - 1);
+}
+
+/// Around the voxels of a brick and its apron that are not 0, and the filter's reach: a voxel from their
+/// centres [voxel space].
+Box<float> dense_box(const volume::SparseVolume& volume, std::uint32_t slot) {
+  const auto texels = volume.texels<std::uint16_t>(volume::ChannelId{0}, slot);
+  const glm::vec3 apron = glm::vec3(shared::kBrickVoxels * volume.brick_of(slot) - 1);
+  Box<float> box = kEmptyBox;
+  for (int i = 0; i < static_cast<int>(shared::kTexelsPerBrick); ++i) {
+    if (texels[static_cast<std::size_t>(i)] == 0) continue;
+    constexpr int kEdge = shared::kBrickTexels;
+    const glm::vec3 low = apron + glm::vec3(i % kEdge, i / kEdge % kEdge, i / (kEdge * kEdge)) - 0.5f;
+    box = united(box, {low, low + 2.0f});
+  }
+  return box;
+}
+
+/// Whether the axes of a volume span space.
+bool has_inverse(const scene::VolumeOptions& options) {
+  const glm::dmat3 axes(options.x_axis, options.y_axis, options.z_axis);
+  const double product = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
+  return std::abs(glm::determinant(axes)) > 1e-9 * product;
 }
 
 VolumeAt placed(const LoadedVolume& loaded, const scene::VolumeOptions& options) {
@@ -80,7 +116,8 @@ glm::mat4 world_from_file(const scene::VolumeOptions& options) {
     around[axis] = 1;
     matrix = glm::rotate(matrix, glm::radians(options.rotation[axis]), around);
   }
-  return glm::scale(matrix, glm::vec3(options.scale));
+  const glm::mat3 axes(options.x_axis, options.y_axis, options.z_axis);
+  return glm::scale(matrix, glm::vec3(options.scale)) * glm::mat4(axes);
 }
 
 glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first) {
@@ -108,13 +145,35 @@ std::vector<std::uint64_t> fair_parts(std::span<const std::uint64_t> wanted, std
   return parts;
 }
 
+std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const VolumeFrame& frame) {
+  const volume::SparseVolume& volume = *frame.density.volume;
+  const glm::dmat4 world = glm::dmat4(world_from_file(options)) * frame.density.world_from_voxel;
+  std::vector<glm::vec3> corners;
+  for (std::uint32_t slot = 0; slot < volume.slot_count(); ++slot) {
+    if (!volume.in_use(slot)) continue;
+    // A brick inside of others, whose aprons reach its corners, is inside of their hull.
+    const volume::NeighbourSlots around = volume.slots_around(volume.brick_of(slot));
+    if (std::ranges::find(around, volume::SparseVolume::kNoSlot) == around.end()) continue;
+    const Box<float> box = dense_box(volume, slot);
+    if (box.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::vec3 p = glm::mix(box.low, box.high, glm::bvec3(corner & 1, corner & 2, corner & 4));
+      const glm::vec3 inside = glm::clamp(p, volume.layout().bounds_min, volume.layout().bounds_max);
+      corners.emplace_back(world * glm::dvec4(inside, 1));
+    }
+  }
+  return corners;
+}
+
 Result<std::shared_ptr<Volumes>> Volumes::load(std::span<const scene::VolumeOptions> options) {
   auto volumes = std::make_shared<Volumes>();
   for (const scene::VolumeOptions& one : options) {
-    auto files = files_of(one.file);
-    if (!files)
-      return Failure{files.failure().code,
-                     (one.place.empty() ? "" : one.place + ": ") + files.failure().message};
+    const std::string where = one.place.empty() ? "" : one.place + ": ";
+    if (!has_inverse(one))
+      return Failure{ErrorCode::bad_input,
+                     where + one.file.string() + ": its axes lie in a plane; expected three that span space"};
+    auto files = files_of(one);
+    if (!files) return Failure{files.failure().code, where + files.failure().message};
     Sequence sequence{one, std::move(*files), {}, {}, 0, {}, {}};
     auto frame = load_volume_frame(sequence.files.begin()->second, one);
     if (!frame) return frame.failure();
@@ -206,12 +265,15 @@ void Volumes::make_previews() {
   start_loader();
 }
 
-/// The frame that a time shows: the one before a missing one.
-std::int64_t Volumes::frame_at(const Sequence& sequence, const scene::VolumeOptions& options,
-                               double seconds) const {
-  const std::int64_t number =
-      number_at(options, sequence.files.begin()->first, sequence.files.rbegin()->first, seconds);
-  return std::prev(sequence.files.upper_bound(number))->first;
+/// The frame that a time shows: the one before a missing one. Empty: none.
+std::optional<std::int64_t> Volumes::frame_at(const Sequence& sequence, const scene::VolumeOptions& options,
+                                              double seconds) const {
+  const auto& files = sequence.files;
+  const auto number = number_at(options, options.first.value_or(files.begin()->first),
+                                options.last.value_or(files.rbegin()->first), seconds);
+  if (!number) return std::nullopt;
+  const auto after = files.upper_bound(*number);
+  return after == files.begin() ? after->first : std::prev(after)->first;
 }
 
 /// The frame that follows in time, if it is to be loaded.
@@ -249,11 +311,14 @@ std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options,
   }
   // What to load: the frames of this time, then those after them.
   std::vector<VolumeLoader::Key> wanted, ahead;
+  std::vector<bool> is_shown(options.size(), false);
   for (std::size_t i = 0; i < options.size(); ++i) {
-    const std::int64_t number = frame_at(sequences_[i], options[i], seconds);
-    if (number != sequences_[i].shown_number && !sequences_[i].unreadable.contains(number))
-      wanted.push_back({i, number});
-    if (const auto next = frame_after(sequences_[i], options[i], number)) ahead.push_back({i, *next});
+    const auto number = frame_at(sequences_[i], options[i], seconds);
+    if (!number) continue;
+    is_shown[i] = true;
+    if (*number != sequences_[i].shown_number && !sequences_[i].unreadable.contains(*number))
+      wanted.push_back({i, *number});
+    if (const auto next = frame_after(sequences_[i], options[i], *number)) ahead.push_back({i, *next});
   }
   std::vector<VolumeLoader::Key> all = wanted;
   all.insert(all.end(), ahead.begin(), ahead.end());
@@ -272,7 +337,8 @@ std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options,
       if (other.volume == key.volume && result) show(other.volume, other.number, std::move(result));
   }
   std::vector<VolumeAt> volumes;
-  for (std::size_t i = 0; i < options.size(); ++i) volumes.push_back(placed(sequences_[i].shown, options[i]));
+  for (std::size_t i = 0; i < options.size(); ++i)
+    volumes.push_back(is_shown[i] ? placed(sequences_[i].shown, options[i]) : VolumeAt{});
   return volumes;
 }
 

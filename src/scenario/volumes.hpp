@@ -21,7 +21,7 @@ namespace brume::scenario {
 
 /// A volume at one time.
 struct VolumeAt {
-  std::shared_ptr<const VolumeFrame> frame;
+  std::shared_ptr<const VolumeFrame> frame;             ///< Null: not shown.
   std::shared_ptr<const VolumePreview> preview;         ///< Null: none was made.
   glm::mat4 world_from_density{1}, world_from_heat{1};  ///< From the voxels of the grids.
   glm::mat4 world_from_density_preview{1}, world_from_heat_preview{1};
@@ -38,13 +38,13 @@ enum class VolumeWait {
 class Volumes {
  public:
   /// Loads the first frame of each. Fails as grids::load_grid_file, and with bad_input for a sequence without
-  /// files and for grids that do not exist.
+  /// files, for axes without an inverse, and for grids that do not exist.
   static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options);
 
   /// All volumes, in the order of the options, with the grids that they name. A frame that is missing from a
-  /// sequence shows the one before it, so do times after the last; before the first, the first. Warns once of
-  /// a frame that cannot be read, which shows the last one that was. Frames remain loaded as long as they are
-  /// shown.
+  /// sequence shows the one before it, so do times after the last, unless the options repeat or clip it; before
+  /// the first, the first. Warns once of a frame that cannot be read, which shows the last one that was. Frames
+  /// remain loaded as long as they are shown.
   std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds,
                            VolumeWait wait = VolumeWait::until_loaded);
   /// Whether the last `at` showed frames of other times, since theirs were not loaded.
@@ -74,7 +74,8 @@ class Volumes {
     std::set<std::int64_t> unreadable;  ///< Frames of which a warning was given.
     VolumeRoom room{};                  ///< Of each frame.
   };
-  std::int64_t frame_at(const Sequence& sequence, const scene::VolumeOptions& options, double seconds) const;
+  std::optional<std::int64_t> frame_at(const Sequence& sequence, const scene::VolumeOptions& options,
+                                       double seconds) const;
   std::optional<std::int64_t> frame_after(const Sequence& sequence, const scene::VolumeOptions& options,
                                           std::int64_t number) const;
   void show(std::size_t volume, std::int64_t number, Result<LoadedVolume> loaded);
@@ -94,6 +95,9 @@ glm::vec2 range_of(const scene::VolumeOptions& options, const VolumeFrame& first
 
 /// Where the first frame of a volume is.
 scene::Volume place_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
+
+/// Corners of boxes around all that is dense in the first frame of a volume, in the world.
+std::vector<glm::vec3> corners_of(const scene::VolumeOptions& options, const VolumeFrame& frame);
 
 /// From the world of a volume's file to that of the scene [m].
 glm::mat4 world_from_file(const scene::VolumeOptions& options);

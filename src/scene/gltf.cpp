@@ -162,6 +162,7 @@ class GltfLoader {
 
   static void aim_at_middle(Scene& scene) {
     const Box<float> bounds = world_bounds(scene);
+    if (bounds.empty()) return;
     Camera& camera = *scene.camera;
     const glm::vec3 axis = glm::normalize(camera.target_world - camera.position_world);
     const glm::vec3 middle = (bounds.low + bounds.high) / 2.0f;

@@ -1,5 +1,7 @@
 #include "scene/load.hpp"
 
+#include <algorithm>
+
 #include "core/file.hpp"
 #include "core/progress.hpp"
 #include "scene/files.hpp"
@@ -36,13 +38,21 @@ Result<Scene> parse_file(const std::filesystem::path& path, const FolderFiles& f
           ": not a scene file by its name; expected .txt, .gltf, .glb or .obj, or .toml for a timeline"};
 }
 
+bool has_triangle(const Scene& scene) {
+  return std::ranges::any_of(
+      scene.objects, [&](const Object& object) { return !scene.meshes[object.mesh].indices.empty(); });
+}
+
 }  // namespace
 
-Result<Scene> load_scene(const std::filesystem::path& path) {
+Result<Scene> load_scene(const std::filesystem::path& path, bool may_be_empty) {
   const Progress job("load");
   const FolderFiles files(path.parent_path());
   auto scene = parse_file(path, files);
   if (!scene) return scene;
+  if (!may_be_empty && !has_triangle(*scene))
+    return Failure{ErrorCode::bad_input,
+                   path.string() + ": the scene has no triangle; add at least one object with a mesh"};
   scene->files = {path};
   scene->files.insert(scene->files.end(), files.files_read().begin(), files.files_read().end());
   return scene;

@@ -101,6 +101,11 @@ template <typename Options, typename Visitor>
 void visit_volume_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"rotation", "degrees each", "rotation about x, then y, then z", -360, 360}, o.rotation);
   visit(OptionInfo{"scale", "", "metres per unit of the file", 1e-9, 1e9}, o.scale);
+  visit(OptionInfo{"x_axis", "", "where a step along the file's x leads, before `scale` and `rotation`", -1e9,
+                   1e9},
+        o.x_axis);
+  visit(OptionInfo{"y_axis", "", "the same for y", -1e9, 1e9}, o.y_axis);
+  visit(OptionInfo{"z_axis", "", "the same for z", -1e9, 1e9}, o.z_axis);
   visit(OptionInfo{"extinction", "1/m", "extinction where the density is 1", 0, 1e12}, o.extinction);
   visit(OptionInfo{"albedo", "", "fraction of the lost light that is scattered", 0, 1}, o.albedo);
   visit(OptionInfo{"anisotropy", "", "Henyey-Greenstein g; above 0: forward scattering", -0.9, 0.9},

@@ -1,11 +1,13 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace brume::scene {
 
-Box<float> world_bounds(const Scene& scene) {
+Box<float> level_bounds(const Scene& scene) {
   Box<float> bounds = kEmptyBox;
   for (const Object& object : scene.objects) {
     if (object.backdrop) continue;
@@ -19,16 +21,20 @@ Box<float> world_bounds(const Scene& scene) {
     bounds.low = glm::min(bounds.low, sphere.centre_world - sphere.radius);
     bounds.high = glm::max(bounds.high, sphere.centre_world + sphere.radius);
   }
+  return bounds;
+}
+
+Box<float> world_bounds(const Scene& scene) {
+  Box<float> bounds = level_bounds(scene);
   for (const Volume& volume : scene.volumes) bounds = united(bounds, volume.bounds_world);
   return bounds;
 }
 
 namespace {
 
-/// Calls visit(point in the world) for all corners of objects but backdrops, of boxes around spheres, and of
-/// the cores of volumes.
+/// Calls visit(point in the world) for all corners of objects but backdrops and of boxes around spheres.
 template <typename Visit>
-void for_each_point(const Scene& scene, Visit visit) {
+void for_each_corner(const Scene& scene, Visit visit) {
   for (const Object& object : scene.objects) {
     if (object.backdrop) continue;
     for (const Vertex& vertex : scene.meshes[object.mesh].vertices)
@@ -38,10 +44,24 @@ void for_each_point(const Scene& scene, Visit visit) {
     for (int corner = 0; corner < 8; ++corner)
       visit(sphere.centre_world +
             sphere.radius * (2.0f * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2) - 1.0f));
+}
+
+/// The same, and for those of the cores of volumes.
+template <typename Visit>
+void for_each_point(const Scene& scene, Visit visit) {
+  for_each_corner(scene, visit);
   for (const Volume& volume : scene.volumes)
     for (int corner = 0; corner < 8; ++corner)
       visit(glm::mix(volume.core_world.low, volume.core_world.high,
                      glm::bvec3(corner & 1, corner & 2, corner & 4)));
+}
+
+/// The largest cosine of the angles between two [radians].
+double largest_cosine(double from, double to) {
+  const double low = std::min(from, to), high = std::max(from, to);
+  constexpr double kTurn = 2 * std::numbers::pi;
+  if (std::floor(high / kTurn) >= std::ceil(low / kTurn)) return 1;
+  return std::max(std::cos(low), std::cos(high));
 }
 
 }  // namespace
@@ -77,6 +97,60 @@ Camera default_camera(const Scene& scene, float aspect) {
   camera.target_world = middle + centre.x * right + centre.y * up;
   camera.position_world = camera.target_world + distance * back;
   return camera;
+}
+
+Camera orbited(const Camera& camera, glm::vec3 centre_world, double radians) {
+  if (radians == 0) return camera;
+  const double c = std::cos(radians), s = std::sin(radians);
+  const auto rotated = [&](glm::vec3 p) {
+    const glm::dvec3 centre(centre_world), off = glm::dvec3(p) - centre;
+    return glm::vec3(centre + glm::dvec3(c * off.x + s * off.z, off.y, c * off.z - s * off.x));
+  };
+  return {rotated(camera.position_world), rotated(camera.target_world), camera.vertical_fov};
+}
+
+std::vector<glm::vec3> level_corners(const Scene& scene) {
+  std::vector<glm::vec3> corners;
+  for_each_corner(scene, [&](glm::vec3 p) { corners.push_back(p); });
+  return corners;
+}
+
+Camera fitted_to_orbit(std::span<const glm::vec3> points_world, const Camera& camera, glm::vec3 centre_world,
+                       double radians, float aspect) {
+  const glm::dvec3 centre(centre_world), target(camera.target_world);
+  const glm::dvec3 toward_eye = glm::dvec3(camera.position_world) - target;
+  const double distance = glm::length(toward_eye);
+  const glm::dvec3 back = toward_eye / distance;
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)),
+                   up = glm::cross(back, right);
+  const double vertical = std::tan(double{camera.vertical_fov} / 2), horizontal = vertical * double{aspect};
+
+  // A point that is off the target by q is inside where |x| <= k (distance - z), as in default_camera: where
+  // the distance is at least the product of q with each of four vectors. Circling the centre rotates the
+  // point the other way, so that the horizontal part of a product is a cosine.
+  const std::array limits{back + right / horizontal, back - right / horizontal, back + up / vertical,
+                          back - up / vertical};
+  std::array<double, 4> around{-1e30, -1e30, -1e30, -1e30};  // distances with the centre as target
+  for (const glm::vec3 p : points_world) {
+    const glm::dvec3 off = glm::dvec3(p) - centre;
+    const double reach = std::hypot(off.x, off.z), azimuth = std::atan2(off.x, off.z);
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      const double begin = azimuth - std::atan2(limits[i].x, limits[i].z);
+      const double across = reach * std::hypot(limits[i].x, limits[i].z);
+      around[i] = std::max(around[i], across * largest_cosine(begin, begin - radians) + off.y * limits[i].y);
+    }
+  }
+  double required = 0;
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    required = std::max(required, around[i] + glm::dot(limits[i], centre - target));
+  constexpr double kRounding = 1e-4;
+  if (required <= distance * (1 + kRounding)) return camera;
+
+  // The target that requires the least distance.
+  const glm::dvec3 aim = centre + 0.5 * (around[0] - around[1]) * horizontal * right +
+                         0.5 * (around[2] - around[3]) * vertical * up;
+  const double least = 0.5 * std::max(around[0] + around[1], around[2] + around[3]);
+  return {glm::vec3(aim + least * back), glm::vec3(aim), camera.vertical_fov};
 }
 
 }  // namespace brume::scene

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -122,12 +123,28 @@ struct Scene {
   std::vector<std::filesystem::path> files;  ///< Every file that load_scene read, itself first.
 };
 
-/// The bounding box of all objects but backdrops, of spheres and of volumes, in world space; low > high when
-/// there is none.
+/// The bounding box of all objects but backdrops and of spheres, in world space; low > high when there is
+/// none.
+Box<float> level_bounds(const Scene& scene);
+/// The same with volumes.
 Box<float> world_bounds(const Scene& scene);
 
 /// The scene's own camera, or one that looks at it obliquely from above and fits it into the middle four
 /// fifths of an image of `aspect` = width / height.
 Camera default_camera(const Scene& scene, float aspect = 16.0f / 9.0f);
+
+/// A camera after a rotation about the vertical axis through a point [radians], counter-clockwise as seen
+/// from above: as high and as far from the point, which stays at its pixel. An angle of 0 gives the same
+/// camera.
+Camera orbited(const Camera& camera, glm::vec3 centre_world, double radians);
+
+/// The camera that looks in the same direction from the nearest place where all points stay inside an image
+/// of `aspect` = width / height while it circles `centre_world` from 0 to an angle [radians]. The same camera
+/// if they stay inside of its image.
+Camera fitted_to_orbit(std::span<const glm::vec3> points_world, const Camera& camera, glm::vec3 centre_world,
+                       double radians, float aspect);
+
+/// All corners of objects but backdrops and of boxes around spheres.
+std::vector<glm::vec3> level_corners(const Scene& scene);
 
 }  // namespace brume::scene

@@ -151,15 +151,8 @@ Result<void> SceneBuilder::check_object(const Object& object) const {
 }
 
 Result<Scene> SceneBuilder::finish() && {
-  bool any_triangle = false;
-  for (const Object& object : scene.objects) {
-    any_triangle = any_triangle || !scene.meshes[object.mesh].indices.empty();
+  for (const Object& object : scene.objects)
     if (auto checked = check_object(object); !checked) return checked.failure();
-  }
-  if (!any_triangle) {
-    return Failure{ErrorCode::bad_input,
-                   name_ + ": the scene has no triangle; add at least one object with a mesh"};
-  }
   if (scene.grenade) {
     if (auto checked = check_object(*scene.grenade); !checked) return checked.failure();
   }

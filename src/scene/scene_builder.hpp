@@ -43,7 +43,7 @@ class SceneBuilder {
   Result<void> set_grenade(const Object& object, const std::string& place);
   bool has_grenade() const { return scene.grenade.has_value(); }
 
-  /// Checks the scene: at least one triangle, no point beyond kFarthest.
+  /// Checks the scene: no point beyond kFarthest.
   Result<Scene> finish() &&;
 
  private:

@@ -39,7 +39,7 @@ class SceneTxtParser {
     }
     const bool has_grenade = builder_.has_grenade();
     auto scene = std::move(builder_).finish();
-    if (scene && !has_grenade) {
+    if (scene && !has_grenade && !scene->objects.empty()) {
       log_warning(reader_.name() + ": no object is called Grenade; a built-in one is thrown");
     }
     return scene;

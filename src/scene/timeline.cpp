@@ -124,16 +124,29 @@ class TimelineReader {
     if (file.empty() || file.find('\0') != std::string::npos)
       table.fail("file", "\"file\": expected the name of a file of grids");
     volume.file = path_.parent_path() / file;
+    read_sequence(table, volume);
     table.read("density", volume.density);
     table.read("heat", volume.heat);
     table.read("position", volume.position_world, -kFarthestPoint, kFarthestPoint);
     table.read("color", volume.color);
     visit_volume_options(volume, OptionReader{table});
-    table.read("loop", volume.loop);
     read_transfer(table, volume);
     volume.place = table.place("file");
     timeline_.volumes.push_back(std::move(volume));
     return table.finish();
+  }
+
+  static void read_sequence(TomlTable& table, VolumeOptions& volume) {
+    table.read("first", volume.first, 0, kLastFrame);
+    table.read("last", volume.last, 0, kLastFrame);
+    if (volume.first && volume.last && *volume.last < *volume.first)
+      table.fail("last", "\"last\": expected no less than \"first\"");
+    table.read("loop", volume.loop);
+    table.read("clip", volume.clip);
+    table.read("ping_pong", volume.ping_pong);
+    if (volume.loop + volume.clip + volume.ping_pong > 1)
+      table.fail(volume.clip ? "clip" : "ping_pong",
+                 "\"clip\", \"loop\" and \"ping_pong\": expected only one of them to be true");
   }
 
   static void read_transfer(TomlTable& table, VolumeOptions& volume) {

@@ -59,11 +59,14 @@ struct SunOptions {
   glm::vec3 irradiance{2.6f, 2.4f, 2.1f};
 };
 
-/// A volume of a file of grids (grids/files.hpp), placed in the world: rotated about x, then y, then z of the
-/// file's world, scaled, moved.
+/// A volume of a file of grids (grids/files.hpp), placed in the world: its axes replaced, scaled, rotated
+/// about x, then y, then z, moved.
 struct VolumeOptions {
   /// Resolved. A sequence has the number of a frame as %d or %04d.
   std::filesystem::path file;
+  std::optional<std::uint32_t> first = {}, last = {};  ///< Frames of a sequence; empty: those of its files.
+  bool clip = false, ping_pong = false;                ///< Not together, nor with `loop`.
+  glm::vec3 x_axis{1, 0, 0}, y_axis{0, 1, 0}, z_axis{0, 0, 1};
   std::string density = {};  ///< Name of the grid of densities; empty: the first of the usual names.
   std::string heat = {};     ///< Of the grid that glows; empty: the first of the usual names, or none.
   std::string color = {};    ///< Of the grid of colours that multiply the albedo; the same.
@@ -91,6 +94,9 @@ struct CameraKey {
   double time = 0;  ///< [s], [0, 3600].
   Camera camera;
 };
+
+/// Largest number of a frame of a sequence.
+constexpr std::uint32_t kLastFrame = 1'000'000'000;
 
 /// Largest distance of an event from the world's origin, along each axis [m].
 constexpr double kFarthestEvent = 16384;
@@ -236,14 +242,13 @@ void sort_events(Timeline& timeline);
 
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, `origin`, `scale`,
 /// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
-/// keys, [[volume]] (file, density, heat, color, position, loop, range, opacity, color_map and its members),
-/// and [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of time, [[event]] with type =
-/// "smoke" (time, from, at), "shot" (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll
+/// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range, opacity,
+/// color_map and its members), and [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of
+/// time, [[event]] with type = "smoke" (time, from, at), "shot" (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll
 /// in degrees, flash), "text" (time, text, from, toward, size, font, spacing, interval, reach, expand, stay,
 /// fade, roll), "blast" (time, at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time,
 /// body, to), "edit" (time, low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6,
-/// 10^6]; those of events
-/// [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
+/// 10^6]; those of events [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
 /// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
 /// the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);

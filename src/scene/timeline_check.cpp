@@ -175,6 +175,10 @@ Result<void> check_settings(const Timeline& timeline) {
     check_transfer(volume, of_volume);
     of_volume.point("position", volume.position_world, kFarthestPoint);
     visit_volume_options(volume, of_volume);
+    if (volume.first) of_volume.number("first", *volume.first, 0, kLastFrame);
+    if (volume.last) of_volume.number("last", *volume.last, volume.first.value_or(0), kLastFrame);
+    if (volume.clip + volume.loop + volume.ping_pong > 1)
+      of_volume.fail("clip", "expected only one of \"clip\", \"loop\" and \"ping_pong\" to be true");
     if (auto done = of_volume.done(); !done) return done;
   }
 

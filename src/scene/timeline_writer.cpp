@@ -201,6 +201,10 @@ class Writer {
   void write_volume(const VolumeOptions& volume) {
     text_ += "\n[[volume]]\n";
     line("file", path_from(volume.file, folder_).generic_string());
+    if (volume.first) line("first", *volume.first);
+    if (volume.last) line("last", *volume.last);
+    if (volume.clip) line("clip", volume.clip);
+    if (volume.ping_pong) line("ping_pong", volume.ping_pong);
     if (!volume.density.empty()) line("density", volume.density);
     if (!volume.heat.empty()) line("heat", volume.heat);
     if (!volume.color.empty()) line("color", volume.color);

@@ -169,6 +169,13 @@ void TomlTable::read(std::string_view key, std::uint32_t& value, std::int64_t le
   if (const auto found = whole(*node, key, least, most)) value = static_cast<std::uint32_t>(*found);
 }
 
+void TomlTable::read(std::string_view key, std::optional<std::uint32_t>& value, std::int64_t least,
+                     std::int64_t most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (const auto found = whole(*node, key, least, most)) value = static_cast<std::uint32_t>(*found);
+}
+
 void TomlTable::read(std::string_view key, glm::vec3& value, double least, double most) {
   std::optional<glm::vec3> found;
   read(key, found, least, most);

@@ -29,6 +29,7 @@ class TomlTable {
   void read(std::string_view key, double& value, double least, double most);
   void read(std::string_view key, std::optional<float>& value, double least, double most);
   void read(std::string_view key, std::uint32_t& value, std::int64_t least, std::int64_t most);
+  void read(std::string_view key, std::optional<std::uint32_t>& value, std::int64_t least, std::int64_t most);
   void read(std::string_view key, glm::vec3& value, double least, double most);
   void read(std::string_view key, std::optional<glm::vec3>& value, double least, double most);
   /// Two numbers.

@@ -13,7 +13,14 @@ import bpy
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
-MODULES = ("addon_export_test", "addon_events_test", "addon_program_test")
+MODULES = (
+    "addon_export_test",
+    "addon_events_test",
+    "addon_program_test",
+    "addon_volume_test",
+    "addon_volume_look_test",
+    "addon_volume_picture_test",
+)
 
 
 class Results(unittest.TextTestResult):

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -57,11 +58,62 @@ TEST_F(VolumesTest, ASequenceShowsTheFrameOfATime) {
   EXPECT_EQ(volumes->files().size(), 3u);
   const auto shown = [&](double seconds) { return volumes->at(options, seconds)[0].frame->density.high; };
   for (const auto& [seconds, frame] :
-       {std::pair(0.0, 3), {1.0, 3}, {1.0999, 3}, {1.1, 4}, {1.2, 4}, {1.3, 6}, {99.0, 6}, {1.1, 4}})
+       {std::pair(0.0, 3), {1.0, 3}, {1.099, 3}, {1.1, 4}, {1.2, 4}, {1.3, 6}, {99.0, 6}, {1.1, 4}})
     EXPECT_EQ(shown(seconds), static_cast<float>(frame)) << seconds;
   options[0].loop = true;
   for (const auto& [seconds, frame] : {std::pair(1.4, 3), {1.5, 4}, {0.9, 6}, {1.8, 3}})
     EXPECT_EQ(shown(seconds), static_cast<float>(frame)) << seconds;
+}
+
+TEST_F(VolumesTest, ASequenceEndsClippedOrPlaysToAndFro) {
+  for (const int number : {3, 4, 5, 6, 9})
+    save("f_" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number))});
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "f_%d.brv";
+  options[0].frame_rate = 10;
+  options[0].first = 4;
+  options[0].last = 7;
+  const auto volumes = Volumes::load(options).value_or_throw();
+  EXPECT_EQ(volumes->files().size(), 3u);
+  EXPECT_EQ(volumes->first_frame(0).density.high, 4);
+  const auto shown = [&](double seconds) {
+    const auto frame = volumes->at(options, seconds)[0].frame;
+    return frame ? frame->density.high : 0;
+  };
+  // 7 is missing.
+  for (const auto& [seconds, frame] : {std::pair(-0.1, 4), {0.0, 4}, {0.2, 6}, {0.3, 6}, {0.4, 6}})
+    EXPECT_EQ(shown(seconds), static_cast<float>(frame)) << seconds;
+  options[0].clip = true;
+  for (const auto& [seconds, frame] : {std::pair(-0.1, 0), {0.0, 4}, {0.3, 6}, {0.4, 0}, {9.0, 0}, {0.1, 5}})
+    EXPECT_EQ(shown(seconds), static_cast<float>(frame)) << seconds;
+  options[0].clip = false;
+  options[0].ping_pong = true;
+  for (const auto& [seconds, frame] :
+       {std::pair(0.0, 4), {0.1, 5}, {0.3, 6}, {0.4, 6}, {0.5, 5}, {0.6, 4}, {0.7, 5}, {-0.1, 5}})
+    EXPECT_EQ(shown(seconds), static_cast<float>(frame)) << seconds;
+  options[0].last = 4;
+  EXPECT_EQ(Volumes::load(options).value_or_throw()->at(options, 0.7)[0].frame->density.high, 4);
+  options[0].first = options[0].last = 7;
+  EXPECT_EQ(Volumes::load(options).failure().code, ErrorCode::bad_input);
+}
+
+// Starts and rates are float32, and written with fewer digits still.
+TEST_F(VolumesTest, ARoundedStartShowsItsFrame) {
+  for (const int number : {0, 1})
+    save("f_" + std::to_string(number) + ".brv", {cube("density", static_cast<float>(number + 1))});
+  std::vector<scene::VolumeOptions> options(1);
+  options[0].file = folder_ / "f_%d.brv";
+  options[0].clip = true;
+  const auto volumes = Volumes::load(options).value_or_throw();
+  for (const double rate : {24.0, 24000 / 1001.0, 60.0})
+    for (int start = 0; start < 2000; start += 7) {
+      options[0].frame_rate = static_cast<float>(rate);
+      options[0].start = static_cast<float>(std::round(start / rate * 1e6) / 1e6);
+      const auto shown = volumes->at(options, start / rate)[0].frame;
+      ASSERT_TRUE(shown) << start;
+      EXPECT_EQ(shown->density.high, 1) << start;
+      EXPECT_FALSE(volumes->at(options, (start - 1) / rate)[0].frame) << start;
+    }
 }
 
 TEST_F(VolumesTest, ADamagedFrameShowsTheOneBefore) {
@@ -241,6 +293,57 @@ TEST_F(VolumesTest, APlacedVolumeIsWhereTheTimelineSays) {
   EXPECT_LT(glm::length(bounds.low - glm::vec3(8, -2, -16)), 1e-4f);
   EXPECT_LT(glm::length(bounds.high - glm::vec3(26, 16, 2)), 1e-4f);
   EXPECT_EQ(files_of(scenario).size(), 1u);
+}
+
+// A cloud of kilometres over a level in small voxels.
+TEST_F(VolumesTest, AVolumeMayBeLargerThanAnyGridOfSmoke) {
+  save("a.brv", {cube("density", 1)});
+  std::ofstream(folder_ / "box.obj") << "v 0 0 0\nv 3 0 0\nv 0 2 1\nf 1 2 3\n";
+  for (const std::string scene : {"box.obj", "a.brv"}) {
+    std::ofstream(folder_ / "t.toml")
+        << "version = 1\nscene = \"" << scene << "\"\n[[volume]]\nfile = \"a.brv\"\nscale = 1000.0\n";
+    const auto scenario = load_scenario(folder_ / "t.toml", {});
+    ASSERT_TRUE(scenario) << scenario.failure().message;
+    EXPECT_LT(scenario->voxels.grid.layout().size.x, 512) << scene;
+    EXPECT_GT(scene::world_bounds(scenario->scene).high.x, 7000);
+  }
+}
+
+// Their hull is that of all bricks, cut to the bounds.
+TEST_F(VolumesTest, CornersSurroundWhatIsDense) {
+  grids::Grid grid = cube("density", 1);
+  scene::VolumeOptions options;
+  options.file = save("a.brv", {grid});
+  options.position_world = {1, 2, 3};
+  const auto frame = load_volume_frame(options.file, options).value_or_throw();
+  const std::vector<glm::vec3> corners = corners_of(options, *frame);
+  Box<float> box = kEmptyBox;
+  for (const glm::vec3 p : corners) box = united(box, {p, p});
+  const Box<float> bounds = place_of(options, *frame).bounds_world;
+  EXPECT_LT(glm::length(box.low - bounds.low) + glm::length(box.high - bounds.high), 1e-5f);
+}
+
+TEST_F(VolumesTest, AxesPlaceAVolumeByAnyAffineTransform) {
+  scene::VolumeOptions options;
+  options.position_world = {1, 2, 3};
+  options.rotation = {0, 90, 0};
+  options.scale = 2;
+  options.x_axis = {3, 0, 0};
+  options.y_axis = {0.5f, 1, 0};
+  options.z_axis = {0, 0, -1};
+  const glm::mat4 world = world_from_file(options);
+  // A quarter turn about y: x becomes -z, z becomes x.
+  const auto at = [&](float x, float y, float z) { return glm::vec3(world * glm::vec4(x, y, z, 1)); };
+  EXPECT_LT(glm::length(at(1, 0, 0) - glm::vec3(1, 2, -3)), 1e-5f);
+  EXPECT_LT(glm::length(at(0, 1, 0) - glm::vec3(1, 4, 2)), 1e-5f);
+  EXPECT_LT(glm::length(at(0, 0, 1) - glm::vec3(-1, 2, 3)), 1e-5f);
+  options.file = save("a.brv", {cube("density", 1)});
+  options.place = "t.toml:5:8";
+  EXPECT_TRUE(Volumes::load(std::array{options}));
+  options.z_axis = options.x_axis + 2.0f * options.y_axis;
+  const auto flat = Volumes::load(std::array{options});
+  EXPECT_EQ(flat.failure().code, ErrorCode::bad_input);
+  EXPECT_NE(flat.failure().message.find("t.toml:5:8: "), std::string::npos) << flat.failure().message;
 }
 
 // Alone it gets a look that does not depend on its unit.

@@ -10,6 +10,26 @@
 namespace brume::scene {
 namespace {
 
+TEST(Load, ASceneWithoutATriangleIsRefusedUnlessItMayBeEmpty) {
+  const auto folder = std::filesystem::temp_directory_path() / ("brume_empty" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const std::pair<const char*, const char*> files[] = {
+      {"Scene.txt", "LIGHT_SOURCE\t1 2 3\t1 1 1\t5\n"},
+      {"a.gltf",
+       R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"camera": 0}], "cameras":
+                 [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]})"}};
+  for (const auto& [name, text] : files) {
+    std::ofstream(folder / name) << text;
+    EXPECT_EQ(load_scene(folder / name).failure().message,
+              (folder / name).string() + ": the scene has no triangle; add at least one object with a mesh");
+    const auto scene = load_scene(folder / name, true);
+    ASSERT_TRUE(scene) << scene.failure().message;
+    EXPECT_TRUE(scene->objects.empty());
+    EXPECT_EQ(scene->lights.size() + (scene->camera ? 1 : 0), 1u);
+  }
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Load, SuffixesMayBeInCapitals) {
   const auto folder = std::filesystem::temp_directory_path() / ("brume_load" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);

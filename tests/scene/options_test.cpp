@@ -160,7 +160,7 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(SmokeOptions(), visit_smoke_options), 15u);
   EXPECT_EQ(MET(SkyOptions(), visit_sky_options), 5u);
   EXPECT_EQ(MET(SunOptions(), visit_sun_options), 3u);
-  EXPECT_EQ(MET(VolumeOptions(), visit_volume_options), 10u);
+  EXPECT_EQ(MET(VolumeOptions(), visit_volume_options), 14u);
   EXPECT_EQ(MET(Camera(), visit_camera_options), 1u);
   EXPECT_EQ(MET(ShotEvent(), visit_shot_options), 7u);
   EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);

@@ -169,6 +169,10 @@ inline Timeline random_timeline(std::uint32_t seed) {
     visit_volume_options(volume, draw);
     draw_transfer(draw, volume);
     volume.loop = draw.below(2) == 0;
+    volume.clip = !volume.loop && draw.below(2) == 0;
+    volume.ping_pong = !volume.loop && !volume.clip && draw.below(2) == 0;
+    if (draw.below(2) == 0) volume.first = draw.below(1000);
+    if (draw.below(2) == 0) volume.last = 1000 + draw.below(kLastFrame - 1000);
   }
   if (draw.below(3) == 0) timeline.tone = ToneCurve::standard;
   double time = draw.share();

@@ -94,7 +94,8 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   for (const VolumeOptions& volume : timeline.volumes) {
     b.add(volume.file.string()), b.add(volume.density), b.add(volume.heat), b.add(volume.position_world);
     visit_volume_options(volume, b);
-    b.add(volume.loop);
+    b.add(volume.loop), b.add(volume.clip), b.add(volume.ping_pong);
+    b.add(volume.first.value_or(kLastFrame + 1)), b.add(volume.last.value_or(kLastFrame + 1));
     add_transfer(b, volume);
   }
   const auto add_all = [&](const auto& list) {

@@ -19,7 +19,7 @@ class BRUME_OT_check(bpy.types.Operator):
         warnings = Warnings()
         try:
             with Gathered(context, warnings) as level:
-                if not level.things:
+                if not level.things and not level.volumes:
                     raise BrumeError("the scene has no visible mesh; add one that renders and is exported")
                 solids = Solids(level)
                 checks.check_level(level, solids, warnings)

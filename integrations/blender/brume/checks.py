@@ -18,7 +18,7 @@ ends = {}
 def check_level(level, solids, warnings):
     """Warns of a wrong unit scale; notes what Brume renders differently from Blender."""
     extent = solids.high - solids.low
-    if extent.max() < _SMALLEST_LEVEL:
+    if level.things and extent.max() < _SMALLEST_LEVEL:
         warnings.add(
             f"the level is only {extent.max():.2g} m wide; check the unit scale (Scene Properties > Units)"
         )

@@ -32,6 +32,13 @@ def matrix(blender_matrix, metres):
     return result
 
 
+def from_file(blender_matrix, metres):
+    """world_from_file in Brume's axes and metres, for points of a volume file in Blender's axes and units."""
+    turn = np.identity(4)
+    turn[:3, :3] = BRUME_FROM_BLENDER * metres
+    return turn @ np.array(blender_matrix, dtype=float)
+
+
 def has_orthogonal_columns(linear):
     """Whether a 3x3 matrix is a rotation or reflection times a nonzero scale along the mesh axes."""
     lengths = np.linalg.norm(linear, axis=0)

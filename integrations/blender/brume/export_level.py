@@ -43,7 +43,7 @@ def export(context, path, file_format, warnings, with_timeline=True, frames=()):
     """
     stem, _ = os.path.splitext(path)
     with Gathered(context, warnings) as level:
-        if not level.things:
+        if not level.things and not (level.volumes and with_timeline):
             raise BrumeError("the scene has no visible mesh; add one that renders and is exported")
         solids = Solids(level)
         checks.check_level(level, solids, warnings)

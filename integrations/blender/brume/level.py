@@ -1,12 +1,15 @@
 """The contents of the open scene for both exporters: evaluated, instances expanded, with unique names."""
 
 import math
+import os
+import tempfile
 from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
 
 from . import conversion, names
+from .clock import moves
 from .visibility import AsRendered
 
 
@@ -37,8 +40,19 @@ class Light:
 
 
 @dataclass
+class Volume:
+    label: str  # Name in Blender.
+    data: bpy.types.Volume
+    material: bpy.types.Material  # None without one.
+    world_from_file: np.ndarray  # To Brume's axes and metres.
+    moves: bool
+    evaluated_file: str = ""  # The grids after modifiers; removed with the level.
+
+
+@dataclass
 class Level:
     things: list = field(default_factory=list)
+    volumes: list = field(default_factory=list)
     lights: list = field(default_factory=list)
     door_names: dict = field(default_factory=dict)  # Name in Blender: names of its instances in Brume.
     metres: float = 1.0  # Length of a Blender unit.
@@ -47,7 +61,6 @@ class Level:
 
 # Object types that Blender renders but cannot evaluate to a mesh.
 _NO_MESH = {
-    "VOLUME": "volume",
     "POINTCLOUD": "point cloud",
     "CURVES": "hair",
     "GPENCIL": "drawing",
@@ -105,6 +118,7 @@ class Gathered:
         self._copies, self._doors, self._mode = {}, {}, None
         self._level = Level(metres=conversion.metres_per_unit(context.scene))
         self._names = names.UniqueNames()
+        self._folder = None  # Of evaluated volumes.
 
     def __enter__(self):
         # A mesh in edit mode has no faces in the depsgraph.
@@ -122,6 +136,9 @@ class Gathered:
     def __exit__(self, *_):
         bpy.data.batch_remove(self._copies.values())
         self._copies = {}
+        if self._folder:
+            self._folder.cleanup()
+            self._folder = None
         if self._mode:
             bpy.ops.object.mode_set(mode=self._mode)
             self._mode = None
@@ -140,6 +157,8 @@ class Gathered:
                 self._add_mesh(instance)
             elif instance.object.type == "LIGHT":
                 self._add_light(instance)
+            elif instance.object.type == "VOLUME":
+                self._add_volume(instance)
             elif instance.object.type in _NO_MESH:
                 what = _NO_MESH[instance.object.type]
                 self._warnings.add(f'"{instance.object.name}" is a {what} and is not exported')
@@ -189,6 +208,27 @@ class Gathered:
             self._level.things.append(self._doors[key])
             self._level.door_names.setdefault(door.name, []).append(name)
         self._doors[key].pieces.append(piece)
+
+    def _add_volume(self, instance):
+        if _role(instance) == "LEFT_OUT":
+            return
+        evaluated, source = instance.object, instance.object.original
+        material = (_materials(evaluated) or [None])[0]
+        matrix = conversion.from_file(instance.matrix_world, self._level.metres)
+        moving = moves(source) or (instance.is_instance and moves(instance.parent.original))
+        volume = Volume(source.name, source.data, material, matrix, moving)
+        if any(modifier.show_render for modifier in source.modifiers):
+            volume.evaluated_file = self._evaluated_file(evaluated)
+        self._level.volumes.append(volume)
+
+    def _evaluated_file(self, evaluated):
+        """Saves what the modifiers make of a volume; the file of the object has it without them."""
+        self._folder = self._folder or tempfile.TemporaryDirectory(prefix="brume_")
+        path = os.path.join(self._folder.name, f"{len(self._level.volumes)}.vdb")
+        if evaluated.data.grids.save(filepath=path) and os.path.exists(path):
+            return path
+        self._warnings.add(f'the volume "{evaluated.name}" is exported without its modifiers')
+        return ""
 
     def _add_light(self, instance):
         light = instance.object.original.data

@@ -88,7 +88,8 @@ class Solids:
                 low, high = np.minimum(low, solid.low), np.maximum(high, solid.high)
                 if thing.role != "PASSABLE":
                     self._solids.append(solid)
-        self.low, self.high = low, high
+        # Without a thing the level is the origin.
+        self.low, self.high = (low, high) if level.things else (np.zeros(3), np.zeros(3))
 
     def cast(self, start, direction, far, without=()):
         """(distance, label) of the first solid thing on a ray, or None. `without`: names of open doors."""

@@ -1,4 +1,4 @@
-"""Timeline export (TOML, docs/timeline.md): empties become events, the motion of the scene camera becomes keys."""
+"""Timeline export (TOML, docs/timeline.md): volumes, events of empties, keys of the moving scene camera."""
 
 import math
 import os
@@ -7,31 +7,16 @@ import bpy
 from mathutils import Vector
 
 from . import conversion, files, names
-from .clock import events_of, moves
+from .clock import events_of, frames_per_second, moves
 from .conversion import number
 from .messages import BrumeError
 from .properties import HOLE_TIMES
+from .toml_text import quoted, vector
+from .volumes import Tables
 
 _KEYS_PER_SECOND = 8
 _LONGEST = 3600.0
 _AHEAD = 5.0  # Distance from the camera to its target [m].
-
-
-def quoted(text):
-    """Quotes text as a TOML basic string."""
-    result = ""
-    for character in text:
-        if character in '"\\':
-            result += "\\" + character
-        elif ord(character) < 0x20 or ord(character) == 0x7F:
-            result += f"\\u{ord(character):04x}"
-        else:
-            result += character
-    return f'"{result}"'
-
-
-def _vector(values):
-    return "[" + ", ".join(number(value) for value in values) + "]"
 
 
 # Events of one tick happen in this order.
@@ -66,7 +51,8 @@ class Writer:
 
     def write(self, path, scene_file, tone=None):
         """`tone` is omitted for a program that has only one."""
-        lines = self._head(scene_file, tone) + self._camera()
+        tables = Tables(self._level, self._clock, frames_per_second(self._scene), self._folder, self._warnings)
+        lines = self._head(scene_file, tone) + tables.lines() + self._camera()
         for thing in events(self._scene, self._level):
             lines += self._event(thing, thing.brume_event)
         files.write(path, "\n".join(lines) + "\n")
@@ -85,7 +71,7 @@ class Writer:
         lines += [f"{key} = {number(getattr(options, 'smoke_' + key))}" for key in ("bloom", "hold", "dissolve")]
         lines += [f"extinction = {number(options.smoke_extinction)}"]
         if options.sky == "WORLD":
-            color = _vector(min(max(value, 0.0), 1000.0) for value in _world_color(scene.world))
+            color = vector(min(max(value, 0.0), 1000.0) for value in _world_color(scene.world))
             lines += ["", "[sky]"] + [f"{key} = {color}" for key in ("zenith", "horizon", "ambient")]
         return lines
 
@@ -126,8 +112,8 @@ class Writer:
         position = matrix.translation
         target = position + forward * (_AHEAD / metres)
         return (
-            _vector(conversion.point(position, metres)),
-            _vector(conversion.point(target, metres)),
+            vector(conversion.point(position, metres)),
+            vector(conversion.point(target, metres)),
             min(max(math.degrees(vertical_fov(evaluated.data, self._scene)), 1.0), 170.0),
         )
 
@@ -155,7 +141,7 @@ class Writer:
         values = conversion.point(blender_point, self._level.metres)
         if abs(values).max() > 16384:
             raise BrumeError(f'the event "{thing.name}" is farther than 16384 m from the origin; move it closer')
-        return _vector(values)
+        return vector(values)
 
     def _aimed(self, thing, event, here):
         """The keys of a shot or a text: fired from the empty along its z axis, or at its target."""
