@@ -217,8 +217,8 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
                            const gpu::DeviceInfo& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice, fps,
-                raycast, scene_options, time, orbit, temporal, resume, step, light_update_fraction,
-                resolve_error_scale, volume_memory] = options;
+               raycast, scene_options, time, orbit, temporal, resume, step, light_update_fraction,
+               resolve_error_scale, volume_memory] = options;
 
   // Files.
   std::vector<std::filesystem::path> files = scenario::files_of(scenario);
@@ -240,10 +240,12 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
   key = hash_values(std::span<const float>(numbers), key);
   const double degrees = orbit.value_or(0);
   key = hash_values(std::span<const double>(&degrees, 1), key);
-  const std::array<std::uint32_t, 6> whole{volume_memory, temporal ? 1u : 0u,
+  const std::array<std::uint32_t, 6> whole{volume_memory,
+                                           temporal ? 1u : 0u,
                                            frames_depend(options) ? 1u : 0u,
                                            frames_depend(options) ? range.first : 0u,
-                                           orbit ? range.first : 0u, orbit ? range.last : 0u};
+                                           orbit ? range.first : 0u,
+                                           orbit ? range.last : 0u};
   return hash_values(std::span<const std::uint32_t>(whole), key);
 }
 

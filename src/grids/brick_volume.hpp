@@ -46,10 +46,10 @@ struct BrickVolume {
   /// Of each slot: the least and the largest value that filtering can give anywhere in its brick, faces
   /// included, in stored halves. The largest bounds the extinction in it: a majorant.
   std::vector<ValueRange> ranges;
-  glm::dmat4 world_from_voxel{1};    ///< To the file's world.
-  float unit = 1;                    ///< Value that the bricks store as 1: a power of two.
-  float low = 0, high = 0;           ///< Range of the values.
-  double sum = 0;                    ///< Of all values.
+  glm::dmat4 world_from_voxel{1};  ///< To the file's world.
+  float unit = 1;                  ///< Value that the bricks store as 1: a power of two.
+  float low = 0, high = 0;         ///< Range of the values.
+  double sum = 0;                  ///< Of all values.
   /// How many values above 0 are in each of kHistogramBins parts of equal length from low to high; empty
   /// without any.
   std::vector<std::uint64_t> histogram;

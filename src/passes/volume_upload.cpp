@@ -130,14 +130,17 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
                            const volume::SparseVolume* grid) {
     return static_cast<std::size_t>(std::ranges::find(list, grid) - list.begin());
   };
-  const auto layout_of = [&](const volume::SparseVolume* grid) { return atlas_.layout(position(grids, grid)); };
+  const auto layout_of = [&](const volume::SparseVolume* grid) {
+    return atlas_.layout(position(grids, grid));
+  };
   std::vector<shared::VolumeInstance> instances;
   for (const planning::VisibleVolume& volume : visible) {
     const planning::VolumeInput shown = planning::shown_volume(volumes[volume.index], volume.is_preview);
     shared::VolumeInstance instance = volume.instance;
     instance.bricks = layout_of(shown.volume);
     if (instance.heat.per_value > 0) instance.heat.bricks = layout_of(shown.heat.volume);
-    if (instance.colors.present) instance.colors.bricks = color_atlas_.layout(position(color_grids, shown.colors));
+    if (instance.colors.present)
+      instance.colors.bricks = color_atlas_.layout(position(color_grids, shown.colors));
     instances.push_back(instance);
   }
   recorder.upload(to, 0, std::as_bytes(std::span(instances)));

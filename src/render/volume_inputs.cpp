@@ -40,7 +40,8 @@ std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scena
   std::vector<planning::VolumeInput> inputs;
   const std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
   for (std::size_t i = 0; i < volumes.size(); ++i)
-    if (volumes[i].frame) inputs.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i)));
+    if (volumes[i].frame)
+      inputs.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i)));
   return inputs;
 }
 

@@ -57,7 +57,7 @@ Result<const grids::Grid*> choose_density(GridList grids, const std::string& nam
 /// What is rendered of a file.
 struct Chosen {
   const grids::Grid* density = nullptr;
-  const grids::Grid* heat = nullptr;  ///< Null: nothing glows.
+  const grids::Grid* heat = nullptr;   ///< Null: nothing glows.
   const grids::Grid* color = nullptr;  ///< Null: no colours.
 
   bool has(const grids::Grid* grid) const { return grid == density || grid == heat || grid == color; }
@@ -108,8 +108,7 @@ void measure_first_view(const grids::Grid& density, VolumeFrame& frame) {
 }
 
 Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
-                                                      const scene::VolumeOptions& options,
-                                                      const VolumeRoom& room) {
+                                                const scene::VolumeOptions& options, const VolumeRoom& room) {
   std::vector<const grids::Grid*> list;
   for (const grids::Grid& grid : grids.grids) list.push_back(&grid);
   const auto chosen = choose(list, options);
@@ -173,8 +172,7 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
                                              if (!chosen) return chosen.failure();
                                              std::vector<std::size_t> positions;
                                              for (std::size_t i = 0; i < heads.size(); ++i)
-                                               if (chosen->has(heads[i]))
-                                                 positions.push_back(i);
+                                               if (chosen->has(heads[i])) positions.push_back(i);
                                              return positions;
                                            });
   if (!grids) return Failure{grids.failure().code, where + grids.failure().message};

@@ -42,9 +42,9 @@ class Volumes {
   static Result<std::shared_ptr<Volumes>> load(std::span<const scene::VolumeOptions> options);
 
   /// All volumes, in the order of the options, with the grids that they name. A frame that is missing from a
-  /// sequence shows the one before it, so do times after the last, unless the options repeat or clip it; before
-  /// the first, the first. Warns once of a frame that cannot be read, which shows the last one that was. Frames
-  /// remain loaded as long as they are shown.
+  /// sequence shows the one before it, so do times after the last, unless the options repeat or clip it;
+  /// before the first, the first. Warns once of a frame that cannot be read, which shows the last one that
+  /// was. Frames remain loaded as long as they are shown.
   std::vector<VolumeAt> at(std::span<const scene::VolumeOptions> options, double seconds,
                            VolumeWait wait = VolumeWait::until_loaded);
   /// Whether the last `at` showed frames of other times, since theirs were not loaded.

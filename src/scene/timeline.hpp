@@ -242,15 +242,15 @@ void sort_events(Timeline& timeline);
 
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, `origin`, `scale`,
 /// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
-/// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range, opacity,
-/// color_map and its members), and [[camera]] (time, position, target, fov in degrees, [1, 170]) in order of
-/// time, [[event]] with type = "smoke" (time, from, at), "shot" (time, from, toward, radius, reach, expand, stay, fade, shape, mask, roll
-/// in degrees, flash), "text" (time, text, from, toward, size, font, spacing, interval, reach, expand, stay,
-/// fade, roll), "blast" (time, at, radius, speed, remaining, refill_rim, refill_middle, flash), "move" (time,
-/// body, to), "edit" (time, low, high, solid) or "door" (time, object, open). Points are in metres, [-10^6,
-/// 10^6]; those of events [-16384, 16384]. check_doors checks whether a door's object exists. Fails with bad_input and
-/// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
-/// the wrong type or out of range.
+/// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range,
+/// opacity, color_map and its members), and [[camera]] (time, position, target, fov in degrees, [1, 170]) in
+/// order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time, from, toward, radius, reach,
+/// expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text, from, toward, size, font,
+/// spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius, speed, remaining,
+/// refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid) or "door"
+/// (time, object, open). Points are in metres, [-10^6, 10^6]; those of events [-16384, 16384]. check_doors
+/// checks whether a door's object exists. Fails with bad_input and file:line:column for malformed TOML, an
+/// unknown key (suggesting what was probably meant), and a value of the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.

@@ -91,7 +91,8 @@ void PageTable::near_swept(glm::ivec3 at, int way) {
   if (entry >= shared::kFirstNode) return;
   for (int n = 0; n < 13; ++n) {
     const glm::ivec3 beside = at + way * (glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1);
-    if (glm::any(glm::lessThan(beside, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(beside, size_))) continue;
+    if (glm::any(glm::lessThan(beside, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(beside, size_)))
+      continue;
     const std::uint32_t other = root_[entry_of(beside)];
     entry = std::min(entry, other < shared::kFirstNode ? other + 1 : 1);
   }

@@ -72,8 +72,7 @@ class PageTable {
   }
   std::uint32_t node_at(glm::ivec3 node) const {
     const glm::ivec3 n = node - origin_;
-    if (n.x < 0 || n.y < 0 || n.z < 0 || n.x >= size_.x || n.y >= size_.y || n.z >= size_.z)
-      return kNoNode;
+    if (n.x < 0 || n.y < 0 || n.z < 0 || n.x >= size_.x || n.y >= size_.y || n.z >= size_.z) return kNoNode;
     const std::uint32_t entry = root_[entry_of(n)];
     return entry < shared::kFirstNode ? kNoNode : entry - shared::kFirstNode;
   }

@@ -78,7 +78,8 @@ std::uint32_t SparseVolume::acquire(glm::ivec3 brick) {
 void SparseVolume::set_uniform(glm::ivec3 brick, std::uint16_t texel) {
   BRUME_ASSERT(updating_ && slot_at(brick) == kNoSlot && !uniform_at(brick),
                "outside of an update, or the brick exists");
-  BRUME_ASSERT(channels_.size() == 1 && channels_[0].format.bytes_per_texel == sizeof texel, "one half float");
+  BRUME_ASSERT(channels_.size() == 1 && channels_[0].format.bytes_per_texel == sizeof texel,
+               "one half float");
   pages_.set_uniform(brick, texel);
   uniform_bricks_.push_back({brick, texel});
   structure_changed_ = true;

@@ -135,8 +135,9 @@ TEST_F(VolumeResolutionTest, ASphereHasItsOpticalDepthUnderAnyTransform) {
     matrix = matrix * shear * glm::scale(glm::mat4(1), scale) * glm::translate(glm::mat4(1), -middle);
     const glm::vec3 eye = 12.0f * glm::normalize(vector() + 0.01f);
     input_.view.camera = {eye, glm::vec3(0), 0.7f};
-    const double chord = (2 * settings.radius - settings.edge_width) /
-                         glm::length(glm::inverse(glm::dmat3(glm::mat3(matrix))) * glm::dvec3(glm::normalize(eye)));
+    const double chord =
+        (2 * settings.radius - settings.edge_width) /
+        glm::length(glm::inverse(glm::dmat3(glm::mat3(matrix))) * glm::dvec3(glm::normalize(eye)));
     // A transmittance of 0.1 is 1700 steps of its half float.
     const double sigma = 2.3 / chord;
     input_.volumes = {{sphere.volume.get(), matrix, {}, {}}};

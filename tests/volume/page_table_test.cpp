@@ -77,8 +77,8 @@ TEST(PageTable, KnowsHowFarTheNearestNodeIs) {
         const glm::ivec3 away = glm::abs(node - at - table.origin());
         nearest = std::min(nearest, std::max({away.x, away.y, away.z}));
       }
-      const std::uint32_t entry = table.root()[static_cast<std::size_t>(
-          at.x + table.size().x * (at.y + table.size().y * at.z))];
+      const std::uint32_t entry =
+          table.root()[static_cast<std::size_t>(at.x + table.size().x * (at.y + table.size().y * at.z))];
       if (nearest == 0)
         ASSERT_GE(entry, shared::kFirstNode);
       else
