@@ -36,9 +36,9 @@ vec2 span_in_box(VoxelRay ray, vec3 low, vec3 high) {
 
 /// What a page table knows of a point: its brick, or an empty cube around it.
 struct BrickAt {
-  vec3 low;    // low corner [voxels]
-  float edge;  // [voxels]
-  uint slot;      // kNoSlot: the medium is nowhere in the cube; kUniformSlot
+  vec3 low;             // low corner [voxels]
+  float edge;           // [voxels]
+  uint slot;            // kNoSlot: the medium is nowhere in the cube; kUniformSlot
   float uniform_value;  // that of all texels of a uniform brick
 };
 
@@ -57,13 +57,12 @@ vec3 atlas_texel(BrickLayout bricks) { return 1.0 / vec3(bricks.atlas_bricks * k
 /// The first sample at or behind t_from, which is not before the sample at t.
 float sample_from(float t_from, float t, float ds) { return t + ds * max(0.0, ceil((t_from - t) / ds - 1e-3)); }
 
-/// From the sample at t, which is in the brick.
-BrickSpan brick_span(VoxelRay ray, BrickAt at, float t, float ds) {
+/// From the sample at t, which is in the brick. `inverse` is that of the ray.
+BrickSpan brick_span(VoxelRay ray, vec3 inverse, BrickAt at, float t, float ds) {
   BrickSpan span;
   span.slot = at.slot;
   span.low = at.low;
   span.uniform_value = at.uniform_value;
-  const vec3 inverse = inverse_of(ray);
   const vec3 to_low = (span.low - ray.origin) * inverse, exits = max(to_low, to_low + at.edge * inverse);
   span.t_next = t + ds * max(1.0, ceil((min(exits.x, min(exits.y, exits.z)) - t) / ds));
   span.t_first = t;

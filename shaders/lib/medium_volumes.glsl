@@ -2,41 +2,23 @@
 // grids of shared/volume_light.h, and glowing where they are hot.
 #ifndef MEDIUM_VOLUMES_GLSL
 #define MEDIUM_VOLUMES_GLSL
-#include "lib/frame.glsl"
-#include "lib/volume_transfer.glsl"
-#include "shared/media.h"
-#include "shared/phase.h"
-#include "shared/volume_light.h"
+#include "lib/volume_inscatter.glsl"
 
 // Constants of the pipeline: a software rasteriser pays for branches that it does not take.
 const bool kHasHeat = (kMedia & kMediumHeat) != 0u, kIsLit = (kMedia & kMediumLit) != 0u;
-const bool kHasSun = (kMedia & kMediumSun) != 0u, kHasSeveral = (kMedia & kMediumSeveral) != 0u;
-
-layout(binding = kBindVolumeLight) uniform sampler3D volume_light;
-layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
-layout(binding = kBindVolumeColors) uniform sampler2D volume_colors;
+const bool kHasSeveral = (kMedia & kMediumSeveral) != 0u;
 
 /// A ray in the voxel space of a volume, and where it is inside the bounds [m].
 struct VolumeRay {
   VoxelRay ray;
+  vec3 inverse;  // of ray.per_metre
   vec2 inside;
 };
 
 VolumeRay volume_ray(VolumeInstance volume, WorldRay world) {
   const VoxelRay ray = VoxelRay(volume.voxel_from_world * vec4(world.origin, 1.0),
                                 volume.voxel_from_world * vec4(world.direction, 0.0));
-  return VolumeRay(ray, span_in_box(ray, volume.bounds_min, volume.bounds_max));
-}
-
-/// Phase function of the sun's light towards the eye.
-float volume_phase(VolumeInstance volume, WorldRay world) {
-  return henyey_greenstein(volume.look.anisotropy, dot(frame.media.to_sun, world.direction));
-}
-
-/// Texels of a volume's cube of light per voxel, and of its bounds' low corner.
-vec3 light_per_voxel(VolumeInstance volume, float edge) { return edge / (volume.bounds_max - volume.bounds_min); }
-vec3 light_first(VolumeInstance volume, uint i, float edge) {
-  return vec3(0.0, 0.0, float(i) * edge) - volume.bounds_min * light_per_voxel(volume, edge);
+  return VolumeRay(ray, inverse_of(ray), span_in_box(ray, volume.bounds_min, volume.bounds_max));
 }
 
 /// What the samples of a ray have in common: the first volume's ray, since most frames have no other.
@@ -45,9 +27,9 @@ struct VolumesRay {
   TextureRay light, sun;  // in its cubes of light and of the sun's depths [texels]
   float phase;
   // Of each volume its brick, since bricks do not end at the same samples. Only where there are several.
-  uint present;               // bit i: the ray is in a brick of volume i, which is not the first
-  float t_next[kMaxVolumes];  // the first sample behind the brick
-  vec3 corner[kMaxVolumes];   // of the brick in the atlas, less its place in voxel space [texels]
+  uint present;                      // bit i: the ray is in a brick of volume i, which is not the first
+  float t_next[kMaxVolumes];         // the first sample behind the brick
+  vec3 corner[kMaxVolumes];          // of the brick in the atlas, less its place in voxel space [texels]
   float uniform_value[kMaxVolumes];  // of the brick; below 0: it differs from voxel to voxel
 };
 
@@ -89,7 +71,7 @@ BrickSpan volume_span(VolumeInstance volume, VolumeRay ray, float t, float ds) {
   const float t_inside = sample_from(ray.inside.x, t, ds);
   if (t_inside > t) return BrickSpan(vec3(0.0), kNoSlot, 0.0, t, t, t_inside);
   const vec3 p_voxel = ray.ray.origin + ray.ray.per_metre * t;
-  return brick_span(ray.ray, volume_brick(volume.bricks, p_voxel), t, ds);
+  return brick_span(ray.ray, ray.inverse, volume_brick(volume.bricks, p_voxel), t, ds);
 }
 
 /// Moves the spans that end at or before the sample at t.
@@ -142,36 +124,6 @@ struct VolumesSample {
   vec3 light;        // extinction times radiance towards the eye
   vec3 glow;         // radiance that leaves per metre, whatever the extinction
 };
-
-/// Where the samples of the cubes of light are read [texels].
-struct LightTexels {
-  vec3 light, sun;
-};
-
-/// The texel of cube i of an image of cubes along z, in texture coordinates.
-vec3 in_cube(uint i, vec3 texel, vec3 size) {
-  const vec3 first = vec3(0.0, 0.0, float(i) * size.y);
-  return clamp(texel, first + 0.5, first + size.y - 0.5) / size;
-}
-
-/// Radiance towards the eye that a volume scatters, per extinction.
-vec3 volume_inscatter(vec3 albedo, uint i, LightTexels at, float phase) {
-  vec4 light = textureLod(volume_light, in_cube(i, at.light, vec3(textureSize(volume_light, 0))), 0.0);
-  if (kHasAlbedos) light.rgb *= albedo;
-  if (!kHasSun) return light.rgb;
-  const vec3 size = vec3(textureSize(sun_depths, 0));
-  const float arrives = light.a * exp(-textureLod(sun_depths, in_cube(i, at.sun, size), 0.0).r);
-  return light.rgb + albedo * frame.media.sun_irradiance * (arrives * phase);
-}
-
-/// What a volume's heat emits at a point, per metre and per look.extinction.
-vec3 volume_glow(VolumeInstance volume, uint i, vec3 p_world) {
-  const float heat = volume_value(volume.heat.bricks, volume.heat.voxel_from_world * vec4(p_world, 1.0));
-  if (heat <= 0.0) return vec3(0.0);
-  const vec2 size = vec2(textureSize(volume_colors, 0));
-  const float column = clamp(heat * volume.heat.per_value, 0.0, 1.0) * (size.x - 1.0) + 0.5;
-  return textureLod(volume_colors, vec2(column, float(i) + 0.5) / size, 0.0).rgb;
-}
 
 void add_volume(VolumeInstance volume, uint i, VolumeMatter matter, LightTexels at, float phase, vec3 p_world,
                 inout VolumesSample sum, inout uint texture_samples) {

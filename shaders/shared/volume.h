@@ -2,8 +2,8 @@
 //
 //   pages   of each volume a page table of two levels. Root: one uint per node of a window, x + size.x (y + size.y z)
 //           of node - window_origin: node + kFirstNode, or how far the nearest node is. Behind it the nodes, 8^3 uints,
-//           one per brick of 8^3 voxels, x + 8 (y + 8 z) of brick - 8 node: slot + 1; 0 where it is empty; kUniformBrick
-//           and a half float where all its texels are that one, of the only channel
+//           one per brick of 8^3 voxels, x + 8 (y + 8 z) of brick - 8 node: slot + 1; 0 where it is empty; or
+//           kUniformBrick and a half float, where all texels of its only channel are that one
 //   atlas   per channel a 3D texture of 10^3-texel bricks: 8^3 voxels and an apron of one texel
 //
 // Voxel space is measured in voxels: voxel (i, j, k) covers [i, i + 1) x [j, j + 1) x [k, k + 1).
@@ -24,7 +24,7 @@ SHARED_CONST int kBrickVoxels = 8;
 SHARED_CONST int kBrickTexels = 10;
 SHARED_CONST int kNodeBricks = 8;
 SHARED_CONST uint kPageEntries = 512u;
-/// Entries of the root below it are empty: in the cube of nodes less than that many nodes away, along any axis, there is
+/// Entries of the root below it are empty: in the cube of the nodes that are fewer nodes away along each axis there is
 /// none. 0 says as little as 1.
 SHARED_CONST uint kFirstNode = 256u;
 SHARED_CONST uint kUniformBrick = 0x80000000u;

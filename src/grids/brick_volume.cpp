@@ -46,9 +46,13 @@ glm::ivec3 neighbour(glm::ivec3 brick, int n) {
   return brick + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1;
 }
 
+/// Bricks of numbers that are looked at per brick that fits: those inside of something dense are uniform.
+constexpr std::uint32_t kNumbersPerBrick = 16;
+
 /// What a volume may take.
 struct Room {
   std::uint32_t bricks = 0, pages = 0;
+  std::uint32_t numbers = 0;  ///< Bricks of the level that is indexed, uniform ones included.
 };
 
 /// A level of a grid: its numbers, where each brick of them is, and all bricks in which a filtered value can
@@ -65,7 +69,7 @@ struct Level {
 
   /// Whether the numbers may be indexed: their bricks are few and near enough.
   bool may_fit(const Room& room) const {
-    if (numbers.brick_count() > room.bricks) return false;
+    if (numbers.brick_count() > room.numbers) return false;
     const Box<int> box = numbers.brick_box();
     const glm::dvec3 nodes = glm::dvec3((box.high >> 3) - (box.low >> 3)) + 1.0;
     return nodes.x * nodes.y * nodes.z <= static_cast<double>(room.pages);
@@ -108,10 +112,33 @@ std::uint64_t page_count(const std::vector<glm::ivec3>& bricks) {
   return window.x * window.y * window.z + static_cast<std::uint64_t>(count) * shared::kPageEntries;
 }
 
+/// The number of all voxels of a brick and its apron; 0 where they differ.
+float uniform_number(const Level& level, glm::ivec3 brick) {
+  const std::uint32_t middle = level.index.at(brick);
+  if (middle == volume::PageTable::kNoSlot || !level.numbers.is_uniform(middle)) return 0;
+  const float number = level.numbers.at(middle, 0);
+  std::array<std::uint32_t, 27> around{};
+  for (int n = 0; n < 27; ++n) {
+    around[static_cast<std::size_t>(n)] = level.index.at(neighbour(brick, n));
+    if (around[static_cast<std::size_t>(n)] == volume::PageTable::kNoSlot) return 0;
+  }
+  for (int z = -1; z <= 8; ++z)
+    for (int y = -1; y <= 8; ++y)
+      // Of rows inside of the brick, only the ends.
+      for (int x = -1; x <= 8; x += y >= 0 && y < 8 && z >= 0 && z < 8 ? 9 : 1) {
+        const glm::ivec3 p(x, y, z), side = (p >> 3) + 1, q = p & 7;
+        const std::uint32_t from = around[static_cast<std::size_t>(side.x + 3 * side.y + 9 * side.z)];
+        if (level.numbers.at(from, static_cast<std::size_t>(q.x + 8 * (q.y + 8 * q.z))) != number) return 0;
+      }
+  return number;
+}
+
 /// A density and what glows beside it, halved together.
 struct Levels {
   Level density, also;
+  bool may_be_uniform = true;
   std::vector<glm::ivec3> bricks;  ///< The sampled ones of both, rising.
+  std::vector<float> uniform;      ///< Of each of them its uniform_number.
   int halvings = 0;
   double square_error = 0;
 
@@ -123,7 +150,15 @@ struct Levels {
     bricks.clear();
     std::set_union(density.sampled.begin(), density.sampled.end(), also.sampled.begin(), also.sampled.end(),
                    std::back_inserter(bricks), goes_before);
-    return bricks.size() <= room.bricks && page_count(bricks) <= room.pages;
+    find_uniform();
+    return std::ranges::count(uniform, 0.0f) <= room.bricks && page_count(bricks) <= room.pages;
+  }
+  void find_uniform() {
+    uniform.assign(bricks.size(), 0);
+    if (!may_be_uniform) return;
+    parallel_for(bricks.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) uniform[i] = uniform_number(density, bricks[i]);
+    });
   }
   /// Halves until they fit.
   void reduce(const Room& room) {
@@ -152,22 +187,6 @@ void fill_texels(const Level& level, float per_value, glm::ivec3 brick, std::spa
         const float value = level.numbers.at(from, static_cast<std::size_t>(q.x + 8 * (q.y + 8 * q.z)));
         texels[out] = glm::packHalf1x16(per_value * value);
       }
-}
-
-/// Of each brick the texel that all are equal to; 0 where they differ, or are 0.
-std::vector<std::uint16_t> uniform_texels(const Levels& levels, float per_value) {
-  std::vector<std::uint16_t> uniform(levels.bricks.size(), 0);
-  parallel_for(uniform.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t from = levels.density.index.at(levels.bricks[i]);
-      if (from == volume::PageTable::kNoSlot || !levels.density.numbers.is_uniform(from)) continue;
-      std::array<std::uint16_t, shared::kTexelsPerBrick> texels{};
-      fill_texels(levels.density, per_value, levels.bricks[i], texels);
-      if (std::ranges::all_of(texels, [&](std::uint16_t texel) { return texel == texels[0]; }))
-        uniform[i] = texels[0];
-    }
-  });
-  return uniform;
 }
 
 /// Range, sum and distribution of the numbers of a level, and the box around all that filtering carries them
@@ -230,19 +249,17 @@ void count_values(const GridNumbers& numbers, BrickVolume& out) {
     }
 }
 
-void fill_volume(const Levels& levels, const Box<float>& bounds, bool may_be_uniform, BrickVolume& out) {
+void fill_volume(const Levels& levels, const Box<float>& bounds, BrickVolume& out) {
   volume::SparseVolumeInfo info;
   info.channels = {{sizeof(std::uint16_t)}};
   out.volume = std::make_unique<volume::SparseVolume>(info);
   const volume::ChannelId channel{0};
   out.volume->begin_update();
   // Bricks with slots; those of a new volume are in the order in which they are acquired.
-  std::vector<std::uint16_t> uniform(levels.bricks.size(), 0);
-  if (may_be_uniform) uniform = uniform_texels(levels, 1 / out.unit);
   std::vector<glm::ivec3> bricks;
-  for (std::size_t i = 0; i < uniform.size(); ++i) {
-    if (uniform[i] != 0) {
-      out.volume->set_uniform(levels.bricks[i], uniform[i]);
+  for (std::size_t i = 0; i < levels.bricks.size(); ++i) {
+    if (levels.uniform[i] > 0) {
+      out.volume->set_uniform(levels.bricks[i], glm::packHalf1x16(levels.uniform[i] / out.unit));
     } else {
       out.volume->acquire(levels.bricks[i]);
       bricks.push_back(levels.bricks[i]);
@@ -263,8 +280,7 @@ void fill_volume(const Levels& levels, const Box<float>& bounds, bool may_be_uni
 
 /// What a level looks like in a unit (0: the one that suits it) and in bounds (empty: its own). Without its
 /// place.
-BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds,
-                      bool may_be_uniform = true) {
+BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds) {
   BrickVolume out;
   const Measures all = measure(levels.density.numbers);
   out.low = all.low;
@@ -277,8 +293,7 @@ BrickVolume volume_of(const Levels& levels, float unit, const Box<float>& bounds
     out.deviation = glm::sqrt(glm::max(all.squares / all.sum - out.mean * out.mean, 0.0));
   }
   if (unit > 0) out.unit = unit;
-  fill_volume(levels, bounds.empty() ? united(all.bounds, measure(levels.also.numbers).bounds) : bounds,
-              may_be_uniform, out);
+  fill_volume(levels, bounds.empty() ? united(all.bounds, measure(levels.also.numbers).bounds) : bounds, out);
   return out;
 }
 
@@ -317,9 +332,13 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
     return Failure{ErrorCode::bad_input, "grid " + grid.name + ": is a mask, which has no values to render"};
   BRUME_ASSERT(options.max_bricks >= kFewestVolumeBricks && options.max_pages >= kFewestVolumePages,
                std::to_string(options.max_bricks) + " " + std::to_string(options.max_pages));
-  Levels levels{Level(GridNumbers(grid)), Level(GridNumbers(options.also ? *options.also : Grid())), {}};
-  levels.reduce({options.max_bricks, options.max_pages});
-  BrickVolume out = volume_of(levels, 0, kEmptyBox, options.may_be_uniform);
+  Levels levels{Level(GridNumbers(grid)),
+                Level(GridNumbers(options.also ? *options.also : Grid())),
+                options.may_be_uniform,
+                {},
+                {}};
+  levels.reduce({options.max_bricks, options.max_pages, kNumbersPerBrick * options.max_bricks});
+  BrickVolume out = volume_of(levels, 0, kEmptyBox);
   const auto active = static_cast<double>(count_active(grid));
   out.level = levels.halvings;
   out.rms_error = active > 0 ? std::sqrt(levels.square_error / active) : 0;
@@ -331,8 +350,9 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
 BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks) {
   BRUME_ASSERT(max_bricks >= kFewestVolumeBricks, std::to_string(max_bricks));
   // Where the fine one has bricks of zeros, something else may glow.
-  Levels levels{Level(GridNumbers(*fine.volume, false)), Level(GridNumbers(*fine.volume, true), false), {}};
-  levels.reduce({max_bricks, kMostVolumePages});
+  Levels levels{
+      Level(GridNumbers(*fine.volume, false)), Level(GridNumbers(*fine.volume, true), false), true, {}, {}};
+  levels.reduce({max_bricks, kMostVolumePages, max_bricks});
   const shared::VolumeLayout& layout = fine.volume->layout();
   const auto per_voxel = static_cast<float>(std::exp2(-levels.halvings));
   BrickVolume out = volume_of(levels, 1, {layout.bounds_min * per_voxel, layout.bounds_max * per_voxel});

@@ -62,6 +62,7 @@ float filtered_in(const volume::SparseVolume& volume, std::uint32_t slot, glm::v
 /// The same at a point of voxel space.
 float filtered(const volume::SparseVolume& volume, glm::vec3 p) {
   const glm::ivec3 brick = glm::ivec3(glm::floor(p / 8.0f));
+  if (const auto texel = volume.uniform_at(brick)) return glm::unpackHalf1x16(*texel);
   const std::uint32_t slot = volume.slot_at(brick);
   return slot == volume::SparseVolume::kNoSlot ? 0 : filtered_in(volume, slot, p - glm::vec3(brick * 8));
 }
@@ -167,13 +168,15 @@ Tile tile_of(glm::ivec3 origin, std::uint32_t edge, float value) {
   return tile;
 }
 
-// 2^36 voxels of one value: level 6 has 8^3 bricks of them, and a brick around.
+// 2^36 voxels of one value: level 6 has 8^3 bricks of them, of which the inner 6^3 are uniform, and a brick
+// around.
 TEST(BrickVolume, AHugeTileIsHalvedWithoutBecomingBricks) {
   Grid grid;
   grid.tiles = {tile_of(glm::ivec3(0), 4096, 0.75f)};
   const BrickVolume bricks = make_brick_volume(grid, {1000}).value_or_throw();
   EXPECT_EQ(bricks.level, 6);
-  EXPECT_EQ(bricks.volume->slot_count(), 1000u);
+  EXPECT_EQ(bricks.volume->uniform_bricks().size(), 6u * 6 * 6);
+  EXPECT_EQ(bricks.volume->slot_count(), 1000u - 6 * 6 * 6);
   EXPECT_EQ(bricks.sum, 0.75 * 64 * 64 * 64);
   EXPECT_EQ(bricks.rms_error, 0) << "nothing of a constant is lost";
   EXPECT_EQ(filtered(*bricks.volume, glm::vec3(1, 20, 63)), 0.75f);
@@ -266,6 +269,58 @@ TEST(BrickVolume, TheRangeOfABrickIsThatOfItsSamples) {
       EXPECT_NEAR(most, range.high, 1e-6f * range.high + rounding);
     }
   }
+}
+
+/// A ball of 3, beyond a plane of noise.
+Grid ball_with_noise() {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<float> draw(1, 4);
+  Grid grid;
+  grid.name = "density";
+  for_each_in(Box<int>{glm::ivec3(-5), glm::ivec3(5)}, [&](glm::ivec3 at) {
+    Brick& brick = grid.bricks.emplace_back();
+    brick.origin = at * 8;
+    for (int voxel = 0; voxel < static_cast<int>(kBrickVoxels); ++voxel) {
+      const glm::ivec3 p = brick.origin + glm::ivec3(voxel & 7, voxel >> 3 & 7, voxel >> 6);
+      const float value = glm::length(glm::vec3(p)) > 37 ? 0 : p.x > 20 ? draw(random) : 3.0f;
+      if (value > 0) brick.active[static_cast<std::size_t>(voxel / 64)] |= std::uint64_t{1} << (voxel % 64);
+      const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
+      grid.values.insert(grid.values.end(), bytes, bytes + sizeof value);
+    }
+  });
+  return grid;
+}
+
+TEST(BrickVolume, BricksOfOneValueTakeNoTexelsAndFilterAlike) {
+  const Grid grid = ball_with_noise();
+  const BrickVolume all = make_brick_volume(grid, {.may_be_uniform = false}).value_or_throw();
+  const BrickVolume bricks = make_brick_volume(grid).value_or_throw();
+  EXPECT_EQ(all.volume->uniform_bricks().size(), 0u);
+  EXPECT_EQ(bricks.volume->uniform_bricks().size() + bricks.volume->slot_count(), all.volume->slot_count());
+  // Of the half ball up to the plane, bricks that with their aprons are inside.
+  EXPECT_GT(bricks.volume->uniform_bricks().size(), 60u);
+  EXPECT_EQ(bricks.ranges.size(), bricks.volume->slot_count());
+  std::mt19937 random(22);
+  std::uniform_real_distribution<float> draw(-41, 41);
+  for (int i = 0; i < 20000; ++i) {
+    const glm::vec3 p(draw(random), draw(random), draw(random));
+    // Weights that add up to 1 but for rounding.
+    ASSERT_NEAR(filtered(*bricks.volume, p), filtered(*all.volume, p), 4e-6f)
+        << p.x << ' ' << p.y << ' ' << p.z;
+  }
+  EXPECT_EQ(bricks.sum, all.sum);
+  EXPECT_EQ(bricks.volume->layout().bounds_max, all.volume->layout().bounds_max);
+  // A room that the texels fit into is enough.
+  EXPECT_EQ(make_brick_volume(grid, {bricks.volume->slot_count()}).value_or_throw().level, 0);
+  EXPECT_GE(make_brick_volume(grid, {bricks.volume->slot_count() - 1}).value_or_throw().level, 1);
+  // Halves of a volume with uniform bricks are those of one without.
+  const BrickVolume a = make_preview(bricks, 40), b = make_preview(all, 40);
+  for (int i = 0; i < 2000 && a.level == b.level; ++i) {
+    const glm::vec3 p = glm::vec3(draw(random), draw(random), draw(random)) * 0.5f;
+    ASSERT_NEAR(filtered(*a.volume, p), filtered(*b.volume, p), 4e-6f);
+  }
+  EXPECT_NEAR(a.sum * std::exp2(3 * a.level), b.sum * std::exp2(3 * b.level),
+              b.sum / 512 * std::exp2(3 * b.level));
 }
 
 TEST(BrickVolume, APreviewIsTheSameAtALowerResolution) {

@@ -39,6 +39,8 @@ struct DensityHere {
 /// Devices filter with weights of 8 fractional bits per axis; `rounding` is that of the position [voxels].
 inline DensityHere density_at(const volume::SparseVolume& volume, glm::dvec3 p_voxel, double rounding) {
   const glm::dvec3 brick = glm::floor(p_voxel / 8.0);
+  if (const auto texel = volume.uniform_at(glm::ivec3(brick)))
+    return {double{glm::unpackHalf1x16(*texel)}, 1e-6 * double{glm::unpackHalf1x16(*texel)}};
   const std::uint32_t slot = volume.slot_at(glm::ivec3(brick));
   if (slot == volume::SparseVolume::kNoSlot) return {};
   const auto texels = volume.texels<std::uint16_t>(volume::ChannelId{0}, slot);

@@ -175,6 +175,45 @@ TEST_F(VolumesTest, OverlappingVolumesMultiplyTheirTransmittance) {
   EXPECT_GT(overlaps, 20);
 }
 
+/// As `block`, but what is not at its faces is uniform.
+volume::SparseVolume uniform_block(glm::ivec3 bricks, float density) {
+  volume::SparseVolume volume({{}, 1, {{sizeof(std::uint16_t)}}});
+  volume.begin_update();
+  for_each_in(Box<int>{glm::ivec3(0), bricks}, [&](glm::ivec3 brick) {
+    if (glm::all(glm::greaterThan(brick, glm::ivec3(0))) && glm::all(glm::lessThan(brick, bricks - 1))) {
+      volume.set_uniform(brick, glm::packHalf1x16(density));
+      return;
+    }
+    for (std::uint16_t& texel : volume.texels<std::uint16_t>(volume::ChannelId{0}, volume.acquire(brick)))
+      texel = glm::packHalf1x16(density);
+  });
+  volume.set_bounds(glm::vec3(0), glm::vec3(8 * bricks));
+  volume.end_update();
+  return volume;
+}
+
+TEST_F(VolumesTest, UniformBricksLookAsThoseOfTexels) {
+  const volume::SparseVolume stored = block({5, 4, 6}, 0.5f), uniform = uniform_block({5, 4, 6}, 0.5f);
+  EXPECT_LT(uniform.slot_count(), stored.slot_count());
+  const glm::mat4 placed = oblique(stored, {-2, -1.5f, -2}, {4, 3, 4});
+  // What only absorbs goes through a uniform brick in one step; what scatters or emits, in all of them.
+  for (const shared::VolumeLook& look : {glowing(0.9f, glm::vec3(0)), glowing(0.9f, {0.3f, 0.2f, 0.1f}),
+                                         shared::VolumeLook{glm::vec3(0.7f), 0.9f, glm::vec3(0), 0, 1}})
+    for (const int count : {1, 2}) {
+      input_.volumes.assign(static_cast<std::size_t>(count), {&stored, placed, look, {}});
+      if (count > 1) input_.volumes[1].world_from_voxel = oblique(stored, {-1, -1, -1}, {3, 3, 2}, true);
+      const std::vector<glm::vec4> expected = draw();
+      for (planning::VolumeInput& volume : input_.volumes) volume.volume = &uniform;
+      const std::vector<glm::vec4> drawn = draw();
+      for (std::size_t i = 0; i < drawn.size(); ++i)
+        for (int channel = 0; channel < 4; ++channel)
+          // Half floats of each step's product, rounded in another order.
+          ASSERT_NEAR(drawn[i][channel], expected[i][channel],
+                      3.0f / 2048 * std::max(1.0f, expected[i][channel]))
+              << i << ' ' << count;
+    }
+}
+
 /// A sun straight above.
 shared::Light sun_above(float irradiance) {
   shared::Light sun{};

@@ -1,0 +1,58 @@
+// Light that volumes besides the smoke scatter and emit at a sample (shared/volume_light.h). The includer defines the
+// constant kMedia.
+#ifndef VOLUME_INSCATTER_GLSL
+#define VOLUME_INSCATTER_GLSL
+#include "lib/frame.glsl"
+#include "lib/volume_transfer.glsl"
+#include "shared/media.h"
+#include "shared/phase.h"
+#include "shared/volume_light.h"
+
+const bool kHasSun = (kMedia & kMediumSun) != 0u;
+
+layout(binding = kBindVolumeLight) uniform sampler3D volume_light;
+layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
+layout(binding = kBindVolumeColors) uniform sampler2D volume_colors;
+
+/// Phase function of the sun's light towards the eye.
+float volume_phase(VolumeInstance volume, WorldRay world) {
+  return henyey_greenstein(volume.look.anisotropy, dot(frame.media.to_sun, world.direction));
+}
+
+/// Texels of a volume's cube of light per voxel, and of its bounds' low corner.
+vec3 light_per_voxel(VolumeInstance volume, float edge) { return edge / (volume.bounds_max - volume.bounds_min); }
+vec3 light_first(VolumeInstance volume, uint i, float edge) {
+  return vec3(0.0, 0.0, float(i) * edge) - volume.bounds_min * light_per_voxel(volume, edge);
+}
+
+/// Where the samples of the cubes of light are read [texels].
+struct LightTexels {
+  vec3 light, sun;
+};
+
+/// The texel of cube i of an image of cubes along z, in texture coordinates.
+vec3 in_cube(uint i, vec3 texel, vec3 size) {
+  const vec3 first = vec3(0.0, 0.0, float(i) * size.y);
+  return clamp(texel, first + 0.5, first + size.y - 0.5) / size;
+}
+
+/// Radiance towards the eye that a volume scatters, per extinction.
+vec3 volume_inscatter(vec3 albedo, uint i, LightTexels at, float phase) {
+  vec4 light = textureLod(volume_light, in_cube(i, at.light, vec3(textureSize(volume_light, 0))), 0.0);
+  if (kHasAlbedos) light.rgb *= albedo;
+  if (!kHasSun) return light.rgb;
+  const vec3 size = vec3(textureSize(sun_depths, 0));
+  const float arrives = light.a * exp(-textureLod(sun_depths, in_cube(i, at.sun, size), 0.0).r);
+  return light.rgb + albedo * frame.media.sun_irradiance * (arrives * phase);
+}
+
+/// What a volume's heat emits at a point, per metre and per look.extinction.
+vec3 volume_glow(VolumeInstance volume, uint i, vec3 p_world) {
+  const float heat = volume_value(volume.heat.bricks, volume.heat.voxel_from_world * vec4(p_world, 1.0));
+  if (heat <= 0.0) return vec3(0.0);
+  const vec2 size = vec2(textureSize(volume_colors, 0));
+  const float column = clamp(heat * volume.heat.per_value, 0.0, 1.0) * (size.x - 1.0) + 0.5;
+  return textureLod(volume_colors, vec2(column, float(i) + 0.5) / size, 0.0).rgb;
+}
+
+#endif
