@@ -46,7 +46,8 @@ SmokeSpan smoke_span(WorldRay world, SmokeRay smoke, float t, float ds) {
   const uint slot = slot_at(volume.bricks, brick, edge);
   edge = slot != kNoSlot ? kBrickVoxels : edge;
   SmokeSpan span;
-  span.bricks = brick_span(ray, inverse_of(ray), BrickAt(vec3((brick * kBrickVoxels) & -edge), float(edge), slot, 0.0), t, ds);
+  const BrickAt at = BrickAt(vec3((brick * kBrickVoxels) & -edge), float(edge), slot, 0.0);
+  span.bricks = brick_span(ray, inverse_of(ray), at, t, ds);
   // Cell 0 of a brick begins half a voxel before it.
   if (slot != kNoSlot) {
     const uint box = filled[slot];
