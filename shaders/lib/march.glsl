@@ -27,12 +27,12 @@ void note_entry(float begin, float ds, float passed_log2, inout Gathered gathere
 /// Marches the part [begin, end) of a ray in equal steps no longer than the media's. Each sample is at `jitter` in its
 /// step, [0, 1). What the samples of a span have in common is computed once per span; little is carried from step to
 /// step, because registers limit how many rays run at a time.
-void march(WorldRay ray, inout MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
+void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
   const float count = ceil((end - begin) / frame.media.step_length), ds = (end - begin) / max(count, 1.0);
-  restart_media(media);
+  restart_media();
   const float after_last = begin + (count - 0.5 + jitter) * ds;
   for (float t = begin + jitter * ds; t < after_last;) {
-    const MediaSpan span = media_span(ray, t, ds, media);
+    const MediaSpan span = media_span(ray, media, t, ds);
     const float t_stop = min(span.t_stop, after_last);
     // Steps that are all alike are one.
     const float alike = is_constant(span) ? max(ceil((t_stop - span.t_first) / ds), 1.0) : 1.0, dt = alike * ds;

@@ -4,7 +4,7 @@
 // A medium is a lib/medium_*.glsl with
 //
 //   struct XRay, XRay x_ray(...)     what the samples of a ray have in common
-//   restart_x(...)                   of the ray, before samples in other places
+//   restart_x()                      before samples in other places
 //   struct XSpan, XSpan x_span(...)  what the samples before t_next have in common; those outside of [t_first, t_stop)
 //                                    are empty
 //   struct XSample, sample_x(...)    of a point: its extinction
@@ -36,8 +36,8 @@ MediaRay media_ray(WorldRay world, vec2 position_px) {
 }
 
 /// Before samples in other places than those before.
-void restart_media(inout MediaRay ray) {
-  if (kHasVolumes) restart_volumes(ray.volumes);
+void restart_media() {
+  if (kHasVolumes) restart_volumes();
 }
 
 /// From one sample to another; samples outside of [t_first, t_stop) are empty.
@@ -53,7 +53,7 @@ void join_span(inout MediaSpan span, float t_first, float t_stop, float t_next) 
   span.t_next = min(span.t_next, t_next);
 }
 
-MediaSpan media_span(WorldRay ray, float t, float ds, inout MediaRay media) {
+MediaSpan media_span(WorldRay ray, MediaRay media, float t, float ds) {
   MediaSpan span;
   span.t_first = span.t_next = 1e30;
   span.t_stop = t;
@@ -62,7 +62,7 @@ MediaSpan media_span(WorldRay ray, float t, float ds, inout MediaRay media) {
     join_span(span, span.smoke.bricks.t_first, span.smoke.bricks.t_stop, span.smoke.bricks.t_next);
   }
   if (kHasVolumes) {
-    span.volumes = volumes_span(ray, t, ds, media.volumes);
+    span.volumes = volumes_span(ray, media.volumes, t, ds);
     join_span(span, span.volumes.t_first, span.volumes.t_stop, span.volumes.t_next);
   }
   if (!kSmokeAlone) span.t_stop = min(span.t_stop, span.t_next - 0.5 * ds);

@@ -15,45 +15,47 @@ struct VolumeRay {
   vec2 inside;
 };
 
-VolumeRay volume_ray(VolumeInstance volume, WorldRay world) {
-  const VoxelRay ray = VoxelRay(volume.voxel_from_world * vec4(world.origin, 1.0),
-                                volume.voxel_from_world * vec4(world.direction, 0.0));
-  return VolumeRay(ray, inverse_of(ray), span_in_box(ray, volume.bounds_min, volume.bounds_max));
+VolumeRay volume_ray(uint i, WorldRay world) {
+  const VoxelRay ray = VoxelRay(volumes[i].voxel_from_world * vec4(world.origin, 1.0),
+                                volumes[i].voxel_from_world * vec4(world.direction, 0.0));
+  return VolumeRay(ray, inverse_of(ray), span_in_box(ray, volumes[i].bounds_min, volumes[i].bounds_max));
 }
+
+// Of each volume its brick, since bricks do not end at the same samples. Only where there are several; not in
+// VolumesRay, which functions copy.
+uint others_present;                  // bit i: the ray is in a brick of volume i, which is not the first
+float next_of[kMaxVolumes];           // the first sample behind the brick
+vec3 corner_of[kMaxVolumes];          // of the brick in the atlas, less its place in voxel space [texels]
+float uniform_value_of[kMaxVolumes];  // of the brick; below 0: it differs from voxel to voxel
 
 /// What the samples of a ray have in common: the first volume's ray, since most frames have no other.
 struct VolumesRay {
   VolumeRay first;
   TextureRay light, sun;  // in its cubes of light and of the sun's depths [texels]
   float phase;
-  // Of each volume its brick, since bricks do not end at the same samples. Only where there are several.
-  uint present;                      // bit i: the ray is in a brick of volume i, which is not the first
-  float t_next[kMaxVolumes];         // the first sample behind the brick
-  vec3 corner[kMaxVolumes];          // of the brick in the atlas, less its place in voxel space [texels]
-  float uniform_value[kMaxVolumes];  // of the brick; below 0: it differs from voxel to voxel
 };
 
 VolumesRay volumes_ray(WorldRay world) {
   VolumesRay rays;
-  rays.first = volume_ray(volumes[0], world);
+  rays.first = volume_ray(0u, world);
   const float edge = float(textureSize(volume_light, 0).x);
-  const vec3 per_voxel = light_per_voxel(volumes[0], edge);
-  rays.light = TextureRay(light_first(volumes[0], 0u, edge) + rays.first.ray.origin * per_voxel,
+  const vec3 per_voxel = light_per_voxel(0u, edge);
+  rays.light = TextureRay(light_first(0u, edge) + rays.first.ray.origin * per_voxel,
                           rays.first.ray.per_metre * per_voxel);
   if (kHasSun) {
     const float sun_edge = float(textureSize(sun_depths, 0).y);
     rays.sun = TextureRay(volumes[0].sun_from_voxel * vec4(rays.first.ray.origin, 1.0) * sun_edge,
                           volumes[0].sun_from_voxel * vec4(rays.first.ray.per_metre, 0.0) * sun_edge);
-    rays.phase = volume_phase(volumes[0], world);
+    rays.phase = volume_phase(0u, world);
   }
   return rays;
 }
 
 /// Before samples in other places than those before.
-void restart_volumes(inout VolumesRay rays) {
+void restart_volumes() {
   if (!kHasSeveral) return;
-  rays.present = 0u;
-  for (uint i = 1u; i < frame.media.volume_count; ++i) rays.t_next[i] = -1e30;
+  others_present = 0u;
+  for (uint i = 1u; i < frame.media.volume_count; ++i) next_of[i] = -1e30;
 }
 
 struct VolumesSpan {
@@ -66,35 +68,35 @@ struct VolumesSpan {
 };
 
 /// The span of one volume: a brick, an empty cube, or all samples before or behind its bounds.
-BrickSpan volume_span(VolumeInstance volume, VolumeRay ray, float t, float ds) {
+BrickSpan volume_span(uint i, VolumeRay ray, float t, float ds) {
   if (ray.inside.x >= ray.inside.y || t >= ray.inside.y) return BrickSpan(vec3(0.0), kNoSlot, 0.0, t, t, 1e30);
   const float t_inside = sample_from(ray.inside.x, t, ds);
   if (t_inside > t) return BrickSpan(vec3(0.0), kNoSlot, 0.0, t, t, t_inside);
   const vec3 p_voxel = ray.ray.origin + ray.ray.per_metre * t;
-  return brick_span(ray.ray, ray.inverse, volume_brick(volume.bricks, p_voxel), t, ds);
+  return brick_span(ray.ray, ray.inverse, volume_brick(volumes[i].bricks, p_voxel), t, ds);
 }
 
 /// Moves the spans that end at or before the sample at t.
-void move_others(WorldRay world, float t, float ds, inout VolumesRay rays, inout VolumesSpan span) {
+void move_others(WorldRay world, float t, float ds, inout VolumesSpan span) {
   for (uint i = 1u; i < frame.media.volume_count; ++i) {
-    if (t > rays.t_next[i] - 0.5 * ds) {
-      const BrickSpan at = volume_span(volumes[i], volume_ray(volumes[i], world), t, ds);
-      rays.t_next[i] = at.t_next;
-      rays.present &= ~(1u << i);
+    if (t > next_of[i] - 0.5 * ds) {
+      const BrickSpan at = volume_span(i, volume_ray(i, world), t, ds);
+      next_of[i] = at.t_next;
+      others_present &= ~(1u << i);
       if (at.slot != kNoSlot) {
-        rays.present |= 1u << i;
-        rays.corner[i] = atlas_corner(volumes[i].bricks, at.slot) - at.low;
-        rays.uniform_value[i] = at.slot == kUniformSlot ? at.uniform_value : -1.0;
+        others_present |= 1u << i;
+        corner_of[i] = atlas_corner(volumes[i].bricks, at.slot) - at.low;
+        uniform_value_of[i] = at.slot == kUniformSlot ? at.uniform_value : -1.0;
       }
     }
-    span.t_next = min(span.t_next, rays.t_next[i]);
+    span.t_next = min(span.t_next, next_of[i]);
   }
-  span.present |= rays.present;
+  span.present |= others_present;
 }
 
-VolumesSpan volumes_span(WorldRay world, float t, float ds, inout VolumesRay rays) {
+VolumesSpan volumes_span(WorldRay world, VolumesRay rays, float t, float ds) {
   VolumesSpan span;
-  const BrickSpan first = volume_span(volumes[0], rays.first, t, ds);
+  const BrickSpan first = volume_span(0u, rays.first, t, ds);
   span.t_first = span.t_stop = t;
   span.t_next = first.t_next;
   span.present = first.slot != kNoSlot ? 1u : 0u;
@@ -105,9 +107,9 @@ VolumesSpan volumes_span(WorldRay world, float t, float ds, inout VolumesRay ray
   if (kHasColorGrids) span.colors = texture_ray(volumes[0].colors.bricks, first, rays.first.ray);
   if (kHasTransfer) span.ds = ds;
   if (kHasSeveral) {
-    rays.corner[0] = corner;
-    rays.uniform_value[0] = span.uniform_value;
-    move_others(world, t, ds, rays, span);
+    corner_of[0] = corner;
+    uniform_value_of[0] = span.uniform_value;
+    move_others(world, t, ds, span);
   }
   if (span.present != 0u) span.t_stop = span.t_next - 0.5 * ds;
   return span;
@@ -125,9 +127,9 @@ struct VolumesSample {
   vec3 glow;         // radiance that leaves per metre, whatever the extinction
 };
 
-void add_volume(VolumeInstance volume, uint i, VolumeMatter matter, LightTexels at, float phase, vec3 p_world,
+void add_volume(uint i, VolumeMatter matter, LightTexels at, float phase, vec3 p_world,
                 inout VolumesSample sum, inout uint texture_samples) {
-  const float extinction = volume.look.extinction * matter.density;
+  const float extinction = volumes[i].look.extinction * matter.density;
   texture_samples += kHasTransfer ? 2u : 1u;
   if (kHasColorGrids) ++texture_samples;
   sum.extinction += extinction;
@@ -135,8 +137,8 @@ void add_volume(VolumeInstance volume, uint i, VolumeMatter matter, LightTexels 
     sum.light += extinction * (volume_inscatter(matter.albedo, i, at, phase) + matter.emission);
     texture_samples += kHasSun ? 2u : 1u;
   }
-  if (kHasHeat && volume.heat.per_value > 0.0) {
-    sum.glow += volume.look.extinction * volume_glow(volume, i, p_world);
+  if (kHasHeat && volumes[i].heat.per_value > 0.0) {
+    sum.glow += volumes[i].look.extinction * volume_glow(i, p_world);
     ++texture_samples;
   }
 }
@@ -151,7 +153,7 @@ VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, 
     LightTexels at;
     at.light = rays.light.at + t * rays.light.along;
     if (kHasSun) at.sun = rays.sun.at + t * rays.sun.along;
-    add_volume(volumes[0], 0u, matter, at, rays.phase, p_world, sum, texture_samples);
+    add_volume(0u, matter, at, rays.phase, p_world, sum, texture_samples);
     return sum;
   }
   const float edge = float(textureSize(volume_light, 0).x), sun_edge = float(textureSize(sun_depths, 0).y);
@@ -159,17 +161,17 @@ VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, 
     const uint i = uint(findLSB(left));
     const vec3 p_voxel = volumes[i].voxel_from_world * vec4(p_world, 1.0);
     const LightTexels at = LightTexels(
-        light_first(volumes[i], i, edge) + p_voxel * light_per_voxel(volumes[i], edge),
+        light_first(i, edge) + p_voxel * light_per_voxel(i, edge),
         (volumes[i].sun_from_voxel * vec4(p_voxel, 1.0) + vec3(0.0, 0.0, float(i))) * sun_edge);
-    VolumeMatter matter = VolumeMatter(rays.uniform_value[i], volumes[i].look.albedo, volumes[i].look.emission);
+    VolumeMatter matter = VolumeMatter(uniform_value_of[i], volumes[i].look.albedo, volumes[i].look.emission);
     if (kHasAlbedos) {
       const vec3 per_metre = volumes[i].voxel_from_world * vec4(world.direction, 0.0);
       matter = matter_around(volumes[i], i, p_voxel, per_metre * half_segment(per_metre, span.ds));
     } else if (matter.density < 0.0) {
-      const vec3 uvw = (rays.corner[i] + p_voxel) * atlas_texel(volumes[i].bricks);
+      const vec3 uvw = (corner_of[i] + p_voxel) * atlas_texel(volumes[i].bricks);
       matter.density = textureLod(volume_values, uvw, 0.0).r;
     }
-    add_volume(volumes[i], i, matter, at, volume_phase(volumes[i], world), p_world, sum, texture_samples);
+    add_volume(i, matter, at, volume_phase(i, world), p_world, sum, texture_samples);
   }
   return sum;
 }

@@ -15,14 +15,14 @@ layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
 layout(binding = kBindVolumeColors) uniform sampler2D volume_colors;
 
 /// Phase function of the sun's light towards the eye.
-float volume_phase(VolumeInstance volume, WorldRay world) {
-  return henyey_greenstein(volume.look.anisotropy, dot(frame.media.to_sun, world.direction));
+float volume_phase(uint i, WorldRay world) {
+  return henyey_greenstein(volumes[i].look.anisotropy, dot(frame.media.to_sun, world.direction));
 }
 
 /// Texels of a volume's cube of light per voxel, and of its bounds' low corner.
-vec3 light_per_voxel(VolumeInstance volume, float edge) { return edge / (volume.bounds_max - volume.bounds_min); }
-vec3 light_first(VolumeInstance volume, uint i, float edge) {
-  return vec3(0.0, 0.0, float(i) * edge) - volume.bounds_min * light_per_voxel(volume, edge);
+vec3 light_per_voxel(uint i, float edge) { return edge / (volumes[i].bounds_max - volumes[i].bounds_min); }
+vec3 light_first(uint i, float edge) {
+  return vec3(0.0, 0.0, float(i) * edge) - volumes[i].bounds_min * light_per_voxel(i, edge);
 }
 
 /// Where the samples of the cubes of light are read [texels].
@@ -47,11 +47,11 @@ vec3 volume_inscatter(vec3 albedo, uint i, LightTexels at, float phase) {
 }
 
 /// What a volume's heat emits at a point, per metre and per look.extinction.
-vec3 volume_glow(VolumeInstance volume, uint i, vec3 p_world) {
-  const float heat = volume_value(volume.heat.bricks, volume.heat.voxel_from_world * vec4(p_world, 1.0));
+vec3 volume_glow(uint i, vec3 p_world) {
+  const float heat = volume_value(volumes[i].heat.bricks, volumes[i].heat.voxel_from_world * vec4(p_world, 1.0));
   if (heat <= 0.0) return vec3(0.0);
   const vec2 size = vec2(textureSize(volume_colors, 0));
-  const float column = clamp(heat * volume.heat.per_value, 0.0, 1.0) * (size.x - 1.0) + 0.5;
+  const float column = clamp(heat * volumes[i].heat.per_value, 0.0, 1.0) * (size.x - 1.0) + 0.5;
   return textureLod(volume_colors, vec2(column, float(i) + 0.5) / size, 0.0).rgb;
 }
 
