@@ -30,9 +30,9 @@
 #include "grids/suffix.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
-/// OpenVDB leaks what it has read of a damaged file. The memory ends with the process.
+/// OpenVDB leaks what it has read of a damaged file, asks for more memory than there is, and crashes.
 extern "C" const char* __asan_default_options() {
-  return "detect_leaks=0";
+  return "detect_leaks=0:allocator_may_return_null=1:abort_on_error=1";
 }
 #endif
 

@@ -332,8 +332,9 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
     return Failure{ErrorCode::bad_input, "grid " + grid.name + ": is a mask, which has no values to render"};
   BRUME_ASSERT(options.max_bricks >= kFewestVolumeBricks && options.max_pages >= kFewestVolumePages,
                std::to_string(options.max_bricks) + " " + std::to_string(options.max_pages));
+  const Grid nothing;
   Levels levels{Level(GridNumbers(grid)),
-                Level(GridNumbers(options.also ? *options.also : Grid())),
+                Level(GridNumbers(options.also ? *options.also : nothing)),
                 options.may_be_uniform,
                 {},
                 {}};
