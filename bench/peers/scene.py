@@ -1,4 +1,4 @@
-"""What all renderers draw: one volume under one sun, and the words in which each of them is told."""
+"""What all renderers draw: one volume under one sun, and the arguments that describe it to each."""
 import math
 
 
