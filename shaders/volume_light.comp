@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/frame.glsl"
 #include "shared/light.h"
 #include "shared/media.h"
@@ -54,9 +55,11 @@ float escape_at(uint volume, vec3 p_world) {
 /// Optical depth of the volumes along a ray to a light.
 float depth_to_light(vec3 p_world, Incident incident) {
   const float ds = incident.distance / float(kStepsToLight);
+  const uint mask =
+      volumes_along(frame.media.volume_count, p_world, p_world + incident.to_light * incident.distance);
   float depth = 0.0;
   for (uint i = 0u; i < kStepsToLight; ++i)
-    depth += ds * volumes_extinction(frame.media.volume_count, p_world + incident.to_light * (ds * (float(i) + 0.5)),
+    depth += ds * volumes_extinction(mask, p_world + incident.to_light * (ds * (float(i) + 0.5)),
                                      incident.to_light * (0.5 * ds));
   return depth;
 }

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "lib/frame.glsl"
 #include "shared/media.h"
 #include "shared/volume_light.h"
@@ -20,9 +21,9 @@ const float kMostDepth = 60.0;
 /// Steps before the bounds.
 const uint kStepsBeyond = 32u;
 
-/// Extinction of all media around the middle of a step [1/m].
-float extinction_at(vec3 p_world, vec3 step_world) {
-  float sum = volumes_extinction(frame.media.volume_count, p_world, 0.5 * step_world);
+/// Extinction of the volumes of a mask and of the smoke around the middle of a step [1/m].
+float extinction_at(uint mask, vec3 p_world, vec3 step_world) {
+  float sum = volumes_extinction(mask, p_world, 0.5 * step_world);
   if ((kMedia & kMediumSmoke) != 0u) {
     const vec3 p_voxel = (p_world - frame.volume.origin_world) / frame.volume.voxel_size;
     if (all(greaterThan(p_voxel, frame.caster_bounds_min)) && all(lessThan(p_voxel, frame.caster_bounds_max)))
@@ -34,9 +35,11 @@ float extinction_at(vec3 p_world, vec3 step_world) {
 /// Optical depth of what other media there are between the light and the bounds.
 float depth_beyond(vec3 enters_world, vec3 to_light) {
   const float ds = params.beyond_m / float(kStepsBeyond);
+  const uint mask =
+      volumes_along(frame.media.volume_count, enters_world, enters_world + to_light * params.beyond_m);
   float depth = 0.0;
   for (uint i = 0u; i < kStepsBeyond && ds > 0.0; ++i)
-    depth += ds * extinction_at(enters_world + to_light * (ds * (float(i) + 0.5)), to_light * ds);
+    depth += ds * extinction_at(mask, enters_world + to_light * (ds * (float(i) + 0.5)), to_light * ds);
   return depth;
 }
 
@@ -51,12 +54,13 @@ void main() {
   const uint samples = params.edge * kSweepSamples;
   const vec3 step_world = per_unit / float(samples);
   const float ds = sweep.length_m / float(samples);
+  const uint mask = volumes_along(frame.media.volume_count, enters, enters + per_unit);
   float depth = depth_beyond(enters, -per_unit / sweep.length_m);
   for (uint k = 0u; k < params.edge; ++k) {
     float cell = 0.0;
     for (uint i = 0u; i < kSweepSamples && depth < kMostDepth; ++i) {
       const float at = (float(k * kSweepSamples + i) + 0.5) / float(samples);
-      cell += ds * extinction_at(enters + per_unit * at, step_world);
+      cell += ds * extinction_at(mask, enters + per_unit * at, step_world);
     }
     // Of the middle of the cell.
     const uvec3 at = uvec3(number * params.edge + column.x, column.y, volume * params.edge + k);

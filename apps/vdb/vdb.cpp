@@ -231,9 +231,11 @@ openvdb::GridBase::Ptr write_grid(const Grid& grid) {
   using T = typename GridT::ValueType;
   const bool is_mask = grid.type == ValueType::mask;
   const T background = is_mask ? T{} : from_bytes<T>(grid.background.data());
-  const typename GridT::Ptr to = GridT::create(background);
+  // The library's own constructor: one here would compile all virtual functions of the tree again.
+  const openvdb::GridBase::Ptr to = openvdb::GridBase::createGrid(GridT::gridType());
   write_head(grid, *to);
-  Tree& tree = to->tree();
+  Tree& tree = static_cast<GridT&>(*to).tree();
+  tree.root().setBackground(background, /*updateChildNodes=*/false);
   for (const Tile& tile : grid.tiles) {
     const openvdb::Index level = tile.edge == 8 ? 1 : tile.edge == 128 ? 2 : 3;
     T value = is_mask ? T(tile.active) : from_bytes<T>(tile.value.data());

@@ -6,7 +6,6 @@
 
 // Constants of the pipeline: a software rasteriser pays for branches that it does not take.
 const bool kHasHeat = (kMedia & kMediumHeat) != 0u, kIsLit = (kMedia & kMediumLit) != 0u;
-const bool kHasSeveral = (kMedia & kMediumSeveral) != 0u;
 
 /// A ray in the voxel space of a volume, and where it is inside the bounds [m].
 struct VolumeRay {

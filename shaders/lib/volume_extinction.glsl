@@ -1,6 +1,8 @@
-// Extinction of the volumes besides the smoke, of all together. The includer defines the constant kMedia.
+// Extinction of the volumes besides the smoke, of all together. The includer defines the constant kMedia, and enables
+// GL_KHR_shader_subgroup_arithmetic.
 #ifndef VOLUME_EXTINCTION_GLSL
 #define VOLUME_EXTINCTION_GLSL
+#include "lib/brick_rays.glsl"
 #include "lib/volume_transfer.glsl"
 
 /// Extinction of volume i at a point [1/m]; with a transfer function that of the segment p_world - half_world to
@@ -13,10 +15,29 @@ float volume_extinction(VolumeInstance volume, uint i, vec3 p_world, vec3 half_w
   return volume.look.extinction * matter_of(volume, i, values).density;
 }
 
-/// The same of all volumes of the frame.
-float volumes_extinction(uint volume_count, vec3 p_world, vec3 half_world) {
-  float sum = volume_extinction(volumes[0], 0u, p_world, half_world);
-  for (uint i = 1u; i < volume_count; ++i) sum += volume_extinction(volumes[i], i, p_world, half_world);
+/// Bit i: the segment, or that of another thread of the subgroup, may be inside volume i. Threads of a subgroup read the
+/// same volumes.
+uint volumes_along(uint volume_count, vec3 begin_world, vec3 end_world) {
+  if (!kHasSeveral) return 1u;
+  const float margin = 1e-3;  // of the segment, for rounding
+  uint mask = 0u;
+  for (uint i = 0u; i < volume_count; ++i) {
+    const VoxelRay ray = VoxelRay(volumes[i].voxel_from_world * vec4(begin_world, 1.0),
+                                  volumes[i].voxel_from_world * vec4(end_world - begin_world, 0.0));
+    const vec2 inside = span_in_box(ray, volumes[i].bounds_min, volumes[i].bounds_max);
+    if (inside.x <= inside.y + margin && inside.x <= 1.0 + margin && inside.y >= -margin) mask |= 1u << i;
+  }
+  return subgroupOr(mask);
+}
+
+/// The extinction of the volumes of a mask.
+float volumes_extinction(uint mask, vec3 p_world, vec3 half_world) {
+  if (!kHasSeveral) return volume_extinction(volumes[0], 0u, p_world, half_world);
+  float sum = 0.0;
+  for (uint left = mask; left != 0u; left &= left - 1u) {
+    const uint i = uint(findLSB(left));
+    sum += volume_extinction(volumes[i], i, p_world, half_world);
+  }
   return sum;
 }
 

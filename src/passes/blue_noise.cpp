@@ -30,15 +30,11 @@ class Pattern {
   }
   void set(std::uint32_t point, bool chosen) {
     free_[point] = chosen ? 0 : -1;
-    const float sign = chosen ? 1.0f : -1.0f;
-    const std::uint32_t px = point % kBlueNoiseSize, py = point / kBlueNoiseSize;
-    for (std::uint32_t y = 0; y < kBlueNoiseSize; ++y) {
-      const std::uint32_t row = (y + kBlueNoiseSize - py) % kBlueNoiseSize;
-      if (distance(row) > kReach) continue;
-      const float* falloff = &falloff_[2 * kBlueNoiseSize * row + kBlueNoiseSize - px];
-      float* energy = &energy_[y * kBlueNoiseSize];
-      for (std::uint32_t x = 0; x < kBlueNoiseSize; ++x) energy[x] += sign * falloff[x];
-    }
+    // Not a factor of 1 or -1: a processor multiplies subnormal numbers much slower than it adds them.
+    if (chosen)
+      update(point, [](float energy, float falloff) { return energy + falloff; });
+    else
+      update(point, [](float energy, float falloff) { return energy - falloff; });
   }
   /// The chosen point with the most energy.
   std::uint32_t tightest_cluster() const { return least(-1, 0); }
@@ -47,22 +43,48 @@ class Pattern {
   bool chosen(std::uint32_t point) const { return free_[point] == 0; }
 
  private:
+  static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
+
   static std::uint32_t distance(std::uint32_t d) { return std::min(d, kBlueNoiseSize - d); }
   /// The bits of a float as a number with the order of the floats; 0 is never negative here.
   static std::int32_t ordered(float value) {
     const auto bits = std::bit_cast<std::int32_t>(value);
     return bits ^ ((bits >> 31) & 0x7fffffff);
   }
-  /// The first place whose energy, with the bits of `flip` inverted, is least, among those with free_ ==
-  /// `free`. Compares integers: the compiler vectorizes their minimum, and not that of floats.
+  template <typename Change>
+  void update(std::uint32_t point, Change change) {
+    const std::uint32_t px = point % kBlueNoiseSize, py = point / kBlueNoiseSize;
+    for (std::uint32_t y = 0; y < kBlueNoiseSize; ++y) {
+      const std::uint32_t row = (y + kBlueNoiseSize - py) % kBlueNoiseSize;
+      if (distance(row) > kReach) continue;
+      const float* falloff = &falloff_[2 * kBlueNoiseSize * row + kBlueNoiseSize - px];
+      float* energy = &energy_[y * kBlueNoiseSize];
+      for (std::uint32_t x = 0; x < kBlueNoiseSize; ++x) energy[x] = change(energy[x], falloff[x]);
+    }
+  }
+  /// A place's energy with the bits of `flip` inverted, in the order of integers; kNone unless free_ ==
+  /// `free`.
+  std::int32_t key(std::uint32_t i, std::int32_t flip, std::int32_t free) const {
+    const std::int32_t other =
+        free_[i] ^ free;  // 0 or -1: without a branch, the compiler vectorizes the search
+    return ((ordered(energy_[i]) ^ flip) & ~other) | (kNone & other);
+  }
+  /// The first place with the least key.
   std::uint32_t least(std::int32_t flip, std::int32_t free) const {
-    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
     std::int32_t best = kNone;
-    for (std::uint32_t i = 0; i < kCount; ++i)
-      best = std::min(best, free_[i] == free ? ordered(energy_[i]) ^ flip : kNone);
-    for (std::uint32_t i = 0; i < kCount; ++i)
-      if (free_[i] == free && (ordered(energy_[i]) ^ flip) == best) return i;
-    return kCount;
+    std::uint32_t best_row = 0;
+    for (std::uint32_t y = 0; y < kBlueNoiseSize; ++y) {
+      std::int32_t of_row = kNone;
+      for (std::uint32_t x = 0; x < kBlueNoiseSize; ++x)
+        of_row = std::min(of_row, key(y * kBlueNoiseSize + x, flip, free));
+      if (of_row < best) {
+        best = of_row;
+        best_row = y;
+      }
+    }
+    std::uint32_t i = best_row * kBlueNoiseSize;
+    while (key(i, flip, free) != best) ++i;
+    return i;
   }
   std::vector<float> falloff_;  ///< Rows twice, so that those from any start are in one piece.
   std::vector<float> energy_;

@@ -6,8 +6,8 @@ namespace brume::passes {
 namespace {
 
 /// What the pipelines differ by.
-constexpr std::uint32_t kSweepMedia = shared::kMediumSmoke | shared::kMediumTransfer;
-constexpr std::uint32_t kLightMedia = shared::kMediaOfAlbedos;
+constexpr std::uint32_t kSweepMedia = shared::kMediumSmoke | shared::kMediumTransfer | shared::kMediumSeveral;
+constexpr std::uint32_t kLightMedia = shared::kMediaOfAlbedos | shared::kMediumSeveral;
 
 /// `count` cubes along z, `side_by_side` of them along x.
 gpu::Image cubes(gpu::Context& context, VkFormat format, std::uint32_t edge, std::uint32_t count,

@@ -1,20 +1,12 @@
 // A thousand random keys, clicks, mouse moves and resizes: no crash, no validation message, no memory leak.
-#include <X11/keysym.h>
-
-#include <random>
-
 #include "passes/debug_view.hpp"
+#include "tests/viewer/random_events.hpp"
 #include "tests/viewer/room.hpp"
 
 namespace brume::viewer {
 namespace {
 
 constexpr int kEvents = 1000;
-
-// All bound keys except for those that write files.
-constexpr std::array<unsigned long, 23> kKeys{
-    XK_w, XK_a, XK_s, XK_d, XK_space, XK_Shift_L, XK_g, XK_1,      XK_2,   XK_3, XK_4, XK_e,
-    XK_f, XK_l, XK_r, XK_p, XK_comma, XK_period,  XK_v, XK_Escape, XK_Tab, XK_o, XK_h};
 
 // Memory grows by less than half of a leak of one window-sized image per drawn frame: that of malloc, that of
 // the device, and what drivers and stacks map. All count what is allocated. Resident memory also grows when
@@ -86,36 +78,7 @@ TEST(EventsTest, SurvivesAThousandRandomEvents) {
   ASSERT_TRUE(program.wait_for_window()) << program.error();
   warm_up(program);
   const std::size_t warm = program.frames().size() - 1;
-  std::mt19937 random(7);
-  const auto pick = [&](unsigned count) { return static_cast<unsigned>(random() % count); };
-  for (int event = 0; event < kEvents && program.runs(); ++event) {
-    switch (pick(8)) {
-      case 0:
-      case 1:
-      case 2:
-        program.tap(kKeys[pick(static_cast<unsigned>(kKeys.size()))]);
-        break;
-      case 3: {
-        const unsigned long held = kKeys[pick(6)];
-        program.key(held, true);
-        program.wait_for_frames(2);
-        program.key(held, false);
-        break;
-      }
-      case 4:
-        program.click(1 + pick(3));
-        break;
-      case 5:
-        program.place_mouse(static_cast<int>(pick(160)), static_cast<int>(pick(96)));
-        break;
-      case 6:
-        program.move_mouse(static_cast<int>(pick(81)) - 40, static_cast<int>(pick(41)) - 20);
-        break;
-      default:
-        if (pick(5) == 0) program.resize(1 + pick(240), 1 + pick(160));
-    }
-    program.wait_for_frames(1);
-  }
+  RandomEvents().send(program, kEvents);
   ASSERT_TRUE(program.runs()) << program.error();
   const std::vector<Frame> frames = program.frames();
   program.close();

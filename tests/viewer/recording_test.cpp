@@ -28,6 +28,7 @@ void expect_same_but_for_rounding(const image::Image8& a, const image::Image8& b
 }
 
 TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndImages) {
+  constexpr int kShots = 10;
   {
     Program program(desktop_, folder_.path(),
                     {"room.toml", "--size", "192x128", "--quality", "quarter", "--word", "HI", "--record",
@@ -35,7 +36,7 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndImages) {
     ASSERT_TRUE(program.wait_for_window()) << program.error();
     program.click(1);  // throw
     ASSERT_TRUE(program.wait_for_clock(1.2));
-    for (int shot = 0; shot < 20; ++shot) {
+    for (int shot = 0; shot < kShots; ++shot) {
       program.move_mouse(shot % 5 * 6 - 12, shot / 5 * 4 - 6);
       program.click(3);
       program.wait_for_frames(2);
@@ -47,7 +48,7 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndImages) {
     program.tap(XK_f);
     // An orbit: sideways while turning back.
     program.key(XK_a, true);
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 6; ++i) {
       program.move_mouse(20, 0);
       program.wait_for_frames(2);
     }
@@ -60,7 +61,7 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndImages) {
   const auto made = scene::load_timeline(file("made.toml"));
   ASSERT_TRUE(made) << made.failure().message;
   EXPECT_EQ(made->smokes.size(), 1u);
-  EXPECT_EQ(made->shots.size(), 20u);
+  EXPECT_EQ(made->shots.size(), std::size_t{kShots});
   EXPECT_EQ(made->texts.size(), 1u);
   EXPECT_EQ(made->blasts.size(), 1u);
   EXPECT_EQ(made->doors.size(), 1u);
@@ -70,7 +71,7 @@ TEST_F(RecordingTest, PlaysBackTwiceWithEqualHashesAndImages) {
   std::vector<image::Image8> images;
   for (const std::string name : {"first", "second"}) {
     Program program(desktop_, folder_.path(),
-                    {"--play", "made.toml", "--size", "192x128", "--exit-after",
+                    {"--play", "made.toml", "--size", "96x64", "--exit-after",
                      std::to_string(static_cast<double>(made->duration)), "--screenshot", name + ".png",
                      "--json", name + ".json"});
     ASSERT_EQ(program.wait(), 0) << program.error();

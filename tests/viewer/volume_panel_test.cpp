@@ -16,7 +16,6 @@ class VolumePanelTest : public testing::Test {
                      std::vector<std::string>{"foggy.toml", "--size", "640x700", "--panels", "--quality",
                                               "smallest", "--log-widgets", "--record", "made.toml"});
     ASSERT_TRUE(program_->wait_for_window()) << program_->error();
-    program_->tap(XK_p);
   }
   /// The widget of this label, unfolded and scrolled into view.
   WidgetLine widget(const std::string& label) {
@@ -88,6 +87,7 @@ TEST_F(VolumePanelTest, TheCurveIsDrawnAndDraggedAndSaved) {
 
 TEST_F(VolumePanelTest, ChoicesShowAtOnceAndCanBeUndone) {
   run();
+  program_->tap(XK_p);
   click("Smoke");
   click("Volumes");
   click("fog.brv");

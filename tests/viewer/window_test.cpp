@@ -1,7 +1,6 @@
 // The window: input, panels, resizing, surface and device loss, shader reload.
-#include <X11/keysym.h>
-
 #include "scene/timeline.hpp"
+#include "tests/viewer/random_events.hpp"
 #include "tests/viewer/room.hpp"
 
 namespace brume::viewer {
@@ -192,6 +191,18 @@ TEST_F(WindowTest, SurvivesResizingAndHiding) {
   program.show();
   EXPECT_TRUE(program.wait_for_contents([&](const auto& now) { return count_colours(now) > 20; }));
   expect_end(program);
+}
+
+// More of them, and the memory that they leave: viewer_events_tests.
+TEST_F(WindowTest, SurvivesRandomEvents) {
+  Program program(desktop_, folder_.path(), arguments({"--size", "160x96", "--json", "r.json"}));
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  RandomEvents().send(program, 150);
+  ASSERT_TRUE(program.runs()) << program.error();
+  expect_end(program);
+  const auto report = read_json(file("r.json"));
+  ASSERT_TRUE(report.is_object());
+  EXPECT_TRUE(report.at("validation_messages").empty()) << report.at("validation_messages").dump();
 }
 
 TEST_F(WindowTest, SurvivesSurfaceAndDeviceLoss) {
