@@ -15,7 +15,7 @@ float volume_extinction(VolumeInstance volume, uint i, vec3 p_world, vec3 half_w
   return volume.look.extinction * matter_of(volume, i, values).density;
 }
 
-/// Bit i: the segment, or that of another thread of the subgroup, may be inside volume i. Threads of a subgroup read the
+/// Bit i: the segment, or that of another thread of the subgroup, may be inside volume i: all its threads then read the
 /// same volumes.
 uint volumes_along(uint volume_count, vec3 begin_world, vec3 end_world) {
   if (!kHasSeveral) return 1u;
