@@ -12,10 +12,15 @@ target_compile_options(brume_options INTERFACE -Wall -Wextra -Wconversion -Wshad
 target_compile_options(brume_options INTERFACE -ffp-contract=off)
 target_include_directories(brume_options INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/shaders)
 target_compile_definitions(brume_options INTERFACE GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_FORCE_EXPLICIT_CTOR)
+# Of the whole folder, which come before the options of single targets: these may take checks away.
 if(BRUME_SANITIZE)
-  target_compile_options(brume_options INTERFACE -fsanitize=${BRUME_SANITIZE} -fno-omit-frame-pointer
-                                                 -fno-sanitize-recover=all)
-  target_link_options(brume_options INTERFACE -fsanitize=${BRUME_SANITIZE})
+  add_compile_options(-fsanitize=${BRUME_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${BRUME_SANITIZE})
+  # The checks of every pointer are most of what the undefined behaviour sanitizer adds, and who follows a bad pointer
+  # crashes or meets the address sanitizer. The fuzzers keep them; all others those of arithmetic and bounds.
+  if(BRUME_SANITIZE MATCHES "undefined" AND NOT BRUME_FUZZ)
+    add_compile_options(-fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
+  endif()
 endif()
 if(BRUME_PORTABLE)
   target_link_options(brume_options INTERFACE -static-libstdc++ -static-libgcc)
@@ -83,13 +88,6 @@ endfunction()
 # all would be too little: under the sanitizers, tests then run four times as long. What is tested keeps its optimization.
 set(brume_test_flags "$<$<CONFIG:Release,RelWithDebInfo,Debug>:-Og>"
                      "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
-# The checks of every pointer are most of what the undefined behaviour sanitizer adds, and a test that follows a bad
-# pointer crashes or meets the address sanitizer. The libraries keep these checks. Tests keep those of arithmetic and
-# bounds, which also cover the inline functions of our headers: the linker may take any of their copies.
-if(BRUME_SANITIZE MATCHES "undefined")
-  list(APPEND brume_test_flags
-       -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
-endif()
 function(brume_test_options target)
   if(NOT TARGET brume_test_headers)
     brume_precompiled(brume_test_headers ${brume_common_headers} <random> <gtest/gtest.h> LINKS GTest::gtest)

@@ -122,7 +122,7 @@ TEST(VisitVoxels, MatchesDoublePrecisionUpToRounding) {
   // A plane's t has three roundings of 2^-24: difference, inverse, product.
   Random random(2);
   const GridLayout layout{{6, 5, 7}, 1, vec3(0)};
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < (kSanitized ? 10000 : 100000); ++i) {
     const Ray ray = random_ray(random, layout.size);
     const std::vector<Visit> visits = walk(layout, ray);
     for_voxels(layout.size, [&](ivec3 v) {

@@ -7,6 +7,7 @@
 
 #include "core/tasks.hpp"
 #include "tests/reference/triangle_box.hpp"
+#include "tests/sanitized.hpp"
 #include "tests/voxel/random.hpp"
 
 namespace brume::voxel {
@@ -87,7 +88,7 @@ TEST(Voxelize, MatchesBruteForceOn200TriangleSoups) {
   Random random(7);
   const ivec3 sizes[] = {{1, 1, 1}, {7, 7, 7}, {33, 17, 5}, {2, 19, 11}, {16, 16, 16}};
   const float voxel_sizes[] = {0.5f, 0.1f, 1.0f, 0.37f};
-  for (std::size_t soup = 0; soup < 200; ++soup) {
+  for (std::size_t soup = 0; soup < 200; soup += kSanitized ? 7 : 1) {
     GridLayout layout{sizes[soup % 5], voxel_sizes[soup / 5 % 4], vec3(0)};
     if (soup % 2) layout.origin_world = vec3(uniform(random, -9, 9), -30, uniform(random, -9, 9));
     std::vector<Triangle> triangles(1 + random() % 12);
@@ -100,7 +101,7 @@ TEST(Voxelize, MatchesBruteForceOn200TriangleSoups) {
 
 TEST(Voxelize, EachShapeMatchesBruteForce) {
   Random random(8);
-  for (std::size_t i = 0; i < 3000; ++i) {
+  for (std::size_t i = 0; i < (kSanitized ? 300 : 3000); ++i) {
     const GridLayout layout{{9, 6, 7}, i % 2 ? 0.5f : 0.3f, vec3(i % 2 ? -30.0f : 0.7f)};
     const std::vector<Triangle> one{random_triangle(random, layout)};
     ASSERT_NO_FATAL_FAILURE(expect_equal(one, layout, i));

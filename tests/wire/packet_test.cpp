@@ -127,7 +127,7 @@ TEST(Packet, ASmokeThatFlowsThroughADoorIsSmall) {
 
 // A packet that is truncated, longer or has any flipped bit is rejected or decodes to the same state.
 TEST(Packet, RejectsDamage) {
-  constexpr std::size_t kBitStep = kSanitized ? 13 : 5;  // odd: meets bits of every value
+  constexpr std::size_t kBitStep = kSanitized ? 61 : 5;  // odd: meets bits of every value
   const voxel::BitGrid level = yard({20, 9, 17});
   sim::World world = world_of(level, busy_match(level, 5, 100, 40));
   world.advance_to(60);
@@ -136,7 +136,7 @@ TEST(Packet, RejectsDamage) {
   const std::uint64_t hash = world.state_hash();
   for (const Bytes& packet : {write_keyframe(world.state()), write_delta(base, world.state())}) {
     ASSERT_TRUE(read(packet, &base));
-    for (std::size_t length = 0; length < packet.size(); ++length)
+    for (std::size_t length = 0; length < packet.size(); length += kSanitized ? 7 : 1)
       EXPECT_FALSE(read(std::span<const std::byte>(packet).first(length), &base)) << length;
     Bytes longer = packet;
     longer.insert(longer.end(), 5, std::byte{1});

@@ -1,0 +1,116 @@
+#include "tests/cli/documents.hpp"
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include "core/file.hpp"
+#include "image/png.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+// Splits a simple command as a shell does: words, "double quotes", and # to the end of the line.
+Arguments words_of(const std::string& line) {
+  Arguments words;
+  static const std::regex word("\"([^\"]*)\"|(#.*)|(\\S+)");
+  for (std::sregex_iterator it(line.begin(), line.end(), word), end; it != end; ++it) {
+    if ((*it)[2].matched) break;
+    words.push_back((*it)[1].matched ? (*it)[1].str() : (*it)[3].str());
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<Arguments> calls_in(const std::string& text) {
+  std::vector<Arguments> calls;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    Arguments words = words_of(line);
+    if (words.empty() || (words[0] != "brume" && words[0] != "build/release/brume")) continue;
+    calls.emplace_back(words.begin() + 1, words.end());
+  }
+  return calls;
+}
+
+std::string shell_blocks(const std::string& markdown) {
+  std::string blocks, line;
+  bool inside = false;
+  std::istringstream lines(markdown);
+  while (std::getline(lines, line)) {
+    if (line.rfind("```", 0) == 0) {
+      inside = !inside && line == "```sh";
+    } else if (inside && !line.empty() && line.back() == '\\') {
+      blocks += line.substr(0, line.size() - 1);
+    } else if (inside) {
+      blocks += line + "\n";
+    }
+  }
+  return blocks;
+}
+
+Documents::Documents() {
+  std::filesystem::create_directory_symlink(BRUME_SOURCE_DIR "/scenes", folder_.path() / "scenes");
+  folder_.write("room.obj", room_obj());
+  EXPECT_EQ(run_brume(folder_.path(), {"voxelize", "room.obj", "-o", "room.vxl"}).exit_code, 0);
+}
+
+void Documents::provide(const std::string& word) const {
+  const std::filesystem::path path = folder_.path() / word;
+  if (std::filesystem::path(word).is_absolute() || std::filesystem::exists(path)) return;
+  std::filesystem::create_directories(path.parent_path());
+  if (path.extension() == ".glb") std::filesystem::create_symlink(BRUME_SOURCE_DIR "/scenes/demo.glb", path);
+  if (path.extension() == ".obj") folder_.write(word, room_obj());
+  if (path.extension() == ".vdb" || path.extension() == ".json") provide_volume(word);
+  if (path.extension() == ".png") {
+    const image::Image8 picture{
+        32, 18, std::vector<std::uint8_t>(4 * 32 * 18, 255)};  // the size that render is called with
+    image::save_png(path, picture).value_or_throw();
+  }
+}
+
+// A grid "density" of 2 x 2 x 2 voxels.
+void Documents::provide_volume(const std::string& word) const {
+  folder_.write("volume.json",
+                R"({"format": "brume raw volume", "version": 1, "raw": "volume.raw", "size": [2, 2, 2]})");
+  folder_.write("volume.raw", std::string(32, '?'));
+  const Outcome made = run_brume(folder_.path(), {"convert", "volume.json", word});
+  EXPECT_EQ(made.exit_code, 0) << made.error;
+}
+
+void Documents::expect_works(const std::string& source, Arguments call) {
+  SCOPED_TRACE(source + ": brume " + testing::PrintToString(call));
+  if (!run_.insert(call).second) return;
+  if (call.empty() || call[0] == "demo" || call[0] == "bench") return;
+  if (call.size() > 1) provide(call[1]);
+  if (call[0] == "diff" && call.size() > 2) provide(call[2]);
+  RunOptions options;
+  if (call[0] == "view") {
+#ifdef BRUME_VIEWER
+    if (!desktop_) desktop_.emplace();
+    options.environment = {{"DISPLAY", desktop_->name()}};
+    call.insert(call.end(), {"--size", "64x40", "--quality", "smallest", "--exit-after", "0.05"});
+#else
+    return;
+#endif
+  }
+  if (call[0] == "render") {
+    call.insert(call.end(), {"--size", "32x18"});
+    const bool film = std::any_of(call.begin(), call.end(), [](const std::string& word) {
+      return word.ends_with(".mp4") || word.find('%') != std::string::npos;
+    });
+    if (film) call.insert(call.end(), {"--frames", "0-1"});
+  }
+  const Outcome run = run_brume(folder_.path(), call, options);
+  EXPECT_EQ(run.exit_code, 0) << run.error;
+}
+
+void Documents::expect_page_works(const std::filesystem::path& page) {
+  const auto calls = calls_in(shell_blocks(*read_text_file(page)));
+  for (const Arguments& call : calls) expect_works(page.filename().string(), call);
+}
+
+}  // namespace brume::cli
