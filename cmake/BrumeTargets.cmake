@@ -78,7 +78,7 @@ function(brume_library name)
 endfunction()
 
 # brume_alone(sources...): with names that other sources of their folder also use, and which therefore do not share a
-# translation unit with them. The presets join up to eight sources of a target, script/determinism all: most of the time
+# translation unit with them. The presets join up to 24 sources of a target, script/determinism all: most of the time
 # to compile goes to headers and templates that many sources use.
 function(brume_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -1,19 +1,15 @@
 #include "planning/light_change_tracking.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <string_view>
 #include <tuple>
 #include <unordered_set>
 
+#include "core/same_bytes.hpp"
+
 namespace brume::planning {
 namespace {
-
-template <typename T>
-bool same_bytes(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
 
 glm::vec3 world_from_brick(const shared::VolumeLayout& layout, glm::ivec3 brick) {
   return layout.origin_world + glm::vec3(brick) * float{shared::kBrickVoxels} * layout.voxel_size;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "core/hash.hpp"
+#include "core/same_bytes.hpp"
 #include "planning/light_reach.hpp"
 
 namespace brume::planning {
@@ -17,11 +17,6 @@ constexpr std::size_t kExtraLights = 32;
 constexpr std::size_t kMaxIntersectionTests = 1u << 16;
 // Around the middle of a brick lie all its texels and points [voxels]: corners of a cube of 11.
 constexpr float kBrickReach = 9.53f;
-
-template <typename T>
-bool same_bytes(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
 
 /// Whether rays to one light are those to the other, as far as both reach.
 bool same_rays(shared::Light a, const shared::Light& b) {
