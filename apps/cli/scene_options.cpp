@@ -11,6 +11,7 @@
 #include "core/log.hpp"
 #include "grids/files.hpp"
 #include "scenario/smoke_report.hpp"
+#include "scene/daylight.hpp"
 #include "scene/options.hpp"
 #include "scene/text_reader.hpp"
 
@@ -35,8 +36,10 @@ scene::SunOptions parse_sun(const std::string& text) {
     throw Error(ErrorCode::usage,
                 "--sun '" + text +
                     "': expected azimuth and elevation in degrees, -360 to 360 and 0.1 to 90, such as 60,40");
-  return {static_cast<float>((*angles)[0] * scene::kRadiansOfDegree),
-          static_cast<float>((*angles)[1] * scene::kRadiansOfDegree)};
+  scene::SunOptions sun{static_cast<float>((*angles)[0] * scene::kRadiansOfDegree),
+                        static_cast<float>((*angles)[1] * scene::kRadiansOfDegree)};
+  sun.irradiance *= scene::sunlight_fraction(sun.elevation);
+  return sun;
 }
 
 /// "0:0,0.3:0.5,1:1"

@@ -80,9 +80,12 @@ bool Painter::draw_best(Screen& screen, const Game& game, Window& window, const 
 }
 
 bool Painter::draw(Screen& screen, const Game& game, Window& window, const Quality& quality,
-                   const ImDrawData& ui) {
+                   double frame_seconds, const ImDrawData& ui) {
   in_motion_ = !is_still(screen, game, window);
-  if (in_motion_) return draw_film(screen, game, quality, quality.light_update_fraction, ui);
+  if (in_motion_) {
+    const float fraction = light_update_fraction(quality.light_update_fraction, frame_seconds);
+    return draw_film(screen, game, quality, fraction, ui);
+  }
   if (is_best_ || still_frames_ < kFramesUntilRefined) return screen.show(nullptr, quality, ui);
   const int slices = quality.light_update_fraction < 1 ? kLightSlices : 0;
   if (still_frames_ < kFramesUntilRefined + slices)

@@ -17,11 +17,12 @@ render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& hole
 
 class Painter {
  public:
-  /// Shows a frame with `ui` over it; false if the window currently shows nothing. A paused image is repeated
-  /// until it becomes the best one, the image of `brume render`: first the light in the smoke is brought up
-  /// to date in slices and volumes are loaded and uploaded, then the image is rendered in parts. An input
-  /// ends all that soon.
-  bool draw(Screen& screen, const Game& game, Window& window, const Quality& quality, const ImDrawData& ui);
+  /// Shows a frame with `ui` over it, that many seconds after the last one; false if the window currently
+  /// shows nothing. A paused image is repeated until it becomes the best one, the image of `brume render`:
+  /// first the light in the smoke is brought up to date in slices and volumes are loaded and uploaded, then
+  /// the image is rendered in parts. An input ends all that soon.
+  bool draw(Screen& screen, const Game& game, Window& window, const Quality& quality, double frame_seconds,
+            const ImDrawData& ui);
 
   /// The image of the last draw.
   PictureKind kind() const {

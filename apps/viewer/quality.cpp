@@ -27,6 +27,12 @@ std::span<const Quality> quality_levels() {
   return kLevels;
 }
 
+float light_update_fraction(float level_fraction, double frame_seconds) {
+  constexpr double kUsualRate = 20, kMost = 0.25;  // [1/s]; up to kMost shadows and noise are spread, too
+  const double due = double{level_fraction} * std::min(frame_seconds * kUsualRate, 100.0);
+  return std::max(level_fraction, static_cast<float>(std::min(due, kMost)));
+}
+
 void QualityControl::change_level(std::size_t level) {
   level_ = level;
   frames_ = 0;

@@ -20,6 +20,10 @@ struct Quality {
 /// From best to fastest; the first one is that of `brume render`.
 std::span<const Quality> quality_levels();
 
+/// The fraction of a level for a frame this long after the last one [s]: more than that of the level where
+/// frames are few, up to 1/4, so that the light of growing smoke is seldom older than a second.
+float light_update_fraction(float level_fraction, double frame_seconds);
+
 /// Chooses a level from the measured frame times. Lowers the quality as soon as frames are too slow, and
 /// tries the better level only after a cooldown, which doubles (up to kMaxCooldown) each time that level is
 /// too slow again.

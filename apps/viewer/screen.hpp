@@ -27,8 +27,6 @@ struct ScreenOptions {
 
 class Screen {
  public:
-  /// Frames that the device executes while the next one is prepared: one, to keep the latency low.
-  static constexpr int kFramesInFlight = 1;
 
   /// Requires an ImGui context. The window must outlive the screen. Throws what Context throws.
   Screen(const Window& window, const ScreenOptions& options);

@@ -79,8 +79,7 @@ void lay_out_state(const Session& session, const Figures& figures, const Notices
   constexpr double kMiB = 1024.0 * 1024.0;
   ImGui::Text("%s", notices.device.c_str());
   ImGui::Text("simulation: %.3f ms CPU", figures.median(&FrameFigures::tick_ms));
-  ImGui::Text("from the input to the image: %.1f ms, %d frame in flight",
-              figures.median(&FrameFigures::latency_ms), Screen::kFramesInFlight);
+  ImGui::Text("from the input to the image: %.1f ms", figures.median(&FrameFigures::latency_ms));
   ImGui::Text("memory: GPU %.0f MiB, process %.0f MiB", static_cast<double>(notices.device_bytes) / kMiB,
               static_cast<double>(resident_bytes()) / kMiB);
   ImGui::Text("tick %u; clouds %zu, holes %zu, explosions %zu", state.tick, state.clouds.size(),

@@ -361,7 +361,7 @@ void Viewer::frame() {
   update_quality();
   screen_->set_vertical_sync(game_->choices().vertical_sync);
   lose_for_tests();
-  if (painter_.draw(*screen_, *game_, window_, quality_.quality(), *ImGui::GetDrawData())) {
+  if (painter_.draw(*screen_, *game_, window_, quality_.quality(), frame_seconds, *ImGui::GetDrawData())) {
     finish_frame(begin, frame_seconds, tick_seconds);
   } else {
     painter_.restart();  // render a new image when the window shows again

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/log.hpp"
+#include "scene/daylight.hpp"
 #include "scene/ray.hpp"
 
 namespace brume::scenario {
@@ -121,6 +122,7 @@ void choose_light(scene::Timeline& timeline, const scene::Scene& scene,
                   const std::optional<scene::SunOptions>& sun) {
   timeline.sun = sun;
   if (!sun && scene.lights.empty()) timeline.sun = kUsualSun;
+  if (timeline.sun) scene::dim_sky(timeline.sky, timeline.sun->elevation);
   if (timeline.sun || std::ranges::any_of(scene.lights, is_sun)) return;
   scene::SkyOptions& sky = timeline.sky;
   sky.zenith = {0.03f, 0.05f, 0.12f};

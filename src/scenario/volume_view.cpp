@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/log.hpp"
+#include "scene/daylight.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -87,7 +88,8 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   timeline.sky.zenith = {0.06f, 0.16f, 0.42f};
   timeline.sky.horizon = {0.30f, 0.43f, 0.62f};
   timeline.sky.ambient = {0.20f, 0.26f, 0.36f};
-  timeline.exposure = options.exposure.value_or(frame.heat ? 0 : kVolumeExposure);
+  const float dimmed = scene::dim_sky(timeline.sky, timeline.sun->elevation);
+  timeline.exposure = options.exposure.value_or(frame.heat ? 0 : kVolumeExposure - std::log2(dimmed));
   timeline.tone = options.tone.value_or(timeline.tone);
   if (frame.heat) timeline.ground = 0.0f;
   timeline.grid.voxel =

@@ -151,8 +151,9 @@ class Warned(AddonCase):
     """Warnings with names, in the sidebar."""
 
     def test_all_warnings_are_in_the_sidebar_with_names(self):
+        shared = bpy.data.lights.new("spot", "SPOT")
         for name in ("left lamp", "right lamp", "third lamp"):
-            level_parts.add(name, bpy.data.lights.new(name, "SPOT"))
+            level_parts.add(name, shared)
         self.export("level.txt")
         for name in ("left lamp", "right lamp", "third lamp"):
             self.assertSaid(f'"{name}" becomes a point light', "WARNING")

@@ -19,6 +19,15 @@ std::vector<std::size_t> play(QualityControl& control, const std::vector<double>
   return levels;
 }
 
+TEST(QualityTest, LightIsUpdatedInFewerFramesWhereTheseAreSlow) {
+  EXPECT_EQ(light_update_fraction(1.0f / 16, 0), 1.0f / 16);
+  EXPECT_EQ(light_update_fraction(1.0f / 16, 1.0 / 60), 1.0f / 16);
+  EXPECT_NEAR(light_update_fraction(1.0f / 16, 0.15), 3.0f / 16, 1e-6f);
+  EXPECT_EQ(light_update_fraction(1.0f / 16, 1e9), 0.25f);
+  EXPECT_EQ(light_update_fraction(0.5f, 1e9), 0.5f);
+  EXPECT_EQ(light_update_fraction(1, 0.3), 1);
+}
+
 TEST(QualityTest, KeepsTheBestLevelIfItIsFastEnough) {
   QualityControl control(60);
   for (const std::size_t level : play(control, {0.004, 0.003, 0.002, 0.001, 0.001, 0.001}, 20))

@@ -27,7 +27,7 @@ def check_level(level, solids, warnings):
             warnings.note(f'the material "{material.name}" glows, but it lights nothing: add a light beside it')
     for light in level.lights:
         if light.data.type == "AREA":
-            warnings.note(f'the area light "{light.data.name}" casts hard shadows: Brume has no soft ones')
+            warnings.note(f'the area light "{light.label}" casts hard shadows: Brume has no soft ones')
 
 
 def _emits(material):

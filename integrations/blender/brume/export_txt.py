@@ -192,10 +192,10 @@ class _Writer:
         """Writes a point light that emits `power` watts uniformly, the only kind that Scene.txt supports."""
         kind = light.data.type
         if kind == "SUN":
-            self._warnings.add(f'the sun "{light.data.name}" is not exported: Scene.txt has no suns; use glTF')
+            self._warnings.add(f'the sun "{light.label}" is not exported: Scene.txt has no suns; use glTF')
             return
         if kind != "POINT":
-            name = light.data.name
+            name = light.label
             self._warnings.add(f'the light "{name}" becomes a point light in Scene.txt; use glTF to keep its shape')
         values = [light.world_from_light[:3, 3], light.data.color, [light.power]]
         fields = [" ".join(number(value) for value in vector) for vector in values]

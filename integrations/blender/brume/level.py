@@ -34,6 +34,7 @@ class Thing:
 
 @dataclass
 class Light:
+    label: str  # Name in Blender.
     data: bpy.types.Light
     world_from_light: np.ndarray  # In Brume's axes and metres.
     power: float  # [W]; for a sun [W/m^2].
@@ -239,7 +240,9 @@ class Gathered:
         if power < 0 or min(light.color) < 0:
             self._warnings.add(f'the light "{instance.object.name}" has negative power or colour and is not exported')
             return
-        self._level.lights.append(Light(light, conversion.matrix(instance.matrix_world, metres), power))
+        self._level.lights.append(
+            Light(instance.object.name, light, conversion.matrix(instance.matrix_world, metres), power)
+        )
 
 
 # Intensity of Blender's lights of P watts (measured by tests/blender/lights.py): P / (4 pi) W/sr for points and for
