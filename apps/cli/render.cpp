@@ -106,6 +106,7 @@ Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs
   if (!options.slice.empty()) plan.slice = parse_slice("--slice", options.slice);
   plan.rate = parse_rate("--fps", options.fps);
   plan.scene = parse_scene_options(options.scene);
+  plan.scene.camera = plan.camera;
   plan.scene.aspect =
       static_cast<float>(plan.renderer.size_px.x) / static_cast<float>(plan.renderer.size_px.y);
   if (!options.frames.empty()) plan.frames = parse_frames("--frames", options.frames);

@@ -245,14 +245,15 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   timeline.tone = options.tone.value_or(timeline.tone);
 
   // Its smoke.
-  const glm::vec3 surface = middle_of_view(scene, camera);
-  const float diameter = smoke_size(camera, surface, options);
+  const scene::Camera eye = options.camera.value_or(camera);
+  const glm::vec3 surface = middle_of_view(scene, eye);
+  const float diameter = smoke_size(eye, surface, options);
   size_smoke(timeline, diameter, bounds, options);
   timeline.smokes = options.smokes;
   if (timeline.smokes.empty()) {
-    const glm::vec3 place = floor_before(scene, camera, surface, diameter);
+    const glm::vec3 place = floor_before(scene, eye, surface, diameter);
     timeline.smokes.push_back({0, place, place});
-    if (!scene.camera) {
+    if (!scene.camera && !options.camera) {
       // The smoke belongs into the image, too.
       scene.spheres.push_back({place + glm::vec3(0, 0.25f * diameter, 0), 0.5f * diameter, scene::kNone});
       camera = scene::default_camera(scene, options.aspect);

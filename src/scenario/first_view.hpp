@@ -17,6 +17,8 @@ struct FirstViewOptions {
   std::optional<float> voxel;                  ///< [m]
   std::optional<float> smoke_size;             ///< Diameter of the grown smoke in open air [m].
   std::vector<scene::SmokeEvent> smokes = {};  ///< In metres, after scaling.
+  /// What is looked from instead of the camera of the result [m]: the smoke is placed for it.
+  std::optional<scene::Camera> camera = {};
   std::optional<scene::SunOptions> sun = {};
   std::optional<float> exposure;  ///< [EV]; empty: measured (Scenario::measure_exposure).
   std::optional<scene::ToneCurve> tone = {};

@@ -47,6 +47,12 @@ std::vector<glm::ivec3> free_shell(const voxel::BitGrid& grid, glm::ivec3 middle
   return shell;
 }
 
+bool is_above_solid(const voxel::BitGrid& grid, glm::ivec3 voxel) {
+  for (int y = voxel.y - 1; y >= 0; --y)
+    if (grid.solid({voxel.x, y, voxel.z})) return true;
+  return false;
+}
+
 /// Where and when a throw of the log goes off.
 struct Throw {
   std::uint32_t id = 0, tick = 0;   // of the detonation
@@ -113,16 +119,22 @@ std::optional<glm::vec3> nearest_free_place(const voxel::BitGrid& grid, glm::vec
                                             std::uint32_t voxels) {
   const voxel::GridLayout& layout = grid.layout();
   const glm::ivec3 middle = glm::clamp(voxel_of(layout, at_world), glm::ivec3(0), layout.size - 1);
+  std::optional<glm::vec3> without_floor;
   int floods = 0;
-  for (int radius = 0; radius <= kSearchVoxels; ++radius) {
-    // One place per shell: its neighbours would mostly flood the same space.
-    for (const glm::ivec3 voxel : free_shell(grid, middle, radius)) {
-      if (sim::flood_fill(grid, voxel, voxels).size() >= voxels) return centre_of(layout, voxel);
-      if (++floods == kMostFloods) return {};
-      break;
-    }
+  for (int radius = 0; radius <= kSearchVoxels && floods < kMostFloods; ++radius) {
+    // One place per shell: its neighbours would mostly flood the same space. Under the lowest floor nobody
+    // sees it.
+    const std::vector<glm::ivec3> shell = free_shell(grid, middle, radius);
+    auto place = std::ranges::find_if(shell, [&](glm::ivec3 v) { return is_above_solid(grid, v); });
+    const bool has_floor = place != shell.end();
+    if (!has_floor) place = shell.begin();
+    if (place == shell.end() || (!has_floor && without_floor)) continue;
+    ++floods;
+    if (sim::flood_fill(grid, *place, voxels).size() < voxels) continue;
+    if (has_floor) return centre_of(layout, *place);
+    without_floor = centre_of(layout, *place);
   }
-  return {};
+  return without_floor;
 }
 
 std::vector<SmokeReport> report_smokes(const Scenario& scenario, sim::World& world) {

@@ -118,6 +118,23 @@ TEST_F(FirstViewTest, OptionsReplaceWhatIsChosen) {
 }
 
 // A session that the viewer saves is rendered from its timeline alone.
+TEST_F(FirstViewTest, SmokeIsBeforeTheCameraThatIsGiven) {
+  FirstViewOptions options;
+  for (const glm::vec3 eye : {glm::vec3(14, 2, 3), glm::vec3(-9, 2, 3), glm::vec3(4, 2, -12)}) {
+    const glm::vec3 target(4, 2.5f, 3);
+    options.camera = scene::Camera{eye, target, 1};
+    scene::Scene scene = scene::load_scene(box(8)).value_or_throw();
+    const scene::Timeline timeline = prepare_first_view(box(8), scene, options);
+    ASSERT_EQ(timeline.smokes.size(), 1u);
+    const glm::vec3 to_smoke = timeline.smokes[0].at_world - eye, along = glm::normalize(target - eye);
+    EXPECT_GT(glm::dot(to_smoke, along), 0);
+    EXPECT_LT(glm::dot(to_smoke, along), glm::length(target - eye)) << "behind the wall that is seen";
+    EXPECT_LT(glm::length(glm::vec2(to_smoke.x - along.x * glm::dot(to_smoke, along),
+                                    to_smoke.z - along.z * glm::dot(to_smoke, along))),
+              0.1f);
+  }
+}
+
 TEST_F(FirstViewTest, ASavedTimelineGivesTheSameLevel) {
   for (const float size : {0.05f, 4.0f, 20000.0f}) {
     const auto path = box(size, 20 * size);
@@ -192,6 +209,26 @@ TEST_F(SmokeReportTest, NamesWhatIsWrongAndAPlaceThatWorks) {
     const Scenario mended = scenario(*found.works_at, *found.works_at);
     EXPECT_EQ(report(mended).fault, SmokeFault::none);
   }
+}
+
+// A thin floor with a block on it: the nearest free voxels of a place in the floor are below it.
+TEST(NearestFreePlace, IsAboveAFloorWhereThereIsOne) {
+  voxel::BitGrid grid({{24, 24, 24}, 1, glm::vec3(0)});
+  for (int z = 0; z < 24; ++z)
+    for (int x = 0; x < 24; ++x) grid.set({x, 6, z}, true);
+  EXPECT_EQ(nearest_free_place(grid, {12.5f, 6.5f, 12.5f}, 100), glm::vec3(12.5f, 7.5f, 12.5f));
+  for (int y = 7; y < 11; ++y)
+    for (int z = 8; z < 17; ++z)
+      for (int x = 8; x < 17; ++x) grid.set({x, y, z}, true);
+  const auto place = nearest_free_place(grid, {12.5f, 6.5f, 12.5f}, 100);
+  ASSERT_TRUE(place);
+  EXPECT_GT(place->y, 7);
+}
+
+TEST(NearestFreePlace, IsTheNearestWhereNothingIsBelow) {
+  voxel::BitGrid grid({{24, 24, 24}, 1, glm::vec3(0)});
+  EXPECT_EQ(nearest_free_place(grid, {12.5f, 6.5f, 12.5f}, 100), glm::vec3(12.5f, 6.5f, 12.5f));
+  EXPECT_EQ(nearest_free_place(grid, {-3, 6.5f, 12.5f}, 100), glm::vec3(0.5f, 6.5f, 12.5f));
 }
 
 TEST_F(SmokeReportTest, ReportsThrowsThatEndTooLate) {
