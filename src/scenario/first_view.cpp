@@ -253,12 +253,15 @@ scene::Timeline prepare_first_view(const std::filesystem::path& path, scene::Sce
   if (timeline.smokes.empty()) {
     const glm::vec3 place = floor_before(scene, eye, surface, diameter);
     timeline.smokes.push_back({0, place, place});
-    if (!scene.camera && !options.camera) {
-      // The smoke belongs into the image, too.
-      scene.spheres.push_back({place + glm::vec3(0, 0.25f * diameter, 0), 0.5f * diameter, scene::kNone});
-      camera = scene::default_camera(scene, options.aspect);
-      scene.spheres.pop_back();
-    }
+  }
+  if (!scene.camera && !options.camera) {
+    // The smoke belongs into the image, too.
+    const std::size_t spheres = scene.spheres.size();
+    for (const scene::SmokeEvent& smoke : timeline.smokes)
+      scene.spheres.push_back(
+          {smoke.at_world + glm::vec3(0, 0.25f * diameter, 0), 0.5f * diameter, scene::kNone});
+    camera = scene::default_camera(scene, options.aspect);
+    scene.spheres.resize(spheres);
   }
   scene.camera = camera;
   return timeline;

@@ -125,7 +125,9 @@ std::optional<glm::vec3> nearest_free_place(const voxel::BitGrid& grid, glm::vec
     // One place per shell: its neighbours would mostly flood the same space. Under the lowest floor nobody
     // sees it.
     const std::vector<glm::ivec3> shell = free_shell(grid, middle, radius);
-    auto place = std::ranges::find_if(shell, [&](glm::ivec3 v) { return is_above_solid(grid, v); });
+    // A way down counts three times: who names a place in the floor means the room above it.
+    auto place = std::ranges::find_if(
+        shell, [&](glm::ivec3 v) { return v.y >= middle.y - radius / 3 && is_above_solid(grid, v); });
     const bool has_floor = place != shell.end();
     if (!has_floor) place = shell.begin();
     if (place == shell.end() || (!has_floor && without_floor)) continue;

@@ -40,6 +40,7 @@ constexpr std::string_view kSupportedExtensions[] = {"KHR_lights_punctual",     
   }
 
 #define LIGHTS "extensions.KHR_lights_punctual.lights"
+#define GLOSSY "materials[].extensions.KHR_materials_pbrSpecularGlossiness"
 #define DRACO "meshes[].primitives[].extensions.KHR_draco_mesh_compression"
 #define MESHOPT "bufferViews[].extensions.EXT_meshopt_compression"
 constexpr Rule kRules[] = {
@@ -97,6 +98,9 @@ constexpr Rule kRules[] = {
     {"materials[].pbrMetallicRoughness.metallicFactor", Kind::number, 0, 1},
     TEXTURE("materials[].pbrMetallicRoughness.baseColorTexture"),
     TEXTURE("materials[].pbrMetallicRoughness.metallicRoughnessTexture"),
+    {GLOSSY ".diffuseFactor[]", Kind::number, 0, 1, 4},
+    {GLOSSY ".glossinessFactor", Kind::number, 0, 1},
+    TEXTURE(GLOSSY ".diffuseTexture"),
     TEXTURE("materials[].normalTexture"),
     TEXTURE("materials[].emissiveTexture"),
     {"materials[].emissiveFactor[]", Kind::number, 0, 1e6, 3},
@@ -116,6 +120,7 @@ constexpr Rule kRules[] = {
     {LIGHTS "[].spot.innerConeAngle", Kind::number, 0, kPi / 2},
     {LIGHTS "[].spot.outerConeAngle", Kind::number, 0, kPi / 2},
 };
+#undef GLOSSY
 #undef MESHOPT
 #undef DRACO
 #undef LIGHTS
@@ -295,6 +300,7 @@ class Checker {
 
 /// A file of another kind gets a clearer answer than a syntax error.
 void check_is_json(std::string_view text, const std::string& file) {
+  if (text.empty()) throw Error(ErrorCode::bad_input, file + ": is no glTF file: it is empty");
   if (is_utf16(text)) throw Error(ErrorCode::bad_input, file + ": is UTF-16; save it as UTF-8");
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   const std::size_t start = text.find_first_not_of(" \t\r\n");

@@ -156,7 +156,12 @@ std::string_view json_of_glb(std::string_view glb, const std::string& name) {
   if (glb.size() >= 20) std::memcpy(&length, glb.data() + 12, sizeof length);
   if (glb.size() < 20 || length > glb.size() - 20)
     throw Error(ErrorCode::bad_input, name + ": the GLB file is truncated; export or copy it again");
-  return glb.substr(20, length);
+  const std::string_view json = glb.substr(20, length);
+  if (const std::size_t start = json.find_first_not_of(" \t\r\n");
+      start == std::string_view::npos || json[start] != '{')
+    throw Error(ErrorCode::bad_input,
+                name + ": the first chunk of the GLB file is no JSON; export or copy it again");
+  return json;
 }
 
 }  // namespace

@@ -64,6 +64,11 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   const auto image = [&](const auto& texture) {
     return texture.index < 0 ? kNone : image_of_texture(texture.index);
   };
+  // A color that stands in for numbers would make no sense.
+  const auto numbers = [&](const auto& texture) {
+    const std::uint32_t found = image(texture);
+    return builder_.is_checker(found) ? kNone : found;
+  };
   const auto rgb = [](const std::vector<double>& c) { return glm::vec3(glm::dvec3(c[0], c[1], c[2])); };
 
   // Metallic-roughness factors and images.
@@ -73,9 +78,9 @@ Material GltfMaterials::convert(const tinygltf::Material& source, const std::str
   material.base_color = rgb(pbr.baseColorFactor);
   material.roughness = static_cast<float>(pbr.roughnessFactor);
   material.metallic = static_cast<float>(pbr.metallicFactor);
-  material.roughness_image = image(pbr.metallicRoughnessTexture);
+  material.roughness_image = numbers(pbr.metallicRoughnessTexture);
   material.base_color_image = image(pbr.baseColorTexture);
-  material.normal_image = image(source.normalTexture);
+  material.normal_image = numbers(source.normalTexture);
 
   // Emission.
   material.emission = rgb(source.emissiveFactor);

@@ -44,6 +44,23 @@ bool rewrite_draco_indices(json& document) {
   return changed;
 }
 
+bool rewrite_glossy_materials(json& document) {
+  bool changed = false;
+  if (!document.contains("materials")) return changed;
+  const json::json_pointer extension("/extensions/KHR_materials_pbrSpecularGlossiness");
+  for (json& material : document["materials"]) {
+    // A file may have both for programs that know one of them: the base colour is then there.
+    if (!material.contains(extension) || material.contains("pbrMetallicRoughness")) continue;
+    const json& glossy = material.at(extension);
+    json metallic{{"metallicFactor", 0}, {"roughnessFactor", 1 - glossy.value("glossinessFactor", 1.0)}};
+    if (glossy.contains("diffuseFactor")) metallic["baseColorFactor"] = glossy["diffuseFactor"];
+    if (glossy.contains("diffuseTexture")) metallic["baseColorTexture"] = glossy["diffuseTexture"];
+    material["pbrMetallicRoughness"] = std::move(metallic);
+    changed = true;
+  }
+  return changed;
+}
+
 void put_length(std::string& glb, std::size_t at, std::size_t value) {
   const auto length = static_cast<std::uint32_t>(value);
   std::memcpy(glb.data() + at, &length, sizeof length);
@@ -68,6 +85,7 @@ bool rewrite_for_tinygltf(json& document) {
       changed = true;
     }
   }
+  changed = rewrite_glossy_materials(document) || changed;
   return rewrite_draco_indices(document) || changed;
 }
 

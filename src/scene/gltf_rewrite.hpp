@@ -1,4 +1,4 @@
-// Rewrites what glTF 2.0 and its extensions allow but tinygltf 2.7 refuses.
+// Rewrites what glTF 2.0 and its extensions allow but tinygltf 2.7 refuses or does not know.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,6 +13,8 @@ bool is_fallback_buffer(const nlohmann::json& buffer);
 /// Rewrites a document that checked_gltf_json returned; true if anything changed:
 /// - data: URIs whose media type tinygltf does not know get one that it does; contents decide, not types.
 /// - Fallback buffers get one byte.
+/// - KHR_materials_pbrSpecularGlossiness becomes metallic-roughness without metal: diffuse is the base
+/// colour.
 /// - Indices that Draco compresses get a buffer view. Do not read such accessors.
 bool rewrite_for_tinygltf(nlohmann::json& document);
 

@@ -33,6 +33,7 @@ class SceneBuilder {
   std::uint32_t image_of_bytes(std::span<const std::byte> bytes, const std::string& name,
                                const std::string& place);
   std::uint32_t checker_image();
+  bool is_checker(std::uint32_t image) const { return image == checker_ && image != kNone; }
   /// The index of the stand-in cube.
   Result<std::uint32_t> cube_mesh();
 

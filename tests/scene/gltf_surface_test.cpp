@@ -71,6 +71,32 @@ TEST(GltfTexture, DataUrisOfAnyMediaType) {
   }
 }
 
+TEST(GltfTexture, SpecularGlossinessIsRoughnessWithoutMetal) {
+  const std::string glossy =
+      R"("extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.5, 0.25, 1, 1],
+         "glossinessFactor": 0.75, "diffuseTexture": {"index": 0}}})";
+  Document document = textured("{" + glossy + "}", R"(, "textures": [{}])");
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  const Material& material = scene->materials[scene->objects[0].material];
+  EXPECT_EQ(material.base_color, glm::vec3(0.5f, 0.25f, 1));
+  EXPECT_EQ(material.roughness, 0.25f);
+  EXPECT_EQ(material.metallic, 0);
+  EXPECT_NE(material.base_color_image, kNone);
+  document =
+      textured(R"({"pbrMetallicRoughness": {"metallicFactor": 1}, )" + glossy + "}", R"(, "textures": [{}])");
+  EXPECT_EQ(document.load().value_or_throw().materials.at(scene->objects[0].material).metallic, 1);
+  document = textured("{" + glossy + "}", "");
+  EXPECT_HAS(document.error(), "diffuseTexture.index: names textures[0]");
+}
+
+TEST(GltfTexture, MissingNormalsAreNone) {
+  Document document = textured(R"({"normalTexture": {"index": 0}})", R"(, "textures": [{}])");
+  const auto scene = document.load();
+  ASSERT_TRUE(scene) << scene.failure().message;
+  EXPECT_EQ(scene->materials[scene->objects[0].material].normal_image, kNone);
+}
+
 TEST(GltfTexture, ExtensionsMustNameAnImage) {
   Document document =
       textured("{}", R"(, "textures": [{"extensions": {"EXT_texture_webp": {"source": 3}}}])");
@@ -176,7 +202,9 @@ TEST(GltfKind, VersionOneIsNamed) {
 TEST(GltfKind, OtherFilesAreNamed) {
   const auto error = [](const std::string& file) { return load_gltf(file, {}).failure().message; };
   EXPECT_HAS(error(std::string("\x89PNG\r\n\0\0", 8)), "a.gltf: is no glTF file");
-  EXPECT_HAS(error(""), "a.gltf: is no glTF file");
+  EXPECT_HAS(error(""), "a.gltf: is no glTF file: it is empty");
+  EXPECT_HAS(error(std::string("glTF\2\0\0\0\x20\0\0\0\x0c\0\0\0JSONjunkjunkjunk", 32)),
+             "a.gltf: the first chunk of the GLB file is no JSON");
   EXPECT_EQ(error(std::string("\xff\xfe{\0", 4)), "a.gltf: is UTF-16; save it as UTF-8");
 }
 
