@@ -33,7 +33,7 @@ glm::vec3 sunlight_fraction(float elevation) {
 
 float dim_sky(SkyOptions& sky, float elevation) {
   const float light = sunlight_fraction(elevation).g, low = 1 - light;
-  const float brightness = glm::mix(0.35f, 1.0f, light);
+  const float brightness = glm::mix(0.2f, 1.0f, light);
   const auto warmed = [&](glm::vec3 color, glm::vec3 warm, float most) {
     const float luminance = glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
     return brightness * glm::mix(color, luminance * warm, low * most);
