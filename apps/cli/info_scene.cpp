@@ -67,6 +67,12 @@ void add_counts(Summary& summary, const scene::Scene& scene) {
   summary.add("solid_triangles", solid);
 }
 
+/// Bounds in a file's units as the timeline places them [m].
+Box<float> scaled(const Box<float>& bounds, const scene::Timeline& timeline) {
+  if (bounds.empty()) return bounds;
+  return {timeline.scale * (bounds.low - timeline.origin), timeline.scale * (bounds.high - timeline.origin)};
+}
+
 void add_bounds(Summary& summary, const Box<float>& bounds) {
   if (bounds.empty()) return;
   const glm::vec3 size = bounds.high - bounds.low;
@@ -141,12 +147,14 @@ Summary scene_summary(const std::filesystem::path& path, Outputs& outputs) {
   Summary summary("scene");
   const bool own_camera = scene.camera.has_value();
   add_counts(summary, scene);
-  add_bounds(summary, scene::world_bounds(scene));
+  const Box<float> bounds = scene::world_bounds(scene);
   add_lights(summary, scene);
   stop_if_interrupted();
 
   // As render shows it. A scale that it chooses is a warning.
   const scene::Timeline timeline = scenario::prepare_first_view(path, scene, {});
+  if (timeline.scale != 1) summary.add("scale", timeline.scale);
+  add_bounds(summary, scaled(bounds, timeline));
   add_camera(summary, scene::default_camera(scene), own_camera);
   const auto layout = scenario::grid_layout(timeline, scene).value_or_throw();
   add_layout(summary, layout);

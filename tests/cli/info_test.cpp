@@ -39,6 +39,17 @@ TEST_F(Info, SizeAndPlaceOfAScene) {
   EXPECT_NE(text("room.obj").find("4 m wide (x), 3 m high (y), 4 m deep (z)"), std::string::npos);
 }
 
+// In metres, after the scale that render chooses.
+TEST_F(Info, SizeAndPlaceOfASceneInMillimetres) {
+  folder_.write("plan.obj",
+                "v 1000 2000 0\nv 21000 2000 0\nv 1000 2000 8000\nv 1000 5000 0\nf 1 2 3\nf 1 2 4\n");
+  const Json plan = info("plan.obj");
+  EXPECT_NEAR(plan["scale"].get<double>(), 0.1, 1e-6);
+  EXPECT_EQ(plan["size"], (Json{2000, 300, 800}));
+  EXPECT_EQ(plan["ground"], 200);
+  EXPECT_FALSE(info("room.obj").contains("scale"));
+}
+
 // The options that it prints are those that show the scene.
 TEST_F(Info, ItsSmokeAndCameraWork) {
   const std::string printed = text("room.obj");

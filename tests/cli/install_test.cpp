@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "core/file.hpp"
 #include "tests/cli/run_program.hpp"
@@ -11,14 +12,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
+TEST(Install, TheManualPageNamesEveryCommand) {
+  const WorkFolder folder;
+  const std::string help = run_brume(folder.path(), {"--help"}).out;
+  const std::string page = *read_text_file(BRUME_SOURCE_DIR "/apps/cli/brume.1");
+  std::istringstream lines(help.substr(help.find("Commands:\n") + 10));
+  int commands = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() < 4 || line.rfind("  ", 0) != 0 || line[2] == ' ') continue;
+    const std::string command = line.substr(2, line.find(' ', 2) - 2);
+    EXPECT_NE(page.find(".It Cm " + command + "\n"), std::string::npos) << command;
+    ++commands;
+  }
+  EXPECT_GE(commands, 11);
+}
+
 TEST(Install, TheProgramFindsItsScenesBesideItAndInShare) {
   const WorkFolder folder;
   const fs::path prefix = folder.path() / "usr";
   const std::string install = "cmake --install '" BRUME_BUILD_DIR "' --prefix '" + prefix.string() + "' > '" +
                               (folder.path() / "log").string() + "' 2>&1";
   ASSERT_EQ(std::system(install.c_str()), 0) << *read_text_file(folder.path() / "log");
-  for (const char* file : {"bin/brume", "bin/brume-vdb", "share/brume/scenes/demo.toml",
-                           "share/brume/scenes/demo.glb", "share/bash-completion/completions/brume"})
+  for (const char* file :
+       {"bin/brume", "bin/brume-vdb", "share/brume/scenes/demo.toml", "share/brume/scenes/demo.glb",
+        "share/bash-completion/completions/brume", "share/man/man1/brume.1"})
     EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
 
   // So does its helper.
