@@ -1,4 +1,6 @@
 // The commands of the first pages and of --help run as written; those of the other pages: docs_all_test.cpp.
+#include <sstream>
+
 #include "apps/cli/demo_picture.hpp"
 #include "core/file.hpp"
 #include "tests/cli/documents.hpp"
