@@ -27,7 +27,6 @@ struct ScreenOptions {
 
 class Screen {
  public:
-
   /// Requires an ImGui context. The window must outlive the screen. Throws what Context throws.
   Screen(const Window& window, const ScreenOptions& options);
   ~Screen();

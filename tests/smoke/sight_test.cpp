@@ -110,6 +110,7 @@ TEST(Sight, FollowsHolesOfAnyShapeAndAge) {
     }
   }
   RecordProperty("beyond_the_steps_voxels", std::to_string(worst));
+  // Holes of each shape matter; the few rounds under a sanitizer meet some shapes rarely.
   for (const double share : taken) EXPECT_GT(share, kSanitized ? 0 : 5);
 }
 
