@@ -195,7 +195,7 @@ Result<std::vector<Measurement>> light_cache(Bench& bench) {
       change(i);
       const FrameCost cost = frame.draw();
       if (i < 2) continue;
-      milliseconds.push_back(cost.passes.at("smoke_light"));
+      milliseconds.push_back(cost.passes.at("light"));
       rays += frame.renderer().light_plan().shadow_rays.size();
       bricks += frame.renderer().light_plan().gathers.size();
     }

@@ -27,13 +27,14 @@ layout(scalar, push_constant) uniform Push { NoiseAdvectionParams params; };
 /// Period of the rolls in widths.
 const int kSwirlCells = 64;
 
-/// Mean density of the free voxels around a texel of value `here`, and whether any voxel around it holds smoke.
-bool density_around(vec2 here, ivec3 atlas_texel, out float density) {
-  const vec3 texel = 1.0 / vec3(textureSize(density_atlas, 0));
+/// Mean density of the free voxels around a texel of value `here`, and whether any voxel around it holds smoke. The
+/// texels around are those of its brick: beyond its apron another brick begins, from anywhere.
+bool density_around(vec2 here, uint slot, uint local, out float density) {
+  const vec3 first = vec3(texel_in_atlas(slot, 0u)), texel = 1.0 / vec3(textureSize(density_atlas, 0));
   vec2 sum = vec2(0.0);
   for (uint i = 0u; i < 8u; ++i) {
-    const vec3 offset = vec3(i & 1u, i >> 1u & 1u, i >> 2u);
-    sum += textureLod(density_atlas, (vec3(atlas_texel) + offset) * texel, 0.0).rg;
+    const vec3 corner = vec3(local_texel(local)) + vec3(i & 1u, i >> 1u & 1u, i >> 2u);
+    sum += textureLod(density_atlas, (first + clamp(corner, 0.5, float(kBrickTexels) - 0.5)) * texel, 0.0).rg;
   }
   // In a wall, the density in front of it: light grazes walls.
   density = here.g > 0.5 ? here.r : sum.r / max(sum.g, 1e-3);
@@ -134,7 +135,7 @@ void main() {
   const bool is_free = here.g > 0.5;
   const float stored = is_free ? here.r : kInSolid;
   float density;
-  if (!density_around(here, in_atlas, density)) {
+  if (!density_around(here, slot, local, density)) {
     imageStore(density_displacement, in_atlas, vec4(stored, 0.0, 0.0, 0.0));
     imageStore(filtered_density, in_atlas, vec4(stored, 0.0, 0.0, 0.0));
     return;

@@ -33,6 +33,7 @@ Context::Context(const ContextOptions& options)
   info_ = choose_device(devices, options.device);
   create_device(options.presentation);
   read_properties();
+  memory_ = std::make_unique<Memory>(vk_, info_.handle, device_, options.validation);
 }
 
 Context::Context(const HostDevice& host) : device_(host.device), queue_family_(host.queue_family) {
@@ -44,6 +45,7 @@ Context::Context(const HostDevice& host) : device_(host.device), queue_family_(h
     throw Error(ErrorCode::no_device, "the host's physical device is not one of its instance");
   vk_.load_device(device_);
   read_properties();
+  memory_ = std::make_unique<Memory>(vk_, info_.handle, device_, false);
 }
 
 void Context::create_device(const Presentation& presentation) {
@@ -90,7 +92,6 @@ void Context::read_properties() {
   vk_.GetPhysicalDeviceProperties2(info_.handle, &properties);
   limits_ = properties.properties.limits;
   max_allocation_bytes_ = maintenance.maxMemoryAllocationSize;
-  memory_ = std::make_unique<Memory>(vk_, info_.handle, device_);
 }
 
 Context::~Context() {

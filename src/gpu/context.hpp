@@ -21,8 +21,10 @@ struct Presentation {
 };
 
 struct ContextOptions {
-  std::string device;           ///< See choose_device.
-  bool validation = false;      ///< Enables validation and synchronization layers; stores their messages.
+  std::string device;  ///< See choose_device.
+  /// Enables validation and synchronization layers, stores their messages, and fills new memory
+  /// (gpu::Memory).
+  bool validation = false;
   Presentation presentation{};  ///< Without extensions: no windows.
 };
 

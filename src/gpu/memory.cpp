@@ -1,6 +1,7 @@
 #include "gpu/memory.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <string>
 
@@ -56,8 +57,8 @@ std::string allocation_text(VkDeviceSize size, VkDeviceSize in_use, const VkMemo
 
 }  // namespace
 
-Memory::Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device)
-    : vk_(vk), device_(device) {
+Memory::Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device, bool fill)
+    : vk_(vk), device_(device), fill_(fill) {
   vk_.GetPhysicalDeviceMemoryProperties(physical_device, &properties_);
 }
 
@@ -81,17 +82,20 @@ std::uint32_t Memory::find_type(std::uint32_t type_bits, MemoryUse use) const {
   throw Error(ErrorCode::resource_limit, "the Vulkan device lacks a required memory type");
 }
 
-Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled) {
+Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, MemoryUse use, bool tiled) {
   MemoryBlock block;
   block.size = size;
   block.type = type;
   block.tiled = tiled;
+  block.for_device = use == MemoryUse::device;
   block.holes[0] = size;
   const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
   const VkMemoryHeap& heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex];
   check(vk_.AllocateMemory(device_, &info, nullptr, &block.memory),
         allocation_text(size, bytes_in_use_, heap).c_str());
-  if (mapped) {
+  const bool is_visible =
+      (properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
+  if (!block.for_device || (fill_ && is_visible)) {
     void* pointer = nullptr;
     const VkResult result = vk_.MapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &pointer);
     if (result != VK_SUCCESS) vk_.FreeMemory(device_, block.memory, nullptr);
@@ -104,20 +108,35 @@ Memory::MemoryBlock& Memory::add_block(VkDeviceSize size, std::uint32_t type, bo
 Memory::Range Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool tiled) {
   const std::lock_guard lock(mutex_);
   const std::uint32_t type = find_type(needs.memoryTypeBits, use);
-  const bool mapped = use != MemoryUse::device;
   const auto range_in = [&](MemoryBlock& block) -> std::optional<Range> {
     const auto offset = take(block.holes, needs.size, needs.alignment);
     if (!offset) return std::nullopt;
     bytes_in_use_ += needs.size;
-    return Range{&block, block.memory, *offset, needs.size, block.mapped ? block.mapped + *offset : nullptr};
+    const Range range{&block, block.memory, *offset, needs.size,
+                      block.for_device ? nullptr : block.mapped + *offset};
+    if (block.for_device && block.mapped) fill(range);
+    return range;
   };
   if (needs.size < kDedicatedBytes) {
     for (MemoryBlock& block : blocks_) {
-      if (block.type != type || block.tiled != tiled || (block.mapped != nullptr) != mapped) continue;
+      if (block.type != type || block.tiled != tiled || block.for_device != (use == MemoryUse::device))
+        continue;
       if (const auto range = range_in(block)) return *range;
     }
   }
-  return *range_in(add_block(needs.size < kDedicatedBytes ? kBlockBytes : needs.size, type, mapped, tiled));
+  return *range_in(add_block(needs.size < kDedicatedBytes ? kBlockBytes : needs.size, type, use, tiled));
+}
+
+/// Other values each time, all of them finite as half floats and as floats.
+void Memory::fill(const Range& range) {
+  constexpr std::uint32_t kFinite = 0x3c00;
+  std::byte* const bytes = range.block->mapped + range.offset;
+  std::uint32_t state = ++filled_ * 747796405u;
+  for (VkDeviceSize i = 0; i + sizeof state <= range.size; i += sizeof state) {
+    state = state * 1664525u + 1013904223u;
+    const std::uint32_t word = (state & 0xffff) % kFinite | (state >> 16) % kFinite << 16;
+    std::memcpy(bytes + i, &word, sizeof word);
+  }
 }
 
 void Memory::free(const Range& range) noexcept {

@@ -32,7 +32,9 @@ class Memory {
     std::byte* mapped = nullptr;  ///< For upload and readback: coherent, permanently mapped.
   };
 
-  Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device);
+  /// With `fill`, every range of memory for the device that the CPU can reach begins with arbitrary values,
+  /// as memory that was in use before does: what reads before it writes gives other results.
+  Memory(const Functions& vk, VkPhysicalDevice physical_device, VkDevice device, bool fill);
   ~Memory();
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
@@ -47,7 +49,8 @@ class Memory {
 
  private:
   std::uint32_t find_type(std::uint32_t type_bits, MemoryUse use) const;
-  MemoryBlock& add_block(VkDeviceSize size, std::uint32_t type, bool mapped, bool tiled);
+  MemoryBlock& add_block(VkDeviceSize size, std::uint32_t type, MemoryUse use, bool tiled);
+  void fill(const Range& range);
 
   const Functions& vk_;
   VkDevice device_;
@@ -55,13 +58,15 @@ class Memory {
   mutable std::mutex mutex_;
   std::list<MemoryBlock> blocks_;
   VkDeviceSize bytes_in_use_ = 0;
+  bool fill_;
+  std::uint32_t filled_ = 0;  // ranges
 };
 
 struct Memory::MemoryBlock {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   VkDeviceSize size = 0;
   std::uint32_t type = 0;
-  bool tiled = false;
+  bool tiled = false, for_device = false;
   std::byte* mapped = nullptr;
   std::map<VkDeviceSize, VkDeviceSize> holes;  // offset -> size, never adjacent
 };

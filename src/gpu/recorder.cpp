@@ -1,14 +1,12 @@
 #include "gpu/recorder.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/error.hpp"
 
 namespace brume::gpu {
 namespace {
 
-constexpr VkDeviceSize kStagingBytes = 8ull << 20;
 constexpr std::uint32_t kSetsPerFrame = 4096;
 constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
                                    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
@@ -73,6 +71,11 @@ Recorder::Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands)
 }
 
 void Recorder::use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
+  flush_transfers();
+  add_barrier(buffer, stages, access);
+}
+
+void Recorder::add_barrier(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
   const Dependency wait = advance(buffer.last_use, stages, access, false);
   if (!wait.needed) return;
   buffer_barriers_.push_back({VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2, nullptr, wait.src_stages,
@@ -82,6 +85,7 @@ void Recorder::use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessF
 
 void Recorder::use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access,
                    VkImageLayout layout) {
+  flush_transfers();
   const VkImageLayout old_layout = image.last_use.layout;
   const Dependency wait = advance(image.last_use, stages, access, old_layout != layout);
   image.last_use.layout = layout;
@@ -168,17 +172,21 @@ VkDescriptorSet Recorder::write_set(const Pipeline& pipeline, std::span<const Bo
 
 void Recorder::bind(const Pipeline& pipeline, BoundResources resources, std::span<const std::byte> bytes) {
   for (const BoundResource& bound : resources) use(bound.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+  const VkDescriptorSet set = write_set(pipeline, resources);
+  if (concurrently_) {
+    dispatches_.push_back({&pipeline, set, {bytes.begin(), bytes.end()}, {}});
+    return;
+  }
   flush_barriers();
-  bind_set(pipeline, resources);
+  bind_set(pipeline, set);
   if (!bytes.empty()) push(pipeline, bytes);
 }
 
 void Recorder::bind_for_draws(const Pipeline& pipeline, BoundResources resources) {
-  bind_set(pipeline, resources);
+  bind_set(pipeline, write_set(pipeline, resources));
 }
 
-void Recorder::bind_set(const Pipeline& pipeline, std::span<const BoundResource> resources) {
-  const VkDescriptorSet set = write_set(pipeline, resources);
+void Recorder::bind_set(const Pipeline& pipeline, VkDescriptorSet set) {
   context_.vk().CmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
   context_.vk().CmdBindDescriptorSets(commands_, pipeline.bind_point(), pipeline.layout(), 0, 1, &set, 0,
                                       nullptr);
@@ -203,193 +211,32 @@ void Recorder::push(const Pipeline& pipeline, std::span<const std::byte> bytes) 
 void Recorder::dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y,
                                 std::uint32_t z) {
   const auto& group = pipeline.group();
-  context_.vk().CmdDispatch(commands_, (x + group[0] - 1) / group[0], (y + group[1] - 1) / group[1],
-                            (z + group[2] - 1) / group[2]);
+  const std::array groups{(x + group[0] - 1) / group[0], (y + group[1] - 1) / group[1],
+                          (z + group[2] - 1) / group[2]};
+  if (concurrently_)
+    dispatches_.back().groups = groups;
+  else
+    context_.vk().CmdDispatch(commands_, groups[0], groups[1], groups[2]);
 }
 
-void Recorder::dispatch_together(std::initializer_list<Dispatch> dispatches) {
-  for (const Dispatch& dispatch : dispatches)
-    for (const BoundResource& bound : dispatch.resources)
-      use(bound.resource, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+void Recorder::concurrently(const std::function<void()>& record) {
+  BRUME_ASSERT(!concurrently_, "dispatches inside of others");
+  concurrently_ = true;
+  record();
+  concurrently_ = false;
   flush_barriers();
-  for (const Dispatch& dispatch : dispatches) {
-    bind_set(dispatch.pipeline, dispatch.resources);
-    if (!dispatch.push.empty()) push(dispatch.pipeline, dispatch.push);
-    dispatch_threads(dispatch.pipeline, dispatch.threads.x, dispatch.threads.y, dispatch.threads.z);
+  for (const Dispatch& dispatch : dispatches_) {
+    bind_set(*dispatch.pipeline, dispatch.set);
+    if (!dispatch.push.empty()) push(*dispatch.pipeline, dispatch.push);
+    context_.vk().CmdDispatch(commands_, dispatch.groups[0], dispatch.groups[1], dispatch.groups[2]);
   }
+  dispatches_.clear();
 }
 
 void Recorder::dispatch_indirect(const Buffer& groups) {
   use(groups, VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
   flush_barriers();
   context_.vk().CmdDispatchIndirect(commands_, groups.handle(), 0);
-}
-
-Recorder::Staged Recorder::stage_bytes(std::span<const std::byte> bytes) {
-  // Offsets of image copies must be multiples of the texel size; 16 covers every format in use.
-  constexpr VkDeviceSize kAlignment = 16;
-  auto& buffers = slot_.staging_;
-  while (slot_.staging_index_ < buffers.size() &&
-         slot_.staging_used_ + bytes.size() > buffers[slot_.staging_index_].size()) {
-    ++slot_.staging_index_;
-    slot_.staging_used_ = 0;
-  }
-  if (slot_.staging_index_ == buffers.size()) {
-    buffers.emplace_back(context_, std::max<VkDeviceSize>(kStagingBytes, bytes.size()),
-                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::upload);
-    slot_.staging_used_ = 0;
-  }
-  const Staged staged{&buffers[slot_.staging_index_], slot_.staging_used_};
-  std::memcpy(staged.buffer->mapped() + staged.offset, bytes.data(), bytes.size());
-  slot_.staging_used_ += (bytes.size() + kAlignment - 1) / kAlignment * kAlignment;
-  return staged;
-}
-
-void Recorder::upload(const Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes) {
-  if (bytes.empty()) return;
-  BRUME_ASSERT(offset + bytes.size() <= buffer.size(), std::to_string(offset + bytes.size()));
-  const Staged staged = stage_bytes(bytes);
-  use(buffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-  flush_barriers();
-  const VkBufferCopy copy{staged.offset, offset, bytes.size()};
-  context_.vk().CmdCopyBuffer(commands_, staged.buffer->handle(), buffer.handle(), 1, &copy);
-}
-
-void Recorder::upload(const Image& image, std::span<const Region> regions) {
-  if (regions.empty()) return;
-  use(image, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-  flush_barriers();
-
-  // One copy command per staging buffer.
-  std::vector<VkBufferImageCopy> copies;
-  const Buffer* source = nullptr;
-  const auto flush_copies = [&] {
-    if (!source || copies.empty()) return;
-    context_.vk().CmdCopyBufferToImage(commands_, source->handle(), image.handle(),
-                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                                       static_cast<std::uint32_t>(copies.size()), copies.data());
-    copies.clear();
-  };
-  for (const Region& region : regions) {
-    const Staged staged = stage_bytes(region.texels);
-    if (staged.buffer != source) flush_copies();
-    source = staged.buffer;
-    VkBufferImageCopy copy{};
-    copy.bufferOffset = staged.offset;
-    copy.imageSubresource = {image.aspect(), 0, 0, 1};
-    copy.imageOffset = {region.offset.x, region.offset.y, region.offset.z};
-    copy.imageExtent = {region.size.x, region.size.y, region.size.z};
-    copies.push_back(copy);
-  }
-  flush_copies();
-}
-
-void Recorder::fill(const Buffer& buffer, std::uint32_t value) {
-  use(buffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-  flush_barriers();
-  context_.vk().CmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, value);
-}
-
-void Recorder::clear(const Image& image, VkClearColorValue value) {
-  use(image, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL);
-  flush_barriers();
-  const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0,
-                                    VK_REMAINING_ARRAY_LAYERS};
-  context_.vk().CmdClearColorImage(commands_, image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1, &all);
-}
-
-void Recorder::read_back(const Image& image, const Buffer& buffer) {
-  const bool general = image.sampled_layout() == VK_IMAGE_LAYOUT_GENERAL;
-  const VkImageLayout layout = general ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-  use(image, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, layout);
-  use(buffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-  flush_barriers();
-  VkBufferImageCopy copy{};
-  copy.imageSubresource = {image.aspect(), 0, 0, 1};
-  copy.imageExtent = {image.info().size.x, image.info().size.y, image.info().size.z};
-  context_.vk().CmdCopyImageToBuffer(commands_, image.handle(), layout, buffer.handle(), 1, &copy);
-  use(buffer, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-  flush_barriers();
-}
-
-void Recorder::read_back(const Buffer& from, const Buffer& to, VkDeviceSize bytes) {
-  use(from, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-  use(to, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-  flush_barriers();
-  const VkBufferCopy copy{0, 0, bytes};
-  context_.vk().CmdCopyBuffer(commands_, from.handle(), to.handle(), 1, &copy);
-  use(to, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-  flush_barriers();
-}
-
-namespace {
-
-VkImageBlit whole_blit(glm::uvec2 from, glm::uvec2 to) {
-  VkImageBlit blit{};
-  blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  blit.srcOffsets[1] = {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y), 1};
-  blit.dstOffsets[1] = {static_cast<std::int32_t>(to.x), static_cast<std::int32_t>(to.y), 1};
-  return blit;
-}
-
-}  // namespace
-
-void Recorder::blit(const Image& from, const Image& to, VkFilter filter) {
-  use(from, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_GENERAL);
-  use(to, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL);
-  flush_barriers();
-  const VkImageBlit blit = whole_blit(glm::uvec2(from.info().size), glm::uvec2(to.info().size));
-  context_.vk().CmdBlitImage(commands_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(),
-                             VK_IMAGE_LAYOUT_GENERAL, 1, &blit, filter);
-}
-
-void Recorder::blit(const Image& from, const WindowImage& to) {
-  use(from, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_GENERAL);
-  const auto change = [&](VkAccessFlags2 before, VkAccessFlags2 after, VkImageLayout old_layout,
-                          VkImageLayout new_layout) {
-    image_barriers_.push_back({VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                               nullptr,
-                               VK_PIPELINE_STAGE_2_BLIT_BIT,
-                               before,
-                               VK_PIPELINE_STAGE_2_BLIT_BIT,
-                               after,
-                               old_layout,
-                               new_layout,
-                               VK_QUEUE_FAMILY_IGNORED,
-                               VK_QUEUE_FAMILY_IGNORED,
-                               to.handle,
-                               {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}});
-    flush_barriers();
-  };
-  change(0, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-  const VkImageBlit blit = whole_blit(glm::uvec2(from.info().size), to.size_px);
-  context_.vk().CmdBlitImage(commands_, from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle,
-                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &blit, VK_FILTER_NEAREST);
-  change(VK_ACCESS_2_TRANSFER_WRITE_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-         VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-}
-
-void Recorder::make_mip_levels(const Image& image) {
-  use(image, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
-      VK_IMAGE_LAYOUT_GENERAL);
-  flush_barriers();
-  auto half = [](std::uint32_t size, std::uint32_t level) {
-    return static_cast<std::int32_t>(std::max(1u, size >> level));
-  };
-  const glm::uvec3 size = image.info().size;
-  for (std::uint32_t level = 1; level < image.info().mip_levels; ++level) {
-    VkImageBlit blit{};
-    blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1};
-    blit.srcOffsets[1] = {half(size.x, level - 1), half(size.y, level - 1), 1};
-    blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
-    blit.dstOffsets[1] = {half(size.x, level), half(size.y, level), 1};
-    context_.vk().CmdBlitImage(commands_, image.handle(), VK_IMAGE_LAYOUT_GENERAL, image.handle(),
-                               VK_IMAGE_LAYOUT_GENERAL, 1, &blit, VK_FILTER_LINEAR);
-    use(image, VK_PIPELINE_STAGE_2_BLIT_BIT, VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
-        VK_IMAGE_LAYOUT_GENERAL);
-    flush_barriers();
-  }
 }
 
 void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_px) {

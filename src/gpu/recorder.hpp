@@ -1,6 +1,7 @@
 // Records commands into a command buffer and derives the barriers between them.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <functional>
 #include <initializer_list>
@@ -85,6 +86,10 @@ class Recorder {
  public:
   /// `commands` is in the recording state and remains so. `slot` must not be in use by the device.
   Recorder(Context& context, FrameSlot& slot, VkCommandBuffer commands);
+  /// Records what is left to record: before that, the commands must not end.
+  ~Recorder() { flush_transfers(); }
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
 
   /// Binds a pipeline with its resources, in any order, and its push constants, after the barriers that they
   /// need. The resources must match the pipeline's interface (binding_fault).
@@ -96,20 +101,15 @@ class Recorder {
   /// Runs the bound compute pipeline over at least this many threads.
   void dispatch_threads(const ComputePipeline& pipeline, std::uint32_t x, std::uint32_t y = 1,
                         std::uint32_t z = 1);
-  /// Independent dispatches run concurrently: the barriers of all come before the first.
-  struct Dispatch {
-    const ComputePipeline& pipeline;
-    std::vector<BoundResource> resources;
-    glm::uvec3 threads{1};  ///< At least.
-    std::span<const std::byte> push = {};
-  };
-  void dispatch_together(std::initializer_list<Dispatch> dispatches);
+  /// Dispatches without dependencies on each other, which `record` binds and dispatches: the barriers of all
+  /// come before the first. `record` neither uploads nor dispatches indirectly.
+  void concurrently(const std::function<void()>& record);
   /// Dispatches the number of workgroups in the first three words of `groups`
   /// (VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT).
   void dispatch_indirect(const Buffer& groups);
   void push(const Pipeline& pipeline, std::span<const std::byte> bytes);
 
-  /// Copies bytes through staging memory.
+  /// Copies bytes through staging memory. Uploads and fills that follow each other share their barriers.
   void upload(const Buffer& buffer, VkDeviceSize offset, std::span<const std::byte> bytes);
   struct Region {
     std::span<const std::byte> texels;
@@ -154,8 +154,14 @@ class Recorder {
   /// Binds inside a rendering, where no barrier is possible: prepare_for_draws comes first.
   void bind_for_draws(const Pipeline& pipeline, BoundResources resources);
 
-  void begin_scope(const char* name) { slot_.timings_.begin(commands_, name); }
-  void end_scope() { slot_.timings_.end(commands_); }
+  void begin_scope(const char* name) {
+    flush_transfers();
+    slot_.timings_.begin(commands_, name);
+  }
+  void end_scope() {
+    flush_transfers();
+    slot_.timings_.end(commands_);
+  }
 
   VkCommandBuffer commands() const { return commands_; }
 
@@ -166,17 +172,39 @@ class Recorder {
   };
   Staged stage_bytes(std::span<const std::byte> bytes);
   VkDescriptorSet write_set(const Pipeline& pipeline, std::span<const BoundResource> resources);
-  void bind_set(const Pipeline& pipeline, std::span<const BoundResource> resources);
+  void bind_set(const Pipeline& pipeline, VkDescriptorSet set);
+  void add_barrier(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
   void use(const Buffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
   void use(const Image& image, VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkImageLayout layout);
   void use(const Binding& binding, VkPipelineStageFlags2 stages);
   void flush_barriers();
+
+  /// A write to a buffer that is yet to be recorded: a copy from `from`, or without it a fill.
+  struct Transfer {
+    VkBuffer from, to;
+    VkBufferCopy region;
+    std::uint32_t value;
+  };
+  /// Of the bytes of `region` to come.
+  void add_transfer(const Buffer& to, VkBuffer from, const VkBufferCopy& region, std::uint32_t value);
+  void flush_transfers();
+
+  /// A dispatch of `concurrently` that is yet to be recorded.
+  struct Dispatch {
+    const Pipeline* pipeline;
+    VkDescriptorSet set;
+    std::vector<std::byte> push;
+    std::array<std::uint32_t, 3> groups;
+  };
 
   Context& context_;
   FrameSlot& slot_;
   VkCommandBuffer commands_;
   std::vector<VkBufferMemoryBarrier2> buffer_barriers_;
   std::vector<VkImageMemoryBarrier2> image_barriers_;
+  std::vector<Transfer> transfers_;
+  std::vector<Dispatch> dispatches_;
+  bool concurrently_ = false;
 };
 
 /// Measures the GPU time of the commands recorded during its lifetime.

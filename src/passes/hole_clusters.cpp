@@ -47,8 +47,7 @@ void HoleClusters::reserve(const planning::HolePlan& plan) {
   gpu::grow(context_, pairs_, plan.pair_capacity * sizeof(glm::uvec2));
 }
 
-void HoleClusters::record(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
-                          const SmokeResources& smoke) {
+void HoleClusters::upload(gpu::Recorder& recorder, const planning::HolePlan& plan) {
   if (plan.holes.empty()) return;
   recorder.fill(counters_, 0);
   recorder.fill(words_taken_, 0);
@@ -56,51 +55,66 @@ void HoleClusters::record(gpu::Recorder& recorder, const planning::HolePlan& pla
   const auto reaches = planning::pack_reaches(plan.reaches);
   recorder.upload(resources_.holes, 0, std::as_bytes(std::span(holes)));
   recorder.upload(resources_.reaches, 0, std::as_bytes(std::span(reaches)));
-  const shared::HoleListsParams lists{plan.word_capacity};
-  const shared::HoleCellsParams cells{plan.slot_count, plan.pair_capacity, plan.chunk_capacity};
-  const auto bytes = [](const auto& params) { return std::as_bytes(std::span(&params, 1)); };
+}
+
+void HoleClusters::record(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
+                          const SmokeResources& smoke) {
+  upload(recorder, plan);
+  recorder.concurrently([&] { record_first(recorder, plan, frame, smoke); });
+  recorder.concurrently([&] { record_second(recorder, plan, frame, smoke); });
+}
+
+// Clusters, which pixels read, and cells, which light reads, do not depend on each other.
+
+void HoleClusters::record_first(gpu::Recorder& recorder, const planning::HolePlan& plan,
+                                const gpu::Buffer& frame, const SmokeResources& smoke) {
+  if (plan.holes.empty()) return;
+  recorder.bind(tiles_pass_, {{shared::kBindFrame, gpu::uniform(frame)},
+                              {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                              {shared::kBindCoarseTileHoles, gpu::write(coarse_tile_holes_)}});
+  recorder.dispatch_threads(tiles_pass_, tiles_pass_.group()[0] * plan.coarse_tiles.x, plan.coarse_tiles.y);
+  recorder.bind(bricks_pass_,
+                {
+                    {shared::kBindFrame, gpu::uniform(frame)},
+                    {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
+                    {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                    {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
+                    {shared::kBindHolePairs, gpu::write(pairs_)},
+                    {shared::kBindHoleCounters, gpu::read_write(counters_)},
+                },
+                shared::HoleCellsParams{plan.slot_count, plan.pair_capacity, plan.chunk_capacity});
+  recorder.dispatch_threads(bricks_pass_, 64 * std::min(plan.slot_count, kRow),
+                            (plan.slot_count + kRow - 1) / kRow);
+}
+
+void HoleClusters::record_second(gpu::Recorder& recorder, const planning::HolePlan& plan,
+                                 const gpu::Buffer& frame, const SmokeResources& smoke) {
+  if (plan.holes.empty()) return;
   constexpr std::uint32_t kPerTile = shared::kCoarseTileTiles / 2;  // workgroups, along an axis
-  // Clusters, which pixels read, and cells, which light reads, do not depend on each other.
-  recorder.dispatch_together({{tiles_pass_,
-                               {{shared::kBindFrame, gpu::uniform(frame)},
-                                {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
-                                {shared::kBindCoarseTileHoles, gpu::write(coarse_tile_holes_)}},
-                               {tiles_pass_.group()[0] * plan.coarse_tiles.x, plan.coarse_tiles.y, 1}},
-                              {bricks_pass_,
-                               {
-                                   {shared::kBindFrame, gpu::uniform(frame)},
-                                   {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
-                                   {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
-                                   {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
-                                   {shared::kBindHolePairs, gpu::write(pairs_)},
-                                   {shared::kBindHoleCounters, gpu::read_write(counters_)},
-                               },
-                               {64 * std::min(plan.slot_count, kRow), (plan.slot_count + kRow - 1) / kRow, 1},
-                               bytes(cells)}});
-  recorder.dispatch_together(
-      {{groups_pass_,
-        {
-            {shared::kBindFrame, gpu::uniform(frame)},
-            {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
-            {shared::kBindCoarseTileHoles, gpu::read(coarse_tile_holes_)},
-            {shared::kBindHoleLists, gpu::write(resources_.lists)},
-            {shared::kBindHoleWordsTaken, gpu::read_write(words_taken_)},
-        },
-        {groups_pass_.group()[0] * kPerTile * plan.coarse_tiles.x, kPerTile * plan.coarse_tiles.y, 1},
-        bytes(lists)},
-       {cells_pass_,
-        {
-            {shared::kBindFrame, gpu::uniform(frame)},
-            {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
-            {shared::kBindHoles, gpu::read(resources_.holes)},
-            {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
-            {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
-            {shared::kBindHolePairs, gpu::read(pairs_)},
-            {shared::kBindHoleCounters, gpu::read(counters_)},
-            {shared::kBindHoleMasks, gpu::sampled(resources_.masks, nearest_)},
-        },
-        {64 * std::min(kGroups, plan.pair_capacity), 1, 1},
-        bytes(cells)}});
+  recorder.bind(groups_pass_,
+                {
+                    {shared::kBindFrame, gpu::uniform(frame)},
+                    {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                    {shared::kBindCoarseTileHoles, gpu::read(coarse_tile_holes_)},
+                    {shared::kBindHoleLists, gpu::write(resources_.lists)},
+                    {shared::kBindHoleWordsTaken, gpu::read_write(words_taken_)},
+                },
+                shared::HoleListsParams{plan.word_capacity});
+  recorder.dispatch_threads(groups_pass_, groups_pass_.group()[0] * kPerTile * plan.coarse_tiles.x,
+                            kPerTile * plan.coarse_tiles.y);
+  recorder.bind(cells_pass_,
+                {
+                    {shared::kBindFrame, gpu::uniform(frame)},
+                    {shared::kBindSlotBricks, gpu::read(smoke.slot_bricks)},
+                    {shared::kBindHoles, gpu::read(resources_.holes)},
+                    {shared::kBindHoleReaches, gpu::read(resources_.reaches)},
+                    {shared::kBindHoleCells, gpu::read_write(resources_.cells)},
+                    {shared::kBindHolePairs, gpu::read(pairs_)},
+                    {shared::kBindHoleCounters, gpu::read(counters_)},
+                    {shared::kBindHoleMasks, gpu::sampled(resources_.masks, nearest_)},
+                },
+                shared::HoleCellsParams{plan.slot_count, plan.pair_capacity, plan.chunk_capacity});
+  recorder.dispatch_threads(cells_pass_, 64 * std::min(kGroups, plan.pair_capacity));
 }
 
 }  // namespace brume::passes

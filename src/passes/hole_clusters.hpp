@@ -26,8 +26,15 @@ class HoleClusters {
   /// Makes room for a plan. Not between the begin and the end of a recording, and only when the device is
   /// done with what it recorded before. Throws resource_limit.
   void reserve(const planning::HolePlan& plan);
-  /// Uploads the holes of the reserved plan and clusters them, after the frame's constants, which have the
-  /// plan's layout, and the smoke were uploaded.
+  /// Uploads the holes of the reserved plan.
+  void upload(gpu::Recorder& recorder, const planning::HolePlan& plan);
+  /// Clusters them in two steps, after the frame's constants, which have the plan's layout, and the smoke
+  /// were uploaded. The dispatches of a step are independent (gpu::Recorder::concurrently).
+  void record_first(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
+                    const SmokeResources& smoke);
+  void record_second(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
+                     const SmokeResources& smoke);
+  /// All of it, where nothing else runs beside a step.
   void record(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
               const SmokeResources& smoke);
 

@@ -193,7 +193,6 @@ void NoiseAdvectionPass::upload(gpu::Recorder& recorder, const planning::NoisePl
 }
 
 void NoiseAdvectionPass::record(gpu::Recorder& recorder, const planning::NoisePlan& plan, const Inputs& in) {
-  upload(recorder, plan);
   const gpu::Buffer& slots = plan.slots_due ? slots_due_ : in.smoke.slots;
   const auto all =
       plan.slots_due ? static_cast<std::uint32_t>(plan.slots_due->size()) : in.smoke.required_count;

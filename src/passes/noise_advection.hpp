@@ -56,13 +56,13 @@ class NoiseAdvectionPass {
   /// Makes room for the clouds of a state, whose noise is planned. When SmokeUpload::reserve may be called,
   /// with the same volume.
   void reserve(const sim::State& state, const smoke::SmokeVolume& volume, const planning::NoisePlan& plan);
+  /// Uploads the reserved plan.
+  void upload(gpu::Recorder& recorder, const planning::NoisePlan& plan);
   /// Fills smoke.density_displacement (shaders/shared/smoke_volume.h; the noise at a point is that of point +
   /// GBA) and smoke.filtered_density for the slots of the reserved plan.
   void record(gpu::Recorder& recorder, const planning::NoisePlan& plan, const Inputs& inputs);
 
  private:
-  void upload(gpu::Recorder& recorder, const planning::NoisePlan& plan);
-
   gpu::Context& context_;
   gpu::ComputePipeline pipeline_;
   gpu::Sampler linear_, repeat_;

@@ -18,7 +18,7 @@ Groups groups_of(std::uint32_t count) {
 }
 
 template <typename T>
-void upload(gpu::Recorder& recorder, const gpu::Buffer& buffer, const std::vector<T>& list) {
+void upload_list(gpu::Recorder& recorder, const gpu::Buffer& buffer, const std::vector<T>& list) {
   if (!list.empty()) recorder.upload(buffer, 0, std::as_bytes(std::span(list)));
 }
 
@@ -60,40 +60,44 @@ bool SmokeLightPass::reserve(const planning::SmokeLightPlan& plan) {
   return true;
 }
 
-void SmokeLightPass::record(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan, const Inputs& in) {
-  upload(recorder, listed_bricks_, plan.texel_lists);
-  upload(recorder, changes_, plan.changes);
-  upload(recorder, shadow_rays_, plan.shadow_rays);
-  upload(recorder, gathers_, plan.gathers);
-  upload(recorder, gathered_lights_, plan.gathered_lights);
-  for (const planning::SmokeLightPlan::Part& part : plan.parts) record_part(recorder, in, part);
+void SmokeLightPass::upload(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan) {
+  upload_list(recorder, listed_bricks_, plan.texel_lists);
+  upload_list(recorder, changes_, plan.changes);
+  upload_list(recorder, shadow_rays_, plan.shadow_rays);
+  upload_list(recorder, gathers_, plan.gathers);
+  upload_list(recorder, gathered_lights_, plan.gathered_lights);
 }
 
-void SmokeLightPass::record_part(gpu::Recorder& recorder, const Inputs& in,
-                                 const planning::SmokeLightPlan::Part& part) {
-  if (part.texel_lists.count > 0) record_texel_lists(recorder, in, part.texel_lists);
-  // First the items of all texels, then those of some phases. One thread per texel; without a GPU one group
-  // for all of them, because idle threads cost as much as busy ones there.
+template <typename Dispatch>
+void SmokeLightPass::for_slices(const Part& part, const volume::IndexRange& range, std::uint32_t sliced,
+                                const Dispatch& dispatch) const {
+  // One thread per texel; without a GPU one group for all of them, because idle threads cost as much as busy
+  // ones there.
   const auto threads_for = [&](std::uint32_t texels) {
     return one_group_ ? kTexelThreads : (texels + kTexelThreads - 1) / kTexelThreads * kTexelThreads;
   };
-  const auto each = [&](const volume::IndexRange& range, std::uint32_t sliced, auto record) {
-    if (range.count > sliced)
-      record({range.first, range.count - sliced}, threads_for(shared::kTexelsPerBrick));
-    if (sliced > 0)
-      record({range.first + range.count - sliced, sliced},
-             threads_for(part.phases * shared::kTexelsPerPhase));
-  };
-  each(part.shadow_rays, part.sliced_rays, [&](const volume::IndexRange& range, std::uint32_t threads) {
-    record_rays(recorder, in, range, threads);
-  });
-  each(part.gathers, part.sliced_gathers, [&](const volume::IndexRange& range, std::uint32_t threads) {
-    record_gathers(recorder, in, range, threads);
-  });
+  const std::uint32_t whole = range.count - sliced;
+  if (whole > 0) dispatch({range.first, whole}, threads_for(shared::kTexelsPerBrick));
+  if (sliced > 0) dispatch({range.first + whole, sliced}, threads_for(part.phases * shared::kTexelsPerPhase));
 }
 
-void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& in,
-                                        const volume::IndexRange& range) {
+void SmokeLightPass::record_rays(gpu::Recorder& recorder, const Inputs& in, const Part& part) const {
+  for_slices(part, part.shadow_rays, part.sliced_rays,
+             [&](const volume::IndexRange& range, std::uint32_t threads) {
+               dispatch_rays(recorder, in, range, threads);
+             });
+}
+
+void SmokeLightPass::record_gathers(gpu::Recorder& recorder, const Inputs& in, const Part& part) const {
+  for_slices(part, part.gathers, part.sliced_gathers,
+             [&](const volume::IndexRange& range, std::uint32_t threads) {
+               dispatch_gathers(recorder, in, range, threads);
+             });
+}
+
+void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& in, const Part& part) const {
+  const volume::IndexRange& range = part.texel_lists;
+  if (range.count == 0) return;
   recorder.bind(texels_pass_,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -109,8 +113,8 @@ void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& i
   recorder.dispatch_threads(texels_pass_, 256 * groups.y, groups.z);
 }
 
-void SmokeLightPass::record_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
-                                 std::uint32_t threads) {
+void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
+                                   std::uint32_t threads) const {
   recorder.bind(rays_pass_,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -134,8 +138,8 @@ void SmokeLightPass::record_rays(gpu::Recorder& recorder, const Inputs& in, cons
   recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
 }
 
-void SmokeLightPass::record_gathers(gpu::Recorder& recorder, const Inputs& in,
-                                    const volume::IndexRange& range, std::uint32_t threads) {
+void SmokeLightPass::dispatch_gathers(gpu::Recorder& recorder, const Inputs& in,
+                                      const volume::IndexRange& range, std::uint32_t threads) const {
   recorder.bind(inscatter_pass_,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},

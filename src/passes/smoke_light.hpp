@@ -26,16 +26,27 @@ class SmokeLightPass {
   /// Not between the begin and the end of a recording, and only when the device is done with what it recorded
   /// before. Throws resource_limit.
   [[nodiscard]] bool reserve(const planning::SmokeLightPlan& plan);
-  /// Brings smoke.inscatter to the reserved plan's frame, where a ray of its camera can meet smoke.
-  void record(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan, const Inputs& inputs);
+  /// Uploads the reserved plan.
+  void upload(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan);
+  // The three steps of a part bring smoke.inscatter to the plan's frame, where a ray of its camera can meet
+  // smoke. The parts come one after the other; the dispatches of a step are independent
+  // (gpu::Recorder::concurrently), and those of record_texel_lists also of what advects noise and lists
+  // holes.
+  using Part = planning::SmokeLightPlan::Part;
+  void record_texel_lists(gpu::Recorder& recorder, const Inputs& in, const Part& part) const;
+  void record_rays(gpu::Recorder& recorder, const Inputs& in, const Part& part) const;
+  void record_gathers(gpu::Recorder& recorder, const Inputs& in, const Part& part) const;
 
  private:
-  void record_part(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeLightPlan::Part& part);
-  void record_texel_lists(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range);
-  void record_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
-                   std::uint32_t threads);
-  void record_gathers(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
-                      std::uint32_t threads);
+  void dispatch_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
+                     std::uint32_t threads) const;
+  void dispatch_gathers(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
+                        std::uint32_t threads) const;
+  /// Calls dispatch(range, threads) for items of all texels, and for the sliced ones, at the end, of some
+  /// phases.
+  template <typename Dispatch>
+  void for_slices(const Part& part, const volume::IndexRange& range, std::uint32_t sliced,
+                  const Dispatch& dispatch) const;
 
   gpu::Context& context_;
   gpu::ComputePipeline texels_pass_, rays_pass_, inscatter_pass_;

@@ -39,10 +39,14 @@ SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 ima
   return shadows;
 }
 
+void SmokeShadowPass::upload(gpu::Recorder& recorder, const planning::SmokeShadowUpdate& update,
+                             const SmokeShadows& shadows) {
+  recorder.upload(shadows.faces, 0, std::as_bytes(std::span(update.plan.faces)));
+}
+
 void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
                              const planning::SmokeShadowUpdate& update, const SmokeShadows& shadows) const {
   const planning::SmokeShadowPlan& plan = update.plan;
-  recorder.upload(shadows.faces, 0, std::as_bytes(std::span(plan.faces)));
   if (plan.blocks == 0) return;
   shared::SmokeShadowParams params{};
   params.face_count = static_cast<std::uint32_t>(plan.faces.size());

@@ -37,7 +37,10 @@ class SmokeShadowPass {
   };
   /// Makes room for a set of media. Outside of a recording.
   void reserve(std::uint32_t media);
-  /// Marches the rays of an update for the atlas; its plan's lights are those of the scene's buffer.
+  /// Uploads the plan of an update.
+  static void upload(gpu::Recorder& recorder, const planning::SmokeShadowUpdate& update,
+                     const SmokeShadows& shadows);
+  /// Marches the rays of an uploaded update for the atlas; its plan's lights are those of the scene's buffer.
   void record(gpu::Recorder& recorder, const Inputs& inputs, const planning::SmokeShadowUpdate& update,
               const SmokeShadows& shadows) const;
 

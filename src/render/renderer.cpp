@@ -150,10 +150,8 @@ void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, cons
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
   scope(recorder, "gbuffer", [&] { scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer); });
-  scope(recorder, "holes", [&] { smoke_.record_holes(recorder, plan, in); });
-  scope(recorder, "noise_advection", [&] { smoke_.record_noise_advection(recorder, plan, in); });
-  scope(recorder, "smoke_shadow", [&] { smoke_.record_shadows(recorder, plan, in); });
-  scope(recorder, "smoke_light", [&] { smoke_.record_light(recorder, plan, in); });
+  scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
+  scope(recorder, "light", [&] { smoke_.record_light(recorder, plan, in); });
   scope(recorder, "volume_light", [&] { smoke_.record_volume_light(recorder, plan, in); });
 }
 

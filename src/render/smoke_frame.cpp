@@ -106,16 +106,25 @@ void SmokeFrame::record_upload(gpu::Recorder& recorder, const FramePlan& plan, c
   smoke_upload_.record_visibility(recorder, plan.visibility);
   volume_upload_.record(recorder, plan.input.volumes, plan.residency, plan.media.volumes,
                         plan.lit_media.volumes);
+  hole_clusters_.upload(recorder, plan.holes);
+  if (plan.input.smoke.volume) noise_advection_pass_.upload(recorder, plan.noise);
+  if (plan.smoke_shadows) passes::SmokeShadowPass::upload(recorder, *plan.smoke_shadows, shadows_);
+  light_pass_.upload(recorder, *plan.smoke_light);
 }
 
-void SmokeFrame::record_holes(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
-  hole_clusters_.record(recorder, plan.holes, in.frame, resources());
+passes::SmokeLightPass::Inputs SmokeFrame::light_inputs(const FrameResources& in) const {
+  return {in.frame, in.scene.resources(), in.scene.shadows(), resources(), holes(), in.scene.level()};
 }
 
-void SmokeFrame::record_noise_advection(gpu::Recorder& recorder, const FramePlan& plan,
-                                        const FrameResources& in) {
-  if (plan.input.smoke.volume)
-    noise_advection_pass_.record(recorder, plan.noise, {in.frame, resources(), noise_});
+void SmokeFrame::record_density(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
+  recorder.concurrently([&] {
+    hole_clusters_.record_first(recorder, plan.holes, in.frame, resources());
+    if (plan.input.smoke.volume)
+      noise_advection_pass_.record(recorder, plan.noise, {in.frame, resources(), noise_});
+    const auto& parts = plan.smoke_light->parts;
+    if (!parts.empty()) light_pass_.record_texel_lists(recorder, light_inputs(in), parts.front());
+  });
+  recorder.concurrently([&] { hole_clusters_.record_second(recorder, plan.holes, in.frame, resources()); });
 }
 
 void SmokeFrame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
@@ -128,9 +137,18 @@ void SmokeFrame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, 
 }
 
 void SmokeFrame::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
-  light_pass_.record(
-      recorder, *plan.smoke_light,
-      {in.frame, in.scene.resources(), in.scene.shadows(), resources(), holes(), in.scene.level()});
+  const auto& parts = plan.smoke_light->parts;
+  const passes::SmokeLightPass::Inputs inputs = light_inputs(in);
+  for (std::size_t i = 0; i < std::max<std::size_t>(parts.size(), 1); ++i) {
+    if (i > 0) light_pass_.record_texel_lists(recorder, inputs, parts[i]);
+    // Neither fills the device, and neither reads what the other writes.
+    recorder.concurrently([&] {
+      if (i == 0) record_shadows(recorder, plan, in);
+      if (i < parts.size()) light_pass_.record_rays(recorder, inputs, parts[i]);
+    });
+    if (i < parts.size())
+      recorder.concurrently([&] { light_pass_.record_gathers(recorder, inputs, parts[i]); });
+  }
 }
 
 void SmokeFrame::record_volume_light(gpu::Recorder& recorder, const FramePlan& plan,

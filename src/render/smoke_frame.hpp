@@ -70,10 +70,10 @@ class SmokeFrame {
   void reserve(planning::FramePlan& plan, planning::PlanHistory& history);
 
   void record_upload(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
-  void record_holes(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
-  void record_noise_advection(gpu::Recorder& recorder, const planning::FramePlan& plan,
-                              const FrameResources& in);
-  void record_shadows(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  /// The smoke as rays meet it: its noise advected, its holes clustered, the texels that light may reach
+  /// listed.
+  void record_density(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  /// The smoke's shadows on surfaces, and the light in it.
   void record_light(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
   void record_volume_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
                            const FrameResources& in);
@@ -107,6 +107,8 @@ class SmokeFrame {
     const gpu::Buffer& counters;
   };
   void make_noise();
+  void record_shadows(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
+  passes::SmokeLightPass::Inputs light_inputs(const FrameResources& in) const;
   March march_of(const FrameResources& in) const;
   passes::MarchPass::Inputs march_inputs(const planning::FramePlan& plan, const FrameResources& in) const;
 

@@ -1,4 +1,4 @@
-// The commands of all documents run as written.
+// The commands of all documents and of the help run as written.
 #include "tests/cli/documents.hpp"
 
 namespace brume::cli {
@@ -14,6 +14,27 @@ TEST_F(Documents, AllCommandsRun) {
     }
   }
   EXPECT_GT(pages, 0u);
+}
+
+TEST_F(Documents, ExamplesOfTheHelpRun) {
+  const Outcome help = run_brume(folder_.path(), {"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_EQ(help.error, "");
+  std::vector<std::string> commands{"demo",  "render", "voxelize", "bake",  "info", "convert",
+                                    "query", "diff",   "devices",  "bench", "sim"};
+#ifdef BRUME_VIEWER
+  commands.push_back("view");
+#endif
+  for (const std::string& command : commands) {
+    EXPECT_NE(help.out.find("\n  " + command + " "), std::string::npos) << command;
+    const Outcome text = run_brume(folder_.path(), {command, "--help"});
+    EXPECT_EQ(text.exit_code, 0) << command;
+    // The examples come before the options.
+    const std::string examples = text.out.substr(0, text.out.find("Usage:"));
+    const auto calls = calls_in(examples);
+    EXPECT_FALSE(calls.empty()) << command;
+    for (const auto& call : calls) expect_works(command + " --help", call);
+  }
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "tests/gpu/gpu_test.hpp"
@@ -15,7 +17,7 @@ bool overlap(const Memory::Range& a, const Memory::Range& b) {
 }
 
 TEST_F(GpuTest, MemoryRangesNeverOverlap) {
-  Memory memory(context().vk(), context().info().handle, context().device());
+  Memory memory(context().vk(), context().info().handle, context().device(), false);
   std::mt19937 random(1);
   std::vector<Live> live;
   for (int i = 0; i < 2000; ++i) {
@@ -40,7 +42,7 @@ TEST_F(GpuTest, MemoryRangesNeverOverlap) {
 }
 
 TEST_F(GpuTest, LargeRangesHaveDedicatedMemory) {
-  Memory memory(context().vk(), context().info().handle, context().device());
+  Memory memory(context().vk(), context().info().handle, context().device(), false);
   const auto small = memory.allocate({1024, 16, ~0u}, MemoryUse::device, false);
   const auto large = memory.allocate({Memory::kDedicatedBytes, 16, ~0u}, MemoryUse::device, false);
   const auto next = memory.allocate({1024, 16, ~0u}, MemoryUse::device, false);
@@ -50,6 +52,18 @@ TEST_F(GpuTest, LargeRangesHaveDedicatedMemory) {
   memory.free(small);
   memory.free(large);
   memory.free(next);
+}
+
+// What reads a texel or a word before it is written then gives another result each time.
+TEST_F(GpuTest, MemoryOfTestsBeginsWithArbitraryFiniteValues) {
+  if (context().info().kind != "cpu") GTEST_SKIP() << "the CPU does not reach the device's memory";
+  constexpr std::size_t kWords = 1000;
+  constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+  const Buffer first(context(), kWords * sizeof(float), kUsage),
+      second(context(), kWords * sizeof(float), kUsage);
+  const auto values = read_back<float>(first, kWords);
+  EXPECT_NE(values, read_back<float>(second, kWords));
+  EXPECT_TRUE(std::ranges::all_of(values, [](float value) { return std::isfinite(value); }));
 }
 
 }  // namespace

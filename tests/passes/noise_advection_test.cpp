@@ -150,6 +150,7 @@ class NoiseAdvectionTest : public gpu::GpuTest {
     const planning::NoisePlan plan = planning::plan_noise(state, seconds, 12);
     pass.reserve(state, room_.volume, plan);
     runner().run([&](gpu::Recorder& recorder) {
+      pass.upload(recorder, plan);
       pass.record(recorder, plan, {frame, room_.upload.resources(), noise_});
     });
     const auto medium = read_back<Half4>(room_.upload.resources().density_displacement);

@@ -61,6 +61,7 @@ struct SmokeRoom {
     runner.run([&](gpu::Recorder& recorder) {
       recorder.upload(layout, 0, std::as_bytes(std::span(&constants, 1)));
       noise_pass.record(recorder, noise, {8, 2, 1});
+      advection.upload(recorder, still);
       advection.record(recorder, still, {layout, upload.resources(), noise});
     });
   }

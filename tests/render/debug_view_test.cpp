@@ -12,7 +12,7 @@ namespace {
 
 using passes::DebugView;
 
-constexpr glm::uvec2 kSize{97, 55};
+constexpr glm::uvec2 kViewImage{97, 55};
 
 /// A yard with a wall and a box that breaks at 2 s; smoke, two shots through it.
 scenario::Scenario yard() {
@@ -57,11 +57,11 @@ class DebugViewsTest : public gpu::GpuTest {
   }
   /// One for all tests, which makes each view's pipeline once.
   static Playback& playback() {
-    static Playback instance(context(), scenario(), kSize);
+    static Playback instance(context(), scenario(), kViewImage);
     return instance;
   }
   RendererOptions options(std::uint32_t march_scale, bool temporal) const {
-    RendererOptions options{kSize};
+    RendererOptions options{kViewImage};
     options.smoke.march_scale = march_scale;
     options.smoke.temporal = temporal;
     return options;

@@ -24,7 +24,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr glm::uvec2 kSize{128, 4};
+constexpr glm::uvec2 kStrip{128, 4};
 constexpr float kVoxel = 0.5f;
 constexpr double kSigma = 0.3;           // [1/m]: thin enough to see what is at the wall
 constexpr double kRoom = 12, kHigh = 6;  // a room of 12 x 6 x 12 m, full of smoke on one side of the wall
@@ -103,7 +103,7 @@ struct View {
 };
 
 std::vector<View> views_of(const Wall& wall) {
-  const float high = 2 * std::atan(0.5f * kSize.y / kSize.x);
+  const float high = 2 * std::atan(0.5f * kStrip.y / kStrip.x);
   const auto view = [&](const char* name, dvec3 eye, dvec3 at, bool near_side) {
     return View{name, {glm::vec3(eye), glm::vec3(at), high}, near_side};
   };
@@ -156,9 +156,9 @@ class LitWallsTest : public gpu::GpuTest {
  protected:
   static Profile mean_of_rows(const std::function<glm::dvec2(std::uint32_t, std::uint32_t)>& pixel) {
     Profile profile;
-    for (std::uint32_t x = 0; x < kSize.x; ++x) {
+    for (std::uint32_t x = 0; x < kStrip.x; ++x) {
       glm::dvec2 sum(0);
-      for (std::uint32_t y = 0; y < kSize.y; ++y) sum += pixel(x, y) / double(kSize.y);
+      for (std::uint32_t y = 0; y < kStrip.y; ++y) sum += pixel(x, y) / double(kStrip.y);
       profile.radiance.push_back(sum.x);
       profile.transmittance.push_back(sum.y);
     }
@@ -168,7 +168,7 @@ class LitWallsTest : public gpu::GpuTest {
   struct Studio {
     explicit Studio(const scenario::Scenario& scenario)
         : simulation(scenario::Simulation::create(scenario).value_or_throw()),
-          renderer(context(), runner(), scenario.scene, {.size_px = kSize}) {
+          renderer(context(), runner(), scenario.scene, {.size_px = kStrip}) {
       simulation->advance_to(kSeconds);
       input = frame_input(scenario, *simulation, kSeconds, holes);
     }
@@ -178,7 +178,7 @@ class LitWallsTest : public gpu::GpuTest {
       renderer.draw(input);
       const auto texels = read_back<passes::Half4>(renderer.media());
       return mean_of_rows([&](std::uint32_t x, std::uint32_t y) {
-        const glm::vec4 texel = passes::from_half(texels[x + std::size_t{kSize.x} * y]);
+        const glm::vec4 texel = passes::from_half(texels[x + std::size_t{kStrip.x} * y]);
         return glm::dvec2(texel.g, texel.a);
       });
     }
@@ -194,7 +194,7 @@ class LitWallsTest : public gpu::GpuTest {
   }
   static void keep(const Wall& wall, const View& view, const char* light, const Profile& drawn,
                    const Profile& expected) {
-    for (std::uint32_t x = 0; x < kSize.x; ++x)
+    for (std::uint32_t x = 0; x < kStrip.x; ++x)
       csv() << wall.name << ',' << view.name << ',' << light << ',' << x << ',' << drawn.radiance[x] << ','
             << expected.radiance[x] << '\n';
   }
@@ -218,14 +218,14 @@ class LitWallsTest : public gpu::GpuTest {
       double mean = 0;
       for (const double passed : drawn.transmittance) {
         EXPECT_GE(passed, std::exp(-kSigma * step)) << wall.name;
-        mean += passed / kSize.x;
+        mean += passed / kStrip.x;
       }
       EXPECT_GE(mean, std::exp(-kSigma * run_over)) << wall.name;
       return;
     }
     const auto shown = [&](double radiance) { return 255 * encoded(radiance / brightest); };
     double most = 0;
-    for (std::uint32_t x = 0; x < kSize.x; ++x) {
+    for (std::uint32_t x = 0; x < kStrip.x; ++x) {
       const double apart = std::abs(shown(drawn.radiance[x]) - shown(expected.radiance[x]));
       EXPECT_LE(apart, 3) << wall.name << ", " << view.name << ", pixel " << x;
       EXPECT_EQ(drawn.radiance[x] > 0, expected.radiance[x] > 0)
@@ -245,7 +245,7 @@ class LitWallsTest : public gpu::GpuTest {
 
 /// How far a pixel sees into smoke of full density, by small steps from the eye to the wall [m].
 double smoke_before(const Wall& wall, const shared::Camera& camera, glm::dvec2 pixel) {
-  const glm::dvec2 ndc = pixel / glm::dvec2(kSize) * 2.0 - 1.0;
+  const glm::dvec2 ndc = pixel / glm::dvec2(kStrip) * 2.0 - 1.0;
   const dvec3 way =
       glm::normalize(dvec3(camera.forward) + ndc.x * dvec3(camera.right) - ndc.y * dvec3(camera.up));
   constexpr double kStep = 0.005;
@@ -268,7 +268,7 @@ TEST_F(LitWallsTest, InEvenLightOnlyTheDistanceToTheWallCounts) {
     Studio studio(scenario);
     for (const View& view : views_of(wall)) {
       const Profile drawn = studio.draw(view.camera);
-      const shared::Camera camera = planning::device_camera(view.camera, kSize);
+      const shared::Camera camera = planning::device_camera(view.camera, kStrip);
       const Profile expected = mean_of_rows([&](std::uint32_t x, std::uint32_t y) {
         const double passed = std::exp(-kSigma * smoke_before(wall, camera, glm::dvec2(x, y) + 0.5));
         return glm::dvec2(1 - passed, passed);
@@ -284,7 +284,7 @@ TEST_F(LitWallsTest, ByALightTheWallShowsNoLine) {
     const scenario::Scenario scenario = scenario_of_wall(wall, true);
     Studio studio(scenario);
     reference::TruthScene truth;
-    truth.size_px = kSize;
+    truth.size_px = kStrip;
     truth.look = studio.input.smoke.look;
     truth.time = kSeconds;
     truth.volume = studio.input.smoke.volume;
@@ -294,10 +294,10 @@ TEST_F(LitWallsTest, ByALightTheWallShowsNoLine) {
     truth.triangles = triangles;
     for (const View& view : views_of(wall)) {
       const Profile drawn = studio.draw(view.camera);
-      truth.camera = planning::device_camera(view.camera, kSize);
+      truth.camera = planning::device_camera(view.camera, kStrip);
       const auto pixels = trace_truth(truth);
       const Profile expected = mean_of_rows([&](std::uint32_t x, std::uint32_t y) {
-        const auto& pixel = pixels[x + std::size_t{kSize.x} * y];
+        const auto& pixel = pixels[x + std::size_t{kStrip.x} * y];
         return glm::dvec2(pixel.smoke.g, pixel.transmittance);
       });
       keep(wall, view, "light", drawn, expected);

@@ -8,22 +8,11 @@
 #include "core/log.hpp"
 #include "grids/files.hpp"
 #include "grids/generate.hpp"
-#include "render/playback.hpp"
 #include "render/volume_room.hpp"
-#include "tests/gpu/gpu_test.hpp"
-#include "tests/passes/half.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/volume_fixture.hpp"
 
 namespace brume::render {
 namespace {
-
-scene::Scene far_floor() {
-  scene::Scene scene;
-  add_box(scene.meshes.emplace_back(), {-40, -31, -40}, {40, -30, 40});
-  scene.materials.resize(1);
-  scene.objects.push_back({"floor", 0, 0, glm::mat4(1), true});
-  return scene;
-}
 
 shared::Light sun_from_the_side() {
   shared::Light sun{};
@@ -34,7 +23,7 @@ shared::Light sun_from_the_side() {
   return sun;
 }
 
-class VolumeResolutionTest : public gpu::GpuTest {
+class VolumeResolutionTest : public VolumeFixture {
  protected:
   static constexpr glm::uvec2 kSize{81, 61};
 
@@ -44,17 +33,8 @@ class VolumeResolutionTest : public gpu::GpuTest {
   }
   VolumeResolutionTest() {
     input_.view.camera = {{0, 0, 9}, {0, 0, 0}, 0.7f};
-    input_.smoke.look.swirl_width = 1;
-    input_.smoke.look.noise_period = 1;
     input_.environment.sky.ambient = glm::vec3(0.4f, 0.5f, 0.7f);
     input_.environment.flashes = {sun_from_the_side()};
-  }
-  /// Premultiplied radiance and transmittance of each pixel.
-  std::vector<glm::vec4> media() {
-    std::vector<glm::vec4> pixels;
-    for (const passes::Half4& texel : read_back<passes::Half4>(renderer().media()))
-      pixels.push_back(passes::from_half(texel));
-    return pixels;
   }
   std::vector<std::uint32_t> draw() {
     renderer().draw(input_);
@@ -83,8 +63,6 @@ class VolumeResolutionTest : public gpu::GpuTest {
     settings.edge_width = 2 * settings.voxel_size;
     return grids::generate_cloud(settings);
   }
-
-  FrameInput input_;
 };
 
 // Extinction is per metre, whatever the size of a voxel.
@@ -146,7 +124,7 @@ TEST_F(VolumeResolutionTest, ASphereHasItsOpticalDepthUnderAnyTransform) {
     constexpr std::uint32_t kJitters = 4;
     for (input_.view.frame_index = 0; input_.view.frame_index < kJitters; ++input_.view.frame_index) {
       draw();
-      sum -= std::log(double{media()[kSize.x * (kSize.y / 2) + kSize.x / 2].w});
+      sum -= std::log(double{media_of(renderer())[kSize.x * (kSize.y / 2) + kSize.x / 2].w});
     }
     EXPECT_NEAR(sum / kJitters, 2.3, 0.005 * 2.3) << "transform " << i;
   }
@@ -208,7 +186,7 @@ TEST_F(StreamingTest, AMovingCameraNeverMeetsABrickThatIsMissing) {
     FrameInput expected = input_;
     expected.volumes = {shown};
     renderer().draw(expected);
-    const std::vector<glm::vec4> pixels = media();
+    const std::vector<glm::vec4> pixels = media_of(renderer());
     double sum = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i)
       sum += std::abs(double{passes::from_half(transmittance[i]).w} - double{pixels[i].w});

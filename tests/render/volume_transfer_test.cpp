@@ -1,43 +1,13 @@
 // Transfer functions and grids of colours on the device, against analytic depths and against volumes without
 // them.
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/packing.hpp>
 
-#include "render/playback.hpp"
-#include "tests/gpu/gpu_test.hpp"
-#include "tests/passes/half.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/volume_fixture.hpp"
 
 namespace brume::render {
 namespace {
 
-/// Bricks whose texels, aprons included, hold a function of their centres: filtering is exact where it is
-/// linear.
-template <typename Texel, typename Function>
-volume::SparseVolume field(glm::ivec3 bricks, Function value_at) {
-  volume::SparseVolume volume({{}, 1, {{sizeof(Texel)}}});
-  volume.begin_update();
-  for_each_in(Box<int>{glm::ivec3(0), bricks}, [&](glm::ivec3 brick) {
-    std::size_t i = 0;
-    for (Texel& texel : volume.texels<Texel>(volume::ChannelId{0}, volume.acquire(brick))) {
-      const glm::ivec3 local(i % 10, i / 10 % 10, i / 100);
-      texel = value_at(glm::vec3(8 * brick + local) - 0.5f);
-      ++i;
-    }
-  });
-  volume.set_bounds(glm::vec3(0), glm::vec3(8 * bricks));
-  volume.end_update();
-  return volume;
-}
-template <typename Function>
-volume::SparseVolume values(glm::ivec3 bricks, Function value_at) {
-  return field<std::uint16_t>(bricks, [&](glm::vec3 p) { return glm::packHalf1x16(value_at(p)); });
-}
-volume::SparseVolume block(glm::ivec3 bricks, float value) {
-  return values(bricks, [&](glm::vec3) { return value; });
-}
-
-class VolumeTransferTest : public gpu::GpuTest {
+class VolumeTransferTest : public VolumeFixture {
  protected:
   static constexpr glm::uvec2 kSize{41, 41};
 
@@ -55,11 +25,7 @@ class VolumeTransferTest : public gpu::GpuTest {
     return scene;
   }
   /// Nearly parallel rays along -z that see a square of 5 m around the origin.
-  VolumeTransferTest() {
-    input_.view.camera = {{0, 0, 400}, {0, 0, 0}, 2 * std::atan(2.5f / 400)};
-    input_.smoke.look.swirl_width = 1;
-    input_.smoke.look.noise_period = 1;
-  }
+  VolumeTransferTest() { input_.view.camera = {{0, 0, 400}, {0, 0, 0}, 2 * std::atan(2.5f / 400)}; }
 
   /// A cube of `edge` m around the origin.
   static glm::mat4 placed(const volume::SparseVolume& volume, float edge) {
@@ -71,10 +37,7 @@ class VolumeTransferTest : public gpu::GpuTest {
   }
   std::vector<glm::vec4> draw() {
     renderer().draw(input_);
-    std::vector<glm::vec4> pixels;
-    for (const passes::Half4& texel : read_back<passes::Half4>(renderer().media()))
-      pixels.push_back(passes::from_half(texel));
-    return pixels;
+    return media_of(renderer());
   }
   /// Where the ray of a pixel meets the plane z = 0 [m].
   static glm::dvec2 place_of(std::size_t pixel) {
@@ -87,8 +50,6 @@ class VolumeTransferTest : public gpu::GpuTest {
     return std::max(p.x, p.y) < double{kEdge} / 2 - margin;
   }
   static constexpr float kEdge = 4;
-
-  FrameInput input_;
 };
 
 /// A light and a sky, beside the sun of the scene.

@@ -3,26 +3,10 @@
 #include <glm/gtc/packing.hpp>
 
 #include "planning/blackbody.hpp"
-#include "render/playback.hpp"
-#include "tests/gpu/gpu_test.hpp"
-#include "tests/passes/half.hpp"
-#include "tests/render/boxes.hpp"
+#include "tests/render/volume_fixture.hpp"
 
 namespace brume::render {
 namespace {
-
-/// Bricks of one density throughout, aprons included: a solid block of 8 voxels a brick from the origin on.
-volume::SparseVolume block(glm::ivec3 bricks, float density = 1) {
-  volume::SparseVolume volume({{}, 1, {{sizeof(std::uint16_t)}}});
-  volume.begin_update();
-  for_each_in(Box<int>{glm::ivec3(0), bricks}, [&](glm::ivec3 brick) {
-    for (std::uint16_t& texel : volume.texels<std::uint16_t>(volume::ChannelId{0}, volume.acquire(brick)))
-      texel = glm::packHalf1x16(density);
-  });
-  volume.set_bounds(glm::vec3(0), glm::vec3(8 * bricks));
-  volume.end_update();
-  return volume;
-}
 
 /// A voxel space of `size` m whose low corner is at `corner`, turned, sheared and, with `mirror`, flipped.
 glm::mat4 oblique(const volume::SparseVolume& volume, glm::vec3 corner, glm::vec3 size, bool mirror = false) {
@@ -40,7 +24,7 @@ shared::VolumeLook glowing(float extinction, glm::vec3 emission) {
   return {glm::vec3(0), extinction, emission, 0, 0};
 }
 
-class VolumesTest : public gpu::GpuTest {
+class VolumesTest : public VolumeFixture {
  protected:
   static constexpr glm::uvec2 kSize{61, 37};
 
@@ -49,28 +33,14 @@ class VolumesTest : public gpu::GpuTest {
     static Renderer instance(context(), runner(), far_floor(), RendererOptions{kSize});
     return instance;
   }
-  static scene::Scene far_floor() {
-    scene::Scene scene;
-    add_box(scene.meshes.emplace_back(), {-40, -31, -40}, {40, -30, 40});
-    scene.materials.resize(1);
-    scene.objects.push_back({"floor", 0, 0, glm::mat4(1), true});
-    return scene;
-  }
-
   VolumesTest() {
     renderer().set_march_scale(1);
     input_.view.camera = {{0, 0, 9}, {0, 0, 0}, 0.9f};
-    input_.smoke.look.swirl_width = 1;
-    input_.smoke.look.noise_period = 1;
   }
 
-  /// Premultiplied radiance and transmittance of each pixel.
   std::vector<glm::vec4> draw() {
     renderer().draw(input_);
-    std::vector<glm::vec4> pixels;
-    for (const passes::Half4& texel : read_back<passes::Half4>(renderer().media()))
-      pixels.push_back(passes::from_half(texel));
-    return pixels;
+    return media_of(renderer());
   }
 
   /// Length of each pixel's ray inside a block, in double precision [m].
@@ -128,8 +98,6 @@ class VolumesTest : public gpu::GpuTest {
       shortest = std::min(shortest, double{glm::length(glm::vec3(volume.world_from_voxel[axis]))});
     return shortest;
   }
-
-  FrameInput input_;
 };
 
 TEST_F(VolumesTest, ATransformedBlockIsBeerLambert) {

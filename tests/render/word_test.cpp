@@ -10,7 +10,7 @@
 namespace brume::render {
 namespace {
 
-constexpr glm::uvec2 kSize{192, 64};
+constexpr glm::uvec2 kWordImage{192, 64};
 constexpr float kMetresHigh = 1.2f,
                 kFar = 240;  ///< What the images show of the word's plane; the cameras from it.
 constexpr float kCapital = 0.62f;
@@ -72,12 +72,12 @@ class Row {
   double likeness(const image::Image8& image, std::size_t place, char letter, bool mirrored) {
     const image::Glyph glyph = this->glyph(letter), there = this->glyph(kWord[place]);
     double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
-    for (std::uint32_t y = 0; y < kSize.y; ++y)
-      for (std::uint32_t x = 0; x < kSize.x; ++x) {
-        const std::uint32_t column = mirrored ? kSize.x - 1 - x : x;
+    for (std::uint32_t y = 0; y < kWordImage.y; ++y)
+      for (std::uint32_t x = 0; x < kWordImage.x; ++x) {
+        const std::uint32_t column = mirrored ? kWordImage.x - 1 - x : x;
         const glm::vec2 at = capitals(x, y) - glm::vec2(pens_[place], 0);
         if (std::abs(at.x - there.centre_x) > there.half_side) continue;
-        const double a = image.rgba[4 * (column + std::size_t{kSize.x} * y)], b = coverage(glyph, at);
+        const double a = image.rgba[4 * (column + std::size_t{kWordImage.x} * y)], b = coverage(glyph, at);
         n += 1;
         sum_a += a;
         sum_b += b;
@@ -108,8 +108,8 @@ class Row {
  private:
   /// Where a pixel's middle is, in capital heights from the begin of the row and its base line.
   glm::vec2 capitals(std::uint32_t x, std::uint32_t y) const {
-    const glm::vec2 from_middle = glm::vec2(x, y) + 0.5f - 0.5f * glm::vec2(kSize);
-    const float scale = kMetresHigh / static_cast<float>(kSize.y) / kCapital;
+    const glm::vec2 from_middle = glm::vec2(x, y) + 0.5f - 0.5f * glm::vec2(kWordImage);
+    const float scale = kMetresHigh / static_cast<float>(kWordImage.y) / kCapital;
     return {from_middle.x * scale + middle_, 0.5f - from_middle.y * scale};
   }
   static double coverage(const image::Glyph& glyph, glm::vec2 at) {
@@ -130,7 +130,7 @@ class WordTest : public gpu::GpuTest {};
 
 TEST_F(WordTest, ReadsFromTheFrontMirroredFromBehindAndNotAfterItsTime) {
   const scenario::Scenario scene = smoke_and_word();
-  Playback playback(context(), scene, kSize);
+  Playback playback(context(), scene, kWordImage);
   const auto image_at = [&](double seconds, bool from_behind) {
     playback.set_camera(camera(from_behind));
     return playback.draw(seconds, 0);

@@ -1,0 +1,66 @@
+// What tests of volumes on the device share: small volumes, a floor far below, and reading the media.
+#pragma once
+
+#include <glm/gtc/packing.hpp>
+
+#include "render/playback.hpp"
+#include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/half.hpp"
+#include "tests/render/boxes.hpp"
+
+namespace brume::render {
+
+/// Bricks whose texels, aprons included, hold a function of their centres: filtering is exact where it is
+/// linear.
+template <typename Texel, typename Function>
+volume::SparseVolume field(glm::ivec3 bricks, Function value_at) {
+  volume::SparseVolume volume({{}, 1, {{sizeof(Texel)}}});
+  volume.begin_update();
+  for_each_in(Box<int>{glm::ivec3(0), bricks}, [&](glm::ivec3 brick) {
+    std::size_t i = 0;
+    for (Texel& texel : volume.texels<Texel>(volume::ChannelId{0}, volume.acquire(brick))) {
+      const glm::ivec3 local(i % 10, i / 10 % 10, i / 100);
+      texel = value_at(glm::vec3(8 * brick + local) - 0.5f);
+      ++i;
+    }
+  });
+  volume.set_bounds(glm::vec3(0), glm::vec3(8 * bricks));
+  volume.end_update();
+  return volume;
+}
+
+template <typename Function>
+volume::SparseVolume values(glm::ivec3 bricks, Function value_at) {
+  return field<std::uint16_t>(bricks, [&](glm::vec3 p) { return glm::packHalf1x16(value_at(p)); });
+}
+
+/// One value throughout: a solid block of 8 voxels a brick from the origin on.
+inline volume::SparseVolume block(glm::ivec3 bricks, float value = 1) {
+  return values(bricks, [&](glm::vec3) { return value; });
+}
+
+class VolumeFixture : public gpu::GpuTest {
+ protected:
+  static scene::Scene far_floor() {
+    scene::Scene scene;
+    add_box(scene.meshes.emplace_back(), {-40, -31, -40}, {40, -30, 40});
+    scene.materials.resize(1);
+    scene.objects.push_back({"floor", 0, 0, glm::mat4(1), true});
+    return scene;
+  }
+  /// Premultiplied radiance and transmittance of each pixel that a renderer drew.
+  std::vector<glm::vec4> media_of(const Renderer& renderer) const {
+    std::vector<glm::vec4> pixels;
+    for (const passes::Half4& texel : read_back<passes::Half4>(renderer.media()))
+      pixels.push_back(passes::from_half(texel));
+    return pixels;
+  }
+
+  VolumeFixture() {
+    input_.smoke.look.swirl_width = 1;
+    input_.smoke.look.noise_period = 1;
+  }
+  FrameInput input_;
+};
+
+}  // namespace brume::render
