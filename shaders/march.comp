@@ -1,6 +1,7 @@
 // Marches rays through the media of a frame: premultiplied radiance and transmittance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_scalar_block_layout : require
 #include "shared/frame.h"
 #include "shared/media.h"
@@ -11,6 +12,7 @@ layout(constant_id = 0) const uint kCount = kCountNothing;
 layout(constant_id = 1) const uint kRays = kRaysOfPixels;
 layout(constant_id = 2) const uint kHoles = kHolesNone;
 layout(constant_id = 3) const uint kMedia = kMediumSmoke;
+layout(constant_id = 4) const uint kBlockSteps = 4u;
 #include "lib/blue_noise.glsl"
 #include "lib/march.glsl"
 #include "lib/pixel_ray.glsl"

@@ -1,5 +1,5 @@
-// Marches a ray through the media of a frame (lib/media.glsl): equal steps with one jitter, span by span, until the ray
-// is opaque. The includer defines the constant kCount, what is recorded of a ray (shared/resolve.h).
+// Marches a ray through the media of a frame (lib/media.glsl): equal steps with one jitter, until the ray is opaque.
+// The includer defines the constant kCount, what is recorded of a ray (shared/resolve.h).
 #ifndef MARCH_GLSL
 #define MARCH_GLSL
 #include "lib/media.glsl"
@@ -24,13 +24,23 @@ void note_entry(float begin, float ds, float passed_log2, inout Gathered gathere
   if (to_entry_log2 <= 0.0 && to_entry_log2 > passed_log2) gathered.entry = begin + ds * to_entry_log2 / passed_log2;
 }
 
-/// Marches the part [begin, end) of a ray in equal steps no longer than the media's. Each sample is at `jitter` in its
-/// step, [0, 1). What the samples of a span have in common is computed once per span; little is carried from step to
-/// step, because registers limit how many rays run at a time.
-void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
-  const float count = ceil((end - begin) / frame.media.step_length), ds = (end - begin) / max(count, 1.0);
-  restart_media();
-  const float after_last = begin + (count - 0.5 + jitter) * ds;
+/// Adds a step [t_begin, t_begin + ds) with the logarithm of its transmittance and the radiance of opaque media there;
+/// true where nothing behind it is seen. In-scatter is constant over the step, so its integral is exact: the energy
+/// does not depend on the step length.
+bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gathered gathered) {
+  if (kCount == kCountEntries) note_entry(t_begin, ds, passed_log2, gathered);
+  const float passed = exp2(passed_log2);
+  gathered.radiance += gathered.transmittance * (1.0 - passed) * light;
+  gathered.transmittance *= passed;
+  if (gathered.transmittance >= frame.media.opaque_transmittance) return false;
+  gathered.transmittance = 0.0;
+  return true;
+}
+
+/// Marches span by span. What the samples of a span have in common is computed once per span; little is carried from
+/// step to step, because registers limit how many rays run at a time.
+void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float ds, float after_last,
+                 inout Gathered gathered) {
   for (float t = begin + jitter * ds; t < after_last;) {
     const MediaSpan span = media_span(ray, media, t, ds);
     const float t_stop = min(span.t_stop, after_last);
@@ -41,23 +51,51 @@ void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, i
       const MediaSample here = sample_media(media, span, p_world, t, gathered.texture_samples);
       ++gathered.steps;
       const float passed_log2 = log2_transmittance(here, dt);
-      if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, dt);
+      if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
       if (passed_log2 < 0.0) {
-        // In-scatter is constant over the step, so its integral is exact: the energy does not depend on the step
-        // length.
-        if (kCount == kCountEntries) note_entry(t - jitter * ds, dt, passed_log2, gathered);
-        const float passed = exp2(passed_log2);
         const vec3 light = media_inscatter(media, here, gathered.texture_samples);
-        gathered.radiance += gathered.transmittance * (1.0 - passed) * light;
-        gathered.transmittance *= passed;
-        if (gathered.transmittance < frame.media.opaque_transmittance) {
-          gathered.transmittance = 0.0;
-          return;
-        }
+        if (add_step(t - jitter * ds, dt, passed_log2, light, gathered)) return;
       }
     }
     t = span.t_next;
   }
+}
+
+/// Marches block by block through several volumes.
+void march_blocks(WorldRay ray, MediaRay media, float jitter, float begin, float ds, float after_last,
+                  inout Gathered gathered) {
+  restart_blocks();
+  for (float t = begin + jitter * ds; t < after_last;) {
+    const float t_next = next_block(t);
+    if (t_next > t + 0.5 * ds) {
+      t = t_next;
+      continue;
+    }
+    const uint count = steps_before(after_last + 0.5 * ds, t, ds, kBlockSteps);
+    const MediaBlock block = sum_block(ray, media.smoke, t, ds, count, gathered.texture_samples);
+    [[unroll]] for (uint step = 0u; step < kMostBlockSteps; ++step) {
+      if (step >= kBlockSteps || step >= count) continue;
+      const VolumesSample here = block.steps[step];
+      ++gathered.steps;
+      const float passed_log2 = -1.44269504 * ds * here.extinction;
+      if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, ds);
+      if (passed_log2 < 0.0 && add_step(t + (float(step) - jitter) * ds, ds, passed_log2,
+                                        here.light / here.extinction, gathered))
+        return;
+    }
+    t += float(count) * ds;
+  }
+}
+
+/// Marches the part [begin, end) of a ray in equal steps no longer than the media's. Each sample is at `jitter` in its
+/// step, [0, 1).
+void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
+  const float count = ceil((end - begin) / frame.media.step_length), ds = (end - begin) / max(count, 1.0);
+  const float after_last = begin + (count - 0.5 + jitter) * ds;
+  if (kHasSeveral)
+    march_blocks(ray, media, jitter, begin, ds, after_last, gathered);
+  else
+    march_spans(ray, media, jitter, begin, ds, after_last, gathered);
 }
 
 #endif

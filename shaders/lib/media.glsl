@@ -4,21 +4,21 @@
 // A medium is a lib/medium_*.glsl with
 //
 //   struct XRay, XRay x_ray(...)     what the samples of a ray have in common
-//   restart_x()                      before samples in other places
 //   struct XSpan, XSpan x_span(...)  what the samples before t_next have in common; those outside of [t_first, t_stop)
 //                                    are empty
 //   struct XSample, sample_x(...)    of a point: its extinction
 //   x_inscatter(...)                 radiance towards the eye where the extinction is above 0
 //   x_glow                           of a sample: radiance per metre, for a medium that glows without an extinction
 //
-// and a line in each function here. See docs/OVERVIEW.md, "A new medium".
+// and a line in each function here, and in lib/media_block.glsl. See docs/OVERVIEW.md, "A new medium".
 #ifndef MEDIA_GLSL
 #define MEDIA_GLSL
+#include "lib/media_block.glsl"
 #include "lib/medium_smoke.glsl"
 #include "lib/medium_volumes.glsl"
 #include "shared/media.h"
 
-const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u, kHasVolumes = (kMedia & kMediumVolumes) != 0u;
+const bool kHasVolumes = (kMedia & kMediumVolumes) != 0u;
 const bool kSmokeAlone = kMedia == kMediumSmoke;
 
 struct MediaRay {
@@ -31,13 +31,8 @@ MediaRay media_ray(WorldRay world, vec2 position_px) {
   MediaRay ray;
   ray.world = world;
   if (kHasSmoke) ray.smoke = smoke_ray(position_px);
-  if (kHasVolumes) ray.volumes = volumes_ray(world);
+  if (kHasVolumes && !kHasSeveral) ray.volumes = volumes_ray(world);
   return ray;
-}
-
-/// Before samples in other places than those before.
-void restart_media() {
-  if (kHasVolumes) restart_volumes();
 }
 
 /// From one sample to another; samples outside of [t_first, t_stop) are empty.
@@ -62,7 +57,7 @@ MediaSpan media_span(WorldRay ray, MediaRay media, float t, float ds) {
     join_span(span, span.smoke.bricks.t_first, span.smoke.bricks.t_stop, span.smoke.bricks.t_next);
   }
   if (kHasVolumes) {
-    span.volumes = volumes_span(ray, media.volumes, t, ds);
+    span.volumes = volumes_span(media.volumes, t, ds);
     join_span(span, span.volumes.t_first, span.volumes.t_stop, span.volumes.t_next);
   }
   if (!kSmokeAlone) span.t_stop = min(span.t_stop, span.t_next - 0.5 * ds);
@@ -84,7 +79,11 @@ MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, in
     if (kSmokeAlone || (t >= span.smoke.bricks.t_first && t < span.smoke.bricks.t_stop))
       here.smoke = sample_smoke(ray.smoke, span.smoke, p_world, t, texture_samples);
   }
-  if (kHasVolumes) here.volumes = sample_volumes(span.volumes, ray.volumes, ray.world, p_world, t, texture_samples);
+  if (kHasVolumes) {
+    here.volumes = VolumesSample(0.0, vec3(0.0), vec3(0.0));
+    if (!kHasSmoke || span.volumes.present)
+      here.volumes = sample_volumes(span.volumes, ray.volumes, p_world, t, texture_samples);
+  }
   return here;
 }
 
@@ -114,9 +113,9 @@ vec3 media_inscatter(MediaRay ray, MediaSample here, inout uint texture_samples)
 
 /// Radiance that leaves a step towards the eye from what glows, whether or not it has an extinction. It is constant
 /// over the step and dimmed by what lies before it: (1 - exp(-x)) / x of its length, x the step's optical depth.
-vec3 media_glow(MediaSample here, float passed_log2, float ds) {
+vec3 media_glow(VolumesSample here, float passed_log2, float ds) {
   const float x = -0.693147181 * passed_log2;
-  return here.volumes.glow * (x > 1e-2 ? ds * (1.0 - exp(-x)) / x : ds * (1.0 - 0.5 * x));
+  return here.glow * (x > 1e-2 ? ds * (1.0 - exp(-x)) / x : ds * (1.0 - 0.5 * x));
 }
 
 /// The factor that all in-scatter has in common.

@@ -1,5 +1,6 @@
 // Smoke as a medium of lib/media.glsl: eroded by advected noise, cut by holes, exact at walls, lit by the in-scatter
-// atlas. The includer defines the constant kHoles.
+// atlas. The includer defines the
+// constants kMedia and kHoles.
 #ifndef MEDIUM_SMOKE_GLSL
 #define MEDIUM_SMOKE_GLSL
 #include "lib/boundary_cells.glsl"
@@ -7,7 +8,10 @@
 #include "lib/erosion.glsl"
 #include "lib/frame.glsl"
 #include "lib/ray_holes.glsl"
+#include "shared/media.h"
 #include "shared/noise.h"
+
+const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u;
 
 layout(binding = kBindDensityDisplacement) uniform sampler3D density_displacement_atlas;
 layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;

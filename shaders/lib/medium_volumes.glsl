@@ -20,49 +20,57 @@ VolumeRay volume_ray(uint i, WorldRay world) {
   return VolumeRay(ray, inverse_of(ray), span_in_box(ray, volumes[i].bounds_min, volumes[i].bounds_max));
 }
 
-// Of each volume its brick, since bricks do not end at the same samples. Only where there are several; not in
-// VolumesRay, which functions copy.
-uint others_present;                  // bit i: the ray is in a brick of volume i, which is not the first
-float next_of[kMaxVolumes];           // the first sample behind the brick
-vec3 corner_of[kMaxVolumes];          // of the brick in the atlas, less its place in voxel space [texels]
-float uniform_value_of[kMaxVolumes];  // of the brick; below 0: it differs from voxel to voxel
-
-/// What the samples of a ray have in common: the first volume's ray, since most frames have no other.
-struct VolumesRay {
-  VolumeRay first;
-  TextureRay light, sun;  // in its cubes of light and of the sun's depths [texels]
+/// What the samples of a ray in volume i have in common with regard to light.
+struct LightRay {
+  TextureRay light, sun;  // in the cubes of light and of the sun's depths [texels]
   float phase;
 };
 
-VolumesRay volumes_ray(WorldRay world) {
-  VolumesRay rays;
-  rays.first = volume_ray(0u, world);
+LightRay light_ray(uint i, WorldRay world, VoxelRay ray) {
+  LightRay lit;
   const float edge = float(textureSize(volume_light, 0).x);
-  const vec3 per_voxel = light_per_voxel(0u, edge);
-  rays.light = TextureRay(light_first(0u, edge) + rays.first.ray.origin * per_voxel,
-                          rays.first.ray.per_metre * per_voxel);
+  const vec3 per_voxel = light_per_voxel(i, edge);
+  lit.light = TextureRay(light_first(i, edge) + ray.origin * per_voxel, ray.per_metre * per_voxel);
   if (kHasSun) {
     const float sun_edge = float(textureSize(sun_depths, 0).y);
-    rays.sun = TextureRay(volumes[0].sun_from_voxel * vec4(rays.first.ray.origin, 1.0) * sun_edge,
-                          volumes[0].sun_from_voxel * vec4(rays.first.ray.per_metre, 0.0) * sun_edge);
-    rays.phase = volume_phase(0u, world);
+    const vec3 first = vec3(0.0, 0.0, float(i));
+    lit.sun = TextureRay((volumes[i].sun_from_voxel * vec4(ray.origin, 1.0) + first) * sun_edge,
+                         volumes[i].sun_from_voxel * vec4(ray.per_metre, 0.0) * sun_edge);
+    lit.phase = volume_phase(i, world);
   }
-  return rays;
+  return lit;
 }
 
-/// Before samples in other places than those before.
-void restart_volumes() {
-  if (!kHasSeveral) return;
-  others_present = 0u;
-  for (uint i = 1u; i < frame.media.volume_count; ++i) next_of[i] = -1e30;
+/// What the samples of a ray have in common, in a frame of one volume.
+struct VolumesRay {
+  VolumeRay volume;
+  LightRay lit;
+};
+
+VolumesRay volumes_ray(WorldRay world) {
+  const VolumeRay ray = volume_ray(0u, world);
+  return VolumesRay(ray, light_ray(0u, world, ray.ray));
+}
+
+/// What the samples of a volume in a brick have in common.
+struct VolumeBrick {
+  TextureRay values;    // in the atlas
+  TextureRay colors;    // in the atlas of colours
+  float uniform_value;  // of a uniform brick; else below 0
+};
+
+VolumeBrick brick_of(uint i, VoxelRay ray, BrickSpan span) {
+  VolumeBrick brick;
+  brick.values = texture_ray(volumes[i].bricks, span, ray);
+  if (kHasColorGrids) brick.colors = texture_ray(volumes[i].colors.bricks, span, ray);
+  brick.uniform_value = span.slot == kUniformSlot ? span.uniform_value : -1.0;
+  return brick;
 }
 
 struct VolumesSpan {
-  uint present;         // bit i: samples in [t_first, t_stop) may be inside volume i
-  TextureRay values;    // of the first volume, in the atlas, where it alone is present
-  TextureRay colors;    // the same in the atlas of colours
-  float uniform_value;  // of the first volume in a uniform brick; else below 0
-  float ds;             // of the steps, where there are transfer functions
+  bool present;  // samples in [t_first, t_stop) may be inside the volume
+  VolumeBrick brick;
+  float ds;  // of the steps, where there are transfer functions
   float t_first, t_stop, t_next;
 };
 
@@ -75,48 +83,21 @@ BrickSpan volume_span(uint i, VolumeRay ray, float t, float ds) {
   return brick_span(ray.ray, ray.inverse, volume_brick(volumes[i].bricks, p_voxel), t, ds);
 }
 
-/// Moves the spans that end at or before the sample at t.
-void move_others(WorldRay world, float t, float ds, inout VolumesSpan span) {
-  for (uint i = 1u; i < frame.media.volume_count; ++i) {
-    if (t > next_of[i] - 0.5 * ds) {
-      const BrickSpan at = volume_span(i, volume_ray(i, world), t, ds);
-      next_of[i] = at.t_next;
-      others_present &= ~(1u << i);
-      if (at.slot != kNoSlot) {
-        others_present |= 1u << i;
-        corner_of[i] = atlas_corner(volumes[i].bricks, at.slot) - at.low;
-        uniform_value_of[i] = at.slot == kUniformSlot ? at.uniform_value : -1.0;
-      }
-    }
-    span.t_next = min(span.t_next, next_of[i]);
-  }
-  span.present |= others_present;
-}
-
-VolumesSpan volumes_span(WorldRay world, VolumesRay rays, float t, float ds) {
+VolumesSpan volumes_span(VolumesRay rays, float t, float ds) {
+  const BrickSpan at = volume_span(0u, rays.volume, t, ds);
   VolumesSpan span;
-  const BrickSpan first = volume_span(0u, rays.first, t, ds);
   span.t_first = span.t_stop = t;
-  span.t_next = first.t_next;
-  span.present = first.slot != kNoSlot ? 1u : 0u;
-  const vec3 texel = atlas_texel(volumes[0].bricks);
-  const vec3 corner = atlas_corner(volumes[0].bricks, first.slot) - first.low;
-  span.uniform_value = first.slot == kUniformSlot ? first.uniform_value : -1.0;
-  span.values = TextureRay((corner + rays.first.ray.origin) * texel, rays.first.ray.per_metre * texel);
-  if (kHasColorGrids) span.colors = texture_ray(volumes[0].colors.bricks, first, rays.first.ray);
+  span.t_next = at.t_next;
+  span.present = at.slot != kNoSlot;
+  span.brick = brick_of(0u, rays.volume.ray, at);
   if (kHasTransfer) span.ds = ds;
-  if (kHasSeveral) {
-    corner_of[0] = corner;
-    uniform_value_of[0] = span.uniform_value;
-    move_others(world, t, ds, span);
-  }
-  if (span.present != 0u) span.t_stop = span.t_next - 0.5 * ds;
+  if (span.present) span.t_stop = span.t_next - 0.5 * ds;
   return span;
 }
 
 /// Whether all samples of a span are alike: in a brick of one value, where nothing but the extinction matters.
 bool is_constant(VolumesSpan span) {
-  return !kIsLit && !kHasHeat && span.present == 1u && span.uniform_value >= 0.0;
+  return !kIsLit && !kHasHeat && span.present && span.brick.uniform_value >= 0.0;
 }
 
 /// Sums over the volumes.
@@ -142,36 +123,20 @@ void add_volume(uint i, VolumeMatter matter, LightTexels at, float phase, vec3 p
   }
 }
 
-VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, WorldRay world, vec3 p_world, float t,
-                             inout uint texture_samples) {
+/// Adds volume i at the sample at t of a ray through one of its bricks.
+void add_volume_at(uint i, VolumeBrick brick, LightRay lit, vec3 per_metre, float ds, vec3 p_world, float t,
+                   inout VolumesSample sum, inout uint texture_samples) {
+  const VolumeMatter matter =
+      matter_along(volumes[i], i, brick.values, brick.colors, brick.uniform_value, per_metre, ds, t);
+  LightTexels at;
+  at.light = lit.light.at + t * lit.light.along;
+  if (kHasSun) at.sun = lit.sun.at + t * lit.sun.along;
+  add_volume(i, matter, at, lit.phase, p_world, sum, texture_samples);
+}
+
+VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, vec3 p_world, float t, inout uint texture_samples) {
   VolumesSample sum = VolumesSample(0.0, vec3(0.0), vec3(0.0));
-  if (!kHasSeveral || span.present == 1u) {
-    const vec3 per_metre = rays.first.ray.per_metre;
-    const VolumeMatter matter =
-        matter_along(volumes[0], span.values, span.colors, span.uniform_value, per_metre, span.ds, t);
-    LightTexels at;
-    at.light = rays.light.at + t * rays.light.along;
-    if (kHasSun) at.sun = rays.sun.at + t * rays.sun.along;
-    add_volume(0u, matter, at, rays.phase, p_world, sum, texture_samples);
-    return sum;
-  }
-  const float edge = float(textureSize(volume_light, 0).x), sun_edge = float(textureSize(sun_depths, 0).y);
-  for (uint left = span.present; left != 0u; left &= left - 1u) {
-    const uint i = uint(findLSB(left));
-    const vec3 p_voxel = volumes[i].voxel_from_world * vec4(p_world, 1.0);
-    const LightTexels at = LightTexels(
-        light_first(i, edge) + p_voxel * light_per_voxel(i, edge),
-        (volumes[i].sun_from_voxel * vec4(p_voxel, 1.0) + vec3(0.0, 0.0, float(i))) * sun_edge);
-    VolumeMatter matter = VolumeMatter(uniform_value_of[i], volumes[i].look.albedo, volumes[i].look.emission);
-    if (kHasAlbedos) {
-      const vec3 per_metre = volumes[i].voxel_from_world * vec4(world.direction, 0.0);
-      matter = matter_around(volumes[i], i, p_voxel, per_metre * half_segment(per_metre, span.ds));
-    } else if (matter.density < 0.0) {
-      const vec3 uvw = (corner_of[i] + p_voxel) * atlas_texel(volumes[i].bricks);
-      matter.density = textureLod(volume_values, uvw, 0.0).r;
-    }
-    add_volume(i, matter, at, volume_phase(i, world), p_world, sum, texture_samples);
-  }
+  add_volume_at(0u, span.brick, rays.lit, rays.volume.ray.per_metre, span.ds, p_world, t, sum, texture_samples);
   return sum;
 }
 

@@ -16,8 +16,21 @@ vec2 clip_to_smoke(vec3 origin_world, vec3 direction, float t_end) {
   return clip_to_voxels(frame.volume.bounds_min, frame.volume.bounds_max, origin_world, direction, t_end);
 }
 
+void join_box(MediaBox box, vec3 origin_world, vec3 direction, float t_end, inout vec2 inside) {
+  const vec2 span = clip_to_voxels(box.low, box.high, origin_world, direction, t_end);
+  if (span.x < span.y) inside = inside.x < inside.y ? vec2(min(inside.x, span.x), max(inside.y, span.y)) : span;
+}
+
+/// From where a ray enters the first box of the media to where it leaves the last.
 vec2 clip_to_media(vec3 origin_world, vec3 direction, float t_end) {
-  return clip_to_voxels(frame.media.bounds_min, frame.media.bounds_max, origin_world, direction, t_end);
+  const FrameMedia media = frame.media;
+  vec2 inside = clip_to_voxels(media.box_0.low, media.box_0.high, origin_world, direction, t_end);
+  if (media.box_count > 1u) {
+    join_box(media.box_1, origin_world, direction, t_end, inside);
+    if (media.box_count > 2u) join_box(media.box_2, origin_world, direction, t_end, inside);
+    if (media.box_count > 3u) join_box(media.box_3, origin_world, direction, t_end, inside);
+  }
+  return inside;
 }
 
 #endif

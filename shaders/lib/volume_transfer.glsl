@@ -103,9 +103,9 @@ TextureRay texture_ray(BrickLayout bricks, BrickSpan span, VoxelRay ray) {
   return TextureRay((corner + ray.origin) * texel, ray.per_metre * texel);
 }
 
-/// The matter of the first volume in the step around t, from rays through its values and colours. `uniform_value` is
+/// The matter of volume i in the step around t, from rays through its values and colours. `uniform_value` is
 /// that of a uniform brick, else below 0.
-VolumeMatter matter_along(VolumeInstance volume, TextureRay values, TextureRay colors, float uniform_value,
+VolumeMatter matter_along(VolumeInstance volume, uint i, TextureRay values, TextureRay colors, float uniform_value,
                           vec3 per_metre, float ds, float t) {
   const vec3 uvw = values.at + t * values.along;
   VolumeMatter matter;
@@ -114,7 +114,7 @@ VolumeMatter matter_along(VolumeInstance volume, TextureRay values, TextureRay c
     vec2 ends = vec2(uniform_value);
     if (uniform_value < 0.0)
       ends = vec2(textureLod(volume_values, uvw - along, 0.0).r, textureLod(volume_values, uvw + along, 0.0).r);
-    matter = matter_of(volume, 0u, ends);
+    matter = matter_of(volume, i, ends);
   } else {
     matter = VolumeMatter(uniform_value, volume.look.albedo, volume.look.emission);
     if (uniform_value < 0.0) matter.density = textureLod(volume_values, uvw, 0.0).r;

@@ -48,6 +48,13 @@ struct SmokeLook {
 };
 SHARED_SIZE(SmokeLook, 68);
 
+/// The most boxes around the media of a frame.
+SHARED_CONST uint kMaxMediaBoxes = 4u;
+struct MediaBox {
+  vec3 low, high;  // [voxel space of the smoke]
+};
+SHARED_SIZE(MediaBox, 24);
+
 /// All media of a frame together: smoke and volumes.
 struct FrameMedia {
   vec3 bounds_min;             // where any medium can be [voxel space of the smoke]
@@ -58,8 +65,10 @@ struct FrameMedia {
   uint volume_count;           // besides the smoke
   vec3 to_sun;                 // unit
   vec3 sun_irradiance;         // on the volumes; 0: no sun
+  uint box_count;              // at least one, whose
+  MediaBox box_0, box_1, box_2, box_3;  // union holds all that the bounds hold: smaller where media are far apart
 };
-SHARED_SIZE(FrameMedia, 64);
+SHARED_SIZE(FrameMedia, 164);
 
 /// Tone curves.
 SHARED_CONST uint kToneNeutral = 0u;   // Khronos PBR Neutral
@@ -84,7 +93,7 @@ struct FrameConstants {
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
-SHARED_SIZE(FrameConstants, 480);
+SHARED_SIZE(FrameConstants, 580);
 
 SHARED_END
 #endif

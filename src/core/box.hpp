@@ -1,8 +1,13 @@
 // Axis-aligned boxes: of points in metres or voxels (float), and of voxels, cells or bricks (int).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <glm/glm.hpp>
+#include <limits>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace brume {
 
@@ -39,6 +44,32 @@ Box<T> intersection(const Box<T>& a, const Box<T>& b) {
 }
 
 /// The smallest box around both.
+template <typename T>
+Box<T> united(const Box<T>& a, const Box<T>& b);
+
+/// Joins boxes until there are at most `most`, first the two whose union gains the least volume. The time
+/// grows with the cube of their number.
+template <typename T>
+void join_nearest(std::vector<Box<T>>& boxes, std::size_t most) {
+  const auto volume = [](const Box<T>& box) {
+    const glm::dvec3 size(box.high - box.low);
+    return size.x * size.y * size.z;
+  };
+  while (boxes.size() > std::max<std::size_t>(most, 1)) {
+    std::pair<std::size_t, std::size_t> best{0, 1};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      for (std::size_t k = i + 1; k < boxes.size(); ++k) {
+        const double gained = volume(united(boxes[i], boxes[k])) - volume(boxes[i]) - volume(boxes[k]);
+        if (gained >= least) continue;
+        least = gained;
+        best = {i, k};
+      }
+    boxes[best.first] = united(boxes[best.first], boxes[best.second]);
+    boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(best.second));
+  }
+}
+
 template <typename T>
 Box<T> united(const Box<T>& a, const Box<T>& b) {
   return {glm::min(a.low, b.low), glm::max(a.high, b.high)};

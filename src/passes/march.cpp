@@ -42,6 +42,7 @@ MarchTiles::MarchTiles(gpu::Context& context, glm::uvec2 size_px, std::uint32_t 
 MarchPass::MarchPass(gpu::Context& context, const Options& options)
     : context_(context),
       options_(options),
+      block_steps_(context.info().kind == "cpu" ? 1 : 4),
       linear_(context, {}),
       repeat_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT}),
       nearest_(context, {VK_FILTER_NEAREST}) {
@@ -61,7 +62,7 @@ void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
   for (const std::uint32_t kind : kinds)
     for (const std::uint32_t holes : {shared::kHolesNone, with_holes(media)})
       pipelines_.try_emplace({kind, holes, media}, context_, shaders::march_comp,
-                             std::vector{counts_of(options_), kind, holes, media});
+                             std::vector{counts_of(options_), kind, holes, media, block_steps_});
 }
 
 const gpu::ComputePipeline& MarchPass::pipeline(std::uint32_t rays, const Inputs& in) const {

@@ -89,6 +89,7 @@ class MarchPass {
   gpu::Context& context_;
   Options options_;
   std::map<Variant, gpu::ComputePipeline> pipelines_;
+  const std::uint32_t block_steps_;  ///< lib/media_block.glsl
   gpu::Sampler linear_, repeat_, nearest_;
 };
 

@@ -102,6 +102,34 @@ void add_volume(MediaPlan& plan, const VolumeInput& volume, const VisibleVolume&
   if (++plan.frame.volume_count > 1) plan.media |= shared::kMediumSeveral;
 }
 
+/// The boxes of a volume, and of the preview that may stand in for it.
+void add_boxes(const VolumeInput& volume, std::vector<Box<float>>& boxes) {
+  for (const Box<float>& box : volume.volume->boxes())
+    boxes.push_back(world_box(volume.world_from_voxel, box));
+  if (!volume.preview) return;
+  for (const Box<float>& box : volume.preview->boxes())
+    boxes.push_back(world_box(volume.world_from_preview, box));
+}
+
+/// Bounds the media by boxes in the world; those of the smoke are in the plan.
+void set_boxes(MediaPlan& plan, std::vector<Box<float>> boxes) {
+  const auto to_world = [&](glm::vec3 p) { return plan.smoke.origin_world + p * plan.smoke.voxel_size; };
+  const auto from_world = [&](glm::vec3 p) { return (p - plan.smoke.origin_world) / plan.smoke.voxel_size; };
+  if ((plan.media & shared::kMediumSmoke) != 0)
+    boxes.push_back({to_world(plan.smoke.bounds_min), to_world(plan.smoke.bounds_max)});
+  constexpr std::size_t kMostBoxes = 16;  // beyond, to join them takes too long
+  if (boxes.size() < 2 || boxes.size() > kMostBoxes) {
+    plan.frame.box_0 = {plan.frame.bounds_min, plan.frame.bounds_max};
+    return;
+  }
+  join_nearest(boxes, shared::kMaxMediaBoxes);
+  shared::FrameMedia& frame = plan.frame;
+  shared::MediaBox* const out[] = {&frame.box_0, &frame.box_1, &frame.box_2, &frame.box_3};
+  static_assert(std::size(out) == shared::kMaxMediaBoxes);
+  frame.box_count = 0;
+  for (const Box<float>& box : boxes) *out[frame.box_count++] = {from_world(box.low), from_world(box.high)};
+}
+
 /// The sun of the volumes: the first directional light.
 void add_sun(MediaPlan& plan, std::span<const shared::Light> lights) {
   const auto sun = std::ranges::find(lights, shared::kLightDirectional, &shared::Light::kind);
@@ -115,9 +143,16 @@ void add_sun(MediaPlan& plan, std::span<const shared::Light> lights) {
 }  // namespace
 
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look) {
-  return {
-      smoke.bounds_min,   smoke.bounds_max, look.extinction, look.step_length, look.opaque_transmittance, 0,
-      glm::vec3(0, 1, 0), glm::vec3(0)};
+  shared::FrameMedia media{};
+  media.bounds_min = smoke.bounds_min;
+  media.bounds_max = smoke.bounds_max;
+  media.extinction = look.extinction;
+  media.step_length = look.step_length;
+  media.opaque_transmittance = look.opaque_transmittance;
+  media.to_sun = glm::vec3(0, 1, 0);
+  media.box_count = 1;
+  media.box_0 = {smoke.bounds_min, smoke.bounds_max};
+  return media;
 }
 
 VolumeInput shown_volume(const VolumeInput& volume, bool preview) {
@@ -156,6 +191,7 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
   plan.smoke.bounds_max = visibility.visible_bounds.high;
   if (visibility.visible_count > 0) plan.media = shared::kMediumSmoke;
   plan.frame = smoke_media(plan.smoke, input.smoke.look);
+  std::vector<Box<float>> boxes;
   for (std::size_t i = 0; i < input.volumes.size(); ++i) {
     const VolumeInput& other = input.volumes[i];
     const shared::VolumeLayout& layout = other.volume->layout();
@@ -163,7 +199,9 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
     if (other.volume->slot_count() == 0 || !may_be_visible(frustum, world)) continue;
     const bool preview = !previews.empty() && previews[i];
     add_volume(plan, shown_volume(other, preview), {i, world, {}, preview});
+    add_boxes(other, boxes);
   }
+  set_boxes(plan, std::move(boxes));
   add_sun(plan, lights);
   // A frame of nothing is one of smoke that is nowhere.
   if (plan.media == 0) plan.media = shared::kMediumSmoke;

@@ -98,6 +98,38 @@ void PageTable::near_swept(glm::ivec3 at, int way) {
   }
 }
 
+/// The box around all nodes that are connected with one, through faces, edges and corners.
+Box<int> PageTable::group_around(std::uint32_t first, std::vector<bool>& seen) const {
+  Box<int> box{info_[first].at, info_[first].at + 1};
+  std::vector<std::uint32_t> left{first};
+  seen[first] = true;
+  while (!left.empty()) {
+    const glm::ivec3 at = info_[left.back()].at;
+    left.pop_back();
+    box = united(box, {at, at + 1});
+    for (int n = 0; n < 27; ++n) {
+      const std::uint32_t beside = node_at(at + glm::ivec3(n % 3, n / 3 % 3, n / 9) - 1);
+      if (beside == kNoNode || seen[beside]) continue;
+      seen[beside] = true;
+      left.push_back(beside);
+    }
+  }
+  return box;
+}
+
+std::vector<Box<int>> PageTable::groups(std::size_t most) const {
+  constexpr std::size_t kMostGroups = 16;  // beyond, pairs take too long to compare
+  std::vector<Box<int>> boxes;
+  std::vector<bool> seen(info_.size());
+  for (std::uint32_t node = 0; node < info_.size(); ++node) {
+    if (info_[node].used == 0 || seen[node]) continue;
+    if (boxes.size() == kMostGroups) return {{origin_, origin_ + size_}};
+    boxes.push_back(group_around(node, seen));
+  }
+  join_nearest(boxes, most);
+  return boxes;
+}
+
 void PageTable::clear_changes() {
   for (const std::uint32_t node : changed_nodes_) info_[node].changed = false;
   changed_nodes_.clear();

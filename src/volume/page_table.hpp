@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "core/box.hpp"
 #include "shared/volume.h"
 
 namespace brume::volume {
@@ -41,6 +42,10 @@ class PageTable {
   void set_uniform(glm::ivec3 brick, std::uint16_t texel) { set_entry(brick, shared::kUniformBrick | texel); }
   /// Writes into the root's empty entries how far the nearest node is. Until then they are 0.
   void find_distances();
+
+  /// At most `most` boxes, together around all nodes that hold a brick: each around nodes that touch, or,
+  /// where there are more such groups, around several of them [nodes].
+  std::vector<Box<int>> groups(std::size_t most) const;
 
   /// The window [nodes]; without any brick both are 0.
   glm::ivec3 origin() const { return origin_; }
@@ -81,6 +86,7 @@ class PageTable {
   void drop_node(std::uint32_t node);
   void set_window(glm::ivec3 origin, glm::ivec3 size);
   void near_swept(glm::ivec3 at, int way);
+  Box<int> group_around(std::uint32_t first, std::vector<bool>& seen) const;
 
   glm::ivec3 origin_{0}, size_{0};
   std::vector<std::uint32_t> root_, nodes_;

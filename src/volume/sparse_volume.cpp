@@ -142,10 +142,20 @@ void SparseVolume::end_update() {
     if (slot_count() > 0) atlas = grown_atlas(atlas, slot_count());
     ++structure_generation_;
   }
+  find_boxes();
   for (Channel& channel : channels_) channel.dirty.sort(slot_count());
   dirty_bricks_.sort(slot_count());
   ++revision_;
   updating_ = false;
+}
+
+void SparseVolume::find_boxes() {
+  if (structure_changed_ && pages_.root_changed()) node_boxes_ = pages_.groups(kMaxBoxes);
+  constexpr int kNodeVoxels = shared::kNodeBricks * shared::kBrickVoxels;
+  boxes_.clear();
+  for (const Box<int>& nodes : node_boxes_)
+    boxes_.push_back(intersection({glm::vec3(kNodeVoxels * nodes.low), glm::vec3(kNodeVoxels * nodes.high)},
+                                  Box<float>{layout_.bounds_min, layout_.bounds_max}));
 }
 
 NeighbourSlots SparseVolume::slots_around(glm::ivec3 brick) const {

@@ -60,6 +60,8 @@ class SparseVolume {
  public:
   static constexpr std::uint32_t kNoSlot = PageTable::kNoSlot;
 
+  static constexpr std::size_t kMaxBoxes = 4;
+
   explicit SparseVolume(const SparseVolumeInfo& info);
 
   /// Different from that of every other volume of the process, as long as it runs.
@@ -125,6 +127,9 @@ class SparseVolume {
 
   /// As of the last update, in an atlas that holds this volume alone.
   const shared::VolumeLayout& layout() const { return layout_; }
+  /// Boxes that nothing lies outside of, at most kMaxBoxes, as of the last update [voxel space]: far
+  /// smaller together than the bounds where parts of the volume are far from each other.
+  std::span<const Box<float>> boxes() const { return boxes_; }
   /// Slots below slot_count() whose texels the last update marked, acquired or released, in rising order.
   std::span<const std::uint32_t> dirty(ChannelId channel) const {
     return channels_[index(channel)].dirty.slots();
@@ -177,11 +182,14 @@ class SparseVolume {
   }
   void resize(std::size_t slot_count);
   void mark_everything(std::uint32_t slot);
+  void find_boxes();
 
   std::uint64_t id_;
   std::uint32_t max_bricks_;
   shared::VolumeLayout layout_{};
   glm::vec3 bounds_min_{0}, bounds_max_{0};
+  std::vector<Box<int>> node_boxes_;
+  std::vector<Box<float>> boxes_;
   PageTable pages_;
   std::vector<Slot> slots_;
   std::set<std::uint32_t> free_slots_;  // those of slots_ that no brick has

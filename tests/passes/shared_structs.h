@@ -60,37 +60,38 @@
   X(26, ManyScatterings) \
   X(27, MarchList) \
   X(28, MaterialConstants) \
-  X(29, NoiseAdvectionParams) \
-  X(30, NoiseParams) \
-  X(31, PackedHole) \
-  X(32, PackedReach) \
-  X(33, Phase) \
-  X(34, RayEnds) \
-  X(35, RaycastDraw) \
-  X(36, RaycastView) \
-  X(37, RaycastVolume) \
-  X(38, ShadowDraw) \
-  X(39, ShadowRays) \
-  X(40, ShadowView) \
-  X(41, Sky) \
-  X(42, SmokeLightParams) \
-  X(43, SmokeLook) \
-  X(44, SmokeShadowFace) \
-  X(45, SmokeShadowParams) \
-  X(46, SolidLayout) \
-  X(47, TexelList) \
-  X(48, UiConstants) \
-  X(49, UiVertex) \
-  X(50, UpscaleConstants) \
-  X(51, Vertex) \
-  X(52, VolumeColors) \
-  X(53, VolumeHeat) \
-  X(54, VolumeInstance) \
-  X(55, VolumeLayout) \
-  X(56, VolumeLightParams) \
-  X(57, VolumeLook) \
-  X(58, VolumeSweep) \
-  X(59, VolumeTransfer)
+  X(29, MediaBox) \
+  X(30, NoiseAdvectionParams) \
+  X(31, NoiseParams) \
+  X(32, PackedHole) \
+  X(33, PackedReach) \
+  X(34, Phase) \
+  X(35, RayEnds) \
+  X(36, RaycastDraw) \
+  X(37, RaycastView) \
+  X(38, RaycastVolume) \
+  X(39, ShadowDraw) \
+  X(40, ShadowRays) \
+  X(41, ShadowView) \
+  X(42, Sky) \
+  X(43, SmokeLightParams) \
+  X(44, SmokeLook) \
+  X(45, SmokeShadowFace) \
+  X(46, SmokeShadowParams) \
+  X(47, SolidLayout) \
+  X(48, TexelList) \
+  X(49, UiConstants) \
+  X(50, UiVertex) \
+  X(51, UpscaleConstants) \
+  X(52, Vertex) \
+  X(53, VolumeColors) \
+  X(54, VolumeHeat) \
+  X(55, VolumeInstance) \
+  X(56, VolumeLayout) \
+  X(57, VolumeLightParams) \
+  X(58, VolumeLook) \
+  X(59, VolumeSweep) \
+  X(60, VolumeTransfer)
 // clang-format on
 
 #endif

@@ -182,6 +182,68 @@ TEST_F(VolumesTest, UniformBricksLookAsThoseOfTexels) {
     }
 }
 
+// A frame of one volume is marched span by span, one of several block by block.
+TEST_F(VolumesTest, TwoHalvesAreAWhole) {
+  const volume::SparseVolume ramp = values({5, 4, 6}, [](glm::vec3 p) { return 0.3f + 0.01f * (p.x + p.y); });
+  const glm::mat4 placed = oblique(ramp, {-2, -1.5f, -2}, {4, 3, 4});
+  const planning::HeatInput heat{&ramp, placed, planning::kUnitGlow, 1, 0.3f};
+  for (const bool hot : {false, true}) {
+    const auto drawn = [&](float extinction, std::size_t count) {
+      const shared::VolumeLook look = glowing(extinction, {0.3f, 0.2f, 0.1f});
+      input_.volumes.assign(count, {&ramp, placed, look, hot ? heat : planning::HeatInput()});
+      return draw();
+    };
+    const std::vector<glm::vec4> whole = drawn(0.8f, 1), halves = drawn(0.4f, 2), quarters = drawn(0.2f, 4);
+    int inside = 0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      inside += whole[i].w < 0.5f;
+      for (int channel = 0; channel < 4; ++channel)
+        for (const float other : {halves[i][channel], quarters[i][channel]})
+          ASSERT_NEAR(other, whole[i][channel], 2.0f / 2048 * std::max(1.0f, whole[i][channel])) << i;
+    }
+    EXPECT_GT(inside, 150);
+  }
+}
+
+// Rays end behind the last part, and skip what lies between.
+TEST_F(VolumesTest, PartsFarFromEachOtherLookAsInVolumesOfTheirOwn) {
+  const auto parts = [](bool near, bool far) {
+    volume::SparseVolume volume({{}, 1, {{sizeof(std::uint16_t)}}});
+    volume.begin_update();
+    for (const glm::ivec3 brick : {glm::ivec3(0), glm::ivec3(30, 0, 0), glm::ivec3(30, 20, 0)})
+      if (brick.x == 0 ? near : far)
+        for (std::uint16_t& texel : volume.texels<std::uint16_t>(volume::ChannelId{0}, volume.acquire(brick)))
+          texel = glm::packHalf1x16(0.8f);
+    volume.set_bounds(glm::vec3(0), {8 * 31, 8 * 21, 8});
+    volume.end_update();
+    return volume;
+  };
+  const volume::SparseVolume both = parts(true, true), near = parts(true, false), far = parts(false, true);
+  EXPECT_EQ(both.boxes().size(), 3u);
+  constexpr float kSigma = 12;
+  const glm::mat4 placed = oblique(both, {-2.5f, -2, -1}, {6, 5, 4});
+  const auto drawn = [&](const volume::SparseVolume& volume) {
+    input_.volumes = {{&volume, placed, glowing(kSigma, glm::vec3(0)), {}}};
+    return draw();
+  };
+  const auto of_both = drawn(both), of_near = drawn(near), of_far = drawn(far);
+  // The rays begin elsewhere, so that each part may be met by one sample more or less.
+  const double most = 3 * 0.8 * double{kSigma} * step_of(input_.volumes[0]) + 3.0 / 1024;
+  double sum = 0;
+  int seen = 0;
+  for (std::size_t i = 0; i < of_both.size(); ++i) {
+    const double expected = double{of_near[i].w} * double{of_far[i].w};
+    EXPECT_EQ(of_both[i].w < 1, expected < 1) << i;
+    if (expected > 0.99 || expected < 0.1) continue;
+    const double off = std::log(double{of_both[i].w} / expected);
+    EXPECT_LT(std::abs(off), most) << i;
+    sum += off;
+    ++seen;
+  }
+  EXPECT_GT(seen, 30);
+  EXPECT_LT(std::abs(sum / seen), most / std::sqrt(seen)) << "the samples' jitter has no bias";
+}
+
 /// A sun straight above.
 shared::Light sun_above(float irradiance) {
   shared::Light sun{};

@@ -87,6 +87,40 @@ TEST(PageTable, KnowsHowFarTheNearestNodeIs) {
   }
 }
 
+TEST(PageTable, GroupsNodesThatTouch) {
+  PageTable table;
+  EXPECT_TRUE(table.groups(4).empty());
+  table.set({0, 0, 0}, 0);
+  table.set({8, 8, 8}, 1);  // touches by a corner
+  table.set({8 * 20, 0, 0}, 2);
+  const Box<int> near{glm::ivec3(0), glm::ivec3(2)}, far{{20, 0, 0}, {21, 1, 1}};
+  EXPECT_EQ(table.groups(4), (std::vector{near, far}));
+  EXPECT_EQ(table.groups(1), std::vector{united(near, far)});
+  // Of three, the two that are near each other are joined.
+  table.set({8 * 23, 0, 0}, 3);
+  EXPECT_EQ(table.groups(2), (std::vector{near, Box<int>{{20, 0, 0}, {24, 1, 1}}}));
+  table.set({8 * 20, 0, 0}, PageTable::kNoSlot);
+  EXPECT_EQ(table.groups(4), (std::vector{near, Box<int>{{23, 0, 0}, {24, 1, 1}}}));
+}
+
+TEST(PageTable, GroupsHoldEveryNode) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 40; ++i) {
+    PageTable table;
+    std::vector<glm::ivec3> nodes;
+    const int count = 1 + static_cast<int>(random() % 40), spread = 1 + static_cast<int>(random() % 60);
+    for (int n = 0; n < count; ++n) {
+      nodes.push_back(glm::ivec3(random() % 60, random() % 60, random() % 60) % spread);
+      table.set(8 * nodes.back() + 3, 1);
+    }
+    const std::vector<Box<int>> boxes = table.groups(4);
+    EXPECT_GE(boxes.size(), 1u);
+    EXPECT_LE(boxes.size(), 4u);
+    for (const glm::ivec3 node : nodes)
+      EXPECT_TRUE(std::ranges::any_of(boxes, [&](const Box<int>& box) { return box.contains(node); }));
+  }
+}
+
 TEST(PageTable, CountsDistancesUpToTheFirstNode) {
   PageTable table;
   table.set({0, 0, 0}, 1);
