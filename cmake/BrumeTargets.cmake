@@ -28,8 +28,13 @@ endif()
 
 # A scene file or a command line is read once: the templates of the readers cost more to optimize than they run.
 # Release builds only; a build without optimization stays one.
+set(brume_cold_options "$<$<CONFIG:Release>:-O1>")
 function(brume_cold)
-  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+  set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "${brume_cold_options}")
+endfunction()
+# The same for all of a target, whose work is done by the libraries below it.
+function(brume_cold_target target)
+  target_compile_options(${target} PRIVATE "${brume_cold_options}")
 endfunction()
 
 # Headers of others that nearly every file reads, compiled once for all targets. A source still includes what it uses:

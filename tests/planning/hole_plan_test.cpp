@@ -35,7 +35,7 @@ TEST(HolePlan, OmitsWhatIsNotOpen) {
 
 TEST(HolePlan, HasRoomForEveryBrickThatAHoleReaches) {
   // Bricks of 2 m: at most those whose middle is within the radius and half their diagonal of the axis.
-  auto holes = random_holes(kSanitized ? 40 : 300, 2, 20);
+  auto holes = random_holes(kSanitized ? 40 : 100, 2, 20);
   for (shared::Hole& hole : holes) {
     hole.time_start = 0;
     hole.time_to_stay_open = 100;
