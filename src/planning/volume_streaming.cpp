@@ -222,7 +222,7 @@ std::vector<VolumeResidency> VolumeStreaming::plan(std::span<const VolumeInput> 
   std::vector<Item> items = items_of(volumes, result);
   // What must be there comes whatever the budget.
   const auto end_of_whole =
-      std::ranges::stable_partition(items, [&](const Item& item) { return !item.has_preview; }).begin();
+      std::stable_partition(items.begin(), items.end(), [&](const Item& item) { return !item.has_preview; });
   const auto whole = static_cast<std::size_t>(end_of_whole - items.begin());
   Frame(std::span(items).first(whole), &frustum, eye_world, 0).plan();
   Frame(std::span(items).subspan(whole), &frustum, eye_world, budget_bytes).plan();
