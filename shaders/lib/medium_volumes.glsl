@@ -62,7 +62,8 @@ struct VolumeBrick {
 VolumeBrick brick_of(uint i, VoxelRay ray, BrickSpan span) {
   VolumeBrick brick;
   brick.values = texture_ray(volumes[i].bricks, span, ray);
-  if (kHasColorGrids) brick.colors = texture_ray(volumes[i].colors.bricks, span, ray);
+  if (kHasColorGrids && volumes[i].colors.present != 0u)
+    brick.colors = texture_ray(volumes[i].colors.bricks, span, ray);
   brick.uniform_value = span.slot == kUniformSlot ? span.uniform_value : -1.0;
   return brick;
 }

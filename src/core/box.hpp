@@ -45,7 +45,9 @@ Box<T> intersection(const Box<T>& a, const Box<T>& b) {
 
 /// The smallest box around both.
 template <typename T>
-Box<T> united(const Box<T>& a, const Box<T>& b);
+Box<T> united(const Box<T>& a, const Box<T>& b) {
+  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
 
 /// Joins boxes until there are at most `most`, first the two whose union gains the least volume. The time
 /// grows with the cube of their number.
@@ -68,11 +70,6 @@ void join_nearest(std::vector<Box<T>>& boxes, std::size_t most) {
     boxes[best.first] = united(boxes[best.first], boxes[best.second]);
     boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(best.second));
   }
-}
-
-template <typename T>
-Box<T> united(const Box<T>& a, const Box<T>& b) {
-  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
 
 /// Calls visit(v) for every element of the box, x fastest.
