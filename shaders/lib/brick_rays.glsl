@@ -51,9 +51,6 @@ BrickAt empty_nodes(ivec3 brick, uint distance) {
 /// Low corner of a brick's voxels in the atlas [texels].
 vec3 atlas_corner(BrickLayout bricks, uint slot) { return vec3(atlas_first_texel(bricks, slot)) + 1.0; }
 
-/// Size of a texel of the atlas in texture coordinates.
-vec3 atlas_texel(BrickLayout bricks) { return 1.0 / vec3(bricks.atlas_bricks * kBrickTexels); }
-
 /// The first sample at or behind t_from, which is not before the sample at t.
 float sample_from(float t_from, float t, float ds) { return t + ds * max(0.0, ceil((t_from - t) / ds - 1e-3)); }
 

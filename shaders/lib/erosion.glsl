@@ -6,7 +6,7 @@
 /// The noise at a point, a channel each: large billows, small ones, threads, broad (shaders/noise.comp).
 /// It rises with the smoke; the caller adds the displacement of the noise to the point.
 vec4 smoke_noise(sampler3D noise_tile, SmokeLook look, vec3 p_world, float time) {
-  return textureLod(noise_tile, (p_world - vec3(0.0, look.rise * time, 0.0)) / look.noise_period, 0.0);
+  return textureLod(noise_tile, (p_world - vec3(0.0, look.rise * time, 0.0)) * look.noise_frequency, 0.0);
 }
 
 #endif

@@ -1,5 +1,6 @@
 // Marches a ray through the media of a frame (lib/media.glsl): equal steps with one jitter, until the ray is opaque.
-// The includer defines the constant kCount, what is recorded of a ray (shared/resolve.h).
+// The includer defines the constants kCount, what is recorded of a ray (shared/resolve.h), and kByBlocks: whether rays
+// march block by block, through several volumes.
 #ifndef MARCH_GLSL
 #define MARCH_GLSL
 #include "lib/media.glsl"
@@ -37,6 +38,9 @@ bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gath
   return true;
 }
 
+/// The media neither scatter nor glow: a ray has nothing but a transmittance.
+const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasHeat && kCount != kCountEntries;
+
 /// Marches span by span. What the samples of a span have in common is computed once per span; little is carried from
 /// step to step, because registers limit how many rays run at a time.
 void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float ds, float after_last,
@@ -46,17 +50,23 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
     const float t_stop = min(span.t_stop, after_last);
     // Steps that are all alike are one.
     const float alike = is_constant(span) ? max(ceil((t_stop - span.t_first) / ds), 1.0) : 1.0, dt = alike * ds;
+    float absorbed_log2 = 0.0;
     for (t = span.t_first; t < t_stop; t += dt) {
       const vec3 p_world = ray.origin + ray.direction * t;
       const MediaSample here = sample_media(media, span, p_world, t, gathered.texture_samples);
       ++gathered.steps;
       const float passed_log2 = log2_transmittance(here, dt);
+      if (kOnlyAbsorbs) {
+        absorbed_log2 += passed_log2;
+        continue;
+      }
       if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
       if (passed_log2 < 0.0) {
         const vec3 light = media_inscatter(media, here, gathered.texture_samples);
         if (add_step(t - jitter * ds, dt, passed_log2, light, gathered)) return;
       }
     }
+    if (kOnlyAbsorbs && add_step(span.t_first, dt, absorbed_log2, vec3(0.0), gathered)) return;
     t = span.t_next;
   }
 }
@@ -92,7 +102,7 @@ void march_blocks(WorldRay ray, MediaRay media, float jitter, float begin, float
 void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
   const float count = ceil((end - begin) / frame.media.step_length), ds = (end - begin) / max(count, 1.0);
   const float after_last = begin + (count - 0.5 + jitter) * ds;
-  if (kHasSeveral)
+  if (kByBlocks)
     march_blocks(ray, media, jitter, begin, ds, after_last, gathered);
   else
     march_spans(ray, media, jitter, begin, ds, after_last, gathered);

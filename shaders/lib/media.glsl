@@ -53,7 +53,7 @@ MediaSpan media_span(WorldRay ray, MediaRay media, float t, float ds) {
   span.t_first = span.t_next = 1e30;
   span.t_stop = t;
   if (kHasSmoke) {
-    span.smoke = smoke_span(ray, media.smoke, t, ds);
+    span.smoke = smoke_span(ray, t, ds);
     join_span(span, span.smoke.bricks.t_first, span.smoke.bricks.t_stop, span.smoke.bricks.t_next);
   }
   if (kHasVolumes) {
@@ -96,12 +96,12 @@ float log2_transmittance(MediaSample here, float ds) {
 
 /// Radiance towards the eye, per unit of media_albedo, where the transmittance is below 1.
 vec3 media_inscatter(MediaRay ray, MediaSample here, inout uint texture_samples) {
-  if (kSmokeAlone) return smoke_inscatter(ray.smoke, here.smoke, texture_samples);
+  if (kSmokeAlone) return smoke_inscatter(here.smoke, texture_samples);
   vec3 sum = vec3(0.0);
   float extinction = 0.0;
   if (kHasSmoke && here.smoke.density > 0.0) {
     const float smoke = frame.look.extinction * here.smoke.density;
-    sum += smoke * frame.look.albedo * smoke_inscatter(ray.smoke, here.smoke, texture_samples);
+    sum += smoke * frame.look.albedo * smoke_inscatter(here.smoke, texture_samples);
     extinction += smoke;
   }
   if (kHasVolumes) {

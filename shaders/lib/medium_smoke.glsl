@@ -1,6 +1,5 @@
 // Smoke as a medium of lib/media.glsl: eroded by advected noise, cut by holes, exact at walls, lit by the in-scatter
-// atlas. The includer defines the
-// constants kMedia and kHoles.
+// atlas. The includer defines the constants kMedia and kHoles.
 #ifndef MEDIUM_SMOKE_GLSL
 #define MEDIUM_SMOKE_GLSL
 #include "lib/boundary_cells.glsl"
@@ -21,19 +20,10 @@ layout(scalar, binding = kBindFilled) readonly buffer Filled { uint filled[]; };
 
 struct SmokeRay {
   RayHoles holes;
-  vec3 texel, texels_per_metre;  // of the atlas, in texture coordinates
-  float periods_per_metre;       // of the noise
-  vec3 risen;                    // rise of the noise [periods]
 };
 
 SmokeRay smoke_ray(vec2 position_px) {
-  SmokeRay ray;
-  ray.holes = holes_of_ray(position_px);
-  ray.texel = atlas_texel(frame.volume.bricks);
-  ray.texels_per_metre = ray.texel / frame.volume.voxel_size;
-  ray.periods_per_metre = 1.0 / frame.look.noise_period;
-  ray.risen = vec3(0.0, frame.look.rise * frame.time * ray.periods_per_metre, 0.0);
-  return ray;
+  return SmokeRay(holes_of_ray(position_px));
 }
 
 struct SmokeSpan {
@@ -41,10 +31,10 @@ struct SmokeSpan {
   vec3 uvw_offset;  // uvw = p_world * texels_per_metre + uvw_offset
 };
 
-SmokeSpan smoke_span(WorldRay world, SmokeRay smoke, float t, float ds) {
+SmokeSpan smoke_span(WorldRay world, float t, float ds) {
   const VolumeLayout volume = frame.volume;
-  const VoxelRay ray =
-      VoxelRay((world.origin - volume.origin_world) / volume.voxel_size, world.direction / volume.voxel_size);
+  const VoxelRay ray = VoxelRay((world.origin - volume.origin_world) * volume.voxels_per_metre,
+                                world.direction * volume.voxels_per_metre);
   const ivec3 brick = ivec3(floor((ray.origin + ray.per_metre * t) / float(kBrickVoxels)));
   int edge = 0;
   const uint slot = slot_at(volume.bricks, brick, edge);
@@ -58,7 +48,7 @@ SmokeSpan smoke_span(WorldRay world, SmokeRay smoke, float t, float ds) {
     narrow_to(vec3(cells_low(box)) - 0.5, vec3(cells_end(box)) - 0.5, ray, t, ds, span.bricks);
   }
   const vec3 corner = atlas_corner(volume.bricks, slot) - span.bricks.low;
-  span.uvw_offset = corner * smoke.texel - volume.origin_world * smoke.texels_per_metre;
+  span.uvw_offset = corner * volume.bricks.atlas_texel - volume.origin_world * volume.texels_per_metre;
   return span;
 }
 
@@ -70,22 +60,22 @@ struct SmokeSample {
 SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, inout uint texture_samples) {
   // Density, by the planes of the cell next to a surface.
   const VolumeLayout volume = frame.volume;
-  const vec3 uvw = p_world * ray.texels_per_metre + span.uvw_offset;
+  const vec3 uvw = p_world * volume.texels_per_metre + span.uvw_offset;
   const vec4 texel = textureLod(density_displacement_atlas, uvw, 0.0);
   BrickSample smoke = BrickSample(texel.r, vec3(0.0));
   if (texel.r < 0.0) {
-    const vec3 local_voxel = (p_world - volume.origin_world) / volume.voxel_size - span.bricks.low;
+    const vec3 local_voxel = (p_world - volume.origin_world) * volume.voxels_per_metre - span.bricks.low;
     smoke = boundary_sample(span.bricks.slot, local_voxel);
     if (smoke.density == kNoBoundary)
-      smoke.density = textureLod(density_displacement_atlas, uvw + off_faces(local_voxel) * ray.texel, 0.0).r;
+      smoke.density =
+          textureLod(density_displacement_atlas, uvw + off_faces(local_voxel) * volume.bricks.atlas_texel, 0.0).r;
   }
   float density = smoke.density;
   ++texture_samples;
 
   // Noise, for erosion and for the rims of holes.
   if (density > 0.0 && (kHoles != kHolesNone || frame.look.erosion > 0.0)) {
-    const vec3 noise_at = (p_world + texel.gba) * ray.periods_per_metre - ray.risen;
-    const vec4 noise = textureLod(noise_tile, noise_at, 0.0);
+    const vec4 noise = smoke_noise(noise_tile, frame.look, p_world + texel.gba, frame.time);
     ++texture_samples;
     if (frame.look.erosion > 0.0) density = erode(frame.look, density, noise);
     if (kHoles != kHolesNone)
@@ -94,9 +84,9 @@ SmokeSample sample_smoke(SmokeRay ray, SmokeSpan span, vec3 p_world, float t, in
   return SmokeSample(density, uvw, smoke.light_offset);
 }
 
-vec3 smoke_inscatter(SmokeRay ray, SmokeSample here, inout uint texture_samples) {
+vec3 smoke_inscatter(SmokeSample here, inout uint texture_samples) {
   ++texture_samples;
-  return textureLod(inscatter_atlas, here.uvw + here.light_offset * ray.texel, 0.0).rgb;
+  return textureLod(inscatter_atlas, here.uvw + here.light_offset * frame.volume.bricks.atlas_texel, 0.0).rgb;
 }
 
 #endif

@@ -23,7 +23,7 @@ MeanSmoke mean_smoke_at(vec3 p_voxel) {
   smoke.slot = slot_at(frame.volume.bricks, ivec3(brick), smoke.empty_edge);
   if (smoke.slot != kNoSlot) {
     const vec3 corner = atlas_corner(frame.volume.bricks, smoke.slot);
-    const vec3 uvw = (corner + smoke.local_voxel) * atlas_texel(frame.volume.bricks);
+    const vec3 uvw = (corner + smoke.local_voxel) * frame.volume.bricks.atlas_texel;
     const vec2 filtered = textureLod(filtered_density_atlas, uvw, 0.0).rg;
     smoke.density = filtered.r;
     // On the face of a cell: nothing, which only one sample in thousands of a ray for light meets.

@@ -33,7 +33,7 @@ SmokePoint smoke_at(VolumeLayout volume, vec3 p_voxel) {
   point.local_voxel = p_voxel - vec3(brick * kBrickVoxels);
   point.density = 0.0;
   if (point.slot != kNoSlot) {
-    const vec3 uvw = (atlas_corner(volume.bricks, point.slot) + point.local_voxel) * atlas_texel(volume.bricks);
+    const vec3 uvw = (atlas_corner(volume.bricks, point.slot) + point.local_voxel) * volume.bricks.atlas_texel;
     point.density = sample_brick(point.slot, point.local_voxel, uvw).density;
   }
   return point;

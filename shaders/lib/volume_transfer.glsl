@@ -67,7 +67,7 @@ float half_segment(vec3 per_metre, float ds) {
 /// The colour of a volume's grid at a point of a brick of its own.
 vec3 grid_color(VolumeInstance volume, BrickAt brick, vec3 p_voxel) {
   const vec3 corner = atlas_corner(volume.colors.bricks, brick.slot);
-  const vec3 uvw = (corner + p_voxel - brick.low) * atlas_texel(volume.colors.bricks);
+  const vec3 uvw = (corner + p_voxel - brick.low) * volume.colors.bricks.atlas_texel;
   return textureLod(color_grids, uvw, 0.0).rgb;
 }
 
@@ -99,8 +99,8 @@ struct TextureRay {
 
 /// A ray through the brick of a span, in an atlas.
 TextureRay texture_ray(BrickLayout bricks, BrickSpan span, VoxelRay ray) {
-  const vec3 texel = atlas_texel(bricks), corner = atlas_corner(bricks, span.slot) - span.low;
-  return TextureRay((corner + ray.origin) * texel, ray.per_metre * texel);
+  const vec3 corner = atlas_corner(bricks, span.slot) - span.low;
+  return TextureRay((corner + ray.origin) * bricks.atlas_texel, ray.per_metre * bricks.atlas_texel);
 }
 
 /// The matter of volume i in the step around t, from rays through its values and colours. `uniform_value` is

@@ -22,7 +22,7 @@ BrickAt volume_brick(BrickLayout bricks, vec3 p_voxel) {
 /// The value at a point of a brick, which is not empty.
 float volume_value(BrickLayout bricks, BrickAt brick, vec3 p_voxel) {
   if (brick.slot == kUniformSlot) return brick.uniform_value;
-  const vec3 uvw = (atlas_corner(bricks, brick.slot) + p_voxel - brick.low) * atlas_texel(bricks);
+  const vec3 uvw = (atlas_corner(bricks, brick.slot) + p_voxel - brick.low) * bricks.atlas_texel;
   return textureLod(volume_values, uvw, 0.0).r;
 }
 

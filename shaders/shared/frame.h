@@ -38,7 +38,7 @@ struct SmokeLook {
   float step_length;           // of a march through smoke alone, at most [m]
   float opaque_transmittance;  // below it a ray is opaque
   float erosion;               // strength of the noise, [0, 1]
-  float noise_period;          // edge of one tile of the noise [m]
+  float noise_frequency;       // tiles of the noise per metre
   float rise;                  // upward speed of the noise [m/s]
   float swirl;                 // amplitude of the rolling displacement of the noise [m]
   float swirl_width;           // width of one roll [m], > 0
@@ -93,7 +93,7 @@ struct FrameConstants {
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
-SHARED_SIZE(FrameConstants, 580);
+SHARED_SIZE(FrameConstants, 616);
 
 SHARED_END
 #endif

@@ -33,24 +33,29 @@ SHARED_CONST uint kTexelsPerBrick = 1000u;
 SHARED_CONST uint kMaxVolumes = 32u;
 
 /// Where a volume is in the page buffer and in the images of its atlas.
+/// What is derived is stored, too: a constant costs a GPU nothing, but what it computes from one takes a register.
 struct BrickLayout {
   ivec3 window_origin;  // first node of the page table, in nodes of kNodeBricks^3 bricks
   ivec3 window_size;    // nodes
-  ivec3 atlas_bricks;   // bricks per axis of the atlas; see atlas_brick
+  ivec3 atlas_bricks;   // bricks per axis of the atlas, powers of two along x and y
+  uvec2 atlas_bits;     // logarithms of atlas_bricks.xy
+  vec3 atlas_texel;     // size of a texel in texture coordinates
   uint first_page;      // of the root, in the page buffer
   uint first_slot;      // of the atlas; slots of the page table count from here
 };
-SHARED_SIZE(BrickLayout, 44);
+SHARED_SIZE(BrickLayout, 64);
 
 /// Placement of a volume whose axes are those of the world.
 struct VolumeLayout {
   vec3 origin_world;  // low corner of voxel (0, 0, 0) [m]
   float voxel_size;   // [m]
-  vec3 bounds_min;    // where density can be above 0 [voxel space]
+  float voxels_per_metre;
+  vec3 texels_per_metre;  // in texture coordinates of the atlas
+  vec3 bounds_min;        // where density can be above 0 [voxel space]
   vec3 bounds_max;
   BrickLayout bricks;
 };
-SHARED_SIZE(VolumeLayout, 84);
+SHARED_SIZE(VolumeLayout, 120);
 
 /// Absorption and scattering of a volume where its density is 1.
 struct VolumeLook {
@@ -69,7 +74,7 @@ struct VolumeHeat {
   BrickLayout bricks;
   float per_value;  // position in the row of a value of 1; 0: the volume has no heat
 };
-SHARED_SIZE(VolumeHeat, 96);
+SHARED_SIZE(VolumeHeat, 116);
 
 /// Colours of a row, from a value of 0 to that at the end of the row.
 SHARED_CONST uint kVolumeColors = 256u;
@@ -101,7 +106,7 @@ struct VolumeColors {
   BrickLayout bricks;
   uint present;
 };
-SHARED_SIZE(VolumeColors, 48);
+SHARED_SIZE(VolumeColors, 68);
 
 /// A volume of one channel, its density >= 0, under any affine transform.
 struct VolumeInstance {
@@ -116,7 +121,7 @@ struct VolumeInstance {
   VolumeTransfer transfer;
   VolumeColors colors;
 };
-SHARED_SIZE(VolumeInstance, 412);
+SHARED_SIZE(VolumeInstance, 472);
 
 /// Entry of the root for a brick, in the page buffer; kNoPage outside of the window.
 SHARED_CONST uint kNoPage = 0xffffffffu;
@@ -133,15 +138,17 @@ SHARED_FUNCTION uint node_page(BrickLayout bricks, uint root, ivec3 brick) {
   return bricks.first_page + first + uint(b.x + kNodeBricks * (b.y + kNodeBricks * b.z));
 }
 
-/// Position of a slot in an atlas of `atlas_bricks` bricks per axis [bricks]: slot = x + size.x (y + size.y z).
-SHARED_FUNCTION uvec3 atlas_brick(ivec3 atlas_bricks, uint slot) {
-  uvec3 size = uvec3(atlas_bricks);
-  return uvec3(slot % size.x, slot / size.x % size.y, slot / (size.x * size.y));
+/// Position of a slot in an atlas [bricks]: slot = x + size.x (y + size.y z). By shifts: a GPU takes some 20
+/// instructions to divide by a number that is no power of two.
+SHARED_FUNCTION uvec3 atlas_brick(BrickLayout bricks, uint slot) {
+  uvec2 bits = bricks.atlas_bits;
+  uint row = slot >> bits.x;
+  return uvec3(slot - (row << bits.x), row & ((1u << bits.y) - 1u), row >> bits.y);
 }
 
 /// First texel of a slot's brick in the atlas: the low corner of its apron.
 SHARED_FUNCTION uvec3 atlas_first_texel(BrickLayout bricks, uint slot) {
-  return atlas_brick(bricks.atlas_bricks, bricks.first_slot + slot) * uint(kBrickTexels);
+  return atlas_brick(bricks, bricks.first_slot + slot) * uint(kBrickTexels);
 }
 
 SHARED_END

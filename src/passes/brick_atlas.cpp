@@ -45,17 +45,21 @@ std::uint32_t room_of(const volume::SparseVolume& volume, bool tight) {
 
 }  // namespace
 
+std::uint64_t most_slots(int most) {
+  const std::uint64_t edge = std::bit_floor(static_cast<std::uint64_t>(most));
+  return edge * edge * static_cast<std::uint64_t>(most);
+}
+
 glm::ivec3 tight_atlas(std::uint64_t slots, int most) {
   constexpr std::uint64_t kSmall = 1u << 17;
-  const auto longest = static_cast<std::uint64_t>(most);
-  if (slots > longest * longest * longest)
+  if (slots > most_slots(most))
     throw Error(ErrorCode::resource_limit,
                 "volumes of " + std::to_string(slots) +
                     " bricks of 8^3 voxels are more than the device's 3D textures hold");
   const glm::ivec3 grown = slots <= kSmall ? volume::grown_atlas({}, slots) : glm::ivec3(most + 1);
   if (glm::all(glm::lessThanEqual(grown, glm::ivec3(most)))) return grown;
   std::uint64_t edge = 1;
-  while (edge < longest && edge * edge * edge < slots) ++edge;
+  while (8 * edge * edge * edge <= slots || edge * edge * static_cast<std::uint64_t>(most) < slots) edge *= 2;
   return {static_cast<int>(edge), static_cast<int>(edge),
           static_cast<int>((slots + edge * edge - 1) / (edge * edge))};
 }
@@ -137,7 +141,7 @@ void BrickAtlas::reserve(VolumeList volumes) {
       replaced = true;
     }
     for (Entry& entry : placed) {
-      entry.layout.atlas_bricks = atlas_bricks_;
+      volume::set_atlas(entry.layout, atlas_bricks_);
       entry.everything |= replaced;
     }
   }

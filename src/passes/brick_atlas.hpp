@@ -25,9 +25,11 @@ struct StreamedBricks {
 /// holds.
 inline constexpr std::uint32_t kVolumeSlotStep = 1u << 9;
 
-/// Bricks per axis of an atlas for `slots` bricks: as volume::grown_atlas up to 256 MiB of half floats, then
-/// with less than a layer unused. None is longer than `most` bricks. Throws resource_limit for more than fit.
+/// Bricks per axis of an atlas for `slots` bricks, powers of two along x and y: as volume::grown_atlas up to
+/// 256 MiB of half floats, then with less than a layer unused. None is longer than `most` bricks. Throws
+/// resource_limit for more than fit, which are those beyond most_slots(most).
 glm::ivec3 tight_atlas(std::uint64_t slots, int most);
+std::uint64_t most_slots(int most);
 
 /// Follows a list of volumes; one that was not in the list before is uploaded as a whole. The images hold the
 /// bricks of all slots of all volumes, where the `layout` of each says (shared/volume.h).

@@ -59,9 +59,11 @@ void MarchPass::reserve(std::uint32_t media, MarchRays rays) {
   std::vector<std::uint32_t> kinds;
   if (rays != MarchRays::of_tiles) kinds.push_back(shared::kRaysOfPixels);
   if (rays != MarchRays::of_pixels) kinds.insert(kinds.end(), {shared::kRaysOfTiles, shared::kRaysOfList});
+  const bool several = (media & shared::kMediumSeveral) != 0;
+  const gpu::ShaderCode& code = several ? shaders::march_several_comp : shaders::march_comp;
   for (const std::uint32_t kind : kinds)
     for (const std::uint32_t holes : {shared::kHolesNone, with_holes(media)})
-      pipelines_.try_emplace({kind, holes, media}, context_, shaders::march_comp,
+      pipelines_.try_emplace({kind, holes, media}, context_, code,
                              std::vector{counts_of(options_), kind, holes, media, block_steps_});
 }
 

@@ -17,7 +17,7 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 shared::SmokeLook noise_look_of(const shared::SmokeLook& look) {
   shared::SmokeLook noise{};
   noise.erosion = look.erosion;
-  noise.noise_period = look.noise_period;
+  noise.noise_frequency = look.noise_frequency;
   noise.rise = look.rise;
   noise.swirl = look.swirl;
   noise.swirl_width = look.swirl_width;

@@ -51,7 +51,8 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.smoke.look.step_length = 0.4f * scenario.voxels.grid.layout().voxel_size;
   input.smoke.look.opaque_transmittance = 0.004f;
   input.smoke.look.erosion = smoke.erosion;
-  input.smoke.look.noise_period = static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size;
+  input.smoke.look.noise_frequency =
+      1 / (static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size);
   input.smoke.look.rise = smoke.rise;
   input.smoke.look.swirl = smoke.swirl;
   input.smoke.look.swirl_width = 2.0f * smoke.noise_size;

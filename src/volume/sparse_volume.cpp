@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <string>
 
 namespace brume::volume {
@@ -43,6 +44,7 @@ SparseVolume::SparseVolume(const SparseVolumeInfo& info) : id_(next_id()), max_b
   BRUME_ASSERT(max_bricks_ > 0 && max_bricks_ <= kMaxAtlasSlots, std::to_string(max_bricks_));
   layout_.origin_world = info.origin_world;
   layout_.voxel_size = info.voxel_size;
+  layout_.voxels_per_metre = 1 / info.voxel_size;
   for (const ChannelFormat& format : info.channels) {
     BRUME_ASSERT(format.bytes_per_texel > 0, std::to_string(channels_.size()));
     channels_.emplace_back().format = format;
@@ -138,8 +140,8 @@ void SparseVolume::end_update() {
     if (pages_.root_changed()) pages_.find_distances();
     layout_.bricks.window_origin = pages_.origin();
     layout_.bricks.window_size = pages_.size();
-    glm::ivec3& atlas = layout_.bricks.atlas_bricks;
-    if (slot_count() > 0) atlas = grown_atlas(atlas, slot_count());
+    if (slot_count() > 0) set_atlas(layout_.bricks, grown_atlas(layout_.bricks.atlas_bricks, slot_count()));
+    layout_.texels_per_metre = layout_.bricks.atlas_texel / layout_.voxel_size;
     ++structure_generation_;
   }
   find_boxes();
@@ -184,9 +186,18 @@ glm::ivec3 grown_atlas(glm::ivec3 bricks, std::uint64_t slots) {
   };
   while (room() < slots) {
     const int axis = bricks.x <= bricks.y && bricks.x <= bricks.z ? 0 : bricks.y <= bricks.z ? 1 : 2;
-    bricks[axis] = std::min(2 * bricks[axis], kMaxAtlasBricks);
+    bricks[axis] *= 2;
   }
   return bricks;
+}
+
+void set_atlas(shared::BrickLayout& layout, glm::ivec3 bricks) {
+  const glm::uvec2 rows(bricks);
+  BRUME_ASSERT(std::has_single_bit(rows.x) && std::has_single_bit(rows.y),
+               std::to_string(rows.x) + " x " + std::to_string(rows.y));
+  layout.atlas_bricks = bricks;
+  layout.atlas_texel = 1.0f / glm::vec3(bricks * shared::kBrickTexels);
+  layout.atlas_bits = {std::countr_zero(rows.x), std::countr_zero(rows.y)};
 }
 
 }  // namespace brume::volume

@@ -32,10 +32,9 @@ struct ChannelFormat {
 /// A channel, by its position in SparseVolumeInfo::channels.
 enum class ChannelId : std::uint32_t {};
 
-/// Bricks per axis of the largest atlas: 3D textures have up to 2048 texels an axis.
-inline constexpr int kMaxAtlasBricks = 2048 / shared::kBrickTexels;
-inline constexpr std::uint32_t kMaxAtlasSlots =
-    std::uint32_t{kMaxAtlasBricks} * std::uint32_t{kMaxAtlasBricks} * std::uint32_t{kMaxAtlasBricks};
+/// Bricks per axis of the largest atlas; the device may hold less.
+inline constexpr int kMaxAtlasBricks = 256;
+inline constexpr std::uint32_t kMaxAtlasSlots = 256u * 256u * 256u;
 
 struct SparseVolumeInfo {
   glm::vec3 origin_world{0};  ///< Low corner of voxel (0, 0, 0) [m].
@@ -200,8 +199,11 @@ class SparseVolume {
   std::uint64_t revision_ = 0, structure_generation_ = 0;
 };
 
-/// Bricks per axis of an atlas for `slots` bricks, at least `bricks`: the shortest axis doubles, from 4 on,
-/// until there is room. Throws resource_limit for more than kMaxAtlasSlots.
+/// Bricks per axis of an atlas for `slots` bricks, powers of two, at least `bricks`: the shortest axis
+/// doubles, from 4 on, until there is room. Throws resource_limit for more than kMaxAtlasSlots.
 glm::ivec3 grown_atlas(glm::ivec3 bricks, std::uint64_t slots);
+
+/// Sets the size of the atlas that a layout is in: bricks per axis, powers of two along x and y.
+void set_atlas(shared::BrickLayout& layout, glm::ivec3 bricks);
 
 }  // namespace brume::volume

@@ -44,7 +44,7 @@ class DebugViewTest : public gpu::GpuTest {
     frame.look.albedo = glm::vec3(0.9f);
     frame.look.extinction = 0.7f;
     frame.look.step_length = 0.1f;
-    frame.look.noise_period = 1;
+    frame.look.noise_frequency = 1;
     frame.exposure = 1;
     frame.size_px = size;
     return frame;

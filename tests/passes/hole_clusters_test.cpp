@@ -49,7 +49,7 @@ class HoleClustersTest : public gpu::GpuTest {
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.3f;
     frame.look.step_length = 0.1f;
-    frame.look.noise_period = 1;
+    frame.look.noise_frequency = 1;
     frame.look.hole_rim = 0.06f;
     frame.time = 1;
     HoleClusters hole_clusters(context(), runner(), {});

@@ -38,7 +38,7 @@ class MarchTest : public gpu::GpuTest {
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.7f;
     frame.look.step_length = 0.1f;
-    frame.look.noise_period = 1;
+    frame.look.noise_frequency = 1;
     return frame;
   }
   static glm::vec3 ray(const shared::FrameConstants& frame, std::uint32_t pixel) {

@@ -134,7 +134,7 @@ class NoiseAdvectionTest : public gpu::GpuTest {
     const NoisePass noise(context());
     runner().run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, kSmokeNoise); });
     frame_.volume = room_.volume.layout();
-    frame_.look.noise_period = 6;
+    frame_.look.noise_frequency = 1.0f / 6;
     frame_.look.swirl = 0.2f;
     frame_.look.swirl_width = 3;
   }

@@ -43,7 +43,7 @@ class ResolveTest : public gpu::GpuTest {
     frame.look.albedo = glm::vec3(1);
     frame.look.extinction = 0.7f;
     frame.look.step_length = 0.1f;
-    frame.look.noise_period = 1;
+    frame.look.noise_frequency = 1;
     frame.exposure = 1;
     frame.media = planning::smoke_media(frame.volume, frame.look);
     return frame;

@@ -149,13 +149,13 @@ TEST(PackedReach, UnpacksToTheReach) {
 }
 
 TEST(AtlasBrick, InvertsTheOrderOfSlots) {
-  const glm::ivec3 bricks(5, 3, 4);
+  const glm::ivec3 bricks(8, 2, 5);
   shared::BrickLayout behind_seven{};
-  behind_seven.atlas_bricks = bricks;
+  volume::set_atlas(behind_seven, bricks);
   behind_seven.first_slot = 7;
-  for (std::uint32_t slot = 0; slot < 60; ++slot) {
-    const glm::uvec3 at = shared::atlas_brick(bricks, slot);
-    EXPECT_EQ(slot, at.x + 5 * (at.y + 3 * at.z));
+  for (std::uint32_t slot = 0; slot < 80; ++slot) {
+    const glm::uvec3 at = shared::atlas_brick(behind_seven, slot);
+    EXPECT_EQ(slot, at.x + 8 * (at.y + 2 * at.z));
     EXPECT_TRUE(glm::all(glm::lessThan(at, glm::uvec3(bricks))));
     if (slot >= 7) {
       EXPECT_EQ(shared::atlas_first_texel(behind_seven, slot - 7), 10u * at);

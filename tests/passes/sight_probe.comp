@@ -14,11 +14,11 @@ layout(local_size_x = 64) in;
 layout(scalar, binding = kBindProbeIn) readonly buffer Segments { Segment segments[]; };
 layout(scalar, binding = kBindProbeIn2) readonly buffer Holes { Hole holes[]; };
 layout(scalar, binding = kBindProbeOut) writeonly buffer Depths { float depths[]; };
+const float kStepVoxel = 1.0 / 64.0;  // at most
 layout(scalar, push_constant) uniform Push {
   VolumeLayout volume;
   float time;
   uint hole_count;   // at most 32
-  float step_voxel;  // at most
 };
 
 /// False only when no point of the ray between t_begin and t_end can lie in the hole: the distance between the
@@ -52,7 +52,7 @@ void main() {
   for (uint h = 0u; h < hole_count; ++h) {
     if (hole_near_ray(holes[h], s.a_world, direction * volume.voxel_size, 0.0, reach, 0.0)) near |= 1u << h;
   }
-  const float count = ceil(reach / step_voxel), ds = reach / count;
+  const float count = ceil(reach / kStepVoxel), ds = reach / count;
   float sum = 0.0;
   for (float k = 0.0; k < count; ++k) {
     const vec3 p = a + direction * (ds * (k + 0.5));

@@ -15,13 +15,12 @@ namespace brume::passes {
 namespace {
 
 constexpr std::size_t kHoles = 32;
-constexpr float kStep = 1.0f / 64;  // voxels
+constexpr float kStep = 1.0f / 64;  // of sight_probe.comp [voxels]
 
 struct ProbeConstants {
   shared::VolumeLayout volume;
   float time;
   std::uint32_t hole_count;
-  float step_voxel;
 };
 
 class SightTest : public gpu::GpuTest {
@@ -42,7 +41,7 @@ class SightTest : public gpu::GpuTest {
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     const SmokeResources& on_device = smoke.resources();
     const ProbeConstants constants{scene.volume().layout(), scene.time(),
-                                   static_cast<std::uint32_t>(open.size()), kStep};
+                                   static_cast<std::uint32_t>(open.size())};
     runner().run([&](gpu::Recorder& recorder) {
       recorder.bind(pipeline,
                     {{shared::kBindProbeIn, gpu::read(in)},

@@ -61,7 +61,7 @@ glm::dvec4 smoke_noise(const TruthScene& scene, glm::dvec3 p_world, glm::dvec3 p
   if (scene.noise == nullptr) return glm::dvec4(0.5);
   const glm::dvec3 rise(0, double{scene.look.rise} * scene.time, 0);
   return noise_at(*scene.noise,
-                  (p_world + advection_at(scene, p_voxel) - rise) / double{scene.look.noise_period});
+                  (p_world + advection_at(scene, p_voxel) - rise) * double{scene.look.noise_frequency});
 }
 
 /// Fraction of the smoke that a hole removes: the rule of shaders/shared/hole.h.

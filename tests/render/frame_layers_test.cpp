@@ -82,7 +82,7 @@ class FrameLayersTest : public gpu::GpuTest {
     input_.view.camera = {{0, 1, 9}, {0, 0, 0}, 1.2f};
     input_.environment.sky = {glm::vec3(0.25f, 0.5f, 2), glm::vec3(0.25f, 0.5f, 2), glm::vec3(0.1f), 0, 0};
     input_.smoke.look.swirl_width = 1;
-    input_.smoke.look.noise_period = 1;
+    input_.smoke.look.noise_frequency = 1;
     renderer().set_march_scale(1);
     renderer().resize(kSize);
   }

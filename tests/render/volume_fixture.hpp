@@ -58,7 +58,7 @@ class VolumeFixture : public gpu::GpuTest {
 
   VolumeFixture() {
     input_.smoke.look.swirl_width = 1;
-    input_.smoke.look.noise_period = 1;
+    input_.smoke.look.noise_frequency = 1;
   }
   FrameInput input_;
 };

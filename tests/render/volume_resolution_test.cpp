@@ -1,6 +1,7 @@
 // Volumes at several resolutions: what they look like, and how they arrive on the device.
 #include <unistd.h>
 
+#include <bit>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
@@ -223,6 +224,7 @@ TEST_F(VolumeResolutionTest, TheRoomOfADeviceHoldsWhatAnAtlasOfItTakes) {
   for (const std::uint64_t slots : {std::uint64_t{1}, room.bricks / 3, room.bricks, room.bricks * 7 / 6}) {
     const glm::ivec3 atlas = passes::tight_atlas(slots, most);
     EXPECT_LE(std::max({atlas.x, atlas.y, atlas.z}), most);
+    EXPECT_TRUE(std::has_single_bit(unsigned(atlas.x)) && std::has_single_bit(unsigned(atlas.y)));
     const glm::u64vec3 edges(atlas);
     EXPECT_GE(edges.x * edges.y * edges.z, slots);
     if (slots > 1u << 17) {

@@ -1,0 +1,69 @@
+// Marches rays through the media of a frame: the entry point of march.comp and march_several.comp, which differ in
+// kByBlocks. Two shaders, because a driver translates all code of a shader, whatever its constants.
+#ifndef MARCH_MAIN_GLSL
+#define MARCH_MAIN_GLSL
+#include "shared/frame.h"
+#include "shared/media.h"
+#include "shared/resolve.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint kCount = kCountNothing;
+layout(constant_id = 1) const uint kRays = kRaysOfPixels;
+layout(constant_id = 2) const uint kHoles = kHolesNone;
+layout(constant_id = 3) const uint kMedia = kMediumSmoke;
+layout(constant_id = 4) const uint kBlockSteps = 4u;
+#include "lib/blue_noise.glsl"
+#include "lib/march.glsl"
+#include "lib/pixel_ray.glsl"
+#include "lib/ray_bounds.glsl"
+
+layout(binding = kBindBlueNoise) uniform sampler2D blue_noise_tile;
+layout(binding = kBindSmoke, rgba16f) uniform writeonly image2D smoke;
+layout(binding = kBindSmokeNear, rgba16f) uniform writeonly image2D smoke_near;
+layout(scalar, binding = kBindMarchCounters) buffer Counters {
+  uint texture_samples;
+  uint of_pixel[];  // steps, or the bits of the entry, by kCount
+};
+
+vec4 premultiplied(Gathered gathered) { return vec4(gathered.radiance * media_albedo(), gathered.transmittance); }
+
+/// Writes what is recorded of a ray for each of its pixels.
+void write_of_pixels(ivec2 texel, uint value) {
+  const uint edge = kRays == kRaysOfTiles ? frame.march_scale : 1u;
+  for (uint i = 0u; i < edge * edge; ++i) {
+    const uvec2 px = uvec2(texel) * edge + uvec2(i % edge, i / edge);
+    if (all(lessThan(px, frame.size_px))) of_pixel[px.x + frame.size_px.x * px.y] = value;
+  }
+}
+
+void main() {
+  PixelRay pixel;
+  if (!find_ray(pixel)) return;
+
+  // The part of the ray inside the bounds of the media, t in metres; it ends at the surface behind.
+  const vec3 along = camera_ray(frame.camera, pixel.position_px, frame.size_px);
+  const WorldRay ray = WorldRay(frame.camera.eye_world, normalize(along));
+  const MediaRay media = media_ray(ray, pixel.position_px);
+  const float jitter = blue_noise(blue_noise_tile, pixel.texel, frame.frame_index).r;
+  const float per_depth = length(along);
+  const vec2 inside = clip_to_media(ray.origin, ray.direction, pixel.far * per_depth);
+
+  // A tile's ray is stored at the nearest surface of its pixels, too. There is one call of march, because each is
+  // compiled on its own.
+  const bool of_tile = kRays == kRaysOfTiles;
+  const float t_near = of_tile ? clamp(pixel.near * per_depth, inside.x, inside.y) : inside.y;
+  Gathered gathered = nothing_gathered();
+  vec4 at_near = vec4(0.0, 0.0, 0.0, 1.0);
+  for (uint part = 0u; part < (of_tile ? 2u : 1u) && inside.x < inside.y && gathered.transmittance > 0.0; ++part) {
+    march(ray, media, jitter, part == 0u ? inside.x : t_near, part == 0u ? t_near : inside.y, gathered);
+    if (of_tile && part == 0u) at_near = premultiplied(gathered);
+  }
+
+  imageStore(smoke, pixel.texel, premultiplied(gathered));
+  if (kRays == kRaysOfTiles) imageStore(smoke_near, pixel.texel, at_near);
+  if (kCount == kCountSamples || kCount == kCountSteps) atomicAdd(texture_samples, gathered.texture_samples);
+  if (kCount == kCountSteps) write_of_pixels(pixel.texel, gathered.steps);
+  if (kCount == kCountEntries) write_of_pixels(pixel.texel, floatBitsToUint(gathered.entry));
+}
+
+#endif
