@@ -1,13 +1,15 @@
-// Rays from each listed texel of a brick to a light or to the sky: optical depth of the smoke and visibility through
+// Rays from each listed texel of a brick to a light or to the sky: optical depth of all media and visibility through
 // the scene. Neighbouring threads trace to the same light, so that their rays meet the same bricks.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/frame.glsl"
 #include "lib/lights.glsl"
+#include "shared/media.h"
 #include "shared/smoke_light.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kMedia = kMediumSmoke;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kBindShadowRays) readonly buffer Pairs { ShadowRays pairs[]; };
 layout(scalar, binding = kBindLightRows) readonly buffer Rows { uint rows[]; };
@@ -17,6 +19,18 @@ layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
 #include "lib/optical_depth.glsl"
 #include "lib/row_texels.glsl"
 #include "lib/smoke_texels.glsl"
+#include "lib/volume_depth.glsl"
+
+/// Steps through each volume besides the smoke.
+const uint kVolumeSteps = 16u;
+
+/// Optical depth from a texel along a unit direction.
+float media_depth(vec3 p_voxel, vec3 direction, float distance_m, float coarse) {
+  float depth = optical_depth(p_voxel, direction, distance_m, coarse);
+  if ((kMedia & kMediumVolumes) != 0u)
+    depth += volumes_depth(world_from_voxel(p_voxel), direction, distance_m, kVolumeSteps, 0u, 1u);
+  return depth;
+}
 
 /// Visibility of a light at a point; 0 also where the light is negligible (slightly below the threshold of
 /// inscatter.comp).
@@ -30,7 +44,7 @@ void to_light(ShadowRays pair, uint local) {
   const vec3 p_voxel = texel_position(pair.slot, local), p_world = world_from_voxel(p_voxel);
   const Incident incident = light_at(lights[pair.light], p_world);
   const float lit = significant_visibility(lights[pair.light], incident, p_world);
-  const float depth = optical_depth(p_voxel, incident.to_light, lit > 0.0 ? incident.distance : 0.0, 1.0);
+  const float depth = media_depth(p_voxel, incident.to_light, lit > 0.0 ? incident.distance : 0.0, 1.0);
   blocks[pair.block * kTexelsPerBrick + local] = packHalf2x16(vec2(depth, lit));
 }
 
@@ -38,7 +52,7 @@ void to_sky(ShadowRays pair, uint local) {
   const vec3 p_voxel = texel_position(pair.slot, local);
   vec2 depths;
   for (uint i = 0u; i < 2u; ++i)
-    depths[i] = optical_depth(p_voxel, sky_ray(2u * (pair.light - kSkyTarget) + i), 1e4, 2.0);
+    depths[i] = media_depth(p_voxel, sky_ray(2u * (pair.light - kSkyTarget) + i), 1e4, 2.0);
   blocks[pair.block * kTexelsPerBrick + local] = packHalf2x16(depths);
 }
 

@@ -7,7 +7,8 @@
 #include "lib/noise.glsl"
 #include "shared/noise.h"
 
-layout(local_size_x = kNoiseGroup, local_size_y = kNoiseGroup, local_size_z = kNoiseGroup) in;
+// Rows of 8: a software rasteriser takes the lanes of a subgroup from a row.
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = kBindNoiseTile, rgba8) uniform writeonly image3D tile;
 layout(scalar, push_constant) uniform Push { NoiseParams params; };
 

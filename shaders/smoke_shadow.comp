@@ -22,7 +22,7 @@ layout(scalar, push_constant) uniform Push { SmokeShadowParams params; };
 #include "lib/hole_window.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/solid.glsl"
-#include "lib/volume_transfer.glsl"
+#include "lib/volume_depth.glsl"
 
 // Limit of exact holes per block of texels; beyond it their averages over cells are used.
 const uint kBlockHoles = 64u;
@@ -143,28 +143,6 @@ float part_depth(RaySteps ray) {
   return depth;
 }
 
-/// Optical depth of the thread's part of a segment through the volumes: each in equal steps inside its bounds.
-float volumes_part_depth(RaySegment segment, uint part) {
-  const float distance = length(segment.to - segment.from);
-  const vec3 direction = (segment.to - segment.from) / max(distance, 1e-6);
-  float depth = 0.0;
-  for (uint v = 0u; v < frame.media.volume_count; ++v) {
-    const VoxelRay ray = VoxelRay(volumes[v].voxel_from_world * vec4(segment.from, 1.0),
-                                  volumes[v].voxel_from_world * vec4(direction, 0.0));
-    const vec2 inside = span_in_box(ray, volumes[v].bounds_min, volumes[v].bounds_max);
-    const float begin = max(inside.x, 0.0), end = min(inside.y, distance);
-    const float ds = (end - begin) / float(kRayParts * kPartSteps);
-    for (uint i = 0u; i < kPartSteps && ds > 0.0; ++i) {
-      const float t = begin + (float(kRayParts * i + part) + 0.5) * ds;
-      const vec3 p_voxel = ray.origin + ray.per_metre * t;
-      const float density = kHasTransfer ? matter_around(volumes[v], v, p_voxel, 0.5 * ds * ray.per_metre).density
-                                         : volume_value(volumes[v].bricks, p_voxel);
-      depth += ds * volumes[v].look.extinction * density;
-    }
-  }
-  return depth;
-}
-
 void main() {
   const uint face_index = face_of(gl_WorkGroupID.x);
   const SmokeShadowFace face = faces[face_index];
@@ -182,7 +160,11 @@ void main() {
   const uvec2 at = first + params.first + params.spread * uvec2(ray % kSmokeShadowBlock, ray / kSmokeShadowBlock);
   const RaySegment segment = light_segment(light, side, (vec2(at) + 0.5 - face.offset) / face.scale);
   float mine = (kMedia & kMediumSmoke) != 0u ? part_depth(steps_of(segment, part)) : 0.0;
-  if ((kMedia & kMediumVolumes) != 0u) mine += volumes_part_depth(segment, part);
+  if ((kMedia & kMediumVolumes) != 0u) {
+    const float distance = length(segment.to - segment.from);
+    const vec3 direction = (segment.to - segment.from) / max(distance, 1e-6);
+    mine += volumes_depth(segment.from, direction, distance, kRayParts * kPartSteps, part, kRayParts);
+  }
   part_depths[gl_LocalInvocationIndex] = mine;
   barrier();
   float depth = 0.0;

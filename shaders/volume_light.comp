@@ -10,7 +10,8 @@
 #include "shared/scattering.h"
 #include "shared/volume_light.h"
 
-layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+// Rows of 8: a software rasteriser takes the lanes of a subgroup from a row.
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kMedia = kMediumVolumes;
 layout(scalar, binding = kBindLights) readonly buffer Lights { Light lights[]; };
 layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweeps[]; };
@@ -56,7 +57,7 @@ float escape_at(uint volume, vec3 p_world) {
 float depth_to_light(vec3 p_world, Incident incident) {
   const float ds = incident.distance / float(kStepsToLight);
   const uint mask =
-      volumes_along(frame.media.volume_count, p_world, p_world + incident.to_light * incident.distance);
+      volumes_along(p_world, p_world + incident.to_light * incident.distance);
   float depth = 0.0;
   for (uint i = 0u; i < kStepsToLight; ++i)
     depth += ds * volumes_extinction(mask, p_world + incident.to_light * (ds * (float(i) + 0.5)),

@@ -14,11 +14,14 @@ layout(scalar, binding = kBindSweeps) readonly buffer Sweeps { VolumeSweep sweep
 layout(binding = kBindDepths, r16f) uniform writeonly image3D depths;
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 #include "lib/optical_depth.glsl"
+#include "lib/volume_depth.glsl"
 #include "lib/volume_extinction.glsl"
 
 /// Beyond it nothing of the light is left, and half floats end at 65504.
 const float kMostDepth = 60.0;
-/// Steps before the bounds.
+/// Beyond all media [m].
+const float kFar = 1e6;
+/// Steps through each other volume before the bounds.
 const uint kStepsBeyond = 32u;
 
 /// Extinction of the volumes of a mask and of the smoke around the middle of a step [1/m].
@@ -34,12 +37,15 @@ float extinction_at(uint mask, vec3 p_world, vec3 step_world) {
 
 /// Optical depth of what other media there are between the light and the bounds.
 float depth_beyond(vec3 enters_world, vec3 to_light) {
-  const float ds = params.beyond_m / float(kStepsBeyond);
-  const uint mask =
-      volumes_along(frame.media.volume_count, enters_world, enters_world + to_light * params.beyond_m);
   float depth = 0.0;
-  for (uint i = 0u; i < kStepsBeyond && ds > 0.0; ++i)
-    depth += ds * extinction_at(mask, enters_world + to_light * (ds * (float(i) + 0.5)), to_light * ds);
+  // At most once: a software rasteriser skips loops, but pays for branches that it does not take.
+  for (bool others = params.is_alone == 0u; others; others = false) {
+    depth = volumes_depth(enters_world, to_light, kFar, kStepsBeyond, 0u, 1u);
+    if ((kMedia & kMediumSmoke) != 0u) {
+      const vec3 p_voxel = (enters_world - frame.volume.origin_world) / frame.volume.voxel_size;
+      depth += optical_depth(p_voxel, to_light, kFar, 1.0);
+    }
+  }
   return depth;
 }
 
@@ -54,7 +60,7 @@ void main() {
   const uint samples = params.edge * kSweepSamples;
   const vec3 step_world = per_unit / float(samples);
   const float ds = sweep.length_m / float(samples);
-  const uint mask = volumes_along(frame.media.volume_count, enters, enters + per_unit);
+  const uint mask = volumes_along(enters, enters + per_unit);
   float depth = depth_beyond(enters, -per_unit / sweep.length_m);
   for (uint k = 0u; k < params.edge; ++k) {
     float cell = 0.0;

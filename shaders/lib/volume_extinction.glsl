@@ -3,6 +3,7 @@
 #ifndef VOLUME_EXTINCTION_GLSL
 #define VOLUME_EXTINCTION_GLSL
 #include "lib/brick_rays.glsl"
+#include "lib/frame.glsl"
 #include "lib/volume_transfer.glsl"
 
 /// Extinction of volume i at a point [1/m]; with a transfer function that of the segment p_world - half_world to
@@ -17,11 +18,11 @@ float volume_extinction(VolumeInstance volume, uint i, vec3 p_world, vec3 half_w
 
 /// Bit i: the segment, or that of another thread of the subgroup, may be inside volume i: all its threads then read the
 /// same volumes.
-uint volumes_along(uint volume_count, vec3 begin_world, vec3 end_world) {
+uint volumes_along(vec3 begin_world, vec3 end_world) {
   if (!kHasSeveral) return 1u;
   const float margin = 1e-3;  // of the segment, for rounding
   uint mask = 0u;
-  for (uint i = 0u; i < volume_count; ++i) {
+  for (uint i = 0u; i < frame.media.caster_count; ++i) {
     const VoxelRay ray = VoxelRay(volumes[i].voxel_from_world * vec4(begin_world, 1.0),
                                   volumes[i].voxel_from_world * vec4(end_world - begin_world, 0.0));
     const vec2 inside = span_in_box(ray, volumes[i].bounds_min, volumes[i].bounds_max);

@@ -62,13 +62,14 @@ struct FrameMedia {
   float extinction;            // upper limit [1/m]
   float step_length;           // of the march, at most [m]
   float opaque_transmittance;  // below it a ray is opaque
-  uint volume_count;           // besides the smoke
+  uint volume_count;           // besides the smoke, in view
+  uint caster_count;           // all that cast shadows, in view or not; those in view come first
   vec3 to_sun;                 // unit
   vec3 sun_irradiance;         // on the volumes; 0: no sun
   uint box_count;              // at least one, whose
   MediaBox box_0, box_1, box_2, box_3;  // union holds all that the bounds hold: smaller where media are far apart
 };
-SHARED_SIZE(FrameMedia, 164);
+SHARED_SIZE(FrameMedia, 168);
 
 /// Tone curves.
 SHARED_CONST uint kToneNeutral = 0u;   // Khronos PBR Neutral
@@ -93,7 +94,7 @@ struct FrameConstants {
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
-SHARED_SIZE(FrameConstants, 616);
+SHARED_SIZE(FrameConstants, 620);
 
 SHARED_END
 #endif

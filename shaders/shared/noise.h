@@ -7,8 +7,6 @@ SHARED_BEGIN
 SHARED_BINDING(kBindNoiseTile, 21u);
 SHARED_BINDING(kBindBlueNoise, 22u);
 
-SHARED_CONST uint kNoiseGroup = 4u;
-
 struct NoiseParams {
   uint size;          // texels per axis of the tile
   uint coarse_cells;  // per axis, of the coarsest octave

@@ -41,7 +41,7 @@ struct VolumeLightParams {
   uint first_sweep;    // of each volume
   uint sweeps;         // of each volume
   uint sun;            // number of the light in the frame's list, kNoSun: none
-  float beyond_m;      // how far before a sweep other media may be [m]; 0: there are none
+  uint is_alone;       // nothing else casts shadows into the volume
 };
 SHARED_SIZE(VolumeLightParams, 20);
 

@@ -8,6 +8,8 @@ namespace brume::passes {
 namespace {
 
 constexpr std::uint32_t kTexelThreads = 64;
+/// What the pipelines of rays differ by.
+constexpr std::uint32_t kRayMedia = shared::kMediumVolumes | shared::kMediumTransfer;
 
 /// Workgroups of y and z for a list.
 struct Groups {
@@ -31,7 +33,6 @@ shared::SmokeLightParams params_of(const volume::IndexRange& range, std::uint32_
 SmokeLightPass::SmokeLightPass(gpu::Context& context)
     : context_(context),
       texels_pass_(context, shaders::light_texels_comp),
-      rays_pass_(context, shaders::light_rays_comp),
       inscatter_pass_(context, shaders::inscatter_comp),
       one_group_(context.info().kind == "cpu"),
       linear_(context, {}),
@@ -41,7 +42,10 @@ SmokeLightPass::SmokeLightPass(gpu::Context& context)
     gpu::grow(context, *buffer, 1);
 }
 
-bool SmokeLightPass::reserve(const planning::SmokeLightPlan& plan) {
+bool SmokeLightPass::reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters) {
+  if (!plan.shadow_rays.empty())
+    rays_passes_.try_emplace(casters & kRayMedia, context_, shaders::light_rays_comp,
+                             std::vector{casters & kRayMedia});
   // What is cached: twice what the plan needs, since a larger buffer loses it.
   const auto grow = [&](gpu::Buffer& buffer, std::size_t words) {
     const std::size_t bytes = words * sizeof(std::uint32_t), most = context_.limits().maxStorageBufferRange;
@@ -115,7 +119,8 @@ void SmokeLightPass::record_texel_lists(gpu::Recorder& recorder, const Inputs& i
 
 void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, const volume::IndexRange& range,
                                    std::uint32_t threads) const {
-  recorder.bind(rays_pass_,
+  const gpu::ComputePipeline& rays_pass = rays_passes_.at(in.casters & kRayMedia);
+  recorder.bind(rays_pass,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
                     {shared::kBindSlotBricks, gpu::read(in.smoke.slot_bricks)},
@@ -132,10 +137,14 @@ void SmokeLightPass::dispatch_rays(gpu::Recorder& recorder, const Inputs& in, co
                     {shared::kBindShadowRays, gpu::read(shadow_rays_)},
                     {shared::kBindLightRows, gpu::read(texel_lists_)},
                     {shared::kBindLightBlocks, gpu::write(ray_pages_)},
+                    {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
+                    {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
+                    {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                    {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
                 },
                 params_of(range, threads));
   const Groups groups = groups_of(range.count);
-  recorder.dispatch_threads(rays_pass_, threads, groups.y, groups.z);
+  recorder.dispatch_threads(rays_pass, threads, groups.y, groups.z);
 }
 
 void SmokeLightPass::dispatch_gathers(gpu::Recorder& recorder, const Inputs& in,

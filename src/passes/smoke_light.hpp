@@ -2,10 +2,13 @@
 // (shared/smoke_light.h).
 #pragma once
 
+#include <map>
+
 #include "passes/hole_clusters.hpp"
 #include "passes/shade.hpp"
 #include "passes/shadow.hpp"
 #include "passes/smoke_upload.hpp"
+#include "passes/volume_upload.hpp"
 #include "planning/smoke_light_cache.hpp"
 
 namespace brume::passes {
@@ -21,11 +24,13 @@ class SmokeLightPass {
     const SmokeResources& smoke;
     const HoleResources& holes;
     LevelLight level;
+    VolumeResources volumes;
+    std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
   };
   /// Makes room for a plan; false where what was cached is lost for it, and the frame must be planned again.
   /// Not between the begin and the end of a recording, and only when the device is done with what it recorded
   /// before. Throws resource_limit.
-  [[nodiscard]] bool reserve(const planning::SmokeLightPlan& plan);
+  [[nodiscard]] bool reserve(const planning::SmokeLightPlan& plan, std::uint32_t casters);
   /// Uploads the reserved plan.
   void upload(gpu::Recorder& recorder, const planning::SmokeLightPlan& plan);
   // The three steps of a part bring smoke.inscatter to the plan's frame, where a ray of its camera can meet
@@ -49,8 +54,9 @@ class SmokeLightPass {
                   const Dispatch& dispatch) const;
 
   gpu::Context& context_;
-  gpu::ComputePipeline texels_pass_, rays_pass_, inscatter_pass_;
-  const bool one_group_;  // of threads for each entry of a list
+  gpu::ComputePipeline texels_pass_, inscatter_pass_;
+  std::map<std::uint32_t, gpu::ComputePipeline> rays_passes_;  ///< By the media besides the smoke.
+  const bool one_group_;                                       // of threads for each entry of a list
   gpu::Sampler linear_, compare_;
   gpu::Buffer texel_lists_, ray_pages_;                                            // what is cached
   gpu::Buffer listed_bricks_, changes_, shadow_rays_, gathers_, gathered_lights_;  // the lists of a plan

@@ -7,6 +7,9 @@
 namespace brume::passes {
 namespace {
 
+/// What the pipelines differ by.
+constexpr std::uint32_t kShadowMedia =
+    shared::kMediumSmoke | shared::kMediumVolumes | shared::kMediumTransfer;
 constexpr float kStepMetres = 0.25f;
 constexpr std::uint32_t kAtlasWidth = 1024;
 constexpr std::uint32_t kRayThreads = 256;  // four for each ray of a block
@@ -14,11 +17,10 @@ constexpr std::uint32_t kRayThreads = 256;  // four for each ray of a block
 }  // namespace
 
 SmokeShadowPass::SmokeShadowPass(gpu::Context& context)
-    : context_(context), linear_(context, {}), nearest_(context, {VK_FILTER_NEAREST}) {
-  reserve(shared::kMediumSmoke);
-}
+    : context_(context), linear_(context, {}), nearest_(context, {VK_FILTER_NEAREST}) {}
 
-void SmokeShadowPass::reserve(std::uint32_t media) {
+void SmokeShadowPass::reserve(std::uint32_t casters) {
+  const std::uint32_t media = casters & kShadowMedia;
   pipelines_.try_emplace(media, context_, shaders::smoke_shadow_comp, std::vector{media});
 }
 
@@ -53,7 +55,7 @@ void SmokeShadowPass::record(gpu::Recorder& recorder, const Inputs& in,
   params.step_length = kStepMetres;
   params.spread = update.spread;
   params.first = update.first;
-  const gpu::ComputePipeline& pipeline = pipelines_.at(in.media);
+  const gpu::ComputePipeline& pipeline = pipelines_.at(in.casters & kShadowMedia);
   recorder.bind(pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},

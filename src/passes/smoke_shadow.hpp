@@ -33,10 +33,10 @@ class SmokeShadowPass {
     const SmokeResources& smoke;
     const HoleResources& holes;
     const VolumeResources& volumes;
-    std::uint32_t media = 0;  ///< Those that can cast shadows; `reserve` has seen the set.
+    std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
   };
   /// Makes room for a set of media. Outside of a recording.
-  void reserve(std::uint32_t media);
+  void reserve(std::uint32_t casters);
   /// Uploads the plan of an update.
   static void upload(gpu::Recorder& recorder, const planning::SmokeShadowUpdate& update,
                      const SmokeShadows& shadows);

@@ -29,10 +29,10 @@ VolumeLightPass::VolumeLightPass(gpu::Context& context)
       sun_depths_(cubes(context, VK_FORMAT_R16_SFLOAT, 1, 1, 1)),
       light_(cubes(context, VK_FORMAT_R16G16B16A16_SFLOAT, 1, 1, 1)) {}
 
-bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32_t media) {
+bool VolumeLightPass::reserve(const planning::VolumeLightPlan& plan, std::uint32_t casters) {
   if (plan.sweeps.empty()) return false;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
-  const std::uint32_t sweep = media & kSweepMedia, light = media & kLightMedia;
+  const std::uint32_t sweep = casters & kSweepMedia, light = casters & kLightMedia;
   sweep_pipelines_.try_emplace(sweep, context_, shaders::volume_sweep_comp, std::vector{sweep});
   light_pipelines_.try_emplace(light, context_, shaders::volume_light_comp, std::vector{light});
   gpu::grow(context_, sweeps_, plan.sweeps.size() * sizeof(shared::VolumeSweep));
@@ -51,12 +51,13 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
   if (!plan.update || plan.sweeps.empty()) return;
   const auto count = static_cast<std::uint32_t>(plan.sweeps.size()) / shared::kSweepsOfVolume;
   recorder.upload(sweeps_, 0, std::as_bytes(std::span(plan.sweeps)));
-  const shared::VolumeLightParams sun{plan.sun_edge, 0, 1, plan.sun, plan.beyond_m};
-  const shared::VolumeLightParams light{plan.edge, 0, 1, plan.sun, plan.beyond_m};
-  const shared::VolumeLightParams sky{shared::kSkyEdge, 1, shared::kSkySweeps, plan.sun, plan.beyond_m};
+  const std::uint32_t is_alone = plan.is_alone ? 1 : 0;
+  const shared::VolumeLightParams sun{plan.sun_edge, 0, 1, plan.sun, is_alone};
+  const shared::VolumeLightParams light{plan.edge, 0, 1, plan.sun, is_alone};
+  const shared::VolumeLightParams sky{shared::kSkyEdge, 1, shared::kSkySweeps, plan.sun, is_alone};
   record_sweeps(recorder, in, sun, sun_depths_, count);
   record_sweeps(recorder, in, sky, sky_depths_, count * shared::kSkySweeps);
-  const gpu::ComputePipeline& light_pipeline = light_pipelines_.at(in.media & kLightMedia);
+  const gpu::ComputePipeline& light_pipeline = light_pipelines_.at(in.casters & kLightMedia);
   recorder.bind(light_pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
@@ -82,7 +83,7 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
 void VolumeLightPass::record_sweeps(gpu::Recorder& recorder, const Inputs& in,
                                     const shared::VolumeLightParams& params, const gpu::Image& depths,
                                     std::uint32_t sweeps) {
-  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.media & kSweepMedia);
+  const gpu::ComputePipeline& pipeline = sweep_pipelines_.at(in.casters & kSweepMedia);
   recorder.bind(pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},

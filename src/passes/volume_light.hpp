@@ -15,8 +15,8 @@ namespace brume::passes {
 class VolumeLightPass {
  public:
   struct Inputs {
-    const gpu::Buffer& frame;  ///< FrameConstants.
-    std::uint32_t media = 0;   ///< Of the frame.
+    const gpu::Buffer& frame;   ///< FrameConstants.
+    std::uint32_t casters = 0;  ///< MediaPlan::casters.
     const SceneResources& scene;
     const ShadowMaps& shadows;
     const LevelLight& level;
@@ -28,7 +28,7 @@ class VolumeLightPass {
   explicit VolumeLightPass(gpu::Context& context);
   /// Makes room for the light of a plan. True when the light of earlier frames is lost. Outside of a
   /// recording, once the device has finished previous ones. Throws resource_limit.
-  bool reserve(const planning::VolumeLightPlan& plan, std::uint32_t media);
+  bool reserve(const planning::VolumeLightPlan& plan, std::uint32_t casters);
   /// Where the plan updates.
   void record(gpu::Recorder& recorder, const Inputs& in, const planning::VolumeLightPlan& plan);
   /// The cubes of all volumes in view.

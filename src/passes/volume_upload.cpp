@@ -103,8 +103,8 @@ std::vector<std::uint64_t> VolumeUpload::reserve(std::span<const planning::Volum
 
 void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                           std::span<const planning::VolumeResidency> residency,
-                          std::span<const planning::VisibleVolume> visible,
-                          std::span<const planning::VisibleVolume> lit) {
+                          std::span<const planning::PlacedVolume> visible,
+                          std::span<const planning::PlacedVolume> lit) {
   const GridList list = list_of(volumes, residency);
   atlas_.record(recorder, list.grids, list.streams);
   color_atlas_.record(recorder, color_list_of(volumes));
@@ -122,7 +122,7 @@ void VolumeUpload::record_part(gpu::Recorder& recorder, std::span<const planning
 }
 
 void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                                    std::span<const planning::VisibleVolume> visible,
+                                    std::span<const planning::PlacedVolume> visible,
                                     const gpu::Buffer& to) const {
   const std::vector<const volume::SparseVolume*> grids = list_of(volumes).grids;
   const std::vector<const volume::SparseVolume*> color_grids = color_list_of(volumes);
@@ -134,7 +134,7 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
     return atlas_.layout(position(grids, grid));
   };
   std::vector<shared::VolumeInstance> instances;
-  for (const planning::VisibleVolume& volume : visible) {
+  for (const planning::PlacedVolume& volume : visible) {
     const planning::VolumeInput shown = planning::shown_volume(volumes[volume.index], volume.is_preview);
     shared::VolumeInstance instance = volume.instance;
     instance.bricks = layout_of(shown.volume);
@@ -147,13 +147,13 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
 }
 
 void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                                std::span<const planning::VisibleVolume> visible) {
+                                std::span<const planning::PlacedVolume> visible) {
   std::vector<glm::vec3> glows;
-  for (const planning::VisibleVolume& volume : visible) glows.push_back(glow_of(volumes[volume.index].heat));
+  for (const planning::PlacedVolume& volume : visible) glows.push_back(glow_of(volumes[volume.index].heat));
   if (glows == glows_) return;
   glows_ = std::move(glows);
   std::vector<std::uint64_t> colors;
-  for (const planning::VisibleVolume& volume : visible) {
+  for (const planning::PlacedVolume& volume : visible) {
     const std::vector<std::uint64_t> row = colors_of(volumes[volume.index].heat);
     colors.insert(colors.end(), row.begin(), row.end());
   }
@@ -164,7 +164,7 @@ void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const plannin
 }
 
 void VolumeUpload::record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                                    std::span<const planning::VisibleVolume> visible) {
+                                    std::span<const planning::PlacedVolume> visible) {
   transfer_sources_.resize(visible.size());
   for (std::size_t i = 0; i < visible.size(); ++i) {
     const planning::VolumeInput& volume = volumes[visible[i].index];

@@ -31,7 +31,7 @@ class VolumeUpload {
   /// streamed, and the instances in view: as rays of the eye meet them, and as light does.
   void record(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
               std::span<const planning::VolumeResidency> residency,
-              std::span<const planning::VisibleVolume> visible, std::span<const planning::VisibleVolume> lit);
+              std::span<const planning::PlacedVolume> visible, std::span<const planning::PlacedVolume> lit);
 
   /// Uploads what `part` says of volumes that are streamed, and nothing else.
   void record_part(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
@@ -49,11 +49,11 @@ class VolumeUpload {
             transfers_,     color_atlas_.channel(kValues)};
   }
   void record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                        std::span<const planning::VisibleVolume> visible, const gpu::Buffer& to) const;
+                        std::span<const planning::PlacedVolume> visible, const gpu::Buffer& to) const;
   void record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                    std::span<const planning::VisibleVolume> visible);
+                    std::span<const planning::PlacedVolume> visible);
   void record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
-                        std::span<const planning::VisibleVolume> visible);
+                        std::span<const planning::PlacedVolume> visible);
 
   /// What a table of transfers_ was made from.
   struct TransferSource {

@@ -61,7 +61,7 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
   const Quality& quality = plan.input.quality;
   std::vector<Box<float>> boxes;
   if (smoke.volume) boxes = smoke_boxes(*smoke.volume, plan.visibility);
-  for (const VisibleVolume& volume : plan.media.volumes) boxes.push_back(volume.bounds_world);
+  for (const PlacedVolume& volume : plan.media.volumes) boxes.push_back(volume.bounds_world);
   plan.smoke_shadows = history.smoke_shadows.update(
       plan_smoke_shadows({plan.lights, target.sun_clip_from_world, plan.camera}, boxes,
                          target.smoke_shadow_atlas),
@@ -72,11 +72,11 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
 
 void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
   const FrameInput& input = plan.input;
-  plan.smoke_light = &history.smoke_light.plan({input.smoke.volume, &plan.visibility, plan.lights,
-                                                input.smoke.holes, input.smoke.time, input.smoke.look,
-                                                input.environment.sky, input.view.camera.position_world,
-                                                plan.level_changed || input.quality.rebuild_light,
-                                                input.quality.light_update_fraction, plan.noise.catches_up});
+  plan.smoke_light = &history.smoke_light.plan(
+      {input.smoke.volume, &plan.visibility, plan.lights, input.smoke.holes, input.smoke.time,
+       input.smoke.look, input.environment.sky, input.view.camera.position_world,
+       plan.level_changed || plan.volume_light.volumes_changed || input.quality.rebuild_light,
+       input.quality.light_update_fraction, plan.noise.catches_up});
 }
 
 void plan_volume_light(FramePlan& plan, PlanHistory& history) {
@@ -84,7 +84,7 @@ void plan_volume_light(FramePlan& plan, PlanHistory& history) {
   plan.volume_light = history.volume_light.plan(
       {&plan.lit_media, input.volumes, plan.lights, input.smoke.volume, input.smoke.look, input.smoke.time,
        input.environment.sky, plan.level_changed || input.quality.rebuild_light});
-  for (std::size_t i = 0; i < plan.media.volumes.size(); ++i) {
+  for (std::size_t i = 0; i < plan.media.frame.volume_count; ++i) {
     const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
     for (MediaPlan* media : {&plan.media, &plan.lit_media}) {
       shared::VolumeInstance& volume = media->volumes[i].instance;

@@ -20,10 +20,6 @@ Box<float> world_box(const glm::mat4& world_from_voxel, const Box<float>& box) {
   return world;
 }
 
-bool may_be_visible(const ViewFrustum& frustum, const Box<float>& box) {
-  return frustum.may_intersect({0.5f * (box.low + box.high), 0.5f * glm::length(box.high - box.low)});
-}
-
 /// The shortest edge of a voxel [m]: filtered values are linear in between, and half as long a step changes
 /// the image of a cloud by 0.07 of 255 on average.
 float step_of(const glm::mat4& world_from_voxel) {
@@ -88,17 +84,21 @@ shared::VolumeInstance instance_of(const VolumeInput& volume) {
           {{}, volume.colors ? 1u : 0u}};
 }
 
-void add_volume(MediaPlan& plan, const VolumeInput& volume, const VisibleVolume& visible) {
-  const Box<float>& world = visible.bounds_world;
-  add_medium(plan, shared::kMediumVolumes, world, volume.look.extinction, step_of(volume.world_from_voxel));
-  if (device_transfer(volume.transfer).kind != shared::kTransferNone) plan.media |= shared::kMediumTransfer;
-  if (volume.colors) plan.media |= shared::kMediumColors;
+/// The bits of a volume.
+std::uint32_t media_of(const VolumeInput& volume) {
+  std::uint32_t media = shared::kMediumVolumes;
+  if (device_transfer(volume.transfer).kind != shared::kTransferNone) media |= shared::kMediumTransfer;
+  if (volume.colors) media |= shared::kMediumColors;
   const shared::VolumeLook look = look_of(volume);
   const glm::vec3 light = look.albedo + look.emission;
-  if (std::max({light.r, light.g, light.b}) > 0) plan.media |= shared::kMediumLit;
-  if (has_heat(volume)) plan.media |= shared::kMediumHeat;
-  plan.volumes.push_back(visible);
-  plan.volumes.back().instance = instance_of(volume);
+  if (std::max({light.r, light.g, light.b}) > 0) media |= shared::kMediumLit;
+  if (has_heat(volume)) media |= shared::kMediumHeat;
+  return media;
+}
+
+/// Adds a volume that may be in view.
+void add_visible(MediaPlan& plan, const VolumeInput& volume, const Box<float>& world) {
+  add_medium(plan, media_of(volume), world, volume.look.extinction, step_of(volume.world_from_voxel));
   if (++plan.frame.volume_count > 1) plan.media |= shared::kMediumSeveral;
 }
 
@@ -128,6 +128,27 @@ void set_boxes(MediaPlan& plan, std::vector<Box<float>> boxes) {
   static_assert(std::size(out) == shared::kMaxMediaBoxes);
   frame.box_count = 0;
   for (const Box<float>& box : boxes) *out[frame.box_count++] = {from_world(box.low), from_world(box.high)};
+}
+
+/// Adds volumes that may be in view, or all others.
+void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const ViewFrustum& frustum,
+                 const std::vector<bool>& previews, bool in_view) {
+  std::vector<Box<float>> boxes;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    const VolumeInput& volume = volumes[i];
+    const shared::VolumeLayout& layout = volume.volume->layout();
+    const Box<float> world = world_box(volume.world_from_voxel, {layout.bounds_min, layout.bounds_max});
+    if (volume.volume->slot_count() == 0 || frustum.may_intersect(world) != in_view) continue;
+    const bool preview = !previews.empty() && previews[i];
+    const VolumeInput shown = shown_volume(volume, preview);
+    plan.volumes.push_back({i, world, instance_of(shown), preview});
+    plan.casters |= media_of(shown);
+    if (++plan.frame.caster_count > 1) plan.casters |= shared::kMediumSeveral;
+    if (!in_view) continue;
+    add_visible(plan, shown, world);
+    add_boxes(volume, boxes);
+  }
+  if (in_view) set_boxes(plan, std::move(boxes));
 }
 
 /// The sun of the volumes: the first directional light.
@@ -169,11 +190,15 @@ VolumeInput shown_volume(const VolumeInput& volume, bool preview) {
   return shown;
 }
 
+std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan) {
+  return std::span(plan.volumes).first(plan.frame.volume_count);
+}
+
 void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
                      const std::vector<bool>& previews) {
-  for (VisibleVolume& visible : plan.volumes) {
-    visible.is_preview = !previews.empty() && previews[visible.index];
-    visible.instance = instance_of(shown_volume(volumes[visible.index], visible.is_preview));
+  for (PlacedVolume& placed : plan.volumes) {
+    placed.is_preview = !previews.empty() && previews[placed.index];
+    placed.instance = instance_of(shown_volume(volumes[placed.index], placed.is_preview));
   }
 }
 
@@ -191,17 +216,8 @@ MediaPlan plan_media(const FrameInput& input, const SmokeVisibility& visibility,
   plan.smoke.bounds_max = visibility.visible_bounds.high;
   if (visibility.visible_count > 0) plan.media = shared::kMediumSmoke;
   plan.frame = smoke_media(plan.smoke, input.smoke.look);
-  std::vector<Box<float>> boxes;
-  for (std::size_t i = 0; i < input.volumes.size(); ++i) {
-    const VolumeInput& other = input.volumes[i];
-    const shared::VolumeLayout& layout = other.volume->layout();
-    const Box<float> world = world_box(other.world_from_voxel, {layout.bounds_min, layout.bounds_max});
-    if (other.volume->slot_count() == 0 || !may_be_visible(frustum, world)) continue;
-    const bool preview = !previews.empty() && previews[i];
-    add_volume(plan, shown_volume(other, preview), {i, world, {}, preview});
-    add_boxes(other, boxes);
-  }
-  set_boxes(plan, std::move(boxes));
+  for (const bool in_view : {true, false}) add_volumes(plan, input.volumes, frustum, previews, in_view);
+  if (has_smoke || plan.casters == 0) plan.casters |= shared::kMediumSmoke;
   add_sun(plan, lights);
   // A frame of nothing is one of smoke that is nowhere.
   if (plan.media == 0) plan.media = shared::kMediumSmoke;

@@ -1,5 +1,5 @@
-// The media of a frame: which volumes are visible, and what the march needs to know of volumes and smoke
-// together.
+// The media of a frame: which volumes are visible, which cast shadows into view, and what the march needs to
+// know of volumes and smoke together.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@
 
 namespace brume::planning {
 
-/// A volume that may be in view.
-struct VisibleVolume {
+/// A volume of a frame, where it is.
+struct PlacedVolume {
   std::size_t index = 0;  ///< In FrameInput::volumes.
   Box<float> bounds_world;
   shared::VolumeInstance instance{};  ///< All but the places of its bricks, which the atlas knows.
@@ -23,8 +23,10 @@ struct VisibleVolume {
 };
 
 struct MediaPlan {
-  std::uint32_t media = 0;  ///< Set of shared::kMedium...
-  std::vector<VisibleVolume> volumes;
+  std::uint32_t media = 0;    ///< Set of shared::kMedium..., of what may be in view.
+  std::uint32_t casters = 0;  ///< The same of all that may cast shadows, in view or not.
+  /// Those that may be in view, FrameMedia::volume_count, before those that only cast shadows.
+  std::vector<PlacedVolume> volumes;
   shared::VolumeLayout smoke{};  ///< Of the smoke in view; without smoke a unit grid.
   shared::FrameMedia frame{};
   std::uint32_t sun = shared::kNoSun;  ///< In the frame's lights: that of FrameMedia::to_sun.
@@ -36,7 +38,10 @@ shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::
 /// A volume as it is, or its previews in their places.
 VolumeInput shown_volume(const VolumeInput& volume, bool preview);
 
-/// The same volumes in view at other resolutions: `previews` as for plan_media.
+/// The volumes of a plan that may be in view.
+std::span<const PlacedVolume> volumes_in_view(const MediaPlan& plan);
+
+/// The same volumes at other resolutions: `previews` as for plan_media.
 void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
                      const std::vector<bool>& previews);
 

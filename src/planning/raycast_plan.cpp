@@ -72,7 +72,7 @@ glm::dmat4 inverse_of(const glm::mat4x3& voxel_from_world) {
 }  // namespace
 
 RaycastPlan plan_raycast(const shared::Camera& camera, glm::uvec2 size_px,
-                         std::span<const VisibleVolume> volumes, const RaycastLight& light,
+                         std::span<const PlacedVolume> volumes, const RaycastLight& light,
                          const RaycastSteps& steps) {
   RaycastPlan plan;
   const glm::dmat4 from_view = world_from_view(camera), to_view = glm::inverse(from_view);
@@ -87,7 +87,7 @@ RaycastPlan plan_raycast(const shared::Camera& camera, glm::uvec2 size_px,
                steps.opaque_transmittance};
 
   std::vector<double> distances;
-  for (const VisibleVolume& volume : volumes) {
+  for (const PlacedVolume& volume : volumes) {
     // Spaces.
     const shared::VolumeInstance& instance = volume.instance;
     const glm::dmat4 to_voxel = glm::dmat4(glm::mat4(instance.voxel_from_world)),

@@ -42,7 +42,7 @@ struct RaycastPlan {
 
 /// The camera is device_camera's. Throws bad_input for a transform without an inverse.
 RaycastPlan plan_raycast(const shared::Camera& camera, glm::uvec2 size_px,
-                         std::span<const VisibleVolume> volumes, const RaycastLight& light,
+                         std::span<const PlacedVolume> volumes, const RaycastLight& light,
                          const RaycastSteps& steps);
 
 }  // namespace brume::planning

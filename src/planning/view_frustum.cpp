@@ -16,4 +16,14 @@ bool ViewFrustum::may_intersect(const WorldSphere& sphere, glm::vec3 segment) co
   });
 }
 
+bool ViewFrustum::may_intersect(const Box<float>& box) const {
+  // For rounding, a part of the distances that the planes are tested at.
+  const float margin =
+      1e-5f * glm::length(glm::max(glm::abs(box.low - eye_world_), glm::abs(box.high - eye_world_)));
+  return std::all_of(inward_.begin(), inward_.end(), [&](glm::vec3 inward) {
+    const glm::vec3 farthest = glm::mix(box.low, box.high, glm::greaterThan(inward, glm::vec3(0)));
+    return glm::dot(farthest - eye_world_, inward) >= -margin;
+  });
+}
+
 }  // namespace brume::planning

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/box.hpp"
 #include "shared/frame.h"
 
 namespace brume::planning {
@@ -23,6 +24,8 @@ class ViewFrustum {
   bool may_intersect(const WorldSphere& sphere) const { return may_intersect(sphere, glm::vec3(0)); }
   /// Whether any of a sphere may be in view somewhere on a segment from where it is, along `segment` [m].
   bool may_intersect(const WorldSphere& sphere, glm::vec3 segment) const;
+  /// Whether any of a box [m] may be in view.
+  bool may_intersect(const Box<float>& box) const;
 
  private:
   glm::vec3 eye_world_;

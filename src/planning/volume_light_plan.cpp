@@ -50,9 +50,9 @@ void add_transfer(KeyBytes& key, const TransferInput& transfer) {
   key.add(transfer.color_map.points.size());
 }
 
-std::vector<std::byte> key_of(const VolumeLightInputs& in) {
+std::vector<std::byte> key_of_volumes(const VolumeLightInputs& in) {
   KeyBytes key;
-  for (const VisibleVolume& visible : in.media->volumes) {
+  for (const PlacedVolume& visible : in.media->volumes) {
     const volume::SparseVolume& volume = *shown_volume(in.volumes[visible.index], visible.is_preview).volume;
     key.add(volume.id());
     key.add(volume.revision());
@@ -66,10 +66,16 @@ std::vector<std::byte> key_of(const VolumeLightInputs& in) {
     key.add(colors ? colors->id() : 0);
     key.add(colors ? colors->revision() : 0);
   }
+  return key.take();
+}
+
+std::vector<std::byte> key_of_others(const VolumeLightInputs& in) {
+  KeyBytes key;
+  key.add(in.media->frame.volume_count);
   for (const shared::Light& light : in.lights) key.add(light);
   key.add(in.sky.ambient);
   key.add(in.sky.bounce);
-  if ((in.media->media & shared::kMediumSmoke) != 0 && in.smoke && in.smoke->slot_count() > 0) {
+  if ((in.media->casters & shared::kMediumSmoke) != 0 && in.smoke && in.smoke->slot_count() > 0) {
     key.add(in.smoke->revision());
     key.add(in.smoke_look);
     key.add(in.time);
@@ -79,7 +85,7 @@ std::vector<std::byte> key_of(const VolumeLightInputs& in) {
 
 std::uint32_t edge_of(const MediaPlan& media, Resolution resolution) {
   float longest = 0;
-  for (const VisibleVolume& visible : media.volumes) {
+  for (const PlacedVolume& visible : volumes_in_view(media)) {
     const glm::vec3 size = visible.instance.bounds_max - visible.instance.bounds_min;
     longest = std::max({longest, size.x, size.y, size.z});
   }
@@ -87,7 +93,7 @@ std::uint32_t edge_of(const MediaPlan& media, Resolution resolution) {
   const auto cells = static_cast<std::uint32_t>(std::min(longest / resolution.voxels_per_cell, most));
   std::uint32_t edge = std::clamp(std::bit_ceil(std::max(cells, 1u)), kLeastEdge, resolution.most);
   const auto too_many = [&] {
-    const std::uint64_t count = media.volumes.size();
+    const std::uint64_t count = media.frame.volume_count;
     return std::uint64_t{edge} * edge * edge * count > kMostCells || edge * count > kMostDepth;
   };
   while (edge > kLeastEdge && too_many()) edge /= 2;
@@ -122,23 +128,25 @@ shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec
 
 VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in) {
   VolumeLightPlan plan;
-  if (in.media->volumes.empty()) return plan;
+  std::vector<std::byte> volumes_key = key_of_volumes(in);
+  plan.volumes_changed = volumes_key != volumes_key_;
+  volumes_key_ = std::move(volumes_key);
+  if (in.media->frame.volume_count == 0) {
+    key_.clear();
+    return plan;
+  }
   plan.edge = edge_of(*in.media, kLightCells);
   plan.sun_edge = edge_of(*in.media, kSunCells);
   plan.sun = in.media->sun;
-  for (const VisibleVolume& visible : in.media->volumes) {
+  for (const PlacedVolume& visible : volumes_in_view(*in.media)) {
     plan.sweeps.push_back(sweep_through(visible.instance, -in.media->frame.to_sun));
     // Light from the sky in +x travels towards -x.
     for (const glm::vec3 direction : kSkyDirections)
       plan.sweeps.push_back(sweep_through(visible.instance, -direction));
   }
-  const bool alone = in.media->volumes.size() == 1 && (in.media->media & shared::kMediumSmoke) == 0;
-  if (!alone) {
-    const shared::FrameMedia& frame = in.media->frame;
-    plan.beyond_m = glm::length(frame.bounds_max - frame.bounds_min) * in.media->smoke.voxel_size;
-  }
-  std::vector<std::byte> key = key_of(in);
-  plan.update = in.rebuild || key != key_;
+  plan.is_alone = in.media->volumes.size() == 1 && (in.media->casters & shared::kMediumSmoke) == 0;
+  std::vector<std::byte> key = key_of_others(in);
+  plan.update = in.rebuild || plan.volumes_changed || key != key_;
   key_ = std::move(key);
   return plan;
 }

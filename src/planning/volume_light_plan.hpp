@@ -17,8 +17,9 @@ struct VolumeLightPlan {
   std::uint32_t edge = 1;                   ///< Cells of a volume's cube of light along an axis.
   std::uint32_t sun_edge = 1;               ///< The same of its cube of the sun's depths.
   std::vector<shared::VolumeSweep> sweeps;  ///< kSweepsOfVolume per volume in view.
-  float beyond_m = 0;                       ///< As VolumeLightParams.
+  bool is_alone = true;                     ///< Nothing else casts shadows into the volume.
   bool update = false;                      ///< False: the light of the frame before holds.
+  bool volumes_changed = false;             ///< Those that cast shadows are not those of the frame before.
 };
 
 /// What the light in the volumes follows from.
@@ -42,7 +43,8 @@ class VolumeLightCache {
   void invalidate() { key_.clear(); }
 
  private:
-  std::vector<std::byte> key_;  ///< Bytes of all inputs of the last update; empty: none.
+  std::vector<std::byte> volumes_key_;  ///< Bytes of the volumes of the last plan.
+  std::vector<std::byte> key_;          ///< Bytes of all other inputs of the last update; empty: none.
 };
 
 /// The rays along `direction` (unit) through a volume's bounds.

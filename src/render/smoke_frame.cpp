@@ -8,14 +8,6 @@ using planning::FramePlan;
 
 namespace {
 
-/// The media that can cast shadows, in view or not.
-std::uint32_t casting_media(const FramePlan& plan) {
-  const smoke::SmokeVolume* smoke = plan.input.smoke.volume;
-  constexpr std::uint32_t kOfVolumes = shared::kMediumVolumes | shared::kMediumTransfer;
-  const std::uint32_t volumes = plan.media.media & kOfVolumes;
-  return volumes == 0 || (smoke && smoke->slot_count() > 0) ? volumes | shared::kMediumSmoke : volumes;
-}
-
 gpu::Buffer make_counters(gpu::Context& context, std::size_t pixels) {
   return {context, (1 + pixels) * sizeof(std::uint32_t),
           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -42,12 +34,14 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       volume_light_pass_(context),
       raycast_(options.raycast),
       march_pass_(context,
-                  {options.count_samples, false, options.brute_force_holes, options.record_entries, 0}),
-      resolve_pass_(context) {
+                  {options.count_samples, false, options.brute_force_holes, options.record_entries, 0}) {
   if (options.temporal) accumulate_pass_.emplace(context, size_px);
   resize(scene, size_px);
   set_march_scale(options.march_scale);
-  if (prepare_all_) make_noise();
+  if (prepare_all_) {
+    make_noise();
+    shadow_pass_.reserve(shared::kMediumSmoke);
+  }
 }
 
 void SmokeFrame::make_noise() {
@@ -71,6 +65,7 @@ void SmokeFrame::set_march_scale(std::uint32_t scale) {
   march_scale_ = scale;
   march_tiles_.reset();
   if (scale > 1) march_tiles_.emplace(context_, size_px_, scale);
+  if ((scale > 1 || prepare_all_) && !resolve_pass_) resolve_pass_.emplace(context_);
 }
 
 void SmokeFrame::set_masks(const smoke::MaskAtlas& masks) {
@@ -84,9 +79,9 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
     smoke_upload_.reserve(*input.smoke.volume);
     noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
   }
-  if (volume_light_pass_.reserve(plan.volume_light, plan.media.media)) plan.volume_light.update = true;
+  if (volume_light_pass_.reserve(plan.volume_light, plan.media.casters)) plan.volume_light.update = true;
   hole_clusters_.reserve(plan.holes);
-  shadow_pass_.reserve(casting_media(plan));
+  shadow_pass_.reserve(plan.media.casters);
   const auto rays = prepare_all_        ? passes::MarchRays::all
                     : march_scale_ == 1 ? passes::MarchRays::of_pixels
                                         : passes::MarchRays::of_tiles;
@@ -97,7 +92,8 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
                               passes::MarchPass::Options{false, true, brute_force_holes_, false, 0});
     counting_march_->reserve(plan.media.media, rays);
   }
-  while (!light_pass_.reserve(*plan.smoke_light)) planning::replan_smoke_light(plan, history);
+  while (!light_pass_.reserve(*plan.smoke_light, plan.media.casters))
+    planning::replan_smoke_light(plan, history);
 }
 
 void SmokeFrame::record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
@@ -112,8 +108,10 @@ void SmokeFrame::record_upload(gpu::Recorder& recorder, const FramePlan& plan, c
   light_pass_.upload(recorder, *plan.smoke_light);
 }
 
-passes::SmokeLightPass::Inputs SmokeFrame::light_inputs(const FrameResources& in) const {
-  return {in.frame, in.scene.resources(), in.scene.shadows(), resources(), holes(), in.scene.level()};
+passes::SmokeLightPass::Inputs SmokeFrame::light_inputs(const FramePlan& plan,
+                                                        const FrameResources& in) const {
+  return {in.frame,         in.scene.resources(),           in.scene.shadows(), resources(), holes(),
+          in.scene.level(), volume_upload_.lit_resources(), plan.media.casters};
 }
 
 void SmokeFrame::record_density(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
@@ -122,7 +120,7 @@ void SmokeFrame::record_density(gpu::Recorder& recorder, const FramePlan& plan, 
     if (plan.input.smoke.volume)
       noise_advection_pass_.record(recorder, plan.noise, {in.frame, resources(), noise_});
     const auto& parts = plan.smoke_light->parts;
-    if (!parts.empty()) light_pass_.record_texel_lists(recorder, light_inputs(in), parts.front());
+    if (!parts.empty()) light_pass_.record_texel_lists(recorder, light_inputs(plan, in), parts.front());
   });
   recorder.concurrently([&] { hole_clusters_.record_second(recorder, plan.holes, in.frame, resources()); });
 }
@@ -132,13 +130,13 @@ void SmokeFrame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, 
   const passes::VolumeResources volumes = volume_upload_.lit_resources();
   shadow_pass_.record(recorder,
                       {in.frame, in.scene.resources(), in.scene.shadows(), in.scene.level().solid,
-                       resources(), holes(), volumes, casting_media(plan)},
+                       resources(), holes(), volumes, plan.media.casters},
                       *plan.smoke_shadows, shadows_);
 }
 
 void SmokeFrame::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   const auto& parts = plan.smoke_light->parts;
-  const passes::SmokeLightPass::Inputs inputs = light_inputs(in);
+  const passes::SmokeLightPass::Inputs inputs = light_inputs(plan, in);
   for (std::size_t i = 0; i < std::max<std::size_t>(parts.size(), 1); ++i) {
     if (i > 0) light_pass_.record_texel_lists(recorder, inputs, parts[i]);
     // Neither fills the device, and neither reads what the other writes.
@@ -156,7 +154,7 @@ void SmokeFrame::record_volume_light(gpu::Recorder& recorder, const FramePlan& p
   const passes::VolumeResources volumes = volume_upload_.lit_resources();
   const passes::LevelLight level = in.scene.level();
   volume_light_pass_.record(recorder,
-                            {in.frame, plan.media.media, in.scene.resources(), in.scene.shadows(), level,
+                            {in.frame, plan.media.casters, in.scene.resources(), in.scene.shadows(), level,
                              resources(), holes(), volumes},
                             plan.volume_light);
 }
@@ -182,7 +180,7 @@ passes::MarchPass::Inputs SmokeFrame::march_inputs(const FramePlan& plan, const 
 void SmokeFrame::record_raycast(gpu::Recorder& recorder, const FramePlan& plan,
                                 const FrameResources& in) const {
   const shared::FrameMedia& media = plan.media.frame;
-  const auto& volumes = plan.media.volumes;
+  const auto volumes = planning::volumes_in_view(plan.media);
   const float anisotropy = volumes.empty() ? 0 : volumes.front().instance.look.anisotropy;
   const planning::RaycastLight light{media.to_sun, media.sun_irradiance, plan.input.environment.sky.ambient,
                                      shared::phase_of_hg(anisotropy)};
@@ -197,15 +195,15 @@ void SmokeFrame::record_march(gpu::Recorder& recorder, const FramePlan& plan, co
     march.pass.record(recorder, march_inputs(plan, in), in.targets.media, march.counters);
     return;
   }
-  resolve_pass_.record_ends(recorder, in.frame, in.targets.gbuffer.depth, *march_tiles_);
+  resolve_pass_->record_ends(recorder, in.frame, in.targets.gbuffer.depth, *march_tiles_);
   march.pass.record_tiles(recorder, march_inputs(plan, in), *march_tiles_, march.counters);
 }
 
 void SmokeFrame::record_resolve(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   const March march = march_of(in);
   const Targets& targets = in.targets;
-  resolve_pass_.record_select(recorder, in.frame, targets.gbuffer.emission, *march_tiles_);
-  resolve_pass_.record(recorder, in.frame, targets.gbuffer.depth, *march_tiles_, targets.media);
+  resolve_pass_->record_select(recorder, in.frame, targets.gbuffer.emission, *march_tiles_);
+  resolve_pass_->record(recorder, in.frame, targets.gbuffer.depth, *march_tiles_, targets.media);
   march.pass.record_list(recorder, march_inputs(plan, in), *march_tiles_, targets.media, march.counters);
 }
 

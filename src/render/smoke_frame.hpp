@@ -108,7 +108,8 @@ class SmokeFrame {
   };
   void make_noise();
   void record_shadows(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
-  passes::SmokeLightPass::Inputs light_inputs(const FrameResources& in) const;
+  passes::SmokeLightPass::Inputs light_inputs(const planning::FramePlan& plan,
+                                              const FrameResources& in) const;
   March march_of(const FrameResources& in) const;
   passes::MarchPass::Inputs march_inputs(const planning::FramePlan& plan, const FrameResources& in) const;
 
@@ -136,8 +137,8 @@ class SmokeFrame {
   std::optional<passes::RaycastForm> raycast_;
   std::optional<passes::RaycastPass> raycast_pass_;  ///< In the place of the march.
   passes::MarchPass march_pass_;
-  std::optional<passes::MarchPass> counting_march_;  ///< For the view of steps.
-  passes::ResolvePass resolve_pass_;
+  std::optional<passes::MarchPass> counting_march_;        ///< For the view of steps.
+  std::optional<passes::ResolvePass> resolve_pass_;        ///< Where there are march_tiles_, or may be.
   std::optional<passes::AccumulatePass> accumulate_pass_;  ///< Where smoke is accumulated over frames.
 };
 

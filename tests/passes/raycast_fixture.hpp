@@ -59,8 +59,8 @@ class RaycastFixture : public gpu::GpuTest {
   shared::Camera device_camera() const { return planning::device_camera(camera_, size_); }
 
   /// Instances of the volumes, without their bricks.
-  static std::vector<planning::VisibleVolume> visible(const std::vector<Placed>& placed) {
-    std::vector<planning::VisibleVolume> visible;
+  static std::vector<planning::PlacedVolume> visible(const std::vector<Placed>& placed) {
+    std::vector<planning::PlacedVolume> visible;
     for (const Placed& one : placed) {
       shared::VolumeInstance instance{};
       instance.voxel_from_world = glm::mat4x3(glm::mat4(glm::inverse(glm::dmat4(one.world_from_voxel))));

@@ -281,7 +281,7 @@ TEST_P(ConstantDensityTest, LightFallsOffThroughTheWholeVolume) {
 
 TEST(RaycastPlanTest, StepsReachAcrossTheLongestDiagonal) {
   const shared::Camera camera = planning::device_camera({{0, 0, 6}, {0, 0, 0}, 0.9f}, {40, 20});
-  planning::VisibleVolume volume;
+  planning::PlacedVolume volume;
   glm::dmat4 sheared(1);
   sheared[1][0] = 3;
   volume.instance.voxel_from_world = glm::mat4x3(glm::mat4(glm::inverse(sheared)));

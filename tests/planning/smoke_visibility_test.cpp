@@ -87,6 +87,24 @@ class SmokeVisibilityTest : public ::testing::Test {
   std::vector<shared::Light> lights_;
 };
 
+TEST_F(SmokeVisibilityTest, ABoxAroundAPointInViewMayBeInView) {
+  std::uniform_real_distribution<float> unit(-1, 1);
+  const auto any = [&] { return glm::vec3(unit(random_), unit(random_), unit(random_)); };
+  int hidden = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const shared::Camera camera = this->camera();
+    const ViewFrustum view(camera);
+    const float distance = 0.01f + 30 * std::abs(unit(random_));
+    const glm::vec3 point = camera.eye_world + distance * (camera.forward + unit(random_) * camera.right +
+                                                           unit(random_) * camera.up);
+    const glm::vec3 below = 3.0f * glm::abs(any()), above = 3.0f * glm::abs(any());
+    EXPECT_TRUE(view.may_intersect(Box<float>{point - below, point + above})) << i;
+    const glm::vec3 behind = camera.eye_world - 6.0f * camera.forward;
+    hidden += !view.may_intersect(Box<float>{behind - below, behind + above});
+  }
+  EXPECT_GT(hidden, 10000);
+}
+
 // Every ray that the passes march for a frame finds its smoke among the required slots.
 TEST_F(SmokeVisibilityTest, NoRayOfAFrameMeetsSmokeThatIsNotRequired) {
   constexpr int kFrames = kSanitized ? 400 : 4000;

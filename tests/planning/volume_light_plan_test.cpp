@@ -64,8 +64,9 @@ class VolumeLightCacheTest : public testing::Test {
   }
   VolumeLightPlan plan() {
     MediaPlan media;
-    media.media = shared::kMediumVolumes;
-    VisibleVolume visible;
+    media.media = media.casters = shared::kMediumVolumes;
+    media.frame.volume_count = media.frame.caster_count = 1;
+    PlacedVolume visible;
     visible.instance.voxel_from_world = visible.instance.world_from_voxel =
         glm::mat4x3(inputs_[0].world_from_voxel);
     visible.instance.bounds_max = glm::vec3(8);
