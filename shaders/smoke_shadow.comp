@@ -61,7 +61,8 @@ RaySegment light_segment(Light light, uint face, vec2 uv) {
                       (sun.world_from_clip * vec4(ndc, depth, 1.0)).xyz);
   }
   const vec3 far = light.position_world + face_ray(face, uv) * min(kShadowNear / max(depth, 1e-6), light.range);
-  return RaySegment(light.position_world, by_voxels ? first_solid(light.position_world, far) : far);
+  const vec3 to = by_voxels ? first_solid(light.position_world, far) : far, along = to - light.position_world;
+  return RaySegment(light.position_world + along * min(light.radius / max(length(along), 1e-6), 1.0), to);
 }
 
 /// A cone around the rays through a rectangle of a face.

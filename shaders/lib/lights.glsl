@@ -6,7 +6,7 @@
 struct Incident {
   vec3 irradiance;  // on a surface that faces the light
   vec3 to_light;    // unit
-  float distance;   // to the light [m]
+  float distance;   // to the light, or to the edge of its ball [m]
 };
 
 /// Unshadowed light: the inverse square law, with a smooth window that reaches 0 at the light's range
@@ -21,11 +21,12 @@ Incident light_at(Light light, vec3 position_world) {
   }
   const vec3 to_light = light.position_world - position_world;
   const float d2 = max(dot(to_light, to_light), 1e-4), one_over = inversesqrt(d2);
-  incident.distance = d2 * one_over;
+  incident.distance = max(d2 * one_over - light.radius, 0.0);
   incident.to_light = to_light * one_over;
   const float x = d2 / (light.range * light.range);
   const float window = clamp(1.0 - x * x, 0.0, 1.0);
-  incident.irradiance = light.intensity * (window * window / max(d2, 0.01));
+  const float nearest = max(light.radius * light.radius, 0.01);
+  incident.irradiance = light.intensity * (window * window / max(d2, nearest));
   if (light.kind == kLightSpot) {
     incident.irradiance *= smoothstep(light.cos_outer, light.cos_inner, dot(-incident.to_light, light.direction));
   }

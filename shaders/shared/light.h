@@ -24,7 +24,9 @@ struct Light {
   float cos_outer;
   // First layer in the shadow array (six faces, one for a directional light), or one of the constants above.
   uint shadow_layer;
-  vec2 padding;  // to a multiple of 16 bytes
+  float radius;   // of a ball that shines like the point [m]: inside of it all is lit as at its edge, and nothing casts
+                  // shadows
+  float padding;  // to a multiple of 16 bytes
 };
 SHARED_SIZE(Light, 64);
 

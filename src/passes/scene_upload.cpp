@@ -145,7 +145,8 @@ std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights
                     light.cos_inner,
                     light.cos_outer,
                     shared::kNoShadow,
-                    {}};
+                    0,
+                    0};
     const bool directional = light.kind == scene::LightKind::directional;
     const std::uint32_t layers = directional ? 1 : 6;
     // One orthographic view: only the first directional light casts shadows.

@@ -14,6 +14,7 @@ struct FacePart {
   glm::vec2 low{1e30f}, high{-1e30f};  // uv
   float metres = 0;                    // that the whole face spans at the far end of the smoke
   float coarseness = 1;                // how much larger its texels may be than those of the brightest light
+  bool is_soft = false;                // of a light that is a ball
   bool empty() const { return low.x >= high.x || low.y >= high.y; }
 };
 
@@ -91,8 +92,10 @@ std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const 
     for (std::uint32_t face = 0; face < faces.size(); ++face) {
       if (faces[face].empty()) continue;
       faces[face].index = shared::kFacesPerLight * i + face;
+      faces[face].is_soft = light.radius > 0;
       parts.push_back(faces[face]);
-      irradiance.push_back(sun ? intensity : intensity / std::max(nearest * nearest, 0.25f));
+      const float at_nearest = sun ? intensity : intensity / std::max(nearest * nearest, 0.25f);
+      irradiance.push_back(light.radius > 0 ? 0 : at_nearest);
     }
   }
   // A light of a sixteenth of the brightest has half the resolution.
@@ -104,11 +107,13 @@ std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const 
 
 /// Rectangles row by row, the highest first; false where they do not fit.
 bool pack(std::span<const FacePart> parts, float texel_metres, glm::uvec2 atlas, SmokeShadowPlan& plan) {
-  constexpr float kLeastScale = 16, kMostScale = 2048;
+  // Texels of a whole face. The shadows of a ball have no edges.
+  constexpr float kLeastScale = 16, kMostScale = 2048, kSoftScale = 8;
   std::vector<std::pair<shared::SmokeShadowFace, const FacePart*>> rectangles;
   for (const FacePart& part : parts) {
     shared::SmokeShadowFace face{};
     face.scale = std::clamp(part.metres / (texel_metres * part.coarseness), kLeastScale, kMostScale);
+    if (part.is_soft) face.scale = kSoftScale;
     face.size = glm::uvec2(glm::ceil((part.high - part.low) * face.scale)) + 2u;
     rectangles.emplace_back(face, &part);
   }

@@ -70,7 +70,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.environment.flashes = scenario::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
     input.level.grenades.push_back(grenade_matrix(grenade));
-  input.volumes = volume_inputs(scenario, seconds, wait);
+  add_volumes(scenario, seconds, wait, input);
   const auto hidden = simulation.hidden_objects();
   input.level.hidden_objects.assign(hidden.begin(), hidden.end());
   return input;

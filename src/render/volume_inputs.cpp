@@ -1,5 +1,10 @@
 #include "render/volume_inputs.hpp"
 
+#include <algorithm>
+#include <functional>
+
+#include "render/glow_lights.hpp"
+
 namespace brume::render {
 namespace {
 
@@ -33,16 +38,21 @@ planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenar
 
 }  // namespace
 
-std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scenario, double seconds,
-                                                 scenario::VolumeWait wait) {
-  if (!scenario.volumes) return {};
+void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::VolumeWait wait,
+                 planning::FrameInput& input) {
+  if (!scenario.volumes) return;
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
-  std::vector<planning::VolumeInput> inputs;
   const std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
-  for (std::size_t i = 0; i < volumes.size(); ++i)
-    if (volumes[i].frame)
-      inputs.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i)));
-  return inputs;
+  std::vector<shared::Light> lights;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (!volumes[i].frame) continue;
+    input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i)));
+    for (const shared::Light& light : glow_lights(options[i], volumes[i])) lights.push_back(light);
+  }
+  // A frame takes a limited number of them.
+  std::ranges::stable_sort(lights, std::greater(), &shared::Light::range);
+  std::vector<shared::Light>& flashes = input.environment.flashes;
+  flashes.insert(flashes.end(), lights.begin(), lights.end());
 }
 
 }  // namespace brume::render

@@ -6,8 +6,9 @@
 
 namespace brume::render {
 
-/// The volumes at a time [s], which stay loaded until another one is read; none without Scenario::volumes.
-std::vector<planning::VolumeInput> volume_inputs(const scenario::Scenario& scenario, double seconds,
-                                                 scenario::VolumeWait wait);
+/// Adds the volumes at a time [s], which stay loaded until another one is read, and the light of what glows
+/// in them; nothing without Scenario::volumes.
+void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::VolumeWait wait,
+                 planning::FrameInput& input);
 
 }  // namespace brume::render

@@ -134,6 +134,7 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
     if (!hot) return hot.failure();
     warn_of_level(file, *heat, *hot);
     if (hot->high > 0) frame->heat = std::move(*hot);
+    if (frame->heat) frame->glow = grids::find_glow(*frame->heat, frame->density);
   }
   if (color) {
     auto colors = grids::make_color_bricks(*color, frame->density);

@@ -11,6 +11,7 @@
 #include "core/box.hpp"
 #include "core/error.hpp"
 #include "grids/brick_volume.hpp"
+#include "grids/glow.hpp"
 #include "scene/timeline.hpp"
 
 namespace brume::scenario {
@@ -19,6 +20,7 @@ namespace brume::scenario {
 struct VolumeFrame {
   grids::BrickVolume density;
   std::optional<grids::BrickVolume> heat;
+  std::vector<grids::GlowBall> glow;             ///< Of the heat.
   std::unique_ptr<volume::SparseVolume> colors;  ///< As grids::make_color_bricks; null: none.
   double mean_density = 0;                       ///< Of the active voxels.
   double filled_volume = 0;                      ///< That all active voxels take, in the file's world.

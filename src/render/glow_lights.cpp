@@ -1,0 +1,53 @@
+#include "render/glow_lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planning/blackbody.hpp"
+
+namespace brume::render {
+namespace {
+
+constexpr float kLeastIntensity = 0.01f;
+
+shared::Light light_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
+                       const grids::GlowBall& ball) {
+  const scenario::VolumeFrame& frame = *volume.frame;
+  const double voxel_volume = std::abs(glm::determinant(glm::dmat3(glm::dmat4(volume.world_from_heat))));
+  const double radius = ball.radius * std::cbrt(voxel_volume);
+  const double kelvin = double{options.kelvin} * double{frame.heat->unit};
+  const double ratio = kelvin / double{planning::kUnitGlow};
+
+  // Radiance per metre, summed over the ball [W/sr], in the colour of its mean temperature.
+  const double glow =
+      double{options.extinction} * double{options.emission} * std::pow(ratio, 4) * ball.fourth;
+  const glm::vec3 color = planning::blackbody_color(static_cast<float>(kelvin * ball.value));
+  const double luminance = std::pow(ratio * ball.value, 4);
+  const double extinction = double{options.extinction} * double{frame.density.unit} * ball.density;
+  const double leaves = grids::escape_from_ball(extinction * radius);
+
+  shared::Light light{};
+  light.kind = shared::kLightPoint;
+  light.position_world = glm::vec3(glm::dmat4(volume.world_from_heat) * glm::dvec4(ball.middle, 1));
+  light.radius = static_cast<float>(radius);
+  if (luminance > 0) light.intensity = color * static_cast<float>(glow * voxel_volume * leaves / luminance);
+  light.range = shared::light_range(std::max({light.intensity.r, light.intensity.g, light.intensity.b}));
+  light.direction = {0, -1, 0};
+  light.shadow_layer = shared::kShadowByVoxels;
+  return light;
+}
+
+}  // namespace
+
+std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options,
+                                       const scenario::VolumeAt& volume) {
+  std::vector<shared::Light> lights;
+  if (!volume.frame || !volume.frame->heat || options.emission <= 0) return lights;
+  for (const grids::GlowBall& ball : volume.frame->glow) {
+    const shared::Light light = light_of(options, volume, ball);
+    if (light.range > shared::light_range(kLeastIntensity)) lights.push_back(light);
+  }
+  return lights;
+}
+
+}  // namespace brume::render

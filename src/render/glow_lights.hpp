@@ -1,0 +1,15 @@
+// The light of flames: that of what glows in volumes, on all around it.
+#pragma once
+
+#include <vector>
+
+#include "scenario/volumes.hpp"
+#include "shared/light.h"
+
+namespace brume::render {
+
+/// A light for each ball of glow in a volume (grids::find_glow), none of less than 0.01 W/sr. Its intensity
+/// is that of all that the ball emits, less what a homogeneous ball absorbs itself.
+std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume);
+
+}  // namespace brume::render

@@ -1,0 +1,90 @@
+// Light of flames: its power against that of a transparent and of an opaque ball.
+#include "render/glow_lights.hpp"
+
+#include <gtest/gtest.h>
+
+#include "grids/generate.hpp"
+#include "planning/blackbody.hpp"
+
+namespace brume::render {
+namespace {
+
+constexpr double kRadius = 1.5;  // [m]
+
+/// A ball that is dense and as hot as the options say, 0.125 m a voxel, moved and turned.
+scenario::VolumeAt hot_ball() {
+  grids::CloudSettings settings;
+  settings.kind = grids::CloudKind::sphere;
+  settings.edge = 32;
+  settings.voxel_size = 0.125;
+  settings.radius = kRadius;
+  settings.edge_width = 0;
+  const grids::Grid grid = grids::generate_cloud(settings);
+  auto frame = std::make_shared<scenario::VolumeFrame>();
+  frame->density = std::move(grids::make_brick_volume(grid)).value_or_throw();
+  frame->heat = std::move(grids::make_brick_volume(grid)).value_or_throw();
+  frame->glow = grids::find_glow(*frame->heat, frame->density);
+  scenario::VolumeAt at;
+  at.frame = frame;
+  at.world_from_density = at.world_from_heat = glm::mat4(frame->heat->world_from_voxel);
+  return at;
+}
+
+scene::VolumeOptions options_of(float extinction) {
+  scene::VolumeOptions options;
+  options.extinction = extinction;
+  options.kelvin = planning::kUnitGlow;
+  options.emission = 2;
+  return options;
+}
+
+/// Of all lights together [W/sr]; red, which no eye's curve cuts off.
+double intensity_of(const std::vector<shared::Light>& lights) {
+  double sum = 0;
+  for (const shared::Light& light : lights) sum += double{light.intensity.r};
+  return sum;
+}
+
+const double kRadiance = 2 * double{planning::blackbody_color(planning::kUnitGlow).r};
+
+// Every point is seen: radiance per metre times volume.
+TEST(GlowLights, OfATransparentBallHaveThePowerOfItsVolume) {
+  const double volume = 4.0 / 3 * 3.14159265 * kRadius * kRadius * kRadius;
+  const auto lights = glow_lights(options_of(0.02f), hot_ball());
+  ASSERT_FALSE(lights.empty());
+  // The ball is of voxels, and absorbs 3/4 of extinction times radius.
+  EXPECT_NEAR(intensity_of(lights), 0.02 * kRadiance * volume, 0.05 * 0.02 * kRadiance * volume);
+}
+
+// Its surface is seen: radiance times the area of a disc. Divided into balls it has more surface: 4 of a
+// quarter of the volume have 4^(1/3) = 1.59 times as much.
+TEST(GlowLights, OfAnOpaqueBallHaveThePowerOfItsSurface) {
+  const double disc = 3.14159265 * kRadius * kRadius;
+  const double found = intensity_of(glow_lights(options_of(40), hot_ball()));
+  EXPECT_GT(found, 0.9 * kRadiance * disc);
+  EXPECT_LT(found, 1.7 * kRadiance * disc);
+}
+
+TEST(GlowLights, LieInTheBall) {
+  const scenario::VolumeAt ball = hot_ball();
+  const glm::vec3 middle(0);  // as clouds are made
+  for (const shared::Light& light : glow_lights(options_of(1), ball)) {
+    EXPECT_LT(glm::distance(light.position_world, middle) + light.radius, 1.5f * static_cast<float>(kRadius));
+    EXPECT_GT(light.range, 1);
+  }
+}
+
+TEST(GlowLights, AreNoneWhereNothingGlows) {
+  scenario::VolumeAt ball = hot_ball();
+  scene::VolumeOptions dark = options_of(1);
+  dark.emission = 0;
+  EXPECT_TRUE(glow_lights(dark, ball).empty());
+  scene::VolumeOptions cold = options_of(1);
+  cold.kelvin = 300;
+  EXPECT_TRUE(glow_lights(cold, ball).empty());
+  ball.frame.reset();
+  EXPECT_TRUE(glow_lights(options_of(1), ball).empty());
+}
+
+}  // namespace
+}  // namespace brume::render
