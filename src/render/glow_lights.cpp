@@ -9,6 +9,9 @@ namespace brume::render {
 namespace {
 
 constexpr float kLeastIntensity = 0.01f;
+/// Beyond these, where colours no longer change and nothing is to be seen for light, floats would overflow
+/// [K, W/sr].
+constexpr double kMostKelvin = 1e5, kMostIntensity = 1e9;
 
 shared::Light light_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
                        const grids::GlowBall& ball) {
@@ -21,8 +24,9 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
   // Radiance per metre, summed over the ball [W/sr], in the colour of its mean temperature.
   const double glow =
       double{options.extinction} * double{options.emission} * std::pow(ratio, 4) * ball.fourth;
-  const glm::vec3 color = planning::blackbody_color(static_cast<float>(kelvin * ball.value));
-  const double luminance = std::pow(ratio * ball.value, 4);
+  const double mean = std::min(kelvin * ball.value, kMostKelvin);
+  const glm::dvec3 color = glm::dvec3(planning::blackbody_color(static_cast<float>(mean))) /
+                           std::pow(mean / double{planning::kUnitGlow}, 4);
   const double extinction = double{options.extinction} * double{frame.density.unit} * ball.density;
   const double leaves = grids::escape_from_ball(extinction * radius);
 
@@ -30,7 +34,7 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
   light.kind = shared::kLightPoint;
   light.position_world = glm::vec3(glm::dmat4(volume.world_from_heat) * glm::dvec4(ball.middle, 1));
   light.radius = static_cast<float>(radius);
-  if (luminance > 0) light.intensity = color * static_cast<float>(glow * voxel_volume * leaves / luminance);
+  light.intensity = glm::vec3(color * std::min(glow * voxel_volume * leaves, kMostIntensity));
   light.range = shared::light_range(std::max({light.intensity.r, light.intensity.g, light.intensity.b}));
   light.direction = {0, -1, 0};
   light.shadow_layer = shared::kShadowByVoxels;
@@ -42,7 +46,7 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
 std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options,
                                        const scenario::VolumeAt& volume) {
   std::vector<shared::Light> lights;
-  if (!volume.frame || !volume.frame->heat || options.emission <= 0) return lights;
+  if (!volume.frame || !volume.frame->heat || options.emission <= 0 || options.kelvin <= 0) return lights;
   for (const grids::GlowBall& ball : volume.frame->glow) {
     const shared::Light light = light_of(options, volume, ball);
     if (light.range > shared::light_range(kLeastIntensity)) lights.push_back(light);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "grids/generate.hpp"
 #include "planning/blackbody.hpp"
 
@@ -72,6 +75,21 @@ TEST(GlowLights, LieInTheBall) {
     EXPECT_LT(glm::distance(light.position_world, middle) + light.radius, 1.5f * static_cast<float>(kRadius));
     EXPECT_GT(light.range, 1);
   }
+}
+
+TEST(GlowLights, AreFiniteForAnyTemperature) {
+  const scenario::VolumeAt ball = hot_ball();
+  for (const float kelvin : {0.0f, 1e-30f, 1.0f, 399.0f, 401.0f, 1e6f, 1e38f})
+    for (const float extinction : {1e-30f, 1.0f, 1e12f}) {
+      scene::VolumeOptions options = options_of(extinction);
+      options.kelvin = kelvin;
+      options.emission = 1e6f;
+      for (const shared::Light& light : glow_lights(options, ball)) {
+        EXPECT_TRUE(std::isfinite(light.intensity.r + light.intensity.g + light.intensity.b + light.range))
+            << kelvin;
+        EXPECT_GE(std::min({light.intensity.r, light.intensity.g, light.intensity.b}), 0) << kelvin;
+      }
+    }
 }
 
 TEST(GlowLights, AreNoneWhereNothingGlows) {
