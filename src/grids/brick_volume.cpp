@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
@@ -173,20 +174,31 @@ struct Levels {
   }
 };
 
+/// As glm::packHalf1x16, which is slow, of a value >= 0.
+std::uint16_t half_of(float value) {
+  constexpr float kLeastNormal = 6.103515625e-5f, kMostNormal = 65504;
+  if (!(value >= kLeastNormal && value <= kMostNormal)) return glm::packHalf1x16(value);
+  // Rounds the mantissa to 10 bits, and changes the bias of the exponent from 127 to 15.
+  return static_cast<std::uint16_t>(((std::bit_cast<std::uint32_t>(value) + 0x1000u) >> 13) - (112u << 10));
+}
+
 /// The texels of a brick with its apron.
 void fill_texels(const Level& level, float per_value, glm::ivec3 brick, std::span<std::uint16_t> texels) {
   std::array<std::uint32_t, 27> around{};
   for (int n = 0; n < 27; ++n) around[static_cast<std::size_t>(n)] = level.index.at(neighbour(brick, n));
-  std::size_t out = 0;
+  const auto set = [&](std::size_t texel, std::uint32_t from, std::size_t voxel) {
+    if (from != volume::PageTable::kNoSlot)  // else the texel is 0
+      texels[texel] = half_of(per_value * level.numbers.at(from, voxel));
+  };
   for (int z = -1; z <= 8; ++z)
-    for (int y = -1; y <= 8; ++y)
-      for (int x = -1; x <= 8; ++x, ++out) {
-        const glm::ivec3 p(x, y, z), side = (p >> 3) + 1, q = p & 7;
-        const std::uint32_t from = around[static_cast<std::size_t>(side.x + 3 * side.y + 9 * side.z)];
-        if (from == volume::PageTable::kNoSlot) continue;  // texels are 0
-        const float value = level.numbers.at(from, static_cast<std::size_t>(q.x + 8 * (q.y + 8 * q.z)));
-        texels[out] = glm::packHalf1x16(per_value * value);
-      }
+    for (int y = -1; y <= 8; ++y) {
+      const auto sides = static_cast<std::size_t>(3 * ((y >> 3) + 1) + 9 * ((z >> 3) + 1));
+      const auto voxel = static_cast<std::size_t>(8 * ((y & 7) + 8 * (z & 7)));
+      const auto texel = static_cast<std::size_t>(10 * (y + 1 + 10 * (z + 1)));
+      set(texel, around[sides], voxel + 7);
+      for (std::size_t x = 0; x < 8; ++x) set(texel + 1 + x, around[sides + 1], voxel + x);
+      set(texel + 9, around[sides + 2], voxel);
+    }
 }
 
 /// Range, sum and distribution of the numbers of a level, and the box around all that filtering carries them
@@ -313,11 +325,14 @@ ValueRange filtered_range(std::span<const std::uint16_t, shared::kTexelsPerBrick
   std::array<double, shared::kTexelsPerBrick> values;
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = double{glm::unpackHalf1x16(texels[i])};
   // The first and last texel along each axis become the values at the faces.
-  for (const std::size_t stride : {std::size_t{1}, std::size_t{10}, std::size_t{100}})
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::size_t along = i / stride % 10;
-      if (along == 0) values[i] = 0.5 * (values[i] + values[i + stride]);
-      if (along == 9) values[i] = 0.5 * (values[i] + values[i - stride]);
+  struct Strides {
+    std::size_t along, u, v;
+  };
+  for (const auto& [along, u, v] : {Strides{1, 10, 100}, Strides{10, 1, 100}, Strides{100, 1, 10}})
+    for (std::size_t line = 0; line < 100; ++line) {
+      double* const first = &values[line % 10 * u + line / 10 * v];
+      first[0] = 0.5 * (first[0] + first[along]);
+      first[9 * along] = 0.5 * (first[9 * along] + first[8 * along]);
     }
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   ValueRange range{static_cast<float>(*low), static_cast<float>(*high)};

@@ -11,8 +11,6 @@
 namespace brume::grids {
 namespace {
 
-constexpr float kLargestValue = 1e30f;
-
 /// Voxels of the ramp behind the surface of a level set, as sdfToFogVolume's default.
 constexpr double kFogRamp = 3;
 
@@ -30,14 +28,17 @@ std::size_t voxel_number(glm::ivec3 v) {
 }  // namespace
 
 NumberReader::NumberReader(const Grid& grid)
-    : type_(grid.type), bytes_(bytes_of(grid.type)), level_set_(grid.grid_class == GridClass::level_set) {
+    : type_(grid.type),
+      bytes_(bytes_of(grid.type)),
+      level_set_(grid.grid_class == GridClass::level_set),
+      is_plain_(type_ == ValueType::float32 && !level_set_) {
   ramp_ = kFogRamp * std::cbrt(std::abs(glm::determinant(glm::dmat3(grid.world_from_index))));
 }
 
-float NumberReader::at(const std::byte* values, std::size_t index) const {
-  double value = number(values + index * bytes_);
+float NumberReader::converted(const std::byte* at) const {
+  double value = number(at);
   if (level_set_) value = std::min(-value / ramp_, 1.0);
-  return value > 0 ? static_cast<float>(std::min<double>(value, kLargestValue)) : 0.0f;
+  return value > 0 ? static_cast<float>(std::min<double>(value, kLargest)) : 0.0f;
 }
 
 double NumberReader::number(const std::byte* at) const {

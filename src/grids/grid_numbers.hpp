@@ -2,7 +2,9 @@
 // Internal to this folder; brick_volume.hpp is the interface.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <glm/glm.hpp>
 #include <memory>
 #include <vector>
@@ -19,14 +21,22 @@ using BrickNumbers = std::array<float, kBrickVoxels>;
 class NumberReader {
  public:
   explicit NumberReader(const Grid& grid);
-  float at(const std::byte* values, std::size_t index) const;
+  float at(const std::byte* values, std::size_t index) const {
+    if (!is_plain_) return converted(values + index * bytes_);
+    float value = 0;
+    std::memcpy(&value, values + index * sizeof value, sizeof value);
+    return value > 0 ? std::min(value, kLargest) : 0.0f;
+  }
 
  private:
+  static constexpr float kLargest = 1e30f;
+  float converted(const std::byte* at) const;
   double number(const std::byte* at) const;
 
   ValueType type_;
   std::size_t bytes_;
   bool level_set_;
+  bool is_plain_;  // float32, as they are: most grids
   double ramp_ = 1;
 };
 
