@@ -90,7 +90,8 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   timeline.sky.ambient = {0.20f, 0.26f, 0.36f};
   const float dimmed = scene::dim_sky(timeline.sky, timeline.sun->elevation);
   timeline.exposure = options.exposure.value_or(frame.heat ? 0 : kVolumeExposure - std::log2(dimmed));
-  timeline.tone = options.tone.value_or(timeline.tone);
+  // Clipped flames are yellow; compressed ones are pink.
+  timeline.tone = options.tone.value_or(frame.heat ? scene::ToneCurve::standard : scene::ToneCurve::neutral);
   if (frame.heat) timeline.ground = 0.0f;
   timeline.grid.voxel =
       options.voxel.value_or(std::clamp(extent * volume.scale / kVoxelsAcross, 0.015625f, 64.0f));

@@ -15,7 +15,7 @@ namespace brume::scenario {
 /// - extinction: an optical depth of kViewDepth through a ball of the volume's size, whatever its units and
 ///   opacity curve;
 /// - light: a sun before a blue sky, exposed for white clouds;
-/// - ground: below a volume that glows.
+/// - ground: below a volume that glows, whose tone curve is ToneCurve::standard: flames stay yellow.
 ///
 /// Smoke is thrown only where the options say so.
 scene::Timeline prepare_volume_view(const std::filesystem::path& path, const VolumeFrame& frame,
