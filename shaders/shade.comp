@@ -100,7 +100,9 @@ void add_lights(uint first, uint lights, bool lit, Surface surface, vec3 view, i
       const bool by_voxels = kVoxelShadows != 0u && light.shadow_layer == kShadowByVoxels;
       const float off = by_voxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
       const vec3 off_world = surface.position_world + off * surface.normal;
-      on_face = face_coordinates(light, sun.clip_from_world, off_world);
+      // The smoke's shadow has no surfaces of its own: off the surface, a light close to it would be on the other side.
+      on_face =
+          face_coordinates(light, sun.clip_from_world, by_voxels ? surface.position_world : off_world);
       visibility = by_voxels ? segment_visibility(off_world, light.position_world)
                              : shadow_at(shadow_maps, light, on_face);
     } while (lights != 0u && !subgroupAny(lit && visibility > 0.0));

@@ -276,7 +276,8 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
 }
 
 // What --raycast cannot draw.
-void check_raycast(const RenderOptions& options, const scene::Timeline& timeline) {
+void check_raycast(const RenderOptions& options, const scenario::Scenario& scenario) {
+  const scene::Timeline& timeline = scenario.timeline;
   if (options.raycast.empty()) return;
   if (timeline.volumes.empty())
     throw Error(ErrorCode::usage, "--raycast: " + options.input + " has no volume; remove the option");
@@ -284,6 +285,9 @@ void check_raycast(const RenderOptions& options, const scene::Timeline& timeline
     if (!volume.opacity.empty() || !volume.color_map.empty() || volume.glow > 0)
       throw Error(ErrorCode::usage, "--raycast: draws no transfer functions; remove the option, or that of " +
                                         volume.file.filename().string());
+  for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
+    if (scenario.volumes && scenario.volumes->first_frame(i).heat)
+      log_warning("--raycast draws nothing that glows: " + timeline.volumes[i].file.filename().string());
   if (!timeline.smokes.empty())
     log_warning("--raycast draws volumes alone: the smoke of the timeline is not shown");
 }
@@ -305,7 +309,7 @@ void render(const Arguments& arguments, const RenderOptions& options, CommonOpti
     scenario.volumes->limit(render::volume_room(context, std::uint64_t{options.volume_memory} << 20))
         .value_or_throw();
   auto simulation = scenario::Simulation::create(scenario).value_or_throw();
-  check_raycast(options, scenario.timeline);
+  check_raycast(options, scenario);
   const Json smokes = report_timeline(scenario, simulation->report_smokes(scenario));
   stop_if_interrupted();
   std::optional<Orbit> orbit;

@@ -20,12 +20,12 @@ Incident light_at(Light light, vec3 position_world) {
     return incident;
   }
   const vec3 to_light = light.position_world - position_world;
-  const float d2 = max(dot(to_light, to_light), 1e-4), one_over = inversesqrt(d2);
+  const float d2 = max(dot(to_light, to_light), light.radius > 0.0 ? 1e-12 : 1e-4), one_over = inversesqrt(d2);
   incident.distance = max(d2 * one_over - light.radius, 0.0);
   incident.to_light = to_light * one_over;
   const float x = d2 / (light.range * light.range);
   const float window = clamp(1.0 - x * x, 0.0, 1.0);
-  const float nearest = max(light.radius * light.radius, 0.01);
+  const float nearest = light.radius > 0.0 ? light.radius * light.radius : 0.01;
   incident.irradiance = light.intensity * (window * window / max(d2, nearest));
   if (light.kind == kLightSpot) {
     incident.irradiance *= smoothstep(light.cos_outer, light.cos_inner, dot(-incident.to_light, light.direction));

@@ -137,7 +137,7 @@ float uniform_number(const Level& level, glm::ivec3 brick) {
 /// A density and what glows beside it, halved together.
 struct Levels {
   Level density, also;
-  bool may_be_uniform = true;
+  bool may_be_uniform = true, by_power = false;
   std::vector<glm::ivec3> bricks;  ///< The sampled ones of both, rising.
   std::vector<float> uniform;      ///< Of each of them its uniform_number.
   int halvings = 0;
@@ -165,8 +165,8 @@ struct Levels {
   void reduce(const Room& room) {
     while (!fit(room) && halvings < kMostLevels) {
       double lost = 0, ignored = 0;
-      density = Level(density.numbers.halved(lost));
-      also = Level(also.numbers.halved(ignored), also.is_filtered);
+      density = Level(density.numbers.halved(by_power, lost));
+      also = Level(also.numbers.halved(by_power, ignored), also.is_filtered);
       // Each level's error counts once per voxel of the file.
       square_error += lost * std::exp2(3 * halvings);
       ++halvings;
@@ -351,6 +351,7 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   Levels levels{Level(GridNumbers(grid)),
                 Level(GridNumbers(options.also ? *options.also : nothing)),
                 options.may_be_uniform,
+                options.glows,
                 {},
                 {}};
   levels.reduce({options.max_bricks, options.max_pages, kNumbersPerBrick * options.max_bricks});
@@ -363,11 +364,15 @@ Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions
   return out;
 }
 
-BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks) {
+BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks, bool glows) {
   BRUME_ASSERT(max_bricks >= kFewestVolumeBricks, std::to_string(max_bricks));
   // Where the fine one has bricks of zeros, something else may glow.
-  Levels levels{
-      Level(GridNumbers(*fine.volume, false)), Level(GridNumbers(*fine.volume, true), false), true, {}, {}};
+  Levels levels{Level(GridNumbers(*fine.volume, false)),
+                Level(GridNumbers(*fine.volume, true), false),
+                true,
+                glows,
+                {},
+                {}};
   levels.reduce({max_bricks, kMostVolumePages, max_bricks});
   const shared::VolumeLayout& layout = fine.volume->layout();
   const auto per_voxel = static_cast<float>(std::exp2(-levels.halvings));

@@ -28,6 +28,9 @@ struct BrickVolumeOptions {
   const Grid* also = nullptr;
   /// Whether bricks of one value are uniform (SparseVolume::uniform_bricks): they take no memory.
   bool may_be_uniform = true;
+  /// Whether lower resolutions keep the mean of the fourth powers, that is the power of what glows, instead
+  /// of the mean.
+  bool glows = false;
 };
 
 /// What the values in a brick lie between.
@@ -65,8 +68,9 @@ struct BrickVolume {
 Result<BrickVolume> make_brick_volume(const Grid& grid, const BrickVolumeOptions& options = {});
 
 /// The same at the first lower resolution that takes at most `max_bricks` bricks (at least
-/// kFewestVolumeBricks), in the same unit and bounds: means of the stored halves.
-BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks);
+/// kFewestVolumeBricks), in the same unit and bounds: means of the stored halves, or with `glows` those of
+/// their fourth powers.
+BrickVolume make_preview(const BrickVolume& fine, std::uint32_t max_bricks, bool glows = false);
 
 /// The range of what filtering gives in a brick whose texels these are (SparseVolume::channel). Filtering is
 /// linear along each axis between texel centres, and the faces of a brick lie in the middle between two: its

@@ -1,6 +1,7 @@
 #include "grids/glow.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <optional>
@@ -18,35 +19,16 @@ struct Moments {
   double weight = 0, values = 0, densities = 0;
   glm::dvec3 places{0}, squares{0};
 
-  void add(const Moments& other) {
-    weight += other.weight;
-    values += other.values;
-    densities += other.densities;
-    places += other.places;
-    squares += other.squares;
+  void add(const Moments& other, double part) {
+    weight += part * other.weight;
+    values += part * other.values;
+    densities += part * other.densities;
+    places += part * other.places;
+    squares += part * other.squares;
   }
   glm::dvec3 middle() const { return places / weight; }
-  glm::dvec3 variance() const { return glm::max(squares / weight - middle() * middle(), 0.0); }
-};
-
-int longest_axis(glm::dvec3 v) {
-  return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2;
-}
-
-/// Bricks that are next to each other in a list, and the sums over them.
-struct Part {
-  std::span<Moments> bricks;
-  Moments sum;
-
-  explicit Part(std::span<Moments> of) : bricks(of) {
-    for (const Moments& brick : bricks) sum.add(brick);
-  }
-  /// How much there is to gain from a division; 0: it is as small as a brick.
-  double spread() const {
-    const glm::dvec3 variance = sum.variance();
-    const double most = variance[longest_axis(variance)];
-    return bricks.size() > 1 && most > 0.25 * kBrickEdge * kBrickEdge ? sum.weight * most : 0;
-  }
+  /// A voxel's own is 1/12.
+  glm::dvec3 variance() const { return glm::max(squares / weight - middle() * middle(), 0.0) + 1.0 / 12; }
 };
 
 /// The value of the density at a point of its voxel space.
@@ -107,34 +89,73 @@ std::vector<Moments> bricks_of(const BrickVolume& heat, const BrickVolume& densi
   return bricks;
 }
 
-GlowBall ball_of(const Moments& sum) {
-  const glm::dvec3 variance = sum.variance();
-  // A ball's mean squared distance from its middle is 3/5 of its radius squared; a voxel's is 1/4.
-  const double squared = variance.x + variance.y + variance.z + 0.25;
-  return {sum.middle(), std::sqrt(squared / 0.6), sum.weight, sum.values / sum.weight,
+/// How glow is divided into halves along each axis: not at a plane, but over a slope, so that nothing jumps
+/// where it moves across. The plane and the slope are those of two points with the same mean, deviation and
+/// skewness: the plane is halfway between them, whatever their weights.
+struct Division {
+  glm::dvec3 mean, plane, reach;  // reach: half the distance of the points
+  glm::dvec3 apart;               // 0: the axis has no halves; 1: they are in their own middles
+
+  Division(const Moments& all, const std::vector<Moments>& bricks) : mean(all.middle()) {
+    glm::dvec3 cubes(0);
+    for (const Moments& brick : bricks) {
+      const glm::dvec3 off = brick.middle() - mean;
+      cubes += brick.weight * (off * off * off + 3.0 * off * brick.variance());
+    }
+    const glm::dvec3 deviation = glm::sqrt(all.variance());
+    const glm::dvec3 skewness = cubes / (all.weight * deviation * deviation * deviation);
+    plane = mean + 0.5 * skewness * deviation;
+    reach = 0.5 * deviation * glm::sqrt(4.0 + skewness * skewness);
+    const double longest = std::max({reach.x, reach.y, reach.z});
+    // Neither short axes nor those of a few voxels.
+    apart = glm::smoothstep(glm::dvec3(0.5), glm::dvec3(0.8), reach / longest) *
+            glm::smoothstep(glm::dvec3(2), glm::dvec3(4), reach);
+  }
+  /// The part of a point that an octant has, whose bit is set where it is the high half of an axis.
+  double part(glm::dvec3 p, std::size_t octant) const {
+    const glm::dvec3 high = glm::clamp(0.5 + (p - plane) / reach, 0.0, 1.0);
+    double product = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool is_high = (octant >> axis & 1) != 0;
+      product *= apart[axis] > 0 ? (is_high ? high[axis] : 1 - high[axis]) : (is_high ? 0 : 1);
+    }
+    return product;
+  }
+};
+
+using Octants = std::array<Moments, kMostGlowBalls>;
+
+/// The ball of an octant. Halves that are hardly apart are near the middle of both.
+GlowBall ball_of(const Octants& octants, std::size_t octant, const Division& division) {
+  const Moments& sum = octants[octant];
+  const glm::dvec3 own = sum.middle();
+  glm::dvec3 middle = own;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (division.apart[axis] <= 0) continue;
+    Moments both = sum;
+    both.add(octants[octant ^ (std::size_t{1} << axis)], 1);
+    middle[axis] = glm::mix(both.middle()[axis], own[axis], division.apart[axis]);
+  }
+  // A ball's mean squared distance from its middle is 3/5 of its radius squared.
+  const glm::dvec3 squared = sum.variance() + (own - middle) * (own - middle);
+  return {middle, std::sqrt((squared.x + squared.y + squared.z) / 0.6), sum.weight, sum.values / sum.weight,
           sum.densities / sum.weight};
 }
 
 }  // namespace
 
 std::vector<GlowBall> find_glow(const BrickVolume& heat, const BrickVolume& density) {
-  std::vector<Moments> bricks = bricks_of(heat, density);
+  const std::vector<Moments> bricks = bricks_of(heat, density);
   if (bricks.empty()) return {};
-  std::vector<Part> parts{Part(bricks)};
-  while (parts.size() < kMostGlowBalls) {
-    const auto widest = std::ranges::max_element(parts, {}, &Part::spread);
-    if (widest->spread() <= 0) break;
-    const int axis = longest_axis(widest->sum.variance());
-    const double middle = widest->sum.middle()[axis];
-    const std::span<Moments> all = widest->bricks;
-    const auto above =
-        std::ranges::partition(all, [&](const Moments& brick) { return brick.middle()[axis] < middle; });
-    if (above.empty() || above.size() == all.size()) break;
-    *widest = Part(all.first(all.size() - above.size()));
-    parts.emplace_back(all.last(above.size()));
-  }
+  Moments all;
+  for (const Moments& brick : bricks) all.add(brick, 1);
+  const Division division(all, bricks);
+  Octants octants;
+  for (std::size_t octant = 0; octant < octants.size(); ++octant)
+    for (const Moments& brick : bricks) octants[octant].add(brick, division.part(brick.middle(), octant));
   std::vector<GlowBall> balls;
-  for (const Part& part : parts) balls.push_back(ball_of(part.sum));
+  for (std::size_t octant = 0; octant < octants.size(); ++octant)
+    if (octants[octant].weight > 1e-9 * all.weight) balls.push_back(ball_of(octants, octant, division));
   return balls;
 }
 

@@ -9,7 +9,7 @@
 
 namespace brume::grids {
 
-inline constexpr std::size_t kMostGlowBalls = 4;
+inline constexpr std::size_t kMostGlowBalls = 8;
 
 /// A part of a grid of heat as a homogeneous ball. What glows at a value v is counted by v^4, as a black body
 /// of that temperature shines.

@@ -118,7 +118,7 @@ void GridNumbers::add_cube(const Cube& cube) {
   sources_.push_back({nullptr, nullptr, nullptr, cube.number});
 }
 
-GridNumbers GridNumbers::halved(double& square_error) const {
+GridNumbers GridNumbers::halved(bool by_power, double& square_error) const {
   // The bricks that share a coarse one, one behind the other.
   std::vector<std::uint32_t> order(at_.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -150,15 +150,17 @@ GridNumbers GridNumbers::halved(double& square_error) const {
         const glm::ivec3 octant = (at_[fine] & 1) * 4;
         for (int voxel = 0; voxel < 64; ++voxel) {
           const glm::ivec3 p(voxel & 3, voxel >> 2 & 3, voxel >> 4);
-          double sum = 0, squares = 0;
+          double sum = 0, squares = 0, fourths = 0;
           for (int corner = 0; corner < 8; ++corner) {
             const glm::ivec3 q = 2 * p + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
             const double value{at(fine, voxel_number(q))};
             sum += value;
             squares += value * value;
+            fourths += value * value * value * value;
           }
-          lost[i] += squares - sum * sum / 8;
-          (*coarse.owned_[i])[voxel_number(octant + p)] = static_cast<float>(sum / 8);
+          const double mean = by_power ? std::sqrt(std::sqrt(fourths / 8)) : sum / 8;
+          lost[i] += squares - 2 * mean * sum + 8 * mean * mean;
+          (*coarse.owned_[i])[voxel_number(octant + p)] = static_cast<float>(mean);
         }
       }
     }

@@ -50,8 +50,9 @@ class GridNumbers {
   /// each of its bricks.
   GridNumbers(const volume::SparseVolume& volume, bool only_presence);
 
-  /// Means over 2^3 voxels. Adds the squares of what they lose to `square_error`.
-  GridNumbers halved(double& square_error) const;
+  /// Means over 2^3 voxels; with `by_power` of fourth powers, whose fourth root is taken. Adds the squares of
+  /// what they lose to `square_error`.
+  GridNumbers halved(bool by_power, double& square_error) const;
 
   /// Bricks, those of all cubes included.
   std::uint64_t brick_count() const;

@@ -1,6 +1,8 @@
 #include "passes/smoke_shadow.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "brume_shaders.hpp"
 
@@ -11,7 +13,6 @@ namespace {
 constexpr std::uint32_t kShadowMedia =
     shared::kMediumSmoke | shared::kMediumVolumes | shared::kMediumTransfer;
 constexpr float kStepMetres = 0.25f;
-constexpr std::uint32_t kAtlasWidth = 1024;
 constexpr std::uint32_t kRayThreads = 256;  // four for each ray of a block
 
 }  // namespace
@@ -31,7 +32,9 @@ SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 ima
   SmokeShadows shadows;
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R16_SFLOAT;
-  info.size = {kAtlasWidth, static_cast<std::uint32_t>(rays / kAtlasWidth), 1};
+  // Nearly square, as the faces are.
+  const std::uint32_t width = std::bit_ceil(static_cast<std::uint32_t>(std::sqrt(rays)));
+  info.size = {width, static_cast<std::uint32_t>(rays / width), 1};
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   shadows.atlas = gpu::Image(context, info);

@@ -15,6 +15,7 @@ struct FacePart {
   float metres = 0;                    // that the whole face spans at the far end of the smoke
   float coarseness = 1;                // how much larger its texels may be than those of the brightest light
   bool is_soft = false;                // of a light that is a ball
+  bool is_sun = false;
   bool empty() const { return low.x >= high.x || low.y >= high.y; }
 };
 
@@ -93,6 +94,7 @@ std::vector<FacePart> find_parts(const SmokeShadowScene& scene, std::span<const 
       if (faces[face].empty()) continue;
       faces[face].index = shared::kFacesPerLight * i + face;
       faces[face].is_soft = light.radius > 0;
+      faces[face].is_sun = sun;
       parts.push_back(faces[face]);
       const float at_nearest = sun ? intensity : intensity / std::max(nearest * nearest, 0.25f);
       irradiance.push_back(light.radius > 0 ? 0 : at_nearest);
@@ -159,10 +161,12 @@ SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<cons
     plan.faces.assign(scene.lights.size() * shared::kFacesPerLight, {});
     return pack(parts, texel_metres, atlas_size, plan);
   };
-  // Larger and larger texels until all fit; beyond 2 m fewer lights.
+  // Larger and larger texels until all fit; beyond 2 m fewer lights, but the sun remains, however large they
+  // are.
   float texel_metres = kFinestSmokeShadow;
+  std::ranges::stable_partition(parts, &FacePart::is_sun);
   while (!try_size(texel_metres)) {
-    if (texel_metres < 2)
+    if (texel_metres < 2 || parts.back().is_sun)
       texel_metres *= 1.2f;
     else
       parts.pop_back();

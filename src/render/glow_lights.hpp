@@ -8,8 +8,10 @@
 
 namespace brume::render {
 
-/// A light for each ball of glow in a volume (grids::find_glow), none of less than 0.01 W/sr. Its intensity
-/// is that of all that the ball emits, less what a homogeneous ball absorbs itself.
-std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume);
+/// A light for each ball of glow in a volume (grids::find_glow) that is seen beyond its edge at an exposure
+/// (View::exposure). Its intensity is that of all that the ball emits, less what a homogeneous ball absorbs
+/// itself.
+std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
+                                       float exposure);
 
 }  // namespace brume::render

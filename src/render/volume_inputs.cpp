@@ -47,7 +47,8 @@ void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::V
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!volumes[i].frame) continue;
     input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i)));
-    for (const shared::Light& light : glow_lights(options[i], volumes[i])) lights.push_back(light);
+    for (const shared::Light& light : glow_lights(options[i], volumes[i], input.view.exposure))
+      lights.push_back(light);
   }
   // A frame takes a limited number of them.
   std::ranges::stable_sort(lights, std::greater(), &shared::Light::range);

@@ -69,7 +69,8 @@ Result<Chosen> choose(GridList grids, const scene::VolumeOptions& options) {
   if (!heat) return heat.failure();
   const auto color = choose_grid(grids, options.color, kColorNames, is_colors);
   if (!color) return color.failure();
-  return Chosen{*density, *heat == *density ? nullptr : *heat, *color};
+  // One grid is both only if the options say so.
+  return Chosen{*density, *heat == *density && options.heat.empty() ? nullptr : *heat, *color};
 }
 
 /// Whether the file says so: Blender's solver names the resolution of its domain.
@@ -84,7 +85,7 @@ void warn_of_level(const fs::path& file, const grids::Grid& grid, const grids::B
   char text[160];
   std::snprintf(text, sizeof text,
                 ": grid %s is shown at 1/%d of its resolution, off by %.2g of its largest value on average; "
-                "it is too large for the device",
+                "it is too large for the device or --volume-memory",
                 grid.name.c_str(), 1 << volume.level,
                 volume.rms_error / std::max(double{volume.high}, 1e-30));
   log_warning(file.string() + text);
@@ -130,7 +131,8 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   frame->density = std::move(*bricks);
   warn_of_level(file, *density, frame->density);
   if (heat) {
-    auto hot = grids::make_brick_volume(*heat, {max_bricks, max_pages});
+    auto hot =
+        grids::make_brick_volume(*heat, {.max_bricks = max_bricks, .max_pages = max_pages, .glows = true});
     if (!hot) return hot.failure();
     warn_of_level(file, *heat, *hot);
     if (hot->high > 0) frame->heat = std::move(*hot);
@@ -182,7 +184,8 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
   if (!frame) return Failure{frame.failure().code, where + file.string() + ": " + frame.failure().message};
   (*frame)->number_grids = std::move(number_grids);
   (*frame)->color_grids = std::move(color_grids);
-  if ((*frame)->density.high <= 0) log_warning(file.string() + ": nothing to see: no voxel is above 0");
+  if ((*frame)->density.high <= 0 && !(*frame)->heat)
+    log_warning(file.string() + ": nothing to see: no voxel is above 0");
   return std::shared_ptr<const VolumeFrame>(std::move(*frame));
 }
 
@@ -203,7 +206,7 @@ std::shared_ptr<const VolumePreview> make_previews(const VolumeFrame& frame) {
   if (frame.density.volume->slot_count() > kPreviewBricks)
     preview->density = grids::make_preview(frame.density, kPreviewBricks);
   if (frame.heat && frame.heat->volume->slot_count() > kPreviewBricks)
-    preview->heat = grids::make_preview(*frame.heat, kPreviewBricks);
+    preview->heat = grids::make_preview(*frame.heat, kPreviewBricks, true);
   return preview;
 }
 

@@ -45,18 +45,45 @@ std::function<float(glm::ivec3)> ball(glm::dvec3 middle, double radius, float va
   return [=](glm::ivec3 at) { return glm::distance(glm::dvec3(at) + 0.5, middle) < radius ? value : 0.0f; };
 }
 
+/// Sum, middle and radius of all balls together.
+GlowBall together(const std::vector<GlowBall>& balls) {
+  GlowBall all;
+  double squares = 0;
+  for (const GlowBall& ball : balls) {
+    all.fourth += ball.fourth;
+    all.middle += ball.fourth * ball.middle;
+    all.density += ball.fourth * ball.density;
+    all.value += ball.fourth * ball.value;
+  }
+  all.middle /= all.fourth;
+  all.density /= all.fourth;
+  all.value /= all.fourth;
+  for (const GlowBall& ball : balls) {
+    const glm::dvec3 off = ball.middle - all.middle;
+    squares += ball.fourth * (0.6 * ball.radius * ball.radius + glm::dot(off, off));
+  }
+  all.radius = std::sqrt(squares / all.fourth / 0.6);
+  return all;
+}
+
 TEST(Glow, OfABallIsThatBall) {
-  const glm::dvec3 middle(17.3, 14.6, 16.1);
-  const BrickVolume heat = bricks_of(grid_of(32, ball(middle, 6)));
-  const BrickVolume density = bricks_of(grid_of(32, [](glm::ivec3) { return 0.5f; }));
-  const std::vector<GlowBall> balls = find_glow(heat, density);
-  ASSERT_EQ(balls.size(), 1u) << "smaller than two bricks";
-  const double voxels = 4.0 / 3 * 3.14159265 * 6 * 6 * 6;
-  EXPECT_NEAR(balls[0].fourth, voxels, 0.03 * voxels);
-  EXPECT_LT(glm::distance(balls[0].middle, middle), 0.1);
-  EXPECT_NEAR(balls[0].radius, 6, 0.1);
-  EXPECT_NEAR(balls[0].value, 1, 1e-6);
-  EXPECT_NEAR(balls[0].density * double{density.unit}, 0.5, 1e-3);
+  for (const double radius : {4.0, 6.0, 12.0}) {
+    const glm::dvec3 middle(17.3, 14.6, 16.1);
+    const BrickVolume heat = bricks_of(grid_of(32, ball(middle, radius)));
+    const BrickVolume density = bricks_of(grid_of(32, [](glm::ivec3) { return 0.5f; }));
+    const std::vector<GlowBall> balls = find_glow(heat, density);
+    if (radius < 4.4) {
+      EXPECT_EQ(balls.size(), 1u) << "of a few voxels";
+    }
+    const GlowBall all = together(balls);
+    const double voxels = 4.0 / 3 * 3.14159265 * radius * radius * radius;
+    EXPECT_NEAR(all.fourth, voxels, 0.05 * voxels) << radius;
+    EXPECT_LT(glm::distance(all.middle, middle), 0.1) << radius;
+    // Balls that are partly apart are somewhat too small.
+    EXPECT_NEAR(all.radius, radius, 0.15 * radius);
+    EXPECT_NEAR(all.value, 1, 1e-6);
+    EXPECT_NEAR(all.density * double{density.unit}, 0.5, 1e-3);
+  }
 }
 
 TEST(Glow, OfTwoBallsIsNotBetweenThem) {
@@ -89,9 +116,73 @@ TEST(Glow, SumsUpToAllVoxels) {
   EXPECT_NEAR(found, expected, 4 * expected / 2048) << "rounded to halves";
 }
 
+// Half the resolution keeps the power.
+TEST(Glow, SumsUpToTheSameAtLowerResolutions) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> unit(0, 1);
+  const Grid noise = grid_of(32, [&](glm::ivec3) { return unit(random); });
+  const auto sum_of = [](const BrickVolume& heat) {
+    double sum = 0;
+    for (const GlowBall& ball : find_glow(heat, heat)) sum += ball.fourth;
+    return sum * std::exp2(3 * heat.level);
+  };
+  const BrickVolume fine = bricks_of(noise);
+  const double expected = sum_of(fine);
+  BrickVolumeOptions half;
+  half.max_bricks = 40;
+  half.glows = true;
+  const BrickVolume halved = std::move(make_brick_volume(noise, half)).value_or_throw();
+  EXPECT_GT(halved.level, 0);
+  EXPECT_NEAR(sum_of(halved), expected, 8 * expected / 2048) << "rounded to halves";
+  const BrickVolume preview = make_preview(fine, 40, true);
+  EXPECT_GT(preview.level, 0);
+  EXPECT_NEAR(sum_of(preview), expected, 8 * expected / 2048);
+}
+
 TEST(Glow, NothingGlowsInAColdGrid) {
   const BrickVolume cold = bricks_of(grid_of(8, [](glm::ivec3) { return 0.0f; }));
   EXPECT_TRUE(find_glow(cold, cold).empty());
+}
+
+// A ball that grows beside one that shrinks while both move: at no point around them does the light change by
+// more from step to step than that of the voxels themselves, and 2 %.
+TEST(Glow, DoesNotFlicker) {
+  constexpr int kSteps = 60;
+  const std::array<glm::dvec3, 4> seen{glm::dvec3(32, -10, 32), {70, 30, 30}, {20, 80, 40}, {-15, 32, 10}};
+  std::array<double, 4> before{}, exact_before{};
+  for (int step = 0; step <= kSteps; ++step) {
+    const double at = static_cast<double>(step) / kSteps;
+    const glm::dvec3 a(16 + 30 * at, 20, 30), b(44, 44 - 20 * at, 20 + 20 * at);
+    const Grid grid = grid_of(64, [&](glm::ivec3 v) {
+      const glm::dvec3 p = glm::dvec3(v) + 0.5;
+      const double one = glm::max(1.0 - glm::distance(p, a) / (8 + 6 * at), 0.0);
+      const double other = glm::max(1.0 - glm::distance(p, b) / (15 - 6 * at), 0.0);
+      return static_cast<float>(std::max(one, other));
+    });
+    const BrickVolume heat = bricks_of(grid);
+    const std::vector<GlowBall> balls = find_glow(heat, heat);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      double light = 0, exact = 0;
+      for (const GlowBall& ball : balls) {
+        const glm::dvec3 off = seen[i] - ball.middle;
+        light += ball.fourth / std::max(glm::dot(off, off), ball.radius * ball.radius);
+      }
+      const auto* values = reinterpret_cast<const float*>(grid.values.data());
+      for (std::size_t brick = 0; brick < grid.bricks.size(); ++brick)
+        for (std::size_t v = 0; v < kBrickVoxels; ++v) {
+          const glm::dvec3 local(v & 7, v >> 3 & 7, v >> 6);
+          const glm::dvec3 off = seen[i] - glm::dvec3(grid.bricks[brick].origin) - local - 0.5;
+          exact += std::pow(double{values[brick * kBrickVoxels + v]}, 4) / glm::dot(off, off);
+        }
+      if (step > 0) {
+        EXPECT_LT(std::abs(light / before[i] - 1), std::abs(exact / exact_before[i] - 1) + 0.02)
+            << step << " " << i;
+      }
+      EXPECT_NEAR(light, exact, 0.35 * exact) << step << " " << i;
+      before[i] = light;
+      exact_before[i] = exact;
+    }
+  }
 }
 
 // Against paths from random points of the ball in random directions.

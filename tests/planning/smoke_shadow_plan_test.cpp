@@ -55,6 +55,24 @@ std::pair<std::uint32_t, glm::vec2> texel_of(const SmokeShadowPlan& plan, const 
   return {best, uv * face.scale + face.offset};
 }
 
+// Media that are hundreds of metres apart have coarse shadows of the sun, not none.
+TEST(SmokeShadowPlan, TheSunHasAShadowHoweverFarApartMediaAre) {
+  shared::Light sun = light({}, 5);
+  sun.kind = shared::kLightDirectional;
+  sun.direction = {0, -1, 0};
+  const std::vector<shared::Light> lights{light({0, 1, 4}, 10), sun, light({3, 1, 0}, 10)};
+  for (const float far : {10.0f, 220.0f, 5000.0f, 1e6f}) {
+    const std::vector<Box<float>> media{{{-1, 0, -1}, {1, 2, 1}}, {{far, 0, far}, {far + 2, 2, far + 2}}};
+    // As large as the media: uv is x and z.
+    glm::mat4 view(0);
+    view[0].x = view[2].y = 1 / (far + 2);
+    view[3].w = 1;
+    const SmokeShadowPlan plan = plan_smoke_shadows({lights, view, camera()}, media, {256, 256});
+    EXPECT_TRUE(has_face(plan, 1)) << far;
+    EXPECT_GE(plan.faces[shared::kFacesPerLight].size.x, 8u) << far;
+  }
+}
+
 TEST(SmokeShadowPlan, LightsThatReachNoSmokeOrNothingInViewHaveNoRays) {
   const std::vector<Box<float>> smoke{{{-1, 0, -1}, {1, 2, 1}}};
   shared::Light away = light({0, 1, 4}, 10);

@@ -137,7 +137,8 @@ std::optional<Incident> light_at(const TruthScene& scene, const shared::Light& l
     incident.distance = std::sqrt(d2);
     incident.to_light = apart / incident.distance;
     const double window = std::clamp(1 - x * x, 0.0, 1.0);
-    incident.irradiance *= window * window / std::max({d2, 0.01, double{light.radius} * double{light.radius}});
+    incident.irradiance *=
+        window * window / std::max(d2, light.radius > 0 ? double{light.radius} * double{light.radius} : 0.01);
     if (light.kind == shared::kLightSpot) {
       const double c = glm::dot(-incident.to_light, glm::dvec3(light.direction));
       incident.irradiance *=
