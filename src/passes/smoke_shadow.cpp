@@ -32,8 +32,8 @@ SmokeShadows SmokeShadowPass::make_shadows(gpu::Context& context, glm::uvec2 ima
   SmokeShadows shadows;
   gpu::ImageInfo info;
   info.format = VK_FORMAT_R16_SFLOAT;
-  // Nearly square, as the faces are.
-  const std::uint32_t width = std::bit_ceil(static_cast<std::uint32_t>(std::sqrt(rays)));
+  // At most four times as wide as high, so that one large face fits.
+  const std::uint32_t width = std::min(std::bit_ceil(static_cast<std::uint32_t>(2 * std::sqrt(rays))), 1024u);
   info.size = {width, static_cast<std::uint32_t>(rays / width), 1};
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                VK_IMAGE_USAGE_TRANSFER_DST_BIT;
