@@ -164,7 +164,7 @@ SmokeShadowPlan plan_smoke_shadows(const SmokeShadowScene& scene, std::span<cons
   // Larger and larger texels until all fit; beyond 2 m fewer lights, but the sun remains, however large they
   // are.
   float texel_metres = kFinestSmokeShadow;
-  std::ranges::stable_partition(parts, &FacePart::is_sun);
+  std::stable_partition(parts.begin(), parts.end(), [](const FacePart& part) { return part.is_sun; });
   while (!try_size(texel_metres)) {
     if (texel_metres < 2 || parts.back().is_sun)
       texel_metres *= 1.2f;
