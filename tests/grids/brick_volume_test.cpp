@@ -152,6 +152,21 @@ TEST(BrickVolume, ALevelSetIsSolidInsideAndEmptyOutside) {
         << x;
 }
 
+TEST(BrickVolume, VectorsCountByTheirLength) {
+  Grid velocity;
+  velocity.type = ValueType::vec3f;
+  velocity.bricks.resize(1);
+  velocity.bricks[0].active[0] = 3;
+  std::array<glm::vec3, kBrickVoxels> values{};
+  values[0] = {2, -1, -2};
+  values[1] = {0, 0, -5};
+  const auto bytes = std::as_bytes(std::span(values));
+  velocity.values.assign(bytes.begin(), bytes.end());
+  const BrickVolume speed = make_brick_volume(velocity).value_or_throw();
+  EXPECT_EQ(speed.high, 5);
+  EXPECT_EQ(speed.sum, 3 + 5);
+}
+
 TEST(BrickVolume, RefusesMasksAndTakesNothing) {
   Grid grid;
   grid.type = ValueType::mask;
