@@ -8,6 +8,8 @@
 namespace brume::render {
 namespace {
 
+static_assert(scene::kMostVolumes == shared::kMaxVolumes);
+
 planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
                                const scenario::VolumeFrame& first) {
   const grids::BrickVolume& density = volume.frame->density;

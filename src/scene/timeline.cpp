@@ -123,6 +123,8 @@ class TimelineReader {
     table.read("file", file);
     if (file.empty() || file.find('\0') != std::string::npos)
       table.fail("file", "\"file\": expected the name of a file of grids");
+    if (timeline_.volumes.size() >= kMostVolumes)
+      table.fail("file", "[[volume]]: expected at most " + std::to_string(kMostVolumes) + " of them");
     volume.file = path_.parent_path() / file;
     read_sequence(table, volume);
     table.read("density", volume.density);

@@ -59,6 +59,9 @@ struct SunOptions {
   glm::vec3 irradiance{2.6f, 2.4f, 2.1f};
 };
 
+/// Volumes of a timeline at most: a frame shows as many.
+inline constexpr std::size_t kMostVolumes = 32;
+
 /// A volume of a file of grids (grids/files.hpp), placed in the world: its axes replaced, scaled, rotated
 /// about x, then y, then z, moved.
 struct VolumeOptions {

@@ -376,6 +376,15 @@ TEST(CameraPath, TheFieldOfViewNeverOvershoots) {
   }
 }
 
+TEST(Timeline, MoreVolumesThanAFrameShowsAreRefusedWithTheirPlace) {
+  std::string text = "version = 1\nscene = \"a.obj\"\n";
+  for (std::size_t i = 0; i < kMostVolumes; ++i) text += "[[volume]]\nfile = \"a.vdb\"\n";
+  EXPECT_EQ(parse_timeline(text, "t.toml")->volumes.size(), kMostVolumes);
+  const auto refused = parse_timeline(text + "[[volume]]\nfile = \"a.vdb\"\n", "t.toml");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.failure().message, "t.toml:68:8: [[volume]]: expected at most 32 of them");
+}
+
 TEST(Timeline, HasAToneCurve) {
   const auto parse = [](const std::string& tone) {
     return parse_timeline("version = 1\nscene = \"a.obj\"\n" + tone, "t.toml");
