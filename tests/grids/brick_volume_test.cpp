@@ -88,7 +88,7 @@ TEST(BrickVolume, FiltersAsTheGridEverywhere) {
     EXPECT_NEAR(filtered(*bricks.volume, p), expected, 2.0f / 1024) << p.x << ' ' << p.y << ' ' << p.z;
     const shared::VolumeLayout& layout = bricks.volume->layout();
     if (expected > 0) {
-      EXPECT_TRUE(Box<float>(layout.bounds_min, layout.bounds_max).contains(p));
+      EXPECT_TRUE((Box<float>{layout.bounds_min, layout.bounds_max}).contains(p));
     }
   }
   const glm::dvec4 corner = bricks.world_from_voxel * glm::dvec4(0.5, 0.5, 0.5, 1);
