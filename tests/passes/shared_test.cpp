@@ -11,6 +11,7 @@
 #include "tests/passes/probes.h"
 #include "tests/passes/shared_structs.h"
 #include "tests/passes/struct_members.hpp"
+#include "volume/sparse_volume.hpp"
 
 namespace brume::passes {
 namespace {
