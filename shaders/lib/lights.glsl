@@ -20,7 +20,7 @@ Incident light_at(Light light, vec3 position_world) {
     return incident;
   }
   const vec3 to_light = light.position_world - position_world;
-  const float d2 = max(dot(to_light, to_light), light.radius > 0.0 ? 1e-12 : 1e-4), one_over = inversesqrt(d2);
+  const float d2 = max(dot(to_light, to_light), 1e-12), one_over = inversesqrt(d2);
   incident.distance = max(d2 * one_over - light.radius, 0.0);
   incident.to_light = to_light * one_over;
   const float x = d2 / (light.range * light.range);

@@ -125,19 +125,21 @@ struct Division {
 
 using Octants = std::array<Moments, kMostGlowBalls>;
 
-/// The ball of an octant. Halves that are hardly apart are near the middle of both.
+/// The ball of an octant. Halves that are hardly apart are near the middle of both; what they are not apart
+/// widens them, so that the spread of both together remains.
 GlowBall ball_of(const Octants& octants, std::size_t octant, const Division& division) {
   const Moments& sum = octants[octant];
-  const glm::dvec3 own = sum.middle();
-  glm::dvec3 middle = own;
+  glm::dvec3 middle = sum.middle(), squared = sum.variance();
   for (int axis = 0; axis < 3; ++axis) {
-    if (division.apart[axis] <= 0) continue;
+    const double apart = division.apart[axis];
+    if (apart <= 0) continue;
     Moments both = sum;
     both.add(octants[octant ^ (std::size_t{1} << axis)], 1);
-    middle[axis] = glm::mix(both.middle()[axis], own[axis], division.apart[axis]);
+    const double off = middle[axis] - both.middle()[axis];
+    middle[axis] -= (1 - apart) * off;
+    squared[axis] += (1 - apart * apart) * off * off;
   }
   // A ball's mean squared distance from its middle is 3/5 of its radius squared.
-  const glm::dvec3 squared = sum.variance() + (own - middle) * (own - middle);
   return {middle, std::sqrt((squared.x + squared.y + squared.z) / 0.6), sum.weight, sum.values / sum.weight,
           sum.densities / sum.weight};
 }

@@ -152,6 +152,27 @@ TEST(BrickVolume, ALevelSetIsSolidInsideAndEmptyOutside) {
         << x;
 }
 
+TEST(BrickVolume, StoresTheNearestHalves) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> exponent(-28, 15.9f);
+  Grid grid;
+  grid.type = ValueType::float32;
+  grid.bricks.resize(1);
+  grid.bricks[0].active.fill(~std::uint64_t{0});
+  std::array<float, kBrickVoxels> values{};
+  for (float& value : values) value = std::exp2(exponent(random));
+  values[0] = 1 + 1.0f / 2048;  // halfway between two
+  const auto bytes = std::as_bytes(std::span(values));
+  grid.values.assign(bytes.begin(), bytes.end());
+  const BrickVolume bricks = make_brick_volume(grid).value_or_throw();
+  const auto texels =
+      bricks.volume->texels<std::uint16_t>(volume::ChannelId{0}, bricks.volume->slot_at(glm::ivec3(0)));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    EXPECT_EQ(texels[111 + i % 8 + 10 * (i / 8 % 8) + 100 * (i / 64)],
+              glm::packHalf1x16(values[i] / bricks.unit))
+        << values[i];
+}
+
 TEST(BrickVolume, VectorsCountByTheirLength) {
   Grid velocity;
   velocity.type = ValueType::vec3f;

@@ -79,8 +79,8 @@ TEST(Glow, OfABallIsThatBall) {
     const double voxels = 4.0 / 3 * 3.14159265 * radius * radius * radius;
     EXPECT_NEAR(all.fourth, voxels, 0.05 * voxels) << radius;
     EXPECT_LT(glm::distance(all.middle, middle), 0.1) << radius;
-    // Balls that are partly apart are somewhat too small.
-    EXPECT_NEAR(all.radius, radius, 0.15 * radius);
+    // The voxels of a ball have its volume but for 5 %, hence its radius but for a third of that.
+    EXPECT_NEAR(all.radius, radius, 0.05 / 3 * radius) << radius;
     EXPECT_NEAR(all.value, 1, 1e-6);
     EXPECT_NEAR(all.density * double{density.unit}, 0.5, 1e-3);
   }
@@ -178,7 +178,9 @@ TEST(Glow, DoesNotFlicker) {
         EXPECT_LT(std::abs(light / before[i] - 1), std::abs(exact / exact_before[i] - 1) + 0.02)
             << step << " " << i;
       }
-      EXPECT_NEAR(light, exact, 0.35 * exact) << step << " " << i;
+      // A point in the place of a ball of deviation s at a distance d is off by 3 s^2 / d^2: s is at most 8,
+      // d at least 25.
+      EXPECT_NEAR(light, exact, 0.31 * exact) << step << " " << i;
       before[i] = light;
       exact_before[i] = exact;
     }
