@@ -4,7 +4,7 @@ find_program(GLSLC glslc REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
 # brume_shaders(TARGET files...): a library with one constant per shader, named after its file and declared in
-# TARGET.hpp.
+# TARGET.hpp. Files of HLSL are compute shaders.
 function(brume_shaders target)
   set(sources "")
   foreach(file ${ARGN})
@@ -15,6 +15,11 @@ function(brume_shaders target)
     set(cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
     # SPIR-V 1.5: newer versions would require maintenance4 from the device of a host.
     set(flags -Werror -O --target-env=vulkan1.2 -I ${PROJECT_SOURCE_DIR}/shaders)
+    if(name MATCHES "[.]hlsl$")
+      # A texture and its sampler become one binding, as passes bind them. The compiler declares buffers of HLSL in a form
+      # that SPIR-V 1.3 is the last to have.
+      list(APPEND flags -fshader-stage=compute -fauto-combined-image-sampler --target-spv=spv1.3)
+    endif()
     add_custom_command(
       OUTPUT ${spv}
       COMMAND ${GLSLC} ${flags} -MD -MF ${spv}.d -o ${spv} ${CMAKE_CURRENT_SOURCE_DIR}/${file}

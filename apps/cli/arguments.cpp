@@ -268,7 +268,8 @@ CommandLine::CommandLine(const std::string& about, const std::string& name, cons
 CommandLine::~CommandLine() = default;
 
 Arguments CommandLine::add_command(const std::string& name, const std::string& description) {
-  CLI::App* command = app_->add_subcommand(name, description);
+  // A name of two words: CLI11 takes it only afterwards.
+  CLI::App* command = app_->add_subcommand("new", description)->name(name);
   command->set_help_flag("-h,--help", "Print this help");
   command->group("Commands");
   return Arguments(command);
@@ -280,9 +281,14 @@ bool CommandLine::parse(int argc, char** argv) {
   for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; }))
     commands.push_back(command->get_name());
 
-  // `brume`, `brume help` and `brume help COMMAND`.
-  if (!words.empty() && words[0] == "help") {
-    words.erase(words.begin());
+  // `brume`, `brume help` and `brume help COMMAND`. A command may have two words.
+  const bool is_help = !words.empty() && words[0] == "help";
+  if (is_help) words.erase(words.begin());
+  if (words.size() > 1 && std::ranges::find(commands, words[0] + " " + words[1]) != commands.end()) {
+    words[0] += " " + words[1];
+    words.erase(words.begin() + 1);
+  }
+  if (is_help) {
     words.resize(std::min<std::size_t>(words.size(), 1));
     words.emplace_back("--help");
   }

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <optional>
 
+#include "apps/cli/atlas_options.hpp"
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
@@ -11,7 +11,6 @@
 #include "core/log.hpp"
 #include "grids/files.hpp"
 #include "grids/generate.hpp"
-#include "image/png.hpp"
 #include "passes/generate_cloud.hpp"
 #include "scene/load.hpp"
 
@@ -78,55 +77,45 @@ void warn_of_what_is_missing(const grids::Grid& grid, const grids::CloudSettings
   }
 }
 
-/// Slices across z from the lowest on, at most 32, in rows of eight from the top left; y runs up.
-image::Image8 slices_of(const grids::Grid& grid, std::uint32_t edge) {
-  constexpr std::uint32_t kSlices = 32, kColumns = 8;
-  const std::uint32_t count = std::min(kSlices, edge), columns = std::min(kColumns, count);
-  image::Image8 image{edge * columns, edge * ((count + columns - 1) / columns), {}};
-  image.rgba.assign(std::size_t{4} * image.width * image.height, 0);
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
-  for (std::size_t brick = 0; brick < grid.bricks.size(); ++brick)
-    for (std::uint32_t slice = 0; slice < count; ++slice) {
-      const glm::uvec3 origin(grid.bricks[brick].origin);
-      const std::uint32_t z = (2 * slice + 1) * edge / (2 * count) - origin.z;
-      if (z >= grids::kBrickEdge) continue;  // below the brick, too: unsigned
-      for (std::uint32_t i = 0; i < 64; ++i) {
-        const std::uint32_t x = origin.x + i % 8, y = origin.y + i / 8;
-        if (x >= edge || y >= edge) continue;
-        float value = 0;
-        std::memcpy(&value, grid.values_of(brick).data() + (i + 64 * std::size_t{z}) * sizeof value,
-                    sizeof value);
-        const std::size_t column = x + edge * (slice % columns);
-        const std::size_t row = edge - 1 - y + edge * (slice / columns);
-        const auto grey = static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
-        std::fill_n(image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * (column + image.width * row)), 3,
-                    grey);
-      }
-    }
-  return image;
+AtlasTarget slice_target(const std::string& output, std::uint32_t edge, Outputs& outputs) {
+  AtlasOptions options;
+  options.output = output;
+  options.layout = "square";
+  return atlas_target(options, glm::uvec3(edge), grids::kUprightAxes, outputs);
 }
 
-void save(const std::string& output, grids::Grid grid, std::uint32_t edge) {
-  if (kind_of(output) == FileKind::png)
-    return image::save_png(output, slices_of(grid, edge)).value_or_throw();
-  grids::GridFile file;
-  file.grids.push_back(std::move(grid));
-  grids::save_grid_file(output, file).value_or_throw();
+/// All of the cube, what is empty included.
+void save_slices(const AtlasTarget& target, const grids::Grid& grid, const grids::CloudSettings& settings) {
+  const glm::dvec3 low = glm::dvec3(grid.world_from_index * glm::dvec4(glm::dvec3(-0.5), 1));
+  const grids::GridBox cube{
+      glm::dmat4(1), {low, low + settings.edge * settings.voxel_size}, glm::uvec3(settings.edge)};
+  save_atlas(target, {grids::resample(grid, cube).value_or_throw()});
 }
 
 void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outputs) {
   const auto start = std::chrono::steady_clock::now();
   refuse_idle_options(options, arguments);
   expect_suffix("-o", options.output, {".brv", ".vdb", ".nvdb", ".png"});
-  outputs.writes("-o", options.output, kind_of(options.output));
+  const grids::CloudSettings settings = settings_of(options);
+  const bool is_atlas = kind_of(options.output) == FileKind::png;
+  std::optional<AtlasTarget> atlas;
+  if (is_atlas)
+    atlas = slice_target(options.output, settings.edge, outputs);
+  else
+    outputs.writes("-o", options.output, kind_of(options.output));
   outputs.writes("--json", options.json, FileKind::json);
 
-  const grids::CloudSettings settings = settings_of(options);
   grids::Grid grid = generate(options, settings);
   stop_if_interrupted();
   warn_of_what_is_missing(grid, settings);
   const std::uint64_t active = grids::count_active(grid), bricks = grid.bricks.size();
-  save(options.output, std::move(grid), settings.edge);
+  if (atlas) {
+    save_slices(*atlas, grid, settings);
+  } else {
+    grids::GridFile file;
+    file.grids.push_back(std::move(grid));
+    grids::save_grid_file(options.output, file).value_or_throw();
+  }
 
   const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
   if (!options.json.empty())
@@ -194,7 +183,8 @@ void add_shape_options(const Arguments& arguments, BakeOptions& options) {
 
 Command add_bake(CommandLine& program) {
   Command command =
-      declare(program, "bake", "Writes a cloud or a simple shape of fog as a volume.",
+      declare(program, "bake",
+              "Writes a cloud or a simple shape of fog as a volume (see also bake slices, bake occlusion).",
               "  brume bake pyroclastic -o cloud.brv\n"
               "  brume bake pyroclastic -o slices.png --edge 96 --seed 7 --octaves 7 --amplitude 1\n"
               "  brume bake sphere -o ball.brv --edge 64 --voxel 0.1 --radius 3 --binary --json -");
@@ -205,8 +195,9 @@ Command add_bake(CommandLine& program) {
       .one_of(kShapes)
       .type_name("");
   arguments
-      .add_option("-o,--output", options->output,
-                  "Volume (.brv, .vdb, .nvdb), or a picture of up to 32 slices across z (.png)")
+      .add_option(
+          "-o,--output", options->output,
+          "Volume (.brv, .vdb, .nvdb), or its slices as tiles of an image and their description (.png)")
       .required()
       .type_name("FILE");
   add_shape_options(arguments, *options);

@@ -4,7 +4,9 @@ _brume() {
   if ((COMP_CWORD == 1)); then
     names="help $(brume --help | sed -n '/^Commands:/,$s/^  \([a-z]\+\) .*/\1/p')"
   elif [[ $word == -* ]]; then
-    names=$(brume "${COMP_WORDS[1]}" --help 2>/dev/null | grep -o '^  -[-a-z,]*' | tr ',' '\n')
+    local command=("${COMP_WORDS[1]}")
+    [[ ${COMP_WORDS[1]} == bake && ${COMP_WORDS[2]} =~ ^(slices|occlusion)$ ]] && command+=("${COMP_WORDS[2]}")
+    names=$(brume "${command[@]}" --help 2>/dev/null | grep -o '^  -[-a-z,]*' | tr ',' '\n')
   elif [[ ${COMP_WORDS[1]} == help ]]; then
     names=$(brume --help | sed -n '/^Commands:/,$s/^  \([a-z]\+\) .*/\1/p')
   else

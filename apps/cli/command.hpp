@@ -41,6 +41,8 @@ Command add_render(CommandLine& program);
 Command add_sim(CommandLine& program);
 Command add_voxelize(CommandLine& program);
 Command add_bake(CommandLine& program);
+Command add_bake_slices(CommandLine& program);
+Command add_bake_occlusion(CommandLine& program);
 Command add_info(CommandLine& program);
 Command add_convert(CommandLine& program);
 Command add_diff(CommandLine& program);

@@ -46,7 +46,7 @@ void select(grids::GridFile& file, const std::string& input, const std::vector<s
 }
 
 void save(const fs::path& path, const grids::GridFile& file) {
-  if (grids::is_grid_file(path)) return grids::save_grid_file(path, file).value_or_throw();
+  if (!grids::is_raw_description(path)) return grids::save_grid_file(path, file).value_or_throw();
   if (file.grids.size() != 1)
     throw Error(ErrorCode::usage, path.string() + ": a raw file holds one grid, not " +
                                       std::to_string(file.grids.size()) + "; choose it with --grid");
@@ -55,8 +55,8 @@ void save(const fs::path& path, const grids::GridFile& file) {
 
 void convert(const ConvertOptions& options, Outputs& outputs) {
   const auto start = std::chrono::steady_clock::now();
-  for (const std::string& name : {options.input, options.output})
-    expect_suffix("", name, {kVdb, kNvdb, kBrv, kRaw});
+  expect_suffix("", options.input, {kVdb, kNvdb, kBrv, kJson, ".png", ".exr"});
+  expect_suffix("", options.output, {kVdb, kNvdb, kBrv, kJson});
   const fs::path output = options.output;
   outputs.reads(fs::path(options.input));
   outputs.writes("", output, kind_of(output));
@@ -93,12 +93,16 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
 
 Command add_convert(CommandLine& program) {
   Command command =
-      declare(program, "convert", "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json).",
+      declare(program, "convert",
+              "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json); reads slice atlases, too.",
               "  brume convert smoke.vdb smoke.brv\n"
+              "  brume convert atlas.json smoke.vdb\n"
               "  brume convert smoke.vdb density.json --grid density");
   auto options = std::make_shared<ConvertOptions>();
   const Arguments& arguments = command.arguments;
-  arguments.add_option("INPUT", options->input, "Volume file (.vdb, .nvdb, .brv, or .json of a raw array)")
+  arguments
+      .add_option("INPUT", options->input,
+                  "Volume file (.vdb, .nvdb, .brv, or .json of a raw array or slice atlas)")
       .required()
       .type_name("");
   arguments

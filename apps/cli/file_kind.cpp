@@ -82,6 +82,8 @@ const char* name_of(FileKind kind) {
       return "timeline";
     case FileKind::frame_log:
       return "frame log";
+    case FileKind::godot_import:
+      return "Godot import file";
   }
   return "";
 }
@@ -118,6 +120,8 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
       return is_timeline(start, file);
     case FileKind::frame_log:
       return begins_with(start, "frame,seconds,");
+    case FileKind::godot_import:
+      return begins_with(start, "[remap]");
   }
   return false;
 }

@@ -7,7 +7,22 @@
 
 namespace brume::cli {
 
-enum class FileKind { png, exr, mp4, vxl, brp, brv, vdb, nvdb, raw, json, obj, timeline, frame_log };
+enum class FileKind {
+  png,
+  exr,
+  mp4,
+  vxl,
+  brp,
+  brv,
+  vdb,
+  nvdb,
+  raw,
+  json,
+  obj,
+  timeline,
+  frame_log,
+  godot_import
+};
 
 /// As messages call it: ".png file", "timeline".
 const char* name_of(FileKind kind);

@@ -47,7 +47,7 @@ HelpFormatter::HelpFormatter() {
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
   const std::string text = command->get_description();
-  return "  " + command->get_name() + std::string(12 - command->get_name().size(), ' ') +
+  return "  " + command->get_name() + std::string(17 - command->get_name().size(), ' ') +
          text.substr(0, text.find('\n')) + "\n";
 }
 

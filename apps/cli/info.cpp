@@ -4,9 +4,9 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
-#include "apps/cli/volumes.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "grids/files.hpp"
 #include "image/decode.hpp"
 #include "image/exr.hpp"
 #include "scene/load.hpp"
@@ -75,8 +75,8 @@ Summary summary_of(const std::filesystem::path& path, bool check, Outputs& outpu
   if (extension == ".toml") return timeline_summary(path, check, outputs);
   if (extension == ".vxl") return voxel_summary(path);
   if (extension == ".brp") return replay_summary(path);
+  if (grids::is_grid_file(path)) return volume_summary(path, outputs);
   if (extension == ".exr") return layers_summary(path);
-  if (is_volume_file(path)) return volume_summary(path, outputs);
   if (extension == ".txt" || extension == ".gltf" || extension == ".glb" || extension == ".obj")
     return scene_summary(path, outputs);
   return image_summary(path);

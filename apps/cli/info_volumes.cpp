@@ -7,8 +7,10 @@
 #include <functional>
 #include <limits>
 
+#include "apps/cli/atlas_options.hpp"
 #include "apps/cli/info.hpp"
 #include "apps/cli/volumes.hpp"
+#include "grids/files.hpp"
 #include "grids/metadata.hpp"
 
 namespace brume::cli {
@@ -27,37 +29,6 @@ struct Values {
   std::array<std::uint64_t, kBins> histogram{};  ///< Voxels in equal parts of [low, high].
 };
 
-template <typename T>
-T read_as(const std::byte* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
-
-double number_of(ValueType type, const std::byte* bytes) {
-  switch (type) {
-    case ValueType::float32:
-      return static_cast<double>(read_as<float>(bytes));
-    case ValueType::float64:
-      return read_as<double>(bytes);
-    case ValueType::int32:
-      return static_cast<double>(read_as<std::int32_t>(bytes));
-    case ValueType::int64:
-      return static_cast<double>(read_as<std::int64_t>(bytes));
-    case ValueType::boolean:
-      return static_cast<double>(read_as<std::uint8_t>(bytes));
-    case ValueType::mask:
-      return 1;
-    case ValueType::vec3f:
-      return glm::length(glm::dvec3(read_as<glm::vec3>(bytes)));
-    case ValueType::vec3d:
-      return glm::length(read_as<glm::dvec3>(bytes));
-    case ValueType::vec3i:
-      return glm::length(glm::dvec3(read_as<glm::ivec3>(bytes)));
-  }
-  return 0;
-}
-
 // Calls `use` with each finite value of active voxels, and how many voxels have it.
 void for_each_value(const Grid& grid, const std::function<void(double, std::uint64_t)>& use) {
   const std::size_t bytes = bytes_of(grid.type);
@@ -66,12 +37,12 @@ void for_each_value(const Grid& grid, const std::function<void(double, std::uint
     for (std::size_t z = 0; z < grid.bricks[i].active.size(); ++z)
       for (std::uint64_t word = grid.bricks[i].active[z]; word != 0; word &= word - 1) {
         const std::size_t voxel = z * 64 + static_cast<std::size_t>(std::countr_zero(word));
-        const double value = number_of(grid.type, values + voxel * bytes);
+        const double value = grids::number_of(grid.type, values + voxel * bytes);
         if (std::isfinite(value)) use(value, 1);
       }
   }
   for (const grids::Tile& tile : grid.tiles) {
-    const double value = number_of(grid.type, tile.value.data());
+    const double value = grids::number_of(grid.type, tile.value.data());
     if (tile.active && std::isfinite(value)) use(value, std::uint64_t{tile.edge} * tile.edge * tile.edge);
   }
 }
@@ -160,6 +131,13 @@ glm::dvec3 voxel_size(const Grid& grid) {
   return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
 }
 
+/// The layout of a slice atlas; nullopt: another kind of volume.
+std::optional<grids::SliceLayout> atlas_layout(const std::filesystem::path& path) {
+  const std::vector<std::filesystem::path> files = grids::files_of(path).value_or_throw();
+  if (files.front().extension() != ".json") return std::nullopt;
+  return grids::read_slice_layout(files.front()).value_or_throw();
+}
+
 Json add_grid(Summary& summary, const Grid& grid) {
   const std::uint64_t active = count_active(grid);
   const Box<double> bounds = active_bounds(grid);
@@ -212,6 +190,13 @@ Json add_grid(Summary& summary, const Grid& grid) {
 Summary volume_summary(const std::filesystem::path& path, Outputs& outputs) {
   const grids::GridFile file = load_volumes(path, outputs);
   Summary summary("volumes");
+  if (const auto layout = atlas_layout(path)) {
+    summary.add("slices", text_of(*layout) + " in " + std::to_string(layout->rows()) +
+                              (layout->rows() == 1 ? " row" : " rows") + ", padding " +
+                              std::to_string(layout->padding));
+    summary.add("axes", grids::text_of(layout->axes),
+                grids::text_of(layout->axes) + " (right, down, next tile)");
+  }
   Json list = Json::list({});
   for (const Grid& grid : file.grids) list.push_back(add_grid(summary, grid));
   summary.set("grids", list);

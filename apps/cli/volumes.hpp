@@ -9,12 +9,9 @@
 namespace brume::cli {
 
 /// The suffixes of volume files, as expect_suffix takes them.
-inline constexpr const char *kVdb = ".vdb", *kNvdb = ".nvdb", *kBrv = ".brv", *kRaw = ".json";
+inline constexpr const char *kVdb = ".vdb", *kNvdb = ".nvdb", *kBrv = ".brv", *kJson = ".json";
 
-/// Whether a file holds volumes, by its suffix.
-bool is_volume_file(const std::filesystem::path& path);
-
-/// Reads a volume file, or an array with its description, and declares what it read. Throws Error.
+/// Reads a volume file (grids/files.hpp) and declares all files that it read. Throws Error.
 grids::GridFile load_volumes(const std::filesystem::path& path, Outputs& outputs);
 
 }  // namespace brume::cli

@@ -3,6 +3,8 @@
 #include "core/atomic_file.hpp"
 #include "core/file.hpp"
 #include "grids/brv_file.hpp"
+#include "grids/raw_file.hpp"
+#include "grids/slice_atlas.hpp"
 #include "grids/suffix.hpp"
 #include "grids/worker.hpp"
 
@@ -34,24 +36,81 @@ Result<void> save_brv(const fs::path& path, const GridFile& file) {
   return target->commit();
 }
 
+bool is_image(const fs::path& path) {
+  const std::string suffix = lower_suffix(path);
+  return suffix == ".png" || suffix == ".exr";
+}
+
+/// The description of an image.
+fs::path description_of(const fs::path& path) {
+  fs::path json = path;
+  return json.replace_extension(".json");
+}
+
+Result<GridFile> load_described(const fs::path& json, const GridLimits& limits) {
+  const auto is_atlas = is_slice_atlas(json);
+  if (!is_atlas) return is_atlas.failure();
+  if (!*is_atlas) return load_raw(json, limits);
+  const auto atlas = load_slice_atlas(json, limits);
+  if (!atlas) return atlas.failure();
+  return to_grids(*atlas);
+}
+
+/// Files that are read as a whole: of their grids those that are chosen.
+Result<GridFile> chosen_of(Result<GridFile> file, const GridChoice& choice) {
+  if (!file || !choice) return file;
+  std::vector<const Grid*> heads;
+  for (const Grid& grid : file->grids) heads.push_back(&grid);
+  const auto positions = choice(heads);
+  if (!positions) return positions.failure();
+  GridFile chosen{{}, std::move(file->metadata)};
+  for (const std::size_t position : *positions) chosen.grids.push_back(std::move(file->grids[position]));
+  return chosen;
+}
+
+constexpr const char* kExpected = ": unknown file suffix; expected .brv, .vdb, .nvdb or .json";
+
 }  // namespace
 
 bool is_grid_file(const fs::path& path) {
   const std::string suffix = lower_suffix(path);
-  return suffix == ".brv" || suffix == ".vdb" || suffix == ".nvdb";
+  if (suffix == ".brv" || suffix == ".vdb" || suffix == ".nvdb" || suffix == ".json") return true;
+  if (!is_image(path) || !fs::exists(description_of(path))) return false;
+  const auto is_atlas = is_slice_atlas(description_of(path));
+  return is_atlas && *is_atlas;
+}
+
+Result<std::vector<fs::path>> files_of(const fs::path& path) {
+  const bool is_picture = is_image(path);
+  if (!is_picture && lower_suffix(path) != ".json") return std::vector<fs::path>{path};
+  const fs::path json = is_picture ? description_of(path) : path;
+  const auto is_atlas = is_slice_atlas(json);
+  if (!is_atlas) return is_atlas.failure();
+  if (*is_atlas) {
+    auto images = read_atlas_images(json);
+    if (!images) return images.failure();
+    images->insert(images->begin(), json);
+    return images;
+  }
+  auto raw = read_raw_path(json);
+  if (!raw) return raw.failure();
+  return std::vector<fs::path>{json, std::move(*raw)};
 }
 
 Result<GridFile> load_grid_file(const fs::path& path, const GridLimits& limits, const GridChoice& choice) {
-  if (!is_grid_file(path))
-    return Failure{ErrorCode::bad_input,
-                   path.string() + ": unknown file suffix; expected .brv, .vdb or .nvdb"};
-  return lower_suffix(path) == ".brv" ? load_brv(path, limits, choice) : read_in_child(path, limits);
+  const std::string suffix = lower_suffix(path);
+  if (suffix == ".json") return chosen_of(load_described(path, limits), choice);
+  if (is_image(path)) return chosen_of(load_described(description_of(path), limits), choice);
+  if (suffix == ".brv") return load_brv(path, limits, choice);
+  if (is_grid_file(path)) return read_in_child(path, limits);
+  return Failure{ErrorCode::bad_input, path.string() + kExpected};
 }
 
 Result<void> save_grid_file(const fs::path& path, const GridFile& file) {
-  if (!is_grid_file(path))
-    return Failure{ErrorCode::usage, path.string() + ": unknown file suffix; expected .brv, .vdb or .nvdb"};
-  return lower_suffix(path) == ".brv" ? save_brv(path, file) : write_in_child(path, file);
+  const std::string suffix = lower_suffix(path);
+  if (suffix == ".brv") return save_brv(path, file);
+  if (suffix == ".vdb" || suffix == ".nvdb") return write_in_child(path, file);
+  return Failure{ErrorCode::usage, path.string() + ": unknown file suffix; expected .brv, .vdb or .nvdb"};
 }
 
 }  // namespace brume::grids

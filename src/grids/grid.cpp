@@ -95,4 +95,39 @@ std::optional<std::size_t> find_brick(const Grid& grid, glm::ivec3 origin) {
   return static_cast<std::size_t>(found - grid.bricks.begin());
 }
 
+namespace {
+
+template <typename T>
+T read_as(const std::byte* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+double number_of(ValueType type, const std::byte* bytes) {
+  switch (type) {
+    case ValueType::float32:
+      return static_cast<double>(read_as<float>(bytes));
+    case ValueType::float64:
+      return read_as<double>(bytes);
+    case ValueType::int32:
+      return static_cast<double>(read_as<std::int32_t>(bytes));
+    case ValueType::int64:
+      return static_cast<double>(read_as<std::int64_t>(bytes));
+    case ValueType::boolean:
+      return static_cast<double>(read_as<std::uint8_t>(bytes));
+    case ValueType::mask:
+      return 1;
+    case ValueType::vec3f:
+      return glm::length(glm::dvec3(read_as<glm::vec3>(bytes)));
+    case ValueType::vec3d:
+      return glm::length(read_as<glm::dvec3>(bytes));
+    case ValueType::vec3i:
+      return glm::length(glm::dvec3(read_as<glm::ivec3>(bytes)));
+  }
+  return 0;
+}
+
 }  // namespace brume::grids

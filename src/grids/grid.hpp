@@ -102,6 +102,9 @@ struct GridFile {
 /// only.
 using GridChoice = std::function<Result<std::vector<std::size_t>>(std::span<const Grid* const> grids)>;
 
+/// A value as a number: vectors by their length, masks as 1.
+double number_of(ValueType type, const std::byte* value);
+
 /// Voxels that are active, those of tiles included.
 std::uint64_t count_active(const Grid& grid);
 

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/checked.hpp"
 #include "core/file.hpp"
 #include "grids/check.hpp"
+#include "grids/json.hpp"
 #include "grids/suffix.hpp"
 
 namespace brume::grids {
@@ -18,11 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using glm::i64vec3;
 using glm::ivec3;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "brume raw volume";
 constexpr int kVersion = 1;
-constexpr std::uint64_t kMaxDescription = 1 << 20;
 constexpr int kFarthest = 1 << 29;  // Of an origin; the end of an array then fits an index.
 constexpr std::array kClasses{"unknown", "level set", "fog volume", "staggered"};
 
@@ -37,38 +35,6 @@ struct Description {
 
 Failure bad(const fs::path& json, const std::string& what) {
   return {ErrorCode::bad_input, json.string() + ": " + what};
-}
-
-bool is_integer(const Json& value, std::int64_t low, std::int64_t high) {
-  return value.is_number_integer() &&
-         (!value.is_number_unsigned() || value.get<std::uint64_t>() <= INT64_MAX) &&
-         value.get<std::int64_t>() >= low && value.get<std::int64_t>() <= high;
-}
-
-std::optional<ivec3> integers(const Json& list, int low, int high) {
-  if (!list.is_array() || list.size() != 3) return std::nullopt;
-  ivec3 v;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Json& value = list[static_cast<std::size_t>(axis)];
-    if (!is_integer(value, low, high)) return std::nullopt;
-    v[axis] = static_cast<int>(value.get<std::int64_t>());
-  }
-  return v;
-}
-
-std::optional<glm::dmat4> transform(const Json& columns) {
-  if (!columns.is_array() || columns.size() != 4) return std::nullopt;
-  glm::dmat4 m(1);
-  for (int column = 0; column < 4; ++column) {
-    const Json& list = columns[static_cast<std::size_t>(column)];
-    if (!list.is_array() || list.size() != 3) return std::nullopt;
-    for (int row = 0; row < 3; ++row) {
-      const Json& value = list[static_cast<std::size_t>(row)];
-      if (!value.is_number()) return std::nullopt;
-      m[column][row] = value.get<double>();
-    }
-  }
-  return m;
 }
 
 // False unless the value is what the key takes.
@@ -90,7 +56,7 @@ bool set_member(Description& to, const std::string& key, const Json& value) {
   }
   if (key == "size" || key == "origin") {
     const bool is_size = key == "size";
-    const auto v = integers(value, is_size ? 1 : -kFarthest, is_size ? 2 * kFarthest : kFarthest);
+    const auto v = integers_of(value, is_size ? 1 : -kFarthest, is_size ? 2 * kFarthest : kFarthest);
     if (v) (is_size ? to.size : to.origin) = *v;
     return v.has_value();
   }
@@ -99,7 +65,7 @@ bool set_member(Description& to, const std::string& key, const Json& value) {
     return value.is_number() && std::isfinite(to.background);
   }
   if (key == "world_from_index") {
-    const auto m = transform(value);
+    const auto m = transform_of(value);
     if (m) to.world_from_index = *m;
     return m.has_value();
   }
@@ -107,26 +73,15 @@ bool set_member(Description& to, const std::string& key, const Json& value) {
 }
 
 Result<Description> read_description(const fs::path& path) {
-  const auto text = read_text_file(path, kMaxDescription);
-  if (!text) return text.failure();
-  // The parser and its destructor are recursive.
-  constexpr int kMaxDepth = 8;
-  bool too_deep = false;
-  const Json json = Json::parse(
-      *text,
-      [&](int depth, Json::parse_event_t, Json&) {
-        too_deep = too_deep || depth > kMaxDepth;
-        return !too_deep;
-      },
-      /*allow_exceptions=*/false);
-  if (json.is_discarded() || !json.is_object()) return bad(path, "not a JSON object");
-  if (!json.contains("format")) return bad(path, "describes no volume: \"format\" is missing");
+  const auto json = read_json_object(path);
+  if (!json) return json.failure();
+  if (!json->contains("format")) return bad(path, "describes no volume: \"format\" is missing");
   Description description;
-  for (const auto& [key, value] : json.items())
+  for (const auto& [key, value] : json->items())
     if (!set_member(description, key, value))
       return bad(path, "\"" + key + "\" is unknown or has a wrong value");
   for (const char* key : {"version", "raw", "size"})
-    if (!json.contains(key)) return bad(path, std::string("\"") + key + "\" is missing");
+    if (!json->contains(key)) return bad(path, std::string("\"") + key + "\" is missing");
   return description;
 }
 
@@ -196,11 +151,6 @@ std::vector<float> dense(const Grid& grid, const Description& d) {
 }
 
 std::string text_of(const Description& d) {
-  Json columns = Json::array();
-  for (int column = 0; column < 4; ++column) {
-    const glm::dvec4& c = d.world_from_index[column];
-    columns.push_back({c.x, c.y, c.z});
-  }
   const Json json{{"format", kFormat},
                   {"version", kVersion},
                   {"raw", d.raw},
@@ -210,7 +160,7 @@ std::string text_of(const Description& d) {
                   {"size", {d.size.x, d.size.y, d.size.z}},
                   {"origin", {d.origin.x, d.origin.y, d.origin.z}},
                   {"background", d.background},
-                  {"world_from_index", columns}};
+                  {"world_from_index", json_of(d.world_from_index)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,9 +1,11 @@
 #include <spng.h>
 
 #include <memory>
+#include <vector>
 
 #include "core/checked.hpp"
 #include "image/formats.hpp"
+#include "image/png.hpp"
 
 namespace brume::image {
 namespace {
@@ -38,35 +40,77 @@ bool has_end(std::span<const std::byte> bytes) {
   return false;
 }
 
-}  // namespace
+/// A decoder with its limits set, and the header that it has checked.
+struct OpenPng {
+  std::unique_ptr<spng_ctx, FreeContext> context;
+  spng_ihdr header{};
+};
 
-Result<Image8> decode_png(std::span<const std::byte> bytes, const std::string& name) {
-  const std::unique_ptr<spng_ctx, FreeContext> context(spng_ctx_new(0));
+Result<OpenPng> open_png(std::span<const std::byte> bytes, const std::string& name) {
+  OpenPng png{std::unique_ptr<spng_ctx, FreeContext>(spng_ctx_new(0))};
+  spng_ctx* const context = png.context.get();
   if (!context) return Failure{ErrorCode::resource_limit, name + ": out of memory"};
   const auto failed = [&](int error) { return png_failure(name, spng_strerror(error)); };
 
   // Set the limits first: they apply while the header is read.
-  spng_set_image_limits(context.get(), 0x7fffffff, 0x7fffffff);
-  spng_set_chunk_limits(context.get(), kMaxChunkBytes, kMaxChunkBytes);
-  if (const int error = spng_set_png_buffer(context.get(), bytes.data(), bytes.size())) return failed(error);
+  spng_set_image_limits(context, 0x7fffffff, 0x7fffffff);
+  spng_set_chunk_limits(context, kMaxChunkBytes, kMaxChunkBytes);
+  if (const int error = spng_set_png_buffer(context, bytes.data(), bytes.size())) return failed(error);
 
-  // Check the size before allocating.
-  spng_ihdr header{};
-  if (const int error = spng_get_ihdr(context.get(), &header)) return failed(error);
-  if (auto size = check_size(header.width, header.height, name); !size) return size.failure();
-  const std::uint64_t least_bits = std::uint64_t{header.width} * header.height * header.bit_depth;
-  if (least_bits / 8 / kMaxInflation > bytes.size()) {
+  // Check the size before anything is allocated for it.
+  if (const int error = spng_get_ihdr(context, &png.header)) return failed(error);
+  if (auto size = check_size(png.header.width, png.header.height, name); !size) return size.failure();
+  const std::uint64_t least_bits = std::uint64_t{png.header.width} * png.header.height * png.header.bit_depth;
+  if (least_bits / 8 / kMaxInflation > bytes.size())
     return png_failure(name, "it is too short for the size in its header");
-  }
+  return png;
+}
 
-  // Decode.
-  Image8 image{header.width, header.height, {}};
-  image.rgba.resize(std::size_t{header.width} * header.height * 4);
-  if (const int error = spng_decode_image(context.get(), image.rgba.data(), image.rgba.size(), SPNG_FMT_RGBA8,
-                                          SPNG_DECODE_TRNS)) {
-    return failed(error);
+/// Channels of a PNG of numbers; 0: of another kind.
+std::uint32_t channels_of(const spng_ihdr& header) {
+  if (header.bit_depth != 8 && header.bit_depth != 16) return 0;
+  switch (header.color_type) {
+    case SPNG_COLOR_TYPE_GRAYSCALE:
+      return 1;
+    case SPNG_COLOR_TYPE_TRUECOLOR:
+      return 3;
+    case SPNG_COLOR_TYPE_TRUECOLOR_ALPHA:
+      return 4;
+    default:
+      return 0;
   }
+}
+
+}  // namespace
+
+Result<Image8> decode_png(std::span<const std::byte> bytes, const std::string& name) {
+  const auto png = open_png(bytes, name);
+  if (!png) return png.failure();
+  Image8 image{png->header.width, png->header.height, {}};
+  image.rgba.resize(std::size_t{image.width} * image.height * 4);
+  if (const int error = spng_decode_image(png->context.get(), image.rgba.data(), image.rgba.size(),
+                                          SPNG_FMT_RGBA8, SPNG_DECODE_TRNS))
+    return png_failure(name, spng_strerror(error));
   if (!has_end(bytes)) return png_failure(name, "its end is missing");
+  return image;
+}
+
+Result<NumberImage> decode_png_numbers(std::span<const std::byte> bytes, const std::string& name) {
+  const auto png = open_png(bytes, name);
+  if (!png) return png.failure();
+  const std::uint32_t channels = channels_of(png->header);
+  if (channels == 0)
+    return Failure{ErrorCode::bad_input,
+                   name + ": expected a PNG of 8 or 16 bits, grey, RGB or RGBA, without a palette"};
+  NumberImage image{png->header.width, png->header.height, channels, png->header.bit_depth, {}};
+  image.values.resize(std::size_t{image.width} * image.height * channels);
+  std::vector<std::uint8_t> narrow(image.bits == 8 ? image.values.size() : 0);
+  void* const to = image.bits == 8 ? static_cast<void*>(narrow.data()) : image.values.data();
+  const std::size_t length = image.values.size() * image.bits / 8;
+  if (const int error = spng_decode_image(png->context.get(), to, length, SPNG_FMT_PNG, 0))
+    return png_failure(name, spng_strerror(error));
+  if (!has_end(bytes)) return png_failure(name, "its end is missing");
+  if (image.bits == 8) image.values.assign(narrow.begin(), narrow.end());
   return image;
 }
 

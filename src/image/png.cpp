@@ -2,6 +2,7 @@
 
 #include <spng.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <span>
@@ -36,14 +37,18 @@ std::vector<Value> without_alpha(const std::vector<Value>& rgba) {
   return rgb;
 }
 
-template <typename Value>
-Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-                  const std::vector<Value>& rgba, const std::optional<ImageText>& text) {
-  BRUME_ASSERT(rgba.size() == std::size_t{width} * height * 4, path.string());
-  if (auto size = check_size(width, height, path.string()); !size) return size;
-  const bool has_alpha = !opaque(rgba);
-  const std::vector<Value> rgb = has_alpha ? std::vector<Value>() : without_alpha(rgba);
-  const std::vector<Value>& values = has_alpha ? rgba : rgb;
+/// What a PNG is besides its values.
+struct PngKind {
+  std::uint32_t width = 0, height = 0;
+  std::uint8_t bits = 8;
+  spng_color_type color = SPNG_COLOR_TYPE_TRUECOLOR;
+  bool is_srgb = true;
+  std::optional<ImageText> text;
+};
+
+Result<void> encode(const std::filesystem::path& path, const PngKind& kind,
+                    std::span<const std::byte> values) {
+  if (auto size = check_size(kind.width, kind.height, path.string()); !size) return size;
 
   // Encode into memory.
   const std::unique_ptr<spng_ctx, FreeContext> context(spng_ctx_new(SPNG_CTX_ENCODER));
@@ -53,26 +58,26 @@ Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::u
   if (!context) return failed(SPNG_EMEM);
   spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
   spng_ihdr header{};
-  header.width = width;
-  header.height = height;
-  header.bit_depth = sizeof(Value) * 8;
-  header.color_type = has_alpha ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR;
+  header.width = kind.width;
+  header.height = kind.height;
+  header.bit_depth = kind.bits;
+  header.color_type = static_cast<std::uint8_t>(kind.color);
   if (const int error = spng_set_ihdr(context.get(), &header)) return failed(error);
-  if (const int error = spng_set_srgb(context.get(), 0)) return failed(error);  // 0: perceptual intent
+  if (kind.is_srgb)
+    if (const int error = spng_set_srgb(context.get(), 0)) return failed(error);  // 0: perceptual intent
   std::string text_until_encoded;  // libspng keeps a pointer to it.
-  if (text) {
-    text_until_encoded = text->text;
+  if (kind.text) {
+    text_until_encoded = kind.text->text;
     spng_text chunk{};
-    text->keyword.copy(chunk.keyword, sizeof chunk.keyword - 1);
+    kind.text->keyword.copy(chunk.keyword, sizeof chunk.keyword - 1);
     chunk.type = SPNG_TEXT;
     chunk.text = text_until_encoded.data();
     chunk.length = text_until_encoded.size();
     if (const int error = spng_set_text(context.get(), &chunk, 1)) return failed(error);
   }
-  if (const int error = spng_encode_image(context.get(), values.data(), values.size() * sizeof(Value),
-                                          SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE)) {
+  if (const int error =
+          spng_encode_image(context.get(), values.data(), values.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE))
     return failed(error);
-  }
 
   // Write the file.
   std::size_t size = 0;
@@ -82,15 +87,44 @@ Result<void> save(const std::filesystem::path& path, std::uint32_t width, std::u
   return write_file_atomic(path, std::span(static_cast<const std::byte*>(bytes.get()), size));
 }
 
+template <typename Value>
+Result<void> save_colors(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+                         const std::vector<Value>& rgba, const std::optional<ImageText>& text) {
+  BRUME_ASSERT(rgba.size() == std::size_t{width} * height * 4, path.string());
+  const bool has_alpha = !opaque(rgba);
+  const std::vector<Value> rgb = has_alpha ? std::vector<Value>() : without_alpha(rgba);
+  const PngKind kind{width,
+                     height,
+                     sizeof(Value) * 8,
+                     has_alpha ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR,
+                     true,
+                     text};
+  return encode(path, kind, std::as_bytes(std::span(has_alpha ? rgba : rgb)));
+}
+
 }  // namespace
 
 Result<void> save_png(const std::filesystem::path& path, const Image8& image,
                       const std::optional<ImageText>& text) {
-  return save(path, image.width, image.height, image.rgba, text);
+  return save_colors(path, image.width, image.height, image.rgba, text);
 }
 
 Result<void> save_png(const std::filesystem::path& path, const Image16& image) {
-  return save(path, image.width, image.height, image.rgba, std::nullopt);
+  return save_colors(path, image.width, image.height, image.rgba, std::nullopt);
+}
+
+Result<void> save_png(const std::filesystem::path& path, const NumberImage& image) {
+  BRUME_ASSERT(image.values.size() == std::size_t{image.width} * image.height * image.channels,
+               path.string());
+  const spng_color_type color = image.channels == 1   ? SPNG_COLOR_TYPE_GRAYSCALE
+                                : image.channels == 3 ? SPNG_COLOR_TYPE_TRUECOLOR
+                                                      : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
+  const PngKind kind{image.width, image.height, static_cast<std::uint8_t>(image.bits), color, false, {}};
+  if (image.bits == 16) return encode(path, kind, std::as_bytes(std::span(image.values)));
+  std::vector<std::uint8_t> narrow(image.values.size());
+  std::ranges::transform(image.values, narrow.begin(),
+                         [](std::uint16_t value) { return static_cast<std::uint8_t>(value); });
+  return encode(path, kind, std::as_bytes(std::span(narrow)));
 }
 
 // A chunk is its length, a type of four letters, the data and a four-byte checksum. The data of a tEXt chunk

@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "core/log.hpp"
+#include "grids/files.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -345,7 +346,14 @@ std::vector<VolumeAt> Volumes::at(std::span<const scene::VolumeOptions> options,
 std::vector<fs::path> Volumes::files() const {
   std::vector<fs::path> files;
   for (const Sequence& sequence : sequences_)
-    for (const auto& [number, file] : sequence.files) files.push_back(file);
+    for (const auto& [number, file] : sequence.files) {
+      // Of a description that cannot be read only itself; to load it fails.
+      const auto all = grids::files_of(file);
+      if (all)
+        files.insert(files.end(), all->begin(), all->end());
+      else
+        files.push_back(file);
+    }
   return files;
 }
 

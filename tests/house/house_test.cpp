@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -22,8 +23,8 @@ int for_each_source(const std::filesystem::path& folder,
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const auto extension = entry.path().extension();
-    static const std::set<std::filesystem::path> kSources{".cpp",  ".hpp",  ".h",   ".comp",
-                                                          ".vert", ".frag", ".glsl"};
+    static const std::set<std::filesystem::path> kSources{".cpp",  ".hpp",  ".h",    ".comp",
+                                                          ".vert", ".frag", ".glsl", ".hlsl"};
     if (!kSources.contains(extension)) continue;
     visit(entry.path(), *read_text_file(entry.path()));
     ++count;
@@ -142,6 +143,10 @@ TEST(House, FilesAndFunctionsStayShort) {
     });
   }
   EXPECT_GT(count, 300);
+}
+
+TEST(House, ExportedShadersAreTheSameInBothLanguages) {
+  EXPECT_EQ(std::system(BRUME_SOURCE_DIR "/script/export-hlsl --check"), 0);
 }
 
 TEST(House, NothingUsesAWordThatTheGlossaryReplaces) {

@@ -1,0 +1,302 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "apps/cli/atlas_options.hpp"
+#include "apps/cli/command.hpp"
+#include "apps/cli/console.hpp"
+#include "apps/cli/info.hpp"
+#include "apps/cli/parse.hpp"
+#include "apps/cli/volumes.hpp"
+#include "bake/coverage.hpp"
+#include "core/log.hpp"
+#include "core/similar.hpp"
+#include "grids/files.hpp"
+#include "scenario/world_triangles.hpp"
+#include "scene/load.hpp"
+
+namespace brume::cli {
+namespace {
+
+struct SliceOptions {
+  std::string input, size, box, channels, json;
+  AtlasOptions atlas;
+};
+
+/// What goes into one channel.
+struct ChannelChoice {
+  std::string name;     ///< Of an object or a grid; empty: all objects.
+  std::size_t channel;  ///< 0 to 3: R, G, B, A.
+};
+
+std::vector<ChannelChoice> parse_channels(const std::string& text) {
+  constexpr std::string_view kLetters = "rgba";
+  std::vector<ChannelChoice> choices;
+  std::string parts = text.empty() ? "" : text + ",";
+  for (std::size_t end = 0; (end = parts.find(',')) != std::string::npos; parts.erase(0, end + 1)) {
+    const std::string part = parts.substr(0, end);
+    const std::size_t colon = part.rfind(':');
+    const std::size_t letter = colon != std::string::npos && colon + 2 == part.size()
+                                   ? kLetters.find(part.back())
+                                   : std::string::npos;
+    if (letter == std::string::npos || colon == 0)
+      throw Error(ErrorCode::usage, "--channels '" + text +
+                                        "': expected names and channels r, g, b or a, such as ring:r,beam:g");
+    choices.push_back({part.substr(0, colon), letter});
+  }
+  for (std::size_t channel = 0; channel < choices.size(); ++channel)
+    if (std::ranges::none_of(choices, [&](const ChannelChoice& one) { return one.channel == channel; }) &&
+        std::ranges::any_of(choices, [&](const ChannelChoice& one) { return one.channel > channel; }))
+      throw Error(ErrorCode::usage, "--channels '" + text + "': channel " + "rgba"[channel] +
+                                        " is empty; use r, then g, b and a");
+  return choices;
+}
+
+std::optional<glm::uvec3> parse_voxels(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const glm::uvec3 size(parse_grid("--size", text));
+  if (glm::any(glm::equal(size, glm::uvec3(0))) || glm::any(glm::greaterThan(size, glm::uvec3(16384))))
+    throw Error(ErrorCode::usage, "--size '" + text + "': expected 1 to 16384 voxels along x, y and z");
+  return size;
+}
+
+std::optional<Box<double>> parse_box(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto points = points_of(text);
+  if (points.size() != 2)
+    throw Error(ErrorCode::usage, "--box '" + text + "': expected two corners, such as \"-1,0,-1 1,2,1\"");
+  const Box<double> box{glm::dvec3(parse_point("--box", points[0])),
+                        glm::dvec3(parse_point("--box", points[1]))};
+  if (!glm::all(glm::lessThan(box.low, box.high)))
+    throw Error(ErrorCode::usage,
+                "--box '" + text + "': is empty; the first corner is the lowest along each axis");
+  return box;
+}
+
+/// The triangles of the objects of one channel.
+struct MeshChannel {
+  std::string name;
+  std::vector<voxel::Triangle> triangles;
+};
+
+std::vector<MeshChannel> mesh_channels(const scene::Scene& scene, const std::string& file,
+                                       const std::vector<ChannelChoice>& choices) {
+  if (choices.empty()) return {{"density", scenario::world_triangles(scene)}};
+  std::vector<std::string> known;
+  for (const scene::Object& object : scene.objects) known.push_back(object.name);
+  std::vector<MeshChannel> channels;
+  for (const ChannelChoice& choice : choices) {
+    channels.resize(std::max(channels.size(), choice.channel + 1));
+    MeshChannel& channel = channels[choice.channel];
+    channel.name += (channel.name.empty() ? "" : "+") + choice.name;
+    bool is_found = false;
+    for (const scene::Object& object : scene.objects) {
+      if (object.name != choice.name) continue;
+      is_found = true;
+      const auto triangles = scenario::object_triangles(scene, object);
+      channel.triangles.insert(channel.triangles.end(), triangles.begin(), triangles.end());
+    }
+    if (!is_found)
+      throw Error(ErrorCode::usage, "--channels " + choice.name + ": " + file + " has no such object" +
+                                        suggestion(choice.name, known, ""));
+  }
+  return channels;
+}
+
+/// The bounds of all triangles and a voxel around them, so that nothing is cut and what is filtered ends at
+/// 0.
+Box<double> box_around(const std::vector<MeshChannel>& channels, glm::uvec3 size, const std::string& file) {
+  Box<double> bounds{glm::dvec3(1e300), glm::dvec3(-1e300)};
+  for (const MeshChannel& channel : channels)
+    for (const voxel::Triangle& triangle : channel.triangles)
+      for (const glm::vec3 corner : {triangle.a, triangle.b, triangle.c}) {
+        bounds.low = glm::min(bounds.low, glm::dvec3(corner));
+        bounds.high = glm::max(bounds.high, glm::dvec3(corner));
+      }
+  if (bounds.empty()) throw Error(ErrorCode::bad_input, file + ": has no triangles to bake");
+  const glm::dvec3 extent = bounds.high - bounds.low;
+  const double largest = std::max({extent.x, extent.y, extent.z, 1e-6});
+  for (int axis = 0; axis < 3; ++axis) {
+    const double voxels = size[axis];
+    const double wide = std::max(extent[axis], 1e-3 * largest);
+    const double margin = 0.5 * (wide - extent[axis]) + (voxels > 2 ? wide / (voxels - 2) : 0);
+    bounds.low[axis] -= margin;
+    bounds.high[axis] += margin;
+  }
+  return bounds;
+}
+
+/// 64 x 64 texels in 32 tiles.
+glm::uvec3 default_size(const grids::AtlasAxes& axes) {
+  glm::uvec3 size(64);
+  size[axes[2].axis] = 32;
+  return size;
+}
+
+struct Baked {
+  AtlasTarget target;
+  Box<double> box;
+  std::vector<std::string> channels;
+};
+
+Baked bake_mesh(const SliceOptions& options, Outputs& outputs) {
+  const auto size = parse_voxels(options.size);
+  const auto box = parse_box(options.box);
+  const auto choices = parse_channels(options.channels);
+  const grids::AtlasAxes axes = axes_of(options.atlas, grids::kUprightAxes);
+  const AtlasTarget target =
+      atlas_target(options.atlas, size.value_or(default_size(axes)), grids::kUprightAxes, outputs);
+  const scene::Scene scene = scene::load_scene(options.input).value_or_throw();
+  outputs.reads(scene.files);
+  stop_if_interrupted();
+
+  Baked baked{target, {}, {}};
+  const std::vector<MeshChannel> channels = mesh_channels(scene, options.input, choices);
+  baked.box = box ? *box : box_around(channels, target.layout.size, options.input);
+  std::vector<grids::DenseGrid> grids;
+  for (const MeshChannel& channel : channels) {
+    bake::Coverage coverage = bake::mesh_coverage(channel.triangles, baked.box, target.layout.size);
+    if (const std::string fault = coverage.faults.text(); !fault.empty())
+      log_warning(options.input + ": " + channel.name + " " + fault);
+    if (std::ranges::all_of(coverage.grid.values, [](float value) { return value <= 0; }))
+      log_warning(options.input + ": " + channel.name + " fills nothing of the box");
+    coverage.grid.name = channel.name;
+    baked.channels.push_back(channel.name);
+    grids.push_back(std::move(coverage.grid));
+    stop_if_interrupted();
+  }
+  save_atlas(target, std::move(grids));
+  return baked;
+}
+
+/// The grids that are chosen, or the first ones; R first.
+std::vector<const grids::Grid*> volume_channels(const grids::GridFile& file, const std::string& name,
+                                                const std::vector<ChannelChoice>& choices) {
+  std::vector<const grids::Grid*> channels;
+  if (choices.empty()) {
+    for (const grids::Grid& grid : file.grids) channels.push_back(&grid);
+    if (channels.empty()) throw Error(ErrorCode::bad_input, name + ": has no grids");
+    if (channels.size() > grids::kMostAtlasChannels)
+      throw Error(ErrorCode::usage, name + ": has " + std::to_string(channels.size()) +
+                                        " grids; choose up to 4 with --channels, such as " +
+                                        printable(channels.front()->name) + ":r");
+    return channels;
+  }
+  std::vector<std::string> known;
+  for (const grids::Grid& grid : file.grids) known.push_back(printable(grid.name));
+  channels.resize(choices.size(), nullptr);
+  for (const ChannelChoice& choice : choices) {
+    const auto grid = std::ranges::find(file.grids, choice.name, &grids::Grid::name);
+    if (grid == file.grids.end())
+      throw Error(ErrorCode::usage, "--channels " + choice.name + ": " + name + " has no such grid" +
+                                        suggestion(choice.name, known, ""));
+    if (choice.channel >= channels.size() || channels[choice.channel])
+      throw Error(ErrorCode::usage, "--channels: one grid for each channel");
+    channels[choice.channel] = &*grid;
+  }
+  return channels;
+}
+
+/// What a volume's voxels cover, or the part of the box that is given in the world.
+grids::GridBox volume_box(const SliceOptions& options, const std::vector<const grids::Grid*>& channels) {
+  auto box = grids::box_of(channels);
+  if (!box) throw Error(box.failure().code, options.input + ": " + box.failure().message);
+  const auto size = parse_voxels(options.size);
+  if (const auto given = parse_box(options.box)) {
+    if (box->world_from_box != glm::dmat4(1))
+      throw Error(ErrorCode::usage, "--box: " + options.input +
+                                        " is rotated against the axes of the world; its own box is taken");
+    const glm::dvec3 voxel = (box->box.high - box->box.low) / glm::dvec3(box->size);
+    box->size = glm::uvec3(
+        glm::clamp(glm::round((given->high - given->low) / voxel), glm::dvec3(1), glm::dvec3(16384)));
+    box->box = *given;
+  }
+  if (size) box->size = *size;
+  return *box;
+}
+
+Baked bake_volume(const SliceOptions& options, Outputs& outputs) {
+  parse_voxels(options.size);
+  parse_box(options.box);
+  const auto choices = parse_channels(options.channels);
+  check_atlas_options(options.atlas);
+  const grids::GridFile file = load_volumes(options.input, outputs);
+  stop_if_interrupted();
+  const std::vector<const grids::Grid*> channels = volume_channels(file, options.input, choices);
+  const grids::GridBox box = volume_box(options, channels);
+  Baked baked{atlas_target(options.atlas, box.size, grids::kUprightAxes, outputs), box.box, {}};
+  std::vector<grids::DenseGrid> grids;
+  for (const grids::Grid* grid : channels) {
+    auto dense = grids::resample(*grid, box);
+    if (!dense) throw Error(dense.failure().code, options.input + ": " + dense.failure().message);
+    baked.channels.push_back(grid->name);
+    grids.push_back(std::move(*dense));
+    stop_if_interrupted();
+  }
+  save_atlas(baked.target, std::move(grids), box.world_from_box);
+  return baked;
+}
+
+void bake_slices(const SliceOptions& options, Outputs& outputs) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool is_volume = grids::is_grid_file(options.input);
+  if (!is_volume)
+    expect_suffix("", options.input, {".glb", ".gltf", ".obj", ".txt", ".vdb", ".nvdb", ".brv", ".json"});
+  outputs.reads(std::filesystem::path(options.input));
+  outputs.writes("--json", options.json, FileKind::json);
+  const Baked baked = is_volume ? bake_volume(options, outputs) : bake_mesh(options, outputs);
+
+  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+  if (!options.json.empty()) {
+    const auto point = [](const glm::dvec3& p) { return Json::list({p.x, p.y, p.z}); };
+    Json json{{"input", options.input}};
+    json.update(json_of(baked.target));
+    json.set("channels", baked.channels);
+    json.set("box", Json{{"low", point(baked.box.low)}, {"high", point(baked.box.high)}});
+    json.set("milliseconds", whole.count());
+    write_json(options.json, json);
+  }
+  if (options.json == "-") return;
+  char seconds[40];
+  std::snprintf(seconds, sizeof seconds, ", in %.3g s\n", whole.count() / 1000);
+  print(text_of(baked.target.layout) + seconds);
+}
+
+}  // namespace
+
+Command add_bake_slices(CommandLine& program) {
+  Command command = declare(
+      program, "bake slices", "Writes the slices of closed meshes or of a volume as tiles of an image.",
+      "  brume bake slices thruster.glb -o thruster.png --channels ring:r,beam:g\n"
+      "  brume bake slices smoke.vdb -o smoke.exr --preset unreal\n"
+      "  brume bake slices cloud.brv -o cloud.png --size 64x64x64 --layout square --bits 16");
+  auto options = std::make_shared<SliceOptions>();
+  const Arguments& arguments = command.arguments;
+  arguments
+      .add_option("INPUT", options->input,
+                  "Closed meshes (.glb, .gltf, .obj, .txt) or a volume (.vdb, .nvdb, .brv, .json)")
+      .required()
+      .type_name("");
+  declare_atlas_options(arguments, options->atlas);
+  arguments
+      .add_option(
+          "--channels", options->channels,
+          "Objects of a scene, or grids of a volume, and the channels r, g, b, a that they fill; default: "
+          "all objects in one, the first grids")
+      .type_name("NAME:r,..");
+  arguments
+      .add_option("--size", options->size,
+                  "Voxels along x, y and z; default: 64 and 32 tiles for meshes, those of a volume")
+      .type_name("XxYxZ");
+  arguments
+      .add_option(
+          "--box", options->box,
+          "Lowest and highest corner of what is baked [m]; default: all, of meshes with a voxel around")
+      .type_name("POINTS");
+  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
+      .type_name("FILE");
+  command.run = [options, common = command.common] { bake_slices(*options, common->outputs); };
+  return command;
+}
+
+}  // namespace brume::cli
