@@ -3,16 +3,15 @@
 #include <cstdio>
 
 #include "apps/cli/atlas_options.hpp"
+#include "apps/cli/bake_inputs.hpp"
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/info.hpp"
-#include "apps/cli/parse.hpp"
 #include "apps/cli/volumes.hpp"
 #include "bake/coverage.hpp"
 #include "core/log.hpp"
 #include "core/similar.hpp"
 #include "grids/files.hpp"
-#include "scenario/world_triangles.hpp"
 #include "scene/load.hpp"
 
 namespace brume::cli {
@@ -52,27 +51,6 @@ std::vector<ChannelChoice> parse_channels(const std::string& text) {
   return choices;
 }
 
-std::optional<glm::uvec3> parse_voxels(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const glm::uvec3 size(parse_grid("--size", text));
-  if (glm::any(glm::equal(size, glm::uvec3(0))) || glm::any(glm::greaterThan(size, glm::uvec3(16384))))
-    throw Error(ErrorCode::usage, "--size '" + text + "': expected 1 to 16384 voxels along x, y and z");
-  return size;
-}
-
-std::optional<Box<double>> parse_box(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const auto points = points_of(text);
-  if (points.size() != 2)
-    throw Error(ErrorCode::usage, "--box '" + text + "': expected two corners, such as \"-1,0,-1 1,2,1\"");
-  const Box<double> box{glm::dvec3(parse_point("--box", points[0])),
-                        glm::dvec3(parse_point("--box", points[1]))};
-  if (!glm::all(glm::lessThan(box.low, box.high)))
-    throw Error(ErrorCode::usage,
-                "--box '" + text + "': is empty; the first corner is the lowest along each axis");
-  return box;
-}
-
 /// The triangles of the objects of one channel.
 struct MeshChannel {
   std::string name;
@@ -81,24 +59,14 @@ struct MeshChannel {
 
 std::vector<MeshChannel> mesh_channels(const scene::Scene& scene, const std::string& file,
                                        const std::vector<ChannelChoice>& choices) {
-  if (choices.empty()) return {{"density", scenario::world_triangles(scene)}};
-  std::vector<std::string> known;
-  for (const scene::Object& object : scene.objects) known.push_back(object.name);
+  if (choices.empty()) return {{"density", triangles_of(scene)}};
   std::vector<MeshChannel> channels;
   for (const ChannelChoice& choice : choices) {
     channels.resize(std::max(channels.size(), choice.channel + 1));
     MeshChannel& channel = channels[choice.channel];
     channel.name += (channel.name.empty() ? "" : "+") + choice.name;
-    bool is_found = false;
-    for (const scene::Object& object : scene.objects) {
-      if (object.name != choice.name) continue;
-      is_found = true;
-      const auto triangles = scenario::object_triangles(scene, object);
-      channel.triangles.insert(channel.triangles.end(), triangles.begin(), triangles.end());
-    }
-    if (!is_found)
-      throw Error(ErrorCode::usage, "--channels " + choice.name + ": " + file + " has no such object" +
-                                        suggestion(choice.name, known, ""));
+    const auto triangles = triangles_of_object(scene, file, "--channels", choice.name);
+    channel.triangles.insert(channel.triangles.end(), triangles.begin(), triangles.end());
   }
   return channels;
 }
@@ -106,13 +74,10 @@ std::vector<MeshChannel> mesh_channels(const scene::Scene& scene, const std::str
 /// The bounds of all triangles and a voxel around them, so that nothing is cut and what is filtered ends at
 /// 0.
 Box<double> box_around(const std::vector<MeshChannel>& channels, glm::uvec3 size, const std::string& file) {
-  Box<double> bounds{glm::dvec3(1e300), glm::dvec3(-1e300)};
+  std::vector<voxel::Triangle> all;
   for (const MeshChannel& channel : channels)
-    for (const voxel::Triangle& triangle : channel.triangles)
-      for (const glm::vec3 corner : {triangle.a, triangle.b, triangle.c}) {
-        bounds.low = glm::min(bounds.low, glm::dvec3(corner));
-        bounds.high = glm::max(bounds.high, glm::dvec3(corner));
-      }
+    all.insert(all.end(), channel.triangles.begin(), channel.triangles.end());
+  Box<double> bounds = bounds_of(all);
   if (bounds.empty()) throw Error(ErrorCode::bad_input, file + ": has no triangles to bake");
   const glm::dvec3 extent = bounds.high - bounds.low;
   const double largest = std::max({extent.x, extent.y, extent.z, 1e-6});
@@ -248,11 +213,10 @@ void bake_slices(const SliceOptions& options, Outputs& outputs) {
 
   const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
   if (!options.json.empty()) {
-    const auto point = [](const glm::dvec3& p) { return Json::list({p.x, p.y, p.z}); };
     Json json{{"input", options.input}};
     json.update(json_of(baked.target));
     json.set("channels", baked.channels);
-    json.set("box", Json{{"low", point(baked.box.low)}, {"high", point(baked.box.high)}});
+    json.set("box", json_of(baked.box));
     json.set("milliseconds", whole.count());
     write_json(options.json, json);
   }

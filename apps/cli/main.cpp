@@ -86,10 +86,19 @@ int run(const Command& command, const std::string& json) {
 
 int parse_and_run(int argc, char** argv) {
   CommandLine program(kAbout, "brume", build_facts());
-  const std::array commands{add_demo(program),     add_render(program),  add_sim(program),
-                            add_voxelize(program), add_bake(program),    add_bake_slices(program),
-                            add_info(program),     add_convert(program), add_query(program),
-                            add_diff(program),     add_devices(program), add_bench(program),
+  const std::array commands{add_demo(program),
+                            add_render(program),
+                            add_sim(program),
+                            add_voxelize(program),
+                            add_bake(program),
+                            add_bake_slices(program),
+                            add_bake_occlusion(program),
+                            add_info(program),
+                            add_convert(program),
+                            add_query(program),
+                            add_diff(program),
+                            add_devices(program),
+                            add_bench(program),
 #ifdef BRUME_VIEWER
                             add_view(program)
 #endif

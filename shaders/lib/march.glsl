@@ -39,7 +39,7 @@ bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gath
 }
 
 /// The media neither scatter nor glow: a ray has nothing but a transmittance.
-const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasHeat && kCount != kCountEntries;
+const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasGlow && kCount != kCountEntries;
 
 /// Marches span by span. What the samples of a span have in common is computed once per span; little is carried from
 /// step to step, because registers limit how many rays run at a time.
@@ -60,7 +60,7 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
         absorbed_log2 += passed_log2;
         continue;
       }
-      if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
+      if (kHasGlow) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
       if (passed_log2 < 0.0) {
         const vec3 light = media_inscatter(media, here, gathered.texture_samples);
         if (add_step(t - jitter * ds, dt, passed_log2, light, gathered)) return;
@@ -88,7 +88,7 @@ void march_blocks(WorldRay ray, MediaRay media, float jitter, float begin, float
       const VolumesSample here = block.steps[step];
       ++gathered.steps;
       const float passed_log2 = -1.44269504 * ds * here.extinction;
-      if (kHasHeat) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, ds);
+      if (kHasGlow) gathered.radiance += gathered.transmittance * media_glow(here, passed_log2, ds);
       if (passed_log2 < 0.0 && add_step(t + (float(step) - jitter) * ds, ds, passed_log2,
                                         here.light / here.extinction, gathered))
         return;

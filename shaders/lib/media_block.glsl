@@ -46,7 +46,7 @@ void add_brick(uint i, WorldRay world, VoxelRay ray, BrickSpan span, float t, fl
   [[unroll]] for (uint step = 0u; step < kMostBlockSteps; ++step) {
     const float t_step = t + float(step) * ds;
     if (step < kBlockSteps && step >= first && step < end)
-      add_volume_at(i, brick, lit, ray.per_metre, ds, world.origin + world.direction * t_step, t_step,
+      add_volume_at(i, brick, lit, ray, ds, world.origin + world.direction * t_step, t_step,
                     block.steps[step], texture_samples);
   }
 }

@@ -6,15 +6,14 @@
 #include "lib/bricks.glsl"
 #include "lib/erosion.glsl"
 #include "lib/frame.glsl"
+#include "lib/noise_tile.glsl"
 #include "lib/ray_holes.glsl"
 #include "shared/media.h"
-#include "shared/noise.h"
 
 const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u;
 
 layout(binding = kBindDensityDisplacement) uniform sampler3D density_displacement_atlas;
 layout(binding = kBindInscatter) uniform sampler3D inscatter_atlas;
-layout(binding = kBindNoiseTile) uniform sampler3D noise_tile;
 
 layout(scalar, binding = kBindFilled) readonly buffer Filled { uint filled[]; };
 

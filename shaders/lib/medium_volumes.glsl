@@ -2,10 +2,12 @@
 // grids of shared/volume_light.h, and glowing where they are hot.
 #ifndef MEDIUM_VOLUMES_GLSL
 #define MEDIUM_VOLUMES_GLSL
+#include "lib/volume_disturbance.glsl"
 #include "lib/volume_inscatter.glsl"
 
 // Constants of the pipeline: a software rasteriser pays for branches that it does not take.
 const bool kHasHeat = (kMedia & kMediumHeat) != 0u, kIsLit = (kMedia & kMediumLit) != 0u;
+const bool kHasMasks = (kMedia & kMediumMasks) != 0u, kHasGlow = kHasHeat || kHasMasks;
 
 /// A ray in the voxel space of a volume, and where it is inside the bounds [m].
 struct VolumeRay {
@@ -17,7 +19,9 @@ struct VolumeRay {
 VolumeRay volume_ray(uint i, WorldRay world) {
   const VoxelRay ray = VoxelRay(volumes[i].voxel_from_world * vec4(world.origin, 1.0),
                                 volumes[i].voxel_from_world * vec4(world.direction, 0.0));
-  return VolumeRay(ray, inverse_of(ray), span_in_box(ray, volumes[i].bounds_min, volumes[i].bounds_max));
+  const vec3 reach = disturbance_of(i);
+  return VolumeRay(ray, inverse_of(ray),
+                   span_in_box(ray, volumes[i].bounds_min - reach, volumes[i].bounds_max + reach));
 }
 
 /// What the samples of a ray in volume i have in common with regard to light.
@@ -55,16 +59,18 @@ VolumesRay volumes_ray(WorldRay world) {
 /// What the samples of a volume in a brick have in common.
 struct VolumeBrick {
   TextureRay values;    // in the atlas
-  TextureRay colors;    // in the atlas of colours
+  TextureRay colors;    // in the atlas of colours and masks
   float uniform_value;  // of a uniform brick; else below 0
 };
 
 VolumeBrick brick_of(uint i, VoxelRay ray, BrickSpan span) {
   VolumeBrick brick;
+  brick.uniform_value = -1.0;
+  if (span.slot == kDisturbedSlot) return brick;
   brick.values = texture_ray(volumes[i].bricks, span, ray);
-  if (kHasColorGrids && volumes[i].colors.present != 0u)
+  if ((kHasColorGrids || kHasMasks) && volumes[i].colors.kind != kColorsNone)
     brick.colors = texture_ray(volumes[i].colors.bricks, span, ray);
-  brick.uniform_value = span.slot == kUniformSlot ? span.uniform_value : -1.0;
+  if (span.slot == kUniformSlot) brick.uniform_value = span.uniform_value;
   return brick;
 }
 
@@ -80,6 +86,10 @@ BrickSpan volume_span(uint i, VolumeRay ray, float t, float ds) {
   if (ray.inside.x >= ray.inside.y || t >= ray.inside.y) return BrickSpan(vec3(0.0), kNoSlot, 0.0, t, t, 1e30);
   const float t_inside = sample_from(ray.inside.x, t, ds);
   if (t_inside > t) return BrickSpan(vec3(0.0), kNoSlot, 0.0, t, t, t_inside);
+  if (is_disturbed(i)) {
+    const float t_next = max(sample_from(ray.inside.y, t, ds), t + ds);
+    return BrickSpan(vec3(0.0), kDisturbedSlot, 0.0, t, t_next, t_next);
+  }
   const vec3 p_voxel = ray.ray.origin + ray.ray.per_metre * t;
   return brick_span(ray.ray, ray.inverse, volume_brick(volumes[i].bricks, p_voxel), t, ds);
 }
@@ -91,14 +101,14 @@ VolumesSpan volumes_span(VolumesRay rays, float t, float ds) {
   span.t_next = at.t_next;
   span.present = at.slot != kNoSlot;
   span.brick = brick_of(0u, rays.volume.ray, at);
-  if (kHasTransfer) span.ds = ds;
+  if (kHasTransfer || kHasDisturbance) span.ds = ds;
   if (span.present) span.t_stop = span.t_next - 0.5 * ds;
   return span;
 }
 
 /// Whether all samples of a span are alike: in a brick of one value, where nothing but the extinction matters.
 bool is_constant(VolumesSpan span) {
-  return !kIsLit && !kHasHeat && span.present && span.brick.uniform_value >= 0.0;
+  return !kIsLit && !kHasGlow && span.present && span.brick.uniform_value >= 0.0;
 }
 
 /// Sums over the volumes.
@@ -108,7 +118,7 @@ struct VolumesSample {
   vec3 glow;         // radiance that leaves per metre, whatever the extinction
 };
 
-void add_volume(uint i, VolumeMatter matter, LightTexels at, float phase, vec3 p_world,
+void add_volume(uint i, VolumeMatter matter, vec4 masks, LightTexels at, float phase, vec3 p_world,
                 inout VolumesSample sum, inout uint texture_samples) {
   const float extinction = volumes[i].look.extinction * matter.density;
   texture_samples += kHasTransfer ? 2u : 1u;
@@ -122,22 +132,48 @@ void add_volume(uint i, VolumeMatter matter, LightTexels at, float phase, vec3 p
     sum.glow += volumes[i].look.extinction * volume_glow(i, p_world);
     ++texture_samples;
   }
+  if (kHasMasks && volumes[i].colors.kind == kColorsMasks) {
+    sum.glow += volume_effects[i].tints * masks;
+    ++texture_samples;
+  }
+}
+
+/// Adds volume i at a point of its voxel space that noise has moved: its brick is another one at each sample.
+void add_disturbed(uint i, vec3 p_voxel, LightTexels at, float phase, vec3 half_voxels, vec3 p_world,
+                   inout VolumesSample sum, inout uint texture_samples) {
+  const vec3 p = disturbed(i, p_voxel);
+  if (any(lessThan(p, volumes[i].bounds_min)) || any(greaterThan(p, volumes[i].bounds_max))) return;
+  const BrickAt brick = volume_brick(volumes[i].bricks, p);
+  if (brick.slot == kNoSlot) return;
+  vec4 masks = vec4(0.0);
+  if (kHasMasks && volumes[i].colors.kind == kColorsMasks) masks = grid_texel(volumes[i], brick, p);
+  add_volume(i, matter_around(volumes[i], i, p, half_voxels), masks, at, phase, p_world, sum, texture_samples);
 }
 
 /// Adds volume i at the sample at t of a ray through one of its bricks.
-void add_volume_at(uint i, VolumeBrick brick, LightRay lit, vec3 per_metre, float ds, vec3 p_world, float t,
+void add_volume_at(uint i, VolumeBrick brick, LightRay lit, VoxelRay ray, float ds, vec3 p_world, float t,
                    inout VolumesSample sum, inout uint texture_samples) {
-  const VolumeMatter matter =
-      matter_along(volumes[i], i, brick.values, brick.colors, brick.uniform_value, per_metre, ds, t);
   LightTexels at;
   at.light = lit.light.at + t * lit.light.along;
   if (kHasSun) at.sun = lit.sun.at + t * lit.sun.along;
-  add_volume(i, matter, at, lit.phase, p_world, sum, texture_samples);
+  if (is_disturbed(i)) {
+    const vec3 half_voxels = half_segment(ray.per_metre, ds) * ray.per_metre;
+    add_disturbed(i, ray.origin + ray.per_metre * t, at, lit.phase, half_voxels, p_world, sum, texture_samples);
+    return;
+  }
+  vec4 masks = vec4(0.0);
+  if (kHasMasks && volumes[i].colors.kind == kColorsMasks)
+    masks = textureLod(color_grids, brick.colors.at + t * brick.colors.along, 0.0);
+  VolumeMatter matter = VolumeMatter(0.0, vec3(0.0), vec3(0.0));
+  // What only glows is no more than its masks.
+  if (!kHasMasks || volumes[i].look.extinction > 0.0)
+    matter = matter_along(volumes[i], i, brick.values, brick.colors, brick.uniform_value, ray.per_metre, ds, t);
+  add_volume(i, matter, masks, at, lit.phase, p_world, sum, texture_samples);
 }
 
 VolumesSample sample_volumes(VolumesSpan span, VolumesRay rays, vec3 p_world, float t, inout uint texture_samples) {
   VolumesSample sum = VolumesSample(0.0, vec3(0.0), vec3(0.0));
-  add_volume_at(0u, span.brick, rays.lit, rays.volume.ray.per_metre, span.ds, p_world, t, sum, texture_samples);
+  add_volume_at(0u, span.brick, rays.lit, rays.volume.ray, span.ds, p_world, t, sum, texture_samples);
   return sum;
 }
 

@@ -14,6 +14,8 @@ SHARED_CONST uint kMediumSun = 16u;  // a sun lights them
 SHARED_CONST uint kMediumSeveral = 32u;   // there are more than one
 SHARED_CONST uint kMediumTransfer = 64u;  // one has a transfer function
 SHARED_CONST uint kMediumColors = 128u;   // one has a grid of colours
+SHARED_CONST uint kMediumMasks = 256u;      // one has masks that glow
+SHARED_CONST uint kMediumDisturbed = 512u;  // noise disturbs one
 /// Those with which the albedo differs from point to point.
 SHARED_CONST uint kMediaOfAlbedos = 192u;
 

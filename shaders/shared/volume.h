@@ -19,6 +19,7 @@ SHARED_BINDING(kBindVolumeLight, 30u);
 SHARED_BINDING(kBindVolumeColors, 31u);
 SHARED_BINDING(kBindTransfers, 53u);
 SHARED_BINDING(kBindColorGrids, 54u);
+SHARED_BINDING(kBindVolumeEffects, 60u);
 
 SHARED_CONST int kBrickVoxels = 8;
 SHARED_CONST int kBrickTexels = 10;
@@ -101,10 +102,15 @@ struct VolumeTransfer {
 };
 SHARED_SIZE(VolumeTransfer, 20);
 
-/// Colours that multiply a volume's albedo, in bricks of the same slots as its own.
+/// What the colours of a volume are.
+SHARED_CONST uint kColorsNone = 0u;
+SHARED_CONST uint kColorsAlbedo = 1u;  // factors of its albedo
+SHARED_CONST uint kColorsMasks = 2u;   // up to four masks that glow
+
+/// Colours or masks in bricks of the same slots as a volume's own.
 struct VolumeColors {
   BrickLayout bricks;
-  uint present;
+  uint kind;
 };
 SHARED_SIZE(VolumeColors, 68);
 
@@ -122,6 +128,16 @@ struct VolumeInstance {
   VolumeColors colors;
 };
 SHARED_SIZE(VolumeInstance, 472);
+
+/// What few volumes have: tints of their masks, and noise that moves the places at which they are sampled.
+struct VolumeEffect {
+  mat4x3 tints;          // radiance per metre where a mask is 1
+  vec3 tiles_per_voxel;  // of the noise
+  vec3 tile_offset;
+  vec3 amplitude;        // largest displacement [voxels]; 0: none
+  vec4 growth;           // factor of the displacement at p: dot(xyz, p_voxel) + w, limited to [0, 1]
+};
+SHARED_SIZE(VolumeEffect, 100);
 
 /// Entry of the root for a brick, in the page buffer; kNoPage outside of the window.
 SHARED_CONST uint kNoPage = 0xffffffffu;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr volume::ChannelId kChannel{0};
 
-/// Sums over voxels, weighted by v^4.
+/// Sums over voxels, weighted by GlowBall::power.
 struct Moments {
   double weight = 0, values = 0, densities = 0;
   glm::dvec3 places{0}, squares{0};
@@ -41,21 +41,21 @@ double density_at(const volume::SparseVolume& volume, glm::dvec3 p_voxel) {
   return double{glm::unpackHalf1x16(volume.texels<std::uint16_t>(kChannel, slot)[texel])};
 }
 
-/// Of a brick of heat, whose voxels `value_at` gives by their place in it. The density is that in its middle.
+/// Of a brick, whose voxels `value_at` gives by their place in it. The density is that in its middle.
 template <typename ValueAt>
 Moments moments_of(glm::ivec3 brick, const BrickVolume& density, const glm::dmat4& density_from_heat,
-                   ValueAt value_at) {
+                   GlowPower power, ValueAt value_at) {
   Moments sum;
   for (int i = 0; i < int{kBrickVoxels}; ++i) {
     const glm::ivec3 local(i & 7, i >> 3 & 7, i >> 6);
     const double value = value_at(local);
     if (value <= 0) continue;
-    const double fourth = value * value * value * value;
+    const double weight = power == GlowPower::linear ? value : value * value * value * value;
     const glm::dvec3 p = glm::dvec3(8 * brick + local) + 0.5;
-    sum.weight += fourth;
-    sum.values += fourth * value;
-    sum.places += fourth * p;
-    sum.squares += fourth * p * p;
+    sum.weight += weight;
+    sum.values += weight * value;
+    sum.places += weight * p;
+    sum.squares += weight * p * p;
   }
   if (sum.weight > 0)
     sum.densities =
@@ -63,7 +63,7 @@ Moments moments_of(glm::ivec3 brick, const BrickVolume& density, const glm::dmat
   return sum;
 }
 
-std::vector<Moments> bricks_of(const BrickVolume& heat, const BrickVolume& density) {
+std::vector<Moments> bricks_of(const BrickVolume& heat, const BrickVolume& density, GlowPower power) {
   const volume::SparseVolume& volume = *heat.volume;
   const glm::dmat4 density_from_heat = glm::inverse(density.world_from_voxel) * heat.world_from_voxel;
   const auto uniform = volume.uniform_bricks();
@@ -73,13 +73,14 @@ std::vector<Moments> bricks_of(const BrickVolume& heat, const BrickVolume& densi
       if (i >= volume.slot_count()) {
         const volume::UniformBrick& brick = uniform[i - volume.slot_count()];
         const double value{glm::unpackHalf1x16(brick.texel)};
-        bricks[i] = moments_of(brick.at, density, density_from_heat, [&](glm::ivec3) { return value; });
+        bricks[i] =
+            moments_of(brick.at, density, density_from_heat, power, [&](glm::ivec3) { return value; });
         continue;
       }
       const auto slot = static_cast<std::uint32_t>(i);
       if (!volume.in_use(slot)) continue;
       const auto texels = volume.texels<std::uint16_t>(kChannel, slot);
-      bricks[i] = moments_of(volume.brick_of(slot), density, density_from_heat, [&](glm::ivec3 at) {
+      bricks[i] = moments_of(volume.brick_of(slot), density, density_from_heat, power, [&](glm::ivec3 at) {
         const auto texel = static_cast<std::size_t>(at.x + 1 + 10 * (at.y + 1 + 10 * (at.z + 1)));
         return double{glm::unpackHalf1x16(texels[texel])};
       });
@@ -146,8 +147,8 @@ GlowBall ball_of(const Octants& octants, std::size_t octant, const Division& div
 
 }  // namespace
 
-std::vector<GlowBall> find_glow(const BrickVolume& heat, const BrickVolume& density) {
-  const std::vector<Moments> bricks = bricks_of(heat, density);
+std::vector<GlowBall> find_glow(const BrickVolume& glow, const BrickVolume& density, GlowPower power) {
+  const std::vector<Moments> bricks = bricks_of(glow, density, power);
   if (bricks.empty()) return {};
   Moments all;
   for (const Moments& brick : bricks) all.add(brick, 1);

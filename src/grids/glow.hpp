@@ -1,4 +1,4 @@
-// What glows in a grid of heat, as a few balls: the light that it casts on its surroundings.
+// What glows in a grid, as a few balls: the light that it casts on its surroundings.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,25 @@ namespace brume::grids {
 
 inline constexpr std::size_t kMostGlowBalls = 8;
 
-/// A part of a grid of heat as a homogeneous ball. What glows at a value v is counted by v^4, as a black body
-/// of that temperature shines.
+/// How what glows depends on the value of a grid.
+enum class GlowPower {
+  linear,  ///< A mask: as the value.
+  fourth,  ///< Heat: as its fourth power, as a black body of that temperature shines.
+};
+
+/// A part of a grid that glows as a homogeneous ball. A voxel of value v counts by its power p, v or v^4.
 struct GlowBall {
-  glm::dvec3 middle{0};  ///< [voxel space of the heat]
+  glm::dvec3 middle{0};  ///< [voxel space of the grid]
   double radius = 0;     ///< Of the ball with the same mean distance from the middle, squared [voxels].
-  double fourth = 0;     ///< Sum of v^4 over its voxels, v in stored units.
-  double value = 0;      ///< Mean of v by v^4, likewise.
-  double density = 0;    ///< Mean of the density by v^4, in its stored unit.
+  double power = 0;      ///< Sum of p over its voxels, v in stored units.
+  double value = 0;      ///< Mean of v by p, likewise.
+  double density = 0;    ///< Mean of the density by p, in its stored unit.
 };
 
 /// At most kMostGlowBalls, of the whole grid together; none where nothing is above 0. A part is divided in
 /// two across its longest axis, that of the most spread glow first, until it is as small as a brick.
-std::vector<GlowBall> find_glow(const BrickVolume& heat, const BrickVolume& density);
+std::vector<GlowBall> find_glow(const BrickVolume& glow, const BrickVolume& density,
+                                GlowPower power = GlowPower::fourth);
 
 /// The fraction of what a homogeneous ball emits that leaves it, by its radius times its extinction (Case, de
 /// Hoffmann and Placzek 1953, "Introduction to the Theory of Neutron Diffusion", 10.2).

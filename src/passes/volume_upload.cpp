@@ -85,6 +85,7 @@ VolumeUpload::VolumeUpload(gpu::Context& context)
       lit_instances_(make_instances(context)),
       colors_(make_colors(context)) {
   gpu::grow(context_, transfers_, sizeof(glm::vec4));
+  gpu::grow(context_, effects_, shared::kMaxVolumes * sizeof(shared::VolumeEffect));
 }
 
 std::vector<std::uint64_t> VolumeUpload::reserve(std::span<const planning::VolumeInput> volumes) {
@@ -109,6 +110,7 @@ void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::Vol
   atlas_.record(recorder, list.grids, list.streams);
   color_atlas_.record(recorder, color_list_of(volumes));
   record_instances(recorder, volumes, visible, instances_);
+  record_effects(recorder, visible);
   record_instances(recorder, volumes, lit, lit_instances_);
   record_glows(recorder, volumes, visible);
   record_transfers(recorder, volumes, visible);
@@ -139,11 +141,24 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
     shared::VolumeInstance instance = volume.instance;
     instance.bricks = layout_of(shown.volume);
     if (instance.heat.per_value > 0) instance.heat.bricks = layout_of(shown.heat.volume);
-    if (instance.colors.present)
+    if (instance.colors.kind != shared::kColorsNone)
       instance.colors.bricks = color_atlas_.layout(position(color_grids, shown.colors));
     instances.push_back(instance);
   }
   recorder.upload(to, 0, std::as_bytes(std::span(instances)));
+}
+
+/// Only where there are any: a shader without effects does not read them.
+void VolumeUpload::record_effects(gpu::Recorder& recorder,
+                                  std::span<const planning::PlacedVolume> visible) const {
+  std::vector<shared::VolumeEffect> effects;
+  bool any = false;
+  for (const planning::PlacedVolume& volume : visible) {
+    effects.push_back(volume.effect);
+    any =
+        any || volume.instance.colors.kind == shared::kColorsMasks || volume.effect.amplitude != glm::vec3(0);
+  }
+  if (any) recorder.upload(effects_, 0, std::as_bytes(std::span(effects)));
 }
 
 void VolumeUpload::record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,

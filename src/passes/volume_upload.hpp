@@ -16,6 +16,7 @@ struct VolumeResources {
   const gpu::Image& colors;  ///< Half floats: shared::kVolumeColors colours a row, a row per volume in view.
   const gpu::Buffer& transfers;   ///< shared::kTransferEntries per volume in view, where one has any.
   const gpu::Image& color_grids;  ///< Half floats: the atlas of VolumeColors.
+  const gpu::Buffer& effects;     ///< A shared::VolumeEffect per volume in view, where one has any.
 };
 
 class VolumeUpload {
@@ -45,11 +46,12 @@ class VolumeUpload {
   static constexpr volume::ChannelId kValues{0};
 
   VolumeResources resources_with(const gpu::Buffer& instances) const {
-    return {atlas_.pages(), atlas_.channel(kValues),      instances, colors_,
-            transfers_,     color_atlas_.channel(kValues)};
+    return {atlas_.pages(), atlas_.channel(kValues),       instances, colors_,
+            transfers_,     color_atlas_.channel(kValues), effects_};
   }
   void record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                         std::span<const planning::PlacedVolume> visible, const gpu::Buffer& to) const;
+  void record_effects(gpu::Recorder& recorder, std::span<const planning::PlacedVolume> visible) const;
   void record_glows(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                     std::span<const planning::PlacedVolume> visible);
   void record_transfers(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
@@ -65,6 +67,7 @@ class VolumeUpload {
   gpu::Context& context_;
   BrickAtlas atlas_, color_atlas_;
   gpu::Buffer instances_, lit_instances_, transfers_;
+  gpu::Buffer effects_;
   gpu::Image colors_;
   std::vector<glm::vec3> glows_;  ///< What each row of colors_ was made from.
   std::vector<TransferSource> transfer_sources_;

@@ -100,6 +100,14 @@ struct TransferInput {
   bool operator==(const TransferInput&) const = default;
 };
 
+/// Noise that moves the places at which a volume is sampled, at a time.
+struct DisturbanceInput {
+  glm::mat4 voxel_from_file{1};  ///< Of the volume, in whose units the disturbance is.
+  scene::Disturbance noise = {};
+  float time = 0;  ///< [s]
+  bool empty() const { return noise.strength <= 0; }
+};
+
 /// A volume in the world besides the smoke, lit by all lights of the frame and by itself.
 struct VolumeInput {
   /// One channel of half floats: its density, >= 0. It lies within the volume's bounds and bricks.
@@ -113,8 +121,10 @@ struct VolumeInput {
   glm::mat4 world_from_preview{1};
   TransferInput transfer = {};
   /// One channel of four half floats: colours in [0, 1] that multiply the albedo, in the same bricks and
-  /// slots as `volume`. null: none.
+  /// slots as `volume`; with tints, as many masks. null: none.
   const volume::SparseVolume* colors = nullptr;
+  std::vector<glm::vec3> tints = {};  ///< Radiance per metre where a mask is 1; at most four.
+  DisturbanceInput disturbance = {};
 };
 
 /// What one frame shows. What `smoke`, `volumes` and `level` point to must outlive the frame's recording.

@@ -61,7 +61,8 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
   const Quality& quality = plan.input.quality;
   std::vector<Box<float>> boxes;
   if (smoke.volume) boxes = smoke_boxes(*smoke.volume, plan.visibility);
-  for (const PlacedVolume& volume : plan.media.volumes) boxes.push_back(volume.bounds_world);
+  for (const PlacedVolume& volume : plan.media.volumes)
+    if (volume.instance.look.extinction > 0) boxes.push_back(volume.bounds_world);
   plan.smoke_shadows = history.smoke_shadows.update(
       plan_smoke_shadows({plan.lights, target.sun_clip_from_world, plan.camera}, boxes,
                          target.smoke_shadow_atlas),

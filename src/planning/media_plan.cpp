@@ -68,6 +68,12 @@ shared::VolumeLook look_of(const VolumeInput& volume) {
   return look;
 }
 
+/// What the colours of a volume are.
+std::uint32_t colors_of(const VolumeInput& volume) {
+  if (!volume.colors) return shared::kColorsNone;
+  return volume.tints.empty() ? shared::kColorsAlbedo : shared::kColorsMasks;
+}
+
 shared::VolumeInstance instance_of(const VolumeInput& volume) {
   const shared::VolumeLayout& layout = volume.volume->layout();
   shared::VolumeHeat heat{};
@@ -81,17 +87,58 @@ shared::VolumeInstance instance_of(const VolumeInput& volume) {
           heat,
           {},
           device_transfer(volume.transfer),
-          {{}, volume.colors ? 1u : 0u}};
+          {{}, colors_of(volume)}};
+}
+
+/// Displacements of at most `amplitude` voxels along each axis.
+void set_disturbance(const DisturbanceInput& input, shared::VolumeEffect& effect) {
+  const scene::Disturbance& noise = input.noise;
+  const glm::mat3 voxel_from_file(input.voxel_from_file);
+  const glm::vec3 voxels_per_unit(glm::length(voxel_from_file[0]), glm::length(voxel_from_file[1]),
+                                  glm::length(voxel_from_file[2]));
+  // The features of a tile of noise are half as large as it.
+  const float tile = 2 * noise.size;
+  effect.tiles_per_voxel = 1.0f / (tile * voxels_per_unit);
+  effect.tile_offset = -glm::fract(noise.drift * (input.time / tile));
+  effect.amplitude = noise.strength * voxels_per_unit;
+  effect.growth = glm::vec4(0, 0, 0, 1);
+}
+
+/// Where the strength grows from 0: from the side of the bounds from which the noise comes.
+void set_growth(const VolumeInput& volume, shared::VolumeEffect& effect) {
+  const scene::Disturbance& noise = volume.disturbance.noise;
+  if (!(noise.grow > 0) || noise.drift == glm::vec3(0)) return;
+  const glm::mat3 file_from_voxel = glm::inverse(glm::mat3(volume.disturbance.voxel_from_file));
+  const glm::vec3 along = glm::transpose(file_from_voxel) * (glm::normalize(noise.drift) / noise.grow);
+  const shared::VolumeLayout& layout = volume.volume->layout();
+  float least = 1e30f;
+  for (int corner = 0; corner < 8; ++corner)
+    least = std::min(least, glm::dot(along, glm::mix(layout.bounds_min, layout.bounds_max,
+                                                     glm::bvec3(corner & 1, corner & 2, corner & 4))));
+  effect.growth = glm::vec4(along, -least);
+}
+
+shared::VolumeEffect effect_of(const VolumeInput& volume) {
+  shared::VolumeEffect effect{};
+  effect.tints = glm::mat4x3(0);
+  for (std::size_t i = 0; i < std::min<std::size_t>(volume.tints.size(), 4); ++i)
+    effect.tints[static_cast<int>(i)] = volume.tints[i];
+  if (volume.disturbance.empty()) return effect;
+  set_disturbance(volume.disturbance, effect);
+  set_growth(volume, effect);
+  return effect;
 }
 
 /// The bits of a volume.
 std::uint32_t media_of(const VolumeInput& volume) {
   std::uint32_t media = shared::kMediumVolumes;
   if (device_transfer(volume.transfer).kind != shared::kTransferNone) media |= shared::kMediumTransfer;
-  if (volume.colors) media |= shared::kMediumColors;
+  if (colors_of(volume) == shared::kColorsAlbedo) media |= shared::kMediumColors;
+  if (colors_of(volume) == shared::kColorsMasks) media |= shared::kMediumMasks;
+  if (!volume.disturbance.empty()) media |= shared::kMediumDisturbed;
   const shared::VolumeLook look = look_of(volume);
   const glm::vec3 light = look.albedo + look.emission;
-  if (std::max({light.r, light.g, light.b}) > 0) media |= shared::kMediumLit;
+  if (look.extinction > 0 && std::max({light.r, light.g, light.b}) > 0) media |= shared::kMediumLit;
   if (has_heat(volume)) media |= shared::kMediumHeat;
   return media;
 }
@@ -104,8 +151,9 @@ void add_visible(MediaPlan& plan, const VolumeInput& volume, const Box<float>& w
 
 /// The boxes of a volume, and of the preview that may stand in for it.
 void add_boxes(const VolumeInput& volume, std::vector<Box<float>>& boxes) {
+  const glm::vec3 reach = effect_of(volume).amplitude;
   for (const Box<float>& box : volume.volume->boxes())
-    boxes.push_back(world_box(volume.world_from_voxel, box));
+    boxes.push_back(world_box(volume.world_from_voxel, {box.low - reach, box.high + reach}));
   if (!volume.preview) return;
   for (const Box<float>& box : volume.preview->boxes())
     boxes.push_back(world_box(volume.world_from_preview, box));
@@ -137,11 +185,15 @@ void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const Vi
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const VolumeInput& volume = volumes[i];
     const shared::VolumeLayout& layout = volume.volume->layout();
-    const Box<float> world = world_box(volume.world_from_voxel, {layout.bounds_min, layout.bounds_max});
+    const glm::vec3 reach = effect_of(volume).amplitude;
+    const Box<float> world =
+        world_box(volume.world_from_voxel, {layout.bounds_min - reach, layout.bounds_max + reach});
     if (volume.volume->slot_count() == 0 || frustum.may_intersect(world) != in_view) continue;
+    // What has no extinction dims nothing.
+    if (!in_view && !(volume.look.extinction > 0)) continue;
     const bool preview = !previews.empty() && previews[i];
     const VolumeInput shown = shown_volume(volume, preview);
-    plan.volumes.push_back({i, world, instance_of(shown), preview});
+    plan.volumes.push_back({i, world, instance_of(shown), effect_of(shown), preview});
     plan.casters |= media_of(shown);
     if (++plan.frame.caster_count > 1) plan.casters |= shared::kMediumSeveral;
     if (!in_view) continue;
@@ -182,6 +234,8 @@ VolumeInput shown_volume(const VolumeInput& volume, bool preview) {
     shown.volume = volume.preview;
     shown.world_from_voxel = volume.world_from_preview;
     shown.colors = nullptr;
+    shown.tints.clear();
+    shown.disturbance = {};
   }
   if (preview && volume.heat.preview) {
     shown.heat.volume = volume.heat.preview;
@@ -198,7 +252,9 @@ void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
                      const std::vector<bool>& previews) {
   for (PlacedVolume& placed : plan.volumes) {
     placed.is_preview = !previews.empty() && previews[placed.index];
-    placed.instance = instance_of(shown_volume(volumes[placed.index], placed.is_preview));
+    const VolumeInput shown = shown_volume(volumes[placed.index], placed.is_preview);
+    placed.instance = instance_of(shown);
+    placed.effect = effect_of(shown);
   }
 }
 

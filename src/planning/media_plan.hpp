@@ -19,6 +19,7 @@ struct PlacedVolume {
   std::size_t index = 0;  ///< In FrameInput::volumes.
   Box<float> bounds_world;
   shared::VolumeInstance instance{};  ///< All but the places of its bricks, which the atlas knows.
+  shared::VolumeEffect effect{};      ///< Tints and disturbance.
   bool is_preview = false;            ///< Of the previews of density and heat, where they have one.
 };
 

@@ -144,6 +144,11 @@ VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in) {
     for (const glm::vec3 direction : kSkyDirections)
       plan.sweeps.push_back(sweep_through(visible.instance, -direction));
   }
+  plan.is_lit = (in.media->media & shared::kMediumLit) != 0;
+  if (!plan.is_lit) {
+    key_.clear();
+    return plan;
+  }
   plan.is_alone = in.media->volumes.size() == 1 && (in.media->casters & shared::kMediumSmoke) == 0;
   std::vector<std::byte> key = key_of_others(in);
   plan.update = in.rebuild || plan.volumes_changed || key != key_;

@@ -17,6 +17,7 @@ struct VolumeLightPlan {
   std::uint32_t edge = 1;                   ///< Cells of a volume's cube of light along an axis.
   std::uint32_t sun_edge = 1;               ///< The same of its cube of the sun's depths.
   std::vector<shared::VolumeSweep> sweeps;  ///< kSweepsOfVolume per volume in view.
+  bool is_lit = true;                       ///< A volume in view scatters or emits by its extinction.
   bool is_alone = true;                     ///< Nothing else casts shadows into the volume.
   bool update = false;                      ///< False: the light of the frame before holds.
   bool volumes_changed = false;             ///< Those that cast shadows are not those of the frame before.

@@ -15,6 +15,21 @@ constexpr double kMostRange = 1e5;  // [m]
 /// [K, W/sr].
 constexpr double kMostKelvin = 1e5, kMostIntensity = 1e9;
 
+/// Of a ball of this radiant intensity [m, W/sr].
+shared::Light light_at_ball(const glm::vec3& middle_world, double radius, const glm::dvec3& intensity,
+                            double exposure) {
+  shared::Light light{};
+  light.kind = shared::kLightPoint;
+  light.position_world = middle_world;
+  light.radius = static_cast<float>(radius);
+  light.intensity = glm::vec3(glm::min(intensity, kMostIntensity));
+  const double brightest = std::max({intensity.r, intensity.g, intensity.b});
+  light.range = static_cast<float>(std::min(std::sqrt(brightest * exposure / kLeastIrradiance), kMostRange));
+  light.direction = {0, -1, 0};
+  light.shadow_layer = shared::kShadowByVoxels;
+  return light;
+}
+
 shared::Light light_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
                        const grids::GlowBall& ball, double exposure) {
   const scenario::VolumeFrame& frame = *volume.frame;
@@ -24,37 +39,45 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
   const double ratio = kelvin / double{planning::kUnitGlow};
 
   // Radiance per metre, summed over the ball [W/sr], in the colour of its mean temperature.
-  const double glow =
-      double{options.extinction} * double{options.emission} * std::pow(ratio, 4) * ball.fourth;
+  const double glow = double{options.extinction} * double{options.emission} * std::pow(ratio, 4) * ball.power;
   const double mean = std::min(kelvin * ball.value, kMostKelvin);
   const glm::dvec3 color = glm::dvec3(planning::blackbody_color(static_cast<float>(mean))) /
                            std::pow(mean / double{planning::kUnitGlow}, 4);
   const double extinction = double{options.extinction} * double{frame.density.unit} * ball.density;
   const double leaves = grids::escape_from_ball(extinction * radius);
 
-  shared::Light light{};
-  light.kind = shared::kLightPoint;
-  light.position_world = glm::vec3(glm::dmat4(volume.world_from_heat) * glm::dvec4(ball.middle, 1));
-  light.radius = static_cast<float>(radius);
-  const glm::dvec3 intensity = color * std::min(glow * voxel_volume * leaves, kMostIntensity);
-  light.intensity = glm::vec3(intensity);
-  const double brightest = std::max({intensity.r, intensity.g, intensity.b});
-  light.range = static_cast<float>(std::min(std::sqrt(brightest * exposure / kLeastIrradiance), kMostRange));
-  light.direction = {0, -1, 0};
-  light.shadow_layer = shared::kShadowByVoxels;
-  return light;
+  const glm::vec3 middle(glm::dmat4(volume.world_from_heat) * glm::dvec4(ball.middle, 1));
+  return light_at_ball(middle, radius, color * std::min(glow * voxel_volume * leaves, kMostIntensity),
+                       exposure);
+}
+
+/// What leaves a ball of a mask; the extinction that dims it is that of the volume where all masks are 1.
+void add_mask_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume, double seconds,
+                     double exposure, std::vector<shared::Light>& lights) {
+  const scenario::VolumeFrame& frame = *volume.frame;
+  const glm::dmat4 world_from_file =
+      glm::dmat4(volume.world_from_density) * glm::inverse(frame.density.world_from_voxel);
+  const double cubed = std::abs(glm::determinant(glm::dmat3(world_from_file))), scale = std::cbrt(cubed);
+  for (const scenario::MaskGlow& ball : frame.mask_glow) {
+    const glm::dvec3 glow(scene::glow_at(options.masks[ball.mask], seconds));
+    const double radius = ball.radius * scale;
+    const double leaves = grids::escape_from_ball(double{options.extinction} * radius);
+    const glm::vec3 middle(world_from_file * glm::dvec4(ball.middle, 1));
+    lights.push_back(light_at_ball(middle, radius, glow * (ball.integral * cubed * leaves), exposure));
+  }
 }
 
 }  // namespace
 
 std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                                       float exposure) {
+                                       double seconds, float exposure) {
   std::vector<shared::Light> lights;
-  if (!volume.frame || !volume.frame->heat || options.emission <= 0 || options.kelvin <= 0) return lights;
-  for (const grids::GlowBall& ball : volume.frame->glow) {
-    const shared::Light light = light_of(options, volume, ball, double{exposure});
-    if (light.range > light.radius) lights.push_back(light);
-  }
+  if (!volume.frame) return lights;
+  if (volume.frame->heat && options.emission > 0 && options.kelvin > 0)
+    for (const grids::GlowBall& ball : volume.frame->glow)
+      lights.push_back(light_of(options, volume, ball, double{exposure}));
+  add_mask_lights(options, volume, seconds, double{exposure}, lights);
+  std::erase_if(lights, [](const shared::Light& light) { return !(light.range > light.radius); });
   return lights;
 }
 

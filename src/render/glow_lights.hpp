@@ -8,10 +8,10 @@
 
 namespace brume::render {
 
-/// A light for each ball of glow in a volume (grids::find_glow) that is seen beyond its edge at an exposure
-/// (View::exposure). Its intensity is that of all that the ball emits, less what a homogeneous ball absorbs
-/// itself.
+/// A light for each ball of glow in a volume (grids::find_glow), of its heat and of its masks at a time [s],
+/// that is seen beyond its edge at an exposure (View::exposure). Its intensity is that of all that the ball
+/// emits, less what a homogeneous ball absorbs itself.
 std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                                       float exposure);
+                                       double seconds, float exposure);
 
 }  // namespace brume::render

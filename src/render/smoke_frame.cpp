@@ -79,7 +79,9 @@ void SmokeFrame::reserve(FramePlan& plan, planning::PlanHistory& history) {
     smoke_upload_.reserve(*input.smoke.volume);
     noise_advection_pass_.reserve(plan.state(), *input.smoke.volume, plan.noise);
   }
-  if (volume_light_pass_.reserve(plan.volume_light, plan.media.casters)) plan.volume_light.update = true;
+  if (plan.volume_light.is_lit && volume_light_pass_.reserve(plan.volume_light, plan.media.casters))
+    plan.volume_light.update = true;
+  if ((plan.media.media & shared::kMediumDisturbed) != 0) make_noise();
   hole_clusters_.reserve(plan.holes);
   shadow_pass_.reserve(plan.media.casters);
   const auto rays = prepare_all_        ? passes::MarchRays::all

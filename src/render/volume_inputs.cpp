@@ -10,8 +10,22 @@ namespace {
 
 static_assert(scene::kMostVolumes == shared::kMaxVolumes);
 
+/// A volume that moves with its carrier.
+void move_by(const glm::mat4& pose, scenario::VolumeAt& volume) {
+  for (glm::mat4* matrix : {&volume.world_from_density, &volume.world_from_heat,
+                            &volume.world_from_density_preview, &volume.world_from_heat_preview})
+    *matrix = pose * *matrix;
+}
+
+/// The disturbance in voxels of the density.
+planning::DisturbanceInput disturbance_of(const scene::Disturbance& disturbance,
+                                          const scenario::VolumeFrame& frame, double seconds) {
+  if (disturbance.strength <= 0) return {};
+  return {glm::mat4(glm::inverse(frame.density.world_from_voxel)), disturbance, static_cast<float>(seconds)};
+}
+
 planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                               const scenario::VolumeFrame& first) {
+                               const scenario::VolumeFrame& first, double seconds) {
   const grids::BrickVolume& density = volume.frame->density;
   planning::VolumeInput input;
   input.volume = density.volume.get();
@@ -35,6 +49,8 @@ planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenar
     input.heat.preview = preview->heat->volume.get();
     input.heat.world_from_preview = volume.world_from_heat_preview;
   }
+  for (const scene::VolumeMask& mask : options.masks) input.tints.push_back(scene::glow_at(mask, seconds));
+  input.disturbance = disturbance_of(options.disturbance, *volume.frame, seconds);
   return input;
 }
 
@@ -44,12 +60,13 @@ void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::V
                  planning::FrameInput& input) {
   if (!scenario.volumes) return;
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
-  const std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
+  std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
   std::vector<shared::Light> lights;
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!volumes[i].frame) continue;
-    input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i)));
-    for (const shared::Light& light : glow_lights(options[i], volumes[i], input.view.exposure))
+    move_by(scene::pose_of(scenario.timeline, options[i].carrier, seconds), volumes[i]);
+    input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i), seconds));
+    for (const shared::Light& light : glow_lights(options[i], volumes[i], seconds, input.view.exposure))
       lights.push_back(light);
   }
   // A frame takes a limited number of them.

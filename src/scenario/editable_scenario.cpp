@@ -59,7 +59,7 @@ Result<std::unique_ptr<EditableScenario>> EditableScenario::create(Scenario scen
 
 Result<void> EditableScenario::add(const scene::Timeline& actions) {
   if (auto checked = scene::check_events(actions); !checked) return checked;
-  if (auto checked = scene::check_doors(actions, scenario_.scene); !checked) return checked;
+  if (auto checked = scene::check_objects(actions, scenario_.scene); !checked) return checked;
   scene::Timeline sorted = actions;
   scene::sort_events(sorted);
   const bool masks = has_masks_of(sorted), level = changes_are_last(sorted);
@@ -255,7 +255,7 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
   timeline.grid = grid;
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;
-  if (auto checked = scene::check_doors(timeline, scenario_.scene); !checked) return checked;
+  if (auto checked = scene::check_objects(timeline, scenario_.scene); !checked) return checked;
   scene::sort_events(timeline);
   return replay(std::move(timeline), {});
 }

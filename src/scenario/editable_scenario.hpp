@@ -35,8 +35,8 @@ class EditableScenario {
 
   /// Adds the events of `actions`; its other members are ignored. Times may be past, present and future.
   /// Present and future events are cheap; past ones replay the simulation from their time. A new picture or
-  /// text rebuilds all masks. Fails with bad_input as check_events, check_doors and load_masks do, and for an
-  /// event that the simulation rejects.
+  /// text rebuilds all masks. Fails with bad_input as check_events, check_objects and load_masks do, and for
+  /// an event that the simulation rejects.
   Result<void> add(const scene::Timeline& actions);
 
   /// Changes all smokes, existing ones included; a change of their amount or life replays them all.

@@ -80,7 +80,7 @@ std::vector<LevelEvent> apply_level_events(const scene::Timeline& timeline, cons
 
 Result<std::vector<LevelEvent>> level_events(const Scenario& scenario) {
   const scene::Timeline& timeline = scenario.timeline;
-  if (auto checked = scene::check_doors(timeline, scenario.scene); !checked) return checked.failure();
+  if (auto checked = scene::check_objects(timeline, scenario.scene); !checked) return checked.failure();
   if (timeline.edits.empty() && timeline.doors.empty()) return std::vector<LevelEvent>();
   ObjectLevel objects = make_level(scenario);
   return apply_level_events(timeline, scenario.scene, objects);

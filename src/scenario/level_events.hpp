@@ -36,11 +36,11 @@ sim::EditBlocks edit_of(const voxel::LevelChange& change, const voxel::BitGrid& 
 Box<int> voxels_in(const voxel::GridLayout& layout, glm::vec3 low_world, glm::vec3 high_world);
 
 /// Applies all edits and doors of a timeline to a level in order of time, edits before doors of the same
-/// time. The doors must pass check_doors.
+/// time. The doors must pass check_objects.
 std::vector<LevelEvent> apply_level_events(const scene::Timeline& timeline, const scene::Scene& scene,
                                            ObjectLevel& objects);
 
-/// The level events of the scenario's timeline. Fails as check_doors does.
+/// The level events of the scenario's timeline. Fails as check_objects does.
 Result<std::vector<LevelEvent>> level_events(const Scenario& scenario);
 
 }  // namespace brume::scenario

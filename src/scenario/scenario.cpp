@@ -18,7 +18,7 @@ namespace {
 /// From a timeline and its loaded scene.
 Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::shared_ptr<Volumes> volumes,
                           float aspect, const std::filesystem::path& cache_folder) {
-  if (auto checked = scene::check_doors(timeline, scene); !checked) return checked.failure();
+  if (auto checked = scene::check_objects(timeline, scene); !checked) return checked.failure();
   scene::add_built_in_grenade(scene);
   const auto layout = grid_layout(timeline, scene);
   if (!layout) return layout.failure();
@@ -42,8 +42,13 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
 
 /// Where the volumes of a timeline are, for the scene's bounds.
 void place_volumes(const scene::Timeline& timeline, const Volumes& volumes, scene::Scene& scene) {
-  for (std::size_t i = 0; i < timeline.volumes.size(); ++i)
-    scene.volumes.push_back(place_of(timeline.volumes[i], volumes.first_frame(i)));
+  for (std::size_t i = 0; i < timeline.volumes.size(); ++i) {
+    const scene::VolumeOptions& options = timeline.volumes[i];
+    scene::Volume place = place_of(options, volumes.first_frame(i));
+    const glm::mat4 pose = scene::pose_of(timeline, options.carrier, 0);
+    scene.volumes.push_back(
+        {place.name, transformed(pose, place.bounds_world), transformed(pose, place.core_world)});
+  }
 }
 
 Result<Scenario> load_volume(const std::filesystem::path& file, const FirstViewOptions& options) {

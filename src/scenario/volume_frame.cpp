@@ -9,6 +9,7 @@
 #include "core/similar.hpp"
 #include "grids/color_bricks.hpp"
 #include "grids/files.hpp"
+#include "grids/mask_bricks.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -59,10 +60,32 @@ struct Chosen {
   const grids::Grid* density = nullptr;
   const grids::Grid* heat = nullptr;   ///< Null: nothing glows.
   const grids::Grid* color = nullptr;  ///< Null: no colours.
+  std::vector<const grids::Grid*> masks = {};
 
-  bool has(const grids::Grid* grid) const { return grid == density || grid == heat || grid == color; }
+  bool has(const grids::Grid* grid) const {
+    return grid == density || grid == heat || grid == color || std::ranges::find(masks, grid) != masks.end();
+  }
 };
+/// The grids of masks, and the density only if the options name one.
+Result<Chosen> choose_masks(GridList grids, const scene::VolumeOptions& options) {
+  Chosen chosen;
+  for (const scene::VolumeMask& mask : options.masks) {
+    const auto grid = choose_grid(grids, mask.grid, {});
+    if (!grid) return grid.failure();
+    chosen.masks.push_back(*grid);
+  }
+  for (const auto& [name, member] :
+       {std::pair(options.density, &Chosen::density), {options.heat, &Chosen::heat}}) {
+    if (name.empty()) continue;
+    const auto grid = choose_grid(grids, name, {});
+    if (!grid) return grid.failure();
+    chosen.*member = *grid;
+  }
+  return chosen;
+}
+
 Result<Chosen> choose(GridList grids, const scene::VolumeOptions& options) {
+  if (!options.masks.empty()) return choose_masks(grids, options);
   const auto density = choose_density(grids, options.density);
   if (!density) return density.failure();
   const auto heat = choose_grid(grids, options.heat, kHeatNames);
@@ -108,13 +131,34 @@ void measure_first_view(const grids::Grid& density, VolumeFrame& frame) {
   frame.z_is_up = is_z_up(density);
 }
 
+/// What glows of each mask.
+Result<void> find_mask_glow(std::span<const grids::Grid* const> masks, VolumeFrame& frame) {
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const auto mask = grids::make_brick_volume(*masks[i]);
+    if (!mask) return mask.failure();
+    const double voxel = std::abs(glm::determinant(glm::dmat3(mask->world_from_voxel)));
+    for (const grids::GlowBall& ball : grids::find_glow(*mask, frame.density, grids::GlowPower::linear))
+      frame.mask_glow.push_back({i, glm::dvec3(mask->world_from_voxel * glm::dvec4(ball.middle, 1)),
+                                 ball.radius * std::cbrt(voxel), ball.power * double{mask->unit} * voxel});
+  }
+  return {};
+}
+
 Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grids::GridFile& grids,
                                                 const scene::VolumeOptions& options, const VolumeRoom& room) {
   std::vector<const grids::Grid*> list;
   for (const grids::Grid& grid : grids.grids) list.push_back(&grid);
   const auto chosen = choose(list, options);
   if (!chosen) return chosen.failure();
-  const auto [density, heat, color] = *chosen;
+  const std::vector<const grids::Grid*>& masks = chosen->masks;
+  const grids::Grid *density = chosen->density, *const heat = chosen->heat, *const color = chosen->color;
+  grids::Grid joined;
+  if (!masks.empty()) {
+    auto all = grids::joined_masks(masks);
+    if (!all) return all.failure();
+    joined = std::move(*all);
+    if (!density) density = &joined;
+  }
   auto frame = std::make_shared<VolumeFrame>();
   const bool alike = heat && heat->world_from_index == density->world_from_index;
   // Heat has the same room as the density.
@@ -124,9 +168,10 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
   };
   const std::uint32_t max_bricks = part(room.bricks, grids::kFewestVolumeBricks, grids::kMostVolumeBricks);
   const std::uint32_t max_pages = part(room.pages, grids::kFewestVolumePages, grids::kMostVolumePages);
-  // Bricks of colours have the slots of the density's.
+  // Bricks of colours and masks have the slots of the density's, which reach wherever a mask does.
+  const grids::Grid* const also = alike ? heat : density != &joined && !masks.empty() ? &joined : nullptr;
   auto bricks =
-      grids::make_brick_volume(*density, {max_bricks, max_pages, alike ? heat : nullptr, color == nullptr});
+      grids::make_brick_volume(*density, {max_bricks, max_pages, also, color == nullptr && masks.empty()});
   if (!bricks) return bricks.failure();
   frame->density = std::move(*bricks);
   warn_of_level(file, *density, frame->density);
@@ -142,6 +187,10 @@ Result<std::shared_ptr<VolumeFrame>> make_frame(const fs::path& file, const grid
     auto colors = grids::make_color_bricks(*color, frame->density);
     if (!colors) return colors.failure();
     frame->colors = std::move(*colors);
+  }
+  if (!masks.empty()) {
+    frame->colors = grids::make_mask_bricks(masks, frame->density);
+    if (auto done = find_mask_glow(masks, *frame); !done) return done.failure();
   }
   measure_first_view(*density, *frame);
   return frame;

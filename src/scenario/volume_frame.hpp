@@ -16,17 +16,27 @@
 
 namespace brume::scenario {
 
+/// A part of a mask as a homogeneous ball, in the file's world.
+struct MaskGlow {
+  std::size_t mask = 0;
+  glm::dvec3 middle{0};
+  double radius = 0;
+  double integral = 0;  ///< Of the mask over the part's volume.
+};
+
 /// The grids of one file that are rendered.
 struct VolumeFrame {
   grids::BrickVolume density;
   std::optional<grids::BrickVolume> heat;
-  std::vector<grids::GlowBall> glow;             ///< Of the heat.
-  std::unique_ptr<volume::SparseVolume> colors;  ///< As grids::make_color_bricks; null: none.
-  double mean_density = 0;                       ///< Of the active voxels.
-  double filled_volume = 0;                      ///< That all active voxels take, in the file's world.
-  Box<float> bounds;                             ///< Around what can be dense, in the file's world.
-  Box<float> core;       ///< Around most of it: a ball, but none of the wisps around it.
-  bool z_is_up = false;  ///< As Blender writes files; other programs have y up.
+  std::vector<grids::GlowBall> glow;  ///< Of the heat.
+  /// As grids::make_color_bricks, or of a volume with masks as grids::make_mask_bricks; null: none.
+  std::unique_ptr<volume::SparseVolume> colors;
+  std::vector<MaskGlow> mask_glow;  ///< Of its masks.
+  double mean_density = 0;          ///< Of the active voxels.
+  double filled_volume = 0;         ///< That all active voxels take, in the file's world.
+  Box<float> bounds;                ///< Around what can be dense, in the file's world.
+  Box<float> core;                  ///< Around most of it: a ball, but none of the wisps around it.
+  bool z_is_up = false;             ///< As Blender writes files; other programs have y up.
   /// Names of the file's grids that can be dense or glow, and of those that can hold colours.
   std::vector<std::string> number_grids, color_grids;
 };

@@ -51,9 +51,11 @@ Result<std::map<std::int64_t, fs::path>> files_of(const scene::VolumeOptions& op
   return found;
 }
 
-/// Names of density, heat and colours, as chosen.
-std::array<std::string, 3> chosen_grids(const scene::VolumeOptions& options) {
-  return {options.density, options.heat, options.color};
+/// Names of density, heat, colours and masks, as chosen.
+std::vector<std::string> chosen_grids(const scene::VolumeOptions& options) {
+  std::vector<std::string> names{options.density, options.heat, options.color};
+  for (const scene::VolumeMask& mask : options.masks) names.push_back(mask.grid);
+  return names;
 }
 
 /// The number of the frame at a time, before missing ones are replaced; empty: none is shown.
@@ -111,12 +113,8 @@ VolumeAt placed(const LoadedVolume& loaded, const scene::VolumeOptions& options)
 }  // namespace
 
 glm::mat4 world_from_file(const scene::VolumeOptions& options) {
-  glm::mat4 matrix = glm::translate(glm::mat4(1), options.position_world);
-  for (const int axis : {2, 1, 0}) {
-    glm::vec3 around(0);
-    around[axis] = 1;
-    matrix = glm::rotate(matrix, glm::radians(options.rotation[axis]), around);
-  }
+  const glm::mat4 matrix =
+      glm::translate(glm::mat4(1), options.position_world) * scene::rotation_of(options.rotation);
   const glm::mat3 axes(options.x_axis, options.y_axis, options.z_axis);
   return glm::scale(matrix, glm::vec3(options.scale)) * glm::mat4(axes);
 }

@@ -21,9 +21,10 @@ namespace brume::scenario {
 
 /// A volume at one time.
 struct VolumeAt {
-  std::shared_ptr<const VolumeFrame> frame;             ///< Null: not shown.
-  std::shared_ptr<const VolumePreview> preview;         ///< Null: none was made.
-  glm::mat4 world_from_density{1}, world_from_heat{1};  ///< From the voxels of the grids.
+  std::shared_ptr<const VolumeFrame> frame;      ///< Null: not shown.
+  std::shared_ptr<const VolumePreview> preview;  ///< Null: none was made.
+  /// From the voxels of the grids; of a volume with a carrier, to the carrier's space.
+  glm::mat4 world_from_density{1}, world_from_heat{1};
   glm::mat4 world_from_density_preview{1}, world_from_heat_preview{1};
 };
 

@@ -122,6 +122,54 @@ void visit_volume_options(Options& o, Visitor&& visit) {
         o.glow);
 }
 
+/// Of a VolumeMask or a MaskKey.
+template <typename Options, typename Visitor>
+void visit_mask_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"color", "", "colour of what the mask emits", 0, 1}, o.color);
+  visit(OptionInfo{"intensity", "1/m", "radiance that a metre emits where the mask is 1", 0, 1e6},
+        o.intensity);
+}
+
+template <typename Options, typename Visitor>
+void visit_disturbance_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"strength", "units", "largest displacement along each axis", 0, 1e6}, o.strength);
+  visit(OptionInfo{"size", "units", "size of the noise's largest features", 1e-6, 1e6}, o.size);
+  visit(OptionInfo{"drift", "units/s", "how fast the noise moves", -1e6, 1e6}, o.drift);
+  visit(OptionInfo{"grow", "units", "length along `drift` over which the strength grows from 0", 0, 1e6},
+        o.grow);
+}
+
+template <typename Options, typename Visitor>
+void visit_particle_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"particles", "", "quads that show the masks, instead of a march; 0: none", 0, 65536},
+        o.particles);
+  visit(OptionInfo{"particle_size", "", "radius of a quad relative to the box's shortest side", 0.001, 2},
+        o.particle_size);
+}
+
+/// Of a CarrierKey, besides its position.
+template <typename Options, typename Visitor>
+void visit_carrier_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"rotation", "degrees each", "rotation about x, then y, then z", -36000, 36000},
+        o.rotation);
+}
+
+/// Settings of DecalOptions without its place.
+template <typename Options, typename Visitor>
+void visit_decal_options(Options& o, Visitor&& visit) {
+  visit(OptionInfo{"rotation", "degrees each", "rotation about x, then y, then z", -360, 360}, o.rotation);
+  visit(OptionInfo{"scale", "", "metres per unit of the file", 1e-9, 1e9}, o.scale);
+  visit(OptionInfo{"strength", "", "fraction of the occlusion that darkens", 0, 1}, o.strength);
+  visit(OptionInfo{"gamma", "", "exponent of the occlusion at the middle slice; below 1 darkens", 0.1, 10},
+        o.gamma);
+  visit(OptionInfo{"correction", "", "how much of `gamma` applies at the middle slice", 0, 1}, o.correction);
+  visit(OptionInfo{"falloff", "", "how fast that fades towards the first and the last slice", 0, 100},
+        o.falloff);
+  visit(OptionInfo{"fade", "", "part of the box, at each side, over which the decal fades out", 0, 0.5},
+        o.fade);
+  visit(OptionInfo{"scatter", "voxels", "how far noise scatters the samples", 0, 4}, o.scatter);
+}
+
 /// Only the field of view: position and target are not settings.
 template <typename Options, typename Visitor>
 void visit_camera_options(Options& o, Visitor&& visit) {

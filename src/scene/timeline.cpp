@@ -7,35 +7,12 @@
 #include "core/file.hpp"
 #include "core/similar.hpp"
 #include "scene/files.hpp"
-#include "scene/options.hpp"
 #include "scene/ray.hpp"
 #include "scene/text_reader.hpp"
-#include "scene/toml_table.hpp"
+#include "scene/timeline_parts.hpp"
 
 namespace brume::scene {
 namespace {
-
-/// Reads settings from a table: the visitor of scene/options.hpp.
-struct OptionReader {
-  TomlTable& table;
-
-  template <typename Member>
-  void operator()(const OptionInfo& info, Member& member) const {
-    table.read(info.key, member, info.low, info.high);
-  }
-  void operator()(const OptionInfo& info, float& member) const {
-    if (!is_angle(info)) return table.read(info.key, member, info.low, info.high);
-    double degrees = double{member} / kRadiansOfDegree;
-    table.read(info.key, degrees, info.low, info.high);
-    member = static_cast<float>(degrees * kRadiansOfDegree);
-  }
-  void operator()(const OptionInfo& info, std::uint32_t& member) const {
-    table.read(info.key, member, static_cast<std::int64_t>(info.low), static_cast<std::int64_t>(info.high));
-  }
-  void operator()(const OptionInfo& info, std::optional<glm::ivec3>& member) const {
-    table.read(info.key, member, static_cast<std::int64_t>(info.low), static_cast<std::int64_t>(info.high));
-  }
-};
 
 class TimelineReader {
  public:
@@ -58,7 +35,9 @@ class TimelineReader {
     const toml::table* const smoke = root.table("smoke");
     const toml::table* const sky = root.table("sky");
     const toml::table* const sun = root.table("sun");
+    const auto carriers = root.tables("carrier");
     const auto volumes = root.tables("volume");
+    const auto decals = root.tables("decal");
     const auto cameras = root.tables("camera");
     const auto events = root.tables("event");
     if (auto done = root.finish(); !done) return done.failure();
@@ -69,7 +48,13 @@ class TimelineReader {
     if (smoke != nullptr && outcome) outcome = read_smoke(*smoke);
     if (sky != nullptr && outcome) outcome = read_sky(*sky);
     if (sun != nullptr && outcome) outcome = read_sun(*sun);
-    for (std::size_t i = 0; i < volumes.size() && outcome; ++i) outcome = read_volume(*volumes[i]);
+    const auto read_all = [&](const auto& tables, auto read_one) {
+      for (std::size_t i = 0; i < tables.size() && outcome; ++i)
+        outcome = read_one(*tables[i], path_, timeline_);
+    };
+    read_all(carriers, read_carrier);
+    read_all(volumes, read_volume);
+    read_all(decals, read_decal);
     for (std::size_t i = 0; i < cameras.size() && outcome; ++i) outcome = read_camera(*cameras[i]);
     for (std::size_t i = 0; i < events.size() && outcome; ++i) outcome = read_event(*events[i]);
     if (!outcome) return outcome.failure();
@@ -113,75 +98,6 @@ class TimelineReader {
     TomlTable table(source, "[sun]", file_);
     visit_sun_options(timeline_.sun.emplace(), OptionReader{table});
     return table.finish();
-  }
-
-  Result<void> read_volume(const toml::table& source) {
-    TomlTable table(source, "[[volume]]", file_);
-    VolumeOptions volume;
-    std::string file;
-    table.require("file");
-    table.read("file", file);
-    if (file.empty() || file.find('\0') != std::string::npos)
-      table.fail("file", "\"file\": expected the name of a file of grids");
-    if (timeline_.volumes.size() >= kMostVolumes)
-      table.fail("file", "[[volume]]: expected at most " + std::to_string(kMostVolumes) + " of them");
-    volume.file = path_.parent_path() / file;
-    read_sequence(table, volume);
-    table.read("density", volume.density);
-    table.read("heat", volume.heat);
-    table.read("position", volume.position_world, -kFarthestPoint, kFarthestPoint);
-    table.read("color", volume.color);
-    visit_volume_options(volume, OptionReader{table});
-    read_transfer(table, volume);
-    volume.place = table.place("file");
-    timeline_.volumes.push_back(std::move(volume));
-    return table.finish();
-  }
-
-  static void read_sequence(TomlTable& table, VolumeOptions& volume) {
-    table.read("first", volume.first, 0, kLastFrame);
-    table.read("last", volume.last, 0, kLastFrame);
-    if (volume.first && volume.last && *volume.last < *volume.first)
-      table.fail("last", "\"last\": expected no less than \"first\"");
-    table.read("loop", volume.loop);
-    table.read("clip", volume.clip);
-    table.read("ping_pong", volume.ping_pong);
-    if (volume.loop + volume.clip + volume.ping_pong > 1)
-      table.fail(volume.clip ? "clip" : "ping_pong",
-                 "\"clip\", \"loop\" and \"ping_pong\": expected only one of them to be true");
-  }
-
-  static void read_transfer(TomlTable& table, VolumeOptions& volume) {
-    const auto fail = [&](const char* key, const std::optional<PointFault>& fault) {
-      if (!fault) return;
-      const std::string point = fault->point ? " point " + std::to_string(*fault->point + 1) : "";
-      const std::string what = in_quotes(key) + point + ": " + fault->what;
-      fault->point ? table.fail(key, *fault->point, what) : table.fail(key, what);
-    };
-    table.read("range", volume.range, -kFarthestValue, kFarthestValue);
-    if (volume.range)
-      if (const auto fault = fault_of_range(*volume.range)) table.fail("range", "\"range\": " + *fault);
-
-    std::vector<std::vector<float>> rows;
-    if (table.has("opacity")) {
-      table.read("opacity", rows, 2);
-      for (const auto& row : rows)
-        if (row.size() == 2) volume.opacity.push_back({row[0], row[1]});
-      fail("opacity", fault_of(std::span(std::as_const(volume.opacity))));
-    }
-
-    ColorMap& map = volume.color_map;
-    if (table.is_text("color_map")) {
-      table.read("color_map", map.name);
-      if (map.name.empty()) table.fail("color_map", "\"color_map\": expected a name or points");
-      fail("color_map", fault_of(map));
-    } else if (table.has("color_map")) {
-      rows.clear();
-      table.read("color_map", rows, 4);
-      for (const auto& row : rows)
-        if (row.size() == 4) map.points.push_back({row[0], {row[1], row[2], row[3]}});
-      fail("color_map", fault_of(std::span(std::as_const(map.points))));
-    }
   }
 
   Result<void> read_camera(const toml::table& source) {
@@ -362,19 +278,28 @@ Result<Timeline> load_timeline(const std::filesystem::path& path) {
   return parse_timeline(*text, path);
 }
 
-Result<void> check_doors(const Timeline& timeline, const Scene& scene) {
-  for (const DoorEvent& door : timeline.doors) {
-    const auto& objects = scene.objects;
-    if (std::any_of(objects.begin(), objects.end(), [&](const Object& o) { return o.name == door.object; }))
-      continue;
-    const std::string message =
-        (door.place.empty() ? "" : door.place + ": ") + "the scene has no object " + in_quotes(door.object);
-    std::vector<std::string> names;
-    for (const Object& object : objects)
-      if (!object.name.empty() && std::ranges::find(names, object.name) == names.end())
-        names.push_back(object.name);
-    return Failure{ErrorCode::bad_input, message + suggestion(door.object, names, "\"")};
-  }
+namespace {
+
+Result<void> check_object(const Scene& scene, const std::string& name, const std::string& place) {
+  const auto& objects = scene.objects;
+  if (std::any_of(objects.begin(), objects.end(), [&](const Object& o) { return o.name == name; })) return {};
+  const std::string message =
+      (place.empty() ? "" : place + ": ") + "the scene has no object " + in_quotes(name);
+  std::vector<std::string> names;
+  for (const Object& object : objects)
+    if (!object.name.empty() && std::ranges::find(names, object.name) == names.end())
+      names.push_back(object.name);
+  return Failure{ErrorCode::bad_input, message + suggestion(name, names, "\"")};
+}
+
+}  // namespace
+
+Result<void> check_objects(const Timeline& timeline, const Scene& scene) {
+  for (const DoorEvent& door : timeline.doors)
+    if (auto done = check_object(scene, door.object, door.place); !done) return done;
+  for (const Carrier& carrier : timeline.carriers)
+    if (!carrier.object.empty())
+      if (auto done = check_object(scene, carrier.object, carrier.place); !done) return done;
   return {};
 }
 

@@ -59,6 +59,77 @@ struct SunOptions {
   glm::vec3 irradiance{2.6f, 2.4f, 2.1f};
 };
 
+/// Where a carrier is at one time.
+struct CarrierKey {
+  double time = 0;  ///< [s], [0, 3600].
+  glm::vec3 position_world{0};
+  glm::vec3 rotation{0};  ///< About x, then y, then z [degrees]; may exceed a turn.
+};
+
+/// What volumes and decals move with, and objects of the scene: a drone, an engine.
+struct Carrier {
+  std::string name;
+  /// Objects of the scene that move with it: the place and rotation of the first of this name are replaced by
+  /// those of the carrier, and the others stay where they are beside it. Empty: none.
+  std::string object = {};
+  std::vector<CarrierKey> keys;  ///< At least one, sorted by time, no two times equal.
+  std::string place = {};        ///< "file:line:column" for error messages.
+};
+
+/// world_from_carrier at a time [s]: passes through all keys with continuous velocity, at rest before the
+/// first and after the last.
+glm::mat4 pose_at(const Carrier& carrier, double time);
+
+/// Rotation about x, then y, then z [degrees].
+glm::mat4 rotation_of(const glm::vec3& degrees);
+
+/// The colour of a mask at one time.
+struct MaskKey {
+  double time = 0;  ///< [s], [0, 3600].
+  glm::vec3 color{1};
+  float intensity = 1;
+};
+
+/// A grid of a volume that glows in one colour: where its value is 1, color * intensity leaves each metre.
+struct VolumeMask {
+  std::string grid;
+  glm::vec3 color{1};
+  float intensity = 1;
+  std::vector<MaskKey> keys;  ///< Replace both; sorted by time, no two times equal. Linear in between.
+};
+inline constexpr std::size_t kMostMasks = 4;
+
+/// Radiance per metre of a mask at a time.
+glm::vec3 glow_at(const VolumeMask& mask, double time);
+
+/// Noise that moves the places at which a volume is sampled.
+struct Disturbance {
+  float strength = 0;  ///< Largest displacement along each axis, in units of the file; 0: none.
+  float size = 0.1f;   ///< Of the noise's largest features, likewise.
+  glm::vec3 drift{0};  ///< How fast the noise moves, likewise [1/s].
+  float grow = 0;      ///< Length along `drift` over which the strength grows from 0; 0: it is everywhere.
+  bool operator==(const Disturbance&) const = default;
+};
+
+/// A decal of baked occlusion (brume bake occlusion): darkens the surfaces in its box.
+struct DecalOptions {
+  std::filesystem::path file;  ///< A volume, resolved.
+  std::string grid = {};  ///< Of the occlusion; empty: up and down if there are such grids, else the first.
+  std::string carrier = {};     ///< Empty: the world.
+  glm::vec3 position_world{0};  ///< In the carrier's space if there is one.
+  glm::vec3 rotation{0};        ///< About x, then y, then z [degrees].
+  float scale = 1;
+  float strength = 1;
+  float gamma = 1;
+  float correction = 1;
+  float falloff = 1;
+  float fade = 0.15f;
+  float scatter = 0.5f;
+  std::string place = {};  ///< "file:line:column" for error messages.
+};
+/// Decals of a timeline at most: a frame shows as many.
+inline constexpr std::size_t kMostDecals = 32;
+
 /// Volumes of a timeline at most: a frame shows as many.
 inline constexpr std::size_t kMostVolumes = 32;
 
@@ -90,6 +161,11 @@ struct VolumeOptions {
   std::vector<OpacityPoint> opacity = {};  ///< Replaces the value as factor of the extinction.
   ColorMap color_map = {};                 ///< Replaces the albedo.
   float glow = 0;
+  std::string carrier = {};            ///< What it moves with; empty: the world.
+  std::vector<VolumeMask> masks = {};  ///< At most kMostMasks.
+  Disturbance disturbance = {};
+  std::uint32_t particles = 0;  ///< Quads that show its masks instead of a march; 0: none.
+  float particle_size = 0.12f;
   std::string place = {};  ///< "file:line:column" for error messages.
 };
 
@@ -208,7 +284,9 @@ struct Timeline {
   SmokeOptions smoke;
   SkyOptions sky;
   std::optional<SunOptions> sun;
+  std::vector<Carrier> carriers;
   std::vector<VolumeOptions> volumes;
+  std::vector<DecalOptions> decals;
   std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal.
   // Events, each list sorted by time; events of the same time in file order. A new kind of event needs a line
   // in for_each_event_kind.
@@ -246,22 +324,27 @@ void sort_events(Timeline& timeline);
 /// Reads a timeline: TOML with `version = 1`, `scene`, `duration`, `exposure`, `tone`, `origin`, `scale`,
 /// `ground`, the tables [grid] (voxel, size, origin), [smoke], [sky] and [sun] with the members above as
 /// keys, [[volume]] (file, first, last, density, heat, color, position, clip, ping_pong, loop, range,
-/// opacity, color_map and its members), and [[camera]] (time, position, target, fov in degrees, [1, 170]) in
-/// order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time, from, toward, radius, reach,
-/// expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text, from, toward, size, font,
-/// spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius, speed, remaining,
-/// refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid) or "door"
-/// (time, object, open). Points are in metres, [-10^6, 10^6]; those of events [-16384, 16384]. check_doors
-/// checks whether a door's object exists. Fails with bad_input and file:line:column for malformed TOML, an
-/// unknown key (suggesting what was probably meant), and a value of the wrong type or out of range.
+/// opacity, color_map, carrier, [[volume.mask]], [volume.disturb], particles and its members), [[carrier]]
+/// (name, object, [[carrier.key]]), [[decal]], and [[camera]] (time, position, target, fov in degrees, [1,
+/// 170]) in order of time, [[event]] with type = "smoke" (time, from, at), "shot" (time, from, toward,
+/// radius, reach, expand, stay, fade, shape, mask, roll in degrees, flash), "text" (time, text, from, toward,
+/// size, font, spacing, interval, reach, expand, stay, fade, roll), "blast" (time, at, radius, speed,
+/// remaining, refill_rim, refill_middle, flash), "move" (time, body, to), "edit" (time, low, high, solid) or
+/// "door" (time, object, open). Points are in metres, [-10^6, 10^6]; those of events [-16384, 16384].
+/// check_objects checks whether the objects of doors and carriers exist. Fails with bad_input and
+/// file:line:column for malformed TOML, an unknown key (suggesting what was probably meant), and a value of
+/// the wrong type or out of range.
 Result<Timeline> load_timeline(const std::filesystem::path& path);
 
 /// The same from text; `path` names it in messages and is the base of its relative paths.
 Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::path& path);
 
-/// Fails with bad_input at the first door whose object is missing from the scene, suggesting what was
-/// probably meant.
-Result<void> check_doors(const Timeline& timeline, const Scene& scene);
+/// Fails with bad_input at the first door or carrier whose object is missing from the scene, suggesting what
+/// was probably meant.
+Result<void> check_objects(const Timeline& timeline, const Scene& scene);
+
+/// The pose of a carrier by its name at a time; the identity without one.
+glm::mat4 pose_of(const Timeline& timeline, const std::string& carrier, double time);
 
 /// The camera at a time [s]: passes through all keys with continuous velocity, at rest before the first and
 /// after the last; `fallback` when there are no keys. The field of view stays within that of the two

@@ -167,7 +167,9 @@ class Writer {
 
   std::string write(const Timeline& timeline) {
     write_head(timeline);
+    for (const Carrier& carrier : timeline.carriers) write_carrier(carrier);
     for (const VolumeOptions& volume : timeline.volumes) write_volume(volume);
+    for (const DecalOptions& decal : timeline.decals) write_decal(decal);
     for (const CameraKey& key : timeline.camera) {
       text_ += "\n[[camera]]\n";
       line("time", key.time);
@@ -219,6 +221,47 @@ class Writer {
     for (const auto& [at, color] : volume.color_map.points) rows.push_back({at, color.r, color.g, color.b});
     if (!volume.color_map.name.empty()) line("color_map", volume.color_map.name);
     if (!rows.empty()) line("color_map", rows);
+    if (!volume.carrier.empty()) line("carrier", volume.carrier);
+    options(volume, VolumeOptions(), "", [](auto& o, auto& v) { visit_particle_options(o, v); });
+    if (volume.disturbance.strength > 0) {
+      text_ += "\n[volume.disturb]\n";
+      options(volume.disturbance, Disturbance(), "",
+              [](auto& o, auto& v) { visit_disturbance_options(o, v); });
+    }
+    for (const VolumeMask& mask : volume.masks) write_mask(mask);
+  }
+
+  void write_mask(const VolumeMask& mask) {
+    text_ += "\n[[volume.mask]]\n";
+    line("grid", mask.grid);
+    options(mask, VolumeMask(), "", [](auto& o, auto& v) { visit_mask_options(o, v); });
+    for (const MaskKey& key : mask.keys) {
+      text_ += "\n[[volume.mask.key]]\n";
+      line("time", key.time);
+      line("color", key.color);
+      line("intensity", key.intensity);
+    }
+  }
+
+  void write_carrier(const Carrier& carrier) {
+    text_ += "\n[[carrier]]\n";
+    line("name", carrier.name);
+    if (!carrier.object.empty()) line("object", carrier.object);
+    for (const CarrierKey& key : carrier.keys) {
+      text_ += "\n[[carrier.key]]\n";
+      line("time", key.time);
+      line("position", key.position_world);
+      options(key, CarrierKey(), "", [](auto& o, auto& v) { visit_carrier_options(o, v); });
+    }
+  }
+
+  void write_decal(const DecalOptions& decal) {
+    text_ += "\n[[decal]]\n";
+    line("file", path_from(decal.file, folder_).generic_string());
+    if (!decal.grid.empty()) line("grid", decal.grid);
+    if (!decal.carrier.empty()) line("carrier", decal.carrier);
+    line("position", decal.position_world);
+    options(decal, DecalOptions(), "", [](auto& o, auto& v) { visit_decal_options(o, v); });
   }
 
   /// Writes all events by time; events of the same time in the order in which they happen.

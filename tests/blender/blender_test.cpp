@@ -275,7 +275,7 @@ TEST_P(BlenderFormats, TimelineMatchesTheScene) {
   const scene::Timeline timeline =
       scene::load_timeline(this->timeline("courtyard", GetParam())).value_or_throw();
   const scene::Scene scene = scene::load_scene(timeline.scene).value_or_throw();
-  EXPECT_TRUE(scene::check_doors(timeline, scene));
+  EXPECT_TRUE(scene::check_objects(timeline, scene));
   EXPECT_FLOAT_EQ(timeline.duration, 4);
   EXPECT_EQ(timeline.smoke.voxels, 1500u);
   EXPECT_FLOAT_EQ(timeline.sky.ambient.b, 0.055f);

@@ -50,19 +50,19 @@ GlowBall together(const std::vector<GlowBall>& balls) {
   GlowBall all;
   double squares = 0;
   for (const GlowBall& ball : balls) {
-    all.fourth += ball.fourth;
-    all.middle += ball.fourth * ball.middle;
-    all.density += ball.fourth * ball.density;
-    all.value += ball.fourth * ball.value;
+    all.power += ball.power;
+    all.middle += ball.power * ball.middle;
+    all.density += ball.power * ball.density;
+    all.value += ball.power * ball.value;
   }
-  all.middle /= all.fourth;
-  all.density /= all.fourth;
-  all.value /= all.fourth;
+  all.middle /= all.power;
+  all.density /= all.power;
+  all.value /= all.power;
   for (const GlowBall& ball : balls) {
     const glm::dvec3 off = ball.middle - all.middle;
-    squares += ball.fourth * (0.6 * ball.radius * ball.radius + glm::dot(off, off));
+    squares += ball.power * (0.6 * ball.radius * ball.radius + glm::dot(off, off));
   }
-  all.radius = std::sqrt(squares / all.fourth / 0.6);
+  all.radius = std::sqrt(squares / all.power / 0.6);
   return all;
 }
 
@@ -77,7 +77,7 @@ TEST(Glow, OfABallIsThatBall) {
     }
     const GlowBall all = together(balls);
     const double voxels = 4.0 / 3 * 3.14159265 * radius * radius * radius;
-    EXPECT_NEAR(all.fourth, voxels, 0.05 * voxels) << radius;
+    EXPECT_NEAR(all.power, voxels, 0.05 * voxels) << radius;
     EXPECT_LT(glm::distance(all.middle, middle), 0.1) << radius;
     // The voxels of a ball have its volume but for 5 %, hence its radius but for a third of that.
     EXPECT_NEAR(all.radius, radius, 0.05 / 3 * radius) << radius;
@@ -92,9 +92,9 @@ TEST(Glow, OfTwoBallsIsNotBetweenThem) {
       bricks_of(grid_of(112, [&](glm::ivec3 at) { return std::max(one(at), other(at)); }));
   double near_one = 0, near_other = 0, sum = 0;
   for (const GlowBall& found : find_glow(heat, heat)) {
-    sum += found.fourth;
-    if (glm::distance(found.middle, glm::dvec3(12, 12, 12)) < 5) near_one += found.fourth;
-    if (glm::distance(found.middle, glm::dvec3(100, 20, 12)) < 5) near_other += found.fourth;
+    sum += found.power;
+    if (glm::distance(found.middle, glm::dvec3(12, 12, 12)) < 5) near_one += found.power;
+    if (glm::distance(found.middle, glm::dvec3(100, 20, 12)) < 5) near_other += found.power;
   }
   EXPECT_NEAR(near_one + near_other, sum, 1e-9 * sum);
   EXPECT_NEAR(near_other / near_one, 1.0 / 16, 0.002) << "the fourth power";
@@ -109,7 +109,7 @@ TEST(Glow, SumsUpToAllVoxels) {
   const std::vector<GlowBall> balls = find_glow(heat, heat);
   EXPECT_EQ(balls.size(), kMostGlowBalls);
   double found = 0, expected = 0;
-  for (const GlowBall& one : balls) found += one.fourth;
+  for (const GlowBall& one : balls) found += one.power;
   const auto* values = reinterpret_cast<const float*>(noise.values.data());
   for (std::size_t i = 0; i < noise.values.size() / sizeof(float); ++i)
     expected += std::pow(double{values[i]} / double{heat.unit}, 4);
@@ -123,7 +123,7 @@ TEST(Glow, SumsUpToTheSameAtLowerResolutions) {
   const Grid noise = grid_of(32, [&](glm::ivec3) { return unit(random); });
   const auto sum_of = [](const BrickVolume& heat) {
     double sum = 0;
-    for (const GlowBall& ball : find_glow(heat, heat)) sum += ball.fourth;
+    for (const GlowBall& ball : find_glow(heat, heat)) sum += ball.power;
     return sum * std::exp2(3 * heat.level);
   };
   const BrickVolume fine = bricks_of(noise);
@@ -165,7 +165,7 @@ TEST(Glow, DoesNotFlicker) {
       double light = 0, exact = 0;
       for (const GlowBall& ball : balls) {
         const glm::dvec3 off = seen[i] - ball.middle;
-        light += ball.fourth / std::max(glm::dot(off, off), ball.radius * ball.radius);
+        light += ball.power / std::max(glm::dot(off, off), ball.radius * ball.radius);
       }
       const auto* values = reinterpret_cast<const float*>(grid.values.data());
       for (std::size_t brick = 0; brick < grid.bricks.size(); ++brick)

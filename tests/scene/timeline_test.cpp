@@ -314,11 +314,11 @@ TEST(Timeline, AnUnknownDoorSuggestsTheNearestObject) {
   scene.objects.resize(3);
   scene.objects[0].name = "floor";
   scene.objects[1].name = "front door";
-  EXPECT_EQ(check_doors(*timeline, scene).failure().message,
+  EXPECT_EQ(check_objects(*timeline, scene).failure().message,
             "scenes/t.toml:6:10: the scene has no object \"frontdor\"; did you mean \"front door\"?");
   scene.objects[2].name = "frontdor";
-  EXPECT_TRUE(check_doors(*timeline, scene));
-  EXPECT_EQ(check_doors(*timeline, Scene()).failure().message,
+  EXPECT_TRUE(check_objects(*timeline, scene));
+  EXPECT_EQ(check_objects(*timeline, Scene()).failure().message,
             "scenes/t.toml:6:10: the scene has no object \"frontdor\"");
 }
 

@@ -1,0 +1,139 @@
+#include "grids/mask_bricks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <optional>
+
+#include "core/tasks.hpp"
+
+namespace brume::grids {
+namespace {
+
+/// Values of a grid by their index; remembers the brick of the last one.
+class MaskValues {
+ public:
+  explicit MaskValues(const Grid& grid) : grid_(&grid) {}
+
+  float at(glm::ivec3 index) {
+    const glm::ivec3 origin = (index >> 3) * 8;
+    if (!brick_ || origin != origin_) {
+      brick_ = find_brick(*grid_, origin).value_or(grid_->bricks.size());
+      origin_ = origin;
+    }
+    if (*brick_ == grid_->bricks.size()) return of_tile(index);
+    const glm::ivec3 in = index & 7;
+    const auto voxel = static_cast<std::size_t>(in.x + 8 * (in.y + 8 * in.z));
+    return number(grid_->values_of(*brick_).data() + voxel * bytes_of(grid_->type));
+  }
+
+ private:
+  /// Of what half floats hold; NaN is 0.
+  float number(const std::byte* value) const {
+    const double number = number_of(grid_->type, value);
+    return number > 0 ? static_cast<float>(std::min(number, 65504.0)) : 0.0f;
+  }
+  float of_tile(glm::ivec3 index) const {
+    for (const Tile& tile : grid_->tiles)
+      if (glm::all(glm::greaterThanEqual(index, tile.origin)) &&
+          glm::all(glm::lessThan(index, tile.origin + static_cast<int>(tile.edge))))
+        return number(tile.value.data());
+    return 0;
+  }
+
+  const Grid* grid_;
+  glm::ivec3 origin_{0};
+  std::optional<std::size_t> brick_;  // its number, or that of all: none
+};
+
+/// The values at a point of index space, linear between voxel centres.
+float value_at(MaskValues& values, const glm::dvec3& p_index) {
+  const glm::dvec3 low = glm::floor(p_index);
+  const glm::vec3 weight(p_index - low);
+  float sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::vec3 w = glm::mix(1.0f - weight, weight, glm::vec3(side));
+    const float product = w.x * w.y * w.z;
+    if (product > 0) sum += product * values.at(glm::ivec3(low) + side);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Result<Grid> joined_masks(std::span<const Grid* const> masks) {
+  const Grid& first = *masks.front();
+  std::vector<glm::ivec3> origins;
+  for (const Grid* mask : masks) {
+    if (mask->type != ValueType::float32 && mask->type != ValueType::float64)
+      return Failure{ErrorCode::bad_input, "grid " + mask->name + ": holds values of " + name_of(mask->type) +
+                                               "; expected a mask of float32 or float64"};
+    if (mask->world_from_index != first.world_from_index)
+      return Failure{ErrorCode::bad_input, "grid " + mask->name +
+                                               ": its voxels are not where those of grid " + first.name +
+                                               " are; bake the masks into one file"};
+    for (const Brick& brick : mask->bricks) origins.push_back(brick.origin);
+    if (std::ranges::any_of(mask->tiles, [](const Tile& tile) { return tile.active; }))
+      return Failure{ErrorCode::bad_input,
+                     "grid " + mask->name + ": has tiles; bake it with brume bake slices"};
+  }
+  std::ranges::sort(origins, goes_before);
+  origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+
+  Grid joined;
+  joined.name = "masks";
+  joined.grid_class = GridClass::fog_volume;
+  joined.world_from_index = first.world_from_index;
+  std::vector<MaskValues> values(masks.size(), MaskValues(first));
+  for (std::size_t i = 0; i < masks.size(); ++i) values[i] = MaskValues(*masks[i]);
+  for (const glm::ivec3 origin : origins) {
+    Brick brick{origin};
+    std::array<float, kBrickVoxels> most{};
+    for (int voxel = 0; voxel < int{kBrickVoxels}; ++voxel) {
+      const auto i = static_cast<std::size_t>(voxel);
+      for (MaskValues& mask : values)
+        most[i] = std::max(most[i], mask.at(origin + glm::ivec3(voxel % 8, voxel / 8 % 8, voxel / 64)));
+      if (most[i] > 0) brick.active[i / 64] |= std::uint64_t{1} << (i % 64);
+    }
+    joined.bricks.push_back(brick);
+    const auto bytes = std::as_bytes(std::span(most));
+    joined.values.insert(joined.values.end(), bytes.begin(), bytes.end());
+  }
+  return joined;
+}
+
+std::unique_ptr<volume::SparseVolume> make_mask_bricks(std::span<const Grid* const> masks,
+                                                       const BrickVolume& volume) {
+  BRUME_ASSERT(!masks.empty() && masks.size() <= kMostMaskGrids, std::to_string(masks.size()));
+  const glm::dmat4 index_from_voxel = glm::inverse(masks.front()->world_from_index) * volume.world_from_voxel;
+  volume::SparseVolumeInfo info;
+  info.channels = {{sizeof(std::uint64_t)}};
+  auto bricks = std::make_unique<volume::SparseVolume>(info);
+  const std::uint32_t slots = volume.volume->slot_count();
+  bricks->begin_update();
+  for (std::uint32_t slot = 0; slot < slots; ++slot) bricks->acquire(volume.volume->brick_of(slot));
+  parallel_for(slots, 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<MaskValues> values;
+    for (const Grid* mask : masks) values.emplace_back(*mask);
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const auto texels =
+          bricks->texels<std::uint64_t>(volume::ChannelId{0}, static_cast<std::uint32_t>(slot));
+      const glm::ivec3 first = 8 * volume.volume->brick_of(static_cast<std::uint32_t>(slot)) - 1;
+      for (int i = 0; i < int{shared::kTexelsPerBrick}; ++i) {
+        const glm::dvec3 p_voxel = glm::dvec3(first + glm::ivec3(i % 10, i / 10 % 10, i / 100)) + 0.5;
+        const glm::dvec3 p_index(index_from_voxel * glm::dvec4(p_voxel, 1));
+        glm::vec4 four(0);
+        for (std::size_t mask = 0; mask < masks.size(); ++mask)
+          four[static_cast<int>(mask)] = value_at(values[mask], p_index);
+        texels[static_cast<std::size_t>(i)] = glm::packHalf4x16(four);
+      }
+    }
+  });
+  bricks->set_bounds(volume.volume->layout().bounds_min, volume.volume->layout().bounds_max);
+  bricks->end_update();
+  return bricks;
+}
+
+}  // namespace brume::grids

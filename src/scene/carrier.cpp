@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/key_path.hpp"
+#include "scene/timeline.hpp"
+
+namespace brume::scene {
+
+glm::mat4 rotation_of(const glm::vec3& degrees) {
+  glm::mat4 matrix(1);
+  for (const int axis : {2, 1, 0}) {
+    glm::vec3 around(0);
+    around[axis] = 1;
+    matrix = glm::rotate(matrix, glm::radians(degrees[axis]), around);
+  }
+  return matrix;
+}
+
+glm::mat4 pose_at(const Carrier& carrier, double time) {
+  const std::span keys(carrier.keys);
+  const glm::vec3 position = smooth_at(keys, time, [](const CarrierKey& key) { return key.position_world; });
+  const glm::vec3 rotation = smooth_at(keys, time, [](const CarrierKey& key) { return key.rotation; });
+  return glm::translate(glm::mat4(1), position) * rotation_of(rotation);
+}
+
+glm::mat4 pose_of(const Timeline& timeline, const std::string& carrier, double time) {
+  const auto found = std::ranges::find(timeline.carriers, carrier, &Carrier::name);
+  return found == timeline.carriers.end() ? glm::mat4(1) : pose_at(*found, time);
+}
+
+glm::vec3 glow_at(const VolumeMask& mask, double time) {
+  if (mask.keys.empty()) return mask.color * mask.intensity;
+  const auto [before, after] = span_at(std::span(mask.keys), time);
+  const MaskKey &a = mask.keys[before], &b = mask.keys[after];
+  if (before == after) return a.color * a.intensity;
+  const auto part = static_cast<float>((time - a.time) / (b.time - a.time));
+  return glm::mix(a.color, b.color, part) * glm::mix(a.intensity, b.intensity, part);
+}
+
+}  // namespace brume::scene

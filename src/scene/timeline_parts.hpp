@@ -1,0 +1,39 @@
+// Readers of the parts of a timeline that have a source of their own. Internal to this folder.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/options.hpp"
+#include "scene/timeline.hpp"
+#include "scene/toml_table.hpp"
+
+namespace brume::scene {
+
+/// Reads settings from a table: the visitor of scene/options.hpp.
+struct OptionReader {
+  TomlTable& table;
+
+  template <typename Member>
+  void operator()(const OptionInfo& info, Member& member) const {
+    table.read(info.key, member, info.low, info.high);
+  }
+  void operator()(const OptionInfo& info, float& member) const {
+    if (!is_angle(info)) return table.read(info.key, member, info.low, info.high);
+    double degrees = double{member} / kRadiansOfDegree;
+    table.read(info.key, degrees, info.low, info.high);
+    member = static_cast<float>(degrees * kRadiansOfDegree);
+  }
+  void operator()(const OptionInfo& info, std::uint32_t& member) const {
+    table.read(info.key, member, static_cast<std::int64_t>(info.low), static_cast<std::int64_t>(info.high));
+  }
+  void operator()(const OptionInfo& info, std::optional<glm::ivec3>& member) const {
+    table.read(info.key, member, static_cast<std::int64_t>(info.low), static_cast<std::int64_t>(info.high));
+  }
+};
+
+// Each adds one table to a timeline whose file is `path`. Fail as load_timeline.
+Result<void> read_carrier(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
+Result<void> read_volume(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
+Result<void> read_decal(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
+
+}  // namespace brume::scene
