@@ -198,12 +198,12 @@ def check_stale(data, stored, found):
     parts = ("nodes", "materials", "meshes", "cameras", "extensions")
     same = all(doc.get(part) == old_doc.get(part) for part in parts) and \
         len(doc["accessors"]) == len(old_doc["accessors"]) and \
-        [image["name"] for image in doc["images"]] == [image["name"] for image in old_doc["images"]]
+        [image["name"] for image in doc.get("images", [])] == [image["name"] for image in old_doc.get("images", [])]
     for i in range(len(doc["accessors"]) if same else 0):
         new, old = accessor(doc, blob, i), accessor(old_doc, old_blob, i)
         same = same and new.shape == old.shape and np.allclose(new, old, rtol=0, atol=1e-5)
     if not same:
-        found.append("the stored demo.glb differs from what this script makes; run make_demo.py")
+        found.append("the stored file differs from what the script makes; run the script")
 
 
 def run(scene, data, path):

@@ -350,15 +350,21 @@ def normal_map(height, repeat_m):
     return n / np.linalg.norm(n, axis=-1, keepdims=True)
 
 
+def level(values):
+    """0..1 as bytes in steps of 2/255, which keep PNG files small."""
+    return (np.round(np.clip(values, 0, 1) * 127.5) * 2).clip(0, 255).astype(np.uint8)
+
+
+def normal_image(height, repeat_m):
+    return (128 + 2 * np.round(normal_map(height, repeat_m) * 63.5)).clip(0, 255).astype(np.uint8)
+
+
 def make_all():
-    """name -> {"color", "normal", optional "rough"} as RGB8 images. Steps of 2/255 keep the PNGs small."""
+    """name -> {"color", "normal", optional "rough"} as RGB8 images."""
     out = {}
     for name, maker in MAKERS.items():
         made = maker()
-        level = lambda v: (np.round(np.clip(v, 0, 1) * 127.5) * 2).clip(0, 255).astype(np.uint8)
-        normal = normal_map(made["height"], REPEAT_M[name])
-        images = {"color": level(made["color"]),
-                  "normal": (128 + 2 * np.round(normal * 63.5)).clip(0, 255).astype(np.uint8)}
+        images = {"color": level(made["color"]), "normal": normal_image(made["height"], REPEAT_M[name])}
         if "rough" in made:
             rough = made["rough"].reshape(256, 2, 256, 2).mean(axis=(1, 3))
             g = level(rough)

@@ -100,14 +100,16 @@ class GlbWriter:
         return len(self.doc["materials"]) - 1
 
     def mesh(self, name, primitives):
-        """`primitives`: (material index, positions, normals, tangents, uvs, indices) each."""
+        """`primitives`: (material index, positions, normals, tangents, uvs, indices); tangents and uvs may be None."""
         out = []
         for material, pos, nrm, tan, uv, idx in primitives:
             small = len(pos) < 65535
             attributes = {"POSITION": self._accessor(pos.astype("<f4"), FLOAT, "VEC3", ARRAY_BUFFER, True),
-                          "NORMAL": self._accessor(nrm.astype("<f4"), FLOAT, "VEC3", ARRAY_BUFFER),
-                          "TANGENT": self._accessor(tan.astype("<f4"), FLOAT, "VEC4", ARRAY_BUFFER),
-                          "TEXCOORD_0": self._accessor(uv.astype("<f4"), FLOAT, "VEC2", ARRAY_BUFFER)}
+                          "NORMAL": self._accessor(nrm.astype("<f4"), FLOAT, "VEC3", ARRAY_BUFFER)}
+            if tan is not None:
+                attributes["TANGENT"] = self._accessor(tan.astype("<f4"), FLOAT, "VEC4", ARRAY_BUFFER)
+            if uv is not None:
+                attributes["TEXCOORD_0"] = self._accessor(uv.astype("<f4"), FLOAT, "VEC2", ARRAY_BUFFER)
             indices = self._accessor(idx.astype("<u2" if small else "<u4"), UINT16 if small else UINT32, "SCALAR",
                                      ELEMENT_ARRAY_BUFFER)
             out.append({"attributes": attributes, "indices": indices, "material": material})

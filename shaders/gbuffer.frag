@@ -32,5 +32,5 @@ void main() {
   const vec4 maps = texture(roughness_map, uv);
   albedo_roughness = vec4(base.rgb * draw.material.base_color, draw.material.roughness * maps.g);
   normal_metallic = vec4(n, draw.material.metallic * maps.b);
-  emission = vec4(draw.material.emission, 0.0);
+  emission = vec4(draw.material.emission, draw.moves);
 }

@@ -11,6 +11,7 @@
 #include "lib/lights.glsl"
 #include "lib/shading.glsl"
 #include "lib/sky.glsl"
+#include "shared/decal.h"
 #include "shared/display.h"
 #include "shared/gbuffer.h"
 #include "shared/resolve.h"
@@ -18,6 +19,7 @@
 
 layout(constant_id = 0) const uint kCullLights = 1u;  // 0: every light at every pixel
 layout(constant_id = 1) const uint kVoxelShadows = 1u;  // 0: no light is shadowed by voxels
+layout(constant_id = 2) const uint kDecals = 0u;        // 0: nothing reads the occlusion by decals
 
 const uint kGroup = 8u;
 layout(local_size_x = kGroup, local_size_y = kGroup) in;
@@ -27,6 +29,7 @@ layout(binding = kBindEmission) uniform sampler2D emission;
 layout(binding = kBindDepth) uniform sampler2D depth;
 layout(binding = kBindSmokeShadows) uniform sampler2D smoke_shadows;
 layout(binding = kBindSmoke) uniform sampler2D smoke;
+layout(binding = kBindOcclusion) uniform sampler2D decal_occlusion;
 layout(binding = kBindRadiance, rgba16f) uniform writeonly image2D radiance_image;
 #include "lib/light_rows.glsl"
 #include "lib/light_visibility.glsl"
@@ -146,8 +149,13 @@ void main() {
   const Surface surface = Surface(position_world, normalize(n.xyz), a.rgb, a.a, n.a);
   vec3 radiance = lights_radiance(lit, surface, -normalize(ray));
   if (lit) {
-    radiance += texelFetch(emission, px, 0).rgb +
-                surface.albedo * frame.sky.ambient * sky_irradiance(surface.position_world, surface.normal);
+    const vec3 emitted = texelFetch(emission, px, 0).rgb;
+    const vec3 ambient =
+        surface.albedo * frame.sky.ambient * sky_irradiance(surface.position_world, surface.normal);
+    if (kDecals == 0u)
+      radiance += emitted + ambient;
+    else
+      radiance = emitted + (radiance + ambient) * (1.0 - texelFetch(decal_occlusion, px, 0).r);
   } else {
     radiance = visible ? sky_radiance(frame.sky, normalize(ray)) : vec3(0.0);
   }

@@ -138,7 +138,8 @@ void lay_out_quality(Choices& choices, const Notices& notices) {
   ImGui::Text("now: %s, image of %ux%u pixels", now.name, notices.picture_px.x, notices.picture_px.y);
   ImGui::Text("one ray of smoke per %ux%u pixels", now.march_scale, now.march_scale);
   ImGui::Text("steps through smoke %.1f times as long", double{now.step_scale});
-  ImGui::Text("at least 1/%.0f of the changed light updated per frame", 1 / double{now.light_update_fraction});
+  ImGui::Text("at least 1/%.0f of the changed light updated per frame",
+              1 / double{now.light_update_fraction});
 }
 
 void lay_out_slice(Choices& choices, Game& game) {

@@ -37,8 +37,9 @@ SHARED_SIZE(MaterialConstants, 36);
 struct DrawConstants {
   vec4 row0, row1, row2;
   MaterialConstants material;
+  float moves;  // 1: it moves over the level, and decals do not darken it
 };
-SHARED_SIZE(DrawConstants, 84);
+SHARED_SIZE(DrawConstants, 88);
 
 /// A draw into a shadow layer.
 struct ShadowDraw {

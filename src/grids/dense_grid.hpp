@@ -28,6 +28,9 @@ struct DenseGrid {
   glm::dvec3 voxel_size() const { return (box.high - box.low) / glm::dvec3(size); }
 };
 
+/// The channels of one volume, of one size and box.
+using DenseVolume = std::vector<DenseGrid>;
+
 /// A fog volume of float32 of the same voxels, all of them active.
 Grid to_grid(const DenseGrid& dense, const glm::dmat4& world_from_box = glm::dmat4(1));
 

@@ -18,9 +18,9 @@ gpu::Image target_image(gpu::Context& context, glm::uvec2 size, VkFormat format,
 constexpr VkFormat kFormats[] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16B16A16_SFLOAT,
                                  VK_FORMAT_R16G16B16A16_SFLOAT};
 
-shared::DrawConstants constants_of(const Draw& draw, const shared::MaterialConstants& material) {
+shared::DrawConstants constants_of(const Draw& draw, const shared::MaterialConstants& material, bool moves) {
   const glm::mat4 rows = glm::transpose(draw.world_from_mesh);
-  return {rows[0], rows[1], rows[2], material};
+  return {rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
   recorder.begin_rendering(
       {{&target.albedo_roughness, &target.normal_metallic, &target.emission}, &target.depth, {}}, size);
   std::uint32_t bound = scene::kNone;
-  const auto draw_one = [&](const Draw& draw) {
+  const auto draw_one = [&](const Draw& draw, bool moves) {
     const MaterialImages& material = scene.materials[draw.material];
     if (draw.material != bound) {
       recorder.bind_for_draws(
@@ -60,13 +60,14 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
           });
       bound = draw.material;
     }
-    const auto constants = constants_of(draw, material.constants);
+    const auto constants = constants_of(draw, material.constants, moves);
     recorder.push(pipeline_, std::as_bytes(std::span(&constants, 1)));
     recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
   };
   for (const Draw& draw : scene.draws)
-    if (view.may_intersect({draw.centre_world, draw.radius}) && !is_hidden(draw, hidden)) draw_one(draw);
-  for (const Draw& draw : moving) draw_one(draw);
+    if (view.may_intersect({draw.centre_world, draw.radius}) && !is_hidden(draw, hidden))
+      draw_one(draw, false);
+  for (const Draw& draw : moving) draw_one(draw, true);
   recorder.end_rendering();
 }
 

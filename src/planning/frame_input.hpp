@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "grids/dense_grid.hpp"
 #include "planning/debug_request.hpp"
+#include "scenario/moved_objects.hpp"
 #include "scene/scene.hpp"
 #include "scene/timeline.hpp"
 #include "shared/frame.h"
@@ -46,6 +48,8 @@ struct LevelState {
   LevelView voxels;                           ///< Where the level is solid; always of the same level.
   std::vector<std::uint32_t> hidden_objects;  ///< Of the scene, rising: not drawn, and they cast no shadow.
   std::vector<glm::mat4> grenades;            ///< world_from_mesh of each grenade in the air.
+  /// Of the scene, rising; hidden objects, too, which are drawn here without a shadow.
+  std::vector<scenario::MovedObject> moved;
 };
 
 struct SmokeInput {
@@ -127,6 +131,16 @@ struct VolumeInput {
   DisturbanceInput disturbance = {};
 };
 
+/// Baked occlusion that darkens the surfaces in its box.
+struct DecalInput {
+  glm::mat4 world_from_box{1};  ///< From the box of its volume, affine with an inverse.
+  std::size_t volume = 0;  ///< In FrameInput::slices: occlusion of what faces up, and of what faces down.
+  float strength = 1;
+  float gamma = 1, correction = 1, falloff = 1;  ///< As bake::OcclusionCurve.
+  float fade = 0;                                ///< Part of the box, at each side, over which it fades out.
+  float scatter = 0;                             ///< How far noise scatters the samples [voxels].
+};
+
 /// What one frame shows. What `smoke`, `volumes` and `level` point to must outlive the frame's recording.
 struct FrameInput {
   View view;
@@ -134,6 +148,9 @@ struct FrameInput {
   LevelState level;
   SmokeInput smoke;
   std::vector<VolumeInput> volumes;  ///< At most shared::kMaxVolumes; they may overlap.
+  /// Volumes that are sampled without a march; uploaded when they are others than before. null: none.
+  std::shared_ptr<const std::vector<grids::DenseVolume>> slices;
+  std::vector<DecalInput> decals;  ///< At most shared::kMaxDecals.
   Quality quality;
   DebugRequest debug;
 };

@@ -27,6 +27,7 @@ void plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& his
     lit.push_back(residency.lit_by_preview);
   }
   plan.media = plan_media(plan.input, plan.visibility, plan.frustum, plan.lights, shown);
+  plan.decals = plan_decals(plan.input, plan.frustum);
   plan.lit_media = plan.media;
   if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
 }

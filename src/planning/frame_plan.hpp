@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "planning/decal_plan.hpp"
 #include "planning/frame_input.hpp"
 #include "planning/hole_plan.hpp"
 #include "planning/media_plan.hpp"
@@ -38,6 +39,7 @@ struct FramePlan {
   std::vector<shared::Light> lights;  ///< Of the scene and of the frame that reach what is in view.
   SmokeVisibility visibility;
   MediaPlan media;
+  std::vector<PlacedDecal> decals;
   /// The media as light is found in them and shadows are cast by them: volumes may have other resolutions.
   MediaPlan lit_media;
 

@@ -1,5 +1,6 @@
 #include "render/playback.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -18,6 +19,29 @@ glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
   const glm::mat4 moved = glm::translate(glm::mat4(1), grenade.position_world);
   // It tumbles: about one and a half turns a second, around an oblique axis.
   return glm::rotate(moved, 9.0f * grenade.flight_seconds, glm::normalize(glm::vec3(1.0f, 0.35f, 0.2f)));
+}
+
+/// Objects with carriers, which are not where the scene has them.
+void add_moved_objects(const scenario::Scenario& scenario, double seconds, FrameInput& input) {
+  std::vector<std::uint32_t>& hidden = input.level.hidden_objects;
+  for (scenario::MovedObject& moved : scenario::moved_objects(scenario.timeline, scenario.scene, seconds)) {
+    const auto at = std::lower_bound(hidden.begin(), hidden.end(), moved.object);
+    if (at != hidden.end() && *at == moved.object) continue;  // A door that is open.
+    hidden.insert(at, moved.object);
+    input.level.moved.push_back(moved);
+  }
+}
+
+void add_decals(const scenario::Scenario& scenario, double seconds, FrameInput& input) {
+  input.slices = scenario.slices.volumes;
+  for (std::size_t i = 0; i < scenario.slices.of_decals.size(); ++i) {
+    const scene::DecalOptions& options = scenario.timeline.decals[i];
+    const scenario::SliceVolume& volume = scenario.slices.of_decals[i];
+    input.decals.push_back(
+        {scenario::world_from_file(scenario.timeline, options, seconds) * volume.file_from_box, volume.volume,
+         options.strength, options.gamma, options.correction, options.falloff, options.fade,
+         options.scatter});
+  }
 }
 
 RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
@@ -73,6 +97,8 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   add_volumes(scenario, seconds, wait, input);
   const auto hidden = simulation.hidden_objects();
   input.level.hidden_objects.assign(hidden.begin(), hidden.end());
+  add_moved_objects(scenario, seconds, input);
+  add_decals(scenario, seconds, input);
   return input;
 }
 

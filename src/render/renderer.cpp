@@ -66,6 +66,7 @@ void Renderer::set_march_scale(std::uint32_t scale) {
 void Renderer::resize(glm::uvec2 size_px) {
   targets_ = Targets(context_, size_px);
   smoke_.resize(scene_, size_px);
+  decal_pass_.reset();
   history_.smoke_shadows.invalidate();
 }
 
@@ -88,6 +89,7 @@ FramePlan Renderer::plan(const FrameInput& input) {
   const std::vector<std::uint32_t> hidden_objects = history_.hidden_objects;
   try {
     upload_volumes(input);
+    upload_slices(input);
     FramePlan plan = planning::plan_frame(input, plan_target(), history_);
     reserve(plan);
     return plan;
@@ -112,10 +114,25 @@ void Renderer::upload_volumes(const FrameInput& input) {
   }
 }
 
+/// Uploads volumes that are sampled without a march where they are others than before.
+void Renderer::upload_slices(const FrameInput& input) {
+  if (input.slices == loaded_slices_ && slices_) return;
+  std::vector<std::span<const grids::DenseGrid>> volumes;
+  if (input.slices)
+    for (const grids::DenseVolume& volume : *input.slices) volumes.emplace_back(volume);
+  if (volumes.empty() && !slices_) return;
+  slices_.emplace(passes::SliceTextures::create(context_, runner_, volumes).value_or_throw());
+  loaded_slices_ = input.slices;
+}
+
 /// Makes room for a plan.
 void Renderer::reserve(FramePlan& plan) {
   scene_.reserve(plan);
   smoke_.reserve(plan, history_);
+  if (!plan.decals.empty()) {
+    if (!decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
+    shade_pass_.reserve_decals();
+  }
   if (plan.input.debug.view == planning::DebugView::none) return;
   if (!debug_view_) debug_view_.emplace(context_);
   debug_view_->reserve(debug_subject(plan), targets_.size_px);
@@ -165,15 +182,28 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
     scope(recorder, "accumulate", [&] { smoke_.record_accumulate(recorder, plan, in); });
   if (plan.input.debug.view != planning::DebugView::none)
     return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
+  const bool has_decals = !plan.decals.empty();
+  if (has_decals) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
   scope(recorder, "shade", [&] {
     const bool voxel_shadows = std::ranges::any_of(plan.lights, [](const shared::Light& light) {
       return light.shadow_layer == shared::kShadowByVoxels;
     });
     shade_pass_.record(recorder, frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(),
-                       scene_.level(), targets_.gbuffer, media(), targets_.radiance, voxel_shadows);
+                       scene_.level(), targets_.gbuffer, media(), targets_.radiance, voxel_shadows,
+                       has_decals ? &decal_pass_->occlusion() : nullptr);
   });
   scope(recorder, "display",
         [&] { display_pass_.record(recorder, frame_, blue_noise_, targets_.radiance, targets_.display); });
+}
+
+void Renderer::record_decals(gpu::Recorder& recorder, const FramePlan& plan) {
+  std::vector<shared::Decal> decals;
+  for (const planning::PlacedDecal& placed : plan.decals) {
+    decals.push_back(placed.decal);
+    decals.back().occlusion = (*slices_)[placed.volume];
+  }
+  decal_pass_->record(recorder, frame_, plan.camera, targets_.gbuffer, blue_noise_, slices_->image(), decals,
+                      plan.input.view.continues && smoke_.is_accumulated());
 }
 
 void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "passes/debug_view.hpp"
+#include "passes/decals.hpp"
 #include "passes/display.hpp"
+#include "passes/slice_textures.hpp"
 #include "planning/frame_plan.hpp"
 #include "render/smoke_frame.hpp"
 
@@ -64,7 +68,9 @@ class Renderer {
  private:
   planning::PlanTarget plan_target() const;
   void upload_volumes(const FrameInput& input);
+  void upload_slices(const FrameInput& input);
   void reserve(FramePlan& plan);
+  void record_decals(gpu::Recorder& recorder, const FramePlan& plan);
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   FrameResources resources(const FramePlan& plan);
   void record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
@@ -79,6 +85,9 @@ class Renderer {
   SmokeFrame smoke_;
   passes::ShadePass shade_pass_;
   passes::DisplayPass display_pass_;
+  std::optional<passes::DecalPass> decal_pass_;  ///< From the first frame with decals on.
+  std::optional<passes::SliceTextures> slices_;
+  std::shared_ptr<const std::vector<grids::DenseVolume>> loaded_slices_;  ///< What `slices_` holds.
   std::optional<passes::DebugViewPass> debug_view_;  ///< From the first frame with a debug view on.
   gpu::Image blue_noise_;
   gpu::Buffer frame_;

@@ -3,10 +3,17 @@
 namespace brume::render {
 namespace {
 
-std::vector<passes::Draw> grenade_draws(const passes::SceneResources& scene,
-                                        const std::vector<glm::mat4>& grenades) {
-  std::vector<passes::Draw> draws(grenades.size(), scene.grenade);
-  for (std::size_t i = 0; i < draws.size(); ++i) draws[i].world_from_mesh = grenades[i];
+/// Grenades in the air, and the objects that move.
+std::vector<passes::Draw> moving_draws(const passes::SceneResources& scene,
+                                       const planning::LevelState& level) {
+  std::vector<passes::Draw> draws(level.grenades.size(), scene.grenade);
+  for (std::size_t i = 0; i < draws.size(); ++i) draws[i].world_from_mesh = level.grenades[i];
+  for (const scenario::MovedObject& moved : level.moved)
+    for (passes::Draw draw : scene.draws) {
+      if (draw.object != moved.object) continue;
+      draw.world_from_mesh = moved.world_from_mesh;
+      draws.push_back(draw);
+    }
   return draws;
 }
 
@@ -45,8 +52,8 @@ void SceneView::record_level(gpu::Recorder& recorder, const planning::FramePlan&
 void SceneView::record_gbuffer(gpu::Recorder& recorder, const planning::FramePlan& plan,
                                const gpu::Buffer& frame, const passes::GBuffer& target) const {
   const planning::LevelState& level = plan.input.level;
-  gbuffer_pass_.record(recorder, scene_, grenade_draws(scene_, level.grenades), level.hidden_objects,
-                       plan.frustum, frame, target);
+  gbuffer_pass_.record(recorder, scene_, moving_draws(scene_, level), level.hidden_objects, plan.frustum,
+                       frame, target);
 }
 
 }  // namespace brume::render

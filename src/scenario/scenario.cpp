@@ -6,6 +6,7 @@
 
 #include "grids/files.hpp"
 #include "image/font.hpp"
+#include "scenario/moved_objects.hpp"
 #include "scenario/smoke_report.hpp"
 #include "scenario/volume_view.hpp"
 #include "scene/load.hpp"
@@ -20,6 +21,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
                           float aspect, const std::filesystem::path& cache_folder) {
   if (auto checked = scene::check_objects(timeline, scene); !checked) return checked.failure();
   scene::add_built_in_grenade(scene);
+  exclude_moved_objects(timeline, scene);
   const auto layout = grid_layout(timeline, scene);
   if (!layout) return layout.failure();
   std::filesystem::path cache;
@@ -30,6 +32,8 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
   const scene::Camera camera = scene::default_camera(scene, aspect);
   auto masks = load_masks(timeline);
   if (!masks) return masks.failure();
+  auto slices = load_slice_volumes(timeline);
+  if (!slices) return slices.failure();
   return Scenario{.timeline = std::move(timeline),
                   .scene = std::move(scene),
                   .camera = camera,
@@ -37,6 +41,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
                   .masks = std::move(masks->atlas),
                   .shot_masks = std::move(masks->of_shots),
                   .volumes = std::move(volumes),
+                  .slices = std::move(*slices),
                   .camera_is_fitted = is_fitted};
 }
 
@@ -137,6 +142,7 @@ std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
   std::vector<std::filesystem::path> files = scenario.scene.files;
   if (scenario.volumes)
     for (std::filesystem::path& file : scenario.volumes->files()) files.push_back(std::move(file));
+  for (std::filesystem::path& file : slice_files_of(scenario.timeline)) files.push_back(std::move(file));
   for (const scene::ShotEvent& shot : scenario.timeline.shots)
     if (shot.shape == scene::ShotShape::mask) files.push_back(shot.mask);
   for (const scene::TextEvent& text : scenario.timeline.texts)

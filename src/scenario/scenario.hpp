@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "scenario/first_view.hpp"
 #include "scenario/shot_masks.hpp"
+#include "scenario/slice_volumes.hpp"
 #include "scenario/volumes.hpp"
 #include "scenario/voxel_cache.hpp"
 #include "scene/timeline.hpp"
@@ -23,6 +24,7 @@ struct Scenario {
   /// Whether the exposure that fits its first image replaces Timeline::exposure (render::measure_exposure).
   bool measure_exposure = false;
   std::shared_ptr<Volumes> volumes = {};  ///< Of Timeline::volumes; null: none.
+  SliceVolumes slices = {};               ///< Of Timeline::decals.
   /// Whether `camera` is none of the scene's file: it frames the scene.
   bool camera_is_fitted = false;
 };

@@ -149,6 +149,14 @@ TEST(House, ExportedShadersAreTheSameInBothLanguages) {
   EXPECT_EQ(std::system(BRUME_SOURCE_DIR "/script/export-hlsl --check"), 0);
 }
 
+TEST(House, ScenesAreWhatTheirScriptsMake) {
+  for (const char* script : {"make_demo.py", "make_thruster.py", "make_flyby.py"}) {
+    const std::string command =
+        std::string("/usr/bin/python3 " BRUME_SOURCE_DIR "/scenes/") + script + " --check";
+    EXPECT_EQ(std::system(command.c_str()), 0) << script;
+  }
+}
+
 TEST(House, NothingUsesAWordThatTheGlossaryReplaces) {
   const Strings words = replaced_words(*read_text_file(kRoot / "docs/glossary.md"));
   ASSERT_GT(words.size(), 10u);

@@ -20,6 +20,7 @@
 #include "shared/resolve.h"
 #include "shared/scattering.h"
 #include "shared/sky_light.h"
+#include "shared/slice_texture.h"
 #include "shared/smoke_light.h"
 #include "shared/smoke_shadow.h"
 #include "shared/smoke_volume.h"
@@ -91,7 +92,8 @@
   X(57, VolumeLightParams) \
   X(58, VolumeLook) \
   X(59, VolumeSweep) \
-  X(60, VolumeTransfer)
+  X(60, VolumeTransfer) \
+  X(61, SliceTexture)
 // clang-format on
 
 #endif

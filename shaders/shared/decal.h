@@ -1,0 +1,47 @@
+// Decals of baked occlusion.
+#ifndef BRUME_DECAL_H
+#define BRUME_DECAL_H
+#include "shared/shim.h"
+#include "shared/slice_texture.h"
+SHARED_BEGIN
+
+SHARED_BINDING(kBindDecals, 61u);
+SHARED_BINDING(kBindPastOcclusion, 62u);
+SHARED_BINDING(kBindOcclusion, 63u);
+
+/// The most decals of a frame.
+SHARED_CONST uint kMaxDecals = 32u;
+
+struct Decal {
+  mat4x3 uvw_from_world;  // the box is [0, 1]^3; planes lie across v
+  vec3 low_world;         // bounds of the box
+  vec3 high_world;
+  vec3 up_world;          // unit: where the planes of the first channel face
+  vec3 scatter;           // how far noise scatters the samples, in uvw
+  float strength;
+  float gamma_off;        // what the exponent of the occlusion is more than 1 at the middle plane
+  float falloff;          // how fast that fades towards the ends
+  float fade;             // part of the box, at each side, over which the decal fades out
+  SliceTexture occlusion; // of what faces up, and of what faces down
+};
+SHARED_SIZE(Decal, 152);
+
+struct DecalParams {
+  mat4 past_clip_from_world;  // Camera::clip_from_world of the frame before
+  uint has_past;              // 0: there is none, and a frame takes all samples itself
+  uint decal_count;
+};
+SHARED_SIZE(DecalParams, 72);
+
+/// Samples of a pixel in a frame without a past.
+SHARED_CONST uint kDecalSamples = 8u;
+/// Of how many frames the occlusion is the mean, at most.
+SHARED_CONST float kDecalFrames = 8.0f;
+
+/// The exponent of the occlusion at v in [0, 1] (bake::combine_occlusion).
+SHARED_FUNCTION float occlusion_exponent(float gamma_off, float falloff, float v) {
+  return 1.0f + gamma_off * pow(max(1.0f - abs(2.0f * v - 1.0f), 1e-6f), falloff);
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,49 @@
+#include "passes/decals.hpp"
+
+#include "brume_shaders.hpp"
+#include "shared/noise.h"
+
+namespace brume::passes {
+
+DecalPass::DecalPass(gpu::Context& context, glm::uvec2 size_px)
+    : pipeline_(context, shaders::decals_comp),
+      nearest_(context, {VK_FILTER_NEAREST}),
+      linear_(context, {}),
+      decals_(context, shared::kMaxDecals * sizeof(shared::Decal),
+              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = {size_px, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  for (gpu::Image& image : occlusion_) image = gpu::Image(context, info);
+}
+
+void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
+                       const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices,
+                       std::span<const shared::Decal> decals, bool continues) {
+  BRUME_ASSERT(decals.size() <= shared::kMaxDecals, std::to_string(decals.size()));
+  recorder.upload(decals_, 0, std::as_bytes(decals));
+  const std::size_t before = current_, now = 1 - current_;
+  const shared::DecalParams params{past_clip_from_world_, has_past_ && continues ? 1u : 0u,
+                                   static_cast<std::uint32_t>(decals.size())};
+  recorder.bind(pipeline_,
+                {
+                    {shared::kBindFrame, gpu::uniform(frame)},
+                    {shared::kBindDepth, gpu::sampled(gbuffer.depth, nearest_)},
+                    {shared::kBindNormalMetallic, gpu::sampled(gbuffer.normal_metallic, nearest_)},
+                    {shared::kBindEmission, gpu::sampled(gbuffer.emission, nearest_)},
+                    {shared::kBindBlueNoise, gpu::sampled(blue_noise, nearest_)},
+                    {shared::kBindSliceTextures, gpu::sampled(slices, linear_)},
+                    {shared::kBindDecals, gpu::read(decals_)},
+                    {shared::kBindPastOcclusion, gpu::sampled(occlusion_[before], linear_)},
+                    {shared::kBindOcclusion, gpu::stored(occlusion_[now])},
+                },
+                params);
+  const glm::uvec3 size = occlusion_[now].info().size;
+  recorder.dispatch_threads(pipeline_, size.x, size.y);
+  current_ = now;
+  has_past_ = true;
+  past_clip_from_world_ = camera.clip_from_world;
+}
+
+}  // namespace brume::passes

@@ -1,0 +1,35 @@
+// Occlusion by decals: volumes of baked occlusion that follow their carriers (docs/volume-textures.md).
+#pragma once
+
+#include <array>
+
+#include "passes/gbuffer.hpp"
+#include "passes/slice_textures.hpp"
+#include "shared/decal.h"
+#include "shared/frame.h"
+
+namespace brume::passes {
+
+class DecalPass {
+ public:
+  DecalPass(gpu::Context& context, glm::uvec2 size_px);
+
+  /// What fraction of its light each surface loses, in red: of the decals at most shared::kMaxDecals. With
+  /// `continues` the mean of this frame and those before, else of several samples of this one.
+  void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
+              const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices,
+              std::span<const shared::Decal> decals, bool continues);
+  /// Half floats, of the image's size: that of the last record.
+  const gpu::Image& occlusion() const { return occlusion_[current_]; }
+
+ private:
+  gpu::ComputePipeline pipeline_;
+  gpu::Sampler nearest_, linear_;
+  gpu::Buffer decals_;
+  std::array<gpu::Image, 2> occlusion_;  ///< Occlusion, number of frames, distance along the view axis [m].
+  std::size_t current_ = 0;
+  bool has_past_ = false;
+  glm::mat4 past_clip_from_world_{1};
+};
+
+}  // namespace brume::passes

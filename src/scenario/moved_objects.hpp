@@ -1,0 +1,25 @@
+// Objects of the scene that move with carriers.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/timeline.hpp"
+
+namespace brume::scenario {
+
+struct MovedObject {
+  std::uint32_t object = 0;  ///< Of Scene::objects.
+  glm::mat4 world_from_mesh{1};
+};
+
+/// All objects that carriers move, rising, where they are at a time [s].
+std::vector<MovedObject> moved_objects(const scene::Timeline& timeline, const scene::Scene& scene,
+                                       double seconds);
+
+/// What moves stops no smoke.
+void exclude_moved_objects(const scene::Timeline& timeline, scene::Scene& scene);
+
+}  // namespace brume::scenario

@@ -1,0 +1,34 @@
+// Volumes of a timeline that are sampled without a march: those of decals, and those that particles show.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/error.hpp"
+#include "grids/dense_grid.hpp"
+#include "scene/timeline.hpp"
+
+namespace brume::scenario {
+
+/// Where one of them is.
+struct SliceVolume {
+  std::size_t volume = 0;      ///< In SliceVolumes::volumes.
+  glm::mat4 file_from_box{1};  ///< From the box of its grids to the world of its file.
+};
+
+struct SliceVolumes {
+  std::shared_ptr<const std::vector<grids::DenseVolume>> volumes;  ///< Null: none.
+  std::vector<SliceVolume> of_decals;  ///< Of each decal: two channels, occlusion of what faces up and down.
+};
+
+/// Loads the volumes of all decals. Fails as grids::load_grid_file, and with bad_input for grids that do not
+/// exist or are larger than an image of slices.
+Result<SliceVolumes> load_slice_volumes(const scene::Timeline& timeline);
+
+/// Every file that they are read from.
+std::vector<std::filesystem::path> slice_files_of(const scene::Timeline& timeline);
+
+/// world_from_file of a decal at a time [s]: moved by its carrier.
+glm::mat4 world_from_file(const scene::Timeline& timeline, const scene::DecalOptions& decal, double seconds);
+
+}  // namespace brume::scenario
