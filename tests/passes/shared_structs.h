@@ -15,6 +15,7 @@
 #include "shared/light.h"
 #include "shared/noise.h"
 #include "shared/noise_advection.h"
+#include "shared/particles.h"
 #include "shared/phase.h"
 #include "shared/raycast.h"
 #include "shared/resolve.h"
@@ -93,7 +94,10 @@
   X(58, VolumeLook) \
   X(59, VolumeSweep) \
   X(60, VolumeTransfer) \
-  X(61, SliceTexture)
+  X(61, SliceTexture) \
+  X(62, Particle) \
+  X(63, ParticleList) \
+  X(64, ParticleSystem)
 // clang-format on
 
 #endif
