@@ -17,8 +17,6 @@ namespace {
 constexpr glm::uvec3 kExhaustVoxels{64, 64, 32};
 constexpr glm::vec3 kExhaustBox{1, 1, 2};                                              // [m]
 constexpr std::array kExhaustTints{glm::vec3(9, 2.4f, 0.6f), glm::vec3(1, 3.5f, 10)};  // per metre
-/// Of the march, which has no volumes that only emit: so little that it dims by less than a thousandth.
-constexpr float kMarchedExtinction = 5e-4f;
 
 /// Both masks, which are 0 on the faces of the box.
 std::vector<grids::DenseGrid> exhaust_masks() {
@@ -41,27 +39,28 @@ std::vector<grids::DenseGrid> exhaust_masks() {
   return masks;
 }
 
-/// Both masks as volumes that are marched, from files that are removed again; seen from the side so that they
-/// fill the image.
+/// Both masks as a volume that is marched, from a file that is removed again; seen from the side so that it
+/// fills the image.
 Result<scenario::Scenario> exhaust_scenario() {
   scene::Timeline timeline;
-  std::vector<std::filesystem::path> files;
-  for (const grids::DenseGrid& mask : exhaust_masks()) {
-    files.push_back(std::filesystem::temp_directory_path() /
-                    ("brume_bench_" + mask.name + std::to_string(::getpid()) + ".brv"));
-    grids::GridFile file;
-    file.grids.push_back(grids::to_grid(mask));
-    if (auto saved = grids::save_grid_file(files.back(), file); !saved) return saved.failure();
-    scene::VolumeOptions volume;
-    volume.file = files.back();
-    volume.extinction = kMarchedExtinction;
-    timeline.volumes.push_back(volume);
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("brume_bench_" + std::to_string(::getpid()) + ".brv");
+  grids::GridFile file;
+  for (const grids::DenseGrid& mask : exhaust_masks()) file.grids.push_back(grids::to_grid(mask));
+  if (auto saved = grids::save_grid_file(path, file); !saved) return saved.failure();
+  scene::VolumeOptions volume;
+  volume.file = path;
+  volume.extinction = 0;
+  for (std::size_t i = 0; i < kExhaustTints.size(); ++i) {
+    const float intensity = std::max({kExhaustTints[i].r, kExhaustTints[i].g, kExhaustTints[i].b});
+    volume.masks.push_back({i == 0 ? "ring" : "beam", kExhaustTints[i] / intensity, intensity, {}});
   }
-  timeline.scene = files.front();
+  timeline.volumes.push_back(volume);
+  timeline.scene = path;
   timeline.camera = {{0, {{1.55f, 0.35f, 0.3f}, {0, 0, 0}, 0.8f}}};
   auto scenario = scenario::make_scenario(std::move(timeline), {});
   std::error_code ignored;
-  for (const std::filesystem::path& file : files) std::filesystem::remove(file, ignored);
+  std::filesystem::remove(path, ignored);
   return scenario;
 }
 
@@ -73,18 +72,11 @@ class ExhaustFrame {
     render::FrameInput& input = frame_.input();
     input.environment = {};
     input.quality.rebuild_light = false;
-    for (std::size_t i = 0; i < input.volumes.size(); ++i) {
-      shared::VolumeLook& look = input.volumes[i].look;
-      look.albedo = glm::vec3(0);
-      look.emission = kExhaustTints[i] / look.extinction;
-    }
   }
 
   /// Instead of the march.
   void use_particles(std::uint32_t count) {
-    const std::vector<grids::DenseGrid> masks = exhaust_masks();
-    const std::span<const grids::DenseGrid> channels(masks);
-    frame_.renderer().set_slice_textures({&channels, 1}).value_or_throw();
+    frame_.input().slices = std::make_shared<std::vector<grids::DenseVolume>>(1, exhaust_masks());
     planning::ParticleInput particles;
     particles.world_from_uvw =
         glm::translate(glm::mat4(1), -0.5f * kExhaustBox) * glm::scale(glm::mat4(1), kExhaustBox);

@@ -20,8 +20,7 @@ class ParticleFramesTest : public VolumeFixture {
     grids::DenseGrid mask;
     mask.size = {4, 4, 4};
     mask.values.assign(64, 1);
-    const std::span<const grids::DenseGrid> channels(&mask, 1);
-    renderer().set_slice_textures({&channels, 1}).value_or_throw();
+    input_.slices = std::make_shared<std::vector<grids::DenseVolume>>(1, grids::DenseVolume{mask});
   }
   static planning::ParticleInput cube(glm::vec3 centre) {
     planning::ParticleInput input;
