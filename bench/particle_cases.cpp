@@ -165,7 +165,7 @@ std::vector<Case> particle_cases() {
       {"particles/march",
        "the exhaust of an ion thruster that fills the image, marched; 480x270 without a GPU",
        marched_exhaust}};
-  for (const std::uint32_t count : {50u, 400u, 6400u})
+  for (const std::uint32_t count : {50u, 100u, 200u, 400u, 800u, 1600u, 3200u, 6400u})
     cases.push_back({"particles/" + std::to_string(count),
                      "the same by " + std::to_string(count) + " particles",
                      [count](Bench& b) { return exhaust_of_particles(b, count); }});
