@@ -20,6 +20,7 @@ SHARED_BEGIN
 SHARED_BINDING(kBindParticleSystems, 56u);
 SHARED_BINDING(kBindParticles, 57u);
 SHARED_BINDING(kBindParticleOrder, 58u);
+SHARED_BINDING(kBindParticleLayer, 59u);
 
 /// The most systems of a frame, and particles of a system.
 SHARED_CONST uint kMaxParticleSystems = 16u;

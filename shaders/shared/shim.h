@@ -14,7 +14,7 @@
 //   27 - 31  volumes besides the smoke       volume.h
 //   53 - 54  their transfer functions and colours
 //   55       volumes as slices            slice_texture.h
-//   56 - 58  particles                    particles.h
+//   56 - 59  particles                    particles.h
 //   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "brume_shaders.hpp"
+#include "shared/display.h"
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
 
@@ -31,27 +32,51 @@ gpu::GraphicsInfo quads_drawn_by(const gpu::ShaderCode& fragment, VkFormat targe
 }
 
 constexpr std::uint32_t kQuadVertices = 6;
+constexpr VkFormat kRadianceFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+/// Floats, where the device can blend them.
+VkFormat layer_format(gpu::Context& context) {
+  VkFormatProperties floats{};
+  context.vk().GetPhysicalDeviceFormatProperties(context.info().handle, VK_FORMAT_R32G32B32A32_SFLOAT,
+                                                 &floats);
+  return floats.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT
+             ? VK_FORMAT_R32G32B32A32_SFLOAT
+             : kRadianceFormat;
+}
+
+gpu::Image layer_image(gpu::Context& context, VkFormat format, glm::uvec2 size_px) {
+  gpu::ImageInfo info;
+  info.format = format;
+  info.size = {size_px, 1};
+  info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+               VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  return gpu::Image(context, info);
+}
 
 }  // namespace
 
-ParticlePass::ParticlePass(gpu::Context& context, VkFormat target)
+ParticlePass::ParticlePass(gpu::Context& context)
     : context_(context),
-      target_(target),
+      layer_format_(layer_format(context)),
       move_(context, shaders::particles_move_comp),
       sort_blocks_(context, shaders::particles_sort_comp, {1}),
       sort_step_(context, shaders::particles_sort_comp, {0}),
-      draw_(context, quads_drawn_by(shaders::particles_frag, target)),
+      compose_(context, shaders::particles_compose_comp),
+      draw_(context, quads_drawn_by(shaders::particles_frag, layer_format_)),
       linear_(context, {}),
       nearest_(context, {VK_FILTER_NEAREST}) {
   gpu::grow(context, systems_, shared::kMaxParticleSystems * sizeof(shared::ParticleSystem));
 }
 
-void ParticlePass::reserve(std::span<const shared::ParticleSystem> systems, bool counts_quads) {
+void ParticlePass::reserve(std::span<const shared::ParticleSystem> systems, glm::uvec2 size_px,
+                           bool counts_quads) {
   const shared::ParticleList list = list_of(systems);
   gpu::grow(context_, particles_, std::uint64_t{list.padded_count} * sizeof(shared::Particle));
   gpu::grow(context_, order_, std::uint64_t{list.padded_count} * sizeof(glm::uvec2));
   if (counts_quads && !count_)
-    count_.emplace(context_, quads_drawn_by(shaders::particles_overdraw_frag, target_));
+    count_.emplace(context_, quads_drawn_by(shaders::particles_overdraw_frag, kRadianceFormat));
+  if (!layer_ || layer_.info().size != glm::uvec3(size_px, 1))
+    layer_ = layer_image(context_, layer_format_, size_px);
 }
 
 /// Uploads the systems, and lists their particles in the order of their quads.
@@ -90,14 +115,12 @@ void ParticlePass::record_sort(gpu::Recorder& recorder, shared::ParticleList lis
   }
 }
 
-void ParticlePass::record(gpu::Recorder& recorder, const Inputs& in,
-                          std::span<const shared::ParticleSystem> systems, const gpu::Image& target) const {
-  if (systems.empty()) return;
-  const shared::ParticleList list = record_list(recorder, in, systems);
+void ParticlePass::record_layer(gpu::Recorder& recorder, const Inputs& in, std::uint32_t particles) const {
+  recorder.clear(layer_, {{0, 0, 0, 1}});
   recorder.prepare_for_draws({gpu::uniform(in.frame), gpu::read(systems_), gpu::read(particles_),
                               gpu::read(order_), gpu::sampled(in.slices, linear_),
                               gpu::sampled(in.depth, nearest_)});
-  recorder.begin_rendering({{&target}, nullptr, VK_NULL_HANDLE, true}, glm::uvec2(target.info().size));
+  recorder.begin_rendering({{&layer_}, nullptr, VK_NULL_HANDLE, true}, glm::uvec2(layer_.info().size));
   recorder.bind_for_draws(draw_, {
                                      {shared::kBindFrame, gpu::uniform(in.frame)},
                                      {shared::kBindParticleSystems, gpu::read(systems_)},
@@ -106,8 +129,19 @@ void ParticlePass::record(gpu::Recorder& recorder, const Inputs& in,
                                      {shared::kBindSliceTextures, gpu::sampled(in.slices, linear_)},
                                      {shared::kBindDepth, gpu::sampled(in.depth, nearest_)},
                                  });
-  recorder.draw(kQuadVertices * list.count);
+  recorder.draw(kQuadVertices * particles);
   recorder.end_rendering();
+}
+
+void ParticlePass::record(gpu::Recorder& recorder, const Inputs& in,
+                          std::span<const shared::ParticleSystem> systems, const gpu::Image& target) const {
+  if (systems.empty()) return;
+  record_layer(recorder, in, record_list(recorder, in, systems).count);
+  recorder.bind(compose_, {
+                              {shared::kBindParticleLayer, gpu::sampled(layer_, nearest_)},
+                              {shared::kBindRadiance, gpu::read_write_stored(target)},
+                          });
+  recorder.dispatch_threads(compose_, target.info().size.x, target.info().size.y);
 }
 
 void ParticlePass::record_overdraw(gpu::Recorder& recorder, const Inputs& in,

@@ -20,7 +20,7 @@ struct ParticleInput {
   std::array<glm::vec3, 4> tints{};  ///< Of each channel: linear radiance per metre where it is 1; >= 0.
   float extinction = 0;              ///< Where the largest channel is 1 [1/m]; >= 0, 0: emission only.
   std::uint32_t count = 400;         ///< Particles, [1, shared::kMaxParticles].
-  float radius = 0.4f;               ///< Of a quad's footprint, a fraction of the box's shortest edge; > 0.
+  float radius = 0.6f;               ///< Of a quad's footprint, a fraction of the box's shortest edge; > 0.
   std::uint32_t seed = 0;
   double time = 0;           ///< [s]
   float drift = 0;           ///< Edges of the box that particles move along its z axis in a second.

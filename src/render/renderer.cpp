@@ -136,7 +136,8 @@ void Renderer::reserve(FramePlan& plan) {
   }
   if (!plan.particles.empty()) {
     if (!particle_pass_) particle_pass_.emplace(context_);
-    particle_pass_->reserve(plan.particles, plan.input.debug.view == planning::DebugView::overdraw);
+    particle_pass_->reserve(plan.particles, targets_.size_px,
+                            plan.input.debug.view == planning::DebugView::overdraw);
   }
   if (plan.input.debug.view == planning::DebugView::none) return;
   if (!debug_view_) debug_view_.emplace(context_);

@@ -17,9 +17,9 @@ class ParticleEstimateTest : public ParticlesFixture {
   }
   static glm::mat4 oblique(glm::vec3 centre, glm::vec3 size) {
     glm::mat4 shear(1);
-    shear[1][0] = 0.4f;
+    shear[1][0] = 0.6f;
     return glm::translate(glm::mat4(1), centre) *
-           glm::rotate(glm::mat4(1), 0.9f, glm::normalize(glm::vec3(1, 0.4f, 0.2f))) * shear *
+           glm::rotate(glm::mat4(1), 0.9f, glm::normalize(glm::vec3(1, 0.6f, 0.2f))) * shear *
            glm::scale(glm::mat4(1), size) * glm::translate(glm::mat4(1), glm::vec3(-0.5f));
   }
 
@@ -51,9 +51,9 @@ class ParticleEstimateTest : public ParticlesFixture {
         nearest = std::min(nearest, std::max(double{particle.view_m}, 0.0));
       const auto pixels = static_cast<double>(scene.pixels());
       for (std::size_t i = 0; i < scene.pixels(); ++i) {
-        mean += double{drawn.pixels[i].x} / pixels / kSeeds;
-        EXPECT_NEAR(drawn.pixels[i].y, 0.5 * double{drawn.pixels[i].x}, 1e-4);
-        EXPECT_EQ(drawn.pixels[i].w, 1);
+        mean += double{drawn.layer[i].x} / pixels / kSeeds;
+        EXPECT_NEAR(drawn.layer[i].y, 0.5 * double{drawn.layer[i].x}, 1e-4);
+        EXPECT_EQ(drawn.layer[i].w, 1);
         chord += integrate(scene, i, {}, 1).metres / pixels / kSeeds;
         longest = std::max(longest, glm::length(scene.ray(i)));
       }
@@ -72,7 +72,7 @@ class ParticleEstimateTest : public ParticlesFixture {
 
   /// A thruster from the side.
   Scene thruster_scene(const MaskVolume& volume, std::uint32_t count, std::uint32_t seed,
-                       float radius = 0.4f) {
+                       float radius = 0.6f) {
     Scene scene;
     scene.camera = camera_of({2.6f, 1.4f, 2.2f}, {0, 0, 0}, 0.7f, scene.size_px);
     ParticleInput input;
@@ -89,7 +89,7 @@ class ParticleEstimateTest : public ParticlesFixture {
   };
   /// Root mean squares over all pixels and `seeds` frames: the error, the standard deviation of independent
   /// centres, and the exact radiance.
-  Rms rms(const MaskVolume& volume, std::uint32_t count, int seeds, float radius = 0.4f) {
+  Rms rms(const MaskVolume& volume, std::uint32_t count, int seeds, float radius = 0.6f) {
     Rms sum;
     for (int seed = 0; seed < seeds; ++seed) {
       const Scene scene = thruster_scene(volume, count, static_cast<std::uint32_t>(seed), radius);
@@ -97,7 +97,7 @@ class ParticleEstimateTest : public ParticlesFixture {
       for (std::size_t i = 0; i < scene.pixels(); ++i) {
         const Line line = integrate(scene, i, {1, 1, 0, 0}, 300);
         const double exact = line.values.x + line.values.y;
-        sum.error += std::pow(double{drawn.pixels[i].x} - exact, 2);
+        sum.error += std::pow(double{drawn.layer[i].x} - exact, 2);
         sum.independent += std::pow(deviation(scene.systems[0], line.squares), 2);
         sum.signal += exact * exact;
       }
@@ -168,9 +168,9 @@ TEST_F(ParticleEstimateTest, ExtinctionConvergesToBeerAndLambert) {
   for (std::size_t i = 0; i < scene.pixels(); ++i) {
     const double metres = integrate(scene, i, {}, 1).metres;
     const double opacity = 1 - std::exp(-1.5 * metres);
-    error += std::pow(double{1 - drawn.pixels[i].w} - opacity, 2);
+    error += std::pow(double{1 - drawn.layer[i].w} - opacity, 2);
     bound += std::pow(1.5 * deviation(scene.systems[0], metres), 2);
-    EXPECT_NEAR(drawn.pixels[i].x, 4 / 1.5 * double{1 - drawn.pixels[i].w}, 1e-3);
+    EXPECT_NEAR(drawn.layer[i].x, 4 / 1.5 * double{1 - drawn.layer[i].w}, 1e-3);
   }
   EXPECT_LT(error, bound);
   EXPECT_LT(std::sqrt(bound / static_cast<double>(scene.pixels())), 0.2);
@@ -201,7 +201,7 @@ TEST_F(ParticleEstimateTest, ATurnedWorldLooksTheSame) {
   const double step = std::ldexp(1.0, -static_cast<int>(context().limits().subTexelPrecisionBits));
   for (std::size_t i = 0; i < scene.pixels(); ++i) {
     const double metres = compose(scene, expected, i).metres;
-    ASSERT_NEAR(drawn.pixels[i].x, expected.pixels[i].x, metres * (4 * step + 1e-3)) << i;
+    ASSERT_NEAR(drawn.layer[i].x, expected.layer[i].x, metres * (4 * step + 1e-3)) << i;
   }
 }
 

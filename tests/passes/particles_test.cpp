@@ -60,7 +60,7 @@ class ParticlesTest : public ParticlesFixture {
       const double bound = expected.metres * sample * (kBrightest + largest * behind) +
                            4096 * kSingle * (behind + kBrightest * expected.metres);
       for (int channel = 0; channel < 4; ++channel)
-        ASSERT_NEAR(drawn.pixels[i][channel], expected.value[channel], bound)
+        ASSERT_NEAR(drawn.layer[i][channel], expected.value[channel], bound)
             << "pixel " << i << ", channel " << channel;
     }
   }
@@ -197,7 +197,7 @@ TEST_F(ParticlesTest, AreSoftBeforeSurfacesAndNothingBehindThem) {
     for (const float surface_m : {2.0f, 4.5f, 5.0f, 9.0f}) {
       Scene scene = scene_;
       scene.surface_m = surface_m;
-      scene.background = {0.1f, 0.2f, 0.3f, 1};
+      scene.background = {0.125f, 0.25f, 0.5f, 1};
       ParticleInput one = input(400);
       one.softness = softness;
       one.extinction = 2;
@@ -229,25 +229,28 @@ TEST_F(ParticlesTest, TheEyeMayBeAmongThem) {
     }
 }
 
-// Each blend rounds to 11 bits, to the nearest or not: by at most 2^-10 of what is there then, which grows to
-// what is there at last.
-TEST_F(ParticlesTest, HalvesRoundEachBlend) {
-  add(scene_, thruster_, input(400));
-  scene_.background = {0.5f, 0.25f, 1, 1};
-  const Drawn floats = draw(scene_), halves = draw(scene_, kHalves);
-  const Drawn quads = draw(scene_, kFloats, true);
-  for (std::size_t i = 0; i < scene_.pixels(); ++i)
-    for (int channel = 0; channel < 4; ++channel) {
-      const double last = double{floats.pixels[i][channel]};
-      ASSERT_NEAR(halves.pixels[i][channel], last, double{quads.pixels[i].x + 1} / 1024 * last) << i;
+// The image rounds to 11 bits, to the nearest or not: by at most 2^-10.
+TEST_F(ParticlesTest, TheLayerIsOverTheImage) {
+  ParticleInput one = input(400);
+  one.extinction = 2;
+  add(scene_, thruster_, one);
+  scene_.background = {0.5f, 0.25f, 8, 0.75f};
+  const Drawn drawn = draw(scene_);
+  for (std::size_t i = 0; i < scene_.pixels(); ++i) {
+    const glm::vec4 layer = drawn.layer[i];
+    for (int channel = 0; channel < 3; ++channel) {
+      const float expected = layer[channel] + layer.w * scene_.background[channel];
+      ASSERT_NEAR(drawn.pixels[i][channel], expected, expected / 1024) << i;
     }
+    ASSERT_EQ(drawn.pixels[i].w, scene_.background.w);
+  }
 }
 
 // Corners of quads within 0.01 pixels of a pixel's middle may be on either side of it.
 TEST_F(ParticlesTest, OverdrawCountsQuads) {
   add(scene_, thruster_, input(300));
   scene_.surface_m = 4;  // counts those behind it, too
-  const Drawn drawn = draw(scene_, kFloats, true);
+  const Drawn drawn = draw(scene_, true);
   const glm::dvec3 right = glm::normalize(glm::dvec3(scene_.camera.right));
   const glm::dvec3 up = glm::normalize(glm::dvec3(scene_.camera.up));
   const double pixel = 2 * glm::length(glm::dvec3(scene_.camera.right)) / scene_.size_px.x;
@@ -270,7 +273,7 @@ TEST_F(ParticlesTest, OverdrawCountsQuads) {
 }
 
 TEST_F(ParticlesTest, NoneLeaveTheImageAsItIs) {
-  scene_.background = {0.1f, 0.2f, 0.3f, 0.4f};
+  scene_.background = {0.125f, 0.25f, 0.5f, 0.75f};
   EXPECT_EQ(draw(scene_).pixels, std::vector(scene_.pixels(), scene_.background));
   Scene away = scene_;  // all behind the eye
   away.camera = camera_of({0, 0, 5}, {0, 0, 9}, 0.7f, away.size_px);

@@ -52,7 +52,9 @@ TEST(ParticlePlan, ThoseInViewFollowEachOther) {
 
 // A unit cube with footprints of 0.4: a region of 1.8^3, and quads of pi 0.4^2 / 3 each.
 TEST(ParticlePlan, TheWeightIsTheVolumePerAreaOfQuads) {
-  const shared::ParticleSystem system = particle_system(particles_at({1, 2, 3}, 50), {});
+  ParticleInput input = particles_at({1, 2, 3}, 50);
+  input.radius = 0.4f;
+  const shared::ParticleSystem system = particle_system(input, {});
   EXPECT_FLOAT_EQ(system.radius, 0.4f);
   for (int axis = 0; axis < 3; ++axis) EXPECT_FLOAT_EQ(system.margin[axis], 0.4f);
   EXPECT_NEAR(double{system.weight}, 1.8 * 1.8 * 1.8 / (50 * std::numbers::pi * 0.16 / 3), 1e-5);
