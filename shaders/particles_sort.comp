@@ -1,5 +1,5 @@
-// A part of a bitonic network (Batcher 1968, "Sorting networks and their applications") that sorts particles from back to
-// front: all steps within blocks, in shared memory, or one step between them.
+// A part of a bitonic network (Batcher 1968, "Sorting networks and their applications") that sorts particles from back
+// to front: all steps within blocks, in shared memory, or one step between them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -20,7 +20,9 @@ bool is_before(uvec2 a, uvec2 b) { return a.x > b.x || (a.x == b.x && a.y < b.y)
 uint first_of(uint pair, uint stride) { return 2u * stride * (pair / stride) + pair % stride; }
 
 /// Whether a pair of a span is in the wrong order: every second span is sorted the other way round.
-bool is_wrong(uvec2 a, uvec2 b, uint place, uint span) { return (place & span) == 0u ? is_before(b, a) : is_before(a, b); }
+bool is_wrong(uvec2 a, uvec2 b, uint place, uint span) {
+  return (place & span) == 0u ? is_before(b, a) : is_before(a, b);
+}
 
 void sort_within_blocks() {
   const uint base = gl_WorkGroupID.x * kParticleBlock;

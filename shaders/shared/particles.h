@@ -1,16 +1,17 @@
 // Volumes displayed by particles: quads across the view, each fragment of which samples the volume at its own place.
 //
-// The estimator. N quads of one footprint K(o) = (1 - |o|^2 / R^2)^2, |o| <= R, whose integral is A = pi R^2 / 3, stand
-// across the view axis; their centres are uniform in a region of volume V. A ray that makes the angle theta with the view
-// axis meets each at a point p, and weighs what the volume has there by the length K w / cos(theta), w = V / (N A).
-// Integrated over the centres, that is the line integral of the volume along the ray, whatever N and R:
+// The estimator. N quads of one footprint K(o) = (1 - |o|^2 / R^2)^2, |o| <= R, whose integral is A = pi R^2 / 3,
+// stand across the view axis; their centres are uniform in a region of volume V. A ray that makes the angle theta with
+// the view axis meets each at a point p, and weighs what the volume has there by the length K w / cos(theta),
+// w = V / (N A). Integrated over the centres, that is the line integral of the volume along the ray, whatever N and R:
 // - A quad adds no blur, since fragments sample at p: its size changes the variance only.
-// - The region is the box grown by R on all sides. A quad whose centre is farther from the box has no part in it, so that
-//   the density of quads is the same throughout the box, and quads that wrap around do so where they show nothing.
+// - The region is the box grown by R on all sides. A quad whose centre is farther from the box has no part in it, so
+//   that the density of quads is the same throughout the box, and quads that wrap around do so where they show nothing.
 // - Centres that are independent of each other give the variance 9 V / (5 pi R^2 N) times the integral of the squared
 //   value along the ray: it falls with the number of quads on the ray. The lattice is better than that.
-// - With extinction, each quad is a homogeneous slab of its length. The transmittance of n slabs is exp(-sum), whose mean
-//   exceeds that of the exact sum by half the variance of the sum, to first order: a bias that falls as the variance does.
+// - With extinction, each quad is a homogeneous slab of its length. The transmittance of n slabs is exp(-sum), whose
+//   mean exceeds that of the exact sum by half the variance of the sum, to first order: a bias that falls as the
+//   variance does.
 #ifndef BRUME_PARTICLES_H
 #define BRUME_PARTICLES_H
 #include "shared/hash.h"
@@ -71,9 +72,9 @@ SHARED_CONST uint kParticleBlock = 1024u;
 /// Centre of a particle, in the space of the volume.
 ///
 /// Particle i is at s + (i + 1) (1/g, 1/g^2, 1/g^3) mod 1 in the region, g the root of g^4 = g + 1: the R3 sequence
-/// (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"), well spread for any count. s is uniform over
-/// seeds. The drift moves all along the slices. The swirl moves each layer across them, in a circle whose phase follows
-/// from the layer. A translation of layers keeps volumes, so that each particle stays uniform; all wrap around.
+/// (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"), well spread for any count. s is uniform
+/// over seeds. The drift moves all along the slices. The swirl moves each layer across them, in a circle whose phase
+/// follows from the layer. A translation of layers keeps volumes, so that each particle stays uniform; all wrap around.
 SHARED_FUNCTION vec3 particle_uvw(ParticleSystem system, uint i) {
   uvec3 turns = pcg3d(uvec3(system.seed, 1u, 2u)) + (i + 1u) * uvec3(0xd1b54a33u, 0xabc98389u, 0x8cb92ba7u);
   vec3 at = vec3(turns >> 8u) / 16777216.0f;

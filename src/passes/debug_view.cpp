@@ -102,7 +102,7 @@ std::optional<DebugView> find_debug_view(std::string_view name) {
 float ramp_end(DebugView view, const sim::State& state) {
   if (view == DebugView::holes) return 2;
   if (view == DebugView::steps) return 96;
-  if (view == DebugView::overdraw) return 64;
+  if (view == DebugView::overdraw) return 128;
   if (view != DebugView::distance) return 1;
   std::uint32_t farthest = 0;
   for (const sim::LiveCloud& live : state.clouds)
