@@ -11,8 +11,8 @@ import level_parts
 import numpy as np
 from addon_case import AddonCase, box
 
-# [m]: of a point within 8 m of the origin after eight roundings to float32: of its coordinates in the mesh, of rotation,
-# scale and position of the node, and of the products of the three.
+# [m]: of a point within 8 m of the origin after eight roundings to float32: of its coordinates in the mesh, of
+# rotation, scale and position of the node, and of the products of the three.
 _POINT = 8 * 8 * 2.0**-24
 
 
@@ -323,7 +323,8 @@ class Occlusion(BakeCase):
         self.select(torus())
         self.bake(separate=True)
         names = [f"baked{part}.exr" for part in ("", "_up", "_down")]
-        self.assertEqual(sorted(image.name for image in bpy.data.images if image.name.startswith("baked")), sorted(names))
+        found = [image.name for image in bpy.data.images if image.name.startswith("baked")]
+        self.assertEqual(sorted(found), sorted(names))
         for name in names:
             self.assertEqual(len(self.described(os.path.join(self.folder, name))["channels"]), 1)
 

@@ -1,7 +1,7 @@
 """Run by Blender in a window: blender --factory-startup -P window.py -- ADDON.zip BRUME FOLDER
 
-Draws the panels, renders while Blender goes on, shows the picture, bakes from the file browser, stops a render and a film
-by Esc. Leaves window.json and window.png.
+Draws the panels, renders while Blender goes on, shows the picture, bakes from the file browser, stops a render and a
+film by Esc. Leaves window.json and window.png.
 """
 
 import json

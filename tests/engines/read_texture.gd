@@ -1,6 +1,6 @@
 extends SceneTree
-# godot3-server --path PROJECT -s read_texture.gd: writes the texels of each imported Texture3D NAME to NAME.texels: four
-# 32-bit numbers, width, height, depth and flags, and then RGBA as float32, x fastest, then y, then z.
+# godot3-server --path PROJECT -s read_texture.gd: writes the texels of each imported Texture3D NAME to NAME.texels:
+# four 32-bit numbers, width, height, depth and flags, and then RGBA as float32, x fastest, then y, then z.
 #
 # Decodes what the importer wrote instead of calling Texture3D.get_layer_data: the server of Godot 3.2 stores one image
 # per texture and returns the last layer for all.

@@ -150,6 +150,7 @@ class AtlasOperator(JobOperator, ExportHelper):
             loaded = [_load(path) for path in self.images()]
         except RuntimeError as error:
             raise BrumeError(str(error).strip().splitlines()[-1]) from error
-        self.report({"INFO"}, "Wrote {}: {} tiles of {}x{} texels".format(self._target, result["tiles"], *result["tile"]))
+        size = "{} tiles of {}x{} texels".format(result["tiles"], *result["tile"])
+        self.report({"INFO"}, f"Wrote {self._target}: {size}")
         if not bpy.app.background:
             image_editor.show(loaded[0].name, [image.name for image in loaded])

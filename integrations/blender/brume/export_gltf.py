@@ -170,8 +170,7 @@ def _name_nodes(document, temporary):
 
 
 def export(context, path, level, camera, only_shapes=False):
-    """Writes a GLB: meshes, materials, textures, lights (KHR_lights_punctual), the camera. Of shapes only the points and
-    faces of meshes."""
+    """Writes a GLB: meshes, materials, textures, lights (KHR_lights_punctual), the camera; or only points and faces."""
     temporary = _TemporaryScene(context.scene)
     try:
         for thing in level.things:
