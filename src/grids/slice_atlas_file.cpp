@@ -67,6 +67,12 @@ image::LayeredImage exr_of(const SliceAtlas& atlas, std::uint32_t level) {
     std::ranges::transform(texels, halves.begin(), [](float value) { return glm::packHalf1x16(value); });
     image.layers.push_back({kLetters[channel], std::move(halves)});
   }
+  // Readers of colours, such as Godot's, refuse a file with two of them.
+  if (image.layers.size() == 2) {
+    image.layers.push_back(image.layers.front());
+    image.layers.back().name = kLetters[2];
+    std::visit([](auto& values) { values.assign(values.size(), 0); }, image.layers.back().values);
+  }
   return image;
 }
 

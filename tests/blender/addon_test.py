@@ -17,6 +17,7 @@ MODULES = (
     "addon_export_test",
     "addon_events_test",
     "addon_program_test",
+    "addon_bake_test",
     "addon_volume_test",
     "addon_volume_look_test",
     "addon_volume_picture_test",

@@ -24,13 +24,16 @@ TEST_F(Blender, LightsMatchBlendersRenderer) {
   }
 }
 
-// In a window: Blender's timers run while Brume renders, the image appears in the Image Editor, Esc stops the
-// program, and a failing program keeps the previous image.
+// In a window: Blender's timers run while Brume renders, the image appears in the Image Editor, the file
+// browser starts a bake, Esc stops the program, and a failing program keeps the previous image.
 TEST_F(Blender, RendersWithoutBlockingTheWindow) {
   const Json window = read_json(blender_run().folder / "window.json");
   EXPECT_EQ(window["started"], Json({"RUNNING_MODAL"}));
   EXPECT_GE(window["ticks"], 10);
   EXPECT_EQ(window["shown"], "Brume Render");
+  EXPECT_EQ(window["proposed"], "Ramp_slices.png");
+  EXPECT_GE(window["bake_ticks"], 10);
+  EXPECT_EQ(window["baked"], "Ramp_slices.png");
   EXPECT_EQ(window["ended"], true);
   EXPECT_EQ(window["stopped"], "Render with Brume: stopped");
   EXPECT_EQ(window["own_window"], Json({"Brume Render"}));

@@ -1,7 +1,7 @@
 """Run by Blender in a window: blender --factory-startup -P window.py -- ADDON.zip BRUME FOLDER
 
-Draws the panels, renders while Blender goes on, shows the picture, stops a render and a film by Esc. Leaves window.json
-and window.png.
+Draws the panels, renders while Blender goes on, shows the picture, bakes from the file browser, stops a render and a
+film by Esc. Leaves window.json and window.png.
 """
 
 import json
@@ -134,6 +134,36 @@ def render(preferences, brume, folder, editor, facts):
     facts["shown"] = shown.name if shown else ""
 
 
+def bake(preferences, brume, folder, view, editor, facts):
+    """A bake that the file browser starts, and that waits for Blender's timers; its image is shown."""
+    mark, name = os.path.join(folder, "bake_ticked"), "Ramp_slices.png"
+    commands = f"while [ ! -e '{mark}' ]; do sleep 0.1; done; exec '{brume}' \"$@\""
+    preferences.program = write_program(folder, "waiting_bake", commands)
+    show(bpy.data.objects["Ramp"])
+    with inside(view):
+        bpy.ops.brume.bake_slices("INVOKE_DEFAULT", filepath=os.path.join(folder, "any.png"), tile=(8, 8), tiles=4)
+    browsers, deadline = [], time.monotonic() + HANG
+    while not browsers and time.monotonic() < deadline:
+        yield 0.2
+        windows = bpy.context.window_manager.windows
+        browsers = [(window, area) for window in windows for area in window.screen.areas if area.type == "FILE_BROWSER"]
+    window, area = browsers[0]
+    facts["proposed"] = area.spaces.active.params.filename
+    yield 0.5
+    with bpy.context.temp_override(window=window, area=area, region=region(area)):
+        bpy.ops.file.execute()
+    ticks = 0
+    while name not in bpy.data.images and time.monotonic() < deadline:
+        ticks += 1
+        if ticks == 10:
+            with open(mark, "w", encoding="ascii"):
+                pass
+        yield 0.05
+    facts["bake_ticks"] = ticks
+    yield 0.3
+    facts["baked"] = editor.spaces.active.image.name
+
+
 def take_picture(view, editor, path):
     yield 0.5
     with inside(editor):
@@ -245,6 +275,7 @@ def steps(addon, brume, folder):
     yield from draw_panels(view)
     yield from render(preferences, brume, folder, editor, facts)
     yield from take_picture(view, editor, os.path.join(folder, "window.png"))
+    yield from bake(preferences, brume, folder, view, editor, facts)
     yield from render_without_editor(preferences, folder, editor, facts)
     yield from compare_gizmos(view, folder, facts)
     yield from stop_by_escape(preferences, folder, view, facts)

@@ -1,4 +1,7 @@
 // The commands of all documents and of the help run as written.
+#include <iterator>
+#include <sstream>
+
 #include "tests/cli/documents.hpp"
 
 namespace brume::cli {
@@ -28,7 +31,8 @@ TEST_F(Documents, ExamplesOfTheHelpRun) {
 #endif
   for (const std::string& command : commands) {
     EXPECT_NE(help.out.find("\n  " + command + " "), std::string::npos) << command;
-    const Outcome text = run_brume(folder_.path(), {command, "--help"});
+    std::istringstream words(command + " --help");
+    const Outcome text = run_brume(folder_.path(), {std::istream_iterator<std::string>(words), {}});
     EXPECT_EQ(text.exit_code, 0) << command;
     // The examples come before the options.
     const std::string examples = text.out.substr(0, text.out.find("Usage:"));

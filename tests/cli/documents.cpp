@@ -23,6 +23,28 @@ Arguments words_of(const std::string& line) {
   return words;
 }
 
+bool is_atlas_bake(const Arguments& call) {
+  return call[0] == "bake" && call.size() > 2 && (call[1] == "slices" || call[1] == "occlusion");
+}
+
+// Smaller pictures, shorter films, fewer rays.
+void make_quick(Arguments& call) {
+  if (call[0] == "render") {
+    call.insert(call.end(), {"--size", "32x18"});
+    const bool film = std::any_of(call.begin(), call.end(), [](const std::string& word) {
+      return word.ends_with(".mp4") || word.find('%') != std::string::npos;
+    });
+    if (film) call.insert(call.end(), {"--frames", "0-1"});
+  }
+  if (is_atlas_bake(call) && call[1] == "occlusion") {
+    const auto rays = std::find(call.begin(), call.end(), "--rays");
+    if (rays == call.end())
+      call.insert(call.end(), {"--rays", "2"});
+    else if (rays + 1 != call.end())
+      rays[1] = "2";
+  }
+}
+
 }  // namespace
 
 std::vector<Arguments> calls_in(const std::string& text) {
@@ -62,9 +84,12 @@ void Documents::provide(const std::string& word) const {
   const std::filesystem::path path = folder_.path() / word;
   if (std::filesystem::path(word).is_absolute() || std::filesystem::exists(path)) return;
   std::filesystem::create_directories(path.parent_path());
-  if (path.extension() == ".glb") std::filesystem::create_symlink(BRUME_SOURCE_DIR "/scenes/demo.glb", path);
+  // The examples of bakes name the objects of the thruster.
+  const std::string scene = path.stem() == "thruster" ? "thruster/thruster.glb" : "demo.glb";
+  if (path.extension() == ".glb") std::filesystem::create_symlink(BRUME_SOURCE_DIR "/scenes/" + scene, path);
   if (path.extension() == ".obj") folder_.write(word, room_obj());
-  if (path.extension() == ".vdb" || path.extension() == ".json") provide_volume(word);
+  if (path.extension() == ".vdb" || path.extension() == ".brv" || path.extension() == ".json")
+    provide_volume(word);
   if (path.extension() == ".png") {
     const image::Image8 picture{
         32, 18, std::vector<std::uint8_t>(4 * 32 * 18, 255)};  // the size that render is called with
@@ -85,7 +110,7 @@ void Documents::expect_works(const std::string& source, Arguments call) {
   SCOPED_TRACE(source + ": brume " + testing::PrintToString(call));
   if (!run_.insert(call).second) return;
   if (call.empty() || call[0] == "demo" || call[0] == "bench") return;
-  if (call.size() > 1) provide(call[1]);
+  if (call.size() > 1) provide(call[is_atlas_bake(call) ? 2 : 1]);
   if (call[0] == "diff" && call.size() > 2) provide(call[2]);
   RunOptions options;
   if (call[0] == "view") {
@@ -97,13 +122,7 @@ void Documents::expect_works(const std::string& source, Arguments call) {
     return;
 #endif
   }
-  if (call[0] == "render") {
-    call.insert(call.end(), {"--size", "32x18"});
-    const bool film = std::any_of(call.begin(), call.end(), [](const std::string& word) {
-      return word.ends_with(".mp4") || word.find('%') != std::string::npos;
-    });
-    if (film) call.insert(call.end(), {"--frames", "0-1"});
-  }
+  make_quick(call);
   const Outcome run = run_brume(folder_.path(), call, options);
   EXPECT_EQ(run.exit_code, 0) << run.error;
 }

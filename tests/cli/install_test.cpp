@@ -20,11 +20,39 @@ TEST(Install, TheManualPageNamesEveryCommand) {
   int commands = 0;
   for (std::string line; std::getline(lines, line);) {
     if (line.size() < 4 || line.rfind("  ", 0) != 0 || line[2] == ' ') continue;
-    const std::string command = line.substr(2, line.find(' ', 2) - 2);
+    const std::string command = line.substr(2, line.find("  ", 2) - 2);
     EXPECT_NE(page.find(".It Cm " + command + "\n"), std::string::npos) << command;
     ++commands;
   }
   EXPECT_GE(commands, 11);
+}
+
+// What bash completes a command line to: words, the last of which is begun.
+std::string completions(const WorkFolder& folder, const std::string& words) {
+  const std::string script = "PATH='" + fs::path(BRUME_PROGRAM).parent_path().string() +
+                             "':$PATH; source '" BRUME_SOURCE_DIR "/apps/cli/brume.bash'; COMP_WORDS=(" +
+                             words +
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _brume; echo \"${COMPREPLY[*]}\"";
+  folder.write("complete.sh", script);
+  const std::string out = (folder.path() / "out").string();
+  const std::string command = "cd '" + folder.path().string() + "' && bash complete.sh > '" + out + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << words;
+  return *read_text_file(out);
+}
+
+TEST(Install, BashCompletesCommandsOfOneAndTwoWords) {
+  const WorkFolder folder;
+  folder.write("slices.glb", "");
+  EXPECT_EQ(completions(folder, "brume b"), "bake bench\n");
+  EXPECT_EQ(completions(folder, "brume bake ''"), "slices occlusion pyroclastic sphere slab torus\n");
+  EXPECT_EQ(completions(folder, "brume bake sl"), "slices slab\n");
+  EXPECT_EQ(completions(folder, "brume bake slices sl"), "slices.glb\n");
+  EXPECT_EQ(completions(folder, "brume bake slices --p"), "--padding --preset\n");
+  EXPECT_EQ(completions(folder, "brume bake slices slices.glb -o a.png --ch"), "--channels\n");
+  EXPECT_EQ(completions(folder, "brume bake occlusion --fall"), "--falloff\n");
+  EXPECT_EQ(completions(folder, "brume bake sphere --rad"), "--radius\n");
+  EXPECT_EQ(completions(folder, "brume render sl"), "slices.glb\n");
+  EXPECT_EQ(completions(folder, "brume help bake o"), "occlusion\n");
 }
 
 TEST(Install, TheProgramFindsItsScenesBesideItAndInShare) {

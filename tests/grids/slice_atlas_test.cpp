@@ -2,15 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 #include <random>
+#include <variant>
 
 #include "core/file.hpp"
 #include "grids/dense_grid.hpp"
 #include "grids/files.hpp"
+#include "image/exr.hpp"
 #include "image/png.hpp"
 #include "tests/grids/child.hpp"
 #include "tests/grids/sample_grids.hpp"
@@ -161,6 +164,28 @@ TEST_F(SliceAtlasFiles, AreLossless) {
 }
 
 // All codes of 16 bits, in a range that floats represent badly.
+// Readers of colours refuse images of two.
+TEST_F(SliceAtlasFiles, TwoChannelsAreThreeInTheImage) {
+  for (const AtlasDepth depth : kDepths) {
+    SCOPED_TRACE(name_of(depth));
+    SliceAtlas atlas{{glm::uvec3(3, 4, 5), kUprightAxes, 2, 1}, depth, glm::dmat4(1), {}, {{0, 1}, {0, 1}}};
+    atlas.channels = {random_dense("first", atlas.layout.size, 1, 0, 1),
+                      random_dense("second", atlas.layout.size, 2, 0, 1)};
+    EXPECT_EQ(reloaded(atlas).channels.size(), 2u);
+    const auto bytes = image_bytes(depth);
+    if (depth == AtlasDepth::unorm8 || depth == AtlasDepth::unorm16) {
+      EXPECT_EQ(image::decode_png_numbers(bytes, "a.png").value_or_throw().channels, 3u);
+      continue;
+    }
+    const image::LayeredImage image = image::decode_exr(bytes, "a.exr").value_or_throw();
+    ASSERT_EQ(image.layers.size(), 3u);
+    EXPECT_EQ(image.layers[0].name, "B");
+    std::visit(
+        [](const auto& values) { EXPECT_EQ(std::ranges::count(values, 0), std::ranges::ssize(values)); },
+        image.layers[0].values);
+  }
+}
+
 TEST_F(SliceAtlasFiles, KeepEveryCode) {
   const glm::uvec3 size(256, 16, 16);
   for (const auto& [low, high] : {std::pair(0.0f, 1.0f), std::pair(-0.1f, 0.7f), std::pair(3.0f, 3.0625f)}) {

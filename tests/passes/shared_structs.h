@@ -5,6 +5,7 @@
 #include "shared/cloud.h"
 #include "shared/dda.h"
 #include "shared/debug_view.h"
+#include "shared/decal.h"
 #include "shared/display.h"
 #include "shared/erosion.h"
 #include "shared/frame.h"
@@ -97,7 +98,10 @@
   X(61, SliceTexture) \
   X(62, Particle) \
   X(63, ParticleList) \
-  X(64, ParticleSystem)
+  X(64, ParticleSystem) \
+  X(65, Decal) \
+  X(66, DecalParams) \
+  X(67, VolumeEffect)
 // clang-format on
 
 #endif

@@ -1,4 +1,4 @@
-"""Brume for Blender: exports levels and timelines, and shows Brume's renderings.
+"""Brume for Blender: exports levels and timelines, shows Brume's renderings, and bakes meshes into slice atlases.
 
 An add-on for Blender 3.4 to 4.1 (bl_info) and an extension from 4.2 on (blender_manifest.toml).
 """
@@ -14,6 +14,7 @@ bl_info = {
 }
 
 from . import (  # noqa: E402
+    bake,
     check_operator,
     event_operators,
     export_level,
@@ -42,6 +43,7 @@ _MODULES = (
     film,
     view,
     voxels,
+    bake,
     markers,
     gizmos,
     panels,

@@ -43,6 +43,10 @@ _SETTINGS = {
 }
 
 
+# What differs for shapes alone: without normals a corner of the mesh is one point of the file.
+_SHAPES = {"export_materials": "NONE", "export_texcoords": False, "export_normals": False}
+
+
 def _blender_matrix(world_from_mesh):
     """Converts back to Blender's axes, still in metres."""
     turn = np.identity(4)
@@ -114,7 +118,7 @@ class _TemporaryScene:
         self.scene.camera = self._add(data, _blender_matrix(matrix), camera.name)
 
 
-def _run_exporter(context, scene, path):
+def _run_exporter(context, scene, path, chosen):
     operator = getattr(bpy.ops.export_scene, "gltf", None)
     try:
         known = set(operator.get_rna_type().properties.keys())
@@ -126,7 +130,7 @@ def _run_exporter(context, scene, path):
     try:
         with context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
             scene.view_layers[0].update()
-            settings = {key: value for key, value in _SETTINGS.items() if key in known}
+            settings = {key: value for key, value in chosen.items() if key in known}
             operator("EXEC_DEFAULT", filepath=path, **settings)
     except RuntimeError as error:
         raise BrumeError(f"Blender's glTF exporter failed: {str(error).strip().splitlines()[-1]}") from error
@@ -165,8 +169,8 @@ def _name_nodes(document, temporary):
             shapes[node["mesh"]]["name"] = "mesh of " + temporary.names[made]
 
 
-def export(context, path, level, camera):
-    """Writes a GLB: meshes, materials, textures, lights (KHR_lights_punctual), the camera."""
+def export(context, path, level, camera, only_shapes=False):
+    """Writes a GLB: meshes, materials, textures, lights (KHR_lights_punctual), the camera; or only points and faces."""
     temporary = _TemporaryScene(context.scene)
     try:
         for thing in level.things:
@@ -178,7 +182,7 @@ def export(context, path, level, camera):
             temporary.add_camera(camera, level.metres)
         with tempfile.TemporaryDirectory(prefix="brume_") as folder:
             written = os.path.join(folder, "level.glb")
-            _run_exporter(context, temporary.scene, written)
+            _run_exporter(context, temporary.scene, written, _SETTINGS | (_SHAPES if only_shapes else {}))
             with open(written, "rb") as file:
                 document, rest = _json_and_rest(file.read())
     finally:

@@ -114,6 +114,8 @@ def _materials(evaluated):
 class Gathered:
     """`with Gathered(context, warnings) as level`: the level of the scene; removes its mesh copies on exit."""
 
+    _chosen = None  # The objects that count; None: what Blender renders.
+
     def __init__(self, context, warnings):
         self._context, self._warnings = context, warnings
         self._copies, self._doors, self._mode = {}, {}, None
@@ -127,7 +129,7 @@ class Gathered:
             self._mode = self._context.object.mode
             bpy.ops.object.mode_set(mode="OBJECT")
         try:
-            with AsRendered(self._context, bpy.data):
+            with AsRendered(self._context, bpy.data, self._chosen):
                 self._add_all()
         except BaseException:
             self.__exit__()
@@ -165,23 +167,10 @@ class Gathered:
                 self._warnings.add(f'"{instance.object.name}" is a {what} and is not exported')
 
     def _add_mesh(self, instance):
-        evaluated, source = instance.object, instance.object.original
-        role = _role(instance)
-        if role == "LEFT_OUT" or len(evaluated.data.polygons) == 0:
+        source, role = instance.object.original, _role(instance)
+        piece = self._piece(instance) if role != "LEFT_OUT" else None
+        if piece is None:
             return
-        # Objects without modifiers share the evaluated mesh. Meshes live until the depsgraph is evaluated again.
-        key = evaluated.data.as_pointer()
-        if key not in self._copies:
-            # Copies the evaluated mesh. With preserve_all_data_layers and a depsgraph Blender 3.4 crashes on
-            # instances of text objects.
-            self._copies[key] = bpy.data.meshes.new_from_object(evaluated)
-        matrix = conversion.matrix(instance.matrix_world, self._level.metres)
-        if not np.isfinite(matrix).all():
-            self._warnings.add(f'"{source.name}" has a transform that is not finite and is not exported')
-            return
-        if not matrix[:3, :3].any():
-            return  # Scaled to a point: invisible in Blender too.
-        piece = Piece(self._copies[key], matrix, _materials(evaluated))
         door = _door_of(source) if role in {"SOLID", "DOOR"} else None
         if door:
             self._add_to_door(instance, door, piece)
@@ -192,6 +181,26 @@ class Gathered:
                 f'"{source.name}" has "door" in its name, so the viewer opens it; rename it or set its role to Door'
             )
         self._level.things.append(Thing(name, role, source.name, [piece]))
+
+    def _piece(self, instance):
+        """The evaluated mesh of an instance with its transform; None if nothing of it is visible."""
+        evaluated = instance.object
+        if len(evaluated.data.polygons) == 0:
+            return None
+        # Objects without modifiers share the evaluated mesh. Meshes live until the depsgraph is evaluated again.
+        key = evaluated.data.as_pointer()
+        if key not in self._copies:
+            # Copies the evaluated mesh. With preserve_all_data_layers and a depsgraph Blender 3.4 crashes on
+            # instances of text objects.
+            self._copies[key] = bpy.data.meshes.new_from_object(evaluated)
+        matrix = conversion.matrix(instance.matrix_world, self._level.metres)
+        if not np.isfinite(matrix).all():
+            name = evaluated.original.name
+            self._warnings.add(f'"{name}" has a transform that is not finite and is not exported')
+            return None
+        if not matrix[:3, :3].any():
+            return None  # Scaled to a point: invisible in Blender too.
+        return Piece(self._copies[key], matrix, _materials(evaluated))
 
     def _add_to_door(self, instance, door, piece):
         """Adds a piece to the thing of its door: one thing per instance of the door's collection."""

@@ -59,6 +59,8 @@ class BRUME_PT_level(_Panel, bpy.types.Panel):
         column.operator("brume.check", icon="CHECKMARK")
         column.operator("brume.voxels", icon="VIEW3D")
         column.operator("brume.export_level", icon="EXPORT").format = options.format
+        column.operator("brume.bake_slices", icon="MESH_GRID")
+        column.operator("brume.bake_occlusion", icon="SHADING_RENDERED")
 
 
 class BRUME_PT_object(_Panel, bpy.types.Panel):

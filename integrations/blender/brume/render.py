@@ -4,7 +4,7 @@ import os
 
 import bpy
 
-from . import samples
+from . import image_editor, samples
 from .export_level import EXTENSIONS, export
 from .job_operator import JobOperator
 from .messages import BrumeError
@@ -20,7 +20,7 @@ def _take_image(path):
     before, oldest = bpy.data.images.get(IMAGE_NAME), bpy.data.images.get(PREVIOUS_NAME)
     if before:
         # Editors that show an image go on to show the one of the same age.
-        shown = [space for space in _image_spaces() if space.image == before]
+        shown = [space for space in image_editor.spaces() if space.image == before]
         if oldest:
             oldest.user_remap(before)
             bpy.data.images.remove(oldest)
@@ -28,34 +28,6 @@ def _take_image(path):
         for space in shown:
             space.image = image
     image.name = IMAGE_NAME
-
-
-def _image_spaces():
-    areas = (area for window in bpy.context.window_manager.windows for area in window.screen.areas)
-    return [area.spaces.active for area in areas if area.type == "IMAGE_EDITOR"]
-
-
-def _show():
-    """Shows the image in an Image Editor; without one, where the preferences place renders. Called by a timer, because
-    a modal operator that opens a window does not end."""
-    image = bpy.data.images.get(IMAGE_NAME)
-    place = bpy.context.preferences.view.render_display_type
-    spaces = _image_spaces()
-    if not spaces and place != "NONE":
-        window = bpy.context.window_manager.windows[0]
-        if place == "WINDOW":
-            with bpy.context.temp_override(window=window):
-                bpy.ops.wm.window_new()
-            area = bpy.context.window_manager.windows[-1].screen.areas[0]
-        else:
-            areas = [area for area in window.screen.areas if area.type != "VIEW_3D"] or list(window.screen.areas)
-            area = max(areas, key=lambda area: area.width * area.height)
-        area.type = "IMAGE_EDITOR"
-        spaces = [area.spaces.active]
-    # An editor with another image, such as a texture, keeps it if one shows renders already.
-    showing = [space for space in spaces if space.image and space.image.name in (IMAGE_NAME, PREVIOUS_NAME)]
-    for space in [] if showing else spaces[:1]:
-        space.image = image
 
 
 class BRUME_OT_render(JobOperator, bpy.types.Operator):
@@ -83,7 +55,7 @@ class BRUME_OT_render(JobOperator, bpy.types.Operator):
         samples.reduce(path, self._samples)
         _take_image(path)
         if not bpy.app.background:
-            bpy.app.timers.register(_show, first_interval=0)
+            image_editor.show(IMAGE_NAME, (IMAGE_NAME, PREVIOUS_NAME))
 
 
 def register():

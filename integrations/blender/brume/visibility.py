@@ -2,14 +2,15 @@
 
 
 class AsRendered:
-    """`with AsRendered(context):` the depsgraph holds what Blender renders; restores all settings on exit.
+    """`with AsRendered(context, data):` the depsgraph holds what Blender renders; restores all settings on exit. Given
+    `chosen` objects, what is visible stays as it is, and these have the shape of the render.
 
     Blender has no depsgraph of a render outside of a renderer, so the settings of the viewport take the values of those
     of the render.
     """
 
-    def __init__(self, context, data):
-        self._context, self._data = context, data
+    def __init__(self, context, data, chosen=None):
+        self._context, self._data, self._chosen = context, data, chosen
         self._changed, self._hidden = [], []
 
     def __enter__(self):
@@ -23,6 +24,11 @@ class AsRendered:
     def _enter(self, view_layer):
         self._active = view_layer.objects.active
         self._selected = [thing for thing in view_layer.objects if thing.select_get(view_layer=view_layer)]
+        if self._chosen is not None:
+            for thing in self._chosen:
+                self._set_shape(thing)
+            view_layer.update()
+            return
         self._hidden = [thing for thing in view_layer.objects if thing.hide_get(view_layer=view_layer)]
         self._show_layers(view_layer.layer_collection)
         for collection in self._data.collections:
