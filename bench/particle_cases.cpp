@@ -1,67 +1,32 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/frames.hpp"
-#include "grids/dense_grid.hpp"
-#include "grids/files.hpp"
+#include "grids/slice_atlas.hpp"
 
 namespace brume::bench {
 namespace {
 
-// The volume of the exhaust of an ion thruster: a ring and a beam, in a box twice as long as wide.
-constexpr glm::uvec3 kExhaustVoxels{64, 64, 32};
-constexpr glm::vec3 kExhaustBox{1, 1, 2};                                              // [m]
-constexpr std::array kExhaustTints{glm::vec3(9, 2.4f, 0.6f), glm::vec3(1, 3.5f, 10)};  // per metre
+constexpr const char* kExhaust = BRUME_SCENES_DIR "/thruster/thruster.json";
+/// Of its ring and its beam, per metre.
+constexpr std::array kExhaustTints{glm::vec3(18, 70, 180), glm::vec3(200, 280, 350)};
 
-/// Both masks, which are 0 on the faces of the box.
-std::vector<grids::DenseGrid> exhaust_masks() {
-  std::vector<grids::DenseGrid> masks(2);
-  for (grids::DenseGrid& mask : masks) {
-    mask.name = &mask == &masks[0] ? "ring" : "beam";
-    mask.size = kExhaustVoxels;
-    mask.box = {-0.5 * glm::dvec3(kExhaustBox), 0.5 * glm::dvec3(kExhaustBox)};
-  }
-  for (std::uint32_t i = 0; i < kExhaustVoxels.x * kExhaustVoxels.y * kExhaustVoxels.z; ++i) {
-    const glm::uvec3 voxel(i % kExhaustVoxels.x, i / kExhaustVoxels.x % kExhaustVoxels.y,
-                           i / kExhaustVoxels.x / kExhaustVoxels.y);
-    const glm::vec3 uvw = (glm::vec3(voxel) + 0.5f) / glm::vec3(kExhaustVoxels);
-    const glm::vec3 to_face = glm::min(uvw, 1.0f - uvw) - 0.5f / glm::vec3(kExhaustVoxels);
-    const float fade = glm::smoothstep(0.0f, 0.06f, std::min({to_face.x, to_face.y, to_face.z}));
-    const float r = glm::length(glm::vec2(uvw) - 0.5f);
-    masks[0].values.push_back(fade * std::exp(-std::pow((r - 0.3f) / 0.05f, 2.0f) - 6 * uvw.z));
-    masks[1].values.push_back(fade * std::exp(-std::pow(r / (0.05f + 0.12f * uvw.z), 2.0f) - 2 * uvw.z));
-  }
-  return masks;
-}
-
-/// Both masks as a volume that is marched, from a file that is removed again; seen from the side so that it
-/// fills the image.
+/// The exhaust of an ion thruster, seen from the side so that it fills the image, without anything else.
 Result<scenario::Scenario> exhaust_scenario() {
   scene::Timeline timeline;
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("brume_bench_" + std::to_string(::getpid()) + ".brv");
-  grids::GridFile file;
-  for (const grids::DenseGrid& mask : exhaust_masks()) file.grids.push_back(grids::to_grid(mask));
-  if (auto saved = grids::save_grid_file(path, file); !saved) return saved.failure();
+  timeline.scene = kExhaust;
   scene::VolumeOptions volume;
-  volume.file = path;
+  volume.file = kExhaust;
   volume.extinction = 0;
   for (std::size_t i = 0; i < kExhaustTints.size(); ++i) {
     const float intensity = std::max({kExhaustTints[i].r, kExhaustTints[i].g, kExhaustTints[i].b});
     volume.masks.push_back({i == 0 ? "ring" : "beam", kExhaustTints[i] / intensity, intensity, {}});
   }
   timeline.volumes.push_back(volume);
-  timeline.scene = path;
-  timeline.camera = {{0, {{1.55f, 0.35f, 0.3f}, {0, 0, 0}, 0.8f}}};
-  auto scenario = scenario::make_scenario(std::move(timeline), {});
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
-  return scenario;
+  timeline.camera = {{0, {{0.085f, 0.02f, 0.015f}, {0, 0, 0}, 0.72f}}};
+  return scenario::make_scenario(std::move(timeline), {});
 }
 
 /// A frame in which nothing but the exhaust emits.
@@ -76,10 +41,12 @@ class ExhaustFrame {
 
   /// Instead of the march.
   void use_particles(std::uint32_t count) {
-    frame_.input().slices = std::make_shared<std::vector<grids::DenseVolume>>(1, exhaust_masks());
+    const grids::SliceAtlas atlas = grids::load_slice_atlas(kExhaust).value_or_throw();
+    frame_.input().slices = std::make_shared<std::vector<grids::DenseVolume>>(1, atlas.channels);
+    const Box<double>& box = atlas.channels.front().box;
     planning::ParticleInput particles;
     particles.world_from_uvw =
-        glm::translate(glm::mat4(1), -0.5f * kExhaustBox) * glm::scale(glm::mat4(1), kExhaustBox);
+        glm::mat4(glm::translate(glm::dmat4(1), box.low) * glm::scale(glm::dmat4(1), box.high - box.low));
     std::ranges::copy(kExhaustTints, particles.tints.begin());
     particles.count = count;
     frame_.input().volumes.clear();

@@ -56,10 +56,10 @@ TEST_F(VolumeMasksTest, EachMaskGlowsInItsTint) {
     const std::vector<glm::vec4> pixels = draw();
     glm::vec3 expected(0);
     for (std::size_t i = 0; i < count; ++i) expected += 2.0f * tints[i] * (1.0f / static_cast<float>(1 << i));
-    // A ray has 16 steps of a voxel inside; a sample may miss half a step at each end. Half floats: 1/1024.
+    // A ray has 8 steps of two voxels inside; a sample may miss half a step at each end. Half floats: 1/1024.
     const glm::vec4 found = middle(pixels);
     for (int channel = 0; channel < 3; ++channel)
-      EXPECT_NEAR(found[channel], expected[channel], (1.0f / 16 + 1.0f / 1024) * expected[channel]) << count;
+      EXPECT_NEAR(found[channel], expected[channel], (1.0f / 8 + 1.0f / 1024) * expected[channel]) << count;
     EXPECT_EQ(found.a, 1) << "it dims nothing";
     EXPECT_EQ(pixels.front(), glm::vec4(0, 0, 0, 1)) << "beside it";
   }
@@ -73,8 +73,8 @@ TEST_F(VolumeMasksTest, LinearMasksAddUp) {
       masks(glm::ivec3(2), [](glm::vec3 p) { return glm::vec4(p.z / 16, 1 - p.z / 16, 0, 0); });
   input_.volumes = {glowing(presence, colors, {{3, 0, 0}, {0, 3, 0}})};
   const glm::vec4 found = middle(draw());
-  EXPECT_NEAR(found.r, 3, 3 * (1.0 / 16 + 1.0 / 1024));
-  EXPECT_NEAR(found.g, 3, 3 * (1.0 / 16 + 1.0 / 1024));
+  EXPECT_NEAR(found.r, 3, 3 * (1.0 / 8 + 1.0 / 1024));
+  EXPECT_NEAR(found.g, 3, 3 * (1.0 / 8 + 1.0 / 1024));
   EXPECT_EQ(found.b, 0);
 }
 
@@ -128,7 +128,7 @@ TEST_F(DisturbedVolumeTest, IsTheSameWhereNothingVaries) {
   input_.volumes = {disturbed(presence, colors, {0.25f, 0.5f, {0, 1, 0}, 0})};
   const glm::vec4 found = middle(draw());
   // Only at both ends, up to the strength, some samples are inside or outside that were not.
-  EXPECT_NEAR(found.r, 2, 2 * 0.25 + 2.0 / 16 + 2e-3);
+  EXPECT_NEAR(found.r, 2, 2 * 0.25 + 2.0 / 8 + 2e-3);
   EXPECT_GT(found.r, 0.5);
 }
 
