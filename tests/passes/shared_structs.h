@@ -5,6 +5,7 @@
 #include "shared/cloud.h"
 #include "shared/dda.h"
 #include "shared/debug_view.h"
+#include "shared/decal.h"
 #include "shared/display.h"
 #include "shared/erosion.h"
 #include "shared/frame.h"
@@ -93,7 +94,9 @@
   X(58, VolumeLook) \
   X(59, VolumeSweep) \
   X(60, VolumeTransfer) \
-  X(61, SliceTexture)
+  X(61, SliceTexture) \
+  X(62, Decal) \
+  X(63, DecalParams)
 // clang-format on
 
 #endif
