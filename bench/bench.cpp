@@ -80,6 +80,7 @@ std::vector<Case> all_cases() {
   for (Case& one : sim_cases()) cases.push_back(std::move(one));
   for (Case& one : gpu_cases()) cases.push_back(std::move(one));
   for (Case& one : cloud_cases()) cases.push_back(std::move(one));
+  for (Case& one : particle_cases()) cases.push_back(std::move(one));
   for (Case& one : scaling_cases()) cases.push_back(std::move(one));
   return cases;
 }

@@ -82,6 +82,7 @@ std::vector<Case> sight_cases();
 std::vector<Case> sim_cases();
 std::vector<Case> gpu_cases();
 std::vector<Case> cloud_cases();
+std::vector<Case> particle_cases();
 std::vector<Case> scaling_cases();
 /// All cases in execution order.
 std::vector<Case> all_cases();

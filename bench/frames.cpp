@@ -1,12 +1,14 @@
 #include "bench/frames.hpp"
 
 #include <cstring>
+#include <glm/gtc/packing.hpp>
 
 namespace brume::bench {
 
 RepeatedFrame::RepeatedFrame(gpu::Context& context, const scenario::Scenario& scenario,
                              const render::RendererOptions& options, double seconds)
-    : simulation_(scenario::Simulation::create(scenario).value_or_throw()),
+    : context_(context),
+      simulation_(scenario::Simulation::create(scenario).value_or_throw()),
       runner_(context),
       renderer_(context, runner_, scenario.scene, options),
       counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
@@ -29,6 +31,21 @@ FrameCost RepeatedFrame::draw() {
   });
   for (const auto& scope : runner_.timings()) cost.passes[scope.name] = scope.milliseconds;
   return cost;
+}
+
+std::vector<glm::vec4> RepeatedFrame::radiance() {
+  const gpu::Image& image = renderer_.targets().radiance;
+  const std::size_t count = std::size_t{image.info().size.x} * image.info().size.y;
+  const gpu::Buffer copy(context_, count * sizeof(std::uint64_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                         gpu::MemoryUse::readback);
+  runner_.run([&](gpu::Recorder& recorder) { recorder.read_back(image, copy); });
+  std::vector<glm::vec4> pixels(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint64_t texel = 0;
+    std::memcpy(&texel, copy.mapped() + i * sizeof texel, sizeof texel);
+    pixels[i] = glm::unpackHalf4x16(texel);
+  }
+  return pixels;
 }
 
 std::uint32_t RepeatedFrame::texture_samples() const {

@@ -24,11 +24,15 @@ class RepeatedFrame {
   /// The input of the next draw, for cases that change it between draws.
   render::FrameInput& input() { return input_; }
   const render::Renderer& renderer() const { return renderer_; }
+  render::Renderer& renderer() { return renderer_; }
+  /// Targets::radiance of the last draw.
+  std::vector<glm::vec4> radiance();
   /// Number of texture samples of the last march; requires RendererOptions::count_samples.
   std::uint32_t texture_samples() const;
   const scenario::Simulation& simulation() const { return *simulation_; }
 
  private:
+  gpu::Context& context_;
   std::unique_ptr<scenario::Simulation> simulation_;
   gpu::CommandRunner runner_;
   render::Renderer renderer_;

@@ -10,6 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint kView = kViewNone;
 const uint kHoles = kHolesClustered;
 layout(scalar, push_constant) uniform Push { DebugViewParams params; };
+layout(binding = kBindRadiance, rgba16f) uniform readonly image2D radiance_image;
 layout(binding = kBindDisplay, rgba8) uniform writeonly image2D display;
 #include "lib/legend.glsl"
 #include "lib/ray_views.glsl"
@@ -20,6 +21,12 @@ layout(binding = kBindDisplay, rgba8) uniform writeonly image2D display;
 vec3 depth_view(ViewPixel pixel) {
   const float along_axis_m = pixel.surface_m / length(pixel.along);
   return pixel.has_surface ? ramp_colour(ramp_of_view(kView), depth_fraction(along_axis_m)) : backdrop();
+}
+
+/// The radiance of a frame with this view is a count of quads.
+vec3 overdraw_view(ViewPixel pixel) {
+  const float quads = imageLoad(radiance_image, pixel.px).r;
+  return heat_colour(ramp_of_view(kView), quads / params.full, dimmed_scene(pixel));
 }
 
 vec3 view_colour(ViewPixel pixel) {
@@ -33,6 +40,7 @@ vec3 view_colour(ViewPixel pixel) {
     case kViewBricks: return bricks_view(pixel);
     case kViewNormals: return pixel.has_surface ? 0.5 + 0.5 * pixel.normal : backdrop();
     case kViewAlbedo: return pixel.has_surface ? srgb_from_linear(pixel.albedo) : backdrop();
+    case kViewOverdraw: return overdraw_view(pixel);
     default: return depth_view(pixel);
   }
 }

@@ -159,9 +159,9 @@ Command add_bake_occlusion(CommandLine& program) {
   Command command =
       declare(program, "bake occlusion",
               "Writes the ambient occlusion around a mesh, on planes that face up and down, as tiles.",
-              "  brume bake occlusion drone.glb -o drone_ao.png\n"
-              "  brume bake occlusion drone.glb -o drone_ao.png --separate --gamma 0.7 --falloff 2\n"
-              "  brume bake occlusion car.obj -o car_ao.png --size 96x32x48 --rays 1024 --preset unity");
+              "  brume bake occlusion scenes/flyby/drone.glb -o drone_ao.png\n"
+              "  brume bake occlusion scenes/flyby/drone.glb -o ao.png --separate --gamma 0.7 --falloff 2\n"
+              "  brume bake occlusion room.glb -o room_ao.exr --size 32x16x32 --rays 64 --preset unity");
   auto bake = std::make_shared<OcclusionBake>();
   const Arguments& arguments = command.arguments;
   arguments.add_option("INPUT", bake->input, "Meshes (.glb, .gltf, .obj, .txt)").required().type_name("");

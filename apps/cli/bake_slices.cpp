@@ -231,9 +231,9 @@ void bake_slices(const SliceOptions& options, Outputs& outputs) {
 Command add_bake_slices(CommandLine& program) {
   Command command = declare(
       program, "bake slices", "Writes the slices of closed meshes or of a volume as tiles of an image.",
-      "  brume bake slices thruster.glb -o thruster.png --channels ring:r,beam:g\n"
+      "  brume bake slices scenes/thruster/thruster.glb -o thruster.png --channels ring:r,beam:g\n"
       "  brume bake slices smoke.vdb -o smoke.exr --preset unreal\n"
-      "  brume bake slices cloud.brv -o cloud.png --size 64x64x64 --layout square --bits 16");
+      "  brume bake slices room.glb -o room.png --size 64x32x64 --layout square --bits 16");
   auto options = std::make_shared<SliceOptions>();
   const Arguments& arguments = command.arguments;
   arguments

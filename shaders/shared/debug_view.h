@@ -19,13 +19,14 @@ SHARED_CONST uint kViewBricks = 7u;    // of the smoke, and the filled part of e
 SHARED_CONST uint kViewNormals = 8u;
 SHARED_CONST uint kViewAlbedo = 9u;
 SHARED_CONST uint kViewDepth = 10u;
-SHARED_CONST uint kViewCount = 11u;
+SHARED_CONST uint kViewOverdraw = 11u;  // quads of particles on a pixel
+SHARED_CONST uint kViewCount = 12u;
 
 /// Colour ramp of a view.
 SHARED_FUNCTION uint ramp_of_view(uint view) {
   if (view == kViewDensity) return kRampMagma;
   if (view == kViewHoles) return kRampPlasma;
-  if (view == kViewSteps) return kRampInferno;
+  if (view == kViewSteps || view == kViewOverdraw) return kRampInferno;
   return kRampViridis;
 }
 

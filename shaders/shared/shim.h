@@ -14,6 +14,7 @@
 //   27 - 31  volumes besides the smoke       volume.h
 //   53 - 54  their transfer functions and colours
 //   55       volumes as slices            slice_texture.h
+//   56 - 58  particles                    particles.h
 //   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H
@@ -27,7 +28,7 @@ using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::l
     glm::mix;
 using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::mat3, glm::mat4, glm::mat4x3, glm::bvec3;
-using glm::cos, glm::exp, glm::log, glm::pow, glm::sqrt, glm::tan;
+using glm::cos, glm::exp, glm::log, glm::pow, glm::sin, glm::sqrt, glm::tan;
 using glm::normalize, glm::sign, glm::smoothstep, glm::step, glm::unpackUnorm4x8;
 using glm::floatBitsToUint, glm::uintBitsToFloat;
 using uint = std::uint32_t;

@@ -51,6 +51,7 @@ glm::uvec3 labels_of(DebugView view, float full) {
     case DebugView::holes:
       return numbers(0, full / 2, full, "m", "m+");
     case DebugView::steps:
+    case DebugView::overdraw:
       return numbers(0, full / 2, full, "", "+");
     case DebugView::depth:
       return numbers(shared::kDepthFar, std::sqrt(shared::kDepthNear * shared::kDepthFar), shared::kDepthNear,
@@ -101,6 +102,7 @@ std::optional<DebugView> find_debug_view(std::string_view name) {
 float ramp_end(DebugView view, const sim::State& state) {
   if (view == DebugView::holes) return 2;
   if (view == DebugView::steps) return 96;
+  if (view == DebugView::overdraw) return 64;
   if (view != DebugView::distance) return 1;
   std::uint32_t farthest = 0;
   for (const sim::LiveCloud& live : state.clouds)
@@ -198,6 +200,7 @@ void DebugViewPass::record(gpu::Recorder& recorder, const DebugSubject& subject,
                     {shared::kBindLevelWords, gpu::read(level)},
                     {shared::kBindDistances, gpu::read(distances)},
                     {shared::kBindMarchCounters, gpu::read(counters)},
+                    {shared::kBindRadiance, gpu::read_stored(in.quads)},
                     {shared::kBindDisplay, gpu::stored(display)},
                 },
                 params);

@@ -22,7 +22,7 @@ using planning::ViewSlice;
 /// The names of all views by their number, that of `none` first.
 constexpr std::array<std::string_view, shared::kViewCount> kDebugViewNames{
     "none",  "solid",  "distance", "density", "light", "holes",
-    "steps", "bricks", "normals",  "albedo",  "depth"};
+    "steps", "bricks", "normals",  "albedo",  "depth", "overdraw"};
 
 constexpr std::string_view debug_view_name(DebugView view) {
   return kDebugViewNames[static_cast<std::size_t>(view)];
@@ -36,7 +36,7 @@ constexpr bool has_slice(DebugView view) {
 }
 
 /// The number at the end of a view's ramp: of distance, from what the clouds may fill [m], of holes [m], of
-/// steps.
+/// steps, of quads.
 float ramp_end(DebugView view, const sim::State& state);
 
 /// What a view is of.
@@ -62,6 +62,7 @@ class DebugViewPass {
     const GBuffer& gbuffer;
     const SmokeResources& smoke;
     const HoleResources& holes;
+    const gpu::Image& quads;  ///< Half floats: the view of overdraw shows what ParticlePass counted there.
   };
   /// Writes the view to `display` (RGBA8). The subject is as `reserve` saw it.
   void record(gpu::Recorder& recorder, const DebugSubject& subject, const Inputs& inputs,

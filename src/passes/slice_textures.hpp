@@ -44,6 +44,7 @@ class SliceTextures {
   std::size_t size() const { return textures_.size(); }
   /// What lib/slice_texture.glsl reads of a volume, by its place in `volumes`.
   const shared::SliceTexture& operator[](std::size_t volume) const { return textures_[volume]; }
+  std::span<const shared::SliceTexture> textures() const { return textures_; }
   /// RGBA16F; one texel of 0 without volumes. To be sampled linearly.
   const gpu::Image& image() const { return image_; }
 

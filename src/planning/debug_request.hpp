@@ -21,6 +21,7 @@ enum class DebugView : std::uint32_t {
   normals = shared::kViewNormals,
   albedo = shared::kViewAlbedo,
   depth = shared::kViewDepth,
+  overdraw = shared::kViewOverdraw,
 };
 
 /// A plane across an axis of the world: density and light are shown on it, distances on its far side.

@@ -7,6 +7,7 @@
 
 #include "grids/dense_grid.hpp"
 #include "planning/debug_request.hpp"
+#include "planning/particle_plan.hpp"
 #include "scenario/moved_objects.hpp"
 #include "scene/scene.hpp"
 #include "scene/timeline.hpp"
@@ -153,6 +154,8 @@ struct FrameInput {
   /// Volumes that are sampled without a march; uploaded when they are others than before. null: none.
   std::shared_ptr<const std::vector<grids::DenseVolume>> slices;
   std::vector<DecalInput> decals;  ///< At most shared::kMaxDecals.
+  /// At most shared::kMaxParticleSystems; they may overlap. Smoke and volumes before them do not dim them.
+  std::vector<ParticleInput> particles;
   Quality quality;
   DebugRequest debug;
 };

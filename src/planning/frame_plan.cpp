@@ -112,6 +112,7 @@ const sim::State& FramePlan::state() const {
 FramePlan plan_frame(const FrameInput& input, const PlanTarget& target, PlanHistory& history) {
   FramePlan plan(input, target.size_px);
   plan_visibility(plan, target, history);
+  plan.particles = plan_particles(input.particles, target.slices, plan.frustum);
   plan_level(plan, history);
   const SmokeInput& smoke = plan.input.smoke;
   const std::uint32_t slots = smoke.volume ? smoke.volume->slot_count() : 0;

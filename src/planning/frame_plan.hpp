@@ -23,7 +23,8 @@ struct PlanTarget {
   Box<float> scene_bounds;                ///< Around all surfaces.
   glm::mat4 sun_clip_from_world{1};
   glm::uvec2 size_px{1};
-  glm::uvec2 smoke_shadow_atlas{0};  ///< Size of the atlas in texels.
+  glm::uvec2 smoke_shadow_atlas{0};              ///< Size of the atlas in texels.
+  std::span<const shared::SliceTexture> slices;  ///< What particles may display.
 };
 
 struct FramePlan {
@@ -42,6 +43,7 @@ struct FramePlan {
   std::vector<PlacedDecal> decals;
   /// The media as light is found in them and shadows are cast by them: volumes may have other resolutions.
   MediaPlan lit_media;
+  std::vector<shared::ParticleSystem> particles;  ///< In view.
 
   // What changed.
   bool level_changed = false;                  ///< Walls or hidden objects.

@@ -83,7 +83,8 @@ planning::PlanTarget Renderer::plan_target() const {
           {scene.bounds_min, scene.bounds_max},
           scene_.shadows().sun_clip_from_world,
           targets_.size_px,
-          glm::uvec2(smoke_.shadows().atlas.info().size)};
+          glm::uvec2(smoke_.shadows().atlas.info().size),
+          slices_ ? slices_->textures() : std::span<const shared::SliceTexture>()};
 }
 
 FramePlan Renderer::plan(const FrameInput& input) {
@@ -133,6 +134,10 @@ void Renderer::reserve(FramePlan& plan) {
   if (!plan.decals.empty()) {
     if (!decal_pass_) decal_pass_.emplace(context_, targets_.size_px);
     shade_pass_.reserve_decals();
+  }
+  if (!plan.particles.empty()) {
+    if (!particle_pass_) particle_pass_.emplace(context_);
+    particle_pass_->reserve(plan.particles, plan.input.debug.view == planning::DebugView::overdraw);
   }
   if (plan.input.debug.view == planning::DebugView::none) return;
   if (!debug_view_) debug_view_.emplace(context_);
@@ -195,6 +200,7 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
                        scene_.level(), targets_.gbuffer, media(), targets_.radiance, voxel_shadows,
                        occlusion_);
   });
+  if (!plan.particles.empty()) scope(recorder, "particles", [&] { record_particles(recorder, plan); });
   scope(recorder, "display",
         [&] { display_pass_.record(recorder, frame_, blue_noise_, targets_.radiance, targets_.display); });
 }
@@ -219,9 +225,21 @@ void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan, con
   smoke_.record_upload(recorder, plan, in);
 }
 
+void Renderer::record_particles(gpu::Recorder& recorder, const FramePlan& plan) {
+  particle_pass_->record(recorder, {frame_, slices_->image(), targets_.gbuffer.depth}, plan.particles,
+                         targets_.radiance);
+}
+
 void Renderer::record_debug_view(gpu::Recorder& recorder, const FramePlan& plan) {
+  if (plan.input.debug.view == planning::DebugView::overdraw) {
+    recorder.clear(targets_.radiance, {});
+    if (!plan.particles.empty())
+      particle_pass_->record_overdraw(recorder, {frame_, slices_->image(), targets_.gbuffer.depth},
+                                      plan.particles, targets_.radiance);
+  }
   debug_view_->record(recorder, debug_subject(plan),
-                      {frame_, targets_.gbuffer, smoke_.resources(), smoke_.holes()}, targets_.display);
+                      {frame_, targets_.gbuffer, smoke_.resources(), smoke_.holes(), targets_.radiance},
+                      targets_.display);
 }
 
 }  // namespace brume::render

@@ -9,6 +9,7 @@
 #include "passes/debug_view.hpp"
 #include "passes/decals.hpp"
 #include "passes/display.hpp"
+#include "passes/particles.hpp"
 #include "passes/slice_textures.hpp"
 #include "planning/frame_plan.hpp"
 #include "render/smoke_frame.hpp"
@@ -42,8 +43,8 @@ class Renderer {
 
   /// Plans a frame and makes room for it; re-renders the shadows where other objects are hidden than before.
   /// Call outside of a recording, when the device is done with the frame before; the frame must then be
-  /// recorded. The plan is valid until the next one. Throws resource_limit, and bad_input for volumes that
-  /// FrameInput does not allow; the next frame then updates everything.
+  /// recorded. The plan is valid until the next one. Throws resource_limit, and bad_input for volumes and
+  /// particles that FrameInput does not allow; the next frame then updates everything.
   FramePlan plan(const FrameInput& input);
   /// Records the frame of the last plan. No allocation of device memory besides staging, no submit, no wait.
   void record_frame(gpu::Recorder& recorder, const FramePlan& plan);
@@ -81,6 +82,7 @@ class Renderer {
   void record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_media(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   void record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
+  void record_particles(gpu::Recorder& recorder, const FramePlan& plan);
   void record_debug_view(gpu::Recorder& recorder, const FramePlan& plan);
 
   gpu::Context& context_;
@@ -95,7 +97,8 @@ class Renderer {
   const gpu::Image* occlusion_ = nullptr;
   std::optional<passes::SliceTextures> slices_;
   std::shared_ptr<const std::vector<grids::DenseVolume>> loaded_slices_;  ///< What `slices_` holds.
-  std::optional<passes::DebugViewPass> debug_view_;  ///< From the first frame with a debug view on.
+  std::optional<passes::DebugViewPass> debug_view_;    ///< From the first frame with a debug view on.
+  std::optional<passes::ParticlePass> particle_pass_;  ///< From the first frame with particles in view.
   gpu::Image blue_noise_;
   gpu::Buffer frame_;
   planning::PlanHistory history_;

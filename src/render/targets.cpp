@@ -21,7 +21,8 @@ Targets::Targets(gpu::Context& context, glm::uvec2 size)
     : size_px(size),
       gbuffer(context, size),
       media(storage_image(context, size, VK_FORMAT_R16G16B16A16_SFLOAT, passes::kRaycastTargetUsage)),
-      radiance(storage_image(context, size, VK_FORMAT_R16G16B16A16_SFLOAT)),
+      radiance(storage_image(context, size, VK_FORMAT_R16G16B16A16_SFLOAT,
+                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
       display(storage_image(context, size, VK_FORMAT_R8G8B8A8_UNORM)) {}
 
 }  // namespace brume::render

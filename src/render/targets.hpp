@@ -12,7 +12,7 @@ struct Targets {
   glm::uvec2 size_px;
   passes::GBuffer gbuffer;
   gpu::Image media;     ///< Half floats: premultiplied radiance and transmittance of the media.
-  gpu::Image radiance;  ///< Half floats: media and surfaces.
+  gpu::Image radiance;  ///< Half floats: media, surfaces and particles.
   gpu::Image display;   ///< RGBA8, sRGB.
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "render/glow_lights.hpp"
 
@@ -54,6 +55,32 @@ planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenar
   return input;
 }
 
+/// The quads that show a volume's masks, of its box in the world.
+planning::ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::SliceVolume& slices,
+                                     const grids::DenseVolume& volume, const glm::mat4& pose,
+                                     double seconds) {
+  const Box<double>& box = volume.front().box;
+  const glm::dmat4 box_from_uvw =
+      glm::translate(glm::dmat4(1), box.low) * glm::scale(glm::dmat4(1), box.high - box.low);
+  planning::ParticleInput input;
+  input.world_from_uvw =
+      pose * scenario::world_from_file(options) * slices.file_from_box * glm::mat4(box_from_uvw);
+  input.slices = static_cast<std::uint32_t>(slices.volume);
+  for (std::size_t mask = 0; mask < options.masks.size(); ++mask)
+    input.tints[mask] = scene::glow_at(options.masks[mask], seconds);
+  input.extinction = options.extinction;
+  input.count = options.particles;
+  input.radius = options.particle_size;
+  input.time = seconds;
+  // They stream along the volume as its slices do.
+  constexpr float kDrift = 0.5f;
+  input.drift = kDrift;
+  // As deep as a tenth of the box's shortest edge.
+  const glm::mat3 axes(input.world_from_uvw);
+  input.softness = 0.1f * std::min({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+  return input;
+}
+
 }  // namespace
 
 void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::VolumeWait wait,
@@ -65,7 +92,13 @@ void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::V
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!volumes[i].frame) continue;
     move_by(scene::pose_of(scenario.timeline, options[i].carrier, seconds), volumes[i]);
-    input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i), seconds));
+    const auto& slices = scenario.slices.of_volumes;
+    if (options[i].particles > 0 && i < slices.size() && slices[i])
+      input.particles.push_back(
+          particles_of(options[i], *slices[i], (*scenario.slices.volumes)[slices[i]->volume],
+                       scene::pose_of(scenario.timeline, options[i].carrier, seconds), seconds));
+    else
+      input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i), seconds));
     for (const shared::Light& light : glow_lights(options[i], volumes[i], seconds, input.view.exposure))
       lights.push_back(light);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
@@ -21,10 +22,14 @@ struct SliceVolume {
 struct SliceVolumes {
   std::shared_ptr<const std::vector<grids::DenseVolume>> volumes;  ///< Null: none.
   std::vector<SliceVolume> of_decals;  ///< Of each decal: two channels, occlusion of what faces up and down.
+  /// Of each volume with masks: a channel of each; empty: it has none, or is too large for an image of
+  /// slices.
+  std::vector<std::optional<SliceVolume>> of_volumes;
 };
 
-/// Loads the volumes of all decals. Fails as grids::load_grid_file, and with bad_input for grids that do not
-/// exist or are larger than an image of slices.
+/// Loads the volumes of all decals, and the masks of all volumes. Fails as grids::load_grid_file, and with
+/// bad_input for grids that do not exist, and for decals and volumes with particles that are sequences or
+/// larger than an image of slices.
 Result<SliceVolumes> load_slice_volumes(const scene::Timeline& timeline);
 
 /// Every file that they are read from.

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 #include <unordered_map>
+#include <utility>
 
 #include "scene/color.hpp"
 #include "scene/mesh_tools.hpp"
@@ -50,7 +51,14 @@ class ObjParser {
     if (word == "vt") return read_vector(uvs_, 2, 1, "a texture coordinate");
     if (word == "vn") return read_vector(normals_, 3, 3, "a normal");
     if (word == "f") return read_face();
-    if (word == "usemtl") use_material(std::string(reader_.rest_of_line()));
+    if (word == "usemtl") {
+      material_ = std::string(reader_.rest_of_line());
+      use_part();
+    }
+    if (word == "o" || word == "g") {
+      object_ = std::string(reader_.rest_of_line());
+      use_part();
+    }
     if (word == "mtllib")
       model_.libraries.push_back({std::string(reader_.rest_of_line()), reader_.line_place()});
     return {};
@@ -88,9 +96,12 @@ class ObjParser {
     return {};
   }
 
-  void use_material(std::string material) {
-    const auto [entry, is_new] = part_of_material_.try_emplace(material, model_.parts.size());
-    if (is_new) model_.parts.push_back({std::move(material), reader_.line_place(), {}});
+  /// The part of the present object and material.
+  void use_part() {
+    const bool is_named = model_.parts.size() < kMostObjObjects || parts_.contains({object_, material_});
+    const std::string object = is_named ? object_ : "";
+    const auto [entry, is_new] = parts_.try_emplace({object, material_}, model_.parts.size());
+    if (is_new) model_.parts.push_back({object, material_, reader_.line_place(), {}});
     part_ = entry->second;
   }
 
@@ -156,7 +167,7 @@ class ObjParser {
   }
 
   void add_face() {
-    if (model_.parts.empty()) use_material("");
+    if (model_.parts.empty()) use_part();
     face_vertices_.clear();
     std::int64_t face_normal = kUnset;
     for (Corner corner : face_) {
@@ -217,7 +228,8 @@ class ObjParser {
   ObjModel model_;
   std::vector<glm::vec3> positions_, uvs_, normals_, face_normals_;
   std::vector<glm::vec3> colors_;  ///< sRGB, of the first positions; the others are white.
-  std::map<std::string, std::size_t> part_of_material_;
+  std::string object_, material_;
+  std::map<std::pair<std::string, std::string>, std::size_t> parts_;  // by object and material
   std::size_t part_ = 0;
   std::unordered_map<Corner, std::uint32_t, CornerHash> vertex_of_corner_;
   std::vector<Corner> face_;

@@ -12,12 +12,16 @@
 
 namespace brume::scene {
 
-/// The triangles of one material, in the order of the file.
+/// The triangles of one object and material, in the order of the file.
 struct ObjPart {
+  std::string object;    ///< Name given by `o` or `g`, whichever came last; empty before the first.
   std::string material;  ///< Name given by `usemtl`; empty before the first.
-  std::string place;     ///< "file:line" of its first `usemtl`.
+  std::string place;     ///< "file:line" where it begins.
   std::vector<std::uint32_t> indices;
 };
+
+/// The most parts that names of objects make: beyond, they are parts of their material alone.
+inline constexpr std::size_t kMostObjObjects = 1024;
 
 struct ObjLibrary {
   std::string file;   ///< Name given by `mtllib`.
@@ -32,7 +36,7 @@ struct ObjModel {
 };
 
 /// Reads positions with or without a colour (sRGB, as programs write it), texture coordinates, normals, faces
-/// (any number of corners, negative indices too), usemtl and mtllib; corners without a normal get their
+/// (any number of corners, negative indices too), usemtl, o, g and mtllib; corners without a normal get their
 /// face's. Other statements are ignored. The text is UTF-8, or UTF-16 with a byte order mark. Fails with
 /// bad_input and name:line:column for a word in place of a number, a number that is not finite, an index
 /// without an element above its line, or a face with fewer than 3 corners.
@@ -56,7 +60,8 @@ struct MtlMaterial {
 /// map_Kd, norm, map_Bump, bump. Other statements are ignored. Same errors as parse_obj.
 Result<std::vector<MtlMaterial>> parse_mtl(std::string_view text, const std::string& name);
 
-/// A scene from one OBJ file: one object per material.
+/// A scene from one OBJ file: one object per name (`o`, `g`) and material, called by the name if there is
+/// one.
 Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, const SceneFiles& files);
 
 }  // namespace brume::scene

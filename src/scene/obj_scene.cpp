@@ -169,10 +169,10 @@ Result<Scene> parse_obj_scene(std::string_view text, const std::string& name, co
     const auto mesh = builder.add_mesh(std::move(meshes[i]));
     if (!mesh) return mesh.failure();
     Object object;
-    object.name = part.material.empty() ? "object" : part.material;
+    object.name = !part.object.empty() ? part.object : !part.material.empty() ? part.material : "object";
     object.mesh = *mesh;
     object.material = static_cast<std::uint32_t>(builder.scene.materials.size() - 1);
-    object.voxelized = !object.name.starts_with("IGNORE_");
+    object.voxelized = !object.name.starts_with("IGNORE_") && !part.material.starts_with("IGNORE_");
     if (auto added = builder.add_object(std::move(object), part.place); !added) return added.failure();
   }
   return std::move(builder).finish();

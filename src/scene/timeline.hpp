@@ -165,7 +165,7 @@ struct VolumeOptions {
   std::vector<VolumeMask> masks = {};  ///< At most kMostMasks.
   Disturbance disturbance = {};
   std::uint32_t particles = 0;  ///< Quads that show its masks instead of a march; 0: none.
-  float particle_size = 0.12f;
+  float particle_size = 0.4f;
   std::string place = {};  ///< "file:line:column" for error messages.
 };
 

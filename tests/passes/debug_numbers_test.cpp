@@ -193,5 +193,18 @@ TEST_F(DebugNumbersTest, StepsAreThoseThatTheMarchCounted) {
   }
 }
 
+TEST_F(DebugNumbersTest, OverdrawIsTheNumberOfQuads) {
+  const glm::uvec2 size(71, 17);
+  const FrameConstants frame = frame_of(size);
+  const Surfaces surfaces = half_a_wall(frame);
+  const auto shown = show(DebugView::overdraw, frame, surfaces);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const float quads = from_half(quads_of(size)[i]).x;
+    const glm::vec3 expected = shared::heat_colour(shared::kRampInferno, quads / 64,
+                                                   ray_of(frame, surfaces, middle(frame, i)).behind);
+    EXPECT_LE(apart(shown[i], expected), kRounded) << i;
+  }
+}
+
 }  // namespace
 }  // namespace brume::passes

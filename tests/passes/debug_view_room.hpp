@@ -135,6 +135,14 @@ class DebugViewTest : public gpu::GpuTest {
     return surfaces;
   }
 
+  /// As many quads on a pixel as its column.
+  static std::vector<Half4> quads_of(glm::uvec2 size) {
+    std::vector<Half4> quads(std::size_t{size.x} * size.y);
+    for (std::size_t i = 0; i < quads.size(); ++i)
+      quads[i] = to_half(glm::vec4(static_cast<float>(i % size.x), 0, 0, 0));
+    return quads;
+  }
+
   std::vector<glm::u8vec4> show(DebugView view, FrameConstants frame, const Surfaces& surfaces,
                                 ViewSlice slice = {}) {
     const glm::uvec2 size = frame.size_px;
@@ -150,12 +158,13 @@ class DebugViewTest : public gpu::GpuTest {
     frame.holes = holes.layout();
     const auto frame_buffer = upload(std::vector{frame});
     const auto display = test_image(context(), size, VK_FORMAT_R8G8B8A8_UNORM);
+    const auto quads = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT, quads_of(size));
     const DebugSubject subject{view, slice, {&room_.grid, nullptr}, &room_.volume, &room_.world.state()};
     pass_.reserve(subject, size);
     runner().run([&](gpu::Recorder& recorder) {
       holes_.record(recorder, holes, frame_buffer, room_.upload.resources());
-      pass_.record(recorder, subject, {frame_buffer, gbuffer, room_.upload.resources(), holes_.resources()},
-                   display);
+      pass_.record(recorder, subject,
+                   {frame_buffer, gbuffer, room_.upload.resources(), holes_.resources(), quads}, display);
     });
     return read_back<glm::u8vec4>(display);
   }

@@ -16,6 +16,7 @@
 #include "shared/light.h"
 #include "shared/noise.h"
 #include "shared/noise_advection.h"
+#include "shared/particles.h"
 #include "shared/phase.h"
 #include "shared/raycast.h"
 #include "shared/resolve.h"
@@ -95,8 +96,12 @@
   X(59, VolumeSweep) \
   X(60, VolumeTransfer) \
   X(61, SliceTexture) \
-  X(62, Decal) \
-  X(63, DecalParams)
+  X(62, Particle) \
+  X(63, ParticleList) \
+  X(64, ParticleSystem) \
+  X(65, Decal) \
+  X(66, DecalParams) \
+  X(67, VolumeEffect)
 // clang-format on
 
 #endif

@@ -142,6 +142,26 @@ TEST(ObjScene, OneObjectPerMaterial) {
   EXPECT_EQ(scene->materials[2].base_color_image, kNone);
 }
 
+TEST(ObjScene, OneObjectPerNameAndMaterial) {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no ring\nf 1 2 3\ng beam\nf 1 2 3\nusemtl glass\nf 1 2 3\no ring\n"
+      "usemtl glass\nf 1 2 3\nusemtl IGNORE_it\nf 1 2 3\n";
+  const Scene scene = parse_obj_scene(text, "a.obj", MemoryFiles()).value_or_throw();
+  std::vector<std::string> names;
+  for (const Object& object : scene.objects) names.push_back(object.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"object", "ring", "beam", "beam", "ring", "ring"}));
+  EXPECT_TRUE(scene.objects[4].voxelized);
+  EXPECT_FALSE(scene.objects[5].voxelized) << "by its material";
+}
+
+TEST(ObjScene, NamesMakeALimitedNumberOfObjects) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 5000; ++i) text += "g part" + std::to_string(i) + "\nf 1 2 3\n";
+  const ObjModel model = parse_obj(text, "a.obj").value_or_throw();
+  EXPECT_EQ(model.parts.size(), kMostObjObjects + 1);
+  EXPECT_EQ(model.parts.back().indices.size(), 3 * (5000 - kMostObjObjects));
+}
+
 TEST(ObjScene, AMissingMaterialFileIsOneWarningAndGrey) {
   const std::string text =
       "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n";
