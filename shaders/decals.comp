@@ -39,10 +39,28 @@ uint decals_of_tile(bool receives, vec3 p_world) {
   return mask;
 }
 
-/// The occlusion of a surface that faces `up` (1: as the planes of the first channel) at a point of the box.
-float occlusion_at(Decal decal, vec3 uvw, float up) {
+/// How the occlusion of planes that face up and down adds up to that of a surface with another normal.
+///
+/// With V = 1 in directions w that are hidden, and integrals over the sphere divided by pi, it is half of the integrals
+/// of V |w n| and of V w n. Their values for n = up are the sum and the difference of both planes. The horizontal part
+/// of the second follows from where what hides is: V w is about W d, and V |w n| about W sqrt((d n)^2 + s^2), in the
+/// direction d of its middle, with the spread s = radius / distance. W follows from the sum.
+vec2 weights_of_planes(Decal decal, vec3 p_world, vec3 normal) {
+  const float facing = dot(normal, decal.up_world);
+  float half_sum = 0.5;
+  if (decal.radius > 0.0) {
+    const vec3 to_middle = decal.middle_world - p_world;
+    const float along = dot(to_middle, normal), above = dot(to_middle, decal.up_world);
+    const float spread = max(min(decal.radius * decal.radius, dot(to_middle, to_middle)), 1e-12);
+    half_sum = 0.5 * (sqrt(along * along + spread) + along - facing * above) * inversesqrt(above * above + spread);
+  }
+  return half_sum + vec2(0.5, -0.5) * facing;
+}
+
+/// The occlusion at a point of the box, with weights of what faces up and down.
+float occlusion_at(Decal decal, vec3 uvw, vec2 weights) {
   const vec2 both = slice_texture_sample(slice_textures, decal.occlusion, uvw).rg;
-  const float occluded = max(mix(both.g, both.r, up), 0.0);
+  const float occluded = max(dot(both, weights), 0.0);
   if (occluded == 0.0) return 0.0;
   const vec3 rim = clamp(min(uvw, 1.0 - uvw) / max(decal.fade, 1e-4), 0.0, 1.0);
   const vec3 fade = rim * rim * (3.0 - 2.0 * rim);
@@ -55,37 +73,50 @@ struct Remaining {
   float exact, scattered;
 };
 
-void add_decal(Decal decal, vec3 p_world, vec3 normal, vec4 noise, uint samples, inout Remaining remaining) {
+/// Of which points of the R3 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences") a pixel
+/// takes its samples, shifted by its noise.
+struct Scatter {
+  vec3 noise;
+  uint first, count;
+};
+
+void add_decal(Decal decal, vec3 p_world, vec3 normal, Scatter scatter, inout Remaining remaining) {
   const vec3 uvw = decal.uvw_from_world * vec4(p_world, 1.0);
-  const vec3 reach = 0.5 * decal.scatter;
-  if (any(lessThan(uvw, -reach)) || any(greaterThan(uvw, 1.0 + reach))) return;
-  const float up = 0.5 + 0.5 * dot(normal, decal.up_world);
-  const float exact = occlusion_at(decal, uvw, up);
+  if (any(lessThan(uvw, vec3(0.0))) || any(greaterThan(uvw, vec3(1.0)))) return;
+  const vec2 weights = weights_of_planes(decal, p_world, normal);
+  const float exact = occlusion_at(decal, uvw, weights);
   remaining.exact *= 1.0 - exact;
   if (decal.scatter == vec3(0.0)) {
     remaining.scattered *= 1.0 - exact;
     return;
   }
-  // Points of the R3 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
   float sum = 0.0;
-  for (uint i = 0u; i < samples; ++i) {
-    const vec3 offset = fract(noise.rgb + float(i) * vec3(0.8191725134, 0.6710436067, 0.5497004779)) - 0.5;
-    sum += occlusion_at(decal, uvw + offset * decal.scatter, up);
+  for (uint i = scatter.first; i < scatter.first + scatter.count; ++i) {
+    const vec3 offset = fract(scatter.noise + float(i) * vec3(0.8191725134, 0.6710436067, 0.5497004779)) - 0.5;
+    sum += occlusion_at(decal, uvw + offset * decal.scatter, weights);
   }
-  remaining.scattered *= 1.0 - sum / float(samples);
+  remaining.scattered *= 1.0 - sum / float(scatter.count);
 }
 
-/// The occlusion of the frame before at a surface that has not moved, and of how many frames it is the mean; 0: none.
-vec2 past_at(vec3 p_world) {
-  if (params.has_past == 0u) return vec2(0.0);
+/// The past at a surface.
+struct Past {
+  float occlusion;
+  float samples;  // of how many it is the mean; 0: there is no past
+  float spread;   // how far samples were from the surface's own value: their mean
+};
+
+/// That of a surface that has not moved: what the frame before stored.
+Past past_at(vec3 p_world) {
+  const Past nothing = Past(0.0, 0.0, 0.0);
+  if (params.past_frames == 0u) return nothing;
   const vec4 clip = params.past_clip_from_world * vec4(p_world, 1.0);
-  if (clip.w <= frame.camera.near_z) return vec2(0.0);
+  if (clip.w <= frame.camera.near_z) return nothing;
   const vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
-  if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return vec2(0.0);
+  if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return nothing;
   const vec4 past = textureLod(past_occlusion, uv, 0.0);
   // Another surface was there.
-  if (abs(past.b - clip.w) > 0.01 * clip.w) return vec2(0.0);
-  return past.rg;
+  if (abs(past.b - clip.w) > 0.01 * clip.w) return nothing;
+  return Past(past.r, past.g, past.a);
 }
 
 void main() {
@@ -102,21 +133,30 @@ void main() {
   const bool receives = d > 0.0 && texelFetch(emission, px, 0).a == 0.0;
 
   // This frame.
+  Past past = Past(0.0, 0.0, 0.0);
   Remaining remaining = Remaining(1.0, 1.0);
+  uint samples = kDecalSamples;
   const uint mask = decals_of_tile(receives, p_world);
   if (receives && mask != 0u) {
+    past = past_at(p_world);
+    if (past.samples > 0.0) samples = 1u;
+    const uint first = params.past_frames != 0u ? params.past_frames : frame.frame_index * kDecalSamples;
+    // Floats hold the multiples of R3 up to the 8191st well enough.
+    const Scatter scatter = Scatter(blue_noise(blue_noise_tile, px, 0u).rgb, first & 8191u, samples);
     const vec3 normal = normalize(texelFetch(normal_metallic, px, 0).xyz);
-    const vec4 noise = blue_noise(blue_noise_tile, px, frame.frame_index);
-    const uint samples = params.has_past != 0u ? 1u : kDecalSamples;
     for (uint left = mask; left != 0u; left &= left - 1u)
-      add_decal(decals[findLSB(left)], p_world, normal, noise, samples, remaining);
+      add_decal(decals[findLSB(left)], p_world, normal, scatter, remaining);
   }
 
-  // The frames before, as far from the surface's own value as scattering brings it: nothing trails behind a carrier.
+  // The frames before, as far from the surface's own value as samples usually are: nothing trails behind a carrier. By
+  // how far they are in this frame alone, a sample that is close would discard the mean.
   const float exact = 1.0 - remaining.exact, scattered = 1.0 - remaining.scattered;
-  const vec2 past = receives ? past_at(p_world) : vec2(0.0);
-  const float off = abs(scattered - exact) + 1.0 / 255.0;
-  const float frames = min(past.g + 1.0, kDecalFrames);
-  const float mean = mix(clamp(past.r, exact - off, exact + off), scattered, 1.0 / frames);
-  if (inside) imageStore(occlusion_image, px, vec4(mean, frames, z, 0.0));
+  const float apart = abs(scattered - exact);
+  const float usual = exact == 0.0 && scattered == 0.0 ? 0.0 : max(apart, 2.0 * past.spread);
+  const float count = min(past.samples + float(samples), kDecalMeanSamples);
+  const float weight = float(samples) / count, off = usual + 1.0 / 255.0;
+  const float mean = mix(clamp(past.occlusion, exact - off, exact + off), scattered, weight);
+  // Finite where there is no surface, too: a filter multiplies it by 0.
+  const float distance = d > 0.0 ? z : 0.0;
+  if (inside) imageStore(occlusion_image, px, vec4(mean, count, distance, mix(past.spread, apart, weight)));
 }

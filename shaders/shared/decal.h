@@ -17,6 +17,8 @@ struct Decal {
   vec3 low_world;         // bounds of the box
   vec3 high_world;
   vec3 up_world;          // unit: where the planes of the first channel face
+  vec3 middle_world;      // of what hides
+  float radius;           // about how far that reaches [m]; 0: unknown
   vec3 scatter;           // how far noise scatters the samples, in uvw
   float strength;
   float gamma_off;        // what the exponent of the occlusion is more than 1 at the middle plane
@@ -24,19 +26,19 @@ struct Decal {
   float fade;             // part of the box, at each side, over which the decal fades out
   SliceTexture occlusion; // of what faces up, and of what faces down
 };
-SHARED_SIZE(Decal, 152);
+SHARED_SIZE(Decal, 168);
 
 struct DecalParams {
   mat4 past_clip_from_world;  // Camera::clip_from_world of the frame before
-  uint has_past;              // 0: there is none, and a frame takes all samples itself
+  uint past_frames;           // in a row before this one; 0: none, and a frame takes all samples itself
   uint decal_count;
 };
 SHARED_SIZE(DecalParams, 72);
 
-/// Samples of a pixel in a frame without a past.
+/// Samples of a pixel without a past; with one it takes a single sample.
 SHARED_CONST uint kDecalSamples = 8u;
-/// Of how many frames the occlusion is the mean, at most.
-SHARED_CONST float kDecalFrames = 8.0f;
+/// Of how many samples the occlusion is the mean, at most: of more, it is a mean that fades with time.
+SHARED_CONST float kDecalMeanSamples = 8.0f;
 
 /// The exponent of the occlusion at v in [0, 1] (bake::combine_occlusion).
 SHARED_FUNCTION float occlusion_exponent(float gamma_off, float falloff, float v) {

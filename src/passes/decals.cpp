@@ -24,7 +24,7 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
   BRUME_ASSERT(decals.size() <= shared::kMaxDecals, std::to_string(decals.size()));
   recorder.upload(decals_, 0, std::as_bytes(decals));
   const std::size_t before = current_, now = 1 - current_;
-  const shared::DecalParams params{past_clip_from_world_, has_past_ && continues ? 1u : 0u,
+  const shared::DecalParams params{past_clip_from_world_, continues ? frames_ : 0,
                                    static_cast<std::uint32_t>(decals.size())};
   recorder.bind(pipeline_,
                 {
@@ -42,7 +42,7 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
   const glm::uvec3 size = occlusion_[now].info().size;
   recorder.dispatch_threads(pipeline_, size.x, size.y);
   current_ = now;
-  has_past_ = true;
+  frames_ = params.past_frames + 1;
   past_clip_from_world_ = camera.clip_from_world;
 }
 

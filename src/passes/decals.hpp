@@ -14,11 +14,14 @@ class DecalPass {
  public:
   DecalPass(gpu::Context& context, glm::uvec2 size_px);
 
-  /// What fraction of its light each surface loses, in red: of the decals at most shared::kMaxDecals. With
-  /// `continues` the mean of this frame and those before, else of several samples of this one.
+  /// What fraction of its light each surface loses, in red: of the decals at most shared::kMaxDecals; exactly
+  /// 0 outside of their boxes and on what moves. Where a decal scatters its samples, with `continues` the
+  /// mean of this frame and those before, else of several samples of this one.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
               const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices,
               std::span<const shared::Decal> decals, bool continues);
+  /// The next frame has no past: one was drawn without decals.
+  void invalidate_past() { frames_ = 0; }
   /// Half floats, of the image's size: that of the last record.
   const gpu::Image& occlusion() const { return occlusion_[current_]; }
 
@@ -26,9 +29,10 @@ class DecalPass {
   gpu::ComputePipeline pipeline_;
   gpu::Sampler nearest_, linear_;
   gpu::Buffer decals_;
-  std::array<gpu::Image, 2> occlusion_;  ///< Occlusion, number of frames, distance along the view axis [m].
+  /// Occlusion, of how many samples, distance along the view axis [m] (0: no surface), spread of the samples.
+  std::array<gpu::Image, 2> occlusion_;
   std::size_t current_ = 0;
-  bool has_past_ = false;
+  std::uint32_t frames_ = 0;  ///< In a row, up to the last record.
   glm::mat4 past_clip_from_world_{1};
 };
 

@@ -42,8 +42,10 @@ std::vector<PlacedDecal> plan_decals(const FrameInput& input, const ViewFrustum&
     decal.low_world = bounds.low;
     decal.high_world = bounds.high;
     // Normals keep their angles to the planes under any affine transform by its inverse, transposed.
-    const glm::dmat3 normal(glm::transpose(glm::inverse(glm::dmat3(glm::dmat4(in.world_from_box)))));
+    const glm::dmat3 box{glm::dmat4(in.world_from_box)}, normal = glm::transpose(glm::inverse(box));
     decal.up_world = glm::vec3(glm::normalize(normal * glm::dvec3(0, 1, 0)));
+    decal.middle_world = glm::vec3(glm::dmat4(in.world_from_box) * glm::dvec4(in.middle, 1));
+    decal.radius = in.radius * static_cast<float>(std::cbrt(std::abs(glm::determinant(box))));
     decal.scatter = in.scatter / glm::vec3(grid.size);
     decal.strength = in.strength;
     decal.gamma_off = (in.gamma - 1) * in.correction;

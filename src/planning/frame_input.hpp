@@ -140,6 +140,8 @@ struct DecalInput {
   float gamma = 1, correction = 1, falloff = 1;  ///< As bake::OcclusionCurve.
   float fade = 0;                                ///< Part of the box, at each side, over which it fades out.
   float scatter = 0;                             ///< How far noise scatters the samples [voxels].
+  glm::vec3 middle{0};                           ///< Of what hides, in the box.
+  float radius = 0;  ///< About how far that reaches; 0: unknown, walls have the mean of both channels.
 };
 
 /// What one frame shows. What `smoke`, `volumes` and `level` point to must outlive the frame's recording.

@@ -51,6 +51,7 @@ Halves linear_channel_of(std::span<const std::uint8_t> rgba, std::size_t channel
 
 FrameLayers::FrameLayers(gpu::Context& context, glm::uvec2 size_px)
     : size_px_(size_px),
+      context_(context),
       radiance_(readback(context, std::size_t{8} * size_px.x * size_px.y)),
       media_(readback(context, radiance_.size())),
       albedo_(readback(context, radiance_.size() / 2)),
@@ -65,6 +66,11 @@ void FrameLayers::record(gpu::Recorder& recorder, const Renderer& renderer) {
   recorder.read_back(targets.gbuffer.albedo_roughness, albedo_);
   recorder.read_back(targets.gbuffer.depth, depth_);
   recorder.read_back(renderer.smoke().march_counters(), entries_, entries_.size());
+  has_decals_ = renderer.has_decals();
+  has_occlusion_ = renderer.occlusion() != nullptr;
+  if (!has_occlusion_) return;
+  if (!occlusion_) occlusion_ = readback(context_, radiance_.size());
+  recorder.read_back(*renderer.occlusion(), occlusion_);
 }
 
 image::LayeredImage FrameLayers::image() const {
@@ -95,6 +101,10 @@ image::LayeredImage FrameLayers::image() const {
   image.layers.push_back({"A", std::move(alpha)});
   image.layers.push_back({"Z", std::move(z)});
   image.layers.push_back({"transmittance", channel_of(media, 3)});
+  if (has_decals_)
+    image.layers.push_back({"occlusion", has_occlusion_
+                                             ? channel_of(values_of<Half>(occlusion_, 4 * count), 0)
+                                             : Halves(count, 0)});
   image.layers.push_back({"depth_in", std::vector<float>(entries.begin(), entries.end())});
   return image;
 }

@@ -26,13 +26,18 @@ class FrameLayers {
   ///                      shared::kEntryTransmittance [m]; infinity: it does not
   ///   albedo.R, .G, .B   half: of the nearest surface, linear; 0: none
   ///   media.R, .G, .B    half: radiance of the media alone, premultiplied
+  ///   occlusion          half: of the light that surfaces reflect, what decals take; in frames with decals
+  ///   alone
   ///
-  /// R, G, B, media and transmittance are the bits of the device.
+  /// R, G, B, media, transmittance and occlusion are the bits of the device.
   image::LayeredImage image() const;
 
  private:
   glm::uvec2 size_px_;
+  gpu::Context& context_;
   gpu::Buffer radiance_, media_, albedo_, depth_, entries_;
+  gpu::Buffer occlusion_;  ///< From the first frame with decals in view on.
+  bool has_decals_ = false, has_occlusion_ = false;
 };
 
 }  // namespace brume::render

@@ -39,8 +39,8 @@ void add_decals(const scenario::Scenario& scenario, double seconds, FrameInput& 
     const scenario::SliceVolume& volume = scenario.slices.of_decals[i];
     input.decals.push_back(
         {scenario::world_from_file(scenario.timeline, options, seconds) * volume.file_from_box, volume.volume,
-         options.strength, options.gamma, options.correction, options.falloff, options.fade,
-         options.scatter});
+         options.strength, options.gamma, options.correction, options.falloff, options.fade, options.scatter,
+         volume.middle, volume.radius});
   }
 }
 

@@ -67,6 +67,7 @@ void Renderer::resize(glm::uvec2 size_px) {
   targets_ = Targets(context_, size_px);
   smoke_.resize(scene_, size_px);
   decal_pass_.reset();
+  occlusion_ = nullptr;
   history_.smoke_shadows.invalidate();
 }
 
@@ -186,17 +187,19 @@ void Renderer::record_media(gpu::Recorder& recorder, const FramePlan& plan, cons
 void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   if (smoke_.is_accumulated())
     scope(recorder, "accumulate", [&] { smoke_.record_accumulate(recorder, plan, in); });
-  if (plan.input.debug.view != planning::DebugView::none)
-    return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
-  const bool has_decals = !plan.decals.empty();
-  if (has_decals) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
+  has_decals_ = !plan.input.decals.empty();
+  occlusion_ = nullptr;
+  const bool is_debug_view = plan.input.debug.view != planning::DebugView::none;
+  if (decal_pass_ && (plan.decals.empty() || is_debug_view)) decal_pass_->invalidate_past();
+  if (is_debug_view) return scope(recorder, "debug_view", [&] { record_debug_view(recorder, plan); });
+  if (!plan.decals.empty()) scope(recorder, "decals", [&] { record_decals(recorder, plan); });
   scope(recorder, "shade", [&] {
     const bool voxel_shadows = std::ranges::any_of(plan.lights, [](const shared::Light& light) {
       return light.shadow_layer == shared::kShadowByVoxels;
     });
     shade_pass_.record(recorder, frame_, scene_.resources(), scene_.shadows(), smoke_.shadows(),
                        scene_.level(), targets_.gbuffer, media(), targets_.radiance, voxel_shadows,
-                       has_decals ? &decal_pass_->occlusion() : nullptr);
+                       occlusion_);
   });
   if (!plan.particles.empty()) scope(recorder, "particles", [&] { record_particles(recorder, plan); });
   scope(recorder, "display",
@@ -211,6 +214,7 @@ void Renderer::record_decals(gpu::Recorder& recorder, const FramePlan& plan) {
   }
   decal_pass_->record(recorder, frame_, plan.camera, targets_.gbuffer, blue_noise_, slices_->image(), decals,
                       plan.input.view.continues && smoke_.is_accumulated());
+  occlusion_ = &decal_pass_->occlusion();
 }
 
 void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {

@@ -61,6 +61,11 @@ class Renderer {
   const gpu::Image& media() const { return smoke_.result(targets_); }
   const SmokeFrame& smoke() const { return smoke_; }
   const SceneView& scene() const { return scene_; }
+  /// Whether the last frame had decals, in view or not.
+  bool has_decals() const { return has_decals_; }
+  /// Half floats: in red, which fraction of their light the surfaces of the last frame lost to decals. Null
+  /// where none was in view.
+  const gpu::Image* occlusion() const { return occlusion_; }
   /// Whether volumes of the last frame have bricks that are still to be uploaded.
   bool streams_volumes() const { return !history_.volume_streaming.complete(); }
   /// What of the light in the smoke the last frame updated.
@@ -88,6 +93,8 @@ class Renderer {
   passes::ShadePass shade_pass_;
   passes::DisplayPass display_pass_;
   std::optional<passes::DecalPass> decal_pass_;  ///< From the first frame with decals on.
+  bool has_decals_ = false;
+  const gpu::Image* occlusion_ = nullptr;
   std::optional<passes::SliceTextures> slices_;
   std::shared_ptr<const std::vector<grids::DenseVolume>> loaded_slices_;  ///< What `slices_` holds.
   std::optional<passes::DebugViewPass> debug_view_;    ///< From the first frame with a debug view on.

@@ -1,6 +1,7 @@
 #include "scenario/slice_volumes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/similar.hpp"
@@ -34,9 +35,33 @@ Result<std::vector<const Grid*>> occlusion_grids(const grids::GridFile& file,
   return std::vector{&file.grids.front(), &file.grids.front()};
 }
 
+/// Where a mesh is whose occlusion volumes hold: inside of it both are large, outside one of them is small.
+struct Occluder {
+  glm::dvec3 middle{0};
+  double radius = 0;
+};
+
+/// The mean of places and, times sqrt(2), their deviation: the radius of a disk of that deviation.
+Occluder occluder_of(const grids::DenseGrid& up, const grids::DenseGrid& down) {
+  double weights = 0, squares = 0;
+  glm::dvec3 sum(0);
+  for (std::size_t i = 0; i < up.values.size(); ++i) {
+    const double both = std::max(double{std::min(up.values[i], down.values[i])}, 0.0), weight = both * both;
+    const glm::dvec3 voxel(i % up.size.x, i / up.size.x % up.size.y, i / up.size.x / up.size.y);
+    const glm::dvec3 at = up.voxel_size() * (voxel + 0.5);
+    weights += weight;
+    sum += weight * at;
+    squares += weight * glm::dot(at, at);
+  }
+  if (!(weights > 0 && std::isfinite(squares))) return {};
+  const glm::dvec3 mean = sum / weights;
+  return {up.box.low + mean, std::sqrt(2 * std::max(squares / weights - glm::dot(mean, mean), 0.0))};
+}
+
 struct Loaded {
   grids::DenseVolume volume;
   glm::dmat4 file_from_box{1};
+  Occluder occluder = {};
 };
 
 Result<Loaded> resampled(std::span<const Grid* const> chosen,
@@ -53,6 +78,9 @@ Result<Loaded> resampled(std::span<const Grid* const> chosen,
     if (!dense) return dense.failure();
     loaded.volume.push_back(std::move(*dense));
   }
+  // One grid twice is the same for all normals.
+  if (chosen.front() != chosen.back())
+    loaded.occluder = occluder_of(loaded.volume.front(), loaded.volume.back());
   return loaded;
 }
 
@@ -104,7 +132,9 @@ Result<void> add_decals(std::span<const scene::DecalOptions> decals, std::vector
     }
     auto loaded = load_decal(decals[i]);
     if (!loaded) return loaded.failure();
-    slices.of_decals.push_back({volumes.size(), glm::mat4(loaded->file_from_box)});
+    slices.of_decals.push_back({volumes.size(), glm::mat4(loaded->file_from_box),
+                                glm::vec3(loaded->occluder.middle),
+                                static_cast<float>(loaded->occluder.radius)});
     volumes.push_back(std::move(loaded->volume));
   }
   return {};

@@ -15,6 +15,8 @@ namespace brume::scenario {
 struct SliceVolume {
   std::size_t volume = 0;      ///< In SliceVolumes::volumes.
   glm::mat4 file_from_box{1};  ///< From the box of its grids to the world of its file.
+  glm::vec3 middle{0};         ///< Of the mesh whose occlusion it holds, about, in the box of its grids.
+  float radius = 0;            ///< About how far the mesh reaches from there; 0: unknown.
 };
 
 struct SliceVolumes {

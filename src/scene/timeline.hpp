@@ -123,7 +123,7 @@ struct DecalOptions {
   float gamma = 1;
   float correction = 1;
   float falloff = 1;
-  float fade = 0.15f;
+  float fade = 0.05f;
   float scatter = 0.5f;
   std::string place = {};  ///< "file:line:column" for error messages.
 };

@@ -1,6 +1,7 @@
 // The numbers behind a frame: bit for bit the device's, and what they mean.
 #include "render/frame_layers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
@@ -30,6 +31,9 @@ class Layers {
   }
   const Halves& halves(const std::string& name) const { return std::get<Halves>(values(name)); }
   const Floats& floats(const std::string& name) const { return std::get<Floats>(values(name)); }
+  bool has(const std::string& name) const {
+    return std::ranges::find(image_.layers, name, &image::Layer::name) != image_.layers.end();
+  }
   float half(const std::string& name, std::size_t i) const { return glm::unpackHalf1x16(halves(name)[i]); }
   glm::uvec2 size() const { return {image_.width, image_.height}; }
 
@@ -167,6 +171,29 @@ TEST_F(FrameLayersTest, SurfacesHaveDistanceAlbedoAndFullAlpha) {
   }
   EXPECT_GT(floor, 50);
   EXPECT_GT(sky, 50);
+}
+
+TEST_F(FrameLayersTest, DecalsHaveTheirOcclusionAsALayer) {
+  EXPECT_FALSE(draw().has("occlusion"));
+  grids::DenseGrid grid;
+  grid.size = glm::uvec3(1);
+  grid.box = {glm::dvec3(-5), glm::dvec3(5)};
+  grid.values = {0.5f};
+  input_.slices = std::make_shared<const std::vector<grids::DenseVolume>>(1, grids::DenseVolume{grid, grid});
+  input_.decals.resize(1);
+  const Layers layers = draw();
+  const auto occlusion = read_back<passes::Half4>(*renderer().occlusion());
+  int darkened = 0;
+  for (std::size_t i = 0; i < occlusion.size(); ++i) {
+    EXPECT_EQ(layers.halves("occlusion")[i], occlusion[i][0]) << i;
+    darkened += layers.half("occlusion", i) == 0.5f;
+  }
+  EXPECT_GT(darkened, 20);
+  // Behind the camera: a film keeps its layers.
+  input_.decals[0].world_from_box = glm::translate(glm::mat4(1), glm::vec3(0, 0, 50));
+  const Layers away = draw();
+  EXPECT_EQ(renderer().occlusion(), nullptr);
+  EXPECT_EQ(away.halves("occlusion"), Halves(occlusion.size(), 0));
 }
 
 TEST_F(FrameLayersTest, TheMediaBeginWhereTheTransmittanceFalls) {
