@@ -16,7 +16,6 @@ const uint kGroup = 8u;
 layout(local_size_x = kGroup, local_size_y = kGroup) in;
 layout(binding = kBindDepth) uniform sampler2D depth;
 layout(binding = kBindNormalMetallic) uniform sampler2D normal_metallic;
-layout(binding = kBindEmission) uniform sampler2D emission;
 layout(binding = kBindBlueNoise) uniform sampler2D blue_noise_tile;
 layout(binding = kBindSliceTextures) uniform sampler2D slice_textures;
 layout(scalar, binding = kBindDecals) readonly buffer Decals { Decal decals[]; };
@@ -57,15 +56,26 @@ vec2 weights_of_planes(Decal decal, vec3 p_world, vec3 normal) {
   return half_sum + vec2(0.5, -0.5) * facing;
 }
 
-/// The occlusion at a point of the box, with weights of what faces up and down.
-float occlusion_at(Decal decal, vec3 uvw, vec2 weights) {
-  const vec2 both = slice_texture_sample(slice_textures, decal.occlusion, uvw).rg;
-  const float occluded = max(dot(both, weights), 0.0);
-  if (occluded == 0.0) return 0.0;
+/// What samples around a point of the box have in common.
+struct Curve {
+  vec2 weights;    // of what faces up and down
+  float exponent;
+  float strength;  // less towards the sides of the box
+};
+
+Curve curve_at(Decal decal, vec3 uvw, vec2 weights) {
   const vec3 rim = clamp(min(uvw, 1.0 - uvw) / max(decal.fade, 1e-4), 0.0, 1.0);
   const vec3 fade = rim * rim * (3.0 - 2.0 * rim);
-  return min(pow(occluded, occlusion_exponent(decal.gamma_off, decal.falloff, uvw.y)), 1.0) * decal.strength *
-         (fade.x * fade.y * fade.z);
+  const float exponent = decal.gamma_off == 0.0 ? 1.0 : occlusion_exponent(decal.gamma_off, decal.falloff, uvw.y);
+  return Curve(weights, exponent, decal.strength * (fade.x * fade.y * fade.z));
+}
+
+/// The occlusion at a point.
+float occlusion_at(Decal decal, vec3 uvw, Curve curve) {
+  const vec2 both = slice_texture_sample(slice_textures, decal.occlusion, uvw).rg;
+  const float occluded = max(dot(both, curve.weights), 0.0);
+  const float powered = curve.exponent == 1.0 ? occluded : occluded > 0.0 ? pow(occluded, curve.exponent) : 0.0;
+  return min(powered, 1.0) * curve.strength;
 }
 
 /// What remains of the light of a surface beside all decals: at its own place, and as the mean of scattered samples.
@@ -83,8 +93,8 @@ struct Scatter {
 void add_decal(Decal decal, vec3 p_world, vec3 normal, Scatter scatter, inout Remaining remaining) {
   const vec3 uvw = decal.uvw_from_world * vec4(p_world, 1.0);
   if (any(lessThan(uvw, vec3(0.0))) || any(greaterThan(uvw, vec3(1.0)))) return;
-  const vec2 weights = weights_of_planes(decal, p_world, normal);
-  const float exact = occlusion_at(decal, uvw, weights);
+  const Curve curve = curve_at(decal, uvw, weights_of_planes(decal, p_world, normal));
+  const float exact = occlusion_at(decal, uvw, curve);
   remaining.exact *= 1.0 - exact;
   if (decal.scatter == vec3(0.0)) {
     remaining.scattered *= 1.0 - exact;
@@ -93,7 +103,7 @@ void add_decal(Decal decal, vec3 p_world, vec3 normal, Scatter scatter, inout Re
   float sum = 0.0;
   for (uint i = scatter.first; i < scatter.first + scatter.count; ++i) {
     const vec3 offset = fract(scatter.noise + float(i) * vec3(0.8191725134, 0.6710436067, 0.5497004779)) - 0.5;
-    sum += occlusion_at(decal, uvw + offset * decal.scatter, weights);
+    sum += occlusion_at(decal, uvw + offset * decal.scatter, curve);
   }
   remaining.scattered *= 1.0 - sum / float(scatter.count);
 }
@@ -130,7 +140,8 @@ void main() {
   const float z = view_distance(frame.camera, d);
   const vec3 p_world = frame.camera.eye_world + z * camera_ray(frame.camera, vec2(px) + 0.5, frame.size_px);
   // What moves is what decals are baked of.
-  const bool receives = d > 0.0 && texelFetch(emission, px, 0).a == 0.0;
+  const vec4 n = inside ? texelFetch(normal_metallic, px, 0) : vec4(0.0);
+  const bool receives = d > 0.0 && !moves_of(n.a);
 
   // This frame.
   Past past = Past(0.0, 0.0, 0.0);
@@ -143,7 +154,7 @@ void main() {
     const uint first = params.past_frames != 0u ? params.past_frames : frame.frame_index * kDecalSamples;
     // Floats hold the multiples of R3 up to the 8191st well enough.
     const Scatter scatter = Scatter(blue_noise(blue_noise_tile, px, 0u).rgb, first & 8191u, samples);
-    const vec3 normal = normalize(texelFetch(normal_metallic, px, 0).xyz);
+    const vec3 normal = normalize(n.xyz);
     for (uint left = mask; left != 0u; left &= left - 1u)
       add_decal(decals[findLSB(left)], p_world, normal, scatter, remaining);
   }

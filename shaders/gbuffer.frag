@@ -31,6 +31,6 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   const vec4 maps = texture(roughness_map, uv);
   albedo_roughness = vec4(base.rgb * draw.material.base_color, draw.material.roughness * maps.g);
-  normal_metallic = vec4(n, draw.material.metallic * maps.b);
-  emission = vec4(draw.material.emission, draw.moves);
+  normal_metallic = vec4(n, metallic_and_moves(draw.material.metallic * maps.b, draw.moves));
+  emission = vec4(draw.material.emission, 0.0);
 }

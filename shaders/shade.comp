@@ -146,7 +146,7 @@ void main() {
 
   const vec4 a = texelFetch(albedo_roughness, px, 0), n = texelFetch(normal_metallic, px, 0);
   const vec3 position_world = frame.camera.eye_world + view_distance(frame.camera, d) * ray;
-  const Surface surface = Surface(position_world, normalize(n.xyz), a.rgb, a.a, n.a);
+  const Surface surface = Surface(position_world, normalize(n.xyz), a.rgb, a.a, metallic_of(n.a));
   vec3 radiance = lights_radiance(lit, surface, -normalize(ray));
   if (lit) {
     const vec3 emitted = texelFetch(emission, px, 0).rgb;

@@ -31,7 +31,6 @@ void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
                     {shared::kBindFrame, gpu::uniform(frame)},
                     {shared::kBindDepth, gpu::sampled(gbuffer.depth, nearest_)},
                     {shared::kBindNormalMetallic, gpu::sampled(gbuffer.normal_metallic, nearest_)},
-                    {shared::kBindEmission, gpu::sampled(gbuffer.emission, nearest_)},
                     {shared::kBindBlueNoise, gpu::sampled(blue_noise, nearest_)},
                     {shared::kBindSliceTextures, gpu::sampled(slices, linear_)},
                     {shared::kBindDecals, gpu::read(decals_)},

@@ -43,7 +43,6 @@ class DecalFixture : public gpu::GpuTest {
     const std::size_t count = std::size_t{size.x} * size.y;
     depth_.assign(count, 0);
     normal_.assign(count, to_half({0, 1, 0, 0}));
-    emission_.assign(count, to_half({0, 0, 0, 0}));
     pass_.emplace(context(), size);
     set_camera(view_);
   }
@@ -62,7 +61,7 @@ class DecalFixture : public gpu::GpuTest {
   glm::dvec2 weights(const reference::Decal& model, std::size_t i) const {
     return model.weights(p_world(i), normal(i));
   }
-  bool moves(std::size_t i) const { return from_half(emission_[i]).a > 0; }
+  bool moves(std::size_t i) const { return shared::moves_of(from_half(normal_[i]).a); }
 
   /// A plane that faces along +axis, as far as it is in view.
   void set_plane(int axis, double at) {
@@ -78,8 +77,8 @@ class DecalFixture : public gpu::GpuTest {
   void set_random_surfaces() {
     for (std::size_t i = 0; i < pixels(); ++i) {
       depth_[i] = unit() < 0.2f ? 0.0f : camera_.near_z / (3 + 4 * unit());
-      normal_[i] = to_half(glm::vec4(glm::normalize(random_vector()), unit()));
-      emission_[i] = to_half({unit(), unit(), unit(), unit() < 0.2f ? 1.0f : 0.0f});
+      const float metallic = shared::metallic_and_moves(unit(), unit() < 0.2f ? 1.0f : 0.0f);
+      normal_[i] = to_half(glm::vec4(glm::normalize(random_vector()), metallic));
     }
   }
 
@@ -120,7 +119,6 @@ class DecalFixture : public gpu::GpuTest {
     gbuffer_.depth = upload_image(context(), runner(), size_, VK_FORMAT_R32_SFLOAT, depth_);
     gbuffer_.normal_metallic =
         upload_image(context(), runner(), size_, VK_FORMAT_R16G16B16A16_SFLOAT, normal_);
-    gbuffer_.emission = upload_image(context(), runner(), size_, VK_FORMAT_R16G16B16A16_SFLOAT, emission_);
     if (!slices_) {
       const std::vector<std::span<const grids::DenseGrid>> lists(volumes_.begin(), volumes_.end());
       slices_.emplace(SliceTextures::create(context(), runner(), lists).value_or_throw());
@@ -221,7 +219,7 @@ class DecalFixture : public gpu::GpuTest {
 
   glm::uvec2 size_{1};
   std::vector<float> depth_;
-  std::vector<Half4> normal_, emission_;
+  std::vector<Half4> normal_;
   scene::Camera view_{{0, 1, 5}, {0, 0.4f, 0}, 1.1f};
   shared::Camera camera_{};
   std::vector<grids::DenseVolume> volumes_;

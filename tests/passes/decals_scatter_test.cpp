@@ -48,7 +48,7 @@ class DecalsScatterTest : public DecalFixture {
     for (int k = 0; k < kParts * kParts * kParts; ++k) {
       const glm::dvec3 at =
           (glm::dvec3(k % kParts, k / kParts % kParts, k / kParts / kParts) + 0.5) / double{kParts} - 0.5;
-      const double value = model.at(uvw + at * model.scatter, weights(model, i));
+      const double value = model.at(uvw + at * model.scatter, weights(model, i), uvw);
       sum += value / (kParts * kParts * kParts);
       squares += value * value / (kParts * kParts * kParts);
     }
@@ -62,7 +62,7 @@ class DecalsScatterTest : public DecalFixture {
     double most = 0;
     for (int k = 0; k < 5 * 5 * 5; ++k) {
       const glm::dvec3 at = glm::dvec3(k % 5, k / 5 % 5, k / 25) / 4.0 - 0.5;
-      most = std::max(most, std::abs(model.at(uvw + at * model.scatter, weights(model, i)) - exact));
+      most = std::max(most, std::abs(model.at(uvw + at * model.scatter, weights(model, i), uvw) - exact));
     }
     return most;
   }
@@ -99,7 +99,8 @@ TEST_F(DecalsScatterTest, AStillIsTheMeanOfEightSamples) {
       for (std::uint32_t k = 0; k < shared::kDecalSamples; ++k) {
         const glm::dvec3 at = offset(i, frame * shared::kDecalSamples + k);
         wraps |= glm::any(glm::greaterThan(glm::abs(at), glm::dvec3(0.5 - rounding)));
-        const Interval one = model.at(model.uvw(p_world(i)) + at * model.scatter, weights(model, i), errors);
+        const glm::dvec3 own = model.uvw(p_world(i));
+        const Interval one = model.at(own + at * model.scatter, weights(model, i), own, errors);
         sum.low += one.low / shared::kDecalSamples;
         sum.high += one.high / shared::kDecalSamples;
       }
@@ -259,8 +260,8 @@ TEST_F(DecalsScatterTest, ThePastFollowsTheCameraOnTheSameSurfaceAlone) {
     for (std::uint32_t k = 0; k < shared::kDecalSamples; ++k) {
       reference::DecalErrors errors = errors_of(model, i);
       errors.uvw += 4e-6 * model.scatter;
-      const Interval one =
-          model.at(model.uvw(p_world(i)) + offset(i, kFrames + k) * model.scatter, weights(model, i), errors);
+      const Interval one = model.at(model.uvw(p_world(i)) + offset(i, kFrames + k) * model.scatter,
+                                    weights(model, i), model.uvw(p_world(i)), errors);
       sum.low += one.low / shared::kDecalSamples;
       sum.high += one.high / shared::kDecalSamples;
     }

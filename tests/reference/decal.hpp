@@ -71,32 +71,37 @@ struct Decal {
   }
 
   /// At a point of the box, with the weights of both channels; 0 outside.
-  double at(glm::dvec3 uvw, glm::dvec2 weights) const {
+  double at(glm::dvec3 uvw, glm::dvec2 weights) const { return at(uvw, weights, uvw); }
+  /// Of a sample for a surface at `own`, which has the exponent and the fade of that place.
+  double at(glm::dvec3 uvw, glm::dvec2 weights, glm::dvec3 own) const {
     if (!contains(uvw)) return 0;
     const glm::dvec4 both = occlusion.sample(uvw);
     const double occluded = weights.x * both.x + weights.y * both.y;
     if (occluded <= 0) return 0;
-    const double middle = std::max(1 - std::abs(2 * uvw.y - 1), 1e-6);
+    const double middle = std::max(1 - std::abs(2 * own.y - 1), 1e-6);
     return std::min(std::pow(occluded, 1 + gamma_off * std::pow(middle, falloff)), 1.0) * strength *
-           fade_at(uvw);
+           fade_at(own);
   }
 
   /// Where floats may be.
   Interval at(glm::dvec3 uvw, glm::dvec2 weights, const DecalErrors& errors) const {
+    return at(uvw, weights, uvw, errors);
+  }
+  Interval at(glm::dvec3 uvw, glm::dvec2 weights, glm::dvec3 own, const DecalErrors& errors) const {
     if (!contains(uvw, errors.uvw)) return {};
     // A texel differs from its neighbour by at most 1, so that the sample does by at most `size` times uvw.
     const glm::dvec4 both = occlusion.sample(glm::clamp(uvw, 0.0, 1.0));
     const double off = errors.value + glm::dot(errors.uvw, glm::dvec3(occlusion.size));
     const double off_sum = off * (std::abs(weights.x) + std::abs(weights.y)) + 2 * errors.weight;
     const Interval occluded = Interval(weights.x * both.x + weights.y * both.y, off_sum).clamped(0, 8);
-    const Interval middle = Interval(1 - std::abs(2 * uvw.y - 1), 2 * errors.uvw.y + 1e-7).clamped(1e-6, 1);
+    const Interval middle = Interval(1 - std::abs(2 * own.y - 1), 2 * errors.uvw.y + 1e-7).clamped(1e-6, 1);
     Interval exponent = power(middle, Interval(falloff, 0));
     exponent.low = 1 + gamma_off * exponent.low;
     exponent.high = 1 + gamma_off * exponent.high;
     if (gamma_off < 0) std::swap(exponent.low, exponent.high);
     const Interval powered = power(occluded, widened(exponent, errors.relative)).clamped(0, 1);
     Interval result = powered * Interval(strength, 0);
-    for (int axis = 0; axis < 3; ++axis) result = result * fade_along(uvw[axis], errors.uvw[axis]);
+    for (int axis = 0; axis < 3; ++axis) result = result * fade_along(own[axis], errors.uvw[axis]);
     if (!contains(uvw, -errors.uvw)) result.low = 0;  // a face may be on either side
     return widened(result, errors.relative);
   }
