@@ -56,15 +56,15 @@ planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenar
 
 }  // namespace
 
-void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::VolumeWait wait,
-                 planning::FrameInput& input) {
+void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
+                 scenario::VolumeWait wait, planning::FrameInput& input) {
   if (!scenario.volumes) return;
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
   std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
   std::vector<shared::Light> lights;
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!volumes[i].frame) continue;
-    move_by(scene::pose_of(scenario.timeline, options[i].carrier, seconds), volumes[i]);
+    move_by(scene::pose_of(carriers, options[i].carrier, seconds), volumes[i]);
     input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i), seconds));
     for (const shared::Light& light : glow_lights(options[i], volumes[i], seconds, input.view.exposure))
       lights.push_back(light);
