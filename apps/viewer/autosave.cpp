@@ -37,6 +37,11 @@ bool is_gone(pid_t process) {
   return process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH);
 }
 
+/// How much there is to save: nothing of a session in which the player only walked.
+std::size_t work_of(const Session& session) {
+  return session.actions() + session.key_changes();
+}
+
 }  // namespace
 
 Autosave::Autosave(const fs::path& folder)
@@ -62,7 +67,7 @@ Result<void> Autosave::update(const Session& session) {
 
   // The next one.
   const auto now = std::chrono::steady_clock::now();
-  const std::size_t actions = session.actions();
+  const std::size_t actions = work_of(session);
   if (actions == 0) saved_actions_ = 0;
   const bool path_is_due = !session.paused() && now - last_ > kPathEvery;
   if (failed_ || actions == 0 || (actions == saved_actions_ && !path_is_due)) return {};
@@ -76,7 +81,7 @@ Result<void> Autosave::update(const Session& session) {
 
 Result<bool> Autosave::finish(const Session& session) {
   wait();
-  if (session.actions() > 0)
+  if (work_of(session) > 0)
     if (auto saved = scene::save_timeline(file_, session.recording()); !saved) return saved.failure();
   std::error_code error;
   return fs::exists(file_, error);

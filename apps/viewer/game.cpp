@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "apps/viewer/carrier_keys.hpp"
 #include "scenario/aim.hpp"
 
 namespace brume::viewer {
@@ -127,6 +128,82 @@ void Game::show_help(bool shows) {
   }
 }
 
+scene::CarrierKey Game::carrier_pose() const {
+  if (flight_ && flight_->carrier() == choices_.carrier) {
+    scene::CarrierKey key = flight_->pose();
+    key.time = session_->seconds();
+    return key;
+  }
+  const auto& carriers = session_->live().scenario().timeline.carriers;
+  return scene::key_at(carriers[choices_.carrier], session_->seconds());
+}
+
+std::optional<std::vector<scene::Carrier>> Game::steered_carriers() const {
+  if (!flight_) return std::nullopt;
+  return flight_->steered(session_->live().scenario().timeline.carriers);
+}
+
+void Game::show_decals(bool shows) {
+  if (session_->live().scenario().timeline.decals.empty()) return notify_("the timeline has no [[decal]]");
+  choices_.decals = shows;
+  ++changes_;
+}
+
+/// Begins or ends to steer the chosen carrier.
+void Game::set_steering(bool steers) {
+  const scenario::Scenario& scenario = session_->live().scenario();
+  const auto& carriers = scenario.timeline.carriers;
+  if (carriers.empty()) return notify_("nothing to steer: the timeline has no [[carrier]]");
+  ++changes_;
+  if (!steers) {
+    notify_(carriers[flight_->carrier()].name + " is on its path again");
+    scene::Camera camera = flight_->camera_before();
+    camera.vertical_fov = player_.camera().vertical_fov;
+    player_.go_to(grid(), camera);
+    flight_.reset();
+    return;
+  }
+  flight_.emplace(scenario, choices_.carrier, session_->seconds(), player_.camera());
+  notify_("you steer " + carriers[choices_.carrier].name + "; K adds a key, Esc ends");
+}
+
+bool Game::set_chosen_carrier(scene::Carrier carrier, const std::string& what) {
+  settle();
+  std::vector<scene::Carrier> carriers = session_->live().scenario().timeline.carriers;
+  carriers[choices_.carrier] = std::move(carrier);
+  if (!report(session_->set_carriers(std::move(carriers)))) return false;
+  ++changes_;
+  history_->add(edits(what));
+  return true;
+}
+
+void Game::add_carrier_key() {
+  const auto& carriers = session_->live().scenario().timeline.carriers;
+  if (carriers.empty()) return notify_("no key added: the timeline has no [[carrier]]");
+  scene::Carrier carrier = carriers[choices_.carrier];
+  const bool moves = key_of_time(carrier, session_->seconds()).has_value();
+  set_key(carrier, carrier_pose());
+  const std::string name = carrier.name;
+  if (set_chosen_carrier(std::move(carrier), "key of " + name))
+    notify_((moves ? "the key of this time moved: " : "key added: ") + name);
+}
+
+void Game::remove_carrier_key() {
+  scene::Carrier carrier = session_->live().scenario().timeline.carriers[choices_.carrier];
+  const std::string name = carrier.name;
+  if (!remove_key(carrier, session_->seconds()))
+    return notify_(carrier.keys.size() == 1 ? "the only key of " + name + " cannot be removed"
+                                            : name + " has no key at this time");
+  if (set_chosen_carrier(std::move(carrier), "key of " + name + " removed")) notify_("key removed: " + name);
+}
+
+scene::Timeline Game::snapshot() const {
+  scene::Timeline timeline = session_->snapshot(player_.camera());
+  if (auto steered = steered_carriers()) timeline.carriers = std::move(*steered);
+  if (!choices_.decals) timeline.decals.clear();
+  return timeline;
+}
+
 // Actions that change settings of the weapons or the view.
 void Game::choose(Action action) {
   if (action == Action::shape_bullet) choices_.weapons.kind = ShotKind::bullet;
@@ -135,9 +212,12 @@ void Game::choose(Action action) {
   if (action == Action::shape_picture) choices_.weapons.kind = ShotKind::picture;
   if (action == Action::fly && !player_.set_flying(grid(), !player_.flying()))
     notify_("still flying: there is no floor below");
+  if (action == Action::steer_carrier) set_steering(!flight_);
+  if (action == Action::decals) show_decals(!choices_.decals);
   if (action == Action::panels) choices_.panels = !choices_.panels;
   if (action == Action::overlay) choices_.overlay = !choices_.overlay;
   if (action == Action::help) show_help(!choices_.help);
+  if (action == Action::toggle_cursor && flight_) return set_steering(false);
   if (action == Action::toggle_cursor) choices_.free_cursor = !choices_.free_cursor;
   if (action == Action::next_view) {
     const auto next = (static_cast<std::size_t>(choices_.view) + 1) % passes::kDebugViewNames.size();
@@ -151,6 +231,7 @@ void Game::act(Action action, glm::vec3 aim_world) {
                                Action::empty};
   if (std::find(kEvents.begin(), kEvents.end(), action) != kEvents.end()) return perform(action, aim_world);
   choose(action);
+  if (action == Action::add_key) add_carrier_key();
   if (action == Action::undo || action == Action::redo) step_history(action);
   if (action == Action::probe) pick_probe(aim_world);
   if (action == Action::rewind) {
@@ -166,6 +247,12 @@ void Game::act(Action action, glm::vec3 aim_world) {
 }
 
 void Game::move(const Input& input, double passed) {
+  if (flight_) {
+    if (input.wheel != 0) player_.change_fly_speed(grid(), input.wheel);
+    const double seconds = std::min(passed, Session::kLongestFrame);
+    if (flight_->steer(input, player_.options().fly_speed, seconds)) ++changes_;
+    return player_.follow(flight_->camera(grid(), player_.camera().vertical_fov));
+  }
   const bool turned = input.look_px != glm::dvec2(0);
   if (session_->follows_path()) {
     constexpr std::array kMoves{Action::forward, Action::back, Action::left,

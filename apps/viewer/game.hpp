@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/viewer/carrier_flight.hpp"
 #include "apps/viewer/file_list.hpp"
 #include "apps/viewer/history.hpp"
 #include "apps/viewer/player.hpp"
@@ -28,6 +29,8 @@ struct Choices {
   double frames_per_second = 60;
   bool temporal = true;  ///< Accumulates the smoke over frames.
   bool vertical_sync = true;
+  bool decals = true;       ///< Decals are shown.
+  std::size_t carrier = 0;  ///< The one to steer and to edit; of Timeline::carriers, unless there is none.
 };
 
 class Game {
@@ -59,6 +62,17 @@ class Game {
   /// Shoots the shape of an image from now on.
   void choose_picture(const std::filesystem::path& file);
 
+  /// The carrier that the player steers at present; null: none.
+  const CarrierFlight* flight() const { return flight_ ? &*flight_ : nullptr; }
+  /// The carriers of the timeline, that one where it is steered to; empty: it is none.
+  std::optional<std::vector<scene::Carrier>> steered_carriers() const;
+  /// Where the chosen carrier is now: on its path, or steered. Only if the timeline has carriers.
+  scene::CarrierKey carrier_pose() const;
+  /// Removes the key of the chosen carrier at the current time.
+  void remove_carrier_key();
+  /// A timeline that ends now, whose last frame is what the window shows, without debug view.
+  scene::Timeline snapshot() const;
+
   /// A setting changed, by a widget that may still be dragged: one step to undo once settle() says it is not.
   void setting_changed(const std::string& what) { changing_ = what; }
   void settle();
@@ -77,6 +91,10 @@ class Game {
   void choose(Action action);
   void pick_probe(glm::vec3 aim_world);
   void show_help(bool shows);
+  void set_steering(bool steers);
+  void show_decals(bool shows);
+  void add_carrier_key();
+  bool set_chosen_carrier(scene::Carrier carrier, const std::string& what);
   void step_history(Action action);
   bool report(const Result<void>& done);
 
@@ -88,6 +106,7 @@ class Game {
   Player player_;
   std::uint64_t changes_ = 0;
   bool help_paused_ = false;  ///< The help paused the session, and its end resumes it.
+  std::optional<CarrierFlight> flight_;
   std::optional<std::string> changing_;
   std::optional<History<Edits>> history_;
 };

@@ -2,75 +2,100 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <string_view>
 
 namespace brume::viewer {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, const char*>, 49> kLabels{{
+struct Label {
+  const char* key;
+  const char* label;
+  const char* unit =
+      nullptr;  ///< Only for settings of this unit: other tables have the same key for other things.
+};
+
+constexpr std::array kLabels{
     // Of the film and the grid.
-    {"duration", "length of the film"},
-    {"exposure", "exposure"},
-    {"fov", "field of view"},
+    Label{"duration", "length of the film"},
+    Label{"exposure", "exposure"},
+    Label{"fov", "field of view"},
     // Of the smoke.
-    {"voxels", "volume"},
-    {"bloom", "time to grow"},
-    {"hold", "time at full size"},
-    {"dissolve", "time to dissolve"},
-    {"extinction", "density"},
-    {"albedo", "colour"},
-    {"anisotropy", "glow against light"},
-    {"droplet", "droplet size"},
-    {"multiple_scattering", "inner glow"},
-    {"erosion", "raggedness"},
-    {"noise_size", "size of billows"},
-    {"swirl", "swirl"},
-    {"swirl_period", "time of a swirl"},
-    {"rise", "billows rise by"},
-    {"hole_rim", "ragged holes"},
+    Label{"voxels", "volume"},
+    Label{"bloom", "time to grow"},
+    Label{"hold", "time at full size"},
+    Label{"dissolve", "time to dissolve"},
+    Label{"extinction", "density"},
+    Label{"albedo", "colour"},
+    Label{"anisotropy", "glow against light"},
+    Label{"droplet", "droplet size"},
+    Label{"multiple_scattering", "inner glow"},
+    Label{"erosion", "raggedness"},
+    Label{"noise_size", "size of billows"},
+    Label{"swirl", "swirl"},
+    Label{"swirl_period", "time of a swirl"},
+    Label{"rise", "billows rise by"},
+    Label{"hole_rim", "ragged holes"},
     // Of volumes, where they differ.
-    {"emission", "brightness"},
-    {"kelvin", "temperature"},
-    {"glow", "unlit"},
+    Label{"emission", "brightness"},
+    Label{"kelvin", "temperature"},
+    Label{"glow", "unlit"},
+    // Of masks, disturbances and particles.
+    Label{"color", "colour"},
+    Label{"intensity", "brightness"},
+    Label{"strength", "strength"},
+    Label{"size", "size of the noise", "units"},
+    Label{"drift", "drift"},
+    Label{"grow", "grows over"},
+    Label{"particles", "particles"},
+    Label{"particle_size", "size of particles"},
+    // Of decals.
+    Label{"scale", "scale"},
+    Label{"gamma", "gamma"},
+    Label{"correction", "correction"},
+    Label{"falloff", "falloff"},
+    Label{"fade", "fades at the sides", ""},
+    Label{"scatter", "scatter"},
     // Of the sky.
-    {"zenith", "sky above"},
-    {"horizon", "sky at the horizon"},
-    {"ambient", "light in shadows"},
-    {"stars", "stars"},
-    {"bounce", "light indoors"},
+    Label{"zenith", "sky above"},
+    Label{"horizon", "sky at the horizon"},
+    Label{"ambient", "light in shadows"},
+    Label{"stars", "stars"},
+    Label{"bounce", "light indoors"},
     // Of shots, letters and explosions.
-    {"radius", "radius"},
-    {"reach", "time to pierce"},
-    {"expand", "time to open"},
-    {"stay", "time open"},
-    {"fade", "time to close"},
-    {"roll", "roll"},
-    {"flash", "flash"},
-    {"size", "letter height"},
-    {"spacing", "letter spacing"},
-    {"interval", "time between letters"},
-    {"speed", "speed of the front"},
-    {"remaining", "smoke that remains"},
-    {"refill_rim", "edge full after"},
-    {"refill_middle", "middle full after"},
+    Label{"radius", "radius"},
+    Label{"reach", "time to pierce"},
+    Label{"expand", "time to open"},
+    Label{"stay", "time open"},
+    Label{"fade", "time to close", "s"},
+    Label{"roll", "roll"},
+    Label{"flash", "flash"},
+    Label{"size", "letter height", "m"},
+    Label{"spacing", "letter spacing"},
+    Label{"interval", "time between letters"},
+    Label{"speed", "speed of the front"},
+    Label{"remaining", "smoke that remains"},
+    Label{"refill_rim", "edge full after"},
+    Label{"refill_middle", "middle full after"},
     // Of the body.
-    {"half_width", "half its width"},
-    {"height", "height"},
-    {"eye", "height of the eye"},
-    {"step", "highest step"},
-    {"walk_speed", "walking speed"},
-    {"fly_speed", "flying speed"},
-    {"run", "running is faster by"},
-    {"jump", "height of a jump"},
-    {"gravity", "gravity"},
-}};
+    Label{"half_width", "half its width"},
+    Label{"height", "height"},
+    Label{"eye", "height of the eye"},
+    Label{"step", "highest step"},
+    Label{"walk_speed", "walking speed"},
+    Label{"fly_speed", "flying speed"},
+    Label{"run", "running is faster by"},
+    Label{"jump", "height of a jump"},
+    Label{"gravity", "gravity"},
+};
 
 }  // namespace
 
-const char* label_of(std::string_view key) {
-  const auto found =
-      std::find_if(kLabels.begin(), kLabels.end(), [&](const auto& label) { return label.first == key; });
-  return found == kLabels.end() ? "" : found->second;
+const char* label_of(const scene::OptionInfo& info) {
+  const auto found = std::ranges::find_if(kLabels, [&](const Label& label) {
+    return std::string_view(label.key) == info.key &&
+           (!label.unit || std::string_view(label.unit) == info.unit);
+  });
+  return found == kLabels.end() ? "" : found->label;
 }
 
 }  // namespace brume::viewer

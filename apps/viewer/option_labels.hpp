@@ -1,11 +1,11 @@
 // The settings of a file in a user's words.
 #pragma once
 
-#include <string_view>
+#include "scene/options.hpp"
 
 namespace brume::viewer {
 
-/// The label of the setting with this key; empty for an unknown one.
-const char* label_of(std::string_view key);
+/// The label of a setting; empty for an unknown one.
+const char* label_of(const scene::OptionInfo& info);
 
 }  // namespace brume::viewer

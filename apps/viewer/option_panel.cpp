@@ -1,6 +1,7 @@
 #include "apps/viewer/option_panel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/color_space.hpp>
@@ -46,7 +47,7 @@ class Row {
       : info_(info), changed_(changed), file_(std::move(file)) {
     ImGui::PushID(info.key);
     ImGui::AlignTextToFramePadding();
-    const std::string label = std::string(changed ? "* " : "") + label_of(info.key);
+    const std::string label = std::string(changed ? "* " : "") + label_of(info);
     if (changed) ImGui::PushStyleColor(ImGuiCol_Text, kChanged);
     ImGui::TextUnformatted(label.c_str());
     if (changed) ImGui::PopStyleColor();
@@ -163,6 +164,25 @@ bool option_row(const scene::OptionInfo& info, glm::vec3& value, glm::vec3 file)
     changed = true;
   }
   row.add_part();
+  if (row.restores()) value = file;
+  return changed || row.restores();
+}
+
+bool vector_row(const scene::OptionInfo& info, glm::vec3& value, glm::vec3 file) {
+  Row row(info, value != file, number(file.x) + ", " + number(file.y) + ", " + number(file.z));
+  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+  const float largest = std::max({std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+  const float width = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+  bool changed = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis > 0) ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    changed =
+        drag(row.id(kAxes[static_cast<std::size_t>(axis)]), &value[axis], 0.01f * std::max(largest, 0.1f),
+             static_cast<float>(info.low), static_cast<float>(info.high), "%.3g") ||
+        changed;
+    row.add_part();
+  }
   if (row.restores()) value = file;
   return changed || row.restores();
 }

@@ -1,7 +1,5 @@
 #include "apps/viewer/painter.hpp"
 
-#include "render/playback.hpp"
-
 namespace brume::viewer {
 namespace {
 
@@ -19,16 +17,6 @@ bool volumes_arrive(const Screen& screen, const Game& game) {
 }
 
 }  // namespace
-
-render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes,
-                               scenario::VolumeWait wait) {
-  const Session& session = game.session();
-  render::FrameInput input =
-      render::frame_input(session.live().scenario(), session.simulation(), session.seconds(), holes, wait);
-  input.view.camera = game.player().camera();
-  input.debug = {game.choices().view, game.choices().slice};
-  return input;
-}
 
 void Painter::restart() {
   continues_ = false;

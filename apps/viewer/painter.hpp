@@ -4,16 +4,12 @@
 #include <cstdint>
 
 #include "apps/viewer/frame_log.hpp"
-#include "apps/viewer/game.hpp"
+#include "apps/viewer/game_frame.hpp"
 #include "apps/viewer/quality.hpp"
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/window.hpp"
 
 namespace brume::viewer {
-
-/// What a renderer shows of a game; `holes` keeps the holes that the result refers to.
-render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes,
-                               scenario::VolumeWait wait = scenario::VolumeWait::until_loaded);
 
 class Painter {
  public:

@@ -31,7 +31,10 @@ class Player {
 
   scene::Camera camera() const;
   glm::vec3 direction_world() const;
-  void set_vertical_fov(float radians) { vertical_fov_ = radians; }
+  void set_vertical_fov(float radians) {
+    vertical_fov_ = radians;
+    if (followed_) followed_->vertical_fov = radians;
+  }
   const scenario::WalkerOptions& options() const { return walker_.options(); }
   void set_options(const voxel::BitGrid& grid, const scenario::WalkerOptions& options) {
     walker_.set_options(grid, options);

@@ -30,6 +30,16 @@ double last_event(const scene::Timeline& timeline) {
   return last;
 }
 
+/// The time of the last key of what moves or glows [s].
+double last_key(const scene::Timeline& timeline) {
+  double last = 0;
+  for (const scene::Carrier& carrier : timeline.carriers) last = std::max(last, carrier.keys.back().time);
+  for (const scene::VolumeOptions& volume : timeline.volumes)
+    for (const scene::VolumeMask& mask : volume.masks)
+      if (!mask.keys.empty()) last = std::max(last, mask.keys.back().time);
+  return last;
+}
+
 void clear_events(scene::Timeline& timeline) {
   scene::for_each_event_list(timeline, [](const char*, auto& events) { events.clear(); });
 }
@@ -68,6 +78,7 @@ Session::Session(std::unique_ptr<scenario::EditableScenario> live, scene::Timeli
   if (play) end_seconds_ = std::max(double{initial_.duration}, last_event(initial_));
   // Without play only the first camera key matters: the player starts there.
   if (!play) keys_.clear();
+  if (!play) end_seconds_ = std::max(end_seconds_, last_key(initial_));
   seek(kFirstTime);
 }
 
@@ -105,7 +116,7 @@ Result<void> Session::empty() {
   scene::for_each_event_kind([&](const char*, auto list) { timeline.*list = initial_.*list; });
   if (auto done = live_->reset(timeline); !done) return done;
   keys_.clear();
-  end_seconds_ = std::max(kFirstTime, last_event(timeline));
+  end_seconds_ = std::max({kFirstTime, last_event(timeline), last_key(timeline)});
   next_letter_ = 0;
   actions_ = 0;
   events_ = ++last_events_;
@@ -114,7 +125,7 @@ Result<void> Session::empty() {
 }
 
 Session::Edits Session::edits() const {
-  return {live_->scenario().timeline, events_, actions_, next_letter_};
+  return {live_->scenario().timeline, events_, actions_, next_letter_, key_changes_};
 }
 
 Result<void> Session::restore(const Edits& edits) {
@@ -123,12 +134,15 @@ Result<void> Session::restore(const Edits& edits) {
   } else {
     if (auto done = live_->set_smoke(edits.timeline.smoke); !done) return done;
     if (auto done = live_->set_sky(edits.timeline.sky); !done) return done;
+    if (auto done = live_->set_carriers(edits.timeline.carriers); !done) return done;
     if (auto done = live_->set_volumes(edits.timeline.volumes); !done) return done;
+    if (auto done = live_->set_decals(edits.timeline.decals); !done) return done;
     if (auto done = live_->set_exposure(edits.timeline.exposure); !done) return done;
   }
   events_ = edits.events;
   actions_ = edits.actions;
   next_letter_ = edits.next_letter;
+  key_changes_ = edits.key_changes;
   end_seconds_ = std::max(end_seconds_, last_event(edits.timeline));
   seek(seconds_);
   return {};
@@ -137,6 +151,12 @@ Result<void> Session::restore(const Edits& edits) {
 Result<void> Session::set_smoke(const scene::SmokeOptions& smoke) {
   auto done = live_->set_smoke(smoke);
   seek(seconds_);
+  return done;
+}
+
+Result<void> Session::set_carriers(std::vector<scene::Carrier> carriers) {
+  auto done = live_->set_carriers(std::move(carriers));
+  if (done) ++key_changes_;
   return done;
 }
 

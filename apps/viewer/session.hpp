@@ -40,7 +40,8 @@ class Session {
   scenario::EditableScenario& live() { return *live_; }
   const scenario::Simulation& simulation() const { return live_->simulation(); }
   double seconds() const { return seconds_; }
-  /// End of the time slider [s]: the latest event or time reached so far, and at least the recorded duration.
+  /// End of the time slider [s]: the latest event or time reached so far, and at least the recorded duration,
+  /// or the last key of carriers and masks.
   double end_seconds() const { return end_seconds_; }
   bool paused() const { return paused_; }
   void set_paused(bool paused) { paused_ = paused; }
@@ -65,6 +66,9 @@ class Session {
   /// Changes all smokes, at the present time, too.
   Result<void> set_smoke(const scene::SmokeOptions& smoke);
 
+  /// Changes the keys of the carriers, as EditableScenario::set_carriers.
+  Result<void> set_carriers(std::vector<scene::Carrier> carriers);
+
   // The recorded camera path.
   bool follows_path() const { return follows_path_; }
   void leave_path() { follows_path_ = false; }
@@ -82,6 +86,8 @@ class Session {
 
   /// Number of actions since the start or the last empty().
   std::size_t actions() const { return actions_; }
+  /// Number of changes of the carriers' keys since the start.
+  std::size_t key_changes() const { return key_changes_; }
   /// The timeline that the session began with: events only if it plays them.
   const scene::Timeline& file() const { return initial_; }
 
@@ -89,7 +95,7 @@ class Session {
   struct Edits {
     scene::Timeline timeline;
     std::uint64_t events = 0;  ///< Number of the set of events, unique in a session.
-    std::size_t actions = 0, next_letter = 0;
+    std::size_t actions = 0, next_letter = 0, key_changes = 0;
   };
   Edits edits() const;
   /// Goes back to edits of this session. The time stays; events are replayed if they differ.
@@ -110,7 +116,7 @@ class Session {
   std::vector<scene::CameraKey> keys_;
   double seconds_ = kFirstTime, end_seconds_ = kFirstTime;
   bool paused_ = false, follows_path_ = false;
-  std::size_t actions_ = 0;
+  std::size_t actions_ = 0, key_changes_ = 0;
   std::uint64_t events_ = 0, last_events_ = 0;  ///< Number of the present set of events, and the latest one.
   std::size_t next_letter_ = 0;                 ///< Byte offset in the word.
 };

@@ -78,10 +78,12 @@ void lay_out_status(const Game& game, const Figures& figures, const Notices& not
   } else {
     ImGui::TextUnformatted("begins...");
   }
-  const char* const moves = game.session().follows_path() ? "along the path"
-                            : game.player().flying()      ? "flying"
-                                                          : "walking";
-  ImGui::Text("%.2f s, %s, shoots: %s", game.session().seconds(), moves,
+  std::string moves = game.session().follows_path() ? "along the path"
+                      : game.player().flying()      ? "flying"
+                                                    : "walking";
+  if (const CarrierFlight* flight = game.flight())
+    moves = "steering " + game.session().live().scenario().timeline.carriers[flight->carrier()].name;
+  ImGui::Text("%.2f s, %s, shoots: %s", game.session().seconds(), moves.c_str(),
               name_of(game.choices().weapons.kind));
   if (notices.pace < 0.95 && !game.session().paused()) {
     ImGui::SameLine();
@@ -124,6 +126,7 @@ void lay_out_overlay(const Game& game, const Figures& figures, const Notices& no
   lay_out_status(game, figures, notices);
   if (choices.view != passes::DebugView::none)
     ImGui::Text("view: %s", std::string(passes::debug_view_name(choices.view)).c_str());
+  if (!choices.decals) ImGui::TextUnformatted("decals hidden (B)");
   if (!notices.shader_errors.empty()) ImGui::TextColored(kFault, "shader error: see the panels");
   for (const std::string& line : notices.lines) ImGui::TextColored(kAccent, "%s", line.c_str());
   if (figures.count() < 600 && !choices.help) ImGui::TextDisabled("H: help   Tab: settings");

@@ -227,6 +227,8 @@ void lay_out_panels(Game& game, const Figures& figures, const Notices& notices, 
   if (header("Shots and explosions", false)) lay_out_shots(game);
   if (header("Shape of the smoke", false)) smoke_rows(game, "shape of the smoke", is_shape);
   if (!game.session().file().volumes.empty() && header("Volumes", false)) lay_out_volumes(game);
+  if (!game.session().file().decals.empty() && header("Decals", false)) lay_out_decals(game);
+  if (!game.session().file().carriers.empty() && header("Carriers", false)) lay_out_carriers(game, requests);
   if (header("Light", false)) lay_out_light(game);
   if (header("Camera", false)) lay_out_camera(game, requests);
   if (header("Quality", false)) lay_out_quality(game.choices(), notices);

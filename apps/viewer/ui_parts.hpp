@@ -25,8 +25,12 @@ void lay_out_shot_marks(const Game& game);
 void lay_out_time_bar(const Session& session, UiRequests& requests);
 /// All settings.
 void lay_out_panels(Game& game, const Figures& figures, const Notices& notices, UiRequests& requests);
-/// Look and transfer functions of the volumes.
+/// Look, masks, disturbances and transfer functions of the volumes.
 void lay_out_volumes(Game& game);
+/// How the decals darken, and whether they are shown.
+void lay_out_decals(Game& game);
+/// The carriers and their keys, and steering one.
+void lay_out_carriers(Game& game, UiRequests& requests);
 /// Times, memory and the state of the simulation.
 void lay_out_figures(const Session& session, const Figures& figures, const Notices& notices);
 

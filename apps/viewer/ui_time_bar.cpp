@@ -9,7 +9,7 @@
 namespace brume::viewer {
 namespace {
 
-// Marks the events of the timeline on the slider.
+// Marks the events of the timeline, and the keys of the carriers, on the slider.
 void mark_events(const scene::Timeline& timeline, ImVec2 at, ImVec2 size, double end) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto marks = [&](const auto& events, ImU32 colour) {
@@ -18,6 +18,7 @@ void mark_events(const scene::Timeline& timeline, ImVec2 at, ImVec2 size, double
       list.AddLine(ImVec2(x, at.y), ImVec2(x, at.y + size.y), colour, 2);
     }
   };
+  for (const scene::Carrier& carrier : timeline.carriers) marks(carrier.keys, IM_COL32(180, 130, 240, 255));
   marks(timeline.smokes, IM_COL32(200, 205, 215, 255));
   marks(timeline.shots, IM_COL32(255, 190, 90, 255));
   marks(timeline.texts, IM_COL32(255, 220, 140, 255));

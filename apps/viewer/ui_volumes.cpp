@@ -45,7 +45,7 @@ bool grid_row(const char* label, const char* about, std::string& chosen,
 bool grid_rows(scene::VolumeOptions& options, const scenario::VolumeFrame& frame) {
   bool changed = grid_row("density grid", "what is dense", options.density, frame.number_grids);
   changed = grid_row("heat grid", "what glows", options.heat, frame.number_grids) || changed;
-  if (!frame.color_grids.empty())
+  if (!frame.color_grids.empty() && options.masks.empty())
     changed = grid_row("colour grid", "colours that multiply the albedo", options.color, frame.color_grids) ||
               changed;
   return changed;
@@ -100,6 +100,71 @@ bool range_row(scene::VolumeOptions& options, const scenario::VolumeFrame& frame
   return changed;
 }
 
+/// Rows of settings whose ranges in the file are too wide for sliders: `narrow` changes what is shown.
+template <typename Options, typename Visit, typename Narrow>
+bool narrow_rows(Options& options, const Options& file, Visit visit, Narrow narrow) {
+  return option_rows(options, file, [&](auto& members, auto&& visitor) {
+    visit(members, [&](scene::OptionInfo info, auto& member) {
+      narrow(info);
+      visitor(info, member);
+    });
+  });
+}
+
+/// Colour and brightness of what the masks emit.
+bool mask_rows(scene::VolumeOptions& options, const scene::VolumeOptions& file) {
+  bool changed = false;
+  for (std::size_t i = 0; i < options.masks.size(); ++i) {
+    scene::VolumeMask& mask = options.masks[i];
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::Text("mask %s", mask.grid.c_str());
+    if (mask.keys.empty()) {
+      const auto visit = [](auto& o, auto&& visitor) { scene::visit_mask_options(o, visitor); };
+      const double most = 10 * std::max(double{file.masks[i].intensity}, 1.0);
+      changed = narrow_rows(mask, file.masks[i], visit,
+                            [&](scene::OptionInfo& info) {
+                              if (std::string_view(info.key) == "intensity")
+                                info.high = std::min(info.high, most);
+                            }) ||
+                changed;
+    } else {
+      ImGui::SameLine();
+      ImGui::TextDisabled("colour and brightness by its %zu keys", mask.keys.size());
+    }
+    ImGui::PopID();
+  }
+  if (options.masks.empty()) return changed;
+  const auto visit = [](auto& o, auto&& visitor) { scene::visit_particle_options(o, visitor); };
+  return option_rows(options, file, visit) || changed;
+}
+
+/// The noise that moves the volume, up to its own size.
+bool disturbance_rows(scene::Disturbance& disturbance, const scene::Disturbance& file,
+                      const scenario::VolumeFrame& frame) {
+  const glm::vec3 size = frame.bounds.high - frame.bounds.low;
+  const double edge = std::max({double{size.x}, double{size.y}, double{size.z}, 1e-3});
+  if (!begin_tree("disturbance")) return false;
+  bool changed = false;
+  std::vector<const void*> initial;
+  scene::visit_disturbance_options(
+      file, [&](const scene::OptionInfo&, const auto& member) { initial.push_back(&member); });
+  std::size_t i = 0;
+  scene::visit_disturbance_options(disturbance, [&](scene::OptionInfo info, auto& member) {
+    using Member = std::remove_reference_t<decltype(member)>;
+    const auto& standard = *static_cast<const Member*>(initial[i++]);
+    if constexpr (std::is_same_v<Member, glm::vec3>) {
+      changed = vector_row(info, member, standard) || changed;
+    } else {
+      // At least up to what the file has.
+      info.high = std::min(info.high, std::max(2 * edge, double{standard}));
+      if (info.low > 0) info.low = std::min(1e-3 * edge, double{standard});
+      changed = option_row(info, member, standard) || changed;
+    }
+  });
+  ImGui::TreePop();
+  return changed;
+}
+
 bool color_map_row(scene::ColorMap& map) {
   constexpr const char* kOwnColors = "own colours";
   begin_row("colour map", "colours of the values, in place of the albedo");
@@ -150,17 +215,21 @@ void lay_out_volumes(Game& game) {
   std::vector<scene::VolumeOptions> volumes = live.scenario().timeline.volumes;
   const std::vector<scene::VolumeOptions>& file = game.session().file().volumes;
   bool changed = false;
+  ImGui::PushID("volumes");
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     if (begin_tree(volumes[i].file.filename().string().c_str())) {
       const scenario::VolumeFrame& frame = live.scenario().volumes->first_frame(i);
       changed = grid_rows(volumes[i], frame) || changed;
       changed = look_rows(volumes[i], file[i], frame.heat.has_value()) || changed;
+      changed = mask_rows(volumes[i], file[i]) || changed;
+      changed = disturbance_rows(volumes[i].disturbance, file[i].disturbance, frame) || changed;
       changed = transfer_rows(volumes[i], frame) || changed;
       ImGui::TreePop();
     }
     ImGui::PopID();
   }
+  ImGui::PopID();
   if (!changed) return;
   if (const auto done = live.set_volumes(std::move(volumes)); !done)
     return game.notify(done.failure().message);

@@ -400,7 +400,7 @@ void Viewer::save_screenshot(const std::filesystem::path& picture) {
   screen_->wait();
   const image::Image8 image = screen_->picture(frame_input(*game_, holes), size);
   painter_.restart();
-  const auto saved = save_snapshot(picture, image, session().snapshot(game_->player().camera()));
+  const auto saved = save_snapshot(picture, image, game_->snapshot());
   notify(saved ? "saved: " + picture.string() : saved.failure().message);
   if (!saved && done_) throw Error(saved.failure());
 }

@@ -22,9 +22,10 @@ glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
 }
 
 /// Objects with carriers, which are not where the scene has them.
-void add_moved_objects(const scenario::Scenario& scenario, double seconds, FrameInput& input) {
+void add_moved_objects(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers,
+                       double seconds, FrameInput& input) {
   std::vector<std::uint32_t>& hidden = input.level.hidden_objects;
-  for (scenario::MovedObject& moved : scenario::moved_objects(scenario.timeline, scenario.scene, seconds)) {
+  for (scenario::MovedObject& moved : scenario::moved_objects(carriers, scenario.scene, seconds)) {
     const auto at = std::lower_bound(hidden.begin(), hidden.end(), moved.object);
     if (at != hidden.end() && *at == moved.object) continue;  // A door that is open.
     hidden.insert(at, moved.object);
@@ -32,15 +33,15 @@ void add_moved_objects(const scenario::Scenario& scenario, double seconds, Frame
   }
 }
 
-void add_decals(const scenario::Scenario& scenario, double seconds, FrameInput& input) {
+void add_decals(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
+                FrameInput& input) {
   input.slices = scenario.slices.volumes;
   for (std::size_t i = 0; i < scenario.slices.of_decals.size(); ++i) {
     const scene::DecalOptions& options = scenario.timeline.decals[i];
     const scenario::SliceVolume& volume = scenario.slices.of_decals[i];
-    input.decals.push_back(
-        {scenario::world_from_file(scenario.timeline, options, seconds) * volume.file_from_box, volume.volume,
-         options.strength, options.gamma, options.correction, options.falloff, options.fade, options.scatter,
-         volume.middle, volume.radius});
+    input.decals.push_back({scenario::world_from_file(carriers, options, seconds) * volume.file_from_box,
+                            volume.volume, options.strength, options.gamma, options.correction,
+                            options.falloff, options.fade, options.scatter, volume.middle, volume.radius});
   }
 }
 
@@ -59,8 +60,10 @@ constexpr double kRounding = 1e-3;
 }  // namespace
 
 FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
-                       double seconds, std::vector<shared::Hole>& holes, scenario::VolumeWait wait) {
+                       double seconds, std::vector<shared::Hole>& holes, scenario::VolumeWait wait,
+                       const std::vector<scene::Carrier>* steered) {
   const scene::Timeline& timeline = scenario.timeline;
+  const std::span<const scene::Carrier> carriers(steered ? *steered : timeline.carriers);
   FrameInput input;
   input.view.camera = scene::camera_at(timeline, scenario.camera, seconds);
   // Jitter and dither follow time, not the frame's number: the same time is the same image at any rate.
@@ -94,11 +97,11 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.environment.flashes = scenario::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
     input.level.grenades.push_back(grenade_matrix(grenade));
-  add_volumes(scenario, seconds, wait, input);
+  add_volumes(scenario, carriers, seconds, wait, input);
   const auto hidden = simulation.hidden_objects();
   input.level.hidden_objects.assign(hidden.begin(), hidden.end());
-  add_moved_objects(scenario, seconds, input);
-  add_decals(scenario, seconds, input);
+  add_moved_objects(scenario, carriers, seconds, input);
+  add_decals(scenario, carriers, seconds, input);
   return input;
 }
 

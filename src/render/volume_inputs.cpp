@@ -83,20 +83,20 @@ planning::ParticleInput particles_of(const scene::VolumeOptions& options, const 
 
 }  // namespace
 
-void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::VolumeWait wait,
-                 planning::FrameInput& input) {
+void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
+                 scenario::VolumeWait wait, planning::FrameInput& input) {
   if (!scenario.volumes) return;
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
   std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
   std::vector<shared::Light> lights;
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!volumes[i].frame) continue;
-    move_by(scene::pose_of(scenario.timeline, options[i].carrier, seconds), volumes[i]);
+    const glm::mat4 pose = scene::pose_of(carriers, options[i].carrier, seconds);
+    move_by(pose, volumes[i]);
     const auto& slices = scenario.slices.of_volumes;
     if (options[i].particles > 0 && i < slices.size() && slices[i])
       input.particles.push_back(
-          particles_of(options[i], *slices[i], (*scenario.slices.volumes)[slices[i]->volume],
-                       scene::pose_of(scenario.timeline, options[i].carrier, seconds), seconds));
+          particles_of(options[i], *slices[i], (*scenario.slices.volumes)[slices[i]->volume], pose, seconds));
     else
       input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i), seconds));
     for (const shared::Light& light : glow_lights(options[i], volumes[i], seconds, input.view.exposure))

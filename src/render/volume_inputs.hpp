@@ -1,14 +1,16 @@
 // The volumes of a scenario as a frame draws them.
 #pragma once
 
+#include <span>
+
 #include "planning/frame_input.hpp"
 #include "scenario/scenario.hpp"
 
 namespace brume::render {
 
-/// Adds the volumes at a time [s], which stay loaded until another one is read, and the light of what glows
-/// in them; nothing without Scenario::volumes.
-void add_volumes(const scenario::Scenario& scenario, double seconds, scenario::VolumeWait wait,
-                 planning::FrameInput& input);
+/// Adds the volumes at a time [s], which stay loaded until another one is read, moved by their carriers, and
+/// the light of what glows in them; nothing without Scenario::volumes.
+void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
+                 scenario::VolumeWait wait, planning::FrameInput& input);
 
 }  // namespace brume::render

@@ -40,6 +40,22 @@ bool any_until(const std::vector<Event>& list, double time, Predicate predicate)
   return false;
 }
 
+bool same_decal(const scene::DecalOptions& a, const scene::DecalOptions& b) {
+  return a.file == b.file && a.grid == b.grid;
+}
+
+bool same_carrier(const scene::Carrier& a, const scene::Carrier& b) {
+  return a.name == b.name && a.object == b.object;
+}
+
+/// Whether a scenario of one timeline has loaded what the other one refers to, besides its scene.
+bool same_parts(const scene::Timeline& a, const scene::Timeline& b) {
+  return std::ranges::equal(a.volumes, b.volumes, {}, &scene::VolumeOptions::file,
+                            &scene::VolumeOptions::file) &&
+         std::ranges::equal(a.decals, b.decals, same_decal) &&
+         std::ranges::equal(a.carriers, b.carriers, same_carrier);
+}
+
 bool same_life(const scene::SmokeOptions& a, const scene::SmokeOptions& b) {
   return a.voxels == b.voxels && a.bloom == b.bloom && a.hold == b.hold && a.dissolve == b.dissolve;
 }
@@ -204,6 +220,7 @@ Result<void> EditableScenario::set_volumes(std::vector<scene::VolumeOptions> vol
   const std::vector<scene::VolumeOptions>& present = scenario_.timeline.volumes;
   BRUME_ASSERT(volumes.size() == present.size(), std::to_string(volumes.size()));
   scene::Timeline chosen;
+  chosen.carriers = scenario_.timeline.carriers;
   chosen.volumes = std::move(volumes);
   if (auto checked = scene::check_settings(chosen); !checked) return checked;
   for (std::size_t i = 0; i < present.size(); ++i) {
@@ -214,6 +231,27 @@ Result<void> EditableScenario::set_volumes(std::vector<scene::VolumeOptions> vol
     return done;
   }
   scenario_.timeline.volumes = std::move(chosen.volumes);
+  return {};
+}
+
+Result<void> EditableScenario::set_decals(std::vector<scene::DecalOptions> decals) {
+  BRUME_ASSERT(std::ranges::equal(decals, scenario_.timeline.decals, same_decal),
+               std::to_string(decals.size()));
+  scene::Timeline chosen;
+  chosen.carriers = scenario_.timeline.carriers;
+  chosen.decals = std::move(decals);
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  scenario_.timeline.decals = std::move(chosen.decals);
+  return {};
+}
+
+Result<void> EditableScenario::set_carriers(std::vector<scene::Carrier> carriers) {
+  BRUME_ASSERT(std::ranges::equal(carriers, scenario_.timeline.carriers, same_carrier),
+               std::to_string(carriers.size()));
+  scene::Timeline chosen;
+  chosen.carriers = std::move(carriers);
+  if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  scenario_.timeline.carriers = std::move(chosen.carriers);
   return {};
 }
 
@@ -252,6 +290,10 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
       timeline.grid.origin_world.value_or(*grid.origin_world) != *grid.origin_world)
     return Failure{ErrorCode::bad_input,
                    "the timeline has another grid than the scenario; load it as a new scenario"};
+  if (!same_parts(timeline, scenario_.timeline))
+    return Failure{ErrorCode::bad_input,
+                   "the timeline has other volumes, decals or carriers than the scenario; load it as a new "
+                   "scenario"};
   timeline.grid = grid;
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;

@@ -45,6 +45,12 @@ class EditableScenario {
   /// Changes the look of the volumes and the grids that they show; as many as there are, of the same files.
   /// Fails with bad_input as check_settings and Volumes::choose_grids do.
   Result<void> set_volumes(std::vector<scene::VolumeOptions> volumes);
+  /// Changes where the decals are and how they darken; as many as there are, of the same files and grids.
+  /// Fails with bad_input as check_settings does.
+  Result<void> set_decals(std::vector<scene::DecalOptions> decals);
+  /// Changes the keys of the carriers; as many as there are, with the same names and objects. The same
+  /// failure.
+  Result<void> set_carriers(std::vector<scene::Carrier> carriers);
   /// [EV]
   Result<void> set_exposure(float exposure);
   /// Length of the film [s].
@@ -53,7 +59,8 @@ class EditableScenario {
   Result<void> set_camera(std::vector<scene::CameraKey> keys);
 
   /// Replaces the timeline by another one of the same scene, with the same grid or none, at the present tick.
-  /// Fails with bad_input for another scene or grid, and as `add` does.
+  /// Fails with bad_input for another scene or grid, for volumes or decals of other files, for carriers of
+  /// other objects, and as `add` does.
   Result<void> reset(scene::Timeline timeline);
 
  private:

@@ -15,10 +15,10 @@ glm::mat4 rigid_part(const glm::mat4& matrix) {
 
 }  // namespace
 
-std::vector<MovedObject> moved_objects(const scene::Timeline& timeline, const scene::Scene& scene,
+std::vector<MovedObject> moved_objects(std::span<const scene::Carrier> carriers, const scene::Scene& scene,
                                        double seconds) {
   std::vector<MovedObject> moved;
-  for (const scene::Carrier& carrier : timeline.carriers) {
+  for (const scene::Carrier& carrier : carriers) {
     if (carrier.object.empty()) continue;
     const auto first = std::ranges::find(scene.objects, carrier.object, &scene::Object::name);
     if (first == scene.objects.end()) continue;
@@ -32,7 +32,7 @@ std::vector<MovedObject> moved_objects(const scene::Timeline& timeline, const sc
 }
 
 void exclude_moved_objects(const scene::Timeline& timeline, scene::Scene& scene) {
-  for (const MovedObject& moved : moved_objects(timeline, scene, 0))
+  for (const MovedObject& moved : moved_objects(timeline.carriers, scene, 0))
     scene.objects[moved.object].voxelized = false;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -16,7 +17,7 @@ struct MovedObject {
 };
 
 /// All objects that carriers move, rising, where they are at a time [s].
-std::vector<MovedObject> moved_objects(const scene::Timeline& timeline, const scene::Scene& scene,
+std::vector<MovedObject> moved_objects(std::span<const scene::Carrier> carriers, const scene::Scene& scene,
                                        double seconds);
 
 /// What moves stops no smoke.

@@ -50,7 +50,7 @@ void place_volumes(const scene::Timeline& timeline, const Volumes& volumes, scen
   for (std::size_t i = 0; i < timeline.volumes.size(); ++i) {
     const scene::VolumeOptions& options = timeline.volumes[i];
     scene::Volume place = place_of(options, volumes.first_frame(i));
-    const glm::mat4 pose = scene::pose_of(timeline, options.carrier, 0);
+    const glm::mat4 pose = scene::pose_of(timeline.carriers, options.carrier, 0);
     scene.volumes.push_back(
         {place.name, transformed(pose, place.bounds_world), transformed(pose, place.core_world)});
   }

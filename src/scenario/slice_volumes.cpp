@@ -185,8 +185,9 @@ std::vector<std::filesystem::path> slice_files_of(const scene::Timeline& timelin
   return files;
 }
 
-glm::mat4 world_from_file(const scene::Timeline& timeline, const scene::DecalOptions& decal, double seconds) {
-  const glm::mat4 placed = scene::pose_of(timeline, decal.carrier, seconds) *
+glm::mat4 world_from_file(std::span<const scene::Carrier> carriers, const scene::DecalOptions& decal,
+                          double seconds) {
+  const glm::mat4 placed = scene::pose_of(carriers, decal.carrier, seconds) *
                            glm::translate(glm::mat4(1), decal.position_world) *
                            scene::rotation_of(decal.rotation);
   return glm::scale(placed, glm::vec3(decal.scale));

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/error.hpp"
@@ -36,6 +37,7 @@ Result<SliceVolumes> load_slice_volumes(const scene::Timeline& timeline);
 std::vector<std::filesystem::path> slice_files_of(const scene::Timeline& timeline);
 
 /// world_from_file of a decal at a time [s]: moved by its carrier.
-glm::mat4 world_from_file(const scene::Timeline& timeline, const scene::DecalOptions& decal, double seconds);
+glm::mat4 world_from_file(std::span<const scene::Carrier> carriers, const scene::DecalOptions& decal,
+                          double seconds);
 
 }  // namespace brume::scenario

@@ -16,16 +16,20 @@ glm::mat4 rotation_of(const glm::vec3& degrees) {
   return matrix;
 }
 
-glm::mat4 pose_at(const Carrier& carrier, double time) {
+CarrierKey key_at(const Carrier& carrier, double time) {
   const std::span keys(carrier.keys);
-  const glm::vec3 position = smooth_at(keys, time, [](const CarrierKey& key) { return key.position_world; });
-  const glm::vec3 rotation = smooth_at(keys, time, [](const CarrierKey& key) { return key.rotation; });
-  return glm::translate(glm::mat4(1), position) * rotation_of(rotation);
+  return {time, smooth_at(keys, time, [](const CarrierKey& key) { return key.position_world; }),
+          smooth_at(keys, time, [](const CarrierKey& key) { return key.rotation; })};
 }
 
-glm::mat4 pose_of(const Timeline& timeline, const std::string& carrier, double time) {
-  const auto found = std::ranges::find(timeline.carriers, carrier, &Carrier::name);
-  return found == timeline.carriers.end() ? glm::mat4(1) : pose_at(*found, time);
+glm::mat4 pose_at(const Carrier& carrier, double time) {
+  const CarrierKey key = key_at(carrier, time);
+  return glm::translate(glm::mat4(1), key.position_world) * rotation_of(key.rotation);
+}
+
+glm::mat4 pose_of(std::span<const Carrier> carriers, const std::string& name, double time) {
+  const auto found = std::ranges::find(carriers, name, &Carrier::name);
+  return found == carriers.end() ? glm::mat4(1) : pose_at(*found, time);
 }
 
 glm::vec3 glow_at(const VolumeMask& mask, double time) {

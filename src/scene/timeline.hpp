@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,8 +77,11 @@ struct Carrier {
   std::string place = {};        ///< "file:line:column" for error messages.
 };
 
-/// world_from_carrier at a time [s]: passes through all keys with continuous velocity, at rest before the
-/// first and after the last.
+/// Where a carrier is at a time [s], as a key of that time: passes through all keys with continuous velocity,
+/// at rest before the first and after the last.
+CarrierKey key_at(const Carrier& carrier, double time);
+
+/// world_from_carrier of key_at.
 glm::mat4 pose_at(const Carrier& carrier, double time);
 
 /// Rotation about x, then y, then z [degrees].
@@ -98,6 +102,8 @@ struct VolumeMask {
   std::vector<MaskKey> keys;  ///< Replace both; sorted by time, no two times equal. Linear in between.
 };
 inline constexpr std::size_t kMostMasks = 4;
+/// Extinction of a volume with masks whose file states none: what only glows blocks no light.
+inline constexpr float kMaskedExtinction = 0;
 
 /// Radiance per metre of a mask at a time.
 glm::vec3 glow_at(const VolumeMask& mask, double time);
@@ -344,7 +350,7 @@ Result<Timeline> parse_timeline(std::string_view text, const std::filesystem::pa
 Result<void> check_objects(const Timeline& timeline, const Scene& scene);
 
 /// The pose of a carrier by its name at a time; the identity without one.
-glm::mat4 pose_of(const Timeline& timeline, const std::string& carrier, double time);
+glm::mat4 pose_of(std::span<const Carrier> carriers, const std::string& name, double time);
 
 /// The camera at a time [s]: passes through all keys with continuous velocity, at rest before the first and
 /// after the last; `fallback` when there are no keys. The field of view stays within that of the two

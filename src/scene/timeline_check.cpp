@@ -1,7 +1,9 @@
 #include "scene/timeline_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/utf8.hpp"
 #include "scene/options.hpp"
@@ -142,6 +144,115 @@ void check_transfer(const VolumeOptions& volume, Checker& look) {
   expect_none("color_map", fault_of(volume.color_map));
 }
 
+/// Whether a list has several entries of one name; empty names do not count.
+template <typename Entry>
+bool has_twice(const std::vector<Entry>& list, std::string Entry::*name) {
+  std::vector<std::string> names;
+  for (const Entry& entry : list)
+    if (!(entry.*name).empty()) names.push_back(entry.*name);
+  std::ranges::sort(names);
+  return std::ranges::adjacent_find(names) != names.end();
+}
+
+/// Keys in strictly rising order of time; `check_one(key, checker)` checks the rest of each.
+template <typename Key, typename CheckOne>
+Result<void> check_keys(const char* kind, const std::vector<Key>& keys, CheckOne check_one) {
+  double last = -1;
+  for (const Key& key : keys) {
+    Checker of_key(kind, key);
+    check_one(key, of_key);
+    if (!(key.time > last)) of_key.fail("time", "expected a later time than that of the previous key");
+    last = key.time;
+    if (auto done = of_key.done(); !done) return done;
+  }
+  return {};
+}
+
+Result<void> check_carriers(const std::vector<Carrier>& carriers) {
+  for (const Carrier& carrier : carriers) {
+    Checker of_carrier("[[carrier]] " + carrier.name);
+    of_carrier.text("name", carrier.name);
+    of_carrier.text("object", carrier.object);
+    if (carrier.name.empty()) of_carrier.fail("name", "expected a name");
+    if (carrier.keys.empty()) of_carrier.fail("key", "expected at least one");
+    if (auto done = of_carrier.done(); !done) return done;
+    auto keys = check_keys(("[[carrier]] " + carrier.name + ": key").c_str(), carrier.keys,
+                           [](const CarrierKey& key, Checker& look) {
+                             look.point("position", key.position_world, kFarthestPoint);
+                             visit_carrier_options(key, look);
+                           });
+    if (!keys) return keys;
+  }
+  Checker all("[[carrier]]");
+  if (has_twice(carriers, &Carrier::name)) all.fail("name", "expected a name of its own for each");
+  if (has_twice(carriers, &Carrier::object)) all.fail("object", "expected one carrier for each object");
+  return all.done();
+}
+
+void check_carrier_name(const Timeline& timeline, const std::string& name, Checker& look) {
+  if (!name.empty() && std::ranges::find(timeline.carriers, name, &Carrier::name) == timeline.carriers.end())
+    look.fail("carrier", "expected the name of a [[carrier]]");
+}
+
+Result<void> check_masks(const VolumeOptions& volume, const std::string& subject) {
+  for (const VolumeMask& mask : volume.masks) {
+    Checker of_mask(subject + ": mask " + mask.grid);
+    of_mask.text("grid", mask.grid);
+    if (mask.grid.empty()) of_mask.fail("grid", "expected the name of a grid");
+    visit_mask_options(mask, of_mask);
+    if (auto done = of_mask.done(); !done) return done;
+    auto keys = check_keys((subject + ": mask " + mask.grid + ": key").c_str(), mask.keys,
+                           [](const MaskKey& key, Checker& look) { visit_mask_options(key, look); });
+    if (!keys) return keys;
+  }
+  Checker all(subject);
+  if (volume.masks.size() > kMostMasks)
+    all.fail("mask", "expected at most " + std::to_string(kMostMasks) + " of them");
+  if (!volume.masks.empty() && !volume.color.empty())
+    all.fail("color", "cannot be combined with [[volume.mask]]");
+  visit_particle_options(volume, all);
+  if (volume.particles > 0 && volume.masks.empty()) all.fail("particles", "expected a [[volume.mask]]");
+  return all.done();
+}
+
+Result<void> check_volume(const Timeline& timeline, const VolumeOptions& volume) {
+  const std::string subject = "[[volume]] " + volume.file.filename().string();
+  Checker look(subject);
+  look.text("file", volume.file.string());
+  look.text("density", volume.density);
+  look.text("heat", volume.heat);
+  look.text("color", volume.color);
+  check_transfer(volume, look);
+  look.point("position", volume.position_world, kFarthestPoint);
+  visit_volume_options(volume, look);
+  if (volume.first) look.number("first", *volume.first, 0, kLastFrame);
+  if (volume.last) look.number("last", *volume.last, volume.first.value_or(0), kLastFrame);
+  if (volume.clip + volume.loop + volume.ping_pong > 1)
+    look.fail("clip", "expected only one of \"clip\", \"loop\" and \"ping_pong\" to be true");
+  check_carrier_name(timeline, volume.carrier, look);
+  if (auto done = look.done(); !done) return done;
+  Checker disturbance(subject + ": [volume.disturb]");
+  visit_disturbance_options(volume.disturbance, disturbance);
+  if (auto done = disturbance.done(); !done) return done;
+  return check_masks(volume, subject);
+}
+
+Result<void> check_decal(const Timeline& timeline, const DecalOptions& decal) {
+  Checker look("[[decal]] " + decal.file.filename().string());
+  look.text("file", decal.file.string());
+  look.text("grid", decal.grid);
+  check_carrier_name(timeline, decal.carrier, look);
+  look.point("position", decal.position_world, kFarthestPoint);
+  visit_decal_options(decal, look);
+  return look.done();
+}
+
+Result<void> check_count(const char* table, std::size_t count, std::size_t most) {
+  if (count <= most) return {};
+  return Failure{ErrorCode::bad_input,
+                 std::string(table) + ": expected at most " + std::to_string(most) + " of them"};
+}
+
 }  // namespace
 
 Result<void> check_events(const Timeline& timeline) {
@@ -166,35 +277,21 @@ Result<void> check_settings(const Timeline& timeline) {
   for (const Checker* checker : {&grid, &smoke, &sky, &sun})
     if (auto done = checker->done(); !done) return done;
 
-  for (const VolumeOptions& volume : timeline.volumes) {
-    Checker of_volume("[[volume]] " + volume.file.filename().string());
-    of_volume.text("file", volume.file.string());
-    of_volume.text("density", volume.density);
-    of_volume.text("heat", volume.heat);
-    of_volume.text("color", volume.color);
-    check_transfer(volume, of_volume);
-    of_volume.point("position", volume.position_world, kFarthestPoint);
-    visit_volume_options(volume, of_volume);
-    if (volume.first) of_volume.number("first", *volume.first, 0, kLastFrame);
-    if (volume.last) of_volume.number("last", *volume.last, volume.first.value_or(0), kLastFrame);
-    if (volume.clip + volume.loop + volume.ping_pong > 1)
-      of_volume.fail("clip", "expected only one of \"clip\", \"loop\" and \"ping_pong\" to be true");
-    if (auto done = of_volume.done(); !done) return done;
-  }
+  // Carriers, and what may move with them.
+  if (auto done = check_carriers(timeline.carriers); !done) return done;
+  if (auto done = check_count("[[volume]]", timeline.volumes.size(), kMostVolumes); !done) return done;
+  if (auto done = check_count("[[decal]]", timeline.decals.size(), kMostDecals); !done) return done;
+  for (const VolumeOptions& volume : timeline.volumes)
+    if (auto done = check_volume(timeline, volume); !done) return done;
+  for (const DecalOptions& decal : timeline.decals)
+    if (auto done = check_decal(timeline, decal); !done) return done;
 
-  // The camera keys, in strictly rising order of time.
-  double last = -1;
-  for (const CameraKey& key : timeline.camera) {
-    Checker camera("camera", key);
-    camera.point("position", key.camera.position_world, kFarthestPoint);
-    camera.point("target", key.camera.target_world, kFarthestPoint);
-    camera.direction("target", key.camera.position_world, key.camera.target_world, "the position");
-    visit_camera_options(key.camera, camera);
-    if (!(key.time > last)) camera.fail("time", "expected a later time than that of the previous key");
-    last = key.time;
-    if (auto done = camera.done(); !done) return done;
-  }
-  return {};
+  return check_keys("camera", timeline.camera, [](const CameraKey& key, Checker& of_key) {
+    of_key.point("position", key.camera.position_world, kFarthestPoint);
+    of_key.point("target", key.camera.target_world, kFarthestPoint);
+    of_key.direction("target", key.camera.position_world, key.camera.target_world, "the position");
+    visit_camera_options(key.camera, of_key);
+  });
 }
 
 }  // namespace brume::scene

@@ -11,7 +11,8 @@ namespace brume::scene {
 /// time and the number. Does not check whether doors, pictures and fonts exist.
 Result<void> check_events(const Timeline& timeline);
 
-/// The same for everything but the events: settings, and camera keys, which must be sorted by time.
+/// The same for everything but the events: settings, carriers and their names where volumes and decals refer
+/// to them, and all keys, which must be sorted by time.
 Result<void> check_settings(const Timeline& timeline);
 
 }  // namespace brume::scene

@@ -61,7 +61,7 @@ Result<void> read_masks(TomlTable& volume_table, const std::filesystem::path& pa
     if (auto done = table.finish(); !done) return done;
   }
   // What only glows is not in the way of light.
-  if (!volume.masks.empty() && !volume_table.has("extinction")) volume.extinction = 0;
+  if (!volume.masks.empty() && !volume_table.has("extinction")) volume.extinction = kMaskedExtinction;
   if (!volume.masks.empty() && !volume.color.empty())
     volume_table.fail("color", "\"color\": cannot be combined with [[volume.mask]]; remove one of them");
   return {};

@@ -211,7 +211,9 @@ class Writer {
     if (!volume.heat.empty()) line("heat", volume.heat);
     if (!volume.color.empty()) line("color", volume.color);
     line("position", volume.position_world);
-    options(volume, VolumeOptions(), "", [](auto& o, auto& v) { visit_volume_options(o, v); });
+    VolumeOptions defaults;
+    if (!volume.masks.empty()) defaults.extinction = kMaskedExtinction;
+    options(volume, defaults, "", [](auto& o, auto& v) { visit_volume_options(o, v); });
     if (volume.loop) line("loop", volume.loop);
     if (volume.range) line("range", *volume.range);
     std::vector<std::vector<float>> rows;
@@ -223,12 +225,17 @@ class Writer {
     if (!rows.empty()) line("color_map", rows);
     if (!volume.carrier.empty()) line("carrier", volume.carrier);
     options(volume, VolumeOptions(), "", [](auto& o, auto& v) { visit_particle_options(o, v); });
-    if (volume.disturbance.strength > 0) {
-      text_ += "\n[volume.disturb]\n";
-      options(volume.disturbance, Disturbance(), "",
-              [](auto& o, auto& v) { visit_disturbance_options(o, v); });
-    }
+    write_disturbance(volume.disturbance);
     for (const VolumeMask& mask : volume.masks) write_mask(mask);
+  }
+
+  void write_disturbance(const Disturbance& disturbance) {
+    const std::size_t before = text_.size();
+    options(disturbance, Disturbance(), "\n[volume.disturb]\n",
+            [](auto& o, auto& v) { visit_disturbance_options(o, v); });
+    // The reader requires the strength, also where it is the default.
+    const bool has_strength = text_of(disturbance.strength) != text_of(Disturbance().strength);
+    if (text_.size() > before && !has_strength) line("strength", disturbance.strength);
   }
 
   void write_mask(const VolumeMask& mask) {

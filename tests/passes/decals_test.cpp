@@ -75,7 +75,8 @@ TEST_F(DecalsTest, EqualAReferenceAtEveryPixel) {
       for (std::size_t i = 0; i < count; ++i) decals.push_back(random_decal(i % volumes_.size()));
       darkened += expect_reference(decals);
     }
-  EXPECT_GT(darkened, 600);
+  // Of some 2,000 surfaces that do not move; random boxes cover part of them.
+  EXPECT_GT(darkened, 400);
 }
 
 // Without the steps of faces that fade within little, and without powers below 1, which are steep at 0, the

@@ -45,5 +45,16 @@ TEST_F(LoadScenario, SuffixesMayBeInCapitals) {
   EXPECT_TRUE(scenario) << scenario.failure().message;
 }
 
+TEST_F(LoadScenario, ADecalWhoseFileIsGoneIsNamed) {
+  write("a.obj", kTriangle);
+  const auto scenario =
+      load_scenario(write("d.toml", "version = 1\nscene = \"a.obj\"\n[[decal]]\nfile = \"ao.brv\"\n"), {});
+  ASSERT_FALSE(scenario);
+  EXPECT_EQ(scenario.failure().code, ErrorCode::bad_input);
+  EXPECT_NE(scenario.failure().message.find("d.toml:4:8: "), std::string::npos) << scenario.failure().message;
+  EXPECT_NE(scenario.failure().message.find("ao.brv"), std::string::npos) << scenario.failure().message;
+  EXPECT_EQ(scenario.failure().message.find('\n'), std::string::npos);
+}
+
 }  // namespace
 }  // namespace brume::scenario

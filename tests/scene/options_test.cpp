@@ -92,7 +92,8 @@ TEST(Options, MatchTheTableInTheDocs) {
   const auto text =
       read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / "docs/timeline.md").value_or_throw();
   RowMaker top(""), grid("`[grid]` "), smoke("`[smoke]` "), sky("`[sky]` "), sun("`[sun]` "),
-      volume("`[[volume]]` "), camera("`[[camera]]` ");
+      volume("`[[volume]]` "), mask("`[[volume.mask]]` "), disturbance("`[volume.disturb]` "),
+      carrier("`[[carrier.key]]` "), decal("`[[decal]]` "), camera("`[[camera]]` ");
   visit_timeline_options(static_cast<const Timeline&>(Timeline()), top);
   visit_level_options(static_cast<const Timeline&>(Timeline()), top);
   visit_grid_options(static_cast<const GridOptions&>(GridOptions()), grid);
@@ -100,9 +101,15 @@ TEST(Options, MatchTheTableInTheDocs) {
   visit_sky_options(static_cast<const SkyOptions&>(SkyOptions()), sky);
   visit_sun_options(static_cast<const SunOptions&>(SunOptions()), sun);
   visit_volume_options(static_cast<const VolumeOptions&>(VolumeOptions()), volume);
+  visit_particle_options(static_cast<const VolumeOptions&>(VolumeOptions()), volume);
+  visit_mask_options(static_cast<const VolumeMask&>(VolumeMask()), mask);
+  visit_disturbance_options(static_cast<const Disturbance&>(Disturbance()), disturbance);
+  visit_carrier_options(static_cast<const CarrierKey&>(CarrierKey()), carrier);
+  visit_decal_options(static_cast<const DecalOptions&>(DecalOptions()), decal);
   visit_camera_options(static_cast<const Camera&>(Camera()), camera);
   const std::string head = part_of(text, "| key |");
-  for (const RowMaker* maker : {&top, &grid, &smoke, &sky, &sun, &volume, &camera})
+  for (const RowMaker* maker :
+       {&top, &grid, &smoke, &sky, &sun, &volume, &mask, &disturbance, &carrier, &decal, &camera})
     expect_rows(head, maker->rows);
 
   RowMaker shot("... "), letters("... "), blast("... ");
@@ -161,6 +168,12 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(SkyOptions(), visit_sky_options), 5u);
   EXPECT_EQ(MET(SunOptions(), visit_sun_options), 3u);
   EXPECT_EQ(MET(VolumeOptions(), visit_volume_options), 14u);
+  EXPECT_EQ(MET(VolumeMask(), visit_mask_options), 2u);
+  EXPECT_EQ(MET(MaskKey(), visit_mask_options), 2u);
+  EXPECT_EQ(MET(Disturbance(), visit_disturbance_options), 4u);
+  EXPECT_EQ(MET(VolumeOptions(), visit_particle_options), 2u);
+  EXPECT_EQ(MET(CarrierKey(), visit_carrier_options), 1u);
+  EXPECT_EQ(MET(DecalOptions(), visit_decal_options), 8u);
   EXPECT_EQ(MET(Camera(), visit_camera_options), 1u);
   EXPECT_EQ(MET(ShotEvent(), visit_shot_options), 7u);
   EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);

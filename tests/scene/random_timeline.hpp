@@ -148,6 +148,69 @@ inline void draw_transfer(Drawing& draw, VolumeOptions& volume) {
   }
 }
 
+/// Some text of its own, with an ending that no other has.
+inline std::string random_name(Drawing& draw, std::size_t number) {
+  return draw.text() + std::to_string(number);
+}
+
+/// A carrier, or none.
+inline std::string random_carrier_name(Drawing& draw, const std::vector<Carrier>& carriers) {
+  const std::uint32_t chosen = draw.below(static_cast<std::uint32_t>(carriers.size()) + 1);
+  return chosen < carriers.size() ? carriers[chosen].name : "";
+}
+
+/// Calls add(time) for at least `fewest` times that rise.
+inline void some_keys(Drawing& draw, std::uint32_t fewest, const std::function<void(double)>& add) {
+  double time = draw.below(2) == 0 ? 0 : draw.share();
+  for (std::uint32_t keys = fewest + draw.below(4); keys > 0; --keys, time += 0.01 + draw.share()) add(time);
+}
+
+inline Carrier random_carrier(Drawing& draw, std::size_t number) {
+  Carrier carrier;
+  carrier.name = random_name(draw, number);
+  if (draw.below(2) == 0) carrier.object = random_name(draw, number);
+  some_keys(draw, 1, [&](double time) {
+    CarrierKey key{time, draw.point(-kFarthestPoint, kFarthestPoint)};
+    visit_carrier_options(key, draw);
+    carrier.keys.push_back(key);
+  });
+  return carrier;
+}
+
+inline VolumeMask random_mask(Drawing& draw) {
+  VolumeMask mask;
+  mask.grid = draw.text();
+  visit_mask_options(mask, draw);
+  if (draw.below(2) == 0)
+    some_keys(draw, 1, [&](double time) {
+      MaskKey key{time};
+      visit_mask_options(key, draw);
+      mask.keys.push_back(key);
+    });
+  return mask;
+}
+
+/// What a volume glows and moves with.
+inline void draw_effects(Drawing& draw, const std::vector<Carrier>& carriers, VolumeOptions& volume) {
+  volume.carrier = random_carrier_name(draw, carriers);
+  if (volume.color.empty())
+    for (std::uint32_t masks = draw.below(kMostMasks + 1); masks > 0; --masks)
+      volume.masks.push_back(random_mask(draw));
+  if (draw.below(2) == 0) visit_disturbance_options(volume.disturbance, draw);
+  if (draw.below(2) == 0) visit_particle_options(volume, draw);
+  if (volume.masks.empty()) volume.particles = 0;
+}
+
+inline DecalOptions random_decal(Drawing& draw, const std::vector<Carrier>& carriers) {
+  DecalOptions decal;
+  decal.file = "scenes/" + std::to_string(draw.below(3)) + ".vdb";
+  if (draw.below(2) == 0) decal.grid = draw.text();
+  decal.carrier = random_carrier_name(draw, carriers);
+  decal.position_world = draw.point(-kFarthestPoint, kFarthestPoint);
+  visit_decal_options(decal, draw);
+  return decal;
+}
+
 inline Timeline random_timeline(std::uint32_t seed) {
   Drawing draw(seed);
   Timeline timeline;
@@ -159,6 +222,10 @@ inline Timeline random_timeline(std::uint32_t seed) {
   if (timeline.smoke.droplet) timeline.smoke.anisotropy = SmokeOptions().anisotropy;
   visit_sky_options(timeline.sky, draw);
   if (draw.below(2) == 0) visit_sun_options(timeline.sun.emplace(), draw);
+  for (std::uint32_t carriers = draw.below(3); carriers > 0; --carriers)
+    timeline.carriers.push_back(random_carrier(draw, carriers));
+  for (std::uint32_t decals = draw.below(3); decals > 0; --decals)
+    timeline.decals.push_back(random_decal(draw, timeline.carriers));
   for (std::uint32_t volumes = draw.below(3); volumes > 0; --volumes) {
     VolumeOptions& volume = timeline.volumes.emplace_back();
     volume.file = "scenes/" + std::to_string(volumes) + "_%04d.vdb";
@@ -168,6 +235,7 @@ inline Timeline random_timeline(std::uint32_t seed) {
     volume.position_world = draw.place();
     visit_volume_options(volume, draw);
     draw_transfer(draw, volume);
+    draw_effects(draw, timeline.carriers, volume);
     volume.loop = draw.below(2) == 0;
     volume.clip = !volume.loop && draw.below(2) == 0;
     volume.ping_pong = !volume.loop && !volume.clip && draw.below(2) == 0;

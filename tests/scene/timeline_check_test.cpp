@@ -69,6 +69,15 @@ class Spoiler {
   std::uint32_t one_in_;
 };
 
+void spoil_effects(VolumeOptions& volume, Spoiler& s) {
+  for (VolumeMask& mask : volume.masks) {
+    visit_mask_options(mask, s);
+    for (MaskKey& key : mask.keys) s.time(key.time), visit_mask_options(key, s);
+  }
+  visit_disturbance_options(volume.disturbance, s);
+  visit_particle_options(volume, s);
+}
+
 void spoil(Timeline& t, Spoiler& s) {
   visit_timeline_options(t, s);
   visit_level_options(t, s);
@@ -81,7 +90,12 @@ void spoil(Timeline& t, Spoiler& s) {
     for (OpacityPoint& point : v.opacity) s.fraction(point.at), s.fraction(point.opacity);
     for (ColorPoint& point : v.color_map.points) s.fraction(point.at), s.fraction(point.color.g);
     if (v.range) s.end(v.range->y);
+    spoil_effects(v, s);
   }
+  for (Carrier& carrier : t.carriers)
+    for (CarrierKey& key : carrier.keys)
+      s.time(key.time), s.place(key.position_world), visit_carrier_options(key, s);
+  for (DecalOptions& decal : t.decals) s.place(decal.position_world), visit_decal_options(decal, s);
   for (CameraKey& key : t.camera) s.time(key.time), visit_camera_options(key.camera, s);
   for (SmokeEvent& e : t.smokes) s.time(e.time), s.place(e.from_world), s.place(e.at_world);
   for (ShotEvent& e : t.shots) s.time(e.time), s.place(e.toward_world), visit_shot_options(e, s);
@@ -140,6 +154,70 @@ TEST(TimelineCheck, NamesTheEventAndTheNumber) {
   timeline.camera = {{1, {}}, {1, {}}};
   EXPECT_EQ(check_settings(timeline).failure().message,
             "camera at 1 s: \"time\": expected a later time than that of the previous key");
+}
+
+/// A timeline with one of each: a carrier, a volume with a mask, a decal.
+Timeline with_effects() {
+  Timeline timeline;
+  timeline.scene = "a.glb";
+  timeline.carriers.resize(1);
+  timeline.carriers[0].name = "ship";
+  timeline.carriers[0].object = "hull";
+  timeline.carriers[0].keys.resize(2);
+  timeline.carriers[0].keys[1].time = 1;
+  timeline.volumes.resize(1);
+  timeline.volumes[0].file = "f.vdb";
+  timeline.volumes[0].carrier = "ship";
+  timeline.volumes[0].masks.resize(1);
+  timeline.volumes[0].masks[0].grid = "fire";
+  timeline.decals.resize(1);
+  timeline.decals[0].file = "ao.vdb";
+  timeline.decals[0].carrier = "ship";
+  return timeline;
+}
+
+TEST(TimelineCheck, NamesCarriersMasksAndDecals) {
+  const auto expect = [](const auto& change, const std::string& message) {
+    Timeline timeline = with_effects();
+    ASSERT_TRUE(check_settings(timeline));
+    change(timeline);
+    EXPECT_EQ(check_settings(timeline).failure().message, message);
+    // A file with the same fault is refused, too.
+    EXPECT_FALSE(parse_timeline(format_timeline(timeline, ""), "t.toml")) << message;
+  };
+  expect([](Timeline& t) { t.decals[0].strength = 2; },
+         "[[decal]] ao.vdb: \"strength\": expected a number from 0 to 1, found 2");
+  expect([](Timeline& t) { t.decals[0].carrier = "shop"; },
+         "[[decal]] ao.vdb: \"carrier\": expected the name of a [[carrier]]");
+  expect([](Timeline& t) { t.decals.resize(kMostDecals + 1, t.decals[0]); },
+         "[[decal]]: expected at most 32 of them");
+  expect([](Timeline& t) { t.carriers.clear(); },
+         "[[volume]] f.vdb: \"carrier\": expected the name of a [[carrier]]");
+  expect([](Timeline& t) { t.volumes[0].masks[0].intensity = -1; },
+         "[[volume]] f.vdb: mask fire: \"intensity\": expected a number from 0 to 1e+06, found -1");
+  expect(
+      [](Timeline& t) {
+        t.volumes[0].masks[0].keys.assign(2, {2, {}, 1});
+      },
+      "[[volume]] f.vdb: mask fire: key at 2 s: \"time\": expected a later time than that of the previous "
+      "key");
+  expect([](Timeline& t) { t.volumes[0].masks.resize(kMostMasks + 1, t.volumes[0].masks[0]); },
+         "[[volume]] f.vdb: \"mask\": expected at most 4 of them");
+  expect([](Timeline& t) { t.volumes[0].color = "Cd"; },
+         "[[volume]] f.vdb: \"color\": cannot be combined with [[volume.mask]]");
+  expect([](Timeline& t) { t.volumes[0].masks.clear(), t.volumes[0].particles = 9; },
+         "[[volume]] f.vdb: \"particles\": expected a [[volume.mask]]");
+  expect([](Timeline& t) { t.volumes[0].disturbance.size = 0; },
+         "[[volume]] f.vdb: [volume.disturb]: \"size\": expected a number from 1e-06 to 1e+06, found 0");
+  expect([](Timeline& t) { t.carriers[0].keys.clear(); }, "[[carrier]] ship: \"key\": expected at least one");
+  expect([](Timeline& t) { t.carriers[0].keys[1].time = 0; },
+         "[[carrier]] ship: key at 0 s: \"time\": expected a later time than that of the previous key");
+  expect([](Timeline& t) { t.carriers[0].keys[1].rotation.z = 40000; },
+         "[[carrier]] ship: key at 1 s: \"rotation\": expected a number from -36000 to 36000, found 40000");
+  expect([](Timeline& t) { t.carriers.push_back(t.carriers[0]), t.carriers[1].object = ""; },
+         "[[carrier]]: \"name\": expected a name of its own for each");
+  expect([](Timeline& t) { t.carriers.push_back(t.carriers[0]), t.carriers[1].name = "tug"; },
+         "[[carrier]]: \"object\": expected one carrier for each object");
 }
 
 }  // namespace

@@ -39,4 +39,60 @@ inline void write_foggy_room(const cli::WorkFolder& folder) {
                                  "scale = 0.2\nextinction = 2.0\nkelvin = 2000.0\n");
 }
 
+/// The same with busy.toml: a carrier moves the block, a decal, and a second volume, which has masks and is
+/// disturbed; another decal is at the top of the door.
+inline void write_busy_room(const cli::WorkFolder& folder) {
+  write_foggy_room(folder);
+  std::ifstream foggy(folder.path() / "foggy.toml");
+  const std::string text((std::istreambuf_iterator<char>(foggy)), std::istreambuf_iterator<char>());
+  folder.write("busy.toml", text +
+                                R"([[volume]]
+file = "fog.brv"
+position = [0.0, 1.0, 0.0]
+scale = 0.1
+carrier = "crane"
+[volume.disturb]
+strength = 0.5
+size = 2.0
+drift = [0.0, 1.0, 0.0]
+[[volume.mask]]
+grid = "fuel"
+color = [1.0, 0.5, 0.0]
+intensity = 2.0
+[[volume.mask]]
+grid = "temperature"
+[[volume.mask.key]]
+time = 0.0
+[[volume.mask.key]]
+time = 1.0
+intensity = 3.0
+[[carrier]]
+name = "crane"
+object = "Block"
+[[carrier.key]]
+time = 0.0
+position = [2.0, 0.0, -2.0]
+[[carrier.key]]
+time = 2.0
+position = [0.0, 0.5, -2.0]
+rotation = [0.0, 90.0, 0.0]
+[[carrier]]
+name = "rail"
+[[carrier.key]]
+time = 0.0
+position = [1.0, 0.0, 0.0]
+[[decal]]
+file = "fog.brv"
+grid = "density"
+position = [-2.2, 2.2, -1.0]
+scale = 0.2
+[[decal]]
+file = "fog.brv"
+grid = "density"
+carrier = "crane"
+position = [0.0, -0.5, 0.0]
+scale = 0.2
+)");
+}
+
 }  // namespace brume::viewer

@@ -239,7 +239,7 @@ TEST(OptionLabelsTest, EverySettingHasALabelOfItsOwn) {
   const auto expect_labels = [](auto options, auto visit) {
     std::set<std::string> labels;
     visit(options, [&](const scene::OptionInfo& info, const auto&) {
-      const std::string label = label_of(info.key);
+      const std::string label = label_of(info);
       EXPECT_NE(label, "") << info.key;
       EXPECT_EQ(label.find('_'), std::string::npos) << label;
       EXPECT_TRUE(labels.insert(label).second) << label;

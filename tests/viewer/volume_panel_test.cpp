@@ -1,62 +1,19 @@
 // The panel of volumes: what is clicked and dragged is in the picture and in the saved timeline.
 #include <X11/keysym.h>
 
-#include "scene/timeline.hpp"
-#include "tests/viewer/foggy_room.hpp"
+#include "tests/viewer/panel_test.hpp"
 
 namespace brume::viewer {
 namespace {
 
-class VolumePanelTest : public testing::Test {
+class VolumePanelTest : public PanelTest {
  protected:
-  VolumePanelTest() { write_foggy_room(folder_); }
-
-  void run() {
-    program_.emplace(desktop_, folder_.path(),
-                     std::vector<std::string>{"foggy.toml", "--size", "640x700", "--panels", "--quality",
-                                              "smallest", "--log-widgets", "--record", "made.toml"});
-    ASSERT_TRUE(program_->wait_for_window()) << program_->error();
-  }
-  /// The widget of this label, unfolded and scrolled into view.
-  WidgetLine widget(const std::string& label) {
-    for (int turns = 0; turns < 60 && program_->runs(); ++turns) {
-      const auto& all = program_->widgets();
-      const auto found = std::ranges::find(all, label, &WidgetLine::label);
-      if (found != all.end() && found->reachable) return *found;
-      program_->place_mouse(580, 300);
-      program_->click(found != all.end() && found->low_px.y < 300 ? 4 : 5);  // the wheel
-      program_->wait_for_frames(3);
-    }
-    ADD_FAILURE() << label << " is never in view; " << program_->error();
-    return {};
-  }
-  void move_to(glm::ivec2 place) {
-    program_->place_mouse(place.x, place.y);
-    program_->wait_for_frames(2);
-  }
-  void click(glm::ivec2 place, unsigned button = 1) {
-    move_to(place);
-    program_->click(button);
-    program_->wait_for_frames(5);
-  }
-  void click(const std::string& label) {
-    const WidgetLine at = widget(label);
-    click((at.low_px + at.high_px) / 2);
-  }
   /// A place of the curve on the display.
   static glm::ivec2 on(const WidgetLine& canvas, glm::vec2 place) {
     const glm::vec2 size(canvas.high_px - canvas.low_px);
     return canvas.low_px + glm::ivec2(glm::round(glm::vec2(place.x, 1 - place.y) * size));
   }
-  scene::VolumeOptions saved() {
-    program_->close();
-    EXPECT_EQ(program_->wait(), 0) << program_->error();
-    return scene::load_timeline(folder_.path() / "made.toml").value_or_throw().volumes.at(0);
-  }
-
-  cli::WorkFolder folder_;
-  Desktop desktop_;
-  std::optional<Program> program_;
+  scene::VolumeOptions saved_volume() { return saved().volumes.at(0); }
 };
 
 TEST_F(VolumePanelTest, TheCurveIsDrawnAndDraggedAndSaved) {
@@ -77,7 +34,7 @@ TEST_F(VolumePanelTest, TheCurveIsDrawnAndDraggedAndSaved) {
   program_->wait_for_frames(3);
   click(on(canvas, {0.75f, 0.5f}));     // another one,
   click(on(canvas, {0.75f, 0.5f}), 3);  // removed
-  const scene::VolumeOptions volume = saved();
+  const scene::VolumeOptions volume = saved_volume();
   ASSERT_EQ(volume.opacity.size(), 3u);
   EXPECT_EQ(volume.opacity[0], (scene::OpacityPoint{0, 0}));
   EXPECT_NEAR(volume.opacity[1].at, 0.25f, 0.02f);
@@ -114,7 +71,7 @@ TEST_F(VolumePanelTest, ChoicesShowAtOnceAndCanBeUndone) {
   program_->key(XK_Control_L, false);
   ASSERT_TRUE(program_->wait_for_best());
   EXPECT_LT(difference(plain, program_->contents()), 0.2);
-  const scene::VolumeOptions volume = saved();
+  const scene::VolumeOptions volume = saved_volume();
   EXPECT_EQ(volume.density, "fuel");
   EXPECT_EQ(volume.color_map.name, "");
   EXPECT_EQ(volume.opacity.size(), 2u);
@@ -136,7 +93,7 @@ TEST_F(VolumePanelTest, ColoursAreAddedAndMoved) {
   program_->button(1, false);
   program_->wait_for_frames(3);
   click(on(bar, {0.5f, 0.5f}), 3);  // removes the middle one
-  const scene::VolumeOptions volume = saved();
+  const scene::VolumeOptions volume = saved_volume();
   ASSERT_EQ(volume.color_map.points.size(), 9u);
   EXPECT_NEAR(volume.color_map.points[3].at, 0.35f, 0.02f);
   EXPECT_EQ(volume.color_map.points[4].at, 0.375f);

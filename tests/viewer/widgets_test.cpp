@@ -17,11 +17,11 @@ constexpr glm::ivec2 kBesideThePanels(40, 300);
 
 class WidgetsTest : public testing::Test {
  protected:
-  WidgetsTest() { write_foggy_room(folder_); }
+  WidgetsTest() { write_busy_room(folder_); }
 
   void run(const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{
-        "foggy.toml",    "--size",       std::to_string(kWidth) + "x" + std::to_string(kHeight),
+        "busy.toml",     "--size",       std::to_string(kWidth) + "x" + std::to_string(kHeight),
         "--panels",      "--quality",    "smallest",
         "--log-widgets", "--validation", "--json",
         "r.json"};
@@ -125,7 +125,7 @@ TEST_F(WidgetsTest, EveryWidgetOfEveryPanelTakesAClick) {
   ASSERT_TRUE(program_->runs()) << program_->error();
 
   // The log misses no kind of widget that the panels have.
-  EXPECT_EQ(kinds_["open"].size(), 14u);  // 9 sections, 5 parts of them
+  EXPECT_EQ(kinds_["open"].size(), 17u);  // 11 sections, 6 names of parts of them
   EXPECT_EQ(kinds_["text"].size(), 2u);
   EXPECT_TRUE(kinds_["choice"].contains("../"));
   EXPECT_TRUE(kinds_["choice"].contains("walls_diffuse.png"));
