@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
 
 #include "bench/frames.hpp"
 #include "grids/slice_atlas.hpp"
@@ -32,8 +33,8 @@ Result<scenario::Scenario> exhaust_scenario() {
 /// A frame in which nothing but the exhaust emits.
 class ExhaustFrame {
  public:
-  ExhaustFrame(Bench& bench, const scenario::Scenario& scenario)
-      : bench_(bench), frame_(bench.context(), scenario, options_of(bench), 0) {
+  ExhaustFrame(Bench& bench, const scenario::Scenario& scenario, std::uint32_t march_scale = 1)
+      : bench_(bench), frame_(bench.context(), scenario, options_of(bench, march_scale), 0) {
     render::FrameInput& input = frame_.input();
     input.environment = {};
     input.quality.rebuild_light = false;
@@ -59,19 +60,24 @@ class ExhaustFrame {
     frame_.draw();
     return frame_.radiance();
   }
-  /// GPU time of a pass.
-  Measurement time(const std::string& name, const char* pass) {
+  /// GPU time of passes together.
+  Measurement time(const std::string& name, std::initializer_list<const char*> passes) {
     const bool slow = bench_.context().info().kind == "cpu";
     std::vector<double> times;
     for (unsigned i = 0; i < (slow ? 1u : 50u); ++i) frame_.draw();
-    for (unsigned i = 0; i < bench_.repetitions(slow ? 3 : 200); ++i)
-      times.push_back(frame_.draw().passes.at(pass));
+    for (unsigned i = 0; i < bench_.repetitions(slow ? 3 : 200); ++i) {
+      const FrameCost cost = frame_.draw();
+      times.push_back(std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const char* pass) {
+        return sum + cost.passes.at(pass);
+      }));
+    }
     return summarize(name, "ms", "gpu", std::move(times));
   }
 
  private:
-  static render::RendererOptions options_of(Bench& bench) {
+  static render::RendererOptions options_of(Bench& bench, std::uint32_t march_scale) {
     render::RendererOptions options;
+    options.smoke.march_scale = march_scale;
     options.size_px = bench.context().info().kind == "cpu" ? glm::uvec2(480, 270) : glm::uvec2(1920, 1080);
     return options;
   }
@@ -94,12 +100,14 @@ double percent_apart(const std::vector<glm::vec4>& image, const std::vector<glm:
 /// The march at this many times its usual step is the reference of all.
 constexpr float kReferenceSteps = 0.125f;
 
-Result<std::vector<Measurement>> marched_exhaust(Bench& bench) {
+Result<std::vector<Measurement>> marched_exhaust(Bench& bench, std::uint32_t march_scale) {
   const auto scenario = exhaust_scenario();
   if (!scenario) return scenario.failure();
-  ExhaustFrame frame(bench, *scenario);
-  const std::vector<glm::vec4> reference = frame.draw(kReferenceSteps), image = frame.draw();
-  Measurement m = frame.time("particles/march", "march");
+  const std::vector<glm::vec4> reference = ExhaustFrame(bench, *scenario).draw(kReferenceSteps);
+  ExhaustFrame frame(bench, *scenario, march_scale);
+  const std::vector<glm::vec4> image = frame.draw();
+  Measurement m = march_scale == 1 ? frame.time("particles/march", {"march"})
+                                   : frame.time("particles/march_half", {"march", "resolve"});
   m.details = {{"rms_percent", percent_apart(image, reference)}};
   return std::vector{m};
 }
@@ -118,7 +126,7 @@ Result<std::vector<Measurement>> exhaust_of_particles(Bench& bench, std::uint32_
     most = std::max(most, double{pixel.x});
   }
   frame.draw();
-  Measurement m = frame.time("particles/" + std::to_string(count), "particles");
+  Measurement m = frame.time("particles/" + std::to_string(count), {"particles"});
   m.details = {{"rms_percent", percent_apart(image, reference)},
                {"quads_per_pixel", sum / static_cast<double>(quads.size())},
                {"most_quads", most}};
@@ -131,7 +139,9 @@ std::vector<Case> particle_cases() {
   std::vector<Case> cases{
       {"particles/march",
        "the exhaust of an ion thruster that fills the image, marched; 480x270 without a GPU",
-       marched_exhaust}};
+       [](Bench& b) { return marched_exhaust(b, 1); }},
+      {"particles/march_half", "the same with a ray for 2 x 2 pixels, resolved",
+       [](Bench& b) { return marched_exhaust(b, 2); }}};
   for (const std::uint32_t count : {50u, 100u, 200u, 400u, 800u, 1600u, 3200u, 6400u})
     cases.push_back({"particles/" + std::to_string(count),
                      "the same by " + std::to_string(count) + " particles",

@@ -16,7 +16,7 @@ namespace {
 struct OcclusionBake {
   std::string input, size = "64x64x64", box, json;
   std::vector<std::string> objects;
-  double margin = 0.75;
+  double margin = 1.5;
   bool separate = false;
   bake::OcclusionOptions options;
   bake::OcclusionCurve curve;
@@ -122,7 +122,7 @@ void add_bake_options(const Arguments& arguments, OcclusionBake& bake) {
       .type_name("XxYxZ");
   arguments
       .add_option("--margin", bake.margin,
-                  "Space around the mesh, relative to its longest side; default 0.75")
+                  "Space around the mesh, relative to its longest side; default 1.5")
       .range(0.0, 100.0)
       .type_name("X");
   arguments

@@ -30,7 +30,7 @@ DecalBox decal_box(const scenario::Scenario& scenario, double seconds) {
   const scene::DecalOptions& options = scenario.timeline.decals.front();
   const scenario::SliceVolume& slices = scenario.slices.of_decals.front();
   const Box<double>& box = (*scenario.slices.volumes)[slices.volume].front().box;
-  const glm::dmat4 world_from_box(scenario::world_from_file(scenario.timeline, options, seconds) *
+  const glm::dmat4 world_from_box(scenario::world_from_file(scenario.timeline.carriers, options, seconds) *
                                   slices.file_from_box);
   glm::dmat4 box_from_uvw(1);
   for (int axis = 0; axis < 3; ++axis) box_from_uvw[axis][axis] = box.high[axis] - box.low[axis];
@@ -43,7 +43,7 @@ std::vector<voxel::Triangle> carried_triangles(const scenario::Scenario& scenari
   const std::string& name = scenario.timeline.decals.front().carrier;
   std::vector<voxel::Triangle> triangles;
   for (const scenario::MovedObject& moved :
-       scenario::moved_objects(scenario.timeline, scenario.scene, seconds)) {
+       scenario::moved_objects(scenario.timeline.carriers, scenario.scene, seconds)) {
     scene::Object object = scenario.scene.objects[moved.object];
     const auto is_carrier = [&](const scene::Carrier& carrier) {
       return carrier.name == name && carrier.object == object.name;

@@ -5,6 +5,8 @@
 #include "lib/volume_disturbance.glsl"
 #include "lib/volume_inscatter.glsl"
 
+layout(binding = kBindMaskPairs) uniform sampler3D mask_pairs;
+
 // Constants of the pipeline: a software rasteriser pays for branches that it does not take.
 const bool kHasHeat = (kMedia & kMediumHeat) != 0u, kIsLit = (kMedia & kMediumLit) != 0u;
 const bool kHasMasks = (kMedia & kMediumMasks) != 0u, kHasGlow = kHasHeat || kHasMasks;
@@ -132,10 +134,16 @@ void add_volume(uint i, VolumeMatter matter, vec4 masks, LightTexels at, float p
     sum.glow += volumes[i].look.extinction * volume_glow(i, p_world);
     ++texture_samples;
   }
-  if (kHasMasks && volumes[i].colors.kind == kColorsMasks) {
+  if (kHasMasks && volumes[i].colors.kind >= kColorsMasks) {
     sum.glow += volume_effects[i].tints * masks;
     ++texture_samples;
   }
+}
+
+/// The masks of a volume at a place in its atlas.
+vec4 masks_at(uint i, vec3 uvw) {
+  if (volumes[i].colors.kind == kColorsPair) return vec4(textureLod(mask_pairs, uvw, 0.0).rg, 0.0, 0.0);
+  return textureLod(color_grids, uvw, 0.0);
 }
 
 /// Adds volume i at a point of its voxel space that noise has moved: its brick is another one at each sample.
@@ -146,7 +154,10 @@ void add_disturbed(uint i, vec3 p_voxel, LightTexels at, float phase, vec3 half_
   const BrickAt brick = volume_brick(volumes[i].bricks, p);
   if (brick.slot == kNoSlot) return;
   vec4 masks = vec4(0.0);
-  if (kHasMasks && volumes[i].colors.kind == kColorsMasks) masks = grid_texel(volumes[i], brick, p);
+  if (kHasMasks && volumes[i].colors.kind >= kColorsMasks) {
+    const vec3 corner = atlas_corner(volumes[i].colors.bricks, brick.slot);
+    masks = masks_at(i, (corner + p - brick.low) * volumes[i].colors.bricks.atlas_texel);
+  }
   add_volume(i, matter_around(volumes[i], i, p, half_voxels), masks, at, phase, p_world, sum, texture_samples);
 }
 
@@ -162,8 +173,8 @@ void add_volume_at(uint i, VolumeBrick brick, LightRay lit, VoxelRay ray, float 
     return;
   }
   vec4 masks = vec4(0.0);
-  if (kHasMasks && volumes[i].colors.kind == kColorsMasks)
-    masks = textureLod(color_grids, brick.colors.at + t * brick.colors.along, 0.0);
+  if (kHasMasks && volumes[i].colors.kind >= kColorsMasks)
+    masks = masks_at(i, brick.colors.at + t * brick.colors.along);
   VolumeMatter matter = VolumeMatter(0.0, vec3(0.0), vec3(0.0));
   // What only glows is no more than its masks.
   if (!kHasMasks || volumes[i].look.extinction > 0.0)

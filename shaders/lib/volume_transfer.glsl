@@ -64,11 +64,11 @@ float half_segment(vec3 per_metre, float ds) {
   return 0.5 * min(ds, 1.0 / max(voxels.x, max(voxels.y, voxels.z)));
 }
 
-/// The colour or masks of a volume at a point of a brick of its own.
-vec4 grid_texel(VolumeInstance volume, BrickAt brick, vec3 p_voxel) {
+/// The colour of a volume's grid at a point of a brick of its own.
+vec3 grid_color(VolumeInstance volume, BrickAt brick, vec3 p_voxel) {
   const vec3 corner = atlas_corner(volume.colors.bricks, brick.slot);
   const vec3 uvw = (corner + p_voxel - brick.low) * volume.colors.bricks.atlas_texel;
-  return textureLod(color_grids, uvw, 0.0);
+  return textureLod(color_grids, uvw, 0.0).rgb;
 }
 
 /// The values at the ends of a segment inside of a volume's bounds.
@@ -87,7 +87,7 @@ VolumeMatter matter_around(VolumeInstance volume, uint i, vec3 p_voxel, vec3 hal
   VolumeMatter matter = matter_of(volume, i, values);
   if (kHasColorGrids && volume.colors.kind == kColorsAlbedo) {
     const BrickAt brick = volume_brick(volume.bricks, p_voxel);
-    if (brick.slot != kNoSlot) matter.albedo *= grid_texel(volume, brick, p_voxel).rgb;
+    if (brick.slot != kNoSlot) matter.albedo *= grid_color(volume, brick, p_voxel);
   }
   return matter;
 }

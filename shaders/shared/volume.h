@@ -20,6 +20,7 @@ SHARED_BINDING(kBindVolumeColors, 31u);
 SHARED_BINDING(kBindTransfers, 53u);
 SHARED_BINDING(kBindColorGrids, 54u);
 SHARED_BINDING(kBindVolumeEffects, 60u);
+SHARED_BINDING(kBindMaskPairs, 64u);
 
 SHARED_CONST int kBrickVoxels = 8;
 SHARED_CONST int kBrickTexels = 10;
@@ -105,7 +106,8 @@ SHARED_SIZE(VolumeTransfer, 20);
 /// What the colours of a volume are.
 SHARED_CONST uint kColorsNone = 0u;
 SHARED_CONST uint kColorsAlbedo = 1u;  // factors of its albedo
-SHARED_CONST uint kColorsMasks = 2u;   // up to four masks that glow
+SHARED_CONST uint kColorsMasks = 2u;   // three or four masks that glow
+SHARED_CONST uint kColorsPair = 3u;    // one or two, in an atlas of half as many bytes a texel
 
 /// Colours or masks in bricks of the same slots as a volume's own.
 struct VolumeColors {

@@ -61,6 +61,19 @@ float value_at(MaskValues& values, const glm::dvec3& p_index) {
   return sum;
 }
 
+glm::vec4 masks_at(std::vector<MaskValues>& masks, const glm::dvec3& p_index) {
+  glm::vec4 four(0);
+  for (std::size_t i = 0; i < masks.size(); ++i) four[static_cast<int>(i)] = value_at(masks[i], p_index);
+  return four;
+}
+
+constexpr volume::ChannelId kMasks{0};
+
+template <typename Texels, typename Function>
+void fill(Texels texels, Function texel_at) {
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = texel_at(i);
+}
+
 }  // namespace
 
 Result<Grid> joined_masks(std::span<const Grid* const> masks) {
@@ -109,7 +122,8 @@ std::unique_ptr<volume::SparseVolume> make_mask_bricks(std::span<const Grid* con
   BRUME_ASSERT(!masks.empty() && masks.size() <= kMostMaskGrids, std::to_string(masks.size()));
   const glm::dmat4 index_from_voxel = glm::inverse(masks.front()->world_from_index) * volume.world_from_voxel;
   volume::SparseVolumeInfo info;
-  info.channels = {{sizeof(std::uint64_t)}};
+  const bool is_pair = masks.size() <= 2;
+  info.channels = {{is_pair ? 4u : 8u}};
   auto bricks = std::make_unique<volume::SparseVolume>(info);
   const std::uint32_t slots = volume.volume->slot_count();
   bricks->begin_update();
@@ -117,18 +131,21 @@ std::unique_ptr<volume::SparseVolume> make_mask_bricks(std::span<const Grid* con
   parallel_for(slots, 16, [&](std::size_t begin, std::size_t end) {
     std::vector<MaskValues> values;
     for (const Grid* mask : masks) values.emplace_back(*mask);
-    for (std::size_t slot = begin; slot < end; ++slot) {
-      const auto texels =
-          bricks->texels<std::uint64_t>(volume::ChannelId{0}, static_cast<std::uint32_t>(slot));
-      const glm::ivec3 first = 8 * volume.volume->brick_of(static_cast<std::uint32_t>(slot)) - 1;
-      for (int i = 0; i < int{shared::kTexelsPerBrick}; ++i) {
-        const glm::dvec3 p_voxel = glm::dvec3(first + glm::ivec3(i % 10, i / 10 % 10, i / 100)) + 0.5;
-        const glm::dvec3 p_index(index_from_voxel * glm::dvec4(p_voxel, 1));
-        glm::vec4 four(0);
-        for (std::size_t mask = 0; mask < masks.size(); ++mask)
-          four[static_cast<int>(mask)] = value_at(values[mask], p_index);
-        texels[static_cast<std::size_t>(i)] = glm::packHalf4x16(four);
-      }
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto slot = static_cast<std::uint32_t>(i);
+      const glm::ivec3 first = 8 * volume.volume->brick_of(slot) - 1;
+      const auto masks_of = [&](std::size_t texel) {
+        const glm::ivec3 at =
+            first + glm::ivec3(static_cast<int>(texel) % 10, static_cast<int>(texel) / 10 % 10,
+                               static_cast<int>(texel) / 100);
+        return masks_at(values, glm::dvec3(index_from_voxel * glm::dvec4(glm::dvec3(at) + 0.5, 1)));
+      };
+      if (is_pair)
+        fill(bricks->texels<std::uint32_t>(kMasks, slot),
+             [&](std::size_t texel) { return glm::packHalf2x16(glm::vec2(masks_of(texel))); });
+      else
+        fill(bricks->texels<std::uint64_t>(kMasks, slot),
+             [&](std::size_t texel) { return glm::packHalf4x16(masks_of(texel)); });
     }
   });
   bricks->set_bounds(volume.volume->layout().bounds_min, volume.volume->layout().bounds_max);

@@ -18,14 +18,17 @@ DecalPass::DecalPass(gpu::Context& context, glm::uvec2 size_px)
   for (gpu::Image& image : occlusion_) image = gpu::Image(context, info);
 }
 
+void DecalPass::upload(gpu::Recorder& recorder, std::span<const shared::Decal> decals) {
+  BRUME_ASSERT(decals.size() <= shared::kMaxDecals, std::to_string(decals.size()));
+  decal_count_ = static_cast<std::uint32_t>(decals.size());
+  recorder.upload(decals_, 0, std::as_bytes(decals));
+}
+
 void DecalPass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
                        const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices,
-                       std::span<const shared::Decal> decals, bool continues) {
-  BRUME_ASSERT(decals.size() <= shared::kMaxDecals, std::to_string(decals.size()));
-  recorder.upload(decals_, 0, std::as_bytes(decals));
+                       bool continues) {
   const std::size_t before = current_, now = 1 - current_;
-  const shared::DecalParams params{past_clip_from_world_, continues ? frames_ : 0,
-                                   static_cast<std::uint32_t>(decals.size())};
+  const shared::DecalParams params{past_clip_from_world_, continues ? frames_ : 0, decal_count_};
   recorder.bind(pipeline_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},

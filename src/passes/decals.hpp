@@ -14,12 +14,13 @@ class DecalPass {
  public:
   DecalPass(gpu::Context& context, glm::uvec2 size_px);
 
-  /// What fraction of its light each surface loses, in red: of the decals at most shared::kMaxDecals; exactly
+  /// Uploads the decals of the next record, at most shared::kMaxDecals.
+  void upload(gpu::Recorder& recorder, std::span<const shared::Decal> decals);
+  /// What fraction of its light each surface loses to the decals of the last upload, in red; exactly
   /// 0 outside of their boxes and on what moves. Where a decal scatters its samples, with `continues` the
   /// mean of this frame and those before, else of several samples of this one.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const shared::Camera& camera,
-              const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices,
-              std::span<const shared::Decal> decals, bool continues);
+              const GBuffer& gbuffer, const gpu::Image& blue_noise, const gpu::Image& slices, bool continues);
   /// The next frame has no past: one was drawn without decals.
   void invalidate_past() { frames_ = 0; }
   /// Half floats, of the image's size: that of the last record.
@@ -29,6 +30,7 @@ class DecalPass {
   gpu::ComputePipeline pipeline_;
   gpu::Sampler nearest_, linear_;
   gpu::Buffer decals_;
+  std::uint32_t decal_count_ = 0;
   /// Occlusion, of how many samples, distance along the view axis [m] (0: no surface), spread of the samples.
   std::array<gpu::Image, 2> occlusion_;
   std::size_t current_ = 0;

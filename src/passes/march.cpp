@@ -122,6 +122,7 @@ void MarchPass::bind(gpu::Recorder& recorder, const gpu::ComputePipeline& pipeli
                     {shared::kBindVolumeColors, gpu::sampled(in.volumes.colors, linear_)},
                     {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
                     {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
+                    {shared::kBindMaskPairs, gpu::sampled(in.volumes.mask_pairs, linear_)},
                     {shared::kBindVolumeEffects, gpu::read(in.volumes.effects)},
                 });
 }

@@ -10,7 +10,8 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT}, kColorChannels{VK_FORMAT_R16G16B16A16_SFLOAT};
+constexpr std::array kVolumeChannels{VK_FORMAT_R16_SFLOAT}, kColorChannels{VK_FORMAT_R16G16B16A16_SFLOAT},
+    kPairChannels{VK_FORMAT_R16G16_SFLOAT};
 
 /// The grids of all volumes: the densities, those that glow, and the previews of both.
 struct GridList {
@@ -43,11 +44,17 @@ gpu::Buffer make_instances(gpu::Context& context) {
           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
 }
 
-/// The grids of colours.
-std::vector<const volume::SparseVolume*> color_list_of(std::span<const planning::VolumeInput> volumes) {
+/// Whether the colours of a volume are up to two masks.
+bool has_pair(const planning::VolumeInput& volume) {
+  return volume.colors && !volume.tints.empty() && volume.tints.size() <= 2;
+}
+
+/// The grids of colours, or those of pairs of masks.
+std::vector<const volume::SparseVolume*> color_list_of(std::span<const planning::VolumeInput> volumes,
+                                                       bool pairs) {
   std::vector<const volume::SparseVolume*> list;
   for (const planning::VolumeInput& volume : volumes)
-    if (volume.colors) list.push_back(volume.colors);
+    if (volume.colors && has_pair(volume) == pairs) list.push_back(volume.colors);
   return list;
 }
 
@@ -81,6 +88,7 @@ VolumeUpload::VolumeUpload(gpu::Context& context)
     : context_(context),
       atlas_(context, kVolumeChannels, {}, true),
       color_atlas_(context, kColorChannels, {}, true),
+      pair_atlas_(context, kPairChannels, {}, true),
       instances_(make_instances(context)),
       lit_instances_(make_instances(context)),
       colors_(make_colors(context)) {
@@ -91,7 +99,8 @@ VolumeUpload::VolumeUpload(gpu::Context& context)
 std::vector<std::uint64_t> VolumeUpload::reserve(std::span<const planning::VolumeInput> volumes) {
   const GridList list = list_of(volumes);
   atlas_.reserve(list.grids);
-  color_atlas_.reserve(color_list_of(volumes));
+  color_atlas_.reserve(color_list_of(volumes, false));
+  pair_atlas_.reserve(color_list_of(volumes, true));
   std::vector<std::uint64_t> missing;
   for (std::size_t i = 0; i < list.grids.size(); ++i)
     if (atlas_.is_missing(i)) missing.push_back(list.grids[i]->id());
@@ -108,7 +117,8 @@ void VolumeUpload::record(gpu::Recorder& recorder, std::span<const planning::Vol
                           std::span<const planning::PlacedVolume> lit) {
   const GridList list = list_of(volumes, residency);
   atlas_.record(recorder, list.grids, list.streams);
-  color_atlas_.record(recorder, color_list_of(volumes));
+  color_atlas_.record(recorder, color_list_of(volumes, false));
+  pair_atlas_.record(recorder, color_list_of(volumes, true));
   record_instances(recorder, volumes, visible, instances_);
   record_effects(recorder, visible);
   record_instances(recorder, volumes, lit, lit_instances_);
@@ -127,7 +137,8 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
                                     std::span<const planning::PlacedVolume> visible,
                                     const gpu::Buffer& to) const {
   const std::vector<const volume::SparseVolume*> grids = list_of(volumes).grids;
-  const std::vector<const volume::SparseVolume*> color_grids = color_list_of(volumes);
+  const std::vector<const volume::SparseVolume*> color_grids = color_list_of(volumes, false),
+                                                 pairs = color_list_of(volumes, true);
   const auto position = [](const std::vector<const volume::SparseVolume*>& list,
                            const volume::SparseVolume* grid) {
     return static_cast<std::size_t>(std::ranges::find(list, grid) - list.begin());
@@ -141,7 +152,9 @@ void VolumeUpload::record_instances(gpu::Recorder& recorder, std::span<const pla
     shared::VolumeInstance instance = volume.instance;
     instance.bricks = layout_of(shown.volume);
     if (instance.heat.per_value > 0) instance.heat.bricks = layout_of(shown.heat.volume);
-    if (instance.colors.kind != shared::kColorsNone)
+    if (instance.colors.kind == shared::kColorsPair)
+      instance.colors.bricks = pair_atlas_.layout(position(pairs, shown.colors));
+    else if (instance.colors.kind != shared::kColorsNone)
       instance.colors.bricks = color_atlas_.layout(position(color_grids, shown.colors));
     instances.push_back(instance);
   }
@@ -156,7 +169,7 @@ void VolumeUpload::record_effects(gpu::Recorder& recorder,
   for (const planning::PlacedVolume& volume : visible) {
     effects.push_back(volume.effect);
     any =
-        any || volume.instance.colors.kind == shared::kColorsMasks || volume.effect.amplitude != glm::vec3(0);
+        any || volume.instance.colors.kind >= shared::kColorsMasks || volume.effect.amplitude != glm::vec3(0);
   }
   if (any) recorder.upload(effects_, 0, std::as_bytes(std::span(effects)));
 }

@@ -16,6 +16,7 @@ struct VolumeResources {
   const gpu::Image& colors;  ///< Half floats: shared::kVolumeColors colours a row, a row per volume in view.
   const gpu::Buffer& transfers;   ///< shared::kTransferEntries per volume in view, where one has any.
   const gpu::Image& color_grids;  ///< Half floats: the atlas of VolumeColors.
+  const gpu::Image& mask_pairs;   ///< Two half floats: the same of up to two masks.
   const gpu::Buffer& effects;     ///< A shared::VolumeEffect per volume in view, where one has any.
 };
 
@@ -46,8 +47,14 @@ class VolumeUpload {
   static constexpr volume::ChannelId kValues{0};
 
   VolumeResources resources_with(const gpu::Buffer& instances) const {
-    return {atlas_.pages(), atlas_.channel(kValues),       instances, colors_,
-            transfers_,     color_atlas_.channel(kValues), effects_};
+    return {atlas_.pages(),
+            atlas_.channel(kValues),
+            instances,
+            colors_,
+            transfers_,
+            color_atlas_.channel(kValues),
+            pair_atlas_.channel(kValues),
+            effects_};
   }
   void record_instances(gpu::Recorder& recorder, std::span<const planning::VolumeInput> volumes,
                         std::span<const planning::PlacedVolume> visible, const gpu::Buffer& to) const;
@@ -65,7 +72,7 @@ class VolumeUpload {
   };
 
   gpu::Context& context_;
-  BrickAtlas atlas_, color_atlas_;
+  BrickAtlas atlas_, color_atlas_, pair_atlas_;
   gpu::Buffer instances_, lit_instances_, transfers_;
   gpu::Buffer effects_;
   gpu::Image colors_;

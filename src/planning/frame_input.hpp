@@ -126,7 +126,7 @@ struct VolumeInput {
   glm::mat4 world_from_preview{1};
   TransferInput transfer = {};
   /// One channel of four half floats: colours in [0, 1] that multiply the albedo, in the same bricks and
-  /// slots as `volume`; with tints, as many masks. null: none.
+  /// slots as `volume`; with tints, as many masks, of which up to two take two half floats. null: none.
   const volume::SparseVolume* colors = nullptr;
   std::vector<glm::vec3> tints = {};  ///< Radiance per metre where a mask is 1; at most four.
   DisturbanceInput disturbance = {};

@@ -73,7 +73,8 @@ shared::VolumeLook look_of(const VolumeInput& volume) {
 /// What the colours of a volume are.
 std::uint32_t colors_of(const VolumeInput& volume) {
   if (!volume.colors) return shared::kColorsNone;
-  return volume.tints.empty() ? shared::kColorsAlbedo : shared::kColorsMasks;
+  if (volume.tints.empty()) return shared::kColorsAlbedo;
+  return volume.tints.size() <= 2 ? shared::kColorsPair : shared::kColorsMasks;
 }
 
 shared::VolumeInstance instance_of(const VolumeInput& volume) {
@@ -136,7 +137,7 @@ std::uint32_t media_of(const VolumeInput& volume) {
   std::uint32_t media = shared::kMediumVolumes;
   if (device_transfer(volume.transfer).kind != shared::kTransferNone) media |= shared::kMediumTransfer;
   if (colors_of(volume) == shared::kColorsAlbedo) media |= shared::kMediumColors;
-  if (colors_of(volume) == shared::kColorsMasks) media |= shared::kMediumMasks;
+  if (!volume.tints.empty() && volume.colors) media |= shared::kMediumMasks;
   if (!volume.disturbance.empty()) media |= shared::kMediumDisturbed;
   const shared::VolumeLook look = look_of(volume);
   const glm::vec3 light = look.albedo + look.emission;

@@ -206,13 +206,17 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
         [&] { display_pass_.record(recorder, frame_, blue_noise_, targets_.radiance, targets_.display); });
 }
 
-void Renderer::record_decals(gpu::Recorder& recorder, const FramePlan& plan) {
+void Renderer::upload_decals(gpu::Recorder& recorder, const FramePlan& plan) {
   std::vector<shared::Decal> decals;
   for (const planning::PlacedDecal& placed : plan.decals) {
     decals.push_back(placed.decal);
     decals.back().occlusion = (*slices_)[placed.volume];
   }
-  decal_pass_->record(recorder, frame_, plan.camera, targets_.gbuffer, blue_noise_, slices_->image(), decals,
+  decal_pass_->upload(recorder, decals);
+}
+
+void Renderer::record_decals(gpu::Recorder& recorder, const FramePlan& plan) {
+  decal_pass_->record(recorder, frame_, plan.camera, targets_.gbuffer, blue_noise_, slices_->image(),
                       plan.input.view.continues && smoke_.is_accumulated());
   occlusion_ = &decal_pass_->occlusion();
 }
@@ -224,6 +228,7 @@ void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan, con
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
   scene_.record_lights(recorder, plan);
   smoke_.record_upload(recorder, plan, in);
+  if (!plan.decals.empty()) upload_decals(recorder, plan);
 }
 
 void Renderer::record_particles(gpu::Recorder& recorder, const FramePlan& plan) {

@@ -76,6 +76,7 @@ class Renderer {
   void upload_volumes(const FrameInput& input);
   void upload_slices(const FrameInput& input);
   void reserve(FramePlan& plan);
+  void upload_decals(gpu::Recorder& recorder, const FramePlan& plan);
   void record_decals(gpu::Recorder& recorder, const FramePlan& plan);
   void record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in);
   FrameResources resources(const FramePlan& plan);

@@ -121,7 +121,7 @@ TEST_F(CommandLineTest, SuffixesOfAnyCase) {
     EXPECT_EQ(done.exit_code, 0) << testing::PrintToString(call) << done.error;
   }
   EXPECT_EQ(refusal({"sim", "room.xyz"}),
-            "room.xyz: unknown file suffix; expected .txt, .gltf, .glb, .obj, .toml, .vdb, .nvdb or .brv");
+            "room.xyz: unknown file suffix; expected .txt, .gltf, .glb, .obj, .toml, .vdb, .nvdb, .brv or .json");
 }
 
 TEST_F(CommandLineTest, PointsWithBlanksAndPercentSignsInNames) {

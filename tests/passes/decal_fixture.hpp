@@ -136,7 +136,8 @@ class DecalFixture : public gpu::GpuTest {
 
     // Draw.
     runner().run([&](gpu::Recorder& recorder) {
-      pass_->record(recorder, frame_buffer, camera_, gbuffer_, noise_, slices_->image(), decals, continues);
+      pass_->upload(recorder, decals);
+      pass_->record(recorder, frame_buffer, camera_, gbuffer_, noise_, slices_->image(), continues);
     });
     std::vector<glm::vec4> result;
     for (const Half4& texel : read_back<Half4>(pass_->occlusion())) result.push_back(from_half(texel));

@@ -113,7 +113,7 @@ class BRUME_OT_bake_occlusion(AtlasOperator, bpy.types.Operator):
     )
     margin: FloatProperty(
         name="Margin",
-        default=0.75,
+        default=1.5,
         min=0,
         max=100,
         description="Space around the meshes, relative to their longest side",
