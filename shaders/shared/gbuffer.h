@@ -34,7 +34,9 @@ struct MaterialConstants {
 SHARED_SIZE(MaterialConstants, 36);
 
 /// The fourth channel of the normals: the metallic factor, and whether the surface moves over the level, by its sign.
-SHARED_FUNCTION float metallic_and_moves(float metallic, float moves) { return moves > 0.0f ? -1.0f - metallic : metallic; }
+SHARED_FUNCTION float metallic_and_moves(float metallic, float moves) {
+  return moves > 0.0f ? -1.0f - metallic : metallic;
+}
 SHARED_FUNCTION float metallic_of(float stored) { return stored < 0.0f ? -1.0f - stored : stored; }
 SHARED_FUNCTION bool moves_of(float stored) { return stored < 0.0f; }
 

@@ -28,7 +28,8 @@ float step_of(const VolumeInput& volume) {
   float shortest = glm::length(glm::vec3(world_from_voxel[0]));
   for (int axis = 1; axis < 3; ++axis)
     shortest = std::min(shortest, glm::length(glm::vec3(world_from_voxel[axis])));
-  return volume.look.extinction > 0 ? shortest : 2 * shortest;
+  const bool only_glows = !volume.tints.empty() && !(volume.look.extinction > 0);
+  return only_glows ? 2 * shortest : shortest;
 }
 
 glm::mat4x3 inverse_of(const glm::mat4& world_from_voxel) {

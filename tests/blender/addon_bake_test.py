@@ -342,4 +342,4 @@ class Occlusion(BakeCase):
         bpy.ops.brume.bake_occlusion(filepath=self.path, rays=1)
         names = ("--size", "--margin", "--gamma", "--correction", "--falloff", "--preset", "--padding", "--layout")
         found = [option(name) for name in names]
-        self.assertEqual(found, ["64x64x64", "0.75", "1.0", "1.0", "1.0", None, None, None])
+        self.assertEqual(found, ["64x64x64", "1.5", "1.0", "1.0", "1.0", None, None, None])

@@ -64,7 +64,7 @@ class VolumeLightCacheTest : public testing::Test {
   }
   VolumeLightPlan plan() {
     MediaPlan media;
-    media.media = media.casters = shared::kMediumVolumes;
+    media.media = media.casters = shared::kMediumVolumes | (is_lit_ ? shared::kMediumLit : 0);
     media.frame.volume_count = media.frame.caster_count = 1;
     PlacedVolume visible;
     visible.instance.voxel_from_world = visible.instance.world_from_voxel =
@@ -81,9 +81,20 @@ class VolumeLightCacheTest : public testing::Test {
   std::vector<VolumeInput> inputs_;
   std::vector<shared::Light> lights_;
   float time_ = 0;
-  bool rebuild_ = false;
+  bool rebuild_ = false, is_lit_ = true;
   VolumeLightCache cache_;
 };
+
+// What only glows has no light; once it scatters, light is found whatever was there before.
+TEST_F(VolumeLightCacheTest, NothingIsFoundForWhatScattersNothing) {
+  EXPECT_TRUE(plan().update);
+  is_lit_ = false;
+  EXPECT_FALSE(plan().update);
+  EXPECT_FALSE(plan().is_lit);
+  is_lit_ = true;
+  EXPECT_TRUE(plan().update);
+  EXPECT_FALSE(plan().update);
+}
 
 TEST_F(VolumeLightCacheTest, UpdatesOnlyWhereAnInputOfTheLightChanged) {
   EXPECT_TRUE(plan().update);

@@ -96,8 +96,8 @@ class DecalFramesTest : public VolumeFixture {
     frame.media = texels_of(renderer.media());
     if (renderer.occlusion()) frame.occlusion = texels_of(*renderer.occlusion());
     frame.depth = read_back<float>(renderer.targets().gbuffer.depth);
-    for (const glm::vec4& texel : texels_of(renderer.targets().gbuffer.emission))
-      frame.moves.push_back(texel.a > 0);
+    for (const glm::vec4& texel : texels_of(renderer.targets().gbuffer.normal_metallic))
+      frame.moves.push_back(shared::moves_of(texel.a));
     return frame;
   }
 
