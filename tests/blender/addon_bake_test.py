@@ -307,7 +307,7 @@ class Occlusion(BakeCase):
 
     def test_what_is_below_is_hidden_from_above(self):
         self.select(box("slab", (-2, -2, 0), (2, 2, 0.5), location=(5, 1, 2)))
-        described = self.bake(layout_of_tiles="strip")
+        described = self.bake(layout_of_tiles="strip", margin=0.75)
         self.assertEqual(described["size"], [6, 8, 5])
         self.assertEqual((described["axes"], described["tiles"]), ("+x +z +y", 8))
         low, high = np.array(described["box"]["low"]), np.array(described["box"]["high"])
