@@ -93,7 +93,7 @@ struct ViewRenderer::Parts {
   const scenario::Scenario& scenario;
   std::unique_ptr<scenario::Simulation> simulation;
   render::Renderer renderer;
-  gpu::Buffer depth, normal, emission, occlusion;
+  gpu::Buffer depth, normal, occlusion;
 
   Parts(gpu::Context& context_in, gpu::CommandRunner& runner_in, const scenario::Scenario& scenario_in,
         glm::uvec2 size_px)
@@ -104,7 +104,7 @@ struct ViewRenderer::Parts {
         renderer(context_in, runner_in, scenario_in.scene, render::RendererOptions{size_px}) {
     const std::size_t pixels = std::size_t{size_px.x} * size_px.y;
     depth = gpu::Buffer(context, 4 * pixels, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
-    for (gpu::Buffer* const buffer : {&normal, &emission, &occlusion})
+    for (gpu::Buffer* const buffer : {&normal, &occlusion})
       *buffer = gpu::Buffer(context, 8 * pixels, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
   }
 };
@@ -125,7 +125,6 @@ View ViewRenderer::draw(double seconds) {
     const passes::GBuffer& gbuffer = in.renderer.targets().gbuffer;
     recorder.read_back(gbuffer.depth, in.depth);
     recorder.read_back(gbuffer.normal_metallic, in.normal);
-    recorder.read_back(gbuffer.emission, in.emission);
     if (in.renderer.occlusion()) recorder.read_back(*in.renderer.occlusion(), in.occlusion);
   });
 
@@ -133,13 +132,14 @@ View ViewRenderer::draw(double seconds) {
   const glm::uvec2 size_px = in.renderer.targets().size_px;
   const shared::Camera camera = planning::FramePlan(input, size_px).camera;
   const auto depth = values_of<float>(in.depth);
-  const auto normal = values_of<std::uint64_t>(in.normal), emission = values_of<std::uint64_t>(in.emission);
+  const auto normal = values_of<std::uint64_t>(in.normal);
   const auto occlusion = values_of<std::uint64_t>(in.occlusion);
   View view{std::vector<View::Kind>(depth.size(), View::Kind::sky), std::vector<glm::dvec3>(depth.size()),
             std::vector<glm::dvec3>(depth.size()), std::vector<float>(depth.size(), 0)};
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (depth[i] == 0) continue;
-    view.kinds[i] = glm::unpackHalf4x16(emission[i]).a > 0 ? View::Kind::moves : View::Kind::surface;
+    view.kinds[i] =
+        shared::moves_of(glm::unpackHalf4x16(normal[i]).a) ? View::Kind::moves : View::Kind::surface;
     const glm::dvec2 ndc = (glm::dvec2(i % size_px.x, i / size_px.x) + 0.5) / glm::dvec2(size_px) * 2.0 - 1.0;
     const glm::dvec3 ray =
         glm::dvec3(camera.forward) + ndc.x * glm::dvec3(camera.right) - ndc.y * glm::dvec3(camera.up);
