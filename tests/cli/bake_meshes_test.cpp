@@ -190,6 +190,23 @@ TEST_F(BakeMeshes, RefuseAtlasesThatLie) {
   expect_failure(folder_, {"convert", "a.json", "b.vdb"}, 3, {"a.png: has 4 x 4 texels"});
 }
 
+// The atlases of the scenes are what scenes/bake_atlases makes of their meshes: coverage the same bytes on
+// every machine.
+TEST_F(BakeMeshes, ScenesHaveTheirAtlases) {
+  const std::filesystem::path scenes = std::filesystem::path(BRUME_SOURCE_DIR) / "scenes/thruster";
+  const auto expect_same = [&](const std::string& name, const Arguments& more) {
+    Arguments arguments{"bake", "slices", scenes / (name + ".glb"), "-o", name + ".png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).exit_code, 0);
+    for (const char* suffix : {".png", ".json"})
+      EXPECT_EQ(read_file(folder_.path() / (name + suffix)).value_or_throw(),
+                read_file(scenes / (name + suffix)).value_or_throw())
+          << name << suffix << ": run scenes/bake_atlases";
+  };
+  expect_same("thruster", {"--channels", "ring:r,beam:g"});
+  expect_same("flame", {"--channels", "sheath:r,core:g", "--size", "48x48x128", "--layout", "16"});
+}
+
 TEST_F(BakeMeshes, OcclusionIsAroundTheMesh) {
   const Json json = json_of({"bake", "occlusion", "two.obj", "--object", "ring", "-o", "ao.png", "--size",
                              "12x10x14", "--rays", "64", "--json", "-"});
