@@ -30,6 +30,6 @@ void main() {
   const vec4 value = slice_texture_sample(slices, systems[system].slices, uvw);
   const float density = max(max(value.r, value.g), max(value.b, value.a));
   const float optical_depth = systems[system].extinction * max(density, 0.0) * length_m;
-  const vec3 emitted = systems[system].tints * value * length_m;
+  const vec3 emitted = systems[system].tints * max(value, vec4(0.0)) * length_m;
   radiance_transmittance = vec4(emitted * slab_transmittance(optical_depth), exp(-optical_depth));
 }

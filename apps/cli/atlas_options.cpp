@@ -161,7 +161,7 @@ AtlasTarget atlas_target(const AtlasOptions& options, glm::uvec3 size, const gri
   for (std::uint32_t level = 0; level < target.levels; ++level)
     outputs.writes(level == 0 ? "-o" : "--mips", grids::atlas_image_path(target.json, target.depth, level),
                    is_png ? FileKind::png : FileKind::exr);
-  outputs.writes("-o", target.json, FileKind::json);
+  outputs.writes("-o", target.json, FileKind::slice_atlas);
   if (options.preset == "godot") {
     target.godot_import = grids::atlas_image_path(target.json, target.depth, 0);
     target.godot_import += ".import";

@@ -121,8 +121,7 @@ void add_bake_options(const Arguments& arguments, OcclusionBake& bake) {
   arguments.add_option("--size", bake.size, "Voxels along x, y (planes) and z; default 64x64x64")
       .type_name("XxYxZ");
   arguments
-      .add_option("--margin", bake.margin,
-                  "Space around the mesh, relative to its longest side; default 1.5")
+      .add_option("--margin", bake.margin, "Space around the mesh, relative to its longest side; default 1.5")
       .range(0.0, 100.0)
       .type_name("X");
   arguments

@@ -169,8 +169,9 @@ grids::GridBox volume_box(const SliceOptions& options, const std::vector<const g
   const auto size = parse_voxels(options.size);
   if (const auto given = parse_box(options.box)) {
     if (box->world_from_box != glm::dmat4(1))
-      throw Error(ErrorCode::usage, "--box: " + options.input +
-                                        " is rotated against the axes of the world; its own box is taken");
+      throw Error(ErrorCode::usage,
+                  "--box: " + options.input +
+                      " is rotated against the axes of the world; leave the option out to bake its own box");
     const glm::dvec3 voxel = (box->box.high - box->box.low) / glm::dvec3(box->size);
     box->size = glm::uvec3(
         glm::clamp(glm::round((given->high - given->low) / voxel), glm::dvec3(1), glm::dvec3(16384)));

@@ -84,6 +84,8 @@ const char* name_of(FileKind kind) {
       return "frame log";
     case FileKind::godot_import:
       return "Godot import file";
+    case FileKind::slice_atlas:
+      return "description of a slice atlas";
   }
   return "";
 }
@@ -122,6 +124,9 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
       return begins_with(start, "frame,seconds,");
     case FileKind::godot_import:
       return begins_with(start, "[remap]");
+    case FileKind::slice_atlas:
+      return is_json(start, file) && (start.find_first_not_of(kBlanks) == std::string_view::npos ||
+                                      start.find("brume slice atlas") != std::string_view::npos);
   }
   return false;
 }

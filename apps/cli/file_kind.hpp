@@ -21,7 +21,8 @@ enum class FileKind {
   obj,
   timeline,
   frame_log,
-  godot_import
+  godot_import,
+  slice_atlas  ///< The description of one.
 };
 
 /// As messages call it: ".png file", "timeline".

@@ -87,11 +87,12 @@ MediaSample sample_media(MediaRay ray, MediaSpan span, vec3 p_world, float t, in
   return here;
 }
 
-/// Base-2 logarithm of the transmittance of a step.
+/// Base-2 logarithm of the transmittance of a step; for smoke alone, one above 0 stands for 0.
 float log2_transmittance(MediaSample here, float ds) {
-  float sum = kHasSmoke ? -1.44269504 * frame.look.extinction * ds * here.smoke.density : 0.0;
-  if (kHasVolumes) sum -= 1.44269504 * ds * here.volumes.extinction;
-  return sum;
+  if (kSmokeAlone) return -1.44269504 * frame.look.extinction * ds * here.smoke.density;
+  float sum = kHasSmoke ? frame.look.extinction * max(here.smoke.density, 0.0) : 0.0;
+  if (kHasVolumes) sum += here.volumes.extinction;
+  return -1.44269504 * ds * sum;
 }
 
 /// Radiance towards the eye, per unit of media_albedo, where the transmittance is below 1.

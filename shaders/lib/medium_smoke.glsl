@@ -52,7 +52,7 @@ SmokeSpan smoke_span(WorldRay world, float t, float ds) {
 }
 
 struct SmokeSample {
-  float density;  // after erosion and holes
+  float density;  // after erosion and holes; in a wall below 0: none
   vec3 uvw, light_offset;
 };
 

@@ -24,7 +24,7 @@ SHARED_BINDING(kBindParticleOrder, 58u);
 SHARED_BINDING(kBindParticleLayer, 59u);
 
 /// The most systems of a frame, and particles of a system.
-SHARED_CONST uint kMaxParticleSystems = 16u;
+SHARED_CONST uint kMaxParticleSystems = 32u;
 SHARED_CONST uint kMaxParticles = 65536u;
 
 /// A volume and its particles.

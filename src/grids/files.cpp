@@ -1,5 +1,7 @@
 #include "grids/files.hpp"
 
+#include <algorithm>
+
 #include "core/atomic_file.hpp"
 #include "core/file.hpp"
 #include "grids/brv_file.hpp"
@@ -47,6 +49,17 @@ fs::path description_of(const fs::path& path) {
   return json.replace_extension(".json");
 }
 
+/// An image belongs to the description beside it only if that names it: a PNG and an EXR of one name share
+/// it.
+Result<void> check_described(const fs::path& image) {
+  const auto images = read_atlas_images(description_of(image));
+  if (!images) return images.failure();
+  if (std::ranges::find(*images, image.filename(), &fs::path::filename) != images->end()) return {};
+  return Failure{ErrorCode::bad_input, image.string() + ": " + description_of(image).filename().string() +
+                                           " beside it describes " + images->front().filename().string() +
+                                           "; name that, or bake this one again"};
+}
+
 Result<GridFile> load_described(const fs::path& json, const GridLimits& limits) {
   const auto is_atlas = is_slice_atlas(json);
   if (!is_atlas) return is_atlas.failure();
@@ -87,6 +100,8 @@ Result<std::vector<fs::path>> files_of(const fs::path& path) {
   const auto is_atlas = is_slice_atlas(json);
   if (!is_atlas) return is_atlas.failure();
   if (*is_atlas) {
+    if (auto described = is_picture ? check_described(path) : Result<void>(); !described)
+      return described.failure();
     auto images = read_atlas_images(json);
     if (!images) return images.failure();
     images->insert(images->begin(), json);
@@ -100,7 +115,10 @@ Result<std::vector<fs::path>> files_of(const fs::path& path) {
 Result<GridFile> load_grid_file(const fs::path& path, const GridLimits& limits, const GridChoice& choice) {
   const std::string suffix = lower_suffix(path);
   if (suffix == ".json") return chosen_of(load_described(path, limits), choice);
-  if (is_image(path)) return chosen_of(load_described(description_of(path), limits), choice);
+  if (is_image(path)) {
+    if (auto described = check_described(path); !described) return described.failure();
+    return chosen_of(load_described(description_of(path), limits), choice);
+  }
   if (suffix == ".brv") return load_brv(path, limits, choice);
   if (is_grid_file(path)) return read_in_child(path, limits);
   return Failure{ErrorCode::bad_input, path.string() + kExpected};

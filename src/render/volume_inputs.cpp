@@ -10,6 +10,7 @@ namespace brume::render {
 namespace {
 
 static_assert(scene::kMostVolumes == shared::kMaxVolumes);
+static_assert(scene::kMostVolumes <= shared::kMaxParticleSystems);
 
 /// A volume that moves with its carrier.
 void move_by(const glm::mat4& pose, scenario::VolumeAt& volume) {

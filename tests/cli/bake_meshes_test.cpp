@@ -89,6 +89,24 @@ TEST_F(BakeMeshes, ABoxChoosesWhatIsBaked) {
   EXPECT_NEAR(volume_of(atlas.channels[0]), 2, 16 * 0.5 / 255);
 }
 
+TEST_F(BakeMeshes, AnotherFilesDescriptionIsNotReplaced) {
+  const std::string package = R"({"name": "mine", "version": 3})";
+  folder_.write("a.json", package);
+  expect_failure(folder_, {"bake", "slices", "two.obj", "-o", "a.png"}, 2, {"a.json", "--force"});
+  EXPECT_EQ(read_text_file(folder_.path() / "a.json").value_or_throw(), package);
+  EXPECT_EQ(run({"bake", "slices", "two.obj", "-o", "a.png", "--force"}).exit_code, 0);
+  EXPECT_EQ(run({"bake", "slices", "two.obj", "-o", "a.png"}).exit_code, 0) << "its own it is";
+}
+
+TEST_F(BakeMeshes, AnImageIsReadOnlyIfTheDescriptionNamesIt) {
+  EXPECT_EQ(run({"bake", "slices", "two.obj", "-o", "a.png", "--size", "8x8x8"}).exit_code, 0);
+  EXPECT_EQ(run({"bake", "slices", "two.obj", "-o", "a.exr", "--size", "9x9x9"}).exit_code, 0);
+  expect_failure(folder_, {"convert", "a.png", "b.brv"}, 3, {"a.png", "a.json", "a.exr"});
+  expect_failure(folder_, {"render", "a.png", "-o", "b.png"}, 3, {"a.png", "a.json", "a.exr"});
+  expect_failure(folder_, {"info", "a.png"}, 3, {"a.png", "a.json", "a.exr"});
+  EXPECT_EQ(run({"info", "a.exr"}).exit_code, 0);
+}
+
 TEST_F(BakeMeshes, EveryPresetComesBackAsTheSameVolume) {
   EXPECT_EQ(run({"bake", "slices", "two.obj", "-o", "plain.png", "--size", "12x8x20"}).exit_code, 0);
   const grids::DenseGrid plain = load("plain.json").channels[0];

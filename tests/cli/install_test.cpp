@@ -63,7 +63,10 @@ TEST(Install, TheProgramFindsItsScenesBesideItAndInShare) {
   ASSERT_EQ(std::system(install.c_str()), 0) << *read_text_file(folder.path() / "log");
   for (const char* file :
        {"bin/brume", "bin/brume-vdb", "share/brume/scenes/demo.toml", "share/brume/scenes/demo.glb",
-        "share/bash-completion/completions/brume", "share/man/man1/brume.1"})
+        "share/brume/scenes/README.md", "share/brume/scenes/flyby/drone_ao.json",
+        "share/brume/scenes/flyby/drone_ao.png", "share/brume/scenes/thruster/thruster.json",
+        "share/brume/scenes/thruster/flame.png", "share/bash-completion/completions/brume",
+        "share/man/man1/brume.1"})
     EXPECT_TRUE(fs::is_regular_file(prefix / file)) << file;
 
   // So does its helper.
