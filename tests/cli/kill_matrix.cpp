@@ -38,7 +38,8 @@ std::string old_file(const fs::path& name) {
   if (extension == ".obj") return "# old\n";
   if (extension == ".toml") return "version = 1\n";
   if (extension == ".csv") return "frame,seconds,old\n";
-  return "{}";
+  // What an atlas may replace, and any other output that is JSON.
+  return R"({"format": "brume slice atlas"})";
 }
 
 bool is_part(const std::string& name) {
