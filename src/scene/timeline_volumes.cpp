@@ -55,8 +55,8 @@ Result<void> read_masks(TomlTable& volume_table, const std::filesystem::path& pa
       if (auto done = key_table.finish(); !done) return done;
     }
     if (mask.grid.empty()) table.fail("grid", "\"grid\": expected the name of a grid");
-    if (volume.masks.size() >= kMostMasks)
-      table.fail("grid", "[[volume.mask]]: expected at most " + std::to_string(kMostMasks) + " of them");
+    if (const std::string most = std::to_string(kMostMasks); volume.masks.size() >= kMostMasks)
+      table.fail("grid", "[[volume.mask]]: expected at most " + most + " of them");
     volume.masks.push_back(std::move(mask));
     if (auto done = table.finish(); !done) return done;
   }
