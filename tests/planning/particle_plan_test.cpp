@@ -87,7 +87,7 @@ TEST(ParticlePlan, RefusesWhatNoFrameCanHave) {
     input.radius = radius;
     expect_refused({input}, "radius");
   }
-  expect_refused(std::vector(17, particles_at({}, 1)), "17 volumes");
+  expect_refused(std::vector(33, particles_at({}, 1)), "33 volumes");
   EXPECT_EQ(plan(std::vector(16, particles_at({0, 0, -3}, 65536))).size(), 16u);
 }
 

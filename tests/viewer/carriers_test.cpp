@@ -234,7 +234,10 @@ TEST_F(CarriersTest, DecalsAndMasksAreEditedUndoneAndSaved) {
   game.setting_changed("volume");
   game.settle();
   EXPECT_EQ(frame_input(game, holes_).decals[1].strength, 0.25f);
-  EXPECT_EQ(frame_input(game, holes_).volumes[1].tints[0], 2.0f * glm::vec3(0, 0.5f, 1));
+  const auto particles = frame_input(game, holes_).particles;
+  ASSERT_EQ(particles.size(), 1u) << "no longer marched";
+  EXPECT_EQ(particles[0].tints[0], 2.0f * glm::vec3(0, 0.5f, 1));
+  EXPECT_EQ(particles[0].count, 100u);
 
   // Saved and loaded again, all is the same.
   const auto path = folder_.path() / "made.toml";
