@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
-#include <regex>
 
 #include "core/log.hpp"
 #include "grids/files.hpp"
@@ -21,10 +20,12 @@ struct NumberPlace {
   std::string before, after;
 };
 std::optional<NumberPlace> number_place(const std::string& name) {
-  static const std::regex number(R"(%0?\d*d)");
-  std::smatch match;
-  if (!std::regex_search(name, match, number)) return std::nullopt;
-  return NumberPlace{match.prefix(), match.suffix()};
+  for (std::size_t begin = name.find('%'); begin != std::string::npos; begin = name.find('%', begin + 1)) {
+    const std::size_t end = name.find_first_not_of("0123456789", begin + 1);
+    if (end != std::string::npos && name[end] == 'd')
+      return NumberPlace{name.substr(0, begin), name.substr(end + 1)};
+  }
+  return std::nullopt;
 }
 
 /// The files of a sequence's frames, by number.

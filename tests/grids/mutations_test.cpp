@@ -9,7 +9,7 @@ namespace brume::grids {
 namespace {
 
 TEST(Mutations, AreReadOrRefused) {
-  load_mutations(1, kSanitized ? 60 : 200);
+  load_mutations(1, kSanitized ? 24 : 200);
   EXPECT_LT(child_costs().max_megabytes, kSanitized ? 8192 : 1280);
 }
 

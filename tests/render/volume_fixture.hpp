@@ -63,4 +63,30 @@ class VolumeFixture : public gpu::GpuTest {
   FrameInput input_;
 };
 
+/// A cloud that has come to rest in a level, and a frame that shows it.
+struct RestingSmoke {
+  RestingSmoke(const voxel::BitGrid& level, const std::vector<voxel::Triangle>& triangles,
+               glm::dvec3 position, int voxels)
+      : grid(level), planes(voxel::SurfacePlanes::build(triangles, grid)), world(grid), volume(grid, planes) {
+    sim::ThrowSmoke event;
+    event.from = event.at = sim::position_from_metres(position);
+    event.smoke.voxels = voxels;
+    event.smoke.hold_ticks = 10000;
+    world.append(event).value_or_throw();
+    world.advance_to(300);
+    volume.update(world);
+  }
+  void show_in(FrameInput& input) const {
+    input.smoke.volume = &volume;
+    input.smoke.state = &world.state();
+    input.smoke.look.step_length = 0.2f;
+    input.level.voxels.grid = &grid;
+  }
+
+  const voxel::BitGrid grid;
+  const voxel::SurfacePlanes planes;
+  sim::World world;
+  smoke::SmokeVolume volume;
+};
+
 }  // namespace brume::render

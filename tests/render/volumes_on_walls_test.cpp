@@ -28,18 +28,8 @@ class VolumesOnWallsTest : public VolumeFixture {
     return instance;
   }
   VolumesOnWallsTest() {
-    sim::ThrowSmoke event;
-    event.from = event.at = sim::position_from_metres(glm::dvec3(0, -0.9, 0));
-    event.smoke.voxels = 200;
-    event.smoke.hold_ticks = 10000;
-    world_.append(event).value_or_throw();
-    world_.advance_to(300);
-    smoke_.update(world_);
-    input_.smoke.volume = &smoke_;
-    input_.smoke.state = &world_.state();
+    smoke_.show_in(input_);
     input_.smoke.look.albedo = glm::vec3(0);
-    input_.smoke.look.step_length = 0.2f;
-    input_.level.voxels.grid = &grid_;
     input_.view.camera = {{0, 1.5f, 9}, {0, -0.5f, 0}, 0.9f};
   }
 
@@ -59,17 +49,15 @@ class VolumesOnWallsTest : public VolumeFixture {
     return volume;
   }
 
-  const voxel::BitGrid grid_ =
-      voxel::voxelize(table(), {{40, 24, 40}, 0.5f, glm::vec3(-10, -6, -10)}).value_or_throw();
-  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build(table(), grid_);
-  sim::World world_{grid_};
-  smoke::SmokeVolume smoke_{grid_, planes_};
+  const RestingSmoke smoke_{
+      voxel::voxelize(table(), {{40, 24, 40}, 0.5f, glm::vec3(-10, -6, -10)}).value_or_throw(), table(),
+      glm::dvec3(0, -0.9, 0), 200};
 };
 
 TEST_F(VolumesOnWallsTest, AGlowIsNeverBrighterThanWithoutSmoke) {
   const volume::SparseVolume cube = block({2, 2, 2});
-  const volume::SparseVolume masks = field<std::uint32_t>(
-      {2, 2, 2}, [](glm::vec3) { return glm::packHalf2x16(glm::vec2(1, 0)); });
+  const volume::SparseVolume masks =
+      field<std::uint32_t>({2, 2, 2}, [](glm::vec3) { return glm::packHalf2x16(glm::vec2(1, 0)); });
   planning::VolumeInput glow = placed(cube, 0);
   glow.colors = &masks;
   glow.tints = {glm::vec3(1)};

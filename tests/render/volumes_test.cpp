@@ -322,24 +322,12 @@ TEST_F(VolumesTest, HeatGlowsWithoutAnyDensity) {
 class VolumesWithSmokeTest : public VolumesTest {
  protected:
   VolumesWithSmokeTest() {
-    sim::ThrowSmoke event;
-    event.from = event.at = sim::position_from_metres(glm::dvec3(0));
-    event.smoke.voxels = 120;
-    event.smoke.hold_ticks = 10000;
-    world_.append(event).value_or_throw();
-    world_.advance_to(300);
-    smoke_.update(world_);
-    input_.smoke.volume = &smoke_;
-    input_.smoke.state = &world_.state();
+    smoke_.show_in(input_);
     input_.smoke.look.albedo = glm::vec3(0.9f);
-    input_.smoke.look.step_length = 0.2f;
-    input_.level.voxels.grid = &grid_;
   }
 
-  const voxel::BitGrid grid_{{{40, 24, 40}, 0.5f, glm::vec3(-10, -6, -10)}};
-  const voxel::SurfacePlanes planes_ = voxel::SurfacePlanes::build({}, grid_);
-  sim::World world_{grid_};
-  smoke::SmokeVolume smoke_{grid_, planes_};
+  const RestingSmoke smoke_{
+      voxel::BitGrid({{40, 24, 40}, 0.5f, glm::vec3(-10, -6, -10)}), {}, glm::dvec3(0), 120};
 };
 
 TEST_F(VolumesWithSmokeTest, SmokeAndVolumesMultiplyTheirTransmittance) {
