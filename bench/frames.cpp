@@ -13,7 +13,7 @@ RepeatedFrame::RepeatedFrame(gpu::Context& context, const scenario::Scenario& sc
       renderer_(context, runner_, scenario.scene, options),
       counter_(context, sizeof(std::uint32_t), VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback) {
   simulation_->advance_to(seconds);
-  input_ = render::frame_input(scenario, *simulation_, seconds, holes_);
+  input_ = planning::frame_input(scenario, *simulation_, seconds, holes_);
   input_.quality.rebuild_light = true;
 }
 

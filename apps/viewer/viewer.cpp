@@ -235,7 +235,7 @@ void Viewer::begin(const ScenarioLoader& load, bool play) {
     if (!measures_exposure) return;
     std::vector<shared::Hole> holes;
     const float factor = screen_->measure_exposure(
-        render::frame_input(session->live().scenario(), session->simulation(), session->seconds(), holes));
+        planning::frame_input(session->live().scenario(), session->simulation(), session->seconds(), holes));
     session->set_first_exposure(std::log2(factor)).value_or_throw();
   });
   char ready[64];

@@ -120,7 +120,7 @@ View ViewRenderer::draw(double seconds) {
   Parts& in = *parts_;
   in.simulation->advance_to(seconds);
   std::vector<shared::Hole> holes;
-  const render::FrameInput input = render::frame_input(in.scenario, *in.simulation, seconds, holes);
+  const render::FrameInput input = planning::frame_input(in.scenario, *in.simulation, seconds, holes);
   in.renderer.draw(input, [&](gpu::Recorder& recorder) {
     const passes::GBuffer& gbuffer = in.renderer.targets().gbuffer;
     recorder.read_back(gbuffer.depth, in.depth);

@@ -22,7 +22,4 @@ class NoisePass {
 /// An image that the pass can fill.
 gpu::Image make_noise_tile(gpu::Context& context, std::uint32_t size);
 
-/// Parameters of the smoke's noise: the smallest billows are five texels wide.
-constexpr shared::NoiseParams kSmokeNoise{64, 4, 7};
-
 }  // namespace brume::passes

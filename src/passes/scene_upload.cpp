@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "planning/device_lights.hpp"
 
 namespace brume::passes {
 namespace {
@@ -131,40 +132,11 @@ MaterialImages device_material(const scene::Material& material) {
 
 }  // namespace
 
-std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers) {
-  std::vector<shared::Light> out;
-  std::uint32_t layer = 0;
-  bool has_sun = false;
-  for (const scene::Light& light : lights) {
-    const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
-    shared::Light l{light.position_world,
-                    shared::light_range(brightest),
-                    light.intensity,
-                    static_cast<std::uint32_t>(light.kind),
-                    light.direction_world,
-                    light.cos_inner,
-                    light.cos_outer,
-                    shared::kNoShadow,
-                    0,
-                    0};
-    const bool directional = light.kind == scene::LightKind::directional;
-    const std::uint32_t layers = directional ? 1 : 6;
-    // One orthographic view: only the first directional light casts shadows.
-    if (layer + layers <= max_layers && !(directional && has_sun)) {
-      l.shadow_layer = layer;
-      layer += layers;
-    }
-    has_sun = has_sun || directional;
-    out.push_back(l);
-  }
-  return out;
-}
-
 SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene) {
   SceneResources out;
   const Geometry geometry = gather_geometry(scene);
   out.light_list =
-      device_lights(scene.lights, std::min(kMaxShadowLayers, context.limits().maxImageArrayLayers));
+      planning::device_lights(scene.lights, std::min(kMaxShadowLayers, context.limits().maxImageArrayLayers));
   runner.run([&](gpu::Recorder& recorder) {
     out.vertices = upload_list(context, recorder, geometry.vertices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     out.indices = upload_list(context, recorder, geometry.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);

@@ -51,8 +51,4 @@ struct SceneResources {
 /// Creates and uploads everything. Every index of the scene must be valid. Throws resource_limit.
 SceneResources upload_scene(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene);
 
-/// Lights for the device: ranges cut off less than 1/100 of unit irradiance; shadow layers are assigned in
-/// order, up to `max_layers`.
-std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
-
 }  // namespace brume::passes

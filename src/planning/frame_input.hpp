@@ -42,7 +42,10 @@ struct View {
 
 struct Environment {
   shared::Sky sky{};
-  std::vector<shared::Light> flashes;  ///< Lights of this frame; at most kMaxFlashes, the first ones.
+  std::vector<shared::Light> flashes;  ///< Lights of this frame.
+  /// Lights that stand for what glows in volumes. Of these and the flashes before them, at most kMaxFlashes
+  /// are lit, the first ones.
+  std::vector<shared::Light> glow = {};
 };
 
 struct LevelState {

@@ -11,7 +11,8 @@ namespace {
 /// What of lights and media is visible, and at which resolution.
 void plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& history) {
   const smoke::SmokeVolume* volume = plan.input.smoke.volume;
-  const std::vector<shared::Light>& flashes = plan.input.environment.flashes;
+  std::vector<shared::Light> flashes = plan.input.environment.flashes;
+  flashes.insert(flashes.end(), plan.input.environment.glow.begin(), plan.input.environment.glow.end());
   std::vector<shared::Light> lights(target.lights.begin(), target.lights.end());
   const auto flash_count = static_cast<std::ptrdiff_t>(std::min(flashes.size(), kMaxFlashes));
   lights.insert(lights.end(), flashes.begin(), flashes.begin() + flash_count);

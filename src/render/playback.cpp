@@ -1,109 +1,20 @@
 #include "render/playback.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "core/progress.hpp"
-#include "passes/noise.hpp"
 #include "render/exposure.hpp"
-#include "render/volume_inputs.hpp"
-#include "scenario/flashes.hpp"
-#include "smoke/holes.hpp"
 
 namespace brume::render {
 namespace {
-
-glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
-  const glm::mat4 moved = glm::translate(glm::mat4(1), grenade.position_world);
-  // It tumbles: about one and a half turns a second, around an oblique axis.
-  return glm::rotate(moved, 9.0f * grenade.flight_seconds, glm::normalize(glm::vec3(1.0f, 0.35f, 0.2f)));
-}
-
-/// Objects with carriers, which are not where the scene has them.
-void add_moved_objects(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers,
-                       double seconds, FrameInput& input) {
-  std::vector<std::uint32_t>& hidden = input.level.hidden_objects;
-  for (scenario::MovedObject& moved : scenario::moved_objects(carriers, scenario.scene, seconds)) {
-    const auto at = std::lower_bound(hidden.begin(), hidden.end(), moved.object);
-    if (at != hidden.end() && *at == moved.object) continue;  // A door that is open.
-    hidden.insert(at, moved.object);
-    input.level.moved.push_back(moved);
-  }
-}
-
-void add_decals(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
-                FrameInput& input) {
-  input.slices = scenario.slices.volumes;
-  for (std::size_t i = 0; i < scenario.slices.of_decals.size(); ++i) {
-    const scene::DecalOptions& options = scenario.timeline.decals[i];
-    const scenario::SliceVolume& volume = scenario.slices.of_decals[i];
-    input.decals.push_back({scenario::world_from_file(carriers, options, seconds) * volume.file_from_box,
-                            volume.volume, options.strength, options.gamma, options.correction,
-                            options.falloff, options.fade, options.scatter, volume.middle, volume.radius});
-  }
-}
 
 RendererOptions with_masks(RendererOptions options, const scenario::Scenario& scenario) {
   options.smoke.masks = &scenario.masks;
   return options;
 }
 
-/// Steps of the jitter's golden-ratio sequence a second. Of eight successive frames at 24, 25, 30, 48, 50, 60
-/// or 120 frames per second, and the rates of television, the jitters leave no gap above 0.28 on average:
-/// 0.15 is the least possible, 0.34 that of random numbers, 0.65 that of the simulation's ticks at 24.
-constexpr double kJitterRate = 360;
-/// So that a time that is rounded down belongs to its own step.
-constexpr double kRounding = 1e-3;
-
 }  // namespace
-
-FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
-                       double seconds, std::vector<shared::Hole>& holes, scenario::VolumeWait wait,
-                       const std::vector<scene::Carrier>* steered) {
-  const scene::Timeline& timeline = scenario.timeline;
-  const std::span<const scene::Carrier> carriers(steered ? *steered : timeline.carriers);
-  FrameInput input;
-  input.view.camera = scene::camera_at(timeline, scenario.camera, seconds);
-  // Jitter and dither follow time, not the frame's number: the same time is the same image at any rate.
-  input.view.frame_index = static_cast<std::uint32_t>(std::floor(seconds * kJitterRate + kRounding));
-  input.environment.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient,
-                           timeline.sky.stars, timeline.sky.bounce};
-  const scene::SmokeOptions& smoke = timeline.smoke;
-  input.smoke.look.albedo = smoke.albedo;
-  input.smoke.look.extinction = smoke.extinction;
-  input.smoke.look.phase =
-      smoke.droplet ? shared::phase_of_droplet(*smoke.droplet) : shared::phase_of_hg(smoke.anisotropy);
-  input.smoke.look.step_length = 0.4f * scenario.voxels.grid.layout().voxel_size;
-  input.smoke.look.opaque_transmittance = 0.004f;
-  input.smoke.look.erosion = smoke.erosion;
-  input.smoke.look.noise_frequency =
-      1 / (static_cast<float>(passes::kSmokeNoise.coarse_cells) * smoke.noise_size);
-  input.smoke.look.rise = smoke.rise;
-  input.smoke.look.swirl = smoke.swirl;
-  input.smoke.look.swirl_width = 2.0f * smoke.noise_size;
-  input.smoke.swirl_period = double{smoke.swirl_period};
-  input.smoke.state = &simulation.world().state();
-  input.smoke.look.multiple_scattering = smoke.multiple_scattering;
-  input.smoke.look.hole_rim = smoke.hole_rim;
-  input.view.exposure = std::exp2(timeline.exposure);
-  input.view.tone = timeline.tone;
-  input.smoke.time = static_cast<float>(seconds);
-  input.level.voxels = {&simulation.world().grid(), simulation.world().state().edits};
-  input.smoke.volume = &simulation.volume();
-  holes = smoke::holes_of(simulation.world().state(), &scenario.masks);
-  input.smoke.holes = holes;
-  input.environment.flashes = scenario::flashes_of(timeline, seconds);
-  for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
-    input.level.grenades.push_back(grenade_matrix(grenade));
-  add_volumes(scenario, carriers, seconds, wait, input);
-  const auto hidden = simulation.hidden_objects();
-  input.level.hidden_objects.assign(hidden.begin(), hidden.end());
-  add_moved_objects(scenario, carriers, seconds, input);
-  add_decals(scenario, carriers, seconds, input);
-  return input;
-}
 
 Playback::Playback(gpu::Context& context, const scenario::Scenario& scenario, const RendererOptions& options)
     : Playback(context, scenario, options, scenario::Simulation::create(scenario).value_or_throw()) {}

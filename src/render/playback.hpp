@@ -5,19 +5,14 @@
 #include <optional>
 
 #include "image/image.hpp"
+#include "planning/scenario_frame.hpp"
 #include "render/frame_layers.hpp"
 #include "render/renderer.hpp"
 #include "scenario/simulation.hpp"
 
 namespace brume::render {
 
-/// What a renderer shows of a scenario at a time. `holes` keeps the holes that the result refers to. Objects,
-/// volumes and decals move with the carriers of the timeline, or with those of `steered` in their place,
-/// which has the same names and objects.
-FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
-                       double seconds, std::vector<shared::Hole>& holes,
-                       scenario::VolumeWait wait = scenario::VolumeWait::until_loaded,
-                       const std::vector<scene::Carrier>* steered = nullptr);
+using planning::frame_input;
 
 /// A scenario on a device, frame after frame.
 class Playback {

@@ -1,6 +1,7 @@
 #include "render/smoke_frame.hpp"
 
 #include "passes/noise.hpp"
+#include "smoke/noise_tile.hpp"
 
 namespace brume::render {
 
@@ -27,7 +28,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
       smoke_upload_(context),
       volume_upload_(context),
       hole_clusters_(context, runner, options.masks ? *options.masks : smoke::MaskAtlas()),
-      noise_(passes::make_noise_tile(context, passes::kSmokeNoise.size)),
+      noise_(passes::make_noise_tile(context, smoke::kSmokeNoise.size)),
       noise_advection_pass_(context),
       shadow_pass_(context),
       light_pass_(context),
@@ -47,7 +48,7 @@ SmokeFrame::SmokeFrame(gpu::Context& context, gpu::CommandRunner& runner, const 
 void SmokeFrame::make_noise() {
   if (has_noise_) return;
   const passes::NoisePass noise(context_);
-  runner_.run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, passes::kSmokeNoise); });
+  runner_.run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, smoke::kSmokeNoise); });
   has_noise_ = true;
 }
 

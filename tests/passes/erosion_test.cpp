@@ -4,6 +4,7 @@
 
 #include "brume_test_shaders.hpp"
 #include "passes/noise.hpp"
+#include "smoke/noise_tile.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/probes.h"
 
@@ -29,8 +30,8 @@ class ErosionTest : public gpu::GpuTest {
   /// The texels of the tile that smoke is eroded with.
   static std::vector<glm::vec4> smoke_noises() {
     const NoisePass pass(context());
-    const gpu::Image tile = make_noise_tile(context(), kSmokeNoise.size);
-    runner().run([&](gpu::Recorder& recorder) { pass.record(recorder, tile, kSmokeNoise); });
+    const gpu::Image tile = make_noise_tile(context(), smoke::kSmokeNoise.size);
+    runner().run([&](gpu::Recorder& recorder) { pass.record(recorder, tile, smoke::kSmokeNoise); });
     std::vector<glm::vec4> noises;
     for (const auto& texel : read_back<std::array<std::uint8_t, 4>>(tile))
       noises.push_back(glm::vec4(texel[0], texel[1], texel[2], texel[3]) / 255.0f);

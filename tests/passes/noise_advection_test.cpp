@@ -10,6 +10,7 @@
 #include "shared/erosion.h"
 #include "shared/frame.h"
 #include "smoke/holes.hpp"
+#include "smoke/noise_tile.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/passes/smoke_room.hpp"
 #include "tests/reference/noise.hpp"
@@ -130,9 +131,9 @@ class NoiseAdvectionTest : public gpu::GpuTest {
  protected:
   NoiseAdvectionTest()
       : room_(context(), runner(), {}, {{40, 33, 37}, 0.25f, {-5, -4, -4.6f}}, {0, 0, 0}, 8000, 400) {
-    noise_ = make_noise_tile(context(), kSmokeNoise.size);
+    noise_ = make_noise_tile(context(), smoke::kSmokeNoise.size);
     const NoisePass noise(context());
-    runner().run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, kSmokeNoise); });
+    runner().run([&](gpu::Recorder& recorder) { noise.record(recorder, noise_, smoke::kSmokeNoise); });
     frame_.volume = room_.volume.layout();
     frame_.look.noise_frequency = 1.0f / 6;
     frame_.look.swirl = 0.2f;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "brume_test_shaders.hpp"
+#include "smoke/noise_tile.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/probes.h"
 #include "tests/reference/noise.hpp"
@@ -186,7 +187,7 @@ TEST_F(NoiseTile, TilesWithoutASeam) {
 }
 
 TEST_F(NoiseTile, IsSpreadOverItsRange) {
-  const auto tile = make(kSmokeNoise);
+  const auto tile = make(smoke::kSmokeNoise);
   for (std::size_t channel = 0; channel < 4; ++channel) {
     std::vector<std::uint8_t> values;
     for (const Texel& texel : tile) values.push_back(texel[channel]);

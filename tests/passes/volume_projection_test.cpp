@@ -188,7 +188,8 @@ TEST_F(VolumeProjectionTest, EqualsTexturesOfBytes) {
   RecordProperty("most_points_beyond_1_of_255", std::to_string(beyond_a_byte));
 }
 
-// The bound grows with the range of the texels: for a fifth of the full range it is below a step of 8-bit images.
+// The bound grows with the range of the texels: for a fifth of the full range it is below a step of 8-bit
+// images.
 TEST_F(VolumeProjectionTest, IsWithinAByteForSmoothContents) {
   if (step() > 1 / 256.0) GTEST_SKIP() << "the device filters with fewer than 8 bits";
   for (const Case& one : cases()) EXPECT_LT(expect_values<Half4>(one, 0.2f).bound, 1 / 255.0) << one.name();

@@ -11,8 +11,8 @@
 #include <sstream>
 
 #include "core/file.hpp"
-#include "passes/scene_upload.hpp"
 #include "planning/device_camera.hpp"
+#include "planning/device_lights.hpp"
 #include "render/playback.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
@@ -288,7 +288,7 @@ TEST_F(LitWallsTest, ByALightTheWallShowsNoLine) {
     truth.look = studio.input.smoke.look;
     truth.time = kSeconds;
     truth.volume = studio.input.smoke.volume;
-    const auto lights = passes::device_lights(scenario.scene.lights, 64);
+    const auto lights = planning::device_lights(scenario.scene.lights, 64);
     truth.lights = lights;
     const auto triangles = reference::truth_triangles(scenario.scene);
     truth.triangles = triangles;

@@ -10,9 +10,10 @@
 #include "image/metrics.hpp"
 #include "image/png.hpp"
 #include "passes/noise.hpp"
-#include "passes/scene_upload.hpp"
 #include "planning/device_camera.hpp"
+#include "planning/device_lights.hpp"
 #include "render/playback.hpp"
+#include "smoke/noise_tile.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/reference/truth.hpp"
@@ -68,9 +69,9 @@ class TruthTest : public gpu::GpuTest {
   };
   static reference::NoiseTile noise_tile() {
     const passes::NoisePass pass(context());
-    const gpu::Image tile = passes::make_noise_tile(context(), passes::kSmokeNoise.size);
-    runner().run([&](gpu::Recorder& recorder) { pass.record(recorder, tile, passes::kSmokeNoise); });
-    return {passes::kSmokeNoise.size, read_back<glm::u8vec4>(tile)};
+    const gpu::Image tile = passes::make_noise_tile(context(), smoke::kSmokeNoise.size);
+    runner().run([&](gpu::Recorder& recorder) { pass.record(recorder, tile, smoke::kSmokeNoise); });
+    return {smoke::kSmokeNoise.size, read_back<glm::u8vec4>(tile)};
   }
 };
 
@@ -142,7 +143,7 @@ TEST_F(TruthTest, SingleScatteringIsWhatItShouldBe) {
     truth.time = one.seconds;
     truth.volume = input.smoke.volume;
     truth.holes = studio.holes;
-    const auto lights = passes::device_lights(one.scenario.scene.lights, 64);
+    const auto lights = planning::device_lights(one.scenario.scene.lights, 64);
     truth.lights = lights;
     const auto triangles = reference::truth_triangles(one.scenario.scene);
     truth.triangles = triangles;

@@ -1,12 +1,12 @@
-#include "render/volume_inputs.hpp"
+#include "planning/volume_inputs.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "render/glow_lights.hpp"
+#include "planning/glow_lights.hpp"
 
-namespace brume::render {
+namespace brume::planning {
 namespace {
 
 static_assert(scene::kMostVolumes == shared::kMaxVolumes);
@@ -20,16 +20,16 @@ void move_by(const glm::mat4& pose, scenario::VolumeAt& volume) {
 }
 
 /// The disturbance in voxels of the density.
-planning::DisturbanceInput disturbance_of(const scene::Disturbance& disturbance,
-                                          const scenario::VolumeFrame& frame, double seconds) {
+DisturbanceInput disturbance_of(const scene::Disturbance& disturbance, const scenario::VolumeFrame& frame,
+                                double seconds) {
   if (disturbance.strength <= 0) return {};
   return {glm::mat4(glm::inverse(frame.density.world_from_voxel)), disturbance, static_cast<float>(seconds)};
 }
 
-planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
-                               const scenario::VolumeFrame& first, double seconds) {
+VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
+                     const scenario::VolumeFrame& first, double seconds) {
   const grids::BrickVolume& density = volume.frame->density;
-  planning::VolumeInput input;
+  VolumeInput input;
   input.volume = density.volume.get();
   input.world_from_voxel = volume.world_from_density;
   input.colors = volume.frame->colors.get();
@@ -57,13 +57,12 @@ planning::VolumeInput input_of(const scene::VolumeOptions& options, const scenar
 }
 
 /// The quads that show a volume's masks, of its box in the world.
-planning::ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::SliceVolume& slices,
-                                     const grids::DenseVolume& volume, const glm::mat4& pose,
-                                     double seconds) {
+ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::SliceVolume& slices,
+                           const grids::DenseVolume& volume, const glm::mat4& pose, double seconds) {
   const Box<double>& box = volume.front().box;
   const glm::dmat4 box_from_uvw =
       glm::translate(glm::dmat4(1), box.low) * glm::scale(glm::dmat4(1), box.high - box.low);
-  planning::ParticleInput input;
+  ParticleInput input;
   input.world_from_uvw =
       pose * scenario::world_from_file(options) * slices.file_from_box * glm::mat4(box_from_uvw);
   input.slices = static_cast<std::uint32_t>(slices.volume);
@@ -85,11 +84,10 @@ planning::ParticleInput particles_of(const scene::VolumeOptions& options, const 
 }  // namespace
 
 void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
-                 scenario::VolumeWait wait, planning::FrameInput& input) {
+                 scenario::VolumeWait wait, FrameInput& input) {
   if (!scenario.volumes) return;
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
   std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
-  std::vector<shared::Light> lights;
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!volumes[i].frame) continue;
     const glm::mat4 pose = scene::pose_of(carriers, options[i].carrier, seconds);
@@ -101,12 +99,10 @@ void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carr
     else
       input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i), seconds));
     for (const shared::Light& light : glow_lights(options[i], volumes[i], seconds, input.view.exposure))
-      lights.push_back(light);
+      input.environment.glow.push_back(light);
   }
   // A frame takes a limited number of them.
-  std::ranges::stable_sort(lights, std::greater(), &shared::Light::range);
-  std::vector<shared::Light>& flashes = input.environment.flashes;
-  flashes.insert(flashes.end(), lights.begin(), lights.end());
+  std::ranges::stable_sort(input.environment.glow, std::greater(), &shared::Light::range);
 }
 
-}  // namespace brume::render
+}  // namespace brume::planning

@@ -6,7 +6,7 @@
 #include "scenario/volumes.hpp"
 #include "shared/light.h"
 
-namespace brume::render {
+namespace brume::planning {
 
 /// A light for each ball of glow in a volume (grids::find_glow), of its heat and of its masks at a time [s],
 /// that is seen beyond its edge at an exposure (View::exposure). Its intensity is that of all that the ball
@@ -14,4 +14,4 @@ namespace brume::render {
 std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
                                        double seconds, float exposure);
 
-}  // namespace brume::render
+}  // namespace brume::planning

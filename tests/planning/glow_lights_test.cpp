@@ -1,5 +1,5 @@
 // Light of flames: its power against that of a transparent and of an opaque ball.
-#include "render/glow_lights.hpp"
+#include "planning/glow_lights.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "grids/generate.hpp"
 #include "planning/blackbody.hpp"
 
-namespace brume::render {
+namespace brume::planning {
 namespace {
 
 constexpr double kRadius = 1.5;  // [m]
@@ -36,7 +36,7 @@ scenario::VolumeAt hot_ball() {
 scene::VolumeOptions options_of(float extinction) {
   scene::VolumeOptions options;
   options.extinction = extinction;
-  options.kelvin = planning::kUnitGlow;
+  options.kelvin = kUnitGlow;
   options.emission = 2;
   return options;
 }
@@ -48,7 +48,7 @@ double intensity_of(const std::vector<shared::Light>& lights) {
   return sum;
 }
 
-const double kRadiance = 2 * double{planning::blackbody_color(planning::kUnitGlow).r};
+const double kRadiance = 2 * double{blackbody_color(kUnitGlow).r};
 
 // Every point is seen: radiance per metre times volume.
 TEST(GlowLights, OfATransparentBallHaveThePowerOfItsVolume) {
@@ -105,4 +105,4 @@ TEST(GlowLights, AreNoneWhereNothingGlows) {
 }
 
 }  // namespace
-}  // namespace brume::render
+}  // namespace brume::planning

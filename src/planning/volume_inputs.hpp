@@ -6,11 +6,11 @@
 #include "planning/frame_input.hpp"
 #include "scenario/scenario.hpp"
 
-namespace brume::render {
+namespace brume::planning {
 
 /// Adds the volumes at a time [s], which stay loaded until another one is read, moved by their carriers, and
 /// the light of what glows in them; nothing without Scenario::volumes.
 void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
-                 scenario::VolumeWait wait, planning::FrameInput& input);
+                 scenario::VolumeWait wait, FrameInput& input);
 
-}  // namespace brume::render
+}  // namespace brume::planning

@@ -1,11 +1,11 @@
-#include "render/glow_lights.hpp"
+#include "planning/glow_lights.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "planning/blackbody.hpp"
 
-namespace brume::render {
+namespace brume::planning {
 namespace {
 
 /// Irradiance below which a light is not seen, at an exposure of 1.
@@ -36,13 +36,13 @@ shared::Light light_of(const scene::VolumeOptions& options, const scenario::Volu
   const double voxel_volume = std::abs(glm::determinant(glm::dmat3(glm::dmat4(volume.world_from_heat))));
   const double radius = ball.radius * std::cbrt(voxel_volume);
   const double kelvin = double{options.kelvin} * double{frame.heat->unit};
-  const double ratio = kelvin / double{planning::kUnitGlow};
+  const double ratio = kelvin / double{kUnitGlow};
 
   // Radiance per metre, summed over the ball [W/sr], in the colour of its mean temperature.
   const double glow = double{options.extinction} * double{options.emission} * std::pow(ratio, 4) * ball.power;
   const double mean = std::min(kelvin * ball.value, kMostKelvin);
-  const glm::dvec3 color = glm::dvec3(planning::blackbody_color(static_cast<float>(mean))) /
-                           std::pow(mean / double{planning::kUnitGlow}, 4);
+  const glm::dvec3 color =
+      glm::dvec3(blackbody_color(static_cast<float>(mean))) / std::pow(mean / double{kUnitGlow}, 4);
   const double extinction = double{options.extinction} * double{frame.density.unit} * ball.density;
   const double leaves = grids::escape_from_ball(extinction * radius);
 
@@ -81,4 +81,4 @@ std::vector<shared::Light> glow_lights(const scene::VolumeOptions& options, cons
   return lights;
 }
 
-}  // namespace brume::render
+}  // namespace brume::planning

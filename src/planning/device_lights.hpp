@@ -1,0 +1,16 @@
+// The lights of a scene in the form that shaders and culling read.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "shared/light.h"
+
+namespace brume::planning {
+
+/// Lights for the device: ranges cut off less than 1/100 of unit irradiance; shadow layers are assigned in
+/// order, up to `max_layers`.
+std::vector<shared::Light> device_lights(const std::vector<scene::Light>& lights, std::uint32_t max_layers);
+
+}  // namespace brume::planning
