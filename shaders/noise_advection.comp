@@ -7,9 +7,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "lib/frame.glsl"
 #include "lib/erosion.glsl"
-#include "lib/noise.glsl"
 #include "lib/smoke_texels.glsl"
-#include "shared/noise.h"
 #include "shared/noise_advection.h"
 
 layout(local_size_x = 64) in;
@@ -23,9 +21,6 @@ layout(binding = kBindDensityDisplacement, rgba16f) uniform writeonly image3D de
 layout(binding = kBindFilteredDensity, rg16f) uniform writeonly image3D filtered_density;
 layout(scalar, binding = kBindSlots) readonly buffer Slots { uint slots[]; };
 layout(scalar, push_constant) uniform Push { NoiseAdvectionParams params; };
-
-/// Period of the rolls in widths.
-const int kSwirlCells = 64;
 
 /// Mean density of the free voxels around a texel of value `here`, and whether any voxel around it holds smoke. The
 /// texels around are those of its brick: beyond its apron another brick begins, from anywhere.
@@ -43,29 +38,23 @@ bool density_around(vec2 here, uint slot, uint local, out float density) {
 
 /// A part's growth at a texel of the brick, and its weight.
 vec4 growth_at(uint part, ivec3 local) {
-  const ivec3 low = local >> 1;
-  const vec3 f = 0.5 * vec3(local & 1);
   vec4 sum = vec4(0.0);
   float weight = 0.0;
   for (int i = 0; i < 8; ++i) {
-    const ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2), at = low + corner;
-    const vec3 linear = mix(1.0 - f, f, vec3(corner));
-    const float corner_weight = linear.x * linear.y * linear.z;
-    const uint point = uint(at.x + kDisplacementPoints * (at.y + kDisplacementPoints * at.z));
-    const uvec2 words = displacements[part * kDisplacementsPerBrick + point];
+    const float share = growth_share(local, i);
+    const uvec2 words = displacements[part * kDisplacementsPerBrick + growth_point(local, i)];
     const vec2 high = unpackHalf2x16(words.y);
     // Outside of the cloud its growth is extrapolated from inside.
-    if (high.y > 0.0) sum += corner_weight * vec4(unpackHalf2x16(words.x), high.x, 1.0);
-    weight += corner_weight * high.y;
+    if (high.y > 0.0) sum += share * vec4(unpackHalf2x16(words.x), high.x, 1.0);
+    weight += share * high.y;
   }
   return vec4(sum.xyz / max(sum.w, 1e-6), weight);
 }
 
 /// Displacement of the noise at a point by the clouds of a slot, blended by weight where they overlap.
-vec3 cloud_displacement(uint slot, ivec3 local, vec3 p_world) {
-  const float width = kSwirlCells * frame.look.swirl_width;
-  const vec3 one = curl_noise(p_world / width, kSwirlCells, 11u);
-  const vec3 other = curl_noise(p_world / width, kSwirlCells, 21u);
+vec3 displacement_by_clouds(uint slot, ivec3 local, vec3 p_world) {
+  const vec3 one = first_swirl(p_world, frame.look.swirl_width);
+  const vec3 other = second_swirl(p_world, frame.look.swirl_width);
   vec4 sum = vec4(0.0);
   const uvec2 range = parts[slot];
   for (uint i = range.x; i < range.x + range.y; ++i) {
@@ -73,23 +62,14 @@ vec3 cloud_displacement(uint slot, ivec3 local, vec3 p_world) {
     const CloudMotion motion = motions[part.y];
     const vec4 growth = growth_at(part.x, local);
     const vec3 swirl = frame.look.swirl * (motion.swirl_cos * one + motion.swirl_sin * other);
-    // A cloud moves nothing ahead of its front.
-    const float ahead = motion.front - length(growth.xyz) / frame.volume.voxel_size;
-    const float reached = clamp(ahead / max(0.25 * motion.front, 2.0), 1e-5, 1.0);
-    sum += motion.weight * growth.w * reached * vec4(motion.grown * growth.xyz + swirl, 1.0);
+    sum += cloud_displacement(motion, growth, swirl, frame.volume.voxel_size);
   }
   return sum.xyz / max(sum.w, 1e-12);
 }
 
-/// From the closest point of an impulse's segment to a point.
-vec3 from_segment(Impulse impulse, vec3 p_world) {
-  const vec3 segment = impulse.to_world - impulse.from_world, from = p_world - impulse.from_world;
-  return from - segment * clamp(dot(from, segment) / max(dot(segment, segment), 1e-9), 0.0, 1.0);
-}
-
 /// Displacement of the noise at a point by shots, bodies and explosions. Each thread of the subgroup tests one impulse
 /// against the ball around the points of all, so all threads must be active.
-vec3 impulse_displacement(vec3 p_world) {
+vec3 displacement_by_impulses(vec3 p_world) {
   const vec3 low = subgroupMin(p_world), high = subgroupMax(p_world), centre = 0.5 * (low + high);
   const float ball = 1.001 * length(high - centre);
   vec3 sum = vec3(0.0);
@@ -99,10 +79,7 @@ vec3 impulse_displacement(vec3 p_world) {
     const uvec4 near_any = subgroupBallot(first + gl_SubgroupInvocationID < params.impulse_count && near_ball);
     for (uint word = 0u; 32u * word < gl_SubgroupSize; ++word) {
       for (uint bits = near_any[word]; bits != 0u; bits &= bits - 1u) {
-        const Impulse impulse = impulses[first + 32u * word + uint(findLSB(bits))];
-        const vec3 offset = from_segment(impulse, p_world);
-        const float near = max(0.0, 1.0 - dot(offset, offset) / (impulse.radius * impulse.radius));
-        sum += near * near * (impulse.along + impulse.outward * offset / impulse.radius);
+        sum += impulse_displacement(impulses[first + 32u * word + uint(findLSB(bits))], p_world);
       }
     }
   }
@@ -126,7 +103,7 @@ void main() {
   const uint texels = params.slot_count * kTexelsPerBrick, texel = min(gl_GlobalInvocationID.x, texels - 1u);
   const uint slot = slots[params.first_slot + texel / kTexelsPerBrick], local = texel % kTexelsPerBrick;
   const vec3 p_world = world_from_voxel(texel_position(slot, local));
-  const vec3 by_impulses = impulse_displacement(p_world);  // while all threads are active
+  const vec3 by_impulses = displacement_by_impulses(p_world);  // while all threads are active
   if (gl_GlobalInvocationID.x >= texels) return;
 
   // Far from smoke there is nothing to displace.
@@ -141,7 +118,7 @@ void main() {
     return;
   }
 
-  const vec3 displacement = cloud_displacement(slot, local_texel(local), p_world) - by_impulses;
+  const vec3 displacement = displacement_by_clouds(slot, local_texel(local), p_world) - by_impulses;
   const float retained = retained_fraction(density, p_world, displacement);
   imageStore(density_displacement, in_atlas, vec4(stored, displacement));
   imageStore(filtered_density, in_atlas, vec4(is_free ? here.r * retained : kInSolid, retained, 0.0, 0.0));

@@ -1,8 +1,8 @@
 // Radiance of the sky.
 #ifndef SKY_GLSL
 #define SKY_GLSL
-#include "lib/hash.glsl"
 #include "shared/frame.h"
+#include "shared/hash.h"
 
 /// Stars in fixed directions: at most one per cell of a cube grid, few of them bright.
 float star_light(vec3 direction) {

@@ -17,5 +17,8 @@ SHARED_FUNCTION uvec3 pcg3d(uvec3 v) {
   return v;
 }
 
+/// Three values in [0, 1).
+SHARED_FUNCTION vec3 hash3(uvec3 v) { return vec3(pcg3d(v) >> 8u) * (1.0f / 16777216.0f); }
+
 SHARED_END
 #endif

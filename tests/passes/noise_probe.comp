@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "lib/noise.glsl"
+#include "shared/noise_functions.h"
 
 #include "probes.h"
 
