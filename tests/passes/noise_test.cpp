@@ -25,7 +25,7 @@ std::vector<glm::vec3> random_points(std::size_t count, unsigned seed) {
   return points;
 }
 
-/// The noise of shaders/lib/noise.glsl at points.
+/// The noise of shaders/shared/noise_functions.h at points.
 class NoiseKinds : public GpuTest {
  protected:
   struct Values {
@@ -160,6 +160,18 @@ TEST_F(NoiseTile, EqualsTheReference) {
       // Rounding to 8 bits, and float arithmetic of at most 255 x 2e-5 x the steepest slope of `spread`, 6.5.
       for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(tile[i][k], 255 * expected[k], 0.54) << i << " " << k;
     }
+  }
+}
+
+TEST_F(NoiseTile, IsThatOfTheProcessor) {
+  for (const shared::NoiseParams& params : {smoke::kSmokeNoise, shared::NoiseParams{7, 2, 5}}) {
+    const auto device = make(params);
+    const smoke::NoiseTile tile = smoke::make_noise_tile(params);
+    ASSERT_EQ(device.size(), tile.texels.size());
+    // Numbers that are next to each other may be rounded apart, by one step of 8 bits.
+    for (std::size_t i = 0; i < device.size(); ++i)
+      for (int k = 0; k < 4; ++k)
+        EXPECT_LE(std::abs(int{device[i][static_cast<std::size_t>(k)]} - int{tile.texels[i][k]}), 1) << i;
   }
 }
 
