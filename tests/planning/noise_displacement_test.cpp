@@ -1,0 +1,74 @@
+#include "planning/noise_displacement.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/tasks.hpp"
+#include "planning/noise_motion.hpp"
+#include "sim/world.hpp"
+#include "voxel/surface_planes.hpp"
+
+namespace brume::planning {
+namespace {
+
+// NoiseAdvectionTest compares with the device.
+class NoiseDisplacementTest : public ::testing::Test {
+ protected:
+  NoiseDisplacementTest() {
+    sim::ThrowSmoke event;
+    event.from = event.at = sim::position_from_metres({8, 8, 8});
+    event.smoke.voxels = 8000;
+    world_.append(event).value_or_throw();
+    world_.advance_to(300);
+    volume_.update(world_);
+    look_.swirl = 0.2f;
+    look_.swirl_width = 3;
+  }
+  std::vector<glm::vec3> displacement() const {
+    return noise_displacement(volume_, world_.state(), look_, 300.0 / 64, 12);
+  }
+
+  voxel::BitGrid grid_{{glm::ivec3(32), 0.5f, glm::vec3(0)}};
+  voxel::SurfacePlanes planes_;
+  sim::World world_{grid_};
+  smoke::SmokeVolume volume_{grid_, planes_};
+  shared::SmokeLook look_{};
+};
+
+TEST_F(NoiseDisplacementTest, IsTheSameOnAnyNumberOfThreads) {
+  set_thread_count(1);
+  const auto one = displacement();
+  set_thread_count(2);
+  const auto two = displacement();
+  set_thread_count(0);
+  EXPECT_EQ(one, two);
+}
+
+TEST_F(NoiseDisplacementTest, OfGrowthPointsAlongIt) {
+  look_.swirl = 0;
+  const auto displaced = displacement();
+  ASSERT_EQ(displaced.size(), std::size_t{shared::kTexelsPerBrick} * volume_.slot_count());
+  const sim::Cloud& cloud = *world_.state().clouds.at(0).cloud;
+  const float grown = cloud_motion(cloud, 64, 300.0 / 64, 12).grown;
+  int compared = 0, still = 0;
+  for (std::size_t i = 0; i < displaced.size(); ++i) {
+    const auto slot = static_cast<std::uint32_t>(i / shared::kTexelsPerBrick);
+    const auto n = static_cast<int>(i % shared::kTexelsPerBrick);
+    const glm::ivec3 voxel = 8 * volume_.brick_of(slot) + glm::ivec3(n % 10, n / 10 % 10, n / 100) - 1;
+    still += displaced[i] == glm::vec3(0);
+    // Where all voxels around belong to the cloud, its growth is a straight line.
+    bool inside = true;
+    for (int k = 0; k < 125 && inside; ++k)
+      inside = cloud.voxels().contains(voxel + glm::ivec3(k % 5, k / 5 % 5, k / 25) - 2);
+    if (!inside) continue;
+    const glm::vec3 from_source = 0.5f * glm::vec3(voxel - cloud.origin().source);
+    // Half floats of at most 8 m, which round by 2^-9 m; paths are sums of floats.
+    ++compared;
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(displaced[i][axis], grown * from_source[axis], std::abs(grown) * 0x1p-9 + 1e-5);
+  }
+  EXPECT_GT(compared, 1000);
+  EXPECT_GT(still, 1000);  // away from the smoke
+}
+
+}  // namespace
+}  // namespace brume::planning
