@@ -1,6 +1,7 @@
 // The commands of the program, one source file each: declares the arguments and runs the command.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -17,7 +18,7 @@ struct CommonOptions {
   bool quiet = false;    ///< Suppresses progress and warnings, but not results and errors.
   bool force = false;    ///< Outputs may replace files of another kind.
   /// Time that a command has to stop by itself after a signal, before it is ended [s].
-  double grace_seconds = 0.5;
+  std::atomic<double> grace_seconds = 0.5;
   Outputs outputs;  ///< Declared by the command while it runs.
 };
 

@@ -137,9 +137,10 @@ void start_console(bool quiet) {
 }
 
 struct Attendant::Thread {
-  Thread(double seconds, std::function<int(int)> end) : grace_seconds(seconds), end_of(std::move(end)) {}
+  Thread(const std::atomic<double>& seconds, std::function<int(int)> end)
+      : grace_seconds(seconds), end_of(std::move(end)) {}
 
-  double grace_seconds;
+  const std::atomic<double>& grace_seconds;
   std::function<int(int)> end_of;
   std::mutex mutex;
   std::condition_variable wake;
@@ -163,7 +164,7 @@ struct Attendant::Thread {
   }
 };
 
-Attendant::Attendant(double grace_seconds, std::function<int(int signal)> end_of)
+Attendant::Attendant(const std::atomic<double>& grace_seconds, std::function<int(int signal)> end_of)
     : thread_(new Thread(grace_seconds, std::move(end_of))) {
   // Signals interrupt the system calls of the main thread, not of this one.
   sigset_t all, old;
@@ -186,6 +187,10 @@ Attendant::~Attendant() {
 void claim_end() {
   if (!g_ending.exchange(true)) return;
   for (;;) ::pause();
+}
+
+bool is_interrupted() {
+  return g_signal != 0;
 }
 
 void stop_if_interrupted() {

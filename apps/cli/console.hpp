@@ -1,6 +1,7 @@
 // Console output and signals: results go to standard output, progress, warnings and errors to standard error.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 
@@ -24,12 +25,13 @@ void reserve_standard_descriptors();
 void start_console(bool quiet);
 
 /// Shows the progress of long jobs (core/progress.hpp) on a terminal, and enforces stops, from a thread of
-/// its own, until it is destroyed: where a signal has not ended the command after `grace_seconds`, calls
+/// its own, until it is destroyed: where a signal has not ended the command after `grace_seconds`, which may
+/// change meanwhile, calls
 /// `end_of(signal)`, which reports it and returns the exit code, and ends the process. That leaves no half
 /// file, since files have no name until they are complete.
 class Attendant {
  public:
-  Attendant(double grace_seconds, std::function<int(int signal)> end_of);
+  Attendant(const std::atomic<double>& grace_seconds, std::function<int(int signal)> end_of);
   Attendant(const Attendant&) = delete;
   ~Attendant();
 
@@ -37,6 +39,9 @@ class Attendant {
   struct Thread;
   Thread* thread_;
 };
+
+/// Whether a signal has arrived.
+bool is_interrupted();
 
 /// Throws Interrupted if a signal has arrived.
 void stop_if_interrupted();

@@ -22,7 +22,8 @@ enum class FileKind {
   timeline,
   frame_log,
   godot_import,
-  slice_atlas  ///< The description of one.
+  slice_atlas,  ///< The description of one.
+  checkpoint    ///< Of a reference rendering.
 };
 
 /// As messages call it: ".png file", "timeline".

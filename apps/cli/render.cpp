@@ -1,8 +1,5 @@
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -13,8 +10,11 @@
 #include "apps/cli/json.hpp"
 #include "apps/cli/orbit.hpp"
 #include "apps/cli/parse.hpp"
+#include "apps/cli/reference.hpp"
 #include "apps/cli/scene_options.hpp"
+#include "apps/cli/stopwatch.hpp"
 #include "apps/cli/targets.hpp"
+#include "apps/cli/timed_playback.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
@@ -28,10 +28,14 @@
 namespace brume::cli {
 namespace {
 
+// After a signal: a step of the path tracer, and a checkpoint, take their time [s].
+constexpr double kReferenceGrace = 8;
+
 struct RenderOptions {
   std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
-                                               view = "none", slice, fps = "24", raycast;
+                                               view = "none", slice, fps = "24", raycast, mode = "realtime";
   SceneOptions scene;
+  ReferenceOptions reference;
   std::optional<double> time, orbit;
   bool temporal = false, resume = false;
   float step = 1, light_update_fraction = 1, resolve_error_scale = 1;
@@ -61,6 +65,7 @@ bool frames_depend(const RenderOptions& options) {
 void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outputs) {
   outputs.reads({options.input, options.timeline});
   outputs.writes("--json", options.json, FileKind::json);
+  outputs.writes("--checkpoint", options.reference.checkpoint, FileKind::checkpoint);
   const FileKind kind = target_file_kind(options.output);
   if (plan.kind != TargetKind::sequence) outputs.writes("-o", plain_name(options.output), kind);
   // Without --frames the timeline decides how many there are.
@@ -69,8 +74,28 @@ void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outp
   if (plan.kind == TargetKind::sequence && !plan.frames) check_writable(sequence_name(options.output, 0));
 }
 
+bool is_reference(const RenderOptions& options) {
+  return options.mode == "reference";
+}
+
+// Refuses options of the other mode.
+void refuse_other_mode(const Arguments& arguments, const RenderOptions& options, const Plan& plan) {
+  if (is_reference(options)) {
+    for (const char* option : {"--march", "--raycast", "--temporal", "--step", "--resolve-error-scale",
+                               "--light-update-fraction", "--volume-memory", "--view", "--slice", "--device"})
+      arguments.refuse(option, "is for --mode realtime");
+    if (plan.kind != TargetKind::picture)
+      arguments.refuse("--checkpoint", "is for a single picture; numbered frames have --resume");
+    return;
+  }
+  for (const char* option :
+       {"--samples", "--noise", "--time-limit", "--max-bounces", "--clamp", "--checkpoint"})
+    arguments.refuse(option, "requires --mode reference");
+}
+
 // Refuses options that would do nothing.
 void refuse_idle(const Arguments& arguments, const RenderOptions& options, const Plan& plan) {
+  refuse_other_mode(arguments, options, plan);
   if (plan.kind == TargetKind::picture) {
     const char* const needs = "requires a film (.mp4) or numbered frames, such as -o f_%04d.png";
     for (const char* option : {"--frames", "--fps", "--temporal", "--light-update-fraction", "--orbit"})
@@ -127,70 +152,16 @@ std::string view_names() {
   return names;
 }
 
-double cpu_seconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-// Renders frames and gathers the statistics for --json.
-class TimedRenderer {
- public:
-  /// `orbit`: empty for the camera of the playback.
-  TimedRenderer(render::Playback& playback, const std::optional<Orbit>& orbit)
-      : playback_(playback), orbit_(orbit) {}
-  image::Image8 draw(double seconds, std::uint32_t frame_index) {
-    turn(seconds, frame_index);
-    return timed([&] { return playback_.draw(seconds, frame_index); });
-  }
-  image::LayeredImage draw_layers(double seconds, std::uint32_t frame_index) {
-    turn(seconds, frame_index);
-    return timed([&] { return playback_.draw_layers(seconds, frame_index); });
-  }
-  Json statistics() const {
-    Json passes = Json::object();
-    for (const auto& scope : playback_.timings()) passes.set(scope.name, scope.milliseconds);
-    return {{"frames", frames_},
-            {"seconds_per_frame", seconds_ / std::max(frames_, 1)},
-            {"cpu_seconds_per_frame", cpu_seconds_ / std::max(frames_, 1)},
-            {"marched_fraction_of_last_frame", playback_.fraction_marched()},
-            {"gpu_milliseconds_of_last_frame", passes}};
-  }
-
- private:
-  void turn(double seconds, std::uint32_t frame_index) {
-    if (orbit_) playback_.set_camera(orbit_->at(seconds, frame_index));
-  }
-  template <typename Draw>
-  std::invoke_result_t<Draw> timed(Draw draw) {
-    const double cpu = cpu_seconds();
-    const auto start = std::chrono::steady_clock::now();
-    auto picture = draw();
-    seconds_ += seconds_since(start);
-    cpu_seconds_ += cpu_seconds() - cpu;
-    ++frames_;
-    return picture;
-  }
-
-  render::Playback& playback_;
-  std::optional<Orbit> orbit_;
-  double seconds_ = 0, cpu_seconds_ = 0;
-  int frames_ = 0;
-};
-
 FrameRange frames_of(const Plan& plan, const scene::Timeline& timeline) {
   // A duration of a whole number of frames must not become one more by rounding.
   constexpr double kRounding = 1e-6;
   const double frames = static_cast<double>(timeline.duration) * plan.rate.per_second();
   const auto all = static_cast<std::uint32_t>(std::ceil(frames - kRounding));
   return plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
+}
+
+double picture_time(const RenderOptions& options, const scenario::Scenario& scenario) {
+  return options.time.value_or(static_cast<double>(scenario.timeline.duration));
 }
 
 // Times beyond the end of the timeline show its end.
@@ -215,11 +186,11 @@ std::uint32_t warm_up_of(const RenderOptions& options, std::uint32_t first) {
 // A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files,
 // the options, the device and the program.
 std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenario& scenario,
-                           const gpu::DeviceInfo& device, const FrameRange& range) {
+                           const std::vector<std::string>& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice, fps,
-               raycast, scene_options, time, orbit, temporal, resume, step, light_update_fraction,
-               resolve_error_scale, volume_memory] = options;
+               raycast, mode, scene_options, reference, time, orbit, temporal, resume, step,
+               light_update_fraction, resolve_error_scale, volume_memory] = options;
 
   // Files.
   std::vector<std::filesystem::path> files = scenario::files_of(scenario);
@@ -233,9 +204,9 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
   }
 
   // RenderOptions and device.
-  std::vector<std::string> texts{device.name, device.driver, size, march, camera, view, slice, fps, raycast};
-  const std::vector<std::string> scene = texts_of(scene_options);
-  texts.insert(texts.end(), scene.begin(), scene.end());
+  std::vector<std::string> texts{size, march, camera, view, slice, fps, raycast, mode};
+  for (const auto& more : {device, texts_of(scene_options), texts_of(reference)})
+    texts.insert(texts.end(), more.begin(), more.end());
   for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
   const std::array<float, 3> numbers{step, light_update_fraction, resolve_error_scale};
   key = hash_values(std::span<const float>(numbers), key);
@@ -250,14 +221,15 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
   return hash_values(std::span<const std::uint32_t>(whole), key);
 }
 
+// Draws a frame at a time [s].
+using DrawFrame = std::function<Picture(double, std::uint32_t)>;
+
+// `device`: texts that name what draws.
 void write(const RenderOptions& options, const Plan& plan, CommonOptions& common,
-           const gpu::DeviceInfo& device, const scenario::Scenario& scenario, TimedRenderer& renderer) {
-  const auto draw = [&](double seconds, std::uint32_t i) -> Picture {
-    if (plan.has_layers()) return renderer.draw_layers(seconds, i);
-    return renderer.draw(seconds, i);
-  };
+           const std::vector<std::string>& device, const scenario::Scenario& scenario,
+           const DrawFrame& draw) {
   if (plan.kind == TargetKind::picture) {
-    const Picture picture = draw(options.time.value_or(static_cast<double>(scenario.timeline.duration)), 0);
+    const Picture picture = draw(picture_time(options, scenario), 0);
     stop_if_interrupted();
     save_picture(plain_name(options.output), picture);
     return;
@@ -267,7 +239,7 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
   if (plan.kind == TargetKind::film) {
     write_film(plain_name(options.output), {plan.renderer.size_px, plan.rate, common.threads, warm_up},
                range.first, range.last, common.outputs,
-               [&](std::uint32_t i) { return renderer.draw(plan.rate.time_of(i), i); });
+               [&](std::uint32_t i) { return std::get<image::Image8>(draw(plan.rate.time_of(i), i)); });
     return;
   }
   write_sequence({options.output, range.first, range.last, warm_up, plan.renderer.size_px,
@@ -292,49 +264,89 @@ void check_raycast(const RenderOptions& options, const scenario::Scenario& scena
     log_warning("--raycast draws volumes alone: the smoke of the timeline is not shown");
 }
 
-void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
-  const auto start = std::chrono::steady_clock::now();
-  const Plan plan = make_plan(arguments, options, common.outputs);
-  const scenario::Scenario scenario = load_with_options(options.input, options.timeline, plan.scene);
-  if (plan.kind == TargetKind::sequence && !plan.frames) {
-    const FrameRange range = frames_of(plan, scenario.timeline);
-    common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
-                                 range.last);
-  }
-  common.outputs.reads(scenario::files_of(scenario));
-  stop_if_interrupted();
-  warn_of_times(options, plan, scenario.timeline);
-  gpu::Context context({options.device, false});
-  if (scenario.volumes)
-    scenario.volumes->limit(render::volume_room(context, std::uint64_t{options.volume_memory} << 20))
-        .value_or_throw();
-  auto simulation = scenario::Simulation::create(scenario).value_or_throw();
-  check_raycast(options, scenario);
-  const Json smokes = report_timeline(scenario, simulation->report_smokes(scenario));
-  stop_if_interrupted();
+// What both modes start from.
+struct Loaded {
+  scenario::Scenario scenario;
+  std::unique_ptr<scenario::Simulation> simulation;
   std::optional<Orbit> orbit;
+  Json smokes;
+};
+
+void simulate(const RenderOptions& options, const Plan& plan, Loaded& loaded) {
+  loaded.simulation = scenario::Simulation::create(loaded.scenario).value_or_throw();
+  check_raycast(options, loaded.scenario);
+  loaded.smokes = report_timeline(loaded.scenario, loaded.simulation->report_smokes(loaded.scenario));
+  stop_if_interrupted();
   if (options.orbit)
-    orbit.emplace(scenario, plan.camera, *options.orbit, frames_of(plan, scenario.timeline),
-                  plan.scene.aspect);
-  render::Playback playback(context, scenario, plan.renderer, std::move(simulation));
-  playback.set_camera(orbit ? orbit->still_camera() : plan.camera);
-  if (scenario.measure_exposure) playback.measure_exposure();
+    loaded.orbit.emplace(loaded.scenario, plan.camera, *options.orbit,
+                         frames_of(plan, loaded.scenario.timeline), plan.scene.aspect);
+}
+
+Json render_reference(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
+  simulate(options, plan, loaded);
+  common.grace_seconds = kReferenceGrace;
+  const double time = picture_time(options, loaded.scenario);
+  RenderOptions without_limits = options;
+  without_limits.reference = {};
+  const std::vector<std::string> device{"reference", scene::shown(time)};
+  ReferenceFrames frames(loaded.scenario, std::move(loaded.simulation), options.reference,
+                         plan.renderer.size_px, plan.has_layers(),
+                         sequence_key(without_limits, loaded.scenario, device, {}));
+  frames.set_camera(loaded.orbit ? loaded.orbit->still_camera() : plan.camera);
+  write(options, plan, common, {"reference"}, loaded.scenario, [&](double seconds, std::uint32_t i) {
+    if (loaded.orbit) frames.set_camera(loaded.orbit->at(seconds, i));
+    return frames.draw(seconds);
+  });
+  Json statistics{{"mode", options.mode}};
+  statistics.update(frames.statistics());
+  return statistics;
+}
+
+Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
+  gpu::Context context({options.device, false});
+  if (loaded.scenario.volumes)
+    loaded.scenario.volumes->limit(render::volume_room(context, std::uint64_t{options.volume_memory} << 20))
+        .value_or_throw();
+  simulate(options, plan, loaded);
+  render::Playback playback(context, loaded.scenario, plan.renderer, std::move(loaded.simulation));
+  playback.set_camera(loaded.orbit ? loaded.orbit->still_camera() : plan.camera);
+  if (loaded.scenario.measure_exposure) playback.measure_exposure();
   playback.set_step_scale(options.step);
   playback.set_light_update_fraction(options.light_update_fraction);
   playback.set_resolve_error_scale(options.resolve_error_scale);
   playback.set_view(plan.view, plan.slice);
-  TimedRenderer renderer(playback, orbit);
-  write(options, plan, common, context.info(), scenario, renderer);
-  if (options.json.empty()) return;
-  Json statistics{{"output", options.output},
-                  {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})},
+  TimedPlayback renderer(playback, loaded.orbit);
+  write(options, plan, common, {context.info().name, context.info().driver}, loaded.scenario,
+        [&](double seconds, std::uint32_t i) { return renderer.draw(seconds, i, plan.has_layers()); });
+  Json statistics{{"mode", options.mode},
                   {"march", options.march},
                   {"temporal", options.temporal},
                   {"device", context.info().name},
                   {"driver", context.info().driver}};
   statistics.update(renderer.statistics());
-  statistics.set("seconds", seconds_since(start));
-  statistics.set("smokes", smokes);
+  return statistics;
+}
+
+void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
+  const Stopwatch watch;
+  const Plan plan = make_plan(arguments, options, common.outputs);
+  Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, {}};
+  if (plan.kind == TargetKind::sequence && !plan.frames) {
+    const FrameRange range = frames_of(plan, loaded.scenario.timeline);
+    common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
+                                 range.last);
+  }
+  common.outputs.reads(scenario::files_of(loaded.scenario));
+  stop_if_interrupted();
+  warn_of_times(options, plan, loaded.scenario.timeline);
+  const Json frames = is_reference(options) ? render_reference(options, plan, common, loaded)
+                                            : render_realtime(options, plan, common, loaded);
+  if (options.json.empty()) return;
+  Json statistics{{"output", options.output},
+                  {"size", Json::list({plan.renderer.size_px.x, plan.renderer.size_px.y})}};
+  statistics.update(frames);
+  statistics.set("seconds", watch.seconds());
+  statistics.set("smokes", loaded.smokes);
   write_json(options.json, statistics);
 }
 
@@ -402,6 +414,7 @@ Command add_render(CommandLine& program) {
               "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
               "  brume render cloud.vdb -o turntable.mp4 --orbit 360 --frames 0-239\n"
               "  brume render scenes/demo.toml -o demo.exr --time 2.5\n"
+              "  brume render scenes/demo.toml -o truth.png --time 2.5 --mode reference --noise 0.05\n"
               "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
   auto options = std::make_shared<RenderOptions>();
   const Arguments arguments = command.arguments;
@@ -429,6 +442,12 @@ Command add_render(CommandLine& program) {
   arguments.add_option("--size", options->size, "Image size [px]; default 1280x720")
       .take_last()
       .type_name("WxH");
+  arguments
+      .add_option("--mode", options->mode,
+                  "realtime: on a GPU; reference: path-traced on the CPU, without approximations")
+      .one_of({"realtime", "reference"})
+      .type_name("MODE");
+  declare_reference(arguments, options->reference);
   declare_quality(arguments, *options);
   declare_view(arguments, *options);
   declare_scene_options(arguments, options->scene);

@@ -6,6 +6,7 @@
 #include "shared/shim.h"
 #include "shared/smoke_volume.h"
 #include "shared/solid_volume.h"
+#include "shared/tone.h"
 SHARED_BEGIN
 
 SHARED_BINDING(kBindFrame, 0u);
@@ -70,10 +71,6 @@ struct FrameMedia {
   MediaBox box_0, box_1, box_2, box_3;  // union holds all that the bounds hold: smaller where media are far apart
 };
 SHARED_SIZE(FrameMedia, 168);
-
-/// Tone curves.
-SHARED_CONST uint kToneNeutral = 0u;   // Khronos PBR Neutral
-SHARED_CONST uint kToneStandard = 1u;  // none: clipped at 1, as Blender's "Standard"
 
 struct FrameConstants {
   Camera camera;

@@ -25,7 +25,7 @@
 #include <glm/glm.hpp>
 namespace brume::shared {
 using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::length, glm::max, glm::min,
-    glm::mix;
+    glm::lessThanEqual, glm::mix;
 using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::mat3, glm::mat4, glm::mat4x3, glm::bvec3;
 using glm::cos, glm::exp, glm::log, glm::pow, glm::sin, glm::sqrt, glm::tan;

@@ -3,8 +3,6 @@
 // coherent rays.
 #include "bake/occlusion.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +17,8 @@
 #include "core/checked.hpp"
 #include "core/tasks.hpp"
 #include "shared/hash.h"
+#include "trace/low_discrepancy.hpp"
+#include "trace/triangle_tree.hpp"
 
 namespace brume::bake {
 namespace {
@@ -47,45 +47,6 @@ struct UnitSpace {
 };
 
 // Directions.
-
-/// What Owen's nested scrambling of the bits does, from the lowest bit on: Vegdahl 2021, "Building a Better
-/// LK Hash", after Laine and Karras 2011.
-std::uint32_t scramble_upwards(std::uint32_t bits, std::uint32_t seed) {
-  bits ^= bits * 0x3d20adeau;
-  bits += seed;
-  bits *= (seed >> 16) | 1u;
-  bits ^= bits * 0x05526c56u;
-  bits ^= bits * 0x53a22864u;
-  return bits;
-}
-
-std::uint32_t reversed(std::uint32_t bits) {
-  bits = (bits >> 16) | (bits << 16);
-  bits = (bits >> 8 & 0x00ff00ffu) | (bits & 0x00ff00ffu) << 8;
-  bits = (bits >> 4 & 0x0f0f0f0fu) | (bits & 0x0f0f0f0fu) << 4;
-  bits = (bits >> 2 & 0x33333333u) | (bits & 0x33333333u) << 2;
-  return (bits >> 1 & 0x55555555u) | (bits & 0x55555555u) << 1;
-}
-
-/// Sobol's second coordinate of point i, as a fraction of 2^32; that of the first is i reversed.
-std::uint32_t second_of_sobol(std::uint32_t i) {
-  std::uint32_t result = 0;
-  for (std::uint32_t column = 1u << 31; i != 0; i >>= 1, column ^= column >> 1)
-    if (i & 1) result ^= column;
-  return result;
-}
-
-/// The bits of both in turn, those of `high` before those of `low`.
-std::uint64_t interleaved(std::uint32_t high, std::uint32_t low) {
-  const auto spread = [](std::uint64_t bits) {
-    bits = (bits | bits << 16) & 0x0000ffff0000ffffu;
-    bits = (bits | bits << 8) & 0x00ff00ff00ff00ffu;
-    bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0fu;
-    bits = (bits | bits << 2) & 0x3333333333333333u;
-    return (bits | bits << 1) & 0x5555555555555555u;
-  };
-  return spread(high) << 1 | spread(low);
-}
 
 /// From a square to the unit disk, areas in proportion: Shirley and Chiu 1997, "A Low Distortion Map Between
 /// Disk and Square".
@@ -127,9 +88,9 @@ class RaySets {
     const glm::uvec3 seeds = shared::pcg3d({set, seed, 0x6f63636cu});
     for (std::uint32_t i = 0; i < rays_; ++i) {
       Point& p = points[i];
-      p.u = reversed(scramble_upwards(begin + i, seeds.x));
-      p.v = reversed(scramble_upwards(reversed(second_of_sobol(begin + i)), seeds.y));
-      p.order = interleaved(p.u, p.v);
+      p.u = trace::first_scrambled(begin + i, seeds.x);
+      p.v = trace::second_scrambled(begin + i, seeds.y);
+      p.order = trace::interleaved(p.u, p.v);
     }
     // Put neighbours beside each other: in Morton order.
     std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.order < b.order; });
@@ -149,38 +110,9 @@ class RaySets {
 
 // The mesh.
 
-struct DeviceRelease {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneRelease {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-struct GeometryRelease {
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-using SceneHolder = std::unique_ptr<RTCSceneTy, SceneRelease>;
-using GeometryHolder = std::unique_ptr<RTCGeometryTy, GeometryRelease>;
-
-Failure embree_failure(RTCError error) {
-  switch (error) {
-    case RTC_ERROR_OUT_OF_MEMORY:
-      return {ErrorCode::resource_limit, "ambient occlusion: not enough memory for the mesh; simplify it"};
-    case RTC_ERROR_CANCELLED:
-      return stopped_failure();
-    case RTC_ERROR_UNSUPPORTED_CPU:
-      return {ErrorCode::no_device, "ambient occlusion: Embree does not support this processor"};
-    default:
-      return {ErrorCode::internal, "ambient occlusion: Embree reports the error " + std::to_string(error)};
-  }
-}
-
 /// The triangles as Embree traces them.
 class Occluders {
  public:
-  Occluders() = default;
-  Occluders(const Occluders&) = delete;
-  Occluders& operator=(const Occluders&) = delete;
-
   /// Corners in unit space, three for each triangle, at least one triangle.
   Result<void> build(std::span<const glm::vec3> corners, const std::atomic<bool>* stopped);
 
@@ -188,57 +120,18 @@ class Occluders {
   std::uint32_t count_hidden(const RaySets& sets, std::uint32_t set, glm::vec3 from, float side) const;
 
   /// The first error since the start, of any thread.
-  Result<void> check() const {
-    if (const RTCError error = error_; error != RTC_ERROR_NONE) return embree_failure(error);
-    return {};
-  }
+  Result<void> check() const { return tree_.check(); }
 
  private:
-  static void note_error(void* self, RTCError error, const char*) {
-    RTCError none = RTC_ERROR_NONE;
-    static_cast<Occluders*>(self)->error_.compare_exchange_strong(none, error);
-  }
-
-  std::atomic<RTCError> error_{RTC_ERROR_NONE};  // Outlives the device, which writes to it.
-  std::unique_ptr<RTCDeviceTy, DeviceRelease> device_;
-  SceneHolder scene_;
+  trace::TriangleTree tree_;
   float low_ = 0, high_ = 0;  // Along y.
 };
 
 Result<void> Occluders::build(std::span<const glm::vec3> corners, const std::atomic<bool>* stopped) {
-  // A device without threads of its own: sanitizers cannot see into them, and trees may depend on them.
-  device_.reset(rtcNewDevice("threads=1,set_affinity=0"));
-  if (!device_) return embree_failure(rtcGetDeviceError(nullptr));
-  rtcSetDeviceErrorFunction(device_.get(), note_error, this);
-
-  // A scene without gaps between triangles.
-  scene_.reset(rtcNewScene(device_.get()));
-  if (!scene_) return embree_failure(error_);
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
-  if (stopped)
-    rtcSetSceneProgressMonitorFunction(
-        scene_.get(),
-        [](void* flag, double) { return !is_stopped(static_cast<const std::atomic<bool>*>(flag)); },
-        const_cast<std::atomic<bool>*>(stopped));  // Only read.
-
-  // The triangles.
-  const GeometryHolder geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  if (!geometry) return embree_failure(error_);
-  void* const vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(glm::vec3), corners.size());
-  void* const indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                3 * sizeof(std::uint32_t), corners.size() / 3);
-  if (!vertices || !indices) return embree_failure(error_);
-  std::copy(corners.begin(), corners.end(), static_cast<glm::vec3*>(vertices));
-  std::iota(static_cast<std::uint32_t*>(indices), static_cast<std::uint32_t*>(indices) + corners.size(), 0u);
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(scene_.get(), geometry.get());
-  if (const auto fine = check(); !fine) return fine;
-
-  // The tree.
-  rtcCommitScene(scene_.get());
-  if (const auto fine = check(); !fine) return fine;
+  std::vector<std::uint32_t> indices(corners.size());
+  std::iota(indices.begin(), indices.end(), 0u);
+  const trace::TriangleMesh mesh{corners, indices};
+  if (auto built = tree_.build("ambient occlusion", {&mesh, 1}, stopped); !built) return built;
   const auto [low, high] =
       std::minmax_element(corners.begin(), corners.end(), [](glm::vec3 a, glm::vec3 b) { return a.y < b.y; });
   low_ = low->y;
@@ -273,7 +166,7 @@ std::uint32_t Occluders::count_hidden(const RaySets& sets, std::uint32_t set, gl
       rays.tfar[lane] = std::numeric_limits<float>::infinity();
       active[lane] = begin + lane < sets.rays() ? -1 : 0;
     }
-    rtcOccluded16(active.data(), scene_.get(), &context, &rays);
+    rtcOccluded16(active.data(), tree_.scene(), &context, &rays);
     for (std::size_t lane = 0; lane < kLanes; ++lane) hidden += rays.tfar[lane] < 0;  // -infinity: a hit
   }
   return hidden;

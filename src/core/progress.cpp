@@ -20,6 +20,12 @@ Jobs& jobs() {
   return *instance;
 }
 
+/// Of the details of all jobs. Not that of the list, which progress_to_show holds while it reads states.
+std::mutex& detail_mutex() {
+  static std::mutex* const instance = new std::mutex;
+  return *instance;
+}
+
 std::string time_text(double seconds) {
   char text[48];
   if (seconds < 100) {
@@ -49,9 +55,15 @@ Progress::~Progress() {
   std::erase(jobs().list, this);
 }
 
+void Progress::set_detail(std::string detail) {
+  const std::lock_guard lock(detail_mutex());
+  detail_ = std::move(detail);
+}
+
 Progress::State Progress::state() const {
-  return {name_, done_.load(std::memory_order_relaxed), total_,
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()};
+  const std::lock_guard lock(detail_mutex());
+  return {name_, done_.load(std::memory_order_relaxed), total_.load(std::memory_order_relaxed),
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(), detail_};
 }
 
 std::optional<Progress::State> progress_to_show(double seconds) {
@@ -76,6 +88,7 @@ std::string progress_line(const Progress::State& state, std::size_t width) {
                 static_cast<unsigned long long>(state.total), state.rate());
   std::string numbers = text;
   if (const double left = state.seconds_left(); left >= 0) numbers += "  " + time_text(left) + " left";
+  if (!state.detail.empty()) numbers += "  " + state.detail;
 
   constexpr std::size_t kLeastBar = 4, kFrame = 3;  // a blank and two brackets
   const std::size_t taken = name.size() + numbers.size() + kFrame;

@@ -18,6 +18,7 @@ class Progress {
     std::uint64_t done = 0;
     std::uint64_t total = 0;  ///< 0: unknown.
     double seconds = 0;       ///< Since the start of the job.
+    std::string detail = {};  ///< What else there is to say: "error 2.1 %".
     double rate() const { return seconds > 0 ? static_cast<double>(done) / seconds : 0; }
     /// Seconds until done = total at the present rate; negative: not yet known.
     double seconds_left() const;
@@ -28,11 +29,14 @@ class Progress {
   ~Progress();
   /// May be called from any thread.
   void advance(std::uint64_t count = 1) { done_.fetch_add(count, std::memory_order_relaxed); }
+  /// From any thread.
+  void set_total(std::uint64_t total) { total_.store(total, std::memory_order_relaxed); }
+  void set_detail(std::string detail);
   State state() const;
 
  private:
-  std::string name_;
-  std::uint64_t total_;
+  std::string name_, detail_;
+  std::atomic<std::uint64_t> total_;
   std::atomic<std::uint64_t> done_{0};
   std::chrono::steady_clock::time_point start_;
 };
@@ -41,8 +45,8 @@ class Progress {
 /// else any that began last. Nothing if there is none. From any thread.
 std::optional<Progress::State> progress_to_show(double seconds);
 
-/// "frames  [#####.....]  60/120  4.1/s  15 s left", at most `width` characters; jobs without a total show
-/// the time that they have taken.
+/// "frames  [#####.....]  60/120  4.1/s  15 s left  detail", at most `width` characters; jobs without a total
+/// show the time that they have taken.
 std::string progress_line(const Progress::State& state, std::size_t width);
 
 }  // namespace brume

@@ -122,17 +122,6 @@ void set_growth(const VolumeInput& volume, shared::VolumeEffect& effect) {
   effect.growth = glm::vec4(along, -least);
 }
 
-shared::VolumeEffect effect_of(const VolumeInput& volume) {
-  shared::VolumeEffect effect{};
-  effect.tints = glm::mat4x3(0);
-  for (std::size_t i = 0; i < std::min<std::size_t>(volume.tints.size(), 4); ++i)
-    effect.tints[static_cast<int>(i)] = volume.tints[i];
-  if (volume.disturbance.empty()) return effect;
-  set_disturbance(volume.disturbance, effect);
-  set_growth(volume, effect);
-  return effect;
-}
-
 /// The bits of a volume.
 std::uint32_t media_of(const VolumeInput& volume) {
   std::uint32_t media = shared::kMediumVolumes;
@@ -155,7 +144,7 @@ void add_visible(MediaPlan& plan, const VolumeInput& volume, const Box<float>& w
 
 /// The boxes of a volume, and of the preview that may stand in for it.
 void add_boxes(const VolumeInput& volume, std::vector<Box<float>>& boxes) {
-  const glm::vec3 reach = effect_of(volume).amplitude;
+  const glm::vec3 reach = volume_effect(volume).amplitude;
   for (const Box<float>& box : volume.volume->boxes())
     boxes.push_back(world_box(volume.world_from_voxel, {box.low - reach, box.high + reach}));
   if (!volume.preview) return;
@@ -189,7 +178,7 @@ void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const Vi
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const VolumeInput& volume = volumes[i];
     const shared::VolumeLayout& layout = volume.volume->layout();
-    const glm::vec3 reach = effect_of(volume).amplitude;
+    const glm::vec3 reach = volume_effect(volume).amplitude;
     const Box<float> world =
         world_box(volume.world_from_voxel, {layout.bounds_min - reach, layout.bounds_max + reach});
     if (volume.volume->slot_count() == 0 || frustum.may_intersect(world) != in_view) continue;
@@ -197,7 +186,7 @@ void add_volumes(MediaPlan& plan, std::span<const VolumeInput> volumes, const Vi
     if (!in_view && !(volume.look.extinction > 0)) continue;
     const bool preview = !previews.empty() && previews[i];
     const VolumeInput shown = shown_volume(volume, preview);
-    plan.volumes.push_back({i, world, instance_of(shown), effect_of(shown), preview});
+    plan.volumes.push_back({i, world, instance_of(shown), volume_effect(shown), preview});
     plan.casters |= media_of(shown);
     if (++plan.frame.caster_count > 1) plan.casters |= shared::kMediumSeveral;
     if (!in_view) continue;
@@ -218,6 +207,17 @@ void add_sun(MediaPlan& plan, std::span<const shared::Light> lights) {
 }
 
 }  // namespace
+
+shared::VolumeEffect volume_effect(const VolumeInput& volume) {
+  shared::VolumeEffect effect{};
+  effect.tints = glm::mat4x3(0);
+  for (std::size_t i = 0; i < std::min<std::size_t>(volume.tints.size(), 4); ++i)
+    effect.tints[static_cast<int>(i)] = volume.tints[i];
+  if (volume.disturbance.empty()) return effect;
+  set_disturbance(volume.disturbance, effect);
+  set_growth(volume, effect);
+  return effect;
+}
 
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look) {
   shared::FrameMedia media{};
@@ -258,7 +258,7 @@ void choose_previews(MediaPlan& plan, std::span<const VolumeInput> volumes,
     placed.is_preview = !previews.empty() && previews[placed.index];
     const VolumeInput shown = shown_volume(volumes[placed.index], placed.is_preview);
     placed.instance = instance_of(shown);
-    placed.effect = effect_of(shown);
+    placed.effect = volume_effect(shown);
   }
 }
 

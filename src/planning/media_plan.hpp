@@ -36,6 +36,9 @@ struct MediaPlan {
 /// Of the smoke alone.
 shared::FrameMedia smoke_media(const shared::VolumeLayout& smoke, const shared::SmokeLook& look);
 
+/// The tints and the disturbance of a volume.
+shared::VolumeEffect volume_effect(const VolumeInput& volume);
+
 /// A volume as it is, or its previews in their places.
 VolumeInput shown_volume(const VolumeInput& volume, bool preview);
 

@@ -1,26 +1,12 @@
 #include "render/exposure.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
+#include "planning/exposure.hpp"
+
 namespace brume::render {
-namespace {
-
-/// The factor that brings the geometric mean of the luminance to a middle brightness, nearly: dark scenes
-/// stay darker than bright ones.
-float exposure_of(std::span<const glm::vec4> radiance) {
-  constexpr double kMiddle = 0.28, kStrength = 0.85;
-  double sum = 0;
-  for (const glm::vec4& pixel : radiance)
-    sum += std::log(std::max(glm::dot(glm::dvec3(pixel), glm::dvec3(0.2126, 0.7152, 0.0722)), 1e-5));
-  const double mean = std::exp(sum / static_cast<double>(radiance.size()));
-  return static_cast<float>(std::pow(kMiddle / mean, kStrength));
-}
-
-}  // namespace
-
 float measure_exposure(gpu::Context& context, Renderer& renderer, FrameInput input) {
   constexpr std::uint32_t kHeight = 72;
   const glm::uvec2 size = renderer.targets().size_px;
@@ -39,7 +25,7 @@ float measure_exposure(gpu::Context& context, Renderer& renderer, FrameInput inp
     std::memcpy(&half, static_cast<const std::byte*>(radiance.mapped()) + 8 * i, 8);
     pixels[i] = glm::unpackHalf4x16(half);
   }
-  return exposure_of(pixels);
+  return planning::exposure_of(pixels);
 }
 
 }  // namespace brume::render

@@ -62,6 +62,7 @@ class SightScene {
     holes_ = holes_of(world_.state(), &masks_);
   }
   float time() const { return world_.state().seconds(world_.tick()); }
+  const sim::State& state() const { return world_.state(); }
   const voxel::BitGrid& grid() const { return grid_; }
   const SmokeVolume& volume() const { return volume_; }
   std::span<const shared::Hole> holes() const { return holes_; }

@@ -1,0 +1,56 @@
+// Frames of a GPU, and how long they took.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <type_traits>
+
+#include "apps/cli/json.hpp"
+#include "apps/cli/orbit.hpp"
+#include "apps/cli/stopwatch.hpp"
+#include "apps/cli/targets.hpp"
+#include "render/playback.hpp"
+
+namespace brume::cli {
+
+/// Draws frames and gathers the statistics for --json.
+class TimedPlayback {
+ public:
+  /// `orbit`: empty for the camera of the playback.
+  TimedPlayback(render::Playback& playback, const std::optional<Orbit>& orbit)
+      : playback_(playback), orbit_(orbit) {}
+  Picture draw(double seconds, std::uint32_t frame_index, bool has_layers) {
+    if (orbit_) playback_.set_camera(orbit_->at(seconds, frame_index));
+    return timed([&]() -> Picture {
+      if (has_layers) return playback_.draw_layers(seconds, frame_index);
+      return playback_.draw(seconds, frame_index);
+    });
+  }
+  Json statistics() const {
+    Json passes = Json::object();
+    for (const auto& scope : playback_.timings()) passes.set(scope.name, scope.milliseconds);
+    return {{"frames", frames_},
+            {"seconds_per_frame", seconds_ / std::max(frames_, 1)},
+            {"cpu_seconds_per_frame", cpu_seconds_ / std::max(frames_, 1)},
+            {"marched_fraction_of_last_frame", playback_.fraction_marched()},
+            {"gpu_milliseconds_of_last_frame", passes}};
+  }
+
+ private:
+  template <typename Draw>
+  std::invoke_result_t<Draw> timed(Draw draw) {
+    const Stopwatch watch;
+    auto picture = draw();
+    seconds_ += watch.seconds();
+    cpu_seconds_ += watch.cpu_seconds();
+    ++frames_;
+    return picture;
+  }
+
+  render::Playback& playback_;
+  std::optional<Orbit> orbit_;
+  double seconds_ = 0, cpu_seconds_ = 0;
+  int frames_ = 0;
+};
+
+}  // namespace brume::cli

@@ -1,0 +1,106 @@
+// Upper bounds of a medium along a ray.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <vector>
+
+#include "core/box.hpp"
+
+namespace brume::reference {
+
+/// By how much bounds exceed what they are of: values at points are rounded.
+constexpr float kBoundSlack = 1.0001f;
+
+struct Ray {
+  glm::vec3 origin{0};
+  glm::vec3 direction{0, 0, 1};                        ///< Unit.
+  float end = std::numeric_limits<float>::infinity();  ///< [m]
+  glm::vec3 at(float t) const { return origin + t * direction; }
+};
+
+/// Cells of equal size under an affine transform, each with an upper bound of the extinction in it [1/m].
+class Majorants {
+ public:
+  Majorants() = default;
+  /// Around a box of voxels; cells of `cell` voxels, or the least power of two of them that leaves at most
+  /// kMostCells.
+  Majorants(const glm::mat4& world_from_voxel, const Box<int>& voxels, int cell);
+
+  static constexpr std::uint64_t kMostCells = std::uint64_t{1} << 24;
+
+  const glm::ivec3& size() const { return size_; }
+  int cell_voxels() const { return cell_; }
+  /// The voxels of a cell.
+  Box<int> voxels_of(const glm::ivec3& cell) const;
+  float& at(const glm::ivec3& cell) { return bounds_[index(cell)]; }
+  float largest() const;
+  glm::vec3 voxel_from_world(const glm::vec3& p_world) const {
+    return glm::vec3(voxel_from_world_ * glm::vec4(p_world, 1));
+  }
+
+  /// Calls visit(begin, end, bound) for the parts of a ray in cells whose bound is above 0, in order, until
+  /// it returns true. Amanatides and Woo 1987, "A Fast Voxel Traversal Algorithm for Ray Tracing".
+  template <typename Visit>
+  void traverse(const Ray& ray, const Visit& visit) const;
+
+ private:
+  std::size_t index(const glm::ivec3& cell) const {
+    return static_cast<std::size_t>(cell.x) +
+           static_cast<std::size_t>(size_.x) *
+               (static_cast<std::size_t>(cell.y) +
+                static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(cell.z));
+  }
+
+  glm::mat4 voxel_from_world_{1};
+  glm::ivec3 low_voxel_{0}, size_{0};
+  int cell_ = 1;
+  std::vector<float> bounds_;
+};
+
+template <typename Visit>
+void Majorants::traverse(const Ray& ray, const Visit& visit) const {
+  // The part of the ray inside of the box of all cells.
+  const float per_cell = 1 / static_cast<float>(cell_);
+  const glm::vec3 from = (voxel_from_world(ray.origin) - glm::vec3(low_voxel_)) * per_cell;
+  const glm::vec3 along = glm::vec3(voxel_from_world_ * glm::vec4(ray.direction, 0)) * per_cell;
+  float t = 0, end = ray.end;
+  glm::vec3 inverse;
+  for (int axis = 0; axis < 3; ++axis) {
+    inverse[axis] = 1 / along[axis];
+    if (along[axis] == 0) {
+      if (from[axis] < 0 || from[axis] >= static_cast<float>(size_[axis])) return;
+      continue;
+    }
+    const float a = -from[axis] * inverse[axis],
+                b = (static_cast<float>(size_[axis]) - from[axis]) * inverse[axis];
+    t = glm::max(t, glm::min(a, b));
+    end = glm::min(end, glm::max(a, b));
+  }
+  if (!(t < end)) return;
+
+  // Cell by cell.
+  glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(from + t * along)), glm::ivec3(0), size_ - 1);
+  glm::ivec3 step;
+  glm::vec3 next, width;
+  for (int axis = 0; axis < 3; ++axis) {
+    step[axis] = along[axis] < 0 ? -1 : 1;
+    width[axis] = glm::abs(inverse[axis]);
+    next[axis] = along[axis] == 0
+                     ? std::numeric_limits<float>::infinity()
+                     : (static_cast<float>(cell[axis] + (step[axis] > 0)) - from[axis]) * inverse[axis];
+  }
+  while (true) {
+    const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
+    const float leave = glm::min(next[axis], end), bound = bounds_[index(cell)];
+    if (bound > 0 && leave > t && visit(t, leave, bound)) return;
+    if (!(next[axis] < end)) return;
+    t = glm::max(t, leave);
+    cell[axis] += step[axis];
+    if (cell[axis] < 0 || cell[axis] >= size_[axis]) return;
+    next[axis] += width[axis];
+  }
+}
+
+}  // namespace brume::reference

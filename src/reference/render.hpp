@@ -1,0 +1,88 @@
+// A picture that becomes more exact with every sample.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "core/error.hpp"
+#include "image/image.hpp"
+#include "reference/path_tracer.hpp"
+#include "shared/frame.h"
+
+namespace brume::reference {
+
+struct RenderSettings {
+  glm::uvec2 size_px{0};  ///< At most kMostPixels.
+  shared::Camera camera{};
+  PathLimits limits;
+  std::uint32_t samples = 0;  ///< Of each pixel, at most; 0: without end. At most kMostSamples.
+  /// Standard error of a tile's pixels relative to its mean at which it is done; 0: never.
+  float noise = 0;
+};
+
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;
+constexpr std::uint32_t kMostSamples = 1u << 24;
+
+/// The samples of a picture so far. Its state after n samples of a tile is the same bit by bit for any number
+/// of threads, and whether or not it was saved and loaded in between.
+class Render {
+ public:
+  /// `scene` must outlive it. Throws resource_limit for more than kMostPixels.
+  Render(const Scene& scene, const RenderSettings& settings);
+
+  /// Adds at least a sample to each pixel that needs more, in about `seconds`; true where none does. Returns
+  /// early, with a valid state, when `stopped` returns true, which any thread may call.
+  bool advance(double seconds, const std::function<bool()>& stopped);
+
+  /// Mean samples of the pixels.
+  double samples() const;
+  /// The largest error of the tiles (RenderSettings::noise); infinite before two samples.
+  double error() const;
+  /// Mean radiance of each pixel, rows from the top.
+  std::vector<glm::vec4> radiance() const;
+  /// The numbers of all pixels (docs/reference.md).
+  image::LayeredImage layers() const;
+
+  /// Writes all samples, with a key of what they are samples of.
+  Result<void> save(const std::filesystem::path& path, std::uint64_t key) const;
+  /// Goes on from a saved state. Fails with bad_input for a file that is none, is damaged, or has another
+  /// key, size or limits.
+  Result<void> load(const std::filesystem::path& path, std::uint64_t key);
+
+ private:
+  /// Sums over the samples of a pixel.
+  struct Sums {
+    glm::dvec3 seen{0}, single{0}, multiple{0};
+    double squares = 0;  ///< Of the luminance.
+    glm::vec3 albedo{0}, normal{0};
+    float depth = 0, hits = 0;  ///< Along the view axis, of those that met a surface.
+    float clear = 0;            ///< That met neither a surface nor a medium.
+    float passed = 0;           ///< That met no medium before the surface.
+  };
+  static_assert(sizeof(Sums) == 120);
+  struct Tile {
+    glm::uvec2 low, end;  // [px]
+    std::uint32_t samples = 0;
+    bool done = false;
+  };
+
+  void sample(Tile& tile);
+  void finish(Tile& tile) const;
+  double error_of(const Tile& tile) const;
+  Ray eye_ray(glm::uvec2 pixel, Sampler& sampler) const;
+  std::size_t index(std::uint32_t x, std::uint32_t y) const {
+    return std::size_t{y} * settings_.size_px.x + x;
+  }
+  template <typename Visit>
+  void for_each_pixel(const Visit& visit) const;
+
+  const Scene& scene_;
+  RenderSettings settings_;
+  std::vector<Sums> sums_;
+  std::vector<Tile> tiles_;
+};
+
+}  // namespace brume::reference

@@ -1,0 +1,82 @@
+#include "reference/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planning/device_lights.hpp"
+#include "reference/smoke_medium.hpp"
+#include "reference/volume_medium.hpp"
+#include "shared/hash.h"
+
+namespace brume::reference {
+namespace {
+
+/// Of lib/hash.glsl.
+glm::vec3 hash3(const glm::uvec3& v) {
+  return glm::vec3(shared::pcg3d(v) >> 8u) * (1.0f / 16777216.0f);
+}
+
+/// The stars of lib/sky.glsl.
+float star_light(const glm::vec3& direction) {
+  const glm::vec3 a = glm::abs(direction);
+  const glm::vec3 on_cube = direction / std::max({a.x, a.y, a.z}) * 64.0f;
+  const glm::uvec3 cell(glm::ivec3(glm::floor(on_cube)) + 1024);
+  const glm::vec3 random = hash3(cell), more = hash3(cell + 4096u);
+  if (more.x > 0.3f) return 0;
+  const glm::vec3 star = (glm::floor(on_cube) + 0.1f + 0.8f * random) / 64.0f;
+  const float offset = glm::length(glm::normalize(star) - direction);
+  return (0.04f + std::pow(more.y, 10.0f)) * (1 - glm::smoothstep(0.0003f, 0.0016f, offset));
+}
+
+}  // namespace
+
+glm::vec3 Environment::seen(const glm::vec3& direction) const {
+  const float height = std::max(direction.y, 0.0f);
+  const glm::vec3 gradient = glm::mix(sky.horizon, sky.zenith, 1 - std::exp(-4 * height));
+  if (sky.stars <= 0) return gradient;
+  return gradient + sky.stars * star_light(direction) * glm::smoothstep(0.02f, 0.3f, direction.y);
+}
+
+glm::vec3 Environment::lighting(const glm::vec3& direction) const {
+  return sky.ambient * (shape.x + shape.y * direction.y);
+}
+
+Incident light_at(const shared::Light& light, const glm::vec3& p_world) {
+  if (light.kind == shared::kLightDirectional)
+    return {light.intensity, -light.direction, std::numeric_limits<float>::infinity()};
+  const glm::vec3 to_light = light.position_world - p_world;
+  const float d2 = std::max(glm::dot(to_light, to_light), 1e-12f), distance = std::sqrt(d2);
+  Incident incident{light.intensity / std::max(d2, 0.01f), to_light / distance, distance};
+  if (light.kind == shared::kLightSpot)
+    incident.irradiance *=
+        glm::smoothstep(light.cos_outer, light.cos_inner, glm::dot(-incident.to_light, light.direction));
+  return incident;
+}
+
+void sum_emitters(Scene& scene) {
+  scene.power_up_to.clear();
+  scene.emitted_power = 0;
+  for (const Emitter& emitter : scene.surfaces.emitters()) {
+    scene.emitted_power +=
+        std::max({emitter.radiance.r, emitter.radiance.g, emitter.radiance.b}) * emitter.area;
+    scene.power_up_to.push_back(scene.emitted_power);
+  }
+}
+
+std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::FrameInput& frame,
+                                  const smoke::MaskAtlas* masks) {
+  static const smoke::NoiseTile noise = smoke::make_noise_tile(smoke::kSmokeNoise);
+  std::vector<std::unique_ptr<Medium>> media;
+  if (frame.smoke.volume && frame.smoke.volume->slot_count() > 0 && frame.smoke.look.extinction > 0)
+    media.push_back(std::make_unique<SmokeMedium>(frame.smoke, noise, masks));
+  for (const planning::VolumeInput& volume : frame.volumes)
+    media.push_back(std::make_unique<VolumeMedium>(volume, &noise));
+  std::vector<shared::Light> lights = planning::device_lights(scene.lights, 0);
+  lights.insert(lights.end(), frame.environment.flashes.begin(), frame.environment.flashes.end());
+  std::unique_ptr<Scene> out(new Scene{
+      {scene, frame.level}, Media(std::move(media)), std::move(lights), {.sky = frame.environment.sky}});
+  sum_emitters(*out);
+  return out;
+}
+
+}  // namespace brume::reference

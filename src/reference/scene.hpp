@@ -1,0 +1,59 @@
+// Everything that light meets, as the path tracer reads it.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "planning/frame_input.hpp"
+#include "reference/medium.hpp"
+#include "reference/surfaces.hpp"
+#include "shared/frame.h"
+#include "shared/light.h"
+#include "shared/sky_light.h"
+#include "smoke/mask_atlas.hpp"
+#include "smoke/noise_tile.hpp"
+
+namespace brume::reference {
+
+/// Light that surrounds all: of what rays from the eye see, and of what scattered rays see.
+struct Environment {
+  shared::Sky sky{};
+  /// The ambient light from a direction, relative to Sky::ambient: x + y direction.y.
+  glm::vec2 shape{shared::sky_shape(0), shared::sky_shape(1) - shared::sky_shape(0)};
+  /// Radiance towards the eye from a direction: gradient and stars.
+  glm::vec3 seen(const glm::vec3& direction) const;
+  /// Radiance that lights surfaces and media: shared::sky_shape of the ambient light.
+  glm::vec3 lighting(const glm::vec3& direction) const;
+};
+
+/// Light of a source without extent at a point, before anything that hides it.
+struct Incident {
+  glm::vec3 irradiance{0};  ///< Of a surface that faces the light.
+  glm::vec3 to_light{0};    ///< Unit.
+  float distance = 0;       ///< [m]; infinite for the sun.
+};
+/// The inverse square law from 0.1 m on, and the cone of a spot: shaders/lib/lights.glsl without its window,
+/// which cuts lights off at their range.
+Incident light_at(const shared::Light& light, const glm::vec3& p_world);
+
+struct Scene {
+  Surfaces surfaces;
+  Media media;
+  std::vector<shared::Light> lights;
+  Environment environment;
+  /// Sum over the emitters before and with each one, and over all: largest component of radiance times area.
+  std::vector<float> power_up_to = {};
+  float emitted_power = 0;
+};
+
+/// Fills power_up_to and emitted_power.
+void sum_emitters(Scene& scene);
+
+/// What a frame shows, without what stands in for light that paths find themselves: FrameInput's glow, decals
+/// and particles, and Sky::bounce. `scene`, the masks and what the frame points to must outlive it. Throws
+/// resource_limit.
+std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::FrameInput& frame,
+                                  const smoke::MaskAtlas* masks);
+
+}  // namespace brume::reference

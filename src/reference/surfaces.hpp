@@ -1,0 +1,74 @@
+// The surfaces of a scene at a time, for rays.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planning/frame_input.hpp"
+#include "reference/majorants.hpp"
+#include "reference/surface.hpp"
+#include "scene/scene.hpp"
+#include "trace/triangle_tree.hpp"
+
+namespace brume::reference {
+
+/// Where a ray meets a surface.
+struct SurfaceHit {
+  float t = 0;  ///< [m]
+  glm::vec3 position{0};
+  glm::vec3 geometric_normal{0};  ///< Of the triangle, unit, towards the ray's origin.
+  Reflection reflection;
+  glm::vec3 emission{0};
+  std::uint32_t part = 0, triangle = 0;
+};
+
+/// A triangle that emits.
+struct Emitter {
+  glm::vec3 corner{0}, edge_u{0}, edge_v{0};
+  glm::vec3 radiance{0};  ///< To both sides.
+  float area = 0;         ///< [m^2]
+};
+
+class Surfaces {
+ public:
+  /// What `level` shows of the scene, which must outlive it. Throws what TriangleTree::build fails with.
+  Surfaces(const scene::Scene& scene, const planning::LevelState& level);
+
+  std::optional<SurfaceHit> hit(const Ray& ray) const;
+  /// Whether a surface lies on a ray before its end.
+  bool occluded(const Ray& ray) const;
+  /// A ray's origin off a surface, on the side that `direction` leaves to.
+  static glm::vec3 off_surface(const SurfaceHit& hit, const glm::vec3& direction);
+
+  std::span<const Emitter> emitters() const { return emitters_; }
+  /// Which of the emitters a hit surface is; nothing where it does not emit.
+  std::optional<std::uint32_t> emitter_of(const SurfaceHit& hit) const;
+
+ private:
+  /// An object: one geometry of the tree.
+  struct Part {
+    const scene::Scene* scene = nullptr;
+    const scene::Mesh* mesh = nullptr;
+    const scene::Material* material = nullptr;
+    glm::mat4 world_from_mesh{1};
+    glm::mat3 cofactor{1};
+    float handedness = 1;
+    std::vector<glm::vec3> corners_world;
+    std::uint32_t first_emitter = scene::kNone;
+  };
+  void add(const scene::Object& object, const glm::mat4& world_from_mesh);
+  void add_emitters(Part& part);
+  static void reject_cut_out(const RTCFilterFunctionNArguments* arguments);
+  void shade(const Part& part, std::uint32_t triangle, const glm::vec2& at, const Ray& ray,
+             SurfaceHit& hit) const;
+
+  const scene::Scene& scene_;
+  std::vector<std::unique_ptr<Part>> parts_;  // at fixed addresses
+  std::vector<Emitter> emitters_;
+  trace::TriangleTree tree_;
+};
+
+}  // namespace brume::reference

@@ -1,0 +1,66 @@
+// A volume of a frame as a medium.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "planning/frame_input.hpp"
+#include "reference/brick_field.hpp"
+#include "reference/medium.hpp"
+#include "smoke/noise_tile.hpp"
+
+namespace brume::reference {
+
+/// The curves of a transfer function, and their upper bounds.
+class TransferCurve {
+ public:
+  TransferCurve() = default;
+  TransferCurve(const planning::TransferInput& transfer, const glm::vec3& albedo);
+
+  bool has_opacity() const { return device_.kind == shared::kTransferOpacity; }
+  bool empty() const { return device_.kind == shared::kTransferNone; }
+  /// Colour times opacity, and opacity, of a value: their mean over a cell of the table around it.
+  glm::vec4 at(float value) const;
+  /// At least the opacity of any value from `low` to `high`.
+  float largest_opacity(float low, float high) const;
+  float scattered() const { return device_.scattered; }
+  float emitted() const { return device_.emitted; }
+
+ private:
+  shared::VolumeTransfer device_{};
+  std::vector<glm::vec4> table_;
+  std::vector<std::vector<float>> largest_;  // of 2^level cells from each on, by level
+};
+
+class VolumeMedium final : public Medium {
+ public:
+  /// `volume` must outlive it, `noise` as well where the volume is disturbed.
+  VolumeMedium(const planning::VolumeInput& volume, const smoke::NoiseTile* noise);
+
+  float extinction(const glm::vec3& p_world) const override;
+  glm::vec3 albedo(const glm::vec3& p_world) const override;
+  glm::vec3 emission(const glm::vec3& p_world) const override;
+  bool emits() const override { return emits_; }
+
+ private:
+  /// Where the volume is sampled for a point, or nothing.
+  bool sample_point(const glm::vec3& p_world, glm::vec3& p_voxel) const;
+  float density_at(const glm::vec3& p_voxel) const;
+  float density_bound(float low, float high) const;
+  glm::vec4 masks_at(const glm::vec3& p_voxel) const;
+  void find_majorants();
+  bool glows_in(const Box<int>& voxels) const;
+
+  const planning::VolumeInput& input_;
+  const smoke::NoiseTile* noise_;
+  shared::VolumeEffect effect_;
+  BrickField<1> values_, heat_;
+  BrickField<2> mask_pair_;
+  BrickField<4> colors_;  // or masks
+  bool has_colors_ = false, has_masks_ = false, is_pair_ = false, emits_ = false;
+  TransferCurve transfer_;
+  glm::mat4 heat_from_world_{1};
+  std::vector<glm::vec3> heat_colors_;  // per metre, from a value of 0 to HeatInput::high; empty: no heat
+};
+
+}  // namespace brume::reference

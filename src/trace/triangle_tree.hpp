@@ -1,0 +1,58 @@
+// Triangles as Embree traces them. The only place that makes Embree's devices and scenes.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <atomic>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace brume::trace {
+
+/// Triangles of one geometry. The callback and its data must outlive the tree.
+struct TriangleMesh {
+  std::span<const glm::vec3> corners;
+  std::span<const std::uint32_t> indices;  ///< Three for each triangle, below corners.size().
+  RTCFilterFunctionN filter = nullptr;     ///< Rejects hits; null: none.
+  void* filter_data = nullptr;
+};
+
+/// Without gaps between triangles, and the same whatever the number of threads.
+class TriangleTree {
+ public:
+  TriangleTree() = default;
+  TriangleTree(const TriangleTree&) = delete;
+  TriangleTree& operator=(const TriangleTree&) = delete;
+
+  /// Builds the tree, once; mesh i has the geometry id i. `job` begins the messages of failures. Fails with
+  /// resource_limit without enough memory, no_device on processors that Embree does not support, and internal
+  /// when `stopped` becomes true.
+  Result<void> build(const std::string& job, std::span<const TriangleMesh> meshes,
+                     const std::atomic<bool>* stopped = nullptr);
+
+  RTCScene scene() const { return scene_.get(); }
+  /// The first error since the start, of any thread.
+  Result<void> check() const;
+
+ private:
+  struct DeviceRelease {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  };
+  struct SceneRelease {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+  static void note_error(void* self, RTCError error, const char* text);
+  Result<void> add(const TriangleMesh& mesh);
+
+  std::string job_;
+  std::atomic<RTCError> error_{RTC_ERROR_NONE};  // Outlives the device, which writes to it.
+  std::unique_ptr<RTCDeviceTy, DeviceRelease> device_;
+  std::unique_ptr<RTCSceneTy, SceneRelease> scene_;
+};
+
+}  // namespace brume::trace
