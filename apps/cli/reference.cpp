@@ -128,6 +128,9 @@ Picture ReferenceFrames::draw(double seconds) {
   reference::RenderSettings settings;
   settings.size_px = size_px_;
   settings.camera = planning::device_camera(frame.view.camera, size_px_);
+  settings.lens = frame.view.camera.lens;
+  if (!(settings.lens.focus > 0))
+    settings.lens.focus = glm::distance(frame.view.camera.position_world, frame.view.camera.target_world);
   if (options_.max_bounces) settings.limits.max_bounces = *options_.max_bounces;
   if (options_.clamp) settings.limits.clamp = static_cast<float>(*options_.clamp);
   if (options_.noise) settings.noise = static_cast<float>(*options_.noise);

@@ -302,6 +302,14 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   return statistics;
 }
 
+// What --mode realtime does not show.
+void warn_of_lens(const Plan& plan, const scene::Timeline& timeline) {
+  if (plan.camera) return;
+  for (const scene::CameraKey& key : timeline.camera)
+    if (key.camera.lens.aperture > 0)
+      return log_warning("the aperture of the camera is shown by --mode reference alone; here all is sharp");
+}
+
 Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
   gpu::Context context({options.device, false});
   if (loaded.scenario.volumes)
@@ -315,6 +323,7 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
   playback.set_light_update_fraction(options.light_update_fraction);
   playback.set_resolve_error_scale(options.resolve_error_scale);
   playback.set_view(plan.view, plan.slice);
+  warn_of_lens(plan, loaded.scenario.timeline);
   TimedPlayback renderer(playback, loaded.orbit);
   write(options, plan, common, {context.info().name, context.info().driver}, loaded.scenario,
         [&](double seconds, std::uint32_t i) { return renderer.draw(seconds, i, plan.has_layers()); });

@@ -39,7 +39,9 @@ Game::Game(std::unique_ptr<Session> session, const Choices& choices,
 }
 
 Game::Edits Game::edits(const std::string& what) const {
-  return {session_->edits(), choices_.weapons, player_.options(), player_.camera().vertical_fov, what};
+  return {session_->edits(),     choices_.weapons,
+          player_.options(),     player_.camera().vertical_fov,
+          player_.camera().lens, what};
 }
 
 bool Game::report(const Result<void>& done) {
@@ -82,6 +84,7 @@ void Game::step_history(Action action) {
     return notify_(back ? "nothing to undo" : "nothing to redo");
   const std::string what = back ? history_->present().what : "";
   const float fov_before = history_->present().vertical_fov;
+  const scene::Lens lens_before = history_->present().lens;
   const Edits& edits = back ? history_->undo() : history_->redo();
   if (!report(session_->restore(edits.session))) return;
   const ShotKind kind = choices_.weapons.kind;
@@ -89,7 +92,12 @@ void Game::step_history(Action action) {
   choices_.weapons.kind = kind;
   player_.set_options(grid(), edits.body);
   // A camera path changes it, too, which is no step.
-  if (edits.vertical_fov != fov_before) player_.set_vertical_fov(edits.vertical_fov);
+  if (edits.vertical_fov != fov_before || edits.lens != lens_before) {
+    scene::Camera camera = player_.camera();
+    camera.vertical_fov = edits.vertical_fov;
+    camera.lens = edits.lens;
+    player_.set_optics(camera);
+  }
   ++changes_;
   notify_(back ? "undone: " + what : "redone: " + edits.what);
 }

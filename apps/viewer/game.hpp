@@ -83,6 +83,7 @@ class Game {
     Weapons weapons;
     scenario::WalkerOptions body;
     float vertical_fov = 0;
+    scene::Lens lens;
     std::string what;  ///< That led to it.
   };
   Edits edits(const std::string& what) const;

@@ -19,6 +19,9 @@ constexpr std::array kLabels{
     Label{"duration", "length of the film"},
     Label{"exposure", "exposure"},
     Label{"fov", "field of view"},
+    Label{"aperture", "aperture radius"},
+    Label{"focus", "focus distance"},
+    Label{"blades", "aperture blades"},
     // Of the smoke.
     Label{"voxels", "volume"},
     Label{"bloom", "time to grow"},

@@ -37,6 +37,7 @@ void Player::look_along(const scene::Camera& camera) {
   yaw_ = std::atan2(direction.x, -direction.z);
   pitch_ = std::clamp(std::asin(std::clamp(direction.y, -1.0f, 1.0f)), -kMaxPitch, kMaxPitch);
   vertical_fov_ = camera.vertical_fov;
+  lens_ = camera.lens;
 }
 
 void Player::go_to(const voxel::BitGrid& grid, const scene::Camera& camera) {
@@ -116,6 +117,7 @@ scene::Camera Player::camera() const {
   camera.position_world = walker_.eye_world();
   camera.target_world = camera.position_world + direction_world();
   camera.vertical_fov = vertical_fov_;
+  camera.lens = lens_;
   return camera;
 }
 

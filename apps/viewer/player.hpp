@@ -31,9 +31,13 @@ class Player {
 
   scene::Camera camera() const;
   glm::vec3 direction_world() const;
-  void set_vertical_fov(float radians) {
-    vertical_fov_ = radians;
-    if (followed_) followed_->vertical_fov = radians;
+  /// Takes field of view and lens from a camera.
+  void set_optics(const scene::Camera& camera) {
+    vertical_fov_ = camera.vertical_fov;
+    lens_ = camera.lens;
+    if (!followed_) return;
+    followed_->vertical_fov = camera.vertical_fov;
+    followed_->lens = camera.lens;
   }
   const scenario::WalkerOptions& options() const { return walker_.options(); }
   void set_options(const voxel::BitGrid& grid, const scenario::WalkerOptions& options) {
@@ -48,6 +52,7 @@ class Player {
   std::optional<glm::vec3> last_stood_world_;  ///< Feet; on something solid.
   float yaw_ = 0, pitch_ = 0;                  ///< [rad]; 0: along -z, level. Pitch rises upwards.
   float vertical_fov_ = 1;
+  scene::Lens lens_;
   std::optional<scene::Camera> followed_;
 };
 

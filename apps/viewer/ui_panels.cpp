@@ -186,8 +186,8 @@ void lay_out_camera(Game& game, UiRequests& requests) {
   scene::Camera camera = player.camera();
   if (option_rows(camera, game.first_camera(),
                   [](auto& o, auto&& visitor) { scene::visit_camera_options(o, visitor); })) {
-    player.set_vertical_fov(camera.vertical_fov);
-    game.setting_changed("field of view");
+    player.set_optics(camera);
+    game.setting_changed("camera");
     game.session().leave_path();
     game.change_picture();
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/tasks.hpp"
+#include "reference/lens.hpp"
 
 namespace brume::reference {
 namespace {
@@ -35,7 +36,14 @@ Render::Render(const Scene& scene, const RenderSettings& settings) : scene_(scen
 Ray Render::eye_ray(glm::uvec2 pixel, Sampler& sampler) const {
   const glm::vec2 at = (glm::vec2(pixel) + sampler.next_2d()) / glm::vec2(settings_.size_px) * 2.0f - 1.0f;
   const shared::Camera& camera = settings_.camera;
-  return {camera.eye_world, glm::normalize(camera.forward + at.x * camera.right - at.y * camera.up)};
+  const glm::vec3 through = camera.forward + at.x * camera.right - at.y * camera.up;
+  const scene::Lens& lens = settings_.lens;
+  if (!(lens.aperture > 0)) return {camera.eye_world, glm::normalize(through)};
+  // All rays of a point that is sharp meet there.
+  const glm::vec2 on_lens = lens.aperture * point_on_lens(lens.blades, sampler.next_2d());
+  const glm::vec3 from =
+      camera.eye_world + on_lens.x * glm::normalize(camera.right) + on_lens.y * glm::normalize(camera.up);
+  return {from, glm::normalize(camera.eye_world + lens.focus * through - from)};
 }
 
 void Render::sample(Tile& tile) {

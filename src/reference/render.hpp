@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "image/image.hpp"
 #include "reference/path_tracer.hpp"
+#include "scene/scene.hpp"
 #include "shared/frame.h"
 
 namespace brume::reference {
@@ -17,6 +18,7 @@ namespace brume::reference {
 struct RenderSettings {
   glm::uvec2 size_px{0};  ///< At most kMostPixels.
   shared::Camera camera{};
+  scene::Lens lens;  ///< With a focus above 0, if it has an aperture.
   PathLimits limits;
   std::uint32_t samples = 0;  ///< Of each pixel, at most; 0: without end. At most kMostSamples.
   /// Standard error of a tile's pixels relative to its mean at which it is done; 0: never.

@@ -35,9 +35,14 @@ class Path {
     Camera camera;
     camera.position_world = vector(&Camera::position_world);
     camera.target_world = vector(&Camera::target_world);
-    camera.vertical_fov =
-        static_cast<float>(hermite(double{begin.camera.vertical_fov}, double{end.camera.vertical_fov},
-                                   fov_speed(span), fov_speed(span + 1), seconds, s));
+    const auto number = [&](const auto& of) {
+      return static_cast<float>(
+          hermite(double{of(begin)}, double{of(end)}, speed(span, of), speed(span + 1, of), seconds, s));
+    };
+    camera.vertical_fov = number([](const CameraKey& key) { return key.camera.vertical_fov; });
+    camera.lens.aperture = number([](const CameraKey& key) { return key.camera.lens.aperture; });
+    camera.lens.focus = number(focus_of);
+    camera.lens.blades = begin.camera.lens.blades;
     // Position and target may coincide where their paths cross: keep the direction of the span's start.
     if (glm::distance(camera.position_world, camera.target_world) < 1e-4f)
       camera.target_world = camera.position_world + begin.camera.target_world - begin.camera.position_world;
@@ -47,12 +52,19 @@ class Path {
  private:
   bool is_inner(std::size_t key) const { return key > 0 && key + 1 < keys_.size(); }
 
-  /// Zero at both ends of the path, so that the camera starts and stops smoothly.
-  double fov_speed(std::size_t key) const {
+  /// What is sharp at a key: its focus, or its target.
+  static float focus_of(const CameraKey& key) {
+    return key.camera.lens.focus > 0 ? key.camera.lens.focus
+                                     : glm::distance(key.camera.position_world, key.camera.target_world);
+  }
+
+  /// Of a number of the keys, without overshooting. Zero at both ends of the path, so that the camera starts
+  /// and stops smoothly.
+  template <typename Of>
+  double speed(std::size_t key, const Of& of) const {
     if (!is_inner(key)) return 0;
     const CameraKey &a = keys_[key - 1], &b = keys_[key], &c = keys_[key + 1];
-    return monotone_speed({a.time, b.time, c.time},
-                          {a.camera.vertical_fov, b.camera.vertical_fov, c.camera.vertical_fov});
+    return monotone_speed({a.time, b.time, c.time}, {of(a), of(b), of(c)});
   }
 
   const std::vector<CameraKey>& keys_;

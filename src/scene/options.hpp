@@ -170,10 +170,15 @@ void visit_decal_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"scatter", "voxels", "how far noise scatters the samples", 0, 4}, o.scatter);
 }
 
-/// Only the field of view: position and target are not settings.
+/// Field of view and lens: position and target are not settings.
 template <typename Options, typename Visitor>
 void visit_camera_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"fov", kDegrees, "vertical field of view", 1, 170}, o.vertical_fov);
+  visit(OptionInfo{"aperture", "m", "radius of the lens; 0: all is sharp", 0, 100}, o.lens.aperture);
+  visit(OptionInfo{"focus", "m", "distance that is sharp, along the view; 0: that of the target", 0,
+                   kFarthestPoint},
+        o.lens.focus);
+  visit(OptionInfo{"blades", "", "edges of the lens's opening; below 3: round", 0, 64}, o.lens.blades);
 }
 
 template <typename Options, typename Visitor>

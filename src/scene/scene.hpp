@@ -72,10 +72,19 @@ struct Light {
   float cos_inner = 1, cos_outer = 0;  ///< Spot: full inside the inner cone, zero outside the outer.
 };
 
+/// A thin lens; the default is a pinhole.
+struct Lens {
+  float aperture = 0;        ///< Radius of its opening [m]; 0: all is sharp.
+  float focus = 0;           ///< Distance along the view axis that is sharp [m]; 0: that of the target.
+  std::uint32_t blades = 0;  ///< Edges of the opening; below 3: it is round.
+  bool operator==(const Lens&) const = default;
+};
+
 struct Camera {
   glm::vec3 position_world{0, 1.7f, 5};
   glm::vec3 target_world{0, 1.7f, 0};
   float vertical_fov = 1.0472f;  ///< Radians, (0, pi).
+  Lens lens = {};                ///< Only the reference renderer has more than a pinhole.
 };
 
 /// Where a volume of the timeline is.

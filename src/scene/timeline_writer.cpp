@@ -175,9 +175,14 @@ class Writer {
       line("time", key.time);
       line("position", key.camera.position_world);
       line("target", key.camera.target_world);
-      OptionTexts fov;
-      visit_camera_options(key.camera, fov);
-      text_ += std::string(fov.texts[0].first) + " = " + fov.texts[0].second + "\n";
+      static const Camera kUsualCamera;
+      // The field of view always, of the lens what is not as usual.
+      OptionTexts texts, usual;
+      visit_camera_options(key.camera, texts);
+      visit_camera_options(kUsualCamera, usual);
+      for (std::size_t i = 0; i < texts.texts.size(); ++i)
+        if (i == 0 || texts.texts[i] != usual.texts[i])
+          text_ += std::string(texts.texts[i].first) + " = " + texts.texts[i].second + "\n";
     }
     write_events(timeline);
     return std::move(text_);

@@ -95,6 +95,36 @@ class Visibility(AddonCase):
         self.assertEqual((bpy.context.selected_objects, bpy.context.view_layer.objects.active), ([other], other))
 
 
+class Lens(AddonCase):
+    """Depth of field of the camera."""
+
+    def camera(self):
+        data = bpy.data.cameras.new("camera")
+        self.scene.camera = level_parts.add("camera", data)
+        data.lens = 40
+        return data
+
+    def test_a_camera_without_depth_of_field_is_a_pinhole(self):
+        self.camera()
+        self.assertFalse({"aperture", "focus", "blades"} & set(self.export()["camera"][0]))
+
+    def test_f_number_focus_and_blades(self):
+        dof = self.camera().dof
+        dof.use_dof, dof.aperture_fstop, dof.focus_distance, dof.aperture_blades = True, 2, 3.5, 6
+        key = self.export()["camera"][0]
+        self.assertAlmostEqual(key["aperture"], 0.01)
+        self.assertAlmostEqual(key["focus"], 3.5)
+        self.assertEqual(key["blades"], 6)
+
+    def test_an_object_in_focus(self):
+        dof = self.camera().dof
+        aim = level_parts.add("aim", None)
+        # The camera looks down: only the distance along its view counts.
+        aim.location = (3, 4, -5)
+        dof.use_dof, dof.focus_object = True, aim
+        self.assertAlmostEqual(self.export()["camera"][0]["focus"], 5, places=5)
+
+
 class Suffix(AddonCase):
     def test_a_typed_suffix_chooses_the_format(self):
         self.export("Scene.txt")

@@ -130,16 +130,21 @@ TEST_F(GameTest, TheLookAndTheGridsOfAVolumeCanBeUndone) {
   EXPECT_EQ(shown(), 0.25f);
 }
 
-TEST_F(GameTest, TheFieldOfViewCanBeUndone) {
+TEST_F(GameTest, FieldOfViewAndLensCanBeUndone) {
   start();
   const float before = game_->player().camera().vertical_fov;
-  game_->player().set_vertical_fov(0.5f);
+  scene::Camera camera = game_->player().camera();
+  camera.vertical_fov = 0.5f;
+  camera.lens = {0.02f, 3, 5};
+  game_->player().set_optics(camera);
   game_->setting_changed("field of view");
   act(Action::throw_smoke);
   act(Action::undo);
   EXPECT_EQ(game_->player().camera().vertical_fov, 0.5f);
+  EXPECT_EQ(game_->player().camera().lens, camera.lens);
   act(Action::undo);
   EXPECT_EQ(game_->player().camera().vertical_fov, before);
+  EXPECT_EQ(game_->player().camera().lens, scene::Lens());
 }
 
 TEST_F(GameTest, RewindingKeepsActionsAndRemovingThemCanBeUndone) {

@@ -94,9 +94,10 @@ class Writer:
         if all(key == keys[0][1] for _, key in keys):
             keys = keys[:1]
         lines = []
-        for time, (position, target, fov) in keys:
+        for time, (position, target, fov, lens) in keys:
             lines += ["", "[[camera]]", f"time = {number(time)}"]
             lines += [f"position = {position}", f"target = {target}", f"fov = {number(fov)}"]
+            lines += [f"{key} = {number(value)}" for key, value in lens.items()]
         return lines
 
     def _camera_key(self, camera, time):
@@ -115,7 +116,27 @@ class Writer:
             vector(conversion.point(position, metres)),
             vector(conversion.point(target, metres)),
             min(max(math.degrees(vertical_fov(evaluated.data, self._scene)), 1.0), 170.0),
+            self._lens(evaluated, time),
         )
+
+    def _lens(self, camera, time):
+        """Aperture, focus and blades of a camera with depth of field; without, nothing."""
+        data, settings = camera.data, camera.data.dof
+        if not settings.use_dof:
+            return {}
+        metres = self._level.metres
+        distance = settings.focus_distance
+        if settings.focus_object is not None:
+            aim = self._clock.matrix_at(settings.focus_object, time).translation
+            distance = abs((camera.matrix_world.inverted() @ aim).z)
+        # The focal length is in millimetres; the f-number divides it into the diameter of the opening.
+        lens = {
+            "aperture": min(data.lens / 1000 / (2 * settings.aperture_fstop), 100.0),
+            "focus": min(max(distance * metres, 0.0), 1e6),
+        }
+        if settings.aperture_blades >= 3:
+            lens["blades"] = settings.aperture_blades
+        return lens
 
     def _event(self, thing, event):
         time = self._clock.seconds(event.frame)
