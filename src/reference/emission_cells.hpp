@@ -1,10 +1,14 @@
-// Where media emit, for next-event estimation: the cells of their majorants, by the power that they emit.
+// Where media emit, for next-event estimation: the cells of their majorants, by the power that they emit. A
+// point of a cell gives a direction, and all that is emitted along it counts: Simon et al. 2017, "Line
+// Integration for Rendering Heterogeneous Emissive Volumes". What is dense shows its front alone, wherever
+// inside the point lies.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
+#include "reference/majorants.hpp"
 #include "reference/sampler.hpp"
 
 namespace brume::reference {
@@ -19,20 +23,16 @@ class EmissionCells {
 
   bool empty() const { return power_up_to_.empty(); }
 
-  struct Point {
-    const Medium* medium = nullptr;
-    glm::vec3 position{0};
-    float density = 0;  ///< Probability per volume with which it is sampled [1/m^3].
-  };
   /// A point of a cell, in proportion to the power of the cells and evenly within.
-  Point sample(Sampler& sampler) const;
-  /// Probability per volume of a point of a medium; 0 where its cell seemed to emit nothing.
-  float density(const Medium& medium, const glm::vec3& p_world) const;
+  glm::vec3 sample(Sampler& sampler) const;
+  /// Probability per solid angle that a sampled point lies in a direction from a ray's origin, whatever is in
+  /// between [1/sr]: the integral of the density along the ray times the square of the distance.
+  float direction_density(const Ray& ray) const;
 
  private:
   struct Lit {
     const Medium* medium = nullptr;
-    std::vector<float> density;  // by cell of its majorants
+    std::vector<float> density;  // probability per volume, by cell of its majorants [1/m^3]
   };
   struct Cell {
     std::uint32_t medium = 0, cell = 0;

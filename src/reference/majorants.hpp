@@ -19,6 +19,7 @@ struct Ray {
   glm::vec3 direction{0, 0, 1};                        ///< Unit.
   float end = std::numeric_limits<float>::infinity();  ///< [m]
   glm::vec3 at(float t) const { return origin + t * direction; }
+  Ray without_end() const { return {origin, direction}; }
 };
 
 /// Cells of equal size under an affine transform, each with an upper bound of the extinction in it [1/m].
@@ -49,7 +50,14 @@ class Majorants {
   /// Calls visit(begin, end, bound) for the parts of a ray in cells whose bound is above 0, in order, until
   /// it returns true. Amanatides and Woo 1987, "A Fast Voxel Traversal Algorithm for Ray Tracing".
   template <typename Visit>
-  void traverse(const Ray& ray, const Visit& visit) const;
+  void traverse(const Ray& ray, const Visit& visit) const {
+    traverse_cells(ray, [&](float begin, float end, std::uint32_t cell) {
+      return bounds_[cell] > 0 && visit(begin, end, bounds_[cell]);
+    });
+  }
+  /// The same with the numbers of all cells: visit(begin, end, cell).
+  template <typename Visit>
+  void traverse_cells(const Ray& ray, const Visit& visit) const;
 
  private:
   std::size_t index(const glm::ivec3& cell) const {
@@ -67,7 +75,7 @@ class Majorants {
 };
 
 template <typename Visit>
-void Majorants::traverse(const Ray& ray, const Visit& visit) const {
+void Majorants::traverse_cells(const Ray& ray, const Visit& visit) const {
   // The part of the ray inside of the box of all cells.
   const float per_cell = 1 / static_cast<float>(cell_);
   const glm::vec3 from = (voxel_from_world(ray.origin) - glm::vec3(low_voxel_)) * per_cell;
@@ -100,8 +108,8 @@ void Majorants::traverse(const Ray& ray, const Visit& visit) const {
   }
   while (true) {
     const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
-    const float leave = glm::min(next[axis], end), bound = bounds_[index(cell)];
-    if (bound > 0 && leave > t && visit(t, leave, bound)) return;
+    const float leave = glm::min(next[axis], end);
+    if (leave > t && visit(t, leave, static_cast<std::uint32_t>(index(cell)))) return;
     if (!(next[axis] < end)) return;
     t = glm::max(t, leave);
     cell[axis] += step[axis];

@@ -141,25 +141,21 @@ void Path::add_emitters(const Vertex& vertex) {
   if (passed > 0) add(value * (passed * power_heuristic(density, vertex.density(direction)) / density));
 }
 
-/// A point of the media that emit.
+/// What the media emit along a ray to a point of them.
 void Path::add_glow(const Vertex& vertex) {
   const EmissionCells& cells = scene_.media.emission();
   if (cells.empty()) return;
-  const EmissionCells::Point point = cells.sample(sampler_);
-  const glm::vec3 apart = point.position - vertex.position;
-  const float d2 = glm::dot(apart, apart), distance = std::sqrt(d2);
-  if (!(d2 > 0)) return;
-  const glm::vec3 direction = apart / distance;
-  const glm::vec3 value = vertex.value(direction) * point.medium->emission(point.position);
+  const glm::vec3 apart = cells.sample(sampler_) - vertex.position;
+  if (!(glm::dot(apart, apart) > 0)) return;
+  const glm::vec3 direction = glm::normalize(apart), value = vertex.value(direction);
   if (!(largest(value) > 0)) return;
-  const float passed = visible(vertex, direction, distance);
-  if (passed <= 0) return;
-  const Majorants& majorants = point.medium->majorants();
-  const auto cell = majorants.cell_at(point.position);
-  if (!cell) return;
-  const float by_rays = scene_.media.share_of_rays(*point.medium, point.position, majorants.bound(*cell),
-                                                   distance, vertex.density(direction));
-  add(value * (passed * (1 - by_rays) / (d2 * point.density)));
+  Ray ray = vertex.leaving(direction);
+  const float density = cells.direction_density(ray);
+  if (!(density > 0)) return;
+  ray.end = scene_.surfaces.distance(ray);
+  glm::vec3 emitted(0);
+  scene_.media.collide(ray, sampler_, emitted);
+  add(value * emitted * (power_heuristic(density, vertex.density(direction)) / density));
 }
 
 /// An emitter that the path itself found.
@@ -220,8 +216,11 @@ PathSample Path::trace(Ray ray) {
     // Media before the surface.
     if (hit) ray.end = hit->t;
     glm::vec3 emitted(0);
-    const std::optional<Collision> collision = scene_.media.collide(ray, last_density_, sampler_, emitted);
-    if (emitted != glm::vec3(0)) add(emitted);
+    const std::optional<Collision> collision = scene_.media.collide(ray, sampler_, emitted);
+    if (emitted != glm::vec3(0))
+      add(emitted * (bounces_ == 0 ? 1.0f
+                                   : power_heuristic(last_density_, scene_.media.emission().direction_density(
+                                                                        ray.without_end()))));
     Vertex vertex;
     vertex.arriving = ray.direction;
     if (collision) {

@@ -123,7 +123,7 @@ void Surfaces::reject_cut_out(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-std::optional<SurfaceHit> Surfaces::hit(const Ray& ray) const {
+RTCRayHit Surfaces::intersect(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
@@ -142,6 +142,15 @@ std::optional<SurfaceHit> Surfaces::hit(const Ray& ray) const {
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(tree_.scene(), &context, &query);
+  return query;
+}
+
+float Surfaces::distance(const Ray& ray) const {
+  return intersect(ray).ray.tfar;
+}
+
+std::optional<SurfaceHit> Surfaces::hit(const Ray& ray) const {
+  const RTCRayHit query = intersect(ray);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   SurfaceHit hit;
   hit.t = query.ray.tfar;

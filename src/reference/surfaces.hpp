@@ -38,6 +38,8 @@ class Surfaces {
   Surfaces(const scene::Scene& scene, const planning::LevelState& level);
 
   std::optional<SurfaceHit> hit(const Ray& ray) const;
+  /// Distance of the nearest surface on a ray; its end where there is none before [m].
+  float distance(const Ray& ray) const;
   /// Whether a surface lies on a ray before its end.
   bool occluded(const Ray& ray) const;
   /// A ray's origin off a surface, on the side that `direction` leaves to.
@@ -61,6 +63,7 @@ class Surfaces {
   };
   void add(const scene::Object& object, const glm::mat4& world_from_mesh);
   void add_emitters(Part& part);
+  RTCRayHit intersect(const Ray& ray) const;
   static void reject_cut_out(const RTCFilterFunctionNArguments* arguments);
   void shade(const Part& part, std::uint32_t triangle, const glm::vec2& at, const Ray& ray,
              SurfaceHit& hit) const;

@@ -183,7 +183,7 @@ TEST(RadiativeTransferTest, RouletteLeavesMeansUnchanged) {
     double weight = 1;
     glm::vec3 none(0);
     while (weight > 1e-9) {
-      const auto collision = scene->media.collide(ray, 0, sampler, none);
+      const auto collision = scene->media.collide(ray, sampler, none);
       if (!collision) break;
       weight *= 0.7;
       const float z = 2 * sampler.random() - 1, turn = 2 * std::numbers::pi_v<float> * sampler.random(),
