@@ -67,7 +67,7 @@ brume_precompiled(brume_headers ${brume_common_headers})
 
 # The libraries in which the tests of the debug preset spend their time, and which its -O1 is for. The sanitizers multiply
 # the code of the others, which compile for longer than they then run: -Og for them, with all checks, made by calls.
-set(brume_busy_libraries voxel volume sim smoke)
+set(brume_busy_libraries voxel volume sim smoke reference)
 if(BRUME_SANITIZE MATCHES "address" AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set(brume_short_checks "SHELL:--param asan-instrumentation-with-call-threshold=0")
 endif()
