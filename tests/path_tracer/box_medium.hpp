@@ -77,7 +77,7 @@ inline double sum_of(const PathSample& sample) {
 inline Mean radiance(const Scene& scene, const Ray& ray, std::uint32_t samples,
                      const PathLimits& limits = {}) {
   Mean mean;
-  for (std::uint32_t i = 0; i < samples; ++i) {
+  for (std::uint32_t i = 0; i < std::max(samples / kFewer, std::min(samples, 64u)); ++i) {
     Sampler sampler({i & 255u, i >> 8u}, 0);
     mean.add(sum_of(trace_path(scene, ray, limits, sampler)));
   }

@@ -34,7 +34,7 @@ TEST(RadiativeTransferTest, InAFurnaceNothingIsSeen) {
         const Mean mean = radiance(*scene, towards({3, 1, 4}, target), 1u << 14);
         // Roulette takes part only where paths are long; without it each path is exact.
         EXPECT_NEAR(mean.value(), 1, 3 * mean.error() + 1e-5);
-        EXPECT_NEAR(mean.value(), 1, 1e-3);
+        EXPECT_NEAR(mean.value(), 1, kLooser * 1e-3);
       }
     }
 }
@@ -52,7 +52,7 @@ TEST(RadiativeTransferTest, InAFurnaceARaggedMediumIsNotSeen) {
                                                              shared::phase_of_hg(-0.4f), glm::ivec3(5))));
   scene->environment = uniform_sky(2);
   const Mean mean = radiance(*scene, towards({3, 1, 4}, {0.1f, 0, 0}), 1u << 14);
-  EXPECT_NEAR(mean.value(), 2, 2e-3);
+  EXPECT_NEAR(mean.value(), 2, kLooser * 2e-3);
 }
 
 // What emits as much as it absorbs, in surroundings of its own temperature, is not seen either (Kirchhoff).
@@ -177,7 +177,7 @@ TEST(RadiativeTransferTest, RouletteLeavesMeansUnchanged) {
   scene->environment = uniform_sky(1);
   // A slab as wide as it is thick; by paths that carry their weight to the end.
   Mean plain;
-  for (std::uint32_t i = 0; i < 1u << 16; ++i) {
+  for (std::uint32_t i = 0; i < (1u << 16) / kFewer; ++i) {
     Sampler sampler({i & 255u, i >> 8u}, 1);
     Ray ray = towards({3, 1, 4}, {0, 0.2f, 0});
     double weight = 1;
@@ -194,7 +194,7 @@ TEST(RadiativeTransferTest, RouletteLeavesMeansUnchanged) {
   }
   const Mean traced = radiance(*scene, towards({3, 1, 4}, {0, 0.2f, 0}), 1u << 16);
   EXPECT_NEAR(traced.value(), plain.value(), 4 * std::hypot(traced.error(), plain.error()));
-  EXPECT_LT(std::hypot(traced.error(), plain.error()), 0.01 * plain.value());
+  EXPECT_LT(std::hypot(traced.error(), plain.error()), kLooser * 0.01 * plain.value());
 }
 
 }  // namespace

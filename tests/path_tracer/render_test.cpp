@@ -133,7 +133,7 @@ TEST_F(RenderTest, TilesEndAtTheirError) {
   // The error that it states is that of its pixels: against a picture of many samples.
   const std::vector<glm::vec4> rough = render.radiance();
   settings_.noise = 0;
-  settings_.samples = 2048;
+  settings_.samples = 2048 / kFewer;
   Render exact(*scene_, settings_);
   while (!exact.advance(10, never)) {
   }
