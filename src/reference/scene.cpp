@@ -64,7 +64,7 @@ void sum_emitters(Scene& scene) {
 }
 
 std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::FrameInput& frame,
-                                  const smoke::MaskAtlas* masks) {
+                                  const smoke::MaskAtlas* masks, bool matte) {
   static const smoke::NoiseTile noise = smoke::make_noise_tile(smoke::kSmokeNoise);
   std::vector<std::unique_ptr<Medium>> media;
   if (frame.smoke.volume && frame.smoke.volume->slot_count() > 0 && frame.smoke.look.extinction > 0)
@@ -73,8 +73,10 @@ std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::Fra
     media.push_back(std::make_unique<VolumeMedium>(volume, &noise));
   std::vector<shared::Light> lights = planning::device_lights(scene.lights, 0);
   lights.insert(lights.end(), frame.environment.flashes.begin(), frame.environment.flashes.end());
-  std::unique_ptr<Scene> out(new Scene{
-      {scene, frame.level}, Media(std::move(media)), std::move(lights), {.sky = frame.environment.sky}});
+  std::unique_ptr<Scene> out(new Scene{{scene, frame.level, matte},
+                                       Media(std::move(media)),
+                                       std::move(lights),
+                                       {.sky = frame.environment.sky}});
   sum_emitters(*out);
   return out;
 }
