@@ -15,7 +15,8 @@ namespace brume::cli {
 namespace {
 
 constexpr std::uint32_t kDefaultSamples = 64;
-constexpr double kSecondsBetweenCheckpoints = 15;
+/// Between checkpoints, at least and at most [s].
+constexpr double kLeastInterval = 0.2, kMostInterval = 30;
 
 /// The progress of a picture towards whichever limit it has.
 class PictureProgress {
@@ -108,7 +109,8 @@ void ReferenceFrames::measure_exposure() {
   const double end = double{scenario_.timeline.duration};
   simulation_->advance_to(end);
   std::vector<shared::Hole> holes;
-  planning::FrameInput frame = planning::frame_input(scenario_, *simulation_, end, holes);
+  planning::FrameInput frame =
+      planning::frame_input(scenario_, *simulation_, end, holes, {.particles = false});
   if (camera_) frame.view.camera = *camera_;
   exposure_ = reference::measure_exposure(scenario_.scene, frame, &scenario_.masks,
                                           static_cast<float>(size_px_.x) / static_cast<float>(size_px_.y));
@@ -119,7 +121,8 @@ Picture ReferenceFrames::draw(double seconds) {
   if (scenario_.measure_exposure && !exposure_) measure_exposure();
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
-  planning::FrameInput frame = planning::frame_input(scenario_, *simulation_, seconds, holes);
+  planning::FrameInput frame =
+      planning::frame_input(scenario_, *simulation_, seconds, holes, {.particles = false});
   if (camera_) frame.view.camera = *camera_;
   if (exposure_) frame.view.exposure = *exposure_;
   const auto scene = reference::make_scene(scenario_.scene, frame, &scenario_.masks, options_.matte);
@@ -140,15 +143,18 @@ Picture ReferenceFrames::draw(double seconds) {
   PictureProgress progress(options_, settings.samples);
   const Stopwatch sampling;
   Stopwatch since_saved;
+  double interval = kLeastInterval;
   const auto is_over = [&] {
     return is_interrupted() || (options_.time_limit && sampling.seconds() >= *options_.time_limit);
   };
   for (bool done = false; !done && !is_over();) {
-    done = render.advance(0.25, is_over);
+    done = render.advance(0.1, is_over);
     progress.show(render, sampling.seconds());
-    if (checkpoint.empty() || (!done && !is_over() && since_saved.seconds() < kSecondsBetweenCheckpoints))
-      continue;
+    if (checkpoint.empty() || (!done && !is_over() && since_saved.seconds() < interval)) continue;
+    const Stopwatch saving;
     render.save(checkpoint, key_).value_or_throw();
+    // A hundredth of the time.
+    interval = std::clamp(100 * saving.seconds(), kLeastInterval, kMostInterval);
     since_saved = {};
   }
   stop_if_interrupted();

@@ -7,8 +7,8 @@ render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& hole
   const Session& session = game.session();
   const auto steered = game.steered_carriers();
   render::FrameInput input =
-      planning::frame_input(session.live().scenario(), session.simulation(), session.seconds(), holes, wait,
-                            steered ? &*steered : nullptr);
+      planning::frame_input(session.live().scenario(), session.simulation(), session.seconds(), holes,
+                            {wait, steered ? &*steered : nullptr});
   if (!game.choices().decals) input.decals.clear();
   input.view.camera = game.player().camera();
   input.debug = {game.choices().view, game.choices().slice};

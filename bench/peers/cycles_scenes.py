@@ -15,6 +15,7 @@ from mathutils import Euler, Vector
 ROOM = (2.0, 2.0, 3.0)  # half its width, half its depth, its height [m]
 EYE, TARGET = (0.3, -5.2, 1.7), (0.0, 0.0, 1.35)
 CLOUD_AT = (0.0, 0.2, 1.3)
+NEARER = {"fog_sphere": (18, CLOUD_AT), "cloud": (13, CLOUD_AT)}  # vertical field of view, target
 GREY, RED, GREEN = (0.72, 0.72, 0.72), (0.6, 0.12, 0.1), (0.15, 0.5, 0.12)
 
 
@@ -156,8 +157,9 @@ SCENES = {"walls": walls, "textured_room": textured_room, "fog_sphere": fog_sphe
 def camera(spec):
     scene = bpy.context.scene
     data = bpy.data.cameras.new("camera")
-    data.sensor_fit, data.angle = "VERTICAL", math.radians(42)
-    away = Vector(TARGET) - Vector(EYE)
+    fov, target = NEARER.get(spec["scene"], (42, TARGET))
+    data.sensor_fit, data.angle = "VERTICAL", math.radians(fov)
+    away = Vector(target) - Vector(EYE)
     turn = away.to_track_quat("-Z", "Y").to_euler()
     scene.camera = place("camera", data, EYE, Euler(turn))
     scene.render.resolution_x, scene.render.resolution_y = spec["size"]

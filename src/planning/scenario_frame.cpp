@@ -52,10 +52,9 @@ constexpr double kRounding = 1e-3;
 }  // namespace
 
 FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
-                       double seconds, std::vector<shared::Hole>& holes, scenario::VolumeWait wait,
-                       const std::vector<scene::Carrier>* steered) {
+                       double seconds, std::vector<shared::Hole>& holes, const FrameOptions& options) {
   const scene::Timeline& timeline = scenario.timeline;
-  const std::span<const scene::Carrier> carriers(steered ? *steered : timeline.carriers);
+  const std::span<const scene::Carrier> carriers(options.steered ? *options.steered : timeline.carriers);
   FrameInput input;
   input.view.camera = scene::camera_at(timeline, scenario.camera, seconds);
   // Jitter and dither follow time, not the frame's number: the same time is the same image at any rate.
@@ -89,7 +88,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.environment.flashes = scenario::flashes_of(timeline, seconds);
   for (const sim::Grenade& grenade : sim::grenades_of(simulation.world().state()))
     input.level.grenades.push_back(grenade_matrix(grenade));
-  add_volumes(scenario, carriers, seconds, wait, input);
+  add_volumes(scenario, carriers, seconds, options, input);
   const auto hidden = simulation.hidden_objects();
   input.level.hidden_objects.assign(hidden.begin(), hidden.end());
   add_moved_objects(scenario, carriers, seconds, input);

@@ -84,16 +84,16 @@ ParticleInput particles_of(const scene::VolumeOptions& options, const scenario::
 }  // namespace
 
 void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
-                 scenario::VolumeWait wait, FrameInput& input) {
+                 const FrameOptions& frame, FrameInput& input) {
   if (!scenario.volumes) return;
   const std::vector<scene::VolumeOptions>& options = scenario.timeline.volumes;
-  std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, wait);
+  std::vector<scenario::VolumeAt> volumes = scenario.volumes->at(options, seconds, frame.wait);
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     if (!volumes[i].frame) continue;
     const glm::mat4 pose = scene::pose_of(carriers, options[i].carrier, seconds);
     move_by(pose, volumes[i]);
     const auto& slices = scenario.slices.of_volumes;
-    if (options[i].particles > 0 && i < slices.size() && slices[i])
+    if (frame.particles && options[i].particles > 0 && i < slices.size() && slices[i])
       input.particles.push_back(
           particles_of(options[i], *slices[i], (*scenario.slices.volumes)[slices[i]->volume], pose, seconds));
     else

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "planning/frame_input.hpp"
+#include "planning/scenario_frame.hpp"
 #include "scenario/scenario.hpp"
 
 namespace brume::planning {
@@ -11,6 +11,6 @@ namespace brume::planning {
 /// Adds the volumes at a time [s], which stay loaded until another one is read, moved by their carriers, and
 /// the light of what glows in them; nothing without Scenario::volumes.
 void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers, double seconds,
-                 scenario::VolumeWait wait, FrameInput& input);
+                 const FrameOptions& frame, FrameInput& input);
 
 }  // namespace brume::planning

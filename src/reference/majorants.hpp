@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/box.hpp"
@@ -32,10 +33,15 @@ class Majorants {
 
   const glm::ivec3& size() const { return size_; }
   int cell_voxels() const { return cell_; }
-  /// The voxels of a cell.
-  Box<int> voxels_of(const glm::ivec3& cell) const;
   float& at(const glm::ivec3& cell) { return bounds_[index(cell)]; }
-  float largest() const;
+  std::uint32_t count() const { return static_cast<std::uint32_t>(bounds_.size()); }
+  /// By the number of a cell, below count().
+  float bound(std::uint32_t cell) const { return bounds_[cell]; }
+  /// The cell of a point; nothing outside of all.
+  std::optional<std::uint32_t> cell_at(const glm::vec3& p_world) const;
+  /// A point at fractions of a cell.
+  glm::vec3 world_point(std::uint32_t cell, const glm::vec3& at) const;
+  float cell_volume() const { return cell_volume_; }  ///< [m^3]
   glm::vec3 voxel_from_world(const glm::vec3& p_world) const {
     return glm::vec3(voxel_from_world_ * glm::vec4(p_world, 1));
   }
@@ -53,9 +59,10 @@ class Majorants {
                 static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(cell.z));
   }
 
-  glm::mat4 voxel_from_world_{1};
+  glm::mat4 voxel_from_world_{1}, world_from_voxel_{1};
   glm::ivec3 low_voxel_{0}, size_{0};
   int cell_ = 1;
+  float cell_volume_ = 0;
   std::vector<float> bounds_;
 };
 

@@ -18,7 +18,24 @@ struct Glint {
 
 }  // namespace
 
-std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::vec3& emitted) const {
+Media::Media(std::vector<std::unique_ptr<Medium>> media) : media_(std::move(media)) {
+  std::vector<const Medium*> emitting;
+  for (const auto& medium : media_)
+    if (medium->emits()) emitting.push_back(medium.get());
+  emission_ = EmissionCells(emitting);
+}
+
+float Media::share_of_rays(const Medium& medium, const glm::vec3& p_world, float bound, float distance,
+                           float direction_density) const {
+  if (emission_.empty()) return 1;
+  // Both per volume.
+  const float by_rays = direction_density * bound / (distance * distance);
+  const float by_cells = emission_.density(medium, p_world), ratio = by_cells / by_rays;
+  return by_rays > 0 ? 1 / (1 + ratio * ratio) : 0;
+}
+
+std::optional<Collision> Media::collide(const Ray& ray, float direction_density, Sampler& sampler,
+                                        glm::vec3& emitted) const {
   std::optional<Collision> first;
   Ray rest = ray;
   thread_local std::vector<Glint> glints;
@@ -36,7 +53,11 @@ std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::v
         t += to_next;
         const glm::vec3 p = ray.at(t);
         // Possible collisions lie as densely as the bound times the transmittance.
-        if (medium->emits()) glints.push_back({t, medium->emission(p) / bound});
+        if (medium->emits()) {
+          const float share =
+              direction_density > 0 ? share_of_rays(*medium, p, bound, t, direction_density) : 1.0f;
+          glints.push_back({t, medium->emission(p) * (share / bound)});
+        }
         if (sampler.random() * bound < medium->extinction(p)) {
           first = Collision{t, medium.get()};
           rest.end = t;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "reference/emission_cells.hpp"
 #include "reference/majorants.hpp"
 #include "reference/sampler.hpp"
 #include "shared/phase.h"
@@ -47,20 +48,29 @@ struct Collision {
 class Media {
  public:
   Media() = default;
-  explicit Media(std::vector<std::unique_ptr<Medium>> media) : media_(std::move(media)) {}
+  explicit Media(std::vector<std::unique_ptr<Medium>> media);
 
   /// The first collision along a ray, if it comes before the ray's end: delta tracking (Woodcock et al. 1965)
   /// in each medium, of which the nearest counts. Adds to `emitted` an estimate of what is emitted towards
-  /// the ray's origin before that.
-  std::optional<Collision> collide(const Ray& ray, Sampler& sampler, glm::vec3& emitted) const;
+  /// the ray's origin before that; where emission is also sampled from there, the part of it that
+  /// `direction_density` leaves to rays: the probability per solid angle of this one, 0: all.
+  std::optional<Collision> collide(const Ray& ray, float direction_density, Sampler& sampler,
+                                   glm::vec3& emitted) const;
   /// An unbiased estimate of the transmittance of all media: ratio tracking (Novak et al. 2014, "Residual
   /// Ratio Tracking for Estimating Attenuation in Participating Media"), with Russian roulette.
   float transmittance(const Ray& ray, Sampler& sampler) const;
 
   std::span<const std::unique_ptr<Medium>> all() const { return media_; }
+  /// Where they emit.
+  const EmissionCells& emission() const { return emission_; }
+  /// The part of the emission of a point, so far away, that is left to rays: Veach's power heuristic of the
+  /// densities of possible collisions and of EmissionCells.
+  float share_of_rays(const Medium& medium, const glm::vec3& p_world, float bound, float distance,
+                      float direction_density) const;
 
  private:
   std::vector<std::unique_ptr<Medium>> media_;
+  EmissionCells emission_;
 };
 
 }  // namespace brume::reference

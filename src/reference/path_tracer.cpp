@@ -55,6 +55,7 @@ class Path {
   void add(const glm::vec3& radiance);
   void add_lights(const Vertex& vertex);
   void add_emitters(const Vertex& vertex);
+  void add_glow(const Vertex& vertex);
   void add_found_emitter(const SurfaceHit& hit, const Ray& ray);
   bool scatter(const Vertex& vertex, Ray& ray);
   bool roulette();
@@ -140,6 +141,27 @@ void Path::add_emitters(const Vertex& vertex) {
   if (passed > 0) add(value * (passed * power_heuristic(density, vertex.density(direction)) / density));
 }
 
+/// A point of the media that emit.
+void Path::add_glow(const Vertex& vertex) {
+  const EmissionCells& cells = scene_.media.emission();
+  if (cells.empty()) return;
+  const EmissionCells::Point point = cells.sample(sampler_);
+  const glm::vec3 apart = point.position - vertex.position;
+  const float d2 = glm::dot(apart, apart), distance = std::sqrt(d2);
+  if (!(d2 > 0)) return;
+  const glm::vec3 direction = apart / distance;
+  const glm::vec3 value = vertex.value(direction) * point.medium->emission(point.position);
+  if (!(largest(value) > 0)) return;
+  const float passed = visible(vertex, direction, distance);
+  if (passed <= 0) return;
+  const Majorants& majorants = point.medium->majorants();
+  const auto cell = majorants.cell_at(point.position);
+  if (!cell) return;
+  const float by_rays = scene_.media.share_of_rays(*point.medium, point.position, majorants.bound(*cell),
+                                                   distance, vertex.density(direction));
+  add(value * (passed * (1 - by_rays) / (d2 * point.density)));
+}
+
 /// An emitter that the path itself found.
 void Path::add_found_emitter(const SurfaceHit& hit, const Ray& ray) {
   if (hit.emission == glm::vec3(0)) return;
@@ -158,6 +180,7 @@ bool Path::scatter(const Vertex& vertex, Ray& ray) {
   ++bounces_;
   add_lights(vertex);
   add_emitters(vertex);
+  add_glow(vertex);
   glm::vec3 direction;
   if (vertex.surface) {
     const Reflection::Direction next = vertex.surface->reflection.sample(-vertex.arriving, sampler_);
@@ -197,7 +220,7 @@ PathSample Path::trace(Ray ray) {
     // Media before the surface.
     if (hit) ray.end = hit->t;
     glm::vec3 emitted(0);
-    const std::optional<Collision> collision = scene_.media.collide(ray, sampler_, emitted);
+    const std::optional<Collision> collision = scene_.media.collide(ray, last_density_, sampler_, emitted);
     if (emitted != glm::vec3(0)) add(emitted);
     Vertex vertex;
     vertex.arriving = ray.direction;

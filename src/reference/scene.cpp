@@ -28,6 +28,12 @@ float star_light(const glm::vec3& direction) {
   return (0.04f + std::pow(more.y, 10.0f)) * (1 - glm::smoothstep(0.0003f, 0.0016f, offset));
 }
 
+/// Made when the first medium needs it.
+const smoke::NoiseTile& noise_tile() {
+  static const smoke::NoiseTile tile = smoke::make_noise_tile(smoke::kSmokeNoise);
+  return tile;
+}
+
 }  // namespace
 
 glm::vec3 Environment::seen(const glm::vec3& direction) const {
@@ -65,12 +71,11 @@ void sum_emitters(Scene& scene) {
 
 std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::FrameInput& frame,
                                   const smoke::MaskAtlas* masks, bool matte) {
-  static const smoke::NoiseTile noise = smoke::make_noise_tile(smoke::kSmokeNoise);
   std::vector<std::unique_ptr<Medium>> media;
   if (frame.smoke.volume && frame.smoke.volume->slot_count() > 0 && frame.smoke.look.extinction > 0)
-    media.push_back(std::make_unique<SmokeMedium>(frame.smoke, noise, masks));
+    media.push_back(std::make_unique<SmokeMedium>(frame.smoke, noise_tile, masks));
   for (const planning::VolumeInput& volume : frame.volumes)
-    media.push_back(std::make_unique<VolumeMedium>(volume, &noise));
+    media.push_back(std::make_unique<VolumeMedium>(volume, noise_tile));
   std::vector<shared::Light> lights = planning::device_lights(scene.lights, 0);
   lights.insert(lights.end(), frame.environment.flashes.begin(), frame.environment.flashes.end());
   std::unique_ptr<Scene> out(new Scene{{scene, frame.level, matte},

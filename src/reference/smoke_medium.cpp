@@ -45,14 +45,11 @@ std::uint32_t largest_in_cell(const smoke::SmokeVolume& volume, std::uint32_t sl
 
 }  // namespace
 
-SmokeMedium::SmokeMedium(const planning::SmokeInput& smoke, const smoke::NoiseTile& noise,
-                         const smoke::MaskAtlas* masks)
-    : Medium(smoke.look.phase),
-      input_(smoke),
-      noise_(noise),
-      masks_(masks),
-      needs_noise_(smoke.look.erosion > 0 || (!smoke.holes.empty() && smoke.look.hole_rim > 0)) {
-  if (needs_noise_ && smoke.state)
+SmokeMedium::SmokeMedium(const planning::SmokeInput& smoke,
+                         const std::function<const smoke::NoiseTile&()>& noise, const smoke::MaskAtlas* masks)
+    : Medium(smoke.look.phase), input_(smoke), masks_(masks) {
+  if (smoke.look.erosion > 0 || (!smoke.holes.empty() && smoke.look.hole_rim > 0)) noise_ = &noise();
+  if (noise_ && smoke.state)
     displacements_ = planning::noise_displacement(*smoke.volume, *smoke.state, smoke.look, double{smoke.time},
                                                   smoke.swirl_period);
   find_majorants();
@@ -115,7 +112,7 @@ glm::vec4 SmokeMedium::noise_at(const glm::vec3& p_world, const glm::vec3& p_vox
     const auto row = [&](int offset) { return glm::mix(texel[offset], texel[offset + 1], f.x); };
     p += glm::mix(glm::mix(row(0), row(10), f.y), glm::mix(row(100), row(110), f.y), f.z);
   }
-  return smoke::noise_at(noise_, p * input_.look.noise_frequency);
+  return smoke::noise_at(*noise_, p * input_.look.noise_frequency);
 }
 
 float SmokeMedium::density(const glm::vec3& p_world) const {
@@ -126,7 +123,7 @@ float SmokeMedium::density(const glm::vec3& p_world) const {
   const glm::ivec3 brick(glm::floor(p_voxel * 0.125f));
   const std::uint32_t slot = volume.slot_at(brick);
   const shared::SmokeLook& look = input_.look;
-  const glm::vec4 noise = needs_noise_ ? noise_at(p_world, p_voxel, slot, brick) : glm::vec4(0.5f);
+  const glm::vec4 noise = noise_ ? noise_at(p_world, p_voxel, slot, brick) : glm::vec4(0.5f);
   if (look.erosion > 0) density = shared::erode(look, density, noise);
   static const smoke::MaskAtlas kNoMasks;
   for (const std::uint32_t i : holes_of_[slot]) {

@@ -1,6 +1,7 @@
 // The smoke of a frame as a medium.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "planning/frame_input.hpp"
@@ -13,8 +14,9 @@ namespace brume::reference {
 /// Density, erosion and holes by the headers that the shaders share.
 class SmokeMedium final : public Medium {
  public:
-  /// `smoke` has a volume; it and what it points to, the noise and the masks must outlive the medium.
-  SmokeMedium(const planning::SmokeInput& smoke, const smoke::NoiseTile& noise,
+  /// `smoke` has a volume; it and what it points to, the noise and the masks must outlive the medium. Asks
+  /// for the noise if it needs any.
+  SmokeMedium(const planning::SmokeInput& smoke, const std::function<const smoke::NoiseTile&()>& noise,
               const smoke::MaskAtlas* masks);
 
   float extinction(const glm::vec3& p_world) const override {
@@ -33,9 +35,8 @@ class SmokeMedium final : public Medium {
   void find_holes();
 
   const planning::SmokeInput& input_;
-  const smoke::NoiseTile& noise_;
   const smoke::MaskAtlas* masks_;
-  bool needs_noise_ = false;
+  const smoke::NoiseTile* noise_ = nullptr;           // null: none is needed
   std::vector<glm::vec3> displacements_;              // of the noise, by slot and texel; empty: none
   std::vector<std::vector<std::uint32_t>> holes_of_;  // by slot: those that may reach its brick
 };

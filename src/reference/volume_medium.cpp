@@ -78,13 +78,14 @@ float TransferCurve::largest_opacity(float low, float high) const {
   return std::max(largest_[level][begin], largest_[level][begin + count - width]);
 }
 
-VolumeMedium::VolumeMedium(const planning::VolumeInput& volume, const smoke::NoiseTile* noise)
+VolumeMedium::VolumeMedium(const planning::VolumeInput& volume,
+                           const std::function<const smoke::NoiseTile&()>& noise)
     : Medium(shared::phase_of_hg(volume.look.anisotropy)),
       input_(volume),
-      noise_(noise),
       effect_(planning::volume_effect(volume)),
       values_(*volume.volume),
       transfer_(volume.transfer, volume.look.albedo) {
+  if (effect_.amplitude.x > 0) noise_ = &noise();
   if (volume.heat.volume && volume.heat.volume->slot_count() > 0) {
     heat_ = BrickField<1>(*volume.heat.volume);
     heat_from_world_ = glm::inverse(volume.heat.world_from_voxel);

@@ -1,7 +1,7 @@
 // A volume of a frame as a medium.
 #pragma once
 
-#include <array>
+#include <functional>
 #include <vector>
 
 #include "planning/frame_input.hpp"
@@ -34,8 +34,8 @@ class TransferCurve {
 
 class VolumeMedium final : public Medium {
  public:
-  /// `volume` must outlive it, `noise` as well where the volume is disturbed.
-  VolumeMedium(const planning::VolumeInput& volume, const smoke::NoiseTile* noise);
+  /// `volume` and the noise must outlive it. Asks for the noise if the volume is disturbed.
+  VolumeMedium(const planning::VolumeInput& volume, const std::function<const smoke::NoiseTile&()>& noise);
 
   float extinction(const glm::vec3& p_world) const override;
   glm::vec3 albedo(const glm::vec3& p_world) const override;
@@ -52,7 +52,7 @@ class VolumeMedium final : public Medium {
   bool glows_in(const Box<int>& voxels) const;
 
   const planning::VolumeInput& input_;
-  const smoke::NoiseTile* noise_;
+  const smoke::NoiseTile* noise_ = nullptr;
   shared::VolumeEffect effect_;
   BrickField<1> values_, heat_;
   BrickField<2> mask_pair_;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "tests/cli/kill_matrix.hpp"
+#include "tests/cli/reference_kills.hpp"
 #ifdef BRUME_VIEWER
 #include "tests/viewer/desktop.hpp"
 #endif
@@ -26,6 +27,11 @@ TEST(KillAll, TwoHundredEnds) {
   std::printf("%3d ends in all\n", ended);
   // Without root there is no small disk. Signals that arrive after the last check change nothing.
   EXPECT_GE(ended, ::geteuid() == 0 ? 200 : 170);
+}
+
+class KillReference : public ReferenceFolder {};
+TEST_F(KillReference, AtTwentyMoments) {
+  expect_equal_after_kills(20);
 }
 
 #ifdef BRUME_VIEWER

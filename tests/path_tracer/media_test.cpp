@@ -34,7 +34,7 @@ TEST(MediaTest, TransmittanceIsExact) {
       const Ray ray{{0.5f, 0.3f, -2}, {0, 0, 1}};
       ratio.add(double{media.transmittance(ray, sampler)});
       glm::vec3 emitted(0);
-      delta.add(media.collide(ray, sampler, emitted) ? 0.0 : 1.0);
+      delta.add(media.collide(ray, 0, sampler, emitted) ? 0.0 : 1.0);
     }
     SCOPED_TRACE(one.name);
     expect_mean(ratio, std::exp(-one.depth), 0.03);
@@ -64,7 +64,7 @@ TEST(MediaTest, CollisionsLieWhereTheExtinctionIs) {
   for (std::uint32_t i = 0; i < kRays; ++i) {
     Sampler sampler({i, 0}, 0);
     glm::vec3 emitted(0);
-    const auto collision = media.collide({{0.5f, 0.3f, 0}, {0, 0, 1}}, sampler, emitted);
+    const auto collision = media.collide({{0.5f, 0.3f, 0}, {0, 0, 1}}, 0, sampler, emitted);
     ++(collision ? counts[static_cast<std::size_t>(collision->t / 5 * kCells)] : counts.back());
   }
   const auto passed = [](double z) { return std::exp(-0.15 * z * z); };
@@ -85,7 +85,7 @@ TEST(MediaTest, OverlappingMediaAddUp) {
     const Ray ray{{0.5f, 0.3f, -2}, {0, 0, 1}};
     ratio.add(double{media.transmittance(ray, sampler)});
     glm::vec3 emitted(0);
-    const auto collision = media.collide(ray, sampler, emitted);
+    const auto collision = media.collide(ray, 0, sampler, emitted);
     delta.add(collision ? 0.0 : 1.0);
     second.add(collision && collision->medium == media.all()[1].get() ? 1.0 : 0.0);
   }
@@ -106,7 +106,7 @@ TEST(MediaTest, EmissionIsDimmedByAllThatLiesBefore) {
     for (std::uint32_t i = 0; i < kRays; ++i) {
       Sampler sampler({i, 0}, 0);
       glm::vec3 emitted(0);
-      media.collide({{0.5f, 0.3f, -2}, {0, 0, 1}}, sampler, emitted);
+      media.collide({{0.5f, 0.3f, -2}, {0, 0, 1}}, 0, sampler, emitted);
       mean.add(double{emitted.r});
     }
     return mean;

@@ -55,6 +55,26 @@ TEST(RadiativeTransferTest, InAFurnaceARaggedMediumIsNotSeen) {
   EXPECT_NEAR(mean.value(), 2, 2e-3);
 }
 
+// What emits as much as it absorbs, in surroundings of its own temperature, is not seen either (Kirchhoff).
+// Emission that rays find and emission that is sampled share this.
+TEST(RadiativeTransferTest, InEquilibriumNothingIsSeen) {
+  const scene::Scene nothing;
+  for (const float albedo : {0.0f, 0.6f, 0.95f}) {
+    const auto extinction = [](const glm::vec3& p) {
+      return std::max(0.0f, 2 * std::sin(5 * p.x) * std::sin(4 * p.y + 1));
+    };
+    const BoxMedium::Matter matter{extinction, 3, glm::vec3(albedo), [=](const glm::vec3& p) {
+                                     return glm::vec3(2 * (1 - albedo) * extinction(p));
+                                   }};
+    auto scene = scene_of(
+        nothing, media_of(std::make_unique<BoxMedium>(Box<float>{glm::vec3(-1), glm::vec3(1)}, matter,
+                                                      shared::phase_of_hg(0.5f), glm::ivec3(6))));
+    scene->environment = uniform_sky(2);
+    for (const glm::vec3 target : {glm::vec3(0.2f), glm::vec3(0.7f, 0.4f, -0.5f)})
+      expect_mean(radiance(*scene, towards({3, 1, 4}, target), 1u << 17), 2, 0.01);
+  }
+}
+
 TEST(RadiativeTransferTest, HalfSpacesReflectAsChandrasekharSays) {
   const scene::Scene nothing;
   for (const float albedo : {0.5f, 0.9f, 0.99f}) {
@@ -163,7 +183,7 @@ TEST(RadiativeTransferTest, RouletteLeavesMeansUnchanged) {
     double weight = 1;
     glm::vec3 none(0);
     while (weight > 1e-9) {
-      const auto collision = scene->media.collide(ray, sampler, none);
+      const auto collision = scene->media.collide(ray, 0, sampler, none);
       if (!collision) break;
       weight *= 0.7;
       const float z = 2 * sampler.random() - 1, turn = 2 * std::numbers::pi_v<float> * sampler.random(),

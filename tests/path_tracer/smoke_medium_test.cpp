@@ -40,7 +40,7 @@ class SmokeMediumTest : public testing::TestWithParam<std::uint32_t> {
 
 TEST_P(SmokeMediumTest, DensityIsThatOfDoublePrecision) {
   input_.holes = {};
-  const SmokeMedium medium(input_, noise(), nullptr);
+  const SmokeMedium medium(input_, noise, nullptr);
   const shared::VolumeLayout& layout = scene_.volume().layout();
   int dense = 0, off = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -56,10 +56,10 @@ TEST_P(SmokeMediumTest, DensityIsThatOfDoublePrecision) {
 }
 
 TEST_P(SmokeMediumTest, HolesAreThoseOfDoublePrecision) {
-  const SmokeMedium medium(input_, noise(), &scene_.masks());
+  const SmokeMedium medium(input_, noise, &scene_.masks());
   planning::SmokeInput whole = input_;
   whole.holes = {};
-  const SmokeMedium without(whole, noise(), nullptr);
+  const SmokeMedium without(whole, noise, nullptr);
   int cut = 0, off = 0;
   ASSERT_FALSE(scene_.holes().empty());
   std::uniform_real_distribution<float> share(0, 1);
@@ -97,7 +97,7 @@ TEST_P(SmokeMediumTest, BoundsHold) {
     input_.look.erosion = erosion;
     input_.look.hole_rim = 0.2f;
     input_.look.swirl = 0.3f;
-    const SmokeMedium medium(input_, noise(), &scene_.masks());
+    const SmokeMedium medium(input_, noise, &scene_.masks());
     int dense = 0;
     for (int i = 0; i < 4000; ++i) {
       const smoke::Segment s = smoke::SightScene::segment(random_);

@@ -124,6 +124,40 @@ TEST(SurfacesTest, EmittersLightAsIntegrated) {
     }
 }
 
+// A box of gas that glows above a floor, by numerical integration over it.
+TEST(SurfacesTest, GlowingMediaLightAsIntegrated) {
+  for (const float extinction : {0.0f, 1.5f}) {
+    const scene::Scene floor = floor_of(matte(0.5f));
+    const Box<float> box{{-0.6f, 0.4f, -0.2f}, {0.1f, 1.1f, 0.5f}};
+    // Brighter upwards, so that cells differ.
+    const auto glow = [](const glm::dvec3& p) { return 5 * p.y; };
+    const BoxMedium::Matter matter{
+        [=](const glm::vec3&) { return extinction; }, std::max(extinction, 2.0f), glm::vec3(0),
+        [=](const glm::vec3& p) { return glm::vec3(static_cast<float>(glow(glm::dvec3(p)))); }};
+    const auto scene = scene_of(
+        floor, media_of(std::make_unique<BoxMedium>(box, matter, shared::phase_of_hg(0), glm::ivec3(5))));
+    double expected = 0;
+    constexpr int kSteps = 90;
+    const glm::dvec3 cell = glm::dvec3(box.high - box.low) / double{kSteps};
+    for_each_in(Box<int>{glm::ivec3(0), glm::ivec3(kSteps)}, [&](glm::ivec3 at) {
+      const glm::dvec3 p = glm::dvec3(box.low) + (glm::dvec3(at) + 0.5) * cell;
+      const double d2 = glm::dot(p, p), distance = std::sqrt(d2);
+      // The way within the box: from where the line from the origin enters it.
+      double enters = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        enters =
+            std::max(enters, std::min(double{box.low[axis]} / p[axis], double{box.high[axis]} / p[axis]));
+      const double value =
+          double{reflection_of(floor.materials[0]).value(-kDown.direction, glm::vec3(p / distance)).r};
+      expected += value * glow(p) * std::exp(-double{extinction} * (1 - enters) * distance) / d2 * cell.x *
+                  cell.y * cell.z;
+    });
+    // From below the box, which then does not hide the floor.
+    const Ray clear{{0.03f, 0.2f, 0.02f}, kDown.direction};
+    expect_mean(radiance(*scene, clear, 1u << 16, {.max_bounces = 1}), expected, 0.01);
+  }
+}
+
 scene::Scene closed_box(const scene::Material& material) {
   scene::Scene scene;
   for (int axis = 0; axis < 3; ++axis)

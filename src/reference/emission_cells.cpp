@@ -1,0 +1,65 @@
+#include "reference/emission_cells.hpp"
+
+#include <algorithm>
+
+#include "reference/medium.hpp"
+
+namespace brume::reference {
+namespace {
+
+/// The power of a cell, from eight points of it: exact enough, since it only guides.
+float power_of(const Medium& medium, std::uint32_t cell) {
+  float power = 0;
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 at = 0.25f + 0.5f * glm::vec3(i & 1, i >> 1 & 1, i >> 2);
+    const glm::vec3 emission = medium.emission(medium.majorants().world_point(cell, at));
+    power += std::max({emission.r, emission.g, emission.b});
+  }
+  return power;
+}
+
+}  // namespace
+
+EmissionCells::EmissionCells(std::span<const Medium* const> media) {
+  double whole = 0;
+  std::vector<float> powers;
+  for (const Medium* medium : media) {
+    const Majorants& majorants = medium->majorants();
+    const auto index = static_cast<std::uint32_t>(media_.size());
+    Lit& lit = media_.emplace_back(medium, std::vector<float>(majorants.count()));
+    for (std::uint32_t cell = 0; cell < majorants.count(); ++cell) {
+      if (!(majorants.bound(cell) > 0)) continue;
+      const float power = power_of(*medium, cell);
+      if (!(power > 0)) continue;
+      lit.density[cell] = power;
+      cells_.push_back({index, cell});
+      powers.push_back(power * majorants.cell_volume());
+      whole += double{powers.back()};
+    }
+  }
+  double sum = 0;
+  for (const float power : powers) {
+    sum += double{power} / whole;
+    power_up_to_.push_back(static_cast<float>(sum));
+  }
+  for (Lit& lit : media_)
+    for (float& density : lit.density) density = static_cast<float>(double{density} / whole);
+}
+
+EmissionCells::Point EmissionCells::sample(Sampler& sampler) const {
+  const auto chosen = std::ranges::upper_bound(power_up_to_, sampler.next_1d());
+  const auto i =
+      std::min<std::size_t>(static_cast<std::size_t>(chosen - power_up_to_.begin()), cells_.size() - 1);
+  const Lit& lit = media_[cells_[i].medium];
+  const glm::vec2 across = sampler.next_2d();
+  return {lit.medium, lit.medium->majorants().world_point(cells_[i].cell, {across, sampler.random()}),
+          lit.density[cells_[i].cell]};
+}
+
+float EmissionCells::density(const Medium& medium, const glm::vec3& p_world) const {
+  const auto lit = std::ranges::find(media_, &medium, &Lit::medium);
+  const auto cell = medium.majorants().cell_at(p_world);
+  return lit != media_.end() && cell ? lit->density[*cell] : 0;
+}
+
+}  // namespace brume::reference

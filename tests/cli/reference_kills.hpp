@@ -1,0 +1,80 @@
+// Kills of a reference rendering, which goes on from its checkpoint.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/file.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+
+class ReferenceFolder : public testing::Test {
+ protected:
+  ReferenceFolder() {
+    folder_.write("room.obj", room_obj());
+    folder_.write(
+        "room.toml",
+        "version = 1\nscene = \"room.obj\"\nduration = 1.0\n[sky]\nambient = [0.4, 0.4, 0.5]\n"
+        "[[camera]]\ntime = 0.0\nposition = [0.0, 1.7, 1.8]\ntarget = [0.0, 1.2, -1.0]\nfov = 70.0\n"
+        "[[event]]\ntype = \"smoke\"\ntime = 0.0\nfrom = [0.0, 1.5, 1.0]\nat = [0.0, 0.5, -1.0]\n");
+  }
+  Outcome render(const std::vector<std::string>& more, const RunOptions& options = {}) const {
+    std::vector<std::string> arguments{"render", "room.toml", "--mode", "reference", "--size", "40x24"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_brume(folder_.path(), arguments, options);
+  }
+  std::string bytes(const std::string& name) const {
+    return read_text_file(folder_.path() / name).value_or_throw();
+  }
+
+  /// Kills the program after checkpoints, so many times at random moments, and compares what the last run
+  /// writes with the picture of a run that nothing ended.
+  void expect_equal_after_kills(int kills) const {
+    namespace fs = std::filesystem;
+    using Clock = std::chrono::steady_clock;
+    const std::vector<std::string> arguments{
+        "-o",           "resumed.exr", "--samples", std::to_string(80 * (kills + 1)),
+        "--checkpoint", "room.brc",    "--threads", "2"};
+    const fs::path file = folder_.path() / "room.brc";
+    const auto written = [&] {
+      std::error_code error;
+      const auto time = fs::last_write_time(file, error);
+      return error ? fs::file_time_type::min() : time;
+    };
+    std::mt19937 random(11);
+    std::uniform_int_distribution<int> milliseconds(0, 150);
+    int killed = 0;
+    for (int i = 0; i < kills; ++i) {
+      const auto before = written();
+      const std::chrono::milliseconds delay(milliseconds(random));
+      std::optional<Clock::time_point> seen;
+      RunOptions options;
+      options.signal = SIGKILL;
+      options.signal_when = [&] {
+        if (!seen && written() > before) seen = Clock::now();
+        return seen && Clock::now() - *seen >= delay;
+      };
+      killed += render(arguments, options).exit_code == 128 + SIGKILL;
+    }
+    EXPECT_EQ(killed, kills) << "the others were done before";
+    ASSERT_EQ(render(arguments).exit_code, 0);
+    std::vector<std::string> whole = arguments;
+    whole[1] = "whole.exr";
+    whole[5] = "whole.brc";
+    ASSERT_EQ(render(whole).exit_code, 0);
+    EXPECT_EQ(bytes("resumed.exr"), bytes("whole.exr"));
+    EXPECT_EQ(bytes("room.brc"), bytes("whole.brc"));
+  }
+
+  WorkFolder folder_;
+};
+
+}  // namespace brume::cli
