@@ -34,6 +34,12 @@ class Majorants {
   const glm::ivec3& size() const { return size_; }
   int cell_voxels() const { return cell_; }
   float& at(const glm::ivec3& cell) { return bounds_[index(cell)]; }
+  /// The extinction in a part of a cell is nowhere less; the least of all parts counts, nothing said is 0.
+  void lower_least(const glm::ivec3& cell, float least) {
+    if (least_.empty()) least_.resize(bounds_.size(), std::numeric_limits<float>::infinity());
+    float& stored = least_[index(cell)];
+    stored = glm::min(stored, least);
+  }
   std::uint32_t count() const { return static_cast<std::uint32_t>(bounds_.size()); }
   /// By the number of a cell, below count().
   float bound(std::uint32_t cell) const { return bounds_[cell]; }
@@ -49,7 +55,13 @@ class Majorants {
   /// Calls visit(begin, end, bound) for the parts of a ray in cells whose bound is above 0, in order, until
   /// it returns true. Amanatides and Woo 1987, "A Fast Voxel Traversal Algorithm for Ray Tracing".
   template <typename Visit>
-  void traverse(const Ray& ray, const Visit& visit) const;
+  void traverse(const Ray& ray, const Visit& visit) const {
+    traverse_between(ray,
+                     [&](float begin, float end, float, float bound) { return visit(begin, end, bound); });
+  }
+  /// The same with visit(begin, end, least, bound).
+  template <typename Visit>
+  void traverse_between(const Ray& ray, const Visit& visit) const;
 
  private:
   std::size_t index(const glm::ivec3& cell) const {
@@ -63,11 +75,11 @@ class Majorants {
   glm::ivec3 low_voxel_{0}, size_{0};
   int cell_ = 1;
   float cell_volume_ = 0;
-  std::vector<float> bounds_;
+  std::vector<float> bounds_, least_;
 };
 
 template <typename Visit>
-void Majorants::traverse(const Ray& ray, const Visit& visit) const {
+void Majorants::traverse_between(const Ray& ray, const Visit& visit) const {
   // The part of the ray inside of the box of all cells.
   const float per_cell = 1 / static_cast<float>(cell_);
   const glm::vec3 from = (voxel_from_world(ray.origin) - glm::vec3(low_voxel_)) * per_cell;
@@ -99,9 +111,13 @@ void Majorants::traverse(const Ray& ray, const Visit& visit) const {
                      : (static_cast<float>(cell[axis] + (step[axis] > 0)) - from[axis]) * inverse[axis];
   }
   while (true) {
-    const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
-    const float leave = glm::min(next[axis], end), bound = bounds_[index(cell)];
-    if (bound > 0 && leave > t && visit(t, leave, bound)) return;
+    // Without branches, whose outcome nothing foretells.
+    const int of_two = next.y < next.x ? 1 : 0;
+    const int axis = next.z < glm::min(next.x, next.y) ? 2 : of_two;
+    const float leave = glm::min(next[axis], end);
+    const std::size_t at = index(cell);
+    const float bound = bounds_[at], least = least_.empty() ? 0.0f : least_[at];
+    if (bound > 0 && leave > t && visit(t, leave, least, bound)) return;
     if (!(next[axis] < end)) return;
     t = glm::max(t, leave);
     cell[axis] += step[axis];

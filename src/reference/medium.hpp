@@ -56,8 +56,9 @@ class Media {
   /// `direction_density` leaves to rays: the probability per solid angle of this one, 0: all.
   std::optional<Collision> collide(const Ray& ray, float direction_density, Sampler& sampler,
                                    glm::vec3& emitted) const;
-  /// An unbiased estimate of the transmittance of all media: ratio tracking (Novak et al. 2014, "Residual
-  /// Ratio Tracking for Estimating Attenuation in Participating Media"), with Russian roulette.
+  /// An unbiased estimate of the transmittance of all media: residual ratio tracking (Novak et al. 2014,
+  /// "Residual Ratio Tracking for Estimating Attenuation in Participating Media") with the cells' least
+  /// extinctions as control, and Russian roulette.
   float transmittance(const Ray& ray, Sampler& sampler) const;
 
   std::span<const std::unique_ptr<Medium>> all() const { return media_; }
