@@ -10,8 +10,8 @@ def _scenes(results):
     rows = [{**row, "whole": _percent(row["whole"]), "largest": _percent(row["largest"]),
              "largest_error": _percent(row["largest_error"], False),
              "off": f"{row['off']} of {row['parts']}"} for row in results["scenes"]]
-    columns = (("scene", "scene"), ("surfaces", "surfaces"), ("whole", "whole picture %"), ("largest", "largest part %"),
-               ("largest_error", "its standard error %"), ("off", "parts off"), ("brume_cpu", "Brume CPU s"),
+    columns = (("scene", "scene"), ("surfaces", "surfaces"), ("whole", "whole picture %"),
+               ("largest", "largest part %"), ("largest_error", "its standard error %"), ("off", "parts off"), ("brume_cpu", "Brume CPU s"),
                ("cycles_cpu", "Cycles CPU s"))
     return table(rows, columns)
 
@@ -32,8 +32,9 @@ def markdown(results):
     parts = [f"# Brume's reference and Cycles {results['cycles']}\n", f"{results['machine']}.\n"]
     if results["scenes"]:
         parts.append(f"{size}, Brume {results['brume_samples']} samples, Cycles {results['seeds']} pictures of "
-                     f"{results['samples']} samples, its steps {results['step_rate']:g} of a voxel. Mean radiance of the "
-                     "parts of a grid of 4x3; differences of Brume from Cycles.\n")
+                     f"{results['samples']} samples, with volumes a quarter of that in steps of "
+                     f"{results['step_rate']:g} voxels. Mean radiance of the parts of a grid of 4x3; differences of "
+                     "Brume from Cycles.\n")
         parts.append(_scenes(results))
     if results["speed"]:
         speed = results["speed"]

@@ -67,6 +67,6 @@ def measure(comparison):
     rows += [cycles(comparison, scene, step_rate) for step_rate in options.speed_step_rate or [1]]
     for row in rows:
         row["ratio"] = row["cost"] / rows[0]["cost"]
-        comparison.say(f"{row['renderer']}: {row['cpu']:.1f} CPU s, error {row['error']:.2f} %, mean {row['mean']:.5f}, "
-                       f"{row['ratio']:.2f} times Brume's time at equal error")
+        comparison.say(f"{row['renderer']}: {row['cpu']:.1f} CPU s, error {row['error']:.2f} %, mean "
+                       f"{row['mean']:.5f}, {row['ratio']:.2f} times Brume's time at equal error")
     return {"edge": options.speed_edge, "size": options.speed_size, "repeat": options.repeat, "rows": rows}

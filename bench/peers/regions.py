@@ -6,7 +6,7 @@ import pictures
 ACROSS, DOWN = 4, 3
 MOST = 0.01  # relative difference that is allowed beside the noise
 SIGMAS = 3
-DARK = 0.02  # a part whose mean is less than this fraction of the picture's brightest is not judged: name, not number
+DARK = 0.02  # of the brightest part: what is less is listed and not judged
 
 
 class Estimate:
