@@ -11,9 +11,7 @@
 namespace brume::reference {
 namespace {
 
-/// Bounds are cells as large as bricks; where media emit, which cells are sampled for, as the parts of a
-/// BrickField.
-constexpr int kBrickVoxels = 8, kEmittingCellVoxels = 4;
+constexpr int kBrickVoxels = 8, kPartVoxels = 4;
 
 /// Voxels that parts of both have in common count as cells of the first's majorants.
 void raise(Majorants& majorants, const Box<int>& all, const Box<int>& voxels, float bound) {
@@ -148,13 +146,24 @@ void VolumeMedium::lower_least(const Box<int>& part, const Box<int>& all, float 
               [&](glm::ivec3 at) { majorants_.lower_least(at, least); });
 }
 
+/// Bounds are cells as large as bricks where light passes whole ones; else, and where media emit, which cells
+/// are sampled for, as the parts of a BrickField.
+int VolumeMedium::cell_voxels() const {
+  const float edge = kBrickVoxels * std::cbrt(std::abs(glm::determinant(glm::mat3(input_.world_from_voxel))));
+  float densest = 0;
+  values_.for_each_part([&](const Box<int>&, glm::vec1 low, glm::vec1 high) {
+    densest = std::max(densest, density_bound(low.x, high.x));
+  });
+  return emits_ || input_.look.extinction * densest * edge > 1 ? kPartVoxels : kBrickVoxels;
+}
+
 void VolumeMedium::find_majorants() {
   const glm::vec3 amplitude = effect_.amplitude;
   Box<int> all = values_.voxels();
   if (all.empty()) return;
   const glm::ivec3 reach(glm::ceil(amplitude * 0.125f));
   all = {all.low - 8 * reach, all.high + 8 * reach};
-  majorants_ = Majorants(input_.world_from_voxel, all, emits_ ? kEmittingCellVoxels : kBrickVoxels);
+  majorants_ = Majorants(input_.world_from_voxel, all, cell_voxels());
   // What glows has possible collisions, about one in each cell.
   const float edge = static_cast<float>(majorants_.cell_voxels()) *
                      std::cbrt(std::abs(glm::determinant(glm::mat3(input_.world_from_voxel))));
