@@ -78,6 +78,8 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
                   "Largest radiance that a path adds after its first bounce (biased)")
       .range(1e-6, 1e9)
       .type_name("L");
+  arguments.add_flag("--matte", options.matte,
+                     "All surfaces follow Lambert's law, without highlights (not as --mode realtime)");
   arguments
       .add_option("--checkpoint", options.checkpoint,
                   "Keep the samples in a file, from which the same command goes on")
@@ -88,8 +90,8 @@ std::vector<std::string> texts_of(const ReferenceOptions& options) {
   const auto text = [](const auto& number) {
     return number ? scene::shown(static_cast<double>(*number)) : std::string();
   };
-  return {text(options.samples), text(options.noise), text(options.time_limit), text(options.max_bounces),
-          text(options.clamp)};
+  return {text(options.samples),     text(options.noise), text(options.time_limit),
+          text(options.max_bounces), text(options.clamp), options.matte ? "matte" : ""};
 }
 
 ReferenceFrames::ReferenceFrames(const scenario::Scenario& scenario,
@@ -123,7 +125,7 @@ Picture ReferenceFrames::draw(double seconds) {
       planning::frame_input(scenario_, *simulation_, seconds, holes, {.particles = false});
   if (camera_) frame.view.camera = *camera_;
   if (exposure_) frame.view.exposure = *exposure_;
-  const auto scene = reference::make_scene(scenario_.scene, frame, &scenario_.masks);
+  const auto scene = reference::make_scene(scenario_.scene, frame, &scenario_.masks, options_.matte);
 
   reference::RenderSettings settings;
   settings.size_px = size_px_;

@@ -15,6 +15,7 @@ namespace brume::cli {
 struct ReferenceOptions {
   std::optional<std::uint32_t> samples, max_bounces;
   std::optional<double> noise, time_limit, clamp;
+  bool matte = false;
   std::string checkpoint;
 };
 

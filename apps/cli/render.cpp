@@ -89,7 +89,7 @@ void refuse_other_mode(const Arguments& arguments, const RenderOptions& options,
     return;
   }
   for (const char* option :
-       {"--samples", "--noise", "--time-limit", "--max-bounces", "--clamp", "--checkpoint"})
+       {"--samples", "--noise", "--time-limit", "--max-bounces", "--clamp", "--matte", "--checkpoint"})
     arguments.refuse(option, "requires --mode reference");
 }
 

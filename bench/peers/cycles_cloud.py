@@ -98,10 +98,17 @@ def settings(scene, out, samples):
     cycles.device = "CPU"
     cycles.samples = samples
     cycles.use_adaptive_sampling = cycles.use_denoising = False
-    # No second scattering, and rays through the middles of pixels.
-    cycles.volume_bounces = 0
+    cycles.seed = scene.get("seed", 0)
     cycles.pixel_filter_type = "BOX"
-    cycles.filter_width = 0.01
+    if "bounces" in scene:
+        cycles.volume_bounces = cycles.max_bounces = scene["bounces"]
+        cycles.filter_width = 1
+        cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
+        cycles.volume_step_rate = scene["step_rate"]
+    else:
+        # No second scattering, and rays through the middles of pixels.
+        cycles.volume_bounces = 0
+        cycles.filter_width = 0.01
     cycles.light_sampling_threshold = 0
     # It draws a volume inside a mesh around its voxels, and each time that a ray to the sun enters or leaves counts;
     # rays with more would be blocked.

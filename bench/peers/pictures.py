@@ -66,8 +66,8 @@ def _unzip(block, length):
     return bytes(mixed)
 
 
-def read_exr(path):
-    """The mean of R, G and B of an OpenEXR file of scan lines, plain or ZIP compressed (the format's specification,
+def read_exr(path, channels=("R", "G", "B")):
+    """The mean of channels of an OpenEXR file of scan lines, plain or ZIP compressed (the format's specification,
     "OpenEXR File Layout")."""
     with open(path, "rb") as file:
         data = file.read()
@@ -80,8 +80,8 @@ def read_exr(path):
         raise ValueError(f"{path}: expected no compression, or ZIP")
     left, top, right, bottom = struct.unpack("<iiii", header["dataWindow"])
     width, height = right - left + 1, bottom - top + 1
-    channels = _channels(header["channels"])
-    row_bytes = width * sum(size for _, _, size in channels)
+    stored = _channels(header["channels"])
+    row_bytes = width * sum(size for _, _, size in stored)
     blocks = (height + lines - 1) // lines
     values = [0.0] * (width * height)
     for offset in struct.unpack_from(f"<{blocks}Q", data, at):
@@ -91,11 +91,11 @@ def read_exr(path):
         position = 0
         for y in range(first - top, first - top + count):
             sums = [0.0] * width
-            for name, kind, size in channels:
-                if name in ("R", "G", "B"):
+            for name, kind, size in stored:
+                if name in channels:
                     sums = list(map(sum, zip(sums, struct.unpack_from(f"<{width}{kind}", plain, position))))
                 position += width * size
-            values[y * width:(y + 1) * width] = [value / 3 for value in sums]
+            values[y * width:(y + 1) * width] = [value / len(channels) for value in sums]
     return Picture(width, height, values)
 
 

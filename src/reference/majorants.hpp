@@ -35,6 +35,16 @@ class Majorants {
   const glm::ivec3& size() const { return size_; }
   int cell_voxels() const { return cell_; }
   float& at(const glm::ivec3& cell) { return bounds_[index(cell)]; }
+  /// The extinction in a part of a cell is nowhere less; the least of all parts counts.
+  void lower_least(const glm::ivec3& cell, float least) {
+    if (least_.empty()) least_.resize(bounds_.size(), std::numeric_limits<float>::infinity());
+    float& stored = least_[index(cell)];
+    stored = glm::min(stored, least);
+  }
+  /// 0 where nothing was said.
+  float least(std::uint32_t cell) const {
+    return least_.empty() || least_[cell] > bounds_[cell] ? 0 : least_[cell];
+  }
   std::uint32_t count() const { return static_cast<std::uint32_t>(bounds_.size()); }
   /// By the number of a cell, below count().
   float bound(std::uint32_t cell) const { return bounds_[cell]; }
@@ -51,8 +61,14 @@ class Majorants {
   /// it returns true. Amanatides and Woo 1987, "A Fast Voxel Traversal Algorithm for Ray Tracing".
   template <typename Visit>
   void traverse(const Ray& ray, const Visit& visit) const {
+    traverse_between(ray,
+                     [&](float begin, float end, float, float bound) { return visit(begin, end, bound); });
+  }
+  /// The same with visit(begin, end, least, bound).
+  template <typename Visit>
+  void traverse_between(const Ray& ray, const Visit& visit) const {
     traverse_cells(ray, [&](float begin, float end, std::uint32_t cell) {
-      return bounds_[cell] > 0 && visit(begin, end, bounds_[cell]);
+      return bounds_[cell] > 0 && visit(begin, end, least(cell), bounds_[cell]);
     });
   }
   /// The same with the numbers of all cells: visit(begin, end, cell).
@@ -71,7 +87,7 @@ class Majorants {
   glm::ivec3 low_voxel_{0}, size_{0};
   int cell_ = 1;
   float cell_volume_ = 0;
-  std::vector<float> bounds_;
+  std::vector<float> bounds_, least_;
 };
 
 template <typename Visit>
@@ -107,7 +123,9 @@ void Majorants::traverse_cells(const Ray& ray, const Visit& visit) const {
                      : (static_cast<float>(cell[axis] + (step[axis] > 0)) - from[axis]) * inverse[axis];
   }
   while (true) {
-    const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
+    // Without branches, whose outcome nothing foretells.
+    const int of_two = next.y < next.x ? 1 : 0;
+    const int axis = next.z < glm::min(next.x, next.y) ? 2 : of_two;
     const float leave = glm::min(next[axis], end);
     if (leave > t && visit(t, leave, static_cast<std::uint32_t>(index(cell)))) return;
     if (!(next[axis] < end)) return;

@@ -10,6 +10,19 @@ float random_depth(Sampler& sampler) {
   return -std::log(1 - sampler.random());
 }
 
+/// Transmittance below which roulette is cheaper than to go on, and an optical depth that surely leads below
+/// it.
+constexpr float kLittle = 0.1f, kSeen = 2.5f;
+
+/// Roulette for a ray whose transmittance is `passed` exp(-`certain`): little becomes kLittle, or 0 and true.
+bool ends(float& passed, float& certain, Sampler& sampler) {
+  const float now = passed * std::exp(-certain);
+  if (now >= kLittle) return false;
+  certain = 0;
+  passed = sampler.random() * kLittle < now ? kLittle : 0.0f;
+  return passed <= 0;
+}
+
 /// What a possible collision emits towards the ray's origin.
 struct Glint {
   float t;
@@ -32,7 +45,7 @@ std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::v
   glints.clear();
   for (const auto& medium : media_) {
     float depth = random_depth(sampler);
-    medium->majorants().traverse(rest, [&](float begin, float end, float bound) {
+    medium->majorants().traverse_between(rest, [&](float begin, float end, float least, float bound) {
       float t = begin;
       while (true) {
         const float to_next = depth / bound;
@@ -44,7 +57,8 @@ std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::v
         const glm::vec3 p = ray.at(t);
         // Possible collisions lie as densely as the bound times the transmittance.
         if (medium->emits()) glints.push_back({t, medium->emission(p) / bound});
-        if (sampler.random() * bound < medium->extinction(p)) {
+        const float chosen = sampler.random() * bound;
+        if (chosen < least || chosen < medium->extinction(p)) {
           first = Collision{t, medium.get()};
           rest.end = t;
           return true;
@@ -59,32 +73,28 @@ std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::v
 }
 
 float Media::transmittance(const Ray& ray, Sampler& sampler) const {
-  // Below, roulette is cheaper than to go on.
-  constexpr float kLittle = 0.1f;
   float passed = 1;
   for (const auto& medium : media_) {
     float depth = random_depth(sampler);
-    medium->majorants().traverse(ray, [&](float begin, float end, float bound) {
+    float certain = 0;  // optical depth of what is everywhere in the cells
+    medium->majorants().traverse_between(ray, [&](float begin, float end, float least, float bound) {
+      certain += least * (end - begin);
+      const float rest = bound - least;
       float t = begin;
       while (true) {
-        const float to_next = depth / bound;
+        const float to_next = depth / rest;
         if (t + to_next >= end) {
-          depth -= (end - t) * bound;
-          return false;
+          depth -= (end - t) * rest;
+          return certain > kSeen && ends(passed, certain, sampler);
         }
         t += to_next;
-        passed *= 1 - medium->extinction(ray.at(t)) / bound;
-        if (passed < kLittle) {
-          if (sampler.random() * kLittle >= passed) {
-            passed = 0;
-            return true;
-          }
-          passed = kLittle;
-        }
+        passed *= 1 - (medium->extinction(ray.at(t)) - least) / rest;
+        if (passed < kLittle && ends(passed, certain, sampler)) return true;
         depth = random_depth(sampler);
       }
     });
     if (passed <= 0) return 0;
+    passed *= std::exp(-certain);
   }
   return passed;
 }

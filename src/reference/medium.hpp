@@ -54,8 +54,9 @@ class Media {
   /// in each medium, of which the nearest counts. Adds to `emitted` an estimate of what is emitted towards
   /// the ray's origin before that.
   std::optional<Collision> collide(const Ray& ray, Sampler& sampler, glm::vec3& emitted) const;
-  /// An unbiased estimate of the transmittance of all media: ratio tracking (Novak et al. 2014, "Residual
-  /// Ratio Tracking for Estimating Attenuation in Participating Media"), with Russian roulette.
+  /// An unbiased estimate of the transmittance of all media: residual ratio tracking (Novak et al. 2014,
+  /// "Residual Ratio Tracking for Estimating Attenuation in Participating Media") with the cells' least
+  /// extinctions as control, and Russian roulette.
   float transmittance(const Ray& ray, Sampler& sampler) const;
 
   std::span<const std::unique_ptr<Medium>> all() const { return media_; }

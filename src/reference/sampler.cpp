@@ -47,7 +47,15 @@ std::uint32_t Sampler::point_in_sequence(std::uint32_t dimension) const {
     const std::uint32_t order = kOrders[(std::uint64_t{mix_bits(higher ^ seed ^ digit << 27)} * 24) >> 32];
     shuffled = shuffled << 2 | (order >> (2 * (morton_ >> (2 * digit) & 3u)) & 3u);
   }
-  return shuffled << block_bits_ | in_block_;
+  if (block_bits_ == 0) return shuffled;
+  // The points of a block come in another order in each dimension and pixel: otherwise the k-th of all
+  // dimensions would lie in strata that belong together, and paths would meet a part of what they can only.
+  // Nested, so that parts of a block are stratified, too.
+  const std::uint32_t unused = 32 - block_bits_;
+  const std::uint32_t mine = trace::first_scrambled(trace::reversed_bits(in_block_) >> unused,
+                                                    mix_bits(morton_ ^ mix_bits(~seed))) >>
+                             unused;
+  return shuffled << block_bits_ | mine;
 }
 
 float Sampler::next_1d() {

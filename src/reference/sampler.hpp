@@ -28,7 +28,9 @@ constexpr std::uint32_t mix_bits(std::uint32_t x) {
 ///   Sobol sequence, in blocks that double: 1, 1, 2, 4, ... Within a block, the pixels take successive
 ///   points of one sequence along a shuffled Morton curve, so that what neighbours get wrong cancels out
 ///   (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical
-///   Ordering of Pixels"). Every block has its own scrambling, so that blocks are independent.
+///   Ordering of Pixels"). Every block has its own scrambling, so that blocks are independent. Each pixel
+///   takes its points of a block in an order of its own in each dimension, so that dimensions are
+///   independent.
 /// - `random` is an independent sequence, for decisions whose number is unknown.
 class Sampler {
  public:

@@ -70,7 +70,7 @@ void sum_emitters(Scene& scene) {
 }
 
 std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::FrameInput& frame,
-                                  const smoke::MaskAtlas* masks) {
+                                  const smoke::MaskAtlas* masks, bool matte) {
   std::vector<std::unique_ptr<Medium>> media;
   if (frame.smoke.volume && frame.smoke.volume->slot_count() > 0 && frame.smoke.look.extinction > 0)
     media.push_back(std::make_unique<SmokeMedium>(frame.smoke, noise_tile, masks));
@@ -78,8 +78,10 @@ std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::Fra
     media.push_back(std::make_unique<VolumeMedium>(volume, noise_tile));
   std::vector<shared::Light> lights = planning::device_lights(scene.lights, 0);
   lights.insert(lights.end(), frame.environment.flashes.begin(), frame.environment.flashes.end());
-  std::unique_ptr<Scene> out(new Scene{
-      {scene, frame.level}, Media(std::move(media)), std::move(lights), {.sky = frame.environment.sky}});
+  std::unique_ptr<Scene> out(new Scene{{scene, frame.level, matte},
+                                       Media(std::move(media)),
+                                       std::move(lights),
+                                       {.sky = frame.environment.sky}});
   sum_emitters(*out);
   return out;
 }

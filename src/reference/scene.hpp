@@ -51,9 +51,9 @@ struct Scene {
 void sum_emitters(Scene& scene);
 
 /// What a frame shows, without what stands in for light that paths find themselves: FrameInput's glow, decals
-/// and particles, and Sky::bounce. `scene`, the masks and what the frame points to must outlive it. Throws
-/// resource_limit.
+/// and particles, and Sky::bounce. `scene`, the masks and what the frame points to must outlive it. `matte`:
+/// see Surfaces. Throws resource_limit.
 std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::FrameInput& frame,
-                                  const smoke::MaskAtlas* masks);
+                                  const smoke::MaskAtlas* masks, bool matte = false);
 
 }  // namespace brume::reference

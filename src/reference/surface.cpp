@@ -25,8 +25,9 @@ float luminance(const glm::vec3& c) {
 
 glm::vec3 fresnel(const Reflection& s, float h_v) {
   const glm::vec3 f0 = glm::mix(glm::vec3(0.04f), s.albedo, s.metallic);
+  const float factor = glm::mix(s.highlight, 1.0f, s.metallic);
   const float grazing = 1 - std::clamp(h_v, 0.0f, 1.0f), grazing2 = grazing * grazing;
-  return f0 + (1.0f - f0) * (grazing2 * grazing2 * grazing);
+  return factor * (f0 + (1.0f - f0) * (grazing2 * grazing2 * grazing));
 }
 
 }  // namespace
@@ -52,6 +53,7 @@ glm::vec3 Reflection::value(const glm::vec3& view, const glm::vec3& to_light) co
 }
 
 float Reflection::specular_share(const glm::vec3& view) const {
+  if (highlight <= 0 && metallic <= 0) return 0;
   const float specular = luminance(fresnel(*this, glm::dot(normal, view)));
   const float diffuse = luminance(albedo) * (1 - metallic);
   // Never without either, so that both shapes are found.

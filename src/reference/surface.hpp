@@ -14,6 +14,7 @@ struct Reflection {
   glm::vec3 albedo{0};
   float roughness = 1;  ///< [0, 1], perceptual.
   float metallic = 0;
+  float highlight = 1;  ///< Factor of Fresnel's term of what is no metal; 0: Lambert's law alone.
 
   /// Radiance towards `view` for unit irradiance of a surface that faces `to_light`: the reflectance times
   /// the cosine. 0 from below.

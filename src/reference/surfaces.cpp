@@ -54,7 +54,8 @@ const image::Image8* image_of(const scene::Scene& scene, std::uint32_t index) {
 
 }  // namespace
 
-Surfaces::Surfaces(const scene::Scene& scene, const planning::LevelState& level) : scene_(scene) {
+Surfaces::Surfaces(const scene::Scene& scene, const planning::LevelState& level, bool matte)
+    : scene_(scene), matte_(matte) {
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     if (!std::ranges::binary_search(level.hidden_objects, i))
       add(scene.objects[i], scene.objects[i].world_from_mesh);
@@ -208,6 +209,7 @@ void Surfaces::shade(const Part& part, std::uint32_t triangle, const glm::vec2& 
   hit.reflection.albedo = glm::clamp(base * material.base_color, 0.0f, 1.0f);
   hit.reflection.roughness = std::clamp(material.roughness * rough_metal.x, 0.0f, 1.0f);
   hit.reflection.metallic = std::clamp(material.metallic * rough_metal.y, 0.0f, 1.0f);
+  if (matte_) hit.reflection.highlight = hit.reflection.metallic = 0;
   hit.emission = material.emission;
 
   // Normal.

@@ -34,8 +34,9 @@ struct Emitter {
 
 class Surfaces {
  public:
-  /// What `level` shows of the scene, which must outlive it. Throws what TriangleTree::build fails with.
-  Surfaces(const scene::Scene& scene, const planning::LevelState& level);
+  /// What `level` shows of the scene, which must outlive it. `matte`: all surfaces follow Lambert's law,
+  /// without highlights. Throws what TriangleTree::build fails with.
+  Surfaces(const scene::Scene& scene, const planning::LevelState& level, bool matte = false);
 
   std::optional<SurfaceHit> hit(const Ray& ray) const;
   /// Distance of the nearest surface on a ray; its end where there is none before [m].
@@ -69,6 +70,7 @@ class Surfaces {
              SurfaceHit& hit) const;
 
   const scene::Scene& scene_;
+  bool matte_;
   std::vector<std::unique_ptr<Part>> parts_;  // at fixed addresses
   std::vector<Emitter> emitters_;
   trace::TriangleTree tree_;

@@ -11,8 +11,7 @@
 namespace brume::reference {
 namespace {
 
-/// Bounds are cells of so many voxels, as large as the parts of a BrickField.
-constexpr int kCellVoxels = 4;
+constexpr int kBrickVoxels = 8, kPartVoxels = 4;
 
 /// Voxels that parts of both have in common count as cells of the first's majorants.
 void raise(Majorants& majorants, const Box<int>& all, const Box<int>& voxels, float bound) {
@@ -134,13 +133,37 @@ bool VolumeMedium::glows_in(const Box<int>& voxels) const {
          glm::all(glm::greaterThan(high, glm::vec3(all.low)));
 }
 
+void VolumeMedium::lower_least(const Box<int>& part, const Box<int>& all, float low) {
+  const int cell = majorants_.cell_voxels();
+  // Every cell is a part of one brick, all of whose parts are visited.
+  if (cell > kBrickVoxels) return;
+  const shared::VolumeLayout& layout = input_.volume->layout();
+  const bool is_known = low > 0 && effect_.amplitude.x <= 0 && !transfer_.has_opacity() &&
+                        glm::all(glm::greaterThanEqual(glm::vec3(part.low), layout.bounds_min)) &&
+                        glm::all(glm::lessThanEqual(glm::vec3(part.high), layout.bounds_max));
+  const float least = is_known ? input_.look.extinction * low / kBoundSlack : 0;
+  for_each_in(Box<int>{(part.low - all.low) / cell, (part.high - 1 - all.low) / cell + 1},
+              [&](glm::ivec3 at) { majorants_.lower_least(at, least); });
+}
+
+/// Bounds are cells as large as bricks where light passes whole ones; else, and where media emit, which cells
+/// are sampled for, as the parts of a BrickField.
+int VolumeMedium::cell_voxels() const {
+  const float edge = kBrickVoxels * std::cbrt(std::abs(glm::determinant(glm::mat3(input_.world_from_voxel))));
+  float densest = 0;
+  values_.for_each_part([&](const Box<int>&, glm::vec1 low, glm::vec1 high) {
+    densest = std::max(densest, density_bound(low.x, high.x));
+  });
+  return emits_ || input_.look.extinction * densest * edge > 1 ? kPartVoxels : kBrickVoxels;
+}
+
 void VolumeMedium::find_majorants() {
   const glm::vec3 amplitude = effect_.amplitude;
   Box<int> all = values_.voxels();
   if (all.empty()) return;
   const glm::ivec3 reach(glm::ceil(amplitude * 0.125f));
   all = {all.low - 8 * reach, all.high + 8 * reach};
-  majorants_ = Majorants(input_.world_from_voxel, all, kCellVoxels);
+  majorants_ = Majorants(input_.world_from_voxel, all, cell_voxels());
   // What glows has possible collisions, about one in each cell.
   const float edge = static_cast<float>(majorants_.cell_voxels()) *
                      std::cbrt(std::abs(glm::determinant(glm::mat3(input_.world_from_voxel))));
@@ -148,6 +171,7 @@ void VolumeMedium::find_majorants() {
   values_.for_each_part([&](const Box<int>& part, glm::vec1 low, glm::vec1 high) {
     float bound = kBoundSlack * input_.look.extinction * density_bound(low.x, high.x);
     if (emits_ && glows_in(part)) bound = std::max(bound, 1 / edge);
+    lower_least(part, all, low.x);
     if (bound > 0) raise(majorants_, all, {part.low - moved, part.high + moved}, bound);
   });
 }

@@ -48,7 +48,9 @@ class VolumeMedium final : public Medium {
   float density_at(const glm::vec3& p_voxel) const;
   float density_bound(float low, float high) const;
   glm::vec4 masks_at(const glm::vec3& p_voxel) const;
+  int cell_voxels() const;
   void find_majorants();
+  void lower_least(const Box<int>& part, const Box<int>& all, float low);
   bool glows_in(const Box<int>& voxels) const;
 
   const planning::VolumeInput& input_;

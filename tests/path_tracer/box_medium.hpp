@@ -19,6 +19,7 @@ class BoxMedium final : public Medium {
     float largest = 1;  ///< Of the extinction; the bound.
     glm::vec3 albedo{1};
     std::function<glm::vec3(const glm::vec3&)> emission = nullptr;
+    float least = 0;  ///< Of the extinction, as far as is known.
   };
   /// `cells` along each axis, with `matter.largest` as their bound.
   BoxMedium(const Box<float>& box, const Matter& matter, const shared::Phase& phase,
@@ -27,8 +28,10 @@ class BoxMedium final : public Medium {
     const glm::mat4 world_from_voxel =
         glm::scale(glm::translate(glm::mat4(1), box.low), (box.high - box.low) / glm::vec3(cells));
     majorants_ = Majorants(world_from_voxel, {glm::ivec3(0), cells}, 1);
-    for_each_in(Box<int>{glm::ivec3(0), cells},
-                [&](glm::ivec3 cell) { majorants_.at(cell) = matter.largest; });
+    for_each_in(Box<int>{glm::ivec3(0), cells}, [&](glm::ivec3 cell) {
+      majorants_.at(cell) = matter.largest;
+      majorants_.lower_least(cell, matter.least);
+    });
   }
   float extinction(const glm::vec3& p) const override { return box_.contains(p) ? matter_.extinction(p) : 0; }
   glm::vec3 albedo(const glm::vec3&) const override { return matter_.albedo; }
@@ -54,8 +57,8 @@ inline Media media_of(std::unique_ptr<Medium> medium) {
 
 /// A scene of objects, media and lights; its sky is black.
 inline std::unique_ptr<Scene> scene_of(const scene::Scene& objects, Media media,
-                                       std::vector<shared::Light> lights = {}) {
-  std::unique_ptr<Scene> scene(new Scene{{objects, {}}, std::move(media), std::move(lights), {}});
+                                       std::vector<shared::Light> lights = {}, bool matte = false) {
+  std::unique_ptr<Scene> scene(new Scene{{objects, {}, matte}, std::move(media), std::move(lights), {}});
   sum_emitters(*scene);
   return scene;
 }

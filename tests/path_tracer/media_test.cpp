@@ -16,12 +16,22 @@ struct Case {
   glm::ivec3 cells;
 };
 std::vector<Case> cases() {
-  return {{"constant", constant(0.7f, 1), 0.7 * 5, {1, 1, 1}},
-          {"constant in cells", constant(0.7f, 1), 0.7 * 5, {3, 1, 7}},
-          {"thin", constant(1e-3f, 1), 5e-3, {1, 1, 1}},
-          {"ramp", {[](const glm::vec3& p) { return 0.2f * p.z; }, 1}, 0.2 * 12.5, {2, 2, 2}},
-          {"far below its bound", {[](const glm::vec3&) { return 0.1f; }, 20}, 0.5, {1, 1, 4}},
-          {"two layers", {[](const glm::vec3& p) { return p.z < 2 ? 0.0f : 0.5f; }, 0.5f}, 1.5, {1, 1, 5}}};
+  return {
+      {"constant", constant(0.7f, 1), 0.7 * 5, {1, 1, 1}},
+      {"constant in cells", constant(0.7f, 1), 0.7 * 5, {3, 1, 7}},
+      {"thin", constant(1e-3f, 1), 5e-3, {1, 1, 1}},
+      {"ramp", {[](const glm::vec3& p) { return 0.2f * p.z; }, 1}, 0.2 * 12.5, {2, 2, 2}},
+      {"far below its bound", {[](const glm::vec3&) { return 0.1f; }, 20}, 0.5, {1, 1, 4}},
+      {"known", {[](const glm::vec3&) { return 0.7f; }, 0.7f, glm::vec3(1), nullptr, 0.7f}, 3.5, {1, 1, 3}},
+      {"known in part",
+       {[](const glm::vec3& p) { return 0.2f + 0.1f * p.z; }, 1, glm::vec3(1), nullptr, 0.2f},
+       2.25,
+       {2, 2, 2}},
+      {"dense, known in part",
+       {[](const glm::vec3& p) { return 0.62f + 0.03f * p.z; }, 0.8f, glm::vec3(1), nullptr, 0.6f},
+       3.475,
+       {1, 1, 6}},
+      {"two layers", {[](const glm::vec3& p) { return p.z < 2 ? 0.0f : 0.5f; }, 0.5f}, 1.5, {1, 1, 5}}};
 }
 
 TEST(MediaTest, TransmittanceIsExact) {
@@ -56,9 +66,10 @@ TEST(MediaTest, RaysEndWhereTheySay) {
 
 TEST(MediaTest, CollisionsLieWhereTheExtinctionIs) {
   // Their distances follow exp(-depth).
-  const Media media = media_of(std::make_unique<BoxMedium>(
-      kBox, BoxMedium::Matter{[](const glm::vec3& p) { return 0.3f * p.z; }, 1.5f}, shared::phase_of_hg(0),
-      glm::ivec3(4)));
+  const BoxMedium::Matter ramp{[](const glm::vec3& p) { return 0.1f + 0.3f * p.z; }, 1.6f, glm::vec3(1),
+                               nullptr, 0.1f};
+  const Media media =
+      media_of(std::make_unique<BoxMedium>(kBox, ramp, shared::phase_of_hg(0), glm::ivec3(4)));
   constexpr int kCells = 20;
   std::vector<double> counts(kCells + 1), expected;
   for (std::uint32_t i = 0; i < kRays; ++i) {
@@ -67,7 +78,7 @@ TEST(MediaTest, CollisionsLieWhereTheExtinctionIs) {
     const auto collision = media.collide({{0.5f, 0.3f, 0}, {0, 0, 1}}, sampler, emitted);
     ++(collision ? counts[static_cast<std::size_t>(collision->t / 5 * kCells)] : counts.back());
   }
-  const auto passed = [](double z) { return std::exp(-0.15 * z * z); };
+  const auto passed = [](double z) { return std::exp(-0.1 * z - 0.15 * z * z); };
   for (int i = 0; i < kCells; ++i) expected.push_back(kRays * (passed(i * 0.25) - passed((i + 1) * 0.25)));
   expected.push_back(kRays * passed(5));
   expect_distribution(counts, expected);
@@ -124,6 +135,16 @@ TEST(MediaTest, EmissionIsDimmedByAllThatLiesBefore) {
   const double before = std::exp(-0.9), within = 2 * before * (1 - std::exp(-1.8)) / 0.9,
                after = 2 * 3 * std::exp(-2.7);
   expect_mean(mean_of(std::move(behind)), within + after, 0.01);
+}
+
+TEST(MajorantsTest, WhereNothingIsSaidTheLeastIsZero) {
+  Majorants cells(glm::mat4(1), {glm::ivec3(0), glm::ivec3(2, 1, 1)}, 1);
+  for (int x = 0; x < 2; ++x) cells.at({x, 0, 0}) = 3;
+  EXPECT_EQ(cells.least(1), 0);
+  cells.lower_least({0, 0, 0}, 2);
+  cells.lower_least({0, 0, 0}, 1);
+  EXPECT_EQ(cells.least(0), 1);
+  EXPECT_EQ(cells.least(1), 0);
 }
 
 TEST(MajorantsTest, RaysVisitTheCellsThatTheyCross) {

@@ -88,6 +88,29 @@ TEST(SamplerTest, ErrorsFallFasterThanThoseOfRandomNumbers) {
   EXPECT_LT(rms(1024), 0.2 * 0.198 / 32);
 }
 
+// What a path does with one dimension tells nothing about another: neither in a pixel, nor over many of them.
+TEST(SamplerTest, DimensionsAreIndependent) {
+  constexpr std::uint32_t kEdge = 32;
+  for (const glm::uvec2 dimensions :
+       {glm::uvec2(0, 1), glm::uvec2(1, 2), glm::uvec2(4, 10), glm::uvec2(5, 29)})
+    for (const std::uint32_t samples : {16u, 64u, 256u}) {
+      std::vector<double> counts(256);
+      double covariance = 0;
+      for (std::uint32_t i = 0; i < kEdge * kEdge * samples; ++i) {
+        Sampler sampler({i % kEdge, i / kEdge % kEdge}, samples + i / (kEdge * kEdge));
+        sampler.set_dimension(dimensions.x);
+        const float a = sampler.next_2d().x;
+        sampler.set_dimension(dimensions.y);
+        const float b = sampler.next_1d();
+        ++counts[static_cast<std::size_t>(16 * a) + 16 * static_cast<std::size_t>(16 * b)];
+        covariance += (double{a} - 0.5) * (double{b} - 0.5);
+      }
+      const double count = kEdge * kEdge * samples;
+      expect_distribution(counts, std::vector<double>(256, count / 256));
+      EXPECT_NEAR(covariance / count, 0, 4 / (12 * std::sqrt(count))) << dimensions.x << ' ' << dimensions.y;
+    }
+}
+
 TEST(SamplerTest, RandomNumbersAreUniformAndIndependentOfThePixelsAround) {
   std::vector<double> counts(256);
   for (std::uint32_t i = 0; i < 65536; ++i) {

@@ -158,13 +158,7 @@ TEST(SurfacesTest, GlowingMediaLightAsIntegrated) {
   }
 }
 
-// In a closed box that emits E and reflects r, radiance is E + r E + r^2 E ...; matte without Fresnel's part,
-// which no surface here has, so by the reflectance of the model itself: where all is alike, the sum over
-// bounces.
-TEST(SurfacesTest, AClosedBoxThatEmitsIsAFurnace) {
-  scene::Material material = matte(0.5f);
-  material.metallic = 0;
-  material.emission = glm::vec3(1);
+scene::Scene closed_box(const scene::Material& material) {
   scene::Scene scene;
   for (int axis = 0; axis < 3; ++axis)
     for (const float side : {-1.0f, 1.0f}) {
@@ -174,6 +168,27 @@ TEST(SurfacesTest, AClosedBoxThatEmitsIsAFurnace) {
       v[(axis + 2) % 3] = 1;
       add_square(scene, middle, u, v, material);
     }
+  return scene;
+}
+
+// By Lambert's law alone, radiance in a closed box that emits E and reflects r is E + r E + r^2 E ...,
+// whatever else its material is.
+TEST(SurfacesTest, AMatteBoxThatEmitsIsAFurnace) {
+  scene::Material material = matte(0.75f);
+  material.roughness = 0.2f;
+  material.metallic = 0.5f;
+  material.emission = glm::vec3(1);
+  const scene::Scene scene = closed_box(material);
+  const Ray ray{{0.2f, 0.1f, 0.3f}, glm::normalize(glm::vec3(0.5f, -0.7f, 0.2f))};
+  expect_mean(radiance(*scene_of(scene, {}, {}, true), ray, 1u << 15), 4, 0.01);
+}
+
+// With highlights it is the sum over bounces by the reflectance of the model itself.
+TEST(SurfacesTest, AClosedBoxThatEmitsIsAFurnace) {
+  scene::Material material = matte(0.5f);
+  material.metallic = 0;
+  material.emission = glm::vec3(1);
+  const scene::Scene scene = closed_box(material);
   // Directly: each path after its bounces, in double precision.
   const auto box = scene_of(scene, {});
   const Ray ray{{0.2f, 0.1f, 0.3f}, glm::normalize(glm::vec3(0.5f, -0.7f, 0.2f))};
