@@ -141,20 +141,31 @@ def noisy(reference, error, seed=1):
     return reference * numpy.maximum(1 + offset / numpy.maximum(luminance, 1e-9), 0)[..., None]
 
 
+def _palette(colours, counts):
+    """Up to 256 colours and the number of each given one's, by median cut (Heckbert 1982)."""
+    boxes = [numpy.arange(len(colours))]
+
+    def size(box):
+        return numpy.ptp(colours[box], axis=0).max() * counts[box].sum()**0.25
+    sizes = [size(boxes[0])]
+    while len(boxes) < 256 and max(sizes) > 0:
+        i = int(numpy.argmax(sizes))
+        box = boxes[i]
+        box = box[numpy.argsort(colours[box, int(numpy.argmax(numpy.ptp(colours[box], axis=0)))], kind="stable")]
+        sums = numpy.cumsum(counts[box])
+        cut = min(max(int(numpy.searchsorted(sums, sums[-1] / 2)), 1), len(box) - 1)
+        boxes[i:i + 1] = box[:cut], box[cut:]
+        sizes[i:i + 1] = size(box[:cut]), size(box[cut:])
+    number = numpy.zeros(len(colours), numpy.uint8)
+    for i, box in enumerate(boxes):
+        number[box] = i
+    return numpy.rint([numpy.average(colours[box], axis=0, weights=counts[box]) for box in boxes]), number
+
+
 def write_palette_png(path, rgb):
-    """Of at most 256 colours, so that the noise of path tracing costs less: the most frequent of a coarse cube."""
-    coarse = (rgb >> 3).astype(numpy.int32)
-    keys = (coarse[..., 0] << 10 | coarse[..., 1] << 5 | coarse[..., 2]).ravel()
-    found, counts = numpy.unique(keys, return_counts=True)
-    common = found[numpy.argsort(-counts)[:256]]
-    sums = numpy.stack([numpy.bincount(keys, rgb[..., c].ravel(), 1 << 15) for c in range(3)], axis=-1)
-    number = numpy.bincount(keys, minlength=1 << 15)
-    palette = numpy.rint(sums[common] / number[common][:, None])
-    # The nearest colour of the palette for every colour that occurs.
-    means = sums[found] / number[found][:, None]
-    nearest = ((means[:, None, :] - palette[None])**2).sum(axis=-1).argmin(axis=1)
-    of_key = numpy.zeros(1 << 15, numpy.uint8)
-    of_key[found] = nearest
-    rows = of_key[keys].reshape(rgb.shape[:2])
+    """Of at most 256 colours, so that the noise of path tracing costs less."""
+    colours, of_pixel, counts = numpy.unique(rgb.reshape(-1, 3), axis=0, return_inverse=True, return_counts=True)
+    palette, number = _palette(colours.astype(numpy.float64), counts)
+    rows = number[of_pixel].reshape(rgb.shape[:2])
     rows = numpy.concatenate([numpy.zeros((rows.shape[0], 1), numpy.uint8), rows], axis=1)
     _write(path, rgb.shape, 3, rows, _chunk(b"PLTE", palette.astype(numpy.uint8).tobytes()))
