@@ -31,11 +31,6 @@ float escape_of(uint block, uint local) {
   return escape;
 }
 
-/// Radiance from all directions under a uniform sky of radiance 1, without the level: a fraction p arrives directly,
-/// the rest was scattered in smoke as bright as here, dimmed by the albedo: J = p + albedo (1 - p) J. Without
-/// absorption the smoke is as bright as the sky, whatever its density.
-vec3 scattered_sky(float p) { return vec3(p) / (1.0 - frame.look.albedo * (1.0 - p)); }
-
 /// Mean overestimate of exp(-k depth) by linear interpolation between texels an optical depth of `step` apart:
 /// (x / 2) coth(x / 2) along an axis, x = k step; to second order 1 + x^2 / 12 in every direction.
 vec3 interpolation_excess(vec3 k, float step) { return 1.0 + k * k * (step * step / 12.0); }
@@ -66,7 +61,8 @@ void light_texel(LightGather brick, uint local) {
   ManyScatterings many = multiple_scattering(frame.look, escape);
   many.fraction *= excess / interpolation_excess(many.decay, texel_depth);
   const vec3 lights = scattered_lights(brick, local, p_world, many);
-  const vec3 sky = frame.sky.ambient * sky_visibility(p_world) * scattered_sky(escape);
+  const vec3 sky = frame.sky.ambient * sky_visibility(p_world) *
+                   scattered_sky(frame.look.albedo, frame.look.multiple_scattering, escape);
   imageStore(inscatter, at, vec4(sky + lights / excess, 1.0));
 }
 

@@ -122,8 +122,7 @@ void main() {
     }
     light.rgb += other_lights(p_world, albedo, many);
     const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
-    // A uniform sky: what does not arrive directly was scattered in a medium as bright as here.
-    const vec3 sky = vec3(escape) / (1.0 - look.albedo * (1.0 - escape));
+    const vec3 sky = scattered_sky(look.albedo, look.multiple_scattering, escape);
     light.rgb += albedo * frame.sky.ambient * open_sky * sky;
   }
   imageStore(light_target, ivec3(at), light);

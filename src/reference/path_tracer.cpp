@@ -59,7 +59,7 @@ class Path {
   void add_found_emitter(const SurfaceHit& hit, const Ray& ray);
   bool scatter(const Vertex& vertex, Ray& ray);
   bool roulette();
-  float visible(const Vertex& vertex, const glm::vec3& direction, float distance);
+  float visible(const Vertex& vertex, const glm::vec3& direction, float distance, float distance_of_surfaces);
   float density_of_emitter(const Emitter& emitter) const;
 
   const Scene& scene_;
@@ -82,11 +82,21 @@ void Path::add(const glm::vec3& radiance) {
   (bounces_ == 1 ? found_.single : found_.multiple) += sum;
 }
 
-/// Fraction of light that reaches a vertex from so far away.
-float Path::visible(const Vertex& vertex, const glm::vec3& direction, float distance) {
+/// Distance up to which surfaces hide a light: not those around it, such as its bulb, that its shadow map is
+/// too near to show (face_clip_from_world of the shadow pass).
+float distance_to_housing(const Incident& incident) {
+  const glm::vec3 along = glm::abs(incident.to_light);
+  return incident.distance - shared::kShadowNear / largest(along);
+}
+
+/// Fraction of light that reaches a vertex from so far away, past surfaces up to a distance.
+float Path::visible(const Vertex& vertex, const glm::vec3& direction, float distance,
+                    float distance_of_surfaces) {
   Ray ray = vertex.leaving(direction);
+  ray.end = distance_of_surfaces;
+  if (ray.end > 0 && scene_.surfaces.occluded(ray)) return 0;
   ray.end = distance;
-  return scene_.surfaces.occluded(ray) ? 0 : scene_.media.transmittance(ray, sampler_);
+  return scene_.media.transmittance(ray, sampler_);
 }
 
 /// One of the lights, in proportion to what it would add if nothing hid it.
@@ -106,7 +116,7 @@ void Path::add_lights(const Vertex& vertex) {
   while (i > 0 && largest(values[i]) <= 0) --i;
   if (largest(values[i]) <= 0) return;
   const Incident incident = light_at(scene_.lights[i], vertex.position);
-  const float passed = visible(vertex, incident.to_light, incident.distance);
+  const float passed = visible(vertex, incident.to_light, incident.distance, distance_to_housing(incident));
   if (passed > 0) add(values[i] * (passed * sum / largest(values[i])));
 }
 
@@ -137,7 +147,8 @@ void Path::add_emitters(const Vertex& vertex) {
   const glm::vec3 value = vertex.value(direction) * emitter.radiance;
   if (!(largest(value) > 0)) return;
   // Not as far as the emitter itself.
-  const float passed = visible(vertex, direction, distance * (1 - 1e-4f));
+  const float end = distance * (1 - 1e-4f);
+  const float passed = visible(vertex, direction, end, end);
   if (passed > 0) add(value * (passed * power_heuristic(density, vertex.density(direction)) / density));
 }
 

@@ -99,6 +99,23 @@ TEST(SurfacesTest, SurfacesHideLights) {
   EXPECT_EQ(radiance(*scene_of(floor, {}, {source}), kDown, 4, {.max_bounces = 1}).value(), 0);
 }
 
+// As its shadow map in real time, whose near plane is kShadowNear away from it along an axis.
+TEST(SurfacesTest, ALightsOwnBulbDoesNotHideIt) {
+  shared::Light source{};
+  source.kind = shared::kLightPoint;
+  source.position_world = {0, 1.5f, 0};
+  source.intensity = glm::vec3(7);
+  const scene::Scene floor = floor_of(matte(0.6f));
+  const double open = radiance(*scene_of(floor, {}, {source}), kDown, 4, {.max_bounces = 1}).value();
+  EXPECT_GT(open, 0);
+  for (const float away : {0.9f, 1.1f}) {
+    scene::Scene scene = floor;
+    add_square(scene, {0, 1.5f - away * shared::kShadowNear, 0}, {0, 0, 0.2f}, {0.2f, 0, 0}, matte(0));
+    EXPECT_EQ(radiance(*scene_of(scene, {}, {source}), kDown, 4, {.max_bounces = 1}).value(),
+              away < 1 ? open : 0);
+  }
+}
+
 // A square emitter above a floor: next-event estimation and sampled directions join to the integral over it.
 TEST(SurfacesTest, EmittersLightAsIntegrated) {
   for (const float roughness : {0.3f, 1.0f})

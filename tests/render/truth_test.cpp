@@ -213,6 +213,27 @@ TEST_F(TruthTest, InEvenLightSmokeWithoutAbsorptionIsNotSeen) {
   }
 }
 
+// What is scattered once is proportional to the albedo, the light of the sky as well.
+TEST_F(TruthTest, WithoutMultipleScatteringLightIsProportionalToTheAlbedo) {
+  TruthCase one = std::move(truth_cases().front());
+  one.scenario.timeline.sky.ambient = glm::vec3(0.5f);
+  Studio studio(one.scenario);
+  studio.input.smoke.look.multiple_scattering = 0;
+  std::vector<glm::dvec4> smoke[3];
+  for (int i = 0; i < 3; ++i) {
+    studio.input.smoke.look.albedo = glm::vec3(0.5f * static_cast<float>(i));
+    smoke[i] = studio.draw().smoke;
+  }
+  int compared = 0;
+  for (std::size_t i = 0; i < smoke[0].size(); ++i) {
+    EXPECT_EQ(smoke[0][i].g, 0) << "smoke that absorbs all";
+    // Halves of radiance and of light in the smoke.
+    EXPECT_NEAR(smoke[2][i].g, 2 * smoke[1][i].g, 0.002 * smoke[2][i].g + 1e-6);
+    compared += smoke[2][i].g > 0.05;
+  }
+  EXPECT_GT(compared, 200);
+}
+
 TEST_F(TruthTest, ALightBehindASlabIsDimmedAsBeerAndLambertSay) {
   // A closed room full of smoke that only absorbs; its far wall glows.
   scene::Scene scene;

@@ -298,6 +298,26 @@ TEST_F(VolumesTest, WithoutAbsorptionACloudIsAsBrightAsTheSky) {
   EXPECT_GT(opaque, 100);
 }
 
+// What is scattered once is proportional to the albedo.
+TEST_F(VolumesTest, SkylightThatIsScatteredOnceIsProportionalToTheAlbedo) {
+  const volume::SparseVolume cube = block({2, 2, 2});
+  input_.environment.sky = {};
+  input_.environment.sky.ambient = glm::vec3(0.5f);
+  const auto with_albedo = [&](float albedo) {
+    input_.volumes = {{&cube, oblique(cube, {-1, -1.5f, 0}, {3, 2, 4}), {}}};
+    input_.volumes[0].look = {glm::vec3(albedo), 2, glm::vec3(0), 0, 0};
+    return draw();
+  };
+  const auto half = with_albedo(0.5f), whole = with_albedo(1);
+  int compared = 0;
+  for (std::size_t i = 0; i < half.size(); ++i) {
+    // Light in the volume and radiance are half floats.
+    EXPECT_NEAR(whole[i].y, 2 * half[i].y, 0.003f * whole[i].y + 1e-6f) << i;
+    compared += whole[i].y > 0.05f;
+  }
+  EXPECT_GT(compared, 100);
+}
+
 // Heat alone, in bricks without density: radiance emission * extinction * length.
 TEST_F(VolumesTest, HeatGlowsWithoutAnyDensity) {
   const volume::SparseVolume empty = block({2, 2, 2}, 0), hot = block({2, 2, 2});
