@@ -287,7 +287,8 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   common.grace_seconds = kReferenceGrace;
   const double time = picture_time(options, loaded.scenario);
   RenderOptions without_limits = options;
-  without_limits.reference = {};
+  without_limits.reference = {};  // A checkpoint knows the limits itself.
+  without_limits.reference.matte = options.reference.matte;
   const std::vector<std::string> device{"reference", scene::shown(time)};
   ReferenceFrames frames(loaded.scenario, std::move(loaded.simulation), options.reference,
                          plan.renderer.size_px, plan.has_layers(),

@@ -87,6 +87,7 @@ TEST_F(ReferenceMode, RefusesCheckpointsOfOtherPictures) {
   const std::string before = bytes("a.brc");
   for (const std::vector<std::string>& other : {std::vector<std::string>{"--time", "0.3"},
                                                 {"--max-bounces", "1"},
+                                                {"--matte"},
                                                 {"--camera", "0,1,1.5 0,1,0 50"}}) {
     std::vector<std::string> arguments{"-o", "b.png", "--samples", "4", "--checkpoint", "a.brc"};
     arguments.insert(arguments.end(), other.begin(), other.end());
