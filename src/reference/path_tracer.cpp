@@ -28,7 +28,10 @@ struct Vertex {
 
   /// Radiance back along the path for unit irradiance from a direction, with the cosine of a surface.
   glm::vec3 value(const glm::vec3& to_light) const {
-    if (surface) return surface->reflection.value(-arriving, to_light);
+    // What comes from behind the triangle lights nothing, however its normals lean.
+    if (surface)
+      return glm::dot(surface->geometric_normal, to_light) > 0 ? surface->reflection.value(-arriving, to_light)
+                                                              : glm::vec3(0);
     return albedo * shared::phase_value(medium->phase(), glm::dot(arriving, to_light));
   }
   /// Probability per solid angle with which a direction is sampled.

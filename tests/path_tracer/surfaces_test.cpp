@@ -99,6 +99,20 @@ TEST(SurfacesTest, SurfacesHideLights) {
   EXPECT_EQ(radiance(*scene_of(floor, {}, {source}), kDown, 4, {.max_bounces = 1}).value(), 0);
 }
 
+// Where the normals of vertices lean towards a light behind the triangle.
+TEST(SurfacesTest, NoLightComesThroughLeaningNormals) {
+  scene::Scene floor = floor_of(matte(0.6f));
+  for (scene::Vertex& vertex : floor.meshes[0].vertices) vertex.normal = glm::normalize(glm::vec3(1, 0.4f, 0));
+  shared::Light source{};
+  source.kind = shared::kLightPoint;
+  source.intensity = glm::vec3(7);
+  for (const float height : {0.3f, -0.3f}) {
+    source.position_world = {2, height, 0};
+    const double found = radiance(*scene_of(floor, {}, {source}), kDown, 4, {.max_bounces = 1}).value();
+    EXPECT_EQ(found > 0, height > 0);
+  }
+}
+
 // As its shadow map in real time, whose near plane is kShadowNear away from it along an axis.
 TEST(SurfacesTest, ALightsOwnBulbDoesNotHideIt) {
   shared::Light source{};
