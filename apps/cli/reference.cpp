@@ -8,6 +8,7 @@
 #include "core/progress.hpp"
 #include "planning/device_camera.hpp"
 #include "planning/scenario_frame.hpp"
+#include "reference/motion.hpp"
 #include "reference/picture.hpp"
 #include "scene/text_reader.hpp"
 
@@ -51,6 +52,13 @@ class PictureProgress {
   std::uint64_t shown_ = 0;
 };
 
+/// A camera whose lens knows what is sharp.
+reference::Eye eye_of(const scene::Camera& camera, glm::uvec2 size_px) {
+  reference::Eye eye{planning::device_camera(camera, size_px), camera.lens};
+  if (!(eye.lens.focus > 0)) eye.lens.focus = glm::distance(camera.position_world, camera.target_world);
+  return eye;
+}
+
 }  // namespace
 
 void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
@@ -67,6 +75,11 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
   arguments
       .add_option("--time-limit", options.time_limit, "Time to render each picture of --mode reference [s]")
       .range(0.01, 1e7)
+      .type_name("S");
+  arguments
+      .add_option("--shutter", options.shutter,
+                  "Time that the shutter stays open from the picture's on, for motion blur [s]; default 0")
+      .range(0.0, 10.0)
       .type_name("S");
   arguments
       .add_option("--max-bounces", options.max_bounces,
@@ -90,8 +103,9 @@ std::vector<std::string> texts_of(const ReferenceOptions& options) {
   const auto text = [](const auto& number) {
     return number ? scene::shown(static_cast<double>(*number)) : std::string();
   };
-  return {text(options.samples),     text(options.noise), text(options.time_limit),
-          text(options.max_bounces), text(options.clamp), options.matte ? "matte" : ""};
+  return {text(options.samples),       text(options.noise), text(options.time_limit),
+          text(options.max_bounces),   text(options.clamp), text(options.shutter),
+          options.matte ? "matte" : ""};
 }
 
 ReferenceFrames::ReferenceFrames(const scenario::Scenario& scenario,
@@ -109,11 +123,30 @@ void ReferenceFrames::measure_exposure() {
   const double end = double{scenario_.timeline.duration};
   simulation_->advance_to(end);
   std::vector<shared::Hole> holes;
-  planning::FrameInput frame =
-      planning::frame_input(scenario_, *simulation_, end, holes, {.particles = false});
-  if (camera_) frame.view.camera = *camera_;
+  planning::FrameInput frame = frame_at(end, holes);
   exposure_ = reference::measure_exposure(scenario_.scene, frame, &scenario_.masks,
                                           static_cast<float>(size_px_.x) / static_cast<float>(size_px_.y));
+}
+
+planning::FrameInput ReferenceFrames::frame_at(double seconds, std::vector<shared::Hole>& holes) const {
+  planning::FrameInput frame =
+      planning::frame_input(scenario_, *simulation_, seconds, holes, {.particles = false});
+  if (camera_) frame.view.camera = *camera_;
+  return frame;
+}
+
+/// Where all is while the shutter is open. To be called before frame_at for its beginning, since another
+/// frame of a sequence of volumes may replace the one before.
+std::vector<planning::FrameInput> ReferenceFrames::frames_until(double seconds) const {
+  std::vector<planning::FrameInput> later;
+  if (options_.shutter.value_or(0) <= 0) return later;
+  constexpr std::size_t kSteps = reference::kMostSteps - 1;
+  for (std::size_t step = 1; step <= kSteps; ++step) {
+    std::vector<shared::Hole> holes;
+    later.push_back(frame_at(seconds + *options_.shutter * static_cast<double>(step) / kSteps, holes));
+    later.back().smoke = {};  // Its holes end here.
+  }
+  return later;
 }
 
 Picture ReferenceFrames::draw(double seconds) {
@@ -121,18 +154,15 @@ Picture ReferenceFrames::draw(double seconds) {
   if (scenario_.measure_exposure && !exposure_) measure_exposure();
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
-  planning::FrameInput frame =
-      planning::frame_input(scenario_, *simulation_, seconds, holes, {.particles = false});
-  if (camera_) frame.view.camera = *camera_;
+  const std::vector<planning::FrameInput> later = frames_until(seconds);
+  planning::FrameInput frame = frame_at(seconds, holes);
   if (exposure_) frame.view.exposure = *exposure_;
-  const auto scene = reference::make_scene(scenario_.scene, frame, &scenario_.masks, options_.matte);
+  const auto scene = reference::make_scene(scenario_.scene, frame, &scenario_.masks, options_.matte, later);
 
   reference::RenderSettings settings;
   settings.size_px = size_px_;
-  settings.camera = planning::device_camera(frame.view.camera, size_px_);
-  settings.lens = frame.view.camera.lens;
-  if (!(settings.lens.focus > 0))
-    settings.lens.focus = glm::distance(frame.view.camera.position_world, frame.view.camera.target_world);
+  settings.eyes.push_back(eye_of(frame.view.camera, size_px_));
+  for (const planning::FrameInput& step : later) settings.eyes.push_back(eye_of(step.view.camera, size_px_));
   if (options_.max_bounces) settings.limits.max_bounces = *options_.max_bounces;
   if (options_.clamp) settings.limits.clamp = static_cast<float>(*options_.clamp);
   if (options_.noise) settings.noise = static_cast<float>(*options_.noise);

@@ -8,13 +8,14 @@
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/targets.hpp"
+#include "planning/frame_input.hpp"
 #include "scenario/simulation.hpp"
 
 namespace brume::cli {
 
 struct ReferenceOptions {
   std::optional<std::uint32_t> samples, max_bounces;
-  std::optional<double> noise, time_limit, clamp;
+  std::optional<double> noise, time_limit, clamp, shutter;
   bool matte = false;
   std::string checkpoint;
 };
@@ -42,6 +43,8 @@ class ReferenceFrames {
 
  private:
   void measure_exposure();
+  planning::FrameInput frame_at(double seconds, std::vector<shared::Hole>& holes) const;
+  std::vector<planning::FrameInput> frames_until(double seconds) const;
 
   const scenario::Scenario& scenario_;
   std::unique_ptr<scenario::Simulation> simulation_;

@@ -88,8 +88,8 @@ void refuse_other_mode(const Arguments& arguments, const RenderOptions& options,
       arguments.refuse("--checkpoint", "is for a single picture; numbered frames have --resume");
     return;
   }
-  for (const char* option :
-       {"--samples", "--noise", "--time-limit", "--max-bounces", "--clamp", "--matte", "--checkpoint"})
+  for (const char* option : {"--samples", "--noise", "--time-limit", "--max-bounces", "--clamp", "--shutter",
+                             "--matte", "--checkpoint"})
     arguments.refuse(option, "requires --mode reference");
 }
 
@@ -289,6 +289,7 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   RenderOptions without_limits = options;
   without_limits.reference = {};  // A checkpoint knows the limits itself.
   without_limits.reference.matte = options.reference.matte;
+  without_limits.reference.shutter = options.reference.shutter;
   const std::vector<std::string> device{"reference", scene::shown(time)};
   ReferenceFrames frames(loaded.scenario, std::move(loaded.simulation), options.reference,
                          plan.renderer.size_px, plan.has_layers(),

@@ -46,22 +46,26 @@ EmissionCells::EmissionCells(std::span<const Medium* const> media) {
     for (float& density : lit.density) density = static_cast<float>(double{density} / whole);
 }
 
-glm::vec3 EmissionCells::sample(Sampler& sampler) const {
+glm::vec3 EmissionCells::sample(float time, Sampler& sampler) const {
   const auto chosen = std::ranges::upper_bound(power_up_to_, sampler.next_1d());
   const auto i =
       std::min<std::size_t>(static_cast<std::size_t>(chosen - power_up_to_.begin()), cells_.size() - 1);
   const glm::vec2 across = sampler.next_2d();
-  return media_[cells_[i].medium].medium->majorants().world_point(cells_[i].cell, {across, sampler.random()});
+  const Medium& medium = *media_[cells_[i].medium].medium;
+  return medium.world_from_rest(medium.majorants().world_point(cells_[i].cell, {across, sampler.random()}),
+                                time);
 }
 
 float EmissionCells::direction_density(const Ray& ray) const {
   double sum = 0;
   for (const Lit& lit : media_)
-    lit.medium->majorants().traverse_cells(ray, [&](float begin, float end, std::uint32_t cell) {
-      const double from = double{begin}, to = double{end};
-      if (lit.density[cell] > 0) sum += double{lit.density[cell]} * (to * to * to - from * from * from) / 3;
-      return false;
-    });
+    lit.medium->majorants().traverse_cells(
+        lit.medium->at_rest(ray), [&](float begin, float end, std::uint32_t cell) {
+          const double from = double{begin}, to = double{end};
+          if (lit.density[cell] > 0)
+            sum += double{lit.density[cell]} * (to * to * to - from * from * from) / 3;
+          return false;
+        });
   return static_cast<float>(sum);
 }
 

@@ -23,8 +23,8 @@ class EmissionCells {
 
   bool empty() const { return power_up_to_.empty(); }
 
-  /// A point of a cell, in proportion to the power of the cells and evenly within.
-  glm::vec3 sample(Sampler& sampler) const;
+  /// A point of a cell at a time of the shutter, in proportion to the power of the cells and evenly within.
+  glm::vec3 sample(float time, Sampler& sampler) const;
   /// Probability per solid angle that a sampled point lies in a direction from a ray's origin, whatever is in
   /// between [1/sr]: the integral of the density along the ray times the square of the distance.
   float direction_density(const Ray& ray) const;

@@ -1,6 +1,9 @@
 #include "reference/medium.hpp"
 
 #include <cmath>
+#include <utility>
+
+#include "reference/motion.hpp"
 
 namespace brume::reference {
 namespace {
@@ -38,6 +41,21 @@ Media::Media(std::vector<std::unique_ptr<Medium>> media) : media_(std::move(medi
   emission_ = EmissionCells(emitting);
 }
 
+void Medium::set_motion(std::vector<glm::mat4> world_from_rest) {
+  world_from_rest_ = std::move(world_from_rest);
+}
+
+Ray Medium::at_rest(const Ray& ray) const {
+  if (world_from_rest_.empty()) return ray;
+  const glm::mat4 rest = glm::inverse(at_time<glm::mat4>(world_from_rest_, ray.time));
+  return {glm::vec3(rest * glm::vec4(ray.origin, 1)), glm::mat3(rest) * ray.direction, ray.end, ray.time};
+}
+
+glm::vec3 Medium::world_from_rest(const glm::vec3& p_rest, float time) const {
+  if (world_from_rest_.empty()) return p_rest;
+  return glm::vec3(at_time<glm::mat4>(world_from_rest_, time) * glm::vec4(p_rest, 1));
+}
+
 std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::vec3& emitted) const {
   std::optional<Collision> first;
   Ray rest = ray;
@@ -45,7 +63,8 @@ std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::v
   glints.clear();
   for (const auto& medium : media_) {
     float depth = random_depth(sampler);
-    medium->majorants().traverse_between(rest, [&](float begin, float end, float least, float bound) {
+    const Ray past = medium->at_rest(rest);
+    medium->majorants().traverse_between(past, [&](float begin, float end, float least, float bound) {
       float t = begin;
       while (true) {
         const float to_next = depth / bound;
@@ -54,7 +73,7 @@ std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::v
           return false;
         }
         t += to_next;
-        const glm::vec3 p = ray.at(t);
+        const glm::vec3 p = past.at(t);
         // Possible collisions lie as densely as the bound times the transmittance.
         if (medium->emits()) glints.push_back({t, medium->emission(p) / bound});
         const float chosen = sampler.random() * bound;
@@ -77,7 +96,8 @@ float Media::transmittance(const Ray& ray, Sampler& sampler) const {
   for (const auto& medium : media_) {
     float depth = random_depth(sampler);
     float certain = 0;  // optical depth of what is everywhere in the cells
-    medium->majorants().traverse_between(ray, [&](float begin, float end, float least, float bound) {
+    const Ray past = medium->at_rest(ray);
+    medium->majorants().traverse_between(past, [&](float begin, float end, float least, float bound) {
       certain += least * (end - begin);
       const float rest = bound - least;
       float t = begin;
@@ -88,7 +108,7 @@ float Media::transmittance(const Ray& ray, Sampler& sampler) const {
           return certain > kSeen && ends(passed, certain, sampler);
         }
         t += to_next;
-        passed *= 1 - (medium->extinction(ray.at(t)) - least) / rest;
+        passed *= 1 - (medium->extinction(past.at(t)) - least) / rest;
         if (passed < kLittle && ends(passed, certain, sampler)) return true;
         depth = random_depth(sampler);
       }

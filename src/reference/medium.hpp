@@ -28,6 +28,13 @@ class Medium {
   virtual glm::vec3 emission(const glm::vec3& p_world) const = 0;
   virtual bool emits() const { return false; }
 
+  /// It moves while the shutter is open: `world_from_rest` at equal steps, affine; the first is the identity.
+  /// All points above are those of its rest.
+  void set_motion(std::vector<glm::mat4> world_from_rest);
+  /// A ray past the medium at rest, of the same lengths.
+  Ray at_rest(const Ray& ray) const;
+  glm::vec3 world_from_rest(const glm::vec3& p_rest, float time) const;
+
   const shared::Phase& phase() const { return phase_; }
   const Majorants& majorants() const { return majorants_; }
 
@@ -36,6 +43,7 @@ class Medium {
 
  private:
   shared::Phase phase_;
+  std::vector<glm::mat4> world_from_rest_;  // empty: it rests
 };
 
 /// Where a ray is scattered or absorbed.

@@ -25,13 +25,15 @@ struct Vertex {
   glm::vec3 position{0};
   glm::vec3 arriving{0};  ///< Direction of the path before, unit.
   glm::vec3 albedo{1};    ///< Of a medium.
+  float time = 0;         ///< Of the shutter.
 
   /// Radiance back along the path for unit irradiance from a direction, with the cosine of a surface.
   glm::vec3 value(const glm::vec3& to_light) const {
     // What comes from behind the triangle lights nothing, however its normals lean.
     if (surface)
-      return glm::dot(surface->geometric_normal, to_light) > 0 ? surface->reflection.value(-arriving, to_light)
-                                                              : glm::vec3(0);
+      return glm::dot(surface->geometric_normal, to_light) > 0
+                 ? surface->reflection.value(-arriving, to_light)
+                 : glm::vec3(0);
     return albedo * shared::phase_value(medium->phase(), glm::dot(arriving, to_light));
   }
   /// Probability per solid angle with which a direction is sampled.
@@ -40,7 +42,8 @@ struct Vertex {
     return shared::phase_value(medium->phase(), glm::dot(arriving, to_light));
   }
   Ray leaving(const glm::vec3& direction) const {
-    return {surface ? Surfaces::off_surface(*surface, direction) : position, direction};
+    return {surface ? Surfaces::off_surface(*surface, direction) : position, direction,
+            std::numeric_limits<float>::infinity(), time};
   }
 };
 
@@ -159,7 +162,7 @@ void Path::add_emitters(const Vertex& vertex) {
 void Path::add_glow(const Vertex& vertex) {
   const EmissionCells& cells = scene_.media.emission();
   if (cells.empty()) return;
-  const glm::vec3 apart = cells.sample(sampler_) - vertex.position;
+  const glm::vec3 apart = cells.sample(vertex.time, sampler_) - vertex.position;
   if (!(glm::dot(apart, apart) > 0)) return;
   const glm::vec3 direction = glm::normalize(apart), value = vertex.value(direction);
   if (!(largest(value) > 0)) return;
@@ -237,11 +240,12 @@ PathSample Path::trace(Ray ray) {
                                                                         ray.without_end()))));
     Vertex vertex;
     vertex.arriving = ray.direction;
+    vertex.time = ray.time;
     if (collision) {
       if (bounces_ == 0) found_.through_media = false;
       vertex.medium = collision->medium;
       vertex.position = ray.at(collision->t);
-      vertex.albedo = collision->medium->albedo(vertex.position);
+      vertex.albedo = collision->medium->albedo(collision->medium->at_rest(ray).at(collision->t));
     } else if (hit) {
       add_found_emitter(*hit, ray);
       vertex.surface = &*hit;

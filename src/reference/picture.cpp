@@ -39,7 +39,7 @@ float measure_exposure(const scene::Scene& scene, planning::FrameInput frame, co
   RenderSettings settings;
   settings.size_px = {static_cast<std::uint32_t>(std::clamp(kHeight * aspect, 8.0f, 512.0f)),
                       static_cast<std::uint32_t>(kHeight)};
-  settings.camera = planning::device_camera(frame.view.camera, settings.size_px);
+  settings.eyes = {{planning::device_camera(frame.view.camera, settings.size_px)}};
   settings.samples = 8;
   Render render(*small, settings);
   while (!render.advance(1, [] { return false; }))

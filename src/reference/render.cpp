@@ -35,15 +35,34 @@ Render::Render(const Scene& scene, const RenderSettings& settings) : scene_(scen
 
 Ray Render::eye_ray(glm::uvec2 pixel, Sampler& sampler) const {
   const glm::vec2 at = (glm::vec2(pixel) + sampler.next_2d()) / glm::vec2(settings_.size_px) * 2.0f - 1.0f;
-  const shared::Camera& camera = settings_.camera;
-  const glm::vec3 through = camera.forward + at.x * camera.right - at.y * camera.up;
-  const scene::Lens& lens = settings_.lens;
-  if (!(lens.aperture > 0)) return {camera.eye_world, glm::normalize(through)};
+  Ray ray;
+  // Where the eye is at a time of the shutter.
+  const std::vector<Eye>& eyes = settings_.eyes;
+  std::size_t step = 0;
+  float f = 0;
+  if (eyes.size() > 1) {
+    ray.time = sampler.next_1d();
+    const float scaled = ray.time * static_cast<float>(eyes.size() - 1);
+    step = std::min(static_cast<std::size_t>(scaled), eyes.size() - 2);
+    f = scaled - static_cast<float>(step);
+  }
+  const Eye &begin = eyes[step], &end = eyes[std::min(step + 1, eyes.size() - 1)];
+  const auto mixed = [&](auto of) { return glm::mix(of(begin), of(end), f); };
+  const glm::vec3 right = mixed([](const Eye&eye) { return eye.camera.right; }),
+                  up = mixed([](const Eye&eye) { return eye.camera.up; });
+  const glm::vec3 through =
+      mixed([](const Eye& eye) { return eye.camera.forward; }) + at.x * right - at.y * up;
+  const glm::vec3 middle = mixed([](const Eye& eye) { return eye.camera.eye_world; });
+  const float aperture = mixed([](const Eye& eye) { return eye.lens.aperture; });
+  ray.origin = middle;
+  ray.direction = glm::normalize(through);
+  if (!(aperture > 0)) return ray;
   // All rays of a point that is sharp meet there.
-  const glm::vec2 on_lens = lens.aperture * point_on_lens(lens.blades, sampler.next_2d());
-  const glm::vec3 from =
-      camera.eye_world + on_lens.x * glm::normalize(camera.right) + on_lens.y * glm::normalize(camera.up);
-  return {from, glm::normalize(camera.eye_world + lens.focus * through - from)};
+  const glm::vec2 on_lens = aperture * point_on_lens(begin.lens.blades, sampler.next_2d());
+  const float focus = mixed([](const Eye& eye) { return eye.lens.focus; });
+  ray.origin += on_lens.x * glm::normalize(right) + on_lens.y * glm::normalize(up);
+  ray.direction = glm::normalize(middle + focus * through - ray.origin);
+  return ray;
 }
 
 void Render::sample(Tile& tile) {
@@ -62,7 +81,7 @@ void Render::sample(Tile& tile) {
       sums.albedo += found.albedo;
       sums.normal += found.normal;
       const bool hit = std::isfinite(found.distance);
-      if (hit) sums.depth += found.distance * glm::dot(ray.direction, settings_.camera.forward);
+      if (hit) sums.depth += found.distance * glm::dot(ray.direction, settings_.eyes.front().camera.forward);
       sums.hits += hit ? 1.0f : 0.0f;
       sums.clear += !hit && found.through_media ? 1.0f : 0.0f;
       sums.passed += found.through_media ? 1.0f : 0.0f;

@@ -15,10 +15,15 @@
 
 namespace brume::reference {
 
+struct Eye {
+  shared::Camera camera{};
+  scene::Lens lens = {};  ///< With a focus above 0, if it has an aperture.
+};
+
 struct RenderSettings {
   glm::uvec2 size_px{0};  ///< At most kMostPixels.
-  shared::Camera camera{};
-  scene::Lens lens;  ///< With a focus above 0, if it has an aperture.
+  /// At equal steps while the shutter is open, at least one.
+  std::vector<Eye> eyes;
   PathLimits limits;
   std::uint32_t samples = 0;  ///< Of each pixel, at most; 0: without end. At most kMostSamples.
   /// Standard error of a tile's pixels relative to its mean at which it is done; 0: never.

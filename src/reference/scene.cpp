@@ -34,6 +34,21 @@ const smoke::NoiseTile& noise_tile() {
   return tile;
 }
 
+/// Where volume i is at the steps of the shutter, from where it is at first; empty: it rests.
+std::vector<glm::mat4> motion_of(std::size_t i, const planning::FrameInput& frame,
+                                 std::span<const planning::FrameInput> later) {
+  const glm::mat4& first = frame.volumes[i].world_from_voxel;
+  std::vector<glm::mat4> motion{glm::mat4(1)};
+  bool moves = false;
+  for (const planning::FrameInput& step : later) {
+    if (step.volumes.size() != frame.volumes.size()) return {};
+    const glm::mat4& then = step.volumes[i].world_from_voxel;
+    moves = moves || then != first;
+    motion.emplace_back(glm::dmat4(then) * glm::inverse(glm::dmat4(first)));
+  }
+  return moves ? motion : std::vector<glm::mat4>();
+}
+
 }  // namespace
 
 glm::vec3 Environment::seen(const glm::vec3& direction) const {
@@ -70,18 +85,21 @@ void sum_emitters(Scene& scene) {
 }
 
 std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::FrameInput& frame,
-                                  const smoke::MaskAtlas* masks, bool matte) {
+                                  const smoke::MaskAtlas* masks, bool matte,
+                                  std::span<const planning::FrameInput> later) {
   std::vector<std::unique_ptr<Medium>> media;
   if (frame.smoke.volume && frame.smoke.volume->slot_count() > 0 && frame.smoke.look.extinction > 0)
     media.push_back(std::make_unique<SmokeMedium>(frame.smoke, noise_tile, masks));
-  for (const planning::VolumeInput& volume : frame.volumes)
-    media.push_back(std::make_unique<VolumeMedium>(volume, noise_tile));
+  for (std::size_t i = 0; i < frame.volumes.size(); ++i) {
+    media.push_back(std::make_unique<VolumeMedium>(frame.volumes[i], noise_tile));
+    media.back()->set_motion(motion_of(i, frame, later));
+  }
   std::vector<shared::Light> lights = planning::device_lights(scene.lights, 0);
   lights.insert(lights.end(), frame.environment.flashes.begin(), frame.environment.flashes.end());
-  std::unique_ptr<Scene> out(new Scene{{scene, frame.level, matte},
-                                       Media(std::move(media)),
-                                       std::move(lights),
-                                       {.sky = frame.environment.sky}});
+  std::vector<planning::LevelState> levels{frame.level};
+  for (const planning::FrameInput& step : later) levels.push_back(step.level);
+  std::unique_ptr<Scene> out(new Scene{
+      {scene, levels, matte}, Media(std::move(media)), std::move(lights), {.sky = frame.environment.sky}});
   sum_emitters(*out);
   return out;
 }

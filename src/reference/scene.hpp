@@ -51,9 +51,11 @@ struct Scene {
 void sum_emitters(Scene& scene);
 
 /// What a frame shows, without what stands in for light that paths find themselves: FrameInput's glow, decals
-/// and particles, and Sky::bounce. `scene`, the masks and what the frame points to must outlive it. `matte`:
-/// see Surfaces. Throws resource_limit.
+/// and particles, and Sky::bounce. `later`: the same at further equal steps while the shutter is open, at
+/// most kMostSteps - 1, of which where objects and volumes are counts; empty: all rests. `scene`, the masks
+/// and what the frame points to must outlive it. `matte`: see Surfaces. Throws resource_limit.
 std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::FrameInput& frame,
-                                  const smoke::MaskAtlas* masks, bool matte = false);
+                                  const smoke::MaskAtlas* masks, bool matte = false,
+                                  std::span<const planning::FrameInput> later = {});
 
 }  // namespace brume::reference

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "reference/motion.hpp"
 #include "scene/color.hpp"
 
 namespace brume::reference {
@@ -54,52 +55,66 @@ const image::Image8* image_of(const scene::Scene& scene, std::uint32_t index) {
 
 }  // namespace
 
-Surfaces::Surfaces(const scene::Scene& scene, const planning::LevelState& level, bool matte)
+Surfaces::Surfaces(const scene::Scene& scene, std::span<const planning::LevelState> levels, bool matte)
     : scene_(scene), matte_(matte) {
+  const planning::LevelState& level = levels.front();
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
     if (!std::ranges::binary_search(level.hidden_objects, i))
-      add(scene.objects[i], scene.objects[i].world_from_mesh);
-  for (const scenario::MovedObject& moved : level.moved)
-    add(scene.objects[moved.object], moved.world_from_mesh);
+      add(scene.objects[i], {scene.objects[i].world_from_mesh});
+  for (std::size_t i = 0; i < level.moved.size(); ++i) {
+    std::vector<glm::mat4> poses;
+    for (const planning::LevelState& later : levels)
+      if (i < later.moved.size() && later.moved[i].object == level.moved[i].object)
+        poses.push_back(later.moved[i].world_from_mesh);
+    add(scene.objects[level.moved[i].object], std::move(poses));
+  }
   if (scene.grenade)
     for (const glm::mat4& world_from_mesh : level.grenades)
-      add(*scene.grenade, world_from_mesh * scene.grenade->world_from_mesh);
+      add(*scene.grenade, {world_from_mesh * scene.grenade->world_from_mesh});
   std::vector<trace::TriangleMesh> meshes;
   for (const auto& part : parts_) {
     const bool cut_out = part->material->alpha_cutoff > 0;
-    meshes.push_back(
-        {part->corners_world, part->mesh->indices, cut_out ? reject_cut_out : nullptr, part.get()});
+    trace::TriangleMesh& mesh = meshes.emplace_back();
+    mesh = {
+        part->corners_world.front(), part->mesh->indices, cut_out ? reject_cut_out : nullptr, part.get(), {}};
+    for (std::size_t step = 1; step < part->corners_world.size(); ++step)
+      mesh.moved.emplace_back(part->corners_world[step]);
   }
   tree_.build("reference", meshes).value_or_throw();
 }
 
-void Surfaces::add(const scene::Object& object, const glm::mat4& world_from_mesh) {
+void Surfaces::add(const scene::Object& object, std::vector<glm::mat4> world_from_mesh) {
   if (object.mesh == scene::kNone || scene_.meshes[object.mesh].indices.empty()) return;
   static const scene::Material kPlain;
   auto part = std::make_unique<Part>();
   part->scene = &scene_;
   part->mesh = &scene_.meshes[object.mesh];
   part->material = object.material == scene::kNone ? &kPlain : &scene_.materials[object.material];
-  part->world_from_mesh = world_from_mesh;
-  // The cofactor matrix transforms normals correctly under any scale, mirroring included.
-  const glm::mat3 linear(world_from_mesh);
-  part->cofactor = glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                             glm::cross(linear[0], linear[1]));
-  part->handedness = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
-  part->corners_world.reserve(part->mesh->vertices.size());
-  for (const scene::Vertex& vertex : part->mesh->vertices)
-    part->corners_world.emplace_back(world_from_mesh * glm::vec4(vertex.position, 1));
+  // What rests while the shutter is open has one place.
+  if (std::ranges::all_of(world_from_mesh,
+                          [&](const glm::mat4& pose) { return pose == world_from_mesh.front(); }))
+    world_from_mesh.resize(1);
+  part->world_from_mesh = std::move(world_from_mesh);
+  part->handedness = glm::determinant(glm::mat3(part->world_from_mesh.front())) < 0 ? -1.0f : 1.0f;
+  for (const glm::mat4& pose : part->world_from_mesh) {
+    std::vector<glm::vec3>& corners = part->corners_world.emplace_back();
+    corners.reserve(part->mesh->vertices.size());
+    for (const scene::Vertex& vertex : part->mesh->vertices)
+      corners.emplace_back(pose * glm::vec4(vertex.position, 1));
+  }
   add_emitters(*part);
   parts_.push_back(std::move(part));
 }
 
 void Surfaces::add_emitters(Part& part) {
-  if (part.material->emission == glm::vec3(0)) return;
+  // Rays alone find emitters that move.
+  if (part.material->emission == glm::vec3(0) || part.corners_world.size() > 1) return;
   part.first_emitter = static_cast<std::uint32_t>(emitters_.size());
   const std::vector<std::uint32_t>& indices = part.mesh->indices;
   for (std::size_t i = 0; i < indices.size(); i += 3) {
-    const glm::vec3 a = part.corners_world[indices[i]], u = part.corners_world[indices[i + 1]] - a,
-                    v = part.corners_world[indices[i + 2]] - a;
+    const glm::vec3 a = part.corners_world.front()[indices[i]],
+                    u = part.corners_world.front()[indices[i + 1]] - a,
+                    v = part.corners_world.front()[indices[i + 2]] - a;
     emitters_.push_back({a, u, v, part.material->emission, 0.5f * glm::length(glm::cross(u, v))});
   }
 }
@@ -135,7 +150,7 @@ RTCRayHit Surfaces::intersect(const Ray& ray) const {
                ray.direction.x,
                ray.direction.y,
                ray.direction.z,
-               0,
+               ray.time,
                ray.end,
                ~0u,
                0,
@@ -171,7 +186,7 @@ bool Surfaces::occluded(const Ray& ray) const {
                ray.direction.x,
                ray.direction.y,
                ray.direction.z,
-               0,
+               ray.time,
                ray.end,
                ~0u,
                0,
@@ -182,9 +197,13 @@ bool Surfaces::occluded(const Ray& ray) const {
 
 void Surfaces::shade(const Part& part, std::uint32_t triangle, const glm::vec2& at, const Ray& ray,
                      SurfaceHit& hit) const {
-  // Place. Barycentric coordinates are closer to the triangle than the ray's end.
+  // Place, at the ray's time. Barycentric coordinates are closer to the triangle than the ray's end.
   const auto corner = [&](std::uint32_t i) {
-    return part.corners_world[part.mesh->indices[std::size_t{3} * triangle + i]];
+    const std::uint32_t vertex = part.mesh->indices[std::size_t{3} * triangle + i];
+    std::array<glm::vec3, kMostSteps> steps;
+    for (std::size_t step = 0; step < part.corners_world.size(); ++step)
+      steps[step] = part.corners_world[step][vertex];
+    return at_time(std::span<const glm::vec3>(steps.data(), part.corners_world.size()), ray.time);
   };
   const glm::vec3 a = corner(0), u = corner(1) - a, v = corner(2) - a;
   hit.position = a + at.x * u + at.y * v;
@@ -212,14 +231,15 @@ void Surfaces::shade(const Part& part, std::uint32_t triangle, const glm::vec2& 
   if (matte_) hit.reflection.highlight = hit.reflection.metallic = 0;
   hit.emission = material.emission;
 
-  // Normal.
-  glm::vec3 n =
-      part.handedness * (part.cofactor * interpolated(*part.mesh, triangle, at, &scene::Vertex::normal));
+  // Normal. The cofactor matrix transforms normals correctly under any scale, mirroring included.
+  const glm::mat3 linear(at_time<glm::mat4>(part.world_from_mesh, ray.time));
+  const glm::mat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                           glm::cross(linear[0], linear[1]));
+  glm::vec3 n = part.handedness * (cofactor * interpolated(*part.mesh, triangle, at, &scene::Vertex::normal));
   n = glm::dot(n, n) > 0 ? glm::normalize(n) : hit.geometric_normal;
   if (const image::Image8* image = image_of(scene_, material.normal_image)) {
     const glm::vec4 stored = interpolated(*part.mesh, triangle, at, &scene::Vertex::tangent);
-    const glm::vec3 along = glm::mat3(part.world_from_mesh) * glm::vec3(stored),
-                    t = along - n * glm::dot(n, along);
+    const glm::vec3 along = linear * glm::vec3(stored), t = along - n * glm::dot(n, along);
     if (glm::dot(t, t) > 1e-12f) {
       const glm::vec3 mapped = glm::vec3(image_at(*image, uv, false)) * 2.0f - 1.0f,
                       tangent = glm::normalize(t);

@@ -34,9 +34,10 @@ struct Emitter {
 
 class Surfaces {
  public:
-  /// What `level` shows of the scene, which must outlive it. `matte`: all surfaces follow Lambert's law,
+  /// What a level shows of the scene, which must outlive it: at equal steps while the shutter is open, at
+  /// least one, of which the further ones place what moves. `matte`: all surfaces follow Lambert's law,
   /// without highlights. Throws what TriangleTree::build fails with.
-  Surfaces(const scene::Scene& scene, const planning::LevelState& level, bool matte = false);
+  Surfaces(const scene::Scene& scene, std::span<const planning::LevelState> levels, bool matte = false);
 
   std::optional<SurfaceHit> hit(const Ray& ray) const;
   /// Distance of the nearest surface on a ray; its end where there is none before [m].
@@ -56,13 +57,13 @@ class Surfaces {
     const scene::Scene* scene = nullptr;
     const scene::Mesh* mesh = nullptr;
     const scene::Material* material = nullptr;
-    glm::mat4 world_from_mesh{1};
-    glm::mat3 cofactor{1};
+    // At equal steps of the shutter's time; one of what rests.
+    std::vector<glm::mat4> world_from_mesh;
+    std::vector<std::vector<glm::vec3>> corners_world;
     float handedness = 1;
-    std::vector<glm::vec3> corners_world;
     std::uint32_t first_emitter = scene::kNone;
   };
-  void add(const scene::Object& object, const glm::mat4& world_from_mesh);
+  void add(const scene::Object& object, std::vector<glm::mat4> world_from_mesh);
   void add_emitters(Part& part);
   RTCRayHit intersect(const Ray& ray) const;
   static void reject_cut_out(const RTCFilterFunctionNArguments* arguments);

@@ -38,12 +38,18 @@ Result<void> TriangleTree::add(const TriangleMesh& mesh) {
   const std::unique_ptr<RTCGeometryTy, GeometryRelease> geometry(
       rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   if (!geometry) return embree_failure(job_, error_);
-  void* const vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(glm::vec3), mesh.corners.size());
+  std::vector<std::span<const glm::vec3>> steps{mesh.corners};
+  steps.insert(steps.end(), mesh.moved.begin(), mesh.moved.end());
+  rtcSetGeometryTimeStepCount(geometry.get(), static_cast<unsigned int>(steps.size()));
+  for (unsigned int step = 0; step < steps.size(); ++step) {
+    void* const vertices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, step,
+                                                   RTC_FORMAT_FLOAT3, sizeof(glm::vec3), mesh.corners.size());
+    if (!vertices) return embree_failure(job_, error_);
+    std::ranges::copy(steps[step], static_cast<glm::vec3*>(vertices));
+  }
   void* const indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                 3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
-  if (!vertices || !indices) return embree_failure(job_, error_);
-  std::ranges::copy(mesh.corners, static_cast<glm::vec3*>(vertices));
+  if (!indices) return embree_failure(job_, error_);
   std::ranges::copy(mesh.indices, static_cast<std::uint32_t*>(indices));
   if (mesh.filter) {
     rtcSetGeometryUserData(geometry.get(), mesh.filter_data);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -20,6 +21,8 @@ struct TriangleMesh {
   std::span<const std::uint32_t> indices;  ///< Three for each triangle, below corners.size().
   RTCFilterFunctionN filter = nullptr;     ///< Rejects hits; null: none.
   void* filter_data = nullptr;
+  /// Where the corners are at further times, in equal steps up to 1, of rays' [0, 1]; empty: they rest.
+  std::vector<std::span<const glm::vec3>> moved = {};
 };
 
 /// Without gaps between triangles, and the same whatever the number of threads.

@@ -80,6 +80,7 @@ TEST_F(ReferenceMode, RefusesOptionsOfTheOtherMode) {
   refuse({"--mode", "reference", "--noise", "-1"}, {"--noise"});
   refuse({"--mode", "reference", "--checkpoint", "room.toml"}, {"room.toml"});
   refuse({"--mode", "fast"}, {"--mode"});
+  refuse({"--shutter", "0.1"}, {"--shutter", "--mode reference"});
 }
 
 TEST_F(ReferenceMode, RefusesCheckpointsOfOtherPictures) {
@@ -87,6 +88,7 @@ TEST_F(ReferenceMode, RefusesCheckpointsOfOtherPictures) {
   const std::string before = bytes("a.brc");
   for (const std::vector<std::string>& other : {std::vector<std::string>{"--time", "0.3"},
                                                 {"--max-bounces", "1"},
+                                                {"--shutter", "0.1"},
                                                 {"--matte"},
                                                 {"--camera", "0,1,1.5 0,1,0 50"}}) {
     std::vector<std::string> arguments{"-o", "b.png", "--samples", "4", "--checkpoint", "a.brc"};

@@ -58,7 +58,8 @@ inline Media media_of(std::unique_ptr<Medium> medium) {
 /// A scene of objects, media and lights; its sky is black.
 inline std::unique_ptr<Scene> scene_of(const scene::Scene& objects, Media media,
                                        std::vector<shared::Light> lights = {}, bool matte = false) {
-  std::unique_ptr<Scene> scene(new Scene{{objects, {}, matte}, std::move(media), std::move(lights), {}});
+  std::unique_ptr<Scene> scene(new Scene{
+      {objects, std::vector<planning::LevelState>(1), matte}, std::move(media), std::move(lights), {}});
   sum_emitters(*scene);
   return scene;
 }

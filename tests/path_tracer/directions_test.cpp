@@ -9,7 +9,7 @@ namespace brume::reference {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::uint32_t kSamples = (1u << 17) / kFewer;
+constexpr std::uint32_t kSamples = kSanitized ? 1u << 12 : 1u << 16;
 
 /// A sampler of its own for each sample, so that they are independent.
 Sampler independent(std::uint32_t i) {

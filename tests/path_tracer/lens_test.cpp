@@ -65,9 +65,9 @@ int width_at(float distance, float aperture) {
   const auto made = scene_of(scene, {});
   RenderSettings settings;
   settings.size_px = {80, 3};
-  settings.camera =
-      planning::device_camera({{0, 0, 0}, {0, 0, -1}, 2 * std::atan(3.0f / 80)}, settings.size_px);
-  settings.lens = {aperture, 4, 6};
+  settings.eyes = {
+      {planning::device_camera({{0, 0, 0}, {0, 0, -1}, 2 * std::atan(3.0f / 80)}, settings.size_px),
+       {aperture, 4, 6}}};
   settings.samples = 256;
   Render render(*made, settings);
   while (!render.advance(10, [] { return false; })) {

@@ -31,7 +31,7 @@ class RenderTest : public testing::Test {
     sun.intensity = glm::vec3(2);
     scene_->lights = {sun};
     settings_.size_px = {37, 21};
-    settings_.camera = planning::device_camera({{2, 1, 3}, {0, 0, 0}, 0.8f}, settings_.size_px);
+    settings_.eyes = {{planning::device_camera({{2, 1, 3}, {0, 0, 0}, 0.8f}, settings_.size_px)}};
     settings_.samples = 12;
   }
   ~RenderTest() override {

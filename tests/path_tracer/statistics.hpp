@@ -13,8 +13,8 @@
 namespace brume::reference {
 
 /// Under a sanitizer, so many times fewer samples, and so many times the error that remains.
-constexpr std::uint32_t kFewer = kSanitized ? 16 : 1;
-constexpr double kLooser = kSanitized ? 4 : 1;
+constexpr std::uint32_t kFewer = kSanitized ? 64 : 1;
+constexpr double kLooser = kSanitized ? 8 : 1;
 
 /// Mean and standard error of independent samples.
 class Mean {

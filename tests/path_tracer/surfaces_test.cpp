@@ -102,7 +102,8 @@ TEST(SurfacesTest, SurfacesHideLights) {
 // Where the normals of vertices lean towards a light behind the triangle.
 TEST(SurfacesTest, NoLightComesThroughLeaningNormals) {
   scene::Scene floor = floor_of(matte(0.6f));
-  for (scene::Vertex& vertex : floor.meshes[0].vertices) vertex.normal = glm::normalize(glm::vec3(1, 0.4f, 0));
+  for (scene::Vertex& vertex : floor.meshes[0].vertices)
+    vertex.normal = glm::normalize(glm::vec3(1, 0.4f, 0));
   shared::Light source{};
   source.kind = shared::kLightPoint;
   source.intensity = glm::vec3(7);

@@ -13,7 +13,7 @@ namespace brume::reference {
 namespace {
 
 constexpr glm::uvec2 kSize{24, 16};
-constexpr std::uint32_t kSamples = 4096;
+constexpr std::uint32_t kSamples = 2048;
 
 /// The displacement by slots as the texels of an atlas.
 NoiseAdvectionField in_atlas(const planning::SmokeInput& smoke) {
