@@ -417,16 +417,16 @@ void declare_view(const Arguments& arguments, RenderOptions& options) {
 }  // namespace
 
 Command add_render(CommandLine& program) {
-  Command command =
-      declare(program, "render", "Renders a scene or a timeline to an image, an image sequence or a film.",
-              "  brume render room.glb -o room.png\n"
-              "  brume render room.glb -o room.png --throw \"0,1.7,8 -2.6,0.4,-3\" --smoke-size 4\n"
-              "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
-              "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
-              "  brume render cloud.vdb -o turntable.mp4 --orbit 360 --frames 0-239\n"
-              "  brume render scenes/demo.toml -o demo.exr --time 2.5\n"
-              "  brume render scenes/demo.toml -o truth.png --time 2.5 --mode reference --noise 0.05\n"
-              "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
+  Command command = declare(
+      program, "render", "Renders a scene or a timeline to an image, an image sequence or a film.",
+      "  brume render room.glb -o room.png\n"
+      "  brume render room.glb -o room.png --throw \"0,1.7,8 -2.6,0.4,-3\" --smoke-size 4\n"
+      "  brume render scenes/demo.toml -o demo.png --time 2.5 --size 1920x1080\n"
+      "  brume render scenes/demo.toml -o demo.mp4 --frames 0-47 --fps 24 --size 640x360\n"
+      "  brume render cloud.vdb -o turntable.mp4 --orbit 360 --frames 0-239\n"
+      "  brume render scenes/demo.toml -o demo.exr --time 2.5\n"
+      "  brume render scenes/demo.toml -o truth.png --time 2.5 --mode reference --samples 8 --size 320x180\n"
+      "  brume render scenes/demo.toml -o demo_%04d.png --camera \"0,1.7,8 0,1.5,0 60\"");
   auto options = std::make_shared<RenderOptions>();
   const Arguments arguments = command.arguments;
   arguments.add_option("INPUT", options->input, "Timeline (.toml) or scene (.txt, .gltf, .glb, .obj)")
