@@ -53,6 +53,21 @@ const image::Image8* image_of(const scene::Scene& scene, std::uint32_t index) {
   return &scene.images[index].pixels;
 }
 
+RTCRay embree_ray(const Ray& ray) {
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          0,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          ray.time,
+          ray.end,
+          ~0u,
+          0,
+          0};
+}
+
 }  // namespace
 
 Surfaces::Surfaces(const scene::Scene& scene, std::span<const planning::LevelState> levels, bool matte)
@@ -143,18 +158,7 @@ RTCRayHit Surfaces::intersect(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
-  query.ray = {ray.origin.x,
-               ray.origin.y,
-               ray.origin.z,
-               0,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               ray.time,
-               ray.end,
-               ~0u,
-               0,
-               0};
+  query.ray = embree_ray(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(tree_.scene(), &context, &query);
@@ -179,18 +183,7 @@ std::optional<SurfaceHit> Surfaces::hit(const Ray& ray) const {
 bool Surfaces::occluded(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay query{ray.origin.x,
-               ray.origin.y,
-               ray.origin.z,
-               0,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               ray.time,
-               ray.end,
-               ~0u,
-               0,
-               0};
+  RTCRay query = embree_ray(ray);
   rtcOccluded1(tree_.scene(), &context, &query);
   return query.tfar < 0;
 }
