@@ -45,7 +45,7 @@ Orbit::Orbit(const scenario::Scenario& scenario, const std::optional<scene::Came
                 "--orbit: the camera is right above or below what it circles; choose another with --camera");
 }
 
-scene::Camera Orbit::at(double seconds, std::uint32_t frame) const {
+scene::Camera Orbit::at(double seconds, double frame) const {
   const scene::Camera camera =
       still_ ? *still_ : scene::camera_at(scenario_.timeline, scenario_.camera, seconds);
   const double first = range_.first, count = range_.last - first + 1, fraction = (frame - first) / count;

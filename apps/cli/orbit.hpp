@@ -23,8 +23,9 @@ class Orbit {
   Orbit(const scenario::Scenario& scenario, const std::optional<scene::Camera>& chosen, double degrees,
         FrameRange range, float aspect);
 
-  /// The camera of a frame: after (frame - first) / count of the angle. Frames outside of the range go on.
-  scene::Camera at(double seconds, std::uint32_t frame) const;
+  /// The camera of a frame: after (frame - first) / count of the angle. Frames outside of the range go on;
+  /// fractions are times between frames.
+  scene::Camera at(double seconds, double frame) const;
   /// Where the camera is before it turns; empty: on the path of the timeline's keys.
   const std::optional<scene::Camera>& still_camera() const { return still_; }
 

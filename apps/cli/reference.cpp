@@ -6,7 +6,6 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "core/progress.hpp"
-#include "planning/device_camera.hpp"
 #include "planning/scenario_frame.hpp"
 #include "reference/motion.hpp"
 #include "reference/picture.hpp"
@@ -52,21 +51,9 @@ class PictureProgress {
   std::uint64_t shown_ = 0;
 };
 
-/// A camera whose lens knows what is sharp.
-reference::Eye eye_of(const scene::Camera& camera, glm::uvec2 size_px) {
-  reference::Eye eye{planning::device_camera(camera, size_px), camera.lens};
-  if (!(eye.lens.focus > 0)) eye.lens.focus = glm::distance(camera.position_world, camera.target_world);
-  return eye;
-}
-
 }  // namespace
 
 void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
-  arguments
-      .add_option("--samples", options.samples,
-                  "Paths per pixel of --mode reference; default 64, if no other limit is given")
-      .range(1u, reference::kMostSamples)
-      .type_name("N");
   arguments
       .add_option("--noise", options.noise,
                   "Relative standard error at which a part of the picture is done, such as 0.02")
@@ -75,11 +62,6 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options) {
   arguments
       .add_option("--time-limit", options.time_limit, "Time to render each picture of --mode reference [s]")
       .range(0.01, 1e7)
-      .type_name("S");
-  arguments
-      .add_option("--shutter", options.shutter,
-                  "Time that the shutter stays open from the picture's on, for motion blur [s]; default 0")
-      .range(0.0, 10.0)
       .type_name("S");
   arguments
       .add_option("--max-bounces", options.max_bounces,
@@ -103,50 +85,60 @@ std::vector<std::string> texts_of(const ReferenceOptions& options) {
   const auto text = [](const auto& number) {
     return number ? scene::shown(static_cast<double>(*number)) : std::string();
   };
-  return {text(options.samples),       text(options.noise), text(options.time_limit),
-          text(options.max_bounces),   text(options.clamp), text(options.shutter),
+  return {text(options.noise), text(options.time_limit), text(options.max_bounces), text(options.clamp),
           options.matte ? "matte" : ""};
 }
 
 ReferenceFrames::ReferenceFrames(const scenario::Scenario& scenario,
                                  std::unique_ptr<scenario::Simulation> simulation,
-                                 const ReferenceOptions& options, glm::uvec2 size_px, bool has_layers,
-                                 std::uint64_t key)
-    : scenario_(scenario),
-      simulation_(std::move(simulation)),
-      options_(options),
-      size_px_(size_px),
-      has_layers_(has_layers),
-      key_(key) {}
+                                 const ReferenceOptions& options, const FrameSettings& frames)
+    : scenario_(scenario), simulation_(std::move(simulation)), options_(options), settings_(frames) {}
 
 void ReferenceFrames::measure_exposure() {
   const double end = double{scenario_.timeline.duration};
   simulation_->advance_to(end);
   std::vector<shared::Hole> holes;
   planning::FrameInput frame = frame_at(end, holes);
-  exposure_ = reference::measure_exposure(scenario_.scene, frame, &scenario_.masks,
-                                          static_cast<float>(size_px_.x) / static_cast<float>(size_px_.y));
+  exposure_ = reference::measure_exposure(
+      scenario_.scene, frame, &scenario_.masks,
+      static_cast<float>(settings_.size_px.x) / static_cast<float>(settings_.size_px.y));
 }
 
 planning::FrameInput ReferenceFrames::frame_at(double seconds, std::vector<shared::Hole>& holes) const {
-  planning::FrameInput frame =
-      planning::frame_input(scenario_, *simulation_, seconds, holes, {.particles = false});
-  if (camera_) frame.view.camera = *camera_;
-  return frame;
+  return planning::frame_input(scenario_, *simulation_, seconds, holes, frame_options_);
 }
 
-/// Where all is while the shutter is open. To be called before frame_at for its beginning, since another
-/// frame of a sequence of volumes may replace the one before.
-std::vector<planning::FrameInput> ReferenceFrames::frames_until(double seconds) const {
+/// Where all is at further steps while the shutter is open.
+std::vector<planning::FrameInput> ReferenceFrames::frames_after(double seconds,
+                                                                const planning::FrameInput& frame) const {
   std::vector<planning::FrameInput> later;
-  if (options_.shutter.value_or(0) <= 0) return later;
+  const double shutter = double{frame.view.camera.shutter};
+  if (shutter <= 0) return later;
   constexpr std::size_t kSteps = reference::kMostSteps - 1;
   for (std::size_t step = 1; step <= kSteps; ++step) {
-    std::vector<shared::Hole> holes;
-    later.push_back(frame_at(seconds + *options_.shutter * static_cast<double>(step) / kSteps, holes));
-    later.back().smoke = {};  // Its holes end here.
+    later.push_back(frame);
+    planning::move_frame(scenario_, seconds, seconds + shutter * static_cast<double>(step) / kSteps,
+                         frame_options_, later.back());
   }
   return later;
+}
+
+reference::RenderSettings ReferenceFrames::settings_of(const planning::FrameInput& frame,
+                                                       std::span<const planning::FrameInput> later) const {
+  reference::RenderSettings settings;
+  settings.size_px = settings_.size_px;
+  const scene::Lens& lens = frame.view.camera.lens;
+  settings.blades = lens.blades;
+  settings.opening = planning::opening_of(scenario_.lens_openings, lens);
+  settings.eyes.push_back(reference::eye_of(frame.view.camera, settings_.size_px));
+  for (const planning::FrameInput& step : later)
+    settings.eyes.push_back(reference::eye_of(step.view.camera, settings_.size_px));
+  if (options_.max_bounces) settings.limits.max_bounces = *options_.max_bounces;
+  if (options_.clamp) settings.limits.clamp = static_cast<float>(*options_.clamp);
+  if (options_.noise) settings.noise = static_cast<float>(*options_.noise);
+  const bool unlimited = !options_.noise && !options_.time_limit;
+  settings.samples = settings_.samples.value_or(unlimited ? kDefaultSamples : 0);
+  return settings;
 }
 
 Picture ReferenceFrames::draw(double seconds) {
@@ -154,24 +146,15 @@ Picture ReferenceFrames::draw(double seconds) {
   if (scenario_.measure_exposure && !exposure_) measure_exposure();
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
-  const std::vector<planning::FrameInput> later = frames_until(seconds);
   planning::FrameInput frame = frame_at(seconds, holes);
   if (exposure_) frame.view.exposure = *exposure_;
+  const std::vector<planning::FrameInput> later = frames_after(seconds, frame);
   const auto scene = reference::make_scene(scenario_.scene, frame, &scenario_.masks, options_.matte, later);
-
-  reference::RenderSettings settings;
-  settings.size_px = size_px_;
-  settings.eyes.push_back(eye_of(frame.view.camera, size_px_));
-  for (const planning::FrameInput& step : later) settings.eyes.push_back(eye_of(step.view.camera, size_px_));
-  if (options_.max_bounces) settings.limits.max_bounces = *options_.max_bounces;
-  if (options_.clamp) settings.limits.clamp = static_cast<float>(*options_.clamp);
-  if (options_.noise) settings.noise = static_cast<float>(*options_.noise);
-  const bool unlimited = !options_.noise && !options_.time_limit;
-  settings.samples = options_.samples.value_or(unlimited ? kDefaultSamples : 0);
+  const reference::RenderSettings settings = settings_of(frame, later);
   reference::Render render(*scene, settings);
   const std::string& checkpoint = options_.checkpoint;
   if (!checkpoint.empty() && std::filesystem::exists(checkpoint))
-    render.load(checkpoint, key_).value_or_throw();
+    render.load(checkpoint, settings_.key).value_or_throw();
 
   PictureProgress progress(options_, settings.samples);
   const Stopwatch sampling;
@@ -185,7 +168,7 @@ Picture ReferenceFrames::draw(double seconds) {
     progress.show(render, sampling.seconds());
     if (checkpoint.empty() || (!done && !is_over() && since_saved.seconds() < interval)) continue;
     const Stopwatch saving;
-    render.save(checkpoint, key_).value_or_throw();
+    render.save(checkpoint, settings_.key).value_or_throw();
     // A hundredth of the time.
     interval = std::clamp(100 * saving.seconds(), kLeastInterval, kMostInterval);
     since_saved = {};
@@ -196,8 +179,8 @@ Picture ReferenceFrames::draw(double seconds) {
   error_ = std::max(error_, render.error());
   seconds_ += watch.seconds();
   cpu_seconds_ += watch.cpu_seconds();
-  if (has_layers_) return render.layers();
-  return reference::picture_of(render, size_px_, frame.view);
+  if (settings_.has_layers) return render.layers();
+  return reference::picture_of(render, settings_.size_px, frame.view);
 }
 
 Json ReferenceFrames::statistics() const {

@@ -8,14 +8,15 @@
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/targets.hpp"
-#include "planning/frame_input.hpp"
+#include "planning/scenario_frame.hpp"
+#include "reference/render.hpp"
 #include "scenario/simulation.hpp"
 
 namespace brume::cli {
 
 struct ReferenceOptions {
-  std::optional<std::uint32_t> samples, max_bounces;
-  std::optional<double> noise, time_limit, clamp, shutter;
+  std::optional<std::uint32_t> max_bounces;
+  std::optional<double> noise, time_limit, clamp;
   bool matte = false;
   std::string checkpoint;
 };
@@ -25,16 +26,23 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options);
 /// All that the options say about the pictures, for a key of what depends on them.
 std::vector<std::string> texts_of(const ReferenceOptions& options);
 
+/// What the options of both modes say about frames.
+struct FrameSettings {
+  glm::uvec2 size_px{0};
+  std::optional<std::uint32_t> samples;
+  bool has_layers = false;  ///< Frames are numbers.
+  std::uint64_t key = 0;    ///< Hash of what a frame depends on, for the checkpoint.
+};
+
 /// Frames of a scenario by the path tracer.
 class ReferenceFrames {
  public:
-  /// `scenario` must outlive it. `has_layers`: frames as numbers. `key`: hash of what a frame depends on, for
-  /// the checkpoint.
+  /// `scenario` and `options` must outlive it.
   ReferenceFrames(const scenario::Scenario& scenario, std::unique_ptr<scenario::Simulation> simulation,
-                  const ReferenceOptions& options, glm::uvec2 size_px, bool has_layers, std::uint64_t key);
+                  const ReferenceOptions& options, const FrameSettings& frames);
 
-  /// Where the camera is instead of on the timeline's path; empty: on the path.
-  void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
+  /// Where the camera is at a time instead of on the timeline's path; empty: on the path.
+  void set_camera(planning::CameraAt camera) { frame_options_.camera = std::move(camera); }
   /// Renders the frame at a time [s] until the limits of the options, with progress. Saves and continues the
   /// checkpoint. Throws Error and Interrupted.
   Picture draw(double seconds);
@@ -44,15 +52,15 @@ class ReferenceFrames {
  private:
   void measure_exposure();
   planning::FrameInput frame_at(double seconds, std::vector<shared::Hole>& holes) const;
-  std::vector<planning::FrameInput> frames_until(double seconds) const;
+  std::vector<planning::FrameInput> frames_after(double seconds, const planning::FrameInput& frame) const;
+  reference::RenderSettings settings_of(const planning::FrameInput& frame,
+                                        std::span<const planning::FrameInput> later) const;
 
   const scenario::Scenario& scenario_;
   std::unique_ptr<scenario::Simulation> simulation_;
   const ReferenceOptions& options_;
-  glm::uvec2 size_px_;
-  bool has_layers_;
-  std::uint64_t key_;
-  std::optional<scene::Camera> camera_;
+  FrameSettings settings_;
+  planning::FrameOptions frame_options_{.particles = false};
   std::optional<float> exposure_;  ///< Measured; a factor.
   std::uint32_t frames_ = 0;
   double samples_ = 0, error_ = 0, seconds_ = 0, cpu_seconds_ = 0;

@@ -36,7 +36,8 @@ struct RenderOptions {
                                                view = "none", slice, fps = "24", raycast, mode = "realtime";
   SceneOptions scene;
   ReferenceOptions reference;
-  std::optional<double> time, orbit;
+  std::optional<double> time, orbit, shutter;
+  std::optional<std::uint32_t> samples;
   bool temporal = false, resume = false;
   float step = 1, light_update_fraction = 1, resolve_error_scale = 1;
   std::uint32_t volume_memory = 0;  // [MiB]; 0: as much as suits the device
@@ -88,8 +89,11 @@ void refuse_other_mode(const Arguments& arguments, const RenderOptions& options,
       arguments.refuse("--checkpoint", "is for a single picture; numbered frames have --resume");
     return;
   }
-  for (const char* option : {"--samples", "--noise", "--time-limit", "--max-bounces", "--clamp", "--shutter",
-                             "--matte", "--checkpoint"})
+  if (options.temporal || options.light_update_fraction < 1)
+    arguments.refuse("--samples", "cannot be combined with --temporal and --light-update-fraction");
+  if (options.view != "none") arguments.refuse("--samples", "is for pictures; a debug view has one");
+  for (const char* option :
+       {"--noise", "--time-limit", "--max-bounces", "--clamp", "--matte", "--checkpoint"})
     arguments.refuse(option, "requires --mode reference");
 }
 
@@ -189,7 +193,7 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
                            const std::vector<std::string>& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
   const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice, fps,
-               raycast, mode, scene_options, reference, time, orbit, temporal, resume, step,
+               raycast, mode, scene_options, reference, time, orbit, shutter, samples, temporal, resume, step,
                light_update_fraction, resolve_error_scale, volume_memory] = options;
 
   // Files.
@@ -210,9 +214,10 @@ std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenari
   for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
   const std::array<float, 3> numbers{step, light_update_fraction, resolve_error_scale};
   key = hash_values(std::span<const float>(numbers), key);
-  const double degrees = orbit.value_or(0);
-  key = hash_values(std::span<const double>(&degrees, 1), key);
-  const std::array<std::uint32_t, 6> whole{volume_memory,
+  const std::array<double, 2> real{orbit.value_or(0), shutter.value_or(-1)};
+  key = hash_values(std::span<const double>(real), key);
+  const std::array<std::uint32_t, 7> whole{volume_memory,
+                                           samples.value_or(0),
                                            temporal ? 1u : 0u,
                                            frames_depend(options) ? 1u : 0u,
                                            frames_depend(options) ? range.first : 0u,
@@ -282,6 +287,29 @@ void simulate(const RenderOptions& options, const Plan& plan, Loaded& loaded) {
                          frames_of(plan, loaded.scenario.timeline), plan.scene.aspect);
 }
 
+// Where the camera is as long as it does not turn; empty: on the timeline's path.
+planning::CameraAt camera_before(const Plan& plan, const Loaded& loaded) {
+  const std::optional<scene::Camera>& camera = loaded.orbit ? loaded.orbit->still_camera() : plan.camera;
+  if (!camera) return {};
+  return [still = *camera](double) { return still; };
+}
+
+// The camera of --orbit around the time of a frame.
+planning::CameraAt orbiting(const Plan& plan, const Orbit& orbit, double seconds, std::uint32_t frame) {
+  return [&orbit, seconds, frame, rate = plan.rate.per_second()](double at) {
+    return orbit.at(at, frame + (at - seconds) * rate);
+  };
+}
+
+// --shutter replaces that of all cameras.
+void set_shutter(const RenderOptions& options, Plan& plan, scenario::Scenario& scenario) {
+  if (!options.shutter) return;
+  const auto seconds = static_cast<float>(*options.shutter);
+  scenario.camera.shutter = seconds;
+  if (plan.camera) plan.camera->shutter = seconds;
+  for (scene::CameraKey& key : scenario.timeline.camera) key.camera.shutter = seconds;
+}
+
 Json render_reference(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
   simulate(options, plan, loaded);
   common.grace_seconds = kReferenceGrace;
@@ -289,14 +317,14 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   RenderOptions without_limits = options;
   without_limits.reference = {};  // A checkpoint knows the limits itself.
   without_limits.reference.matte = options.reference.matte;
-  without_limits.reference.shutter = options.reference.shutter;
+  without_limits.samples.reset();
   const std::vector<std::string> device{"reference", scene::shown(time)};
   ReferenceFrames frames(loaded.scenario, std::move(loaded.simulation), options.reference,
-                         plan.renderer.size_px, plan.has_layers(),
-                         sequence_key(without_limits, loaded.scenario, device, {}));
-  frames.set_camera(loaded.orbit ? loaded.orbit->still_camera() : plan.camera);
+                         {plan.renderer.size_px, options.samples, plan.has_layers(),
+                          sequence_key(without_limits, loaded.scenario, device, {})});
+  frames.set_camera(camera_before(plan, loaded));
   write(options, plan, common, {"reference"}, loaded.scenario, [&](double seconds, std::uint32_t i) {
-    if (loaded.orbit) frames.set_camera(loaded.orbit->at(seconds, i));
+    if (loaded.orbit) frames.set_camera(orbiting(plan, *loaded.orbit, seconds, i));
     return frames.draw(seconds);
   });
   Json statistics{{"mode", options.mode}};
@@ -304,12 +332,12 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   return statistics;
 }
 
-// What --mode realtime does not show.
-void warn_of_lens(const Plan& plan, const scene::Timeline& timeline) {
-  if (plan.camera) return;
-  for (const scene::CameraKey& key : timeline.camera)
-    if (key.camera.lens.aperture > 0)
-      return log_warning("the aperture of the camera is shown by --mode reference alone; here all is sharp");
+// With --temporal a frame is a single sample.
+void warn_of_lens(const RenderOptions& options, const scenario::Scenario& scenario) {
+  const auto is_sharp = [](const scene::Camera& camera) { return planning::usual_samples(camera) == 1; };
+  const auto& keys = scenario.timeline.camera;
+  if (options.temporal && !std::ranges::all_of(keys, is_sharp, &scene::CameraKey::camera))
+    log_warning("--temporal: shows neither the aperture nor the shutter of the camera; all is sharp");
 }
 
 Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
@@ -319,16 +347,20 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
         .value_or_throw();
   simulate(options, plan, loaded);
   render::Playback playback(context, loaded.scenario, plan.renderer, std::move(loaded.simulation));
-  playback.set_camera(loaded.orbit ? loaded.orbit->still_camera() : plan.camera);
+  playback.set_camera(camera_before(plan, loaded));
+  playback.set_samples(options.samples);
   if (loaded.scenario.measure_exposure) playback.measure_exposure();
   playback.set_step_scale(options.step);
   playback.set_light_update_fraction(options.light_update_fraction);
   playback.set_resolve_error_scale(options.resolve_error_scale);
   playback.set_view(plan.view, plan.slice);
-  warn_of_lens(plan, loaded.scenario.timeline);
-  TimedPlayback renderer(playback, loaded.orbit);
+  warn_of_lens(options, loaded.scenario);
+  TimedPlayback renderer(playback);
   write(options, plan, common, {context.info().name, context.info().driver}, loaded.scenario,
-        [&](double seconds, std::uint32_t i) { return renderer.draw(seconds, i, plan.has_layers()); });
+        [&](double seconds, std::uint32_t i) {
+          if (loaded.orbit) playback.set_camera(orbiting(plan, *loaded.orbit, seconds, i));
+          return renderer.draw(seconds, i, plan.has_layers());
+        });
   Json statistics{{"mode", options.mode},
                   {"march", options.march},
                   {"temporal", options.temporal},
@@ -340,8 +372,9 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
 
 void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
   const Stopwatch watch;
-  const Plan plan = make_plan(arguments, options, common.outputs);
+  Plan plan = make_plan(arguments, options, common.outputs);
   Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, {}};
+  set_shutter(options, plan, loaded.scenario);
   if (plan.kind == TargetKind::sequence && !plan.frames) {
     const FrameRange range = frames_of(plan, loaded.scenario.timeline);
     common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
@@ -392,6 +425,22 @@ void declare_quality(const Arguments& arguments, RenderOptions& options) {
       .range(0.0625, 1.0)
       .type_name("X");
   declare_volume_memory(arguments, options.volume_memory);
+}
+
+void declare_camera(const Arguments& arguments, RenderOptions& options) {
+  arguments
+      .add_option(
+          "--samples", options.samples,
+          "Samples of a pixel: paths of --mode reference (default 64 without another limit), frames of "
+          "--mode realtime (default 64 with an aperture or a shutter, else 1)")
+      .range(1u, reference::kMostSamples)
+      .type_name("N");
+  arguments
+      .add_option(
+          "--shutter", options.shutter,
+          "How long the shutter stays open, from the picture's time on [s]; default: as the timeline says")
+      .range(0.0, 10.0)
+      .type_name("S");
 }
 
 void declare_view(const Arguments& arguments, RenderOptions& options) {
@@ -458,6 +507,7 @@ Command add_render(CommandLine& program) {
                   "realtime: on a GPU; reference: path-traced on the CPU, without approximations")
       .one_of({"realtime", "reference"})
       .type_name("MODE");
+  declare_camera(arguments, *options);
   declare_reference(arguments, options->reference);
   declare_quality(arguments, *options);
   declare_view(arguments, *options);

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <type_traits>
 
 #include "apps/cli/json.hpp"
-#include "apps/cli/orbit.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/targets.hpp"
 #include "render/playback.hpp"
@@ -16,11 +14,8 @@ namespace brume::cli {
 /// Draws frames and gathers the statistics for --json.
 class TimedPlayback {
  public:
-  /// `orbit`: empty for the camera of the playback.
-  TimedPlayback(render::Playback& playback, const std::optional<Orbit>& orbit)
-      : playback_(playback), orbit_(orbit) {}
+  explicit TimedPlayback(render::Playback& playback) : playback_(playback) {}
   Picture draw(double seconds, std::uint32_t frame_index, bool has_layers) {
-    if (orbit_) playback_.set_camera(orbit_->at(seconds, frame_index));
     return timed([&]() -> Picture {
       if (has_layers) return playback_.draw_layers(seconds, frame_index);
       return playback_.draw(seconds, frame_index);
@@ -48,7 +43,6 @@ class TimedPlayback {
   }
 
   render::Playback& playback_;
-  std::optional<Orbit> orbit_;
   double seconds_ = 0, cpu_seconds_ = 0;
   int frames_ = 0;
 };

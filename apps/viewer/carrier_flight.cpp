@@ -76,7 +76,7 @@ bool CarrierFlight::steer(const Input& input, float speed, double seconds) {
   return length > 0 || turn != glm::vec2(0);
 }
 
-scene::Camera CarrierFlight::camera(const voxel::BitGrid& grid, float vertical_fov) const {
+scene::Camera CarrierFlight::camera(const voxel::BitGrid& grid) const {
   const glm::vec3 direction = direction_world();
   float distance = distance_;
   // What is solid at the carrier itself, a pad that it stands on, hides it less than no distance would.
@@ -85,7 +85,6 @@ scene::Camera CarrierFlight::camera(const voxel::BitGrid& grid, float vertical_f
   scene::Camera camera;
   camera.position_world = pose_.position_world - distance * direction;
   camera.target_world = pose_.position_world;
-  camera.vertical_fov = vertical_fov;
   return camera;
 }
 

@@ -29,7 +29,7 @@ class CarrierFlight {
   /// stops the carrier. Returns whether anything moved.
   bool steer(const Input& input, float speed, double seconds);
   /// Behind the carrier, or nearer where a wall is between them.
-  scene::Camera camera(const voxel::BitGrid& grid, float vertical_fov) const;
+  scene::Camera camera(const voxel::BitGrid& grid) const;
   /// All carriers of a timeline, this one where the player has steered it at any time.
   std::vector<scene::Carrier> steered(std::vector<scene::Carrier> carriers) const;
 

@@ -39,9 +39,7 @@ Game::Game(std::unique_ptr<Session> session, const Choices& choices,
 }
 
 Game::Edits Game::edits(const std::string& what) const {
-  return {session_->edits(),     choices_.weapons,
-          player_.options(),     player_.camera().vertical_fov,
-          player_.camera().lens, what};
+  return {session_->edits(), choices_.weapons, player_.options(), optics_of(player_.camera()), what};
 }
 
 bool Game::report(const Result<void>& done) {
@@ -83,8 +81,7 @@ void Game::step_history(Action action) {
   if (back ? !history_->can_undo() : !history_->can_redo())
     return notify_(back ? "nothing to undo" : "nothing to redo");
   const std::string what = back ? history_->present().what : "";
-  const float fov_before = history_->present().vertical_fov;
-  const scene::Lens lens_before = history_->present().lens;
+  const Optics optics_before = history_->present().optics;
   const Edits& edits = back ? history_->undo() : history_->redo();
   if (!report(session_->restore(edits.session))) return;
   const ShotKind kind = choices_.weapons.kind;
@@ -92,12 +89,7 @@ void Game::step_history(Action action) {
   choices_.weapons.kind = kind;
   player_.set_options(grid(), edits.body);
   // A camera path changes it, too, which is no step.
-  if (edits.vertical_fov != fov_before || edits.lens != lens_before) {
-    scene::Camera camera = player_.camera();
-    camera.vertical_fov = edits.vertical_fov;
-    camera.lens = edits.lens;
-    player_.set_optics(camera);
-  }
+  if (!(edits.optics == optics_before)) player_.set_optics(edits.optics);
   ++changes_;
   notify_(back ? "undone: " + what : "redone: " + edits.what);
 }
@@ -165,9 +157,7 @@ void Game::set_steering(bool steers) {
   ++changes_;
   if (!steers) {
     notify_(carriers[flight_->carrier()].name + " is on its path again");
-    scene::Camera camera = flight_->camera_before();
-    camera.vertical_fov = player_.camera().vertical_fov;
-    player_.go_to(grid(), camera);
+    player_.go_to(grid(), with_optics(flight_->camera_before(), optics_of(player_.camera())));
     flight_.reset();
     return;
   }
@@ -259,14 +249,14 @@ void Game::move(const Input& input, double passed) {
     if (input.wheel != 0) player_.change_fly_speed(grid(), input.wheel);
     const double seconds = std::min(passed, Session::kLongestFrame);
     if (flight_->steer(input, player_.options().fly_speed, seconds)) ++changes_;
-    return player_.follow(flight_->camera(grid(), player_.camera().vertical_fov));
+    return player_.follow(with_optics(flight_->camera(grid()), optics_of(player_.camera())));
   }
   const bool turned = input.look_px != glm::dvec2(0);
   if (session_->follows_path()) {
     constexpr std::array kMoves{Action::forward, Action::back, Action::left,
                                 Action::right,   Action::up,   Action::down};
     const bool moved = std::any_of(kMoves.begin(), kMoves.end(), [&](Action a) { return input.is_held(a); });
-    if (!turned && !moved) return player_.follow(session_->path_camera());
+    if (!turned && !moved) return player_.follow(session_->path_camera(session_->seconds()));
     session_->leave_path();
   }
   player_.turn(input.look_px);

@@ -82,8 +82,7 @@ class Game {
     Session::Edits session;
     Weapons weapons;
     scenario::WalkerOptions body;
-    float vertical_fov = 0;
-    scene::Lens lens;
+    Optics optics;
     std::string what;  ///< That led to it.
   };
   Edits edits(const std::string& what) const;

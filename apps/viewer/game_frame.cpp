@@ -1,18 +1,42 @@
 #include "apps/viewer/game_frame.hpp"
 
 namespace brume::viewer {
+namespace {
+
+/// The frame of a game with options that say what is steered.
+render::FrameInput input_of(const Game& game, const planning::FrameOptions& options,
+                            std::vector<shared::Hole>& holes) {
+  const Session& session = game.session();
+  render::FrameInput input = planning::frame_input(session.live().scenario(), session.simulation(),
+                                                   session.seconds(), holes, options);
+  if (!game.choices().decals) input.decals.clear();
+  input.debug = {game.choices().view, game.choices().slice};
+  return input;
+}
+
+/// Where the camera is around the time of a game: on its path as long as it follows that, else at rest.
+planning::CameraAt camera_of(const Game& game) {
+  return [&game, still = game.player().camera()](double seconds) {
+    const Session& session = game.session();
+    if (!session.follows_path() || seconds == session.seconds()) return still;
+    return with_optics(session.path_camera(seconds), optics_of(still));
+  };
+}
+
+}  // namespace
 
 render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes,
                                scenario::VolumeWait wait) {
-  const Session& session = game.session();
   const auto steered = game.steered_carriers();
-  render::FrameInput input =
-      planning::frame_input(session.live().scenario(), session.simulation(), session.seconds(), holes,
-                            {wait, steered ? &*steered : nullptr});
-  if (!game.choices().decals) input.decals.clear();
-  input.view.camera = game.player().camera();
-  input.debug = {game.choices().view, game.choices().slice};
-  return input;
+  return input_of(game, {.wait = wait, .steered = steered ? &*steered : nullptr, .camera = camera_of(game)},
+                  holes);
+}
+
+StillFrame::StillFrame(const Game& game) : steered_(game.steered_carriers()) {
+  const planning::FrameOptions options{.steered = steered_ ? &*steered_ : nullptr, .camera = camera_of(game)};
+  render::FrameInput input = input_of(game, options, holes_);
+  samples_.emplace(game.session().live().scenario(), game.session().seconds(), options, std::move(input),
+                   std::nullopt);
 }
 
 }  // namespace brume::viewer

@@ -13,4 +13,18 @@ namespace brume::viewer {
 render::FrameInput frame_input(const Game& game, std::vector<shared::Hole>& holes,
                                scenario::VolumeWait wait = scenario::VolumeWait::until_loaded);
 
+/// A paused frame of a game, as `brume render` shows it: the mean of the samples of its camera.
+class StillFrame {
+ public:
+  /// `game` must outlive it, unchanged.
+  explicit StillFrame(const Game& game);
+  std::uint32_t samples() const { return samples_->count(); }
+  render::FrameInput sample(std::uint32_t i) const { return (*samples_)[i]; }
+
+ private:
+  std::vector<shared::Hole> holes_;
+  std::optional<std::vector<scene::Carrier>> steered_;
+  std::optional<planning::FrameSamples> samples_;
+};
+
 }  // namespace brume::viewer

@@ -22,6 +22,7 @@ constexpr std::array kLabels{
     Label{"aperture", "aperture radius"},
     Label{"focus", "focus distance"},
     Label{"blades", "aperture blades"},
+    Label{"shutter", "shutter time"},
     // Of the smoke.
     Label{"voxels", "volume"},
     Label{"bloom", "time to grow"},

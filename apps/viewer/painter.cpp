@@ -20,6 +20,7 @@ bool volumes_arrive(const Screen& screen, const Game& game) {
 
 void Painter::restart() {
   continues_ = false;
+  samples_ = 0;
   is_best_ = false;
   rendered_ = {};
 }
@@ -28,10 +29,11 @@ void Painter::restart() {
 bool Painter::is_still(const Screen& screen, const Game& game, const Window& window) {
   const scene::Camera camera = game.player().camera();
   const Key now{game.session().seconds(), camera.position_world, camera.target_world,
-                camera.vertical_fov,      window.size_px(),      game.changes()};
+                optics_of(camera),        window.size_px(),      game.changes()};
   if (now != rendered_ || volumes_arrive(screen, game)) {
     rendered_ = now;
     still_frames_ = 0;
+    samples_ = 0;
     is_best_ = false;
     return false;
   }
@@ -55,15 +57,19 @@ bool Painter::draw_film(Screen& screen, const Game& game, const Quality& quality
 
 bool Painter::draw_best(Screen& screen, const Game& game, Window& window, const Quality& quality,
                         const ImDrawData& ui) {
-  std::vector<shared::Hole> holes;
+  const StillFrame still(game);
   const std::uint64_t events = window.events();
-  is_best_ = screen.refine(frame_input(game, holes), [&] {
+  const bool is_refined = screen.refine(still.sample(samples_), [&] {
     window.poll(0);
     return window.events() != events;
   });
   continues_ = false;
-  if (is_best_) return screen.show(nullptr, quality, ui);
+  if (is_refined) {
+    is_best_ = ++samples_ == still.samples();
+    return screen.show(nullptr, quality, ui);
+  }
   still_frames_ = 0;
+  samples_ = 0;
   return draw_film(screen, game, quality, 1.0f / kLightSlices, ui);
 }
 

@@ -16,7 +16,8 @@ class Painter {
   /// Shows a frame with `ui` over it, that many seconds after the last one; false if the window currently
   /// shows nothing. A paused image is repeated until it becomes the best one, the image of `brume render`:
   /// first the light in the smoke is brought up to date in slices and volumes are loaded and uploaded, then
-  /// the image is rendered in parts. An input ends all that soon.
+  /// the image is rendered in parts, and of a camera with a lens or a shutter one sample after the other. An
+  /// input ends all that soon.
   bool draw(Screen& screen, const Game& game, Window& window, const Quality& quality, double frame_seconds,
             const ImDrawData& ui);
 
@@ -34,7 +35,7 @@ class Painter {
   struct Key {
     double seconds = -1;
     glm::vec3 eye{0}, target{0};
-    float vertical_fov = 0;
+    Optics optics;
     glm::uvec2 size_px{0};
     std::uint64_t changes = 0;
     bool operator==(const Key&) const = default;
@@ -48,9 +49,10 @@ class Painter {
   std::uint32_t frame_index_ = 0;
   bool continues_ = false;  ///< The next frame may accumulate with the previous one.
   Key rendered_;
-  int still_frames_ = 0;    ///< Frames since the image changed.
-  bool in_motion_ = false;  ///< The last frame was one of the running film.
-  bool is_best_ = false;    ///< The paused image has full quality.
+  int still_frames_ = 0;       ///< Frames since the image changed.
+  bool in_motion_ = false;     ///< The last frame was one of the running film.
+  std::uint32_t samples_ = 0;  ///< That the paused image has at full quality.
+  bool is_best_ = false;       ///< The paused image has full quality.
 };
 
 }  // namespace brume::viewer

@@ -36,8 +36,9 @@ void Player::look_along(const scene::Camera& camera) {
   const glm::vec3 direction = glm::length(apart) > 1e-6f ? glm::normalize(apart) : glm::vec3(0, 0, -1);
   yaw_ = std::atan2(direction.x, -direction.z);
   pitch_ = std::clamp(std::asin(std::clamp(direction.y, -1.0f, 1.0f)), -kMaxPitch, kMaxPitch);
-  vertical_fov_ = camera.vertical_fov;
-  lens_ = camera.lens;
+  optics_ = optics_of(camera);
+  // Its target is not kept.
+  if (optics_.lens.aperture > 0) optics_.lens.focus = scene::focus_distance(camera);
 }
 
 void Player::go_to(const voxel::BitGrid& grid, const scene::Camera& camera) {
@@ -116,9 +117,7 @@ scene::Camera Player::camera() const {
   scene::Camera camera;
   camera.position_world = walker_.eye_world();
   camera.target_world = camera.position_world + direction_world();
-  camera.vertical_fov = vertical_fov_;
-  camera.lens = lens_;
-  return camera;
+  return with_optics(camera, optics_);
 }
 
 glm::vec3 direction_through(const scene::Camera& camera, float aspect, glm::vec2 point) {

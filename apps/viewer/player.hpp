@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "apps/viewer/optics.hpp"
 #include "apps/viewer/window.hpp"
 #include "scenario/walker.hpp"
 #include "scene/scene.hpp"
@@ -31,13 +32,9 @@ class Player {
 
   scene::Camera camera() const;
   glm::vec3 direction_world() const;
-  /// Takes field of view and lens from a camera.
-  void set_optics(const scene::Camera& camera) {
-    vertical_fov_ = camera.vertical_fov;
-    lens_ = camera.lens;
-    if (!followed_) return;
-    followed_->vertical_fov = camera.vertical_fov;
-    followed_->lens = camera.lens;
+  void set_optics(const Optics& optics) {
+    optics_ = optics;
+    if (followed_) followed_ = with_optics(*followed_, optics);
   }
   const scenario::WalkerOptions& options() const { return walker_.options(); }
   void set_options(const voxel::BitGrid& grid, const scenario::WalkerOptions& options) {
@@ -51,8 +48,7 @@ class Player {
   scenario::Walker walker_;
   std::optional<glm::vec3> last_stood_world_;  ///< Feet; on something solid.
   float yaw_ = 0, pitch_ = 0;                  ///< [rad]; 0: along -z, level. Pitch rises upwards.
-  float vertical_fov_ = 1;
-  scene::Lens lens_;
+  Optics optics_;
   std::optional<scene::Camera> followed_;
 };
 

@@ -130,12 +130,16 @@ float Screen::measure_exposure(const render::FrameInput& input) {
   return render::measure_exposure(context_, *renderer_, input);
 }
 
-image::Image8 Screen::picture(render::FrameInput input, glm::uvec2 size_px) {
-  begin_still(input, size_px);
+image::Image8 Screen::picture(const StillFrame& frame, glm::uvec2 size_px) {
   const gpu::Buffer pixels(context_, std::size_t{4} * size_px.x * size_px.y, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            gpu::MemoryUse::readback);
-  renderer_->draw(input,
-                  [&](gpu::Recorder& recorder) { recorder.read_back(renderer_->targets().display, pixels); });
+  for (std::uint32_t i = 0; i < frame.samples(); ++i) {
+    render::FrameInput input = frame.sample(i);
+    begin_still(input, size_px);
+    renderer_->draw(input, [&](gpu::Recorder& recorder) {
+      if (i + 1 == frame.samples()) recorder.read_back(renderer_->targets().display, pixels);
+    });
+  }
   image::Image8 picture;
   picture.width = size_px.x;
   picture.height = size_px.y;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/viewer/game_frame.hpp"
 #include "apps/viewer/quality.hpp"
 #include "apps/viewer/ui_pass.hpp"
 #include "apps/viewer/upscale_pass.hpp"
@@ -50,8 +51,8 @@ class Screen {
   bool refine(render::FrameInput input, const std::function<bool()>& stops);
   /// The exposure factor that fits `input` (render::measure_exposure).
   float measure_exposure(const render::FrameInput& input);
-  /// Renders `input` as `brume render` does, at full quality and the given size.
-  image::Image8 picture(render::FrameInput input, glm::uvec2 size_px);
+  /// Renders samples of a frame as `brume render` does, at full quality and the given size.
+  image::Image8 picture(const StillFrame& frame, glm::uvec2 size_px);
 
   /// Whether volumes of the last frame have bricks that are still to be uploaded.
   bool streams_volumes() const { return renderer_ && renderer_->streams_volumes(); }

@@ -166,10 +166,10 @@ void Session::play() {
   seek(kFirstTime);
 }
 
-scene::Camera Session::path_camera() const {
+scene::Camera Session::path_camera(double seconds) const {
   scene::Timeline timeline;
   timeline.camera = keys_;
-  return scene::camera_at(timeline, live_->scenario().camera, seconds_);
+  return scene::camera_at(timeline, live_->scenario().camera, seconds);
 }
 
 void Session::record_camera(const scene::Camera& camera) {

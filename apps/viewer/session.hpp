@@ -72,8 +72,8 @@ class Session {
   // The recorded camera path.
   bool follows_path() const { return follows_path_; }
   void leave_path() { follows_path_ = false; }
-  /// The camera of the path at the current time.
-  scene::Camera path_camera() const;
+  /// The camera of the path at a time [s].
+  scene::Camera path_camera(double seconds) const;
   /// Adds the player's camera to the path, at most every kCameraKeyEvery; discards later keys.
   void record_camera(const scene::Camera& camera);
 

@@ -6,6 +6,7 @@
 #include "apps/viewer/option_panel.hpp"
 #include "apps/viewer/ui_parts.hpp"
 #include "apps/viewer/widgets.hpp"
+#include "scenario/aim.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -181,16 +182,37 @@ void lay_out_views(Game& game) {
   lay_out_slice(choices, game);
 }
 
+/// Of the solid point in the middle of the view, along the view axis [m].
+float distance_of_middle(const Game& game) {
+  constexpr float kFarthest = 1000;
+  const scene::Camera camera = game.player().camera();
+  const scenario::Aim aim = scenario::aim(game.grid(), camera.position_world,
+                                          camera.target_world - camera.position_world, kFarthest);
+  return aim.meets.value_or(kFarthest);
+}
+
+void choose_optics(Game& game, Optics optics) {
+  // The target of a player is a direction: nothing that could be sharp.
+  if (optics.lens.aperture > 0 && optics.lens.focus <= 0) optics.lens.focus = distance_of_middle(game);
+  game.player().set_optics(optics);
+  game.setting_changed("camera");
+  game.session().leave_path();
+  game.change_picture();
+}
+
 void lay_out_camera(Game& game, UiRequests& requests) {
   Player& player = game.player();
   scene::Camera camera = player.camera();
   if (option_rows(camera, game.first_camera(),
                   [](auto& o, auto&& visitor) { scene::visit_camera_options(o, visitor); })) {
-    player.set_optics(camera);
-    game.setting_changed("camera");
-    game.session().leave_path();
-    game.change_picture();
+    choose_optics(game, optics_of(camera));
   }
+  if (button("focus on the middle")) {
+    camera.lens.focus = distance_of_middle(game);
+    choose_optics(game, optics_of(camera));
+  }
+  if (!camera.lens.opening.empty())
+    ImGui::Text("opening: %s", camera.lens.opening.filename().string().c_str());
   if (begin_tree("body")) {
     scenario::WalkerOptions walker = player.options();
     if (option_rows(walker, scenario::WalkerOptions(),

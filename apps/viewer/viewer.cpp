@@ -395,10 +395,9 @@ void Viewer::finish_frame(Clock::time_point begin, double frame_seconds, double 
 }
 
 void Viewer::save_screenshot(const std::filesystem::path& picture) {
-  std::vector<shared::Hole> holes;
   const glm::uvec2 size = glm::max(window_.size_px(), glm::uvec2(1));
   screen_->wait();
-  const image::Image8 image = screen_->picture(frame_input(*game_, holes), size);
+  const image::Image8 image = screen_->picture(StillFrame(*game_), size);
   painter_.restart();
   const auto saved = save_snapshot(picture, image, game_->snapshot());
   notify(saved ? "saved: " + picture.string() : saved.failure().message);

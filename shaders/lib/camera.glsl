@@ -6,7 +6,7 @@
 /// Direction through a point of the image; its component along the view axis is 1.
 vec3 camera_ray(Camera camera, vec2 position_px, uvec2 size_px) {
   const vec2 ndc = position_px / vec2(size_px) * 2.0 - 1.0;
-  return camera.forward + ndc.x * camera.right - ndc.y * camera.up;
+  return camera.forward + (camera.shift.x + ndc.x) * camera.right + (camera.shift.y - ndc.y) * camera.up;
 }
 
 /// Distance along the view axis from reverse depth; huge where no surface was drawn.

@@ -22,7 +22,8 @@ struct RaycastRay {
 
 RaycastRay raycast_ray(uint volume, ivec2 pixel) {
   const vec2 window = vec2(view.size_px), ndc = 2.0 * (vec2(pixel) + 0.5) / window - 1.0;
-  const vec3 along = vec3(ndc.x * window.x / window.y, -ndc.y, -view.focal_length);
+  const vec3 along =
+      vec3((view.shift.x + ndc.x) * window.x / window.y, view.shift.y - ndc.y, -view.focal_length);
   RaycastRay ray;
   ray.direction = normalize(along);
   ray.voxel = VoxelRay(raycast[volume].eye_voxel, raycast[volume].voxel_from_view * ray.direction);

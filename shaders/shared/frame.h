@@ -11,7 +11,8 @@ SHARED_BEGIN
 
 SHARED_BINDING(kBindFrame, 0u);
 
-/// A pinhole camera. The ray of a pixel points along forward + x right + y up, x and y in [-1, 1].
+/// A pinhole camera. The ray of a pixel points along forward + (x + shift.x) right + (y + shift.y) up, x and
+/// y in [-1, 1].
 struct Camera {
   mat4 clip_from_world;  // reverse depth, infinite far plane: depth = near / distance along forward
   vec3 eye_world;
@@ -19,8 +20,9 @@ struct Camera {
   vec3 forward;  // unit
   vec3 right;    // scaled by tan(half the horizontal field of view)
   vec3 up;       // scaled by tan(half the vertical field of view)
+  vec2 shift;
 };
-SHARED_SIZE(Camera, 116);
+SHARED_SIZE(Camera, 124);
 
 /// Distant light: a gradient from horizon to zenith, and ambient light.
 struct Sky {
@@ -91,7 +93,7 @@ struct FrameConstants {
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
-SHARED_SIZE(FrameConstants, 620);
+SHARED_SIZE(FrameConstants, 628);
 
 SHARED_END
 #endif

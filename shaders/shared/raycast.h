@@ -21,6 +21,7 @@ SHARED_CONST uint kBoxVertices = 36u;
 struct RaycastView {
   uvec2 size_px;
   float focal_length;          // 1 / tan(half the vertical field of view)
+  vec2 shift;                  // Camera::shift
   float near_z;                // of the depth image [m]
   vec3 sun_direction;          // towards the sun, unit [view space]
   vec3 sun_irradiance;         // on a surface that faces the sun
@@ -28,7 +29,7 @@ struct RaycastView {
   Phase phase;
   float opaque_transmittance;  // below it a ray is opaque
 };
-SHARED_SIZE(RaycastView, 72);
+SHARED_SIZE(RaycastView, 80);
 
 /// A volume of a frame. What the march reads of its density and look is its VolumeInstance.
 struct RaycastVolume {

@@ -4,7 +4,7 @@
 
 namespace brume::planning {
 
-shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px) {
+shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample) {
   // Axes of the view: forward, right, up.
   const glm::vec3 apart = camera.target_world - camera.position_world;
   const glm::vec3 forward = glm::length(apart) > 1e-6f ? glm::normalize(apart) : glm::vec3(0, 0, -1);
@@ -13,14 +13,19 @@ shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px) {
   const float tan_y = std::tan(0.5f * camera.vertical_fov);
   const float tan_x = tan_y * static_cast<float>(size_px.x) / static_cast<float>(size_px.y);
 
+  // The point of the lens, and how far rays lean back from there to the same point of what is sharp.
+  const glm::vec2 on_lens = camera.lens.aperture * sample.lens;
+  const glm::vec3 p = camera.position_world + on_lens.x * right + on_lens.y * up;
+  const glm::vec2 shift = 2.0f * glm::vec2(sample.pixel.x, -sample.pixel.y) / glm::vec2(size_px) -
+                          on_lens / (focus_distance(camera) * glm::vec2(tan_x, tan_y));
+
   // Reverse depth, infinite far plane; Vulkan's y runs down.
-  const glm::vec3 p = camera.position_world;
   glm::mat4 rows(0);
-  rows[0] = glm::vec4(right, -glm::dot(right, p)) / tan_x;
-  rows[1] = glm::vec4(-up, glm::dot(up, p)) / tan_y;
-  rows[2] = glm::vec4(0, 0, 0, kNearPlane);
   rows[3] = glm::vec4(forward, -glm::dot(forward, p));
-  return {glm::transpose(rows), p, kNearPlane, forward, tan_x * right, tan_y * up};
+  rows[2] = glm::vec4(0, 0, 0, kNearPlane);
+  rows[1] = glm::vec4(-up, glm::dot(up, p)) / tan_y + shift.y * rows[3];
+  rows[0] = glm::vec4(right, -glm::dot(right, p)) / tan_x - shift.x * rows[3];
+  return {glm::transpose(rows), p, kNearPlane, forward, tan_x * right, tan_y * up, shift};
 }
 
 }  // namespace brume::planning

@@ -1,6 +1,7 @@
 // The camera of a frame in the form that shaders and culling read.
 #pragma once
 
+#include "planning/frame_input.hpp"
 #include "scene/scene.hpp"
 #include "shared/frame.h"
 
@@ -8,7 +9,8 @@ namespace brume::planning {
 
 constexpr float kNearPlane = 0.05f;  // [m]
 
-/// `camera` for an image of this size. A view straight up or down is valid.
-shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px);
+/// `camera` for an image of this size. A view straight up or down is valid. The pinhole may be elsewhere on
+/// the lens: all of them see the plane that is sharp alike.
+shared::Camera device_camera(const scene::Camera& camera, glm::uvec2 size_px, const ViewSample& sample = {});
 
 }  // namespace brume::planning

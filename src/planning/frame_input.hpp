@@ -31,8 +31,17 @@ struct LevelView {
   bool operator==(const LevelView&) const = default;
 };
 
+/// Which part of a camera's picture a frame is: what a pinhole on its lens sees.
+struct ViewSample {
+  glm::vec2 pixel{0};  ///< From the middle of each pixel to the point that it shows, y down [px].
+  glm::vec2 lens{0};   ///< Where the pinhole is on the lens, x right and y up, in radii of it.
+  /// Among the frames of a picture, which come one after the other; each shows the mean of those so far.
+  std::uint32_t index = 0, count = 1;
+};
+
 struct View {
   scene::Camera camera;
+  ViewSample sample = {};
   float exposure = 1;  ///< Multiplies radiance before the tone curve; > 0.
   scene::ToneCurve tone = scene::ToneCurve::neutral;
   std::uint32_t frame_index = 0;  ///< Moves jitter and dither; equal numbers give equal images.
@@ -133,6 +142,7 @@ struct VolumeInput {
   const volume::SparseVolume* colors = nullptr;
   std::vector<glm::vec3> tints = {};  ///< Radiance per metre where a mask is 1; at most four.
   DisturbanceInput disturbance = {};
+  std::size_t index = 0;  ///< Among the volumes of the timeline.
 };
 
 /// Baked occlusion that darkens the surfaces in its box.

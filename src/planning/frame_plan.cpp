@@ -66,8 +66,9 @@ void plan_smoke_shadow_update(FramePlan& plan, const PlanTarget& target, PlanHis
   for (const PlacedVolume& volume : plan.media.volumes)
     if (volume.instance.look.extinction > 0) boxes.push_back(volume.bounds_world);
   plan.smoke_shadows = history.smoke_shadows.update(
-      plan_smoke_shadows({plan.lights, target.sun_clip_from_world, plan.camera}, boxes,
-                         target.smoke_shadow_atlas),
+      plan_smoke_shadows(
+          {plan.lights, target.sun_clip_from_world, device_camera(plan.input.view.camera, plan.size_px)},
+          boxes, target.smoke_shadow_atlas),
       {smoke.volume, &plan.visibility, plan.lights, &plan.holes, &plan.noise, smoke.look, smoke.time,
        plan.level_changed || plan.volume_light.update || quality.rebuild_light,
        quality.light_update_fraction});
@@ -102,7 +103,7 @@ void plan_volume_light(FramePlan& plan, PlanHistory& history) {
 FramePlan::FramePlan(const FrameInput& frame_input, glm::uvec2 frame_size_px)
     : input(frame_input),
       size_px(frame_size_px),
-      camera(device_camera(frame_input.view.camera, frame_size_px)),
+      camera(device_camera(frame_input.view.camera, frame_size_px, frame_input.view.sample)),
       frustum(camera) {}
 
 const sim::State& FramePlan::state() const {

@@ -27,6 +27,7 @@ struct ParticleInput {
   float swirl = 0.05f;       ///< Radius of their swirl, a fraction of the box's shortest edge; >= 0.
   double swirl_seconds = 4;  ///< Time of a turn of the swirl [s]; > 0.
   float softness = 0;        ///< Distance over which quads fade before surfaces and from the eye [m]; >= 0.
+  std::size_t index = 0;     ///< Among the volumes of the timeline.
 };
 
 /// What shaders read of a system, whose particles are the first ones of all. Throws bad_input for a transform

@@ -21,11 +21,11 @@ glm::dmat4 world_from_view(const shared::Camera& camera) {
 }
 
 /// Reverse depth, infinite far plane; Vulkan's y runs down.
-glm::dmat4 clip_from_view(double focal_length, glm::uvec2 size_px) {
+glm::dmat4 clip_from_view(double focal_length, const glm::dvec2& shift, glm::uvec2 size_px) {
   glm::dmat4 clip(0);
   clip[0][0] = focal_length * size_px.y / size_px.x;
   clip[1][1] = -focal_length;
-  clip[2][3] = -1;
+  clip[2] = glm::dvec4(shift.x, -shift.y, 0, -1);
   clip[3][2] = kBoxNear;
   return clip;
 }
@@ -77,8 +77,10 @@ RaycastPlan plan_raycast(const shared::Camera& camera, glm::uvec2 size_px,
   RaycastPlan plan;
   const glm::dmat4 from_view = world_from_view(camera), to_view = glm::inverse(from_view);
   const double focal_length = 1 / glm::length(glm::dvec3(camera.up));
+  const glm::dmat4 projection = clip_from_view(focal_length, glm::dvec2(camera.shift), size_px);
   plan.view = {size_px,
                static_cast<float>(focal_length),
+               camera.shift,
                camera.near_z,
                glm::vec3(to_view * glm::dvec4(glm::dvec3(light.to_sun), 0)),
                light.sun_irradiance,
@@ -94,7 +96,7 @@ RaycastPlan plan_raycast(const shared::Camera& camera, glm::uvec2 size_px,
                      from_voxel = inverse_of(instance.voxel_from_world),
                      voxel_from_view = to_voxel * from_view;
     shared::RaycastVolume placed{};
-    placed.clip_from_voxel = glm::mat4(clip_from_view(focal_length, size_px) * to_view * from_voxel);
+    placed.clip_from_voxel = glm::mat4(projection * to_view * from_voxel);
     placed.voxel_from_view = glm::mat3(glm::dmat3(voxel_from_view));
     placed.eye_voxel = glm::vec3(voxel_from_view[3]);
     placed.to_sun = glm::vec3(to_voxel * glm::dvec4(glm::dvec3(light.to_sun), 0));

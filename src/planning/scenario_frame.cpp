@@ -18,6 +18,15 @@ glm::mat4 grenade_matrix(const sim::Grenade& grenade) {
   return glm::rotate(moved, 9.0f * grenade.flight_seconds, glm::normalize(glm::vec3(1.0f, 0.35f, 0.2f)));
 }
 
+scene::Camera camera_of(const scenario::Scenario& scenario, double seconds, const FrameOptions& options) {
+  return options.camera ? options.camera(seconds)
+                        : scene::camera_at(scenario.timeline, scenario.camera, seconds);
+}
+
+std::span<const scene::Carrier> carriers_of(const scenario::Scenario& scenario, const FrameOptions& options) {
+  return options.steered ? *options.steered : scenario.timeline.carriers;
+}
+
 /// Objects with carriers, which are not where the scene has them.
 void add_moved_objects(const scenario::Scenario& scenario, std::span<const scene::Carrier> carriers,
                        double seconds, FrameInput& input) {
@@ -54,9 +63,9 @@ constexpr double kRounding = 1e-3;
 FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
                        double seconds, std::vector<shared::Hole>& holes, const FrameOptions& options) {
   const scene::Timeline& timeline = scenario.timeline;
-  const std::span<const scene::Carrier> carriers(options.steered ? *options.steered : timeline.carriers);
+  const std::span<const scene::Carrier> carriers = carriers_of(scenario, options);
   FrameInput input;
-  input.view.camera = scene::camera_at(timeline, scenario.camera, seconds);
+  input.view.camera = camera_of(scenario, seconds, options);
   // Jitter and dither follow time, not the frame's number: the same time is the same image at any rate.
   input.view.frame_index = static_cast<std::uint32_t>(std::floor(seconds * kJitterRate + kRounding));
   input.environment.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient,
@@ -94,6 +103,52 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   add_moved_objects(scenario, carriers, seconds, input);
   add_decals(scenario, carriers, seconds, input);
   return input;
+}
+
+void move_frame(const scenario::Scenario& scenario, double from_seconds, double to_seconds,
+                const FrameOptions& options, FrameInput& input) {
+  input.view.camera = camera_of(scenario, to_seconds, options);
+  const std::span<const scene::Carrier> carriers = carriers_of(scenario, options);
+  if (carriers.empty()) return;
+  const std::vector<scenario::MovedObject> moved =
+      scenario::moved_objects(carriers, scenario.scene, to_seconds);
+  for (scenario::MovedObject& object : input.level.moved)
+    object = *std::ranges::lower_bound(moved, object.object, {}, &scenario::MovedObject::object);
+  const auto moves = [&](const std::string& carrier) {
+    const glm::dmat4 before(scene::pose_of(carriers, carrier, from_seconds));
+    return glm::dmat4(scene::pose_of(carriers, carrier, to_seconds)) * glm::inverse(before);
+  };
+  const auto move = [](const glm::dmat4& by, std::initializer_list<glm::mat4*> matrices) {
+    for (glm::mat4* matrix : matrices) *matrix = glm::mat4(by * glm::dmat4(*matrix));
+  };
+  for (VolumeInput& volume : input.volumes)
+    move(moves(scenario.timeline.volumes[volume.index].carrier),
+         {&volume.world_from_voxel, &volume.world_from_preview, &volume.heat.world_from_voxel,
+          &volume.heat.world_from_preview});
+  for (ParticleInput& particles : input.particles)
+    move(moves(scenario.timeline.volumes[particles.index].carrier), {&particles.world_from_uvw});
+  for (std::size_t i = 0; i < input.decals.size(); ++i)
+    move(moves(scenario.timeline.decals[i].carrier), {&input.decals[i].world_from_box});
+}
+
+FrameSamples::FrameSamples(const scenario::Scenario& scenario, double seconds, const FrameOptions& options,
+                           FrameInput frame, std::optional<std::uint32_t> count)
+    : scenario_(scenario), seconds_(seconds), options_(options), frame_(std::move(frame)) {
+  const scene::Camera& camera = frame_.view.camera;
+  const std::uint32_t usual = frame_.debug.view == DebugView::none ? usual_samples(camera) : 1;
+  samples_ =
+      camera_samples(count.value_or(usual), camera.lens, opening_of(scenario.lens_openings, camera.lens));
+}
+
+FrameInput FrameSamples::operator[](std::uint32_t i) const {
+  const CameraSample& sample = samples_[i];
+  FrameInput frame = frame_;
+  const float shutter = frame_.view.camera.shutter;
+  if (shutter > 0 && sample.time > 0)
+    move_frame(scenario_, seconds_, seconds_ + double{shutter * sample.time}, options_, frame);
+  frame.view.sample = sample.view;
+  frame.view.frame_index += i;
+  return frame;
 }
 
 }  // namespace brume::planning

@@ -1,12 +1,16 @@
 // The frame of a scenario at a time.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
-#include "planning/frame_input.hpp"
+#include "planning/lens.hpp"
 #include "scenario/simulation.hpp"
 
 namespace brume::planning {
+
+using CameraAt = std::function<scene::Camera(double seconds)>;
 
 struct FrameOptions {
   scenario::VolumeWait wait = scenario::VolumeWait::until_loaded;
@@ -14,11 +18,37 @@ struct FrameOptions {
   const std::vector<scene::Carrier>* steered = nullptr;
   /// Whether volumes that the timeline shows as particles are; else they are volumes like others.
   bool particles = true;
+  /// Where the camera is at a time [s], in place of the timeline's path; empty: there.
+  CameraAt camera = {};
 };
 
 /// What a frame shows of a scenario at a time. `holes` keeps the holes that the result refers to. Objects,
 /// volumes and decals move with the carriers.
 FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simulation& simulation,
                        double seconds, std::vector<shared::Hole>& holes, const FrameOptions& options = {});
+
+/// Moves the camera and what carriers move from where they are at the frame's time to where they are at
+/// another one [s]. All else stays: smoke, holes, lights, the contents of volumes. `options` are those of the
+/// frame.
+void move_frame(const scenario::Scenario& scenario, double from_seconds, double to_seconds,
+                const FrameOptions& options, FrameInput& input);
+
+/// The samples of the picture of a frame at a time [s]: the frame as each of them sees it. `count`: how many;
+/// empty: as many as are usual.
+class FrameSamples {
+ public:
+  /// `scenario` must outlive it, and `options.steered`.
+  FrameSamples(const scenario::Scenario& scenario, double seconds, const FrameOptions& options,
+               FrameInput frame, std::optional<std::uint32_t> count);
+  std::uint32_t count() const { return static_cast<std::uint32_t>(samples_.size()); }
+  FrameInput operator[](std::uint32_t i) const;
+
+ private:
+  const scenario::Scenario& scenario_;
+  double seconds_;
+  FrameOptions options_;
+  FrameInput frame_;
+  std::vector<CameraSample> samples_;
+};
 
 }  // namespace brume::planning

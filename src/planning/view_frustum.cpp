@@ -5,8 +5,13 @@
 namespace brume::planning {
 
 ViewFrustum::ViewFrustum(const shared::Camera& camera) : eye_world_(camera.eye_world) {
-  const auto side = [&](glm::vec3 s) { return glm::normalize(camera.forward - s / glm::dot(s, s)); };
-  inward_ = {camera.forward, side(camera.right), side(-camera.right), side(camera.up), side(-camera.up)};
+  // The plane through the eye that the rays of an edge lie in, `at` along `s`.
+  const auto side = [&](const glm::vec3& s, float sign, float shift) {
+    const float at = sign + shift;
+    return glm::normalize(sign * (at * camera.forward - s / glm::dot(s, s)));
+  };
+  inward_ = {camera.forward, side(camera.right, 1, camera.shift.x), side(camera.right, -1, camera.shift.x),
+             side(camera.up, 1, camera.shift.y), side(camera.up, -1, camera.shift.y)};
 }
 
 bool ViewFrustum::may_intersect(const WorldSphere& sphere, glm::vec3 segment) const {

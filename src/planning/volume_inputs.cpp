@@ -93,11 +93,14 @@ void add_volumes(const scenario::Scenario& scenario, std::span<const scene::Carr
     const glm::mat4 pose = scene::pose_of(carriers, options[i].carrier, seconds);
     move_by(pose, volumes[i]);
     const auto& slices = scenario.slices.of_volumes;
-    if (frame.particles && options[i].particles > 0 && i < slices.size() && slices[i])
+    const bool is_particles =
+        frame.particles && options[i].particles > 0 && i < slices.size() && slices[i].has_value();
+    if (is_particles)
       input.particles.push_back(
           particles_of(options[i], *slices[i], (*scenario.slices.volumes)[slices[i]->volume], pose, seconds));
     else
       input.volumes.push_back(input_of(options[i], volumes[i], scenario.volumes->first_frame(i), seconds));
+    (is_particles ? input.particles.back().index : input.volumes.back().index) = i;
     for (const shared::Light& light : glow_lights(options[i], volumes[i], seconds, input.view.exposure))
       input.environment.glow.push_back(light);
   }

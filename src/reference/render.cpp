@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "core/tasks.hpp"
-#include "reference/lens.hpp"
+#include "planning/device_camera.hpp"
+#include "planning/lens.hpp"
+#include "reference/motion.hpp"
 
 namespace brume::reference {
 namespace {
@@ -20,7 +22,23 @@ double luminance(const glm::dvec3& c) {
   return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
+/// Between two eyes, for rays alone.
+Eye mixed(const Eye& a, const Eye& b, float f) {
+  Eye eye;
+  eye.camera.eye_world = glm::mix(a.camera.eye_world, b.camera.eye_world, f);
+  eye.camera.forward = glm::mix(a.camera.forward, b.camera.forward, f);
+  eye.camera.right = glm::mix(a.camera.right, b.camera.right, f);
+  eye.camera.up = glm::mix(a.camera.up, b.camera.up, f);
+  eye.aperture = glm::mix(a.aperture, b.aperture, f);
+  eye.focus = glm::mix(a.focus, b.focus, f);
+  return eye;
+}
+
 }  // namespace
+
+Eye eye_of(const scene::Camera& camera, glm::uvec2 size_px) {
+  return {planning::device_camera(camera, size_px), camera.lens.aperture, scene::focus_distance(camera)};
+}
 
 Render::Render(const Scene& scene, const RenderSettings& settings) : scene_(scene), settings_(settings) {
   const glm::uvec2 size = settings.size_px;
@@ -36,32 +54,18 @@ Render::Render(const Scene& scene, const RenderSettings& settings) : scene_(scen
 Ray Render::eye_ray(glm::uvec2 pixel, Sampler& sampler) const {
   const glm::vec2 at = (glm::vec2(pixel) + sampler.next_2d()) / glm::vec2(settings_.size_px) * 2.0f - 1.0f;
   Ray ray;
-  // Where the eye is at a time of the shutter.
-  const std::vector<Eye>& eyes = settings_.eyes;
-  std::size_t step = 0;
-  float f = 0;
-  if (eyes.size() > 1) {
-    ray.time = sampler.next_1d();
-    const float scaled = ray.time * static_cast<float>(eyes.size() - 1);
-    step = std::min(static_cast<std::size_t>(scaled), eyes.size() - 2);
-    f = scaled - static_cast<float>(step);
-  }
-  const Eye &begin = eyes[step], &end = eyes[std::min(step + 1, eyes.size() - 1)];
-  const auto mixed = [&](auto of) { return glm::mix(of(begin), of(end), f); };
-  const glm::vec3 right = mixed([](const Eye&eye) { return eye.camera.right; }),
-                  up = mixed([](const Eye&eye) { return eye.camera.up; });
-  const glm::vec3 through =
-      mixed([](const Eye& eye) { return eye.camera.forward; }) + at.x * right - at.y * up;
-  const glm::vec3 middle = mixed([](const Eye& eye) { return eye.camera.eye_world; });
-  const float aperture = mixed([](const Eye& eye) { return eye.lens.aperture; });
-  ray.origin = middle;
+  if (settings_.eyes.size() > 1) ray.time = sampler.next_1d();
+  const Eye eye = at_time(std::span<const Eye>(settings_.eyes), ray.time, mixed);
+  const shared::Camera& camera = eye.camera;
+  const glm::vec3 through = camera.forward + at.x * camera.right - at.y * camera.up;
+  ray.origin = camera.eye_world;
   ray.direction = glm::normalize(through);
-  if (!(aperture > 0)) return ray;
+  if (!(eye.aperture > 0)) return ray;
   // All rays of a point that is sharp meet there.
-  const glm::vec2 on_lens = aperture * point_on_lens(begin.lens.blades, sampler.next_2d());
-  const float focus = mixed([](const Eye& eye) { return eye.lens.focus; });
-  ray.origin += on_lens.x * glm::normalize(right) + on_lens.y * glm::normalize(up);
-  ray.direction = glm::normalize(middle + focus * through - ray.origin);
+  const glm::vec2 on_lens =
+      eye.aperture * planning::point_on_lens(settings_.blades, settings_.opening, sampler.next_2d());
+  ray.origin += on_lens.x * glm::normalize(camera.right) + on_lens.y * glm::normalize(camera.up);
+  ray.direction = glm::normalize(camera.eye_world + eye.focus * through - ray.origin);
   return ray;
 }
 

@@ -10,20 +10,26 @@
 #include "core/error.hpp"
 #include "image/image.hpp"
 #include "reference/path_tracer.hpp"
+#include "scenario/lens_openings.hpp"
 #include "scene/scene.hpp"
 #include "shared/frame.h"
 
 namespace brume::reference {
 
+/// A camera at one time of the shutter.
 struct Eye {
   shared::Camera camera{};
-  scene::Lens lens = {};  ///< With a focus above 0, if it has an aperture.
+  float aperture = 0;  ///< Radius of the lens [m].
+  float focus = 1;     ///< Distance along the view axis that is sharp [m], > 0.
 };
+Eye eye_of(const scene::Camera& camera, glm::uvec2 size_px);
 
 struct RenderSettings {
   glm::uvec2 size_px{0};  ///< At most kMostPixels.
   /// At equal steps while the shutter is open, at least one.
   std::vector<Eye> eyes;
+  std::uint32_t blades = 0;                        ///< Of the lens, as scene::Lens.
+  const scenario::LensOpening* opening = nullptr;  ///< In the place of blades; null: none.
   PathLimits limits;
   std::uint32_t samples = 0;  ///< Of each pixel, at most; 0: without end. At most kMostSamples.
   /// Standard error of a tile's pixels relative to its mean at which it is done; 0: never.

@@ -5,6 +5,7 @@
 
 #include "core/progress.hpp"
 #include "render/exposure.hpp"
+#include "render/layer_mean.hpp"
 
 namespace brume::render {
 namespace {
@@ -34,8 +35,7 @@ void Playback::measure_exposure() {
   const double seconds = double{scenario_.timeline.duration};
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
-  FrameInput input = frame_input(scenario_, *simulation_, seconds, holes);
-  if (camera_) input.view.camera = *camera_;
+  const FrameInput input = frame_input(scenario_, *simulation_, seconds, holes, options_);
   exposure_ = render::measure_exposure(context_, renderer_, input);
 }
 
@@ -47,30 +47,34 @@ double Playback::fraction_marched() const {
   return static_cast<double>(list.count) / (static_cast<double>(blocks.x) * blocks.y);
 }
 
-void Playback::draw_frame(double seconds, std::uint32_t frame_index,
-                          const std::function<void(gpu::Recorder&)>& read_back) {
+void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachSample& each) {
   const Progress job("render");
   simulation_->advance_to(seconds);
   std::vector<shared::Hole> holes;
-  FrameInput input = frame_input(scenario_, *simulation_, seconds, holes);
+  FrameInput input = frame_input(scenario_, *simulation_, seconds, holes, options_);
   input.quality.step_scale = step_scale_;
   input.quality.light_update_fraction = light_update_fraction_;
   input.quality.resolve_error_scale = resolve_error_scale_;
   input.view.continues = last_frame_index_ && frame_index == *last_frame_index_ + 1;
   last_frame_index_ = frame_index;
-  if (camera_) input.view.camera = *camera_;
   if (exposure_) input.view.exposure = *exposure_;
   input.debug = debug_;
-  renderer_.draw(input, [&](gpu::Recorder& recorder) {
-    read_back(recorder);
-    if (renderer_.smoke().march_tiles())
-      recorder.read_back(renderer_.smoke().march_tiles()->list, list_, sizeof(shared::MarchList));
-  });
+  const planning::FrameSamples samples(scenario_, seconds, options_, std::move(input),
+                                       renderer_.smoke().is_accumulated() ? 1u : samples_);
+  for (std::uint32_t i = 0; i < samples.count(); ++i) {
+    renderer_.draw(samples[i], [&](gpu::Recorder& recorder) {
+      each.read_back(recorder, i + 1 == samples.count());
+      if (renderer_.smoke().march_tiles())
+        recorder.read_back(renderer_.smoke().march_tiles()->list, list_, sizeof(shared::MarchList));
+    });
+    each.drawn();
+  }
 }
 
 image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
-  draw_frame(seconds, frame_index,
-             [&](gpu::Recorder& recorder) { recorder.read_back(renderer_.targets().display, pixels_); });
+  draw_frame(seconds, frame_index, {[&](gpu::Recorder& recorder, bool is_last) {
+               if (is_last) recorder.read_back(renderer_.targets().display, pixels_);
+             }});
   image::Image8 image;
   image.width = renderer_.targets().size_px.x;
   image.height = renderer_.targets().size_px.y;
@@ -82,8 +86,11 @@ image::Image8 Playback::draw(double seconds, std::uint32_t frame_index) {
 image::LayeredImage Playback::draw_layers(double seconds, std::uint32_t frame_index) {
   BRUME_ASSERT(debug_.view == passes::DebugView::none, "a debug view has no radiance");
   if (!layers_) layers_.emplace(context_, renderer_.targets().size_px);
-  draw_frame(seconds, frame_index, [&](gpu::Recorder& recorder) { layers_->record(recorder, renderer_); });
-  return layers_->image();
+  LayerMean mean;
+  draw_frame(seconds, frame_index,
+             {[&](gpu::Recorder& recorder, bool) { layers_->record(recorder, renderer_); },
+              [&] { mean.add(layers_->image()); }});
+  return mean.mean();
 }
 
 }  // namespace brume::render

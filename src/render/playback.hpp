@@ -27,13 +27,20 @@ class Playback {
 
   /// The image at a time [s]: the same for the same time, whatever came before and whatever its index. With
   /// RendererOptions::temporal a frame whose index is one more than that of the draw before goes on from it;
-  /// any other starts over.
+  /// any other starts over. The image of a camera with a lens or a shutter is the mean of its samples.
   image::Image8 draw(double seconds, std::uint32_t frame_index);
   /// The same frame as numbers (FrameLayers). Without a debug view, and with
   /// RendererOptions::smoke.record_entries.
   image::LayeredImage draw_layers(double seconds, std::uint32_t frame_index);
-  /// Where the camera is instead of on the timeline's path; empty: on the path.
-  void set_camera(const std::optional<scene::Camera>& camera) { camera_ = camera; }
+  /// Where the camera is at a time instead of on the timeline's path; empty: on the path.
+  void set_camera(planning::CameraAt camera) { options_.camera = std::move(camera); }
+  /// The same camera at all times.
+  void set_camera(const scene::Camera& camera) {
+    set_camera([camera](double) { return camera; });
+  }
+  /// Samples of an image that follow, at least 1; empty: as many as are usual (planning::usual_samples). With
+  /// RendererOptions::temporal, 1.
+  void set_samples(std::optional<std::uint32_t> samples) { samples_ = samples; }
   /// Sets the exposure that shows the scene at the timeline's end at a middle brightness, without smoke.
   /// Between frames; the frames that follow have it whatever their time.
   void measure_exposure();
@@ -54,8 +61,12 @@ class Playback {
   const scenario::Simulation& simulation() const { return *simulation_; }
 
  private:
-  void draw_frame(double seconds, std::uint32_t frame_index,
-                  const std::function<void(gpu::Recorder&)>& read_back);
+  /// What to do with each sample of a frame: while it is recorded, and when it is drawn.
+  struct EachSample {
+    std::function<void(gpu::Recorder&, bool is_last)> read_back;
+    std::function<void()> drawn = [] {};
+  };
+  void draw_frame(double seconds, std::uint32_t frame_index, const EachSample& each);
 
   gpu::Context& context_;
   const scenario::Scenario& scenario_;
@@ -65,7 +76,8 @@ class Playback {
   gpu::Buffer pixels_;
   std::optional<FrameLayers> layers_;  ///< From the first draw_layers on.
   gpu::Buffer list_;                   ///< shared::MarchList of the last frame.
-  std::optional<scene::Camera> camera_;
+  planning::FrameOptions options_;
+  std::optional<std::uint32_t> samples_;
   std::optional<float> exposure_;  ///< Instead of the timeline's; a factor.
   float step_scale_ = 1, light_update_fraction_ = 1, resolve_error_scale_ = 1;
   planning::DebugRequest debug_;

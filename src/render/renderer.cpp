@@ -67,6 +67,7 @@ void Renderer::resize(glm::uvec2 size_px) {
   targets_ = Targets(context_, size_px);
   smoke_.resize(scene_, size_px);
   decal_pass_.reset();
+  average_pass_.reset();
   occlusion_ = nullptr;
   history_.smoke_shadows.invalidate();
 }
@@ -140,6 +141,7 @@ void Renderer::reserve(FramePlan& plan) {
     particle_pass_->reserve(plan.particles, targets_.size_px,
                             plan.input.debug.view == planning::DebugView::overdraw);
   }
+  if (plan.input.view.sample.count > 1 && !average_pass_) average_pass_.emplace(context_, targets_.size_px);
   if (plan.input.debug.view == planning::DebugView::none) return;
   if (!debug_view_) debug_view_.emplace(context_);
   debug_view_->reserve(debug_subject(plan), targets_.size_px);
@@ -202,6 +204,8 @@ void Renderer::record_image(gpu::Recorder& recorder, const FramePlan& plan, cons
                        occlusion_);
   });
   if (!plan.particles.empty()) scope(recorder, "particles", [&] { record_particles(recorder, plan); });
+  if (const planning::ViewSample& sample = plan.input.view.sample; sample.count > 1)
+    scope(recorder, "average", [&] { average_pass_->record(recorder, targets_.radiance, sample.index); });
   scope(recorder, "display",
         [&] { display_pass_.record(recorder, frame_, blue_noise_, targets_.radiance, targets_.display); });
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "passes/average.hpp"
 #include "passes/debug_view.hpp"
 #include "passes/decals.hpp"
 #include "passes/display.hpp"
@@ -99,6 +100,7 @@ class Renderer {
   std::optional<passes::SliceTextures> slices_;
   std::shared_ptr<const std::vector<grids::DenseVolume>> loaded_slices_;  ///< What `slices_` holds.
   std::optional<passes::DebugViewPass> debug_view_;    ///< From the first frame with a debug view on.
+  std::optional<passes::AveragePass> average_pass_;    ///< From the first picture of several frames on.
   std::optional<passes::ParticlePass> particle_pass_;  ///< From the first frame with particles in view.
   gpu::Image blue_noise_;
   gpu::Buffer frame_;

@@ -275,6 +275,7 @@ Result<void> EditableScenario::set_camera(std::vector<scene::CameraKey> keys) {
   scene::Timeline chosen;
   chosen.camera = std::move(keys);
   if (auto checked = scene::check_settings(chosen); !checked) return checked;
+  if (auto loaded = load_lens_openings(chosen, scenario_.lens_openings); !loaded) return loaded;
   scenario_.timeline.camera = std::move(chosen.camera);
   return {};
 }
@@ -298,6 +299,7 @@ Result<void> EditableScenario::reset(scene::Timeline timeline) {
   if (auto checked = scene::check_settings(timeline); !checked) return checked;
   if (auto checked = scene::check_events(timeline); !checked) return checked;
   if (auto checked = scene::check_objects(timeline, scenario_.scene); !checked) return checked;
+  if (auto loaded = load_lens_openings(timeline, scenario_.lens_openings); !loaded) return loaded;
   scene::sort_events(timeline);
   return replay(std::move(timeline), {});
 }

@@ -34,6 +34,8 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
   if (!masks) return masks.failure();
   auto slices = load_slice_volumes(timeline);
   if (!slices) return slices.failure();
+  LensOpenings lens_openings;
+  if (auto loaded = load_lens_openings(timeline, lens_openings); !loaded) return loaded.failure();
   return Scenario{.timeline = std::move(timeline),
                   .scene = std::move(scene),
                   .camera = camera,
@@ -42,6 +44,7 @@ Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::sha
                   .shot_masks = std::move(masks->of_shots),
                   .volumes = std::move(volumes),
                   .slices = std::move(*slices),
+                  .lens_openings = std::move(lens_openings),
                   .camera_is_fitted = is_fitted};
 }
 
@@ -145,6 +148,7 @@ std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
   for (std::filesystem::path& file : slice_files_of(scenario.timeline)) files.push_back(std::move(file));
   for (const scene::ShotEvent& shot : scenario.timeline.shots)
     if (shot.shape == scene::ShotShape::mask) files.push_back(shot.mask);
+  for (const auto& [file, opening] : scenario.lens_openings) files.push_back(file);
   for (const scene::TextEvent& text : scenario.timeline.texts)
     files.push_back(text.font.empty() ? image::default_font() : text.font);
   return files;

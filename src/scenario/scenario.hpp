@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "scenario/first_view.hpp"
+#include "scenario/lens_openings.hpp"
 #include "scenario/shot_masks.hpp"
 #include "scenario/slice_volumes.hpp"
 #include "scenario/volumes.hpp"
@@ -25,6 +26,7 @@ struct Scenario {
   bool measure_exposure = false;
   std::shared_ptr<Volumes> volumes = {};  ///< Of Timeline::volumes; null: none.
   SliceVolumes slices = {};               ///< Of Timeline::decals.
+  LensOpenings lens_openings = {};        ///< Of the camera's keys.
   /// Whether `camera` is none of the scene's file: it frames the scene.
   bool camera_is_fitted = false;
 };

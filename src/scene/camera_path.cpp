@@ -43,6 +43,8 @@ class Path {
     camera.lens.aperture = number([](const CameraKey& key) { return key.camera.lens.aperture; });
     camera.lens.focus = number(focus_of);
     camera.lens.blades = begin.camera.lens.blades;
+    camera.lens.opening = begin.camera.lens.opening;
+    camera.shutter = number([](const CameraKey& key) { return key.camera.shutter; });
     // Position and target may coincide where their paths cross: keep the direction of the span's start.
     if (glm::distance(camera.position_world, camera.target_world) < 1e-4f)
       camera.target_world = camera.position_world + begin.camera.target_world - begin.camera.position_world;
@@ -52,11 +54,7 @@ class Path {
  private:
   bool is_inner(std::size_t key) const { return key > 0 && key + 1 < keys_.size(); }
 
-  /// What is sharp at a key: its focus, or its target.
-  static float focus_of(const CameraKey& key) {
-    return key.camera.lens.focus > 0 ? key.camera.lens.focus
-                                     : glm::distance(key.camera.position_world, key.camera.target_world);
-  }
+  static float focus_of(const CameraKey& key) { return focus_distance(key.camera); }
 
   /// Of a number of the keys, without overshooting. Zero at both ends of the path, so that the camera starts
   /// and stops smoothly.

@@ -170,7 +170,7 @@ void visit_decal_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"scatter", "voxels", "how far noise scatters the samples", 0, 4}, o.scatter);
 }
 
-/// Field of view and lens: position and target are not settings.
+/// Field of view, lens and shutter: position, target and files are not settings.
 template <typename Options, typename Visitor>
 void visit_camera_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"fov", kDegrees, "vertical field of view", 1, 170}, o.vertical_fov);
@@ -179,6 +179,7 @@ void visit_camera_options(Options& o, Visitor&& visit) {
                    kFarthestPoint},
         o.lens.focus);
   visit(OptionInfo{"blades", "", "edges of the lens's opening; below 3: round", 0, 64}, o.lens.blades);
+  visit(OptionInfo{"shutter", "s", "how long the shutter stays open, for motion blur", 0, 10}, o.shutter);
 }
 
 template <typename Options, typename Visitor>

@@ -7,6 +7,11 @@
 
 namespace brume::scene {
 
+float focus_distance(const Camera& camera) {
+  if (camera.lens.focus > 0) return camera.lens.focus;
+  return glm::distance(camera.position_world, camera.target_world);
+}
+
 Box<float> level_bounds(const Scene& scene) {
   Box<float> bounds = kEmptyBox;
   for (const Object& object : scene.objects) {

@@ -77,6 +77,8 @@ struct Lens {
   float aperture = 0;        ///< Radius of its opening [m]; 0: all is sharp.
   float focus = 0;           ///< Distance along the view axis that is sharp [m]; 0: that of the target.
   std::uint32_t blades = 0;  ///< Edges of the opening; below 3: it is round.
+  std::filesystem::path opening =
+      {};  ///< Image in the place of blades: white lets light through. Ready to open.
   bool operator==(const Lens&) const = default;
 };
 
@@ -84,8 +86,13 @@ struct Camera {
   glm::vec3 position_world{0, 1.7f, 5};
   glm::vec3 target_world{0, 1.7f, 0};
   float vertical_fov = 1.0472f;  ///< Radians, (0, pi).
-  Lens lens = {};                ///< Only the reference renderer has more than a pinhole.
+  Lens lens = {};
+  /// How long the shutter stays open, from the picture's time on [s]; 0: nothing is blurred by motion.
+  float shutter = 0;
 };
+
+/// The distance along the view axis that is sharp [m], > 0.
+float focus_distance(const Camera& camera);
 
 /// Where a volume of the timeline is.
 struct Volume {

@@ -108,11 +108,13 @@ class TimelineReader {
     table.read("position", key.camera.position_world, -kFarthestPoint, kFarthestPoint);
     table.read("target", key.camera.target_world, -kFarthestPoint, kFarthestPoint);
     visit_camera_options(key.camera, OptionReader{table});
+    read_file_name(table, "opening", key.camera.lens.opening);
+    key.place = table.place("opening");
     if (key.camera.position_world == key.camera.target_world)
       table.fail("target", "\"target\": expected a point other than the position");
     if (!timeline_.camera.empty() && !(key.time > timeline_.camera.back().time))
       table.fail("time", "\"time\": expected a later time than that of the previous [[camera]]");
-    timeline_.camera.push_back(key);
+    timeline_.camera.push_back(std::move(key));
     return table.finish();
   }
 

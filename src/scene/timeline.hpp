@@ -178,6 +178,7 @@ struct VolumeOptions {
 struct CameraKey {
   double time = 0;  ///< [s], [0, 3600].
   Camera camera;
+  std::string place = {};  ///< Of the lens's opening in the file, for messages.
 };
 
 /// Largest number of a frame of a sequence.

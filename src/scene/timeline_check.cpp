@@ -291,6 +291,7 @@ Result<void> check_settings(const Timeline& timeline) {
     of_key.point("target", key.camera.target_world, kFarthestPoint);
     of_key.direction("target", key.camera.position_world, key.camera.target_world, "the position");
     visit_camera_options(key.camera, of_key);
+    of_key.text("opening", key.camera.lens.opening.string());
   });
 }
 

@@ -183,6 +183,8 @@ class Writer {
       for (std::size_t i = 0; i < texts.texts.size(); ++i)
         if (i == 0 || texts.texts[i] != usual.texts[i])
           text_ += std::string(texts.texts[i].first) + " = " + texts.texts[i].second + "\n";
+      if (!key.camera.lens.opening.empty())
+        line("opening", path_from(key.camera.lens.opening, folder_).generic_string());
     }
     write_events(timeline);
     return std::move(text_);

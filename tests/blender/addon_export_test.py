@@ -116,6 +116,14 @@ class Lens(AddonCase):
         self.assertAlmostEqual(key["focus"], 3.5)
         self.assertEqual(key["blades"], 6)
 
+    def test_motion_blur_is_a_shutter(self):
+        self.camera()
+        render = self.scene.render
+        render.fps, render.fps_base, render.motion_blur_shutter = 25, 1.0, 0.5
+        self.assertNotIn("shutter", self.export()["camera"][0])
+        render.use_motion_blur = True
+        self.assertAlmostEqual(self.export()["camera"][0]["shutter"], 0.02)
+
     def test_an_object_in_focus(self):
         dof = self.camera().dof
         aim = level_parts.add("aim", None)

@@ -74,13 +74,14 @@ TEST_F(ReferenceMode, RefusesOptionsOfTheOtherMode) {
   };
   refuse({"--mode", "reference", "--march", "half"}, {"--march", "--mode realtime"});
   refuse({"--mode", "reference", "--device", "0"}, {"--device", "--mode realtime"});
-  refuse({"--samples", "4"}, {"--samples", "--mode reference"});
+  refuse({"--samples", "4", "--view", "depth"}, {"--samples", "debug view"});
+  refuse({"--samples", "4", "--light-update-fraction", "0.5"}, {"--samples", "--temporal"});
   refuse({"--noise", "0.1"}, {"--noise", "--mode reference"});
   refuse({"--mode", "reference", "--samples", "0"}, {"--samples"});
   refuse({"--mode", "reference", "--noise", "-1"}, {"--noise"});
   refuse({"--mode", "reference", "--checkpoint", "room.toml"}, {"room.toml"});
   refuse({"--mode", "fast"}, {"--mode"});
-  refuse({"--shutter", "0.1"}, {"--shutter", "--mode reference"});
+  refuse({"--shutter", "-0.1"}, {"--shutter"});
 }
 
 TEST_F(ReferenceMode, RefusesCheckpointsOfOtherPictures) {

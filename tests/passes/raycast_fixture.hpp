@@ -56,7 +56,7 @@ class RaycastFixture : public gpu::GpuTest {
     if (!pass) pass.emplace(context(), form, size_);
     return *pass;
   }
-  shared::Camera device_camera() const { return planning::device_camera(camera_, size_); }
+  shared::Camera device_camera() const { return planning::device_camera(camera_, size_, sample_); }
 
   /// Instances of the volumes, without their bricks.
   static std::vector<planning::PlacedVolume> visible(const std::vector<Placed>& placed) {
@@ -95,6 +95,7 @@ class RaycastFixture : public gpu::GpuTest {
 
   const glm::uvec2 size_;
   scene::Camera camera_{{0, 0, 6}, {0, 0, 0}, 0.9f};
+  planning::ViewSample sample_;
   planning::RaycastLight light_;
   planning::RaycastSteps steps_;
   gpu::Image depth_;  ///< Of the scene; none at first.

@@ -279,6 +279,26 @@ TEST_P(ConstantDensityTest, LightFallsOffThroughTheWholeVolume) {
   }
 }
 
+TEST_P(ConstantDensityTest, PointsBesideThePixelsMiddlesMoveThePicture) {
+  const SparseVolume volume = solid_block({1, 1, 1});
+  const glm::mat4 cube = glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.25f)), glm::vec3(-4));
+  const std::vector<Placed> placed{{&volume, cube, {glm::vec3(0.5f), 0.9f, {0.1f, 0, 0}, 0, 0}}};
+  const auto before = draw(GetParam(), placed);
+  constexpr std::uint32_t kRight = 3, kDown = 2;
+  sample_.pixel = {kRight, kDown};
+  const auto moved = draw(GetParam(), placed);
+  float brightest = 0;
+  for (std::uint32_t y = 0; y + kDown < size_.y; ++y)
+    for (std::uint32_t x = 0; x + kRight < size_.x; ++x) {
+      const glm::vec4 &expected = before[x + kRight + size_.x * (y + kDown)], &found = moved[x + size_.x * y];
+      // Steps on another lattice would be another picture; rounding of rays moves it by less than a step of a
+      // half float.
+      for (int c = 0; c < 4; ++c) EXPECT_NEAR(found[c], expected[c], 4.0f / 1024) << x << " " << y;
+      brightest = std::max(brightest, expected.x);
+    }
+  EXPECT_GT(brightest, 0.1f);
+}
+
 TEST(RaycastPlanTest, StepsReachAcrossTheLongestDiagonal) {
   const shared::Camera camera = planning::device_camera({{0, 0, 6}, {0, 0, 0}, 0.9f}, {40, 20});
   planning::PlacedVolume volume;

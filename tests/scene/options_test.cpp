@@ -174,7 +174,7 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(VolumeOptions(), visit_particle_options), 2u);
   EXPECT_EQ(MET(CarrierKey(), visit_carrier_options), 1u);
   EXPECT_EQ(MET(DecalOptions(), visit_decal_options), 8u);
-  EXPECT_EQ(MET(Camera(), visit_camera_options), 4u);
+  EXPECT_EQ(MET(Camera(), visit_camera_options), 5u);
   EXPECT_EQ(MET(ShotEvent(), visit_shot_options), 7u);
   EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);
   EXPECT_EQ(MET(BlastEvent(), visit_blast_options), 6u);

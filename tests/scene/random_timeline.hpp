@@ -247,6 +247,7 @@ inline Timeline random_timeline(std::uint32_t seed) {
   for (std::uint32_t keys = draw.below(4); keys > 0; --keys, time += 0.01 + draw.share()) {
     CameraKey key{time, {draw.place(), draw.place(), 1}};
     visit_camera_options(key.camera, draw);
+    if (draw.below(2) == 0) key.camera.lens.opening = "scenes/opening.png";
     if (key.camera.position_world != key.camera.target_world) timeline.camera.push_back(key);
   }
   timeline.smokes = some<SmokeEvent>(draw, [&] { return SmokeEvent{0, draw.place(), draw.place()}; });

@@ -145,6 +145,7 @@ std::vector<std::uint64_t> bits_of(const Timeline& timeline) {
   for (const CameraKey& key : timeline.camera) {
     b.add(key.time), b.add(key.camera.position_world), b.add(key.camera.target_world);
     visit_camera_options(key.camera, b);
+    b.add(key.camera.lens.opening.string());
   }
   add_all(timeline.smokes), add_all(timeline.shots), add_all(timeline.texts), add_all(timeline.blasts);
   add_all(timeline.moves), add_all(timeline.edits), add_all(timeline.doors);

@@ -136,7 +136,8 @@ TEST_F(GameTest, FieldOfViewAndLensCanBeUndone) {
   scene::Camera camera = game_->player().camera();
   camera.vertical_fov = 0.5f;
   camera.lens = {0.02f, 3, 5};
-  game_->player().set_optics(camera);
+  camera.shutter = 0.01f;
+  game_->player().set_optics(optics_of(camera));
   game_->setting_changed("field of view");
   act(Action::throw_smoke);
   act(Action::undo);

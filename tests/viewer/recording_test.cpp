@@ -120,6 +120,31 @@ TEST_F(RecordingTest, AScreenshotEqualsRenderAndTheWindow) {
   }
 }
 
+// Samples of lens and shutter gather until they are the image of `brume render`; what moves is sharp.
+TEST_F(RecordingTest, APausedImageShowsLensAndShutter) {
+  folder_.write("lens.toml",
+                "version = 1\nscene = \"room.txt\"\nduration = 3.0\n[grid]\nvoxel = 0.25\n"
+                "[[camera]]\ntime = 0.0\nposition = [0.5, 1.6, 3.2]\ntarget = [0.2, 1.3, -3.0]\n"
+                "aperture = 0.2\nfocus = 1.5\nblades = 5\nshutter = 0.2\n"
+                "[[camera]]\ntime = 3.0\nposition = [-0.5, 1.6, 3.2]\ntarget = [0.2, 1.3, -3.0]\n"
+                "aperture = 0.2\nfocus = 1.5\nblades = 5\nshutter = 0.2\n");
+  const auto render = [&](const char* name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "lens.toml", "-o", name, "--size", "96x64", "--time", "1.5"});
+    const cli::Outcome rendered = cli::run_brume(folder_.path(), more);
+    EXPECT_EQ(rendered.exit_code, 0) << rendered.error;
+    return png(name);
+  };
+  const image::Image8 blurred = render("blurred.png", {}), sharp = render("sharp.png", {"--samples", "1"});
+  EXPECT_GT(mean_difference(blurred, sharp), 1);
+  Program program(desktop_, folder_.path(),
+                  {"--play", "lens.toml", "--time", "1.5", "--size", "96x64", "--bare"});
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  ASSERT_TRUE(program.wait_for_best());
+  EXPECT_LE(largest_difference(program.contents(), blurred), 1);
+  program.close();
+  EXPECT_EQ(program.wait(), 0) << program.error();
+}
+
 // A still becomes the best image in many short frames, and an input ends them.
 TEST_F(RecordingTest, APausedImageIsRefinedInSteps) {
   Program program(desktop_, folder_.path(), {"room.toml", "--size", "192x128", "--quality", "smallest"});

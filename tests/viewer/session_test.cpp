@@ -98,7 +98,7 @@ TEST_F(SessionTest, ScrubbingKeepsTheCameraPath) {
   session_->scrub(0.5);
   EXPECT_TRUE(session_->paused());
   ASSERT_TRUE(session_->follows_path());
-  EXPECT_NEAR(session_->path_camera().position_world.x, 0.3f, 0.02f);
+  EXPECT_NEAR(session_->path_camera(0.5).position_world.x, 0.3f, 0.02f);
   EXPECT_EQ(session_->recording().camera.size(), keys);
 }
 

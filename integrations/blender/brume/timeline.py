@@ -116,8 +116,15 @@ class Writer:
             vector(conversion.point(position, metres)),
             vector(conversion.point(target, metres)),
             min(max(math.degrees(vertical_fov(evaluated.data, self._scene)), 1.0), 170.0),
-            self._lens(evaluated, time),
+            self._lens(evaluated, time) | self._shutter(),
         )
+
+    def _shutter(self):
+        """How long the shutter is open, if the scene has motion blur; else nothing."""
+        render = self._scene.render
+        if not render.use_motion_blur:
+            return {}
+        return {"shutter": min(render.motion_blur_shutter * render.fps_base / render.fps, 10.0)}
 
     def _lens(self, camera, time):
         """Aperture, focus and blades of a camera with depth of field; without, nothing."""

@@ -1,0 +1,60 @@
+#include "planning/lens.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "trace/low_discrepancy.hpp"
+
+namespace brume::planning {
+namespace {
+
+float fraction(std::uint32_t of_2_to_32) {
+  return static_cast<float>(of_2_to_32 >> 8) * 0x1p-24f;
+}
+
+/// Point i of a sequence in the unit square. Sequences of other numbers come in other orders, so that they
+/// are independent of each other.
+glm::vec2 point_of(std::uint32_t i, std::uint32_t sequence) {
+  const std::uint32_t seed = 0x9e3779b9u * (sequence + 1);
+  const std::uint32_t shuffled = trace::first_scrambled(trace::reversed_bits(i), seed);
+  return {fraction(trace::first_scrambled(shuffled, seed ^ 0x85ebca6bu)),
+          fraction(trace::second_scrambled(shuffled, seed ^ 0xc2b2ae35u))};
+}
+
+}  // namespace
+
+glm::vec2 point_on_lens(std::uint32_t blades, const glm::vec2& u) {
+  constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+  const float out = std::sqrt(u.y);
+  if (blades < 3) return out * glm::vec2(std::sin(kTurn * u.x), std::cos(kTurn * u.x));
+  // A triangle between the middle and two corners.
+  const float scaled = u.x * static_cast<float>(blades), wedge = std::floor(scaled);
+  const auto corner = [&](float i) {
+    const float angle = kTurn * i / static_cast<float>(blades);
+    return glm::vec2(std::sin(angle), std::cos(angle));
+  };
+  return out * glm::mix(corner(wedge), corner(wedge + 1), scaled - wedge);
+}
+
+const scenario::LensOpening* opening_of(const scenario::LensOpenings& openings, const scene::Lens& lens) {
+  if (lens.opening.empty()) return nullptr;
+  const auto found = openings.find(lens.opening);
+  BRUME_ASSERT(found != openings.end(), lens.opening.string());
+  return found->second.get();
+}
+
+std::vector<CameraSample> camera_samples(std::uint32_t count, const scene::Lens& lens,
+                                         const scenario::LensOpening* opening) {
+  if (count <= 1) return {CameraSample{}};
+  std::vector<CameraSample> samples;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    ViewSample view{point_of(i, 0) - 0.5f, {0, 0}, i, count};
+    if (lens.aperture > 0) view.lens = point_on_lens(lens.blades, opening, point_of(i, 1));
+    const float time = (static_cast<float>(i) + point_of(i, 2).x) / static_cast<float>(count);
+    samples.push_back({view, time});
+  }
+  return samples;
+}
+
+}  // namespace brume::planning
