@@ -1,0 +1,59 @@
+// The options of `brume render`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/cli/arguments.hpp"
+#include "apps/cli/outputs.hpp"
+#include "apps/cli/parse.hpp"
+#include "apps/cli/reference.hpp"
+#include "apps/cli/scene_options.hpp"
+#include "apps/cli/targets.hpp"
+#include "passes/debug_view.hpp"
+#include "render/renderer.hpp"
+#include "scenario/first_view.hpp"
+
+namespace brume::cli {
+
+struct RenderOptions {
+  std::string input, output, timeline, frames, size = "1280x720", march = "full", camera, device, json,
+                                               view = "none", slice, fps = "24", raycast, mode = "realtime";
+  SceneOptions scene;
+  ReferenceOptions reference;
+  std::optional<double> time, orbit, shutter;
+  std::optional<std::uint32_t> samples;
+  bool temporal = false, resume = false;
+  float step = 1, light_update_fraction = 1, resolve_error_scale = 1;
+  std::uint32_t volume_memory = 0;  // [MiB]; 0: as much as suits the device
+};
+
+/// The parsed options, checked before any file is read.
+struct Plan {
+  TargetKind kind = TargetKind::picture;
+  render::RendererOptions renderer;
+  std::optional<scene::Camera> camera;
+  scenario::FirstViewOptions scene;
+  std::optional<FrameRange> frames;
+  passes::DebugView view = passes::DebugView::none;
+  std::optional<passes::ViewSlice> slice;
+  FrameRate rate;
+  /// Whether frames are written as numbers.
+  bool has_layers() const { return renderer.smoke.record_entries; }
+};
+
+void declare_render(const Arguments& arguments, RenderOptions& options);
+
+/// Parses the options and declares the files that are known before any is read. Throws Error (usage) for what
+/// contradicts itself or would do nothing.
+Plan make_plan(const Arguments& arguments, const RenderOptions& options, Outputs& outputs);
+
+inline bool is_reference(const RenderOptions& options) {
+  return options.mode == "reference";
+}
+/// Whether each frame depends on those before.
+inline bool frames_depend(const RenderOptions& options) {
+  return options.temporal || options.light_update_fraction < 1;
+}
+
+}  // namespace brume::cli
