@@ -2,6 +2,7 @@
 #ifndef BRUME_SHARED_STRUCTS_H
 #define BRUME_SHARED_STRUCTS_H
 #include "shared/accumulate.h"
+#include "shared/average.h"
 #include "shared/cloud.h"
 #include "shared/dda.h"
 #include "shared/debug_view.h"
@@ -101,7 +102,8 @@
   X(64, ParticleSystem) \
   X(65, Decal) \
   X(66, DecalParams) \
-  X(67, VolumeEffect)
+  X(67, VolumeEffect) \
+  X(68, AverageConstants)
 // clang-format on
 
 #endif
