@@ -1,8 +1,6 @@
 """Means over parts of pictures, with their standard errors, and how two renderers differ there."""
 import math
 
-import pictures
-
 ACROSS, DOWN = 4, 3
 MOST = 0.01  # relative difference that is allowed beside the noise
 SIGMAS = 3
@@ -18,26 +16,21 @@ class Estimate:
 
 def _parts(picture):
     """The pixels of each part."""
-    for row in range(DOWN):
-        for column in range(ACROSS):
-            yield [y * picture.width + x
-                   for y in range(row * picture.height // DOWN, (row + 1) * picture.height // DOWN)
-                   for x in range(column * picture.width // ACROSS, (column + 1) * picture.width // ACROSS)]
+    height, width = picture.shape
+    return [picture[row * height // DOWN:(row + 1) * height // DOWN,
+                    column * width // ACROSS:(column + 1) * width // ACROSS]
+            for row in range(DOWN) for column in range(ACROSS)]
 
 
 def of_errors(picture, error):
     """`error` has the standard error of each pixel, independent of the others."""
-    means, errors = [], []
-    for part in _parts(picture):
-        means.append(math.fsum(picture.values[i] for i in part) / len(part))
-        errors.append(math.sqrt(math.fsum(error.values[i] ** 2 for i in part)) / len(part))
-    return Estimate(means, errors)
+    return Estimate([float(part.mean()) for part in _parts(picture)],
+                    [math.sqrt((part**2).sum()) / part.size for part in _parts(error)])
 
 
 def of_seeds(seen):
     """Pictures of several seeds; the spread of a part's means gives its error, as pixels share random numbers."""
-    count, each = len(seen), [[math.fsum(one.values[i] for i in part) / len(part) for part in _parts(one)]
-                              for one in seen]
+    count, each = len(seen), [[float(part.mean()) for part in _parts(one)] for one in seen]
     means, errors = [], []
     for values in zip(*each):
         means.append(math.fsum(values) / count)
