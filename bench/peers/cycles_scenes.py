@@ -173,7 +173,7 @@ def cloud_in_room(spec, surfaces):
 
 
 def panel_and_sky(_, surfaces, normals=None):
-    """Metals below an emitting panel, without a roof; with a normal map at the back."""
+    """Under an emitting panel; `normals`: a normal map at the back."""
     x, y, z = ROOM
     silver, gold = surfaces.add_metal("silver", (0.9, 0.9, 0.9)), surfaces.add_metal("gold", (0.9, 0.6, 0.3))
     quad("floor", [(-x, -y, 0), (x, -y, 0), (x, y, 0), (-x, y, 0)], silver)

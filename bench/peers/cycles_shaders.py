@@ -70,8 +70,8 @@ class Material:
 
 
 def schlick(nodes, color, facing):
-    """Fresnel's term by Schlick, of the cosine between eye and normal in place of that between eye and half vector: of a
-    smooth surface the two are nearly one."""
+    """Fresnel's term by Schlick, of the cosine between eye and normal in place of that between eye and half vector:
+    of a smooth surface the two are nearly one."""
     node = nodes.add("MixRGB")
     nodes.set(node.inputs["Fac"], nodes.math("POWER", nodes.math("SUBTRACT", 1.0, facing), 5.0))
     nodes.set(node.inputs["Color1"], (*color, 1))
