@@ -50,12 +50,12 @@ def grid_px(n):
 
 def dots(n, centers, radii):
     """Distance to the nearest of a few wrapped circles, in radii: below 1 is inside. Also the index of the nearest."""
-    x, y = grid_px(n)
+    at = np.arange(n) + 0.5
     best = np.full((n, n), 1e9)
     which = np.zeros((n, n), int)
     for i, ((cx, cy), r) in enumerate(zip(centers, radii)):
-        dx, dy = (x - cx + n / 2) % n - n / 2, (y - cy + n / 2) % n - n / 2
-        d = np.hypot(dx, dy) / r
+        dx, dy = ((at - c + n / 2) % n - n / 2 for c in (cx, cy))
+        d = np.hypot(dx, dy[:, None]) / r
         which = np.where(d < best, i, which)
         best = np.minimum(best, d)
     return best, which

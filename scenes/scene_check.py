@@ -1,4 +1,5 @@
 """Checks a .glb file that one of the scripts made. Every finding is one line; none is good."""
+import math
 import os
 
 import numpy as np
@@ -41,13 +42,15 @@ def check_tangents(label, doc, blob, primitive, found):
 
 
 def overlap(a, b):
-    """Whether two triangles of a plane (2D points) share more than a rim: no edge of either separates them."""
+    """Whether two triangles of a plane (2D points) share more than a rim: no edge of either separates them. Lists of
+    numbers: arrays of three points would take twelve times as long."""
     for p, q in ((a, b), (b, a)):
         for k in range(3):
-            edge = p[(k + 1) % 3] - p[k]
-            n = np.array([edge[1], -edge[0]]) / np.hypot(*edge)
-            side = np.sign((p[(k + 2) % 3] - p[k]) @ n)
-            if ((q - p[k]) @ n * side).max() < 1e-4:
+            (x, y), (x1, y1), (x2, y2) = p[k], p[k - 2], p[k - 1]
+            nx, ny = y1 - y, x - x1
+            unit = math.copysign(1 / math.hypot(nx, ny), (x2 - x) * nx + (y2 - y) * ny)
+            nx, ny = nx * unit, ny * unit
+            if max((u - x) * nx + (v - y) * ny for u, v in q) < 1e-4:
                 return False
     return True
 
@@ -69,11 +72,11 @@ def coplanar_faces(pos, tri):
             continue
         axis = int(np.argmax(abs(normal[members[0]])))
         flat = p[members][:, :, [k for k in range(3) if k != axis]]
-        low, high = flat.min(axis=1), flat.max(axis=1)
+        low, high, points = flat.min(axis=1), flat.max(axis=1), flat.tolist()
         for i in range(len(members)):
             near = np.nonzero(((low[i + 1:] < high[i] - 1e-4) & (high[i + 1:] > low[i] + 1e-4)).all(axis=1))[0] + i + 1
             for j in near:
-                if abs(level[members[i]] - level[members[j]]) < COPLANAR and overlap(flat[i], flat[j]):
+                if abs(level[members[i]] - level[members[j]]) < COPLANAR and overlap(points[i], points[j]):
                     found.append(p[members[i]].mean(axis=0))
     return found
 

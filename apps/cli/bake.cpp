@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <optional>
 
@@ -7,6 +6,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
+#include "apps/cli/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "grids/files.hpp"
@@ -93,7 +93,7 @@ void save_slices(const AtlasTarget& target, const grids::Grid& grid, const grids
 }
 
 void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outputs) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   refuse_idle_options(options, arguments);
   expect_suffix("-o", options.output, {".brv", ".vdb", ".nvdb", ".png"});
   const grids::CloudSettings settings = settings_of(options);
@@ -117,7 +117,7 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
     grids::save_grid_file(options.output, file).value_or_throw();
   }
 
-  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+  const double seconds = watch.seconds();
   if (!options.json.empty())
     write_json(options.json, {{"output", options.output},
                               {"shape", options.shape},
@@ -126,12 +126,12 @@ void bake(const BakeOptions& options, const Arguments& arguments, Outputs& outpu
                               {"radius", settings.radius},
                               {"active_voxels", active},
                               {"bricks", bricks},
-                              {"milliseconds", whole.count()}});
+                              {"milliseconds", 1000 * seconds}});
   if (options.json == "-") return;
   char text[200];
   std::snprintf(text, sizeof text, "%s of radius %g m, %llu active voxels in %llu bricks, in %.3g s\n",
                 options.shape.c_str(), settings.radius, static_cast<unsigned long long>(active),
-                static_cast<unsigned long long>(bricks), whole.count() / 1000);
+                static_cast<unsigned long long>(bricks), seconds);
   print(text);
 }
 
@@ -205,8 +205,7 @@ Command add_bake(CommandLine& program) {
                      "Evaluate the formula on a Vulkan device: values differ by rounding");
   arguments.add_option("--device", options->device, "Device of --gpu by number or name (see brume devices)")
       .type_name("NAME");
-  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options->json);
   command.run = [options, arguments, common = command.common] { bake(*options, arguments, common->outputs); };
   return command;
 }

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "apps/cli/atlas_options.hpp"
 #include "apps/cli/bake_inputs.hpp"
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/stopwatch.hpp"
 #include "bake/occlusion.hpp"
 #include "core/log.hpp"
 #include "scene/load.hpp"
@@ -78,7 +78,7 @@ void save(const OcclusionBake& bake, const Targets& targets, bake::Occlusion occ
 }
 
 void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& outputs) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   if (!bake.box.empty()) arguments.refuse("--margin", "--box sets the box; give one of the two");
   expect_suffix("", bake.input, {".glb", ".gltf", ".obj", ".txt"});
   outputs.reads(std::filesystem::path(bake.input));
@@ -99,18 +99,18 @@ void bake_occlusion(OcclusionBake bake, const Arguments& arguments, Outputs& out
     log_warning(bake.input + ": hides nothing from any point of the box");
   save(bake, targets, std::move(occlusion));
 
-  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+  const double seconds = watch.seconds();
   if (!bake.json.empty()) {
     Json json{{"input", bake.input}, {"triangles", triangles.size()}, {"rays", bake.options.rays}};
     json.update(json_of(targets.combined));
     json.set("box", json_of(bake.options.box));
-    json.set("milliseconds", whole.count());
+    json.set("milliseconds", 1000 * seconds);
     write_json(bake.json, json);
   }
   if (bake.json == "-") return;
   char text[80];
   std::snprintf(text, sizeof text, " of %zu triangles, %u rays each way, in %.3g s\n", triangles.size(),
-                bake.options.rays, whole.count() / 1000);
+                bake.options.rays, seconds);
   print(text_of(targets.combined.layout) + text);
 }
 
@@ -166,8 +166,7 @@ Command add_bake_occlusion(CommandLine& program) {
   arguments.add_option("INPUT", bake->input, "Meshes (.glb, .gltf, .obj, .txt)").required().type_name("");
   declare_atlas_options(arguments, bake->atlas);
   add_bake_options(arguments, *bake);
-  arguments.add_option("--json", bake->json, "Write the result as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, bake->json);
   command.run = [bake, arguments, common = command.common] {
     bake_occlusion(*bake, arguments, common->outputs);
   };

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "apps/cli/atlas_options.hpp"
@@ -7,6 +6,7 @@
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/info.hpp"
+#include "apps/cli/stopwatch.hpp"
 #include "apps/cli/volumes.hpp"
 #include "bake/coverage.hpp"
 #include "core/log.hpp"
@@ -204,7 +204,7 @@ Baked bake_volume(const SliceOptions& options, Outputs& outputs) {
 }
 
 void bake_slices(const SliceOptions& options, Outputs& outputs) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const bool is_volume = grids::is_grid_file(options.input);
   if (!is_volume)
     expect_suffix("", options.input, {".glb", ".gltf", ".obj", ".txt", ".vdb", ".nvdb", ".brv", ".json"});
@@ -212,19 +212,19 @@ void bake_slices(const SliceOptions& options, Outputs& outputs) {
   outputs.writes("--json", options.json, FileKind::json);
   const Baked baked = is_volume ? bake_volume(options, outputs) : bake_mesh(options, outputs);
 
-  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+  const double seconds = watch.seconds();
   if (!options.json.empty()) {
     Json json{{"input", options.input}};
     json.update(json_of(baked.target));
     json.set("channels", baked.channels);
     json.set("box", json_of(baked.box));
-    json.set("milliseconds", whole.count());
+    json.set("milliseconds", 1000 * seconds);
     write_json(options.json, json);
   }
   if (options.json == "-") return;
-  char seconds[40];
-  std::snprintf(seconds, sizeof seconds, ", in %.3g s\n", whole.count() / 1000);
-  print(text_of(baked.target.layout) + seconds);
+  char text[40];
+  std::snprintf(text, sizeof text, ", in %.3g s\n", seconds);
+  print(text_of(baked.target.layout) + text);
 }
 
 }  // namespace
@@ -258,8 +258,7 @@ Command add_bake_slices(CommandLine& program) {
           "--box", options->box,
           "Lowest and highest corner of what is baked [m]; default: all, of meshes with a voxel around")
       .type_name("POINTS");
-  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options->json);
   command.run = [options, common = command.common] { bake_slices(*options, common->outputs); };
   return command;
 }

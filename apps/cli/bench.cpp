@@ -79,17 +79,13 @@ Command add_bench(CommandLine& program) {
       .add_option("NAME", options->names,
                   "Benchmarks to run, by name or leading part of it; default: all. They are " + names())
       .type_name("");
-  arguments.add_option("--json", options->json, "Write the results as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options->json, "the results");
   arguments
       .add_option("--repetitions", options->bench.repetitions,
                   "Samples per benchmark; default: chosen by each")
       .range(1u, 100'000u)
       .type_name("N");
-  arguments
-      .add_option("--device", options->bench.device,
-                  "Device by number or part of its name; see brume devices")
-      .type_name("N|NAME");
+  declare_device(arguments, options->bench.device);
   command.run = [options, common = command.common] { measure(*options, common->outputs); };
   return command;
 }

@@ -33,6 +33,12 @@ struct Command {
 Command declare(CommandLine& program, const std::string& name, const std::string& what,
                 const std::string& examples);
 
+/// Declares --json, which writes `what`.
+void declare_json(const Arguments& arguments, std::string& file, const std::string& what = "the result");
+
+/// Declares --device.
+void declare_device(const Arguments& arguments, std::string& device);
+
 /// Throws Error (usage) unless a file's suffix, in any case, is one of these, such as ".glb".
 void expect_suffix(const std::string& argument, const std::string& file,
                    std::initializer_list<const char*> suffixes);

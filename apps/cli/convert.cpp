@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/info.hpp"
 #include "apps/cli/json.hpp"
+#include "apps/cli/stopwatch.hpp"
 #include "apps/cli/volumes.hpp"
 #include "core/error.hpp"
 #include "grids/files.hpp"
@@ -54,7 +54,7 @@ void save(const fs::path& path, const grids::GridFile& file) {
 }
 
 void convert(const ConvertOptions& options, Outputs& outputs) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   expect_suffix("", options.input, {kVdb, kNvdb, kBrv, kJson, ".png", ".exr"});
   expect_suffix("", options.output, {kVdb, kNvdb, kBrv, kJson});
   const fs::path output = options.output;
@@ -68,7 +68,7 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
   select(file, options.input, options.grids);
   save(output, file);
 
-  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+  const double seconds = watch.seconds();
   std::uint64_t active = 0;
   for (const grids::Grid& grid : file.grids) active += count_active(grid);
   if (!options.json.empty()) {
@@ -79,13 +79,12 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
                               {"grids", grids},
                               {"active_voxels", active},
                               {"bytes", std::uint64_t{fs::file_size(output)}},
-                              {"milliseconds", whole.count()}});
+                              {"milliseconds", 1000 * seconds}});
   }
   if (options.json == "-") return;
   char text[120];
   std::snprintf(text, sizeof text, "%zu %s, %llu active voxels, in %.3g s\n", file.grids.size(),
-                file.grids.size() == 1 ? "grid" : "grids", static_cast<unsigned long long>(active),
-                whole.count() / 1000);
+                file.grids.size() == 1 ? "grid" : "grids", static_cast<unsigned long long>(active), seconds);
   print(text);
 }
 
@@ -113,8 +112,7 @@ Command add_convert(CommandLine& program) {
   arguments.add_option("--grid", options->grids, "Convert only the grids of this name; repeatable")
       .take_all()
       .type_name("NAME");
-  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options->json);
   command.run = [options, common = command.common] { convert(*options, common->outputs); };
   return command;
 }

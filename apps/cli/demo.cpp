@@ -76,9 +76,7 @@ Command add_demo(CommandLine& program) {
   command.arguments
       .add_option("--scenes", options->scenes, "Folder of the demo's scene; default: the one it comes with")
       .type_name("FOLDER");
-  command.arguments
-      .add_option("--device", options->device, "Device by number or part of its name; see brume devices")
-      .type_name("N|NAME");
+  declare_device(command.arguments, options->device);
   command.run = [options, common = command.common] { demo(*options, *common); };
   return command;
 }

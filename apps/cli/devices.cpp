@@ -42,8 +42,7 @@ Command add_devices(CommandLine& program) {
       declare(program, "devices", "Lists the Vulkan devices and the numbers that --device takes.",
               "  brume devices\n  brume devices --json -");
   auto json = std::make_shared<std::string>();
-  command.arguments.add_option("--json", *json, "Write the list as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(command.arguments, *json, "the list");
   command.run = [json, common = command.common] {
     common->outputs.writes("--json", *json, FileKind::json);
     list_devices(*json);

@@ -131,8 +131,7 @@ Command add_diff(CommandLine& program) {
   arguments.add_option("--psnr-below", options->psnr_below, "Fail if the PSNR is below DB [dB]")
       .range(0.0, 200.0)
       .type_name("DB");
-  arguments.add_option("--json", options->json, "Write the metrics as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options->json, "the metrics");
   command.run = [options, common = command.common] { diff(*options, common->outputs); };
   return command;
 }

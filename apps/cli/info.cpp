@@ -145,8 +145,7 @@ Command add_info(CommandLine& program) {
       "--check", options->check,
       "Fail (exit code 3) if a timeline cannot be rendered: its scene, masks, fonts or "
       "doors are missing or invalid");
-  command.arguments.add_option("--json", options->json, "Write the summary as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(command.arguments, options->json, "the summary");
   command.run = [arguments = command.arguments, options, common = command.common] {
     if (scene::lower_extension(options->input) != ".toml")
       arguments.refuse("--check", "is for timelines (.toml)");

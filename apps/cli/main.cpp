@@ -138,6 +138,15 @@ Command declare(CommandLine& program, const std::string& name, const std::string
   return command;
 }
 
+void declare_json(const Arguments& arguments, std::string& file, const std::string& what) {
+  arguments.add_option("--json", file, "Write " + what + " as JSON; - for standard output").type_name("FILE");
+}
+
+void declare_device(const Arguments& arguments, std::string& device) {
+  arguments.add_option("--device", device, "Device by number or part of its name; see brume devices")
+      .type_name("N|NAME");
+}
+
 void expect_suffix(const std::string& argument, const std::string& file,
                    std::initializer_list<const char*> suffixes) {
   const std::string found = scene::lower_extension(file);

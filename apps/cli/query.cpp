@@ -263,8 +263,7 @@ Command add_query(CommandLine& program) {
       .one_of({"visible", "hidden"})
       .type_name("visible|hidden");
   declare_size_options(arguments, options->scene);
-  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options->json);
   command.run = [arguments, options, common = command.common] {
     query(arguments, *options, common->outputs);
   };

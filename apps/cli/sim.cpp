@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/cli/scene_options.hpp"
+#include "apps/cli/stopwatch.hpp"
 #include "apps/cli/targets.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -171,7 +171,7 @@ class VolumeFiles {
 // The result of a run: the state hash of each tick.
 struct Run {
   std::vector<std::uint64_t> hashes;
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  Stopwatch watch;
 
   void take(const sim::State& state) {
     stop_if_interrupted();
@@ -194,12 +194,11 @@ struct Simulated {
 void report(const SimOptions& options, const Run& run, std::uint32_t rate,
             const std::optional<Simulated>& simulated) {
   const bool compared = !simulated;
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - run.start;
   if (!options.json.empty()) {
     Json result{{"ticks", run.hashes.size()},
                 {"ticks_per_second", rate},
                 {"hash", hex(run.hashes.back())},
-                {"milliseconds", took.count()}};
+                {"milliseconds", 1000 * run.watch.seconds()}};
     if (compared) result.set("same", true);
     if (simulated) result.set("smokes", simulated->smokes);
     if (!options.volumes.empty()) result.set("volumes", simulated->volumes);
@@ -304,8 +303,7 @@ Command add_sim(CommandLine& program) {
       .add_option("--up", options->up, "Axis of --volumes that points up: y or, for Blender, z; default y")
       .one_of({"y", "z"})
       .type_name("y|z");
-  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options->json);
   command.run = [arguments, options, common = command.common] {
     check_options(arguments, *options, common->outputs);
     options->replay.empty() ? simulate(*options, common->outputs) : verify_replay(*options);

@@ -164,14 +164,12 @@ void declare_outputs(const Arguments& arguments, ViewOptions& options) {
   arguments.add_option("--shaders", options.shaders, "Folder of shader sources to watch for changes")
       .type_name("FOLDER");
   arguments.add_flag("--validation", options.validation, "Enable the Vulkan validation layers");
-  arguments.add_option("--device", options.device, "Device by number or part of its name; see brume devices")
-      .type_name("N|NAME");
+  declare_device(arguments, options.device);
   arguments
       .add_option("--frame-log", options.frame_log,
                   "Write one CSV line per frame while the window is open: times, memory")
       .type_name("FILE");
-  arguments.add_option("--json", options.json, "Write the measurements as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options.json, "the measurements");
 }
 
 void declare_tests(const Arguments& arguments, ViewOptions& options) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <optional>
 
@@ -7,6 +6,7 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
+#include "apps/cli/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "scenario/first_view.hpp"
@@ -60,7 +60,7 @@ void warn_of_units(const std::string& file, const Box<float>& bounds) {
 
 void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   check_options(options);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   expect_suffix("", options.scene, {".txt", ".gltf", ".glb", ".obj"});
   outputs.reads(std::filesystem::path(options.scene));
   outputs.writes("-o", options.output, FileKind::vxl);
@@ -83,12 +83,12 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
 
   const std::uint64_t solid = voxels.grid.count_solid();
   if (solid == 0) log_warning("no voxel is solid: the scene lies outside the grid; move it with --origin");
-  const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
+  const double seconds = watch.seconds();
   if (!options.json.empty()) {
     write_json(options.json,
                {{"scene", options.scene},
                 {"solid", solid},
-                {"milliseconds", whole.count()},
+                {"milliseconds", 1000 * seconds},
                 {"voxelize_milliseconds", voxels.milliseconds},
                 {"triangles", voxels.triangles},
                 {"cached", voxels.cached},
@@ -101,7 +101,7 @@ void voxelize(const VoxelizeOptions& options, Outputs& outputs) {
   std::snprintf(text, sizeof text, "%llu triangles, %llu solid voxels of %dx%dx%d, %s in %.3g s\n",
                 static_cast<unsigned long long>(voxels.triangles), static_cast<unsigned long long>(solid),
                 frame.size.x, frame.size.y, frame.size.z,
-                voxels.cached ? "loaded from the cache" : "voxelized", whole.count() / 1000);
+                voxels.cached ? "loaded from the cache" : "voxelized", seconds);
   print(text);
 }
 
@@ -130,8 +130,7 @@ Command add_voxelize(CommandLine& program) {
       .add_option("--origin", options->origin, "Minimum corner of the grid [m]; default: that of the scene")
       .type_name("X,Y,Z");
   arguments.add_option("--obj", options->obj, "Write the solid voxels as a mesh").type_name("FILE");
-  arguments.add_option("--json", options->json, "Write the result as JSON; - for standard output")
-      .type_name("FILE");
+  declare_json(arguments, options->json);
   command.run = [options, common = command.common] { voxelize(*options, common->outputs); };
   return command;
 }

@@ -1,15 +1,12 @@
 #include "bench/decals/ray_traced_occlusion.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
-#include <string>
+#include <numeric>
 
-#include "core/error.hpp"
 #include "shared/hash.h"
 
 namespace brume::decals {
@@ -25,26 +22,9 @@ std::array<glm::dvec3, 2> axes_across(glm::dvec3 n) {
           glm::dvec3(b, sign + n.y * n.y * a, -n.y)};
 }
 
-void check(RTCDevice device) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_NONE) return;
-  throw Error(error == RTC_ERROR_UNSUPPORTED_CPU ? ErrorCode::no_device : ErrorCode::internal,
-              "Embree reports the error " + std::to_string(error));
-}
-
 }  // namespace
 
-struct RayTracedOcclusion::Scene {
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  ~Scene() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
-};
-
-RayTracedOcclusion::RayTracedOcclusion(std::span<const voxel::Triangle> triangles, int rays)
-    : scene_(std::make_unique<Scene>()) {
+RayTracedOcclusion::RayTracedOcclusion(std::span<const voxel::Triangle> triangles, int rays) {
   // The golden ratio distributes the angles, the square root the radii.
   constexpr double kGolden = 0.6180339887498949;
   for (int i = 0; i < rays; ++i) {
@@ -53,33 +33,14 @@ RayTracedOcclusion::RayTracedOcclusion(std::span<const voxel::Triangle> triangle
     directions_.emplace_back(std::sqrt(radius_squared) * std::cos(angle),
                              std::sqrt(radius_squared) * std::sin(angle), std::sqrt(1 - radius_squared));
   }
-  scene_->device = rtcNewDevice(nullptr);
-  if (!scene_->device) throw Error(ErrorCode::internal, "Embree does not start");
-  scene_->scene = rtcNewScene(scene_->device);
-  rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
-  if (!triangles.empty()) {
-    const RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* const corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * triangles.size()));
-    auto* const indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
-    check(scene_->device);
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      const std::array points{triangles[i].a, triangles[i].b, triangles[i].c};
-      for (std::size_t k = 0; k < 3; ++k) {
-        corners[3 * i + k] = points[k];
-        indices[3 * i + k] = static_cast<std::uint32_t>(3 * i + k);
-      }
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-  }
-  rtcCommitScene(scene_->scene);
-  check(scene_->device);
+  std::vector<glm::vec3> corners;
+  for (const voxel::Triangle& triangle : triangles)
+    corners.insert(corners.end(), {triangle.a, triangle.b, triangle.c});
+  std::vector<std::uint32_t> indices(corners.size());
+  std::iota(indices.begin(), indices.end(), 0u);
+  const std::array meshes{trace::TriangleMesh{corners, indices}};
+  tree_.build("occlusion by rays", std::span(meshes).first(corners.empty() ? 0 : 1)).value_or_throw();
 }
-
-RayTracedOcclusion::~RayTracedOcclusion() = default;
 
 double RayTracedOcclusion::at(glm::dvec3 p_world, glm::dvec3 normal, std::uint32_t seed,
                               double offset) const {
@@ -108,7 +69,7 @@ double RayTracedOcclusion::at(glm::dvec3 p_world, glm::dvec3 normal, std::uint32
       packet.mask[lane] = ~0u;
       packet.id[lane] = packet.flags[lane] = 0;
     }
-    rtcOccluded8(active.data(), scene_->scene, &context, &packet);
+    rtcOccluded8(active.data(), tree_.scene(), &context, &packet);
     for (std::size_t lane = 0; lane < kLanes; ++lane) hidden += active[lane] && packet.tfar[lane] < 0;
   }
   return static_cast<double>(hidden) / static_cast<double>(directions_.size());

@@ -3,22 +3,18 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "trace/triangle_tree.hpp"
 #include "voxel/triangle.hpp"
 
 namespace brume::decals {
 
 class RayTracedOcclusion {
  public:
-  /// Triangles hide from both sides. `rays` per point, at least 1. Throws Error: no_device for a processor
-  /// that Embree does not support, and internal.
+  /// Triangles hide from both sides. `rays` per point, at least 1. Throws Error as trace::TriangleTree fails.
   RayTracedOcclusion(std::span<const voxel::Triangle> triangles, int rays);
-  RayTracedOcclusion(const RayTracedOcclusion&) = delete;
-  RayTracedOcclusion& operator=(const RayTracedOcclusion&) = delete;
-  ~RayTracedOcclusion();
 
   /// The fraction of a cosine-weighted hemisphere around a unit normal that the mesh hides from a point. The
   /// rays are a Fibonacci lattice on the disk below the hemisphere, rotated by `seed`. They start `offset`
@@ -26,8 +22,7 @@ class RayTracedOcclusion {
   double at(glm::dvec3 p_world, glm::dvec3 normal, std::uint32_t seed, double offset) const;
 
  private:
-  struct Scene;
-  std::unique_ptr<Scene> scene_;
+  trace::TriangleTree tree_;
   std::vector<glm::vec3> directions_;  ///< Around z.
 };
 

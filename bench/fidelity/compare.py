@@ -5,6 +5,7 @@ import sys
 
 import numpy
 
+import images
 import pictures
 import scenes
 
@@ -54,16 +55,16 @@ class Studio:
         file, (width, height) = f"{stem}_realtime.exr", self.size
         self.call("render", self.timeline(name, stem, edits, paint), "-o", file, "--size",
                   f"{TIMES * width}x{TIMES * height}", "--time", self.seconds[name], "-q", *more)
-        layers = pictures.read_exr(self.folder / file)
-        return (pictures.averaged(pictures.radiance(layers), TIMES), pictures.averaged(layers["transmittance"], TIMES))
+        layers = images.read_exr(self.folder / file)
+        return (pictures.averaged(images.radiance(layers), TIMES), pictures.averaged(layers["transmittance"], TIMES))
 
     def reference(self, name, stem, edits=(), paint=None, more=()):
         """Linear radiance and its standard error."""
         file, (width, height) = f"{stem}_reference.exr", self.size
         self.call("render", self.timeline(name, stem, edits, paint), "-o", file, "--size", f"{width}x{height}",
                   "--time", self.seconds[name], "-q", "--mode", "reference", "--samples", self.samples, *more)
-        layers = pictures.read_exr(self.folder / file)
-        return pictures.radiance(layers), layers["error"]
+        layers = images.read_exr(self.folder / file)
+        return images.radiance(layers), layers["error"]
 
     def pair(self, name, mode, edits=(), paint=None):
         """Tables named `realtime ...` in edits are of the real-time picture alone."""
@@ -76,7 +77,7 @@ class Studio:
     def difference(self, stem, test, truth, settings):
         """PSNR and FLIP of what a screen shows."""
         for kind, picture in (("realtime", test), ("reference", truth)):
-            pictures.write_png(self.folder / f"{stem}_{kind}.png", pictures.shown(picture, *settings))
+            images.write_png(self.folder / f"{stem}_{kind}.png", pictures.shown(picture, *settings))
         return json.loads(self.call("diff", f"{stem}_reference.png", f"{stem}_realtime.png", "-o", f"{stem}_flip.png",
                                     "--json", "-", "-q"))
 
@@ -99,14 +100,14 @@ class Studio:
         self.pictures[stem] = numpy.concatenate(
             [pictures.shown(test, *settings), pictures.shown(truth, *settings),
              pictures.signed_map(test, truth, settings[0])], axis=1)
-        pictures.write_png(self.folder / f"{stem}.png", self.pictures[stem])
+        images.write_png(self.folder / f"{stem}.png", self.pictures[stem])
         found = self.figures(stem, test, transmittance, truth, error, settings)
         print(f"fidelity: {stem}: {found}", file=sys.stderr, flush=True)
         return found
 
     def contact(self, name):
         """The picture of a scene on the page: full transport above single scattering."""
-        pictures.write_palette_png(self.folder / f"{name}.png", numpy.concatenate(
+        images.write_palette_png(self.folder / f"{name}.png", numpy.concatenate(
             [self.pictures[f"{name}_full"], self.pictures[f"{name}_single"]]))
 
 
@@ -118,11 +119,11 @@ def check(studio, keep):
         stem = f"{name}_{mode}"
         edits, settings = scenes.SINGLE if mode == "single" else (), scenes.look(name)
         test, _ = studio.realtime(name, stem, edits)
-        pictures.write_png(studio.folder / f"{stem}.png", pictures.shown(test, *settings))
+        images.write_png(studio.folder / f"{stem}.png", pictures.shown(test, *settings))
         if keep:
             KEPT_FOLDER.mkdir(exist_ok=True)
             truth, _ = studio.reference(name, stem, more=("--max-bounces", 1) if mode == "single" else ())
-            pictures.write_png(KEPT_FOLDER / f"{stem}.png", pictures.shown(truth, *settings))
+            images.write_png(KEPT_FOLDER / f"{stem}.png", pictures.shown(truth, *settings))
         metrics = json.loads(studio.call("diff", KEPT_FOLDER / f"{stem}.png", f"{stem}.png", "--json", "-", "-q"))
         if keep:
             kept.setdefault("check", {})[stem] = {key: round(metrics[key], 4) for key in ("psnr", "flip")}

@@ -7,11 +7,12 @@ def _percent(value, signed=True):
 
 
 def _scenes(results):
-    rows = [{**row, "whole": _percent(row["whole"]), "largest": _percent(row["largest"]),
-             "largest_error": _percent(row["largest_error"], False),
+    rows = [{**row, "whole": _percent(row["whole"]), "whole_error": _percent(row["whole_error"], False),
+             "largest": _percent(row["largest"]), "largest_error": _percent(row["largest_error"], False),
              "off": f"{row['off']} of {row['parts']}"} for row in results["scenes"]]
     columns = (("scene", "scene"), ("surfaces", "surfaces"), ("whole", "whole picture %"),
-               ("largest", "largest part %"), ("largest_error", "its standard error %"), ("off", "parts off"), ("brume_cpu", "Brume CPU s"),
+               ("whole_error", "its standard error %"), ("largest", "largest part %"),
+               ("largest_error", "its standard error %"), ("off", "parts off"), ("brume_cpu", "Brume CPU s"),
                ("cycles_cpu", "Cycles CPU s"))
     return table(rows, columns)
 

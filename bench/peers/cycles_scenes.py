@@ -12,10 +12,16 @@ import time
 import bpy
 from mathutils import Euler, Vector
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from cycles_shaders import Material, hammon, schlick, world  # noqa: E402
+
 ROOM = (2.0, 2.0, 3.0)  # half its width, half its depth, its height [m]
 EYE, TARGET = (0.3, -5.2, 1.7), (0.0, 0.0, 1.35)
 CLOUD_AT = (0.0, 0.2, 1.3)
 NEARER = {"fog_sphere": (18, CLOUD_AT), "cloud": (13, CLOUD_AT)}  # vertical field of view, target
+ROUGHNESS = 0.15  # of metals
+SKY = {"panel_and_sky": (0.05, 0.09, 0.16), "metals": (0.05, 0.09, 0.16)}
 GREY, RED, GREEN = (0.72, 0.72, 0.72), (0.6, 0.12, 0.1), (0.15, 0.5, 0.12)
 
 
@@ -27,34 +33,50 @@ def place(name, data, location=(0, 0, 0), rotation=(0, 0, 0)):
 
 
 class Surfaces:
-    """Materials that may be rendered as exported, or with Lambert's law alone."""
+    """Materials of which each may be rendered as exported ("principled"), or by other shaders of Cycles: "diffuse",
+    Lambert's law; "metal", Brume's model of metals; "glossy", that with Cycles' own shadowing."""
 
     def __init__(self):
         self._made = []
 
     def add(self, name, color, image=None):
-        material = bpy.data.materials.new(name)
-        material.use_nodes = True
-        nodes, links = material.node_tree.nodes, material.node_tree.links
-        nodes.clear()
-        principled, diffuse = nodes.new("ShaderNodeBsdfPrincipled"), nodes.new("ShaderNodeBsdfDiffuse")
-        # What Brume's materials are: a specular part of 0.04, rough.
-        principled.inputs["Roughness"].default_value, principled.inputs["Specular"].default_value = 1, 0.5
-        diffuse.inputs["Roughness"].default_value = 0
-        for socket in (principled.inputs["Base Color"], diffuse.inputs["Color"]):
-            socket.default_value = (*color, 1)
-            if image:
-                texture = nodes.new("ShaderNodeTexImage")
-                texture.image = image
-                links.new(texture.outputs["Color"], socket)
-        output = nodes.new("ShaderNodeOutputMaterial")
-        self._made.append((links, output.inputs["Surface"], {"principled": principled, "diffuse": diffuse}))
-        self.show("principled")
-        return material
+        """No metal, rough."""
+        made = Material(name)
+        value = made.nodes.add("TexImage", image=image).outputs["Color"] if image else (*color, 1)
+        made.exported(value, 1)
+        made.add("diffuse", "BsdfDiffuse", Color=value)
+        return self._keep(made)
+
+    def add_metal(self, name, color, normals=None):
+        """With an image of a normal map."""
+        made = Material(name)
+        nodes, geometry = made.nodes, made.nodes.add("NewGeometry")
+        normal = nodes.mapped_normal(normals) if normals else geometry.outputs["Normal"]
+        facing = nodes.dot(normal, geometry.outputs["Incoming"])
+        reflected = schlick(nodes, color, facing)
+        made.exported((*color, 1), ROUGHNESS, Metallic=1, **({"Normal": normal} if normals else {}))
+        made.add("diffuse", "BsdfDiffuse", Color=(*color, 1), Normal=normal)
+        for kind, value in (("metal", nodes.scaled(reflected, hammon(nodes, ROUGHNESS, facing))),
+                            ("glossy", reflected)):
+            made.add(kind, "BsdfGlossy", Color=value, Roughness=ROUGHNESS, Normal=normal).distribution = "GGX"
+        return self._keep(made)
+
+    def add_emitter(self, name, radiance):
+        """Black, and as bright from both sides."""
+        made = Material(name)
+        made.exported((0, 0, 0, 1), 1, Metallic=1, Emission=(*radiance, 1))
+        for kind in ("diffuse", "metal", "glossy"):
+            made.add(kind, "Emission", Color=(*radiance, 1))
+        return self._keep(made)
 
     def show(self, kind):
-        for links, socket, shaders in self._made:
-            links.new(shaders[kind].outputs[0], socket)
+        for material in self._made:
+            material.show(kind)
+
+    def _keep(self, made):
+        made.show("principled")
+        self._made.append(made)
+        return made.material
 
 
 def quad(name, corners, material):
@@ -150,8 +172,27 @@ def cloud_in_room(spec, surfaces):
     return volume(spec["cloud"], 12, 0.9, 0)
 
 
+def panel_and_sky(_, surfaces, normals=None):
+    """Under an emitting panel; `normals`: a normal map at the back."""
+    x, y, z = ROOM
+    silver, gold = surfaces.add_metal("silver", (0.9, 0.9, 0.9)), surfaces.add_metal("gold", (0.9, 0.6, 0.3))
+    quad("floor", [(-x, -y, 0), (x, -y, 0), (x, y, 0), (-x, y, 0)], silver)
+    quad("back", [(-x, y, 0), (x, y, 0), (x, y, z), (-x, y, z)], surfaces.add_metal("back", GREY, normals))
+    quad("left", [(-x, -y, 0), (-x, y, 0), (-x, y, z), (-x, -y, z)], gold)
+    box("block", (0.2, -0.3, 0), (1.1, 0.6, 0.9), gold)
+    panel = [(-1.1, -0.4, 2.0), (-0.3, -0.4, 2.0), (-0.3, 0.4, 2.3), (-1.1, 0.4, 2.3)]
+    quad("panel", panel, surfaces.add_emitter("panel", (1, 0.8, 0.5)))
+    light("POINT", 0)  # Without any, Brume adds a sun.
+
+
+def metals(spec, surfaces):
+    normals = bpy.data.images.load(spec["normals"])
+    normals.colorspace_settings.name = "Non-Color"
+    panel_and_sky(spec, surfaces, normals)
+
+
 SCENES = {"walls": walls, "textured_room": textured_room, "fog_sphere": fog_sphere, "cloud": cloud,
-          "cloud_in_room": cloud_in_room}
+          "cloud_in_room": cloud_in_room, "panel_and_sky": panel_and_sky, "metals": metals}
 
 
 def camera(spec):
@@ -164,8 +205,7 @@ def camera(spec):
     scene.camera = place("camera", data, EYE, Euler(turn))
     scene.render.resolution_x, scene.render.resolution_y = spec["size"]
     scene.render.resolution_percentage = 100
-    scene.world = bpy.data.worlds.new("black")
-    scene.world.color = (0, 0, 0)
+    scene.world = world(SKY.get(spec["scene"], (0, 0, 0)))
     scene.brume.sky, scene.brume.voxel = "WORLD", 0.25
 
 

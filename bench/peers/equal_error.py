@@ -13,10 +13,10 @@ BOUNCES = 1024
 def _apart(a, b):
     """Root of the mean variance of a pixel, from two independent pictures, and the mean of both; relative to the mean
     over the pixels that the cloud covers."""
-    covered = [i for i, pair in enumerate(zip(a.values, b.values)) if pair[0] > 0 or pair[1] > 0]
-    mean = math.fsum(a.values[i] + b.values[i] for i in covered) / (2 * len(covered))
-    variance = math.fsum((x - y) ** 2 for x, y in zip(a.values, b.values)) / (2 * len(covered))
-    return math.sqrt(variance) / mean, math.fsum(a.values + b.values) / (2 * len(a.values))
+    covered = (a > 0) | (b > 0)
+    mean = (a + b)[covered].mean() / 2
+    variance = ((a - b)[covered]**2).mean() / 2
+    return float(math.sqrt(variance) / mean), float((a + b).mean() / 2)
 
 
 def _row(name, samples, measured, error, mean, **more):
@@ -37,8 +37,7 @@ def brume(comparison, size):
 
     measured, first = render(samples, comparison.options.repeat)
     _, both = render(2 * samples, 1)
-    second = pictures.Picture(first.width, first.height, [2 * b - a for a, b in zip(first.values, both.values)])
-    return _row("Brume", samples, measured, *_apart(first, second))
+    return _row("Brume", samples, measured, *_apart(first, 2 * both - first))
 
 
 def cycles(comparison, scene, step_rate):
