@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "apps/cli/command.hpp"
 #include "core/error.hpp"
 
 namespace brume::cli {
@@ -203,10 +204,8 @@ void declare_render(const Arguments& arguments, RenderOptions& options) {
   declare_quality(arguments, options);
   declare_view(arguments, options);
   declare_scene_options(arguments, options.scene);
-  arguments.add_option("--device", options.device, "Device by number or part of its name; see brume devices")
-      .type_name("N|NAME");
-  arguments.add_option("--json", options.json, "Write statistics as JSON; - for standard output")
-      .type_name("FILE");
+  declare_device(arguments, options.device);
+  declare_json(arguments, options.json, "statistics");
 }
 
 }  // namespace brume::cli

@@ -121,6 +121,9 @@ TEST(CameraSamples, FillPixelLensAndTimeEvenlyAndApart) {
   // Independent: the deviation of four is less than two.
   for (const int count : quarters) EXPECT_NEAR(count, 4, 8);
   for (const int count : quarters) EXPECT_GT(count, 0);
+  EXPECT_EQ(usual_samples({.lens = lens}), 64u);
+  EXPECT_EQ(usual_samples({.shutter = 0.1f}), 64u);
+  EXPECT_EQ(usual_samples({}), 1u);
   // One is the pinhole in the middle.
   const auto one = camera_samples(1, lens, nullptr);
   ASSERT_EQ(one.size(), 1u);
