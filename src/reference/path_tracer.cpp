@@ -167,7 +167,8 @@ void Path::add_near_lights(const Ray& ray) {
   --bounces_;
 }
 
-/// Multiplies what lights add at a collision by its weight beside the other techniques that find it.
+/// Multiplies what lights add at a collision by its weight beside the other techniques that find it: places
+/// near lights on the eye's ray, and paths from lights.
 void Path::weigh_collision(const Vertex& vertex, std::span<glm::vec3> values) const {
   if (bounces_ == 1) {
     float extinction = -1;
@@ -233,8 +234,7 @@ glm::vec3 Path::joined(const Vertex& vertex, std::size_t i) const {
   return value / static_cast<float>(1 + others);
 }
 
-/// One of the vertices of the light's path, in proportion to what it would add if only media like its own
-/// were in between, and only as often as that is worth the effort beside what is already found.
+/// One of the vertices of the light's path, in proportion to what it would add if nothing were in between.
 void Path::add_light_path(const Vertex& vertex) {
   thread_local std::vector<float> estimates;
   estimates.clear();
@@ -325,6 +325,7 @@ void Path::add_found_emitter(const SurfaceHit& hit, const Ray& ray) {
 /// Goes on in a direction of a vertex; false where the path ends.
 bool Path::scatter(const Vertex& vertex, Ray& ray) {
   if (bounces_ >= limits_.max_bounces) return false;
+  // What lights and emitters add.
   if (bounces_ == 0 && limits_.max_bounces > 1)
     near_.light_path.trace(scene_, vertex.position, vertex.time, kOfLightPath, sampler_);
   if (!near_.light_path.first_densities().empty())
@@ -335,6 +336,8 @@ bool Path::scatter(const Vertex& vertex, Ray& ray) {
   add_emitters(vertex);
   add_glow(vertex);
   add_light_path(vertex);
+
+  // The next direction.
   glm::vec3 direction;
   if (vertex.surface) {
     const Reflection::Direction next = vertex.surface->reflection.sample(-vertex.arriving, sampler_);

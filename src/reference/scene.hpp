@@ -41,7 +41,7 @@ constexpr float kConstantWithin = 0.1f;
 /// its window, which cuts lights off at their range.
 Incident light_at(const shared::Light& light, const glm::vec3& p_world);
 
-/// A point or spot light that media are near to.
+/// A point or spot light with media nearby, for NearChords and LightPath.
 struct NearLight {
   std::uint32_t light = 0;  ///< Of Scene::lights.
   float solid_angle = 0;    ///< Into which it shines [sr].
@@ -55,15 +55,15 @@ struct Scene {
   /// Sum over the emitters before and with each one, and over all: largest component of radiance times area.
   std::vector<float> power_up_to = {};
   float emitted_power = 0;
-  /// Up to this distance of lights, points in media are sampled for their sake [m]. Pictures depend on it by
-  /// their noise alone, which hardly differs from 0.25 to 2 m.
+  /// Lights with media up to this distance of them are near lights, and as far the eye's rays are sampled for
+  /// their sake [m]. A matter of noise alone, which hardly differs from 0.25 to 2 m.
   float near = 1;
   std::vector<NearLight> near_lights = {};
 };
 
 /// Fills power_up_to and emitted_power.
 void sum_emitters(Scene& scene);
-/// Fills near_lights; those that are missing there are as bright, with more noise.
+/// Fills near_lights. Lights that are missing there are as bright, with more noise.
 void find_near_lights(Scene& scene);
 
 /// What a frame shows, without what stands in for light that paths find themselves: FrameInput's glow, decals
