@@ -49,7 +49,7 @@ class LightPath {
 
   std::span<const Vertex> vertices() const { return vertices_; }
   std::span<const Link> links() const { return links_; }
-  /// Link::density of the light, of which the path is.
+  /// Link::density of the light that the path begins at, times the chance with which it was chosen [1/sr].
   float first_density() const { return first_density_; }
   /// The same of each of the scene's near lights; empty before trace, and if there are none.
   std::span<const float> first_densities() const { return first_densities_; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/box.hpp"
 #include "planning/device_lights.hpp"
 #include "reference/smoke_medium.hpp"
 #include "reference/volume_medium.hpp"
@@ -105,6 +106,7 @@ void sum_emitters(Scene& scene) {
 
 void find_near_lights(Scene& scene) {
   scene.near_lights.clear();
+  if (!(scene.near > 0)) return;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const shared::Light& light = scene.lights[i];
     if (light.kind == shared::kLightDirectional || light.intensity == glm::vec3(0)) continue;
