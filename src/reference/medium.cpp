@@ -1,6 +1,7 @@
 #include "reference/medium.hpp"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "reference/motion.hpp"
@@ -54,6 +55,12 @@ Ray Medium::at_rest(const Ray& ray) const {
 glm::vec3 Medium::world_from_rest(const glm::vec3& p_rest, float time) const {
   if (world_from_rest_.empty()) return p_rest;
   return glm::vec3(at_time<glm::mat4>(world_from_rest_, time) * glm::vec4(p_rest, 1));
+}
+
+float Medium::collisions(const glm::vec3& p_world) const {
+  const std::optional<std::uint32_t> cell = majorants_.cell_at(p_world);
+  if (!cell || !(majorants_.bound(*cell) > 0)) return 0;
+  return glm::min(extinction(p_world), majorants_.bound(*cell));
 }
 
 std::optional<Collision> Media::collide(const Ray& ray, Sampler& sampler, glm::vec3& emitted) const {

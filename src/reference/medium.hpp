@@ -35,6 +35,9 @@ class Medium {
   Ray at_rest(const Ray& ray) const;
   glm::vec3 world_from_rest(const glm::vec3& p_rest, float time) const;
 
+  /// Collisions per length that tracking finds: the extinction, and 0 outside of all cells [1/m].
+  float collisions(const glm::vec3& p_world) const;
+
   const shared::Phase& phase() const { return phase_; }
   const Majorants& majorants() const { return majorants_; }
 

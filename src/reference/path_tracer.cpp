@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
+#include "reference/light_path.hpp"
+#include "reference/near_lights.hpp"
 #include "reference/phase.hpp"
 
 namespace brume::reference {
@@ -18,6 +23,9 @@ float power_heuristic(float a, float b) {
   return a * a / (a * a + b * b);
 }
 
+/// Paths from the eye always have their first vertex from it (other_techniques).
+constexpr double kAlways = std::numeric_limits<double>::infinity();
+
 /// Where a path is scattered: a point of a medium or of a surface.
 struct Vertex {
   const SurfaceHit* surface = nullptr;
@@ -25,6 +33,7 @@ struct Vertex {
   glm::vec3 position{0};
   glm::vec3 arriving{0};  ///< Direction of the path before, unit.
   glm::vec3 albedo{1};    ///< Of a medium.
+  float t = 0;            ///< Along the ray that leads there [m].
   float time = 0;         ///< Of the shutter.
 
   /// Radiance back along the path for unit irradiance from a direction, with the cosine of a surface.
@@ -47,25 +56,41 @@ struct Vertex {
   }
 };
 
+/// What a path has of near lights in media; one for all paths of a thread, whose memory is reused.
+struct NearLightsOfPath {
+  NearChords chords;        ///< Of the eye's ray.
+  LightPath light_path;     ///< Its vertices are joined with those of the path.
+  std::vector<Link> links;  ///< Of the path, if a light may have one.
+};
+
 class Path {
  public:
-  Path(const Scene& scene, const PathLimits& limits, Sampler& sampler)
-      : scene_(scene), limits_(limits), sampler_(sampler) {}
+  Path(const Scene& scene, const PathLimits& limits, Sampler& sampler, NearLightsOfPath& near)
+      : scene_(scene), limits_(limits), sampler_(sampler), near_(near) {
+    near.light_path.clear();
+    near.links.clear();
+  }
 
   PathSample trace(Ray ray);
 
  private:
   // Dimensions of the sampler: those of the eye come before.
   static constexpr std::uint32_t kOfEye = 4, kOfBounce = 6;
+  // Far from those of bounces: of the eye's ray near lights, and of the light's path.
+  static constexpr std::uint32_t kNearLights = 1u << 30, kOfLightPath = kNearLights + 1;
 
   void add(const glm::vec3& radiance);
+  void add_near_lights(const Ray& ray);
+  void weigh_collision(const Vertex& vertex, std::span<glm::vec3> values) const;
   void add_lights(const Vertex& vertex);
+  void add_light_path(const Vertex& vertex);
+  glm::vec3 joined(const Vertex& vertex, std::size_t i) const;
   void add_emitters(const Vertex& vertex);
   void add_glow(const Vertex& vertex);
   void add_found_emitter(const SurfaceHit& hit, const Ray& ray);
   bool scatter(const Vertex& vertex, Ray& ray);
   bool roulette();
-  float visible(const Vertex& vertex, const glm::vec3& direction, float distance, float distance_of_surfaces);
+  float visible(Ray ray, float distance, float distance_of_surfaces);
   float density_of_emitter(const Emitter& emitter) const;
 
   const Scene& scene_;
@@ -75,6 +100,7 @@ class Path {
   glm::vec3 throughput_{1};
   std::uint32_t bounces_ = 0;
   float last_density_ = 0;  // of the direction of the path; 0: the eye's
+  NearLightsOfPath& near_;
 };
 
 void Path::add(const glm::vec3& radiance) {
@@ -95,14 +121,76 @@ float distance_to_housing(const Incident& incident) {
   return incident.distance - shared::kShadowNear / largest(along);
 }
 
-/// Fraction of light that reaches a vertex from so far away, past surfaces up to a distance.
-float Path::visible(const Vertex& vertex, const glm::vec3& direction, float distance,
-                    float distance_of_surfaces) {
-  Ray ray = vertex.leaving(direction);
+/// Fraction of light that reaches a ray's origin from so far away, past surfaces up to a distance.
+float Path::visible(Ray ray, float distance, float distance_of_surfaces) {
   ray.end = distance_of_surfaces;
   if (ray.end > 0 && scene_.surfaces.occluded(ray)) return 0;
   ray.end = distance;
   return scene_.media.transmittance(ray, sampler_);
+}
+
+/// What media scatter along the eye's ray near lights: at one place, beside collisions. These lie as densely
+/// as the extinction times a transmittance by which this technique, too, multiplies what it finds: without
+/// it, densities are compared.
+void Path::add_near_lights(const Ray& ray) {
+  near_.chords.find(scene_, ray);
+  if (near_.chords.empty() || limits_.max_bounces == 0) return;
+  sampler_.set_dimension(kNearLights);
+  const NearChords::Point point = near_.chords.sample(sampler_.next_2d());
+  if (!(point.density > 0)) return;
+  const Incident incident = light_at(scene_.lights[point.light], ray.at(point.t));
+
+  // By all media there.
+  float extinction = 0;
+  glm::vec3 scattered(0);
+  for (const auto& medium : scene_.media.all()) {
+    const glm::vec3 p_rest = medium->at_rest(ray).at(point.t);
+    const float here = medium->collisions(p_rest);
+    if (!(here > 0)) continue;
+    extinction += here;
+    scattered += medium->albedo(p_rest) *
+                 (here * shared::phase_value(medium->phase(), glm::dot(ray.direction, incident.to_light)));
+  }
+  const glm::vec3 value =
+      scattered * incident.irradiance * (power_heuristic(point.density, extinction) / point.density);
+  if (!(largest(value) > 0)) return;
+
+  // To the light, and to the eye.
+  float passed = visible({ray.at(point.t), incident.to_light, 0, ray.time}, incident.distance,
+                         distance_to_housing(incident));
+  if (!(passed > 0)) return;
+  Ray before = ray;
+  before.end = point.t;
+  passed *= scene_.media.transmittance(before, sampler_);
+  ++bounces_;
+  add(value * passed);
+  --bounces_;
+}
+
+/// Multiplies what lights add at a collision by its weight beside the other techniques that find it: places
+/// near lights on the eye's ray, and paths from lights.
+void Path::weigh_collision(const Vertex& vertex, std::span<glm::vec3> values) const {
+  if (bounces_ == 1) {
+    float extinction = -1;
+    near_.chords.for_each_at(vertex.t, [&](std::uint32_t light, float density) {
+      if (extinction < 0) {
+        extinction = 0;
+        const Ray here{vertex.position, vertex.arriving, 0, vertex.time};
+        for (const auto& medium : scene_.media.all())
+          extinction += medium->collisions(medium->at_rest(here).origin);
+      }
+      values[light] *= power_heuristic(extinction, density);
+    });
+    return;
+  }
+  for (std::size_t i = 0; i < near_.light_path.first_densities().size(); ++i) {
+    const std::uint32_t light = scene_.near_lights[i].light;
+    const Incident incident = light_at(scene_.lights[light], vertex.position);
+    const double d2 = double{incident.distance} * double{incident.distance};
+    values[light] /= static_cast<float>(
+        1 + other_techniques(near_.links, kAlways, double{near_.light_path.first_densities()[i]} / d2,
+                             double{vertex.density(incident.to_light)}, LightPath::kMostVertices));
+  }
 }
 
 /// One of the lights, in proportion to what it would add if nothing hid it.
@@ -113,8 +201,9 @@ void Path::add_lights(const Vertex& vertex) {
   for (const shared::Light& light : scene_.lights) {
     const Incident incident = light_at(light, vertex.position);
     values.push_back(incident.irradiance * vertex.value(incident.to_light));
-    sum += largest(values.back());
   }
+  if (vertex.medium) weigh_collision(vertex, values);
+  for (const glm::vec3& value : values) sum += largest(value);
   if (!(sum > 0)) return;
   float chosen = sampler_.next_1d() * sum;
   std::size_t i = 0;
@@ -122,8 +211,55 @@ void Path::add_lights(const Vertex& vertex) {
   while (i > 0 && largest(values[i]) <= 0) --i;
   if (largest(values[i]) <= 0) return;
   const Incident incident = light_at(scene_.lights[i], vertex.position);
-  const float passed = visible(vertex, incident.to_light, incident.distance, distance_to_housing(incident));
+  const float passed =
+      visible(vertex.leaving(incident.to_light), incident.distance, distance_to_housing(incident));
   if (passed > 0) add(values[i] * (passed * sum / largest(values[i])));
+}
+
+/// Radiance of a vertex by light that comes through vertex i of the light's path if nothing is in between.
+glm::vec3 Path::joined(const Vertex& vertex, std::size_t i) const {
+  const LightPath::Vertex& end = near_.light_path.vertices()[i];
+  const glm::vec3 apart = end.position - vertex.position;
+  const float d2 = glm::dot(apart, apart);
+  if (!(d2 > 1e-12f)) return glm::vec3(0);
+  const glm::vec3 direction = apart / std::sqrt(d2);
+  const float phase = shared::phase_value(end.medium->phase(), glm::dot(direction, end.to_light));
+  const glm::vec3 value = vertex.value(direction) * end.flux * (phase / d2);
+  if (!(largest(value) > 0)) return value;
+  const double density = double{vertex.density(direction)};
+  const double others =
+      other_techniques(near_.links, kAlways, double{phase / d2}, density, LightPath::kMostVertices - i - 1) +
+      other_techniques(near_.light_path.links().first(i + 1), double{near_.light_path.first_density()},
+                       density / double{d2}, double{phase}, LightPath::kMostVertices);
+  return value / static_cast<float>(1 + others);
+}
+
+/// One of the vertices of the light's path, in proportion to what it would add if nothing were in between.
+void Path::add_light_path(const Vertex& vertex) {
+  thread_local std::vector<float> estimates;
+  estimates.clear();
+  float sum = 0;
+  for (std::size_t i = 0; i < near_.light_path.vertices().size(); ++i) {
+    if (bounces_ + i >= limits_.max_bounces) break;
+    estimates.push_back(largest(joined(vertex, i)));
+    sum += estimates.back();
+  }
+  if (!(sum > 0)) return;
+  float chosen = sampler_.random() * sum;
+  std::size_t i = 0;
+  while (i + 1 < estimates.size() && chosen >= estimates[i]) chosen -= estimates[i++];
+  while (i > 0 && estimates[i] <= 0) --i;
+  if (estimates[i] <= 0) return;
+
+  // Past what is in between.
+  const glm::vec3 apart = near_.light_path.vertices()[i].position - vertex.position;
+  const float distance = glm::length(apart);
+  const float passed = visible(vertex.leaving(apart / distance), distance, distance);
+  if (!(passed > 0)) return;
+  const std::uint32_t scattered = static_cast<std::uint32_t>(i) + 1;
+  bounces_ += scattered;
+  add(joined(vertex, i) * (passed * sum / estimates[i]));
+  bounces_ -= scattered;
 }
 
 /// Probability per area of a point on an emitter.
@@ -154,7 +290,7 @@ void Path::add_emitters(const Vertex& vertex) {
   if (!(largest(value) > 0)) return;
   // Not as far as the emitter itself.
   const float end = distance * (1 - 1e-4f);
-  const float passed = visible(vertex, direction, end, end);
+  const float passed = visible(vertex.leaving(direction), end, end);
   if (passed > 0) add(value * (passed * power_heuristic(density, vertex.density(direction)) / density));
 }
 
@@ -189,11 +325,19 @@ void Path::add_found_emitter(const SurfaceHit& hit, const Ray& ray) {
 /// Goes on in a direction of a vertex; false where the path ends.
 bool Path::scatter(const Vertex& vertex, Ray& ray) {
   if (bounces_ >= limits_.max_bounces) return false;
+  // What lights and emitters add.
+  if (bounces_ == 0 && limits_.max_bounces > 1)
+    near_.light_path.trace(scene_, vertex.position, vertex.time, kOfLightPath, sampler_);
+  if (!near_.light_path.first_densities().empty())
+    near_.links.push_back({vertex.medium != nullptr, 1 / std::max(vertex.t * vertex.t, 1e-12f), 0});
   sampler_.set_dimension(kOfEye + kOfBounce * bounces_);
   ++bounces_;
   add_lights(vertex);
   add_emitters(vertex);
   add_glow(vertex);
+  add_light_path(vertex);
+
+  // The next direction.
   glm::vec3 direction;
   if (vertex.surface) {
     const Reflection::Direction next = vertex.surface->reflection.sample(-vertex.arriving, sampler_);
@@ -207,6 +351,7 @@ bool Path::scatter(const Vertex& vertex, Ray& ray) {
     throughput_ *= vertex.albedo;
     last_density_ = vertex.density(direction);
   }
+  if (!near_.links.empty()) near_.links.back().density = last_density_;
   ray = vertex.leaving(direction);
   return roulette();
 }
@@ -232,6 +377,7 @@ PathSample Path::trace(Ray ray) {
     }
     // Media before the surface.
     if (hit) ray.end = hit->t;
+    if (bounces_ == 0) add_near_lights(ray);
     glm::vec3 emitted(0);
     const std::optional<Collision> collision = scene_.media.collide(ray, sampler_, emitted);
     if (emitted != glm::vec3(0))
@@ -244,11 +390,13 @@ PathSample Path::trace(Ray ray) {
     if (collision) {
       if (bounces_ == 0) found_.through_media = false;
       vertex.medium = collision->medium;
+      vertex.t = collision->t;
       vertex.position = ray.at(collision->t);
       vertex.albedo = collision->medium->albedo(collision->medium->at_rest(ray).at(collision->t));
     } else if (hit) {
       add_found_emitter(*hit, ray);
       vertex.surface = &*hit;
+      vertex.t = hit->t;
       vertex.position = hit->position;
     } else {
       add(bounces_ == 0 ? scene_.environment.seen(ray.direction)
@@ -262,7 +410,8 @@ PathSample Path::trace(Ray ray) {
 }  // namespace
 
 PathSample trace_path(const Scene& scene, const Ray& ray, const PathLimits& limits, Sampler& sampler) {
-  return Path(scene, limits, sampler).trace(ray);
+  thread_local NearLightsOfPath near;
+  return Path(scene, limits, sampler, near).trace(ray);
 }
 
 }  // namespace brume::reference

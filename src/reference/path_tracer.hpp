@@ -29,8 +29,8 @@ struct PathSample {
 };
 
 /// An unbiased estimate of the radiance along a ray, but for `limits`: delta tracking, next-event estimation
-/// at lights and emitters, joined with sampled directions by multiple importance sampling (Veach 1997), and
-/// Russian roulette.
+/// at lights and emitters, joined with sampled directions by multiple importance sampling (Veach 1997), near
+/// lights in media also with NearChords and LightPath, and Russian roulette.
 PathSample trace_path(const Scene& scene, const Ray& ray, const PathLimits& limits, Sampler& sampler);
 
 }  // namespace brume::reference

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "core/box.hpp"
 #include "planning/device_lights.hpp"
 #include "reference/smoke_medium.hpp"
 #include "reference/volume_medium.hpp"
@@ -49,6 +51,23 @@ std::vector<glm::mat4> motion_of(std::size_t i, const planning::FrameInput& fram
   return moves ? motion : std::vector<glm::mat4>();
 }
 
+/// Whether media are at some of the points of a grid within a distance of another point, at some time.
+bool holds_media(const Media& media, const glm::vec3& p_world, float distance) {
+  constexpr int kSteps = 4;
+  for (int step = 0; step <= kSteps; ++step)
+    for (const auto& medium : media.all()) {
+      bool found = false;
+      for_each_in(Box<int>{glm::ivec3(-3), glm::ivec3(4)}, [&](glm::ivec3 cell) {
+        const glm::vec3 from = glm::vec3(cell) / 3.0f;
+        if (found || glm::dot(from, from) > 1) return;
+        const Ray here{p_world + distance * from, {0, 0, 1}, 0, static_cast<float>(step) / kSteps};
+        found = medium->collisions(medium->at_rest(here).origin) > 0;
+      });
+      if (found) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 glm::vec3 Environment::seen(const glm::vec3& direction) const {
@@ -67,7 +86,8 @@ Incident light_at(const shared::Light& light, const glm::vec3& p_world) {
     return {light.intensity, -light.direction, std::numeric_limits<float>::infinity()};
   const glm::vec3 to_light = light.position_world - p_world;
   const float d2 = std::max(glm::dot(to_light, to_light), 1e-12f), distance = std::sqrt(d2);
-  Incident incident{light.intensity / std::max(d2, 0.01f), to_light / distance, distance};
+  Incident incident{light.intensity / std::max(d2, kConstantWithin * kConstantWithin), to_light / distance,
+                    distance};
   if (light.kind == shared::kLightSpot)
     incident.irradiance *=
         glm::smoothstep(light.cos_outer, light.cos_inner, glm::dot(-incident.to_light, light.direction));
@@ -81,6 +101,18 @@ void sum_emitters(Scene& scene) {
     scene.emitted_power +=
         std::max({emitter.radiance.r, emitter.radiance.g, emitter.radiance.b}) * emitter.area;
     scene.power_up_to.push_back(scene.emitted_power);
+  }
+}
+
+void find_near_lights(Scene& scene) {
+  scene.near_lights.clear();
+  if (!(scene.near > 0)) return;
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const shared::Light& light = scene.lights[i];
+    if (light.kind == shared::kLightDirectional || light.intensity == glm::vec3(0)) continue;
+    const float cosine = light.kind == shared::kLightSpot ? light.cos_outer : -1;
+    if (cosine < 1 && holds_media(scene.media, light.position_world, scene.near))
+      scene.near_lights.push_back({i, 2 * std::numbers::pi_v<float> * (1 - cosine)});
   }
 }
 
@@ -101,6 +133,7 @@ std::unique_ptr<Scene> make_scene(const scene::Scene& scene, const planning::Fra
   std::unique_ptr<Scene> out(new Scene{
       {scene, levels, matte}, Media(std::move(media)), std::move(lights), {.sky = frame.environment.sky}});
   sum_emitters(*out);
+  find_near_lights(*out);
   return out;
 }
 

@@ -1,6 +1,7 @@
 // Everything that light meets, as the path tracer reads it.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <vector>
@@ -33,9 +34,18 @@ struct Incident {
   glm::vec3 to_light{0};    ///< Unit.
   float distance = 0;       ///< [m]; infinite for the sun.
 };
-/// The inverse square law from 0.1 m on, and the cone of a spot: shaders/lib/lights.glsl without its window,
-/// which cuts lights off at their range.
+/// Closer than this to a point or spot light, its irradiance is what it is there [m].
+constexpr float kConstantWithin = 0.1f;
+
+/// The inverse square law from kConstantWithin on, and the cone of a spot: shaders/lib/lights.glsl without
+/// its window, which cuts lights off at their range.
 Incident light_at(const shared::Light& light, const glm::vec3& p_world);
+
+/// A point or spot light with media nearby, for NearChords and LightPath.
+struct NearLight {
+  std::uint32_t light = 0;  ///< Of Scene::lights.
+  float solid_angle = 0;    ///< Into which it shines [sr].
+};
 
 struct Scene {
   Surfaces surfaces;
@@ -45,10 +55,16 @@ struct Scene {
   /// Sum over the emitters before and with each one, and over all: largest component of radiance times area.
   std::vector<float> power_up_to = {};
   float emitted_power = 0;
+  /// Lights with media up to this distance of them are near lights, and as far the eye's rays are sampled for
+  /// their sake [m]. A matter of noise alone, which hardly differs from 0.25 to 2 m.
+  float near = 1;
+  std::vector<NearLight> near_lights = {};
 };
 
 /// Fills power_up_to and emitted_power.
 void sum_emitters(Scene& scene);
+/// Fills near_lights. Lights that are missing there are as bright, with more noise.
+void find_near_lights(Scene& scene);
 
 /// What a frame shows, without what stands in for light that paths find themselves: FrameInput's glow, decals
 /// and particles, and Sky::bounce. `later`: the same at further equal steps while the shutter is open, at

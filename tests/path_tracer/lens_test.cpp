@@ -1,6 +1,7 @@
 // The thin lens: what it leaves sharp, and how far it spreads the rest.
 #include "reference/render.hpp"
 #include "tests/path_tracer/box_medium.hpp"
+#include "tests/path_tracer/squares.hpp"
 
 namespace brume::reference {
 namespace {
@@ -8,20 +9,8 @@ namespace {
 /// A square that emits, before a black sky, at a distance; its width in the picture's pixels above a tenth of
 /// its brightness, with a lens that is focused at 4 m.
 int width_at(float distance, float aperture) {
-  scene::Scene scene;
-  scene::Mesh& mesh = scene.meshes.emplace_back();
-  for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-    scene::Vertex vertex;
-    // A tenth of the picture, whatever the distance.
-    vertex.position = {0.1f * distance * at.x, 0.1f * distance * at.y, -distance};
-    mesh.vertices.push_back(vertex);
-  }
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  scene::Material material;
-  material.base_color = glm::vec3(0);
-  material.emission = glm::vec3(1);
-  scene.materials.push_back(material);
-  scene.objects.push_back({"square", 0, 0});
+  // A tenth of the picture, whatever the distance.
+  const scene::Scene scene = lit_square(-distance, 0.1f * distance);
   const auto made = scene_of(scene, {});
   RenderSettings settings;
   settings.size_px = {80, 3};

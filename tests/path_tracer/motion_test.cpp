@@ -4,28 +4,10 @@
 #include "planning/device_camera.hpp"
 #include "reference/render.hpp"
 #include "tests/path_tracer/box_medium.hpp"
+#include "tests/path_tracer/squares.hpp"
 
 namespace brume::reference {
 namespace {
-
-/// A square of 1 m that emits 1, at z = -4 around the axis.
-scene::Scene square() {
-  scene::Scene scene;
-  scene::Mesh& mesh = scene.meshes.emplace_back();
-  for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-    scene::Vertex vertex;
-    vertex.position = {0.5f * at.x, 0.5f * at.y, -4};
-    vertex.normal = {0, 0, 1};
-    mesh.vertices.push_back(vertex);
-  }
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  scene::Material material;
-  material.base_color = glm::vec3(0);
-  material.emission = glm::vec3(1);
-  scene.materials.push_back(material);
-  scene.objects.push_back({"square", 0, 0});
-  return scene;
-}
 
 /// Fraction of the shutter's time in which a point is covered by what is `half` wide around `at(time)`.
 template <typename At>
@@ -70,7 +52,7 @@ void expect_row(const std::vector<float>& row, const At& at, double depth_of_one
 }
 
 TEST(MotionTest, ObjectsSpreadOverTheirWay) {
-  const scene::Scene scene = square();
+  const scene::Scene scene = lit_square(-4, 0.5f);
   std::vector<planning::LevelState> levels(5);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     levels[i].hidden_objects = {0};
@@ -83,7 +65,7 @@ TEST(MotionTest, ObjectsSpreadOverTheirWay) {
 }
 
 TEST(MotionTest, CamerasSpreadWhatRests) {
-  const scene::Scene scene = square();
+  const scene::Scene scene = lit_square(-4, 0.5f);
   const auto resting = scene_of(scene, {});
   expect_row(
       row_of(*resting, {eye_at(1), eye_at(0), eye_at(-1)}), [](double t) { return 2 * t - 1; }, 1);
