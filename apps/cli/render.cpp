@@ -204,12 +204,21 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   return statistics;
 }
 
-// With --temporal a frame is a single sample.
-void warn_of_lens(const RenderOptions& options, const scenario::Scenario& scenario) {
+// Frames that depend on those before are single samples.
+void warn_of_lens(const RenderOptions& options, const Plan& plan, const scenario::Scenario& scenario) {
   const auto is_sharp = [](const scene::Camera& camera) { return planning::usual_samples(camera) == 1; };
   const auto& keys = scenario.timeline.camera;
-  if (options.temporal && !std::ranges::all_of(keys, is_sharp, &scene::CameraKey::camera))
-    log_warning("--temporal: shows neither the aperture nor the shutter of the camera; all is sharp");
+  const bool all_sharp = plan.camera    ? is_sharp(*plan.camera)
+                         : keys.empty() ? is_sharp(scenario.camera)
+                                        : std::ranges::all_of(keys, is_sharp, &scene::CameraKey::camera);
+  if (all_sharp) return;
+  const char* const reason = options.temporal                    ? "--temporal"
+                             : options.light_update_fraction < 1 ? "--light-update-fraction"
+                             : options.view != "none"            ? "--view"
+                                                                 : nullptr;
+  if (reason)
+    log_warning(std::string(reason) +
+                ": shows neither the aperture nor the shutter of the camera; all is sharp");
 }
 
 Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
@@ -220,13 +229,13 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
   simulate(options, plan, loaded);
   render::Playback playback(context, loaded.scenario, plan.renderer, std::move(loaded.simulation));
   playback.set_camera(camera_before(plan, loaded));
-  playback.set_samples(options.samples);
+  playback.set_samples(frames_depend(options) ? 1 : options.samples);
   if (loaded.scenario.measure_exposure) playback.measure_exposure();
   playback.set_step_scale(options.step);
   playback.set_light_update_fraction(options.light_update_fraction);
   playback.set_resolve_error_scale(options.resolve_error_scale);
   playback.set_view(plan.view, plan.slice);
-  warn_of_lens(options, loaded.scenario);
+  warn_of_lens(options, plan, loaded.scenario);
   TimedPlayback renderer(playback);
   write(options, plan, common, {context.info().name, context.info().driver}, loaded.scenario,
         [&](double seconds, std::uint32_t i) {

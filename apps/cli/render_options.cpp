@@ -32,7 +32,7 @@ void refuse_other_mode(const Arguments& arguments, const RenderOptions& options,
     return;
   }
   if (options.temporal || options.light_update_fraction < 1)
-    arguments.refuse("--samples", "cannot be combined with --temporal and --light-update-fraction");
+    arguments.refuse("--samples", "cannot be combined with --temporal or --light-update-fraction");
   if (options.view != "none") arguments.refuse("--samples", "is for pictures; a debug view has one");
   for (const char* option :
        {"--noise", "--time-limit", "--max-bounces", "--clamp", "--matte", "--checkpoint"})

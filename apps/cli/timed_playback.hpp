@@ -27,6 +27,7 @@ class TimedPlayback {
     return {{"frames", frames_},
             {"seconds_per_frame", seconds_ / std::max(frames_, 1)},
             {"cpu_seconds_per_frame", cpu_seconds_ / std::max(frames_, 1)},
+            {"samples_per_pixel", playback_.samples()},
             {"marched_fraction_of_last_frame", playback_.fraction_marched()},
             {"gpu_milliseconds_of_last_frame", passes}};
   }

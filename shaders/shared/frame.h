@@ -91,9 +91,10 @@ struct FrameConstants {
   float exposure;    // multiplies radiance before the tone curve
   uint tone;         // kToneNeutral or kToneStandard
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
+  float texture_bias;   // of the mip level that surfaces are sampled at
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
 };
-SHARED_SIZE(FrameConstants, 628);
+SHARED_SIZE(FrameConstants, 632);
 
 SHARED_END
 #endif

@@ -61,6 +61,7 @@ void Playback::draw_frame(double seconds, std::uint32_t frame_index, const EachS
   input.debug = debug_;
   const planning::FrameSamples samples(scenario_, seconds, options_, std::move(input),
                                        renderer_.smoke().is_accumulated() ? 1u : samples_);
+  samples_drawn_ = samples.count();
   for (std::uint32_t i = 0; i < samples.count(); ++i) {
     renderer_.draw(samples[i], [&](gpu::Recorder& recorder) {
       each.read_back(recorder, i + 1 == samples.count());

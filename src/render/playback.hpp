@@ -58,6 +58,8 @@ class Playback {
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
   /// Fraction of the pixels of the last frame whose rays were marched one by one, in [0, 1].
   double fraction_marched() const;
+  /// Of the last image.
+  std::uint32_t samples() const { return samples_drawn_; }
   const scenario::Simulation& simulation() const { return *simulation_; }
 
  private:
@@ -78,6 +80,7 @@ class Playback {
   gpu::Buffer list_;                   ///< shared::MarchList of the last frame.
   planning::FrameOptions options_;
   std::optional<std::uint32_t> samples_;
+  std::uint32_t samples_drawn_ = 0;
   std::optional<float> exposure_;  ///< Instead of the timeline's; a factor.
   float step_scale_ = 1, light_update_fraction_ = 1, resolve_error_scale_ = 1;
   planning::DebugRequest debug_;

@@ -1,6 +1,7 @@
 #include "render/renderer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "passes/blue_noise.hpp"
 
@@ -38,6 +39,9 @@ shared::FrameConstants frame_constants(const FramePlan& plan) {
   frame.time = input.smoke.time;
   frame.exposure = input.view.exposure;
   frame.tone = static_cast<std::uint32_t>(input.view.tone);
+  // Each of n samples of a pixel stands for an nth of its area.
+  constexpr float kLeastBias = -4;
+  frame.texture_bias = std::max(-0.5f * std::log2(static_cast<float>(input.view.sample.count)), kLeastBias);
   frame.resolve_error = shared::kResolveError * input.quality.resolve_error_scale;
   return frame;
 }

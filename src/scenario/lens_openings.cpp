@@ -24,6 +24,11 @@ std::pair<std::size_t, float> part_at(const Sum* sums, std::size_t count, float 
 Result<std::shared_ptr<const LensOpening>> load_opening(const std::filesystem::path& file) {
   const auto picture = image::load_image(file);
   if (!picture) return picture.failure();
+  if (const std::uint32_t side = std::max(picture->width, picture->height); side > kMostOpeningTexels)
+    return Failure{ErrorCode::resource_limit,
+                   file.string() + ": " + std::to_string(picture->width) + " x " +
+                       std::to_string(picture->height) + " texels; the opening of a lens has at most " +
+                       std::to_string(kMostOpeningTexels) + " along each axis, make it smaller"};
   const auto mask = mask_of(*picture, file.string());
   if (!mask) return mask.failure();
   auto opening = LensOpening::create(*mask, file.string());

@@ -14,6 +14,9 @@
 
 namespace brume::scenario {
 
+/// Most texels of an opening per axis.
+constexpr std::uint32_t kMostOpeningTexels = 1024;
+
 /// How much light passes at each point of a lens's opening.
 class LensOpening {
  public:
@@ -36,7 +39,7 @@ using LensOpenings = std::map<std::filesystem::path, std::shared_ptr<const LensO
 
 /// Loads the openings that the camera's keys name and `openings` lacks: luminance times alpha; an image that
 /// is not square is centred in a square. Fails with bad_input for a file that is missing, unreadable or
-/// black, and with resource_limit for one that is larger than a mask may be, naming the key's place.
+/// black, and with resource_limit for more than kMostOpeningTexels, naming the key's place.
 Result<void> load_lens_openings(const scene::Timeline& timeline, LensOpenings& openings);
 
 }  // namespace brume::scenario

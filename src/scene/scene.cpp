@@ -111,7 +111,10 @@ Camera orbited(const Camera& camera, glm::vec3 centre_world, double radians) {
     const glm::dvec3 centre(centre_world), off = glm::dvec3(p) - centre;
     return glm::vec3(centre + glm::dvec3(c * off.x + s * off.z, off.y, c * off.z - s * off.x));
   };
-  return {rotated(camera.position_world), rotated(camera.target_world), camera.vertical_fov, camera.lens};
+  Camera turned = camera;
+  turned.position_world = rotated(camera.position_world);
+  turned.target_world = rotated(camera.target_world);
+  return turned;
 }
 
 std::vector<glm::vec3> level_corners(const Scene& scene) {
@@ -155,7 +158,10 @@ Camera fitted_to_orbit(std::span<const glm::vec3> points_world, const Camera& ca
   const glm::dvec3 aim = centre + 0.5 * (around[0] - around[1]) * horizontal * right +
                          0.5 * (around[2] - around[3]) * vertical * up;
   const double least = 0.5 * std::max(around[0] + around[1], around[2] + around[3]);
-  return {glm::vec3(aim + least * back), glm::vec3(aim), camera.vertical_fov, camera.lens};
+  Camera fitted = camera;
+  fitted.position_world = glm::vec3(aim + least * back);
+  fitted.target_world = glm::vec3(aim);
+  return fitted;
 }
 
 }  // namespace brume::scene

@@ -439,6 +439,8 @@ Result<void> save_timeline(const fs::path& path, const Timeline& timeline) {
     if (auto done = files.collect(shot.mask); !done) return done;
   for (TextEvent& text : saved.texts)
     if (auto done = files.collect(text.font); !done) return done;
+  for (CameraKey& key : saved.camera)
+    if (auto done = files.collect(key.camera.lens.opening); !done) return done;
   const std::string text = format_timeline(saved, path.parent_path());
   // Never write a timeline that could not be read back.
   if (const auto read = parse_timeline(text, path); !read) return read.failure();

@@ -80,8 +80,8 @@ TEST_F(CameraOptions, ShuttersBlurWhatMoves) {
                                 "90", "--mode", mode, "--samples", "4", "--shutter", shutter})
               .exit_code,
           0);
-    EXPECT_NE(read_text_file(folder_.path() / "o0_1.png").value_or_throw(),
-              read_text_file(folder_.path() / "o0.1_1.png").value_or_throw())
+    EXPECT_NE(image::load_image(folder_.path() / "o0_1.png").value_or_throw().rgba,
+              image::load_image(folder_.path() / "o0.1_1.png").value_or_throw().rgba)
         << mode;
   }
 }
@@ -101,6 +101,10 @@ TEST_F(CameraOptions, OpeningsAreImages) {
     expect_failure(folder_, {"render", "bad.toml", "-o", "b.png"}, 3, parts);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b.png"));
   };
+  write_opening("large.png", {1025, 2}, 255);
+  write("large.toml", "aperture = 0.2\nopening = \"large.png\"\n");
+  expect_failure(folder_, {"render", "large.toml", "-o", "b.png"}, 4,
+                 {"large.toml:", "large.png: 1025 x 2 texels", "at most 1024"});
   refuse("black.png", {"bad.toml:", "black.png", "lets no light through"});
   refuse("broken.png", {"bad.toml:", "broken.png"});
   refuse("missing.png", {"bad.toml:", "missing.png"});
@@ -130,6 +134,11 @@ TEST_F(CameraOptions, AccumulatedFilmsSayThatTheyAreSharp) {
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_NE(run.error.find("--temporal: shows neither the aperture nor the shutter"), std::string::npos)
       << run.error;
+  const Outcome view = render("lens.toml", {"-o", "v.png", "--view", "depth"});
+  EXPECT_NE(view.error.find("--view: shows neither"), std::string::npos) << view.error;
+  const Outcome none =
+      render("room.obj", {"-o", "g_%d.png", "--frames", "0-1", "--temporal", "--shutter", "0.1"});
+  EXPECT_NE(none.error.find("--temporal: shows neither"), std::string::npos) << none.error;
   expect_failure(folder_, {"render", "lens.toml", "-o", "f_%d.png", "--temporal", "--samples", "4"}, 2,
                  {"--samples", "--temporal"});
 }

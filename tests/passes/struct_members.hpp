@@ -28,11 +28,11 @@ constexpr std::size_t member_count() {
     return N;
 }
 
-/// Calls visit(member) for each member of an aggregate of at most 17.
+/// Calls visit(member) for each member of an aggregate of at most 18.
 template <typename T, typename Visit>
 void for_each_member(const T& s, Visit visit) {
   constexpr std::size_t kCount = member_count<T>();
-  static_assert(kCount >= 1 && kCount <= 17);
+  static_assert(kCount >= 1 && kCount <= 18);
   const auto all = [&](const auto&... members) { (visit(members), ...); };
   if constexpr (kCount == 1) {
     const auto& [a] = s;
@@ -82,9 +82,12 @@ void for_each_member(const T& s, Visit visit) {
   } else if constexpr (kCount == 16) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = s;
     all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
-  } else {
+  } else if constexpr (kCount == 17) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = s;
     all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+  } else {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
   }
 }
 
