@@ -298,6 +298,8 @@ TEST_F(TimelineFile, CopiesItsImagesAndFonts) {
   timeline.texts.resize(1);
   timeline.texts[0].text = "x";
   timeline.texts[0].font = folder / "two/star.png";
+  timeline.camera = {{0, {{0, 0, 0}, {0, 0, 1}, 1}}};
+  timeline.camera[0].camera.lens.opening = folder / "one/star.png";
   const fs::path file = folder / "out/take 1.toml";
   for (int times = 0; times < 2; ++times) {  // the second time overwrites
     ASSERT_TRUE(save_timeline(file, timeline));
@@ -310,6 +312,7 @@ TEST_F(TimelineFile, CopiesItsImagesAndFonts) {
     EXPECT_EQ(read.shots[2].mask, read.shots[0].mask);
     EXPECT_EQ(read.shots[3].mask, folder / "out/near.png");
     EXPECT_EQ(read.texts[0].font, read.shots[1].mask);
+    EXPECT_EQ(read.camera[0].camera.lens.opening, read.shots[0].mask);
     // A timeline that was read is written unchanged, to another folder too.
     ASSERT_TRUE(save_timeline(folder / "again.toml", read));
     const Timeline moved = load_timeline(folder / "again.toml").value_or_throw();
