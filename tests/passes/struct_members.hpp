@@ -28,6 +28,39 @@ constexpr std::size_t member_count() {
     return N;
 }
 
+/// The members of an aggregate of 10 to 18, as for_each_member.
+template <std::size_t kCount, typename T, typename All>
+void for_many_members(const T& s, const All& all) {
+  if constexpr (kCount == 10) {
+    const auto& [a, b, c, d, e, f, g, h, i, j] = s;
+    all(a, b, c, d, e, f, g, h, i, j);
+  } else if constexpr (kCount == 11) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k);
+  } else if constexpr (kCount == 12) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l);
+  } else if constexpr (kCount == 13) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  } else if constexpr (kCount == 14) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+  } else if constexpr (kCount == 15) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  } else if constexpr (kCount == 16) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+  } else if constexpr (kCount == 17) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+  } else {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+  }
+}
+
 /// Calls visit(member) for each member of an aggregate of at most 18.
 template <typename T, typename Visit>
 void for_each_member(const T& s, Visit visit) {
@@ -61,33 +94,8 @@ void for_each_member(const T& s, Visit visit) {
   } else if constexpr (kCount == 9) {
     const auto& [a, b, c, d, e, f, g, h, i] = s;
     all(a, b, c, d, e, f, g, h, i);
-  } else if constexpr (kCount == 10) {
-    const auto& [a, b, c, d, e, f, g, h, i, j] = s;
-    all(a, b, c, d, e, f, g, h, i, j);
-  } else if constexpr (kCount == 11) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k] = s;
-    all(a, b, c, d, e, f, g, h, i, j, k);
-  } else if constexpr (kCount == 12) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = s;
-    all(a, b, c, d, e, f, g, h, i, j, k, l);
-  } else if constexpr (kCount == 13) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = s;
-    all(a, b, c, d, e, f, g, h, i, j, k, l, m);
-  } else if constexpr (kCount == 14) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = s;
-    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
-  } else if constexpr (kCount == 15) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = s;
-    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
-  } else if constexpr (kCount == 16) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = s;
-    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
-  } else if constexpr (kCount == 17) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = s;
-    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
   } else {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = s;
-    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+    for_many_members<kCount>(s, all);
   }
 }
 
