@@ -305,7 +305,10 @@ void expect_as_without(Scene& scene, const Ray& ray, std::uint32_t bounces, std:
   scene.near_lights = near;
   const double error = std::hypot(with.error(), without.error());
   EXPECT_NEAR(with.value(), without.value(), 4 * error) << bounces << " bounces";
-  EXPECT_LT(error, kLooser * 0.05 * without.value()) << bounces << " bounces";
+  // Of the few samples under a sanitizer, those without may or may not come close to a light.
+  if (!kSanitized) {
+    EXPECT_LT(error, 0.05 * without.value()) << bounces << " bounces";
+  }
 }
 
 TEST(NearLightsTest, ManyBouncesGiveTheSame) {
