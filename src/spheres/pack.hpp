@@ -19,23 +19,23 @@ enum class Arrangement : std::uint32_t {
 };
 
 struct PackOptions {
-  glm::uvec3 size{600, 600, 200};      ///< As Tank::size.
-  float voxel = 0.0025f;               ///< As Tank::voxel.
-  std::uint32_t count = 65535;         ///< Of spheres, at most kMostSpheres.
-  glm::vec2 radius{1.5f, 16};          ///< Least and largest [voxels]; 0 < x <= y, 2 * y <= each axis of `size`.
-  float distribution = 3;              ///< Number of spheres ~ radius^-distribution, in [0, 8].
+  glm::uvec3 size{600, 600, 200};  ///< As Tank::size.
+  float voxel = 0.0025f;           ///< As Tank::voxel.
+  std::uint32_t count = 65535;     ///< Of spheres, at most kMostSpheres.
+  glm::vec2 radius{1.5f, 16};      ///< Least and largest [voxels]; 0 < x <= y, 2 * y <= each axis of `size`.
+  float distribution = 3;          ///< Number of spheres ~ radius^-distribution, in [0, 8].
   Arrangement arrangement = Arrangement::largest_first;
-  float noise_size = 120;              ///< Of Arrangement::noise: size of its features [voxels].
-  float opacity = 1;                   ///< Of all spheres, [0, 1]; 1: opaque (Color).
+  float noise_size = 120;  ///< Of Arrangement::noise: size of its features [voxels].
+  float opacity = 1;       ///< Of all spheres, [0, 1]; 1: opaque (Color).
   std::uint64_t seed = 0;
-  /// Colours from the low to the high end of the palette's range, spheres take one of them at random (Color without
-  /// opacity). Empty: white.
+  /// Colours from the low to the high end of the palette's range, spheres take one of them at random (Color
+  /// without opacity). Empty: white.
   std::vector<Color> palette;
 };
 
-/// Packs spheres until there are `count` or no room is found for more: Tank::spheres may then be fewer. The same tank
-/// for the same options and any number of threads. `stopped`, called often and from any thread, ends it early with
-/// what is packed so far. Fails with usage for options out of range.
+/// Packs spheres until there are `count` or no room is found for more: Tank::spheres may then be fewer. The
+/// same tank for the same options and any number of threads. `stopped`, called often and from any thread,
+/// ends it early with what is packed so far. Fails with usage for options out of range.
 Result<Tank> pack(const PackOptions& options, const std::function<bool()>& stopped = {});
 
 }  // namespace brume::spheres

@@ -15,8 +15,8 @@ struct Sphere {
 };
 static_assert(sizeof(Sphere) == 16);
 
-/// The colour of a sphere: red, green and blue of sRGB and its opacity, a byte each, red the lowest. 255 is an
-/// opaque surface; any other a is a medium of which one voxel's length blocks a / 255 of the light.
+/// The colour of a sphere: red, green and blue of sRGB and its opacity, a byte each, red the lowest. 255 is
+/// an opaque surface; any other a is a medium of which one voxel's length blocks a / 255 of the light.
 using Color = std::uint32_t;
 
 /// Most voxels along an axis, and of a whole tank: what its images may have on every device.

@@ -28,6 +28,7 @@
 #include "shared/smoke_shadow.h"
 #include "shared/smoke_volume.h"
 #include "shared/solid_volume.h"
+#include "shared/spheres.h"
 #include "shared/ui.h"
 #include "shared/upscale.h"
 #include "shared/volume.h"
@@ -103,7 +104,8 @@
   X(65, Decal) \
   X(66, DecalParams) \
   X(67, VolumeEffect) \
-  X(68, AverageConstants)
+  X(68, AverageConstants) \
+  X(69, SphereBrick)
 // clang-format on
 
 #endif
