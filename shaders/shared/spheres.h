@@ -20,8 +20,8 @@ struct SphereBrick {
 };
 SHARED_SIZE(SphereBrick, 8);
 
-/// Factor of the squared radius in sphere_touches: more than the rounding of the squared distance leaves out, so that no
-/// sphere that touches is missed.
+/// Factor of the squared radius in sphere_touches: more than the rounding of the squared distance leaves out, so that
+/// no sphere that touches is missed.
 SHARED_CONST float kTouchMargin = 1.0f + 1.0f / 65536.0f;
 
 /// Squared distance of a sphere's middle to a box; 0 inside.

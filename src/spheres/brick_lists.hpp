@@ -22,8 +22,8 @@ struct BrickLists {
   }
 };
 
-/// Lists the spheres that touch each brick (shared::sphere_touches). The same for any number of threads. Throws
-/// resource_limit where they are more than 2^32 - 1 in all.
+/// Lists the spheres that touch each brick (shared::sphere_touches). The same for any number of threads.
+/// Throws resource_limit where they are more than 2^32 - 1 in all.
 BrickLists list_bricks(const Tank& tank);
 
 /// A sphere as shared/spheres.h has it.

@@ -17,6 +17,7 @@
 #include "shared/light.h"
 #include "shared/noise.h"
 #include "shared/noise_advection.h"
+#include "shared/optics.h"
 #include "shared/particles.h"
 #include "shared/phase.h"
 #include "shared/raycast.h"
@@ -105,7 +106,8 @@
   X(66, DecalParams) \
   X(67, VolumeEffect) \
   X(68, AverageConstants) \
-  X(69, SphereBrick)
+  X(69, SphereBrick) \
+  X(70, Glass)
 // clang-format on
 
 #endif

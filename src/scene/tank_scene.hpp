@@ -1,0 +1,95 @@
+// A tank of spheres, its lights, its glass and the camera before it: a file of its own, with [tank].
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "scene/timeline.hpp"
+#include "spheres/pack.hpp"
+
+namespace brume::scene {
+
+// Units, ranges and meanings of all settings: scene/tank_options.hpp.
+
+/// Where something is at one time.
+struct PlaceKey {
+  double time = 0;  ///< [s], [0, kLatestTime].
+  glm::vec3 position_world{0};
+};
+
+/// A ball that shines evenly in all directions. Invisible itself, and blocks no light.
+struct TankLight {
+  glm::vec3 position_world{0, 2, 0};
+  glm::vec3 color{1};
+  float intensity = 4;  ///< [W/sr], times `color`.
+  float radius = 0.05f;
+  std::vector<PlaceKey> keys = {};  ///< Replace the position; sorted by time, no two times equal.
+};
+constexpr std::size_t kMostTankLights = 16;
+
+/// Of the glass at one time.
+struct GlassKey {
+  double time = 0;
+  glm::vec3 position_world{0};
+  glm::vec3 radii{0.5f};
+};
+
+/// An ellipsoid of glass along the world's axes.
+struct TankGlass {
+  glm::vec3 position_world{0, 0, 1.5f};
+  glm::vec3 radii{0.5f};
+  float index = 1.5f;               ///< Of refraction.
+  std::vector<GlassKey> keys = {};  ///< Replace position and radii.
+};
+
+/// What stands for the spheres.
+enum class TankView : std::uint32_t {
+  spheres,  ///< The spheres themselves: exact surfaces, light by paths.
+  voxels,   ///< The voxels painted with them, lit through them.
+};
+
+/// What camera rays gather with distance inside of the tank: radiance color * (1 - exp(-extinction *
+/// distance)).
+struct TankFog {
+  float extinction = 0;  ///< [1/m]
+  glm::vec3 color{0.02f, 0.05f, 0.08f};
+};
+
+struct TankScene {
+  std::filesystem::path file;  ///< Of the tank, resolved; empty: it is packed.
+  spheres::PackOptions pack;   ///< Without its palette.
+  std::string palette;         ///< "NAME:0.2-0.6"; of `pack`.
+  TankView view = TankView::spheres;
+  float duration = 4;
+  float exposure = 0;  ///< [EV]
+  ToneCurve tone = ToneCurve::neutral;
+  std::uint32_t samples = 64;  ///< Of a picture.
+  std::uint32_t bounces = 2;   ///< Most scattering events of a path.
+  std::uint32_t photons = 0;   ///< Paths of light that are traced from the lights through the glass.
+  SkyOptions sky;  ///< Zenith and horizon: what is behind the tank. Ambient: what spheres see of it.
+  TankFog fog;
+  std::vector<TankLight> lights;  ///< At most kMostTankLights.
+  std::optional<TankGlass> glass;
+  std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal; empty: before the tank.
+};
+
+/// The lights and the glass at a time [s]: position and radii pass through their keys, at rest before the
+/// first and after the last.
+TankLight light_at(const TankLight& light, double time);
+TankGlass glass_at(const TankGlass& glass, double time);
+/// The camera likewise, or one that shows all of a tank of this size [m].
+Camera camera_at(const TankScene& scene, const glm::vec3& tank_size, double time);
+
+/// Whether a file is one of a tank: a .toml file with a table [tank]. False where it cannot be read.
+bool is_tank_scene(const std::filesystem::path& path);
+/// Reads it. Fails as load_timeline.
+Result<TankScene> load_tank_scene(const std::filesystem::path& path);
+Result<TankScene> parse_tank_scene(std::string_view text, const std::filesystem::path& path);
+
+}  // namespace brume::scene
