@@ -30,6 +30,8 @@
 #include "shared/smoke_volume.h"
 #include "shared/solid_volume.h"
 #include "shared/spheres.h"
+#include "shared/tank.h"
+#include "shared/tank_light.h"
 #include "shared/ui.h"
 #include "shared/upscale.h"
 #include "shared/volume.h"
@@ -107,7 +109,16 @@
   X(67, VolumeEffect) \
   X(68, AverageConstants) \
   X(69, SphereBrick) \
-  X(70, Glass)
+  X(70, Glass) \
+  X(71, TankLight) \
+  X(72, TankCamera) \
+  X(73, TankAir) \
+  X(74, TankConstants) \
+  X(75, SphereVoxelsParams) \
+  X(76, TankSamples) \
+  X(77, LightMap) \
+  X(78, TankLightParams) \
+  X(79, NearestIds)
 // clang-format on
 
 #endif
