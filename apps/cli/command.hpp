@@ -54,6 +54,7 @@ Command add_info(CommandLine& program);
 Command add_convert(CommandLine& program);
 Command add_diff(CommandLine& program);
 Command add_query(CommandLine& program);
+Command add_palettes(CommandLine& program);
 Command add_devices(CommandLine& program);
 Command add_bench(CommandLine& program);
 #ifdef BRUME_VIEWER

@@ -97,6 +97,7 @@ int parse_and_run(int argc, char** argv) {
                             add_convert(program),
                             add_query(program),
                             add_diff(program),
+                            add_palettes(program),
                             add_devices(program),
                             add_bench(program),
 #ifdef BRUME_VIEWER

@@ -49,6 +49,7 @@ struct Filter {
   std::size_t least_colors = 0, most_colors = kMostColors;
   std::optional<double> hue;  ///< Near the main hue [degrees]; any finite number, modulo 360.
   double hue_tolerance = 20;  ///< [degrees], [0, 180].
+  bool operator==(const Filter&) const = default;
 };
 
 /// Indices of the palettes that a filter lets through: in their order, or with `hue` the nearest hue first.

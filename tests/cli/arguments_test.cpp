@@ -47,7 +47,7 @@ TEST_F(CommandLineTest, HelpVersionAndOverview) {
 
 TEST_F(CommandLineTest, HelpFitsEightyColumns) {
   for (const char* command : {"render", "sim", "voxelize", "bake", "info", "convert", "query", "diff",
-                              "devices", "bench", "demo"}) {
+                              "palettes", "devices", "bench", "demo"}) {
     const std::string help = run({command, "--help"}).out;
     std::istringstream lines(help.substr(help.find("Options:")));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << command << ": " << line;
