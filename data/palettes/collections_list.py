@@ -2,6 +2,7 @@
 a palette that several have. Licences of others than these are not taken: GPL, LGPL, NC, ND, or none stated."""
 from typing import Callable, NamedTuple
 
+import hcl
 import readers
 
 DEBIAN = {  # package: version in Debian 12
@@ -15,6 +16,7 @@ DEBIAN = {  # package: version in Debian 12
     "python3-plotly": "5.4.1+dfsg-1",
     "python3-pygments": "2.14.0+dfsg-1",
     "python3-seaborn": "0.12.2-1",
+    "r-cran-colorspace": "2.1-0+dfsg-1",
     "vim-airline-themes": "0+git.20220712-55bad92-1",
 }
 NPM = {
@@ -73,6 +75,8 @@ COLLECTIONS = [
                "Kristen M. Thyng", "MIT", "https://matplotlib.org/cmocean"),
     Collection("colorcet", "debian:python3-colorcet", PYTHON, readers.colorcet, "perceptually uniform colour maps",
                "James A. Bednar, Peter Kovesi", "CC-BY-4.0", "https://colorcet.holoviz.org"),
+    Collection("hcl", "debian:r-cran-colorspace", "usr/lib/R/site-library", hcl.read, "statistics: curves in HCL",
+               "Ross Ihaka, Paul Murrell, Kurt Hornik, Achim Zeileis", "BSD-3-Clause", "https://colorspace.r-forge.r-project.org"),
     Collection("seaborn", "debian:python3-seaborn", PYTHON, readers.seaborn, "statistics", "Michael Waskom",
                "BSD-3-Clause", "https://seaborn.pydata.org"),
     Collection("wada", "dictionary-of-colour-combinations", "", readers.wada,

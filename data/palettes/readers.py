@@ -153,9 +153,9 @@ def plotly(folder):
 
 
 def ncl(folder):
-    """Not those that NCL took from GMT, ncview and cpt-city, whose licences are others."""
+    """Not those that NCL took from GMT, ncview, MATLAB and cpt-city, whose licences are others."""
     for path in sorted(folder.rglob("*.rgb")):
-        if path.name.startswith(("GMT_", "NCV_", "SVG_", "ncview", "testcmap", "example", "MPL_", "cmocean_")):
+        if path.name.startswith(("GMT_", "NCV_", "SVG_", "ncview", "testcmap", "example", "MPL_", "cmocean_", "matlab_")):
             continue
         rows = []
         for line in path.read_text(errors="replace").splitlines():
@@ -170,6 +170,8 @@ CSS = {"black": (0, 0, 0), "white": (255, 255, 255), "red": (255, 0, 0)}
 
 
 def magics(folder):
+    """Of each family, NAME_5, NAME_6, ..., the one of most colours."""
+    families = {}
     for name, entry in json.loads((folder / "palettes.json").read_text()).items():
         colors = []
         for text in entry["contour_shade_colour_list"]:
@@ -186,8 +188,11 @@ def magics(folder):
             else:
                 break
         else:
-            if len(colors) > 1:
-                yield re.sub(r"^m_", "", name), "g", colors
+            family = re.sub(r"^m_|_\d+$", "", name)
+            if len(colors) > max(1, len(families.get(family, []))):
+                families[family] = colors
+    for family, colors in families.items():
+        yield family, "g", colors
 
 
 def mricron(folder):
