@@ -188,7 +188,7 @@ def magics(folder):
             else:
                 break
         else:
-            family = re.sub(r"^m_|_\d+$", "", name)
+            family = re.sub(r"^m_|^matplotlib_|_\d+$", "", name)
             if len(colors) > max(1, len(families.get(family, []))):
                 families[family] = colors
     for family, colors in families.items():
@@ -439,6 +439,25 @@ def highlight_styles(folder):
         colors = list(dict.fromkeys(from_hex(c) for c in re.findall(r"(?:color|background): *(#[0-9a-fA-F]{3,6})\b", text)))
         if len(colors) > 4:
             yield path.stem, "q", colors
+
+
+def code_mirror(folder):
+    for path in sorted((folder / "theme").glob("*.css")):
+        text = path.read_text()
+        found = re.findall(r"(?:color|background): *(#[0-9a-fA-F]{6}|#[0-9a-fA-F]{3})\b", text)
+        colors = list(dict.fromkeys(from_hex(c) for c in found))
+        if len(colors) > 4:
+            yield path.stem, "q", colors
+
+
+def bootswatch(folder):
+    """The colours of each theme without its greys."""
+    for path in sorted((folder / "dist").glob("*/_variables.scss")):
+        found = re.findall(r"^\$(?:blue|indigo|purple|pink|red|orange|yellow|green|teal|cyan): +(#[0-9a-fA-F]{3,6}) ",
+                           path.read_text(), re.M)
+        colors = list(dict.fromkeys(from_hex(c) for c in found))
+        if len(colors) > 4:
+            yield path.parent.name, "q", colors
 
 
 def pygments(folder):
