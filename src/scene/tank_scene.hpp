@@ -70,7 +70,8 @@ struct TankFog {
 struct TankScene {
   std::filesystem::path file;  ///< Of the tank, resolved; empty: it is packed.
   spheres::PackOptions pack;   ///< Without its palette.
-  std::string palette;         ///< "NAME:0.2-0.6"; of `pack`.
+  std::string palette;         ///< "NAME:0.2-0.6" (palettes/choice.hpp), a file resolved; empty: white.
+  std::string palette_space = "oklab";  ///< In which its colours are interpolated (palettes::Space).
   TankView view = TankView::spheres;
   TankLighting lighting = TankLighting::maps;  ///< Of TankView::voxels.
   float duration = 4;
