@@ -10,6 +10,8 @@
 #include "apps/cli/json.hpp"
 #include "apps/cli/orbit.hpp"
 #include "apps/cli/render_options.hpp"
+#include "apps/cli/render_output.hpp"
+#include "apps/cli/render_tank.hpp"
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/timed_playback.hpp"
 #include "core/error.hpp"
@@ -20,6 +22,7 @@
 #include "grids/files.hpp"
 #include "render/playback.hpp"
 #include "render/volume_room.hpp"
+#include "scenario/tank.hpp"
 #include "scene/text_reader.hpp"
 
 namespace brume::cli {
@@ -27,102 +30,6 @@ namespace {
 
 // After a signal: a step of the path tracer, and a checkpoint, take their time [s].
 constexpr double kReferenceGrace = 8;
-
-FrameRange frames_of(const Plan& plan, const scene::Timeline& timeline) {
-  // A duration of a whole number of frames must not become one more by rounding.
-  constexpr double kRounding = 1e-6;
-  const double frames = static_cast<double>(timeline.duration) * plan.rate.per_second();
-  const auto all = static_cast<std::uint32_t>(std::ceil(frames - kRounding));
-  return plan.frames.value_or(FrameRange{0, std::max(all, 1u) - 1});
-}
-
-double picture_time(const RenderOptions& options, const scenario::Scenario& scenario) {
-  return options.time.value_or(static_cast<double>(scenario.timeline.duration));
-}
-
-// Times beyond the end of the timeline show its end.
-void warn_of_times(const RenderOptions& options, const Plan& plan, const scene::Timeline& timeline) {
-  const double end = double{timeline.duration};
-  const std::string after = " after the end of the timeline at " + scene::shown(end) + " s";
-  if (options.time && *options.time > end)
-    log_warning("--time " + scene::shown(*options.time) + ": is" + after);
-  if (!plan.frames) return;
-  const double last = plan.rate.time_of(plan.frames->last);
-  if (last > end)
-    log_warning("--frames " + options.frames + ": the last is at " + scene::shown(last) + " s," + after);
-}
-
-// Frames to draw before a range whose frames depend on those before: all that leave a trace. Each frame's
-// mean is that of at most shared::kAccumulatedFrames, so that (7 / 8)^32 = 1.4 % of an older one remain.
-std::uint32_t warm_up_of(const RenderOptions& options, std::uint32_t first) {
-  constexpr std::uint32_t kWarmUp = 32;
-  return frames_depend(options) ? std::min(first, kWarmUp) : 0;
-}
-
-// A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files,
-// the options, the device and the program.
-std::uint64_t sequence_key(const RenderOptions& options, const scenario::Scenario& scenario,
-                           const std::vector<std::string>& device, const FrameRange& range) {
-  // Names every option, so that a new one does not compile before someone decides whether it belongs here.
-  const auto& [input, output, timeline, frames, size, march, camera, device_option, json, view, slice, fps,
-               raycast, mode, scene_options, reference, time, orbit, shutter, samples, temporal, resume, step,
-               light_update_fraction, resolve_error_scale, volume_memory] = options;
-
-  // Files.
-  std::vector<std::filesystem::path> files = scenario::files_of(scenario);
-  files.insert(files.end(), {timeline, "/proc/self/exe"});
-  if (!grids::is_grid_file(input)) files.emplace_back(input);  // Otherwise it is among the scenario's.
-  std::uint64_t key = 0;
-  for (const std::filesystem::path& file : files) {
-    stop_if_interrupted();
-    const auto bytes = file.empty() ? std::vector<std::byte>() : read_file(file).value_or_throw();
-    key = hash_bytes(bytes, key);
-  }
-
-  // RenderOptions and device.
-  std::vector<std::string> texts{size, march, camera, view, slice, fps, raycast, mode};
-  for (const auto& more : {device, texts_of(scene_options), texts_of(reference)})
-    texts.insert(texts.end(), more.begin(), more.end());
-  for (const std::string& text : texts) key = hash_bytes(std::as_bytes(std::span(text)), key);
-  const std::array<float, 3> numbers{step, light_update_fraction, resolve_error_scale};
-  key = hash_values(std::span<const float>(numbers), key);
-  const std::array<double, 2> real{orbit.value_or(0), shutter.value_or(-1)};
-  key = hash_values(std::span<const double>(real), key);
-  const std::array<std::uint32_t, 7> whole{volume_memory,
-                                           samples.value_or(0),
-                                           temporal ? 1u : 0u,
-                                           frames_depend(options) ? 1u : 0u,
-                                           frames_depend(options) ? range.first : 0u,
-                                           orbit ? range.first : 0u,
-                                           orbit ? range.last : 0u};
-  return hash_values(std::span<const std::uint32_t>(whole), key);
-}
-
-// Draws a frame at a time [s].
-using DrawFrame = std::function<Picture(double, std::uint32_t)>;
-
-// `device`: texts that name what draws.
-void write(const RenderOptions& options, const Plan& plan, CommonOptions& common,
-           const std::vector<std::string>& device, const scenario::Scenario& scenario,
-           const DrawFrame& draw) {
-  if (plan.kind == TargetKind::picture) {
-    const Picture picture = draw(picture_time(options, scenario), 0);
-    stop_if_interrupted();
-    save_picture(plain_name(options.output), picture);
-    return;
-  }
-  const FrameRange range = frames_of(plan, scenario.timeline);
-  const std::uint32_t warm_up = warm_up_of(options, range.first);
-  if (plan.kind == TargetKind::film) {
-    write_film(plain_name(options.output), {plan.renderer.size_px, plan.rate, common.threads, warm_up},
-               range.first, range.last, common.outputs,
-               [&](std::uint32_t i) { return std::get<image::Image8>(draw(plan.rate.time_of(i), i)); });
-    return;
-  }
-  write_sequence({options.output, range.first, range.last, warm_up, plan.renderer.size_px,
-                  sequence_key(options, scenario, device, range), frames_depend(options), options.resume},
-                 common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
-}
 
 // What --raycast cannot draw.
 void check_raycast(const RenderOptions& options, const scenario::Scenario& scenario) {
@@ -149,14 +56,22 @@ struct Loaded {
   Json smokes;
 };
 
+double duration_of(const Loaded& loaded) {
+  return double{loaded.scenario.timeline.duration};
+}
+
+Film film_of(const Loaded& loaded, std::vector<std::string> device) {
+  return {duration_of(loaded), scenario::files_of(loaded.scenario), std::move(device)};
+}
+
 void simulate(const RenderOptions& options, const Plan& plan, Loaded& loaded) {
   loaded.simulation = scenario::Simulation::create(loaded.scenario).value_or_throw();
   check_raycast(options, loaded.scenario);
   loaded.smokes = report_timeline(loaded.scenario, loaded.simulation->report_smokes(loaded.scenario));
   stop_if_interrupted();
   if (options.orbit)
-    loaded.orbit.emplace(loaded.scenario, plan.camera, *options.orbit,
-                         frames_of(plan, loaded.scenario.timeline), plan.scene.aspect);
+    loaded.orbit.emplace(loaded.scenario, plan.camera, *options.orbit, frames_of(plan, duration_of(loaded)),
+                         plan.scene.aspect);
 }
 
 // Where the camera is as long as it does not turn; empty: on the timeline's path.
@@ -185,7 +100,7 @@ void set_shutter(const RenderOptions& options, Plan& plan, scenario::Scenario& s
 Json render_reference(const RenderOptions& options, const Plan& plan, CommonOptions& common, Loaded& loaded) {
   simulate(options, plan, loaded);
   common.grace_seconds = kReferenceGrace;
-  const double time = picture_time(options, loaded.scenario);
+  const double time = picture_time(options, duration_of(loaded));
   RenderOptions without_limits = options;
   without_limits.reference = {};  // A checkpoint knows the limits itself.
   without_limits.reference.matte = options.reference.matte;
@@ -193,9 +108,9 @@ Json render_reference(const RenderOptions& options, const Plan& plan, CommonOpti
   const std::vector<std::string> device{"reference", scene::shown(time)};
   ReferenceFrames frames(loaded.scenario, std::move(loaded.simulation), options.reference,
                          {plan.renderer.size_px, options.samples, plan.has_layers(),
-                          sequence_key(without_limits, loaded.scenario, device, {})});
+                          sequence_key(without_limits, scenario::files_of(loaded.scenario), device, {})});
   frames.set_camera(camera_before(plan, loaded));
-  write(options, plan, common, {"reference"}, loaded.scenario, [&](double seconds, std::uint32_t i) {
+  write(options, plan, common, film_of(loaded, {"reference"}), [&](double seconds, std::uint32_t i) {
     if (loaded.orbit) frames.set_camera(orbiting(plan, *loaded.orbit, seconds, i));
     return frames.draw(seconds);
   });
@@ -237,7 +152,7 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
   playback.set_view(plan.view, plan.slice);
   warn_of_lens(options, plan, loaded.scenario);
   TimedPlayback renderer(playback);
-  write(options, plan, common, {context.info().name, context.info().driver}, loaded.scenario,
+  write(options, plan, common, film_of(loaded, {context.info().name, context.info().driver}),
         [&](double seconds, std::uint32_t i) {
           if (loaded.orbit) playback.set_camera(orbiting(plan, *loaded.orbit, seconds, i));
           return renderer.draw(seconds, i, plan.has_layers());
@@ -254,16 +169,17 @@ Json render_realtime(const RenderOptions& options, const Plan& plan, CommonOptio
 void render(const Arguments& arguments, const RenderOptions& options, CommonOptions& common) {
   const Stopwatch watch;
   Plan plan = make_plan(arguments, options, common.outputs);
+  if (scenario::is_tank_input(options.input)) return render_tank(arguments, options, plan, common);
   Loaded loaded{load_with_options(options.input, options.timeline, plan.scene), {}, {}, {}};
   set_shutter(options, plan, loaded.scenario);
   if (plan.kind == TargetKind::sequence && !plan.frames) {
-    const FrameRange range = frames_of(plan, loaded.scenario.timeline);
+    const FrameRange range = frames_of(plan, duration_of(loaded));
     common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
                                  range.last);
   }
   common.outputs.reads(scenario::files_of(loaded.scenario));
   stop_if_interrupted();
-  warn_of_times(options, plan, loaded.scenario.timeline);
+  warn_of_times(options, plan, duration_of(loaded));
   const Json frames = is_reference(options) ? render_reference(options, plan, common, loaded)
                                             : render_realtime(options, plan, common, loaded);
   if (options.json.empty()) return;

@@ -70,8 +70,7 @@ class Path {
 
 }  // namespace
 
-Camera camera_at(const Timeline& timeline, const Camera& fallback, double time) {
-  const std::vector<CameraKey>& keys = timeline.camera;
+Camera camera_at(const std::vector<CameraKey>& keys, const Camera& fallback, double time) {
   if (keys.empty()) return fallback;
   const auto [before, after] = span_at(std::span(keys), time);
   if (before == after) return keys[before].camera;

@@ -54,6 +54,12 @@ enum class TankView : std::uint32_t {
   voxels,   ///< The voxels painted with them, lit through them.
 };
 
+/// How the light of voxels is found.
+enum class TankLighting : std::uint32_t {
+  maps,   ///< Along rays from the lights, in proportion to the number of voxels: interactive.
+  exact,  ///< Every voxel walks to every light: the truth that `maps` is measured by.
+};
+
 /// What camera rays gather with distance inside of the tank: radiance color * (1 - exp(-extinction *
 /// distance)).
 struct TankFog {
@@ -66,6 +72,7 @@ struct TankScene {
   spheres::PackOptions pack;   ///< Without its palette.
   std::string palette;         ///< "NAME:0.2-0.6"; of `pack`.
   TankView view = TankView::spheres;
+  TankLighting lighting = TankLighting::maps;  ///< Of TankView::voxels.
   float duration = 4;
   float exposure = 0;  ///< [EV]
   ToneCurve tone = ToneCurve::neutral;
@@ -85,6 +92,9 @@ TankLight light_at(const TankLight& light, double time);
 TankGlass glass_at(const TankGlass& glass, double time);
 /// The camera likewise, or one that shows all of a tank of this size [m].
 Camera camera_at(const TankScene& scene, const glm::vec3& tank_size, double time);
+
+/// What a file of a tank alone is shown with: a lamp above it, and a bright sky.
+TankScene scene_of_tank_file(const std::filesystem::path& tank);
 
 /// Whether a file is one of a tank: a .toml file with a table [tank]. False where it cannot be read.
 bool is_tank_scene(const std::filesystem::path& path);

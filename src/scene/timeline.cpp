@@ -30,7 +30,7 @@ class TimelineReader {
       root.fail("scene", "\"scene\": expected the name of a scene file");
     visit_timeline_options(timeline_, OptionReader{root});
     visit_level_options(timeline_, OptionReader{root});
-    read_tone(root);
+    read_tone(root, timeline_.tone);
     const toml::table* const grid = root.table("grid");
     const toml::table* const smoke = root.table("smoke");
     const toml::table* const sky = root.table("sky");
@@ -46,7 +46,7 @@ class TimelineReader {
     Result<void> outcome;
     if (grid != nullptr && outcome) outcome = read_grid(*grid);
     if (smoke != nullptr && outcome) outcome = read_smoke(*smoke);
-    if (sky != nullptr && outcome) outcome = read_sky(*sky);
+    if (sky != nullptr && outcome) outcome = read_sky(*sky, path_, timeline_.sky);
     if (sun != nullptr && outcome) outcome = read_sun(*sun);
     const auto read_all = [&](const auto& tables, auto read_one) {
       for (std::size_t i = 0; i < tables.size() && outcome; ++i)
@@ -55,7 +55,8 @@ class TimelineReader {
     read_all(carriers, read_carrier);
     read_all(volumes, read_volume);
     read_all(decals, read_decal);
-    for (std::size_t i = 0; i < cameras.size() && outcome; ++i) outcome = read_camera(*cameras[i]);
+    for (std::size_t i = 0; i < cameras.size() && outcome; ++i)
+      outcome = read_camera_key(*cameras[i], path_, timeline_.camera);
     for (std::size_t i = 0; i < events.size() && outcome; ++i) outcome = read_event(*events[i]);
     if (!outcome) return outcome.failure();
 
@@ -64,16 +65,6 @@ class TimelineReader {
   }
 
  private:
-  void read_tone(TomlTable& root) {
-    std::string tone = "neutral";
-    root.read("tone", tone);
-    if (tone == "standard") {
-      timeline_.tone = ToneCurve::standard;
-    } else if (tone != "neutral") {
-      root.fail("tone", "\"tone\": expected \"neutral\" or \"standard\"");
-    }
-  }
-
   Result<void> read_grid(const toml::table& source) {
     TomlTable table(source, "[grid]", file_);
     visit_grid_options(timeline_.grid, OptionReader{table});
@@ -88,33 +79,9 @@ class TimelineReader {
     return table.finish();
   }
 
-  Result<void> read_sky(const toml::table& source) {
-    TomlTable table(source, "[sky]", file_);
-    visit_sky_options(timeline_.sky, OptionReader{table});
-    return table.finish();
-  }
-
   Result<void> read_sun(const toml::table& source) {
     TomlTable table(source, "[sun]", file_);
     visit_sun_options(timeline_.sun.emplace(), OptionReader{table});
-    return table.finish();
-  }
-
-  Result<void> read_camera(const toml::table& source) {
-    TomlTable table(source, "[[camera]]", file_);
-    CameraKey key;
-    for (const char* name : {"time", "position", "target"}) table.require(name);
-    table.read("time", key.time, 0, kLatestTime);
-    table.read("position", key.camera.position_world, -kFarthestPoint, kFarthestPoint);
-    table.read("target", key.camera.target_world, -kFarthestPoint, kFarthestPoint);
-    visit_camera_options(key.camera, OptionReader{table});
-    read_file_name(table, "opening", key.camera.lens.opening);
-    key.place = table.place("opening");
-    if (key.camera.position_world == key.camera.target_world)
-      table.fail("target", "\"target\": expected a point other than the position");
-    if (!timeline_.camera.empty() && !(key.time > timeline_.camera.back().time))
-      table.fail("time", "\"time\": expected a later time than that of the previous [[camera]]");
-    timeline_.camera.push_back(std::move(key));
     return table.finish();
   }
 
@@ -169,7 +136,7 @@ class TimelineReader {
     table.read("from", event.from_world, -kFarthestEvent, kFarthestEvent);
     table.read("toward", event.toward_world, -kFarthestEvent, kFarthestEvent);
     visit_text_options(event, OptionReader{table});
-    read_file_name(table, "font", event.font);
+    read_file_name(table, path_, "font", event.font);
     if (event.text.empty() || event.text.size() > kMaxTextBytes)
       table.fail("text", "\"text\": expected 1 to 1024 bytes");
     if (event.from_world == event.toward_world)
@@ -179,20 +146,10 @@ class TimelineReader {
     return table.finish();
   }
 
-  /// A file below the timeline's folder.
-  void read_file_name(TomlTable& table, const char* key, std::filesystem::path& file) const {
-    std::string name;
-    table.read(key, name);
-    if (name.empty()) return;
-    if (!is_safe_relative(name))
-      table.fail(key, in_quotes(key) + ": expected the name of a file below the timeline's folder");
-    file = path_.parent_path() / name;
-  }
-
   void read_shape(TomlTable& table, ShotEvent& event) const {
     std::string shape = "cylinder";
     table.read("shape", shape);
-    read_file_name(table, "mask", event.mask);
+    read_file_name(table, path_, "mask", event.mask);
     if (shape == "box") {
       event.shape = ShotShape::box;
     } else if (shape == "mask") {

@@ -356,6 +356,9 @@ glm::mat4 pose_of(std::span<const Carrier> carriers, const std::string& name, do
 /// The camera at a time [s]: passes through all keys with continuous velocity, at rest before the first and
 /// after the last; `fallback` when there are no keys. The field of view stays within that of the two
 /// neighbouring keys.
-Camera camera_at(const Timeline& timeline, const Camera& fallback, double time);
+Camera camera_at(const std::vector<CameraKey>& keys, const Camera& fallback, double time);
+inline Camera camera_at(const Timeline& timeline, const Camera& fallback, double time) {
+  return camera_at(timeline.camera, fallback, time);
+}
 
 }  // namespace brume::scene

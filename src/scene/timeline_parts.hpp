@@ -31,6 +31,15 @@ struct OptionReader {
   }
 };
 
+/// The file that a key names below the folder of `path`, if there is such a key.
+void read_file_name(TomlTable& table, const std::filesystem::path& path, const char* key,
+                    std::filesystem::path& file);
+void read_tone(TomlTable& root, ToneCurve& tone);
+Result<void> read_sky(const toml::table& source, const std::filesystem::path& path, SkyOptions& sky);
+/// Adds a [[camera]], which must come later than those before.
+Result<void> read_camera_key(const toml::table& source, const std::filesystem::path& path,
+                             std::vector<CameraKey>& keys);
+
 // Each adds one table to a timeline whose file is `path`. Fail as load_timeline.
 Result<void> read_carrier(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);
 Result<void> read_volume(const toml::table& source, const std::filesystem::path& path, Timeline& timeline);

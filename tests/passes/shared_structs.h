@@ -30,6 +30,7 @@
 #include "shared/smoke_volume.h"
 #include "shared/solid_volume.h"
 #include "shared/spheres.h"
+#include "shared/tank.h"
 #include "shared/ui.h"
 #include "shared/upscale.h"
 #include "shared/volume.h"
@@ -107,7 +108,13 @@
   X(67, VolumeEffect) \
   X(68, AverageConstants) \
   X(69, SphereBrick) \
-  X(70, Glass)
+  X(70, Glass) \
+  X(71, TankLight) \
+  X(72, TankCamera) \
+  X(73, TankAir) \
+  X(74, TankConstants) \
+  X(75, SphereVoxelsParams) \
+  X(76, TankSamples)
 // clang-format on
 
 #endif

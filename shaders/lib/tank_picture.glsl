@@ -1,0 +1,27 @@
+// The pixels of a picture of a tank: the mean of its samples.
+#ifndef TANK_PICTURE_GLSL
+#define TANK_PICTURE_GLSL
+#include "lib/tank.glsl"
+#include "lib/tank_samples.glsl"
+#include "shared/average.h"
+#include "shared/display.h"
+
+layout(binding = kBindRadiance, rgba16f) uniform writeonly image2D radiance_image;
+layout(binding = kBindRadianceSum, rgba32f) uniform image2D sum_image;
+layout(push_constant, scalar) uniform Samples { TankSamples samples; };
+
+/// Adds samples to the sum of a pixel and writes their mean.
+void add_samples(ivec2 px, vec3 sum) {
+  if (samples.first > 0u) sum += imageLoad(sum_image, px).rgb;
+  imageStore(sum_image, px, vec4(sum, 1.0));
+  imageStore(radiance_image, px, vec4(min(sum / float(samples.first + samples.count), 65504.0), 1.0));
+}
+
+/// The camera's ray of a sample, anywhere in its pixel and on the lens. The first of a pinhole is in the middle.
+void sample_camera(inout SampleSource source, out vec3 origin, out vec3 direction) {
+  const vec2 in_pixel = next_point(source), u = next_point(source);
+  const vec2 on_lens = tank.camera.aperture > 0.0 ? lens_point(tank.camera.blades, u) : vec2(0.0);
+  tank_camera_ray(vec2(source.px) + in_pixel, on_lens, origin, direction);
+}
+
+#endif

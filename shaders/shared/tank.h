@@ -1,0 +1,79 @@
+// A tank of spheres as shaders read it. All lengths are in voxels of the tank, from its low corner: light that falls off
+// with the squared distance [m] is scaled to match.
+#ifndef BRUME_TANK_H
+#define BRUME_TANK_H
+#include "shared/optics.h"
+#include "shared/shim.h"
+#include "shared/spheres.h"
+SHARED_BEGIN
+
+SHARED_BINDING(kBindTank, 66u);
+SHARED_BINDING(kBindSpheres, 67u);
+SHARED_BINDING(kBindSphereColors, 68u);
+SHARED_BINDING(kBindSphereBricks, 69u);
+SHARED_BINDING(kBindSphereList, 70u);
+SHARED_BINDING(kBindVoxelColors, 71u);
+SHARED_BINDING(kBindVoxelIds, 72u);
+SHARED_BINDING(kBindVoxelLight, 73u);
+SHARED_BINDING(kBindTankLights, 74u);
+SHARED_BINDING(kBindWideVoxelIds, 75u);
+
+/// A ball that shines evenly in all directions.
+struct TankLight {
+  vec3 position;
+  float radius;    // 0: a point
+  vec3 intensity;  // [W/sr] times the squared voxels of a metre
+};
+SHARED_SIZE(TankLight, 28);
+
+/// A camera with a lens. The ray of a pixel leads from a point of the lens to where the ray from its middle, along
+/// forward + x right + y up with x and y in [-1, 1], meets the plane that is sharp.
+struct TankCamera {
+  vec3 eye;
+  float aperture;  // radius of the lens
+  vec3 forward;    // unit
+  float focus;     // distance of the plane that is sharp, along `forward`
+  vec3 right;      // scaled by tan(half the horizontal field of view)
+  uint blades;     // as lens_point
+  vec3 up;         // scaled by tan(half the vertical field of view)
+};
+SHARED_SIZE(TankCamera, 60);
+
+/// What surrounds the tank and fills it.
+struct TankAir {
+  vec3 zenith;   // radiance that rays of the camera see above,
+  vec3 horizon;  // and below
+  vec3 ambient;  // radiance that scattered rays see
+  vec3 fog_color;
+  float fog_extinction;
+};
+SHARED_SIZE(TankAir, 52);
+
+struct TankConstants {
+  TankCamera camera;
+  TankAir air;
+  Glass glass;
+  ivec3 size;  // of the tank
+  ivec3 bricks;
+  uvec2 size_px;
+  uint light_count;
+  uint bounces;  // most scattering events of a path
+};
+SHARED_SIZE(TankConstants, 180);
+
+/// What is painted.
+struct SphereVoxelsParams {
+  ivec3 size;    // of the tank
+  uint painted;  // 1: colours, too
+};
+SHARED_SIZE(SphereVoxelsParams, 16);
+
+/// Samples of each pixel that a dispatch adds.
+struct TankSamples {
+  uint first;  // before them; 0 begins a picture
+  uint count;
+};
+SHARED_SIZE(TankSamples, 8);
+
+SHARED_END
+#endif

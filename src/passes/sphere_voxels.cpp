@@ -1,0 +1,99 @@
+#include "passes/sphere_voxels.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "brume_shaders.hpp"
+
+namespace brume::passes {
+namespace {
+
+constexpr std::uint32_t kMostNarrowIds = 65535;
+
+gpu::Image voxel_image(gpu::Context& context, const glm::uvec3& size, VkFormat format) {
+  gpu::ImageInfo info;
+  info.format = format;
+  info.size = size;
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  return gpu::Image(context, info);
+}
+
+// Whole bytes of a list, of which a buffer has at least four.
+template <typename Element>
+void reserve(gpu::Context& context, gpu::Buffer& buffer, const std::vector<Element>& elements) {
+  gpu::grow(context, buffer, std::max<std::size_t>(elements.size() * sizeof(Element), 16));
+}
+
+// In parts, so that staging memory stays small.
+template <typename Element>
+void upload_list(gpu::CommandRunner& runner, const gpu::Buffer& buffer, const std::vector<Element>& elements) {
+  constexpr std::size_t kPart = std::size_t{32} << 20;
+  const auto bytes = std::as_bytes(std::span(elements));
+  for (std::size_t done = 0; done < bytes.size(); done += kPart)
+    runner.run([&](gpu::Recorder& recorder) {
+      recorder.upload(buffer, done, bytes.subspan(done, std::min(kPart, bytes.size() - done)));
+    });
+}
+
+}  // namespace
+
+TankVolume::TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists,
+                       bool painted)
+    : size(tank.size),
+      bricks(lists.bricks),
+      wide_ids(tank.spheres.size() > kMostNarrowIds),
+      is_opaque(std::ranges::all_of(tank.colors, [](spheres::Color color) { return color >> 24 == 255; })),
+      is_painted(painted) {
+  const std::uint32_t most = context.limits().maxImageDimension3D;
+  if (std::max({tank.size.x, tank.size.y, tank.size.z}) > most)
+    throw Error(ErrorCode::resource_limit, "the device has no images of more than " + std::to_string(most) +
+                                               " voxels along an axis; make the tank smaller");
+  reserve(context, spheres, tank.spheres);
+  reserve(context, sphere_colors, tank.colors);
+  reserve(context, brick_ranges, lists.ranges);
+  reserve(context, brick_spheres, lists.spheres);
+  ids = voxel_image(context, tank.size, wide_ids ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32G32_UINT);
+  colors = voxel_image(context, painted ? tank.size : glm::uvec3(1), VK_FORMAT_R32_UINT);
+}
+
+void TankVolume::upload(gpu::CommandRunner& runner, const spheres::Tank& tank,
+                        const spheres::BrickLists& lists) const {
+  upload_list(runner, spheres, tank.spheres);
+  upload_list(runner, sphere_colors, tank.colors);
+  upload_list(runner, brick_ranges, lists.ranges);
+  upload_list(runner, brick_spheres, lists.spheres);
+}
+
+void TankVolume::add_colors(gpu::Context& context) {
+  if (is_painted) return;
+  colors = gpu::Image();
+  colors = voxel_image(context, glm::uvec3(size), VK_FORMAT_R32_UINT);
+  is_painted = true;
+}
+
+SphereVoxelsPass::SphereVoxelsPass(gpu::Context& context)
+    : narrow_(context, shaders::sphere_voxels_comp, {0u}),
+      wide_(context, shaders::sphere_voxels_comp, {1u}),
+      unused_narrow_(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32G32_UINT)),
+      unused_wide_(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32G32B32A32_UINT)) {}
+
+void SphereVoxelsPass::record(gpu::Recorder& recorder, const TankVolume& volume) const {
+  const gpu::ComputePipeline& pipeline = volume.wide_ids ? wide_ : narrow_;
+  recorder.bind(
+      pipeline,
+      {{shared::kBindSpheres, gpu::read(volume.spheres)},
+       {shared::kBindSphereColors, gpu::read(volume.sphere_colors)},
+       {shared::kBindSphereBricks, gpu::read(volume.brick_ranges)},
+       {shared::kBindSphereList, gpu::read(volume.brick_spheres)},
+       {shared::kBindVoxelColors, gpu::stored(volume.colors)},
+       {shared::kBindVoxelIds, gpu::stored(volume.wide_ids ? unused_narrow_ : volume.ids)},
+       {shared::kBindWideVoxelIds, gpu::stored(volume.wide_ids ? volume.ids : unused_wide_)}},
+      shared::SphereVoxelsParams{volume.size, volume.is_painted ? 1u : 0u});
+  // A workgroup per brick.
+  recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(volume.bricks.x) * pipeline.group()[0],
+                            static_cast<std::uint32_t>(volume.bricks.y) * pipeline.group()[1],
+                            static_cast<std::uint32_t>(volume.bricks.z) * pipeline.group()[2]);
+}
+
+}  // namespace brume::passes

@@ -1,0 +1,47 @@
+// A tank of spheres on the device: the spheres, which of them touch each brick and voxel, and painted voxels.
+#pragma once
+
+#include "gpu/recorder.hpp"
+#include "shared/tank.h"
+#include "spheres/brick_lists.hpp"
+#include "spheres/tank.hpp"
+
+namespace brume::passes {
+
+/// Buffers and images of a tank.
+class TankVolume {
+ public:
+  /// Makes room for a tank; `painted`: with the colours of its voxels. Throws resource_limit when the device has too
+  /// little memory or no images of this size.
+  TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists, bool painted);
+
+  /// Uploads the spheres; `tank` and `lists` are those of the constructor.
+  void upload(gpu::CommandRunner& runner, const spheres::Tank& tank, const spheres::BrickLists& lists) const;
+  /// Makes room for colours: SphereVoxelsPass must then follow. When the device is done with the volume. Throws
+  /// resource_limit.
+  void add_colors(gpu::Context& context);
+
+  glm::ivec3 size{1}, bricks{1};
+  bool wide_ids = false;    ///< Ids have 32 bits instead of 16.
+  bool is_opaque = true;    ///< All spheres are opaque.
+  bool is_painted = false;  ///< `colors` has a texel per voxel.
+  gpu::Buffer spheres;        ///< vec4 each: middle and radius.
+  gpu::Buffer sphere_colors;  ///< spheres::Color each.
+  gpu::Buffer brick_ranges;   ///< shared::SphereBrick each.
+  gpu::Buffer brick_spheres;  ///< Indices of spheres, of all bricks.
+  gpu::Image ids;             ///< shared/spheres.h; two or four words a voxel.
+  gpu::Image colors;          ///< spheres::Color per voxel, 0 where no sphere is.
+};
+
+/// Fills the images of a TankVolume.
+class SphereVoxelsPass {
+ public:
+  explicit SphereVoxelsPass(gpu::Context& context);
+  void record(gpu::Recorder& recorder, const TankVolume& volume) const;
+
+ private:
+  gpu::ComputePipeline narrow_, wide_;
+  gpu::Image unused_narrow_, unused_wide_;
+};
+
+}  // namespace brume::passes

@@ -1,0 +1,55 @@
+// Samples of a tank's picture: its spheres by paths of light, or its voxels.
+#pragma once
+
+#include <optional>
+
+#include "gpu/recorder.hpp"
+#include "passes/sphere_voxels.hpp"
+#include "shared/tank.h"
+
+namespace brume::passes {
+
+/// What a sample is taken of.
+struct TankInputs {
+  const TankVolume& volume;
+  const gpu::Buffer& constants;   ///< shared::TankConstants
+  const gpu::Buffer& lights;      ///< shared::TankLight each
+  const gpu::Image& blue_noise;
+};
+
+/// Where the samples of a picture are summed, and their mean.
+struct TankTargets {
+  const gpu::Image& sum;       ///< Floats.
+  const gpu::Image& radiance;  ///< Half floats.
+};
+
+/// Exact spheres by paths of light (docs/aquaria-light.md).
+class TankSpheresPass {
+ public:
+  explicit TankSpheresPass(gpu::Context& context);
+  /// Adds samples to each pixel; the first of a picture begins it.
+  void record(gpu::Recorder& recorder, const TankInputs& inputs, const TankTargets& targets,
+              const shared::TankSamples& samples);
+
+ private:
+  const gpu::ComputePipeline& pipeline(const TankVolume& volume);
+
+  gpu::Context& context_;
+  gpu::Sampler nearest_;
+  std::optional<gpu::ComputePipeline> pipelines_[4];  ///< Made when first needed: opaque or not, narrow ids or wide.
+};
+
+/// The painted voxels with their light (TankLightPass).
+class TankVoxelsPass {
+ public:
+  explicit TankVoxelsPass(gpu::Context& context);
+  /// As TankSpheresPass.
+  void record(gpu::Recorder& recorder, const TankInputs& inputs, const gpu::Image& voxel_light,
+              const TankTargets& targets, const shared::TankSamples& samples) const;
+
+ private:
+  gpu::ComputePipeline pipeline_;
+  gpu::Sampler nearest_;
+};
+
+}  // namespace brume::passes

@@ -1,0 +1,32 @@
+// What shaders need of a tank's scene at a time.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "scene/tank_scene.hpp"
+#include "shared/frame.h"
+#include "shared/tank.h"
+#include "spheres/tank.hpp"
+
+namespace brume::planning {
+
+struct TankPlan {
+  shared::TankConstants constants{};
+  std::vector<shared::TankLight> lights;
+};
+
+/// [m]
+inline glm::vec3 size_of(const spheres::Tank& tank) {
+  return tank.voxel * glm::vec3(tank.size);
+}
+
+/// The camera: that of the scene, or another one.
+TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, double time, glm::uvec2 size_px,
+                   const std::optional<scene::Camera>& camera = {});
+
+/// What the tone curve and the dither of a picture need; the rest is of no use.
+shared::FrameConstants display_constants(const scene::TankScene& scene, glm::uvec2 size_px);
+
+}  // namespace brume::planning

@@ -1,0 +1,71 @@
+#include "render/tank_pictures.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "core/progress.hpp"
+
+namespace brume::render {
+namespace {
+
+/// A submission takes about this long [s], so that a stop is noticed and no device thinks that it hangs.
+constexpr double kSubmission = 0.2;
+constexpr std::uint32_t kMostSamplesOfSubmission = 64;
+
+}  // namespace
+
+TankPictures::TankPictures(gpu::Context& context, const scenario::TankScenario& scenario, glm::uvec2 size_px)
+    : context_(context),
+      scenario_(scenario),
+      runner_(context),
+      renderer_(context, runner_, scenario.tank, size_px),
+      size_px_(size_px),
+      samples_(scenario.scene.samples) {
+  renderer_.set_kind(scenario.scene.view);
+  renderer_.set_lighting(scenario.scene.lighting);
+}
+
+void TankPictures::add_samples(double seconds, const std::function<bool()>& stopped) {
+  Progress progress("samples", samples_);
+  renderer_.set_view(planning::plan_tank(scenario_.scene, scenario_.tank, seconds, size_px_, camera_),
+                     planning::display_constants(scenario_.scene, size_px_));
+  std::uint32_t count = 1;
+  while (renderer_.samples() < samples_ && !(stopped && stopped())) {
+    count = std::min({count, samples_ - renderer_.samples(), kMostSamplesOfSubmission});
+    const auto begin = std::chrono::steady_clock::now();
+    runner_.run([&](gpu::Recorder& recorder) { renderer_.record_samples(recorder, count); });
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    progress.advance(count);
+    count = taken.count() < 0.5 * kSubmission ? 2 * count : taken.count() > kSubmission ? std::max(count / 2, 1u) : count;
+  }
+}
+
+image::Image8 TankPictures::draw(double seconds, const std::function<bool()>& stopped) {
+  add_samples(seconds, stopped);
+  const std::size_t bytes = std::size_t{4} * size_px_.x * size_px_.y;
+  const gpu::Buffer pixels(context_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
+  runner_.run([&](gpu::Recorder& recorder) { recorder.read_back(renderer_.display(), pixels); });
+  image::Image8 image{size_px_.x, size_px_.y, std::vector<std::uint8_t>(bytes)};
+  std::memcpy(image.rgba.data(), pixels.mapped(), bytes);
+  return image;
+}
+
+image::LayeredImage TankPictures::draw_layers(double seconds, const std::function<bool()>& stopped) {
+  add_samples(seconds, stopped);
+  const std::size_t count = std::size_t{size_px_.x} * size_px_.y, bytes = count * sizeof(glm::vec4);
+  const gpu::Buffer sums(context_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryUse::readback);
+  runner_.run([&](gpu::Recorder& recorder) { recorder.read_back(renderer_.sum(), sums); });
+  std::vector<glm::vec4> sum(count);
+  std::memcpy(sum.data(), sums.mapped(), bytes);
+  image::LayeredImage image{size_px_.x, size_px_.y, {}};
+  constexpr const char* kNames[]{"R", "G", "B"};
+  for (int channel = 0; channel < 3; ++channel) {
+    std::vector<float> values(count);
+    for (std::size_t i = 0; i < count; ++i) values[i] = sum[i][channel] / static_cast<float>(renderer_.samples());
+    image.layers.push_back({kNames[channel], std::move(values)});
+  }
+  return image;
+}
+
+}  // namespace brume::render

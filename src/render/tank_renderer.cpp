@@ -1,0 +1,111 @@
+#include "render/tank_renderer.hpp"
+
+#include <algorithm>
+
+#include "core/same_bytes.hpp"
+#include "passes/blue_noise.hpp"
+
+namespace brume::render {
+namespace {
+
+gpu::Image picture_image(gpu::Context& context, glm::uvec2 size_px, VkFormat format) {
+  gpu::ImageInfo info;
+  info.format = format;
+  info.size = {size_px, 1};
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  return gpu::Image(context, info);
+}
+
+gpu::Buffer uniform_buffer(gpu::Context& context, std::size_t bytes) {
+  return gpu::Buffer(context, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+}
+
+}  // namespace
+
+TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
+                           glm::uvec2 size_px)
+    : context_(context),
+      runner_(runner),
+      volume_([&] {
+        const spheres::BrickLists lists = spheres::list_bricks(tank);
+        passes::TankVolume volume(context, tank, lists, false);
+        volume.upload(runner, tank, lists);
+        return volume;
+      }()),
+      spheres_pass_(context),
+      sphere_voxels_pass_(context),
+      display_pass_(context),
+      sum_(picture_image(context, size_px, VK_FORMAT_R32G32B32A32_SFLOAT)),
+      radiance_(picture_image(context, size_px, VK_FORMAT_R16G16B16A16_SFLOAT)),
+      shown_(picture_image(context, size_px, VK_FORMAT_R8G8B8A8_UNORM)),
+      constants_(uniform_buffer(context, sizeof(shared::TankConstants))),
+      frame_(uniform_buffer(context, sizeof(shared::FrameConstants))) {
+  gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
+  runner.run([&](gpu::Recorder& recorder) {
+    blue_noise_ = passes::make_blue_noise(context, recorder);
+    const gpu::Scope scope(recorder, "sphere_voxels");
+    sphere_voxels_pass_.record(recorder, volume_);
+  });
+}
+
+void TankRenderer::set_kind(scene::TankView kind) {
+  samples_ = 0;
+  kind_ = kind;
+  if (kind != scene::TankView::voxels || voxels_) return;
+  volume_.add_colors(context_);
+  voxels_.emplace(context_, volume_.size);
+  runner_.run([&](gpu::Recorder& recorder) {
+    const gpu::Scope scope(recorder, "sphere_voxels");
+    sphere_voxels_pass_.record(recorder, volume_);
+  });
+}
+
+void TankRenderer::set_lighting(scene::TankLighting lighting) {
+  samples_ = 0;
+  lighting_ = lighting;
+  if (voxels_) voxels_->is_lit = false;
+}
+
+void TankRenderer::set_view(const planning::TankPlan& plan, const shared::FrameConstants& display) {
+  BRUME_ASSERT(plan.lights.size() <= scene::kMostTankLights, "too many lights");
+  const bool same_light = plan.constants.air.ambient == plan_.constants.air.ambient &&
+                          std::ranges::equal(plan.lights, plan_.lights, same_bytes<shared::TankLight>);
+  if (voxels_ && !same_light) voxels_->is_lit = false;
+  plan_ = plan;
+  display_ = display;
+  samples_ = 0;
+  if (kind_ == scene::TankView::voxels && !voxels_->is_lit)
+    voxels_->light_pass.reserve(volume_, plan_.lights, lighting_);
+}
+
+void TankRenderer::record_upload(gpu::Recorder& recorder) {
+  recorder.upload(constants_, 0, std::as_bytes(std::span(&plan_.constants, 1)));
+  recorder.upload(frame_, 0, std::as_bytes(std::span(&display_, 1)));
+  if (!plan_.lights.empty())
+    recorder.upload(lights_, 0, std::as_bytes(std::span<const shared::TankLight>(plan_.lights)));
+}
+
+void TankRenderer::record_light(gpu::Recorder& recorder) {
+  if (voxels_->is_lit) return;
+  voxels_->light_pass.record(recorder, volume_, voxels_->light, plan_.constants.air.ambient);
+  voxels_->is_lit = true;
+}
+
+void TankRenderer::record_samples(gpu::Recorder& recorder, std::uint32_t count) {
+  record_upload(recorder);
+  if (kind_ == scene::TankView::voxels) record_light(recorder);
+  const passes::TankInputs inputs{volume_, constants_, lights_, blue_noise_};
+  const passes::TankTargets targets{sum_, radiance_};
+  {
+    const gpu::Scope scope(recorder, "tank");
+    if (kind_ == scene::TankView::voxels)
+      voxels_->pass.record(recorder, inputs, voxels_->light, targets, {samples_, count});
+    else
+      spheres_pass_.record(recorder, inputs, targets, {samples_, count});
+  }
+  samples_ += count;
+  const gpu::Scope scope(recorder, "display");
+  display_pass_.record(recorder, frame_, blue_noise_, radiance_, shown_);
+}
+
+}  // namespace brume::render

@@ -1,0 +1,71 @@
+// Pictures of a tank on a device: samples are added until it is as smooth as wanted.
+#pragma once
+
+#include <functional>
+
+#include "image/image.hpp"
+#include "passes/display.hpp"
+#include "passes/tank.hpp"
+#include "passes/tank_light.hpp"
+#include "planning/tank_plan.hpp"
+
+namespace brume::render {
+
+class TankRenderer {
+ public:
+  /// Uploads the tank and finds its voxels. `context` and `runner` must outlive it, `tank` need not. Throws
+  /// resource_limit when the device has too little memory.
+  TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank, glm::uvec2 size_px);
+
+  /// What stands for the spheres from the next picture on; voxels need more memory. When the device is done with what
+  /// was recorded before. Throws resource_limit.
+  void set_kind(scene::TankView kind);
+  /// How voxels are lit from the next picture on.
+  void set_lighting(scene::TankLighting lighting);
+  /// What the samples from the next one on show: the picture begins again. When the device is done with what was
+  /// recorded before.
+  void set_view(const planning::TankPlan& plan, const shared::FrameConstants& display);
+  /// The exposure and the tone curve alone: the picture goes on.
+  void set_display(const shared::FrameConstants& display) { display_ = display; }
+
+  /// Records `count` more samples of each pixel, and the picture so far.
+  void record_samples(gpu::Recorder& recorder, std::uint32_t count);
+  /// So far.
+  std::uint32_t samples() const { return samples_; }
+
+  const gpu::Image& radiance() const { return radiance_; }  ///< Half floats.
+  const gpu::Image& sum() const { return sum_; }            ///< Floats: of the radiance of all samples.
+  const gpu::Image& display() const { return shown_; }      ///< RGBA8, sRGB.
+  const passes::TankVolume& volume() const { return volume_; }
+
+ private:
+  void record_upload(gpu::Recorder& recorder);
+  void record_light(gpu::Recorder& recorder);
+
+  /// What the voxel view needs besides the tank's volume.
+  struct Voxels {
+    Voxels(gpu::Context& context, const glm::ivec3& size)
+        : light_pass(context), pass(context), light(passes::make_voxel_light(context, glm::uvec3(size))) {}
+    passes::TankLightPass light_pass;
+    passes::TankVoxelsPass pass;
+    gpu::Image light;
+    bool is_lit = false;
+  };
+
+  gpu::Context& context_;
+  gpu::CommandRunner& runner_;
+  passes::TankVolume volume_;
+  passes::TankSpheresPass spheres_pass_;
+  passes::SphereVoxelsPass sphere_voxels_pass_;
+  std::optional<Voxels> voxels_;  ///< From the first picture of voxels on.
+  passes::DisplayPass display_pass_;
+  gpu::Image blue_noise_, sum_, radiance_, shown_;
+  gpu::Buffer constants_, lights_, frame_;
+  planning::TankPlan plan_;
+  shared::FrameConstants display_{};
+  scene::TankView kind_ = scene::TankView::spheres;
+  scene::TankLighting lighting_ = scene::TankLighting::maps;
+  std::uint32_t samples_ = 0;
+};
+
+}  // namespace brume::render

@@ -1,0 +1,34 @@
+// The tank of a scene: loaded, or packed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "scene/tank_scene.hpp"
+#include "spheres/tank.hpp"
+
+namespace brume::scenario {
+
+/// A scene of a tank with its spheres.
+struct TankScenario {
+  scene::TankScene scene;
+  spheres::Tank tank;
+};
+
+/// Loads the tank of a scene from its file, or packs it. `stopped`: as spheres::pack. Fails as those, and with bad_input
+/// for a palette that does not exist.
+Result<spheres::Tank> make_tank(const scene::TankScene& scene, const std::function<bool()>& stopped = {});
+
+/// The same for the file of a scene, or of a tank (.spheres) in a scene of its own: a light, a sky.
+Result<TankScenario> load_tank_scenario(const std::filesystem::path& path,
+                                        const std::function<bool()>& stopped = {});
+
+/// Whether load_tank_scenario takes a file.
+bool is_tank_input(const std::filesystem::path& path);
+
+/// Every file that it was made from, without the scene's own.
+std::vector<std::filesystem::path> files_of(const scene::TankScene& scene);
+
+}  // namespace brume::scenario
