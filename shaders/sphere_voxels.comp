@@ -59,12 +59,13 @@ struct Voxel {
 void try_sphere(inout Voxel voxel, ivec3 cell, vec4 sphere, uint id) {
   precise float power = sphere_power(sphere, vec3(cell) + 0.5);
   if (power < 0.0 && params.painted != 0u && voxel.color == 0u) voxel.color = sphere_colors[id - 1u];
-  if (sphere_touches(sphere, vec3(cell), vec3(cell) + 1.0)) insert_nearest(voxel.nearest, id, power);
+  if (params.has_ids != 0u && sphere_touches(sphere, vec3(cell), vec3(cell) + 1.0)) insert_nearest(voxel.nearest, id, power);
 }
 
 void write_voxel(Voxel voxel, ivec3 cell) {
   if (any(greaterThanEqual(cell, params.size))) return;
   if (params.painted != 0u) imageStore(voxel_colors, cell, uvec4(voxel.color));
+  if (params.has_ids == 0u) return;
   const uvec4 ids = voxel.nearest.count > kVoxelIds ? uvec4(0u, 1u, 0u, 0u) : voxel.nearest.ids;
   if (kWideIds)
     imageStore(wide_voxel_ids, cell, ids);

@@ -61,12 +61,13 @@ struct TankConstants {
 };
 SHARED_SIZE(TankConstants, 180);
 
-/// What is painted.
+/// What is found for each voxel.
 struct SphereVoxelsParams {
   ivec3 size;    // of the tank
-  uint painted;  // 1: colours, too
+  uint painted;  // 1: colours
+  uint has_ids;  // 1: ids
 };
-SHARED_SIZE(SphereVoxelsParams, 16);
+SHARED_SIZE(SphereVoxelsParams, 20);
 
 /// Samples of each pixel that a dispatch adds.
 struct TankSamples {

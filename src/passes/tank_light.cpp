@@ -54,7 +54,8 @@ void TankLightPass::reserve(const TankVolume& volume, std::span<const shared::Ta
 
   glm::uvec3 room(1);
   if (!exact)
-    for (const shared::TankLightParams& step : steps_) room = glm::max(room, {step.map.rays, step.map.layers});
+    for (const shared::TankLightParams& step : steps_)
+      room = glm::max(room, {step.map.rays, step.map.layers});
   if (room != map_.info().size) {
     map_ = gpu::Image();
     map_ = image_3d(context_, room, VK_FORMAT_R16_SFLOAT);

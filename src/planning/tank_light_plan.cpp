@@ -67,8 +67,8 @@ std::vector<shared::LightMap> light_maps(const glm::vec3& position, const glm::i
   float least = 1e30f;
   for (int axis = 0; axis < 3; ++axis)
     for (const float sign : {-1.0f, 1.0f}) {
-      const bool before = sign > 0 ? position[axis] < 0.5f - kNearest
-                                   : position[axis] > extent[axis] - 0.5f + kNearest;
+      const bool before =
+          sign > 0 ? position[axis] < 0.5f - kNearest : position[axis] > extent[axis] - 0.5f + kNearest;
       if (!before) continue;
       const Layers layers = layers_of(position[axis], extent[axis], sign);
       const float spread = layers.last / layers.first;

@@ -15,15 +15,16 @@ class TankRenderer {
  public:
   /// Uploads the tank and finds its voxels. `context` and `runner` must outlive it, `tank` need not. Throws
   /// resource_limit when the device has too little memory.
-  TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank, glm::uvec2 size_px);
+  TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
+               glm::uvec2 size_px);
 
-  /// What stands for the spheres from the next picture on; voxels need more memory. When the device is done with what
-  /// was recorded before. Throws resource_limit.
+  /// What stands for the spheres from the next picture on; voxels need more memory. When the device is done
+  /// with what was recorded before. Throws resource_limit.
   void set_kind(scene::TankView kind);
   /// How voxels are lit from the next picture on.
   void set_lighting(scene::TankLighting lighting);
-  /// What the samples from the next one on show: the picture begins again. When the device is done with what was
-  /// recorded before.
+  /// What the samples from the next one on show: the picture begins again. When the device is done with what
+  /// was recorded before.
   void set_view(const planning::TankPlan& plan, const shared::FrameConstants& display);
   /// The exposure and the tone curve alone: the picture goes on.
   void set_display(const shared::FrameConstants& display) { display_ = display; }
@@ -39,6 +40,7 @@ class TankRenderer {
   const passes::TankVolume& volume() const { return volume_; }
 
  private:
+  void find_voxels();
   void record_upload(gpu::Recorder& recorder);
   void record_light(gpu::Recorder& recorder);
 

@@ -14,7 +14,8 @@ bool is_tank_input(const std::filesystem::path& path) {
   return spheres::is_tank_file(path) || scene::is_tank_scene(path);
 }
 
-Result<TankScenario> load_tank_scenario(const std::filesystem::path& path, const std::function<bool()>& stopped) {
+Result<TankScenario> load_tank_scenario(const std::filesystem::path& path,
+                                        const std::function<bool()>& stopped) {
   scene::TankScene scene;
   if (spheres::is_tank_file(path)) {
     scene = scene::scene_of_tank_file(path);

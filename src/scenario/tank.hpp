@@ -17,8 +17,8 @@ struct TankScenario {
   spheres::Tank tank;
 };
 
-/// Loads the tank of a scene from its file, or packs it. `stopped`: as spheres::pack. Fails as those, and with bad_input
-/// for a palette that does not exist.
+/// Loads the tank of a scene from its file, or packs it. `stopped`: as spheres::pack. Fails as those, and
+/// with bad_input for a palette that does not exist.
 Result<spheres::Tank> make_tank(const scene::TankScene& scene, const std::function<bool()>& stopped = {});
 
 /// The same for the file of a scene, or of a tank (.spheres) in a scene of its own: a light, a sky.

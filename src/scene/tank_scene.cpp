@@ -99,8 +99,9 @@ class TankReader {
     if (pack.radius.x > pack.radius.y)
       table.fail("radius", "\"radius\": expected the smaller radius before the larger one");
     if (2 * pack.radius.y > static_cast<float>(std::min({pack.size.x, pack.size.y, pack.size.z})))
-      table.fail("radius", "\"radius\": expected spheres that fit into the tank's size, 600 x 600 x 200 voxels "
-                           "unless \"size\" says otherwise");
+      table.fail("radius",
+                 "\"radius\": expected spheres that fit into the tank's size, 600 x 600 x 200 voxels "
+                 "unless \"size\" says otherwise");
     pack.seed = seed;
     table.read("palette", scene_.palette);
 
