@@ -110,6 +110,7 @@ struct Picture {
   bool optics = false;
   float opacity = 1;
   std::uint32_t spheres = 65535;
+  std::optional<bool> ids = {};
 };
 
 Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& picture) {
@@ -130,7 +131,7 @@ Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& pictu
     camera.lens.blades = 6;
   }
   gpu::CommandRunner runner(bench.context());
-  render::TankRenderer renderer(bench.context(), runner, tank, size);
+  render::TankRenderer renderer(bench.context(), runner, tank, size, picture.ids);
   renderer.set_kind(picture.view);
   renderer.set_view(planning::plan_tank(scene, tank, 0, size, camera),
                     planning::display_constants(scene, size));
@@ -185,6 +186,10 @@ std::vector<Case> tank_cases() {
   const std::vector<std::pair<Picture, const char*>> pictures{
       {{"tank/spheres"}, "exact spheres at 1080p, direct light; 640x360 without a GPU"},
       {{"tank/spheres_scattered", scene::TankView::spheres, 2}, "the same with two bounces"},
+      {{"tank/spheres_with_ids", scene::TankView::spheres, 0, false, 1, 65535, true},
+       "exact spheres, by ids"},
+      {{"tank/spheres_without_ids", scene::TankView::spheres, 0, false, 1, 65535, false},
+       "the same by bricks"},
       {{"tank/glass", scene::TankView::spheres, 0, true}, "through lens and glass, direct light"},
       {{"tank/glass_scattered", scene::TankView::spheres, 2, true}, "the same with two bounces"},
       {{"tank/media", scene::TankView::spheres, 1, false, 0.1f}, "spheres that light passes, one bounce"},

@@ -54,8 +54,8 @@ void meet_brick(inout SphereRay ray, SphereBrick brick) {
 void meet_voxel(inout SphereRay ray, ivec3 cell, SphereBrick brick) {
   const uvec4 words = texelFetch(voxel_ids, cell, 0);
   if ((words.x | words.y) == 0u) return;
-  const uvec4 ids = kWideIds ? words : uvec4(words.x & 0xffffu, words.x >> 16u, words.y & 0xffffu, words.y >> 16u);
-  if (ids.x == 0u) {
+  const uvec4 ids = kWideIds ? words : unpack_short_ids(words.xy);
+  if (ids_overflow(ids)) {
     meet_brick(ray, brick);
     return;
   }

@@ -8,8 +8,6 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kMostNarrowIds = 65535;
-
 gpu::Image voxel_image(gpu::Context& context, const glm::uvec3& size, VkFormat format) {
   gpu::ImageInfo info;
   info.format = format;
@@ -51,7 +49,7 @@ void upload_list(gpu::CommandRunner& runner, const gpu::Buffer& buffer,
 TankVolume::TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists)
     : size(tank.size),
       bricks(lists.bricks),
-      wide_ids(tank.spheres.size() > kMostNarrowIds),
+      wide_ids(tank.spheres.size() > shared::kMostShortIds),
       is_opaque(std::ranges::all_of(tank.colors, [](spheres::Color color) { return color >> 24 == 255; })),
       ids(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32G32_UINT)),
       colors(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32_UINT)) {

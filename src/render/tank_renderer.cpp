@@ -28,7 +28,7 @@ bool uses_ids(const gpu::Context& context) {
 }  // namespace
 
 TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
-                           glm::uvec2 size_px)
+                           glm::uvec2 size_px, std::optional<bool> with_ids)
     : context_(context),
       runner_(runner),
       volume_([&] {
@@ -47,7 +47,7 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
       frame_(uniform_buffer(context, sizeof(shared::FrameConstants))) {
   gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
   runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
-  if (uses_ids(context)) {
+  if (with_ids.value_or(uses_ids(context))) {
     volume_.add_ids(context);
     find_voxels();
   }

@@ -15,8 +15,9 @@ class TankRenderer {
  public:
   /// Uploads the tank and finds its voxels. `context` and `runner` must outlive it, `tank` need not. Throws
   /// resource_limit when the device has too little memory.
+  /// `with_ids`: finds the ids of all voxels, or traces the spheres of bricks; empty: what suits the device.
   TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
-               glm::uvec2 size_px);
+               glm::uvec2 size_px, std::optional<bool> with_ids = {});
 
   /// What stands for the spheres from the next picture on; voxels need more memory. When the device is done
   /// with what was recorded before. Throws resource_limit.
