@@ -110,7 +110,7 @@ struct Picture {
   bool optics = false;
   float opacity = 1;
   std::uint32_t spheres = 65535;
-  std::optional<bool> ids = {};
+  bool ids = false;
 };
 
 Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& picture) {
@@ -187,9 +187,7 @@ std::vector<Case> tank_cases() {
       {{"tank/spheres"}, "exact spheres at 1080p, direct light; 640x360 without a GPU"},
       {{"tank/spheres_scattered", scene::TankView::spheres, 2}, "the same with two bounces"},
       {{"tank/spheres_with_ids", scene::TankView::spheres, 0, false, 1, 65535, true},
-       "exact spheres, by ids"},
-      {{"tank/spheres_without_ids", scene::TankView::spheres, 0, false, 1, 65535, false},
-       "the same by bricks"},
+       "the same by ids of voxels"},
       {{"tank/glass", scene::TankView::spheres, 0, true}, "through lens and glass, direct light"},
       {{"tank/glass_scattered", scene::TankView::spheres, 2, true}, "the same with two bounces"},
       {{"tank/media", scene::TankView::spheres, 1, false, 0.1f}, "spheres that light passes, one bounce"},

@@ -20,15 +20,10 @@ gpu::Buffer uniform_buffer(gpu::Context& context, std::size_t bytes) {
   return gpu::Buffer(context, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
-/// Ids of all voxels pay off where memory is fast: a CPU renders a picture sooner than it finds them.
-bool uses_ids(const gpu::Context& context) {
-  return context.info().kind != "cpu";
-}
-
 }  // namespace
 
 TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
-                           glm::uvec2 size_px, std::optional<bool> with_ids)
+                           glm::uvec2 size_px, bool with_ids)
     : context_(context),
       runner_(runner),
       volume_([&] {
@@ -47,7 +42,7 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
       frame_(uniform_buffer(context, sizeof(shared::FrameConstants))) {
   gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
   runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
-  if (with_ids.value_or(uses_ids(context))) {
+  if (with_ids) {
     volume_.add_ids(context);
     find_voxels();
   }

@@ -15,9 +15,10 @@ class TankRenderer {
  public:
   /// Uploads the tank and finds its voxels. `context` and `runner` must outlive it, `tank` need not. Throws
   /// resource_limit when the device has too little memory.
-  /// `with_ids`: finds the ids of all voxels, or traces the spheres of bricks; empty: what suits the device.
+  /// `with_ids`: finds the ids of all voxels and traces those instead of the spheres of bricks: more memory,
+  /// and slower on every device so far (docs/performance.md).
   TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
-               glm::uvec2 size_px, std::optional<bool> with_ids = {});
+               glm::uvec2 size_px, bool with_ids = false);
 
   /// What stands for the spheres from the next picture on; voxels need more memory. When the device is done
   /// with what was recorded before. Throws resource_limit.
