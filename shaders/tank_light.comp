@@ -25,9 +25,9 @@ float transmittance(ivec3 voxel, vec3 at) {
   // Where the walk ends: at a layer of the map, at the light, or where the tank ends.
   const vec3 leave = max(-origin * inverse, (vec3(params.size) - origin) * inverse);
   float end = min(1.0, min(leave.x, min(leave.y, leave.z)));
-  const float behind = layers - float(params.near_layers);
-  const bool reads = params.near_layers > 0u && behind >= map.first_depth;
-  if (reads) end = min(end, float(params.near_layers) / layers);
+  const float layer = floor((layers - float(params.near_layers) - map.first_depth + 0.25) / kMapLayerStep);
+  const bool reads = params.near_layers > 0u && layer >= 0.0;
+  if (reads) end = min(end, 1.0 - (map.first_depth + layer * kMapLayerStep) / layers);
 
   ivec3 cell = voxel;
   float t = 0.0, optical_depth = 0.0;
@@ -43,7 +43,7 @@ float transmittance(ivec3 voxel, vec3 at) {
   }
   if (!reads || optical_depth >= 12.0) return exp(-optical_depth);
   const vec2 ray = (at.xy / layers - map.first_slope) / map.slope_step;
-  const vec3 texel = vec3(ray, behind - map.first_depth) + 0.5;
+  const vec3 texel = vec3(ray, layer) + 0.5;
   return exp(-optical_depth) * textureLod(light_map, texel / vec3(textureSize(light_map, 0)), 0.0).r;
 }
 

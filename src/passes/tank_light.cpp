@@ -14,7 +14,7 @@ gpu::Image image_3d(gpu::Context& context, const glm::uvec3& size, VkFormat form
   info.format = format;
   info.size = size;
   info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   return gpu::Image(context, info);
 }
 

@@ -9,9 +9,8 @@
 
 namespace brume::planning {
 
-/// Most texels of a map: 512 MiB of half floats. Where a ray per voxel of the farthest layer would be more,
-/// rays lie further apart.
-constexpr std::uint64_t kMostMapTexels = std::uint64_t{1} << 28;
+/// Most texels of a map: 1 GiB of half floats. Where the usual rays would be more, they lie further apart.
+constexpr std::uint64_t kMostMapTexels = std::uint64_t{1} << 29;
 /// Most rays along an axis, and most layers: what 3D images may have on every device.
 constexpr std::uint32_t kMostMapRays = 2048;
 
