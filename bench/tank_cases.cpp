@@ -178,9 +178,9 @@ std::vector<Case> tank_cases() {
                              scene::TankLighting lighting) {
     cases.push_back({name, what, [=](Bench& b) { return light_case(b, opacity, lighting, name); }});
   };
-  add_light("tank/light", "one lamp on all voxels of opaque spheres", 1, scene::TankLighting::maps);
+  add_light("tank/light", "one light on all voxels of opaque spheres", 1, scene::TankLighting::maps);
   add_light("tank/light_exact", "the same voxel by voxel", 1, scene::TankLighting::exact);
-  add_light("tank/light_clear", "one lamp on all voxels of spheres that light passes", 0.05f,
+  add_light("tank/light_clear", "one light on all voxels of spheres that light passes", 0.05f,
             scene::TankLighting::maps);
   add_light("tank/light_clear_exact", "the same voxel by voxel", 0.05f, scene::TankLighting::exact);
   const std::vector<std::pair<Picture, const char*>> pictures{

@@ -1,5 +1,5 @@
-// Paints the voxels of a tank with the spheres that they lie in, and finds the ids of the spheres that touch them: one
-// workgroup per brick, whose spheres it tries.
+// Paints the voxels of a tank with the spheres that they lie in, and finds the ids of the spheres that touch them:
+// one workgroup per brick, whose spheres it tries.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

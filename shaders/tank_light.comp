@@ -1,5 +1,5 @@
-// Light of one source in each voxel of a tank: a few layers of voxels towards the light one by one, then what the light's
-// map says, or all of them.
+// Light of one source in each voxel of a tank: a few layers of voxels towards the light one by one, then what the
+// light's map says, or all of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,8 +13,8 @@ layout(push_constant, scalar) uniform Params { TankLightParams params; };
 
 const float kPi = 3.14159265;
 
-/// Transmittance from the middle of a voxel to the light, without what the voxel itself blocks. `at`: in map axes, from
-/// the light.
+/// Transmittance from the middle of a voxel to the light, without what the voxel itself blocks. `at`: in map axes,
+/// from the light.
 float transmittance(ivec3 voxel, vec3 at) {
   const LightMap map = params.map;
   const vec3 origin = vec3(voxel) + 0.5, direction = map.origin - origin;  // t: 1 at the light

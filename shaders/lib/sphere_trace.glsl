@@ -26,12 +26,12 @@ struct SphereRay {
   uint id;                 // of its sphere; 0: none up to t
 };
 
-/// The event of a sphere on the ray: where it enters an opaque one, and in a medium a free path behind that. The same at
-/// every call for one ray, so that it does not matter in how many voxels the sphere is a candidate.
+/// The event of a sphere on the ray: where it enters an opaque one, and in a medium a free path behind that. The
+/// same at every call for one ray, so that it does not matter in how many voxels the sphere is a candidate.
 void meet_sphere(inout SphereRay ray, uint id) {
   if (id == ray.skip) return;
   const vec4 sphere = spheres[id - 1u];
-  const vec2 crossed = sphere_crossings(sphere, ray.origin, ray.direction);
+  const vec2 crossed = sphere_chord(sphere, ray.origin, ray.direction);
   if (crossed.y < crossed.x || crossed.y <= 0.0 || crossed.x >= ray.t) return;
   float t = crossed.x;
   if (!kOpaque) {

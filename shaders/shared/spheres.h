@@ -69,6 +69,7 @@ struct NearestIds {
   vec4 powers;  // ascending; kNoPower behind the last
   uint count;   // of all that were added
 };
+SHARED_SIZE(NearestIds, 36);
 
 /// Above the power of any point in a tank.
 SHARED_CONST float kNoPower = 3.0e38f;
@@ -125,28 +126,10 @@ SHARED_FUNCTION uvec4 unpack_short_ids(uvec2 words) {
   return uvec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16);
 }
 
-/// Where a ray is in a sphere: t of `origin` + t * `direction` (any length but 0) of the entering and of the leaving
-/// point; the first is larger than the second where the ray misses. Stable for spheres far away and for origins near
-/// surfaces: Haines, Günther and Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection" (Ray
-/// Tracing Gems, chapter 7).
-SHARED_FUNCTION vec2 sphere_chord(vec4 sphere, vec3 origin, vec3 direction) {
-  vec3 f = origin - vec3(sphere.x, sphere.y, sphere.z);
-  float a = dot(direction, direction);
-  float b = -dot(f, direction);
-  vec3 nearest = f + direction * (b / a);  // to the line, from the middle
-  float discriminant = sphere.w * sphere.w - dot(nearest, nearest);
-  if (!(discriminant >= 0.0f)) return vec2(1.0f, 0.0f);
-  float root = sqrt(a * discriminant);
-  float q = b < 0.0f ? b - root : b + root;
-  if (q == 0.0f) return vec2(0.0f, 0.0f);  // touches the sphere in the origin
-  float c = dot(f, f) - sphere.w * sphere.w;
-  return b < 0.0f ? vec2(q / a, c / q) : vec2(c / q, q / a);
-}
-
 /// Where a ray (direction: unit) crosses a sphere: x where it enters and y where it leaves, which may be behind its
 /// origin; y < x: it passes by. The discriminant from the point of the ray nearest to the middle, which keeps its bits
 /// where the sphere is small and far away (Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection").
-SHARED_FUNCTION vec2 sphere_crossings(vec4 sphere, vec3 origin, vec3 direction) {
+SHARED_FUNCTION vec2 sphere_chord(vec4 sphere, vec3 origin, vec3 direction) {
   vec3 apart = origin - vec3(sphere.x, sphere.y, sphere.z);
   float nearest = -dot(apart, direction);
   vec3 across = apart + nearest * direction;

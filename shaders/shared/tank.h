@@ -1,5 +1,5 @@
-// A tank of spheres as shaders read it. All lengths are in voxels of the tank, from its low corner: light that falls off
-// with the squared distance [m] is scaled to match.
+// A tank of spheres as shaders read it. All lengths are in voxels of the tank, from its low corner: light that
+// falls off with the squared distance [m] is scaled to match.
 #ifndef BRUME_TANK_H
 #define BRUME_TANK_H
 #include "shared/optics.h"

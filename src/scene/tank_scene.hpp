@@ -93,7 +93,7 @@ TankGlass glass_at(const TankGlass& glass, double time);
 /// The camera likewise, or one that shows all of a tank of this size [m].
 Camera camera_at(const TankScene& scene, const glm::vec3& tank_size, double time);
 
-/// What a file of a tank alone is shown with: a lamp above it, and a bright sky.
+/// What a file of a tank alone is shown with: a light above it, and a bright sky.
 TankScene scene_of_tank_file(const std::filesystem::path& tank);
 
 /// Whether a file is one of a tank: a .toml file with a table [tank]. False where it cannot be read.

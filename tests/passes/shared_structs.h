@@ -117,7 +117,8 @@
   X(75, SphereVoxelsParams) \
   X(76, TankSamples) \
   X(77, LightMap) \
-  X(78, TankLightParams)
+  X(78, TankLightParams) \
+  X(79, NearestIds)
 // clang-format on
 
 #endif

@@ -1,5 +1,5 @@
-// Traces given rays through a tank: two vec4 a ray in (origin and largest t; direction and the id that is skipped), t and id
-// out.
+// Traces given rays through a tank: two vec4 a ray in (origin and largest t; direction and the id that is skipped),
+// t and id out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
