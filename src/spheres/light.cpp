@@ -1,29 +1,17 @@
 #include "spheres/light.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "shared/dda.h"
 #include "shared/spheres.h"
-#include "spheres/trace.hpp"
+#include "spheres/color.hpp"
 
 namespace brume::spheres {
-namespace {
-
-std::array<double, 256> extinctions() {
-  std::array<double, 256> all{};
-  for (std::size_t a = 0; a < all.size(); ++a) all[a] = extinction_of(static_cast<Color>(a) << 24);
-  return all;
-}
-
-}  // namespace
-
 double exact_light(std::span<const Color> paint, const glm::uvec3& size, const glm::vec3& light_voxel,
                    const glm::ivec3& voxel) {
   BRUME_ASSERT(paint.size() == std::size_t{size.x} * size.y * size.z, std::to_string(paint.size()));
-  static const std::array<double, 256> extinction = extinctions();
   const glm::vec3 middle = shared::voxel_middle(voxel);
   const glm::vec3 direction = light_voxel - middle;
   const double length = glm::length(glm::dvec3(direction));
@@ -38,7 +26,7 @@ double exact_light(std::span<const Color> paint, const glm::uvec3& size, const g
     const Color color = paint[index];
     if (color >> 24 == 0) continue;
     const float leave = std::min(shared::dda_min(shared::dda_leave(d)), d.t_end);
-    depth += extinction[color >> 24] * length * double{leave - d.t};
+    depth += extinction_of(color) * length * double{leave - d.t};
   }
   return std::exp(-depth);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shared/dda.h"
+#include "spheres/color.hpp"
 
 namespace brume::spheres {
 namespace {
@@ -211,10 +212,6 @@ void visit_chords(const TankView& view, const glm::vec3& origin_voxel, const glm
   const auto covered = [&](float t) { return visit_until(double{t}); };
   CandidateWalk(view, test, covered).walk(origin_voxel, direction, t_max);
   if (!stopped) visit_until(end);
-}
-
-double extinction_of(Color color) {
-  return -std::log1p(-static_cast<double>(color >> 24) / 255);
 }
 
 double transmittance(const TankView& view, const glm::vec3& origin_voxel, const glm::vec3& direction,

@@ -58,9 +58,6 @@ std::optional<SphereHit> first_hit(const TankView& view, const glm::vec3& origin
 void visit_chords(const TankView& view, const glm::vec3& origin_voxel, const glm::vec3& direction,
                   float t_max, const std::function<bool(const Chord&)>& visit);
 
-/// Extinction of a colour's opacity per voxel length, -ln(1 - a / 255); infinity where it is opaque.
-double extinction_of(Color color);
-
 /// The fraction of light that passes from the ray's origin to t_max: 0 where an opaque sphere is in between
 /// or around the origin, else exp(-extinction * length) of each sphere.
 double transmittance(const TankView& view, const glm::vec3& origin_voxel, const glm::vec3& direction,
