@@ -68,10 +68,9 @@ Result<std::vector<Measurement>> voxels_case(Bench& bench, bool painted) {
   const spheres::Tank& tank = tank_of(65535);
   gpu::CommandRunner runner(bench.context());
   const spheres::BrickLists lists = spheres::list_bricks(tank);
-  passes::TankVolume volume(bench.context(), tank, lists);
+  passes::TankVolume volume(bench.context(), runner, tank, lists);
   volume.add_ids(bench.context());
   if (painted) volume.add_colors(bench.context());
-  volume.upload(runner, tank, lists);
   const passes::SphereVoxelsPass pass(bench.context());
   Measurement m = time_pass(bench, runner, painted ? "tank/ids_and_colors" : "tank/ids", {"voxels"},
                             [&](gpu::Recorder& recorder) {
@@ -87,9 +86,8 @@ Result<std::vector<Measurement>> light_case(Bench& bench, float opacity, scene::
   const spheres::Tank& tank = tank_of(65535, opacity);
   gpu::CommandRunner runner(bench.context());
   const spheres::BrickLists lists = spheres::list_bricks(tank);
-  passes::TankVolume volume(bench.context(), tank, lists);
+  passes::TankVolume volume(bench.context(), runner, tank, lists);
   volume.add_colors(bench.context());
-  volume.upload(runner, tank, lists);
   const passes::SphereVoxelsPass voxels(bench.context());
   const gpu::Image light = passes::make_voxel_light(bench.context(), kSize);
   passes::TankLightPass pass(bench.context());

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/photon_gather.glsl"
 #include "lib/sphere_trace.glsl"
 #include "lib/tank_air.glsl"
 #include "lib/tank_glass.glsl"
@@ -75,6 +76,15 @@ vec3 direct_light(Event event, inout SampleSource source) {
   return event.albedo * light.intensity * (facing * float(count) * 2.0 / (squared * (1.0 + widest)));
 }
 
+/// Radiance that an event scatters of the light that has come through the glass.
+vec3 bent_light(Event event) {
+  if (tank.photons.radius <= 0.0) return vec3(0.0);
+  const vec4 sphere = spheres[event.id - 1u];
+  if (event.surface) return event.albedo * photon_irradiance(event.at, event.id, sphere.w) * (1.0 / kPi);
+  const float extinction = extinction_of(sphere_colors[event.id - 1u]);
+  return event.albedo * photon_fluence(event.at, event.id, sphere, extinction) * (0.25 / kPi);
+}
+
 vec3 scattered_direction(Event event, vec2 u) {
   const float turn = 2.0 * kPi * u.x;
   if (!event.surface) {
@@ -110,7 +120,7 @@ vec3 path_radiance(vec3 origin, vec3 direction, inout SampleSource source) {
     // A sphere.
     if (events == max(tank.bounces, 1u)) return radiance;
     const Event event = event_at(ray);
-    radiance += weight * direct_light(event, source);
+    radiance += weight * (direct_light(event, source) + bent_light(event));
     weight *= event.albedo;
     if (tank.bounces == 0u) return radiance + weight * tank.air.ambient;
     ++events;

@@ -136,9 +136,39 @@ reference::RenderSettings ReferenceFrames::settings_of(const planning::FrameInpu
   if (options_.max_bounces) settings.limits.max_bounces = *options_.max_bounces;
   if (options_.clamp) settings.limits.clamp = static_cast<float>(*options_.clamp);
   if (options_.noise) settings.noise = static_cast<float>(*options_.noise);
-  const bool unlimited = !options_.noise && !options_.time_limit;
-  settings.samples = settings_.samples.value_or(unlimited ? kDefaultSamples : 0);
+  settings.samples = most_samples(options_, settings_.samples, kDefaultSamples);
   return settings;
+}
+
+void add_samples(reference::Render& render, const ReferenceOptions& options, std::uint32_t samples,
+                 std::uint64_t key) {
+  const std::string& checkpoint = options.checkpoint;
+  if (!checkpoint.empty() && std::filesystem::exists(checkpoint))
+    render.load(checkpoint, key).value_or_throw();
+  PictureProgress progress(options, samples);
+  const Stopwatch sampling;
+  Stopwatch since_saved;
+  double interval = kLeastInterval;
+  const auto is_over = [&] {
+    return is_interrupted() || (options.time_limit && sampling.seconds() >= *options.time_limit);
+  };
+  for (bool done = false; !done && !is_over();) {
+    done = render.advance(0.1, is_over);
+    progress.show(render, sampling.seconds());
+    if (checkpoint.empty() || (!done && !is_over() && since_saved.seconds() < interval)) continue;
+    const Stopwatch saving;
+    render.save(checkpoint, key).value_or_throw();
+    // A hundredth of the time.
+    interval = std::clamp(100 * saving.seconds(), kLeastInterval, kMostInterval);
+    since_saved = {};
+  }
+  stop_if_interrupted();
+}
+
+std::uint32_t most_samples(const ReferenceOptions& options, std::optional<std::uint32_t> samples,
+                           std::uint32_t usual) {
+  const bool unlimited = !options.noise && !options.time_limit;
+  return samples.value_or(unlimited ? usual : 0);
 }
 
 Picture ReferenceFrames::draw(double seconds) {
@@ -152,28 +182,7 @@ Picture ReferenceFrames::draw(double seconds) {
   const auto scene = reference::make_scene(scenario_.scene, frame, &scenario_.masks, options_.matte, later);
   const reference::RenderSettings settings = settings_of(frame, later);
   reference::Render render(*scene, settings);
-  const std::string& checkpoint = options_.checkpoint;
-  if (!checkpoint.empty() && std::filesystem::exists(checkpoint))
-    render.load(checkpoint, settings_.key).value_or_throw();
-
-  PictureProgress progress(options_, settings.samples);
-  const Stopwatch sampling;
-  Stopwatch since_saved;
-  double interval = kLeastInterval;
-  const auto is_over = [&] {
-    return is_interrupted() || (options_.time_limit && sampling.seconds() >= *options_.time_limit);
-  };
-  for (bool done = false; !done && !is_over();) {
-    done = render.advance(0.1, is_over);
-    progress.show(render, sampling.seconds());
-    if (checkpoint.empty() || (!done && !is_over() && since_saved.seconds() < interval)) continue;
-    const Stopwatch saving;
-    render.save(checkpoint, settings_.key).value_or_throw();
-    // A hundredth of the time.
-    interval = std::clamp(100 * saving.seconds(), kLeastInterval, kMostInterval);
-    since_saved = {};
-  }
-  stop_if_interrupted();
+  add_samples(render, options_, settings.samples, settings_.key);
   ++frames_;
   samples_ += render.samples();
   error_ = std::max(error_, render.error());

@@ -26,6 +26,15 @@ void declare_reference(const Arguments& arguments, ReferenceOptions& options);
 /// All that the options say about the pictures, for a key of what depends on them.
 std::vector<std::string> texts_of(const ReferenceOptions& options);
 
+/// Adds samples to a picture until the limits of the options, with progress. Saves and continues the
+/// checkpoint, whose key is `key`. `samples`: those of the render's settings. Throws Error and Interrupted.
+void add_samples(reference::Render& render, const ReferenceOptions& options, std::uint32_t samples,
+                 std::uint64_t key);
+
+/// --samples, or `usual` ones where nothing else ends a picture; 0: no limit.
+std::uint32_t most_samples(const ReferenceOptions& options, std::optional<std::uint32_t> samples,
+                           std::uint32_t usual);
+
 /// What the options of both modes say about frames.
 struct FrameSettings {
   glm::uvec2 size_px{0};

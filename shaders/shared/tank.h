@@ -3,6 +3,7 @@
 #ifndef BRUME_TANK_H
 #define BRUME_TANK_H
 #include "shared/optics.h"
+#include "shared/photons.h"
 #include "shared/shim.h"
 #include "shared/spheres.h"
 SHARED_BEGIN
@@ -58,8 +59,9 @@ struct TankConstants {
   uvec2 size_px;
   uint light_count;
   uint bounces;  // most scattering events of a path
+  PhotonGrid photons;
 };
-SHARED_SIZE(TankConstants, 180);
+SHARED_SIZE(TankConstants, 188);
 
 /// What is found for each voxel.
 struct SphereVoxelsParams {

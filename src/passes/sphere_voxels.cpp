@@ -26,37 +26,30 @@ gpu::Image whole_image(gpu::Context& context, const glm::uvec3& size, VkFormat f
   return voxel_image(context, size, format);
 }
 
-// Whole bytes of a list, of which a buffer has at least four.
-template <typename Element>
-void reserve(gpu::Context& context, gpu::Buffer& buffer, const std::vector<Element>& elements) {
-  gpu::grow(context, buffer, std::max<std::size_t>(elements.size() * sizeof(Element), 16));
-}
+}  // namespace
 
-// In parts, so that staging memory stays small.
-template <typename Element>
-void upload_list(gpu::CommandRunner& runner, const gpu::Buffer& buffer,
-                 const std::vector<Element>& elements) {
+void upload_bytes(gpu::Context& context, gpu::CommandRunner& runner, gpu::Buffer& buffer,
+                  std::span<const std::byte> bytes) {
   constexpr std::size_t kPart = std::size_t{32} << 20;
-  const auto bytes = std::as_bytes(std::span(elements));
+  gpu::grow(context, buffer, std::max<std::size_t>(bytes.size(), 16));
   for (std::size_t done = 0; done < bytes.size(); done += kPart)
     runner.run([&](gpu::Recorder& recorder) {
       recorder.upload(buffer, done, bytes.subspan(done, std::min(kPart, bytes.size() - done)));
     });
 }
 
-}  // namespace
-
-TankVolume::TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists)
+TankVolume::TankVolume(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
+                       const spheres::BrickLists& lists)
     : size(tank.size),
       bricks(lists.bricks),
       wide_ids(tank.spheres.size() > shared::kMostShortIds),
       is_opaque(std::ranges::all_of(tank.colors, [](spheres::Color color) { return color >> 24 == 255; })),
       ids(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32G32_UINT)),
       colors(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32_UINT)) {
-  reserve(context, spheres, tank.spheres);
-  reserve(context, sphere_colors, tank.colors);
-  reserve(context, brick_ranges, lists.ranges);
-  reserve(context, brick_spheres, lists.spheres);
+  upload_list(context, runner, spheres, tank.spheres);
+  upload_list(context, runner, sphere_colors, tank.colors);
+  upload_list(context, runner, brick_ranges, lists.ranges);
+  upload_list(context, runner, brick_spheres, lists.spheres);
 }
 
 void TankVolume::add_ids(gpu::Context& context) {
@@ -72,14 +65,6 @@ void TankVolume::add_colors(gpu::Context& context) {
   colors = gpu::Image();
   colors = whole_image(context, glm::uvec3(size), VK_FORMAT_R32_UINT);
   is_painted = true;
-}
-
-void TankVolume::upload(gpu::CommandRunner& runner, const spheres::Tank& tank,
-                        const spheres::BrickLists& lists) const {
-  upload_list(runner, spheres, tank.spheres);
-  upload_list(runner, sphere_colors, tank.colors);
-  upload_list(runner, brick_ranges, lists.ranges);
-  upload_list(runner, brick_spheres, lists.spheres);
 }
 
 SphereVoxelsPass::SphereVoxelsPass(gpu::Context& context)

@@ -1,6 +1,9 @@
 // A tank of spheres on the device: the spheres, which of them touch each brick and voxel, and painted voxels.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "gpu/recorder.hpp"
 #include "shared/tank.h"
 #include "spheres/brick_lists.hpp"
@@ -8,14 +11,23 @@
 
 namespace brume::passes {
 
+/// Makes a buffer at least as large as a list and uploads it, in parts, so that staging memory stays small.
+/// Not while the device uses the buffer. Throws resource_limit.
+void upload_bytes(gpu::Context& context, gpu::CommandRunner& runner, gpu::Buffer& buffer,
+                  std::span<const std::byte> bytes);
+template <typename Element>
+void upload_list(gpu::Context& context, gpu::CommandRunner& runner, gpu::Buffer& buffer,
+                 const std::vector<Element>& list) {
+  upload_bytes(context, runner, buffer, std::as_bytes(std::span(list)));
+}
+
 /// Buffers and images of a tank.
 class TankVolume {
  public:
-  /// Makes room for the spheres of a tank. Throws resource_limit when the device has too little memory.
-  TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists);
+  /// Uploads the spheres of a tank. Throws resource_limit when the device has too little memory.
+  TankVolume(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
+             const spheres::BrickLists& lists);
 
-  /// Uploads the spheres; `tank` and `lists` are those of the constructor.
-  void upload(gpu::CommandRunner& runner, const spheres::Tank& tank, const spheres::BrickLists& lists) const;
   /// Make room for ids, and for the colours of voxels: SphereVoxelsPass must then follow. When the device is
   /// done with the volume. Throw resource_limit when the device has too little memory or no images of this
   /// size.

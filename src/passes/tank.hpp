@@ -15,6 +15,8 @@ struct TankInputs {
   const TankVolume& volume;
   const gpu::Buffer& constants;  ///< shared::TankConstants
   const gpu::Buffer& lights;     ///< shared::TankLight each
+  const gpu::Buffer& photons;    ///< shared::Photon each
+  const gpu::Buffer& photon_cells;
   const gpu::Image& blue_noise;
 };
 

@@ -60,6 +60,14 @@ TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, dou
   return plan;
 }
 
+spheres::LightPathScene light_path_scene(const TankPlan& plan) {
+  spheres::LightPathScene scene;
+  scene.glass = plan.constants.glass;
+  for (const shared::TankLight& light : plan.lights)
+    scene.lights.push_back({light.position, light.radius, light.intensity});
+  return scene;
+}
+
 shared::FrameConstants display_constants(const scene::TankScene& scene, glm::uvec2 size_px) {
   shared::FrameConstants frame{};
   frame.size_px = size_px;

@@ -8,6 +8,7 @@
 #include "scene/tank_scene.hpp"
 #include "shared/frame.h"
 #include "shared/tank.h"
+#include "spheres/light_paths.hpp"
 #include "spheres/tank.hpp"
 
 namespace brume::planning {
@@ -25,6 +26,9 @@ inline glm::vec3 size_of(const spheres::Tank& tank) {
 /// The camera: that of the scene, or another one.
 TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, double time, glm::uvec2 size_px,
                    const std::optional<scene::Camera>& camera = {});
+
+/// Where light through the glass is traced from.
+spheres::LightPathScene light_path_scene(const TankPlan& plan);
 
 /// What the tone curve and the dither of a picture need; the rest is of no use.
 shared::FrameConstants display_constants(const scene::TankScene& scene, glm::uvec2 size_px);

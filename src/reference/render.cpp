@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "core/tasks.hpp"
 #include "planning/device_camera.hpp"
@@ -40,7 +41,12 @@ Eye eye_of(const scene::Camera& camera, glm::uvec2 size_px) {
   return {planning::device_camera(camera, size_px), camera.lens.aperture, scene::focus_distance(camera)};
 }
 
-Render::Render(const Scene& scene, const RenderSettings& settings) : scene_(scene), settings_(settings) {
+Render::Render(const Scene& scene, const RenderSettings& settings)
+    : Render([&scene, limits = settings.limits](
+                 const Ray& ray, Sampler& sampler) { return trace_path(scene, ray, limits, sampler); },
+             settings) {}
+
+Render::Render(Trace trace, const RenderSettings& settings) : trace_(std::move(trace)), settings_(settings) {
   const glm::uvec2 size = settings.size_px;
   if (std::uint64_t{size.x} * size.y > kMostPixels)
     throw Error(ErrorCode::resource_limit,
@@ -74,7 +80,7 @@ void Render::sample(Tile& tile) {
     for (std::uint32_t x = tile.low.x; x < tile.end.x; ++x) {
       Sampler sampler({x, y}, tile.samples);
       const Ray ray = eye_ray({x, y}, sampler);
-      const PathSample found = trace_path(scene_, ray, settings_.limits, sampler);
+      const PathSample found = trace_(ray, sampler);
       Sums& sums = sums_[index(x, y)];
       sums.seen += found.seen;
       sums.single += found.single;

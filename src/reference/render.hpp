@@ -43,8 +43,13 @@ constexpr std::uint32_t kMostSamples = 1u << 24;
 /// of threads, and whether or not it was saved and loaded in between.
 class Render {
  public:
+  /// Finds what one path along a ray finds, from any thread, with the numbers of a sampler alone.
+  using Trace = std::function<PathSample(const Ray&, Sampler&)>;
+
   /// `scene` must outlive it. Throws resource_limit for more than kMostPixels.
   Render(const Scene& scene, const RenderSettings& settings);
+  /// The same of anything that paths are traced in; `limits` are left to `trace`.
+  Render(Trace trace, const RenderSettings& settings);
 
   /// Adds at least a sample to each pixel that needs more, in about `seconds`; true where none does. Returns
   /// early, with a valid state, when `stopped` returns true, which any thread may call.
@@ -92,7 +97,7 @@ class Render {
   template <typename Visit>
   void for_each_pixel(const Visit& visit) const;
 
-  const Scene& scene_;
+  Trace trace_;
   RenderSettings settings_;
   std::vector<Sums> sums_;
   std::vector<Tile> tiles_;

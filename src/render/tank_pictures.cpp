@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/progress.hpp"
+#include "core/same_bytes.hpp"
 
 namespace brume::render {
 namespace {
@@ -19,6 +20,7 @@ TankPictures::TankPictures(gpu::Context& context, const scenario::TankScenario& 
     : context_(context),
       scenario_(scenario),
       runner_(context),
+      bricks_(spheres::list_bricks(scenario.tank)),
       renderer_(context, runner_, scenario.tank, size_px),
       size_px_(size_px),
       samples_(scenario.scene.samples) {
@@ -26,10 +28,25 @@ TankPictures::TankPictures(gpu::Context& context, const scenario::TankScenario& 
   renderer_.set_lighting(scenario.scene.lighting);
 }
 
+void TankPictures::trace_light(const planning::TankPlan& plan, const std::function<bool()>& stopped) {
+  if (scenario_.scene.view != scene::TankView::spheres) return;
+  const spheres::LightPathScene scene = planning::light_path_scene(plan);
+  // A still picture's light, as long as neither the lights nor the glass move.
+  const bool same = traced_ && same_bytes(traced_->glass, scene.glass) &&
+                    std::ranges::equal(traced_->lights, scene.lights, same_bytes<spheres::LightBall>);
+  if (same) return;
+  spheres::LightPathOptions options;
+  options.count = scenario_.scene.photons;
+  renderer_.set_photons(spheres::trace_light_paths(scenario_.tank, bricks_, scene, options, stopped));
+  traced_ = scene;
+}
+
 void TankPictures::add_samples(double seconds, const std::function<bool()>& stopped) {
   Progress progress("samples", samples_);
-  renderer_.set_view(planning::plan_tank(scenario_.scene, scenario_.tank, seconds, size_px_, camera_),
-                     planning::display_constants(scenario_.scene, size_px_));
+  const planning::TankPlan plan =
+      planning::plan_tank(scenario_.scene, scenario_.tank, seconds, size_px_, camera_);
+  renderer_.set_view(plan, planning::display_constants(scenario_.scene, size_px_));
+  trace_light(plan, stopped);
   std::uint32_t count = 1;
   while (renderer_.samples() < samples_ && !(stopped && stopped())) {
     count = std::min({count, samples_ - renderer_.samples(), kMostSamplesOfSubmission});

@@ -29,12 +29,15 @@ class TankPictures {
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
 
  private:
+  void trace_light(const planning::TankPlan& plan, const std::function<bool()>& stopped);
   void add_samples(double seconds, const std::function<bool()>& stopped);
 
   gpu::Context& context_;
   const scenario::TankScenario& scenario_;
   gpu::CommandRunner runner_;
+  spheres::BrickLists bricks_;
   TankRenderer renderer_;
+  std::optional<spheres::LightPathScene> traced_;  ///< Whose light the renderer has.
   glm::uvec2 size_px_;
   std::uint32_t samples_;
   std::optional<scene::Camera> camera_;

@@ -28,9 +28,7 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
       runner_(runner),
       volume_([&] {
         const spheres::BrickLists lists = spheres::list_bricks(tank);
-        passes::TankVolume volume(context, tank, lists);
-        volume.upload(runner, tank, lists);
-        return volume;
+        return passes::TankVolume(context, runner, tank, lists);
       }()),
       spheres_pass_(context),
       sphere_voxels_pass_(context),
@@ -41,6 +39,7 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
       constants_(uniform_buffer(context, sizeof(shared::TankConstants))),
       frame_(uniform_buffer(context, sizeof(shared::FrameConstants))) {
   gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
+  set_photons({});
   runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
   if (with_ids) {
     volume_.add_ids(context);
@@ -82,8 +81,17 @@ void TankRenderer::set_view(const planning::TankPlan& plan, const shared::FrameC
     voxels_->light_pass.reserve(volume_, plan_.lights, lighting_);
 }
 
+void TankRenderer::set_photons(const spheres::LightPaths& paths) {
+  samples_ = 0;
+  photon_grid_ = paths.photons.empty() ? shared::PhotonGrid{0, 0} : paths.grid;
+  passes::upload_list(context_, runner_, photons_, paths.photons);
+  passes::upload_list(context_, runner_, photon_cells_, paths.cells);
+}
+
 void TankRenderer::record_upload(gpu::Recorder& recorder) {
-  recorder.upload(constants_, 0, std::as_bytes(std::span(&plan_.constants, 1)));
+  shared::TankConstants constants = plan_.constants;
+  constants.photons = photon_grid_;
+  recorder.upload(constants_, 0, std::as_bytes(std::span(&constants, 1)));
   recorder.upload(frame_, 0, std::as_bytes(std::span(&display_, 1)));
   if (!plan_.lights.empty())
     recorder.upload(lights_, 0, std::as_bytes(std::span<const shared::TankLight>(plan_.lights)));
@@ -98,7 +106,7 @@ void TankRenderer::record_light(gpu::Recorder& recorder) {
 void TankRenderer::record_samples(gpu::Recorder& recorder, std::uint32_t count) {
   record_upload(recorder);
   if (kind_ == scene::TankView::voxels) record_light(recorder);
-  const passes::TankInputs inputs{volume_, constants_, lights_, blue_noise_};
+  const passes::TankInputs inputs{volume_, constants_, lights_, photons_, photon_cells_, blue_noise_};
   const passes::TankTargets targets{sum_, radiance_};
   {
     const gpu::Scope scope(recorder, "tank");

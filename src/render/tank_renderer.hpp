@@ -8,6 +8,7 @@
 #include "passes/tank.hpp"
 #include "passes/tank_light.hpp"
 #include "planning/tank_plan.hpp"
+#include "spheres/light_paths.hpp"
 
 namespace brume::render {
 
@@ -28,6 +29,9 @@ class TankRenderer {
   /// What the samples from the next one on show: the picture begins again. When the device is done with what
   /// was recorded before.
   void set_view(const planning::TankPlan& plan, const shared::FrameConstants& display);
+  /// Light that comes through the glass, from the next picture on: that of the view's lights. When the device
+  /// is done with what was recorded before. Throws resource_limit.
+  void set_photons(const spheres::LightPaths& paths);
   /// The exposure and the tone curve alone: the picture goes on.
   void set_display(const shared::FrameConstants& display) { display_ = display; }
 
@@ -64,8 +68,9 @@ class TankRenderer {
   std::optional<Voxels> voxels_;  ///< From the first picture of voxels on.
   passes::DisplayPass display_pass_;
   gpu::Image blue_noise_, sum_, radiance_, shown_;
-  gpu::Buffer constants_, lights_, frame_;
+  gpu::Buffer constants_, lights_, frame_, photons_, photon_cells_;
   planning::TankPlan plan_;
+  shared::PhotonGrid photon_grid_{0, 0};
   shared::FrameConstants display_{};
   scene::TankView kind_ = scene::TankView::spheres;
   scene::TankLighting lighting_ = scene::TankLighting::maps;

@@ -1,4 +1,4 @@
-// Triangles as Embree traces them. The only place that makes Embree's devices and scenes.
+// Triangles as Embree traces them.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -6,12 +6,12 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "trace/embree_scene.hpp"
 
 namespace brume::trace {
 
@@ -28,10 +28,6 @@ struct TriangleMesh {
 /// Without gaps between triangles, and the same whatever the number of threads.
 class TriangleTree {
  public:
-  TriangleTree() = default;
-  TriangleTree(const TriangleTree&) = delete;
-  TriangleTree& operator=(const TriangleTree&) = delete;
-
   /// Builds the tree, once; mesh i has the geometry id i. `job` begins the messages of failures. Fails with
   /// resource_limit without enough memory, no_device on processors that Embree does not support, and internal
   /// when `stopped` becomes true.
@@ -40,22 +36,12 @@ class TriangleTree {
 
   RTCScene scene() const { return scene_.get(); }
   /// The first error since the start, of any thread.
-  Result<void> check() const;
+  Result<void> check() const { return scene_.check(); }
 
  private:
-  struct DeviceRelease {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  };
-  struct SceneRelease {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  };
-  static void note_error(void* self, RTCError error, const char* text);
   Result<void> add(const TriangleMesh& mesh);
 
-  std::string job_;
-  std::atomic<RTCError> error_{RTC_ERROR_NONE};  // Outlives the device, which writes to it.
-  std::unique_ptr<RTCDeviceTy, DeviceRelease> device_;
-  std::unique_ptr<RTCSceneTy, SceneRelease> scene_;
+  EmbreeScene scene_;
 };
 
 }  // namespace brume::trace

@@ -19,6 +19,7 @@
 #include "shared/noise_advection.h"
 #include "shared/optics.h"
 #include "shared/particles.h"
+#include "shared/photons.h"
 #include "shared/phase.h"
 #include "shared/raycast.h"
 #include "shared/resolve.h"
@@ -118,7 +119,9 @@
   X(76, TankSamples) \
   X(77, LightMap) \
   X(78, TankLightParams) \
-  X(79, NearestIds)
+  X(79, NearestIds) \
+  X(80, Photon) \
+  X(81, PhotonGrid)
 // clang-format on
 
 #endif

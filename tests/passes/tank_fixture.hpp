@@ -38,8 +38,7 @@ struct DeviceTank {
   TankVolume volume;
 
   DeviceTank(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank)
-      : lists(spheres::list_bricks(tank)), volume(context, tank, lists) {
-    volume.upload(runner, tank, lists);
+      : lists(spheres::list_bricks(tank)), volume(context, runner, tank, lists) {
     volume.add_ids(context);
     volume.add_colors(context);
     const SphereVoxelsPass pass(context);
