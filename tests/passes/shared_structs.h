@@ -20,6 +20,7 @@
 #include "shared/optics.h"
 #include "shared/particles.h"
 #include "shared/phase.h"
+#include "shared/photons.h"
 #include "shared/raycast.h"
 #include "shared/resolve.h"
 #include "shared/scattering.h"
@@ -107,7 +108,9 @@
   X(67, VolumeEffect) \
   X(68, AverageConstants) \
   X(69, SphereBrick) \
-  X(70, Glass)
+  X(70, Glass) \
+  X(71, Photon) \
+  X(72, PhotonGrid)
 // clang-format on
 
 #endif
