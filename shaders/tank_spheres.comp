@@ -78,11 +78,9 @@ vec3 direct_light(Event event, inout SampleSource source) {
 
 /// Radiance that an event scatters of the light that has come through the glass.
 vec3 bent_light(Event event) {
-  if (tank.photons.radius <= 0.0) return vec3(0.0);
-  const vec4 sphere = spheres[event.id - 1u];
-  if (event.surface) return event.albedo * photon_irradiance(event.at, event.id, sphere.w) * (1.0 / kPi);
-  const float extinction = extinction_of(sphere_colors[event.id - 1u]);
-  return event.albedo * photon_fluence(event.at, event.id, sphere, extinction) * (0.25 / kPi);
+  const float extinction = event.surface ? 0.0 : extinction_of(sphere_colors[event.id - 1u]);
+  const vec3 gathered = gather_photons(tank.photons, event.at, event.id, spheres[event.id - 1u], extinction);
+  return event.albedo * gathered * ((event.surface ? 1.0 : 0.25) / kPi);
 }
 
 vec3 scattered_direction(Event event, vec2 u) {

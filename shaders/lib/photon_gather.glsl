@@ -1,34 +1,31 @@
-// Light that comes to spheres through the glass, from photons that were traced before.
+// Light that comes to the spheres of a tank through its glass: as LightPaths::gather (src/spheres/light_paths.hpp).
 #ifndef PHOTON_GATHER_GLSL
 #define PHOTON_GATHER_GLSL
-#include "lib/tank.glsl"
+#include "shared/photons.h"
 
 layout(scalar, binding = kBindPhotons) readonly buffer Photons { Photon photons[]; };
 layout(scalar, binding = kBindPhotonCells) readonly buffer PhotonCells { uint photon_cells[]; };
 
-/// Flux of the photons of a sphere within the grid's radius of a point.
-vec3 gathered_flux(vec3 at, uint id) {
-  const PhotonGrid grid = tank.photons;
-  const ivec3 corner = photon_corner(grid, at);
+/// Irradiance at a point of an opaque sphere (`extinction` 0), or fluence at a point of a medium of so much extinction
+/// per voxel's length. An event scatters albedo / pi of the first, albedo / (4 pi) of the second.
+vec3 gather_photons(PhotonGrid grid, vec3 at, uint id, vec4 sphere, float extinction) {
   vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < 8u; ++k) {
-    const ivec3 cell = corner + ivec3(k & 1u, (k >> 1u) & 1u, k >> 2u);
+  if (grid.radius <= 0.0) return sum;
+  const bool is_medium = extinction > 0.0;
+  const vec3 normal = normalize(at - sphere.xyz);
+  const ivec3 corner = photon_corner(grid, at);
+  for (int i = 0; i < 8; ++i) {
+    const ivec3 cell = corner + ivec3(i & 1, (i >> 1) & 1, i >> 2);
     const uint hash = photon_hash(grid, cell);
-    for (uint i = photon_cells[hash]; i < photon_cells[hash + 1u]; ++i)
-      if (photon_counts(grid, photons[i], cell, id, at)) sum += photons[i].flux;
+    const uint end = photon_cells[hash + 1u];
+    for (uint k = photon_cells[hash]; k < end; ++k) {
+      const Photon photon = photons[k];
+      if (!photon_counts(grid, photon, cell, id, at)) continue;
+      const float cosine = -dot(normal, unpacked_direction(photon.direction));
+      sum += photon.flux * (is_medium ? 1.0 : photon_per_area(grid.radius, sphere.w, cosine));
+    }
   }
-  return sum;
-}
-
-/// Irradiance at a point of an opaque sphere's surface.
-vec3 photon_irradiance(vec3 at, uint id, float sphere_radius) {
-  return gathered_flux(at, id) * photon_per_area(tank.photons.radius, sphere_radius);
-}
-
-/// Fluence at a point of a sphere of medium.
-vec3 photon_fluence(vec3 at, uint id, vec4 sphere, float extinction) {
-  return gathered_flux(at, id) *
-         photon_per_volume(tank.photons.radius, sphere.w, distance(at, sphere.xyz), extinction);
+  return is_medium ? sum * photon_per_volume(grid.radius, sphere.w, distance(at, sphere.xyz), extinction) : sum;
 }
 
 #endif

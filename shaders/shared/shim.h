@@ -15,6 +15,7 @@
 //   53 - 54  their transfer functions and colours
 //   55       volumes as slices            slice_texture.h
 //   56 - 59  particles                    particles.h
+//   80 - 81  light paths of tanks         photons.h
 //   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H
@@ -29,7 +30,9 @@ using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::l
 using glm::ivec2, glm::ivec3, glm::ivec4, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::mat3, glm::mat4, glm::mat4x3, glm::bvec3;
 using glm::cos, glm::exp, glm::log, glm::pow, glm::sin, glm::sqrt, glm::tan;
-using glm::normalize, glm::sign, glm::smoothstep, glm::step, glm::unpackUnorm4x8;
+using glm::acos, glm::atan;
+using glm::normalize, glm::sign, glm::smoothstep, glm::step;
+using glm::packSnorm2x16, glm::unpackSnorm2x16, glm::unpackUnorm4x8;
 using glm::floatBitsToUint, glm::uintBitsToFloat;
 using uint = std::uint32_t;
 

@@ -7,12 +7,15 @@
 
 #include "planning/frame_input.hpp"
 #include "scenario/lens_openings.hpp"
+#include "shared/optics.h"
 
 namespace brume::planning {
 
 /// A point of the unit disk, or of the regular polygon of `blades` edges, at least 3, whose corners lie on
 /// its edge, one at (0, 1); evenly distributed for evenly distributed `u` in [0, 1)^2.
-glm::vec2 point_on_lens(std::uint32_t blades, const glm::vec2& u);
+inline glm::vec2 point_on_lens(std::uint32_t blades, const glm::vec2& u) {
+  return shared::lens_point(blades, u);
+}
 /// The same, or a point of [-1, 1]^2 distributed as an image of the opening says; null: none.
 inline glm::vec2 point_on_lens(std::uint32_t blades, const scenario::LensOpening* opening,
                                const glm::vec2& u) {

@@ -164,7 +164,7 @@ void Tracer::meet(const Line& ray, std::uint32_t sphere, std::uint32_t name, Eve
   }
   if (opacity == 0) return;
   const float random = shared::hash3({name, sphere, 0x2545f491u}).x;
-  const double free_path = std::log1p(-static_cast<double>(random)) / std::log1p(-opacity / 255.0);
+  const double free_path = std::log1p(-static_cast<double>(random)) / std::log(1 - opacity / 255.0);
   const double t = std::max(enter, 0.0) + free_path;
   if (t < leave && t < static_cast<double>(nearest.t))
     nearest = {static_cast<float>(t), sphere, Event::Kind::medium};
@@ -223,7 +223,9 @@ std::optional<shared::Photon> Tracer::trace(const Line& line, const glm::vec3& f
       const Sphere& ball = tank_.spheres[nearest.sphere];
       if (nearest.kind == Event::Kind::surface)
         at = ball.center + ball.radius * glm::normalize(at - ball.center);
-      return shared::Photon{at, nearest.sphere + 1, inside ? flux / (glass_.index * glass_.index) : flux};
+      const float index = inside ? glass_.index : 1.0f;
+      return shared::Photon{at, nearest.sphere + 1, flux / (index * index),
+                            shared::packed_direction(ray.direction)};
     }
     if (to_glass == kNever) return {};
     ray.origin += to_glass * ray.direction;

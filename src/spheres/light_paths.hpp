@@ -39,7 +39,8 @@ struct LightPaths {
   shared::PhotonGrid grid{0, 0};
 
   /// Irradiance at a point of an opaque sphere (`extinction` 0), or fluence at a point of a medium. By the
-  /// sphere's index. What it is at single points is blurred over the radius; its mean over a surface is not.
+  /// sphere's index. Blurred over the radius; exact in the mean where light is parallel and nothing shades
+  /// it.
   glm::vec3 gather(const glm::vec3& at, std::uint32_t sphere, const Sphere& ball, float extinction) const;
   /// Of all photons.
   glm::dvec3 flux() const;

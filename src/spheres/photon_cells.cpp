@@ -32,17 +32,22 @@ glm::vec3 LightPaths::gather(const glm::vec3& at, std::uint32_t sphere, const Sp
                              float extinction) const {
   glm::vec3 sum(0);
   if (photons.empty()) return sum;
+  const bool is_medium = extinction > 0;
+  const glm::vec3 normal = glm::normalize(at - ball.center);
   const glm::ivec3 corner = shared::photon_corner(grid, at);
   for (int i = 0; i < 8; ++i) {
     const glm::ivec3 cell = corner + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
     const std::uint32_t hash = shared::photon_hash(grid, cell);
-    for (std::uint32_t k = cells[hash]; k < cells[std::size_t{hash} + 1]; ++k)
-      if (shared::photon_counts(grid, photons[k], cell, sphere + 1, at)) sum += photons[k].flux;
+    for (std::uint32_t k = cells[hash]; k < cells[std::size_t{hash} + 1]; ++k) {
+      const shared::Photon& photon = photons[k];
+      if (!shared::photon_counts(grid, photon, cell, sphere + 1, at)) continue;
+      const float cosine = -glm::dot(normal, shared::unpacked_direction(photon.direction));
+      sum += photon.flux * (is_medium ? 1.0f : shared::photon_per_area(grid.radius, ball.radius, cosine));
+    }
   }
-  if (extinction > 0)
-    return sum *
-           shared::photon_per_volume(grid.radius, ball.radius, glm::distance(at, ball.center), extinction);
-  return sum * shared::photon_per_area(grid.radius, ball.radius);
+  if (!is_medium) return sum;
+  return sum *
+         shared::photon_per_volume(grid.radius, ball.radius, glm::distance(at, ball.center), extinction);
 }
 
 glm::dvec3 LightPaths::flux() const {

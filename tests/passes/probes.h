@@ -1,6 +1,7 @@
 // Bindings of the shaders that only tests run.
 #ifndef BRUME_PROBES_H
 #define BRUME_PROBES_H
+#include "shared/photons.h"
 #include "shared/shim.h"
 SHARED_BEGIN
 
@@ -9,6 +10,15 @@ SHARED_BINDING(kBindProbeOut, 49u);
 SHARED_BINDING(kBindProbeIn2, 50u);
 SHARED_BINDING(kBindProbeOut2, 51u);
 SHARED_BINDING(kBindProbeIn3, 52u);
+
+/// A point of a sphere where photons are gathered.
+struct PhotonQuery {
+  PhotonGrid grid;
+  vec3 at;
+  uint id;
+  vec4 sphere;
+  float extinction;
+};
 
 SHARED_END
 #endif

@@ -15,39 +15,95 @@ namespace {
 
 using reference::expect_distribution;
 
-TEST(LensTest, PointsFillTheOpeningEvenly) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> share(0, 1);
-  for (const std::uint32_t blades : {0u, 3u, 5u, 6u, 9u}) {
-    // In cells of a grid over the opening: the expected counts by a grid that is 64 times finer.
-    constexpr int kCells = 12, kFine = 64;
-    const double turn = 2 * std::numbers::pi / std::max(blades, 1u);
-    const auto inside = [&](double x, double y) {
-      if (blades < 3) return x * x + y * y < 1;
-      // Of the wedge that it lies in, below the edge between two corners.
-      const double angle = std::atan2(x, y), middle = turn * (std::floor(angle / turn) + 0.5);
-      return x * std::sin(middle) + y * std::cos(middle) < std::cos(turn / 2);
-    };
-    std::vector<double> expected(kCells * kCells), counts(kCells * kCells);
+/// Of a grid over an opening: how many points of each cell are to be expected of so many, by a grid that is
+/// 64 times finer.
+class OpeningCells {
+ public:
+  static constexpr std::uint32_t kPoints = 1u << 16;
+  explicit OpeningCells(std::uint32_t blades) : blades_(blades), expected_(kCells * kCells) {
     double all = 0;
     for (int i = 0; i < kCells * kFine; ++i)
       for (int k = 0; k < kCells * kFine; ++k)
-        if (inside(2 * (i + 0.5) / (kCells * kFine) - 1, 2 * (k + 0.5) / (kCells * kFine) - 1)) {
-          ++expected[static_cast<std::size_t>(i / kFine + kCells * (k / kFine))];
+        if (reach(2 * (i + 0.5) / (kCells * kFine) - 1, 2 * (k + 0.5) / (kCells * kFine) - 1) < 1) {
+          ++expected_[static_cast<std::size_t>(i / kFine + kCells * (k / kFine))];
           ++all;
         }
-    constexpr std::uint32_t kPoints = 1u << 16;
-    for (double& count : expected) count *= kPoints / all;
+    for (double& count : expected_) count *= kPoints / all;
+  }
+  /// Below 1 inside, above 1 outside: in the disk, or of the wedge that a point lies in, below the edge
+  /// between two corners.
+  double reach(double x, double y) const {
+    if (blades_ < 3) return std::hypot(x, y);
+    const double turn = 2 * std::numbers::pi / blades_;
+    const double middle = turn * (std::floor(std::atan2(x, y) / turn) + 0.5);
+    return (x * std::sin(middle) + y * std::cos(middle)) / std::cos(turn / 2);
+  }
+  template <typename Point>
+  void expect_even(const Point& point) const {
+    std::vector<double> counts(kCells * kCells);
     for (std::uint32_t i = 0; i < kPoints; ++i) {
-      const float u = share(random);
-      const glm::vec2 p = point_on_lens(blades, {u, share(random)});
+      const glm::vec2 p = point(i);
+      ASSERT_LE(reach(double{p.x}, double{p.y}), 1 + 1e-6);
       const auto cell = [](float at) {
         return std::clamp(static_cast<int>((at + 1) / 2 * kCells), 0, kCells - 1);
       };
       ++counts[static_cast<std::size_t>(cell(p.x) + kCells * cell(p.y))];
     }
+    expect_distribution(counts, expected_);
+  }
+
+ private:
+  static constexpr int kCells = 12, kFine = 64;
+  std::uint32_t blades_;
+  std::vector<double> expected_;
+};
+
+TEST(LensTest, PointsFillTheOpeningEvenly) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> share(0, 1);
+  for (const std::uint32_t blades : {0u, 3u, 5u, 6u, 8u, 9u}) {
     SCOPED_TRACE(blades);
-    expect_distribution(counts, expected);
+    const OpeningCells cells(blades);
+    cells.expect_even([&](std::uint32_t) {
+      const float u = share(random);
+      return point_on_lens(blades, {u, share(random)});
+    });
+    cells.expect_even([&](std::uint32_t i) {
+      return shared::lens_point_by_rejection(blades, {i, blades, 0});
+    });
+  }
+}
+
+TEST(LensTest, BothSamplersHaveTheSameSupport) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> share(-1, 1);
+  for (const std::uint32_t blades : {0u, 3u, 5u, 6u, 8u}) {
+    SCOPED_TRACE(blades);
+    const OpeningCells cells(blades);
+    // What the rejection takes is what lies inside.
+    for (int i = 0; i < 20000; ++i) {
+      const glm::vec2 p(share(random), share(random));
+      const double reach = cells.reach(double{p.x}, double{p.y});
+      // But where the rounding of floats decides.
+      if (std::abs(reach - 1) < 1e-5) continue;
+      EXPECT_EQ(shared::is_on_lens(blades, p), reach < 1) << p.x << " " << p.y;
+    }
+    // Both reach all corners, or all of the circle: of what lies within 0.1 of one, 0.004 of the opening or
+    // more, none of 2^13 points is in one of e^32 cases.
+    const std::uint32_t corners = blades < 3 ? 16 : blades;
+    for (std::uint32_t c = 0; c < corners; ++c) {
+      const double angle = 2 * std::numbers::pi * c / corners;
+      const glm::vec2 corner(std::sin(angle), std::cos(angle));
+      float by_remap = 9, by_rejection = 9;
+      for (std::uint32_t i = 0; i < 1u << 13; ++i) {
+        const glm::vec2 u(0.5f * share(random) + 0.5f, 0.5f * share(random) + 0.5f);
+        by_remap = std::min(by_remap, glm::distance(corner, shared::lens_point(blades, u)));
+        by_rejection =
+            std::min(by_rejection, glm::distance(corner, shared::lens_point_by_rejection(blades, {i, c, 1})));
+      }
+      EXPECT_LT(by_remap, 0.1f);
+      EXPECT_LT(by_rejection, 0.1f);
+    }
   }
 }
 
