@@ -6,6 +6,7 @@
 #include "apps/cli/coverage.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
+#include "apps/cli/query_sense.hpp"
 #include "apps/cli/scene_options.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -18,6 +19,7 @@ struct QueryOptions {
   std::string timeline, from, to, times, json;
   double time = -1, shots_at = -1, shots_every = 0.1, spread = 0;
   SceneOptions scene;
+  SenseOptions sense;
   std::string expect;
   float threshold = 3;
   unsigned shots = 0;
@@ -196,7 +198,23 @@ void report_coverage(const QueryOptions& options, const scenario::Scenario& scen
   judge(options, coverage.intervals.empty());
 }
 
+/// Of --sense, which has options of its own.
+void query_tank(const Arguments& arguments, const QueryOptions& options, Outputs& outputs) {
+  for (const char* option : {"--from", "--to", "--time", "--times", "--threshold", "--report", "--shots",
+                             "--shots-at", "--shots-every", "--spread", "--expect", "--voxel", "--scale"})
+    arguments.refuse(option, "is for lines of sight; remove it, or --sense");
+  SenseOptions sense = options.sense;
+  sense.input = options.timeline;
+  sense.json = options.json;
+  sense_tank(sense, outputs);
+}
+
 void query(const Arguments& arguments, const QueryOptions& options, Outputs& outputs) {
+  if (arguments.given("--sense")) return query_tank(arguments, options, outputs);
+  for (const char* option : {"--size", "-o"}) arguments.refuse(option, "requires --sense; add it");
+  for (const auto& [option, value] : {std::pair("--from", &options.from), {"--to", &options.to}})
+    if (value->empty())
+      throw Error(ErrorCode::usage, std::string(option) + " is required, such as " + option + " 0,1.7,3");
   const SightLine line{parse_end("--from", options.from), parse_end("--to", options.to), options.threshold};
   check_options(arguments, options);
   if (!options.times.empty()) parse_times("--times", options.times);
@@ -225,12 +243,15 @@ Command add_query(CommandLine& program) {
               "--json -\n"
               "  brume query scenes/demo.toml --from -5.2,1.35,10.8 --to -1.75,1.65,-3 --report --times 2-4 "
               "--shots 5 "
-              "--shots-at 3");
+              "--shots-at 3\n"
+              "  brume query reef.spheres --sense \"0,0.1,1.2 0,0,0 70\" --size 16x9 --json -");
   auto options = std::make_shared<QueryOptions>();
   const Arguments arguments = command.arguments;
-  arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml) or scene").required().type_name("");
-  arguments.add_option("--from", options->from, "Position of the observer [m]").required().type_name("X,Y,Z");
-  arguments.add_option("--to", options->to, "Position of the target [m]").required().type_name("X,Y,Z");
+  arguments.add_option("TIMELINE", options->timeline, "Timeline (.toml), scene, or with --sense tank")
+      .required()
+      .type_name("");
+  arguments.add_option("--from", options->from, "Position of the observer [m]").type_name("X,Y,Z");
+  arguments.add_option("--to", options->to, "Position of the target [m]").type_name("X,Y,Z");
   arguments.add_option("--time", options->time, "Time of the sample [s]").range(0.0, 3600.0).type_name("S");
   arguments
       .add_option("--threshold", options->threshold,
@@ -263,6 +284,7 @@ Command add_query(CommandLine& program) {
       .one_of({"visible", "hidden"})
       .type_name("visible|hidden");
   declare_size_options(arguments, options->scene);
+  declare_sense(arguments, options->sense);
   declare_json(arguments, options->json);
   command.run = [arguments, options, common = command.common] {
     query(arguments, *options, common->outputs);

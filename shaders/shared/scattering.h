@@ -56,9 +56,11 @@ SHARED_FUNCTION ManyScatterings multiple_scattering(SmokeLook look, float escape
 
 /// Radiance from all directions under a uniform sky of radiance 1, without the level: a fraction p arrives directly,
 /// the rest was scattered in a medium as bright as here, dimmed by the albedo: J = p + albedo (1 - p) J. Without
-/// absorption the medium is as bright as the sky, whatever its density. `weight` is that of multiple scattering.
+/// absorption the medium is as bright as the sky, whatever its density: also where p is 0 by underflow, for which the
+/// formula would be 0 / 0. `weight` is that of multiple scattering.
 SHARED_FUNCTION vec3 scattered_sky(vec3 albedo, float weight, float p) {
-  return vec3(p) / (vec3(1.0f) - weight * albedo * (1.0f - p));
+  float arrives = max(p, 1e-6f);
+  return vec3(arrives) / (vec3(1.0f) - weight * albedo * (1.0f - arrives));
 }
 
 /// Fraction of a light's unattenuated irradiance that is scattered towards the eye [1/sr] per unit of scattering

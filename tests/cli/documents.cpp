@@ -6,6 +6,7 @@
 
 #include "core/file.hpp"
 #include "image/png.hpp"
+#include "spheres/file.hpp"
 
 namespace brume::cli {
 namespace {
@@ -90,6 +91,11 @@ void Documents::provide(const std::string& word) const {
   if (path.extension() == ".obj") folder_.write(word, room_obj());
   if (path.extension() == ".vdb" || path.extension() == ".brv" || path.extension() == ".json")
     provide_volume(word);
+  if (path.extension() == ".spheres") {
+    const spheres::Tank tank{
+        {16, 12, 8}, 0.1f, {{{5, 6, 4}, 3}, {{11, 5, 4}, 2.5f}}, {0xff2040e0, 0x60e0c020}};
+    spheres::save_tank(path, tank).value_or_throw();
+  }
   if (path.extension() == ".png") {
     const image::Image8 picture{
         32, 18, std::vector<std::uint8_t>(4 * 32 * 18, 255)};  // the size that render is called with

@@ -109,6 +109,15 @@ TEST(ScatteringFit, IsZeroWithoutFurtherScattering) {
             glm::vec3(std::exp(-0.5f) * shared::phase_value(phase, 0.1f)));
 }
 
+TEST(ScatteredSky, IsAsBrightAsTheSkyWithoutAbsorption) {
+  // Also where so little arrives that it is 0 in floats. 1 - (1 - p) has the rounding of 1 - p, 2^-24 of
+  // 10^-6.
+  for (const float p : {0.0f, 1e-30f, 1e-6f, 0.01f, 0.5f, 1.0f})
+    EXPECT_NEAR(shared::scattered_sky(glm::vec3(1), 1, p).x, 1, 0.06) << p;
+  EXPECT_LT(shared::scattered_sky(glm::vec3(0.9f), 1, 0).x, 2e-5f);
+  EXPECT_FLOAT_EQ(shared::scattered_sky(glm::vec3(0.5f), 1, 0.5f).x, 0.5f / 0.75f);
+}
+
 TEST(ScatteringFit, IsFiniteAndMonotonic) {
   // More light for more albedo and for less escape, decaying in depth, for every g.
   for (const float g : {-0.9f, 0.0f, 0.5f, 0.9f, 0.99f}) {
