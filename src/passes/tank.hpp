@@ -12,8 +12,8 @@ namespace brume::passes {
 /// What a sample is taken of.
 struct TankInputs {
   const TankVolume& volume;
-  const gpu::Buffer& constants;   ///< shared::TankConstants
-  const gpu::Buffer& lights;      ///< shared::TankLight each
+  const gpu::Buffer& constants;  ///< shared::TankConstants
+  const gpu::Buffer& lights;     ///< shared::TankLight each
   const gpu::Image& blue_noise;
 };
 
@@ -27,16 +27,17 @@ struct TankTargets {
 class TankSpheresPass {
  public:
   explicit TankSpheresPass(gpu::Context& context);
-  /// Adds samples to each pixel; the first of a picture begins it.
+  /// Adds samples to each pixel of at least `rows` rows; the first of a picture begins it.
   void record(gpu::Recorder& recorder, const TankInputs& inputs, const TankTargets& targets,
-              const shared::TankSamples& samples);
+              const shared::TankSamples& samples, std::uint32_t rows);
 
  private:
   const gpu::ComputePipeline& pipeline(const TankVolume& volume);
 
   gpu::Context& context_;
   gpu::Sampler nearest_;
-  std::optional<gpu::ComputePipeline> pipelines_[4];  ///< Made when first needed: opaque or not, narrow ids or wide.
+  std::optional<gpu::ComputePipeline>
+      pipelines_[4];  ///< Made when first needed: opaque or not, narrow ids or wide.
 };
 
 /// The painted voxels with their light (TankLightPass).
@@ -45,7 +46,7 @@ class TankVoxelsPass {
   explicit TankVoxelsPass(gpu::Context& context);
   /// As TankSpheresPass.
   void record(gpu::Recorder& recorder, const TankInputs& inputs, const gpu::Image& voxel_light,
-              const TankTargets& targets, const shared::TankSamples& samples) const;
+              const TankTargets& targets, const shared::TankSamples& samples, std::uint32_t rows) const;
 
  private:
   gpu::ComputePipeline pipeline_;
