@@ -9,6 +9,7 @@
 
 #include "apps/viewer/game_frame.hpp"
 #include "apps/viewer/quality.hpp"
+#include "apps/viewer/screen_options.hpp"
 #include "apps/viewer/window_canvas.hpp"
 #include "image/image.hpp"
 #include "render/renderer.hpp"
@@ -17,12 +18,6 @@
 struct ImDrawData;
 
 namespace brume::viewer {
-
-struct ScreenOptions {
-  std::string device;       ///< As for gpu::choose_device.
-  bool validation = false;  ///< Enables the validation layers; Context stores their messages.
-  bool vertical_sync = true;
-};
 
 class Screen {
  public:
