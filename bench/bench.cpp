@@ -82,6 +82,7 @@ std::vector<Case> all_cases() {
   for (Case& one : cloud_cases()) cases.push_back(std::move(one));
   for (Case& one : particle_cases()) cases.push_back(std::move(one));
   for (Case& one : decal_cases()) cases.push_back(std::move(one));
+  for (Case& one : tank_cases()) cases.push_back(std::move(one));
   for (Case& one : scaling_cases()) cases.push_back(std::move(one));
   return cases;
 }

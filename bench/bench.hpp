@@ -84,6 +84,7 @@ std::vector<Case> gpu_cases();
 std::vector<Case> cloud_cases();
 std::vector<Case> particle_cases();
 std::vector<Case> decal_cases();
+std::vector<Case> tank_cases();
 std::vector<Case> scaling_cases();
 /// All cases in execution order.
 std::vector<Case> all_cases();

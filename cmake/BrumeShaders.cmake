@@ -14,7 +14,7 @@ function(brume_shaders target)
     set(words ${CMAKE_CURRENT_BINARY_DIR}/${name}.words)
     set(cpp ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
     # SPIR-V 1.5: newer versions would require maintenance4 from the device of a host.
-    set(flags -Werror -O --target-env=vulkan1.2 -I ${PROJECT_SOURCE_DIR}/shaders)
+    set(flags -Werror -O --target-env=vulkan1.2 -I ${PROJECT_SOURCE_DIR}/shaders -I ${PROJECT_SOURCE_DIR})
     if(name MATCHES "[.]hlsl$")
       # A texture and its sampler become one binding, as passes bind them. The compiler declares buffers of HLSL in a form
       # that SPIR-V 1.3 is the last to have.

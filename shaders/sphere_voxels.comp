@@ -1,5 +1,5 @@
-// Paints the voxels of a tank with the spheres that they lie in, and finds the ids of the spheres that touch them: one
-// workgroup per brick, whose spheres it tries.
+// Paints the voxels of a tank with the spheres that they lie in, and finds the ids of the spheres that touch them:
+// one workgroup per brick, whose spheres it tries.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -22,62 +22,34 @@ const uint kChunk = 64u;
 shared vec4 chunk_spheres[kChunk];
 shared uint chunk_ids[kChunk];
 
-/// The nearest spheres so far that touch a voxel.
-struct NearestSpheres {
-  uvec4 ids;  // the nearest first, 0: none
-  vec4 powers;
-  uint count;  // all that touch, also those that are not among the nearest
-};
-
-void insert_nearest(inout NearestSpheres nearest, uint id, float power) {
-  ++nearest.count;
-  // Candidates come by ascending ids: of equal powers the first stays before.
-  const bvec4 nearer = lessThan(vec4(power), nearest.powers);
-  if (nearer.w) {
-    nearest.powers.w = nearer.z ? nearest.powers.z : power;
-    nearest.ids.w = nearer.z ? nearest.ids.z : id;
-  }
-  if (nearer.z) {
-    nearest.powers.z = nearer.y ? nearest.powers.y : power;
-    nearest.ids.z = nearer.y ? nearest.ids.y : id;
-  }
-  if (nearer.y) {
-    nearest.powers.y = nearer.x ? nearest.powers.x : power;
-    nearest.ids.y = nearer.x ? nearest.ids.x : id;
-  }
-  if (nearer.x) {
-    nearest.powers.x = power;
-    nearest.ids.x = id;
-  }
-}
-
 struct Voxel {
-  NearestSpheres nearest;
+  NearestIds nearest;
   uint color;
 };
 
 void try_sphere(inout Voxel voxel, ivec3 cell, vec4 sphere, uint id) {
-  precise float power = sphere_power(sphere, vec3(cell) + 0.5);
+  const float power = sphere_power(sphere, voxel_middle(cell));
   if (power < 0.0 && params.painted != 0u && voxel.color == 0u) voxel.color = sphere_colors[id - 1u];
-  if (sphere_touches(sphere, vec3(cell), vec3(cell) + 1.0)) insert_nearest(voxel.nearest, id, power);
+  if (params.has_ids != 0u && sphere_touches_voxel(sphere, cell))
+    voxel.nearest = nearest_add(voxel.nearest, id, power);
 }
 
 void write_voxel(Voxel voxel, ivec3 cell) {
   if (any(greaterThanEqual(cell, params.size))) return;
   if (params.painted != 0u) imageStore(voxel_colors, cell, uvec4(voxel.color));
-  const uvec4 ids = voxel.nearest.count > kVoxelIds ? uvec4(0u, 1u, 0u, 0u) : voxel.nearest.ids;
+  if (params.has_ids == 0u) return;
+  const uvec4 ids = ids_to_store(voxel.nearest);
   if (kWideIds)
     imageStore(wide_voxel_ids, cell, ids);
   else
-    imageStore(voxel_ids, cell, uvec4(ids.x | ids.y << 16u, ids.z | ids.w << 16u, 0u, 0u));
+    imageStore(voxel_ids, cell, uvec4(pack_short_ids(ids), 0u, 0u));
 }
 
 void main() {
   const ivec3 bricks = (params.size + (kSphereBrick - 1)) / kSphereBrick, at = ivec3(gl_WorkGroupID);
   const SphereBrick brick = sphere_bricks[(at.z * bricks.y + at.y) * bricks.x + at.x];
   const ivec3 near_cell = at * kSphereBrick + ivec3(gl_LocalInvocationID), far_cell = near_cell + ivec3(0, 0, 4);
-  const NearestSpheres none = NearestSpheres(uvec4(0u), vec4(3e38), 0u);
-  Voxel near_voxel = Voxel(none, 0u), far_voxel = Voxel(none, 0u);
+  Voxel near_voxel = Voxel(nearest_none(), 0u), far_voxel = near_voxel;
 
   for (uint done = 0u; done < brick.count; done += kChunk) {
     const uint count = min(kChunk, brick.count - done);

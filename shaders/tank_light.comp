@@ -1,5 +1,5 @@
-// Light of one source in each voxel of a tank: a few layers of voxels towards the light one by one, then what the light's
-// map says, or all of them.
+// Light of one source in each voxel of a tank: a few layers of voxels towards the light one by one, then what the
+// light's map says, or all of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,8 +13,8 @@ layout(push_constant, scalar) uniform Params { TankLightParams params; };
 
 const float kPi = 3.14159265;
 
-/// Transmittance from the middle of a voxel to the light, without what the voxel itself blocks. `at`: in map axes, from
-/// the light.
+/// Transmittance from the middle of a voxel to the light, without what the voxel itself blocks. `at`: in map axes,
+/// from the light.
 float transmittance(ivec3 voxel, vec3 at) {
   const LightMap map = params.map;
   const vec3 origin = vec3(voxel) + 0.5, direction = map.origin - origin;  // t: 1 at the light
@@ -25,9 +25,9 @@ float transmittance(ivec3 voxel, vec3 at) {
   // Where the walk ends: at a layer of the map, at the light, or where the tank ends.
   const vec3 leave = max(-origin * inverse, (vec3(params.size) - origin) * inverse);
   float end = min(1.0, min(leave.x, min(leave.y, leave.z)));
-  const float behind = layers - float(params.near_layers);
-  const bool reads = params.near_layers > 0u && behind >= map.first_depth;
-  if (reads) end = min(end, float(params.near_layers) / layers);
+  const float layer = floor((layers - float(params.near_layers) - map.first_depth + 0.25) / kMapLayerStep);
+  const bool reads = params.near_layers > 0u && layer >= 0.0;
+  if (reads) end = min(end, 1.0 - (map.first_depth + layer * kMapLayerStep) / layers);
 
   ivec3 cell = voxel;
   float t = 0.0, optical_depth = 0.0;
@@ -43,7 +43,7 @@ float transmittance(ivec3 voxel, vec3 at) {
   }
   if (!reads || optical_depth >= 12.0) return exp(-optical_depth);
   const vec2 ray = (at.xy / layers - map.first_slope) / map.slope_step;
-  const vec3 texel = vec3(ray, behind - map.first_depth) + 0.5;
+  const vec3 texel = vec3(ray, layer) + 0.5;
   return exp(-optical_depth) * textureLod(light_map, texel / vec3(textureSize(light_map, 0)), 0.0).r;
 }
 

@@ -29,12 +29,12 @@ void main() {
   // Before the tank all light passes; behind it nothing is read.
   float optical_depth = 0.0;
   int layer = 0;
-  for (; layer < int(map.layers) && map.first_depth + float(layer) < min(depth, end); ++layer)
+  for (; layer < int(map.layers) && map.first_depth + float(layer) * kMapLayerStep < min(depth, end); ++layer)
     imageStore(light_map, ivec3(ray, layer), vec4(1.0));
   while (depth < end && layer < int(map.layers)) {
     const float extinction = voxel_extinction(texelFetch(voxel_colors, cell, 0).r) * stretch;
     const vec3 planes = (vec3(cell + ahead) - origin) * inverse;
-    const float next = min(planes.x, min(planes.y, planes.z)), middle = map.first_depth + float(layer);
+    const float next = min(planes.x, min(planes.y, planes.z)), middle = map.first_depth + float(layer) * kMapLayerStep;
     if (middle <= next) {
       imageStore(light_map, ivec3(ray, layer), vec4(exp(-(optical_depth + extinction * (middle - depth)))));
       ++layer;

@@ -44,8 +44,8 @@ void axes_across(vec3 n, out vec3 x, out vec3 y) {
   y = vec3(b, s + n.y * n.y * a, -n.y);
 }
 
-/// Radiance that an event scatters of one light, times the number of lights. Light comes straight: what the glass bends is
-/// no part of it.
+/// Radiance that an event scatters of one light, times the number of lights. Light comes straight: what the glass
+/// bends is no part of it.
 vec3 direct_light(Event event, inout SampleSource source) {
   if (tank.light_count == 0u) return vec3(0.0);
   const vec2 chosen = next_point(source), u = next_point(source);

@@ -16,7 +16,8 @@ layout(binding = kBindVoxelLight) uniform usampler3D voxel_light;
 const float kOpaqueTransmittance = 1.0 / 1024.0;
 const uint kMostSegments = 64u;
 
-/// Adds what the voxels on a ray up to t_end scatter, and what the fog adds before them; the weight loses what they block.
+/// Adds what the voxels on a ray up to t_end scatter, and what the fog adds before them; the weight loses what they
+/// block.
 void march(vec3 origin, vec3 direction, float t_end, bool fog, inout vec3 weight, inout vec3 radiance) {
   VoxelWalk walk = begin_walk(origin, direction, t_end);
   float foggy_to = walk.t;

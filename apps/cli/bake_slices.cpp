@@ -207,7 +207,8 @@ void bake_slices(const SliceOptions& options, Outputs& outputs) {
   const Stopwatch watch;
   const bool is_volume = grids::is_grid_file(options.input);
   if (!is_volume)
-    expect_suffix("", options.input, {".glb", ".gltf", ".obj", ".txt", ".vdb", ".nvdb", ".brv", ".json"});
+    expect_suffix("", options.input,
+                  {".glb", ".gltf", ".obj", ".txt", ".vdb", ".nvdb", ".brv", ".json", ".spheres"});
   outputs.reads(std::filesystem::path(options.input));
   outputs.writes("--json", options.json, FileKind::json);
   const Baked baked = is_volume ? bake_volume(options, outputs) : bake_mesh(options, outputs);

@@ -14,9 +14,10 @@ namespace brume::cli {
 
 /// Options that every command accepts.
 struct CommonOptions {
-  unsigned threads = 0;  ///< 0: one per core.
-  bool quiet = false;    ///< Suppresses progress and warnings, but not results and errors.
-  bool force = false;    ///< Outputs may replace files of another kind.
+  unsigned threads = 0;           ///< 0: one per core.
+  bool quiet = false;             ///< Suppresses progress and warnings, but not results and errors.
+  std::string progress = "line";  ///< "line", on terminals only, or "json".
+  bool force = false;             ///< Outputs may replace files of another kind.
   /// Time that a command has to stop by itself after a signal, before it is ended [s].
   std::atomic<double> grace_seconds = 0.5;
   Outputs outputs;  ///< Declared by the command while it runs.
@@ -54,6 +55,7 @@ Command add_info(CommandLine& program);
 Command add_convert(CommandLine& program);
 Command add_diff(CommandLine& program);
 Command add_query(CommandLine& program);
+Command add_palettes(CommandLine& program);
 Command add_devices(CommandLine& program);
 Command add_bench(CommandLine& program);
 #ifdef BRUME_VIEWER

@@ -33,9 +33,11 @@ constexpr int kJsonSchema = 1;
 constexpr std::size_t kDefaultWidth = 80;
 /// Jobs shorter than this show no progress.
 constexpr double kLongJobSeconds = 1;
+constexpr std::chrono::milliseconds kJsonInterval(500);
 
 std::atomic<int> g_signal{0};
 std::atomic<bool> g_quiet{false};
+std::atomic<ProgressForm> g_progress{ProgressForm::line};
 std::mutex g_line_mutex;        // of standard error
 std::size_t g_line_length = 0;  // of the progress line that the cursor is on; 0: none
 std::atomic<bool> g_ending{false};
@@ -85,6 +87,12 @@ void print_to_error(const std::string& line) {
   g_line_length = 0;
 }
 
+// Jobs that are shorter than the interval show no progress.
+void print_progress_json() {
+  const auto job = progress_to_show(std::chrono::duration<double>(kJsonInterval).count());
+  if (job) print_to_error(progress_json(*job));
+}
+
 const char* kind_of(int code) {
   switch (static_cast<ErrorCode>(code)) {
     case ErrorCode::internal:
@@ -121,8 +129,9 @@ void reserve_standard_descriptors() {
       (void)!::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-void start_console(bool quiet) {
+void start_console(bool quiet, ProgressForm progress) {
   g_quiet = quiet;
+  g_progress = progress;
   set_log_callback([quiet](LogLevel level, const std::string& line) {
     if (!quiet && level == LogLevel::warning) print_to_error("brume: warning: " + line);
   });
@@ -145,14 +154,24 @@ struct Attendant::Thread {
   std::mutex mutex;
   std::condition_variable wake;
   bool done = false;
+  Clock::time_point reported = Clock::now();  // as JSON
   std::thread thread;
+
+  void report_progress() {
+    if (g_progress != ProgressForm::json) {
+      if (shows_progress()) show_line();
+    } else if (const auto now = Clock::now(); now - reported >= kJsonInterval) {
+      reported = now;
+      print_progress_json();
+    }
+  }
 
   void run() {
     constexpr std::chrono::milliseconds kInterval(100);
     std::optional<Clock::time_point> signalled;
     std::unique_lock lock(mutex);
     while (!wake.wait_for(lock, kInterval, [&] { return done; })) {
-      if (shows_progress()) show_line();
+      report_progress();
       const int signal = g_signal;
       if (signal == 0) continue;
       const auto now = Clock::now();

@@ -18,13 +18,19 @@ struct Interrupted {
 /// opened would get what is printed. Comes first in the program.
 void reserve_standard_descriptors();
 
+/// How the progress of long jobs is reported.
+enum class ProgressForm {
+  line,  ///< A line that is overwritten, on a terminal only.
+  json,  ///< progress_json, a line every half second, wherever standard error leads to.
+};
+
 /// Routes library warnings to standard error (drops them if `quiet`) and installs signal handlers. The first
 /// SIGINT, SIGTERM, SIGHUP (unless the caller ignores it, as nohup does) or SIGXCPU requests a stop, the
 /// second ends the process. A file that reaches the size limit fails to be written, like one on a full disk
 /// (SIGXFSZ is ignored).
-void start_console(bool quiet);
+void start_console(bool quiet, ProgressForm progress);
 
-/// Shows the progress of long jobs (core/progress.hpp) on a terminal, and enforces stops, from a thread of
+/// Shows the progress of long jobs (core/progress.hpp), and enforces stops, from a thread of
 /// its own, until it is destroyed: where a signal has not ended the command after `grace_seconds`, which may
 /// change meanwhile, calls
 /// `end_of(signal)`, which reports it and returns the exit code, and ends the process. That leaves no half

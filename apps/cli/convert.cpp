@@ -55,7 +55,7 @@ void save(const fs::path& path, const grids::GridFile& file) {
 
 void convert(const ConvertOptions& options, Outputs& outputs) {
   const Stopwatch watch;
-  expect_suffix("", options.input, {kVdb, kNvdb, kBrv, kJson, ".png", ".exr"});
+  expect_suffix("", options.input, {kVdb, kNvdb, kBrv, kJson, ".png", ".exr", ".spheres"});
   expect_suffix("", options.output, {kVdb, kNvdb, kBrv, kJson});
   const fs::path output = options.output;
   outputs.reads(fs::path(options.input));
@@ -91,17 +91,17 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
 }  // namespace
 
 Command add_convert(CommandLine& program) {
-  Command command =
-      declare(program, "convert",
-              "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json); reads slice atlases, too.",
-              "  brume convert smoke.vdb smoke.brv\n"
-              "  brume convert atlas.json smoke.vdb\n"
-              "  brume convert smoke.vdb density.json --grid density");
+  Command command = declare(
+      program, "convert",
+      "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json); reads slice atlases and tanks, too.",
+      "  brume convert smoke.vdb smoke.brv\n"
+      "  brume convert atlas.json smoke.vdb\n"
+      "  brume convert smoke.vdb density.json --grid density");
   auto options = std::make_shared<ConvertOptions>();
   const Arguments& arguments = command.arguments;
   arguments
       .add_option("INPUT", options->input,
-                  "Volume file (.vdb, .nvdb, .brv, or .json of a raw array or slice atlas)")
+                  "Volume file (.vdb, .nvdb, .brv, .json of a raw array or slice atlas) or tank (.spheres)")
       .required()
       .type_name("");
   arguments

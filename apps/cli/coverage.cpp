@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/cli/console.hpp"
+#include "core/progress.hpp"
 #include "smoke/holes.hpp"
 
 namespace brume::cli {
@@ -47,11 +48,13 @@ template <typename Visit>
 void at_every_tick(const scenario::Scenario& scenario, double begin, double end, const Visit& visit) {
   const auto simulation = scenario::Simulation::create(scenario).value_or_throw();
   const double step = tick_seconds(*simulation);
+  Progress job("ticks", static_cast<std::uint64_t>(std::ceil(std::max(end - begin, 0.0) / step)));
   for (auto tick = static_cast<std::uint64_t>(std::ceil(begin / step - 1e-9));
        static_cast<double>(tick) * step < end - 1e-9; ++tick) {
     stop_if_interrupted();
     simulation->advance_to(static_cast<double>(tick) * step);
     visit(*simulation, static_cast<double>(tick) * step);
+    job.advance();
   }
 }
 

@@ -6,6 +6,7 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/json.hpp"
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "image/decode.hpp"
 #include "image/metrics.hpp"
 #include "image/png.hpp"
@@ -40,6 +41,7 @@ struct Comparison {
 };
 
 Comparison compare(const image::Image8& reference, const image::Image8& test) {
+  const Progress job("compare");
   Comparison result;
   result.colours = image::difference(image::encoded_colours(reference), image::encoded_colours(test));
   for (double* value : {&result.colours.max, &result.colours.mean, &result.colours.rmse}) *value *= 255;

@@ -44,6 +44,7 @@ int fail(const Failure& failure) {
 }
 
 void attempt(const Command& command) {
+  if (command.common->quiet) command.arguments.refuse("--progress", "there is none with --quiet");
   command.run();
   Outputs& outputs = command.common->outputs;
   if (const std::string written = outputs.written(); !written.empty()) print_on_terminal("wrote " + written);
@@ -73,7 +74,7 @@ std::optional<Outputs::End> end_of(const Command& command) {
 
 int run(const Command& command, const std::string& json) {
   CommonOptions& common = *command.common;
-  start_console(common.quiet);
+  start_console(common.quiet, common.progress == "json" ? ProgressForm::json : ProgressForm::line);
   set_thread_count(common.threads);
   common.outputs.set_force(common.force);
   const auto report = [&](const Outputs::End& end) { return fail(end, common.outputs.may_hold_error(json)); };
@@ -97,6 +98,7 @@ int parse_and_run(int argc, char** argv) {
                             add_convert(program),
                             add_query(program),
                             add_diff(program),
+                            add_palettes(program),
                             add_devices(program),
                             add_bench(program),
 #ifdef BRUME_VIEWER
@@ -134,6 +136,12 @@ Command declare(CommandLine& program, const std::string& name, const std::string
       .type_name("N");
   command.arguments.add_flag("--force", command.common->force,
                              "Let outputs replace files of another kind; never an input");
+  command.arguments
+      .add_option("--progress", command.common->progress,
+                  "How long jobs report: line, on a terminal (the default), or json, one object a line on "
+                  "standard error, twice a second")
+      .one_of({"line", "json"})
+      .type_name("FORM");
   command.arguments.add_flag("-q,--quiet", command.common->quiet, "Suppress progress and warnings");
   return command;
 }

@@ -50,9 +50,9 @@ std::uint32_t warm_up_of(const RenderOptions& options, std::uint32_t first) {
 std::uint64_t sequence_key(const RenderOptions& options, std::vector<std::filesystem::path> files,
                            const std::vector<std::string>& device, const FrameRange& range) {
   // Names every option, so that a new one does not compile before someone decides whether it belongs here.
-  const auto& [input, output, timeline, frame_range, size, march, camera, device_option, json, view, slice, fps,
-               raycast, mode, scene_options, reference, time, orbit, shutter, samples, temporal, resume, step,
-               light_update_fraction, resolve_error_scale, volume_memory] = options;
+  const auto& [input, output, timeline, frame_range, size, march, camera, device_option, json, view, slice,
+               fps, raycast, mode, scene_options, reference, time, orbit, shutter, samples, temporal, resume,
+               step, light_update_fraction, resolve_error_scale, volume_memory] = options;
 
   // Files.
   files.insert(files.end(), {timeline, "/proc/self/exe"});
@@ -99,9 +99,10 @@ void write(const RenderOptions& options, const Plan& plan, CommonOptions& common
                [&](std::uint32_t i) { return std::get<image::Image8>(draw(plan.rate.time_of(i), i)); });
     return;
   }
-  write_sequence({options.output, range.first, range.last, warm_up, plan.renderer.size_px,
-                  sequence_key(options, film.files, film.device, range), frames_depend(options), options.resume},
-                 common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
+  write_sequence(
+      {options.output, range.first, range.last, warm_up, plan.renderer.size_px,
+       sequence_key(options, film.files, film.device, range), frames_depend(options), options.resume},
+      common.outputs, [&](std::uint32_t i) { return draw(plan.rate.time_of(i), i); });
 }
 
 }  // namespace brume::cli

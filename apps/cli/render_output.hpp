@@ -33,8 +33,8 @@ double picture_time(const RenderOptions& options, double duration);
 /// Times behind the end of a timeline show its end.
 void warn_of_times(const RenderOptions& options, const Plan& plan, double end);
 
-/// A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files, the
-/// options, the device and the program.
+/// A hash of everything that a frame of a sequence depends on, but for its number: the contents of all files,
+/// the options, the device and the program.
 std::uint64_t sequence_key(const RenderOptions& options, std::vector<std::filesystem::path> files,
                            const std::vector<std::string>& device, const FrameRange& range);
 

@@ -12,10 +12,27 @@ namespace {
 
 // What is for levels and their smoke.
 void refuse_options_of_levels(const Arguments& arguments) {
-  for (const char* option :
-       {"--timeline", "--march", "--raycast", "--temporal", "--step", "--resolve-error-scale",
-        "--light-update-fraction", "--volume-memory", "--view", "--slice", "--shutter", "--orbit", "--color-map",
-        "--opacity", "--range", "--voxel", "--scale", "--smoke", "--throw", "--smoke-size", "--sun"})
+  for (const char* option : {"--timeline",
+                             "--march",
+                             "--raycast",
+                             "--temporal",
+                             "--step",
+                             "--resolve-error-scale",
+                             "--light-update-fraction",
+                             "--volume-memory",
+                             "--view",
+                             "--slice",
+                             "--shutter",
+                             "--orbit",
+                             "--color-map",
+                             "--opacity",
+                             "--range",
+                             "--voxel",
+                             "--scale",
+                             "--smoke",
+                             "--throw",
+                             "--smoke-size",
+                             "--sun"})
     arguments.refuse(option, "is not for a tank of spheres");
 }
 
@@ -33,7 +50,8 @@ void render_tank(const Arguments& arguments, const RenderOptions& options, const
   const double duration = double{scenario.scene.duration};
   if (plan.kind == TargetKind::sequence && !plan.frames) {
     const FrameRange range = frames_of(plan, duration);
-    common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first, range.last);
+    common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
+                                 range.last);
   }
   common.outputs.reads(scenario::files_of(scenario.scene));
   warn_of_times(options, plan, duration);

@@ -228,7 +228,8 @@ scenario::FirstViewOptions parse_scene_options(const SceneOptions& options) {
 scenario::Scenario load_with_options(const std::string& input, const std::string& timeline,
                                      const scenario::FirstViewOptions& options) {
   if (!grids::is_grid_file(input))
-    expect_suffix("", input, {".txt", ".gltf", ".glb", ".obj", ".toml", ".vdb", ".nvdb", ".brv", ".json"});
+    expect_suffix("", input,
+                  {".txt", ".gltf", ".glb", ".obj", ".toml", ".vdb", ".nvdb", ".brv", ".json", ".spheres"});
   if (grids::is_grid_file(input) && options.smoke_size)
     throw Error(ErrorCode::usage, "--smoke-size: is for a scene; " + input + " is a volume");
   if (!grids::is_grid_file(input) && !scenario::is_timeline(input))

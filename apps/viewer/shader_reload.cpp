@@ -5,6 +5,7 @@
 #include <shaderc/shaderc.hpp>
 
 #include "core/file.hpp"
+#include "core/progress.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -164,6 +165,7 @@ bool ShaderReload::update(gpu::Context& context) {
   // Compile one shader at a time, concurrently with the frames.
   if (!compiling_.valid() && !changed_.empty()) {
     compiling_ = std::async(std::launch::async, [folder = folder_, name = changed_.front()] {
+      const Progress job("compile " + name);
       return Compiled{name, compile_shader(folder, name)};
     });
     changed_.pop_front();

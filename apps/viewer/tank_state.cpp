@@ -25,7 +25,8 @@ bool same_tank(const scene::TankScene& a, const scene::TankScene& b) {
   const spheres::PackOptions &x = a.pack, &y = b.pack;
   return x.size == y.size && x.voxel == y.voxel && x.count == y.count && x.radius == y.radius &&
          x.distribution == y.distribution && x.arrangement == y.arrangement && x.noise_size == y.noise_size &&
-         x.opacity == y.opacity && x.seed == y.seed && a.palette == b.palette;
+         x.opacity == y.opacity && x.seed == y.seed && a.palette == b.palette &&
+         a.palette_space == b.palette_space;
 }
 
 TankState::TankState(scene::TankScene scene, const glm::vec3& size)
@@ -127,6 +128,7 @@ scene::TankScene TankState::snapshot(std::uint32_t samples) const {
   shot.file = packed_.file;
   shot.pack = packed_.pack;
   shot.palette = packed_.palette;
+  shot.palette_space = packed_.palette_space;
   shot.samples = std::max(samples, 1u);
   shot.camera = {{0, camera()}};
   for (scene::TankLight& light : shot.lights) {

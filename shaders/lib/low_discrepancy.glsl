@@ -2,8 +2,8 @@
 #ifndef LOW_DISCREPANCY_GLSL
 #define LOW_DISCREPANCY_GLSL
 
-/// What Owen's nested scrambling does to bits that are reversed, from the lowest bit on: Vegdahl 2021, "Building a Better
-/// LK Hash", after Laine and Karras 2011.
+/// What Owen's nested scrambling does to bits that are reversed, from the lowest bit on: Vegdahl 2021, "Building a
+/// Better LK Hash", after Laine and Karras 2011.
 uint scrambled_upwards(uint bits, uint seed) {
   bits ^= bits * 0x3d20adeau;
   bits += seed;
@@ -13,8 +13,8 @@ uint scrambled_upwards(uint bits, uint seed) {
   return bits;
 }
 
-/// Sobol's second coordinate of point i, as a fraction of 2^32: Pascal's triangle modulo 2 times the reversed bits of i,
-/// by halves (Ahmed 2024, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact").
+/// Sobol's second coordinate of point i, as a fraction of 2^32: Pascal's triangle modulo 2 times the reversed bits
+/// of i, by halves (Ahmed 2024, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact").
 uint second_of_sobol(uint i) {
   uint bits = bitfieldReverse(i);
   bits ^= bits << 16u;

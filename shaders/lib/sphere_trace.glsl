@@ -13,6 +13,9 @@ layout(binding = kBindVoxelIds) uniform usampler3D voxel_ids;
 /// Whether ids have 32 bits instead of 16.
 layout(constant_id = 1) const bool kWideIds = false;
 
+/// Whether rays try the spheres of each voxel, or without ids those of each brick.
+layout(constant_id = 2) const bool kHasIds = true;
+
 /// A ray, and its nearest event so far.
 struct SphereRay {
   vec3 origin, direction;  // unit
@@ -23,12 +26,12 @@ struct SphereRay {
   uint id;                 // of its sphere; 0: none up to t
 };
 
-/// The event of a sphere on the ray: where it enters an opaque one, and in a medium a free path behind that. The same at
-/// every call for one ray, so that it does not matter in how many voxels the sphere is a candidate.
+/// The event of a sphere on the ray: where it enters an opaque one, and in a medium a free path behind that. The
+/// same at every call for one ray, so that it does not matter in how many voxels the sphere is a candidate.
 void meet_sphere(inout SphereRay ray, uint id) {
   if (id == ray.skip) return;
   const vec4 sphere = spheres[id - 1u];
-  const vec2 crossed = sphere_crossings(sphere, ray.origin, ray.direction);
+  const vec2 crossed = sphere_chord(sphere, ray.origin, ray.direction);
   if (crossed.y < crossed.x || crossed.y <= 0.0 || crossed.x >= ray.t) return;
   float t = crossed.x;
   if (!kOpaque) {
@@ -44,12 +47,16 @@ void meet_sphere(inout SphereRay ray, uint id) {
   ray.id = id;
 }
 
+void meet_brick(inout SphereRay ray, SphereBrick brick) {
+  for (uint i = 0u; i < brick.count; ++i) meet_sphere(ray, sphere_list[brick.first + i] + 1u);
+}
+
 void meet_voxel(inout SphereRay ray, ivec3 cell, SphereBrick brick) {
   const uvec4 words = texelFetch(voxel_ids, cell, 0);
   if ((words.x | words.y) == 0u) return;
-  const uvec4 ids = kWideIds ? words : uvec4(words.x & 0xffffu, words.x >> 16u, words.y & 0xffffu, words.y >> 16u);
-  if (ids.x == 0u) {
-    for (uint i = 0u; i < brick.count; ++i) meet_sphere(ray, sphere_list[brick.first + i] + 1u);
+  const uvec4 ids = kWideIds ? words : unpack_short_ids(words.xy);
+  if (ids_overflow(ids)) {
+    meet_brick(ray, brick);
     return;
   }
   meet_sphere(ray, ids.x);
@@ -66,6 +73,12 @@ void trace_spheres(inout SphereRay ray) {
     const SphereBrick brick = sphere_bricks[brick_index(at)];
     if (brick.count == 0u) {
       step_brick(walk, at, ray.direction);
+      continue;
+    }
+    if (!kHasIds) {
+      meet_brick(ray, brick);
+      step_brick(walk, at, ray.direction);
+      if (ray.t <= walk.t || (ray.any && ray.id != 0u)) return;
       continue;
     }
     while (walk.t < walk.t_end && walk.cell / kSphereBrick == at) {

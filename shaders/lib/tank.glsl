@@ -23,7 +23,8 @@ bool is_opaque(uint color) { return color >= 0xff000000u; }
 /// Of a Color that is not opaque, per voxel's length.
 float extinction_of(uint color) { return -log(1.0 - float(color >> 24u) / 255.0); }
 
-/// Where a ray is inside of the tank: x where it enters, not before its origin, and y where it leaves; y <= x: nowhere.
+/// Where a ray is inside of the tank: x where it enters, not before its origin, and y where it leaves; y <= x:
+/// nowhere.
 vec2 tank_crossings(vec3 origin, vec3 inverse) {
   const vec3 low = -origin * inverse, high = (vec3(tank.size) - origin) * inverse;
   const vec3 enter = min(low, high), leave = max(low, high);

@@ -1,5 +1,5 @@
-// Random numbers of the paths of a tank: for each pair of dimensions Owen-scrambled Sobol points, moved by blue noise from
-// pixel to pixel, so that what is left of the noise is blue, too.
+// Random numbers of the paths of a tank: for each pair of dimensions Owen-scrambled Sobol points, moved by blue
+// noise from pixel to pixel, so that what is left of the noise is blue, too.
 #ifndef TANK_SAMPLES_GLSL
 #define TANK_SAMPLES_GLSL
 #include "lib/low_discrepancy.glsl"

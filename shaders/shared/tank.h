@@ -1,5 +1,5 @@
-// A tank of spheres as shaders read it. All lengths are in voxels of the tank, from its low corner: light that falls off
-// with the squared distance [m] is scaled to match.
+// A tank of spheres as shaders read it. All lengths are in voxels of the tank, from its low corner: light that
+// falls off with the squared distance [m] is scaled to match.
 #ifndef BRUME_TANK_H
 #define BRUME_TANK_H
 #include "shared/optics.h"
@@ -61,12 +61,13 @@ struct TankConstants {
 };
 SHARED_SIZE(TankConstants, 180);
 
-/// What is painted.
+/// What is found for each voxel.
 struct SphereVoxelsParams {
   ivec3 size;    // of the tank
-  uint painted;  // 1: colours, too
+  uint painted;  // 1: colours
+  uint has_ids;  // 1: ids
 };
-SHARED_SIZE(SphereVoxelsParams, 16);
+SHARED_SIZE(SphereVoxelsParams, 20);
 
 /// Samples of each pixel that a dispatch adds, from a row of the picture on.
 struct TankSamples {

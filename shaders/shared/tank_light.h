@@ -1,5 +1,5 @@
-// Light in the voxels of a tank, light by light: transmittance along rays from the light, kept where they cross the middle
-// of each layer of voxels, then gathered by the voxels.
+// Light in the voxels of a tank, light by light: transmittance along rays from the light, kept where they cross the
+// middle of each layer of voxels, then gathered by the voxels.
 #ifndef BRUME_TANK_LIGHT_H
 #define BRUME_TANK_LIGHT_H
 #include "shared/shim.h"
@@ -8,9 +8,12 @@ SHARED_BEGIN
 
 SHARED_BINDING(kBindLightMap, 76u);
 
+/// Layers of voxels between those whose light a map keeps.
+SHARED_CONST float kMapLayerStep = 2.0f;
+
 /// Rays of a light in one direction along an axis: ray (i, j) leads to origin + depth * (slope, 1), where
-/// slope = first_slope + (i, j) * slope_step, along the other two axes in their order x, y, z without `axis`. Layer k of the
-/// map is where depth = first_depth + k.
+/// slope = first_slope + (i, j) * slope_step, along the other two axes in their order x, y, z without `axis`. Layer
+/// k of the map is where depth = first_depth + k * kMapLayerStep.
 struct LightMap {
   vec3 origin;  // the light
   uint axis;    // 0, 1, 2

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "core/tasks.hpp"
 
 namespace brume::bake {
@@ -249,11 +250,13 @@ MeanWinding mean_winding(std::span<const voxel::Triangle> triangles, const Box<d
   result.crossed.resize(count);
   const ivec3 voxels(size);
   const Slabs slabs(triangles, box, voxels);
+  Progress job("winding", slabs.count());
   parallel_for(slabs.count(), 1, [&](std::size_t slab, std::size_t) {
     const int begin = static_cast<int>(slab) * slabs.rows();
     SlabSums sums(voxels, begin, std::min(begin + slabs.rows(), voxels.y), result.crossed);
     for (const std::uint32_t i : slabs.members(slab)) sums.add(slabs.triangle(i));
     sums.finish(result.values);
+    job.advance();
   });
   return result;
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/checked.hpp"
+#include "core/progress.hpp"
 #include "core/tasks.hpp"
 #include "shared/hash.h"
 #include "trace/low_discrepancy.hpp"
@@ -228,7 +229,7 @@ class Texels {
 
 /// Adds the hidden rays of a part of all rays to the values of each texel.
 void trace(const Occluders& occluders, const RaySets& sets, const Texels& texels, Occlusion& occlusion,
-           const std::atomic<bool>* stopped) {
+           const std::atomic<bool>* stopped, Progress& job) {
   parallel_for(occlusion.up.values.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t texel = begin; texel < end && !is_stopped(stopped); ++texel) {
       const auto hidden = [&](std::uint32_t number, float side) {
@@ -239,6 +240,7 @@ void trace(const Occluders& occluders, const RaySets& sets, const Texels& texels
       occlusion.up.values[texel] += hidden(0, 1);
       occlusion.down.values[texel] += hidden(1, -1);
     }
+    job.advance(end - begin);
   });
 }
 
@@ -252,6 +254,9 @@ Result<Occlusion> bake(std::span<const voxel::Triangle> triangles, const Occlusi
     grid->box = options.box;
     grid->values.assign(texel_count, 0);
   }
+  // Rays are traced part by part, so that the directions of many require little memory.
+  constexpr std::uint32_t kRaysAtATime = 4096, kMostSets = 256;
+  Progress job("occlusion", texel_count * ((options.rays + kRaysAtATime - 1) / kRaysAtATime));
   const UnitSpace space(options.box);
   std::vector<glm::vec3> corners = corners_in(space, triangles);
   if (is_stopped(stopped)) return stopped_failure();
@@ -260,13 +265,12 @@ Result<Occlusion> bake(std::span<const voxel::Triangle> triangles, const Occlusi
   if (const auto built = occluders.build(corners, stopped); !built) return built.failure();
   corners = {};
 
-  // Trace part by part, so that the directions of many rays require little memory.
-  constexpr std::uint32_t kRaysAtATime = 4096, kMostSets = 256;
+  // Trace
   const Texels texels(options, space);
   const auto sets = static_cast<std::uint32_t>(std::min<std::size_t>(2 * texel_count, kMostSets));
   for (std::uint32_t begin = 0; begin < options.rays && !is_stopped(stopped); begin += kRaysAtATime) {
     const RaySets part(sets, begin, std::min(options.rays - begin, kRaysAtATime), options.seed);
-    trace(occluders, part, texels, occlusion, stopped);
+    trace(occluders, part, texels, occlusion, stopped, job);
   }
   if (is_stopped(stopped)) return stopped_failure();
   if (const auto fine = occluders.check(); !fine) return fine.failure();

@@ -37,6 +37,24 @@ std::string time_text(double seconds) {
   return text;
 }
 
+/// As a text of JSON.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return result + "\"";
+}
+
+/// Six digits; null: none.
+std::string number_or_null(double value, bool is_known) {
+  if (!is_known || !std::isfinite(value)) return "null";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
 }  // namespace
 
 double Progress::State::seconds_left() const {
@@ -76,6 +94,15 @@ std::optional<Progress::State> progress_to_show(double seconds) {
     if (!shown) shown = std::move(state);
   }
   return shown;
+}
+
+std::string progress_json(const Progress::State& state) {
+  const double left = state.seconds_left();
+  return "{\"progress\": {\"name\": " + quoted(state.name) + ", \"done\": " + std::to_string(state.done) +
+         ", \"total\": " + (state.total > 0 ? std::to_string(state.total) : "null") +
+         ", \"rate\": " + number_or_null(state.rate(), true) +
+         ", \"seconds_left\": " + number_or_null(left, left >= 0) +
+         (state.detail.empty() ? "" : ", \"detail\": " + quoted(state.detail)) + "}}";
 }
 
 std::string progress_line(const Progress::State& state, std::size_t width) {

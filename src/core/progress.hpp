@@ -49,4 +49,9 @@ std::optional<Progress::State> progress_to_show(double seconds);
 /// show the time that they have taken.
 std::string progress_line(const Progress::State& state, std::size_t width);
 
+/// The same for programs, one line: {"progress": {"name": "frames", "done": 60, "total": 120, "rate": 4.1,
+/// "seconds_left": 15}}; `total` and `seconds_left` are null while they are not known, and `detail` is there
+/// where the job has one. Bytes of names that are not ASCII are replaced by "?".
+std::string progress_json(const Progress::State& state);
+
 }  // namespace brume

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/hash.hpp"
+#include "core/progress.hpp"
 #include "core/tasks.hpp"
 #include "grids/bytes.hpp"
 #include "grids/check.hpp"
@@ -140,11 +141,13 @@ void decode_chunks(View file, BrvGrid& of, std::span<Brick> bricks, std::span<st
                    const GridLimits& limits, std::optional<Failure>& failure) {
   std::mutex mutex;
   const std::size_t brick = kBrickVoxels * bytes_of(of.grid.type);
+  Progress job("read", of.chunks.size());
   parallel_for(of.chunks.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !limits.is_stopped(); ++i) {
       const std::size_t first = of.first_brick(i), count = of.brick_count(i);
       const auto read = read_brv_chunk(file, of, i, bricks.subspan(first, count),
                                        values.subspan(first * brick, count * brick));
+      job.advance();
       if (read) continue;
       const std::lock_guard lock(mutex);
       failure = read.failure();
@@ -175,6 +178,7 @@ Result<void> BrvWriter::add(const Grid& grid) {
   const std::size_t per_chunk = options_.bricks_per_chunk;
   const std::size_t chunks = (grid.bricks.size() + per_chunk - 1) / per_chunk;
   std::array<Bytes, kChunksAtOnce> packed;
+  Progress job("write", chunks);
   for (std::size_t first = 0; first < chunks; first += kChunksAtOnce) {
     const std::size_t count = std::min(kChunksAtOnce, chunks - first);
     parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
@@ -187,6 +191,7 @@ Result<void> BrvWriter::add(const Grid& grid) {
     for (std::size_t i = 0; i < count; ++i) {
       of.chunks.push_back({written_, static_cast<std::uint32_t>(packed[i].size()), hash_bytes(packed[i])});
       if (auto done = write(packed[i]); !done) return done;
+      job.advance();
     }
   }
 

@@ -8,7 +8,9 @@
 #include "grids/raw_file.hpp"
 #include "grids/slice_atlas.hpp"
 #include "grids/suffix.hpp"
+#include "grids/tank_grids.hpp"
 #include "grids/worker.hpp"
+#include "spheres/file.hpp"
 
 namespace brume::grids {
 namespace {
@@ -81,13 +83,20 @@ Result<GridFile> chosen_of(Result<GridFile> file, const GridChoice& choice) {
   return chosen;
 }
 
-constexpr const char* kExpected = ": unknown file suffix; expected .brv, .vdb, .nvdb or .json";
+Result<GridFile> load_spheres(const fs::path& path, const GridLimits& limits, const GridChoice& choice) {
+  const auto tank = spheres::load_tank(path);
+  if (!tank) return tank.failure();
+  return tank_grids(*tank, path.string(), limits, choice);
+}
+
+constexpr const char* kExpected = ": unknown file suffix; expected .brv, .vdb, .nvdb, .json or .spheres";
 
 }  // namespace
 
 bool is_grid_file(const fs::path& path) {
   const std::string suffix = lower_suffix(path);
   if (suffix == ".brv" || suffix == ".vdb" || suffix == ".nvdb" || suffix == ".json") return true;
+  if (spheres::is_tank_file(path)) return true;
   if (!is_image(path) || !fs::exists(description_of(path))) return false;
   const auto is_atlas = is_slice_atlas(description_of(path));
   return is_atlas && *is_atlas;
@@ -120,6 +129,7 @@ Result<GridFile> load_grid_file(const fs::path& path, const GridLimits& limits, 
     return chosen_of(load_described(description_of(path), limits), choice);
   }
   if (suffix == ".brv") return load_brv(path, limits, choice);
+  if (spheres::is_tank_file(path)) return load_spheres(path, limits, choice);
   if (is_grid_file(path)) return read_in_child(path, limits);
   return Failure{ErrorCode::bad_input, path.string() + kExpected};
 }

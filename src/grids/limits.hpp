@@ -10,7 +10,9 @@ namespace brume::grids {
 struct GridLimits {
   std::uint64_t bytes = 1ull << 33;          ///< Of memory_of() all grids.
   std::uint64_t active_voxels = 1ull << 33;  ///< Of a grid, tiles included.
-  double seconds = 600;                      ///< Processor time of the child process.
+  /// Voxels of a tank of spheres; one of more is reduced until it fits (tank_grids).
+  std::uint64_t tank_voxels = 1ull << 28;
+  double seconds = 600;  ///< Processor time of the child process.
   /// Once it is true, reading fails soon: what is read is no longer wanted. Null: never.
   const std::atomic<bool>* stopped = nullptr;
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "planning/device_lights.hpp"
 
 namespace brume::passes {
@@ -109,10 +110,12 @@ void upload_images(gpu::Context& context, gpu::CommandRunner& runner, const scen
     }
   });
   // One submission an image: staging memory stays small.
+  Progress job("upload", scene.images.size());
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     runner.run([&](gpu::Recorder& recorder) {
       out.images.push_back(upload_image(context, recorder, scene.images[i].pixels, is_colour[i]));
     });
+    job.advance();
   }
 }
 

@@ -8,15 +8,22 @@
 namespace brume::passes {
 namespace {
 
-constexpr std::uint32_t kMostNarrowIds = 65535;
-
 gpu::Image voxel_image(gpu::Context& context, const glm::uvec3& size, VkFormat format) {
   gpu::ImageInfo info;
   info.format = format;
   info.size = size;
   info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   return gpu::Image(context, info);
+}
+
+// Of all voxels.
+gpu::Image whole_image(gpu::Context& context, const glm::uvec3& size, VkFormat format) {
+  const std::uint32_t most = context.limits().maxImageDimension3D;
+  if (std::max({size.x, size.y, size.z}) > most)
+    throw Error(ErrorCode::resource_limit, "the device has no images of more than " + std::to_string(most) +
+                                               " voxels along an axis; make the tank smaller");
+  return voxel_image(context, size, format);
 }
 
 // Whole bytes of a list, of which a buffer has at least four.
@@ -27,7 +34,8 @@ void reserve(gpu::Context& context, gpu::Buffer& buffer, const std::vector<Eleme
 
 // In parts, so that staging memory stays small.
 template <typename Element>
-void upload_list(gpu::CommandRunner& runner, const gpu::Buffer& buffer, const std::vector<Element>& elements) {
+void upload_list(gpu::CommandRunner& runner, const gpu::Buffer& buffer,
+                 const std::vector<Element>& elements) {
   constexpr std::size_t kPart = std::size_t{32} << 20;
   const auto bytes = std::as_bytes(std::span(elements));
   for (std::size_t done = 0; done < bytes.size(); done += kPart)
@@ -38,23 +46,32 @@ void upload_list(gpu::CommandRunner& runner, const gpu::Buffer& buffer, const st
 
 }  // namespace
 
-TankVolume::TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists,
-                       bool painted)
+TankVolume::TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists)
     : size(tank.size),
       bricks(lists.bricks),
-      wide_ids(tank.spheres.size() > kMostNarrowIds),
+      wide_ids(tank.spheres.size() > shared::kMostShortIds),
       is_opaque(std::ranges::all_of(tank.colors, [](spheres::Color color) { return color >> 24 == 255; })),
-      is_painted(painted) {
-  const std::uint32_t most = context.limits().maxImageDimension3D;
-  if (std::max({tank.size.x, tank.size.y, tank.size.z}) > most)
-    throw Error(ErrorCode::resource_limit, "the device has no images of more than " + std::to_string(most) +
-                                               " voxels along an axis; make the tank smaller");
+      ids(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32G32_UINT)),
+      colors(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32_UINT)) {
   reserve(context, spheres, tank.spheres);
   reserve(context, sphere_colors, tank.colors);
   reserve(context, brick_ranges, lists.ranges);
   reserve(context, brick_spheres, lists.spheres);
-  ids = voxel_image(context, tank.size, wide_ids ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32G32_UINT);
-  colors = voxel_image(context, painted ? tank.size : glm::uvec3(1), VK_FORMAT_R32_UINT);
+}
+
+void TankVolume::add_ids(gpu::Context& context) {
+  if (has_ids) return;
+  ids = gpu::Image();
+  ids =
+      whole_image(context, glm::uvec3(size), wide_ids ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32G32_UINT);
+  has_ids = true;
+}
+
+void TankVolume::add_colors(gpu::Context& context) {
+  if (is_painted) return;
+  colors = gpu::Image();
+  colors = whole_image(context, glm::uvec3(size), VK_FORMAT_R32_UINT);
+  is_painted = true;
 }
 
 void TankVolume::upload(gpu::CommandRunner& runner, const spheres::Tank& tank,
@@ -65,13 +82,6 @@ void TankVolume::upload(gpu::CommandRunner& runner, const spheres::Tank& tank,
   upload_list(runner, brick_spheres, lists.spheres);
 }
 
-void TankVolume::add_colors(gpu::Context& context) {
-  if (is_painted) return;
-  colors = gpu::Image();
-  colors = voxel_image(context, glm::uvec3(size), VK_FORMAT_R32_UINT);
-  is_painted = true;
-}
-
 SphereVoxelsPass::SphereVoxelsPass(gpu::Context& context)
     : narrow_(context, shaders::sphere_voxels_comp, {0u}),
       wide_(context, shaders::sphere_voxels_comp, {1u}),
@@ -79,7 +89,8 @@ SphereVoxelsPass::SphereVoxelsPass(gpu::Context& context)
       unused_wide_(voxel_image(context, glm::uvec3(1), VK_FORMAT_R32G32B32A32_UINT)) {}
 
 void SphereVoxelsPass::record(gpu::Recorder& recorder, const TankVolume& volume) const {
-  const gpu::ComputePipeline& pipeline = volume.wide_ids ? wide_ : narrow_;
+  const bool wide = volume.has_ids && volume.wide_ids;
+  const gpu::ComputePipeline& pipeline = wide ? wide_ : narrow_;
   recorder.bind(
       pipeline,
       {{shared::kBindSpheres, gpu::read(volume.spheres)},
@@ -87,9 +98,9 @@ void SphereVoxelsPass::record(gpu::Recorder& recorder, const TankVolume& volume)
        {shared::kBindSphereBricks, gpu::read(volume.brick_ranges)},
        {shared::kBindSphereList, gpu::read(volume.brick_spheres)},
        {shared::kBindVoxelColors, gpu::stored(volume.colors)},
-       {shared::kBindVoxelIds, gpu::stored(volume.wide_ids ? unused_narrow_ : volume.ids)},
-       {shared::kBindWideVoxelIds, gpu::stored(volume.wide_ids ? volume.ids : unused_wide_)}},
-      shared::SphereVoxelsParams{volume.size, volume.is_painted ? 1u : 0u});
+       {shared::kBindVoxelIds, gpu::stored(wide ? unused_narrow_ : volume.ids)},
+       {shared::kBindWideVoxelIds, gpu::stored(wide ? volume.ids : unused_wide_)}},
+      shared::SphereVoxelsParams{volume.size, volume.is_painted ? 1u : 0u, volume.has_ids ? 1u : 0u});
   // A workgroup per brick.
   recorder.dispatch_threads(pipeline, static_cast<std::uint32_t>(volume.bricks.x) * pipeline.group()[0],
                             static_cast<std::uint32_t>(volume.bricks.y) * pipeline.group()[1],

@@ -11,26 +11,27 @@ namespace brume::passes {
 /// Buffers and images of a tank.
 class TankVolume {
  public:
-  /// Makes room for a tank; `painted`: with the colours of its voxels. Throws resource_limit when the device has too
-  /// little memory or no images of this size.
-  TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists, bool painted);
+  /// Makes room for the spheres of a tank. Throws resource_limit when the device has too little memory.
+  TankVolume(gpu::Context& context, const spheres::Tank& tank, const spheres::BrickLists& lists);
 
   /// Uploads the spheres; `tank` and `lists` are those of the constructor.
   void upload(gpu::CommandRunner& runner, const spheres::Tank& tank, const spheres::BrickLists& lists) const;
-  /// Makes room for colours: SphereVoxelsPass must then follow. When the device is done with the volume. Throws
-  /// resource_limit.
+  /// Make room for ids, and for the colours of voxels: SphereVoxelsPass must then follow. When the device is
+  /// done with the volume. Throw resource_limit when the device has too little memory or no images of this
+  /// size.
+  void add_ids(gpu::Context& context);
   void add_colors(gpu::Context& context);
 
   glm::ivec3 size{1}, bricks{1};
-  bool wide_ids = false;    ///< Ids have 32 bits instead of 16.
-  bool is_opaque = true;    ///< All spheres are opaque.
-  bool is_painted = false;  ///< `colors` has a texel per voxel.
-  gpu::Buffer spheres;        ///< vec4 each: middle and radius.
-  gpu::Buffer sphere_colors;  ///< spheres::Color each.
-  gpu::Buffer brick_ranges;   ///< shared::SphereBrick each.
-  gpu::Buffer brick_spheres;  ///< Indices of spheres, of all bricks.
-  gpu::Image ids;             ///< shared/spheres.h; two or four words a voxel.
-  gpu::Image colors;          ///< spheres::Color per voxel, 0 where no sphere is.
+  bool wide_ids = false;                     ///< Ids have 32 bits instead of 16.
+  bool is_opaque = true;                     ///< All spheres are opaque.
+  bool has_ids = false, is_painted = false;  ///< `ids` and `colors` have a texel per voxel.
+  gpu::Buffer spheres;                       ///< vec4 each: middle and radius.
+  gpu::Buffer sphere_colors;                 ///< spheres::Color each.
+  gpu::Buffer brick_ranges;                  ///< shared::SphereBrick each.
+  gpu::Buffer brick_spheres;                 ///< Indices of spheres, of all bricks.
+  gpu::Image ids;                            ///< shared/spheres.h; two or four words a voxel.
+  gpu::Image colors;                         ///< spheres::Color per voxel, 0 where no sphere is.
 };
 
 /// Fills the images of a TankVolume.

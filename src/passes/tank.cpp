@@ -11,9 +11,10 @@ TankSpheresPass::TankSpheresPass(gpu::Context& context)
     : context_(context), nearest_(context, {VK_FILTER_NEAREST}) {}
 
 const gpu::ComputePipeline& TankSpheresPass::pipeline(const TankVolume& volume) {
-  const std::uint32_t opaque = volume.is_opaque ? 1u : 0u, wide = volume.wide_ids ? 1u : 0u;
-  auto& made = pipelines_[2 * opaque + wide];
-  if (!made) made.emplace(context_, shaders::tank_spheres_comp, std::vector{opaque, wide});
+  const std::uint32_t opaque = volume.is_opaque ? 1u : 0u, wide = volume.wide_ids ? 1u : 0u,
+                      ids = volume.has_ids ? 1u : 0u;
+  auto& made = pipelines_[4 * opaque + 2 * wide + ids];
+  if (!made) made.emplace(context_, shaders::tank_spheres_comp, std::vector{opaque, wide, ids});
   return *made;
 }
 

@@ -1,6 +1,7 @@
 // Samples of a tank's picture: its spheres by paths of light, or its voxels.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "gpu/recorder.hpp"
@@ -36,8 +37,8 @@ class TankSpheresPass {
 
   gpu::Context& context_;
   gpu::Sampler nearest_;
-  std::optional<gpu::ComputePipeline>
-      pipelines_[4];  ///< Made when first needed: opaque or not, narrow ids or wide.
+  /// Made when first needed: opaque or not, ids of 32 bits or 16, with ids or without.
+  std::array<std::optional<gpu::ComputePipeline>, 8> pipelines_;
 };
 
 /// The painted voxels with their light (TankLightPass).

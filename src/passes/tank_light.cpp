@@ -14,7 +14,7 @@ gpu::Image image_3d(gpu::Context& context, const glm::uvec3& size, VkFormat form
   info.format = format;
   info.size = size;
   info.three_dimensional = true;
-  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   return gpu::Image(context, info);
 }
 
@@ -54,7 +54,8 @@ void TankLightPass::reserve(const TankVolume& volume, std::span<const shared::Ta
 
   glm::uvec3 room(1);
   if (!exact)
-    for (const shared::TankLightParams& step : steps_) room = glm::max(room, {step.map.rays, step.map.layers});
+    for (const shared::TankLightParams& step : steps_)
+      room = glm::max(room, {step.map.rays, step.map.layers});
   if (room != map_.info().size) {
     map_ = gpu::Image();
     map_ = image_3d(context_, room, VK_FORMAT_R16_SFLOAT);

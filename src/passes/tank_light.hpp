@@ -16,10 +16,12 @@ class TankLightPass {
   explicit TankLightPass(gpu::Context& context);
 
   /// Makes room for the maps of lights. Call outside of a recording. Throws resource_limit.
-  void reserve(const TankVolume& volume, std::span<const shared::TankLight> lights, scene::TankLighting lighting);
-  /// Finds the light of all voxels with a colour: `ambient`, and what each light brings that reaches them; in `light`, a word
-  /// per voxel (shared::pack_rgb9e5). The lights are those of reserve().
-  void record(gpu::Recorder& recorder, const TankVolume& volume, const gpu::Image& light, const glm::vec3& ambient);
+  void reserve(const TankVolume& volume, std::span<const shared::TankLight> lights,
+               scene::TankLighting lighting);
+  /// Finds the light of all voxels with a colour: `ambient`, and what each light brings that reaches them; in
+  /// `light`, a word per voxel (shared::pack_rgb9e5). The lights are those of reserve().
+  void record(gpu::Recorder& recorder, const TankVolume& volume, const gpu::Image& light,
+              const glm::vec3& ambient);
 
  private:
   gpu::Context& context_;

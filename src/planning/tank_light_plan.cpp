@@ -6,6 +6,9 @@
 namespace brume::planning {
 namespace {
 
+/// Of the farthest layer, along each axis: so many that no more than 1 in 100 voxels is off by more than 5 %.
+constexpr float kRaysPerVoxel = 2.2f;
+
 // The layers of a map along an axis: depths of the first and the last one whose middles are before the light.
 struct Layers {
   float first = 0, last = -1;
@@ -28,7 +31,9 @@ shared::LightMap make_map(const glm::vec3& position, const glm::vec3& size, glm:
   map.axis = axis;
   map.sign = sign;
   map.first_depth = layers.first;
-  map.layers = static_cast<glm::uint>(std::lround(layers.last - layers.first)) + 1;
+  map.layers =
+      static_cast<glm::uint>(std::lround(layers.last - layers.first) / std::lround(shared::kMapLayerStep)) +
+      1;
   map.whole = whole ? 1 : 0;
 
   // Slopes to the middles of all voxels, from the nearest and from the farthest layer.
@@ -44,8 +49,8 @@ shared::LightMap make_map(const glm::vec3& position, const glm::vec3& size, glm:
     high = glm::clamp(high, -1.0f, 1.0f);
   }
 
-  // A ray per voxel of the farthest layer, or as many as there is room for.
-  glm::vec2 rays = (high - low) * layers.last;
+  // As many rays as there is room for.
+  glm::vec2 rays = (high - low) * (layers.last * kRaysPerVoxel);
   const float most = static_cast<float>(kMostMapRays - 2);
   const double texels = double{rays.x + 2} * double{rays.y + 2} * map.layers;
   const double fit = std::sqrt(std::min(1.0, static_cast<double>(most_texels) / texels));
@@ -67,8 +72,8 @@ std::vector<shared::LightMap> light_maps(const glm::vec3& position, const glm::i
   float least = 1e30f;
   for (int axis = 0; axis < 3; ++axis)
     for (const float sign : {-1.0f, 1.0f}) {
-      const bool before = sign > 0 ? position[axis] < 0.5f - kNearest
-                                   : position[axis] > extent[axis] - 0.5f + kNearest;
+      const bool before =
+          sign > 0 ? position[axis] < 0.5f - kNearest : position[axis] > extent[axis] - 0.5f + kNearest;
       if (!before) continue;
       const Layers layers = layers_of(position[axis], extent[axis], sign);
       const float spread = layers.last / layers.first;

@@ -9,14 +9,13 @@
 
 namespace brume::planning {
 
-/// Most texels of a map: 512 MiB of half floats. Where a ray per voxel of the farthest layer would be more, rays lie further
-/// apart.
-constexpr std::uint64_t kMostMapTexels = std::uint64_t{1} << 28;
+/// Most texels of a map: 1 GiB of half floats. Where the usual rays would be more, they lie further apart.
+constexpr std::uint64_t kMostMapTexels = std::uint64_t{1} << 29;
 /// Most rays along an axis, and most layers: what 3D images may have on every device.
 constexpr std::uint32_t kMostMapRays = 2048;
 
-/// Maps that reach all voxels of a tank from a light at `position` [voxels]: one along the axis along which the rays spread
-/// least where the light is outside of the tank, six for a light inside.
+/// Maps that reach all voxels of a tank from a light at `position` [voxels]: one along the axis along which
+/// the rays spread least where the light is outside of the tank, six for a light inside.
 std::vector<shared::LightMap> light_maps(const glm::vec3& position, const glm::ivec3& size,
                                          std::uint64_t most_texels = kMostMapTexels);
 

@@ -37,7 +37,9 @@ void TankPictures::add_samples(double seconds, const std::function<bool()>& stop
     runner_.run([&](gpu::Recorder& recorder) { renderer_.record_samples(recorder, count); });
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     progress.advance(count);
-    count = taken.count() < 0.5 * kSubmission ? 2 * count : taken.count() > kSubmission ? std::max(count / 2, 1u) : count;
+    count = taken.count() < 0.5 * kSubmission ? 2 * count
+            : taken.count() > kSubmission     ? std::max(count / 2, 1u)
+                                              : count;
   }
 }
 
@@ -62,7 +64,8 @@ image::LayeredImage TankPictures::draw_layers(double seconds, const std::functio
   constexpr const char* kNames[]{"R", "G", "B"};
   for (int channel = 0; channel < 3; ++channel) {
     std::vector<float> values(count);
-    for (std::size_t i = 0; i < count; ++i) values[i] = sum[i][channel] / static_cast<float>(renderer_.samples());
+    for (std::size_t i = 0; i < count; ++i)
+      values[i] = sum[i][channel] / static_cast<float>(renderer_.samples());
     image.layers.push_back({kNames[channel], std::move(values)});
   }
   return image;

@@ -20,7 +20,8 @@ class TankPictures {
   void set_samples(std::uint32_t samples) { samples_ = samples; }
   std::uint32_t samples() const { return samples_; }
 
-  /// The picture at a time [s], with progress; the same for the same time. `stopped` ends it early with fewer samples.
+  /// The picture at a time [s], with progress; the same for the same time. `stopped` ends it early with fewer
+  /// samples.
   image::Image8 draw(double seconds, const std::function<bool()>& stopped = {});
   /// The same as numbers: R, G and B.
   image::LayeredImage draw_layers(double seconds, const std::function<bool()>& stopped = {});

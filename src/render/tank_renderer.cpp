@@ -23,12 +23,12 @@ gpu::Buffer uniform_buffer(gpu::Context& context, std::size_t bytes) {
 }  // namespace
 
 TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
-                           glm::uvec2 size_px)
+                           glm::uvec2 size_px, bool with_ids)
     : context_(context),
       runner_(runner),
       volume_([&] {
         const spheres::BrickLists lists = spheres::list_bricks(tank);
-        passes::TankVolume volume(context, tank, lists, false);
+        passes::TankVolume volume(context, tank, lists);
         volume.upload(runner, tank, lists);
         return volume;
       }()),
@@ -41,11 +41,11 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
       constants_(uniform_buffer(context, sizeof(shared::TankConstants))),
       frame_(uniform_buffer(context, sizeof(shared::FrameConstants))) {
   gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
-  runner.run([&](gpu::Recorder& recorder) {
-    blue_noise_ = passes::make_blue_noise(context, recorder);
-    const gpu::Scope scope(recorder, "sphere_voxels");
-    sphere_voxels_pass_.record(recorder, volume_);
-  });
+  runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
+  if (with_ids) {
+    volume_.add_ids(context);
+    find_voxels();
+  }
 }
 
 void TankRenderer::set_kind(scene::TankView kind) {
@@ -54,6 +54,10 @@ void TankRenderer::set_kind(scene::TankView kind) {
   if (kind != scene::TankView::voxels || voxels_) return;
   volume_.add_colors(context_);
   voxels_.emplace(context_, volume_.size);
+  find_voxels();
+}
+
+void TankRenderer::find_voxels() {
   runner_.run([&](gpu::Recorder& recorder) {
     const gpu::Scope scope(recorder, "sphere_voxels");
     sphere_voxels_pass_.record(recorder, volume_);

@@ -18,8 +18,10 @@ class TankRenderer {
 
   /// Uploads the tank and finds its voxels. `context` and `runner` must outlive it, `tank` need not. Throws
   /// resource_limit when the device has too little memory.
+  /// `with_ids`: finds the ids of all voxels and traces those instead of the spheres of bricks: more memory,
+  /// and slower on every device so far (docs/performance.md).
   TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, const spheres::Tank& tank,
-               glm::uvec2 size_px);
+               glm::uvec2 size_px, bool with_ids = false);
 
   /// What stands for the spheres from the next picture on; voxels need more memory. When the device is done
   /// with what was recorded before. Throws resource_limit.
@@ -53,6 +55,7 @@ class TankRenderer {
   const passes::TankVolume& volume() const { return volume_; }
 
  private:
+  void find_voxels();
   void record_upload(gpu::Recorder& recorder);
   void record_light(gpu::Recorder& recorder);
   void record_dispatch(gpu::Recorder& recorder, std::uint32_t count, std::uint32_t rows);

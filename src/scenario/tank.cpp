@@ -1,20 +1,38 @@
 #include "scenario/tank.hpp"
 
+#include "palettes/choice.hpp"
+#include "palettes/sample.hpp"
 #include "spheres/file.hpp"
 #include "spheres/pack.hpp"
 
 namespace brume::scenario {
 
+Result<std::vector<spheres::Color>> palette_colors(const std::string& choice, const std::string& space) {
+  constexpr std::size_t kColors = 256;
+  const auto chosen = palettes::parse_palette_choice(choice);
+  if (!chosen) return chosen.failure();
+  const auto known = palettes::space_of(space);
+  if (!known) return Failure{ErrorCode::usage, "\"" + space + "\": expected oklab, linear, srgb or nearest"};
+  return palettes::sample_range(chosen->palette, chosen->low, chosen->high, kColors, *known);
+}
+
 Result<spheres::Tank> make_tank(const scene::TankScene& scene, const std::function<bool()>& stopped) {
   if (!scene.file.empty()) return spheres::load_tank(scene.file);
-  return spheres::pack(scene.pack, stopped);
+  spheres::PackOptions options = scene.pack;
+  if (!scene.palette.empty()) {
+    auto colors = palette_colors(scene.palette, scene.palette_space);
+    if (!colors) return colors.failure();
+    options.palette = std::move(*colors);
+  }
+  return spheres::pack(options, stopped);
 }
 
 bool is_tank_input(const std::filesystem::path& path) {
   return spheres::is_tank_file(path) || scene::is_tank_scene(path);
 }
 
-Result<TankScenario> load_tank_scenario(const std::filesystem::path& path, const std::function<bool()>& stopped) {
+Result<TankScenario> load_tank_scenario(const std::filesystem::path& path,
+                                        const std::function<bool()>& stopped) {
   scene::TankScene scene;
   if (spheres::is_tank_file(path)) {
     scene = scene::scene_of_tank_file(path);

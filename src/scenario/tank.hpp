@@ -17,8 +17,13 @@ struct TankScenario {
   spheres::Tank tank;
 };
 
-/// Loads the tank of a scene from its file, or packs it. `stopped`: as spheres::pack. Fails as those, and with bad_input
-/// for a palette that does not exist.
+/// The colours that a text like "NAME:0.2-0.6" chooses (palettes::parse_palette_choice), interpolated in a
+/// space of palettes::space_of, as spheres::PackOptions takes them. Fails as those, and with usage for
+/// another space.
+Result<std::vector<spheres::Color>> palette_colors(const std::string& choice, const std::string& space);
+
+/// Loads the tank of a scene from its file, or packs it. `stopped`: as spheres::pack. Fails as those, and
+/// with bad_input for a palette that does not exist.
 Result<spheres::Tank> make_tank(const scene::TankScene& scene, const std::function<bool()>& stopped = {});
 
 /// The same for the file of a scene, or of a tank (.spheres) in a scene of its own: a light, a sky.

@@ -10,6 +10,7 @@
 #include "grids/color_bricks.hpp"
 #include "grids/files.hpp"
 #include "grids/mask_bricks.hpp"
+#include "grids/tank_grids.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -28,6 +29,9 @@ bool is_number_grid(const grids::Grid* grid) {
 bool is_colors(const grids::Grid* grid) {
   return grids::is_color_grid(*grid);
 }
+
+/// Voxels of a tank at most: with colours 20 bytes each on the device.
+constexpr std::uint64_t kMostTankVoxels = std::uint64_t{1} << 25;
 
 /// The grid of a name; without one the first of the usual names; null: none.
 using GridList = std::span<const grids::Grid* const>;
@@ -129,6 +133,7 @@ void measure_first_view(const grids::Grid& density, VolumeFrame& frame) {
   frame.core = transformed(glm::mat4(frame.density.world_from_voxel),
                            intersection(core, {layout.bounds_min, layout.bounds_max}));
   frame.z_is_up = is_z_up(density);
+  frame.is_extinction = grids::is_extinction_per_metre(density);
 }
 
 /// What glows of each mask.
@@ -214,7 +219,7 @@ Result<std::shared_ptr<const VolumeFrame>> load_volume_frame(const fs::path& fil
                                                              const std::atomic<bool>* stopped) {
   const std::string where = options.place.empty() ? "" : options.place + ": ";
   std::vector<std::string> number_grids, color_grids;
-  const auto grids = grids::load_grid_file(file, {.stopped = stopped},
+  const auto grids = grids::load_grid_file(file, {.tank_voxels = kMostTankVoxels, .stopped = stopped},
                                            [&](GridList heads) -> Result<std::vector<std::size_t>> {
                                              for (const grids::Grid* head : heads) {
                                                if (is_number_grid(head)) number_grids.push_back(head->name);

@@ -36,7 +36,9 @@ struct VolumeFrame {
   double filled_volume = 0;         ///< That all active voxels take, in the file's world.
   Box<float> bounds;                ///< Around what can be dense, in the file's world.
   Box<float> core;                  ///< Around most of it: a ball, but none of the wisps around it.
-  bool z_is_up = false;             ///< As Blender writes files; other programs have y up.
+  /// Whether the density is an extinction per metre (grids::is_extinction_per_metre).
+  bool is_extinction = false;
+  bool z_is_up = false;  ///< As Blender writes files; other programs have y up.
   /// Names of the file's grids that can be dense or glow, and of those that can hold colours.
   std::vector<std::string> number_grids, color_grids;
 };

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <new>
 
+#include "core/progress.hpp"
+
 namespace brume::scenario {
 namespace {
 
 Result<LoadedVolume> guarded(const VolumeLoader::Load& load, const VolumeLoader::Key& key,
                              const std::atomic<bool>& stopped) {
+  const Progress job("volume");
   try {
     return load(key, stopped);
   } catch (const Error& error) {

@@ -81,6 +81,12 @@ scene::Timeline prepare_volume_view(const std::filesystem::path& path, const Vol
   if (depth > 0) volume.extinction = static_cast<float>(std::clamp(double{kViewDepth} / depth, 1e-36, 1e12));
   volume.albedo = glm::vec3(frame.heat ? 0.7f : 0.99f);
   volume.anisotropy = frame.heat ? 0.2f : 0.5f;
+  if (frame.is_extinction && volume.opacity.empty()) {
+    // As it is: just as opaque when it is scaled; its albedo is all in its colours, its phase isotropic.
+    volume.extinction = 1 / volume.scale;
+    volume.albedo = glm::vec3(1);
+    volume.anisotropy = 0;
+  }
   timeline.volumes.push_back(volume);
 
   // Light, ground and smoke.

@@ -10,10 +10,12 @@ namespace brume::scene {
 template <typename Options, typename Visitor>
 void visit_tank_picture_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"samples", "", "paths of light of each pixel", 1, 1 << 20}, o.samples);
-  visit(OptionInfo{"bounces", "", "most scatterings of a path; 0: direct light and even ambient light only", 0, 16},
+  visit(OptionInfo{"bounces", "", "most scatterings of a path; 0: direct light and even ambient light only",
+                   0, 16},
         o.bounces);
-  visit(OptionInfo{"photons", "", "paths of light through the glass; 0: no light comes through it", 0, 1 << 22},
-        o.photons);
+  visit(
+      OptionInfo{"photons", "", "paths of light through the glass; 0: no light comes through it", 0, 1 << 22},
+      o.photons);
 }
 
 /// Numbers of spheres::PackOptions.
@@ -22,7 +24,8 @@ void visit_pack_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"voxel", "m", "edge length of a voxel", 1e-6, 1e3}, o.voxel);
   visit(OptionInfo{"spheres", "", "spheres, if there is room for them", 0, spheres::kMostSpheres}, o.count);
   visit(OptionInfo{"distribution", "", "number of spheres of a radius ~ radius^-x", 0, 8}, o.distribution);
-  visit(OptionInfo{"noise_size", "voxels", "size of the features of arrangement \"noise\"", 1, 4096}, o.noise_size);
+  visit(OptionInfo{"noise_size", "voxels", "size of the features of arrangement \"noise\"", 1, 4096},
+        o.noise_size);
   visit(OptionInfo{"opacity", "", "what a voxel of a sphere blocks; 1: an opaque surface", 0, 1}, o.opacity);
 }
 

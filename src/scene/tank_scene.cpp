@@ -3,6 +3,10 @@
 #include <cmath>
 
 #include "core/file.hpp"
+#include "palettes/choice.hpp"
+#include "palettes/file.hpp"
+#include "palettes/sample.hpp"
+#include "scene/files.hpp"
 #include "scene/key_path.hpp"
 #include "scene/load.hpp"
 #include "scene/tank_options.hpp"
@@ -15,8 +19,9 @@ namespace {
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 24;
 
 /// Keys that say how a tank is packed, and have no place beside a file of one.
-constexpr const char* kPackKeys[]{"size",        "voxel",      "spheres", "radius", "distribution",
-                                  "arrangement", "noise_size", "opacity", "seed",   "palette"};
+constexpr const char* kPackKeys[]{"size",         "voxel",       "spheres",      "radius",
+                                  "distribution", "arrangement", "noise_size",   "opacity",
+                                  "seed",         "palette",     "palette_space"};
 
 class TankReader {
  public:
@@ -93,10 +98,16 @@ class TankReader {
     if (pack.radius.x > pack.radius.y)
       table.fail("radius", "\"radius\": expected the smaller radius before the larger one");
     if (2 * pack.radius.y > static_cast<float>(std::min({pack.size.x, pack.size.y, pack.size.z})))
-      table.fail("radius", "\"radius\": expected spheres that fit into the tank's size, 600 x 600 x 200 voxels "
-                           "unless \"size\" says otherwise");
+      table.fail("radius",
+                 "\"radius\": expected spheres that fit into the tank's size, 600 x 600 x 200 voxels "
+                 "unless \"size\" says otherwise");
     pack.seed = seed;
     table.read("palette", scene_.palette);
+    table.read("palette_space", scene_.palette_space);
+    if (!palettes::space_of(scene_.palette_space))
+      table.fail("palette_space",
+                 "\"palette_space\": expected \"oklab\", \"linear\", \"srgb\" or \"nearest\"");
+    read_palette(table);
 
     std::string arrangement = "largest_first";
     table.read("arrangement", arrangement);
@@ -107,6 +118,21 @@ class TankReader {
       }
     table.fail("arrangement",
                "\"arrangement\": expected \"random\", \"largest_first\", \"noise\" or \"coral\"");
+  }
+
+  /// One that exists; that of a file lies below the scene's folder.
+  void read_palette(TomlTable& table) {
+    if (scene_.palette.empty()) return;
+    const std::string name = scene_.palette.substr(0, scene_.palette.rfind(':'));
+    if (palettes::is_palette_file(name)) {
+      if (!is_safe_relative(name)) {
+        table.fail("palette", "\"palette\": expected the name of a file below the scene's folder");
+        return;
+      }
+      scene_.palette = (path_.parent_path() / scene_.palette).string();
+    }
+    if (const auto choice = palettes::parse_palette_choice(scene_.palette); !choice)
+      table.fail("palette", "\"palette\": " + choice.failure().message);
   }
 
   Result<void> read_fog(const toml::table& source) {

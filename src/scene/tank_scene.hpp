@@ -70,7 +70,8 @@ struct TankFog {
 struct TankScene {
   std::filesystem::path file;  ///< Of the tank, resolved; empty: it is packed.
   spheres::PackOptions pack;   ///< Without its palette.
-  std::string palette;         ///< "NAME:0.2-0.6"; of `pack`.
+  std::string palette;         ///< "NAME:0.2-0.6" (palettes/choice.hpp), a file resolved; empty: white.
+  std::string palette_space = "oklab";  ///< In which its colours are interpolated (palettes::Space).
   TankView view = TankView::spheres;
   TankLighting lighting = TankLighting::maps;  ///< Of TankView::voxels.
   float duration = 4;
@@ -97,7 +98,7 @@ TankGlass glass_at(const TankGlass& glass, double time);
 /// The camera likewise, or one that shows all of a tank of this size [m].
 Camera camera_at(const TankScene& scene, const glm::vec3& tank_size, double time);
 
-/// What a file of a tank alone is shown with: a lamp above it, and a bright sky.
+/// What a file of a tank alone is shown with: a light above it, and a bright sky.
 TankScene scene_of_tank_file(const std::filesystem::path& tank);
 
 /// Whether a file is one of a tank: a .toml file with a table [tank]. False where it cannot be read.

@@ -1,12 +1,24 @@
 #include "scene/tank_writer.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/file.hpp"
+#include "palettes/file.hpp"
 #include "scene/file_collector.hpp"
 #include "scene/tank_options.hpp"
 #include "scene/toml_text.hpp"
 
 namespace brume::scene {
 namespace {
+
+/// The file of a palette and the text behind it, ":0.2-0.6"; no file for a palette of the program.
+std::pair<std::filesystem::path, std::string> palette_file(const std::string& palette) {
+  const std::size_t end = std::min(palette.rfind(':'), palette.size());
+  const std::string name = palette.substr(0, end);
+  if (!palettes::is_palette_file(name)) return {};
+  return {name, palette.substr(end)};
+}
 
 class TankWriter : private TomlText {
  public:
@@ -44,7 +56,15 @@ class TankWriter : private TomlText {
     if (pack.arrangement != kUsual.arrangement)
       line("arrangement", std::string(arrangement_name(pack.arrangement)));
     if (pack.seed != kUsual.seed) line("seed", static_cast<std::uint32_t>(pack.seed));
-    if (!scene.palette.empty()) line("palette", scene.palette);
+    if (!scene.palette.empty()) line("palette", palette_below(scene.palette));
+    static const TankScene kUsualScene;
+    if (scene.palette_space != kUsualScene.palette_space) line("palette_space", scene.palette_space);
+  }
+
+  /// A palette that is a file, relative to the folder.
+  std::string palette_below(const std::string& palette) const {
+    const auto [file, range] = palette_file(palette);
+    return file.empty() ? palette : path_from(file, folder_).generic_string() + range;
   }
 
   void write_light(const TankLight& light) {
@@ -79,12 +99,16 @@ Result<void> save_tank_scene(const std::filesystem::path& path, const TankScene&
   TankScene saved = scene;
   FileCollector files(path);
   if (auto done = files.collect(saved.file); !done) return done;
+  if (auto [file, range] = palette_file(saved.palette); !file.empty()) {
+    if (auto done = files.collect(file); !done) return done;
+    saved.palette = file.string() + range;
+  }
   for (CameraKey& key : saved.camera)
     if (auto done = files.collect(key.camera.lens.opening); !done) return done;
   const std::string text = format_tank_scene(saved, path.parent_path());
-  // Never write a scene that could not be read back.
-  if (const auto read = parse_tank_scene(text, path); !read) return read.failure();
+  // Never write a scene that could not be read back; a palette's file must be there to be read.
   if (auto copied = files.copy_files(); !copied) return copied;
+  if (const auto read = parse_tank_scene(text, path); !read) return read.failure();
   return write_file_atomic(path, text);
 }
 

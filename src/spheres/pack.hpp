@@ -14,8 +14,8 @@ namespace brume::spheres {
 enum class Arrangement : std::uint32_t {
   random,         ///< Anywhere, in any order of sizes (dart throwing).
   largest_first,  ///< Anywhere, the large before the small: fills more of the tank.
-  noise,          ///< Where smooth noise is high: strands and caves.
-  coral,          ///< Touching those that are there, from seeds on the floor upwards.
+  noise,          ///< Where smooth noise is high: strands and caves. The large before the small.
+  coral,          ///< Touching those that are there, from seeds on the floor (y = 0) upwards, ever smaller.
 };
 
 struct PackOptions {
@@ -25,7 +25,7 @@ struct PackOptions {
   glm::vec2 radius{1.5f, 16};      ///< Least and largest [voxels]; 0 < x <= y, 2 * y <= each axis of `size`.
   float distribution = 3;          ///< Number of spheres ~ radius^-distribution, in [0, 8].
   Arrangement arrangement = Arrangement::largest_first;
-  float noise_size = 120;  ///< Of Arrangement::noise: size of its features [voxels].
+  float noise_size = 120;  ///< Of Arrangement::noise: size of its features [voxels], in [1, 65536].
   float opacity = 1;       ///< Of all spheres, [0, 1]; 1: opaque (Color).
   std::uint64_t seed = 0;
   /// Colours from the low to the high end of the palette's range, spheres take one of them at random (Color
@@ -35,7 +35,12 @@ struct PackOptions {
 
 /// Packs spheres until there are `count` or no room is found for more: Tank::spheres may then be fewer. The
 /// same tank for the same options and any number of threads. `stopped`, called often and from any thread,
-/// ends it early with what is packed so far. Fails with usage for options out of range.
+/// ends it early with what is packed so far. Fails with usage for options out of range; the message begins
+/// with the member's name. Its Progress is "pack spheres".
+///
+/// Radii follow the power law, independent of each other (random) or one from each of `count` equally
+/// probable ranges. Only a sphere that finds no room at 24 places shrinks, step by step, down to the least
+/// radius. In exact arithmetic |c_i - c_j| >= r_i + r_j and r <= c <= size - r along each axis.
 Result<Tank> pack(const PackOptions& options, const std::function<bool()>& stopped = {});
 
 }  // namespace brume::spheres

@@ -47,7 +47,7 @@ TEST_F(CommandLineTest, HelpVersionAndOverview) {
 
 TEST_F(CommandLineTest, HelpFitsEightyColumns) {
   for (const char* command : {"render", "sim", "voxelize", "bake", "info", "convert", "query", "diff",
-                              "devices", "bench", "demo"}) {
+                              "palettes", "devices", "bench", "demo"}) {
     const std::string help = run({command, "--help"}).out;
     std::istringstream lines(help.substr(help.find("Options:")));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << command << ": " << line;
@@ -104,6 +104,10 @@ TEST_F(CommandLineTest, OptionsThatWouldDoNothingAreRefused) {
   EXPECT_EQ(still({"--resolve-error-scale", "2"}), "--resolve-error-scale: requires --march half or quarter");
   EXPECT_EQ(still({"--resume"}), "--resume: requires numbered frames, such as -o f_%04d.png");
   EXPECT_EQ(refusal({"info", "room.obj", "--check"}), "--check: is for timelines (.toml)");
+  EXPECT_EQ(refusal({"info", "room.obj", "-q", "--progress", "json"}),
+            "--progress: there is none with --quiet");
+  EXPECT_EQ(refusal({"info", "room.obj", "--progress", "jsn"}),
+            "--progress: unknown value 'jsn'; did you mean json?");
 }
 
 TEST_F(CommandLineTest, SuffixesOfAnyCase) {

@@ -47,7 +47,7 @@ TEST(Install, BashCompletesCommandsOfOneAndTwoWords) {
   EXPECT_EQ(completions(folder, "brume bake ''"), "slices occlusion pyroclastic sphere slab torus\n");
   EXPECT_EQ(completions(folder, "brume bake sl"), "slices slab\n");
   EXPECT_EQ(completions(folder, "brume bake slices sl"), "slices.glb\n");
-  EXPECT_EQ(completions(folder, "brume bake slices --p"), "--padding --preset\n");
+  EXPECT_EQ(completions(folder, "brume bake slices --p"), "--progress --padding --preset\n");
   EXPECT_EQ(completions(folder, "brume bake slices slices.glb -o a.png --ch"), "--channels\n");
   EXPECT_EQ(completions(folder, "brume bake occlusion --fall"), "--falloff\n");
   EXPECT_EQ(completions(folder, "brume bake sphere --rad"), "--radius\n");

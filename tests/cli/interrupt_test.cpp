@@ -8,7 +8,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/cli/run_program.hpp"
@@ -110,6 +112,27 @@ TEST_F(Interrupt, LongJobsShowProgressAsWideAsTheTerminal) {
     const std::size_t begin = shown.rfind('\r', shown.find("s left"));
     ASSERT_NE(begin, std::string::npos) << shown;
     EXPECT_EQ(shown.find("left", begin) + 4 - (begin + 1), width - 1u) << shown;
+  }
+}
+
+TEST_F(Interrupt, LongJobsReportProgressAsJsonToPipes) {
+  // The shell writes its process, which becomes the program, so that it can be ended.
+  const std::string command = "cd '" + folder_.path().string() +
+                              "' && echo $$ && exec '" BRUME_PROGRAM "' sim huge.toml --progress json 2>&1";
+  std::FILE* const pipe = ::popen(command.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  std::vector<std::string> lines;
+  for (char line[512]; lines.size() < 3 && std::fgets(line, sizeof line, pipe) != nullptr;)
+    lines.emplace_back(line);
+  if (!lines.empty()) ::kill(static_cast<pid_t>(std::stol(lines[0])), SIGKILL);
+  ::pclose(pipe);
+  ASSERT_EQ(lines.size(), 3u);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto report = nlohmann::json::parse(lines[i]).at("progress");
+    EXPECT_TRUE(report.at("name").is_string());
+    EXPECT_GE(report.at("rate"), 0);
+    for (const char* key : {"total", "seconds_left"})
+      EXPECT_TRUE(report.at(key).is_null() || report.at(key) >= 0) << lines[i];
   }
 }
 

@@ -66,6 +66,7 @@ std::vector<WritingCommand> writing_commands() {
       {{"bake", "occlusion", "room.obj", "-o", "out/a.png", "--size", "8x8x8", "--rays", "16", "--separate"}},
       {{"info", "room.obj", "--json", "out/a.json"}},
       {{"query", "room.toml", "--from", "0,1,1", "--to", "0,1,-1", "--time", "0.2", "--json", "out/a.json"}},
+      {{"palettes", "sea", "-o", "out/a.png", "--json", "out/a.json"}},
       {{"devices", "--json", "out/a.json"}},
       {render({"-o", "out/a.exr"})},
       {{"sim", "room.toml", "--volumes", "out/s_%d.brv", "--frames", "4-6"}},

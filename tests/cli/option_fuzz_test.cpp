@@ -52,7 +52,7 @@ class OptionFuzz : public testing::Test {
     EXPECT_EQ(run_brume(folder_.path(), {"sim", "room.toml", "--record", "room.brp"}).exit_code, 0);
     inputs_ = contents();
     for (const char* command : {"render", "sim", "voxelize", "bake", "bake slices", "bake occlusion", "info",
-                                "query", "diff", "devices"})
+                                "query", "diff", "palettes", "devices"})
       options_[command] = options_of(command);
   }
 

@@ -118,6 +118,17 @@ TEST(Progress, LinesFillTheWidthAndNeverExceedIt) {
   }
 }
 
+TEST(Progress, IsALineOfJson) {
+  EXPECT_EQ(progress_json({"frames", 30, 120, 10.0}),
+            R"({"progress": {"name": "frames", "done": 30, "total": 120, "rate": 3, "seconds_left": 30}})");
+  EXPECT_EQ(progress_json({"load", 0, 0, 12.5}),
+            R"({"progress": {"name": "load", "done": 0, "total": null, "rate": 0, "seconds_left": null}})");
+  EXPECT_EQ(
+      progress_json({"read \"a\\b\n\xff.vdb", 0, 3, 0, "error 2 %"}),
+      R"({"progress": {"name": "read \"a\\b??.vdb", "done": 0, "total": 3, "rate": 0, "seconds_left": null)"
+      R"(, "detail": "error 2 %"}})");
+}
+
 TEST(Progress, ShowsTheInnermostJobThatHasRunForLong) {
   EXPECT_FALSE(progress_to_show(0));
   Progress outer("outer", 10);

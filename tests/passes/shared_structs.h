@@ -31,6 +31,7 @@
 #include "shared/solid_volume.h"
 #include "shared/spheres.h"
 #include "shared/tank.h"
+#include "shared/tank_light.h"
 #include "shared/ui.h"
 #include "shared/upscale.h"
 #include "shared/volume.h"
@@ -114,7 +115,10 @@
   X(73, TankAir) \
   X(74, TankConstants) \
   X(75, SphereVoxelsParams) \
-  X(76, TankSamples)
+  X(76, TankSamples) \
+  X(77, LightMap) \
+  X(78, TankLightParams) \
+  X(79, NearestIds)
 // clang-format on
 
 #endif

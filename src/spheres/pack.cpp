@@ -1,0 +1,290 @@
+// Packing goes in rounds. Each sphere of a round proposes a place, a function of the seed, its number and its
+// attempt, and is tested against all that is packed; those that fit are then tested against each other, and
+// in the order of their numbers the earlier stay. Both tests use all threads and neither depends on how many.
+#include "spheres/pack.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "core/progress.hpp"
+#include "core/tasks.hpp"
+#include "spheres/pack_levels.hpp"
+#include "spheres/pack_places.hpp"
+#include "spheres/pack_random.hpp"
+
+namespace brume::spheres {
+namespace {
+
+constexpr std::uint64_t kRadiusStream = 16, kColorStream = 17;
+constexpr std::size_t kTask = 128;  // spheres of a task
+
+// Attempts for a sphere: with its whole radius, then with less and less, then with the least of all, which
+// goes on until the end.
+constexpr std::uint32_t kWhole = 24, kShrinking = 24, kLeast = 8;
+
+// Spheres of a round: a part of those that are packed, since those of one round do not make room for each
+// other.
+constexpr std::uint32_t kLeastRound = 64, kMostRound = 16384;
+
+// The end: while this many spheres found room or used up all attempts above, less than one in kWorthwhile
+// found room.
+constexpr std::uint32_t kJudged = 4096, kWorthwhile = 16;
+
+struct Candidate {
+  std::uint32_t slot = 0, attempt = 0;
+  PackPlace place;
+  float radius = 0;  ///< 0: there is no room.
+  bool proposed = false;
+};
+
+std::string text_of(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", number);
+  return text;
+}
+
+std::string check_size(const glm::uvec3& size) {
+  const std::string found = "size: " + std::to_string(size.x) + "x" + std::to_string(size.y) + "x" +
+                            std::to_string(size.z) + " voxels; expected ";
+  for (int axis = 0; axis < 3; ++axis)
+    if (size[axis] < 1 || size[axis] > kMostVoxelsPerAxis)
+      return found + "1 to " + std::to_string(kMostVoxelsPerAxis) + " along each axis";
+  if (std::uint64_t{size.x} * size.y * size.z > kMostVoxels)
+    return found + "at most " + std::to_string(kMostVoxels) + " in all";
+  return "";
+}
+
+std::string check_radius(const PackOptions& options) {
+  const float most = static_cast<float>(std::min({options.size.x, options.size.y, options.size.z})) / 2;
+  const glm::vec2 radius = options.radius;
+  if (radius.x > 0 && radius.x <= radius.y && radius.y <= most) return "";
+  return "radius: from " + text_of(radius.x) + " to " + text_of(radius.y) +
+         " voxels; expected 0 < least <= largest <= " + text_of(most) +
+         ", which is half of the tank's shortest side";
+}
+
+/// What is out of range, or nothing.
+std::string check_options(const PackOptions& options) {
+  const auto number = [](const char* name, double value, double low, double high) {
+    if (value >= low && value <= high) return std::string();
+    return name + (": " + text_of(value)) + "; expected " + text_of(low) + " to " + text_of(high);
+  };
+  const std::string checks[] = {
+      check_size(options.size),
+      options.voxel > 0 && options.voxel <= std::numeric_limits<float>::max()
+          ? ""
+          : "voxel: " + text_of(double{options.voxel}) + "; expected a finite edge above 0",
+      options.count <= kMostSpheres ? ""
+                                    : "count: " + std::to_string(options.count) + " spheres; expected 0 to " +
+                                          std::to_string(kMostSpheres),
+      check_radius(options),
+      number("distribution", double{options.distribution}, 0, 8),
+      options.arrangement <= Arrangement::coral ? "" : "arrangement: unknown",
+      number("noise_size", double{options.noise_size}, 1, 65536),
+      number("opacity", double{options.opacity}, 0, 1)};
+  for (const std::string& check : checks)
+    if (!check.empty()) return check;
+  return "";
+}
+
+/// The quantile of the power law: a fraction `u` of all spheres has radii up to this.
+float radius_at(const PackOptions& options, double u) {
+  const double low = double{options.radius.x}, ratio = double{options.radius.y} / low;
+  const double power = 1 - double{options.distribution};
+  const double factor =
+      std::abs(power) < 1e-6 ? std::pow(ratio, u) : std::pow(1 + u * (std::pow(ratio, power) - 1), 1 / power);
+  return std::clamp(static_cast<float>(low * factor), options.radius.x, options.radius.y);
+}
+
+float radius_of_slot(const PackOptions& options, std::uint32_t slot) {
+  const double u = PackRandom(options.seed, kRadiusStream, slot).unit();
+  if (options.arrangement == Arrangement::random) return radius_at(options, u);
+  // One in each equal part of all fractions: in order without sorting.
+  return radius_at(options, (options.count - 1.0 - slot + u) / options.count);
+}
+
+/// The least radius that an attempt accepts: the whole, then falling geometrically to the least of all.
+float least_of_attempt(const PackOptions& options, float radius, std::uint32_t attempt) {
+  if (attempt < kWhole) return radius;
+  if (attempt >= kWhole + kShrinking) return options.radius.x;
+  const double part = (attempt - kWhole + 1.0) / kShrinking;
+  const double least = radius * std::pow(double{options.radius.x} / radius, part);
+  return std::clamp(static_cast<float>(least), options.radius.x, radius);
+}
+
+/// The radius that the tank's sides leave a sphere.
+double room_of_sides(const glm::dvec3& at, const glm::uvec3& size) {
+  const glm::dvec3 sides = glm::min(at, glm::dvec3(size) - at);
+  return std::min({sides.x, sides.y, sides.z});
+}
+
+float rounded_down(double radius) {
+  const auto rounded = static_cast<float>(radius);
+  return double{rounded} > radius ? std::nextafter(rounded, 0.0f) : rounded;
+}
+
+class Packing {
+ public:
+  Packing(const PackOptions& options, const std::function<bool()>& stopped)
+      : options_(options),
+        stopped_(stopped),
+        spheres_(options.size, options.radius.y, options.count),
+        places_(make_pack_places(options, spheres_)),
+        progress_("pack spheres", options.count) {}
+
+  Tank run() {
+    while (!is_stopped_ && fill_round()) {
+      find_room();
+      if (is_stopped_) break;
+      commit();
+      if (is_full_) break;
+    }
+    return tank();
+  }
+
+ private:
+  /// Adds spheres that were not tried yet to those that were refused. Whether there are any.
+  bool fill_round() {
+    const std::uint32_t most = places_->most_at_once();
+    const std::uint32_t size = std::min(std::clamp(spheres_.count() / 4, kLeastRound, kMostRound), most);
+    while (round_.size() < size && next_slot_ < options_.count)
+      round_.push_back({next_slot_++, 0, {}, 0, false});
+    active_ = std::min<std::size_t>(round_.size(), size);
+    return !round_.empty();
+  }
+
+  void try_candidate(Candidate& candidate) const {
+    const float radius = radius_of_slot(options_, candidate.slot);
+    PackTry what{candidate.slot, candidate.attempt, radius,
+                 least_of_attempt(options_, radius, candidate.attempt)};
+    if (places_->keeps_radius()) what.radius = what.least;
+    candidate.radius = 0;
+    const auto place = places_->propose(what);
+    candidate.proposed = place.has_value();
+    if (!place) return;
+    candidate.place = *place;
+    const glm::dvec3 center(place->center);
+    const double most = std::min(double{what.radius}, room_of_sides(center, options_.size));
+    if (most < double{what.least}) return;
+    const float room = rounded_down(spheres_.room(center, most, double{what.least}));
+    if (room >= options_.radius.x) candidate.radius = room;
+  }
+
+  void find_room() {
+    parallel_for(active_, kTask, [&](std::size_t begin, std::size_t end) {
+      if (is_stopped_ || (stopped_ && stopped_())) {
+        is_stopped_ = true;
+        return;
+      }
+      for (std::size_t i = begin; i < end; ++i) try_candidate(round_[i]);
+    });
+  }
+
+  /// Of those that found room, the numbers in this round of those that an earlier one is in the way of.
+  std::vector<bool> refused_by_round(std::uint32_t first) const {
+    // All pairs that overlap.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // later, earlier
+    std::mutex mutex;
+    parallel_for(spheres_.count() - first, kTask, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t> found;
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t later = first + static_cast<std::uint32_t>(i);
+        found.clear();
+        spheres_.overlaps(later, first, found);
+        if (found.empty()) continue;
+        const std::lock_guard lock(mutex);
+        for (const std::uint32_t earlier : found) pairs.emplace_back(later - first, earlier - first);
+      }
+    });
+
+    // In order, since what was refused is in nobody's way.
+    std::sort(pairs.begin(), pairs.end());
+    std::vector<bool> refused(spheres_.count() - first);
+    for (const auto& [later, earlier] : pairs)
+      if (!refused[earlier]) refused[later] = true;
+    return refused;
+  }
+
+  void commit() {
+    // Those that fit, as if there were no others.
+    const std::uint32_t first = spheres_.count();
+    for (std::size_t i = 0; i < active_; ++i)
+      if (round_[i].radius > 0) spheres_.push({round_[i].place.center, round_[i].radius});
+    const std::vector<bool> refused = refused_by_round(first);
+    while (spheres_.count() > first) spheres_.pop();
+
+    // Those that stay, and what to try again.
+    std::size_t number = 0, kept = 0;
+    for (std::size_t i = 0; i < round_.size(); ++i) {
+      Candidate& candidate = round_[i];
+      if (i >= active_) {
+        round_[kept++] = candidate;
+        continue;
+      }
+      if (candidate.radius > 0 && !refused[number++]) {
+        spheres_.push({candidate.place.center, candidate.radius});
+        places_->added(spheres_.count() - 1, candidate.place);
+        continue;
+      }
+      if (candidate.proposed) places_->refused(candidate.place);
+      if (++candidate.attempt % (kWhole + kShrinking + kLeast) == 0) ++vain_;
+      round_[kept++] = candidate;
+    }
+    round_.resize(kept);
+    progress_.advance(spheres_.count() - first);
+    judge(spheres_.count() - first);
+  }
+
+  void judge(std::uint32_t added) {
+    added_ += added;
+    if (added_ + vain_ < kJudged) return;
+    is_full_ = added_ * kWorthwhile < vain_;
+    added_ = vain_ = 0;
+  }
+
+  Tank tank() const {
+    Tank tank{options_.size, options_.voxel, {}, {}};
+    tank.spheres.resize(spheres_.count());
+    tank.colors.resize(spheres_.count());
+    const auto opacity = static_cast<Color>(std::lround(options_.opacity * 255));
+    parallel_for(tank.spheres.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto number = static_cast<std::uint32_t>(i);
+        tank.spheres[i] = spheres_[number];
+        Color color = 0xffffff;
+        if (!options_.palette.empty())
+          color = options_.palette[PackRandom(options_.seed, kColorStream, number)
+                                       .below(static_cast<std::uint32_t>(options_.palette.size()))];
+        tank.colors[i] = (color & 0xffffff) | opacity << 24;
+      }
+    });
+    return tank;
+  }
+
+  const PackOptions& options_;
+  const std::function<bool()>& stopped_;
+  PackLevels spheres_;
+  std::unique_ptr<PackPlaces> places_;
+  Progress progress_;
+  std::vector<Candidate> round_;  ///< What is tried, in the order of slots.
+  std::size_t active_ = 0;        ///< Of `round_`, those that this round tries.
+  std::uint32_t next_slot_ = 0, added_ = 0, vain_ = 0;
+  std::atomic<bool> is_stopped_{false};
+  bool is_full_ = false;
+};
+
+}  // namespace
+
+Result<Tank> pack(const PackOptions& options, const std::function<bool()>& stopped) {
+  if (const std::string fault = check_options(options); !fault.empty())
+    return Failure{ErrorCode::usage, fault};
+  return Packing(options, stopped).run();
+}
+
+}  // namespace brume::spheres
