@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "planning/device_camera.hpp"
+#include "spheres/trace.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -90,6 +91,18 @@ glm::vec3 dragged(const scene::Camera& camera, glm::vec2 drag, const glm::vec3& 
 float depth_of(const scene::Camera& camera, const glm::vec3& world) {
   const glm::vec3 forward = glm::normalize(camera.target_world - camera.position_world);
   return std::max(glm::dot(world - camera.position_world, forward), planning::kNearPlane);
+}
+
+float distance_ahead(const scene::Camera& camera, const spheres::Tank& tank) {
+  const glm::dvec3 eye = glm::dvec3(camera.position_world) / double{tank.voxel} + 0.5 * glm::dvec3(tank.size);
+  const glm::dvec3 forward =
+      glm::normalize(glm::dvec3(camera.target_world) - glm::dvec3(camera.position_world));
+  std::optional<double> nearest;
+  for (const spheres::Sphere& sphere : tank.spheres)
+    if (const auto chord = spheres::chord_of(sphere, eye, forward); chord && chord->x > 0)
+      nearest = std::min(nearest.value_or(chord->x), chord->x);
+  if (!nearest) return depth_of(camera, glm::vec3(0));
+  return std::max(static_cast<float>(*nearest * double{tank.voxel}), planning::kNearPlane);
 }
 
 }  // namespace brume::viewer

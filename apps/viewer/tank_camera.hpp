@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/scene.hpp"
+#include "spheres/tank.hpp"
 
 namespace brume::viewer {
 
@@ -25,5 +26,9 @@ std::optional<glm::vec2> in_picture(const scene::Camera& camera, glm::vec2 size,
 glm::vec3 dragged(const scene::Camera& camera, glm::vec2 drag, const glm::vec3& world);
 /// The distance of a point along the view, at least that of the near plane [m].
 float depth_of(const scene::Camera& camera, const glm::vec3& world);
+
+/// The distance along the view of the first sphere in the middle of the picture, or of the tank's middle
+/// where there is none [m].
+float distance_ahead(const scene::Camera& camera, const spheres::Tank& tank);
 
 }  // namespace brume::viewer

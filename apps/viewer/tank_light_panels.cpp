@@ -28,10 +28,12 @@ KeyButtons lay_out_keys(std::size_t count) {
   return clicked;
 }
 
-/// A light beside the camera's view, a quarter of the tank's height above its middle.
+/// A light in the upper part of the view, between the camera and its target.
 scene::TankLight new_light(const TankState& state) {
   scene::TankLight light;
-  light.position_world = glm::vec3(0, 0.75f * state.size().y, 0.5f * state.size().z + 0.5f * state.size().y);
+  const scene::Camera camera = state.camera();
+  light.position_world =
+      dragged(camera, glm::vec2(0, -0.25f), glm::mix(camera.target_world, camera.position_world, 0.4f));
   light.radius = 0.04f * state.size().y;
   light.intensity = 4 * state.size().y * state.size().y;
   return light;

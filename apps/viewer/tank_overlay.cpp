@@ -69,13 +69,6 @@ void draw_mark(ImDrawList& list, const TankState& state, const TankHandle& handl
 
 const ImVec4 kNoticeText(1, 0.8f, 0.5f, 1), kFaultText(1, 0.45f, 0.4f, 1);
 
-/// "65,535"
-std::string grouped(std::size_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
-
 void lay_out_samples(const TankState& state, const TankStatus& status) {
   const std::uint32_t limit = state.scene().samples;
   const std::uint32_t done = std::min(status.samples, limit);
@@ -90,9 +83,7 @@ void lay_out_samples(const TankState& state, const TankStatus& status) {
       std::snprintf(rest, sizeof rest, "  %.3g/s  %.0f s left", progress.rate(), progress.seconds_left());
     ImGui::Text("%u of %u samples%s", done, limit, rest);
   }
-  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(0.93f, 0.66f, 0.30f, 0.9f));
-  ImGui::ProgressBar(static_cast<float>(done) / static_cast<float>(limit), ImVec2(-FLT_MIN, 4), "");
-  ImGui::PopStyleColor();
+  lay_out_bar(static_cast<double>(done) / static_cast<double>(limit), 4);
 }
 
 }  // namespace

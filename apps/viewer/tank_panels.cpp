@@ -8,6 +8,7 @@
 #include "apps/viewer/tank_ui.hpp"
 #include "apps/viewer/ui_parts.hpp"
 #include "apps/viewer/widgets.hpp"
+#include "palettes/choice.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -93,14 +94,13 @@ bool size_row(glm::uvec3& size) {
 }
 
 /// Rows for what no table of settings holds.
-bool pack_rows(spheres::PackOptions& pack, const spheres::PackOptions& file) {
-  bool changed = size_row(pack.size);
+bool radius_rows(spheres::PackOptions& pack, const spheres::PackOptions& file) {
   const double largest = 0.5 * std::min({pack.size.x, pack.size.y, pack.size.z});
   const scene::OptionInfo smallest_info{"smallest", "voxels", "`radius` in the file, its first number", 0.01,
                                         largest};
   const scene::OptionInfo largest_info{"largest", "voxels", "`radius` in the file, its second number", 0.01,
                                        largest};
-  const scene::OptionInfo seed_info{"seed", "", "another one: other places", 0, kMostSeeds};
+  bool changed = false;
   if (option_row(smallest_info, pack.radius.x, file.radius.x)) {
     pack.radius.y = std::max(pack.radius.x, pack.radius.y);
     changed = true;
@@ -109,12 +109,22 @@ bool pack_rows(spheres::PackOptions& pack, const spheres::PackOptions& file) {
     pack.radius.x = std::min(pack.radius.x, pack.radius.y);
     changed = true;
   }
-  auto seed = static_cast<std::uint32_t>(pack.seed);
-  if (option_row(seed_info, seed, static_cast<std::uint32_t>(file.seed))) {
-    pack.seed = seed;
-    changed = true;
-  }
   return changed;
+}
+
+bool seed_row(spheres::PackOptions& pack, const spheres::PackOptions& file) {
+  const scene::OptionInfo info{"seed", "", "another one: other places", 0, kMostSeeds};
+  auto seed = static_cast<std::uint32_t>(pack.seed);
+  if (!option_row(info, seed, static_cast<std::uint32_t>(file.seed))) return false;
+  pack.seed = seed;
+  return true;
+}
+
+/// "largest first"
+std::string shown_name(spheres::Arrangement arrangement) {
+  std::string name = scene::arrangement_name(arrangement);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 bool arrangement_row(spheres::Arrangement& arrangement) {
@@ -123,16 +133,46 @@ bool arrangement_row(spheres::Arrangement& arrangement) {
   ImGui::TextUnformatted("arrangement");
   ImGui::SameLine(0.42f * ImGui::GetWindowWidth());
   ImGui::SetNextItemWidth(-1);
-  if (!begin_combo("##arrangement", scene::arrangement_name(arrangement))) return false;
+  if (!begin_combo("##arrangement", shown_name(arrangement).c_str())) return false;
   for (std::uint32_t i = 0; i < scene::kArrangements; ++i) {
     const auto choice = spheres::Arrangement{i};
-    if (!selectable(scene::arrangement_name(choice), choice == arrangement)) continue;
+    if (!selectable(shown_name(choice).c_str(), choice == arrangement)) continue;
     changed = changed || choice != arrangement;
     arrangement = choice;
     ImGui::CloseCurrentPopup();
   }
   end_combo();
   return changed;
+}
+
+/// In which space the colours between those of the palette are.
+void space_row(TankState& state) {
+  std::string space = state.scene().palette_space;
+  bool changed = false;
+  for (const char* name : {"oklab", "linear", "srgb", "nearest"}) {
+    if (radio(name, space == name)) {
+      changed = changed || space != name;
+      space = name;
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("how colours between those of the palette are mixed");
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+  if (changed) state.edit().palette_space = space;
+}
+
+void lay_out_pack_button(const TankState& state, const TankStatus& status, TankRequests& requests) {
+  // While it packs, the window over the picture stops it.
+  if (status.work) return ImGui::TextDisabled("packing...");
+  if (button("Pack")) requests.pack = true;
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("in the background; the picture stays until it is done");
+  ImGui::SameLine();
+  if (state.differs_from_packed()) {
+    ImGui::TextColored(kTankChanged, "the picture shows the spheres before");
+  } else {
+    ImGui::TextDisabled("%s spheres%s", grouped(status.spheres).c_str(),
+                        state.is_complete() ? "" : ", stopped");
+  }
 }
 
 void lay_out_tank_files(const TankState& state, TankRequests& requests) {
@@ -167,34 +207,51 @@ void lay_out_packing(TankState& state, const TankStatus& status, TankRequests& r
     if (button("pack others instead")) state.edit().file.clear();
     return;
   }
-  bool changed = pack_rows(scene.pack, state.file().pack);
-  changed = arrangement_row(scene.pack.arrangement) || changed;
-  changed = tank_rows(
-                scene.pack, state.file().pack, [](auto& o, auto&& v) { scene::visit_pack_options(o, v); },
-                [&](std::string_view key) {
-                  return key != "noise_size" || scene.pack.arrangement == spheres::Arrangement::noise;
-                }) ||
-            changed;
+  spheres::PackOptions& pack = scene.pack;
+  const spheres::PackOptions& file = state.file().pack;
+  bool changed = false;
+  const auto rows = [&](std::string_view key) {
+    const auto visit = [](auto& o, auto&& v) { scene::visit_pack_options(o, v); };
+    changed = tank_rows(pack, file, visit, [&](std::string_view each) { return each == key; }) || changed;
+  };
+  rows("spheres");
+  changed = radius_rows(pack, file) || changed;
+  rows("distribution");
+  changed = arrangement_row(pack.arrangement) || changed;
+  if (pack.arrangement == spheres::Arrangement::noise) rows("noise_size");
+  changed = seed_row(pack, file) || changed;
+  rows("opacity");
+  changed = size_row(pack.size) || changed;
+  rows("voxel");
   if (changed) state.edit() = scene;
 
-  // While it packs, the window over the picture stops it.
-  if (status.work) return ImGui::TextDisabled("packing...");
-  if (button("Pack")) requests.pack = true;
-  ImGui::SameLine();
-  if (state.differs_from_packed()) {
-    ImGui::TextColored(kTankChanged, "the picture shows the spheres before");
-  } else {
-    ImGui::TextDisabled("%zu spheres%s", status.spheres, state.is_complete() ? "" : ", stopped");
-  }
+  lay_out_pack_button(state, status, requests);
 }
 
-void lay_out_palette(TankState& state) {
+void lay_out_palette(TankState& state, TankChoices& choices, const TankStatus& status,
+                     TankRequests& requests) {
+  if (!state.scene().file.empty()) return ImGui::TextDisabled("the spheres have the colours of their file");
+  // What the text chooses, once for each text: a file may be behind it.
   std::string palette = state.scene().palette;
+  if (palette != choices.palette_text) {
+    choices.palette_text = palette;
+    choices.palette = {};
+    if (const auto choice = palettes::parse_palette_choice(palette))
+      choices.palette = {choice->palette.name, static_cast<float>(choice->low),
+                         static_cast<float>(choice->high)};
+  }
+  if (lay_out_palettes(choices.palettes, palettes::built_in(), choices.palette, 12 * ImGui::GetFontSize())) {
+    const PaletteSelection& chosen = choices.palette;
+    choices.palette_text = palettes::choice_text(chosen.name, double{chosen.low}, double{chosen.high});
+    state.edit().palette = choices.palette_text;
+  }
+  palette = state.scene().palette;
   ImGui::SetNextItemWidth(0.6f * ImGui::GetWindowWidth());
   if (text_field("palette", &palette)) state.edit().palette = palette;
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("NAME, or NAME:0.2-0.6 for a part of it; empty: white");
-  // The list of palettes (palette_list.hpp) goes here: lay_out_palettes(...), whose choice becomes
-  // `state.edit().palette`.
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("NAME, NAME:0.2-0.6 for a part of it, or a .gpl or .json file; empty: white");
+  space_row(state);
+  lay_out_pack_button(state, status, requests);
 }
 
 void lay_out_tank_panels(TankState& state, TankChoices& choices, const TankStatus& status,
@@ -218,7 +275,7 @@ void lay_out_tank_panels(TankState& state, TankChoices& choices, const TankStatu
   if (header("Camera and lens", false)) lay_out_lens(state, requests);
   if (header("Sky and fog", false)) lay_out_sky(state);
   if (header("Packing", false)) lay_out_packing(state, status, requests);
-  if (header("Palette", false)) lay_out_palette(state);
+  if (header("Palette", false)) lay_out_palette(state, choices, status, requests);
   if (header("Files", false)) lay_out_tank_files(state, requests);
   if (header("Figures", false)) lay_out_tank_figures(state, status);
   ImGui::End();

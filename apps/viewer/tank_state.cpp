@@ -96,9 +96,9 @@ void TankState::go_home() {
   follows_path_ = true;
 }
 
-void TankState::focus_on_middle() {
+void TankState::focus_on_middle(const spheres::Tank& tank) {
   scene::Camera focused = camera();
-  focused.lens.focus = depth_of(focused, glm::vec3(0));
+  focused.lens.focus = distance_ahead(focused, tank);
   move_camera(focused);
 }
 

@@ -51,8 +51,8 @@ class TankState {
   void move_camera(const scene::Camera& camera);
   /// To where the scene's camera is.
   void go_home();
-  /// Focuses on the point in the middle of the tank.
-  void focus_on_middle();
+  /// Focuses on what is in the middle of the picture.
+  void focus_on_middle(const spheres::Tank& tank);
   /// A key of the camera, of a light or of the glass where it is now; replaces one of the same time.
   void add_camera_key();
   void add_light_key(std::size_t index);

@@ -37,6 +37,18 @@ void mark_keys(const scene::TankScene& scene, ImVec2 at, ImVec2 size) {
 
 }  // namespace
 
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
+void lay_out_bar(double fraction, float height) {
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(0.93f, 0.66f, 0.30f, 0.9f));
+  ImGui::ProgressBar(static_cast<float>(std::min(fraction, 1.0)), ImVec2(-FLT_MIN, height), "");
+  ImGui::PopStyleColor();
+}
+
 void lay_out_tank_work(const TankWork& work, TankRequests& requests) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float width = std::min(26 * ImGui::GetFontSize(), display.x - 2 * kMargin);
@@ -49,12 +61,11 @@ void lay_out_tank_work(const TankWork& work, TankRequests& requests) {
   if (work.progress && work.progress->total > 0) {
     const Progress::State& now = *work.progress;
     const double fraction = static_cast<double>(now.done) / static_cast<double>(now.total);
-    ImGui::ProgressBar(static_cast<float>(std::min(fraction, 1.0)),
-                       ImVec2(-FLT_MIN, 0.7f * ImGui::GetFontSize()), "");
+    lay_out_bar(fraction, 0.7f * ImGui::GetFontSize());
     char left[48] = "";
     if (now.seconds_left() >= 0) std::snprintf(left, sizeof left, ", %.0f s left", now.seconds_left());
-    ImGui::TextDisabled("%s: %llu of %llu%s", now.name.c_str(), static_cast<unsigned long long>(now.done),
-                        static_cast<unsigned long long>(now.total), left);
+    ImGui::TextDisabled("%s: %s of %s%s", now.name.c_str(), grouped(now.done).c_str(),
+                        grouped(now.total).c_str(), left);
   }
   if (work.can_stop) {
     if (work.stops) {

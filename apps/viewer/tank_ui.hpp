@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/viewer/keys.hpp"
+#include "apps/viewer/palette_list.hpp"
 #include "apps/viewer/tank_state.hpp"
 #include "core/progress.hpp"
 #include "gpu/timings.hpp"
@@ -18,6 +19,9 @@ struct TankChoices {
   bool panels = false, overlay = true, help = false;
   bool vertical_sync = true;
   std::optional<TankHandle> selected;  ///< What is dragged, or was last.
+  PaletteListState palettes;
+  PaletteSelection palette;  ///< What `palette_text`, the scene's, chooses.
+  std::string palette_text;
 };
 
 /// Work of another thread.
@@ -56,6 +60,11 @@ TankRequests lay_out_tank(TankState& state, TankChoices& choices, const TankStat
 /// The same while the first tank is made: its name, and the work that goes on.
 TankRequests lay_out_tank_loading(const std::string& name, const TankWork& work);
 
+/// "65,535"
+std::string grouped(std::uint64_t number);
+/// How much of some work is done, as wide as its window and so high [px].
+void lay_out_bar(double fraction, float height);
+
 // The parts of lay_out_tank.
 void lay_out_tank_marks(const TankState& state, const TankChoices& choices, const TankStatus& status);
 void lay_out_tank_overlay(const TankState& state, const TankChoices& choices, const TankStatus& status);
@@ -65,7 +74,8 @@ void lay_out_tank_panels(TankState& state, TankChoices& choices, const TankStatu
                          TankRequests& requests);
 // Sections of the panels.
 void lay_out_packing(TankState& state, const TankStatus& status, TankRequests& requests);
-void lay_out_palette(TankState& state);
+void lay_out_palette(TankState& state, TankChoices& choices, const TankStatus& status,
+                     TankRequests& requests);
 void lay_out_lights(TankState& state, TankChoices& choices);
 void lay_out_glass(TankState& state);
 void lay_out_lens(TankState& state, TankRequests& requests);

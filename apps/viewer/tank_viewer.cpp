@@ -206,7 +206,7 @@ void TankViewer::act(Action action) {
   if (action == Action::redo) state_->redo();
   if (action == Action::camera_path) state_->set_follows_path(!state_->follows_path());
   if (action == Action::home) state_->go_home();
-  if (action == Action::focus) state_->focus_on_middle();
+  if (action == Action::focus) state_->focus_on_middle(tank_);
   if (action == Action::panels) choices_.panels = !choices_.panels;
   if (action == Action::overlay) choices_.overlay = !choices_.overlay;
   if (action == Action::help) choices_.help = !choices_.help;

@@ -22,7 +22,7 @@ void TankSpheresPass::record(gpu::Recorder& recorder, const TankInputs& inputs, 
                              const shared::TankSamples& samples, std::uint32_t rows) {
   const gpu::ComputePipeline& used = pipeline(inputs.volume);
   recorder.bind(used,
-                {{shared::kBindTank, gpu::uniform(inputs.constants)},
+                {{shared::kBindTank, gpu::read(inputs.constants)},
                  {shared::kBindTankLights, gpu::read(inputs.lights)},
                  {shared::kBindSpheres, gpu::read(inputs.volume.spheres)},
                  {shared::kBindSphereColors, gpu::read(inputs.volume.sphere_colors)},
@@ -43,7 +43,7 @@ void TankVoxelsPass::record(gpu::Recorder& recorder, const TankInputs& inputs, c
                             const TankTargets& targets, const shared::TankSamples& samples,
                             std::uint32_t rows) const {
   recorder.bind(pipeline_,
-                {{shared::kBindTank, gpu::uniform(inputs.constants)},
+                {{shared::kBindTank, gpu::read(inputs.constants)},
                  {shared::kBindSphereBricks, gpu::read(inputs.volume.brick_ranges)},
                  {shared::kBindVoxelColors, gpu::sampled(inputs.volume.colors, nearest_)},
                  {shared::kBindVoxelLight, gpu::sampled(voxel_light, nearest_)},

@@ -16,8 +16,8 @@ gpu::Image picture_image(gpu::Context& context, glm::uvec2 size_px, VkFormat for
   return gpu::Image(context, info);
 }
 
-gpu::Buffer uniform_buffer(gpu::Context& context, std::size_t bytes) {
-  return gpu::Buffer(context, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+gpu::Buffer constants_buffer(gpu::Context& context, std::size_t bytes, VkBufferUsageFlags usage) {
+  return gpu::Buffer(context, bytes, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
 }  // namespace
@@ -38,8 +38,9 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
       sum_(picture_image(context, size_px, VK_FORMAT_R32G32B32A32_SFLOAT)),
       radiance_(picture_image(context, size_px, VK_FORMAT_R16G16B16A16_SFLOAT)),
       shown_(picture_image(context, size_px, VK_FORMAT_R8G8B8A8_UNORM)),
-      constants_(uniform_buffer(context, sizeof(shared::TankConstants))),
-      frame_(uniform_buffer(context, sizeof(shared::FrameConstants))) {
+      constants_(
+          constants_buffer(context, sizeof(shared::TankConstants), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+      frame_(constants_buffer(context, sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)) {
   gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
   runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
   if (with_ids) {
