@@ -130,7 +130,7 @@ vec3 path_radiance(vec3 origin, vec3 direction, inout SampleSource source) {
 }
 
 void main() {
-  const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
+  const ivec2 px = sampled_pixel();
   if (any(greaterThanEqual(uvec2(px), tank.size_px))) return;
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < samples.count; ++i) {

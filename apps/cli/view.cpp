@@ -5,35 +5,16 @@
 #include "apps/cli/json.hpp"
 #include "apps/cli/parse.hpp"
 #include "apps/cli/scene_options.hpp"
+#include "apps/cli/view_options.hpp"
+#include "apps/cli/view_tank.hpp"
 #include "apps/viewer/quality.hpp"
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/viewer.hpp"
 #include "core/error.hpp"
 #include "image/decode.hpp"
+#include "scenario/tank.hpp"
 
 namespace brume::cli {
-namespace {
-
-struct ViewOptions {
-  std::string input, play, size = "1280x720", device, quality = "auto", view = "none", word = "BRUME",
-                           picture, folder = ".", screenshot, record, frame_log, json;
-  std::string shaders;
-  SceneOptions scene;
-  std::uint32_t volume_memory = 0;  // [MiB]
-  double frames_per_second = 60;
-  std::optional<double> time, exit_after, lose_device, lose_surface;
-  bool panels = false, bare = false, no_vertical_sync = false, validation = false, log_widgets = false;
-};
-
-std::vector<std::string> quality_names() {
-  std::vector<std::string> names{"auto"};
-  for (const viewer::Quality& quality : viewer::quality_levels()) names.emplace_back(quality.name);
-  return names;
-}
-
-std::vector<std::string> view_names() {
-  return {passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()};
-}
 
 viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   viewer::ViewerOptions viewer;
@@ -65,6 +46,25 @@ viewer::ViewerOptions viewer_options(const ViewOptions& options) {
   viewer.lose_device = options.lose_device;
   viewer.lose_surface = options.lose_surface;
   return viewer;
+}
+
+void expect_no_messages(const std::vector<std::string>& validation_messages) {
+  if (validation_messages.empty()) return;
+  throw Error(ErrorCode::internal, "the validation layers reported " +
+                                       std::to_string(validation_messages.size()) +
+                                       " errors; the first: " + validation_messages.front());
+}
+
+namespace {
+
+std::vector<std::string> quality_names() {
+  std::vector<std::string> names{"auto"};
+  for (const viewer::Quality& quality : viewer::quality_levels()) names.emplace_back(quality.name);
+  return names;
+}
+
+std::vector<std::string> view_names() {
+  return {passes::kDebugViewNames.begin(), passes::kDebugViewNames.end()};
 }
 
 void write_report(const std::string& target, const viewer::ViewerReport& report) {
@@ -109,7 +109,7 @@ void check_inputs(const ViewOptions& options) {
                                       " bytes with at least one letter, such as BRUME");
 }
 
-void view(const ViewOptions& options, Outputs& outputs) {
+void view(const Arguments& arguments, const ViewOptions& options, Outputs& outputs) {
   if (!options.input.empty() && !options.play.empty())
     throw Error(ErrorCode::usage, "--play: already names the timeline; remove INPUT");
   if (!options.screenshot.empty() && !options.exit_after)
@@ -119,6 +119,7 @@ void view(const ViewOptions& options, Outputs& outputs) {
   const std::filesystem::path input = plays                   ? options.play
                                       : options.input.empty() ? data_file("scenes/demo.toml").string()
                                                               : options.input;
+  if (scenario::is_tank_input(input)) return view_tank(arguments, options, input, outputs);
   viewer::ViewerOptions viewer = viewer_options(options);
   scenario::FirstViewOptions first_view = parse_scene_options(options.scene);
   first_view.aspect = static_cast<float>(viewer.size_px.x) / static_cast<float>(viewer.size_px.y);
@@ -138,10 +139,7 @@ void view(const ViewOptions& options, Outputs& outputs) {
   };
   const viewer::ViewerReport report = viewer::run_viewer(load, plays, viewer);
   write_report(options.json, report);
-  if (report.validation_messages.empty()) return;
-  throw Error(ErrorCode::internal, "the validation layers reported " +
-                                       std::to_string(report.validation_messages.size()) +
-                                       " errors; the first: " + report.validation_messages.front());
+  expect_no_messages(report.validation_messages);
 }
 
 /// What the window starts with, and what it leaves behind.
@@ -190,8 +188,10 @@ Command add_view(CommandLine& program) {
               "  brume view --play scenes/demo.toml      # play the events of the timeline\n"
               "  brume view --play scenes/demo.toml --exit-after 3 --screenshot end.png --size 640x360");
   auto options = std::make_shared<ViewOptions>();
-  const Arguments& arguments = command.arguments;
-  arguments.add_option("INPUT", options->input, "Scene, or timeline (.toml) whose events are ignored")
+  const Arguments arguments = command.arguments;
+  arguments
+      .add_option("INPUT", options->input,
+                  "Scene, timeline (.toml) whose events are ignored, or tank of spheres")
       .type_name("");
   arguments.add_option("--play", options->play, "Timeline to play").type_name("FILE");
   arguments.add_option("--time", options->time, "Start at this time [s]; paused, without --exit-after")
@@ -223,7 +223,7 @@ Command add_view(CommandLine& program) {
   // It saves its session before it ends.
   command.common->grace_seconds = 5;
   declare_tests(arguments, *options);
-  command.run = [options, common = command.common] { view(*options, common->outputs); };
+  command.run = [arguments, options, common = command.common] { view(arguments, *options, common->outputs); };
   return command;
 }
 

@@ -8,6 +8,7 @@ namespace brume::viewer {
 namespace {
 
 constexpr const char *kWalks = "walk; in flight, along the view", *kRuns = "run; in flight, down";
+constexpr const char* kGlides = "glide along the view, and across it";
 constexpr const char* kShapes = "shoot bullets, letters, word, image";
 constexpr Modifiers kShift{true, false}, kControl{false, true}, kControlShift{true, true};
 
@@ -18,7 +19,9 @@ const char* name_of(KeyGroup group) {
   return kNames[static_cast<std::size_t>(group)];
 }
 
-std::span<const KeyBinding> key_bindings() {
+namespace {
+
+std::span<const KeyBinding> level_bindings() {
   using enum KeyGroup;
   static constexpr std::array kBindings{
       KeyBinding{Action::forward, move, false, GLFW_KEY_W, "W", kWalks},
@@ -66,9 +69,49 @@ std::span<const KeyBinding> key_bindings() {
   return kBindings;
 }
 
-std::optional<Action> action_of(bool mouse, int code, Modifiers held) {
+std::span<const KeyBinding> tank_bindings() {
+  using enum KeyGroup;
+  static constexpr std::array kBindings{
+      KeyBinding{Action::orbit, move, true, GLFW_MOUSE_BUTTON_LEFT, "Mouse left",
+                 "drag: around the tank; a light, or the glass, by its mark"},
+      KeyBinding{Action::pan, move, true, GLFW_MOUSE_BUTTON_RIGHT, "Mouse right", "drag: aside"},
+      KeyBinding{Action::pan, move, true, GLFW_MOUSE_BUTTON_MIDDLE, "Mouse right", "drag: aside"},
+      KeyBinding{Action::forward, move, false, GLFW_KEY_W, "W", kGlides},
+      KeyBinding{Action::left, move, false, GLFW_KEY_A, "A", kGlides},
+      KeyBinding{Action::back, move, false, GLFW_KEY_S, "S", kGlides},
+      KeyBinding{Action::right, move, false, GLFW_KEY_D, "D", kGlides},
+      KeyBinding{Action::up, move, false, GLFW_KEY_SPACE, "Space", "up"},
+      KeyBinding{Action::down, move, false, GLFW_KEY_LEFT_SHIFT, "Shift", "down"},
+      KeyBinding{Action::down, move, false, GLFW_KEY_RIGHT_SHIFT, "Shift", "down"},
+      KeyBinding{Action::home, move, false, GLFW_KEY_HOME, "Home", "where the camera of the scene is"},
+      KeyBinding{Action::camera_path, move, false, GLFW_KEY_C, "C", "follow the camera's path, or not"},
+      KeyBinding{Action::focus, act, false, GLFW_KEY_F, "F", "focus on the middle of the view"},
+      KeyBinding{Action::undo, act, false, GLFW_KEY_Z, "Ctrl+Z", "undo a setting", kControl},
+      KeyBinding{Action::redo, act, false, GLFW_KEY_Y, "Ctrl+Y", "redo (also Ctrl+Shift+Z)", kControl},
+      KeyBinding{Action::redo, act, false, GLFW_KEY_Z, "Ctrl+Y", "redo (also Ctrl+Shift+Z)", kControlShift},
+      KeyBinding{Action::pause, time, false, GLFW_KEY_P, "P", "play or pause"},
+      KeyBinding{Action::rewind, time, false, GLFW_KEY_R, "R", "to the start"},
+      KeyBinding{Action::panels, view, false, GLFW_KEY_TAB, "Tab", "settings and time line"},
+      KeyBinding{Action::next_view, view, false, GLFW_KEY_V, "V", "spheres, or voxels"},
+      KeyBinding{Action::overlay, view, false, GLFW_KEY_O, "O", "show or hide text and marks"},
+      KeyBinding{Action::full_screen, view, false, GLFW_KEY_F11, "F11", "full screen"},
+      KeyBinding{Action::help, view, false, GLFW_KEY_H, "H", "this help"},
+      KeyBinding{Action::screenshot, files, false, GLFW_KEY_F12, "F12", "save the picture and its scene"},
+      KeyBinding{Action::save_recording, files, false, GLFW_KEY_F5, "F5", "save the scene"},
+      KeyBinding{Action::save_tank, files, false, GLFW_KEY_F6, "F6", "save the tank's spheres"},
+  };
+  return kBindings;
+}
+
+}  // namespace
+
+std::span<const KeyBinding> key_bindings(KeyMap map) {
+  return map == KeyMap::tank ? tank_bindings() : level_bindings();
+}
+
+std::optional<Action> action_of(bool mouse, int code, Modifiers held, KeyMap map) {
   std::optional<Action> plain;
-  for (const KeyBinding& binding : key_bindings()) {
+  for (const KeyBinding& binding : key_bindings(map)) {
     if (binding.mouse != mouse || binding.code != code) continue;
     if (binding.modifiers == held) return binding.action;
     if (binding.modifiers == Modifiers{} && !held.control) plain = binding.action;
@@ -76,10 +119,10 @@ std::optional<Action> action_of(bool mouse, int code, Modifiers held) {
   return plain;
 }
 
-std::vector<HelpRow> help_rows() {
+std::vector<HelpRow> help_rows(KeyMap map) {
   std::vector<HelpRow> rows;
   const char* last_name = "";
-  for (const KeyBinding& binding : key_bindings()) {
+  for (const KeyBinding& binding : key_bindings(map)) {
     const bool same = !rows.empty() && rows.back().group == binding.group && rows.back().does == binding.does;
     if (!same) rows.push_back({binding.group, binding.name, binding.does});
     if (same && last_name != std::string(binding.name)) rows.back().keys += std::string(" ") + binding.name;

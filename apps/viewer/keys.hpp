@@ -41,6 +41,12 @@ enum class Action {
   decals,
   screenshot,
   save_recording,
+  orbit,
+  pan,
+  camera_path,
+  home,
+  focus,
+  save_tank,
   panels,
   overlay,
   full_screen,
@@ -48,6 +54,9 @@ enum class Action {
   count,
 };
 constexpr std::size_t kActions = static_cast<std::size_t>(Action::count);
+
+/// What the keys control.
+enum class KeyMap { level, tank };
 
 enum class KeyGroup { move, act, time, view, files, count };
 const char* name_of(KeyGroup group);
@@ -68,11 +77,11 @@ struct KeyBinding {
   Modifiers modifiers = {};
 };
 
-/// All bindings in the order of the help. An action may have several.
-std::span<const KeyBinding> key_bindings();
+/// All bindings in the order of the help. An action may have several; some have none in a map.
+std::span<const KeyBinding> key_bindings(KeyMap map = KeyMap::level);
 
 /// The action of a key: of the binding with these modifiers, else, without Control, of the one with none.
-std::optional<Action> action_of(bool mouse, int code, Modifiers held);
+std::optional<Action> action_of(bool mouse, int code, Modifiers held, KeyMap map = KeyMap::level);
 
 /// A row of the help: consecutive bindings with one description.
 struct HelpRow {
@@ -80,6 +89,6 @@ struct HelpRow {
   std::string keys;  ///< "W A S D"
   std::string does;
 };
-std::vector<HelpRow> help_rows();
+std::vector<HelpRow> help_rows(KeyMap map = KeyMap::level);
 
 }  // namespace brume::viewer

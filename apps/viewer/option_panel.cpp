@@ -124,6 +124,16 @@ bool option_row(const scene::OptionInfo& info, float& value, float file) {
   return changed || row.restores();
 }
 
+bool drag_row(const scene::OptionInfo& info, float& value, float file) {
+  Row row(info, value != file, number(file));
+  const float speed = 0.01f * std::max(std::abs(value), 0.1f);
+  const bool changed = drag(row.id(), &value, speed, static_cast<float>(info.low),
+                            static_cast<float>(info.high), format_of(info).c_str());
+  row.add_part();
+  if (row.restores()) value = file;
+  return changed || row.restores();
+}
+
 bool option_row(const scene::OptionInfo& info, std::uint32_t& value, std::uint32_t file) {
   Row row(info, value != file, std::to_string(file));
   const bool changed = slider(row.id(), &value, static_cast<std::uint32_t>(info.low),

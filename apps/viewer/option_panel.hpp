@@ -22,6 +22,8 @@ bool option_row(const scene::OptionInfo& info, float& value, float file);
 bool option_row(const scene::OptionInfo& info, std::uint32_t& value, std::uint32_t file);
 bool option_row(const scene::OptionInfo& info, glm::vec3& value, glm::vec3 file);
 bool option_row(const scene::OptionInfo& info, std::optional<float>& value, std::optional<float> file);
+/// The same for a range that no slider resolves: dragged, the faster the larger it is.
+bool drag_row(const scene::OptionInfo& info, float& value, float file);
 /// The same for a vector that is no colour.
 bool vector_row(const scene::OptionInfo& info, glm::vec3& value, glm::vec3 file);
 /// The same for a number of voxels, shown as their volume.

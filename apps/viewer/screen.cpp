@@ -1,7 +1,5 @@
 #include "apps/viewer/screen.hpp"
 
-#include <imgui.h>
-
 #include <chrono>
 #include <cstring>
 
@@ -10,15 +8,6 @@
 
 namespace brume::viewer {
 namespace {
-
-gpu::Image make_canvas(gpu::Context& context, glm::uvec2 size_px) {
-  gpu::ImageInfo info;
-  info.format = VK_FORMAT_R8G8B8A8_UNORM;  // as Renderer::display: already sRGB-encoded
-  info.size = {size_px, 1};
-  info.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
-  return gpu::Image(context, info);
-}
 
 render::RendererOptions renderer_options(const scenario::Scenario& scenario, glm::uvec2 size_px) {
   render::RendererOptions options{size_px};
@@ -36,12 +25,8 @@ glm::uvec2 scaled(glm::uvec2 size_px, float scale) {
 
 Screen::Screen(const Window& window, const ScreenOptions& options)
     : context_({options.device, options.validation, window.presentation()}) {
-  const glm::uvec2 size_px = glm::max(window.size_px(), glm::uvec2(1));
   runner_.emplace(context_);
-  swapchain_.emplace(context_, window.surface(), options.vertical_sync);
-  ui_.emplace(context_, *runner_, VK_FORMAT_R8G8B8A8_UNORM);
-  upscale_.emplace(context_);
-  canvas_ = make_canvas(context_, size_px);
+  canvas_.emplace(context_, *runner_, window, options.vertical_sync);
 }
 
 void Screen::load(const scenario::Scenario& scenario, glm::uvec2 size_px, std::uint64_t volume_bytes) {
@@ -75,36 +60,23 @@ void Screen::set_resolution(glm::uvec2 picture_px, std::uint32_t march_scale) {
 }
 
 bool Screen::show(const render::FrameInput* input, const Quality& quality, const ImDrawData& ui) {
-  const auto image = swapchain_->acquire();
-  if (!image) return false;
+  const auto size_px = canvas_->begin();
+  if (!size_px) return false;
   const auto begin = std::chrono::steady_clock::now();
-  if (image->size_px != glm::uvec2(canvas_.info().size)) canvas_ = make_canvas(context_, image->size_px);
   std::optional<render::FramePlan> plan;
   if (input) {
-    set_resolution(scaled(image->size_px, quality.picture_scale), quality.march_scale);
+    set_resolution(scaled(*size_px, quality.picture_scale), quality.march_scale);
     render::FrameInput frame = *input;
     frame.view.continues = input->view.continues && !history_lost_;
     history_lost_ = false;
     plan.emplace(renderer_->plan(frame));
   }
-  ui_->reserve(ui);
-  const bool same_size = picture_px() == image->size_px;
   const auto record = [&](gpu::Recorder& recorder) {
     if (plan) renderer_->record_frame(recorder, *plan);
-    const gpu::Scope scope(recorder, "window");
-    if (renderer_ && same_size) {
-      recorder.blit(renderer_->targets().display, canvas_, VK_FILTER_NEAREST);
-    } else if (renderer_) {
-      upscale_->record(recorder, renderer_->targets().display, canvas_);
-    } else {
-      recorder.clear(canvas_, VkClearColorValue{});
-    }
-    ui_->record(recorder, ui, canvas_);
-    recorder.blit(canvas_, *image);
   };
-  runner_->start(record, swapchain_->semaphores());
+  canvas_->submit(record, renderer_ ? &renderer_->targets().display : nullptr, ui);
   record_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  swapchain_->present();
+  canvas_->present();
   return true;
 }
 
@@ -117,7 +89,7 @@ void Screen::begin_still(render::FrameInput& input, glm::uvec2 size_px) {
 }
 
 bool Screen::refine(render::FrameInput input, const std::function<bool()>& stops) {
-  begin_still(input, glm::uvec2(canvas_.info().size));
+  begin_still(input, canvas_->size_px());
   const render::FramePlan plan = renderer_->plan(input);
   for (int part = 0; part < render::Renderer::kParts; ++part) {
     if (part > 0 && stops()) return false;

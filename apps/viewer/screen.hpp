@@ -9,9 +9,8 @@
 
 #include "apps/viewer/game_frame.hpp"
 #include "apps/viewer/quality.hpp"
-#include "apps/viewer/ui_pass.hpp"
-#include "apps/viewer/upscale_pass.hpp"
-#include "apps/viewer/window.hpp"
+#include "apps/viewer/screen_options.hpp"
+#include "apps/viewer/window_canvas.hpp"
 #include "image/image.hpp"
 #include "render/renderer.hpp"
 #include "scenario/scenario.hpp"
@@ -19,12 +18,6 @@
 struct ImDrawData;
 
 namespace brume::viewer {
-
-struct ScreenOptions {
-  std::string device;       ///< As for gpu::choose_device.
-  bool validation = false;  ///< Enables the validation layers; Context stores their messages.
-  bool vertical_sync = true;
-};
 
 class Screen {
  public:
@@ -58,9 +51,9 @@ class Screen {
   bool streams_volumes() const { return renderer_ && renderer_->streams_volumes(); }
 
   void set_masks(const smoke::MaskAtlas& masks) { renderer_->set_masks(masks); }
-  void set_vertical_sync(bool enabled) { swapchain_->set_vertical_sync(enabled); }
-  bool vertical_sync() const { return swapchain_->vertical_sync(); }
-  void lose_surface() { swapchain_->lose_surface(); }
+  void set_vertical_sync(bool enabled) { canvas_->set_vertical_sync(enabled); }
+  bool vertical_sync() const { return canvas_->vertical_sync(); }
+  void lose_surface() { canvas_->lose_surface(); }
 
   gpu::Context& context() { return context_; }
   /// GPU times of the passes of the last frame.
@@ -75,11 +68,8 @@ class Screen {
 
   gpu::Context context_;
   std::optional<gpu::CommandRunner> runner_;
-  std::optional<gpu::Swapchain> swapchain_;
+  std::optional<WindowCanvas> canvas_;
   std::optional<render::Renderer> renderer_;
-  std::optional<UiPass> ui_;
-  std::optional<UpscalePass> upscale_;
-  gpu::Image canvas_;              ///< Window-sized: the scaled image with the user interface over it.
   std::uint32_t march_scale_ = 1;  ///< Current one of the renderer.
   bool history_lost_ = false;      ///< The renderer has no previous frame to accumulate with.
   double record_seconds_ = 0;

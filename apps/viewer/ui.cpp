@@ -70,7 +70,7 @@ UiRequests Ui::lay_out(Game& game, const Figures& figures, const Notices& notice
     lay_out_panels(game, figures, notices, requests);
     lay_out_time_bar(game.session(), requests);
   }
-  if (choices.help) lay_out_help();
+  if (choices.help) lay_out_help(KeyMap::level, "Time stands still while this is open. H closes it.");
   ImGui::Render();
   return requests;
 }

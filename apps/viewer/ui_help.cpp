@@ -58,8 +58,8 @@ void lay_out_column(const std::vector<HelpRow>& rows, const Column& column, floa
 
 }  // namespace
 
-void lay_out_help() {
-  const std::vector<HelpRow> rows = help_rows();
+void lay_out_help(KeyMap map, const char* note) {
+  const std::vector<HelpRow> rows = help_rows(map);
   float key_width = 0;
   for (const HelpRow& row : rows) key_width = std::max(key_width, ImGui::CalcTextSize(row.keys.c_str()).x);
   key_width += 12;
@@ -91,7 +91,7 @@ void lay_out_help() {
     if (i > 0) ImGui::SameLine(0, 24);
     lay_out_column(rows, columns[i], scale * key_width);
   }
-  ImGui::TextDisabled("Time stands still while this is open. H closes it.");
+  ImGui::TextDisabled("%s", note);
   ImGui::End();
 }
 

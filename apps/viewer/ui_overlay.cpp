@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include "apps/viewer/tank_camera.hpp"
 #include "apps/viewer/ui_parts.hpp"
-#include "planning/device_camera.hpp"
 
 namespace brume::viewer {
 namespace {
@@ -94,11 +94,7 @@ void lay_out_status(const Game& game, const Figures& figures, const Notices& not
 }  // namespace
 
 std::optional<glm::vec2> on_display(const scene::Camera& camera, glm::vec3 world) {
-  const glm::vec2 size = display_size();
-  const auto device = planning::device_camera(camera, glm::uvec2(glm::max(size, glm::vec2(1))));
-  const glm::vec4 clip = device.clip_from_world * glm::vec4(world, 1);
-  if (clip.w < planning::kNearPlane) return std::nullopt;
-  return (0.5f + 0.5f * glm::vec2(clip) / clip.w) * size;
+  return in_picture(camera, display_size(), world);
 }
 
 void lay_out_marks(const Game& game) {

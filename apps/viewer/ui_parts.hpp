@@ -15,8 +15,8 @@ std::optional<glm::vec2> on_display(const scene::Camera& camera, glm::vec3 world
 
 /// Status and recent messages.
 void lay_out_overlay(const Game& game, const Figures& figures, const Notices& notices);
-/// All key bindings.
-void lay_out_help();
+/// All key bindings of a map, and a line below them.
+void lay_out_help(KeyMap map, const char* note);
 /// The crosshair, the ends of the probe and its result.
 void lay_out_marks(const Game& game);
 /// What was shot and blown up just now: flashes, tracers and impacts.

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <future>
 
 #include "apps/viewer/autosave.hpp"
 #include "apps/viewer/frame_log.hpp"
+#include "apps/viewer/notice_list.hpp"
 #include "apps/viewer/painter.hpp"
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/screenshot.hpp"
@@ -24,8 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kNoticeSeconds = 4;
-constexpr std::size_t kMostNotices = 4;
 // A device that keeps getting lost is broken.
 constexpr std::size_t kMostLostDevices = 5;
 // A paused window sleeps between events.
@@ -125,10 +123,7 @@ class Viewer {
     notify("the device was lost and has been recreated");
   }
 
-  void notify(const std::string& line) {
-    notices_.push_back({line, Clock::now()});
-    if (notices_.size() > kMostNotices) notices_.pop_front();
-  }
+  void notify(const std::string& line) { notices_.add(line); }
   void notify_failure(const Result<void>& done) {
     if (!done) notify(done.failure().message);
   }
@@ -159,11 +154,6 @@ class Viewer {
   Notices notices();
   ViewerReport report();
 
-  struct Notice {
-    std::string line;
-    Clock::time_point time;
-  };
-
   ViewerOptions options_;
   std::optional<Game> game_;  ///< Empty while the level loads.
   Autosave autosave_;
@@ -180,7 +170,7 @@ class Viewer {
   std::optional<Clock::time_point> last_frame_;
   double pace_ = 1;  ///< Session time per real time, smoothed.
   bool done_ = false;
-  std::deque<Notice> notices_;
+  NoticeList notices_;
   std::vector<std::string> messages_;  ///< From the validation layers.
   std::size_t devices_lost_ = 0;
 };
@@ -316,10 +306,8 @@ void Viewer::apply(const UiRequests& requests) {
 }
 
 Notices Viewer::notices() {
-  while (!notices_.empty() && seconds_between(notices_.front().time, Clock::now()) > kNoticeSeconds)
-    notices_.pop_front();
   Notices notices;
-  for (const Notice& notice : notices_) notices.lines.push_back(notice.line);
+  notices.lines = notices_.recent();
   notices.device = screen_->context().info().name;
   notices.device_bytes = screen_->context().memory().bytes_in_use();
   notices.quality = &quality_.quality();

@@ -25,7 +25,7 @@ std::string glfw_message() {
 
 }  // namespace
 
-Window::Window(glm::uvec2 size_px, const std::string& title) {
+Window::Window(glm::uvec2 size_px, const std::string& title, KeyMap keys) : keys_(keys) {
   if (!::glfwInit()) throw_no_window(glfw_message());
   if (!::glfwVulkanSupported()) {
     ::glfwTerminate();
@@ -137,13 +137,13 @@ void Window::toggle_full_screen() {
 void Window::change(bool mouse, int code, bool pressed, int modifiers) {
   // A key that is released ends whatever its press began, with or without modifiers.
   if (!pressed) {
-    for (const KeyBinding& binding : key_bindings())
+    for (const KeyBinding& binding : key_bindings(keys_))
       if (binding.mouse == mouse && binding.code == code)
         input_.held[static_cast<std::size_t>(binding.action)] = false;
     return;
   }
-  const auto action =
-      action_of(mouse, code, {(modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
+  const Modifiers held{(modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0};
+  const auto action = action_of(mouse, code, held, keys_);
   if (!action) return;
   input_.held[static_cast<std::size_t>(*action)] = true;
   input_.pressed.push_back(*action);

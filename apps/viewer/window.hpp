@@ -29,7 +29,7 @@ struct Input {
 class Window {
  public:
   /// Throws no_device without a display.
-  Window(glm::uvec2 size_px, const std::string& title);
+  Window(glm::uvec2 size_px, const std::string& title, KeyMap keys = KeyMap::level);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -67,6 +67,7 @@ class Window {
   void change(bool mouse, int code, bool pressed, int modifiers);
 
   GLFWwindow* handle_ = nullptr;
+  KeyMap keys_;
   Input input_;
   std::uint64_t events_ = 0;
   bool captures_mouse_ = false;

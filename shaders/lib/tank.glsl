@@ -3,7 +3,8 @@
 #define TANK_GLSL
 #include "shared/tank.h"
 
-layout(scalar, binding = kBindTank) uniform Tank { TankConstants tank; };
+// No uniform buffer: lavapipe compiles a shader again for new values of one that it branches by.
+layout(scalar, binding = kBindTank) readonly buffer Tank { TankConstants tank; };
 layout(scalar, binding = kBindTankLights) readonly buffer TankLights { TankLight tank_lights[]; };
 layout(scalar, binding = kBindSphereBricks) readonly buffer SphereBricks { SphereBrick sphere_bricks[]; };
 

@@ -10,6 +10,11 @@ layout(binding = kBindRadiance, rgba16f) uniform writeonly image2D radiance_imag
 layout(binding = kBindRadianceSum, rgba32f) uniform image2D sum_image;
 layout(push_constant, scalar) uniform Samples { TankSamples samples; };
 
+/// Of this thread.
+ivec2 sampled_pixel() {
+  return ivec2(gl_GlobalInvocationID.xy) + ivec2(0, samples.first_row);
+}
+
 /// Adds samples to the sum of a pixel and writes their mean.
 void add_samples(ivec2 px, vec3 sum) {
   if (samples.first > 0u) sum += imageLoad(sum_image, px).rgb;

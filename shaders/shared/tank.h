@@ -71,12 +71,13 @@ struct SphereVoxelsParams {
 };
 SHARED_SIZE(SphereVoxelsParams, 20);
 
-/// Samples of each pixel that a dispatch adds.
+/// Samples of each pixel that a dispatch adds, from a row of the picture on.
 struct TankSamples {
   uint first;  // before them; 0 begins a picture
   uint count;
+  uint first_row;
 };
-SHARED_SIZE(TankSamples, 8);
+SHARED_SIZE(TankSamples, 12);
 
 SHARED_END
 #endif

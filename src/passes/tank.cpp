@@ -19,10 +19,10 @@ const gpu::ComputePipeline& TankSpheresPass::pipeline(const TankVolume& volume) 
 }
 
 void TankSpheresPass::record(gpu::Recorder& recorder, const TankInputs& inputs, const TankTargets& targets,
-                             const shared::TankSamples& samples) {
+                             const shared::TankSamples& samples, std::uint32_t rows) {
   const gpu::ComputePipeline& used = pipeline(inputs.volume);
   recorder.bind(used,
-                {{shared::kBindTank, gpu::uniform(inputs.constants)},
+                {{shared::kBindTank, gpu::read(inputs.constants)},
                  {shared::kBindTankLights, gpu::read(inputs.lights)},
                  {shared::kBindPhotons, gpu::read(inputs.photons)},
                  {shared::kBindPhotonCells, gpu::read(inputs.photon_cells)},
@@ -35,16 +35,17 @@ void TankSpheresPass::record(gpu::Recorder& recorder, const TankInputs& inputs, 
                  {shared::kBindRadianceSum, gpu::read_write_stored(targets.sum)},
                  {shared::kBindRadiance, gpu::stored(targets.radiance)}},
                 samples);
-  recorder.dispatch_threads(used, targets.sum.info().size.x, targets.sum.info().size.y);
+  recorder.dispatch_threads(used, targets.sum.info().size.x, rows);
 }
 
 TankVoxelsPass::TankVoxelsPass(gpu::Context& context)
     : pipeline_(context, shaders::tank_voxels_comp), nearest_(context, {VK_FILTER_NEAREST}) {}
 
 void TankVoxelsPass::record(gpu::Recorder& recorder, const TankInputs& inputs, const gpu::Image& voxel_light,
-                            const TankTargets& targets, const shared::TankSamples& samples) const {
+                            const TankTargets& targets, const shared::TankSamples& samples,
+                            std::uint32_t rows) const {
   recorder.bind(pipeline_,
-                {{shared::kBindTank, gpu::uniform(inputs.constants)},
+                {{shared::kBindTank, gpu::read(inputs.constants)},
                  {shared::kBindSphereBricks, gpu::read(inputs.volume.brick_ranges)},
                  {shared::kBindVoxelColors, gpu::sampled(inputs.volume.colors, nearest_)},
                  {shared::kBindVoxelLight, gpu::sampled(voxel_light, nearest_)},
@@ -52,7 +53,7 @@ void TankVoxelsPass::record(gpu::Recorder& recorder, const TankInputs& inputs, c
                  {shared::kBindRadianceSum, gpu::read_write_stored(targets.sum)},
                  {shared::kBindRadiance, gpu::stored(targets.radiance)}},
                 samples);
-  recorder.dispatch_threads(pipeline_, targets.sum.info().size.x, targets.sum.info().size.y);
+  recorder.dispatch_threads(pipeline_, targets.sum.info().size.x, rows);
 }
 
 }  // namespace brume::passes

@@ -30,9 +30,9 @@ struct TankTargets {
 class TankSpheresPass {
  public:
   explicit TankSpheresPass(gpu::Context& context);
-  /// Adds samples to each pixel; the first of a picture begins it.
+  /// Adds samples to each pixel of at least `rows` rows; the first of a picture begins it.
   void record(gpu::Recorder& recorder, const TankInputs& inputs, const TankTargets& targets,
-              const shared::TankSamples& samples);
+              const shared::TankSamples& samples, std::uint32_t rows);
 
  private:
   const gpu::ComputePipeline& pipeline(const TankVolume& volume);
@@ -49,7 +49,7 @@ class TankVoxelsPass {
   explicit TankVoxelsPass(gpu::Context& context);
   /// As TankSpheresPass.
   void record(gpu::Recorder& recorder, const TankInputs& inputs, const gpu::Image& voxel_light,
-              const TankTargets& targets, const shared::TankSamples& samples) const;
+              const TankTargets& targets, const shared::TankSamples& samples, std::uint32_t rows) const;
 
  private:
   gpu::ComputePipeline pipeline_;

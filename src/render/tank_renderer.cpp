@@ -16,8 +16,8 @@ gpu::Image picture_image(gpu::Context& context, glm::uvec2 size_px, VkFormat for
   return gpu::Image(context, info);
 }
 
-gpu::Buffer uniform_buffer(gpu::Context& context, std::size_t bytes) {
-  return gpu::Buffer(context, bytes, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+gpu::Buffer constants_buffer(gpu::Context& context, std::size_t bytes, VkBufferUsageFlags usage) {
+  return gpu::Buffer(context, bytes, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
 }  // namespace
@@ -36,8 +36,9 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
       sum_(picture_image(context, size_px, VK_FORMAT_R32G32B32A32_SFLOAT)),
       radiance_(picture_image(context, size_px, VK_FORMAT_R16G16B16A16_SFLOAT)),
       shown_(picture_image(context, size_px, VK_FORMAT_R8G8B8A8_UNORM)),
-      constants_(uniform_buffer(context, sizeof(shared::TankConstants))),
-      frame_(uniform_buffer(context, sizeof(shared::FrameConstants))) {
+      constants_(
+          constants_buffer(context, sizeof(shared::TankConstants), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+      frame_(constants_buffer(context, sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)) {
   gpu::grow(context, lights_, scene::kMostTankLights * sizeof(shared::TankLight));
   set_photons({});
   runner.run([&](gpu::Recorder& recorder) { blue_noise_ = passes::make_blue_noise(context, recorder); });
@@ -48,7 +49,7 @@ TankRenderer::TankRenderer(gpu::Context& context, gpu::CommandRunner& runner, co
 }
 
 void TankRenderer::set_kind(scene::TankView kind) {
-  samples_ = 0;
+  samples_ = rows_ = 0;
   kind_ = kind;
   if (kind != scene::TankView::voxels || voxels_) return;
   volume_.add_colors(context_);
@@ -64,7 +65,7 @@ void TankRenderer::find_voxels() {
 }
 
 void TankRenderer::set_lighting(scene::TankLighting lighting) {
-  samples_ = 0;
+  samples_ = rows_ = 0;
   lighting_ = lighting;
   if (voxels_) voxels_->is_lit = false;
 }
@@ -76,13 +77,13 @@ void TankRenderer::set_view(const planning::TankPlan& plan, const shared::FrameC
   if (voxels_ && !same_light) voxels_->is_lit = false;
   plan_ = plan;
   display_ = display;
-  samples_ = 0;
+  samples_ = rows_ = 0;
   if (kind_ == scene::TankView::voxels && !voxels_->is_lit)
     voxels_->light_pass.reserve(volume_, plan_.lights, lighting_);
 }
 
 void TankRenderer::set_photons(const spheres::LightPaths& paths) {
-  samples_ = 0;
+  samples_ = rows_ = 0;
   photon_grid_ = paths.photons.empty() ? shared::PhotonGrid{0, 0} : paths.grid;
   passes::upload_list(context_, runner_, photons_, paths.photons);
   passes::upload_list(context_, runner_, photon_cells_, paths.cells);
@@ -92,7 +93,6 @@ void TankRenderer::record_upload(gpu::Recorder& recorder) {
   shared::TankConstants constants = plan_.constants;
   constants.photons = photon_grid_;
   recorder.upload(constants_, 0, std::as_bytes(std::span(&constants, 1)));
-  recorder.upload(frame_, 0, std::as_bytes(std::span(&display_, 1)));
   if (!plan_.lights.empty())
     recorder.upload(lights_, 0, std::as_bytes(std::span<const shared::TankLight>(plan_.lights)));
 }
@@ -103,19 +103,47 @@ void TankRenderer::record_light(gpu::Recorder& recorder) {
   voxels_->is_lit = true;
 }
 
-void TankRenderer::record_samples(gpu::Recorder& recorder, std::uint32_t count) {
+void TankRenderer::resize(glm::uvec2 size_px) {
+  samples_ = rows_ = 0;
+  sum_ = picture_image(context_, size_px, VK_FORMAT_R32G32B32A32_SFLOAT);
+  radiance_ = picture_image(context_, size_px, VK_FORMAT_R16G16B16A16_SFLOAT);
+  shown_ = picture_image(context_, size_px, VK_FORMAT_R8G8B8A8_UNORM);
+}
+
+void TankRenderer::record_dispatch(gpu::Recorder& recorder, std::uint32_t count, std::uint32_t rows) {
   record_upload(recorder);
   if (kind_ == scene::TankView::voxels) record_light(recorder);
   const passes::TankInputs inputs{volume_, constants_, lights_, photons_, photon_cells_, blue_noise_};
   const passes::TankTargets targets{sum_, radiance_};
-  {
-    const gpu::Scope scope(recorder, "tank");
-    if (kind_ == scene::TankView::voxels)
-      voxels_->pass.record(recorder, inputs, voxels_->light, targets, {samples_, count});
-    else
-      spheres_pass_.record(recorder, inputs, targets, {samples_, count});
-  }
+  const shared::TankSamples samples{samples_, count, rows_};
+  const gpu::Scope scope(recorder, "tank");
+  if (kind_ == scene::TankView::voxels)
+    voxels_->pass.record(recorder, inputs, voxels_->light, targets, samples, rows);
+  else
+    spheres_pass_.record(recorder, inputs, targets, samples, rows);
+}
+
+void TankRenderer::record_samples(gpu::Recorder& recorder, std::uint32_t count) {
+  BRUME_ASSERT(rows_ == 0, "a sample is incomplete");
+  record_dispatch(recorder, count, shown_.info().size.y);
   samples_ += count;
+  record_display(recorder);
+}
+
+void TankRenderer::record_rows(gpu::Recorder& recorder, std::uint32_t rows) {
+  const std::uint32_t height = shown_.info().size.y;
+  BRUME_ASSERT(rows > 0 && rows_ + rows <= height && (rows % kRows == 0 || rows_ + rows == height),
+               "rows that are no multiple of a workgroup's");
+  record_dispatch(recorder, 1, rows);
+  rows_ += rows;
+  if (rows_ < height) return;
+  rows_ = 0;
+  ++samples_;
+  record_display(recorder);
+}
+
+void TankRenderer::record_display(gpu::Recorder& recorder) {
+  recorder.upload(frame_, 0, std::as_bytes(std::span(&display_, 1)));
   const gpu::Scope scope(recorder, "display");
   display_pass_.record(recorder, frame_, blue_noise_, radiance_, shown_);
 }

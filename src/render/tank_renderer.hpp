@@ -14,6 +14,9 @@ namespace brume::render {
 
 class TankRenderer {
  public:
+  /// Of a workgroup: what parts of a sample are multiples of.
+  static constexpr std::uint32_t kRows = 8;
+
   /// Uploads the tank and finds its voxels. `context` and `runner` must outlive it, `tank` need not. Throws
   /// resource_limit when the device has too little memory.
   /// `with_ids`: finds the ids of all voxels and traces those instead of the spheres of bricks: more memory,
@@ -32,13 +35,23 @@ class TankRenderer {
   /// Light that comes through the glass, from the next picture on: that of the view's lights. When the device
   /// is done with what was recorded before. Throws resource_limit.
   void set_photons(const spheres::LightPaths& paths);
+  /// Pictures of another size from the next one on. When the device is done with what was recorded before.
+  void resize(glm::uvec2 size_px);
   /// The exposure and the tone curve alone: the picture goes on.
   void set_display(const shared::FrameConstants& display) { display_ = display; }
 
   /// Records `count` more samples of each pixel, and the picture so far.
   void record_samples(gpu::Recorder& recorder, std::uint32_t count);
-  /// So far.
+  /// Records a part of one more sample of each pixel: as many rows, from the top to the bottom; with the last
+  /// ones the sample and the picture are complete.
+  void record_rows(gpu::Recorder& recorder, std::uint32_t rows);
+  /// Records the picture so far with the exposure and the tone curve that it has now. Not before the first
+  /// sample.
+  void record_display(gpu::Recorder& recorder);
+  /// So far, of every pixel.
   std::uint32_t samples() const { return samples_; }
+  /// Of one more sample.
+  std::uint32_t rows() const { return rows_; }
 
   const gpu::Image& radiance() const { return radiance_; }  ///< Half floats.
   const gpu::Image& sum() const { return sum_; }            ///< Floats: of the radiance of all samples.
@@ -49,6 +62,7 @@ class TankRenderer {
   void find_voxels();
   void record_upload(gpu::Recorder& recorder);
   void record_light(gpu::Recorder& recorder);
+  void record_dispatch(gpu::Recorder& recorder, std::uint32_t count, std::uint32_t rows);
 
   /// What the voxel view needs besides the tank's volume.
   struct Voxels {
@@ -74,7 +88,7 @@ class TankRenderer {
   shared::FrameConstants display_{};
   scene::TankView kind_ = scene::TankView::spheres;
   scene::TankLighting lighting_ = scene::TankLighting::maps;
-  std::uint32_t samples_ = 0;
+  std::uint32_t samples_ = 0, rows_ = 0;
 };
 
 }  // namespace brume::render

@@ -18,12 +18,6 @@ namespace {
 
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 24;
 
-const std::vector<std::pair<const char*, spheres::Arrangement>> kArrangements{
-    {"random", spheres::Arrangement::random},
-    {"largest_first", spheres::Arrangement::largest_first},
-    {"noise", spheres::Arrangement::noise},
-    {"coral", spheres::Arrangement::coral}};
-
 /// Keys that say how a tank is packed, and have no place beside a file of one.
 constexpr const char* kPackKeys[]{"size",         "voxel",       "spheres",      "radius",
                                   "distribution", "arrangement", "noise_size",   "opacity",
@@ -117,9 +111,9 @@ class TankReader {
 
     std::string arrangement = "largest_first";
     table.read("arrangement", arrangement);
-    for (const auto& [name, value] : kArrangements)
-      if (arrangement == name) {
-        pack.arrangement = value;
+    for (std::uint32_t i = 0; i < kArrangements; ++i)
+      if (arrangement == arrangement_name(spheres::Arrangement{i})) {
+        pack.arrangement = spheres::Arrangement{i};
         return;
       }
     table.fail("arrangement",
@@ -200,6 +194,11 @@ class TankReader {
 };
 
 }  // namespace
+
+const char* arrangement_name(spheres::Arrangement arrangement) {
+  constexpr const char* kNames[kArrangements]{"random", "largest_first", "noise", "coral"};
+  return kNames[static_cast<std::uint32_t>(arrangement)];
+}
 
 TankLight light_at(const TankLight& light, double time) {
   TankLight at = light;

@@ -87,6 +87,10 @@ struct TankScene {
   std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal; empty: before the tank.
 };
 
+/// Of the file.
+const char* arrangement_name(spheres::Arrangement arrangement);
+constexpr std::uint32_t kArrangements = 4;
+
 /// The lights and the glass at a time [s]: position and radii pass through their keys, at rest before the
 /// first and after the last.
 TankLight light_at(const TankLight& light, double time);

@@ -117,14 +117,14 @@ TEST_F(TankTest, RaysHitTheNearestSphereExactly) {
   shared::TankConstants constants{};
   constants.size = glm::ivec3(tank.size);
   constants.bricks = device.volume.bricks;
-  const gpu::Buffer uniform = upload(std::vector{constants}), in = upload(rays);
+  const gpu::Buffer stored = upload(std::vector{constants}), in = upload(rays);
   const gpu::Buffer out = upload(std::vector<glm::vec2>(rays.size()));
   const gpu::Sampler nearest(context(), {VK_FILTER_NEAREST});
 
   for (const std::uint32_t has_ids : {0u, 1u}) {
     const gpu::ComputePipeline pipeline(context(), shaders::sphere_probe_comp, {1u, 0u, has_ids});
     runner().run([&](gpu::Recorder& recorder) {
-      recorder.bind(pipeline, {{shared::kBindTank, gpu::uniform(uniform)},
+      recorder.bind(pipeline, {{shared::kBindTank, gpu::read(stored)},
                                {shared::kBindSpheres, gpu::read(device.volume.spheres)},
                                {shared::kBindSphereColors, gpu::read(device.volume.sphere_colors)},
                                {shared::kBindSphereBricks, gpu::read(device.volume.brick_ranges)},

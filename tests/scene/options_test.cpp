@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/file.hpp"
+#include "scene/tank_options.hpp"
 
 namespace brume::scene {
 namespace {
@@ -75,7 +76,8 @@ std::string part_of(const std::string& text, const std::string& after) {
   return text.substr(begin, end - begin) + "\n";
 }
 
-void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows) {
+void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows,
+                 const std::string& page = "docs/timeline.md") {
   for (const auto& row : rows) {
     bool found = false;
     for (auto at = text.find("\n" + row.start); at != std::string::npos && !found;
@@ -84,7 +86,7 @@ void expect_rows(const std::string& text, const std::vector<RowMaker::Row>& rows
       const auto range = line.find("| " + row.end);
       found = range != std::string::npos && range + 2 >= row.start.size();
     }
-    EXPECT_TRUE(found) << "docs/timeline.md lacks: " << row.start << "..." << row.end;
+    EXPECT_TRUE(found) << page << " lacks: " << row.start << "..." << row.end;
   }
 }
 
@@ -119,6 +121,23 @@ TEST(Options, MatchTheTableInTheDocs) {
   expect_rows(part_of(text, "| `[[event]]` `type = \"shot\"`"), shot.rows);
   expect_rows(part_of(text, "| `[[event]]` `type = \"text\"`"), letters.rows);
   expect_rows(part_of(text, "| `[[event]]` `type = \"blast\"`"), blast.rows);
+}
+
+TEST(Options, OfTanksMatchTheTableInTheDocs) {
+  const std::string page = "docs/tank-scenes.md";
+  const auto text = read_text_file(std::filesystem::path(BRUME_SOURCE_DIR) / page).value_or_throw();
+  RowMaker top(""), tank("`[tank]` "), sky("`[sky]` "), fog("`[fog]` "), light("`[[light]]` "),
+      glass("`[glass]` "), camera("`[[camera]]` ");
+  visit_timeline_options(static_cast<const TankScene&>(TankScene()), top);
+  visit_tank_picture_options(static_cast<const TankScene&>(TankScene()), tank);
+  visit_pack_options(static_cast<const spheres::PackOptions&>(spheres::PackOptions()), tank);
+  visit_sky_options(static_cast<const SkyOptions&>(SkyOptions()), sky);
+  visit_fog_options(static_cast<const TankFog&>(TankFog()), fog);
+  visit_tank_light_options(static_cast<const TankLight&>(TankLight()), light);
+  visit_glass_options(static_cast<const TankGlass&>(TankGlass()), glass);
+  visit_camera_options(static_cast<const Camera&>(Camera()), camera);
+  for (const RowMaker* maker : {&top, &tank, &sky, &fog, &light, &glass, &camera})
+    expect_rows(text, maker->rows, page);
 }
 
 /// Checks that defaults are in range and keys are unique.
@@ -178,6 +197,12 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(ShotEvent(), visit_shot_options), 7u);
   EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);
   EXPECT_EQ(MET(BlastEvent(), visit_blast_options), 6u);
+  EXPECT_EQ(MET(TankScene(), visit_timeline_options), 2u);
+  EXPECT_EQ(MET(TankScene(), visit_tank_picture_options), 3u);
+  EXPECT_EQ(MET(spheres::PackOptions(), visit_pack_options), 5u);
+  EXPECT_EQ(MET(TankFog(), visit_fog_options), 2u);
+  EXPECT_EQ(MET(TankLight(), visit_tank_light_options), 4u);
+  EXPECT_EQ(MET(TankGlass(), visit_glass_options), 3u);
 #undef MET
 }
 

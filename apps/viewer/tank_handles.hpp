@@ -1,0 +1,30 @@
+// Marks in the picture of a tank that its lights and its glass are dragged by.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "apps/viewer/tank_camera.hpp"
+#include "scene/tank_scene.hpp"
+
+namespace brume::viewer {
+
+struct TankHandle {
+  enum class Kind { light, glass };
+  Kind kind = Kind::light;
+  std::size_t index = 0;  ///< Of the light.
+  bool operator==(const TankHandle&) const = default;
+};
+
+/// The lights, then the glass if there is one.
+std::vector<TankHandle> handles_of(const scene::TankScene& scene);
+/// Where it is at a time [s].
+glm::vec3 place_of(const scene::TankScene& scene, const TankHandle& handle, double time);
+/// The handle whose mark is nearest to a point of a picture of this size, and at most `reach` from it.
+std::optional<TankHandle> handle_at(const scene::TankScene& scene, double time, const scene::Camera& camera,
+                                    glm::vec2 size, glm::vec2 point, float reach);
+/// Moves what it stands for to a place at a time; one with keys moves with all of them.
+void move_handle(scene::TankScene& scene, const TankHandle& handle, double time, const glm::vec3& to);
+
+}  // namespace brume::viewer

@@ -1,0 +1,87 @@
+// Texts of TOML files that read back bit for bit: what the writers of scenes share. Internal to this folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/options.hpp"
+#include "scene/timeline.hpp"
+
+namespace brume::scene {
+
+// A value as TOML: numbers as the shortest decimals that read back as the same.
+std::string text_of(double value);
+std::string text_of(float value);
+std::string text_of(int value);
+std::string text_of(std::uint32_t value);
+std::string text_of(bool value);
+std::string text_of(const std::string& value);
+std::string text_of(const glm::vec2& v);
+std::string text_of(const glm::vec3& v);
+std::string text_of(const glm::ivec3& v);
+std::string text_of(const std::vector<float>& numbers);
+std::string text_of(const std::vector<std::vector<float>>& rows);
+/// Degrees that the reader converts to the same radians: as few digits as possible, within the angle's range.
+std::string degrees_text(const OptionInfo& info, float radians);
+
+/// `path` relative to a folder; its spelling is preserved if it begins with the folder's name.
+std::filesystem::path path_from(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+/// Settings and their texts; none for an absent one.
+class OptionTexts {
+ public:
+  void operator()(const OptionInfo& info, const float& member) {
+    add(info, is_angle(info) ? degrees_text(info, member) : text_of(member));
+  }
+  template <typename Member>
+  void operator()(const OptionInfo& info, const Member& member) {
+    add(info, text_of(member));
+  }
+  template <typename Member>
+  void operator()(const OptionInfo& info, const std::optional<Member>& member) {
+    add(info, member ? text_of(*member) : "");
+  }
+  std::vector<std::pair<const char*, std::string>> texts;
+
+ private:
+  void add(const OptionInfo& info, std::string text) { texts.emplace_back(info.key, std::move(text)); }
+};
+
+/// The text of a file, line by line.
+class TomlText {
+ public:
+  explicit TomlText(const std::filesystem::path& folder) : folder_(folder) {}
+
+ protected:
+  template <typename Value>
+  void line(const char* key, const Value& value) {
+    text_ += std::string(key) + " = " + text_of(value) + "\n";
+  }
+
+  /// Writes the options that differ from their defaults, under a title.
+  template <typename Options, typename Visit>
+  void options(const Options& chosen, const Options& defaults, const char* title, Visit visit) {
+    OptionTexts texts, default_texts;
+    visit(chosen, texts);
+    visit(defaults, default_texts);
+    bool titled = false;
+    for (std::size_t i = 0; i < texts.texts.size(); ++i) {
+      const auto& [key, text] = texts.texts[i];
+      if (text == default_texts.texts[i].second) continue;
+      if (!std::exchange(titled, true)) text_ += title;
+      text_ += std::string(key) + " = " + text + "\n";
+    }
+  }
+  /// A [[camera]]: the field of view always, of the lens what is not as usual.
+  void camera(const CameraKey& key);
+
+  const std::filesystem::path& folder_;
+  std::string text_;
+};
+
+}  // namespace brume::scene
