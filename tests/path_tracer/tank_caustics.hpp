@@ -79,8 +79,8 @@ inline CausticMeans caustic_means(CausticTank kind, std::uint32_t rounds, std::u
   return means;
 }
 
-/// The rounds are independent: the standard error of the mean of their differences is to be below `known`, and
-/// the mean below `allowed`. Both relative to what comes through the glass, which is most of the light.
+/// The rounds are independent: the standard error of the mean of their differences is to be below `known`,
+/// and the mean below `allowed`. Both relative to what comes through the glass, which is most of the light.
 inline void expect_caustic(CausticTank kind, std::uint32_t rounds, std::uint32_t paths, std::uint32_t photons,
                            double known, double allowed) {
   const CausticMeans means = caustic_means(kind, rounds, paths, photons);
