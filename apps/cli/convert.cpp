@@ -6,11 +6,13 @@
 #include "apps/cli/info.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/cli/tanks.hpp"
 #include "apps/cli/volumes.hpp"
 #include "core/error.hpp"
 #include "grids/files.hpp"
 #include "grids/raw_file.hpp"
 #include "scene/load.hpp"
+#include "spheres/file.hpp"
 
 namespace brume::cli {
 namespace {
@@ -55,7 +57,7 @@ void save(const fs::path& path, const grids::GridFile& file) {
 
 void convert(const ConvertOptions& options, Outputs& outputs) {
   const Stopwatch watch;
-  expect_suffix("", options.input, {kVdb, kNvdb, kBrv, kJson, ".png", ".exr"});
+  expect_suffix("", options.input, {kVdb, kNvdb, kBrv, kJson, ".png", ".exr", ".spheres"});
   expect_suffix("", options.output, {kVdb, kNvdb, kBrv, kJson});
   const fs::path output = options.output;
   outputs.reads(fs::path(options.input));
@@ -93,27 +95,35 @@ void convert(const ConvertOptions& options, Outputs& outputs) {
 Command add_convert(CommandLine& program) {
   Command command =
       declare(program, "convert",
-              "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json); reads slice atlases, too.",
+              "Converts volumes among .vdb, .nvdb, .brv and raw arrays; slice atlases and tanks to others.",
               "  brume convert smoke.vdb smoke.brv\n"
               "  brume convert atlas.json smoke.vdb\n"
-              "  brume convert smoke.vdb density.json --grid density");
+              "  brume convert smoke.vdb density.json --grid density\n"
+              "  brume convert tank.spheres tank.ply");
   auto options = std::make_shared<ConvertOptions>();
   const Arguments& arguments = command.arguments;
   arguments
-      .add_option("INPUT", options->input,
-                  "Volume file (.vdb, .nvdb, .brv, or .json of a raw array or slice atlas)")
+      .add_option(
+          "INPUT", options->input,
+          "Volume file (.vdb, .nvdb, .brv, or .json of a raw array or slice atlas), or tank (.spheres)")
       .required()
       .type_name("");
   arguments
-      .add_option("OUTPUT", options->output,
-                  "Volume file to write; a .json file describes the .raw file written beside it")
+      .add_option(
+          "OUTPUT", options->output,
+          "Volume file to write; a .json file describes the .raw file written beside it. Of a tank, meshes "
+          "(.obj) or points (.ply)")
       .required()
       .type_name("");
   arguments.add_option("--grid", options->grids, "Convert only the grids of this name; repeatable")
       .take_all()
       .type_name("NAME");
   declare_json(arguments, options->json);
-  command.run = [options, common = command.common] { convert(*options, common->outputs); };
+  command.run = [options, arguments, common = command.common] {
+    if (!spheres::is_tank_file(options->input)) return convert(*options, common->outputs);
+    arguments.refuse("--grid", "is for volumes");
+    convert_tank(options->input, options->output, options->json, common->outputs);
+  };
   return command;
 }
 
