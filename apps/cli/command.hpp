@@ -51,6 +51,7 @@ Command add_voxelize(CommandLine& program);
 Command add_bake(CommandLine& program);
 Command add_bake_slices(CommandLine& program);
 Command add_bake_occlusion(CommandLine& program);
+Command add_bake_spheres(CommandLine& program);
 Command add_info(CommandLine& program);
 Command add_convert(CommandLine& program);
 Command add_diff(CommandLine& program);

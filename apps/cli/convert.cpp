@@ -6,11 +6,13 @@
 #include "apps/cli/info.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "apps/cli/tanks.hpp"
 #include "apps/cli/volumes.hpp"
 #include "core/error.hpp"
 #include "grids/files.hpp"
 #include "grids/raw_file.hpp"
 #include "scene/load.hpp"
+#include "spheres/file.hpp"
 
 namespace brume::cli {
 namespace {
@@ -96,7 +98,8 @@ Command add_convert(CommandLine& program) {
       "Converts volumes among .vdb, .nvdb, .brv and raw arrays (.json); reads slice atlases and tanks, too.",
       "  brume convert smoke.vdb smoke.brv\n"
       "  brume convert atlas.json smoke.vdb\n"
-      "  brume convert smoke.vdb density.json --grid density");
+      "  brume convert smoke.vdb density.json --grid density\n"
+      "  brume convert tank.spheres tank.ply");
   auto options = std::make_shared<ConvertOptions>();
   const Arguments& arguments = command.arguments;
   arguments
@@ -105,15 +108,23 @@ Command add_convert(CommandLine& program) {
       .required()
       .type_name("");
   arguments
-      .add_option("OUTPUT", options->output,
-                  "Volume file to write; a .json file describes the .raw file written beside it")
+      .add_option(
+          "OUTPUT", options->output,
+          "Volume file to write; a .json file describes the .raw file written beside it. Of a tank, meshes "
+          "(.obj) or points (.ply)")
       .required()
       .type_name("");
   arguments.add_option("--grid", options->grids, "Convert only the grids of this name; repeatable")
       .take_all()
       .type_name("NAME");
   declare_json(arguments, options->json);
-  command.run = [options, common = command.common] { convert(*options, common->outputs); };
+  command.run = [options, arguments, common = command.common] {
+    const std::string suffix = scene::lower_extension(options->output);
+    const bool exports = spheres::is_tank_file(options->input) && (suffix == ".obj" || suffix == ".ply");
+    if (!exports) return convert(*options, common->outputs);
+    arguments.refuse("--grid", "is for volumes");
+    convert_tank(options->input, options->output, options->json, common->outputs);
+  };
   return command;
 }
 

@@ -78,6 +78,10 @@ const char* name_of(FileKind kind) {
       return "JSON file";
     case FileKind::obj:
       return ".obj file";
+    case FileKind::ply:
+      return ".ply file";
+    case FileKind::spheres:
+      return ".spheres file";
     case FileKind::timeline:
       return "timeline";
     case FileKind::frame_log:
@@ -120,6 +124,10 @@ Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
       return is_json(start, file);
     case FileKind::obj:
       return is_obj(start, file);
+    case FileKind::ply:
+      return begins_with(start, "ply\n");
+    case FileKind::spheres:
+      return begins_with(start, "BRUMESPH");
     case FileKind::timeline:
       return is_timeline(start, file);
     case FileKind::frame_log:

@@ -19,6 +19,8 @@ enum class FileKind {
   raw,
   json,
   obj,
+  ply,
+  spheres,
   timeline,
   frame_log,
   godot_import,

@@ -4,12 +4,14 @@
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/tanks.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "grids/files.hpp"
 #include "image/decode.hpp"
 #include "image/exr.hpp"
 #include "scene/load.hpp"
+#include "spheres/file.hpp"
 #include "voxel/vxl_file.hpp"
 #include "wire/replay.hpp"
 
@@ -70,11 +72,12 @@ Summary replay_summary(const std::filesystem::path& path) {
 Summary summary_of(const std::filesystem::path& path, bool check, Outputs& outputs) {
   expect_suffix("", path,
                 {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".json",
-                 ".png", ".exr", ".jpg", ".jpeg", ".webp"});
+                 ".png", ".exr", ".jpg", ".jpeg", ".webp", ".spheres"});
   const std::string extension = scene::lower_extension(path);
   if (extension == ".toml") return timeline_summary(path, check, outputs);
   if (extension == ".vxl") return voxel_summary(path);
   if (extension == ".brp") return replay_summary(path);
+  if (spheres::is_tank_file(path)) return tank_summary(path);
   if (grids::is_grid_file(path)) return volume_summary(path, outputs);
   if (extension == ".exr") return layers_summary(path);
   if (extension == ".txt" || extension == ".gltf" || extension == ".glb" || extension == ".obj")
@@ -134,7 +137,7 @@ Command add_info(CommandLine& program) {
     bool check = false;
   };
   Command command =
-      declare(program, "info", "Summarizes a scene, timeline, voxel, volume, recording or image file.",
+      declare(program, "info", "Summarizes a scene, timeline, voxel, volume, tank, recording or image file.",
               "  brume info room.glb\n"
               "  brume info scenes/demo.toml --check\n"
               "  brume info room.vxl --json -\n"

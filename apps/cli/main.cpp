@@ -94,6 +94,7 @@ int parse_and_run(int argc, char** argv) {
                             add_bake(program),
                             add_bake_slices(program),
                             add_bake_occlusion(program),
+                            add_bake_spheres(program),
                             add_info(program),
                             add_convert(program),
                             add_query(program),

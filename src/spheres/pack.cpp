@@ -8,9 +8,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/progress.hpp"
 #include "core/tasks.hpp"
@@ -203,7 +205,7 @@ class Packing {
       }
     });
 
-    // In order, since what was refused is in nobody's way.
+    // In order, since what was refused is in the way of none.
     std::sort(pairs.begin(), pairs.end());
     std::vector<bool> refused(spheres_.count() - first);
     for (const auto& [later, earlier] : pairs)

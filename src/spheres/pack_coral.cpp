@@ -2,7 +2,10 @@
 // where there is no room. Radii fall while it grows, so that trunks are thick and twigs thin.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "spheres/pack_places.hpp"
 #include "spheres/pack_random.hpp"

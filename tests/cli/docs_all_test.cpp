@@ -24,7 +24,7 @@ TEST_F(Documents, ExamplesOfTheHelpRun) {
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
   std::vector<std::string> commands{"demo",           "render",  "voxelize", "bake",  "bake slices",
-                                    "bake occlusion", "info",    "convert",  "query", "diff",
+                                    "bake occlusion", "bake spheres", "info",    "convert",  "query", "diff",
                                     "palettes",       "devices", "bench",    "sim"};
 #ifdef BRUME_VIEWER
   commands.push_back("view");

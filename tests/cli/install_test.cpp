@@ -44,7 +44,7 @@ TEST(Install, BashCompletesCommandsOfOneAndTwoWords) {
   const WorkFolder folder;
   folder.write("slices.glb", "");
   EXPECT_EQ(completions(folder, "brume b"), "bake bench\n");
-  EXPECT_EQ(completions(folder, "brume bake ''"), "slices occlusion pyroclastic sphere slab torus\n");
+  EXPECT_EQ(completions(folder, "brume bake ''"), "slices occlusion spheres pyroclastic sphere slab torus\n");
   EXPECT_EQ(completions(folder, "brume bake sl"), "slices slab\n");
   EXPECT_EQ(completions(folder, "brume bake slices sl"), "slices.glb\n");
   EXPECT_EQ(completions(folder, "brume bake slices --p"), "--progress --padding --preset\n");

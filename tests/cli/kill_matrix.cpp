@@ -30,6 +30,7 @@ std::string old_file(const fs::path& name) {
   if (extension == ".png") return "\x89PNG\r\n\x1a\nold";
   if (extension == ".exr") return "\x76\x2f\x31\x01old";
   if (extension == ".brv") return "BRUMEBRVold";
+  if (extension == ".spheres") return "BRUMESPHold";
   if (extension == ".mp4")
     return "\0\0\0\x08"
            "ftypold"s;
@@ -64,6 +65,8 @@ std::vector<WritingCommand> writing_commands() {
       {{"bake", "slices", "room.obj", "-o", "out/a.png", "--size", "16x16x16", "--mips", "--json",
         "out/r.json"}},
       {{"bake", "occlusion", "room.obj", "-o", "out/a.png", "--size", "8x8x8", "--rays", "16", "--separate"}},
+      {{"bake", "spheres", "-o", "out/a.spheres", "--size", "50x50x50", "--count", "500", "--radius", "1-5",
+        "--json", "out/a.json"}},
       {{"info", "room.obj", "--json", "out/a.json"}},
       {{"query", "room.toml", "--from", "0,1,1", "--to", "0,1,-1", "--time", "0.2", "--json", "out/a.json"}},
       {{"palettes", "sea", "-o", "out/a.png", "--json", "out/a.json"}},

@@ -51,7 +51,7 @@ class OptionFuzz : public testing::Test {
     EXPECT_EQ(run_brume(folder_.path(), {"voxelize", "room.obj", "-o", "room.vxl"}).exit_code, 0);
     EXPECT_EQ(run_brume(folder_.path(), {"sim", "room.toml", "--record", "room.brp"}).exit_code, 0);
     inputs_ = contents();
-    for (const char* command : {"render", "sim", "voxelize", "bake", "bake slices", "bake occlusion", "info",
+    for (const char* command : {"render", "sim", "voxelize", "bake", "bake slices", "bake occlusion", "bake spheres", "info",
                                 "query", "diff", "palettes", "devices"})
       options_[command] = options_of(command);
   }
@@ -185,6 +185,10 @@ const std::string kValues[] = {"0",
                                "new.vxl",
                                "new.brp",
                                "new.json",
+                               "new.spheres",
+                               "0.5-2",
+                               "coral",
+                               "noise",
                                "new.obj",
                                "NEW.PNG",
                                "%s.png",
@@ -204,11 +208,13 @@ Arguments random_call(Dice& dice, const std::map<std::string, std::vector<Option
   auto command = options.begin();
   std::advance(command, dice.below(options.size()));
   Arguments call{command->first};
-  const bool positional = command->first != "devices" && !dice.once_in(16);
+  const bool takes_file = command->first != "devices" && command->first != "bake spheres";
+  const bool positional = takes_file && !dice.once_in(16);
   if (positional) call.push_back(dice.once_in(8) ? dice.one_of(kValues) : dice.one_of(inputs));
   if (command->first == "diff" && !dice.once_in(8)) call.emplace_back("b.png");
   // What makes most calls valid, so that they get far.
   if (command->first == "render" && !dice.once_in(8)) call.insert(call.end(), {"-o", "new.png"});
+  if (command->first == "bake spheres" && !dice.once_in(8)) call.insert(call.end(), {"-o", "new.spheres"});
   if (command->first == "query" && !dice.once_in(8))
     call.insert(call.end(), {"--from", "0,1,1", "--to", "0,1,-1", "--time", "0.2"});
   for (std::size_t count = dice.below(4); count > 0; --count) {
@@ -225,7 +231,7 @@ Arguments random_call(Dice& dice, const std::map<std::string, std::vector<Option
 /// Whether a file of the folder is an output of its own kind, or of any with --force, and not also what the
 /// command reads.
 bool may_be_replaced(const Arguments& call, const std::string& name) {
-  static const std::set<std::string> kinds{".vxl", ".brp", ".png"};
+  static const std::set<std::string> kinds{".vxl", ".brp", ".png", ".spheres"};
   const auto has = [&](const char* word) { return std::find(call.begin(), call.end(), word) != call.end(); };
   const std::size_t arguments = call[0] == "diff" ? 3 : 2;
   for (std::size_t i = 1; i < call.size(); ++i)

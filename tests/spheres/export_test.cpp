@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "core/file.hpp"
 #include "spheres/pack.hpp"

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
+#include <vector>
 
 #include "core/progress.hpp"
 #include "core/tasks.hpp"

@@ -1,0 +1,203 @@
+// brume bake spheres, and info and convert of tanks.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/file.hpp"
+#include "spheres/file.hpp"
+#include "spheres/pack.hpp"
+#include "tests/cli/run_program.hpp"
+
+namespace brume::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::json;
+
+class Spheres : public testing::Test {
+ protected:
+  Outcome run(Arguments arguments) const { return run_brume(folder_.path(), arguments); }
+  /// The result of bake spheres of a small tank.
+  Json bake(const std::string& output, const Arguments& more = {}) const {
+    Arguments arguments{"bake",    "spheres", "-o",       output,  "--size", "60x40x20",
+                        "--count", "300",     "--radius", "0.5-3", "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome done = run(arguments);
+    EXPECT_EQ(done.exit_code, 0) << done.error;
+    EXPECT_EQ(done.error, "");
+    return Json::parse(done.out, nullptr, false);
+  }
+  spheres::Tank load(const std::string& name) const {
+    return spheres::load_tank(folder_.path() / name).value_or_throw();
+  }
+  std::string bytes(const std::string& name) const {
+    return read_text_file(folder_.path() / name).value_or_throw();
+  }
+  void refused(const Arguments& more, const std::vector<std::string>& parts) const {
+    Arguments arguments{"bake", "spheres", "-o", "new.spheres"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_failure(folder_, arguments, 2, parts);
+  }
+  WorkFolder folder_;
+};
+
+TEST_F(Spheres, AreThoseOfTheOptions) {
+  const Json json = bake("a.spheres", {"--voxel", "0.01", "--distribution", "2", "--arrangement", "noise",
+                                       "--noise-size", "30", "--opacity", "0.5", "--seed", "5"});
+  spheres::PackOptions options;
+  options.size = {60, 40, 20};
+  options.voxel = 0.01f;
+  options.count = 300;
+  options.radius = {0.5f, 3};
+  options.distribution = 2;
+  options.arrangement = spheres::Arrangement::noise;
+  options.noise_size = 30;
+  options.seed = 5;
+  const spheres::Tank expected = spheres::pack(options).value_or_throw(), tank = load("a.spheres");
+  EXPECT_EQ(tank.spheres, expected.spheres);
+  EXPECT_EQ(tank.size, expected.size);
+  EXPECT_EQ(tank.voxel, expected.voxel);
+  for (const spheres::Color color : tank.colors) EXPECT_EQ(color >> 24, 128u);
+  EXPECT_EQ(json["spheres"], 300);
+  EXPECT_EQ(json["count"], 300);
+  EXPECT_EQ(json["timed_out"], false);
+  EXPECT_EQ(json["size"], Json({60, 40, 20}));
+}
+
+TEST_F(Spheres, OfEveryArrangementAreTheSameForAnyNumberOfThreads) {
+  for (const char* arrangement : {"random", "largest-first", "noise", "coral"}) {
+    bake("one.spheres", {"--arrangement", arrangement, "--threads", "1"});
+    bake("eight.spheres", {"--arrangement", arrangement, "--threads", "8"});
+    EXPECT_EQ(bytes("one.spheres"), bytes("eight.spheres")) << arrangement;
+    EXPECT_EQ(load("one.spheres").spheres.size(), 300u);
+  }
+}
+
+TEST_F(Spheres, AreSummarized) {
+  bake("a.spheres", {"--opacity", "0.2"});
+  const spheres::Tank tank = load("a.spheres");
+  const Json info = Json::parse(run({"info", "a.spheres", "--json", "-"}).out);
+  EXPECT_EQ(info["kind"], "tank");
+  EXPECT_EQ(info["spheres"], 300);
+  EXPECT_EQ(info["size"], Json({60, 40, 20}));
+  EXPECT_FLOAT_EQ(info["voxel_size"], 0.0025f);
+  EXPECT_EQ(info["opaque"], 0);
+  EXPECT_FLOAT_EQ(info["opacity"]["max"], 51 / 255.0f);
+  double volume = 0, lowest = 60;
+  float largest = 0;
+  for (const spheres::Sphere& sphere : tank.spheres) {
+    volume += 4.0 / 3 * std::acos(-1.0) * std::pow(double{sphere.radius}, 3);
+    largest = std::max(largest, sphere.radius);
+    lowest = std::min(lowest, double{sphere.center.x} - double{sphere.radius});
+  }
+  EXPECT_NEAR(info["fill"], volume / (60 * 40 * 20), 1e-12);
+  EXPECT_FLOAT_EQ(info["radius"]["max"], largest);
+  EXPECT_DOUBLE_EQ(info["bounds"]["min"][0], lowest);
+  EXPECT_NEAR(info["world_bounds"]["min"][0], (lowest - 30) * double{tank.voxel}, 1e-12);
+  EXPECT_NE(run({"info", "a.spheres"}).out.find("\nspheres         300\n"), std::string::npos);
+
+  spheres::save_tank(folder_.path() / "none.spheres", {glm::uvec3(4), 1, {}, {}}).value_or_throw();
+  EXPECT_EQ(Json::parse(run({"info", "none.spheres", "--json", "-"}).out)["spheres"], 0);
+}
+
+TEST_F(Spheres, AreExported) {
+  bake("a.spheres");
+  const Outcome points = run({"convert", "a.spheres", "a.ply", "--json", "-"});
+  ASSERT_EQ(points.exit_code, 0) << points.error;
+  EXPECT_EQ(Json::parse(points.out)["spheres"], 300);
+  EXPECT_EQ(Json::parse(points.out)["bytes"], bytes("a.ply").size());
+  EXPECT_EQ(bytes("a.ply").rfind("ply\nformat binary_little_endian 1.0\n", 0), 0u);
+  ASSERT_EQ(run({"convert", "a.spheres", "A.OBJ"}).exit_code, 0);
+  const Json mesh = Json::parse(run({"info", "A.OBJ", "--json", "-"}).out);
+  EXPECT_EQ(mesh["triangles"], 300 * 1280);
+  ASSERT_EQ(run({"convert", "a.spheres", "a.ply"}).exit_code, 0) << "its own it is";
+  expect_failure(folder_, {"convert", "a.spheres", "a.vxl"}, 2, {"a.vxl", ".obj"});
+  expect_failure(folder_, {"convert", "a.spheres", "b.ply", "--grid", "a"}, 2, {"--grid: is for volumes"});
+  folder_.write("text.ply", "text");
+  expect_failure(folder_, {"convert", "a.spheres", "text.ply"}, 2, {"exists and is no .ply file", "--force"});
+}
+
+TEST_F(Spheres, OfHostileOptionsAreRefused) {
+  refused({"--radius", "-1-5"}, {"--radius: from -1 to 5 voxels; expected 0 < least <= largest <= 100"});
+  refused({"--radius", "5-2"}, {"--radius: from 5 to 2 voxels"});
+  refused({"--radius", "1-400"}, {"--radius: from 1 to 400 voxels", "half of the tank's shortest side"});
+  for (const char* text : {"a-b", "1-", "nan-1", "1-inf", "1,2"})
+    refused({"--radius", text}, {"--radius: expected LEAST-LARGEST", text});
+  refused({"--count", "1000000000"}, {"--count: expected a whole number from 1 to 8388608"});
+  refused({"--count", "8388608", "--radius", "20"}, {"--count: 8388608 spheres", "the volume of the tank"});
+  refused({"--size", "0x1x1"}, {"--size: 0x1x1 voxels; expected 1 to 2048 along each axis"});
+  refused({"--size", "2048x2048x2048"}, {"--size: 2048x2048x2048 voxels; expected at most 268435456 in all"});
+  refused({"--size", "9"}, {"--size"});
+  refused({"--distribution", "9"}, {"--distribution: expected a number from 0 to 8"});
+  refused({"--opacity", "1.1"}, {"--opacity"});
+  refused({"--arrangement", "corral"}, {"--arrangement: unknown value 'corral'; did you mean coral?"});
+  refused({"--noise-size", "20"}, {"--noise-size: is for --arrangement noise"});
+  refused({"--time-limit", "0"}, {"--time-limit"});
+  expect_failure(folder_, {"bake", "spheres", "-o", "a.brv"}, 2, {"-o a.brv", ".spheres"});
+  EXPECT_EQ(folder_.files(), Arguments{});
+}
+
+TEST_F(Spheres, ThatDoNotFitAreFewerWithAWarning) {
+  const Outcome full =
+      run({"bake", "spheres", "-o", "a.spheres", "--size", "20x20x20", "--count", "1500", "--radius", "1-4"});
+  EXPECT_EQ(full.exit_code, 0);
+  EXPECT_NE(full.error.find(" of 1500 spheres are packed: there is no room for more"), std::string::npos)
+      << full.error;
+  EXPECT_LT(load("a.spheres").spheres.size(), 1500u);
+  // The smallest tank, with the default radii.
+  EXPECT_EQ(run({"bake", "spheres", "-o", "b.spheres", "--size", "1x1x1", "--count", "1"}).exit_code, 0);
+  EXPECT_EQ(load("b.spheres").spheres.size(), 1u);
+}
+
+TEST_F(Spheres, OfATimeLimitAreThosePackedByThen) {
+  // More than any machine packs in a millisecond.
+  const Outcome run = this->run({"bake", "spheres", "-o", "a.spheres", "--count", "8000000", "--radius",
+                                 "0.5-2", "--time-limit", "0.001", "--json", "-"});
+  EXPECT_EQ(run.exit_code, 0) << run.error;
+  EXPECT_NE(run.error.find("--time-limit ended it"), std::string::npos) << run.error;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["timed_out"], true);
+  EXPECT_EQ(json["spheres"], load("a.spheres").spheres.size());
+}
+
+TEST_F(Spheres, OfAnInterruptedRunAreNotWritten) {
+  const std::string old = "BRUMESPHold";
+  folder_.write("old.spheres", old);
+  RunOptions options;
+  options.signal = SIGTERM;
+  options.signal_when = [] { return true; };
+  const Outcome run =
+      run_brume(folder_.path(),
+                {"bake", "spheres", "-o", "old.spheres", "--count", "8000000", "--radius", "0.5-2"}, options);
+  EXPECT_EQ(run.exit_code, 128 + SIGTERM) << run.error;
+  EXPECT_EQ(bytes("old.spheres"), old);
+  EXPECT_EQ(folder_.files(), Arguments{"old.spheres"});
+}
+
+TEST_F(Spheres, OfDamagedFilesAreRefused) {
+  bake("a.spheres");
+  const std::string whole = bytes("a.spheres");
+  folder_.write("cut.spheres", whole.substr(0, whole.size() / 2));
+  std::string many = whole;
+  many[15] = '\x7f';
+  folder_.write("many.spheres", many);
+  folder_.write("text.spheres", "text");
+  for (const Arguments& command : {Arguments{"info"}, {"convert"}}) {
+    const auto with = [&](const char* file) {
+      Arguments arguments = command;
+      arguments.emplace_back(file);
+      if (command[0] == "convert") arguments.emplace_back("a.ply");
+      return arguments;
+    };
+    expect_failure(folder_, with("cut.spheres"), 3, {"cut.spheres: the file is truncated"});
+    expect_failure(folder_, with("many.spheres"), 4, {"many.spheres: has 2130706732 spheres"});
+    expect_failure(folder_, with("text.spheres"), 3, {"text.spheres: not a .spheres file"});
+    expect_failure(folder_, with("none.spheres"), 3, {"none.spheres"});
+  }
+}
+
+}  // namespace
+}  // namespace brume::cli
