@@ -14,8 +14,8 @@
 #include "apps/cli/stopwatch.hpp"
 #include "apps/cli/tanks.hpp"
 #include "core/error.hpp"
-#include "scenario/tank.hpp"
 #include "core/log.hpp"
+#include "scenario/tank.hpp"
 #include "spheres/file.hpp"
 #include "spheres/pack.hpp"
 
@@ -171,7 +171,8 @@ void add_spheres_options(const Arguments& arguments, SpheresBake& bake) {
       .type_name("X");
   arguments
       .add_option("--palette", bake.palette,
-                  "Colours: NAME or FILE (.gpl, .json), and the part that is used; default batlow (see brume palettes)")
+                  "Colours: NAME or FILE (.gpl, .json), and the part that is used; default batlow (see brume "
+                  "palettes)")
       .type_name("NAME:A-B");
   arguments.add_option("--seed", bake.seed, "Seed of places, radii and colours; default 0")
       .range(0u, 4294967295u)

@@ -23,9 +23,9 @@ TEST_F(Documents, ExamplesOfTheHelpRun) {
   const Outcome help = run_brume(folder_.path(), {"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.error, "");
-  std::vector<std::string> commands{"demo",           "render",  "voxelize", "bake",  "bake slices",
-                                    "bake occlusion", "bake spheres", "info",    "convert",  "query", "diff",
-                                    "palettes",       "devices", "bench",    "sim"};
+  std::vector<std::string> commands{"demo",           "render",       "voxelize", "bake",    "bake slices",
+                                    "bake occlusion", "bake spheres", "info",     "convert", "query",
+                                    "diff",           "palettes",     "devices",  "bench",   "sim"};
 #ifdef BRUME_VIEWER
   commands.push_back("view");
 #endif

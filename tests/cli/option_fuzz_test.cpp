@@ -51,8 +51,8 @@ class OptionFuzz : public testing::Test {
     EXPECT_EQ(run_brume(folder_.path(), {"voxelize", "room.obj", "-o", "room.vxl"}).exit_code, 0);
     EXPECT_EQ(run_brume(folder_.path(), {"sim", "room.toml", "--record", "room.brp"}).exit_code, 0);
     inputs_ = contents();
-    for (const char* command : {"render", "sim", "voxelize", "bake", "bake slices", "bake occlusion", "bake spheres", "info",
-                                "query", "diff", "palettes", "devices"})
+    for (const char* command : {"render", "sim", "voxelize", "bake", "bake slices", "bake occlusion",
+                                "bake spheres", "info", "query", "diff", "palettes", "devices"})
       options_[command] = options_of(command);
   }
 
