@@ -120,8 +120,8 @@ Command add_convert(CommandLine& program) {
   declare_json(arguments, options->json);
   command.run = [options, arguments, common = command.common] {
     const std::string suffix = scene::lower_extension(options->output);
-    const bool exports = spheres::is_tank_file(options->input) && (suffix == ".obj" || suffix == ".ply");
-    if (!exports) return convert(*options, common->outputs);
+    const bool is_volume = suffix == kVdb || suffix == kNvdb || suffix == kBrv || suffix == kJson;
+    if (is_volume || !spheres::is_tank_file(options->input)) return convert(*options, common->outputs);
     arguments.refuse("--grid", "is for volumes");
     convert_tank(options->input, options->output, options->json, common->outputs);
   };
