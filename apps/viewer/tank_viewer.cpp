@@ -217,7 +217,7 @@ void TankViewer::act(Action action) {
     save(path, scene::save_tank_scene(path, state_->to_save()));
   }
   if (action == Action::save_tank) {
-    const std::filesystem::path path = free_name(options_.folder, "tank", ".spheres");
+    const std::filesystem::path path = free_name(options_.folder, "spheres", ".spheres");
     save(path, spheres::save_tank(path, tank_));
   }
 }
