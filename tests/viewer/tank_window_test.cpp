@@ -1,6 +1,8 @@
 // The window of a tank of spheres: pictures, input, packing, files, and the loss of its device.
 #include <X11/keysym.h>
 
+#include <algorithm>
+
 #include "core/file.hpp"
 #include "image/decode.hpp"
 #include "scene/tank_scene.hpp"
@@ -52,6 +54,27 @@ class TankWindowTest : public testing::Test {
     program_->button(button, false);
     program_->wait_for_frames(3);
     program_->wait_for_best();
+  }
+  bool has_widget(const std::string& label) {
+    const auto& all = program_->widgets();
+    return std::ranges::find(all, label, &WidgetLine::label) != all.end();
+  }
+  WidgetLine widget(const std::string& label) {
+    const auto& all = program_->widgets();
+    const auto found = std::ranges::find(all, label, &WidgetLine::label);
+    if (found != all.end()) return *found;
+    ADD_FAILURE() << label << " is not there; " << program_->error();
+    return {};
+  }
+  void click(glm::ivec2 place) {
+    program_->place_mouse(place.x, place.y);
+    program_->wait_for_frames(2);
+    program_->click(1);
+    program_->wait_for_frames(4);
+  }
+  void click(const std::string& label) {
+    const WidgetLine at = widget(label);
+    click((at.low_px + at.high_px) / 2);
   }
   /// `brume render` of a scene in the window's size.
   image::Image8 rendered(const std::string& scene, const std::vector<std::string>& more = {}) {
@@ -175,6 +198,34 @@ TEST_F(TankWindowTest, AnEmptyTankIsAPictureOfTheSky) {
                    std::vector<std::string>{"empty.toml", "--size", "240x160", "--validation", "--exit-after",
                                             "0.1", "--screenshot", "shot.png", "--json", "r.json"});
   EXPECT_EQ(report().at("spheres"), 0);
+}
+
+TEST_F(TankWindowTest, PacksOthersInTheBackground) {
+  run_and_wait({"--panels", "--log-widgets"}, "640x700");
+  for (const char* label : {"Picture", "Lights", "Packing"}) click(label);  // folds two, unfolds one
+  // Half of the slider, of spheres.
+  const WidgetLine spheres = widget("##spheres ");
+  click((spheres.low_px + spheres.high_px) / 2);
+  click("Pack");
+  ASSERT_TRUE(program_->wait_for_frame([&](const Frame&) { return !has_widget("Stop here"); }));
+  tap(XK_F5);
+  const auto result = finish();
+  EXPECT_EQ(result.at("packings"), 1);
+  EXPECT_NE(saved("tank_0001.toml").pack.count, saved("tank.toml").pack.count);
+}
+
+TEST_F(TankWindowTest, PackingStopsWithTheSpheresSoFar) {
+  // More than there is room for: that takes minutes.
+  folder_.write("tank.toml",
+                "version = 1\n[tank]\nsize = [800, 600, 500]\nspheres = 8000000\nradius = [1, 3]\n"
+                "samples = 1\n");
+  run({"--log-widgets"});
+  ASSERT_TRUE(program_->wait_for_window()) << program_->error();
+  ASSERT_TRUE(program_->wait_for_frame([&](const Frame&) { return has_widget("Stop here"); }));
+  click("Stop here");
+  ASSERT_TRUE(program_->wait_for_best()) << program_->error();
+  const auto result = finish();
+  EXPECT_LT(result.at("spheres").get<std::uint32_t>(), 8000000u);
 }
 
 // The errors of scenes and options are those of the command line.

@@ -153,6 +153,7 @@ TEST_F(WidgetsTest, EveryWidgetOfATankTakesAClick) {
   // The list of palettes is as long as there are palettes (palette_list_test.cpp), and packing ends soon.
   skipped_ = {"Palette", "Stop here"};
   run("tank.toml");
+  ASSERT_TRUE(program_->wait_for_best()) << program_->error();
   use_all();
   EXPECT_GE(kinds_["open"].size(), 10u);  // 8 sections, 2 lights
   EXPECT_GE(kinds_["button"].size(), 17u);
