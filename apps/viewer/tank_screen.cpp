@@ -37,8 +37,11 @@ void TankScreen::set_view(const planning::TankPlan& plan, const shared::FrameCon
                           scene::TankView kind, scene::TankLighting lighting) {
   if (lighting != lighting_) renderer_->set_lighting(lighting);
   lighting_ = lighting;
-  if (kind != kind_) renderer_->set_kind(kind);
-  kind_ = kind;
+  if (kind != kind_) {
+    kind_.reset();  // if it throws
+    renderer_->set_kind(kind);
+    kind_ = kind;
+  }
   if (plan.constants.size_px != picture_px()) renderer_->resize(plan.constants.size_px);
   renderer_->set_view(plan, display);
   display_changed_ = false;

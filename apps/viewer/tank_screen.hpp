@@ -64,7 +64,7 @@ class TankScreen {
   std::optional<gpu::CommandRunner> runner_;
   std::optional<WindowCanvas> canvas_;
   std::optional<render::TankRenderer> renderer_;
-  scene::TankView kind_ = scene::TankView::spheres;
+  std::optional<scene::TankView> kind_;  ///< Of the renderer; none after a failure.
   scene::TankLighting lighting_ = scene::TankLighting::maps;
   gpu::Image shown_;              ///< The newest complete picture; none before the first.
   bool display_changed_ = false;  ///< The picture so far has another exposure than it shall have.

@@ -79,7 +79,7 @@ class TankViewer {
   void prepare(const spheres::Tank& tank);
   void adopt();
   void frame();
-  void loading_frame();
+  void loading_frame(TankClock::time_point begin);
   void handle(const Input& input, double frame_seconds);
   void advance_time(double frame_seconds);
   void act(Action action);
@@ -87,6 +87,7 @@ class TankViewer {
   void lose_for_tests();
   void draw(TankClock::time_point begin, double frame_seconds);
   void finish_frame(TankClock::time_point begin, double frame_seconds);
+  void log_frame(TankClock::time_point begin, double frame_seconds, PictureKind kind);
   void save_screenshot(const std::filesystem::path& picture, bool complete);
   void save(const std::filesystem::path& path, const Result<void>& saved);
   void take_messages();
@@ -183,7 +184,7 @@ std::optional<TankWork> TankViewer::work() const {
   return TankWork{job_title_, job_->seconds(), progress_to_show(0), true, job_->stops()};
 }
 
-void TankViewer::loading_frame() {
+void TankViewer::loading_frame(TankClock::time_point begin) {
   if (options_.overlay) {
     if (lay_out_tank_loading(options_.level_name, *work()).stop) job_->stop();
   } else {
@@ -192,7 +193,7 @@ void TankViewer::loading_frame() {
   if (!screen_->begin()) return;
   screen_->show({}, *ImGui::GetDrawData());
   screen_->wait();
-  if (options_.log_widgets) log_.add_widgets(ui_.widgets());
+  log_frame(begin, 0, PictureKind::film);
 }
 
 void TankViewer::act(Action action) {
@@ -217,7 +218,7 @@ void TankViewer::act(Action action) {
     save(path, scene::save_tank_scene(path, state_->to_save()));
   }
   if (action == Action::save_tank) {
-    const std::filesystem::path path = free_name(options_.folder, "tank", ".spheres");
+    const std::filesystem::path path = free_name(options_.folder, "spheres", ".spheres");
     save(path, spheres::save_tank(path, tank_));
   }
 }
@@ -299,7 +300,7 @@ void TankViewer::frame() {
   const TankClock::time_point begin = TankClock::now();
   Input input = window_.take_input();
   ui_.begin_frame();
-  if (!state_) return loading_frame();
+  if (!state_) return loading_frame(begin);
   // Input that the panels capture does not reach the picture.
   if (ui_.takes_keys()) input = {};
   if (ui_.takes_mouse()) {
@@ -337,17 +338,24 @@ void TankViewer::draw(TankClock::time_point begin, double frame_seconds) {
   }
 }
 
-void TankViewer::finish_frame(TankClock::time_point begin, double frame_seconds) {
-  screen_->wait();
-  painter_.measure(*screen_);
-  ++frames_;
-  FrameLine line{
-      state_->seconds(), 1e3 * frame_seconds, 0, 1e3 * tank_seconds_between(begin, TankClock::now()),
-      window_.size_px(), painter_.kind()};
+void TankViewer::log_frame(TankClock::time_point begin, double frame_seconds, PictureKind kind) {
+  FrameLine line;
+  line.seconds = state_ ? state_->seconds() : 0;
+  line.frame_ms = 1e3 * frame_seconds;
+  line.latency_ms = 1e3 * tank_seconds_between(begin, TankClock::now());
+  line.size_px = window_.size_px();
+  line.picture = kind;
   line.device_bytes = screen_->context().memory().bytes_in_use();
   line.shader_faults = shaders_.errors().size();
   if (options_.log_widgets) log_.add_widgets(ui_.widgets());
   log_.add(line);
+}
+
+void TankViewer::finish_frame(TankClock::time_point begin, double frame_seconds) {
+  screen_->wait();
+  painter_.measure(*screen_);
+  ++frames_;
+  log_frame(begin, frame_seconds, painter_.kind());
 }
 
 void TankViewer::save_screenshot(const std::filesystem::path& picture, bool complete) {

@@ -14,12 +14,15 @@ namespace {
 
 TEST(KeysTest, EveryActionHasAKeyAndEveryKeyOneAction) {
   std::set<Action> actions;
-  std::set<std::tuple<bool, int, bool, bool>> codes;
-  for (const KeyBinding& binding : key_bindings()) {
-    actions.insert(binding.action);
-    const auto [shift, control] = binding.modifiers;
-    EXPECT_TRUE(codes.insert({binding.mouse, binding.code, shift, control}).second) << binding.name;
-    EXPECT_EQ(action_of(binding.mouse, binding.code, binding.modifiers), binding.action) << binding.name;
+  for (const KeyMap map : {KeyMap::level, KeyMap::tank}) {
+    std::set<std::tuple<bool, int, bool, bool>> codes;
+    for (const KeyBinding& binding : key_bindings(map)) {
+      actions.insert(binding.action);
+      const auto [shift, control] = binding.modifiers;
+      EXPECT_TRUE(codes.insert({binding.mouse, binding.code, shift, control}).second) << binding.name;
+      EXPECT_EQ(action_of(binding.mouse, binding.code, binding.modifiers, map), binding.action)
+          << binding.name;
+    }
   }
   EXPECT_EQ(actions.size(), kActions);
 }
@@ -33,20 +36,23 @@ TEST(KeysTest, ShiftRunsAndControlReservesKeys) {
 }
 
 TEST(KeysTest, HelpHasEachKeyOnceInGroups) {
-  const std::vector<HelpRow> rows = help_rows();
-  EXPECT_EQ(rows.front().keys, "W A S D");
-  std::set<std::string> keys;
-  for (const HelpRow& row : rows) EXPECT_TRUE(keys.insert(row.keys).second) << row.keys;
-  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end(),
-                             [](const HelpRow& a, const HelpRow& b) { return a.group < b.group; }));
+  EXPECT_EQ(help_rows().front().keys, "W A S D");
+  for (const KeyMap map : {KeyMap::level, KeyMap::tank}) {
+    const std::vector<HelpRow> rows = help_rows(map);
+    std::set<std::string> keys;
+    for (const HelpRow& row : rows) EXPECT_TRUE(keys.insert(row.keys).second) << row.keys;
+    EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end(),
+                               [](const HelpRow& a, const HelpRow& b) { return a.group < b.group; }));
+  }
 }
 
 TEST(KeysTest, DocumentationListsEveryKey) {
   const std::string document = read_text_file(BRUME_SOURCE_DIR "/docs/viewer.md").value_or_throw();
-  for (const HelpRow& row : help_rows()) {
-    const std::string line = "| " + row.keys + " | " + row.does + " |\n";
-    EXPECT_NE(document.find(line), std::string::npos) << line;
-  }
+  for (const KeyMap map : {KeyMap::level, KeyMap::tank})
+    for (const HelpRow& row : help_rows(map)) {
+      const std::string line = "| " + row.keys + " | " + row.does + " |\n";
+      EXPECT_NE(document.find(line), std::string::npos) << line;
+    }
 }
 
 }  // namespace
