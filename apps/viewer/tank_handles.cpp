@@ -29,13 +29,22 @@ glm::vec3 place_of(const scene::TankScene& scene, const TankHandle& handle, doub
   return scene::light_at(scene.lights[handle.index], time).position_world;
 }
 
+std::optional<TankMark> mark_in(const scene::Camera& camera, glm::vec2 size, const glm::vec3& world) {
+  constexpr float kEdge = 14;  // [px]
+  const auto at = in_picture(camera, size, world);
+  if (!at) return std::nullopt;
+  const glm::vec2 inside = glm::clamp(*at, glm::vec2(0), size);
+  if (inside == *at) return TankMark{*at, false};
+  return TankMark{glm::clamp(*at, glm::vec2(kEdge), glm::max(size - kEdge, glm::vec2(kEdge))), true};
+}
+
 std::optional<TankHandle> handle_at(const scene::TankScene& scene, double time, const scene::Camera& camera,
                                     glm::vec2 size, glm::vec2 point, float reach) {
   std::optional<TankHandle> nearest;
   for (const TankHandle& handle : handles_of(scene)) {
-    const auto mark = in_picture(camera, size, place_of(scene, handle, time));
-    if (!mark || glm::distance(*mark, point) > reach) continue;
-    reach = glm::distance(*mark, point);
+    const auto mark = mark_in(camera, size, place_of(scene, handle, time));
+    if (!mark || glm::distance(mark->at, point) > reach) continue;
+    reach = glm::distance(mark->at, point);
     nearest = handle;
   }
   return nearest;

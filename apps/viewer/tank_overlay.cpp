@@ -17,7 +17,7 @@ constexpr ImU32 kAccentMark = IM_COL32(255, 190, 90, 255), kRim = IM_COL32(255, 
                 kShadow = IM_COL32(0, 0, 0, 170), kGlassLine = IM_COL32(190, 230, 235, 120);
 constexpr float kMarkRadius = 7;  // [px]
 
-std::optional<ImVec2> mark_of(const scene::Camera& camera, const glm::vec3& world) {
+std::optional<ImVec2> point_of(const scene::Camera& camera, const glm::vec3& world) {
   const auto at = on_display(camera, world);
   return at ? std::optional(ImVec2(at->x, at->y)) : std::nullopt;
 }
@@ -28,9 +28,11 @@ ImU32 colour_of(const glm::vec3& color) {
   return ImGui::ColorConvertFloat4ToU32(ImVec4(srgb.x, srgb.y, srgb.z, 1));
 }
 
-void label_mark(ImDrawList& list, ImVec2 at, const std::string& text) {
+/// Beside a mark, where there is room.
+void label_mark(ImDrawList& list, ImVec2 at, float display_width, const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 low(at.x + 14, at.y - 0.5f * size.y);
+  const bool is_right = at.x + 18 + size.x < display_width;
+  const ImVec2 low(is_right ? at.x + 14 : at.x - 14 - size.x, at.y - 0.5f * size.y);
   list.AddRectFilled(ImVec2(low.x - 4, low.y - 2), ImVec2(low.x + size.x + 4, low.y + size.y + 2), kShadow,
                      3);
   list.AddText(low, kAccentMark, text.c_str());
@@ -46,7 +48,7 @@ void draw_ellipsoid(ImDrawList& list, const scene::Camera& camera, const scene::
       glm::vec3 unit(0);
       unit[(axis + 1) % 3] = std::cos(turn);
       unit[(axis + 2) % 3] = std::sin(turn);
-      const auto now = mark_of(camera, glass.position_world + unit * glass.radii);
+      const auto now = point_of(camera, glass.position_world + unit * glass.radii);
       if (last && now) list.AddLine(*last, *now, kGlassLine, 1.2f);
       last = now;
     }
@@ -55,16 +57,20 @@ void draw_ellipsoid(ImDrawList& list, const scene::Camera& camera, const scene::
 
 void draw_mark(ImDrawList& list, const TankState& state, const TankHandle& handle, bool is_bright) {
   const scene::Camera camera = state.camera();
-  const auto at = mark_of(camera, place_of(state.scene(), handle, state.seconds()));
-  if (!at) return;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const auto mark = mark_in(camera, {display.x, display.y}, place_of(state.scene(), handle, state.seconds()));
   const bool is_light = handle.kind == TankHandle::Kind::light;
   if (!is_light) draw_ellipsoid(list, camera, scene::glass_at(*state.scene().glass, state.seconds()));
+  if (!mark) return;
+  const ImVec2 at(mark->at.x, mark->at.y);
+  const float radius = mark->is_at_edge ? 0.7f * kMarkRadius : kMarkRadius;
   const ImU32 fill =
       is_light ? colour_of(state.scene().lights[handle.index].color) : IM_COL32(150, 215, 225, 160);
-  list.AddCircleFilled(*at, kMarkRadius + 2, kShadow);
-  list.AddCircleFilled(*at, kMarkRadius - 1.5f, fill);
-  list.AddCircle(*at, kMarkRadius, is_bright ? kAccentMark : kRim, 0, is_bright ? 2.5f : 1.5f);
-  if (is_bright) label_mark(list, *at, is_light ? "light " + std::to_string(handle.index + 1) : "glass");
+  list.AddCircleFilled(at, radius + 2, kShadow);
+  list.AddCircleFilled(at, radius - 1.5f, fill);
+  list.AddCircle(at, radius, is_bright ? kAccentMark : kRim, 0, is_bright ? 2.5f : 1.5f);
+  if (is_bright)
+    label_mark(list, at, display.x, is_light ? "light " + std::to_string(handle.index + 1) : "glass");
 }
 
 const ImVec4 kNoticeText(1, 0.8f, 0.5f, 1), kFaultText(1, 0.45f, 0.4f, 1);

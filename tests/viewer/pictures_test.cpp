@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "core/file.hpp"
 #include "tests/viewer/room.hpp"
 
 namespace brume::viewer {
@@ -53,6 +54,24 @@ TEST_F(PicturesTest, ShowTheDemoWithPanelsHelpAndProbe) {
   }
   const image::Image8 panels = settled(program);
   keep(panels, "viewer_panels.png");
+  EXPECT_GT(mean_difference(panels, plain), 5);
+  program.close();
+  EXPECT_EQ(program.wait(), 0) << program.error();
+}
+
+TEST_F(PicturesTest, ShowATankWithItsPanels) {
+  // The scene of the program with glass before it, and fewer samples.
+  std::string scene = read_text_file(BRUME_SOURCE_DIR "/scenes/aquaria.toml").value_or_throw();
+  scene.replace(scene.find("samples = 64"), 12, "samples = 8");
+  folder_.write("aquaria.toml",
+                scene + "\n[glass]\nposition = [-0.35, 0.1, 0.75]\nradii = [0.2, 0.2, 0.2]\n");
+  Program program(desktop_, folder_.path(), {"aquaria.toml", "--size", "1120x630"});
+  ASSERT_TRUE(program.wait_for_window()) << program.error();
+  const image::Image8 plain = settled(program);
+  EXPECT_GT(count_colours(plain), 10000u);
+  program.tap(XK_Tab);
+  const image::Image8 panels = settled(program);
+  keep(panels, "viewer_tank.png");
   EXPECT_GT(mean_difference(panels, plain), 5);
   program.close();
   EXPECT_EQ(program.wait(), 0) << program.error();

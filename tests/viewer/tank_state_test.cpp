@@ -121,6 +121,19 @@ TEST(TankHandleTest, TheNearestMarkInReachIsTaken) {
   EXPECT_EQ(handle_at(scene, 0, camera, kSize, mark + glm::vec2(0, 13), 12), std::nullopt);
 }
 
+TEST(TankHandleTest, AMarkBesideThePictureIsAtItsEdge) {
+  const scene::Camera camera = camera_of_test();
+  const auto beside = mark_in(camera, kSize, camera.target_world + glm::vec3(9, 0, 0));
+  ASSERT_TRUE(beside);
+  EXPECT_TRUE(beside->is_at_edge);
+  EXPECT_LT(beside->at.x, kSize.x);
+  EXPECT_GT(beside->at.x, kSize.x - 20);
+  const auto inside = mark_in(camera, kSize, camera.target_world);
+  ASSERT_TRUE(inside);
+  EXPECT_FALSE(inside->is_at_edge);
+  EXPECT_FALSE(mark_in(camera, kSize, camera.position_world + glm::vec3(0, 0, 1)));
+}
+
 TEST(TankFocusTest, IsTheFirstSphereAheadElseTheMiddle) {
   spheres::Tank tank;
   tank.size = {100, 100, 100};
