@@ -5,6 +5,14 @@
 #include "core/same_bytes.hpp"
 
 namespace brume::viewer {
+namespace {
+
+/// Light paths of a picture: voxels show no light through the glass.
+std::uint32_t photons_of(const TankPictureKey& key) {
+  return key.view == scene::TankView::spheres ? key.photons : 0;
+}
+
+}  // namespace
 
 TankPictureKey picture_key(const TankState& state, const spheres::Tank& tank, glm::uvec2 size_px) {
   const scene::TankScene& scene = state.scene();
@@ -19,6 +27,7 @@ bool same_samples(const TankPictureKey& a, const TankPictureKey& b) {
 }
 
 void TankPainter::restart() {
+  photons_.restart();
   drawn_.reset();
   is_best_ = false;
   schedule_.restart();
@@ -38,6 +47,12 @@ void TankPainter::begin_picture(TankScreen& screen, const TankState& state, cons
   exposure_ = state.scene().exposure;
   tone_ = state.scene().tone;
   screen.set_view(key.plan, planning::display_constants(state.scene(), size_px), key.view, key.lighting);
+  seconds_ = 0;
+}
+
+void TankPainter::set_photons(TankScreen& screen, const std::optional<spheres::LightPaths>& paths) {
+  if (!paths) return;
+  screen.set_photons(*paths);
   seconds_ = 0;
 }
 
@@ -61,10 +76,12 @@ bool TankPainter::draw(TankScreen& screen, const TankState& state, const spheres
   } else {
     set_display(screen, state);
   }
+  set_photons(screen, photons_.update(tank, planning::light_path_scene(drawn_->plan), photons_of(*drawn_),
+                                      schedule_.is_moving()));
   const std::uint32_t limit = state.scene().samples;
   slice_ = schedule_.next(size_px, screen.samples(), screen.rows(), limit);
   screen.show(slice_, ui);
-  is_best_ = !schedule_.is_moving() && screen.samples() >= limit;
+  is_best_ = !schedule_.is_moving() && photons_.is_complete() && screen.samples() >= limit;
   return true;
 }
 
@@ -83,6 +100,7 @@ void TankPainter::complete(TankScreen& screen, const TankState& state, const sph
     begin_picture(screen, state, tank, window_px);
     drawn_ = std::move(key);
   }
+  set_photons(screen, photons_.complete(tank, planning::light_path_scene(drawn_->plan), photons_of(*drawn_)));
   while (screen.samples() == 0 || screen.rows() > 0 || screen.samples() < samples) {
     slice_ = schedule_.next(window_px, screen.samples(), screen.rows(), std::max(samples, 1u));
     // The rest of a sample that began beyond the last.

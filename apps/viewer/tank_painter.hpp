@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "apps/viewer/frame_log.hpp"
+#include "apps/viewer/tank_photons.hpp"
 #include "apps/viewer/tank_schedule.hpp"
 #include "apps/viewer/tank_screen.hpp"
 #include "apps/viewer/tank_state.hpp"
@@ -53,8 +54,10 @@ class TankPainter {
   void begin_picture(TankScreen& screen, const TankState& state, const spheres::Tank& tank,
                      glm::uvec2 size_px);
   void set_display(TankScreen& screen, const TankState& state);
+  void set_photons(TankScreen& screen, const std::optional<spheres::LightPaths>& paths);
 
   TankSchedule schedule_;
+  TankPhotons photons_;
   std::optional<TankPictureKey> drawn_;  ///< At the window's size, whatever that of the picture.
   float exposure_ = 0;
   scene::ToneCurve tone_ = scene::ToneCurve::neutral;

@@ -32,6 +32,8 @@ class TankScreen {
   /// TankRenderer::set_kind throws.
   void set_view(const planning::TankPlan& plan, const shared::FrameConstants& display, scene::TankView kind,
                 scene::TankLighting lighting);
+  /// As TankRenderer::set_photons.
+  void set_photons(const spheres::LightPaths& paths) { renderer_->set_photons(paths); }
   /// The exposure and the tone curve alone.
   void set_display(const shared::FrameConstants& display);
 

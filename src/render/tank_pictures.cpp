@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "core/progress.hpp"
-#include "core/same_bytes.hpp"
 
 namespace brume::render {
 namespace {
@@ -32,9 +31,7 @@ void TankPictures::trace_light(const planning::TankPlan& plan, const std::functi
   if (scenario_.scene.view != scene::TankView::spheres) return;
   const spheres::LightPathScene scene = planning::light_path_scene(plan);
   // A still picture's light, as long as neither the lights nor the glass move.
-  const bool same = traced_ && same_bytes(traced_->glass, scene.glass) &&
-                    std::ranges::equal(traced_->lights, scene.lights, same_bytes<spheres::LightBall>);
-  if (same) return;
+  if (traced_ && spheres::same_light(*traced_, scene)) return;
   spheres::LightPathOptions options;
   options.count = scenario_.scene.photons;
   renderer_.set_photons(spheres::trace_light_paths(scenario_.tank, bricks_, scene, options, stopped));

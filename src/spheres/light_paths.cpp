@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/progress.hpp"
+#include "core/same_bytes.hpp"
 #include "core/tasks.hpp"
 #include "shared/dda.h"
 
@@ -255,6 +256,10 @@ float chosen_radius(const Tank& tank, const std::vector<shared::Photon>& photons
 }
 
 }  // namespace
+
+bool same_light(const LightPathScene& a, const LightPathScene& b) {
+  return same_bytes(a.glass, b.glass) && std::ranges::equal(a.lights, b.lights, same_bytes<LightBall>);
+}
 
 LightPaths trace_light_paths(const Tank& tank, const BrickLists& bricks, const LightPathScene& scene,
                              const LightPathOptions& options, const std::function<bool()>& stopped) {

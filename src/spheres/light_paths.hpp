@@ -26,6 +26,9 @@ struct LightPathScene {
   shared::Glass glass{glm::vec3(0), 0, glm::vec3(1)};
 };
 
+/// Whether two scenes have the same lights and the same glass: the same light paths.
+bool same_light(const LightPathScene& a, const LightPathScene& b);
+
 struct LightPathOptions {
   std::uint32_t count = 1u << 20;  ///< Of paths that are aimed at the glass, at most kMostPhotons.
   std::uint64_t seed = 0;

@@ -11,7 +11,7 @@ namespace brume::viewer {
 inline void write_tank(const cli::WorkFolder& folder, const std::string& samples = "6") {
   folder.write("tank.toml",
                "version = 1\nduration = 2.0\n[tank]\nsize = [60, 60, 24]\nvoxel = 0.02\nspheres = 300\n"
-               "radius = [1.5, 6]\npalette = \"viridis\"\nsamples = " +
+               "radius = [1.5, 6]\npalette = \"viridis\"\nphotons = 100000\nsamples = " +
                    samples +
                    "\n[sky]\nambient = [0.2, 0.2, 0.25]\n"
                    "[[light]]\nposition = [-0.3, 0.3, 0.9]\nintensity = 3\nradius = 0.05\n"
