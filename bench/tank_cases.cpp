@@ -109,6 +109,7 @@ struct Picture {
   float opacity = 1;
   std::uint32_t spheres = 65535;
   bool ids = false;
+  std::uint32_t photons = 0;
 };
 
 Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& picture) {
@@ -131,8 +132,14 @@ Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& pictu
   gpu::CommandRunner runner(bench.context());
   render::TankRenderer renderer(bench.context(), runner, tank, size, picture.ids);
   renderer.set_kind(picture.view);
-  renderer.set_view(planning::plan_tank(scene, tank, 0, size, camera),
-                    planning::display_constants(scene, size));
+  const planning::TankPlan plan = planning::plan_tank(scene, tank, 0, size, camera);
+  renderer.set_view(plan, planning::display_constants(scene, size));
+  if (picture.photons > 0) {
+    spheres::LightPathOptions options;
+    options.count = picture.photons;
+    renderer.set_photons(spheres::trace_light_paths(tank, spheres::list_bricks(tank),
+                                                    planning::light_path_scene(plan), options));
+  }
   Measurement m = time_pass(bench, runner, picture.name, {"tank"},
                             [&](gpu::Recorder& recorder) { renderer.record_samples(recorder, 1); });
   m.details = {{"width", double(size.x)}, {"height", double(size.y)}};
@@ -188,6 +195,8 @@ std::vector<Case> tank_cases() {
        "the same by ids of voxels"},
       {{"tank/glass", scene::TankView::spheres, 0, true}, "through lens and glass, direct light"},
       {{"tank/glass_scattered", scene::TankView::spheres, 2, true}, "the same with two bounces"},
+      {{"tank/photons", scene::TankView::spheres, 2, true, 1, 65535, false, 1u << 20},
+       "the same with a million light paths"},
       {{"tank/media", scene::TankView::spheres, 1, false, 0.1f}, "spheres that light passes, one bounce"},
       {{"tank/million", scene::TankView::spheres, 0, false, 1, 1000000}, "a million spheres, direct light"},
       {{"tank/voxels", scene::TankView::voxels}, "painted voxels"}};

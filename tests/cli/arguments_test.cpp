@@ -126,7 +126,7 @@ TEST_F(CommandLineTest, SuffixesOfAnyCase) {
   }
   EXPECT_EQ(
       refusal({"sim", "room.xyz"}),
-      "room.xyz: unknown file suffix; expected .txt, .gltf, .glb, .obj, .toml, .vdb, .nvdb, .brv or .json");
+      "room.xyz: unknown file suffix; expected .txt, .gltf, .glb, .obj, .toml, .vdb, .nvdb, .brv, .json or .spheres");
 }
 
 TEST_F(CommandLineTest, PointsWithBlanksAndPercentSignsInNames) {
