@@ -23,13 +23,20 @@ namespace brume::cli {
 namespace {
 
 struct SpheresBake {
-  std::string output, size = "600x600x200", radius, arrangement, palette = "batlow", json;
+  std::string output, size = "600x600x200", radius, arrangement, coloring, palette = "batlow", json;
   std::uint32_t seed = 0;
   std::optional<double> time_limit;
   spheres::PackOptions options;
 };
 
 const std::vector<std::string> kArrangements{"random", "largest-first", "noise", "coral"};
+const std::vector<std::string> kColorings{"random", "radius", "height", "noise"};
+
+/// The value whose name stands in its place of `names`.
+template <typename Choice>
+Choice choice_of(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Choice>(std::find(names.begin(), names.end(), name) - names.begin());
+}
 
 /// "1.5-16", or one number for both. What is no range is left to the check of all options.
 glm::vec2 parse_radius(const std::string& text) {
@@ -84,10 +91,10 @@ void bake_spheres(SpheresBake bake, const Arguments& arguments, Outputs& outputs
   // Options and outputs.
   const Stopwatch watch;
   spheres::PackOptions& options = bake.options;
-  options.arrangement = static_cast<spheres::Arrangement>(
-      std::find(kArrangements.begin(), kArrangements.end(), bake.arrangement) - kArrangements.begin());
-  if (options.arrangement != spheres::Arrangement::noise)
-    arguments.refuse("--noise-size", "is for --arrangement noise");
+  options.arrangement = choice_of<spheres::Arrangement>(kArrangements, bake.arrangement);
+  options.coloring = choice_of<spheres::Coloring>(kColorings, bake.coloring);
+  if (options.arrangement != spheres::Arrangement::noise && options.coloring != spheres::Coloring::noise)
+    arguments.refuse("--noise-size", "is for --arrangement noise and --coloring noise");
   options.size = glm::uvec3(parse_grid("--size", bake.size));
   options.radius = bake.radius.empty() ? default_radius(options.size) : parse_radius(bake.radius);
   options.seed = bake.seed;
@@ -119,6 +126,7 @@ void bake_spheres(SpheresBake bake, const Arguments& arguments, Outputs& outputs
                 {"size", Json::list({n.x, n.y, n.z})},
                 {"voxel_size", options.voxel},
                 {"arrangement", bake.arrangement},
+                {"coloring", bake.coloring},
                 {"count", options.count},
                 {"spheres", packed->spheres.size()},
                 {"timed_out", timed_out},
@@ -160,6 +168,11 @@ void add_spheres_options(const Arguments& arguments, SpheresBake& bake) {
       .one_of(kArrangements)
       .type_name("NAME");
   arguments
+      .add_option("--coloring", bake.coloring,
+                  "Which of the palette's colours: random (default), by radius, by height, or by noise")
+      .one_of(kColorings)
+      .type_name("NAME");
+  arguments
       .add_option("--noise-size", options.noise_size, "Size of the noise's features [voxels]; default 120")
       .range(1.0, 65536.0)
       .type_name("X");
@@ -194,6 +207,7 @@ Command add_bake_spheres(CommandLine& program) {
               "  brume bake spheres -o haze.spheres --radius 2-30 --distribution 2 --opacity 0.1 --json -");
   auto bake = std::make_shared<SpheresBake>();
   bake->arrangement = "largest-first";
+  bake->coloring = "random";
   const Arguments& arguments = command.arguments;
   arguments.add_option("-o,--output", bake->output, "Tank to write (.spheres)").required().type_name("FILE");
   add_spheres_options(arguments, *bake);

@@ -121,24 +121,25 @@ bool seed_row(spheres::PackOptions& pack, const spheres::PackOptions& file) {
 }
 
 /// "largest first"
-std::string shown_name(spheres::Arrangement arrangement) {
-  std::string name = scene::arrangement_name(arrangement);
+std::string shown_name(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-bool arrangement_row(spheres::Arrangement& arrangement) {
+/// One of `count` values by its name.
+template <typename Choice>
+bool choice_row(const std::string& key, Choice& chosen, std::uint32_t count, const char* (*name_of)(Choice)) {
   bool changed = false;
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("arrangement");
+  ImGui::TextUnformatted(key.c_str());
   ImGui::SameLine(0.42f * ImGui::GetWindowWidth());
   ImGui::SetNextItemWidth(-1);
-  if (!begin_combo("##arrangement", shown_name(arrangement).c_str())) return false;
-  for (std::uint32_t i = 0; i < scene::kArrangements; ++i) {
-    const auto choice = spheres::Arrangement{i};
-    if (!selectable(shown_name(choice).c_str(), choice == arrangement)) continue;
-    changed = changed || choice != arrangement;
-    arrangement = choice;
+  if (!begin_combo(("##" + key).c_str(), shown_name(name_of(chosen)).c_str())) return false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto choice = Choice{i};
+    if (!selectable(shown_name(name_of(choice)).c_str(), choice == chosen)) continue;
+    changed = changed || choice != chosen;
+    chosen = choice;
     ImGui::CloseCurrentPopup();
   }
   end_combo();
@@ -217,8 +218,11 @@ void lay_out_packing(TankState& state, const TankStatus& status, TankRequests& r
   rows("spheres");
   changed = radius_rows(pack, file) || changed;
   rows("distribution");
-  changed = arrangement_row(pack.arrangement) || changed;
-  if (pack.arrangement == spheres::Arrangement::noise) rows("noise_size");
+  changed =
+      choice_row("arrangement", pack.arrangement, scene::kArrangements, scene::arrangement_name) || changed;
+  changed = choice_row("coloring", pack.coloring, scene::kColorings, scene::coloring_name) || changed;
+  if (pack.arrangement == spheres::Arrangement::noise || pack.coloring == spheres::Coloring::noise)
+    rows("noise_size");
   changed = seed_row(pack, file) || changed;
   rows("opacity");
   changed = size_row(pack.size) || changed;

@@ -25,7 +25,7 @@ bool same_tank(const scene::TankScene& a, const scene::TankScene& b) {
   const spheres::PackOptions &x = a.pack, &y = b.pack;
   return x.size == y.size && x.voxel == y.voxel && x.count == y.count && x.radius == y.radius &&
          x.distribution == y.distribution && x.arrangement == y.arrangement && x.noise_size == y.noise_size &&
-         x.opacity == y.opacity && x.seed == y.seed && a.palette == b.palette &&
+         x.coloring == y.coloring && x.opacity == y.opacity && x.seed == y.seed && a.palette == b.palette &&
          a.palette_space == b.palette_space;
 }
 

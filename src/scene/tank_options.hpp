@@ -24,8 +24,7 @@ void visit_pack_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"voxel", "m", "edge length of a voxel", 1e-6, 1e3}, o.voxel);
   visit(OptionInfo{"spheres", "", "spheres, if there is room for them", 0, spheres::kMostSpheres}, o.count);
   visit(OptionInfo{"distribution", "", "number of spheres of a radius ~ radius^-x", 0, 8}, o.distribution);
-  visit(OptionInfo{"noise_size", "voxels", "size of the features of arrangement \"noise\"", 1, 4096},
-        o.noise_size);
+  visit(OptionInfo{"noise_size", "voxels", "size of the features of noise", 1, 4096}, o.noise_size);
   visit(OptionInfo{"opacity", "", "what a voxel of a sphere blocks; 1: an opaque surface", 0, 1}, o.opacity);
 }
 

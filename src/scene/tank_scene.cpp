@@ -19,9 +19,9 @@ namespace {
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 24;
 
 /// Keys that say how a tank is packed, and have no place beside a file of one.
-constexpr const char* kPackKeys[]{"size",         "voxel",       "spheres",      "radius",
-                                  "distribution", "arrangement", "noise_size",   "opacity",
-                                  "seed",         "palette",     "palette_space"};
+constexpr const char* kPackKeys[]{"size",         "voxel",       "spheres",  "radius",
+                                  "distribution", "arrangement", "coloring", "noise_size",
+                                  "opacity",      "seed",        "palette",  "palette_space"};
 
 class TankReader {
  public:
@@ -109,15 +109,25 @@ class TankReader {
                  "\"palette_space\": expected \"oklab\", \"linear\", \"srgb\" or \"nearest\"");
     read_palette(table);
 
-    std::string arrangement = "largest_first";
-    table.read("arrangement", arrangement);
-    for (std::uint32_t i = 0; i < kArrangements; ++i)
-      if (arrangement == arrangement_name(spheres::Arrangement{i})) {
-        pack.arrangement = spheres::Arrangement{i};
+    read_choice(table, "arrangement", pack.arrangement, kArrangements, arrangement_name);
+    read_choice(table, "coloring", pack.coloring, kColorings, coloring_name);
+  }
+
+  /// One of `count` values by its name.
+  template <typename Choice>
+  void read_choice(TomlTable& table, const std::string& key, Choice& choice, std::uint32_t count,
+                   const char* (*name_of)(Choice)) {
+    std::string text = name_of(choice), names;
+    table.read(key.c_str(), text);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::string name = name_of(Choice{i});
+      if (text == name) {
+        choice = Choice{i};
         return;
       }
-    table.fail("arrangement",
-               "\"arrangement\": expected \"random\", \"largest_first\", \"noise\" or \"coral\"");
+      names += (i == 0 ? "" : i + 1 < count ? ", " : " or ") + ('"' + name + '"');
+    }
+    table.fail(key.c_str(), '"' + key + "\": expected " + names);
   }
 
   /// One that exists; that of a file lies below the scene's folder.
@@ -198,6 +208,11 @@ class TankReader {
 const char* arrangement_name(spheres::Arrangement arrangement) {
   constexpr const char* kNames[kArrangements]{"random", "largest_first", "noise", "coral"};
   return kNames[static_cast<std::uint32_t>(arrangement)];
+}
+
+const char* coloring_name(spheres::Coloring coloring) {
+  constexpr const char* kNames[kColorings]{"random", "radius", "height", "noise"};
+  return kNames[static_cast<std::uint32_t>(coloring)];
 }
 
 TankLight light_at(const TankLight& light, double time) {

@@ -90,6 +90,8 @@ struct TankScene {
 /// Of the file.
 const char* arrangement_name(spheres::Arrangement arrangement);
 constexpr std::uint32_t kArrangements = 4;
+const char* coloring_name(spheres::Coloring coloring);
+constexpr std::uint32_t kColorings = 4;
 
 /// The lights and the glass at a time [s]: position and radii pass through their keys, at rest before the
 /// first and after the last.

@@ -55,6 +55,7 @@ class TankWriter : private TomlText {
     options(pack, kUsual, "", [](auto& o, auto& v) { visit_pack_options(o, v); });
     if (pack.arrangement != kUsual.arrangement)
       line("arrangement", std::string(arrangement_name(pack.arrangement)));
+    if (pack.coloring != kUsual.coloring) line("coloring", std::string(coloring_name(pack.coloring)));
     if (pack.seed != kUsual.seed) line("seed", static_cast<std::uint32_t>(pack.seed));
     if (!scene.palette.empty()) line("palette", palette_below(scene.palette));
     static const TankScene kUsualScene;

@@ -16,6 +16,7 @@
 
 #include "core/progress.hpp"
 #include "core/tasks.hpp"
+#include "spheres/pack_colors.hpp"
 #include "spheres/pack_levels.hpp"
 #include "spheres/pack_places.hpp"
 #include "spheres/pack_random.hpp"
@@ -23,7 +24,7 @@
 namespace brume::spheres {
 namespace {
 
-constexpr std::uint64_t kRadiusStream = 16, kColorStream = 17;
+constexpr std::uint64_t kRadiusStream = 16;
 constexpr std::size_t kTask = 128;  // spheres of a task
 
 // Attempts for a sphere: with its whole radius, then with less and less, then with the least of all, which
@@ -253,19 +254,9 @@ class Packing {
   Tank tank() const {
     Tank tank{options_.size, options_.voxel, {}, {}};
     tank.spheres.resize(spheres_.count());
-    tank.colors.resize(spheres_.count());
-    const auto opacity = static_cast<Color>(std::lround(options_.opacity * 255));
-    parallel_for(tank.spheres.size(), 4096, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto number = static_cast<std::uint32_t>(i);
-        tank.spheres[i] = spheres_[number];
-        Color color = 0xffffff;
-        if (!options_.palette.empty())
-          color = options_.palette[PackRandom(options_.seed, kColorStream, number)
-                                       .below(static_cast<std::uint32_t>(options_.palette.size()))];
-        tank.colors[i] = (color & 0xffffff) | opacity << 24;
-      }
-    });
+    for (std::size_t i = 0; i < tank.spheres.size(); ++i)
+      tank.spheres[i] = spheres_[static_cast<std::uint32_t>(i)];
+    color_spheres(tank, options_);
     return tank;
   }
 

@@ -18,6 +18,15 @@ enum class Arrangement : std::uint32_t {
   coral,          ///< Touching those that are there, from seeds on the floor (y = 0) upwards, ever smaller.
 };
 
+/// Which of the palette's colours spheres take, but for the first with neighbours up to 8 % of it to both
+/// sides.
+enum class Coloring : std::uint32_t {
+  random,  ///< Any.
+  radius,  ///< By the logarithm of the radius, the least at the palette's low end.
+  height,  ///< By y, the floor at the low end.
+  noise,   ///< By smooth noise: patches of like colours.
+};
+
 struct PackOptions {
   glm::uvec3 size{600, 600, 200};  ///< As Tank::size.
   float voxel = 0.0025f;           ///< As Tank::voxel.
@@ -25,11 +34,11 @@ struct PackOptions {
   glm::vec2 radius{1.5f, 16};      ///< Least and largest [voxels]; 0 < x <= y, 2 * y <= each axis of `size`.
   float distribution = 3;          ///< Number of spheres ~ radius^-distribution, in [0, 8].
   Arrangement arrangement = Arrangement::largest_first;
-  float noise_size = 120;  ///< Of Arrangement::noise: size of its features [voxels], in [1, 65536].
-  float opacity = 1;       ///< Of all spheres, [0, 1]; 1: opaque (Color).
+  float noise_size = 120;  ///< Size of the features of noise [voxels], in [1, 65536].
+  Coloring coloring = Coloring::random;
+  float opacity = 1;  ///< Of all spheres, [0, 1]; 1: opaque (Color).
   std::uint64_t seed = 0;
-  /// Colours from the low to the high end of the palette's range, spheres take one of them at random (Color
-  /// without opacity). Empty: white.
+  /// Colours from the low to the high end of the palette's range (Color without opacity). Empty: white.
   std::vector<Color> palette;
 };
 

@@ -124,9 +124,9 @@ TEST_F(CommandLineTest, SuffixesOfAnyCase) {
     const Outcome done = run(call);
     EXPECT_EQ(done.exit_code, 0) << testing::PrintToString(call) << done.error;
   }
-  EXPECT_EQ(
-      refusal({"sim", "room.xyz"}),
-      "room.xyz: unknown file suffix; expected .txt, .gltf, .glb, .obj, .toml, .vdb, .nvdb, .brv, .json or .spheres");
+  EXPECT_EQ(refusal({"sim", "room.xyz"}),
+            "room.xyz: unknown file suffix; expected .txt, .gltf, .glb, .obj, .toml, .vdb, .nvdb, .brv, "
+            ".json or .spheres");
 }
 
 TEST_F(CommandLineTest, PointsWithBlanksAndPercentSignsInNames) {

@@ -102,14 +102,6 @@ void take_json_error(const WorkFolder& folder, const std::vector<std::string>& a
   std::filesystem::remove(file);
 }
 
-std::filesystem::path fresh_folder() {
-  static std::atomic<int> number{0};
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("brume_cli_" + std::to_string(::getpid()) + "_" + std::to_string(number++));
-  std::filesystem::create_directories(path);
-  return path;
-}
-
 }  // namespace
 
 Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
@@ -146,26 +138,6 @@ Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::st
   run.error = read_text(error);
   std::filesystem::remove_all(said);
   return run;
-}
-
-WorkFolder::WorkFolder() : path_(fresh_folder()) {}
-
-WorkFolder::~WorkFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::string WorkFolder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return name;
-}
-
-std::vector<std::string> WorkFolder::files() const {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path_))
-    names.push_back(entry.path().filename());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 void expect_failure(const WorkFolder& folder, const std::vector<std::string>& arguments, int exit_code,

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/work_folder.hpp"
+
 namespace brume::cli {
 
 struct Outcome {
@@ -33,22 +35,6 @@ struct RunOptions {
 /// Runs build/.../brume with these arguments in `folder`.
 Outcome run_brume(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                   const RunOptions& options = {});
-
-/// A temporary folder, removed with its contents.
-class WorkFolder {
- public:
-  WorkFolder();
-  WorkFolder(const WorkFolder&) = delete;
-  ~WorkFolder();
-  const std::filesystem::path& path() const { return path_; }
-  /// Writes a file in it and returns its name.
-  std::string write(const std::string& name, const std::string& text) const;
-  /// The names of its files, sorted.
-  std::vector<std::string> files() const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Fails unless the program ends with the exit code, prints nothing to standard output and one line to
 /// standard error that contains all parts, and leaves the folder unchanged, but for the same line as JSON in

@@ -134,7 +134,7 @@ TEST_F(Spheres, OfHostileOptionsAreRefused) {
   refused({"--distribution", "9"}, {"--distribution: expected a number from 0 to 8"});
   refused({"--opacity", "1.1"}, {"--opacity"});
   refused({"--arrangement", "corral"}, {"--arrangement: unknown value 'corral'; did you mean coral?"});
-  refused({"--noise-size", "20"}, {"--noise-size: is for --arrangement noise"});
+  refused({"--noise-size", "20"}, {"--noise-size: is for --arrangement noise and --coloring noise"});
   refused({"--time-limit", "0"}, {"--time-limit"});
   expect_failure(folder_, {"bake", "spheres", "-o", "a.brv"}, 2, {"-o a.brv", ".spheres"});
   EXPECT_EQ(folder_.files(), Arguments{});

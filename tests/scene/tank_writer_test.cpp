@@ -8,8 +8,8 @@
 
 #include "core/file.hpp"
 #include "scene/tank_options.hpp"
-#include "tests/cli/run_program.hpp"
 #include "tests/scene/random_timeline.hpp"
+#include "tests/work_folder.hpp"
 
 namespace brume::scene {
 namespace {
@@ -30,6 +30,7 @@ TankScene random_scene(std::uint32_t seed) {
   } else {
     visit_pack_options(scene.pack, draw);
     scene.pack.arrangement = spheres::Arrangement{draw.below(kArrangements)};
+    scene.pack.coloring = spheres::Coloring{draw.below(kColorings)};
     if (draw.below(2) == 0) scene.pack.seed = draw.below(UINT32_MAX);
     if (draw.below(2) == 0)
       scene.pack.size = {100 + draw.below(500), 100 + draw.below(500), 64 + draw.below(300)};
@@ -93,6 +94,7 @@ std::vector<std::uint64_t> bits_of(const TankScene& scene) {
   b.add(static_cast<std::uint32_t>(scene.lighting)), b.add(scene.file.string());
   visit_pack_options(scene.pack, b);
   b.add(static_cast<std::uint32_t>(scene.pack.arrangement)), b.add(std::size_t{scene.pack.seed});
+  b.add(static_cast<std::uint32_t>(scene.pack.coloring));
   b.add(glm::vec3(scene.pack.size)), b.add(scene.pack.radius.x), b.add(scene.pack.radius.y);
   b.add(scene.palette), b.add(scene.palette_space);
   visit_sky_options(scene.sky, b);

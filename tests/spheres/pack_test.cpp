@@ -188,6 +188,60 @@ TEST(PackColors, AreThoseOfThePaletteAndHaveTheOpacity) {
   EXPECT_EQ(packed(options).colors.front(), 0xffffffffu);
 }
 
+/// Place of each sphere's colour on a palette whose colours count up.
+std::vector<double> palette_places(PackOptions options, Coloring coloring) {
+  options.coloring = coloring;
+  options.palette.resize(1001);
+  for (Color i = 0; i < 1001; ++i) options.palette[i] = i;
+  std::vector<double> places;
+  for (const Color color : packed(options).colors) places.push_back((color & 0xffffff) / 1000.0);
+  return places;
+}
+
+TEST(PackColors, FollowRadiusAndHeight) {
+  PackOptions options = small_options(Arrangement::largest_first);
+  const Tank tank = packed(options);
+  const auto by_radius = palette_places(options, Coloring::radius);
+  const auto by_height = palette_places(options, Coloring::height);
+  ASSERT_GT(tank.spheres.size(), 100u);
+  for (std::size_t i = 0; i < tank.spheres.size(); ++i) {
+    const Sphere& sphere = tank.spheres[i];
+    // To both sides, 8 % of the palette and half a colour.
+    const double radius =
+        std::log(sphere.radius / options.radius.x) / std::log(options.radius.y / options.radius.x);
+    ASSERT_NEAR(by_radius[i], radius, 0.081);
+    ASSERT_NEAR(by_height[i], sphere.center.y / static_cast<float>(options.size.y), 0.081);
+  }
+  // One radius has no range.
+  options.radius = {2, 2};
+  for (const double place : palette_places(options, Coloring::radius)) ASSERT_NEAR(place, 0.5, 0.081);
+}
+
+TEST(PackColors, OfNoiseAreAlikeNearbyAndDifferFarAway) {
+  PackOptions options;
+  options.size = {300, 300, 300};
+  options.count = 4000;
+  options.noise_size = 60;
+  const Tank tank = packed(options);
+  const auto places = palette_places(options, Coloring::noise);
+  double near = 0, far = 0;
+  std::size_t near_count = 0, far_count = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t k = i + 1; k < places.size(); k += 7) {
+      const float distance = glm::distance(tank.spheres[i].center, tank.spheres[k].center);
+      const double difference = std::abs(places[i] - places[k]);
+      if (distance < 12) near += difference, ++near_count;
+      if (distance > 120) far += difference, ++far_count;
+    }
+  ASSERT_GT(near_count, 100u);
+  // The slope of gradient noise is below 2 a cell, a fifth of which changes the place by 0.4 at most; on
+  // average by far less than values of cells apart, which share nothing.
+  EXPECT_LT(near / static_cast<double>(near_count), 0.6 * far / static_cast<double>(far_count));
+  const auto [least, most] = std::ranges::minmax(places);
+  EXPECT_LT(least, 0.15);
+  EXPECT_GT(most, 0.85);
+}
+
 TEST(PackOrders, LargestFirstHasFallingRadii) {
   // 1,500 spheres of a fill without need to shrink them; those of one round come in its order.
   PackOptions options = small_options(Arrangement::largest_first);
