@@ -133,7 +133,7 @@ Result<std::vector<Measurement>> picture_case(Bench& bench, const Picture& pictu
   render::TankRenderer renderer(bench.context(), runner, tank, size, picture.ids);
   renderer.set_kind(picture.view);
   const planning::TankPlan plan = planning::plan_tank(scene, tank, 0, size, camera);
-  renderer.set_view(plan, planning::display_constants(scene, size));
+  renderer.set_view(plan, planning::plan_tank_display(scene, size));
   if (picture.photons > 0) {
     spheres::LightPathOptions options;
     options.count = picture.photons;

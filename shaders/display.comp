@@ -11,6 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = kBindBlueNoise) uniform sampler2D blue_noise_tile;
 layout(binding = kBindRadiance, rgba16f) uniform readonly image2D radiance_image;
 layout(binding = kBindDisplay, rgba8) uniform writeonly image2D display;
+layout(push_constant, scalar) uniform Params { DisplayParams params; };
 
 void main() {
   const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
@@ -20,5 +21,5 @@ void main() {
   const vec3 shown = srgb_from_linear(tone_curve(radiance));
   // Noise of one quantisation step before rounding keeps every value exact on average.
   const vec3 noise = blue_noise(blue_noise_tile, px, frame.frame_index).gba - 0.5;
-  imageStore(display, px, vec4(clamp(shown + noise / 255.0, 0.0, 1.0), 1.0));
+  imageStore(display, px, vec4(clamp(shown + noise * (params.dither / 255.0), 0.0, 1.0), 1.0));
 }

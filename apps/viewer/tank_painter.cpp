@@ -35,10 +35,11 @@ void TankPainter::restart() {
 
 void TankPainter::set_display(TankScreen& screen, const TankState& state) {
   const scene::TankScene& scene = state.scene();
-  if (scene.exposure == exposure_ && scene.tone == tone_) return;
+  if (scene.exposure == exposure_ && scene.tone == tone_ && scene.dither == dither_) return;
   exposure_ = scene.exposure;
   tone_ = scene.tone;
-  screen.set_display(planning::display_constants(scene, screen.picture_px()));
+  dither_ = scene.dither;
+  screen.set_display(planning::plan_tank_display(scene, screen.picture_px()));
 }
 
 void TankPainter::begin_picture(TankScreen& screen, const TankState& state, const spheres::Tank& tank,
@@ -46,14 +47,23 @@ void TankPainter::begin_picture(TankScreen& screen, const TankState& state, cons
   const TankPictureKey key = picture_key(state, tank, size_px);
   exposure_ = state.scene().exposure;
   tone_ = state.scene().tone;
-  screen.set_view(key.plan, planning::display_constants(state.scene(), size_px), key.view, key.lighting);
+  dither_ = state.scene().dither;
+  screen.set_view(key.plan, planning::plan_tank_display(state.scene(), size_px), key.view, key.lighting);
   seconds_ = 0;
 }
 
-void TankPainter::set_photons(TankScreen& screen, const std::optional<spheres::LightPaths>& paths) {
-  if (!paths) return;
-  screen.set_photons(*paths);
+void TankPainter::set_photons(TankScreen& screen, const std::optional<TankPhotons::Change>& change) {
+  if (!change) return;
+  if (!change->restarts) return screen.replace_photons(change->paths);
+  screen.set_photons(change->paths);
   seconds_ = 0;
+}
+
+TankSlice TankPainter::limited(const TankSlice& slice, std::uint32_t samples) const {
+  if (!photons_.is_ready_for(samples)) return {};
+  if (photons_of(*drawn_) == 0) return slice;
+  constexpr std::uint32_t kBatch = render::TankRenderer::kSamplesOfBatch;
+  return {std::min(slice.samples, kBatch - samples % kBatch), slice.rows};
 }
 
 bool TankPainter::draw(TankScreen& screen, const TankState& state, const spheres::Tank& tank,
@@ -77,9 +87,9 @@ bool TankPainter::draw(TankScreen& screen, const TankState& state, const spheres
     set_display(screen, state);
   }
   set_photons(screen, photons_.update(tank, planning::light_path_scene(drawn_->plan), photons_of(*drawn_),
-                                      schedule_.is_moving()));
+                                      screen.samples(), schedule_.is_moving()));
   const std::uint32_t limit = state.scene().samples;
-  slice_ = schedule_.next(size_px, screen.samples(), screen.rows(), limit);
+  slice_ = limited(schedule_.next(size_px, screen.samples(), screen.rows(), limit), screen.samples());
   screen.show(slice_, ui);
   is_best_ = !schedule_.is_moving() && photons_.is_complete() && screen.samples() >= limit;
   return true;
@@ -100,9 +110,12 @@ void TankPainter::complete(TankScreen& screen, const TankState& state, const sph
     begin_picture(screen, state, tank, window_px);
     drawn_ = std::move(key);
   }
-  set_photons(screen, photons_.complete(tank, planning::light_path_scene(drawn_->plan), photons_of(*drawn_)));
-  while (screen.samples() == 0 || screen.rows() > 0 || screen.samples() < samples) {
-    slice_ = schedule_.next(window_px, screen.samples(), screen.rows(), std::max(samples, 1u));
+  while (screen.samples() == 0 || screen.rows() > 0 || screen.samples() < samples ||
+         !photons_.is_complete()) {
+    set_photons(screen, photons_.complete(tank, planning::light_path_scene(drawn_->plan), photons_of(*drawn_),
+                                          screen.samples()));
+    slice_ = limited(schedule_.next(window_px, screen.samples(), screen.rows(), std::max(samples, 1u)),
+                     screen.samples());
     // The rest of a sample that began beyond the last.
     if (slice_.samples == 0 && slice_.rows == 0) slice_.rows = window_px.y - screen.rows();
     screen.add(slice_);

@@ -54,12 +54,14 @@ class TankPainter {
   void begin_picture(TankScreen& screen, const TankState& state, const spheres::Tank& tank,
                      glm::uvec2 size_px);
   void set_display(TankScreen& screen, const TankState& state);
-  void set_photons(TankScreen& screen, const std::optional<spheres::LightPaths>& paths);
+  void set_photons(TankScreen& screen, const std::optional<TankPhotons::Change>& change);
+  /// Of `slice`, what may be drawn with the light paths that the screen has.
+  TankSlice limited(const TankSlice& slice, std::uint32_t samples) const;
 
   TankSchedule schedule_;
   TankPhotons photons_;
   std::optional<TankPictureKey> drawn_;  ///< At the window's size, whatever that of the picture.
-  float exposure_ = 0;
+  float exposure_ = 0, dither_ = 1;
   scene::ToneCurve tone_ = scene::ToneCurve::neutral;
   TankSlice slice_;  ///< The last one.
   bool is_best_ = false;

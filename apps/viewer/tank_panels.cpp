@@ -44,6 +44,12 @@ void lay_out_picture(TankState& state, TankChoices& choices) {
                      {{"maps", scene::TankLighting::maps}, {"exact", scene::TankLighting::exact}}) ||
               changed;
   }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("points of the lens:");
+  ImGui::SameLine();
+  changed = radios("lens points", scene.lens_points,
+                   {{"remap", scene::LensPoints::remap}, {"rejection", scene::LensPoints::rejection}}) ||
+            changed;
   changed =
       tank_rows(scene, state.file(), [](auto& o, auto&& v) { scene::visit_tank_picture_options(o, v); }) ||
       changed;

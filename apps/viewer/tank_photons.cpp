@@ -3,31 +3,49 @@
 #include <algorithm>
 #include <chrono>
 
+#include "render/tank_renderer.hpp"
+
 namespace brume::viewer {
 
 void TankPhotons::stop() {
-  if (!all_.valid()) return;
+  if (!next_.valid()) return;
   stops_ = true;
-  all_.wait();
-  all_ = {};
+  next_.wait();
+  next_ = {};
   stops_ = false;
 }
 
 void TankPhotons::restart() {
   stop();
   bricks_.reset();
+  first_ = {};
   wanted_ = count_ = 0;
 }
 
-spheres::LightPaths TankPhotons::trace(const spheres::Tank& tank, std::uint32_t count) {
+void TankPhotons::begin(const spheres::Tank& tank, std::uint32_t batch) {
+  next_batch_ = batch;
+  next_ = std::async(std::launch::async, [this, &tank, batch] { return trace(tank, wanted_, batch); });
+}
+
+bool TankPhotons::is_finished() const {
+  return next_.valid() && next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+spheres::LightPaths TankPhotons::trace(const spheres::Tank& tank, std::uint32_t count, std::uint32_t batch) {
   spheres::LightPathOptions options;
   options.count = count;
+  options.seed = batch;
   return spheres::trace_light_paths(tank, *bricks_, scene_, options, [this] { return stops_.load(); });
 }
 
-std::optional<spheres::LightPaths> TankPhotons::update(const spheres::Tank& tank,
+bool TankPhotons::is_ready_for(std::uint32_t samples) const {
+  return wanted_ == 0 || !is_complete() || batch_ == render::TankRenderer::batch_of(samples);
+}
+
+std::optional<TankPhotons::Change> TankPhotons::update(const spheres::Tank& tank,
                                                        const spheres::LightPathScene& scene,
-                                                       std::uint32_t count, bool moves) {
+                                                       std::uint32_t count, std::uint32_t samples,
+                                                       bool moves) {
   if (!(scene.glass.index > 0) || scene.lights.empty()) count = 0;
   if (count != wanted_ || (count > 0 && !same_light(scene, scene_))) {
     stop();
@@ -35,27 +53,43 @@ std::optional<spheres::LightPaths> TankPhotons::update(const spheres::Tank& tank
     scene_ = scene;
     wanted_ = count;
     count_ = std::min(count, kPreview);
-    return count > 0 ? trace(tank, count_) : spheres::LightPaths();
+    batch_ = 0;
+    first_ = count > 0 ? trace(tank, count_, 0) : spheres::LightPaths();
+    return Change{first_, true};
   }
-  if (is_complete()) return std::nullopt;
-  if (!all_.valid()) {
-    if (!moves) all_ = std::async(std::launch::async, [this, &tank] { return trace(tank, wanted_); });
+  if (wanted_ == 0) return std::nullopt;
+
+  const std::uint32_t batch = is_complete() ? render::TankRenderer::batch_of(samples) : 0;
+  if (is_complete() && batch != batch_ && batch == 0) {
+    batch_ = 0;
+    return Change{first_, false};
+  }
+  const std::uint32_t next = is_complete() && batch == batch_ ? batch + 1 : batch;
+  if (next_.valid() && next_batch_ != next) stop();
+  if (!next_.valid()) {
+    if (!moves) begin(tank, next);
     return std::nullopt;
   }
-  if (all_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+  if (next != batch || !is_finished()) return std::nullopt;  // traced ahead, or still running
+  Change change{next_.get(), !is_complete()};
+  if (batch == 0) first_ = change.paths;
   count_ = wanted_;
-  return all_.get();
+  batch_ = batch;
+  return change;
 }
 
-std::optional<spheres::LightPaths> TankPhotons::complete(const spheres::Tank& tank,
+std::optional<TankPhotons::Change> TankPhotons::complete(const spheres::Tank& tank,
                                                          const spheres::LightPathScene& scene,
-                                                         std::uint32_t count) {
-  std::optional<spheres::LightPaths> newest;
+                                                         std::uint32_t count, std::uint32_t samples) {
+  std::optional<Change> newest;
   while (true) {
-    std::optional<spheres::LightPaths> next = update(tank, scene, count, false);
-    if (next) newest = std::move(next);
-    if (is_complete()) return newest;
-    if (all_.valid()) all_.wait();
+    if (auto change = update(tank, scene, count, samples, false)) {
+      change->restarts = change->restarts || (newest && newest->restarts);
+      newest = std::move(change);
+      if (newest->restarts) samples = 0;
+    }
+    if (is_complete() && is_ready_for(samples)) return newest;
+    if (next_.valid()) next_.wait();
   }
 }
 

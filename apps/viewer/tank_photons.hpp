@@ -15,34 +15,48 @@ class TankPhotons {
   /// Of light paths that a frame can wait for: a few hundredths of a second.
   static constexpr std::uint32_t kPreview = 1u << 16;
 
+  /// Light paths that replace what was returned before.
+  struct Change {
+    spheres::LightPaths paths;
+    bool restarts = false;  ///< Of another light, or more of them: samples so far are of no use.
+  };
+
   TankPhotons() = default;
   /// Stops the other thread.
   ~TankPhotons() { restart(); }
   TankPhotons(const TankPhotons&) = delete;
   TankPhotons& operator=(const TankPhotons&) = delete;
 
-  /// What is to be shown from now on: `count` light paths of a scene. Returns those that replace what was
-  /// returned last, if any do: at first a preview. All of them are begun when nothing `moves`, and returned
-  /// by a later call. `tank` is the same until restart().
-  std::optional<spheres::LightPaths> update(const spheres::Tank& tank, const spheres::LightPathScene& scene,
-                                            std::uint32_t count, bool moves);
-  /// Waits for all of them.
-  std::optional<spheres::LightPaths> complete(const spheres::Tank& tank, const spheres::LightPathScene& scene,
-                                              std::uint32_t count);
-  /// Whether all of them were returned.
-  bool is_complete() const { return wanted_ == 0 || count_ == wanted_; }
+  /// What is to be shown from now on: `count` light paths of a scene, for a picture that has `samples`.
+  /// Returns a preview for another scene; all of them are traced when nothing `moves`, and returned by a
+  /// later call, as are those of the next batch (render::TankRenderer::batch_of). `tank` is the same until
+  /// restart().
+  std::optional<Change> update(const spheres::Tank& tank, const spheres::LightPathScene& scene,
+                               std::uint32_t count, std::uint32_t samples, bool moves);
+  /// Waits until update() has nothing more to return for these samples; the last of it.
+  std::optional<Change> complete(const spheres::Tank& tank, const spheres::LightPathScene& scene,
+                                 std::uint32_t count, std::uint32_t samples);
+  /// Whether all of them were returned, not a preview.
+  bool is_complete() const { return count_ == wanted_; }
+  /// Whether the next sample of a picture with so many may use what was returned.
+  bool is_ready_for(std::uint32_t samples) const;
   /// Nothing was returned so far: the tank or the renderer is another one.
   void restart();
 
  private:
   void stop();
-  spheres::LightPaths trace(const spheres::Tank& tank, std::uint32_t count);
+  void begin(const spheres::Tank& tank, std::uint32_t batch);
+  bool is_finished() const;
+  spheres::LightPaths trace(const spheres::Tank& tank, std::uint32_t count, std::uint32_t batch);
 
   std::optional<spheres::BrickLists> bricks_;
   spheres::LightPathScene scene_;
   std::uint32_t wanted_ = 0, count_ = 0;  ///< Light paths of the scene, and of those that were returned last.
+  std::uint32_t batch_ = 0;               ///< Of those.
+  spheres::LightPaths first_;             ///< All of batch 0, with which every picture of the scene begins.
   std::atomic<bool> stops_ = false;
-  std::future<spheres::LightPaths> all_;  ///< Running or finished, or invalid.
+  std::future<spheres::LightPaths> next_;  ///< Running or finished, or invalid.
+  std::uint32_t next_batch_ = 0;
 };
 
 }  // namespace brume::viewer

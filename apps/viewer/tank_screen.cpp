@@ -33,7 +33,7 @@ void TankScreen::load(const spheres::Tank& tank, glm::uvec2 size_px) {
   lighting_ = scene::TankLighting::maps;
 }
 
-void TankScreen::set_view(const planning::TankPlan& plan, const shared::FrameConstants& display,
+void TankScreen::set_view(const planning::TankPlan& plan, const planning::TankDisplay& display,
                           scene::TankView kind, scene::TankLighting lighting) {
   if (lighting != lighting_) renderer_->set_lighting(lighting);
   lighting_ = lighting;
@@ -47,7 +47,7 @@ void TankScreen::set_view(const planning::TankPlan& plan, const shared::FrameCon
   display_changed_ = false;
 }
 
-void TankScreen::set_display(const shared::FrameConstants& display) {
+void TankScreen::set_display(const planning::TankDisplay& display) {
   renderer_->set_display(display);
   display_changed_ = true;
 }

@@ -30,12 +30,14 @@ class TankScreen {
 
   /// What samples from the next one on show, in a picture of the size of the plan. Throws what
   /// TankRenderer::set_kind throws.
-  void set_view(const planning::TankPlan& plan, const shared::FrameConstants& display, scene::TankView kind,
+  void set_view(const planning::TankPlan& plan, const planning::TankDisplay& display, scene::TankView kind,
                 scene::TankLighting lighting);
   /// As TankRenderer::set_photons.
   void set_photons(const spheres::LightPaths& paths) { renderer_->set_photons(paths); }
-  /// The exposure and the tone curve alone.
-  void set_display(const shared::FrameConstants& display);
+  /// As TankRenderer::replace_photons.
+  void replace_photons(const spheres::LightPaths& paths) { renderer_->replace_photons(paths); }
+  /// Exposure, tone curve and dither alone.
+  void set_display(const planning::TankDisplay& display);
 
   /// Begins a frame, as WindowCanvas::begin.
   std::optional<glm::uvec2> begin() { return canvas_->begin(); }

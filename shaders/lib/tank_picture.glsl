@@ -25,7 +25,11 @@ void add_samples(ivec2 px, vec3 sum) {
 /// The camera's ray of a sample, anywhere in its pixel and on the lens. The first of a pinhole is in the middle.
 void sample_camera(inout SampleSource source, out vec3 origin, out vec3 direction) {
   const vec2 in_pixel = next_point(source), u = next_point(source);
-  const vec2 on_lens = tank.camera.aperture > 0.0 ? lens_point(tank.camera.blades, u) : vec2(0.0);
+  vec2 on_lens = vec2(0.0);
+  if (tank.camera.aperture > 0.0)
+    on_lens = tank.camera.lens_points == kLensRejection
+                  ? lens_point_by_rejection(tank.camera.blades, uvec3(source.px, source.index * 64u))
+                  : lens_point(tank.camera.blades, u);
   tank_camera_ray(vec2(source.px) + in_pixel, on_lens, origin, direction);
 }
 

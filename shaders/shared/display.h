@@ -7,5 +7,10 @@ SHARED_BEGIN
 SHARED_BINDING(kBindRadiance, 44u);
 SHARED_BINDING(kBindDisplay, 45u);
 
+struct DisplayParams {
+  float dither;  // size of the noise that is added before rounding, in steps of 8 bits
+};
+SHARED_SIZE(DisplayParams, 4);
+
 SHARED_END
 #endif

@@ -27,6 +27,9 @@ struct TankLight {
 };
 SHARED_SIZE(TankLight, 28);
 
+SHARED_CONST uint kLensRemap = 0u;
+SHARED_CONST uint kLensRejection = 1u;
+
 /// A camera with a lens. The ray of a pixel leads from a point of the lens to where the ray from its middle, along
 /// forward + x right + y up with x and y in [-1, 1], meets the plane that is sharp.
 struct TankCamera {
@@ -37,8 +40,9 @@ struct TankCamera {
   vec3 right;      // scaled by tan(half the horizontal field of view)
   uint blades;     // as lens_point
   vec3 up;         // scaled by tan(half the vertical field of view)
+  uint lens_points;  // kLensRemap or kLensRejection
 };
-SHARED_SIZE(TankCamera, 60);
+SHARED_SIZE(TankCamera, 64);
 
 /// What surrounds the tank and fills it.
 struct TankAir {
@@ -61,7 +65,7 @@ struct TankConstants {
   uint bounces;  // most scattering events of a path
   PhotonGrid photons;
 };
-SHARED_SIZE(TankConstants, 188);
+SHARED_SIZE(TankConstants, 192);
 
 /// What is found for each voxel.
 struct SphereVoxelsParams {

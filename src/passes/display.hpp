@@ -9,8 +9,9 @@ class DisplayPass {
  public:
   explicit DisplayPass(gpu::Context& context);
   /// Applies exposure, tone curve, sRGB and dither, from `radiance` (half floats) to `display` (RGBA8).
+  /// `dither`: size of its noise in steps of 8 bits; 1 removes all bands, 0 shows them.
   void record(gpu::Recorder& recorder, const gpu::Buffer& frame, const gpu::Image& blue_noise,
-              const gpu::Image& radiance, const gpu::Image& display) const;
+              const gpu::Image& radiance, const gpu::Image& display, float dither = 1) const;
 
  private:
   gpu::ComputePipeline pipeline_;

@@ -38,6 +38,8 @@ TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, dou
   shared::TankConstants& constants = plan.constants;
   constants.camera =
       tank_camera(camera ? *camera : scene::camera_at(scene, size_of(tank), time), size_px, voxels);
+  constants.camera.lens_points =
+      scene.lens_points == scene::LensPoints::rejection ? shared::kLensRejection : shared::kLensRemap;
   constants.air = {scene.sky.zenith, scene.sky.horizon, scene.sky.ambient, scene.fog.color,
                    scene.fog.extinction / voxels.per_metre};
   if (scene.glass) {
@@ -68,12 +70,14 @@ spheres::LightPathScene light_path_scene(const TankPlan& plan) {
   return scene;
 }
 
-shared::FrameConstants display_constants(const scene::TankScene& scene, glm::uvec2 size_px) {
-  shared::FrameConstants frame{};
+TankDisplay plan_tank_display(const scene::TankScene& scene, glm::uvec2 size_px) {
+  TankDisplay display;
+  shared::FrameConstants& frame = display.frame;
   frame.size_px = size_px;
   frame.exposure = std::exp2(scene.exposure);
   frame.tone = static_cast<glm::uint>(scene.tone);
-  return frame;
+  display.dither = scene.dither;
+  return display;
 }
 
 }  // namespace brume::planning

@@ -30,7 +30,11 @@ TankPlan plan_tank(const scene::TankScene& scene, const spheres::Tank& tank, dou
 /// Where light through the glass is traced from.
 spheres::LightPathScene light_path_scene(const TankPlan& plan);
 
-/// What the tone curve and the dither of a picture need; the rest is of no use.
-shared::FrameConstants display_constants(const scene::TankScene& scene, glm::uvec2 size_px);
+/// How a picture is shown.
+struct TankDisplay {
+  shared::FrameConstants frame{};  ///< Exposure, tone curve and size; the rest is of no use.
+  float dither = 1;                ///< As passes::DisplayPass::record.
+};
+TankDisplay plan_tank_display(const scene::TankScene& scene, glm::uvec2 size_px);
 
 }  // namespace brume::planning

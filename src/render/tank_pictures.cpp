@@ -27,26 +27,33 @@ TankPictures::TankPictures(gpu::Context& context, const scenario::TankScenario& 
   renderer_.set_lighting(scenario.scene.lighting);
 }
 
-void TankPictures::trace_light(const planning::TankPlan& plan, const std::function<bool()>& stopped) {
+void TankPictures::trace_batch(const planning::TankPlan& plan, const std::function<bool()>& stopped) {
   if (scenario_.scene.view != scene::TankView::spheres) return;
   const spheres::LightPathScene scene = planning::light_path_scene(plan);
-  // A still picture's light, as long as neither the lights nor the glass move.
-  if (traced_ && spheres::same_light(*traced_, scene)) return;
+  const std::uint32_t batch = TankRenderer::batch_of(renderer_.samples());
+  // The light of the frame before, as long as neither the lights nor the glass move.
+  if (traced_ && spheres::same_light(*traced_, scene) && batch == batch_) return;
   spheres::LightPathOptions options;
   options.count = scenario_.scene.photons;
-  renderer_.set_photons(spheres::trace_light_paths(scenario_.tank, bricks_, scene, options, stopped));
+  options.seed = batch;
+  renderer_.replace_photons(spheres::trace_light_paths(scenario_.tank, bricks_, scene, options, stopped));
   traced_ = scene;
+  batch_ = batch;
 }
 
 void TankPictures::add_samples(double seconds, const std::function<bool()>& stopped) {
   Progress progress("samples", samples_);
   const planning::TankPlan plan =
       planning::plan_tank(scenario_.scene, scenario_.tank, seconds, size_px_, camera_);
-  renderer_.set_view(plan, planning::display_constants(scenario_.scene, size_px_));
-  trace_light(plan, stopped);
+  renderer_.set_view(plan, planning::plan_tank_display(scenario_.scene, size_px_));
+  const bool has_batches = scenario_.scene.photons > 0 && scenario_.scene.glass.has_value();
   std::uint32_t count = 1;
   while (renderer_.samples() < samples_ && !(stopped && stopped())) {
+    if (has_batches) trace_batch(plan, stopped);
     count = std::min({count, samples_ - renderer_.samples(), kMostSamplesOfSubmission});
+    if (has_batches)
+      count = std::min(count,
+                       TankRenderer::kSamplesOfBatch - renderer_.samples() % TankRenderer::kSamplesOfBatch);
     const auto begin = std::chrono::steady_clock::now();
     runner_.run([&](gpu::Recorder& recorder) { renderer_.record_samples(recorder, count); });
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;

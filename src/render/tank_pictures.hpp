@@ -29,7 +29,7 @@ class TankPictures {
   std::vector<gpu::Timings::Scope> timings() const { return runner_.timings(); }
 
  private:
-  void trace_light(const planning::TankPlan& plan, const std::function<bool()>& stopped);
+  void trace_batch(const planning::TankPlan& plan, const std::function<bool()>& stopped);
   void add_samples(double seconds, const std::function<bool()>& stopped);
 
   gpu::Context& context_;
@@ -37,7 +37,8 @@ class TankPictures {
   gpu::CommandRunner runner_;
   spheres::BrickLists bricks_;
   TankRenderer renderer_;
-  std::optional<spheres::LightPathScene> traced_;  ///< Whose light the renderer has.
+  std::optional<spheres::LightPathScene> traced_;  ///< Whose light the renderer has, of this batch.
+  std::uint32_t batch_ = 0;
   glm::uvec2 size_px_;
   std::uint32_t samples_;
   std::optional<scene::Camera> camera_;

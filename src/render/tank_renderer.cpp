@@ -70,7 +70,7 @@ void TankRenderer::set_lighting(scene::TankLighting lighting) {
   if (voxels_) voxels_->is_lit = false;
 }
 
-void TankRenderer::set_view(const planning::TankPlan& plan, const shared::FrameConstants& display) {
+void TankRenderer::set_view(const planning::TankPlan& plan, const planning::TankDisplay& display) {
   BRUME_ASSERT(plan.lights.size() <= scene::kMostTankLights, "too many lights");
   const bool same_light = plan.constants.air.ambient == plan_.constants.air.ambient &&
                           std::ranges::equal(plan.lights, plan_.lights, same_bytes<shared::TankLight>);
@@ -84,6 +84,10 @@ void TankRenderer::set_view(const planning::TankPlan& plan, const shared::FrameC
 
 void TankRenderer::set_photons(const spheres::LightPaths& paths) {
   samples_ = rows_ = 0;
+  replace_photons(paths);
+}
+
+void TankRenderer::replace_photons(const spheres::LightPaths& paths) {
   photon_grid_ = paths.photons.empty() ? shared::PhotonGrid{0, 0} : paths.grid;
   passes::upload_list(context_, runner_, photons_, paths.photons);
   passes::upload_list(context_, runner_, photon_cells_, paths.cells);
@@ -143,9 +147,9 @@ void TankRenderer::record_rows(gpu::Recorder& recorder, std::uint32_t rows) {
 }
 
 void TankRenderer::record_display(gpu::Recorder& recorder) {
-  recorder.upload(frame_, 0, std::as_bytes(std::span(&display_, 1)));
+  recorder.upload(frame_, 0, std::as_bytes(std::span(&display_.frame, 1)));
   const gpu::Scope scope(recorder, "display");
-  display_pass_.record(recorder, frame_, blue_noise_, radiance_, shown_);
+  display_pass_.record(recorder, frame_, blue_noise_, radiance_, shown_, display_.dither);
 }
 
 }  // namespace brume::render

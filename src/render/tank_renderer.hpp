@@ -31,14 +31,21 @@ class TankRenderer {
   void set_lighting(scene::TankLighting lighting);
   /// What the samples from the next one on show: the picture begins again. When the device is done with what
   /// was recorded before.
-  void set_view(const planning::TankPlan& plan, const shared::FrameConstants& display);
+  void set_view(const planning::TankPlan& plan, const planning::TankDisplay& display);
   /// Light that comes through the glass, from the next picture on: that of the view's lights. When the device
   /// is done with what was recorded before. Throws resource_limit.
   void set_photons(const spheres::LightPaths& paths);
+  /// Other paths of the same light, for the samples from now on: the picture goes on. Otherwise as
+  /// set_photons.
+  void replace_photons(const spheres::LightPaths& paths);
+  /// Light paths are traced again for every few samples, with this number as their seed: what their noise
+  /// leaves in one batch averages out over all.
+  static constexpr std::uint32_t kSamplesOfBatch = 16;
+  static constexpr std::uint32_t batch_of(std::uint32_t samples) { return samples / kSamplesOfBatch; }
   /// Pictures of another size from the next one on. When the device is done with what was recorded before.
   void resize(glm::uvec2 size_px);
-  /// The exposure and the tone curve alone: the picture goes on.
-  void set_display(const shared::FrameConstants& display) { display_ = display; }
+  /// Exposure, tone curve and dither alone: the picture goes on.
+  void set_display(const planning::TankDisplay& display) { display_ = display; }
 
   /// Records `count` more samples of each pixel, and the picture so far.
   void record_samples(gpu::Recorder& recorder, std::uint32_t count);
@@ -85,7 +92,7 @@ class TankRenderer {
   gpu::Buffer constants_, lights_, frame_, photons_, photon_cells_;
   planning::TankPlan plan_;
   shared::PhotonGrid photon_grid_{0, 0};
-  shared::FrameConstants display_{};
+  planning::TankDisplay display_;
   scene::TankView kind_ = scene::TankView::spheres;
   scene::TankLighting lighting_ = scene::TankLighting::maps;
   std::uint32_t samples_ = 0, rows_ = 0;

@@ -16,6 +16,8 @@ void visit_tank_picture_options(Options& o, Visitor&& visit) {
   visit(
       OptionInfo{"photons", "", "paths of light through the glass; 0: no light comes through it", 0, 1 << 22},
       o.photons);
+  visit(OptionInfo{"dither", "", "noise of the rounding to 8 bits, in steps of them; 0 shows bands", 0, 1},
+        o.dither);
 }
 
 /// Numbers of spheres::PackOptions.

@@ -64,16 +64,9 @@ class TankReader {
   Result<void> read_tank(const toml::table& source) {
     TomlTable table(source, "[tank]", file_);
     read_file_name(table, path_, "file", scene_.file);
-    std::string view = "spheres";
-    table.read("view", view);
-    scene_.view = view == "voxels" ? TankView::voxels : TankView::spheres;
-    if (view != "spheres" && view != "voxels")
-      table.fail("view", "\"view\": expected \"spheres\" or \"voxels\"");
-    std::string lighting = "maps";
-    table.read("lighting", lighting);
-    scene_.lighting = lighting == "exact" ? TankLighting::exact : TankLighting::maps;
-    if (lighting != "maps" && lighting != "exact")
-      table.fail("lighting", "\"lighting\": expected \"maps\" or \"exact\"");
+    read_choice(table, "view", scene_.view, 2, view_name);
+    read_choice(table, "lighting", scene_.lighting, 2, lighting_name);
+    read_choice(table, "lens_points", scene_.lens_points, 2, lens_points_name);
     visit_tank_picture_options(scene_, OptionReader{table});
     if (!scene_.file.empty())
       for (const char* key : kPackKeys)
@@ -204,6 +197,18 @@ class TankReader {
 };
 
 }  // namespace
+
+const char* view_name(TankView view) {
+  return view == TankView::voxels ? "voxels" : "spheres";
+}
+
+const char* lighting_name(TankLighting lighting) {
+  return lighting == TankLighting::exact ? "exact" : "maps";
+}
+
+const char* lens_points_name(LensPoints points) {
+  return points == LensPoints::rejection ? "rejection" : "remap";
+}
 
 const char* arrangement_name(spheres::Arrangement arrangement) {
   constexpr const char* kNames[kArrangements]{"random", "largest_first", "noise", "coral"};

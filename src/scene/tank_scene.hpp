@@ -60,6 +60,12 @@ enum class TankLighting : std::uint32_t {
   exact,  ///< Every voxel walks to every light: the truth that `maps` is measured by.
 };
 
+/// How points of the lens are chosen. The same lens.
+enum class LensPoints : std::uint32_t {
+  remap,      ///< Well distributed points of a square, mapped.
+  rejection,  ///< Random points until one lies on it: noisier, for comparison.
+};
+
 /// What camera rays gather with distance inside of the tank: radiance color * (1 - exp(-extinction *
 /// distance)).
 struct TankFog {
@@ -74,6 +80,8 @@ struct TankScene {
   std::string palette_space = "oklab";  ///< In which its colours are interpolated (palettes::Space).
   TankView view = TankView::spheres;
   TankLighting lighting = TankLighting::maps;  ///< Of TankView::voxels.
+  LensPoints lens_points = LensPoints::remap;
+  float dither = 1;  ///< Noise of the rounding to 8 bits, in steps of them; 0: bands.
   float duration = 4;
   float exposure = 0;  ///< [EV]
   ToneCurve tone = ToneCurve::neutral;
@@ -87,7 +95,10 @@ struct TankScene {
   std::vector<CameraKey> camera;  ///< Sorted by time, no two times equal; empty: before the tank.
 };
 
-/// Of the file.
+// Their names in the file.
+const char* view_name(TankView view);
+const char* lighting_name(TankLighting lighting);
+const char* lens_points_name(LensPoints points);
 const char* arrangement_name(spheres::Arrangement arrangement);
 constexpr std::uint32_t kArrangements = 4;
 const char* coloring_name(spheres::Coloring coloring);

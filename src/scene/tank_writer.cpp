@@ -41,8 +41,12 @@ class TankWriter : private TomlText {
   void write_tank(const TankScene& scene) {
     text_ += "\n[tank]\n";
     if (!scene.file.empty()) line("file", path_from(scene.file, folder_).generic_string());
-    if (scene.view == TankView::voxels) line("view", std::string("voxels"));
-    if (scene.lighting == TankLighting::exact) line("lighting", std::string("exact"));
+    const auto choice = [&](const char* key, const char* name, const char* usual) {
+      if (std::string_view(name) != usual) line(key, std::string(name));
+    };
+    choice("view", view_name(scene.view), "spheres");
+    choice("lighting", lighting_name(scene.lighting), "maps");
+    choice("lens_points", lens_points_name(scene.lens_points), "remap");
     options(scene, TankScene(), "", [](auto& o, auto& v) { visit_tank_picture_options(o, v); });
     if (scene.file.empty()) write_pack(scene);
   }

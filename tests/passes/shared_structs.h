@@ -50,6 +50,7 @@
   X(7, CloudShape) \
   X(8, Dda) \
   X(9, DebugViewParams) \
+  X(82, DisplayParams) \
   X(10, DrawConstants) \
   X(11, FrameConstants) \
   X(12, FrameMedia) \

@@ -25,7 +25,7 @@ class TankRowsTest : public gpu::GpuTest {
   }
   void set_view(TankRenderer& renderer, glm::uvec2 size_px) {
     renderer.set_view(planning::plan_tank(scenario_.scene, scenario_.tank, 0, size_px),
-                      planning::display_constants(scenario_.scene, size_px));
+                      planning::plan_tank_display(scenario_.scene, size_px));
   }
   std::vector<std::uint8_t> read(const gpu::Image& image, std::size_t pixel_bytes) {
     const std::size_t bytes = pixel_bytes * image.info().size.x * image.info().size.y;
@@ -86,7 +86,7 @@ TEST_F(TankRowsTest, TheExposureChangesThePictureAndNotItsSamples) {
   add_samples(renderer, 2);
   const auto before = sums(renderer), dark = shown(renderer);
   scenario_.scene.exposure = 2;
-  renderer.set_display(planning::display_constants(scenario_.scene, kPictureSize));
+  renderer.set_display(planning::plan_tank_display(scenario_.scene, kPictureSize));
   runner().run([&](gpu::Recorder& recorder) { renderer.record_display(recorder); });
   EXPECT_EQ(sums(renderer), before);
   EXPECT_NE(shown(renderer), dark);

@@ -25,6 +25,7 @@ TankScene random_scene(std::uint32_t seed) {
   scene.tone = draw.below(2) == 0 ? ToneCurve::neutral : ToneCurve::standard;
   scene.view = TankView{draw.below(2)};
   scene.lighting = TankLighting{draw.below(2)};
+  scene.lens_points = LensPoints{draw.below(2)};
   if (draw.below(3) == 0) {
     scene.file = "scenes/a tank.spheres";
   } else {
@@ -91,7 +92,8 @@ std::vector<std::uint64_t> bits_of(const TankScene& scene) {
   visit_timeline_options(scene, b);
   visit_tank_picture_options(scene, b);
   b.add(static_cast<std::uint32_t>(scene.tone)), b.add(static_cast<std::uint32_t>(scene.view));
-  b.add(static_cast<std::uint32_t>(scene.lighting)), b.add(scene.file.string());
+  b.add(static_cast<std::uint32_t>(scene.lighting)), b.add(static_cast<std::uint32_t>(scene.lens_points)),
+      b.add(scene.file.string());
   visit_pack_options(scene.pack, b);
   b.add(static_cast<std::uint32_t>(scene.pack.arrangement)), b.add(std::size_t{scene.pack.seed});
   b.add(static_cast<std::uint32_t>(scene.pack.coloring));

@@ -2,6 +2,7 @@
 #include <X11/keysym.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "core/file.hpp"
 #include "image/decode.hpp"
@@ -105,6 +106,18 @@ TEST_F(TankWindowTest, ItsScreenshotIsWhatRenderDraws) {
   // Sums of the same samples in other groups, and one rounding to a byte.
   EXPECT_LE(largest_difference(shot, rendered("tank.toml", {"--time", "0.5"})), 1);
   EXPECT_LE(largest_difference(shot, rendered("shot.toml")), 1);
+}
+
+TEST_F(TankWindowTest, BatchesOfLightPathsAreThoseOfRender) {
+  write_tank(folder_, "35");  // more than two batches
+  run_and_wait({"--bare"});
+  const image::Image8 shown = program_->contents();
+  finish();
+  EXPECT_LE(largest_difference(shown, rendered("tank.toml", {"--time", "0"})), 1);
+  // Without light through the glass, it is another picture.
+  folder_.write("dark.toml", std::regex_replace(read_text_file(file("tank.toml")).value_or_throw(),
+                                                std::regex("photons = 100000"), "photons = 0"));
+  EXPECT_GT(largest_difference(shown, rendered("dark.toml", {"--time", "0"})), 20);
 }
 
 TEST_F(TankWindowTest, TheWindowShowsThePictureOfRender) {
