@@ -116,16 +116,24 @@ float dense_depth(uint volume, vec3 p_world, vec3 direction, float distance) {
   return depth;
 }
 
-/// As escape_at, in a dense volume: the axes and the diagonals of a cube, weighted so that polynomials of up to degree 5
-/// are integrated exactly (Lebedev 1976).
-float dense_escape(uint volume, vec3 p_world) {
-  float sum = 0.0;
+/// What arrives at a point of a dense volume, as means over the directions: those of the axes and the diagonals of a
+/// cube, weighted so that polynomials of up to degree 5 are integrated exactly (Lebedev 1976).
+struct Arrivals {
+  float escape;  // transmittance
+  vec3 many;     // of light that decays as after many scatterings
+};
+
+Arrivals dense_arrivals(uint volume, vec3 p_world, vec3 decay) {
+  Arrivals sum = Arrivals(0.0, vec3(0.0));
   for (uint i = 0u; i < kDenseDirections; ++i) {
     const bool is_axis = i < 6u;
     const uint corner = i - 6u;
     const vec3 diagonal = vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u) * 2.0 - 1.0;
     const vec3 direction = is_axis ? cube_forward(i) : diagonal * inversesqrt(3.0);
-    sum += (is_axis ? 1.0 / 15.0 : 3.0 / 40.0) * exp(-dense_depth(volume, p_world, direction, kFar));
+    const float weight = is_axis ? 1.0 / 15.0 : 3.0 / 40.0;
+    const float depth = dense_depth(volume, p_world, direction, kFar);
+    sum.escape += weight * exp(-depth);
+    sum.many += weight * exp(-decay * depth);
   }
   return sum;
 }
@@ -176,14 +184,21 @@ vec3 mean_albedo(uint i, vec3 p_voxel, vec3 cell_voxels) {
 }
 
 /// The light in a cell of a volume.
-vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels, float escape) {
+vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   const bool is_dense = kHasDense && volumes[volume].is_dense != 0u;
   const vec3 p_world = volumes[volume].world_from_voxel * vec4(p_voxel, 1.0);
   VolumeLook look = volumes[volume].look;
   if (kHasAlbedos) look.albedo = mean_albedo(volume, p_voxel, cell_voxels);
+  Arrivals arrivals = Arrivals(0.0, vec3(0.0));
+  if (is_dense) {
+    arrivals = dense_arrivals(volume, p_world, multiple_scattering(many_fit(), look.albedo, look.anisotropy, 0.0).decay);
+    if (arrivals.escape < kLeastEscape) return vec4(0.0);
+  } else {
+    arrivals.escape = escape_at(volume, p_world);
+  }
   // All light here has been scattered at least once. With albedos of their own, samples multiply it by them.
   const vec3 albedo = kHasAlbedos ? vec3(1.0) : look.albedo;
-  ManyScatterings many = multiple_scattering(many_fit(), look.albedo, look.anisotropy, escape);
+  ManyScatterings many = multiple_scattering(many_fit(), look.albedo, look.anisotropy, arrivals.escape);
   many.fraction *= look.multiple_scattering * albedo;
   vec4 light = vec4(0.0);
   if (params.sun != kNoSun) {
@@ -199,8 +214,9 @@ vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels, float escape) {
   }
   light.rgb += other_lights(volume, p_world, albedo, many);
   const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
-  const vec3 sky = scattered_sky(look.albedo, look.multiple_scattering, escape);
-  light.rgb += albedo * frame.sky.ambient * open_sky * sky;
+  const vec3 sky = is_dense ? albedo * arrivals.escape + many.fraction * arrivals.many
+                            : albedo * scattered_sky(look.albedo, look.multiple_scattering, arrivals.escape);
+  light.rgb += frame.sky.ambient * open_sky * sky;
   return light;
 }
 
@@ -213,10 +229,7 @@ void main() {
   const vec3 p_voxel = low + cell / float(params.edge) * size, cell_voxels = size / float(params.edge);
   const bool is_dense = kHasDense && volumes[volume].is_dense != 0u;
   vec4 light = vec4(0.0);
-  if (is_near_bricks(volume, p_voxel, cell_voxels) && (!is_dense || is_near_matter(volume, p_voxel, cell_voxels))) {
-    const vec3 p_world = volumes[volume].world_from_voxel * vec4(p_voxel, 1.0);
-    const float escape = is_dense ? dense_escape(volume, p_world) : escape_at(volume, p_world);
-    if (!is_dense || escape > kLeastEscape) light = light_in_cell(volume, p_voxel, cell_voxels, escape);
-  }
+  if (is_near_bricks(volume, p_voxel, cell_voxels) && (!is_dense || is_near_matter(volume, p_voxel, cell_voxels)))
+    light = light_in_cell(volume, p_voxel, cell_voxels);
   imageStore(light_target, ivec3(at), light);
 }
