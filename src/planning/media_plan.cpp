@@ -26,8 +26,8 @@ bool is_dense(const VolumeInput& volume) {
 
 /// The shortest edge of a voxel [m]: filtered values are linear in between, and half as long a step changes
 /// the image of a cloud by 0.07 of 255 on average. Two of them for what only glows, which is a plain sum: the
-/// exhaust of a thruster is off by 0.8 % (brume bench particles/march; by 0.2 % with one). Half of one where a voxel
-/// is opaque: its light changes within it.
+/// exhaust of a thruster is off by 0.8 % (brume bench particles/march; by 0.2 % with one). Half of one where
+/// a voxel is opaque: its light changes within it.
 float step_of(const VolumeInput& volume) {
   const glm::mat4& world_from_voxel = volume.world_from_voxel;
   float shortest = glm::length(glm::vec3(world_from_voxel[0]));

@@ -26,16 +26,15 @@ DisturbanceInput disturbance_of(const scene::Disturbance& disturbance, const sce
   return {glm::mat4(glm::inverse(frame.density.world_from_voxel)), disturbance, static_cast<float>(seconds)};
 }
 
-/// The largest optical depth along the shortest edge of a voxel. That of the first frame, so that a sequence is
-/// lit in one way.
+/// The largest optical depth along the shortest edge of a voxel. That of the first frame, so that a sequence
+/// is lit in one way.
 float voxel_depth_of(const scene::VolumeOptions& options, const glm::mat4& world_from_voxel,
                      const scenario::VolumeFrame& first) {
   float factor = first.density.high;
   if (!options.opacity.empty())
     factor = std::ranges::max_element(options.opacity, {}, &scene::OpacityPoint::opacity)->opacity;
   float edge = glm::length(glm::vec3(world_from_voxel[0]));
-  for (int axis = 1; axis < 3; ++axis)
-    edge = std::min(edge, glm::length(glm::vec3(world_from_voxel[axis])));
+  for (int axis = 1; axis < 3; ++axis) edge = std::min(edge, glm::length(glm::vec3(world_from_voxel[axis])));
   return options.extinction * factor * edge;
 }
 

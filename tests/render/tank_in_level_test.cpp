@@ -1,5 +1,5 @@
-// A tank as a volume of a level: lit by its lights, dimmed by its smoke, before and behind it, and dark below; against
-// the path tracer and what spheres let through.
+// A tank as a volume of a level: lit by its lights, dimmed by its smoke, before and behind it, and dark
+// below; against the path tracer and what spheres let through.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -28,7 +28,8 @@ scene::Light point_light(glm::vec3 position, glm::vec3 intensity) {
   light.intensity = intensity;
   return light;
 }
-const scene::Light kWarm = point_light({-3, 2.5f, 2}, {40, 20, 5}), kCold = point_light({3, 2, 2.5f}, {4, 16, 30});
+const scene::Light kWarm = point_light({-3, 2.5f, 2}, {40, 20, 5}),
+                   kCold = point_light({3, 2, 2.5f}, {4, 16, 30});
 
 /// A ball of 32^3 voxels.
 spheres::Tank ball(spheres::Color color) {
@@ -75,15 +76,18 @@ class TankInLevelTest : public gpu::GpuTest {
     tank.albedo = glm::vec3(1);
     tank.anisotropy = 0;
     tank.multiple_scattering = stage.multiple_scattering;
-    timeline.smoke.voxels = 300;
+    timeline.smoke.voxels = 400;
     timeline.smoke.extinction = 1;
     timeline.smoke.erosion = 0;
     timeline.smoke.albedo = glm::vec3(0);
     if (stage.smoke) timeline.smokes = {{0.0, *stage.smoke + glm::vec3(0, 0.1f, 0), *stage.smoke}};
 
-    auto made = std::make_unique<Studio>(
-        Studio{scenario_of(std::move(scene), std::move(timeline), {{52, 20, 44}, 0.25f, {-6.5f, -0.6f, -4.6f}}),
-               {}, {}, {}, {}});
+    auto made = std::make_unique<Studio>(Studio{
+        scenario_of(std::move(scene), std::move(timeline), {{52, 20, 44}, 0.25f, {-6.5f, -0.6f, -4.6f}}),
+        {},
+        {},
+        {},
+        {}});
     scenario::Scenario& scenario = made->scenario;
     scenario.volumes = scenario::Volumes::load(scenario.timeline.volumes).value_or_throw();
     made->simulation = scenario::Simulation::create(scenario).value_or_throw();
@@ -109,7 +113,8 @@ class TankInLevelTest : public gpu::GpuTest {
   std::vector<glm::dvec4> media_of(const Stage& stage) const { return media(*studio(stage)); }
 
   /// The mean over the pixels that another picture shows as opaque.
-  static glm::dvec3 mean_where_opaque(const std::vector<glm::dvec4>& pixels, const std::vector<glm::dvec4>& mask) {
+  static glm::dvec3 mean_where_opaque(const std::vector<glm::dvec4>& pixels,
+                                      const std::vector<glm::dvec4>& mask) {
     glm::dvec3 sum(0);
     int count = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -124,7 +129,8 @@ class TankInLevelTest : public gpu::GpuTest {
   }
 
   /// The same mean by the path tracer, and its standard error.
-  static reference::Mean traced_mean(const Studio& studio, const std::vector<glm::dvec4>& mask, std::uint32_t bounces) {
+  static reference::Mean traced_mean(const Studio& studio, const std::vector<glm::dvec4>& mask,
+                                     std::uint32_t bounces) {
     const auto scene = reference::make_scene(studio.scenario.scene, studio.input, nullptr);
     const shared::Camera camera = planning::device_camera(studio.input.view.camera, kSize);
     reference::Mean mean;
@@ -148,8 +154,8 @@ class TankInLevelTest : public gpu::GpuTest {
   const cli::WorkFolder folder_;
 };
 
-/// How the light that the surface of an opaque ball scatters once is rounded: cells of light at most a voxel long,
-/// linear in between, and a march of half a voxel.
+/// How the light that the surface of an opaque ball scatters once is rounded: cells of light at most a voxel
+/// long, linear in between, and a march of half a voxel.
 class Discretised {
  public:
   /// By the cosines of the eye and of the light at a flat surface whose extinction grows along a voxel.
@@ -161,8 +167,8 @@ class Discretised {
       for (int j = 0; j < kPhases; ++j) sum += seen(mu, mu0, (i + 0.5) / kPhases, (j + 0.5) / kPhases);
     return sum / (kPhases * kPhases) / (mu0 / (mu + mu0));
   }
-  /// The mean deviation from 1 over the visible half of a ball, weighted by what is seen: light from `angle` beside
-  /// the eye.
+  /// The mean deviation from 1 over the visible half of a ball, weighted by what is seen: light from `angle`
+  /// beside the eye.
   static double of_ball(double angle) {
     double off = 0, all = 0;
     constexpr int kSteps = 24;
@@ -193,7 +199,8 @@ class Discretised {
   }
   static double light(double x, double mu0, double phase) {
     const double cell = std::floor(x / kCell - phase), part = x / kCell - phase - cell;
-    return (1 - part) * arrives((cell + phase) * kCell, mu0) + part * arrives((cell + 1 + phase) * kCell, mu0);
+    return (1 - part) * arrives((cell + phase) * kCell, mu0) +
+           part * arrives((cell + 1 + phase) * kCell, mu0);
   }
   static double seen(double mu, double mu0, double phase, double jitter) {
     double transmittance = 1, sum = 0;
@@ -205,6 +212,17 @@ class Discretised {
     return sum;
   }
 };
+
+/// By how much the lights of a level, scattered once, may be off in the mean.
+double bound_of(const scenario::Scenario& scenario) {
+  double most = 0;
+  for (const scene::Light& light : scenario.scene.lights) {
+    const glm::vec3 to_light = glm::normalize(light.position_world - kMiddle),
+                    to_eye = glm::normalize(scenario.camera.position_world - kMiddle);
+    most = std::max(most, Discretised::of_ball(std::acos(double{glm::dot(to_light, to_eye)})));
+  }
+  return most;
+}
 
 TEST_F(TankInLevelTest, IsLitByTheLightsOfTheLevel) {
   const auto both = media_of({}), warm = media_of({.lights = {kWarm}}), cold = media_of({.lights = {kCold}});
@@ -226,12 +244,10 @@ TEST_F(TankInLevelTest, ScattersOnceAsThePathTracer) {
     const auto one = studio({.lights = {light}, .multiple_scattering = 0});
     const auto drawn = media(*one);
     const reference::Mean traced = traced_mean(*one, drawn, 1);
-    const glm::vec3 to_light = glm::normalize(light.position_world - kMiddle),
-                    to_eye = glm::normalize(one->scenario.camera.position_world - kMiddle);
-    const double most = Discretised::of_ball(std::acos(double{glm::dot(to_light, to_eye)}));
+    const double most = bound_of(one->scenario);
     const double mean = mean_where_opaque(drawn, drawn).g;
-    std::printf("scattered once: drawn %.5f, traced %.5f +- %.5f; may be off by %.1f %%\n", mean, traced.value(),
-                traced.error(), 100 * most);
+    std::printf("scattered once: drawn %.5f, traced %.5f +- %.5f; may be off by %.1f %%\n", mean,
+                traced.value(), traced.error(), 100 * most);
     EXPECT_LT(most, 0.15) << "the bound says something";
     EXPECT_NEAR(mean, traced.value(), most * traced.value() + 4 * traced.error());
   }
@@ -243,10 +259,139 @@ TEST_F(TankInLevelTest, ScattersOftenAsThePathTracer) {
   const auto drawn = media(*all);
   const reference::Mean traced = traced_mean(*all, drawn, 1000), single = traced_mean(*once, drawn, 1);
   const double mean = mean_where_opaque(drawn, drawn).g, many = traced.value() - single.value();
-  const double most = 0.1 * single.value() + (std::exp(0.26) - 1) * many;
-  std::printf("scattered often: drawn %.5f, traced %.5f, of which once %.5f\n", mean, traced.value(), single.value());
+  const double most = bound_of(all->scenario) * single.value() + (std::exp(0.26) - 1) * many;
+  std::printf("scattered often: drawn %.5f, traced %.5f, of which once %.5f\n", mean, traced.value(),
+              single.value());
   EXPECT_GT(many, 0.1 * single.value());
   EXPECT_NEAR(mean, traced.value(), most + 4 * traced.error());
+}
+
+/// Voxels of a ray from a point to a light that are in the ball; negative: by how many it misses it.
+double chord(const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec3 along = glm::normalize(to - from), middle = glm::dvec3(kMiddle) - from;
+  const double aside = glm::length(middle - glm::dot(middle, along) * along) / double{kVoxel},
+               r = double{kRadius};
+  return aside < r ? 2 * std::sqrt(r * r - aside * aside) : r - aside;
+}
+
+/// How much of a light is left on the floor, where the camera sees it beside the tank.
+struct ShadowPixel {
+  double chord = 0, left = 0;
+};
+
+class TankShadowTest : public TankInLevelTest {
+ protected:
+  static constexpr glm::vec3 kLight{-2, 4, 0};
+
+  std::vector<ShadowPixel> shadow_of(spheres::Color color) const {
+    const auto one = studio({.lights = {point_light(kLight, glm::vec3(60))}, .color = color, .floor = 0.5f});
+    one->input.view.camera = {{1.5f, 3, 4}, {0.7f, 0, 0}, 0.6f};
+    const std::vector<glm::dvec4> tank = media(*one), with = texels(one->renderer->targets().radiance);
+    one->input.volumes.clear();
+    one->renderer->draw(one->input);
+    const std::vector<glm::dvec4> without = texels(one->renderer->targets().radiance);
+    const shared::Camera camera = planning::device_camera(one->input.view.camera, kSize);
+    std::vector<ShadowPixel> pixels;
+    for (std::uint32_t i = 0; i < tank.size(); ++i) {
+      const reference::Ray ray = ray_of(camera, i);
+      if (tank[i].w < 1 || ray.direction.y >= 0) continue;
+      const glm::dvec3 at(ray.origin - ray.direction * (ray.origin.y / ray.direction.y));
+      if (at.z < -3.9 || std::abs(at.x) > 5.9) continue;
+      pixels.push_back({chord(at, glm::dvec3(kLight)), with[i].g / without[i].g});
+    }
+    return pixels;
+  }
+};
+
+TEST_F(TankShadowTest, HazeDimsTheFloorByTheLengthInIt) {
+  const double per_voxel = 1 - (kHaze >> 24) / 255.0;
+  double sum = 0, expected_sum = 0;
+  int inside = 0, beside = 0;
+  for (const ShadowPixel& pixel : shadow_of(kHaze)) {
+    if (pixel.chord > 1.2 * double{kRadius}) {
+      // Painted voxels and their filter end within 1.4 voxels of the ball on either side.
+      const double expected = std::pow(per_voxel, pixel.chord), most = std::pow(per_voxel, -2.8);
+      EXPECT_LT(pixel.left, expected * most) << pixel.chord;
+      EXPECT_GT(pixel.left, expected / most) << pixel.chord;
+      sum += pixel.left;
+      expected_sum += expected;
+      ++inside;
+    } else if (pixel.chord < -4) {
+      EXPECT_NEAR(pixel.left, 1, 3.0 / 1024) << pixel.chord;
+      ++beside;
+    }
+  }
+  std::printf("shadow: %d pixels, mean %.4f, expected %.4f; %d beside it\n", inside, sum / inside,
+              expected_sum / inside, beside);
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(beside, 100);
+  // All in all they end at the ball: half a voxel of its two sides.
+  EXPECT_NEAR(sum / expected_sum, 1, 1 - std::pow(per_voxel, 0.5));
+}
+
+TEST_F(TankShadowTest, AnOpaqueBallLeavesTheFloorDark) {
+  int inside = 0;
+  for (const ShadowPixel& pixel : shadow_of(kOpaque)) {
+    if (pixel.chord < 1.2 * double{kRadius}) continue;
+    EXPECT_LT(pixel.left, 1e-3) << pixel.chord;
+    ++inside;
+  }
+  EXPECT_GT(inside, 100);
+}
+
+/// Black smoke in the way of the eye or of the light.
+class TankInSmokeTest : public TankInLevelTest {
+ protected:
+  /// Of the same media, hence in the same steps: what has no extinction shows nothing.
+  std::vector<glm::dvec4> draw(Studio& studio, bool smoke, bool tank) const {
+    const float extinction = studio.input.volumes[0].look.extinction;
+    studio.input.smoke.look.extinction = smoke ? 1.0f : 0.0f;
+    if (!tank) studio.input.volumes[0].look.extinction = 0;
+    const std::vector<glm::dvec4> drawn = media(studio);
+    studio.input.volumes[0].look.extinction = extinction;
+    return drawn;
+  }
+  static scene::Light side_light() { return point_light({-3, 3, 0}, glm::vec3(40)); }
+};
+
+TEST_F(TankInSmokeTest, SmokeBeforeItHidesItAndThatBehindDoesNot) {
+  for (const bool before : {true, false}) {
+    const auto one = studio({.lights = {side_light()}, .smoke = glm::vec3(0, 0.9f, before ? 3.2f : -2.6f)});
+    const auto tank = draw(*one, false, true), smoke = draw(*one, true, false), both = draw(*one, true, true);
+    int hidden = 0, clear = 0;
+    for (std::size_t i = 0; i < both.size(); ++i) {
+      // A ray ends where next to nothing is left; and each of three pictures is rounded to halves.
+      const double rest = double{one->input.smoke.look.opaque_transmittance} + 3.0 / 2048;
+      if (tank[i].w == 0) {
+        const double passed = before ? smoke[i].w : 1;
+        EXPECT_NEAR(both[i].g, passed * tank[i].g, rest * tank[i].g + 1e-5) << i << ' ' << before;
+        hidden += smoke[i].w < 0.5 && tank[i].g > 0.01;
+      } else if (tank[i].w == 1) {
+        EXPECT_NEAR(both[i].w, smoke[i].w, rest) << i;
+        clear += smoke[i].w < 0.8;
+      }
+    }
+    EXPECT_GT(hidden, 50) << before;
+    EXPECT_GT(clear, 50) << before;
+  }
+}
+
+TEST_F(TankInSmokeTest, SmokeBeforeALightDimsItAsInThePathTracer) {
+  const auto one = studio({.lights = {point_light({-4, 1.2f, 1.5f}, glm::vec3(40))},
+                           .multiple_scattering = 0,
+                           .smoke = glm::vec3(-2.2f, 0.9f, 0.8f)});
+  const auto clear = draw(*one, false, true);
+  const reference::Mean traced_clear = traced_mean(*one, clear, 1);
+  const auto dimmed = draw(*one, true, true);
+  const reference::Mean traced_dimmed = traced_mean(*one, clear, 1);
+  const double left = mean_where_opaque(dimmed, clear).g / mean_where_opaque(clear, clear).g;
+  const double expected = traced_dimmed.value() / traced_clear.value();
+  const double error = expected * std::hypot(traced_dimmed.error() / traced_dimmed.value(),
+                                             traced_clear.error() / traced_clear.value());
+  std::printf("behind smoke: %.4f of the light, traced %.4f +- %.4f\n", left, expected, error);
+  EXPECT_LT(expected, 0.6);
+  // Light rays step by a voxel of 0.25 m, in which the smoke begins and ends: half of one on each side.
+  EXPECT_NEAR(std::log(left / expected), 0, 0.25 + 4 * error / expected);
 }
 
 }  // namespace
