@@ -8,6 +8,7 @@
 #include <random>
 
 #include "planning/blackbody.hpp"
+#include "planning/device_camera.hpp"
 
 namespace brume::planning {
 namespace {
@@ -69,7 +70,8 @@ class VolumeLightCacheTest : public testing::Test {
     PlacedVolume visible;
     visible.instance.voxel_from_world = visible.instance.world_from_voxel =
         glm::mat4x3(inputs_[0].world_from_voxel);
-    visible.instance.bounds_max = glm::vec3(8);
+    visible.instance.bounds_max = size_;
+    visible.instance.is_dense = is_dense_ ? 1 : 0;
     visible.instance.look = inputs_[0].look;
     media.volumes = {visible};
     media.sun = 0;
@@ -81,7 +83,8 @@ class VolumeLightCacheTest : public testing::Test {
   std::vector<VolumeInput> inputs_;
   std::vector<shared::Light> lights_;
   float time_ = 0;
-  bool rebuild_ = false, is_lit_ = true;
+  glm::vec3 size_{8};
+  bool rebuild_ = false, is_lit_ = true, is_dense_ = false;
   VolumeLightCache cache_;
 };
 
@@ -132,6 +135,38 @@ TEST_F(VolumeLightCacheTest, UpdatesOnlyWhereAnInputOfTheLightChanged) {
   EXPECT_FALSE(plan().update);
   cache_.invalidate();
   EXPECT_TRUE(plan().update);
+}
+
+TEST_F(VolumeLightCacheTest, ADenseVolumeHasACellPerVoxel) {
+  size_ = {100, 20, 60};
+  EXPECT_EQ(plan().edge, 32u);
+  is_dense_ = true;
+  const VolumeLightPlan dense = plan();
+  EXPECT_TRUE(dense.update);
+  EXPECT_EQ(dense.edge, 128u);
+  size_ = glm::vec3(1000);
+  EXPECT_EQ(plan().edge, 128u) << "at most";
+}
+
+TEST(MediaPlan, MarchesAVolumeThatIsOpaqueWithinAVoxelByHalfAVoxel) {
+  volume::SparseVolume volume({{}, 1, {{2}}});
+  volume.begin_update();
+  volume.acquire({0, 0, 0});
+  volume.set_bounds(glm::vec3(0), glm::vec3(8));
+  volume.end_update();
+  FrameInput input;
+  input.view.camera = {{4, 4, 30}, {4, 4, 4}, 0.9f};
+  input.volumes = {{&volume, glm::mat4(1), {glm::vec3(1), 1, glm::vec3(0), 0, 1}, {}}};
+  const ViewFrustum frustum(device_camera(input.view.camera, {16, 16}));
+  for (const bool dense : {false, true}) {
+    // Just below and just above.
+    input.volumes[0].voxel_depth = shared::kDenseVoxelDepth * (dense ? 1.001f : 0.999f);
+    const MediaPlan plan = plan_media(input, {}, frustum, {});
+    EXPECT_EQ((plan.media & shared::kMediumDense) != 0, dense);
+    EXPECT_EQ((plan.casters & shared::kMediumDense) != 0, dense);
+    EXPECT_EQ(plan.volumes[0].instance.is_dense, dense ? 1u : 0u);
+    EXPECT_EQ(plan.frame.step_length, input.quality.step_scale * (dense ? 0.5f : 1.0f));
+  }
 }
 
 TEST(Blackbody, HasTheColoursOfTheLocus) {
