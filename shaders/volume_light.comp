@@ -20,10 +20,24 @@ layout(binding = kBindSkyDepths) uniform sampler3D sky_depths;
 layout(binding = kBindVolumeLightTarget, rgba16f) uniform writeonly image3D light_target;
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 #include "lib/light_visibility.glsl"
+#include "lib/optical_depth.glsl"
 #include "lib/sky_light.glsl"
+#include "lib/volume_depth.glsl"
 #include "lib/volume_extinction.glsl"
 
+const bool kHasDense = (kMedia & kMediumDense) != 0u, kHasSmoke = (kMedia & kMediumSmoke) != 0u;
+/// Beyond all media [m].
+const float kFar = 1e6;
 const uint kStepsToLight = 16u;
+/// Steps through each other volume beyond the bounds of a dense one.
+const uint kStepsBeyond = 32u;
+/// Steps of half a voxel from a point of a dense volume on, before those of a voxel: its surface is that thin.
+const uint kHalfSteps = 8u;
+/// Beyond it nothing of the light is left.
+const float kMostDepth = 16.0;
+const uint kDenseDirections = 14u;
+/// Least mean transmittance of the directions at which a dense volume is seen.
+const float kLeastEscape = 1e-3;
 const float kPerSphere = 0.0795774715;  // 1 / (4 pi)
 
 /// Whether a sample that reads this cell can lie in a brick.
@@ -33,6 +47,22 @@ bool is_near_bricks(uint volume, vec3 p_voxel, vec3 cell_voxels) {
     if (volume_brick(volumes[volume].bricks, p_voxel + side * cell_voxels).slot != kNoSlot) return true;
   }
   return false;
+}
+
+/// Whether a sample that reads this cell of a dense volume can lie in matter.
+bool is_near_matter(uint volume, vec3 p_voxel, vec3 cell_voxels) {
+  if (any(greaterThan(cell_voxels, vec3(1.0)))) return true;
+  for (uint corner = 0u; corner < 9u; ++corner) {
+    const vec3 side = corner == 8u ? vec3(0.0) : vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u) * 2.0 - 1.0;
+    if (volume_value(volumes[volume].bricks, p_voxel + side * cell_voxels) > 0.0) return true;
+  }
+  return false;
+}
+
+/// Optical depth of the smoke along a ray.
+float smoke_depth(vec3 p_world, vec3 direction, float distance) {
+  if (!kHasSmoke) return 0.0;
+  return optical_depth((p_world - frame.volume.origin_world) / frame.volume.voxel_size, direction, distance, 1.0);
 }
 
 /// Optical depth of a sweep at a point: of the cube of this number.
@@ -53,12 +83,69 @@ float escape_at(uint volume, vec3 p_world) {
   return sum / float(kSkySweeps);
 }
 
-/// Optical depth of the volumes along a ray to a light.
-float depth_to_light(vec3 p_world, Incident incident) {
+/// The part of a ray of `distance` metres in the bounds of a volume, from a point inside of them.
+float own_part(uint volume, vec3 p_world, vec3 direction, float distance) {
+  const VoxelRay ray = VoxelRay(volumes[volume].voxel_from_world * vec4(p_world, 1.0),
+                                volumes[volume].voxel_from_world * vec4(direction, 0.0));
+  return clamp(span_in_box(ray, volumes[volume].bounds_min, volumes[volume].bounds_max).y, 0.0, distance);
+}
+
+/// Optical depth of all volumes along the first `part` metres of a ray, in steps of the voxels of a dense one.
+float fine_depth(uint volume, vec3 p_world, vec3 direction, float part) {
+  const vec3 per_metre = abs(volumes[volume].voxel_from_world * vec4(direction, 0.0));
+  const float voxel = 1.0 / max(per_metre.x, max(per_metre.y, per_metre.z));
+  const uint mask = volumes_along(p_world, p_world + direction * part);
+  float depth = 0.0, t = 0.0;
+  for (uint i = 0u; t < part && depth < kMostDepth; ++i) {
+    const float ds = min(i < kHalfSteps ? 0.5 * voxel : voxel, part - t);
+    depth += ds * volumes_extinction(mask, p_world + direction * (t + 0.5 * ds), direction * (0.5 * ds));
+    t += ds;
+  }
+  return depth;
+}
+
+/// Optical depth of all media along a ray from a point of a dense volume, in whose bounds each voxel counts.
+float dense_depth(uint volume, vec3 p_world, vec3 direction, float distance) {
+  const float part = own_part(volume, p_world, direction, distance);
+  float depth = fine_depth(volume, p_world, direction, part);
+  // At most once.
+  for (bool others = params.is_alone == 0u && depth < kMostDepth; others; others = false) {
+    depth += volumes_depth(p_world + direction * part, direction, distance - part, kStepsBeyond, 0u, 1u);
+    depth += smoke_depth(p_world, direction, distance);
+  }
+  return depth;
+}
+
+/// What arrives at a point of a dense volume, as means over the directions: those of the axes and the diagonals of a
+/// cube, weighted so that polynomials of up to degree 5 are integrated exactly (Lebedev 1976).
+struct Arrivals {
+  float escape;  // transmittance
+  vec3 many;     // of light that decays as after many scatterings
+};
+
+Arrivals dense_arrivals(uint volume, vec3 p_world, vec3 decay) {
+  Arrivals sum = Arrivals(0.0, vec3(0.0));
+  for (uint i = 0u; i < kDenseDirections; ++i) {
+    const bool is_axis = i < 6u;
+    const uint corner = i - 6u;
+    const vec3 diagonal = vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u) * 2.0 - 1.0;
+    const vec3 direction = is_axis ? cube_forward(i) : diagonal * inversesqrt(3.0);
+    const float weight = is_axis ? 1.0 / 15.0 : 3.0 / 40.0;
+    const float depth = dense_depth(volume, p_world, direction, kFar);
+    sum.escape += weight * exp(-depth);
+    sum.many += weight * exp(-decay * depth);
+  }
+  return sum;
+}
+
+/// Optical depth of the media along a ray to a light.
+float depth_to_light(uint volume, vec3 p_world, Incident incident) {
+  if (kHasDense && volumes[volume].is_dense != 0u)
+    return dense_depth(volume, p_world, incident.to_light, incident.distance);
   const float ds = incident.distance / float(kStepsToLight);
   const uint mask =
       volumes_along(p_world, p_world + incident.to_light * incident.distance);
-  float depth = 0.0;
+  float depth = smoke_depth(p_world, incident.to_light, incident.distance);
   for (uint i = 0u; i < kStepsToLight; ++i)
     depth += ds * volumes_extinction(mask, p_world + incident.to_light * (ds * (float(i) + 0.5)),
                                      incident.to_light * (0.5 * ds));
@@ -66,7 +153,7 @@ float depth_to_light(vec3 p_world, Incident incident) {
 }
 
 /// Light of all lights but the sun, scattered equally in all directions.
-vec3 other_lights(vec3 p_world, vec3 albedo, ManyScatterings many) {
+vec3 other_lights(uint volume, vec3 p_world, vec3 albedo, ManyScatterings many) {
   vec3 sum = vec3(0.0);
   for (uint i = 0u; i < frame.light_count; ++i) {
     if (i == params.sun) continue;
@@ -74,7 +161,7 @@ vec3 other_lights(vec3 p_world, vec3 albedo, ManyScatterings many) {
     if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
     const float lit = light_visibility(lights[i], p_world);
     if (lit <= 0.0) continue;
-    const float depth = depth_to_light(p_world, incident);
+    const float depth = depth_to_light(volume, p_world, incident);
     const vec3 scattered_light = exp(-depth) * albedo + many.fraction * exp(-many.decay * depth);
     sum += incident.irradiance * (lit * kPerSphere) * scattered_light;
   }
@@ -96,34 +183,53 @@ vec3 mean_albedo(uint i, vec3 p_voxel, vec3 cell_voxels) {
   return extinction > 0.0 ? sum / extinction : volumes[i].look.albedo;
 }
 
+/// The light in a cell of a volume.
+vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
+  const bool is_dense = kHasDense && volumes[volume].is_dense != 0u;
+  const vec3 p_world = volumes[volume].world_from_voxel * vec4(p_voxel, 1.0);
+  VolumeLook look = volumes[volume].look;
+  if (kHasAlbedos) look.albedo = mean_albedo(volume, p_voxel, cell_voxels);
+  Arrivals arrivals = Arrivals(0.0, vec3(0.0));
+  if (is_dense) {
+    arrivals = dense_arrivals(volume, p_world, multiple_scattering(many_fit(), look.albedo, look.anisotropy, 0.0).decay);
+    if (arrivals.escape < kLeastEscape) return vec4(0.0);
+  } else {
+    arrivals.escape = escape_at(volume, p_world);
+  }
+  // All light here has been scattered at least once. With albedos of their own, samples multiply it by them.
+  const vec3 albedo = kHasAlbedos ? vec3(1.0) : look.albedo;
+  ManyScatterings many = multiple_scattering(many_fit(), look.albedo, look.anisotropy, arrivals.escape);
+  many.fraction *= look.multiple_scattering * albedo;
+  vec4 light = vec4(0.0);
+  if (params.sun != kNoSun) {
+    const Light sunlight = lights[params.sun];
+    const float lit = light_visibility(sunlight, p_world);
+    float depth = 0.0;
+    if (is_dense)
+      depth = dense_depth(volume, p_world, -sunlight.direction, kFar);
+    else
+      depth = swept_depth(sun_depths, volume, 0u, sweeps[volume * kSweepsOfVolume], p_world);
+    light.a = is_dense ? lit * exp(-depth) : lit;
+    light.rgb = sunlight.intensity * (lit * kPerSphere) * many.fraction * exp(-many.decay * depth);
+  }
+  light.rgb += other_lights(volume, p_world, albedo, many);
+  const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
+  const vec3 sky = is_dense ? albedo * arrivals.escape + many.fraction * arrivals.many
+                            : albedo * scattered_sky(look.albedo, look.multiple_scattering, arrivals.escape);
+  light.rgb += frame.sky.ambient * open_sky * sky;
+  return light;
+}
+
 void main() {
   const uvec3 at = gl_GlobalInvocationID;
   const uint volume = at.z / params.edge;
   if (any(greaterThanEqual(at.xy, uvec2(params.edge))) || volume >= frame.media.volume_count) return;
   const vec3 cell = vec3(at.xy, at.z % params.edge) + 0.5;
   const vec3 low = volumes[volume].bounds_min, size = volumes[volume].bounds_max - low;
-  const vec3 p_voxel = low + cell / float(params.edge) * size;
+  const vec3 p_voxel = low + cell / float(params.edge) * size, cell_voxels = size / float(params.edge);
+  const bool is_dense = kHasDense && volumes[volume].is_dense != 0u;
   vec4 light = vec4(0.0);
-  if (is_near_bricks(volume, p_voxel, size / float(params.edge))) {
-    const vec3 p_world = volumes[volume].world_from_voxel * vec4(p_voxel, 1.0);
-    VolumeLook look = volumes[volume].look;
-    if (kHasAlbedos) look.albedo = mean_albedo(volume, p_voxel, size / float(params.edge));
-    // All light here has been scattered at least once. With albedos of their own, samples multiply it by them.
-    const vec3 albedo = kHasAlbedos ? vec3(1.0) : look.albedo;
-    const float escape = escape_at(volume, p_world);
-    ManyScatterings many = multiple_scattering(many_fit(), look.albedo, look.anisotropy, escape);
-    many.fraction *= look.multiple_scattering * albedo;
-    if (params.sun != kNoSun) {
-      const Light sunlight = lights[params.sun];
-      const float lit = light_visibility(sunlight, p_world);
-      const float depth = swept_depth(sun_depths, volume, 0u, sweeps[volume * kSweepsOfVolume], p_world);
-      light.a = lit;
-      light.rgb = sunlight.intensity * (lit * kPerSphere) * many.fraction * exp(-many.decay * depth);
-    }
-    light.rgb += other_lights(p_world, albedo, many);
-    const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
-    const vec3 sky = scattered_sky(look.albedo, look.multiple_scattering, escape);
-    light.rgb += albedo * frame.sky.ambient * open_sky * sky;
-  }
+  if (is_near_bricks(volume, p_voxel, cell_voxels) && (!is_dense || is_near_matter(volume, p_voxel, cell_voxels)))
+    light = light_in_cell(volume, p_voxel, cell_voxels);
   imageStore(light_target, ivec3(at), light);
 }

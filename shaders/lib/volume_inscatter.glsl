@@ -8,7 +8,7 @@
 #include "shared/phase.h"
 #include "shared/volume_light.h"
 
-const bool kHasSun = (kMedia & kMediumSun) != 0u;
+const bool kHasSun = (kMedia & kMediumSun) != 0u, kHasDense = (kMedia & kMediumDense) != 0u;
 
 layout(binding = kBindVolumeLight) uniform sampler3D volume_light;
 layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
@@ -42,7 +42,10 @@ vec3 volume_inscatter(vec3 albedo, uint i, LightTexels at, float phase) {
   if (kHasAlbedos) light.rgb *= albedo;
   if (!kHasSun) return light.rgb;
   const vec3 size = vec3(textureSize(sun_depths, 0));
-  const float arrives = light.a * exp(-textureLod(sun_depths, in_cube(i, at.sun, size), 0.0).r);
+  // The light of dense volumes includes it.
+  const bool is_dense = kHasDense && volumes[i].is_dense != 0u;
+  const float depth = is_dense ? 0.0 : textureLod(sun_depths, in_cube(i, at.sun, size), 0.0).r;
+  const float arrives = light.a * exp(-depth);
   return light.rgb + albedo * frame.media.sun_irradiance * (arrives * phase);
 }
 

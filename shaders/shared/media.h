@@ -16,6 +16,7 @@ SHARED_CONST uint kMediumTransfer = 64u;  // one has a transfer function
 SHARED_CONST uint kMediumColors = 128u;   // one has a grid of colours
 SHARED_CONST uint kMediumMasks = 256u;      // one has masks that glow
 SHARED_CONST uint kMediumDisturbed = 512u;  // noise disturbs one
+SHARED_CONST uint kMediumDense = 1024u;     // one is dense (VolumeInstance::is_dense)
 /// Those with which the albedo differs from point to point.
 SHARED_CONST uint kMediaOfAlbedos = 192u;
 

@@ -31,6 +31,8 @@ SHARED_CONST uint kPageEntries = 512u;
 SHARED_CONST uint kFirstNode = 256u;
 SHARED_CONST uint kUniformBrick = 0x80000000u;
 SHARED_CONST uint kTexelsPerBrick = 1000u;
+/// Optical depth of a voxel above which a volume is dense.
+SHARED_CONST float kDenseVoxelDepth = 1.5f;
 /// The most volumes of a frame besides the smoke.
 SHARED_CONST uint kMaxVolumes = 32u;
 
@@ -128,8 +130,9 @@ struct VolumeInstance {
   mat4x3 sun_from_voxel;  // to the cube of the sun's depths, [0, 1]^3 (volume_light.h)
   VolumeTransfer transfer;
   VolumeColors colors;
+  uint is_dense;  // 1: opaque within a voxel or two, like a surface; else 0
 };
-SHARED_SIZE(VolumeInstance, 472);
+SHARED_SIZE(VolumeInstance, 476);
 
 /// What few volumes have: tints of their masks, and noise that moves the places at which they are sampled.
 struct VolumeEffect {

@@ -4,10 +4,12 @@
 //   depths   cubes of optical depths in half floats, whose z axis runs along the light, in two images: one cube per
 //            volume for the sun, six for the axes. Cube s of volume v begins at texel (s, 0, v) times its edge
 //   light    per volume in view a cube of half floats in its bounds, likewise along z. rgb: radiance that the medium
-//            scatters towards any eye, per extinction. a: fraction of the sun that the level lets through
+//            scatters towards any eye, per extinction. a: fraction of the sun that the level lets through; in dense
+//            volumes that arrives
 //
 // The march reads the sun's depths itself: they are finer than the light, since what is scattered once shows every
-// fold.
+// fold. In dense volumes all light ends within a voxel of their surface, which depths between two cells do not show: they
+// have a cell per voxel, with light that is found along rays of its own.
 #ifndef BRUME_VOLUME_LIGHT_H
 #define BRUME_VOLUME_LIGHT_H
 #include "shared/volume.h"

@@ -7,7 +7,8 @@ namespace {
 
 /// What the pipelines differ by.
 constexpr std::uint32_t kSweepMedia = shared::kMediumSmoke | shared::kMediumTransfer | shared::kMediumSeveral;
-constexpr std::uint32_t kLightMedia = shared::kMediaOfAlbedos | shared::kMediumSeveral;
+constexpr std::uint32_t kLightMedia =
+    shared::kMediaOfAlbedos | shared::kMediumSmoke | shared::kMediumSeveral | shared::kMediumDense;
 
 /// `count` cubes along z, `side_by_side` of them along x.
 gpu::Image cubes(gpu::Context& context, VkFormat format, std::uint32_t edge, std::uint32_t count,
@@ -61,6 +62,12 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
   recorder.bind(light_pipeline,
                 {
                     {shared::kBindFrame, gpu::uniform(in.frame)},
+                    {shared::kBindPages, gpu::read(in.smoke.pages)},
+                    {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},
+                    {shared::kBindCells, gpu::read(in.smoke.cells)},
+                    {shared::kBindBoundary, gpu::read(in.smoke.boundary)},
+                    {shared::kBindCorners, gpu::read(in.smoke.corners)},
+                    {shared::kBindHoleCells, gpu::read(in.holes.cells)},
                     {shared::kBindLights, gpu::read(in.scene.lights)},
                     {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},

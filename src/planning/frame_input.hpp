@@ -143,6 +143,9 @@ struct VolumeInput {
   std::vector<glm::vec3> tints = {};  ///< Radiance per metre where a mask is 1; at most four.
   DisturbanceInput disturbance = {};
   std::size_t index = 0;  ///< Among the volumes of the timeline.
+  /// The largest optical depth along a voxel's shortest edge, of all its frames: above shared::kDenseVoxelDepth
+  /// it is lit as what is opaque.
+  float voxel_depth = 0;
 };
 
 /// Baked occlusion that darkens the surfaces in its box.

@@ -26,6 +26,19 @@ DisturbanceInput disturbance_of(const scene::Disturbance& disturbance, const sce
   return {glm::mat4(glm::inverse(frame.density.world_from_voxel)), disturbance, static_cast<float>(seconds)};
 }
 
+/// The largest optical depth along the shortest edge of a voxel. That of the first frame, so that a sequence is
+/// lit in one way.
+float voxel_depth_of(const scene::VolumeOptions& options, const glm::mat4& world_from_voxel,
+                     const scenario::VolumeFrame& first) {
+  float factor = first.density.high;
+  if (!options.opacity.empty())
+    factor = std::ranges::max_element(options.opacity, {}, &scene::OpacityPoint::opacity)->opacity;
+  float edge = glm::length(glm::vec3(world_from_voxel[0]));
+  for (int axis = 1; axis < 3; ++axis)
+    edge = std::min(edge, glm::length(glm::vec3(world_from_voxel[axis])));
+  return options.extinction * factor * edge;
+}
+
 VolumeInput input_of(const scene::VolumeOptions& options, const scenario::VolumeAt& volume,
                      const scenario::VolumeFrame& first, double seconds) {
   const grids::BrickVolume& density = volume.frame->density;
@@ -39,6 +52,7 @@ VolumeInput input_of(const scene::VolumeOptions& options, const scenario::Volume
   const float unit = options.opacity.empty() ? density.unit : 1;
   input.look = {options.albedo, options.extinction * unit, glm::vec3(0), options.anisotropy,
                 options.multiple_scattering};
+  input.voxel_depth = voxel_depth_of(options, volume.world_from_density, first);
   if (const auto& heat = volume.frame->heat; heat && options.emission > 0)
     // What glows is a multiple of the look's extinction.
     input.heat = {heat->volume.get(), volume.world_from_heat, options.kelvin * heat->unit,

@@ -16,7 +16,7 @@ struct Resolution {
   float voxels_per_cell;
   std::uint32_t most;
 };
-constexpr Resolution kLightCells{4, 128}, kSunCells{2, 256};
+constexpr Resolution kLightCells{4, 128}, kSunCells{2, 256}, kDenseCells{1, 128};
 constexpr std::uint32_t kLeastEdge = 32;
 /// Texels of 3D images along z.
 constexpr std::uint32_t kMostDepth = 2048;
@@ -61,6 +61,7 @@ std::vector<std::byte> key_of_volumes(const VolumeLightInputs& in) {
     key.add(visible.instance.bounds_max);
     key.add(visible.instance.look);
     key.add(visible.instance.transfer);
+    key.add(visible.instance.is_dense);
     add_transfer(key, in.volumes[visible.index].transfer);
     const volume::SparseVolume* const colors = in.volumes[visible.index].colors;
     key.add(colors ? colors->id() : 0);
@@ -83,15 +84,15 @@ std::vector<std::byte> key_of_others(const VolumeLightInputs& in) {
   return key.take();
 }
 
-std::uint32_t edge_of(const MediaPlan& media, Resolution resolution) {
-  float longest = 0;
+std::uint32_t edge_of(const MediaPlan& media, Resolution resolution, Resolution dense) {
+  float cells = 1;
   for (const PlacedVolume& visible : volumes_in_view(media)) {
     const glm::vec3 size = visible.instance.bounds_max - visible.instance.bounds_min;
-    longest = std::max({longest, size.x, size.y, size.z});
+    const Resolution& own = visible.instance.is_dense != 0 ? dense : resolution;
+    cells = std::max(cells, std::max({size.x, size.y, size.z}) / own.voxels_per_cell);
   }
-  const float most = static_cast<float>(resolution.most);
-  const auto cells = static_cast<std::uint32_t>(std::min(longest / resolution.voxels_per_cell, most));
-  std::uint32_t edge = std::clamp(std::bit_ceil(std::max(cells, 1u)), kLeastEdge, resolution.most);
+  const auto limited = static_cast<std::uint32_t>(std::min(cells, static_cast<float>(resolution.most)));
+  std::uint32_t edge = std::clamp(std::bit_ceil(limited), kLeastEdge, resolution.most);
   const auto too_many = [&] {
     const std::uint64_t count = media.frame.volume_count;
     return std::uint64_t{edge} * edge * edge * count > kMostCells || edge * count > kMostDepth;
@@ -135,8 +136,8 @@ VolumeLightPlan VolumeLightCache::plan(const VolumeLightInputs& in) {
     key_.clear();
     return plan;
   }
-  plan.edge = edge_of(*in.media, kLightCells);
-  plan.sun_edge = edge_of(*in.media, kSunCells);
+  plan.edge = edge_of(*in.media, kLightCells, kDenseCells);
+  plan.sun_edge = edge_of(*in.media, kSunCells, kSunCells);
   plan.sun = in.media->sun;
   for (const PlacedVolume& visible : volumes_in_view(*in.media)) {
     plan.sweeps.push_back(sweep_through(visible.instance, -in.media->frame.to_sun));
