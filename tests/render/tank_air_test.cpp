@@ -87,6 +87,26 @@ TEST_F(TankFurnaceTest, WhiteSpheresVanishWithManyBounces) {
   }
 }
 
+TEST_F(TankFurnaceTest, AnotherSphereTakesItsPartOfTheSky) {
+  // Of the light that arrives by Lambert's law at the point next to a sphere of radius r whose middle is at
+  // the distance d, (r / d)^2 is what that sphere hides (e.g. Modest 2013, "Radiative Heat Transfer").
+  spheres::Tank tank = tank_of({60, 40, 40});
+  put(tank, {18, 20, 20}, 8, kWhite);
+  put(tank, {42, 20, 20}, 8, kWhite);
+  scene::TankScene scene = dark_scene();
+  scene.sky.ambient = glm::vec3(1);
+  // From between the two at that point of the first: the ray is on the second's axis.
+  TankRenderer renderer(context(), runner(), tank, kSize);
+  const scene::Camera camera = narrow_camera({0, 0, 0}, {-0.04, 0, 0});
+  constexpr std::uint32_t kSamples = 256;
+  double seen = 0;
+  for (const glm::dvec3& pixel : draw(renderer, scene, tank, camera, kSize, kSamples))
+    seen += pixel.g / (kSize.x * kSize.y);
+  const double hidden = 8.0 * 8 / (16 * 16);
+  // Of as many independent rays, four deviations, 3 % of the hidden part.
+  EXPECT_NEAR(1 - seen, hidden, 4 * std::sqrt(hidden * (1 - hidden) / (kSamples * kSize.x * kSize.y)));
+}
+
 // Fog along a ray, in metres and double.
 struct FoggyRay {
   glm::dvec3 from, to;
@@ -204,6 +224,35 @@ TEST_F(TankFogTest, EndsWhereASphereBegins) {
           expect_near(pixel, expected, off);
       }
     }
+  }
+}
+
+TEST_F(TankFogTest, GoesOnInAMediumThatDimsIt) {
+  // A black ball of medium on the way: of extinction a, in fog of extinction k. What the fog adds up to its
+  // far side is color k / (k + a) (1 - exp(-(k + a) chord)); a ray that is scattered sees only the fog before
+  // that.
+  constexpr glm::uvec3 kTank(32, 32, 64);
+  spheres::Tank tank = tank_of(kTank);
+  put(tank, {16.5f, 16.5f, 30.5f}, 14, 4u << 24);
+  const double a = -std::log1p(-4 / 255.0) / 0.01, k = kExtinction, chord = 0.28;
+  const scene::TankScene scene = foggy();
+  const glm::dvec3 color(kColor), sky(scene.sky.zenith);
+  // From 0.195 m before the ball to 0.165 m behind it.
+  const glm::dvec3 behind = std::exp(-(k + a) * chord) * seen_through(sky, 0.165);
+  const glm::dvec3 expected =
+      seen_through(color * (k / (k + a) * (1 - std::exp(-(k + a) * chord))) + behind, 0.195);
+  TankRenderer renderer(context(), runner(), tank, kSize);
+  const scene::Camera camera = narrow_camera({0.005, 0.005, 2}, {0.005, 0.005, 0});
+  for (const scene::TankView view : {scene::TankView::spheres, scene::TankView::voxels}) {
+    renderer.set_kind(view);
+    glm::dvec3 mean(0);
+    for (const glm::dvec3& pixel : draw(renderer, scene, tank, camera, kSize, 64))
+      mean += pixel / static_cast<double>(kSize.x * kSize.y);
+    // Spheres: events at random, of which none changes the radiance by more than 0.8. Voxels: at both ends of
+    // the ball one may be painted that is not in it, and a voxel does not dim the fog that is in itself.
+    const double off = view == scene::TankView::spheres ? 4 * 0.8 / 2 / std::sqrt(64.0 * kSize.x * kSize.y)
+                                                        : 2 * a * 0.01 * 0.8 + a * 0.01 * 0.3;
+    expect_near(mean, expected, off);
   }
 }
 

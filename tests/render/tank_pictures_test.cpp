@@ -254,5 +254,33 @@ TEST_F(TankTruthTest, PicturesTakeNewLightPathsEverySixteenSamples) {
   }
 }
 
+TEST_F(TankTruthTest, FramesOfAFilmAreThoseOfNewPictures) {
+  // What moves: a light, the glass, or the camera alone, whose frames have the same light paths.
+  for (const int moves : {0, 1, 2})
+    for (const std::uint32_t samples : {kSamplesOfBatch - 6, kSamplesOfBatch + 4}) {
+      SCOPED_TRACE(testing::Message() << moves << ", " << samples << " samples");
+      Example shown = example(Matter::mixed, 1);
+      scene::TankScene& scene = shown.scenario.scene;
+      scene.samples = samples;
+      scene.photons = 20000;
+      scene.camera = {{0, shown.camera}};
+      if (moves == 0) scene.lights[1].keys = {{0, {-0.8f, 0.3f, 1.4f}}, {2, {-0.8f, 0.5f, 1.4f}}};
+      if (moves == 1)
+        scene.glass->keys = {{0, {0, 0, 0.6f}, glm::vec3(0.2f)}, {2, {0, 0, 0.7f}, glm::vec3(0.3f)}};
+      if (moves == 2) scene.camera.push_back({2, {{0.7f, 0.5f, 0.8f}, {0, 0, 0}, 0.6f}});
+      TankPictures film(context(), shown.scenario, {24, 16});
+      std::vector<image::LayeredImage> frames;
+      for (const double seconds : {0.0, 1.0, 0.0, 2.0}) {
+        frames.push_back(film.draw_layers(seconds));
+        TankPictures picture(context(), shown.scenario, {24, 16});
+        const image::LayeredImage alone = picture.draw_layers(seconds);
+        for (std::size_t c = 0; c < 3; ++c)
+          EXPECT_TRUE(frames.back().layers[c].values == alone.layers[c].values) << seconds << " s";
+      }
+      EXPECT_FALSE(frames[1].layers[1].values == frames[0].layers[1].values);
+      EXPECT_FALSE(frames[3].layers[1].values == frames[0].layers[1].values);
+    }
+}
+
 }  // namespace
 }  // namespace brume::render
