@@ -8,8 +8,8 @@
 //            volumes that arrives
 //
 // The march reads the sun's depths itself: they are finer than the light, since what is scattered once shows every
-// fold. In dense volumes all light ends within a voxel of their surface, which depths between two cells do not show: they
-// have a cell per voxel, with light that is found along rays of its own.
+// fold. In dense volumes all light ends within a voxel of their surface, which depths between two cells do not show:
+// they have a cell per voxel, with light that is found along rays of its own.
 #ifndef BRUME_VOLUME_LIGHT_H
 #define BRUME_VOLUME_LIGHT_H
 #include "shared/volume.h"

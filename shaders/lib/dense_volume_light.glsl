@@ -1,0 +1,95 @@
+// Light in dense volumes, which are opaque within a voxel or two: along rays in steps of their voxels. The includer
+// defines the constant kMedia, the volumes and the push constants `params` of volume_light.comp.
+#ifndef DENSE_VOLUME_LIGHT_GLSL
+#define DENSE_VOLUME_LIGHT_GLSL
+#include "lib/frame.glsl"
+#include "lib/optical_depth.glsl"
+#include "lib/volume_depth.glsl"
+#include "lib/volume_extinction.glsl"
+#include "shared/light.h"
+
+const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u;
+/// Beyond all media [m].
+const float kFar = 1e6;
+/// Steps through each other volume beyond the bounds of a dense one.
+const uint kStepsBeyond = 32u;
+/// Steps of half a voxel from a point of a dense volume on, before those of a voxel: its surface is that thin.
+const uint kHalfSteps = 8u;
+/// Beyond it nothing of the light is left.
+const float kMostDepth = 16.0;
+const uint kDenseDirections = 14u;
+/// Least mean transmittance of the directions at which a dense volume is seen.
+const float kLeastEscape = 1e-3;
+
+/// Whether a sample that reads this cell of a dense volume can lie in matter.
+bool is_near_matter(uint volume, vec3 p_voxel, vec3 cell_voxels) {
+  if (any(greaterThan(cell_voxels, vec3(1.0)))) return true;
+  for (uint corner = 0u; corner < 9u; ++corner) {
+    const vec3 side = corner == 8u ? vec3(0.0) : vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u) * 2.0 - 1.0;
+    if (volume_value(volumes[volume].bricks, p_voxel + side * cell_voxels) > 0.0) return true;
+  }
+  return false;
+}
+
+/// Optical depth of the smoke along a ray.
+float smoke_depth(vec3 p_world, vec3 direction, float distance) {
+  if (!kHasSmoke) return 0.0;
+  return optical_depth((p_world - frame.volume.origin_world) / frame.volume.voxel_size, direction, distance, 1.0);
+}
+
+/// The part of a ray of `distance` metres in the bounds of a volume, from a point inside of them.
+float own_part(uint volume, vec3 p_world, vec3 direction, float distance) {
+  const VoxelRay ray = VoxelRay(volumes[volume].voxel_from_world * vec4(p_world, 1.0),
+                                volumes[volume].voxel_from_world * vec4(direction, 0.0));
+  return clamp(span_in_box(ray, volumes[volume].bounds_min, volumes[volume].bounds_max).y, 0.0, distance);
+}
+
+/// Optical depth of all volumes along the first `part` metres of a ray, in steps of the voxels of a dense one.
+float fine_depth(uint volume, vec3 p_world, vec3 direction, float part) {
+  const vec3 per_metre = abs(volumes[volume].voxel_from_world * vec4(direction, 0.0));
+  const float voxel = 1.0 / max(per_metre.x, max(per_metre.y, per_metre.z));
+  const uint mask = volumes_along(p_world, p_world + direction * part);
+  float depth = 0.0, t = 0.0;
+  for (uint i = 0u; t < part && depth < kMostDepth; ++i) {
+    const float ds = min(i < kHalfSteps ? 0.5 * voxel : voxel, part - t);
+    depth += ds * volumes_extinction(mask, p_world + direction * (t + 0.5 * ds), direction * (0.5 * ds));
+    t += ds;
+  }
+  return depth;
+}
+
+/// Optical depth of all media along a ray from a point of a dense volume, in whose bounds each voxel counts.
+float dense_depth(uint volume, vec3 p_world, vec3 direction, float distance) {
+  const float part = own_part(volume, p_world, direction, distance);
+  float depth = fine_depth(volume, p_world, direction, part);
+  // At most once.
+  for (bool others = params.is_alone == 0u && depth < kMostDepth; others; others = false) {
+    depth += volumes_depth(p_world + direction * part, direction, distance - part, kStepsBeyond, 0u, 1u);
+    depth += smoke_depth(p_world, direction, distance);
+  }
+  return depth;
+}
+
+/// What arrives at a point of a dense volume, as means over the directions: those of the axes and the diagonals of a
+/// cube, weighted so that polynomials of up to degree 5 are integrated exactly (Lebedev 1976).
+struct Arrivals {
+  float escape;  // transmittance
+  vec3 many;     // of light that decays as after many scatterings
+};
+
+Arrivals dense_arrivals(uint volume, vec3 p_world, vec3 decay) {
+  Arrivals sum = Arrivals(0.0, vec3(0.0));
+  for (uint i = 0u; i < kDenseDirections; ++i) {
+    const bool is_axis = i < 6u;
+    const uint corner = i - 6u;
+    const vec3 diagonal = vec3(corner & 1u, corner >> 1u & 1u, corner >> 2u) * 2.0 - 1.0;
+    const vec3 direction = is_axis ? cube_forward(i) : diagonal * inversesqrt(3.0);
+    const float weight = is_axis ? 1.0 / 15.0 : 3.0 / 40.0;
+    const float depth = dense_depth(volume, p_world, direction, kFar);
+    sum.escape += weight * exp(-depth);
+    sum.many += weight * exp(-decay * depth);
+  }
+  return sum;
+}
+
+#endif
