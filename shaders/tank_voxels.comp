@@ -68,12 +68,12 @@ vec3 ray_radiance(vec3 origin, vec3 direction, inout SampleSource source) {
 void main() {
   const ivec2 px = sampled_pixel();
   if (any(greaterThanEqual(uvec2(px), tank.size_px))) return;
-  vec3 sum = vec3(0.0);
+  vec3 sum = sum_so_far(px);
   for (uint i = 0u; i < samples.count; ++i) {
     SampleSource source = SampleSource(px, samples.first + i, 0u);
     vec3 origin, direction;
     sample_camera(source, origin, direction);
     sum += ray_radiance(origin, direction, source);
   }
-  add_samples(px, sum);
+  store_sum(px, sum);
 }

@@ -19,11 +19,11 @@ layout(binding = kBindSunDepths) uniform sampler3D sun_depths;
 layout(binding = kBindSkyDepths) uniform sampler3D sky_depths;
 layout(binding = kBindVolumeLightTarget, rgba16f) uniform writeonly image3D light_target;
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
-#include "lib/dense_light.glsl"
+#include "lib/dense_volume_light.glsl"
 #include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
-#include "lib/volume_extinction.glsl"
 
+const bool kHasDense = (kMedia & kMediumDense) != 0u;
 const uint kStepsToLight = 16u;
 const float kPerSphere = 0.0795774715;  // 1 / (4 pi)
 

@@ -105,9 +105,9 @@ void bake_spheres(SpheresBake bake, const Arguments& arguments, Outputs& outputs
   outputs.writes("-o", bake.output, FileKind::spheres);
   outputs.writes("--json", bake.json, FileKind::json);
 
-  // The tank. Without volume, the check of all options comes first.
-  if (options.radius.x > 0 && glm::all(glm::greaterThan(options.size, glm::uvec3(0))))
-    refuse_more_than_the_tank(options);
+  // The tank. With radii that do not fit into it, the check of all options comes first.
+  const float most = static_cast<float>(std::min({options.size.x, options.size.y, options.size.z})) / 2;
+  if (options.radius.x > 0 && options.radius.y <= most) refuse_more_than_the_tank(options);
   const auto is_over = [&] { return bake.time_limit && watch.seconds() >= *bake.time_limit; };
   const auto packed = spheres::pack(options, [&] { return is_interrupted() || is_over(); });
   if (!packed) throw as_option(packed.failure());

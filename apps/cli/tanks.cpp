@@ -101,7 +101,8 @@ Summary tank_summary(const std::filesystem::path& path) {
 void convert_tank(const std::string& input, const std::string& output, const std::string& json,
                   Outputs& outputs) {
   const Stopwatch watch;
-  expect_suffix("", output, {".obj", ".ply"});
+  // Volume files are written from the tank's voxels, by the caller.
+  expect_suffix("", output, {".obj", ".ply", ".vdb", ".nvdb", ".brv", ".json"});
   const bool is_mesh = scene::lower_extension(output) == ".obj";
   outputs.reads(std::filesystem::path(input));
   outputs.writes("", output, is_mesh ? FileKind::obj : FileKind::ply);

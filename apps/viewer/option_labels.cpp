@@ -27,6 +27,7 @@ constexpr std::array kLabels{
     Label{"samples", "samples of a pixel"},
     Label{"bounces", "bounces"},
     Label{"photons", "light through the glass"},
+    Label{"dither", "dither"},
     Label{"voxel", "edge of a voxel"},
     Label{"spheres", "spheres"},
     Label{"distribution", "small ones over large"},

@@ -15,9 +15,14 @@ ivec2 sampled_pixel() {
   return ivec2(gl_GlobalInvocationID.xy) + ivec2(0, samples.first_row);
 }
 
-/// Adds samples to the sum of a pixel and writes their mean.
-void add_samples(ivec2 px, vec3 sum) {
-  if (samples.first > 0u) sum += imageLoad(sum_image, px).rgb;
+/// Of the samples of a pixel so far. Further ones are added to it one by one: the same bits in whatever portions they
+/// come.
+vec3 sum_so_far(ivec2 px) {
+  return samples.first > 0u ? imageLoad(sum_image, px).rgb : vec3(0.0);
+}
+
+/// Writes the sum of a pixel, and the mean.
+void store_sum(ivec2 px, vec3 sum) {
   imageStore(sum_image, px, vec4(sum, 1.0));
   imageStore(radiance_image, px, vec4(min(sum / float(samples.first + samples.count), 65504.0), 1.0));
 }

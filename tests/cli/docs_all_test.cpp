@@ -1,7 +1,9 @@
 // The commands of all documents and of the help run as written.
 #include <iterator>
+#include <map>
 #include <sstream>
 
+#include "core/file.hpp"
 #include "tests/cli/documents.hpp"
 
 namespace brume::cli {
@@ -40,6 +42,22 @@ TEST_F(Documents, ExamplesOfTheHelpRun) {
     EXPECT_FALSE(calls.empty()) << command;
     for (const auto& call : calls) expect_works(command + " --help", call);
   }
+}
+
+// Each change of a scene has an effect, be it in pictures of one sample.
+TEST_F(Documents, PicturesOfTanksRender) {
+  RunOptions options;
+  options.program = BRUME_SOURCE_DIR "/script/aquaria-pictures";
+  const Outcome run = run_brume(folder_.path(), {"pictures", "--quick", "--build", BRUME_BUILD_DIR}, options);
+  ASSERT_EQ(run.exit_code, 0) << run.error;
+  std::map<std::string, std::string> names;  // by content
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "pictures")) {
+    const std::string name = entry.path().filename().string();
+    if (name == "aquaria_remap.png") continue;  // aquaria_wide_open.png with fewer samples
+    const auto [same, is_new] = names.emplace(read_text_file(entry.path()).value_or_throw(), name);
+    EXPECT_TRUE(is_new) << name << " equals " << same->second;
+  }
+  EXPECT_GT(names.size(), 20u);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ class DisplayTest : public gpu::GpuTest {
  protected:
   /// What 8 bits show of an image.
   static std::vector<glm::u8vec4> show(glm::uvec2 size, const std::vector<Half4>& radiance, float exposure,
-                                       std::uint32_t tone = shared::kToneNeutral) {
+                                       std::uint32_t tone = shared::kToneNeutral, float dither = 1) {
     const auto image = upload_image(context(), runner(), size, VK_FORMAT_R16G16B16A16_SFLOAT, radiance);
     const auto display = test_image(context(), size, VK_FORMAT_R8G8B8A8_UNORM);
     shared::FrameConstants frame{};
@@ -27,7 +27,7 @@ class DisplayTest : public gpu::GpuTest {
     runner().run([&](gpu::Recorder& recorder) { noise = make_blue_noise(context(), recorder); });
     const DisplayPass pass(context());
     runner().run(
-        [&](gpu::Recorder& recorder) { pass.record(recorder, frame_buffer, noise, image, display); });
+        [&](gpu::Recorder& recorder) { pass.record(recorder, frame_buffer, noise, image, display, dither); });
     return read_back<glm::u8vec4>(display);
   }
 };
@@ -53,30 +53,85 @@ TEST_F(DisplayTest, TheStandardCurveIsSrgbAlone) {
     EXPECT_EQ(texel.x, 255);
 }
 
-TEST_F(DisplayTest, AGreyRampShowsNoBand) {
-  // A slow ramp, 4,096 pixels wide and a noise tile high: the mean of a small window must follow the ramp far
-  // more finely than in steps of 1/255.
-  constexpr glm::uvec2 kSize{4096, 64};
-  const auto grey = [](double x) { return 0.05 + 0.4 * x / kSize.x; };
-  std::vector<Half4> radiance(kSize.x * kSize.y);
-  for (std::uint32_t i = 0; i < radiance.size(); ++i)
-    radiance[i] = to_half(glm::vec4(static_cast<float>(grey(i % kSize.x))));
-  const auto shown = show(kSize, radiance, 1);
-  constexpr std::uint32_t kWindow = 16;
-  for (std::uint32_t x = 0; x + kWindow <= kSize.x; x += kWindow) {
-    glm::dvec3 mean(0);
-    double expected = 0;
-    for (std::uint32_t i = 0; i < kWindow * kSize.y; ++i) {
-      const std::uint32_t at = x + i % kWindow + kSize.x * (i / kWindow);
-      mean += glm::dvec3(glm::vec3(shown[at]));
-      expected += shown_grey(static_cast<double>(from_half(radiance[at]).x));
-    }
-    mean /= kWindow * kSize.y;
-    expected /= kWindow * kSize.y;
-    // Dither of uniform noise: no bias; what is left of 1,024 blue-noise samples is below a twentieth of a
-    // step.
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], expected, 0.05) << "column " << x;
+/// A slow ramp, 4,096 pixels wide and a tile of the noise high, as 8 bits show it.
+class GreyRampTest : public DisplayTest {
+ protected:
+  static constexpr glm::uvec2 kSize{4096, 64};
+  GreyRampTest() {
+    for (std::uint32_t i = 0; i < kSize.x * kSize.y; ++i)
+      radiance_.push_back(to_half(glm::vec4(0.05f + 0.4f * static_cast<float>(i % kSize.x) / kSize.x)));
   }
+  std::vector<glm::u8vec4> show_ramp(float dither) const {
+    return show(kSize, radiance_, 1, shared::kToneNeutral, dither);
+  }
+  /// What a column is to show, in steps of 8 bits.
+  double expected(std::uint32_t x) const {
+    return shown_grey(static_cast<double>(from_half(radiance_[x]).x));
+  }
+  /// How far the mean of a window of columns is from it, of the channel that is farthest.
+  double off(const std::vector<glm::u8vec4>& shown, std::uint32_t first, std::uint32_t columns) const {
+    glm::dvec3 mean(0);
+    for (std::uint32_t x = first; x < first + columns; ++x)
+      for (std::uint32_t y = 0; y < kSize.y; ++y)
+        mean += (glm::dvec3(glm::vec3(shown[y * kSize.x + x])) - expected(x)) / double(columns * kSize.y);
+    return std::max({std::abs(mean.x), std::abs(mean.y), std::abs(mean.z)});
+  }
+  /// Of the windows of so many columns, that which is farthest off.
+  double farthest_off(const std::vector<glm::u8vec4>& shown, std::uint32_t columns) const {
+    double farthest = 0;
+    for (std::uint32_t x = 0; x + columns <= kSize.x; x += columns)
+      farthest = std::max(farthest, off(shown, x, columns));
+    return farthest;
+  }
+  /// The most columns beside each other in which all pixels have the same value.
+  static std::uint32_t widest_band(const std::vector<glm::u8vec4>& shown) {
+    std::uint32_t widest = 0, first = 0;
+    for (std::uint32_t x = 0; x < kSize.x; ++x) {
+      bool is_even = true;
+      for (std::uint32_t y = 0; y < kSize.y; ++y) is_even = is_even && shown[y * kSize.x + x] == shown[x];
+      if (!is_even) {
+        first = x + 1;
+        continue;
+      }
+      if (shown[x] != shown[first]) first = x;
+      widest = std::max(widest, x + 1 - first);
+    }
+    return widest;
+  }
+  /// How wide the widest step of 8 bits is, in pixels.
+  double widest_step() const {
+    double widest = 0;
+    for (std::uint32_t x = 64; x < kSize.x; x += 64)
+      widest = std::max(widest, 64 / (expected(x) - expected(x - 64)));
+    return widest;
+  }
+
+ private:
+  std::vector<Half4> radiance_;
+};
+
+TEST_F(GreyRampTest, ShowsNoBand) {
+  const auto shown = show_ramp(1);
+  // Noise of a whole step, evenly distributed, has no bias; what is left of 1,024 samples of blue noise is
+  // below a twentieth of a step. A column has 64 of white noise at worst, of a deviation of at most half a
+  // step: four standard errors are a quarter of a step.
+  EXPECT_LT(farthest_off(shown, 16), 0.05);
+  EXPECT_LT(farthest_off(shown, 1), 0.25);
+  // A column d pixels from where the ramp is a whole number, in steps of w pixels, is even with the
+  // probability (1 - d / w)^64 at most. For all up to d = m on both sides that is about exp(-64 m^2 / w):
+  // e^-30 here.
+  EXPECT_LT(widest_band(shown), 2 * std::sqrt(30 * widest_step() / 64) + 1);
+}
+
+TEST_F(GreyRampTest, HasBandsWithoutNoise) {
+  const auto shown = show_ramp(0);
+  // As wide as the steps, less what half floats round; up to half a step off at their edges, less a window's
+  // width.
+  EXPECT_GT(widest_band(shown), 0.9 * widest_step());
+  EXPECT_GT(farthest_off(shown, 16), 0.5 - 16 / widest_step());
+  EXPECT_GT(farthest_off(shown, 1), 0.4);
+  // Some noise does not do.
+  EXPECT_GT(farthest_off(show_ramp(0.25f), 16), 0.1);
 }
 
 TEST_F(DisplayTest, ExposureMultiplies) {

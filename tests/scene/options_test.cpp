@@ -198,7 +198,7 @@ TEST(Options, AreCompleteWithDefaultsInRange) {
   EXPECT_EQ(MET(TextEvent(), visit_text_options), 8u);
   EXPECT_EQ(MET(BlastEvent(), visit_blast_options), 6u);
   EXPECT_EQ(MET(TankScene(), visit_timeline_options), 2u);
-  EXPECT_EQ(MET(TankScene(), visit_tank_picture_options), 3u);
+  EXPECT_EQ(MET(TankScene(), visit_tank_picture_options), 4u);
   EXPECT_EQ(MET(spheres::PackOptions(), visit_pack_options), 5u);
   EXPECT_EQ(MET(TankFog(), visit_fog_options), 2u);
   EXPECT_EQ(MET(TankLight(), visit_tank_light_options), 4u);

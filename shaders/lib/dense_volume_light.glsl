@@ -1,15 +1,14 @@
-// Light in dense volumes (VolumeInstance::is_dense), which are opaque within a voxel or two: along rays of its own from
-// each cell. The includer defines the constant kMedia and the parameters `params`, and enables
-// GL_KHR_shader_subgroup_arithmetic.
-#ifndef DENSE_LIGHT_GLSL
-#define DENSE_LIGHT_GLSL
+// Light in dense volumes, which are opaque within a voxel or two: along rays in steps of their voxels. The includer
+// defines the constant kMedia, the volumes and the push constants `params` of volume_light.comp.
+#ifndef DENSE_VOLUME_LIGHT_GLSL
+#define DENSE_VOLUME_LIGHT_GLSL
+#include "lib/frame.glsl"
 #include "lib/optical_depth.glsl"
 #include "lib/volume_depth.glsl"
 #include "lib/volume_extinction.glsl"
 #include "shared/light.h"
-#include "shared/media.h"
 
-const bool kHasDense = (kMedia & kMediumDense) != 0u, kHasSmoke = (kMedia & kMediumSmoke) != 0u;
+const bool kHasSmoke = (kMedia & kMediumSmoke) != 0u;
 /// Beyond all media [m].
 const float kFar = 1e6;
 /// Steps through each other volume beyond the bounds of a dense one.
