@@ -29,4 +29,31 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+void append_utf8(std::string& text, char32_t character) {
+  const auto add = [&](char32_t byte) { text.push_back(static_cast<char>(byte)); };
+  const auto add_tail = [&](int shift) { add(0x80 | (character >> shift & 0x3f)); };
+  if (character < 0x80) {
+    add(character);
+  } else if (character < 0x800) {
+    add(0xc0 | character >> 6);
+    add_tail(0);
+  } else if (character < 0x10000) {
+    add(0xe0 | character >> 12);
+    add_tail(6);
+    add_tail(0);
+  } else {
+    add(0xf0 | character >> 18);
+    add_tail(12);
+    add_tail(6);
+    add_tail(0);
+  }
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  // A character begins with no byte of the form 10xxxxxx.
+  while (most > 0 && static_cast<unsigned char>(text[most]) >> 6 == 2) --most;
+  return std::string(text.substr(0, most)) + "...";
+}
+
 }  // namespace brume

@@ -1,7 +1,8 @@
-// UTF-8 decoding.
+// UTF-8.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace brume {
@@ -12,5 +13,11 @@ std::optional<char32_t> take_character(std::string_view& text);
 
 /// Whether a text is valid UTF-8; the empty one is.
 bool is_utf8(std::string_view text);
+
+/// Appends a character, which is at most U+10FFFF and no surrogate.
+void append_utf8(std::string& text, char32_t character);
+
+/// A text of more than `most` bytes as whole characters of at most that many and "...".
+std::string shortened(std::string_view text, std::size_t most);
 
 }  // namespace brume

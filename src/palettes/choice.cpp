@@ -3,10 +3,16 @@
 #include <charconv>
 #include <cstdio>
 
+#include "core/utf8.hpp"
 #include "palettes/file.hpp"
 
 namespace brume::palettes {
 namespace {
+
+/// A name in a message, which may be any text.
+std::string shown(std::string_view name) {
+  return shortened(name, 40);
+}
 
 /// Removes a number in [0, 1], digits with or without a point.
 std::optional<double> take_position(std::string_view& text) {
@@ -48,9 +54,9 @@ Result<PaletteChoice> parse_palette_choice(std::string_view text) {
   if (colon != std::string_view::npos && !is_palette_file(text)) {
     name = text.substr(0, colon);
     if (!read_range(text.substr(colon + 1), choice))
-      return Failure{ErrorCode::usage, "palette " + std::string(text) +
+      return Failure{ErrorCode::usage, "palette " + shown(text) +
                                            ": expected a range in [0, 1] behind the colon, such as " +
-                                           std::string(name) + ":0.2-0.6"};
+                                           shown(name) + ":0.2-0.6"};
   }
   // Palette
   if (is_palette_file(name)) {
@@ -61,10 +67,15 @@ Result<PaletteChoice> parse_palette_choice(std::string_view text) {
   }
   const Palette* const found = find(name);
   if (found == nullptr)
-    return Failure{ErrorCode::usage, "palette \"" + std::string(name) + "\": unknown" + suggestion_for(name) +
+    return Failure{ErrorCode::usage, "palette \"" + shown(name) + "\": unknown" + suggestion_for(name) +
                                          "; brume palettes lists all, files end in .gpl or .json"};
   choice.palette = *found;
   return choice;
+}
+
+std::string_view file_of_choice(std::string_view text) {
+  const std::string_view name = is_palette_file(text) ? text : text.substr(0, text.rfind(':'));
+  return is_palette_file(name) ? name : std::string_view();
 }
 
 std::string choice_text(std::string_view name, double low, double high) {

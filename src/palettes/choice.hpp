@@ -21,6 +21,9 @@ struct PaletteChoice {
 /// load_palette does.
 Result<PaletteChoice> parse_palette_choice(std::string_view text);
 
+/// The file that such a text names, without the range behind it; empty for a palette of the program.
+std::string_view file_of_choice(std::string_view text);
+
 /// The same choice as a text: with at most three digits behind the point, without a range that is all.
 std::string choice_text(std::string_view name, double low, double high);
 

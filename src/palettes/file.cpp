@@ -60,6 +60,7 @@ Result<Palette> load_palette(const std::filesystem::path& path) {
 
 Result<Palette> parse_gpl(std::string_view text, const std::string& file) {
   // Head
+  text = without_byte_order_mark(text);
   std::size_t number = 1;
   if (trimmed(take_line(text)) != kGplHead)
     return gpl_fault(file, number, "expected \"GIMP Palette\", the first line of a .gpl file");

@@ -36,14 +36,28 @@ inline std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// Six digits.
-inline std::optional<glm::u8vec3> color_of_hex(std::string_view digits) {
+/// All of a text as a hexadecimal number, without a sign.
+inline std::optional<std::uint32_t> hex_number(std::string_view digits) {
   std::uint32_t value = 0;
   const char* const end = digits.data() + digits.size();
-  if (digits.size() != 6 || digits.front() == '-') return std::nullopt;
+  if (digits.starts_with('-')) return std::nullopt;
   const auto [last, error] = std::from_chars(digits.data(), end, value, 16);
   if (error != std::errc() || last != end) return std::nullopt;
-  return glm::u8vec3(value >> 16, value >> 8 & 0xff, value & 0xff);
+  return value;
+}
+
+/// Six digits.
+inline std::optional<glm::u8vec3> color_of_hex(std::string_view digits) {
+  const auto value = digits.size() == 6 ? hex_number(digits) : std::nullopt;
+  if (!value) return std::nullopt;
+  return glm::u8vec3(*value >> 16, *value >> 8 & 0xff, *value & 0xff);
+}
+
+/// A text without the byte order mark that some editors write before UTF-8.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
 }
 
 }  // namespace brume::palettes

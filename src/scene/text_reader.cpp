@@ -6,31 +6,13 @@
 #include <limits>
 #include <sstream>
 
+#include "core/utf8.hpp"
+
 namespace brume::scene {
 namespace {
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
-void append_utf8(std::string& text, std::uint32_t code) {
-  const auto add = [&text](std::uint32_t byte) { text.push_back(static_cast<char>(byte)); };
-  const auto add_tail = [&](int shift) { add(0x80 | (code >> shift & 0x3f)); };
-  if (code < 0x80) {
-    add(code);
-  } else if (code < 0x800) {
-    add(0xc0 | code >> 6);
-    add_tail(0);
-  } else if (code < 0x10000) {
-    add(0xe0 | code >> 12);
-    add_tail(6);
-    add_tail(0);
-  } else {
-    add(0xf0 | code >> 18);
-    add_tail(12);
-    add_tail(6);
-    add_tail(0);
-  }
 }
 
 }  // namespace

@@ -178,6 +178,31 @@ TEST(Utf8, MatchesTheStandard) {
   EXPECT_EQ(text, "z");
 }
 
+TEST(Utf8, CharactersAreAppendedAsTheyAreTaken) {
+  for (const char32_t character :
+       {U'\0', U'A', U'\x7f', U'\x80', U'\x7ff', U'\x800', U'\xffff', U'\x10000', U'\x1f600', U'\x10ffff'}) {
+    std::string text = "a";
+    append_utf8(text, character);
+    std::string_view rest = std::string_view(text).substr(1);
+    EXPECT_EQ(take_character(rest), character);
+    EXPECT_TRUE(rest.empty());
+  }
+}
+
+TEST(Utf8, LongTextsAreShortenedToWholeCharacters) {
+  EXPECT_EQ(shortened("abcd", 4), "abcd");
+  EXPECT_EQ(shortened("abcde", 4), "abcd...");
+  EXPECT_EQ(shortened("ab\xc3\xa4"
+                      "c",
+                      3),
+            "ab...");
+  EXPECT_EQ(shortened("ab\xc3\xa4"
+                      "c",
+                      4),
+            "ab\xc3\xa4...");
+  EXPECT_EQ(shortened("\x80\x80\x80", 2), "...") << "no text at all";
+}
+
 TEST(Hash, DependsOnBytesAndSeed) {
   const std::vector<std::uint32_t> a{1, 2, 3}, b{1, 2, 4};
   EXPECT_NE(hash_values<std::uint32_t>(a), hash_values<std::uint32_t>(b));

@@ -55,6 +55,66 @@ TEST(Json, IsRead) {
   EXPECT_EQ(list->kind, Kind::unknown);
 }
 
+TEST(Json, HasEscapesOtherKeysAndShortColours) {
+  const auto read = [](const std::string& text) { return parse_json(text, "a.json").value_or_throw(); };
+  const std::string colors = R"("colors": ["#f80", "#FfA"])";
+  const Palette palette = read(R"({"name": "\u00c4\u20ac\ud83d\uDE00\n\t\/", )" + colors + "}");
+  EXPECT_EQ(palette.name, "\u00c4\u20ac\U0001f600\n\t/");
+  EXPECT_EQ(palette.colors, (Colors{{255, 136, 0}, {255, 255, 170}}));
+  const std::string others =
+      R"("author": "A", "year": 2.5e3, "tags": ["sea", {"deep": [true, null, -1]}, [], {}], "\u0063olors2": {},)";
+  EXPECT_EQ(read("{" + others + colors + "}").colors, palette.colors);
+  EXPECT_EQ(read("{" + colors + R"(, "license": "CC0"})").colors, palette.colors);
+  EXPECT_EQ(read(R"({"\u0063olors": ["#f80", "#FfA"]})").colors, palette.colors);
+}
+
+TEST(Json, SaysWhatIsMissingOrWrong) {
+  const auto expect_fault = [](const std::string& text, const std::string& message) {
+    const auto palette = parse_json(text, "a.json");
+    ASSERT_FALSE(palette) << text;
+    EXPECT_EQ(palette.failure().message.substr(0, 10 + message.size()), "a.json:1: " + message) << text;
+  };
+  expect_fault("{}", "\"colors\" is missing; expected {\"colors\": [\"#rrggbb\", ...]}");
+  expect_fault(R"({"colours": ["#f80", "#ffa"]})", "\"colors\" is missing");
+  expect_fault(R"({"colors": "#f80"})", "\"colors\": expected a list");
+  expect_fault(R"({"colors": [1, 2]})", "expected a colour such as");
+  expect_fault(R"({"colors": ["#f8", "#ffa"]})", "expected a colour such as");
+  expect_fault(R"({"colors": ["#+80", "#ffa"]})", "expected a colour such as");
+  expect_fault(R"({"name": 7})", "\"name\": expected a text");
+  expect_fault(R"({"kind": 7})", "\"kind\": expected \"gradient\" or \"qualitative\"");
+  for (const char* name : {"\\ud83d", "\\ud83dx", "\\ud83d\\u0041", "\\ude00", "\\ude00\\ud83d"})
+    expect_fault(std::string("{\"name\": \"") + name + "\"}", "expected a pair of surrogates");
+  for (const char* name : {"\\u12", "\\u12g4", "\\u-123"})
+    expect_fault(std::string("{\"name\": \"") + name + "\"}", "expected four hexadecimal digits");
+  expect_fault(R"({"name": "\x41"})", "unknown escape");
+  for (const char* value : {"", "tru", "+1", "-", "1x", "nan", "}"})
+    expect_fault(std::string("{\"other\": ") + value, "expected a value");
+  expect_fault("{\"other\": " + std::string(100'000, '['), "values lie too deep");
+}
+
+TEST(PaletteFiles, MayBeginWithAByteOrderMark) {
+  EXPECT_TRUE(parse_gpl("\xef\xbb\xbf" + kGpl, "a.gpl"));
+  EXPECT_TRUE(parse_json("\xef\xbb\xbf" + kJson, "a.json"));
+  EXPECT_FALSE(parse_gpl("\xef\xbb\xbf\xef\xbb\xbf" + kGpl, "a.gpl"));
+}
+
+TEST(PaletteFiles, ThatAChoiceNamesHaveNoRange) {
+  EXPECT_EQ(file_of_choice("a/b.json"), "a/b.json");
+  EXPECT_EQ(file_of_choice("a/b.GPL:0.2-0.6"), "a/b.GPL");
+  EXPECT_EQ(file_of_choice("c:d/b.json"), "c:d/b.json");
+  EXPECT_EQ(file_of_choice("viridis:0-1"), "");
+  EXPECT_EQ(file_of_choice(""), "");
+}
+
+TEST(PaletteFiles, LongNamesAreShortenedInMessages) {
+  const std::string name(500, 'x');
+  for (const std::string& text : {name, name + ":5"}) {
+    const auto choice = parse_palette_choice(text);
+    ASSERT_FALSE(choice);
+    EXPECT_LT(choice.failure().message.size(), 200u) << choice.failure().message;
+  }
+}
+
 TEST(Json, NamesTheLineOfAFault) {
   for (const char* text : {"",
                            "7",
