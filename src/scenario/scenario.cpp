@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/log.hpp"
 #include "grids/files.hpp"
 #include "image/font.hpp"
 #include "scenario/moved_objects.hpp"
@@ -16,11 +17,21 @@
 namespace brume::scenario {
 namespace {
 
+/// Gives a scene that has no grenade a built-in one, with a warning where a Scene.txt, which is to have its
+/// own, shows it in flight.
+void complete_grenade(const scene::Timeline& timeline, scene::Scene& scene) {
+  const bool is_thrown = std::ranges::any_of(
+      timeline.smokes, [](const scene::SmokeEvent& smoke) { return smoke.from_world != smoke.at_world; });
+  if (!scene.grenade && is_thrown && scene::lower_extension(timeline.scene) == ".txt")
+    log_warning(timeline.scene.string() + ": no object is called Grenade; a built-in one is thrown");
+  scene::add_built_in_grenade(scene);
+}
+
 /// From a timeline and its loaded scene.
 Result<Scenario> assemble(scene::Timeline timeline, scene::Scene scene, std::shared_ptr<Volumes> volumes,
                           float aspect, const std::filesystem::path& cache_folder) {
   if (auto checked = scene::check_objects(timeline, scene); !checked) return checked.failure();
-  scene::add_built_in_grenade(scene);
+  complete_grenade(timeline, scene);
   exclude_moved_objects(timeline, scene);
   const auto layout = grid_layout(timeline, scene);
   if (!layout) return layout.failure();

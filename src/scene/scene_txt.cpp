@@ -37,12 +37,7 @@ class SceneTxtParser {
       auto read = word == "LIGHT_SOURCE" ? read_light() : read_object(std::string(word));
       if (!read) return read.failure();
     }
-    const bool has_grenade = builder_.has_grenade();
-    auto scene = std::move(builder_).finish();
-    if (scene && !has_grenade && !scene->objects.empty()) {
-      log_warning(reader_.name() + ": no object is called Grenade; a built-in one is thrown");
-    }
-    return scene;
+    return std::move(builder_).finish();
   }
 
  private:

@@ -118,11 +118,9 @@ TEST(SceneTxt, TheGrenadeIsCentredAndNotAnObject) {
   expect_near(glm::vec3(scene->grenade->world_from_mesh * glm::vec4(1, 0, 0, 1)), {2, 0, 0});
 }
 
-TEST(SceneTxt, WithoutGrenadeABuiltInOneAndAWarning) {
-  const Warnings warnings;
+TEST(SceneTxt, WithoutGrenadeTakesABuiltInOne) {
   auto scene = parse("Box 0 0 0 0 0 0 1 1 1\n");
   ASSERT_TRUE(scene);
-  EXPECT_TRUE(warnings.has("Scene.txt: no object is called Grenade"));
   EXPECT_FALSE(scene->grenade.has_value());
   add_built_in_grenade(*scene);
   ASSERT_TRUE(scene->grenade.has_value());
