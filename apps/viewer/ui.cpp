@@ -99,6 +99,10 @@ bool Ui::takes_keys() const {
   return ImGui::GetIO().WantTextInput;
 }
 
+bool Ui::has_popup() const {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+}
+
 bool Ui::is_editing() const {
   return ImGui::IsAnyItemActive();
 }

@@ -51,6 +51,8 @@ class Ui {
   /// Whether the panels currently capture the mouse or the keyboard.
   bool takes_mouse() const;
   bool takes_keys() const;
+  /// Whether a popup or a list is open.
+  bool has_popup() const;
   /// Whether a widget is held or edited.
   bool is_editing() const;
   const std::vector<Widget>& widgets() const { return widgets_.widgets(); }

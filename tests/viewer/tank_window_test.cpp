@@ -227,6 +227,16 @@ TEST_F(TankWindowTest, PacksOthersInTheBackground) {
   EXPECT_NE(saved("tank_0001.toml").pack.count, saved("tank.toml").pack.count);
 }
 
+TEST_F(TankWindowTest, EscapeClosesTheColourPickerOfALight) {
+  run_and_wait({"--panels", "--log-widgets"}, "640x700");
+  EXPECT_FALSE(has_widget("##picker"));
+  click("##swatch");
+  EXPECT_TRUE(has_widget("##picker"));
+  tap(XK_Escape);
+  EXPECT_FALSE(has_widget("##picker"));
+  finish();
+}
+
 TEST_F(TankWindowTest, PackingStopsWithTheSpheresSoFar) {
   // More than there is room for: that takes minutes.
   folder_.write("tank.toml",
