@@ -183,9 +183,18 @@ const Argument& Argument::range(std::uint32_t low, std::uint32_t high) const {
 }
 
 const Argument& Argument::one_of(const std::vector<std::string>& values) const {
-  option_->check(CLI::Validator(
-      [values](std::string& text) -> std::string {
-        if (std::find(values.begin(), values.end(), text) != values.end()) return "";
+  const auto same_but_for_dashes = [](const std::string& a, const std::string& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+      return x == y || (x == '-' && y == '_') || (x == '_' && y == '-');
+    });
+  };
+  option_->transform(CLI::Validator(
+      [values, same_but_for_dashes](std::string& text) -> std::string {
+        for (const std::string& value : values) {
+          if (!same_but_for_dashes(value, text)) continue;
+          text = value;
+          return "";
+        }
         return "unknown value '" + text + "'" + suggestion(text, values, "");
       },
       ""));

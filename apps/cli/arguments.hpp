@@ -25,7 +25,7 @@ class Argument {
   const Argument& required() const;
   const Argument& range(double low, double high) const;  ///< Inclusive.
   const Argument& range(std::uint32_t low, std::uint32_t high) const;
-  const Argument& one_of(const std::vector<std::string>& values) const;
+  const Argument& one_of(const std::vector<std::string>& values) const;  ///< '-' stands for '_', too.
   const Argument& take_last() const;  ///< May be repeated; the last value wins.
   const Argument& take_all() const;   ///< May be repeated with one value each; all values are kept.
   const Argument& hidden() const;     ///< Omitted from --help.

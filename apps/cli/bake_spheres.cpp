@@ -4,6 +4,8 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "apps/cli/command.hpp"
@@ -15,7 +17,10 @@
 #include "apps/cli/tanks.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "palettes/choice.hpp"
 #include "scenario/tank.hpp"
+#include "scene/tank_options.hpp"
+#include "scene/text_reader.hpp"
 #include "spheres/file.hpp"
 #include "spheres/pack.hpp"
 
@@ -23,19 +28,21 @@ namespace brume::cli {
 namespace {
 
 struct SpheresBake {
-  std::string output, size = "600x600x200", radius, arrangement, coloring, palette = "batlow", json;
+  std::string output, size = "600x600x200", radius, palette = "batlow", json;
+  std::string arrangement = scene::arrangement_name(spheres::PackOptions().arrangement);
+  std::string coloring = scene::coloring_name(spheres::PackOptions().coloring);
+  bool has_count = false;
   std::uint32_t seed = 0;
   std::optional<double> time_limit;
   spheres::PackOptions options;
 };
 
-const std::vector<std::string> kArrangements{"random", "largest-first", "noise", "coral"};
-const std::vector<std::string> kColorings{"random", "radius", "height", "noise"};
-
-/// The value whose name stands in its place of `names`.
+/// The names of a choice, as scenes have them.
 template <typename Choice>
-Choice choice_of(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<Choice>(std::find(names.begin(), names.end(), name) - names.begin());
+std::vector<std::string> names_of(std::uint32_t count, const char* (*name_of)(Choice)) {
+  std::vector<std::string> names;
+  for (std::uint32_t i = 0; i < count; ++i) names.emplace_back(name_of(Choice{i}));
+  return names;
 }
 
 /// "1.5-16", or one number for both. What is no range is left to the check of all options.
@@ -50,13 +57,6 @@ glm::vec2 parse_radius(const std::string& text) {
               "--radius: expected LEAST-LARGEST in voxels, such as 1.5-16, found '" + text + "'");
 }
 
-/// A range of radii that the tank has room for.
-glm::vec2 default_radius(const glm::uvec3& size) {
-  const float most = static_cast<float>(std::min({size.x, size.y, size.z})) / 2;
-  const glm::vec2 radius = spheres::PackOptions().radius;
-  return {std::min(radius.x, most / 2), std::min(radius.y, most)};
-}
-
 /// Options are named as the members that pack() reports.
 Error as_option(const Failure& failure) {
   std::string option = "--" + failure.message.substr(0, failure.message.find(':'));
@@ -65,8 +65,14 @@ Error as_option(const Failure& failure) {
   return {failure.code, option + why};
 }
 
-/// Fails where not even spheres of the least radius fit by their volume alone.
-void refuse_more_than_the_tank(const spheres::PackOptions& options) {
+/// Chooses how many spheres there are if the command line does not. Fails for options out of range, and where
+/// not even spheres of the least radius fit by their volume alone.
+void check_pack(spheres::PackOptions& options, bool has_count) {
+  if (const auto checked = spheres::check_options(options); !checked) throw as_option(checked.failure());
+  if (options.radius.x < static_cast<float>(scene::kLeastRadius))
+    throw Error(ErrorCode::usage, "--radius: from " + scene::shown(double{options.radius.x}) +
+                                      " voxels; expected at least " + scene::shown(scene::kLeastRadius));
+  if (!has_count) options.count = spheres::default_count(options);
   const glm::dvec3 size(options.size);
   const double voxels = size.x * size.y * size.z;
   const double volume = 4.0 / 3 * std::numbers::pi * std::pow(double{options.radius.x}, 3);
@@ -80,34 +86,37 @@ void refuse_more_than_the_tank(const spheres::PackOptions& options) {
   throw Error(ErrorCode::usage, text);
 }
 
+/// A number that the command line does not give is what there is room for.
 void warn_of_fewer(const SpheresBake& bake, std::size_t packed, bool timed_out) {
-  if (packed == bake.options.count) return;
+  if (packed == bake.options.count || !(bake.has_count || timed_out)) return;
   log_warning(std::to_string(packed) + " of " + std::to_string(bake.options.count) + " spheres are packed: " +
               (timed_out ? "--time-limit ended it"
                          : "there is no room for more; give a larger --size or a smaller --radius"));
 }
 
 void bake_spheres(SpheresBake bake, const Arguments& arguments, Outputs& outputs) {
-  // Options and outputs.
+  // Files and options.
   const Stopwatch watch;
+  outputs.reads(std::filesystem::path(palettes::file_of_choice(bake.palette)));
+  expect_suffix("-o", bake.output, {".spheres"});
+  outputs.writes("-o", bake.output, FileKind::spheres);
+  outputs.writes("--json", bake.json, FileKind::json);
   spheres::PackOptions& options = bake.options;
-  options.arrangement = choice_of<spheres::Arrangement>(kArrangements, bake.arrangement);
-  options.coloring = choice_of<spheres::Coloring>(kColorings, bake.coloring);
+  options.arrangement =
+      scene::choice_of(bake.arrangement, scene::kArrangements, scene::arrangement_name).value_or_throw();
+  options.coloring =
+      scene::choice_of(bake.coloring, scene::kColorings, scene::coloring_name).value_or_throw();
   if (options.arrangement != spheres::Arrangement::noise && options.coloring != spheres::Coloring::noise)
     arguments.refuse("--noise-size", "is for --arrangement noise and --coloring noise");
   options.size = glm::uvec3(parse_grid("--size", bake.size));
-  options.radius = bake.radius.empty() ? default_radius(options.size) : parse_radius(bake.radius);
+  options.radius = bake.radius.empty() ? spheres::default_radius(options.size) : parse_radius(bake.radius);
+  check_pack(options, bake.has_count);
   options.seed = bake.seed;
   auto colors = scenario::palette_colors(bake.palette, "oklab");
   if (!colors) throw Error(colors.failure().code, "--palette: " + colors.failure().message);
   options.palette = std::move(*colors);
-  expect_suffix("-o", bake.output, {".spheres"});
-  outputs.writes("-o", bake.output, FileKind::spheres);
-  outputs.writes("--json", bake.json, FileKind::json);
 
-  // The tank. With radii that do not fit into it, the check of all options comes first.
-  const float most = static_cast<float>(std::min({options.size.x, options.size.y, options.size.z})) / 2;
-  if (options.radius.x > 0 && options.radius.y <= most) refuse_more_than_the_tank(options);
+  // The tank.
   const auto is_over = [&] { return bake.time_limit && watch.seconds() >= *bake.time_limit; };
   const auto packed = spheres::pack(options, [&] { return is_interrupted() || is_over(); });
   if (!packed) throw as_option(packed.failure());
@@ -137,51 +146,59 @@ void bake_spheres(SpheresBake bake, const Arguments& arguments, Outputs& outputs
   }
   if (bake.json == "-") return;
   char text[160];
-  std::snprintf(text, sizeof text, "%zu spheres of radius %.3g to %.3g fill %.1f %% of the tank, in %.3g s\n",
-                packed->spheres.size(), double{facts.least}, double{facts.largest}, 100 * facts.fill,
-                seconds);
+  const std::size_t count = packed->spheres.size();
+  std::snprintf(text, sizeof text, "%zu %s of radius %.3g to %.3g %s %.1f %% of the tank, in %.3g s\n", count,
+                count == 1 ? "sphere" : "spheres", double{facts.least}, double{facts.largest},
+                count == 1 ? "fills" : "fill", 100 * facts.fill, seconds);
   print(text);
 }
 
+/// The numbers, with the limits that scenes have.
+void add_numbers(const Arguments& arguments, spheres::PackOptions& options) {
+  struct Number {
+    const char *key, *option, *help, *placeholder;
+  };
+  static constexpr Number kNumbers[] = {
+      {"voxel", "--voxel", "Edge of a voxel [m]; default 0.0025", "M"},
+      {"spheres", "--count", "Spheres; default 65535, fewer in a small tank", "N"},
+      {"distribution", "--distribution", "Number of spheres falls with the radius to this power; default 3",
+       "X"},
+      {"noise_size", "--noise-size", "Size of the noise's features [voxels]; default 120", "X"},
+      {"opacity", "--opacity",
+       "Of all spheres; default 1: opaque; below, a medium of which one voxel blocks this much light", "X"}};
+  std::size_t added = 0;
+  scene::visit_pack_options(options, [&](const scene::OptionInfo& info, auto& member) {
+    using Member = std::remove_reference_t<decltype(member)>;
+    using Limit = std::conditional_t<std::is_same_v<Member, float>, double, Member>;
+    for (const Number& number : kNumbers) {
+      if (std::string_view(number.key) != info.key) continue;
+      ++added;
+      arguments.add_option(number.option, member, number.help)
+          .range(static_cast<Limit>(info.low), static_cast<Limit>(info.high))
+          .type_name(number.placeholder);
+    }
+  });
+  BRUME_ASSERT(added == std::size(kNumbers), std::to_string(added));
+}
+
 void add_spheres_options(const Arguments& arguments, SpheresBake& bake) {
-  spheres::PackOptions& options = bake.options;
   arguments.add_option("--size", bake.size, "Voxels of the tank; default 600x600x200").type_name("XxYxZ");
-  arguments.add_option("--voxel", options.voxel, "Edge of a voxel [m]; default 0.0025")
-      .range(1e-6, 1e6)
-      .type_name("M");
-  arguments.add_option("--count", options.count, "Spheres; default 65535")
-      .range(1u, spheres::kMostSpheres)
-      .type_name("N");
+  add_numbers(arguments, bake.options);
   arguments
       .add_option("--radius", bake.radius,
                   "Least and largest radius [voxels]; default 1.5-16, less in a tank that is smaller")
       .type_name("A-B");
   arguments
-      .add_option("--distribution", options.distribution,
-                  "Number of spheres falls with the radius to this power; default 3")
-      .range(0.0, 8.0)
-      .type_name("X");
-  arguments
       .add_option(
           "--arrangement", bake.arrangement,
-          "random, largest-first (default), noise (strands and caves) or coral (grows from the floor)")
-      .one_of(kArrangements)
+          "random, largest_first (default), noise (strands and caves) or coral (grows from the floor)")
+      .one_of(names_of(scene::kArrangements, scene::arrangement_name))
       .type_name("NAME");
   arguments
       .add_option("--coloring", bake.coloring,
                   "Which of the palette's colours: random (default), by radius, by height, or by noise")
-      .one_of(kColorings)
+      .one_of(names_of(scene::kColorings, scene::coloring_name))
       .type_name("NAME");
-  arguments
-      .add_option("--noise-size", options.noise_size, "Size of the noise's features [voxels]; default 120")
-      .range(1.0, 65536.0)
-      .type_name("X");
-  arguments
-      .add_option(
-          "--opacity", options.opacity,
-          "Of all spheres; default 1: opaque; below, a medium of which one voxel blocks this much light")
-      .range(0.0, 1.0)
-      .type_name("X");
   arguments
       .add_option("--palette", bake.palette,
                   "Colours: NAME or FILE (.gpl, .json), and the part that is used; default batlow (see brume "
@@ -206,13 +223,12 @@ Command add_bake_spheres(CommandLine& program) {
               "  brume bake spheres -o reef.spheres --size 300x300x100 --count 8000 --arrangement coral\n"
               "  brume bake spheres -o haze.spheres --radius 2-30 --distribution 2 --opacity 0.1 --json -");
   auto bake = std::make_shared<SpheresBake>();
-  bake->arrangement = "largest-first";
-  bake->coloring = "random";
   const Arguments& arguments = command.arguments;
   arguments.add_option("-o,--output", bake->output, "Tank to write (.spheres)").required().type_name("FILE");
   add_spheres_options(arguments, *bake);
   declare_json(arguments, bake->json);
   command.run = [bake, arguments, common = command.common] {
+    bake->has_count = arguments.given("--count");
     bake_spheres(*bake, arguments, common->outputs);
   };
   return command;

@@ -96,6 +96,17 @@ const char* name_of(FileKind kind) {
   return "";
 }
 
+Result<bool> may_be_json_input(const std::filesystem::path& file) {
+  const auto read = read_file_start(file, kStartBytes);
+  if (!read) return read.failure();
+  const std::string_view start = *read;
+  const std::size_t first = start.find_first_not_of(kBlanks);
+  if (first != std::string_view::npos && start[first] == '[') return true;
+  constexpr std::string_view kMarks[] = {"\"colors\"", "brume slice atlas", "brume raw volume"};
+  return std::any_of(std::begin(kMarks), std::end(kMarks),
+                     [&](std::string_view mark) { return start.find(mark) != std::string_view::npos; });
+}
+
 Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind) {
   const auto read = read_file_start(file, kStartBytes);
   if (!read) return read.failure();

@@ -35,4 +35,8 @@ const char* name_of(FileKind kind);
 /// when it cannot be read.
 Result<bool> is_of_kind(const std::filesystem::path& file, FileKind kind);
 
+/// Whether a JSON file may be one that scenes refer to: a palette, a slice atlas, a raw array. Fails as
+/// is_of_kind.
+Result<bool> may_be_json_input(const std::filesystem::path& file);
+
 }  // namespace brume::cli

@@ -10,6 +10,7 @@
 #include "grids/files.hpp"
 #include "image/decode.hpp"
 #include "image/exr.hpp"
+#include "scenario/tank.hpp"
 #include "scene/load.hpp"
 #include "spheres/file.hpp"
 #include "voxel/vxl_file.hpp"
@@ -74,6 +75,7 @@ Summary summary_of(const std::filesystem::path& path, bool check, Outputs& outpu
                 {".txt", ".gltf", ".glb", ".obj", ".toml", ".vxl", ".brp", ".brv", ".vdb", ".nvdb", ".json",
                  ".png", ".exr", ".jpg", ".jpeg", ".webp", ".spheres"});
   const std::string extension = scene::lower_extension(path);
+  if (scene::is_tank_scene(path)) return tank_scene_summary(path, check);
   if (extension == ".toml") return timeline_summary(path, check, outputs);
   if (extension == ".vxl") return voxel_summary(path);
   if (extension == ".brp") return replay_summary(path);
@@ -147,12 +149,14 @@ Command add_info(CommandLine& program) {
   command.arguments.add_flag(
       "--check", options->check,
       "Fail (exit code 3) if a timeline cannot be rendered: its scene, masks, fonts or "
-      "doors are missing or invalid");
+      "doors are missing or invalid; the same of a scene of a tank");
   declare_json(command.arguments, options->json, "the summary");
   command.run = [arguments = command.arguments, options, common = command.common] {
     if (scene::lower_extension(options->input) != ".toml")
-      arguments.refuse("--check", "is for timelines (.toml)");
+      arguments.refuse("--check", "is for timelines and scenes of tanks (.toml)");
     common->outputs.reads(std::filesystem::path(options->input));
+    if (scenario::is_tank_input(options->input))
+      common->outputs.reads(scenario::files_of_tank_input(options->input));
     common->outputs.writes("--json", options->json, FileKind::json);
     const Summary summary = summary_of(options->input, options->check, common->outputs);
     if (!options->json.empty()) {

@@ -9,6 +9,7 @@
 
 #include "apps/cli/json.hpp"
 #include "apps/cli/outputs.hpp"
+#include "scene/scene.hpp"
 #include "voxel/bit_grid.hpp"
 
 namespace brume::cli {
@@ -36,6 +37,8 @@ std::string printable(std::string name);
 Json point_json(glm::vec3 p);
 /// "1,0.5,-3", as arguments take it.
 std::string point_text(glm::vec3 p);
+/// A camera, `own` of the file or fitted, as --camera takes it.
+void add_camera(Summary& summary, const scene::Camera& camera, bool own);
 /// Size, voxel and place of a grid.
 void add_layout(Summary& summary, const voxel::GridLayout& layout);
 

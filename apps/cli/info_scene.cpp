@@ -86,20 +86,6 @@ void add_bounds(Summary& summary, const Box<float>& bounds) {
   summary.add("ground", bounds.low.y, "y = " + scene::shown(double{bounds.low.y}) + " m");
 }
 
-void add_camera(Summary& summary, const scene::Camera& camera, bool own) {
-  const double degrees = double{camera.vertical_fov} * 180 / std::numbers::pi;
-  char fov[32];
-  std::snprintf(fov, sizeof fov, "%.4g", degrees);
-  summary.add("camera",
-              Json{{"from_file", own},
-                   {"position", point_json(camera.position_world)},
-                   {"target", point_json(camera.target_world)},
-                   {"fov_degrees", degrees}},
-              std::string(own ? "of the file" : "fitted") + ": --camera \"" +
-                  point_text(camera.position_world) + " " + point_text(camera.target_world) + " " + fov +
-                  "\"");
-}
-
 // A place where the smoke of `render` without a timeline fits.
 void add_smoke(Summary& summary, const scene::Timeline& timeline, const voxel::BitGrid& grid) {
   if (timeline.smokes.empty()) return;
@@ -140,6 +126,20 @@ void add_smokes(Summary& summary, const scenario::Scenario& scenario) {
 }
 
 }  // namespace
+
+void add_camera(Summary& summary, const scene::Camera& camera, bool own) {
+  const double degrees = double{camera.vertical_fov} * 180 / std::numbers::pi;
+  char fov[32];
+  std::snprintf(fov, sizeof fov, "%.4g", degrees);
+  summary.add("camera",
+              Json{{"from_file", own},
+                   {"position", point_json(camera.position_world)},
+                   {"target", point_json(camera.target_world)},
+                   {"fov_degrees", degrees}},
+              std::string(own ? "of the file" : "fitted") + ": --camera \"" +
+                  point_text(camera.position_world) + " " + point_text(camera.target_world) + " " + fov +
+                  "\"");
+}
 
 Summary scene_summary(const std::filesystem::path& path, Outputs& outputs) {
   scene::Scene scene = scene::load_scene(path).value_or_throw();

@@ -127,7 +127,8 @@ bool Outputs::may_hold_error(const fs::path& file) const {
   if (!declared || inputs_.contains(identity) || named_twice_.contains(identity)) return false;
   if (!exists(identity)) return true;
   const auto is_json = is_of_kind(file, FileKind::json);
-  return is_json && *is_json;
+  const auto is_input = may_be_json_input(file);
+  return is_json && *is_json && is_input && !*is_input;
 }
 
 void Outputs::up_to_date(const fs::path& file) {

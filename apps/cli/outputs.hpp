@@ -78,7 +78,8 @@ class Outputs {
   /// What has been written so far, for the terminal: "a.png, a.json"; empty: nothing.
   std::string written() const;
   /// Whether an error may be written to this file: it is declared as one output, nothing that is read, and
-  /// new, empty or JSON. A scene that failed to load may refer to more files than are known: no --force here.
+  /// new, empty or JSON that no scene reads. A scene that failed to load may refer to more files than are
+  /// known: no --force here.
   bool may_hold_error(const std::filesystem::path& file) const;
 
  private:

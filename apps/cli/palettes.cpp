@@ -12,7 +12,6 @@
 #include "apps/cli/info.hpp"
 #include "apps/cli/json.hpp"
 #include "apps/cli/palette_sheet.hpp"
-#include "core/log.hpp"
 #include "image/png.hpp"
 #include "palettes/file.hpp"
 #include "palettes/sample.hpp"
@@ -126,7 +125,9 @@ void list_palettes(const PaletteOptions& options, Outputs& outputs) {
   std::vector<std::uint32_t> found = palettes::search(all, filter);
   const std::size_t count = found.size();
   if (options.limit > 0) found.resize(std::min<std::size_t>(count, options.limit));
-  if (count == 0) log_warning("none of " + std::to_string(all.size()) + " palettes matches");
+  if (count == 0)
+    throw Error(ErrorCode::usage, "none of " + std::to_string(all.size()) +
+                                      " palettes matches; give fewer or other words, without any for a list");
 
   // Results
   if (!options.sheet.empty())

@@ -140,7 +140,7 @@ void sense_tank(const SenseOptions& options, Outputs& outputs) {
     throw Error(ErrorCode::usage,
                 "--sense: " + options.input + " is no tank; expected a .spheres file or a scene of a tank");
   const spheres::Eye eye = parse_eye(options);
-  outputs.reads(fs::path(options.input));
+  outputs.reads(scenario::files_of_tank_input(options.input));
   if (!options.output.empty()) {
     expect_suffix("-o", options.output, {".exr", ".png"});
     outputs.writes("-o", options.output, picture_kind(options.output));
@@ -151,7 +151,6 @@ void sense_tank(const SenseOptions& options, Outputs& outputs) {
   const scenario::TankScenario scenario =
       scenario::load_tank_scenario(options.input, is_interrupted).value_or_throw();
   stop_if_interrupted();
-  outputs.reads(scenario::files_of(scenario.scene));
   check_place(eye, scenario.tank);
   const spheres::BrickLists bricks = spheres::list_bricks(scenario.tank);
   const spheres::VoxelIds ids = spheres::make_ids(scenario.tank, bricks);

@@ -4,6 +4,7 @@
 
 #include "apps/cli/command.hpp"
 #include "core/error.hpp"
+#include "scenario/tank.hpp"
 
 namespace brume::cli {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 // The files that are known before any is read.
 void declare_files(const RenderOptions& options, const Plan& plan, Outputs& outputs) {
   outputs.reads({options.input, options.timeline});
+  if (scenario::is_tank_input(options.input)) outputs.reads(scenario::files_of_tank_input(options.input));
   outputs.writes("--json", options.json, FileKind::json);
   outputs.writes("--checkpoint", options.reference.checkpoint, FileKind::checkpoint);
   const FileKind kind = target_file_kind(options.output);

@@ -129,7 +129,6 @@ void render_tank(const Arguments& arguments, const RenderOptions& options, const
     common.outputs.writes_frames("-o", options.output, target_file_kind(options.output), range.first,
                                  range.last);
   }
-  common.outputs.reads(scenario::files_of(scenario.scene));
   warn_of_times(options, plan, job.duration());
 
   const Json frames = is_reference(options) ? render_by_paths(job) : render_on_device(job);

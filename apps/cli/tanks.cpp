@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/cli/command.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/stopwatch.hpp"
+#include "core/log.hpp"
 #include "scene/load.hpp"
+#include "scene/tank_scene.hpp"
 #include "spheres/export.hpp"
 #include "spheres/file.hpp"
 
@@ -37,6 +40,49 @@ void add_tank_layout(Summary& summary, const spheres::Tank& tank) {
   summary.add("voxel_size", tank.voxel);
   const glm::vec3 half = 0.5f * glm::vec3(n) * tank.voxel;
   summary.add("origin", point_json(-half), point_text(-half) + " to " + point_text(half) + " m");
+}
+
+/// How a tank is packed. It may become fewer spheres.
+void add_packing(Summary& summary, const scene::TankScene& scene) {
+  const spheres::PackOptions& pack = scene.pack;
+  summary.add("spheres", pack.count, "at most " + std::to_string(pack.count));
+  summary.add("radius", Json{{"min", pack.radius.x}, {"max", pack.radius.y}},
+              number_text("%.4g", double{pack.radius.x}) + " to " +
+                  number_text("%.4g", double{pack.radius.y}) + " voxels");
+  summary.add("arrangement", scene::arrangement_name(pack.arrangement));
+  summary.add("coloring", scene::coloring_name(pack.coloring));
+  summary.add("palette", scene.palette, scene.palette.empty() ? "white" : printable(scene.palette));
+  summary.add("seed", pack.seed);
+}
+
+/// The tank of a scene that has one in a file. If it cannot be loaded: nothing and a warning or, with
+/// `check`, an Error.
+std::optional<spheres::Tank> load_tank_of(Summary& summary, const std::filesystem::path& file, bool check) {
+  auto loaded = spheres::load_tank(file);
+  if (!loaded && check) throw Error(loaded.failure());
+  if (!loaded) {
+    log_warning("cannot be rendered: " + loaded.failure().message);
+    summary.add("problem", loaded.failure().message);
+    return std::nullopt;
+  }
+  add_tank_layout(summary, *loaded);
+  summary.add("spheres", loaded->spheres.size());
+  return std::move(*loaded);
+}
+
+void add_tank_lights(Summary& summary, const scene::TankScene& scene) {
+  Json list = Json::list({});
+  for (const scene::TankLight& light : scene.lights)
+    list.push_back({{"position", point_json(light.position_world)},
+                    {"color", point_json(light.color)},
+                    {"intensity", light.intensity},
+                    {"radius", light.radius},
+                    {"keys", light.keys.size()}});
+  summary.add("lights", list, std::to_string(scene.lights.size()));
+  for (const scene::TankLight& light : scene.lights)
+    summary.add_line("", "at " + point_text(light.position_world) + ", " +
+                             number_text("%.4g W/sr", double{light.intensity}) +
+                             (light.keys.empty() ? "" : ", moves"));
 }
 
 }  // namespace
@@ -95,6 +141,32 @@ Summary tank_summary(const std::filesystem::path& path) {
               bounds_text(facts.bounds) + " voxels");
   summary.add("world_bounds", Json{{"min", corner_json(world.low)}, {"max", corner_json(world.high)}},
               bounds_text(world) + " m");
+  return summary;
+}
+
+Summary tank_scene_summary(const std::filesystem::path& path, bool check) {
+  const scene::TankScene scene = scene::load_tank_scene(path).value_or_throw();
+  Summary summary("tank scene");
+  std::optional<spheres::Tank> tank;
+  if (scene.file.empty()) {
+    tank = spheres::Tank{scene.pack.size, scene.pack.voxel, {}, {}};
+    add_tank_layout(summary, *tank);
+    add_packing(summary, scene);
+  } else {
+    summary.add("tank", scene.file.string());
+    tank = load_tank_of(summary, scene.file, check);
+  }
+  summary.add("view", scene::view_name(scene.view));
+  summary.add("samples", scene.samples);
+  summary.add("bounces", scene.bounces);
+  summary.add("photons", scene.photons);
+  summary.add("seconds", scene.duration);
+  add_tank_lights(summary, scene);
+  summary.add("glass", scene.glass.has_value());
+  summary.add("camera_keys", scene.camera.size());
+  if (!tank) return summary;
+  const glm::vec3 size = glm::vec3(tank->size) * tank->voxel;
+  add_camera(summary, scene::camera_at(scene, size, 0), !scene.camera.empty());
   return summary;
 }
 

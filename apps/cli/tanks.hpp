@@ -25,6 +25,11 @@ TankFacts facts_of(const spheres::Tank& tank);
 /// A .spheres file, for `brume info`. Throws Error.
 Summary tank_summary(const std::filesystem::path& path);
 
+/// A scene of a tank, for `brume info`: how it is packed, or the file it is in, what lights it, and its
+/// camera. If that file cannot be loaded: a warning or, with `check`, an Error. Throws Error for a scene with
+/// faults.
+Summary tank_scene_summary(const std::filesystem::path& path, bool check);
+
 /// Writes a .spheres file as meshes (.obj) or points (.ply), for `brume convert`. Throws Error.
 void convert_tank(const std::string& input, const std::string& output, const std::string& json,
                   Outputs& outputs);

@@ -40,7 +40,7 @@ void view_tank(const Arguments& arguments, const ViewOptions& options, const std
   viewer::ViewerOptions viewer = viewer_options(options);
   viewer.level_name = input.filename().string();
   const scenario::FirstViewOptions first_view = parse_scene_options(options.scene);
-  outputs.reads({input});
+  outputs.reads(scenario::files_of_tank_input(input));
   outputs.writes("--screenshot", options.screenshot, FileKind::png);
   if (!options.screenshot.empty())
     outputs.writes("--screenshot", viewer::snapshot_timeline(options.screenshot), FileKind::timeline);
@@ -51,7 +51,6 @@ void view_tank(const Arguments& arguments, const ViewOptions& options, const std
     scenario::TankScenario scenario = scenario::load_tank_scenario(input, stopped).value_or_throw();
     if (first_view.exposure) scenario.scene.exposure = *first_view.exposure;
     if (first_view.tone) scenario.scene.tone = *first_view.tone;
-    outputs.reads(scenario::files_of(scenario.scene));
     return scenario;
   };
   const viewer::TankViewerReport report = viewer::run_tank_viewer(make, !options.play.empty(), viewer);

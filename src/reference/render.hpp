@@ -11,6 +11,7 @@
 #include "image/image.hpp"
 #include "reference/path_tracer.hpp"
 #include "scenario/lens_openings.hpp"
+#include "scene/options.hpp"
 #include "scene/scene.hpp"
 #include "shared/frame.h"
 
@@ -37,7 +38,7 @@ struct RenderSettings {
 };
 
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;
-constexpr std::uint32_t kMostSamples = 1u << 24;
+using scene::kMostSamples;
 
 /// The samples of a picture so far. Its state after n samples of a tile is the same bit by bit for any number
 /// of threads, and whether or not it was saved and loaded in between.

@@ -47,8 +47,17 @@ Result<TankScenario> load_tank_scenario(const std::filesystem::path& path,
 }
 
 std::vector<std::filesystem::path> files_of(const scene::TankScene& scene) {
-  if (scene.file.empty()) return {};
-  return {scene.file};
+  if (!scene.file.empty()) return {scene.file};
+  const std::string_view palette = palettes::file_of_choice(scene.palette);
+  if (palette.empty()) return {};
+  return {palette};
+}
+
+std::vector<std::filesystem::path> files_of_tank_input(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files{path};
+  if (spheres::is_tank_file(path)) return files;
+  for (std::filesystem::path& file : scene::files_named_by_tank_scene(path)) files.push_back(std::move(file));
+  return files;
 }
 
 }  // namespace brume::scenario

@@ -33,7 +33,11 @@ Result<TankScenario> load_tank_scenario(const std::filesystem::path& path,
 /// Whether load_tank_scenario takes a file.
 bool is_tank_input(const std::filesystem::path& path);
 
-/// Every file that it was made from, without the scene's own.
+/// Every file that its pictures depend on, without the scene's own.
 std::vector<std::filesystem::path> files_of(const scene::TankScene& scene);
+
+/// Every file that load_tank_scenario reads for a file, and those that it only names, this one first. Reads
+/// its text alone, and is complete for scenes with faults, too.
+std::vector<std::filesystem::path> files_of_tank_input(const std::filesystem::path& path);
 
 }  // namespace brume::scenario

@@ -3,6 +3,7 @@
 // against it.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "scene/timeline.hpp"
@@ -25,6 +26,9 @@ inline bool is_angle(const OptionInfo& info) {
 
 /// Latest time of an event or a key [s]; largest coordinate of a camera or a grid, per axis [m].
 constexpr double kLatestTime = 3600, kFarthestPoint = 1e6;
+
+/// Most samples of a pixel.
+constexpr std::uint32_t kMostSamples = 1u << 24;
 
 // Each function calls visit(info, member) for every setting of a struct, in file order; a const struct gives
 // const members. The default is the value in a default-constructed struct. Members are float, std::uint32_t,

@@ -9,7 +9,7 @@ namespace brume::scene {
 /// How a picture is made.
 template <typename Options, typename Visitor>
 void visit_tank_picture_options(Options& o, Visitor&& visit) {
-  visit(OptionInfo{"samples", "", "paths of light of each pixel", 1, 1 << 20}, o.samples);
+  visit(OptionInfo{"samples", "", "paths of light of each pixel", 1, kMostSamples}, o.samples);
   visit(OptionInfo{"bounces", "", "most scatterings of a path; 0: direct light and even ambient light only",
                    0, 16},
         o.bounces);
@@ -20,7 +20,10 @@ void visit_tank_picture_options(Options& o, Visitor&& visit) {
         o.dither);
 }
 
-/// Numbers of spheres::PackOptions.
+/// Smallest radius of a sphere [voxels]; the largest one fits into the tank.
+constexpr double kLeastRadius = 0.01;
+
+/// Numbers of spheres::PackOptions, as scenes and `brume bake spheres` take them.
 template <typename Options, typename Visitor>
 void visit_pack_options(Options& o, Visitor&& visit) {
   visit(OptionInfo{"voxel", "m", "edge length of a voxel", 1e-6, 1e3}, o.voxel);

@@ -4,7 +4,6 @@
 
 #include "core/file.hpp"
 #include "palettes/choice.hpp"
-#include "palettes/file.hpp"
 #include "palettes/sample.hpp"
 #include "scene/files.hpp"
 #include "scene/key_path.hpp"
@@ -81,19 +80,20 @@ class TankReader {
     std::optional<glm::vec2> radius;
     std::uint32_t seed = 0;
     table.read("size", size, 1, std::int64_t{spheres::kMostVoxelsPerAxis});
-    table.read("radius", radius, 0.01, double{spheres::kMostVoxelsPerAxis});
+    table.read("radius", radius, kLeastRadius, double{spheres::kMostVoxelsPerAxis});
     table.read("seed", seed, 0, std::int64_t{UINT32_MAX});
     visit_pack_options(pack, OptionReader{table});
     if (size) pack.size = glm::uvec3(*size);
     if (std::uint64_t{pack.size.x} * pack.size.y * pack.size.z > spheres::kMostVoxels)
       table.fail("size", "\"size\": expected at most 2^28 voxels");
-    if (radius) pack.radius = *radius;
+    pack.radius = radius.value_or(spheres::default_radius(pack.size));
     if (pack.radius.x > pack.radius.y)
       table.fail("radius", "\"radius\": expected the smaller radius before the larger one");
-    if (2 * pack.radius.y > static_cast<float>(std::min({pack.size.x, pack.size.y, pack.size.z})))
-      table.fail("radius",
-                 "\"radius\": expected spheres that fit into the tank's size, 600 x 600 x 200 voxels "
-                 "unless \"size\" says otherwise");
+    const glm::uvec3 n = pack.size;
+    if (2 * pack.radius.y > static_cast<float>(std::min({n.x, n.y, n.z})))
+      table.fail("radius", "\"radius\": expected spheres that fit into the tank's " + std::to_string(n.x) +
+                               " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " voxels");
+    if (!table.has("spheres")) pack.count = spheres::default_count(pack);
     pack.seed = seed;
     table.read("palette", scene_.palette);
     table.read("palette_space", scene_.palette_space);
@@ -110,26 +110,19 @@ class TankReader {
   template <typename Choice>
   void read_choice(TomlTable& table, const std::string& key, Choice& choice, std::uint32_t count,
                    const char* (*name_of)(Choice)) {
-    std::string text = name_of(choice), names;
+    std::string text = name_of(choice);
     table.read(key.c_str(), text);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::string name = name_of(Choice{i});
-      if (text == name) {
-        choice = Choice{i};
-        return;
-      }
-      names += (i == 0 ? "" : i + 1 < count ? ", " : " or ") + ('"' + name + '"');
-    }
-    table.fail(key.c_str(), '"' + key + "\": expected " + names);
+    const auto found = choice_of(text, count, name_of);
+    if (!found) return table.fail(key, in_quotes(key) + ": " + found.failure().message);
+    choice = *found;
   }
 
   /// One that exists; that of a file lies below the scene's folder.
   void read_palette(TomlTable& table) {
     if (scene_.palette.empty()) return;
-    const std::string name = scene_.palette.substr(0, scene_.palette.rfind(':'));
-    if (palettes::is_palette_file(name)) {
+    if (const std::string name(palettes::file_of_choice(scene_.palette)); !name.empty()) {
       if (!is_safe_relative(name)) {
-        table.fail("palette", "\"palette\": expected the name of a file below the scene's folder");
+        table.fail("palette", in_quotes("palette") + kExpectedFile);
         return;
       }
       scene_.palette = (path_.parent_path() / scene_.palette).string();
@@ -265,6 +258,25 @@ bool is_tank_scene(const std::filesystem::path& path) {
   if (!text) return false;
   const auto document = parse_toml(*text, path.string());
   return document && document->contains("tank");
+}
+
+std::vector<std::filesystem::path> files_named_by_tank_scene(const std::filesystem::path& path) {
+  const auto text = read_text_file(path, kMostFileBytes);
+  if (!text) return {};
+  const auto document = parse_toml(*text, path.string());
+  if (!document) return {};
+  std::vector<std::filesystem::path> files;
+  const auto add = [&](std::string_view name) {
+    if (!name.empty()) files.push_back(path.parent_path() / name);
+  };
+  const auto tank = (*document)["tank"];
+  add(tank["file"].value_or(std::string_view()));
+  add(palettes::file_of_choice(tank["palette"].value_or(std::string_view())));
+  if (const toml::array* const cameras = (*document)["camera"].as_array())
+    for (const toml::node& camera : *cameras)
+      if (const toml::table* const key = camera.as_table())
+        add((*key)["opening"].value_or(std::string_view()));
+  return files;
 }
 
 Result<TankScene> parse_tank_scene(std::string_view text, const std::filesystem::path& path) {

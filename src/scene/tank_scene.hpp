@@ -1,6 +1,7 @@
 // A tank of spheres, its lights, its glass and the camera before it: a file of its own, with [tank].
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -104,6 +105,20 @@ constexpr std::uint32_t kArrangements = 4;
 const char* coloring_name(spheres::Coloring coloring);
 constexpr std::uint32_t kColorings = 4;
 
+/// Finds one of `count` values by its name, in which '-' stands for '_', too. If there is none, fails with
+/// usage and `expected "a", "b" or "c"`.
+template <typename Choice>
+Result<Choice> choice_of(std::string text, std::uint32_t count, const char* (*name_of)(Choice)) {
+  std::replace(text.begin(), text.end(), '-', '_');
+  std::string names;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::string name = name_of(Choice{i});
+    if (text == name) return Choice{i};
+    names += (i == 0 ? "" : i + 1 < count ? ", " : " or ") + ('"' + name + '"');
+  }
+  return Failure{ErrorCode::usage, "expected " + names};
+}
+
 /// The lights and the glass at a time [s]: position and radii pass through their keys, at rest before the
 /// first and after the last.
 TankLight light_at(const TankLight& light, double time);
@@ -116,6 +131,9 @@ TankScene scene_of_tank_file(const std::filesystem::path& tank);
 
 /// Whether a file is one of a tank: a .toml file with a table [tank]. False where it cannot be read.
 bool is_tank_scene(const std::filesystem::path& path);
+/// The files that its text names, whether or not they exist or the scene is valid; none where it cannot be
+/// read.
+std::vector<std::filesystem::path> files_named_by_tank_scene(const std::filesystem::path& path);
 /// Reads it. Fails as load_timeline.
 Result<TankScene> load_tank_scene(const std::filesystem::path& path);
 Result<TankScene> parse_tank_scene(std::string_view text, const std::filesystem::path& path);

@@ -1,10 +1,9 @@
 #include "scene/tank_writer.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/file.hpp"
-#include "palettes/file.hpp"
+#include "palettes/choice.hpp"
 #include "scene/file_collector.hpp"
 #include "scene/tank_options.hpp"
 #include "scene/toml_text.hpp"
@@ -14,10 +13,9 @@ namespace {
 
 /// The file of a palette and the text behind it, ":0.2-0.6"; no file for a palette of the program.
 std::pair<std::filesystem::path, std::string> palette_file(const std::string& palette) {
-  const std::size_t end = std::min(palette.rfind(':'), palette.size());
-  const std::string name = palette.substr(0, end);
-  if (!palettes::is_palette_file(name)) return {};
-  return {name, palette.substr(end)};
+  const std::string_view file = palettes::file_of_choice(palette);
+  if (file.empty()) return {};
+  return {file, palette.substr(file.size())};
 }
 
 class TankWriter : private TomlText {
@@ -53,14 +51,15 @@ class TankWriter : private TomlText {
 
   void write_pack(const TankScene& scene) {
     const spheres::PackOptions& pack = scene.pack;
-    static const spheres::PackOptions kUsual;
-    if (pack.size != kUsual.size) line("size", glm::ivec3(pack.size));
-    if (pack.radius != kUsual.radius) line("radius", pack.radius);
-    options(pack, kUsual, "", [](auto& o, auto& v) { visit_pack_options(o, v); });
-    if (pack.arrangement != kUsual.arrangement)
+    spheres::PackOptions usual;
+    if (pack.size != usual.size) line("size", glm::ivec3(pack.size));
+    if (pack.radius != spheres::default_radius(pack.size)) line("radius", pack.radius);
+    usual.count = spheres::default_count(pack);
+    options(pack, usual, "", [](auto& o, auto& v) { visit_pack_options(o, v); });
+    if (pack.arrangement != usual.arrangement)
       line("arrangement", std::string(arrangement_name(pack.arrangement)));
-    if (pack.coloring != kUsual.coloring) line("coloring", std::string(coloring_name(pack.coloring)));
-    if (pack.seed != kUsual.seed) line("seed", static_cast<std::uint32_t>(pack.seed));
+    if (pack.coloring != usual.coloring) line("coloring", std::string(coloring_name(pack.coloring)));
+    if (pack.seed != usual.seed) line("seed", static_cast<std::uint32_t>(pack.seed));
     if (!scene.palette.empty()) line("palette", palette_below(scene.palette));
     static const TankScene kUsualScene;
     if (scene.palette_space != kUsualScene.palette_space) line("palette_space", scene.palette_space);
@@ -113,7 +112,7 @@ Result<void> save_tank_scene(const std::filesystem::path& path, const TankScene&
   const std::string text = format_tank_scene(saved, path.parent_path());
   // Never write a scene that could not be read back; a palette's file must be there to be read.
   if (auto copied = files.copy_files(); !copied) return copied;
-  if (const auto read = parse_tank_scene(text, path); !read) return read.failure();
+  if (const auto read = parse_tank_scene(text, path); !read) return not_saved(read.failure(), path);
   return write_file_atomic(path, text);
 }
 

@@ -31,6 +31,8 @@ struct OptionReader {
   }
 };
 
+/// What follows the key of a file that lies elsewhere.
+constexpr const char* kExpectedFile = ": expected the name of a file below the folder of this file";
 /// The file that a key names below the folder of `path`, if there is such a key.
 void read_file_name(TomlTable& table, const std::filesystem::path& path, const char* key,
                     std::filesystem::path& file);

@@ -10,8 +10,7 @@ void read_file_name(TomlTable& table, const std::filesystem::path& path, const c
   std::string name;
   table.read(key, name);
   if (name.empty()) return;
-  if (!is_safe_relative(name))
-    table.fail(key, in_quotes(key) + ": expected the name of a file below the timeline's folder");
+  if (!is_safe_relative(name)) table.fail(key, in_quotes(key) + kExpectedFile);
   file = path.parent_path() / name;
 }
 

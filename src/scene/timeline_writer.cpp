@@ -205,7 +205,7 @@ Result<void> save_timeline(const fs::path& path, const Timeline& timeline) {
     if (auto done = files.collect(key.camera.lens.opening); !done) return done;
   const std::string text = format_timeline(saved, path.parent_path());
   // Never write a timeline that could not be read back.
-  if (const auto read = parse_timeline(text, path); !read) return read.failure();
+  if (const auto read = parse_timeline(text, path); !read) return not_saved(read.failure(), path);
   if (auto copied = files.copy_files(); !copied) return copied;
   return write_file_atomic(path, text);
 }

@@ -1,11 +1,13 @@
 #include "scene/toml_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
+#include <string_view>
 
 #include "scene/files.hpp"
 
@@ -119,6 +121,15 @@ std::string text_of(const std::string& value) {
   }
   text += '"';
   return text;
+}
+
+Failure not_saved(const Failure& failure, const fs::path& path) {
+  std::string_view why = failure.message;
+  if (why.starts_with(path.string() + ":")) {
+    why.remove_prefix(path.string().size());
+    why.remove_prefix(std::min(why.find_first_not_of(":0123456789 "), why.size()));
+  }
+  return {failure.code, "not saved: " + std::string(why)};
 }
 
 fs::path path_from(const fs::path& path, const fs::path& folder) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "scene/options.hpp"
 #include "scene/timeline.hpp"
 
@@ -28,6 +29,9 @@ std::string text_of(const std::vector<float>& numbers);
 std::string text_of(const std::vector<std::vector<float>>& rows);
 /// Degrees that the reader converts to the same radians: as few digits as possible, within the angle's range.
 std::string degrees_text(const OptionInfo& info, float radians);
+
+/// Why a text that was to be saved as `path` cannot be read back, without its line: there is no such file.
+Failure not_saved(const Failure& failure, const std::filesystem::path& path);
 
 /// `path` relative to a folder; its spelling is preserved if it begins with the folder's name.
 std::filesystem::path path_from(const std::filesystem::path& path, const std::filesystem::path& folder);

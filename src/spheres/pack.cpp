@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,7 +74,7 @@ std::string check_radius(const PackOptions& options) {
 }
 
 /// What is out of range, or nothing.
-std::string check_options(const PackOptions& options) {
+std::string fault_of(const PackOptions& options) {
   const auto number = [](const char* name, double value, double low, double high) {
     if (value >= low && value <= high) return std::string();
     return name + (": " + text_of(value)) + "; expected " + text_of(low) + " to " + text_of(high);
@@ -103,6 +104,19 @@ float radius_at(const PackOptions& options, double u) {
   const double factor =
       std::abs(power) < 1e-6 ? std::pow(ratio, u) : std::pow(1 + u * (std::pow(ratio, power) - 1), 1 / power);
   return std::clamp(static_cast<float>(low * factor), options.radius.x, options.radius.y);
+}
+
+/// The mean of the cubes of radii of the power law.
+double mean_cube(const PackOptions& options) {
+  const double low = double{options.radius.x}, high = double{options.radius.y};
+  if (low == high) return low * low * low;
+  // The integral of radius^(exponent - distribution).
+  const auto moment = [&](double exponent) {
+    const double power = exponent - double{options.distribution} + 1;
+    return std::abs(power) < 1e-6 ? std::log(high / low)
+                                  : (std::pow(high, power) - std::pow(low, power)) / power;
+  };
+  return moment(3) / moment(0);
 }
 
 float radius_of_slot(const PackOptions& options, std::uint32_t slot) {
@@ -274,9 +288,28 @@ class Packing {
 
 }  // namespace
 
+glm::vec2 default_radius(const glm::uvec3& size) {
+  const float most = static_cast<float>(std::min({size.x, size.y, size.z})) / 2;
+  const glm::vec2 radius = PackOptions().radius;
+  return {std::min(radius.x, most / 2), std::min(radius.y, most)};
+}
+
+std::uint32_t default_count(const PackOptions& options) {
+  // Less than the 0.38 that equal spheres fill which are thrown at random until none finds room.
+  constexpr double kFill = 1.0 / 3;
+  const glm::dvec3 size(options.size);
+  const double volume = 4.0 / 3 * std::numbers::pi * mean_cube(options);
+  const double fitting = kFill * size.x * size.y * size.z / volume;
+  return static_cast<std::uint32_t>(std::clamp(fitting, 1.0, double{PackOptions().count}));
+}
+
+Result<void> check_options(const PackOptions& options) {
+  if (const std::string fault = fault_of(options); !fault.empty()) return Failure{ErrorCode::usage, fault};
+  return {};
+}
+
 Result<Tank> pack(const PackOptions& options, const std::function<bool()>& stopped) {
-  if (const std::string fault = check_options(options); !fault.empty())
-    return Failure{ErrorCode::usage, fault};
+  if (const auto checked = check_options(options); !checked) return checked.failure();
   return Packing(options, stopped).run();
 }
 

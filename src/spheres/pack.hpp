@@ -42,10 +42,20 @@ struct PackOptions {
   std::vector<Color> palette;
 };
 
+/// The radii of spheres of a tank that says nothing of them: those of PackOptions, less in a small tank so
+/// that they fit.
+glm::vec2 default_radius(const glm::uvec3& size);
+
+/// The number of spheres of a tank that says nothing of it: that of PackOptions, but at most as many as fill
+/// a third of the tank, and at least 1. From `size`, `radius` and `distribution`, which are in range.
+std::uint32_t default_count(const PackOptions& options);
+
+/// Fails with usage for options out of range; the message begins with the member's name.
+Result<void> check_options(const PackOptions& options);
+
 /// Packs spheres until there are `count` or no room is found for more: Tank::spheres may then be fewer. The
 /// same tank for the same options and any number of threads. `stopped`, called often and from any thread,
-/// ends it early with what is packed so far. Fails with usage for options out of range; the message begins
-/// with the member's name. Its Progress is "pack spheres".
+/// ends it early with what is packed so far. Fails as check_options. Its Progress is "pack spheres".
 ///
 /// Radii follow the power law, independent of each other (random) or one from each of `count` equally
 /// probable ranges. Only a sphere that finds no room at 24 places shrinks, step by step, down to the least

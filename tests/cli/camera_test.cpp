@@ -108,7 +108,7 @@ TEST_F(CameraOptions, OpeningsAreImages) {
   refuse("black.png", {"bad.toml:", "black.png", "lets no light through"});
   refuse("broken.png", {"bad.toml:", "broken.png"});
   refuse("missing.png", {"bad.toml:", "missing.png"});
-  refuse("../white.png", {"bad.toml:", "opening", "below the timeline's folder"});
+  refuse("../white.png", {"bad.toml:", "opening", "below the folder of this file"});
 }
 
 TEST_F(CameraOptions, FramesAsNumbersAreMeans) {

@@ -86,6 +86,49 @@ TEST_F(Info, EventsOfATimeline) {
   EXPECT_EQ(run.error, "brume: warning: after the end of the timeline at 2 s and not shown: 1 shot\n");
 }
 
+TEST_F(Info, TheTankOfAScene) {
+  folder_.write("pal.gpl", "GIMP Palette\n0 0 0\n255 255 255\n");
+  folder_.write(
+      "packed.toml",
+      "version = 1\nduration = 2\n[tank]\nsize = [7, 3, 1]\nvoxel = 0.5\npalette = \"pal.gpl:0-0.5\"\n"
+      "samples = 9\narrangement = \"coral\"\n[[light]]\nposition = [1, 2, 3]\n[[light.key]]\n"
+      "time = 1\nposition = [1, 2, 4]\n[glass]\n"
+      "[[camera]]\ntime = 0\nposition = [0, 0, 9]\ntarget = [0, 0, 0]\nfov = 42\n");
+  const Json packed = info("packed.toml");
+  EXPECT_EQ(packed["kind"], "tank scene");
+  EXPECT_EQ(packed["size"], (Json{7, 3, 1}));
+  EXPECT_EQ(packed["voxel_size"], 0.5);
+  EXPECT_EQ(packed["radius"]["max"], 0.5);
+  EXPECT_EQ(packed["arrangement"], "coral");
+  EXPECT_EQ(packed["samples"], 9);
+  EXPECT_EQ(packed["seconds"], 2);
+  EXPECT_EQ(packed["lights"][0]["position"], (Json{1, 2, 3}));
+  EXPECT_EQ(packed["lights"][0]["keys"], 1);
+  EXPECT_EQ(packed["glass"], true);
+  EXPECT_EQ(packed["camera"]["from_file"], true);
+  EXPECT_NEAR(packed["camera"]["fov_degrees"].get<double>(), 42, 1e-4);
+  EXPECT_NE(text("packed.toml").find("\nsize            7x3x1 voxels\n"), std::string::npos);
+  EXPECT_EQ(run_brume(folder_.path(), {"info", "packed.toml", "--check"}).exit_code, 0);
+
+  ASSERT_EQ(
+      run_brume(folder_.path(), {"bake", "spheres", "-o", "t.spheres", "--size", "40x20x10", "--count", "3"})
+          .exit_code,
+      0);
+  folder_.write("loaded.toml", "version = 1\n[tank]\nfile = \"t.spheres\"\n");
+  const Json loaded = info("loaded.toml");
+  EXPECT_EQ(loaded["tank"], "t.spheres");
+  EXPECT_EQ(loaded["size"], (Json{40, 20, 10}));
+  EXPECT_EQ(loaded["spheres"], 3);
+  EXPECT_EQ(loaded["camera"]["from_file"], false);
+
+  // As of a timeline, what is missing is a warning or, with --check, an error; a fault is always one.
+  folder_.write("gone.toml", "version = 1\n[tank]\nfile = \"gone.spheres\"\n");
+  EXPECT_NE(info("gone.toml")["problem"].get<std::string>().find("gone.spheres"), std::string::npos);
+  expect_failure(folder_, {"info", "gone.toml", "--check"}, 3, {"gone.spheres"});
+  folder_.write("fault.toml", "version = 1\n[tank]\nsamples = 0\n");
+  expect_failure(folder_, {"info", "fault.toml"}, 3, {"fault.toml:3:11: \"samples\""});
+}
+
 TEST_F(Info, ChecksWhatRenderingWouldLoad) {
   const std::string head = "version = 1\nduration = 2.0\nscene = ";
   const std::string shot =

@@ -86,6 +86,59 @@ TEST_F(OutputFiles, AreNeverAFileThatTheSceneRefersTo) {
   refused({"sim", "room.toml", "--record", "room.obj", "--force"}, {"--record room.obj", "is the input"});
 }
 
+TEST_F(OutputFiles, AreNeverWhatATankIsMadeOf) {
+  folder_.write("pal.json", "[\"#ff0000\", \"#0000ff\"]\n");
+  const Arguments bake{"bake", "spheres", "--size", "20x20x20", "--count", "5", "--palette"};
+  const auto baked = [&](const Arguments& more) {
+    Arguments all = bake;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  ASSERT_EQ(run_brume(folder_.path(), baked({"pal.json", "-o", "t.spheres"})).exit_code, 0);
+  never(baked({"pal.json", "-o", "new.spheres", "--json", "pal.json"}), "--json pal.json: is the input;");
+  never(baked({"pal.json:0.2-0.6", "-o", "new.spheres", "--json", "./pal.json"}), "is the input pal.json");
+
+  const std::string tank =
+      "version = 1\n[[camera]]\ntime = 0\nposition = [0, 0, 9]\ntarget = [0, 0, 0]\nopening = \"a.png\"\n"
+      "[tank]\n";
+  folder_.write("packed.toml", tank + "palette = \"pal.json:0-0.5\"\n");
+  folder_.write("loaded.toml", tank + "file = \"t.spheres\"\n");
+  // Faults of a scene hide no input, so that their report does not replace one either.
+  folder_.write("bad.json", "{\"colours\": [\"#ff0000\"]}\n");
+  folder_.write("faulty.toml", tank + "samples = 0\npalette = \"bad.json\"\n");
+  struct Case {
+    const char *scene, *input;
+  };
+  for (const auto& [scene, input] :
+       {Case{"packed.toml", "pal.json"}, {"loaded.toml", "t.spheres"}, {"faulty.toml", "bad.json"}}) {
+    for (const char* output : {input, "a.png"}) {
+      const std::string text = std::string("--json ") + output;
+      never({"render", scene, "-o", "new.png", "--size", "16x16", "--json", output}, text);
+      never({"query", scene, "--sense", "0,0,2 0,0,0", "--json", output}, text);
+      never({"info", scene, "--json", output}, text);
+#ifdef BRUME_VIEWER
+      never({"view", scene, "--json", output}, text);
+      never({"view", scene, "--frame-log", output}, std::string("--frame-log ") + output);
+#endif
+    }
+    never({"render", scene, "-o", "a.png"}, "-o a.png");
+    never({"query", scene, "--sense", "0,0,2 0,0,0", "-o", "a.png"}, "-o a.png");
+#ifdef BRUME_VIEWER
+    never({"view", scene, "--screenshot", "a.png", "--exit-after", "1"}, "--screenshot a.png");
+#endif
+  }
+}
+
+// Which files a scene reads is not known when its text cannot be read.
+TEST_F(OutputFiles, ThatAScenesMayReadAreNotReplacedByAnError) {
+  folder_.write("pal.json", "{\"colors\": [\"#ff0000\", \"#0000ff\"]}\n");
+  folder_.write("old.json", "{\"error\": {}}\n");
+  folder_.write("broken.toml", "version = 1\n[tank]\npalette = \"pal.json\"\nsize =\n");
+  refused({"render", "broken.toml", "-o", "new.png", "--json", "pal.json"}, {"broken.toml:4"}, 3);
+  run_brume(folder_.path(), {"render", "broken.toml", "-o", "new.png", "--json", "old.json"});
+  EXPECT_NE(bytes("old.json").find("broken.toml:4"), std::string::npos);
+}
+
 TEST_F(OutputFiles, AreComparedByFileAndNotByName) {
   fs::create_symlink("a.png", folder_.path() / "soft.png");
   fs::create_hard_link(folder_.path() / "a.png", folder_.path() / "hard.png");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/file.hpp"
 #include "image/decode.hpp"
 #include "palettes/sample.hpp"
 #include "tests/cli/run_program.hpp"
@@ -51,10 +52,15 @@ TEST_F(PalettesTest, Searches) {
     const double hue = each.at("hue");
     EXPECT_TRUE(hue <= 20 || hue >= 340) << hue;
   }
-  const Outcome none = run_brume(folder_.path(), {"palettes", "no-such-word"});
-  EXPECT_EQ(none.exit_code, 0);
-  EXPECT_EQ(none.out, "");
-  EXPECT_NE(none.error.find("warning: none of "), std::string::npos);
+}
+
+TEST_F(PalettesTest, ThatAreNotFoundReplaceNothing) {
+  ASSERT_EQ(run_brume(folder_.path(), {"palettes", "viridis", "-o", "sheet.png"}).exit_code, 0);
+  const auto before = read_file(folder_.path() / "sheet.png").value_or_throw();
+  expect_failure(folder_, {"palettes", "no-such-word"}, 2, {"none of ", " palettes matches"});
+  expect_failure(folder_, {"palettes", "no-such-word", "-o", "sheet.png"}, 2, {"none of "});
+  expect_failure(folder_, {"palettes", "no-such-word", "-o", "new.png"}, 2, {"none of "});
+  EXPECT_EQ(read_file(folder_.path() / "sheet.png").value_or_throw(), before);
 }
 
 TEST_F(PalettesTest, DrawsTheColoursOfEachPalette) {

@@ -68,7 +68,7 @@ TEST_F(Spheres, AreThoseOfTheOptions) {
 }
 
 TEST_F(Spheres, OfEveryArrangementAreTheSameForAnyNumberOfThreads) {
-  for (const char* arrangement : {"random", "largest-first", "noise", "coral"}) {
+  for (const char* arrangement : {"random", "largest_first", "noise", "coral"}) {
     bake("one.spheres", {"--arrangement", arrangement, "--threads", "1"});
     bake("eight.spheres", {"--arrangement", arrangement, "--threads", "8"});
     EXPECT_EQ(bytes("one.spheres"), bytes("eight.spheres")) << arrangement;
@@ -126,11 +126,16 @@ TEST_F(Spheres, OfHostileOptionsAreRefused) {
   refused({"--radius", "1-400"}, {"--radius: from 1 to 400 voxels", "half of the tank's shortest side"});
   for (const char* text : {"a-b", "1-", "nan-1", "1-inf", "1,2"})
     refused({"--radius", text}, {"--radius: expected LEAST-LARGEST", text});
-  refused({"--count", "1000000000"}, {"--count: expected a whole number from 1 to 8388608"});
+  refused({"--count", "1000000000"}, {"--count: expected a whole number from 0 to 8388608"});
   refused({"--count", "8388608", "--radius", "20"}, {"--count: 8388608 spheres", "the volume of the tank"});
   refused({"--size", "0x1x1"}, {"--size: 0x1x1 voxels; expected 1 to 2048 along each axis"});
   refused({"--size", "2048x2048x2048"}, {"--size: 2048x2048x2048 voxels; expected at most 268435456 in all"});
   refused({"--size", "9"}, {"--size"});
+  refused({"--size", "2049x1x1"}, {"--size: 2049x1x1 voxels; expected 1 to 2048 along each axis"});
+  refused({"--radius", "0.001-1"}, {"--radius: from 0.001 voxels; expected at least 0.01"});
+  refused({"--arrangement", "noise", "--noise-size", "4097"},
+          {"--noise-size: expected a number from 1 to 4096"});
+  refused({"--voxel", "1001"}, {"--voxel: expected a number from 1e-06 to 1000"});
   refused({"--distribution", "9"}, {"--distribution: expected a number from 0 to 8"});
   refused({"--opacity", "1.1"}, {"--opacity"});
   refused({"--arrangement", "corral"}, {"--arrangement: unknown value 'corral'; did you mean coral?"});
@@ -147,9 +152,27 @@ TEST_F(Spheres, ThatDoNotFitAreFewerWithAWarning) {
   EXPECT_NE(full.error.find(" of 1500 spheres are packed: there is no room for more"), std::string::npos)
       << full.error;
   EXPECT_LT(load("a.spheres").spheres.size(), 1500u);
-  // The smallest tank, with the default radii.
-  EXPECT_EQ(run({"bake", "spheres", "-o", "b.spheres", "--size", "1x1x1", "--count", "1"}).exit_code, 0);
-  EXPECT_EQ(load("b.spheres").spheres.size(), 1u);
+}
+
+TEST_F(Spheres, OfNoGivenNumberAreAsManyAsTheTankHasRoomFor) {
+  const Outcome one = run({"bake", "spheres", "-o", "one.spheres", "--size", "1x1x1"});
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_EQ(one.error, "");
+  EXPECT_EQ(one.out.rfind("1 sphere of radius ", 0), 0u) << one.out;
+  EXPECT_NE(one.out.find(" fills "), std::string::npos) << one.out;
+  const Outcome large = run({"bake", "spheres", "-o", "large.spheres", "--radius", "40-60"});
+  EXPECT_EQ(large.exit_code, 0);
+  EXPECT_EQ(large.error, "");
+  EXPECT_GT(load("large.spheres").spheres.size(), 10u);
+}
+
+TEST_F(Spheres, AreArrangedByNamesOfScenesWithEitherDash) {
+  const Json usual = bake("a.spheres"), dash = bake("b.spheres", {"--arrangement", "largest-first"});
+  bake("c.spheres", {"--arrangement", "largest_first"});
+  EXPECT_EQ(usual["arrangement"], "largest_first");
+  EXPECT_EQ(dash["arrangement"], "largest_first");
+  EXPECT_EQ(bytes("b.spheres"), bytes("a.spheres"));
+  EXPECT_EQ(bytes("c.spheres"), bytes("a.spheres"));
 }
 
 TEST_F(Spheres, OfATimeLimitAreThosePackedByThen) {

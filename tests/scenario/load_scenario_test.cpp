@@ -6,6 +6,7 @@
 
 #include "core/log.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/tank.hpp"
 
 namespace brume::scenario {
 namespace {
@@ -43,6 +44,35 @@ TEST_F(LoadScenario, SuffixesMayBeInCapitals) {
   write("A.OBJ", kTriangle);
   const auto scenario = load_scenario(write("D.TOML", "version = 1\nscene = \"A.OBJ\"\n"), {});
   EXPECT_TRUE(scenario) << scenario.failure().message;
+}
+
+TEST_F(LoadScenario, OnlyAThrownGrenadeIsMissedInASceneTxt) {
+  std::filesystem::create_directories(folder_ / "Meshes");
+  std::ofstream(folder_ / "Meshes/Box.obj") << kTriangle;
+  write("a.txt", "Box 0 0 0 0 0 0 1 1 1\n");
+  const auto warns = [&](const std::string& events) {
+    log_.clear();
+    const auto scenario = load_scenario(write("a.toml", "version = 1\nscene = \"a.txt\"\n" + events), {});
+    EXPECT_TRUE(scenario) << scenario.failure().message;
+    EXPECT_TRUE(scenario && scenario->scene.grenade);
+    return std::ranges::any_of(
+        log_, [](const std::string& line) { return line.find("no object is called Grenade") != line.npos; });
+  };
+  const std::string smoke = "[[event]]\ntype = \"smoke\"\ntime = 0\nat = [0.3, 0.3, 1]\nfrom = ";
+  EXPECT_FALSE(warns(""));
+  EXPECT_FALSE(warns(smoke + "[0.3, 0.3, 1]\n")) << "it goes off where it is";
+  EXPECT_TRUE(warns(smoke + "[0.3, 0.3, 3]\n"));
+}
+
+TEST_F(LoadScenario, TheFilesOfATankAreThoseItIsMadeFrom) {
+  using Paths = std::vector<std::filesystem::path>;
+  scene::TankScene scene;
+  scene.palette = "viridis:0-0.5";
+  EXPECT_EQ(files_of(scene), Paths{});
+  scene.palette = "a/p.json:0-0.5";
+  EXPECT_EQ(files_of(scene), Paths{"a/p.json"});
+  scene.file = "t.spheres";
+  EXPECT_EQ(files_of(scene), Paths{"t.spheres"}) << "it has colours of its own";
 }
 
 TEST_F(LoadScenario, ADecalWhoseFileIsGoneIsNamed) {

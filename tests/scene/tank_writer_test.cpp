@@ -175,5 +175,18 @@ TEST(TankWriter, NeverWritesWhatCannotBeReadBack) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "t.toml"));
 }
 
+// What the window shows: there is no file whose line it could name.
+TEST(TankWriter, NamesTheSettingThatCannotBeSaved) {
+  const cli::WorkFolder folder;
+  TankScene scene;
+  scene.palette = "nosuch" + std::string(300, 'x');
+  const auto saved = save_tank_scene(folder.path() / "t.toml", scene);
+  ASSERT_FALSE(saved);
+  const std::string& message = saved.failure().message;
+  EXPECT_EQ(message.rfind("not saved: \"palette\": palette \"nosuchx", 0), 0u) << message;
+  EXPECT_EQ(message.find("t.toml"), std::string::npos) << message;
+  EXPECT_LT(message.size(), 160u) << message;
+}
+
 }  // namespace
 }  // namespace brume::scene

@@ -279,14 +279,14 @@ TEST(Timeline, InvalidShapesAndTextsNameTheMistake) {
             "scenes/t.toml:8:8: \"mask\": belongs to shape = \"mask\"");
   for (const char* name : {"../a.png", "/a.png", "a/../../b.png", "C:\\\\a.png"})
     EXPECT_EQ(error_of(kHead + event("shot", aimed + "shape = \"mask\"\nmask = \"" + name + "\"")),
-              "scenes/t.toml:9:8: \"mask\": expected the name of a file below the timeline's folder");
+              "scenes/t.toml:9:8: \"mask\": expected the name of a file below the folder of this file");
   EXPECT_EQ(error_of(kHead + event("text", aimed)), "scenes/t.toml:3:1: [[event]] lacks the key \"text\"");
   EXPECT_EQ(error_of(kHead + event("text", aimed + "text = \"\"")),
             "scenes/t.toml:8:8: \"text\": expected 1 to 1024 bytes");
   EXPECT_EQ(error_of(kHead + event("text", aimed + "text = \"" + std::string(1025, 'a') + "\"")),
             "scenes/t.toml:8:8: \"text\": expected 1 to 1024 bytes");
   EXPECT_EQ(error_of(kHead + event("text", aimed + "text = \"a\"\nfont = \"/usr/a.ttf\"")),
-            "scenes/t.toml:9:8: \"font\": expected the name of a file below the timeline's folder");
+            "scenes/t.toml:9:8: \"font\": expected the name of a file below the folder of this file");
   EXPECT_EQ(error_of(kHead + event("text", "time = 1\nfrom = [0, 1, 0]\ntoward = [0, 1, 0]\ntext = \"a\"")),
             "scenes/t.toml:7:10: \"toward\": expected a point other than \"from\"");
 }

@@ -344,5 +344,46 @@ TEST(PackProgress, IsThatOfSpheres) {
   EXPECT_GT(most, 0u);
 }
 
+TEST(Pack, DefaultsFitTheTank) {
+  const PackOptions usual;
+  EXPECT_EQ(default_radius(usual.size), usual.radius);
+  EXPECT_EQ(default_count(usual), usual.count);
+  for (const glm::uvec3 size :
+       {glm::uvec3(1), glm::uvec3(7, 3, 1), glm::uvec3(600, 600, 20), glm::uvec3(40)}) {
+    PackOptions options;
+    options.size = size;
+    options.radius = default_radius(size);
+    options.count = default_count(options);
+    EXPECT_GE(options.count, 1u);
+    EXPECT_TRUE(check_options(options)) << size.x;
+  }
+}
+
+// The count times the mean volume of the radii of the power law, by the midpoint rule over its quantiles, is
+// a third of the tank.
+TEST(Pack, TheDefaultCountFillsAThird) {
+  for (const float power : {0.0f, 1.0f, 2.5f, 4.0f, 8.0f}) {
+    PackOptions options;
+    options.size = {300, 200, 100};
+    options.radius = {4, 16};
+    options.distribution = power;
+    // Integrals of r^(3 - power) and r^-power.
+    double cubes = 0, all = 0;
+    constexpr int kSteps = 10'000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double radius = 4 + 12 * (i + 0.5) / kSteps, weight = std::pow(radius, -double{power});
+      cubes += weight * radius * radius * radius;
+      all += weight;
+    }
+    const double fitting = 6e6 / 3 / (4.0 / 3 * std::acos(-1.0) * cubes / all);
+    // The midpoint rule errs by less than (12 / kSteps / 4)^2 of the integral, and the count is whole.
+    EXPECT_NEAR(default_count(options), fitting, 1 + 1e-6 * fitting) << power;
+  }
+  PackOptions equal;
+  equal.size = glm::uvec3(100);
+  equal.radius = {5, 5};
+  EXPECT_EQ(default_count(equal), 636u);  // 1e6 / 3 / (4 / 3 pi 125)
+}
+
 }  // namespace
 }  // namespace brume::spheres
