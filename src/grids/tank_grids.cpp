@@ -52,15 +52,13 @@ double finite_extinction(spheres::Color color) {
 }
 
 // The mean over what a voxel covers; what is beyond the tank is empty.
-TankVoxel voxel_of(const Reduction& to, std::span<const spheres::Color> paint, const glm::ivec3& voxel) {
+TankVoxel voxel_of(const Reduction& to, const spheres::PaintedBricks& paint, const glm::ivec3& voxel) {
   const glm::ivec3 low = to.factor * voxel, high = glm::min(low + to.factor, to.fine);
   TankVoxel mean;
   for (int z = low.z; z < high.z; ++z)
     for (int y = low.y; y < high.y; ++y)
       for (int x = low.x; x < high.x; ++x) {
-        const spheres::Color color =
-            paint[(std::size_t(z) * std::size_t(to.fine.y) + std::size_t(y)) * std::size_t(to.fine.x) +
-                  std::size_t(x)];
+        const spheres::Color color = paint.at({x, y, z});
         if (color >> 24 == 0) continue;
         const double extinction = finite_extinction(color);
         mean.extinction += extinction;
@@ -81,12 +79,30 @@ void for_voxels(const Reduction& to, const glm::ivec3& first, const Visit& visit
         visit(static_cast<std::size_t>(x + kBrickEdge * (y + kBrickEdge * z)), first + glm::ivec3(x, y, z));
 }
 
+// The bricks that cover a painted one, in order.
+std::vector<std::size_t> painted_bricks(const Reduction& to, const spheres::PaintedBricks& paint) {
+  static_assert(kBrickEdge == shared::kSphereBrick);
+  std::vector<bool> is_painted(to.brick_count());
+  const glm::ivec3 n = paint.bricks;
+  for (std::size_t i = 0; i < paint.slots.size(); ++i)
+    if (paint.slots[i] != spheres::PaintedBricks::kNoSlot) {
+      const auto at = static_cast<int>(i);
+      const glm::ivec3 brick = glm::ivec3(at % n.x, at / n.x % n.y, at / (n.x * n.y)) / to.factor;
+      is_painted[static_cast<std::size_t>(brick.x + to.bricks.x * (brick.y + to.bricks.y * brick.z))] = true;
+    }
+  std::vector<std::size_t> bricks;
+  for (std::size_t i = 0; i < is_painted.size(); ++i)
+    if (is_painted[i]) bricks.push_back(i);
+  return bricks;
+}
+
 // The bricks that have a voxel with opacity.
-std::vector<Brick> bricks_of(const Reduction& to, std::span<const spheres::Color> paint) {
-  std::vector<Brick> all(to.brick_count());
+std::vector<Brick> bricks_of(const Reduction& to, const spheres::PaintedBricks& paint) {
+  const std::vector<std::size_t> painted = painted_bricks(to, paint);
+  std::vector<Brick> all(painted.size());
   parallel_for(all.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      all[i].origin = to.first_voxel(i);
+      all[i].origin = to.first_voxel(painted[i]);
       for_voxels(to, all[i].origin, [&](std::size_t number, const glm::ivec3& voxel) {
         if (voxel_of(to, paint, voxel).extinction > 0)
           all[i].active[number / 64] |= std::uint64_t{1} << (number % 64);
@@ -102,7 +118,7 @@ std::vector<Brick> bricks_of(const Reduction& to, std::span<const spheres::Color
 
 // Fills a grid of one or three floats a voxel.
 template <typename Value, typename ValueOf>
-void fill_grid(Grid& grid, const Reduction& to, std::span<const spheres::Color> paint,
+void fill_grid(Grid& grid, const Reduction& to, const spheres::PaintedBricks& paint,
                const std::vector<Brick>& bricks, const ValueOf& value_of) {
   grid.bricks = bricks;
   grid.values.resize(bricks.size() * kBrickVoxels * sizeof(Value));
@@ -161,7 +177,7 @@ Result<GridFile> tank_grids(const spheres::Tank& tank, const std::string& name, 
   if (!positions) return positions.failure();
 
   // Only as large as it may be.
-  const std::vector<spheres::Color> paint = spheres::paint(tank);
+  const spheres::PaintedBricks paint = spheres::paint_bricks(tank);
   const std::vector<Brick> bricks = bricks_of(to, paint);
   std::uint64_t bytes = 0, active = 0;
   for (const std::size_t position : *positions)

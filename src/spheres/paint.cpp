@@ -63,9 +63,22 @@ struct TileLists {
   }
 };
 
-// Paints the row of voxels `row` (its x = 0). Those inside of the sphere are an interval around its middle,
-// since squares and sums stay in order when they are rounded: its ends are estimated, then decided exactly.
-void paint_row(const Sphere& sphere, Color color, const glm::ivec3& row, int size_x, Color* voxels) {
+// Voxels in memory, x fastest.
+struct VoxelBox {
+  glm::ivec3 low, high;
+  Color* voxels;                   // of `low`
+  std::size_t row = 0, slice = 0;  // from one y and one z to the next
+
+  Color* at(const glm::ivec3& voxel) const {
+    const glm::ivec3 in = voxel - low;
+    return voxels + std::size_t(in.z) * slice + std::size_t(in.y) * row + std::size_t(in.x);
+  }
+};
+
+// Paints a row of voxels from `row` to the box's end. Those inside of the sphere are an interval around its
+// middle, since squares and sums stay in order when they are rounded: its ends are estimated, then decided
+// exactly.
+void paint_row(const Sphere& sphere, Color color, const glm::ivec3& row, const VoxelBox& box) {
   const auto inside = [&](int x) {
     return shared::sphere_power(packed(sphere), shared::voxel_middle({x, row.y, row.z})) < 0;
   };
@@ -76,23 +89,20 @@ void paint_row(const Sphere& sphere, Color color, const glm::ivec3& row, int siz
   // Where rounding matters most, at half = 0, it changes `half` by sqrt(2^-20 radius^2) at most, 2^-10
   // radius.
   const int more = 1 + static_cast<int>(sphere.radius / 512);
-  int low = std::clamp(static_cast<int>(std::ceil(sphere.center.x - half - 0.5f)) - more, 0, size_x);
-  int high = std::clamp(static_cast<int>(std::floor(sphere.center.x + half - 0.5f)) + more + 1, low, size_x);
+  const int end = box.high.x;
+  int low = std::clamp(static_cast<int>(std::ceil(sphere.center.x - half - 0.5f)) - more, row.x, end);
+  int high = std::clamp(static_cast<int>(std::floor(sphere.center.x + half - 0.5f)) + more + 1, low, end);
   while (low < high && !inside(low)) ++low;
   while (low < high && !inside(high - 1)) --high;
-  std::fill(voxels + low, voxels + high, color);
+  std::fill_n(box.at({low, row.y, row.z}), high - low, color);
 }
 
-void paint_sphere(const Sphere& sphere, Color color, const glm::ivec3& low, const glm::ivec3& high,
-                  const glm::ivec3& size, Color* voxels) {
+void paint_sphere(const Sphere& sphere, Color color, const VoxelBox& box) {
   // A voxel more for rounding.
-  const glm::ivec3 from = glm::max(low, glm::ivec3(glm::floor(sphere.center - sphere.radius)) - 1);
-  const glm::ivec3 to = glm::min(high, glm::ivec3(glm::floor(sphere.center + sphere.radius)) + 2);
+  const glm::ivec3 from = glm::max(box.low, glm::ivec3(glm::floor(sphere.center - sphere.radius)) - 1);
+  const glm::ivec3 to = glm::min(box.high, glm::ivec3(glm::floor(sphere.center + sphere.radius)) + 2);
   for (int z = from.z; z < to.z; ++z)
-    for (int y = from.y; y < to.y; ++y) {
-      const std::size_t first = (std::size_t(z) * std::size_t(size.y) + std::size_t(y)) * std::size_t(size.x);
-      paint_row(sphere, color, {0, y, z}, size.x, voxels + first);
-    }
+    for (int y = from.y; y < to.y; ++y) paint_row(sphere, color, {box.low.x, y, z}, box);
 }
 
 }  // namespace
@@ -109,10 +119,42 @@ std::vector<Color> paint(const Tank& tank) {
     const glm::ivec3 low(0, int(tile) % tiles.y * kTileY, int(tile) / tiles.y * kTileZ);
     const glm::ivec3 high =
         glm::min(glm::ivec3(tiles.size.x, low.y + kTileY, low.z + kTileZ), glm::ivec3(tiles.size));
-    for (auto i = first; i != last; ++i)
-      paint_sphere(tank.spheres[*i], tank.colors[*i], low, high, tiles.size, voxels.data());
+    VoxelBox box{low, high, nullptr, tank.size.x, std::size_t{tank.size.x} * tank.size.y};
+    box.voxels = voxels.data() + std::size_t(low.z) * box.slice + std::size_t(low.y) * box.row;
+    for (auto i = first; i != last; ++i) paint_sphere(tank.spheres[*i], tank.colors[*i], box);
   });
   return voxels;
+}
+
+PaintedBricks paint_bricks(const Tank& tank) {
+  constexpr int kEdge = shared::kSphereBrick;
+  constexpr std::size_t kVoxels = std::size_t{kEdge} * kEdge * kEdge, kGrain = 64;  // bricks of a task
+  // A slot for each brick with spheres.
+  const BrickLists lists = list_bricks(tank);
+  PaintedBricks painted{lists.bricks, std::vector(lists.ranges.size(), PaintedBricks::kNoSlot), {}};
+  std::vector<std::size_t> touched;
+  for (std::size_t brick = 0; brick < lists.ranges.size(); ++brick) {
+    if (lists.ranges[brick].count == 0) continue;
+    painted.slots[brick] = static_cast<std::uint32_t>(touched.size());
+    touched.push_back(brick);
+  }
+  // The last painted stays: the lowest id.
+  painted.colors.resize(touched.size() * kVoxels);
+  parallel_for(touched.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const auto brick = static_cast<int>(touched[slot]);
+      const glm::ivec3 n = lists.bricks;
+      const glm::ivec3 low = kEdge * glm::ivec3(brick % n.x, brick / n.x % n.y, brick / (n.x * n.y));
+      const VoxelBox box{low, glm::min(low + kEdge, glm::ivec3(tank.size)),
+                         painted.colors.data() + slot * kVoxels, kEdge, std::size_t{kEdge} * kEdge};
+      const shared::SphereBrick range = lists.ranges[touched[slot]];
+      for (std::uint32_t i = range.count; i-- > 0;) {
+        const std::uint32_t sphere = lists.spheres[range.first + i];
+        paint_sphere(tank.spheres[sphere], tank.colors[sphere], box);
+      }
+    }
+  });
+  return painted;
 }
 
 }  // namespace brume::spheres

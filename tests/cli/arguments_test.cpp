@@ -103,7 +103,8 @@ TEST_F(CommandLineTest, OptionsThatWouldDoNothingAreRefused) {
   EXPECT_EQ(still({"--light-update-fraction", "0.5"}), "--light-update-fraction:" + film);
   EXPECT_EQ(still({"--resolve-error-scale", "2"}), "--resolve-error-scale: requires --march half or quarter");
   EXPECT_EQ(still({"--resume"}), "--resume: requires numbered frames, such as -o f_%04d.png");
-  EXPECT_EQ(refusal({"info", "room.obj", "--check"}), "--check: is for timelines (.toml)");
+  EXPECT_EQ(refusal({"info", "room.obj", "--check"}),
+            "--check: is for timelines and scenes of tanks (.toml)");
   EXPECT_EQ(refusal({"info", "room.obj", "-q", "--progress", "json"}),
             "--progress: there is none with --quiet");
   EXPECT_EQ(refusal({"info", "room.obj", "--progress", "jsn"}),

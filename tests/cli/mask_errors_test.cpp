@@ -91,7 +91,7 @@ TEST_F(MaskErrors, InvalidShots) {
   fails("shape = \"star\"", {"a.toml:9:9: ", "expected \"cylinder\", \"box\" or \"mask\""});
   for (const char* name : {"../a.png", "/a.png"})
     fails("shape = \"mask\"\nmask = \"" + std::string(name) + "\"",
-          {"a.toml:10:8: ", "below the timeline's folder"});
+          {"a.toml:10:8: ", "below the folder of this file"});
   fails("radius = 0", {"a.toml:9:10: ", "from 0.01 to 10", "found 0"});
   fails("radius = nan", {"a.toml:9:10: ", "from 0.01 to 10", "found nan"});
   fails("roll = 400", {"a.toml:9:8: ", "from -360 to 360", "found 400"});
@@ -119,7 +119,7 @@ TEST_F(MaskErrors, InvalidFonts) {
   fails("none.ttf", {"a.toml:4:1: ", "none.ttf: ", "No such file", "check the path"});
   folder_.write("words.ttf", "not a font");
   fails("words.ttf", {"a.toml:4:1: ", "words.ttf: ", "expected a TrueType or OpenType file"});
-  fails("../a.ttf", {"a.toml:10:8: ", "below the timeline's folder"});
+  fails("../a.ttf", {"a.toml:10:8: ", "below the folder of this file"});
 }
 
 TEST_F(MaskErrors, TextsOfAbsurdSizes) {

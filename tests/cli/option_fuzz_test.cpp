@@ -45,6 +45,10 @@ class OptionFuzz : public testing::Test {
     folder_.write("room.toml", kTimeline);
     folder_.write("notes.txt", "my notes\n");
     folder_.write("empty.obj", "");
+    folder_.write("palette.json", "[\"#ff0000\", \"#0000ff\"]");
+    folder_.write(
+        "tank.toml",
+        "version = 1\n[tank]\nsize = [20, 20, 10]\nspheres = 9\nsamples = 1\npalette = \"palette.json\"\n");
     const image::Image8 picture{8, 8, std::vector<std::uint8_t>(4 * 8 * 8, 200)};
     for (const char* name : {"a.png", "b.png"})
       image::save_png(folder_.path() / name, picture).value_or_throw();
@@ -167,6 +171,8 @@ const std::string kValues[] = {"0",
                                "60,0",
                                "room.obj",
                                "room.toml",
+                               "palette.json",
+                               "tank.toml",
                                "room.vxl",
                                "room.brp",
                                "a.png",

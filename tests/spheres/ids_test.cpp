@@ -154,6 +154,26 @@ TEST(Paint, EqualsAllSpheresAtSampledVoxels) {
   EXPECT_GT(painted, kSanitized ? 300u : 10000u);
 }
 
+TEST(Paint, OfBricksIsThatOfAllVoxels) {
+  Random random(6);
+  for (const Tank& tank : tanks_of_tests(random)) {
+    const std::vector<Color> colors = paint(tank);
+    const PaintedBricks bricks = paint_bricks(tank);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const glm::uvec3 n = tank.size;
+      const glm::ivec3 voxel(i % n.x, i / n.x % n.y, i / (std::size_t{n.x} * n.y));
+      ASSERT_EQ(bricks.at(voxel), colors[i]);
+    }
+  }
+  // Two spheres of radius 2 touch at most 2^3 bricks each, however large the tank is.
+  const Tank wide{{2048, 2048, 64}, 1, {{{9, 9, 9}, 2}, {{2000, 2000, 60}, 2}}, {0xff0000ff, 0xff00ff00}};
+  const PaintedBricks few = paint_bricks(wide);
+  EXPECT_LE(few.colors.size(), 16u * 512);
+  EXPECT_EQ(few.at({9, 9, 9}), 0xff0000ffu);
+  EXPECT_EQ(few.at({2000, 2000, 60}), 0xff00ff00u);
+  EXPECT_EQ(few.at({1000, 1000, 30}), 0u);
+}
+
 TEST(VoxelIds, AndPaintAreTheSameForAnyNumberOfThreads) {
   Random random(5);
   const Tank tank = thrown_tank({120, 90, 70}, 1000, 0.2f, 12, random);
