@@ -92,6 +92,7 @@ std::span<const KeyBinding> tank_bindings() {
       KeyBinding{Action::pause, time, false, GLFW_KEY_P, "P", "play or pause"},
       KeyBinding{Action::rewind, time, false, GLFW_KEY_R, "R", "to the start"},
       KeyBinding{Action::panels, view, false, GLFW_KEY_TAB, "Tab", "settings and time line"},
+      KeyBinding{Action::close_popup, view, false, GLFW_KEY_ESCAPE, "Esc", "close a list or picker"},
       KeyBinding{Action::next_view, view, false, GLFW_KEY_V, "V", "spheres, or voxels"},
       KeyBinding{Action::overlay, view, false, GLFW_KEY_O, "O", "show or hide text and marks"},
       KeyBinding{Action::full_screen, view, false, GLFW_KEY_F11, "F11", "full screen"},

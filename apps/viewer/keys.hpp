@@ -51,6 +51,7 @@ enum class Action {
   overlay,
   full_screen,
   help,
+  close_popup,
   count,
 };
 constexpr std::size_t kActions = static_cast<std::size_t>(Action::count);

@@ -99,7 +99,7 @@ bool pick_colour(glm::vec3& colour, float strength) {
     storage.SetFloat(key, strength > 0 ? strength : 1);
   }
   const float held = storage.GetFloat(key, 1);
-  if (!begin_popup("colour")) return false;
+  if (!ImGui::BeginPopup("colour")) return false;
   glm::vec3 srgb = glm::convertLinearToSRGB(glm::clamp(colour / held, glm::vec3(0), glm::vec3(1)));
   const bool changed = colour_picker("##picker", &srgb);
   if (changed) colour = held * glm::convertSRGBToLinear(glm::clamp(srgb, glm::vec3(0), glm::vec3(1)));

@@ -15,6 +15,7 @@
 #include "apps/viewer/tank_painter.hpp"
 #include "apps/viewer/tank_ui.hpp"
 #include "apps/viewer/ui.hpp"
+#include "apps/viewer/widgets.hpp"
 #include "image/png.hpp"
 #include "scene/tank_writer.hpp"
 #include "spheres/file.hpp"
@@ -210,6 +211,7 @@ void TankViewer::act(Action action) {
   if (action == Action::focus) state_->focus_on_middle(tank_);
   if (action == Action::panels) choices_.panels = !choices_.panels;
   if (action == Action::overlay) choices_.overlay = !choices_.overlay;
+  if (action == Action::close_popup) close_popups();
   if (action == Action::help) choices_.help = !choices_.help;
   if (action == Action::full_screen) window_.toggle_full_screen();
   if (action == Action::screenshot) save_screenshot(free_name(options_.folder, "brume", ".png"), false);

@@ -69,7 +69,7 @@ void lay_out_file_list(Game& game) {
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("an image of a folder; or drop a file on the window");
   ImGui::SetNextWindowSize(ImVec2(320, 220));
-  if (!begin_popup("images")) return;
+  if (!ImGui::BeginPopup("images")) return;
   ImGui::TextDisabled("%s", choices.pictures.folder().c_str());
   std::optional<std::filesystem::path> folder, file;
   for (const std::string& name : choices.pictures.folders())

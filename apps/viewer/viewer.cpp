@@ -15,6 +15,7 @@
 #include "apps/viewer/screenshot.hpp"
 #include "apps/viewer/shader_reload.hpp"
 #include "apps/viewer/ui.hpp"
+#include "apps/viewer/widgets.hpp"
 #include "core/log.hpp"
 #include "render/playback.hpp"
 #include "scene/timeline_writer.hpp"
@@ -328,7 +329,7 @@ void Viewer::frame() {
   ui_.begin_frame();
   // Input that the panels capture does not reach the game.
   if (ui_.takes_keys()) input = {};
-  if (ui_.has_popup()) std::erase(input.pressed, Action::toggle_cursor);  // Escape closes it.
+  if (ui_.has_popup() && std::erase(input.pressed, Action::toggle_cursor) > 0) close_popups();
   if (ui_.takes_mouse()) {
     std::erase_if(input.pressed, [](Action a) { return a == Action::throw_smoke || a == Action::shoot; });
     input.wheel = 0;

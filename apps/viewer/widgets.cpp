@@ -15,12 +15,6 @@ bool added(const char* kind, const char* label, bool result) {
   return result;
 }
 
-/// Within a popup: Escape closes it, but first ends the input of a number in it.
-void close_on_escape() {
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) && !ImGui::IsAnyItemActive())
-    ImGui::CloseCurrentPopup();
-}
-
 }  // namespace
 
 void WidgetLog::add(ImGuiID id, const char* kind, const char* label) {
@@ -94,20 +88,14 @@ bool swatch(const char* label, glm::vec3 srgb) {
 bool begin_combo(const char* label, const char* shown) {
   // Only while it is closed: then the last item is the combo, otherwise its list.
   const bool is_open = ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLarge);
-  if (is_open) {
-    close_on_escape();
-  } else {
-    added("combo", label, false);
-  }
+  if (!is_open) added("combo", label, false);
   return is_open;
 }
 void end_combo() {
   ImGui::EndCombo();
 }
-bool begin_popup(const char* name) {
-  const bool is_open = ImGui::BeginPopup(name);
-  if (is_open) close_on_escape();
-  return is_open;
+void close_popups() {
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) ImGui::ClosePopupToLevel(0, true);
 }
 bool canvas(const char* label, float height) {
   const ImVec2 size(std::max(ImGui::GetContentRegionAvail().x, 16.0f), height);

@@ -55,12 +55,12 @@ bool slider(const char* label, double* value, double low, double high);
 bool drag(const char* label, float* value, float speed, float low, float high, const char* format);
 /// A patch of a colour that opens a popup of the same name.
 bool swatch(const char* label, glm::vec3 srgb);
-/// A list that opens below what it shows and closes by Escape; end_combo() behind its choices where it is
-/// open.
+/// A list that opens below what it shows; end_combo() behind its choices where it is open.
 bool begin_combo(const char* label, const char* shown);
 void end_combo();
-/// Closes by Escape; ImGui::EndPopup() behind its widgets where it is open.
-bool begin_popup(const char* name);
+/// Closes all popups and lists that are open. Between frames ImGui forgets a key that is pressed and released
+/// in one of them, so that this is an action of the window.
+void close_popups();
 /// An empty area as wide as its window, which takes clicks of the left and the right button and drags.
 bool canvas(const char* label, float height);
 bool colour_picker(const char* label, glm::vec3* srgb);
