@@ -1,5 +1,7 @@
 #include "passes/gbuffer.hpp"
 
+#include <functional>
+
 #include "brume_shaders.hpp"
 #include "shared/frame.h"
 
@@ -23,6 +25,35 @@ shared::DrawConstants constants_of(const Draw& draw, const shared::MaterialConst
   return {rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
 }
 
+constexpr std::uint32_t kAllTargets = 7, kEmissionTarget = 4;  // bits of kFormats
+
+gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode* fragment, std::uint32_t written) {
+  gpu::GraphicsInfo info;
+  info.vertex = &shaders::gbuffer_vert;
+  info.fragment = fragment;
+  info.colours = {std::begin(kFormats), std::end(kFormats)};
+  info.written = written;
+  return info;
+}
+
+bool is_cut(const shared::MaterialConstants& material) {
+  return material.alpha_cutoff > 0;
+}
+
+/// Whether its emission, 0, need not be written where depth was drawn before: nothing that glows can be
+/// behind it.
+bool is_dark(const shared::MaterialConstants& material) {
+  return material.emission == glm::vec3(0) && !is_cut(material);
+}
+
+void draw_one(gpu::Recorder& recorder, const gpu::Pipeline& pipeline, const SceneResources& scene,
+              const GBufferPass::VisibleDraw& visible) {
+  const Draw& draw = *visible.draw;
+  const auto constants = constants_of(draw, scene.materials[draw.material].constants, visible.moves);
+  recorder.push(pipeline, std::as_bytes(std::span(&constants, 1)));
+  recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
+}
+
 }  // namespace
 
 GBuffer::GBuffer(gpu::Context& context, glm::uvec2 size)
@@ -31,26 +62,38 @@ GBuffer::GBuffer(gpu::Context& context, glm::uvec2 size)
       emission(target_image(context, size, kFormats[2], VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)),
       depth(target_image(context, size, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)) {}
 
-GBufferPass::GBufferPass(gpu::Context& context)
-    : pipeline_(context,
-                {&shaders::gbuffer_vert, &shaders::gbuffer_frag, {std::begin(kFormats), std::end(kFormats)}}),
-      sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}) {}
+GBufferPass::GBufferPass(gpu::Context& context) : GBufferPass(context, context.info().kind != "cpu") {}
 
-void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
-                         HiddenObjects hidden, const planning::ViewFrustum& view, const gpu::Buffer& frame,
-                         const GBuffer& target) const {
-  recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
-  for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});
-  recorder.prepare_indices(scene.indices);
-  const glm::uvec2 size(target.depth.info().size);
-  recorder.begin_rendering(
-      {{&target.albedo_roughness, &target.normal_metallic, &target.emission}, &target.depth, {}}, size);
+GBufferPass::GBufferPass(gpu::Context& context, bool depth_first)
+    : pipeline_(context, pipeline_info(&shaders::gbuffer_frag, kAllTargets)),
+      sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}) {
+  if (!depth_first) return;
+  depth_pipeline_.emplace(context, pipeline_info(nullptr, 0));
+  dark_pipeline_.emplace(context, pipeline_info(&shaders::gbuffer_frag, kAllTargets & ~kEmissionTarget));
+}
+
+/// Depth alone: of what no texture cuts.
+void GBufferPass::draw_depth(gpu::Recorder& recorder, const SceneResources& scene,
+                             std::span<const VisibleDraw> draws, const gpu::Buffer& frame) const {
+  recorder.bind_for_draws(*depth_pipeline_, {{shared::kBindFrame, gpu::uniform(frame)},
+                                             {shared::kBindVertices, gpu::read(scene.vertices)}});
+  for (const VisibleDraw& visible : draws)
+    if (!is_cut(scene.materials[visible.draw->material].constants))
+      draw_one(recorder, *depth_pipeline_, scene, visible);
+}
+
+/// Those draws whose materials `accepts` takes.
+template <typename Accepts>
+void GBufferPass::draw_materials(gpu::Recorder& recorder, const gpu::GraphicsPipeline& pipeline,
+                                 const SceneResources& scene, std::span<const VisibleDraw> draws,
+                                 const gpu::Buffer& frame, const Accepts& accepts) const {
   std::uint32_t bound = scene::kNone;
-  const auto draw_one = [&](const Draw& draw, bool moves) {
-    const MaterialImages& material = scene.materials[draw.material];
-    if (draw.material != bound) {
+  for (const VisibleDraw& visible : draws) {
+    const MaterialImages& material = scene.materials[visible.draw->material];
+    if (!accepts(material.constants)) continue;
+    if (visible.draw->material != bound) {
       recorder.bind_for_draws(
-          pipeline_,
+          pipeline,
           {
               {shared::kBindFrame, gpu::uniform(frame)},
               {shared::kBindVertices, gpu::read(scene.vertices)},
@@ -58,16 +101,34 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
               {shared::kBindNormalMap, gpu::sampled(scene.images[material.normal], sampler_)},
               {shared::kBindRoughnessMap, gpu::sampled(scene.images[material.roughness], sampler_)},
           });
-      bound = draw.material;
+      bound = visible.draw->material;
     }
-    const auto constants = constants_of(draw, material.constants, moves);
-    recorder.push(pipeline_, std::as_bytes(std::span(&constants, 1)));
-    recorder.draw_indexed(scene.indices, draw.index_count, draw.first_index, draw.first_vertex);
-  };
+    draw_one(recorder, pipeline, scene, visible);
+  }
+}
+
+void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
+                         HiddenObjects hidden, const planning::ViewFrustum& view, const gpu::Buffer& frame,
+                         const GBuffer& target) const {
+  std::vector<VisibleDraw> draws;
   for (const Draw& draw : scene.draws)
     if (view.may_intersect({draw.centre_world, draw.radius}) && !is_hidden(draw, hidden))
-      draw_one(draw, false);
-  for (const Draw& draw : moving) draw_one(draw, true);
+      draws.push_back({&draw, false});
+  for (const Draw& draw : moving) draws.push_back({&draw, true});
+
+  recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
+  for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});
+  recorder.prepare_indices(scene.indices);
+  recorder.begin_rendering(
+      {{&target.albedo_roughness, &target.normal_metallic, &target.emission}, &target.depth, {}},
+      glm::uvec2(target.depth.info().size));
+  if (depth_pipeline_) {
+    draw_depth(recorder, scene, draws, frame);
+    draw_materials(recorder, *dark_pipeline_, scene, draws, frame, is_dark);
+    draw_materials(recorder, pipeline_, scene, draws, frame, std::not_fn(is_dark));
+  } else {
+    draw_materials(recorder, pipeline_, scene, draws, frame, [](const auto&) { return true; });
+  }
   recorder.end_rendering();
 }
 
