@@ -41,10 +41,18 @@ bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gath
 /// The media neither scatter nor glow: a ray has nothing but a transmittance.
 const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasGlow && kCount != kCountEntries;
 
+/// Behind this transmittance, steps through smoke alone are twice as long: what they add to the image, and what they
+/// may be off by, counts a quarter.
+const float kFineTransmittance = 0.25;
+
+bool is_fine(Gathered gathered) { return !kSmokeAlone || gathered.transmittance >= kFineTransmittance; }
+
 /// Marches span by span. What the samples of a span have in common is computed once per span; little is carried from
-/// step to step, because registers limit how many rays run at a time.
-void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float ds, float after_last,
-                 inout Gathered gathered) {
+/// step to step, because registers limit how many rays run at a time. Returns where the first step begins that should
+/// be longer, or `end`.
+float march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float ds, float after_last, float end,
+                  inout Gathered gathered) {
+  const bool fine = is_fine(gathered);
   for (float t = begin + jitter * ds; t < after_last;) {
     const MediaSpan span = media_span(ray, media, t, ds);
     const float t_stop = min(span.t_stop, after_last);
@@ -63,12 +71,14 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
       if (kHasGlow) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
       if (passed_log2 < 0.0) {
         const vec3 light = media_inscatter(media, here, gathered.texture_samples);
-        if (add_step(t - jitter * ds, dt, passed_log2, light, gathered)) return;
+        if (add_step(t - jitter * ds, dt, passed_log2, light, gathered)) return end;
+        if (fine && !is_fine(gathered)) return t + (1.0 - jitter) * ds;
       }
     }
-    if (kOnlyAbsorbs && add_step(span.t_first, dt, absorbed_log2, vec3(0.0), gathered)) return;
+    if (kOnlyAbsorbs && add_step(span.t_first, dt, absorbed_log2, vec3(0.0), gathered)) return end;
     t = span.t_next;
   }
+  return end;
 }
 
 /// Marches block by block through several volumes.
@@ -97,15 +107,20 @@ void march_blocks(WorldRay ray, MediaRay media, float jitter, float begin, float
   }
 }
 
-/// Marches the part [begin, end) of a ray in equal steps no longer than the media's. Each sample is at `jitter` in its
-/// step, [0, 1).
+/// Marches the part [begin, end) of a ray in equal steps no longer than the media's, twice that behind dense smoke.
+/// Each sample is at `jitter` in its step, [0, 1).
 void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
-  const float count = ceil((end - begin) / frame.media.step_length), ds = (end - begin) / max(count, 1.0);
-  const float after_last = begin + (count - 0.5 + jitter) * ds;
-  if (kByBlocks)
-    march_blocks(ray, media, jitter, begin, ds, after_last, gathered);
-  else
-    march_spans(ray, media, jitter, begin, ds, after_last, gathered);
+  do {
+    const float longest = is_fine(gathered) ? frame.media.step_length : 2.0 * frame.media.step_length;
+    const float count = ceil((end - begin) / longest), ds = (end - begin) / max(count, 1.0);
+    const float after_last = begin + (count - 0.5 + jitter) * ds;
+    if (kByBlocks) {
+      march_blocks(ray, media, jitter, begin, ds, after_last, gathered);
+      begin = end;
+    } else {
+      begin = march_spans(ray, media, jitter, begin, ds, after_last, end, gathered);
+    }
+  } while (begin < end);
 }
 
 #endif
