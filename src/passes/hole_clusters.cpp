@@ -61,11 +61,10 @@ void HoleClusters::record(gpu::Recorder& recorder, const planning::HolePlan& pla
                           const SmokeResources& smoke) {
   upload(recorder, plan);
   recorder.concurrently([&] { record_first(recorder, plan, frame, smoke); });
-  recorder.concurrently([&] {
-    record_clusters(recorder, plan, frame);
-    record_cells(recorder, plan, frame, smoke);
-  });
+  recorder.concurrently([&] { record_second(recorder, plan, frame, smoke); });
 }
+
+// Clusters, which pixels read, and cells, which light reads, do not depend on each other.
 
 void HoleClusters::record_first(gpu::Recorder& recorder, const planning::HolePlan& plan,
                                 const gpu::Buffer& frame, const SmokeResources& smoke) {
@@ -88,8 +87,8 @@ void HoleClusters::record_first(gpu::Recorder& recorder, const planning::HolePla
                             (plan.slot_count + kRow - 1) / kRow);
 }
 
-void HoleClusters::record_clusters(gpu::Recorder& recorder, const planning::HolePlan& plan,
-                                   const gpu::Buffer& frame) {
+void HoleClusters::record_second(gpu::Recorder& recorder, const planning::HolePlan& plan,
+                                 const gpu::Buffer& frame, const SmokeResources& smoke) {
   if (plan.holes.empty()) return;
   constexpr std::uint32_t kPerTile = shared::kCoarseTileTiles / 2;  // workgroups, along an axis
   recorder.bind(groups_pass_,
@@ -103,11 +102,6 @@ void HoleClusters::record_clusters(gpu::Recorder& recorder, const planning::Hole
                 shared::HoleListsParams{plan.word_capacity});
   recorder.dispatch_threads(groups_pass_, groups_pass_.group()[0] * kPerTile * plan.coarse_tiles.x,
                             kPerTile * plan.coarse_tiles.y);
-}
-
-void HoleClusters::record_cells(gpu::Recorder& recorder, const planning::HolePlan& plan,
-                                const gpu::Buffer& frame, const SmokeResources& smoke) {
-  if (plan.holes.empty()) return;
   recorder.bind(cells_pass_,
                 {
                     {shared::kBindFrame, gpu::uniform(frame)},

@@ -28,15 +28,12 @@ class HoleClusters {
   void reserve(const planning::HolePlan& plan);
   /// Uploads the holes of the reserved plan.
   void upload(gpu::Recorder& recorder, const planning::HolePlan& plan);
-  /// What both of the next two build on, after the frame's constants, which have the plan's layout, and the
-  /// smoke were uploaded. The dispatches of a step are independent (gpu::Recorder::concurrently).
+  /// Clusters them in two steps, after the frame's constants, which have the plan's layout, and the smoke
+  /// were uploaded. The dispatches of a step are independent (gpu::Recorder::concurrently).
   void record_first(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
                     const SmokeResources& smoke);
-  /// Cells, which light reads.
-  void record_cells(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
-                    const SmokeResources& smoke);
-  /// Clusters, which the rays of pixels read.
-  void record_clusters(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame);
+  void record_second(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
+                     const SmokeResources& smoke);
   /// All of it, where nothing else runs beside a step.
   void record(gpu::Recorder& recorder, const planning::HolePlan& plan, const gpu::Buffer& frame,
               const SmokeResources& smoke);

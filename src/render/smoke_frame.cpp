@@ -125,7 +125,7 @@ void SmokeFrame::record_density(gpu::Recorder& recorder, const FramePlan& plan, 
     const auto& parts = plan.smoke_light->parts;
     if (!parts.empty()) light_pass_.record_texel_lists(recorder, light_inputs(plan, in), parts.front());
   });
-  hole_clusters_.record_cells(recorder, plan.holes, in.frame, resources());
+  recorder.concurrently([&] { hole_clusters_.record_second(recorder, plan.holes, in.frame, resources()); });
 }
 
 void SmokeFrame::record_shadows(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
@@ -142,10 +142,9 @@ void SmokeFrame::record_light(gpu::Recorder& recorder, const FramePlan& plan, co
   const passes::SmokeLightPass::Inputs inputs = light_inputs(plan, in);
   for (std::size_t i = 0; i < std::max<std::size_t>(parts.size(), 1); ++i) {
     if (i > 0) light_pass_.record_texel_lists(recorder, inputs, parts[i]);
-    // None of these fills the device, and none reads what another writes.
+    // Neither fills the device, and neither reads what the other writes.
     recorder.concurrently([&] {
       if (i == 0) record_shadows(recorder, plan, in);
-      if (i == 0) hole_clusters_.record_clusters(recorder, plan.holes, in.frame);
       if (i < parts.size()) light_pass_.record_rays(recorder, inputs, parts[i]);
     });
     if (i < parts.size())

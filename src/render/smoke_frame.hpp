@@ -70,10 +70,10 @@ class SmokeFrame {
   void reserve(planning::FramePlan& plan, planning::PlanHistory& history);
 
   void record_upload(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
-  /// The smoke as light meets it: its noise advected, the cells of its holes, the texels that light may
-  /// reach listed.
+  /// The smoke as rays meet it: its noise advected, its holes clustered, the texels that light may reach
+  /// listed.
   void record_density(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
-  /// The smoke's shadows on surfaces, and the light in it; beside them the clusters of holes for the march.
+  /// The smoke's shadows on surfaces, and the light in it.
   void record_light(gpu::Recorder& recorder, const planning::FramePlan& plan, const FrameResources& in);
   void record_volume_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
                            const FrameResources& in);
