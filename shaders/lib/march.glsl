@@ -41,18 +41,19 @@ bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gath
 /// The media neither scatter nor glow: a ray has nothing but a transmittance.
 const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasGlow && kCount != kCountEntries;
 
-/// Behind this transmittance, steps through smoke alone are twice as long: what they add to the image, and what they
-/// may be off by, counts a quarter.
-const float kFineTransmittance = 0.25;
-
-bool is_fine(Gathered gathered) { return !kSmokeAlone || gathered.transmittance >= kFineTransmittance; }
+/// Length of the steps behind a transmittance, relative to the first: what they add to the image, and what they may be
+/// off by, counts that much less. Through smoke alone.
+float step_factor(float transmittance) {
+  if (!kSmokeAlone) return 1.0;
+  return transmittance < 0.0625 ? 4.0 : transmittance < 0.25 ? 2.0 : 1.0;
+}
 
 /// Marches span by span. What the samples of a span have in common is computed once per span; little is carried from
 /// step to step, because registers limit how many rays run at a time. Returns where the first step begins that should
 /// be longer, or `end`.
 float march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float ds, float after_last, float end,
                   inout Gathered gathered) {
-  const bool fine = is_fine(gathered);
+  const float factor = step_factor(gathered.transmittance);
   for (float t = begin + jitter * ds; t < after_last;) {
     const MediaSpan span = media_span(ray, media, t, ds);
     const float t_stop = min(span.t_stop, after_last);
@@ -72,7 +73,7 @@ float march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float
       if (passed_log2 < 0.0) {
         const vec3 light = media_inscatter(media, here, gathered.texture_samples);
         if (add_step(t - jitter * ds, dt, passed_log2, light, gathered)) return end;
-        if (fine && !is_fine(gathered)) return t + (1.0 - jitter) * ds;
+        if (step_factor(gathered.transmittance) > factor) return t + (1.0 - jitter) * ds;
       }
     }
     if (kOnlyAbsorbs && add_step(span.t_first, dt, absorbed_log2, vec3(0.0), gathered)) return end;
@@ -107,11 +108,11 @@ void march_blocks(WorldRay ray, MediaRay media, float jitter, float begin, float
   }
 }
 
-/// Marches the part [begin, end) of a ray in equal steps no longer than the media's, twice that behind dense smoke.
-/// Each sample is at `jitter` in its step, [0, 1).
+/// Marches the part [begin, end) of a ray in steps no longer than the media's, times step_factor. Each sample is at
+/// `jitter` in its step, [0, 1).
 void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
   do {
-    const float longest = is_fine(gathered) ? frame.media.step_length : 2.0 * frame.media.step_length;
+    const float longest = step_factor(gathered.transmittance) * frame.media.step_length;
     const float count = ceil((end - begin) / longest), ds = (end - begin) / max(count, 1.0);
     const float after_last = begin + (count - 0.5 + jitter) * ds;
     if (kByBlocks) {

@@ -82,12 +82,24 @@ class MarchTest : public gpu::GpuTest {
   std::uint32_t samples_ = 0;
 };
 
-/// Steps of a path through smoke of density 1: they double in length once less than a quarter of the light
-/// passes.
+/// Steps of a path through smoke of density 1: twice as long behind a quarter of the light, four times behind
+/// a sixteenth.
 std::uint32_t steps_of(float path, const shared::SmokeLook& look) {
-  const float ds = path / std::ceil(path / look.step_length);
-  const float fine = std::floor(std::log(4.0f) / (look.extinction * ds)) + 1;
-  return static_cast<std::uint32_t>(fine + std::ceil((path - fine * ds) / (2 * look.step_length)));
+  const auto factor_of = [](float transmittance) {
+    return transmittance < 1.0f / 16 ? 4 : transmittance < 0.25f ? 2 : 1;
+  };
+  std::uint32_t steps = 0;
+  float begin = 0, transmittance = 1;
+  while (path - begin > 1e-3f) {
+    const int factor = factor_of(transmittance);
+    const float length = static_cast<float>(factor) * look.step_length;
+    const float ds = (path - begin) / std::ceil((path - begin) / length);
+    for (; path - begin > 1e-3f && factor_of(transmittance) == factor; ++steps) {
+      begin += ds;
+      transmittance *= std::exp(-look.extinction * ds);
+    }
+  }
+  return steps;
 }
 
 /// A grid without walls, full of smoke: a box of constant density.
