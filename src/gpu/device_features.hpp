@@ -24,7 +24,6 @@ struct DeviceFeatures {
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &vulkan12;
     features.features.shaderStorageImageExtendedFormats = VK_TRUE;
-    features.features.independentBlend = VK_TRUE;
   }
   DeviceFeatures(const DeviceFeatures&) = delete;
   DeviceFeatures& operator=(const DeviceFeatures&) = delete;

@@ -38,7 +38,6 @@ std::string missing_feature(const Functions& vk, VkPhysicalDevice device, std::u
   if (!features12.timelineSemaphore) return "lacks timelineSemaphore";
   if (!features12.scalarBlockLayout) return "lacks scalarBlockLayout";
   if (!features.features.shaderStorageImageExtendedFormats) return "lacks shaderStorageImageExtendedFormats";
-  if (!features.features.independentBlend) return "lacks independentBlend";
   VkPhysicalDeviceSubgroupProperties subgroups{};
   subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups, {}};

@@ -47,9 +47,9 @@ VkPipelineRasterizationStateCreateInfo raster_state(const GraphicsInfo& wanted) 
   return raster;
 }
 
-VkPipelineColorBlendAttachmentState colour_state(Blend blend, bool is_written) {
+VkPipelineColorBlendAttachmentState colour_state(Blend blend) {
   VkPipelineColorBlendAttachmentState colour{};
-  colour.colorWriteMask = is_written ? 0xf : 0;
+  colour.colorWriteMask = 0xf;
   colour.blendEnable = blend != Blend::none ? VK_TRUE : VK_FALSE;
   if (blend == Blend::medium) {
     colour.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
@@ -63,13 +63,6 @@ VkPipelineColorBlendAttachmentState colour_state(Blend blend, bool is_written) {
     colour.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   }
   return colour;
-}
-
-std::vector<VkPipelineColorBlendAttachmentState> colour_states(const GraphicsInfo& info) {
-  std::vector<VkPipelineColorBlendAttachmentState> states;
-  for (std::size_t i = 0; i < info.colours.size(); ++i)
-    states.push_back(colour_state(info.blend, (info.written >> i & 1u) != 0));
-  return states;
 }
 
 std::vector<ShaderCode> stages_of(const GraphicsInfo& info) {
@@ -200,7 +193,8 @@ VkResult GraphicsPipeline::make(std::span<const ShaderCode> shaders, VkPipeline*
   depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
   depth.depthTestEnable = depth.depthWriteEnable = info_.depth != VK_FORMAT_UNDEFINED ? VK_TRUE : VK_FALSE;
   depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
-  const std::vector<VkPipelineColorBlendAttachmentState> attachments = colour_states(info_);
+  const std::vector<VkPipelineColorBlendAttachmentState> attachments(info_.colours.size(),
+                                                                     colour_state(info_.blend));
   VkPipelineColorBlendStateCreateInfo blend{};
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
   blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());

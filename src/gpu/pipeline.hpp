@@ -80,13 +80,12 @@ enum class Blend {
 
 struct GraphicsInfo {
   const ShaderCode* vertex = nullptr;
-  const ShaderCode* fragment = nullptr;  ///< null: depth only; `written` is then 0.
+  const ShaderCode* fragment = nullptr;  ///< null: depth only.
   std::vector<VkFormat> colours;
   VkFormat depth = VK_FORMAT_D32_SFLOAT;  ///< VK_FORMAT_UNDEFINED: no depth.
   float depth_bias_slope = 0;  ///< Pushes surfaces away from the eye (reverse depth) by their slope.
   float depth_bias_constant = 0;
   Blend blend = Blend::none;
-  std::uint32_t written = ~0u;  ///< Which of `colours` it writes, a bit each; the others keep their contents.
 };
 
 /// Triangles with reverse depth (greater is nearer) and dynamic cull mode; shaders pull vertices from

@@ -137,9 +137,10 @@ class Recorder {
     std::vector<const Image*> colours;
     const Image* depth = nullptr;
     VkImageView depth_view = VK_NULL_HANDLE;  ///< Of one layer; null: the image's own view.
-    bool keep = false;                        ///< Preserves their contents.
+    std::uint32_t keep = 0;                   ///< Colours whose contents are preserved, a bit each.
+    bool keep_depth = false;
   };
-  /// Clears the attachments to 0 (reverse depth: infinitely far) unless `keep` is set.
+  /// Clears the attachments that are not kept to 0 (reverse depth: infinitely far).
   void begin_rendering(const Attachments& attachments, glm::uvec2 size_px);
   void end_rendering();
   void draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,

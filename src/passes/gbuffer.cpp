@@ -1,7 +1,5 @@
 #include "passes/gbuffer.hpp"
 
-#include <functional>
-
 #include "brume_shaders.hpp"
 #include "shared/frame.h"
 
@@ -25,14 +23,12 @@ shared::DrawConstants constants_of(const Draw& draw, const shared::MaterialConst
   return {rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
 }
 
-constexpr std::uint32_t kAllTargets = 7, kEmissionTarget = 4;  // bits of kFormats
-
-gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode* fragment, std::uint32_t written) {
+/// Writes the first `targets` of kFormats.
+gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode* fragment, std::size_t targets) {
   gpu::GraphicsInfo info;
   info.vertex = &shaders::gbuffer_vert;
   info.fragment = fragment;
-  info.colours = {std::begin(kFormats), std::end(kFormats)};
-  info.written = written;
+  info.colours.assign(kFormats, kFormats + targets);
   return info;
 }
 
@@ -65,11 +61,11 @@ GBuffer::GBuffer(gpu::Context& context, glm::uvec2 size)
 GBufferPass::GBufferPass(gpu::Context& context) : GBufferPass(context, context.info().kind != "cpu") {}
 
 GBufferPass::GBufferPass(gpu::Context& context, bool depth_first)
-    : pipeline_(context, pipeline_info(&shaders::gbuffer_frag, kAllTargets)),
+    : pipeline_(context, pipeline_info(&shaders::gbuffer_frag, 3)),
       sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}) {
   if (!depth_first) return;
   depth_pipeline_.emplace(context, pipeline_info(nullptr, 0));
-  dark_pipeline_.emplace(context, pipeline_info(&shaders::gbuffer_frag, kAllTargets & ~kEmissionTarget));
+  dark_pipeline_.emplace(context, pipeline_info(&shaders::gbuffer_frag, 2));
 }
 
 /// Depth alone: of what no texture cuts.
@@ -119,16 +115,24 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
   recorder.prepare_for_draws({gpu::uniform(frame), gpu::read(scene.vertices)});
   for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});
   recorder.prepare_indices(scene.indices);
-  recorder.begin_rendering(
-      {{&target.albedo_roughness, &target.normal_metallic, &target.emission}, &target.depth, {}},
-      glm::uvec2(target.depth.info().size));
+  const glm::uvec2 size(target.depth.info().size);
+  gpu::Recorder::Attachments attachments{{}, &target.depth};
   if (depth_pipeline_) {
+    recorder.begin_rendering(attachments, size);
     draw_depth(recorder, scene, draws, frame);
+    recorder.end_rendering();
+    attachments.keep_depth = true;
+    attachments.colours = {&target.albedo_roughness, &target.normal_metallic};
+    recorder.begin_rendering(attachments, size);
     draw_materials(recorder, *dark_pipeline_, scene, draws, frame, is_dark);
-    draw_materials(recorder, pipeline_, scene, draws, frame, std::not_fn(is_dark));
-  } else {
-    draw_materials(recorder, pipeline_, scene, draws, frame, [](const auto&) { return true; });
+    recorder.end_rendering();
+    attachments.keep = 3;
   }
+  attachments.colours = {&target.albedo_roughness, &target.normal_metallic, &target.emission};
+  recorder.begin_rendering(attachments, size);
+  draw_materials(recorder, pipeline_, scene, draws, frame, [&](const shared::MaterialConstants& material) {
+    return !dark_pipeline_ || !is_dark(material);
+  });
   recorder.end_rendering();
 }
 
