@@ -20,9 +20,6 @@
 layout(constant_id = 0) const uint kCullLights = 1u;  // 0: every light at every pixel
 layout(constant_id = 1) const uint kVoxelShadows = 1u;  // 0: no light is shadowed by voxels
 layout(constant_id = 2) const uint kDecals = 0u;        // 0: nothing reads the occlusion by decals
-// 1: shadows of the level are looked up before all else, and lights that shine on no thread are skipped; 0: along with
-// those of smoke, to wait for both at once.
-layout(constant_id = 3) const uint kShadowsFirst = 1u;
 
 const uint kGroup = 8u;
 layout(local_size_x = kGroup, local_size_y = kGroup) in;
@@ -68,8 +65,6 @@ bool reaches_tile(Light light, TileSurfaces tile) {
   return kCullLights == 0u || (reaches_box(light, box) && faces_tile(light, tile));
 }
 
-bool by_voxels(Light light) { return kVoxelShadows != 0u && light.shadow_layer == kShadowByVoxels; }
-
 /// Transmittance of the smoke between a light and a surface. `texel_uv`: the size of a texel of the atlas.
 float smoke_transmittance(uint index, vec4 on_face, vec2 texel_uv) {
   const SmokeShadowFace face = face_from_rows(index * kFacesPerLight + uint(on_face.z));
@@ -91,40 +86,35 @@ uint reaching_lights(uint first, uint end, TileSurfaces tile) {
   return reaching;
 }
 
-/// Fraction of a light that the level lets through to a point slightly off a surface.
-float level_visibility(Light light, vec3 off_world, vec4 on_face) {
-  if (by_voxels(light)) return segment_visibility(off_world, light.position_world);
-  return shadow_at(shadow_maps, light, on_face);
-}
-
-/// Adds the reflected radiance of up to 32 lights from `first` on, with their shadows and the smoke in between.
+/// Adds the reflected radiance of up to 32 lights from `first` on, with their shadows and the smoke in between. Shades
+/// only lights that shine on some thread's surface: walls occlude many.
 void add_lights(uint first, uint lights, bool lit, Surface surface, vec3 view, inout vec3 radiance) {
   const vec2 texel_uv = 1.0 / vec2(textureSize(smoke_shadows, 0));
   do {
     uint index;
-    Light light;
-    Incident incident;
-    vec3 off_world;
+    vec3 intensity, to_light;
     vec4 on_face;
     float received;  // by the surface, per intensity
     do {
       index = first + uint(findLSB(lights));
       lights &= lights - 1u;
-      light = light_from_rows(index);
-      incident = light_at(light, surface.position_world);
+      const Light light = light_from_rows(index);
+      const Incident incident = light_at(light, surface.position_world);
+      intensity = light.intensity;
+      to_light = incident.to_light;
       // Against self-shadowing the lookup is one texel of the shadow off the surface.
-      const float off = by_voxels(light) ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
-      off_world = surface.position_world + off * surface.normal;
+      const bool by_voxels = kVoxelShadows != 0u && light.shadow_layer == kShadowByVoxels;
+      const float off = by_voxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
+      const vec3 off_world = surface.position_world + off * surface.normal;
       // The smoke's shadow has no surfaces of its own: off the surface, a light close to it would be on the other side.
-      on_face = face_coordinates(light, sun.clip_from_world, by_voxels(light) ? surface.position_world : off_world);
-      received = max(dot(surface.normal, incident.to_light), 0.0) * incident.falloff;
-      if (kShadowsFirst != 0u) received *= level_visibility(light, off_world, on_face);
+      on_face = face_coordinates(light, sun.clip_from_world, by_voxels ? surface.position_world : off_world);
+      const float visibility = by_voxels ? segment_visibility(off_world, light.position_world)
+                                         : shadow_at(shadow_maps, light, on_face);
+      received = max(dot(surface.normal, to_light), 0.0) * incident.falloff * visibility;
     } while (lights != 0u && !subgroupAny(lit && received > 0.0));
-    if (received > 0.0) {
-      if (kShadowsFirst == 0u) received *= level_visibility(light, off_world, on_face);
-      received *= smoke_transmittance(index, on_face, texel_uv);
-      radiance += reflectance(surface, view, incident.to_light) * light.intensity * received;
-    }
+    if (received > 0.0)
+      radiance += reflectance(surface, view, to_light) * intensity *
+                  (received * smoke_transmittance(index, on_face, texel_uv));
   } while (lights != 0u);
 }
 

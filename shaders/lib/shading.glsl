@@ -12,8 +12,8 @@ struct Surface {
   float metallic;
 };
 
-/// Radiance towards `view` for unit irradiance on the surface from `to_light`, both unit vectors in front of it: Lambert
-/// and GGX with Schlick's Fresnel and Hammon's 2017 approximation of the height-correlated Smith term.
+/// Radiance towards `view` for unit irradiance on the surface from `to_light`, both unit vectors in front of it:
+/// Lambert and GGX with Schlick's Fresnel and Hammon's 2017 approximation of the height-correlated Smith term.
 vec3 reflectance(Surface s, vec3 view, vec3 to_light) {
   const float n_l = dot(s.normal, to_light), n_v = dot(s.normal, view), facing = max(n_v, 1e-3);
   // The sum of both vectors has the length 2 h.view.

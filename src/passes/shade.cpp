@@ -10,18 +10,16 @@ namespace brume::passes {
 ShadePass::ShadePass(gpu::Context& context, bool cull_lights)
     : context_(context),
       cull_lights_(cull_lights ? 1 : 0),
-      shadows_first_(context.info().kind == "cpu" ? 1 : 0),
-      mapped_(context, shaders::shade_comp, {cull_lights_, 0u, 0u, shadows_first_}),
-      mapped_and_voxels_(context, shaders::shade_comp, {cull_lights_, 1u, 0u, shadows_first_}),
+      mapped_(context, shaders::shade_comp, {cull_lights_, 0u, 0u}),
+      mapped_and_voxels_(context, shaders::shade_comp, {cull_lights_, 1u, 0u}),
       nearest_(context, {VK_FILTER_NEAREST}),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {}
 
 void ShadePass::reserve_decals() {
   if (decals_) return;
-  decals_.emplace(context_, shaders::shade_comp, std::vector{cull_lights_, 0u, 1u, shadows_first_});
-  decals_and_voxels_.emplace(context_, shaders::shade_comp,
-                             std::vector{cull_lights_, 1u, 1u, shadows_first_});
+  decals_.emplace(context_, shaders::shade_comp, std::vector<std::uint32_t>{cull_lights_, 0u, 1u});
+  decals_and_voxels_.emplace(context_, shaders::shade_comp, std::vector<std::uint32_t>{cull_lights_, 1u, 1u});
 }
 
 const gpu::ComputePipeline& ShadePass::pipeline(bool voxel_shadows, bool decals) const {

@@ -37,7 +37,7 @@ class ShadePass {
   const gpu::ComputePipeline& pipeline(bool voxel_shadows, bool decals) const;
 
   gpu::Context& context_;
-  std::uint32_t cull_lights_, shadows_first_;
+  std::uint32_t cull_lights_;
   gpu::ComputePipeline mapped_, mapped_and_voxels_;  // by the shadows that lights have
   std::optional<gpu::ComputePipeline> decals_, decals_and_voxels_;
   gpu::Sampler nearest_, linear_, compare_;
