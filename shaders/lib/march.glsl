@@ -121,7 +121,7 @@ void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, i
     } else {
       begin = march_spans(ray, media, jitter, begin, ds, after_last, end, gathered);
     }
-  } while (begin < end);
+  } while (end - begin > 0.01 * frame.media.step_length);  // more than rounding
 }
 
 #endif

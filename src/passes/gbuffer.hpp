@@ -37,15 +37,20 @@ class GBufferPass {
   };
 
  private:
-  void draw_depth(gpu::Recorder& recorder, const SceneResources& scene, std::span<const VisibleDraw> draws,
-                  const gpu::Buffer& frame) const;
+  /// What it takes to draw depth first.
+  struct DepthFirst {
+    explicit DepthFirst(gpu::Context& context);
+    gpu::GraphicsPipeline depth, background, dark;
+  };
+  void draw_dark(gpu::Recorder& recorder, const SceneResources& scene, std::span<const VisibleDraw> draws,
+                 const gpu::Buffer& frame, const GBuffer& target) const;
   template <typename Accepts>
   void draw_materials(gpu::Recorder& recorder, const gpu::GraphicsPipeline& pipeline,
                       const SceneResources& scene, std::span<const VisibleDraw> draws,
                       const gpu::Buffer& frame, const Accepts& accepts) const;
 
   gpu::GraphicsPipeline pipeline_;
-  std::optional<gpu::GraphicsPipeline> depth_pipeline_, dark_pipeline_;  ///< Where depth is drawn first.
+  std::optional<DepthFirst> depth_first_;
   gpu::Sampler sampler_;
 };
 
