@@ -1,7 +1,5 @@
 #include "passes/gbuffer.hpp"
 
-#include <algorithm>
-
 #include "brume_shaders.hpp"
 #include "shared/frame.h"
 
@@ -13,8 +11,7 @@ gpu::Image target_image(gpu::Context& context, glm::uvec2 size, VkFormat format,
   gpu::ImageInfo info;
   info.format = format;
   info.size = {size, 1};
-  info.usage = attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-               (attachment & VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
+  info.usage = attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   return gpu::Image(context, info);
 }
 
@@ -26,25 +23,15 @@ shared::DrawConstants constants_of(const Draw& draw, const shared::MaterialConst
   return {rows[0], rows[1], rows[2], material, moves ? 1.0f : 0.0f};
 }
 
-/// Writes the first `targets` of kFormats.
-gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode& vertex, const gpu::ShaderCode* fragment,
-                                std::size_t targets) {
-  gpu::GraphicsInfo info;
-  info.vertex = &vertex;
-  info.fragment = fragment;
-  info.colours.assign(kFormats, kFormats + targets);
+/// Writes depth and, with a fragment shader, all targets.
+gpu::GraphicsInfo pipeline_info(const gpu::ShaderCode& vertex, const gpu::ShaderCode* fragment) {
+  gpu::GraphicsInfo info{&vertex, fragment, {}};
+  if (fragment) info.colours = {std::begin(kFormats), std::end(kFormats)};
   return info;
 }
 
 bool is_cut(const shared::MaterialConstants& material) {
   return material.alpha_cutoff > 0;
-}
-
-/// Whether its emission, 0, need not be written where depth was drawn before: nothing that glows can be
-/// behind it.
-bool is_dark(const GBufferPass::VisibleDraw& visible, const SceneResources& scene) {
-  const shared::MaterialConstants& material = scene.materials[visible.draw->material].constants;
-  return material.emission == glm::vec3(0) && !is_cut(material);
 }
 
 void draw_one(gpu::Recorder& recorder, const gpu::Pipeline& pipeline, const SceneResources& scene,
@@ -64,32 +51,27 @@ GBuffer::GBuffer(gpu::Context& context, glm::uvec2 size)
       depth(target_image(context, size, VK_FORMAT_D32_SFLOAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)) {}
 
 GBufferPass::DepthFirst::DepthFirst(gpu::Context& context)
-    : depth(context, pipeline_info(shaders::gbuffer_vert, nullptr, 0)),
+    : depth(context, pipeline_info(shaders::gbuffer_vert, nullptr)),
       background(context,
-                 pipeline_info(shaders::gbuffer_background_vert, &shaders::gbuffer_background_frag, 2)),
-      dark(context, pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_frag, 2)) {}
+                 pipeline_info(shaders::gbuffer_background_vert, &shaders::gbuffer_background_frag)) {}
 
 GBufferPass::GBufferPass(gpu::Context& context) : GBufferPass(context, context.info().kind != "cpu") {}
 
 GBufferPass::GBufferPass(gpu::Context& context, bool depth_first)
-    : pipeline_(context, pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_frag, 3)),
+    : pipeline_(context, pipeline_info(shaders::gbuffer_vert, &shaders::gbuffer_frag)),
       sampler_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, true}) {
   if (!depth_first) return;
   depth_first_.emplace(context);
 }
 
-/// Those draws that `accepts` takes.
-template <typename Accepts>
-void GBufferPass::draw_materials(gpu::Recorder& recorder, const gpu::GraphicsPipeline& pipeline,
-                                 const SceneResources& scene, std::span<const VisibleDraw> draws,
-                                 const gpu::Buffer& frame, const Accepts& accepts) const {
+void GBufferPass::draw_materials(gpu::Recorder& recorder, const SceneResources& scene,
+                                 std::span<const VisibleDraw> draws, const gpu::Buffer& frame) const {
   std::uint32_t bound = scene::kNone;
   for (const VisibleDraw& visible : draws) {
-    if (!accepts(visible)) continue;
     const MaterialImages& material = scene.materials[visible.draw->material];
     if (visible.draw->material != bound) {
       recorder.bind_for_draws(
-          pipeline,
+          pipeline_,
           {
               {shared::kBindFrame, gpu::uniform(frame)},
               {shared::kBindVertices, gpu::read(scene.vertices)},
@@ -99,7 +81,7 @@ void GBufferPass::draw_materials(gpu::Recorder& recorder, const gpu::GraphicsPip
           });
       bound = visible.draw->material;
     }
-    draw_one(recorder, pipeline, scene, visible);
+    draw_one(recorder, pipeline_, scene, visible);
   }
 }
 
@@ -116,47 +98,32 @@ void GBufferPass::record(gpu::Recorder& recorder, const SceneResources& scene, s
   for (const gpu::Image& image : scene.images) recorder.prepare_for_draws({gpu::sampled(image, sampler_)});
   recorder.prepare_indices(scene.indices);
   const glm::uvec2 size(target.depth.info().size);
-  gpu::Recorder::Attachments attachments{
-      {&target.albedo_roughness, &target.normal_metallic, &target.emission}, &target.depth};
+  gpu::Recorder::Attachments attachments{{}, &target.depth};
   if (depth_first_) {
-    draw_dark(recorder, scene, draws, frame, target);
-    if (std::ranges::all_of(draws, [&](const VisibleDraw& visible) { return is_dark(visible, scene); }))
-      return;
-    attachments.keep = 7;
-    attachments.keep_depth = true;
+    recorder.begin_rendering(attachments, size);
+    draw_depth(recorder, scene, draws, frame);
+    recorder.end_rendering();
+    attachments.keep_depth = attachments.overwrite = true;
   }
+  attachments.colours = {&target.albedo_roughness, &target.normal_metallic, &target.emission};
   recorder.begin_rendering(attachments, size);
-  draw_materials(recorder, pipeline_, scene, draws, frame,
-                 [&](const VisibleDraw& visible) { return !depth_first_ || !is_dark(visible, scene); });
+  if (depth_first_) {
+    // Instead of a clear, which would cost as much as another surface where there are few raster units.
+    recorder.bind_for_draws(depth_first_->background, {});
+    recorder.draw(3);
+  }
+  draw_materials(recorder, scene, draws, frame);
   recorder.end_rendering();
 }
 
-/// The depth of all surfaces that no texture cuts, then the materials of those among them that do not glow.
-/// Draws every pixel of each target once, because clears cost as much as surfaces where there are few raster
-/// units.
-void GBufferPass::draw_dark(gpu::Recorder& recorder, const SceneResources& scene,
-                            std::span<const VisibleDraw> draws, const gpu::Buffer& frame,
-                            const GBuffer& target) const {
-  const glm::uvec2 size(target.depth.info().size);
-  gpu::Recorder::Attachments attachments{{}, &target.depth};
-  recorder.clear(target.emission, {});
-  recorder.begin_rendering(attachments, size);
+/// The depth of all surfaces that no texture cuts.
+void GBufferPass::draw_depth(gpu::Recorder& recorder, const SceneResources& scene,
+                             std::span<const VisibleDraw> draws, const gpu::Buffer& frame) const {
   recorder.bind_for_draws(depth_first_->depth, {{shared::kBindFrame, gpu::uniform(frame)},
                                                 {shared::kBindVertices, gpu::read(scene.vertices)}});
   for (const VisibleDraw& visible : draws)
     if (!is_cut(scene.materials[visible.draw->material].constants))
       draw_one(recorder, depth_first_->depth, scene, visible);
-  recorder.end_rendering();
-
-  attachments.colours = {&target.albedo_roughness, &target.normal_metallic};
-  attachments.keep_depth = true;
-  attachments.overwrite = true;
-  recorder.begin_rendering(attachments, size);
-  recorder.bind_for_draws(depth_first_->background, {});
-  recorder.draw(3);
-  draw_materials(recorder, depth_first_->dark, scene, draws, frame,
-                 [&](const VisibleDraw& visible) { return is_dark(visible, scene); });
-  recorder.end_rendering();
 }
 
 }  // namespace brume::passes

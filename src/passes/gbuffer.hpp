@@ -40,14 +40,12 @@ class GBufferPass {
   /// What it takes to draw depth first.
   struct DepthFirst {
     explicit DepthFirst(gpu::Context& context);
-    gpu::GraphicsPipeline depth, background, dark;
+    gpu::GraphicsPipeline depth, background;
   };
-  void draw_dark(gpu::Recorder& recorder, const SceneResources& scene, std::span<const VisibleDraw> draws,
-                 const gpu::Buffer& frame, const GBuffer& target) const;
-  template <typename Accepts>
-  void draw_materials(gpu::Recorder& recorder, const gpu::GraphicsPipeline& pipeline,
-                      const SceneResources& scene, std::span<const VisibleDraw> draws,
-                      const gpu::Buffer& frame, const Accepts& accepts) const;
+  void draw_depth(gpu::Recorder& recorder, const SceneResources& scene, std::span<const VisibleDraw> draws,
+                  const gpu::Buffer& frame) const;
+  void draw_materials(gpu::Recorder& recorder, const SceneResources& scene,
+                      std::span<const VisibleDraw> draws, const gpu::Buffer& frame) const;
 
   gpu::GraphicsPipeline pipeline_;
   std::optional<DepthFirst> depth_first_;
