@@ -8,6 +8,8 @@
 layout(scalar, binding = kBindVertices) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, push_constant) uniform Push { DrawConstants draw; };
 
+// Equal in the pipelines with and without a fragment shader.
+invariant gl_Position;
 layout(location = 0) out vec3 normal_world;
 layout(location = 1) out vec4 tangent_world;
 layout(location = 2) out vec2 uv;

@@ -65,13 +65,13 @@ bool reaches_tile(Light light, TileSurfaces tile) {
   return kCullLights == 0u || (reaches_box(light, box) && faces_tile(light, tile));
 }
 
-/// Transmittance of the smoke between a light and a surface.
-float smoke_transmittance(uint index, vec4 on_face) {
+/// Transmittance of the smoke between a light and a surface. `texel_uv`: the size of a texel of the atlas.
+float smoke_transmittance(uint index, vec4 on_face, vec2 texel_uv) {
   const SmokeShadowFace face = face_from_rows(index * kFacesPerLight + uint(on_face.z));
   const vec2 texel = on_face.xy * face.scale + face.offset;
   const vec2 inside = clamp(texel, vec2(face.first_texel) + 0.5, vec2(face.first_texel + face.size) - 0.5);
   if (face.size.x == 0u || texel != inside) return 1.0;
-  return textureLod(smoke_shadows, texel / vec2(textureSize(smoke_shadows, 0)), 0.0).r;
+  return textureLod(smoke_shadows, texel * texel_uv, 0.0).r;
 }
 
 /// Lights that reach the tile, of those from `first` to below `end`: 32 at most, one bit each.
@@ -87,31 +87,34 @@ uint reaching_lights(uint first, uint end, TileSurfaces tile) {
 }
 
 /// Adds the reflected radiance of up to 32 lights from `first` on, with their shadows and the smoke in between. Shades
-/// only lights that some thread sees: walls occlude many.
+/// only lights that shine on some thread's surface: walls occlude many.
 void add_lights(uint first, uint lights, bool lit, Surface surface, vec3 view, inout vec3 radiance) {
+  const vec2 texel_uv = 1.0 / vec2(textureSize(smoke_shadows, 0));
   do {
     uint index;
-    Incident incident;
+    vec3 intensity, to_light;
     vec4 on_face;
-    float visibility;
+    float received;  // by the surface, per intensity
     do {
       index = first + uint(findLSB(lights));
       lights &= lights - 1u;
       const Light light = light_from_rows(index);
-      incident = light_at(light, surface.position_world);
+      const Incident incident = light_at(light, surface.position_world);
+      intensity = light.intensity;
+      to_light = incident.to_light;
       // Against self-shadowing the lookup is one texel of the shadow off the surface.
       const bool by_voxels = kVoxelShadows != 0u && light.shadow_layer == kShadowByVoxels;
       const float off = by_voxels ? frame.solid.texel_size : 0.01 + 0.006 * min(incident.distance, 10.0);
       const vec3 off_world = surface.position_world + off * surface.normal;
       // The smoke's shadow has no surfaces of its own: off the surface, a light close to it would be on the other side.
-      on_face =
-          face_coordinates(light, sun.clip_from_world, by_voxels ? surface.position_world : off_world);
-      visibility = by_voxels ? segment_visibility(off_world, light.position_world)
-                             : shadow_at(shadow_maps, light, on_face);
-    } while (lights != 0u && !subgroupAny(lit && visibility > 0.0));
-    if (visibility > 0.0)
-      radiance += reflect_light(surface, view, incident.to_light) * incident.irradiance *
-                  (visibility * smoke_transmittance(index, on_face));
+      on_face = face_coordinates(light, sun.clip_from_world, by_voxels ? surface.position_world : off_world);
+      const float visibility = by_voxels ? segment_visibility(off_world, light.position_world)
+                                         : shadow_at(shadow_maps, light, on_face);
+      received = max(dot(surface.normal, to_light), 0.0) * incident.falloff * visibility;
+    } while (lights != 0u && !subgroupAny(lit && received > 0.0));
+    if (received > 0.0)
+      radiance += reflectance(surface, view, to_light) * intensity *
+                  (received * smoke_transmittance(index, on_face, texel_uv));
   } while (lights != 0u);
 }
 

@@ -83,7 +83,7 @@ void UiPass::record(gpu::Recorder& recorder, const ImDrawData& data, const gpu::
   const glm::uvec2 size(picture.info().size);
   gpu::Recorder::Attachments attachments;
   attachments.colours = {&picture};
-  attachments.keep = true;
+  attachments.keep = 1;
   recorder.begin_rendering(attachments, size);
   recorder.bind_for_draws(pipeline_, {{shared::kBindUiVertices, vertices}, {shared::kBindUiFont, font}});
   const shared::UiConstants constants{glm::vec2(data.DisplayPos.x, data.DisplayPos.y),

@@ -5,6 +5,7 @@
 
 struct Incident {
   vec3 irradiance;  // on a surface that faces the light
+  float falloff;    // that per intensity of the light
   vec3 to_light;    // unit
   float distance;   // to the light, or to the edge of its ball [m]
 };
@@ -15,6 +16,7 @@ Incident light_at(Light light, vec3 position_world) {
   Incident incident;
   if (light.kind == kLightDirectional) {
     incident.irradiance = light.intensity;
+    incident.falloff = 1.0;
     incident.to_light = -light.direction;
     incident.distance = 1e4;
     return incident;
@@ -26,10 +28,10 @@ Incident light_at(Light light, vec3 position_world) {
   const float x = d2 / (light.range * light.range);
   const float window = clamp(1.0 - x * x, 0.0, 1.0);
   const float nearest = light.radius > 0.0 ? light.radius * light.radius : 0.01;
-  incident.irradiance = light.intensity * (window * window / max(d2, nearest));
-  if (light.kind == kLightSpot) {
-    incident.irradiance *= smoothstep(light.cos_outer, light.cos_inner, dot(-incident.to_light, light.direction));
-  }
+  incident.falloff = window * window * (d2 > nearest ? one_over * one_over : 1.0 / nearest);
+  if (light.kind == kLightSpot)
+    incident.falloff *= smoothstep(light.cos_outer, light.cos_inner, dot(-incident.to_light, light.direction));
+  incident.irradiance = light.intensity * incident.falloff;
   return incident;
 }
 

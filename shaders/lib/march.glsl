@@ -41,17 +41,39 @@ bool add_step(float t_begin, float ds, float passed_log2, vec3 light, inout Gath
 /// The media neither scatter nor glow: a ray has nothing but a transmittance.
 const bool kOnlyAbsorbs = !kHasSmoke && !kIsLit && !kHasGlow && kCount != kCountEntries;
 
+/// Length of the steps behind a transmittance, relative to the first: what they add to the image, and what they may be
+/// off by, counts that much less. Through smoke alone.
+float step_factor(float transmittance) {
+  if (!kSmokeAlone) return 1.0;
+  return transmittance < 0.0625 ? 4.0 : transmittance < 0.25 ? 2.0 : 1.0;
+}
+
+/// Equal steps along a ray, each with its sample at `jitter`.
+struct Steps {
+  float ds, after_last;  // between the last sample and one more
+};
+
+/// Divides [begin, end) into steps no longer than the media's, times `factor`.
+Steps steps_between(float begin, float end, float jitter, float factor) {
+  const float count = ceil((end - begin) / (factor * frame.media.step_length));
+  const float ds = (end - begin) / max(count, 1.0);
+  return Steps(ds, end + (jitter - 0.5) * ds);
+}
+
 /// Marches span by span. What the samples of a span have in common is computed once per span; little is carried from
 /// step to step, because registers limit how many rays run at a time.
-void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float ds, float after_last,
-                 inout Gathered gathered) {
-  for (float t = begin + jitter * ds; t < after_last;) {
-    const MediaSpan span = media_span(ray, media, t, ds);
-    const float t_stop = min(span.t_stop, after_last);
+void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
+  float factor = step_factor(gathered.transmittance);
+  Steps steps = steps_between(begin, end, jitter, factor);
+  for (float t = begin + jitter * steps.ds; t < steps.after_last;) {
+    const MediaSpan span = media_span(ray, media, t, steps.ds);
+    float t_stop = min(span.t_stop, steps.after_last);
+    bool lengthened = false;
     // Steps that are all alike are one.
-    const float alike = is_constant(span) ? max(ceil((t_stop - span.t_first) / ds), 1.0) : 1.0, dt = alike * ds;
+    const float alike = is_constant(span) ? max(ceil((t_stop - span.t_first) / steps.ds), 1.0) : 1.0;
     float absorbed_log2 = 0.0;
-    for (t = span.t_first; t < t_stop; t += dt) {
+    for (t = span.t_first; t < t_stop; t += alike * steps.ds) {
+      const float dt = alike * steps.ds;
       const vec3 p_world = ray.origin + ray.direction * t;
       const MediaSample here = sample_media(media, span, p_world, t, gathered.texture_samples);
       ++gathered.steps;
@@ -63,11 +85,20 @@ void march_spans(WorldRay ray, MediaRay media, float jitter, float begin, float 
       if (kHasGlow) gathered.radiance += gathered.transmittance * media_glow(here.volumes, passed_log2, dt);
       if (passed_log2 < 0.0) {
         const vec3 light = media_inscatter(media, here, gathered.texture_samples);
-        if (add_step(t - jitter * ds, dt, passed_log2, light, gathered)) return;
+        if (add_step(t - jitter * steps.ds, dt, passed_log2, light, gathered)) return;
+        // From the end of this step on they may be longer; more than rounding must remain.
+        const float longer = step_factor(gathered.transmittance), rest = t + (1.0 - jitter) * steps.ds;
+        if (longer > factor && end - rest > 0.01 * frame.media.step_length) {
+          factor = longer;
+          steps = steps_between(rest, end, jitter, factor);
+          t = rest + (jitter - 1.0) * steps.ds;
+          t_stop = min(span.t_stop, steps.after_last);
+          lengthened = true;
+        }
       }
     }
-    if (kOnlyAbsorbs && add_step(span.t_first, dt, absorbed_log2, vec3(0.0), gathered)) return;
-    t = span.t_next;
+    if (kOnlyAbsorbs && add_step(span.t_first, alike * steps.ds, absorbed_log2, vec3(0.0), gathered)) return;
+    if (!lengthened) t = span.t_next;
   }
 }
 
@@ -97,15 +128,14 @@ void march_blocks(WorldRay ray, MediaRay media, float jitter, float begin, float
   }
 }
 
-/// Marches the part [begin, end) of a ray in equal steps no longer than the media's. Each sample is at `jitter` in its
-/// step, [0, 1).
+/// Marches the part [begin, end) of a ray. Each sample is at `jitter` in its step, [0, 1).
 void march(WorldRay ray, MediaRay media, float jitter, float begin, float end, inout Gathered gathered) {
-  const float count = ceil((end - begin) / frame.media.step_length), ds = (end - begin) / max(count, 1.0);
-  const float after_last = begin + (count - 0.5 + jitter) * ds;
-  if (kByBlocks)
-    march_blocks(ray, media, jitter, begin, ds, after_last, gathered);
-  else
-    march_spans(ray, media, jitter, begin, ds, after_last, gathered);
+  if (kByBlocks) {
+    const Steps steps = steps_between(begin, end, jitter, 1.0);
+    march_blocks(ray, media, jitter, begin, steps.ds, steps.after_last, gathered);
+  } else {
+    march_spans(ray, media, jitter, begin, end, gathered);
+  }
 }
 
 #endif

@@ -12,12 +12,10 @@ struct Surface {
   float metallic;
 };
 
-/// Radiance towards `view` for unit irradiance from `to_light`, both unit vectors: Lambert and GGX with Schlick's
-/// Fresnel and Hammon's 2017 approximation of the height-correlated Smith term.
-vec3 reflect_light(Surface s, vec3 view, vec3 to_light) {
-  const float n_l = dot(s.normal, to_light);
-  if (n_l <= 0.0) return vec3(0.0);
-  const float n_v = dot(s.normal, view), facing = max(n_v, 1e-3);
+/// Radiance towards `view` for unit irradiance on the surface from `to_light`, both unit vectors in front of it:
+/// Lambert and GGX with Schlick's Fresnel and Hammon's 2017 approximation of the height-correlated Smith term.
+vec3 reflectance(Surface s, vec3 view, vec3 to_light) {
+  const float n_l = dot(s.normal, to_light), n_v = dot(s.normal, view), facing = max(n_v, 1e-3);
   // The sum of both vectors has the length 2 h.view.
   const float v_l = dot(view, to_light), one_over = inversesqrt(max(2.0 + 2.0 * v_l, 1e-6));
   const float n_h = max((n_l + n_v) * one_over, 0.0), h_v = (1.0 + v_l) * one_over;
@@ -26,11 +24,10 @@ vec3 reflect_light(Surface s, vec3 view, vec3 to_light) {
   const float d = n_h * n_h * (a2 - 1.0) + 1.0;
   // Distribution a2 / (pi d^2) and visibility 0.5 / mix(...).
   const float specular = 0.5 * a2 / (kPi * d * d * mix(2.0 * n_l * facing, n_l + facing, alpha));
-  const vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic);
+  const vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic), diffuse = s.albedo * ((1.0 - s.metallic) / kPi);
   const float grazing = 1.0 - clamp(h_v, 0.0, 1.0), grazing2 = grazing * grazing;
   const vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
-  const vec3 diffuse = s.albedo * (1.0 - s.metallic) * (1.0 - fresnel) / kPi;
-  return (diffuse + fresnel * specular) * n_l;
+  return diffuse + fresnel * (specular - diffuse);
 }
 
 #endif

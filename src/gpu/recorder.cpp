@@ -240,24 +240,28 @@ void Recorder::dispatch_indirect(const Buffer& groups) {
 }
 
 void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_px) {
-  const auto attachment = [&](VkImageView view, VkImageLayout layout) {
+  const auto attachment = [](VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load) {
     VkRenderingAttachmentInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
     info.imageView = view;
     info.imageLayout = layout;
-    info.loadOp = attachments.keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.loadOp = load;
     info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     return info;
   };
 
   // Attachments and their barriers.
   std::vector<VkRenderingAttachmentInfo> colours;
-  for (const Image* image : attachments.colours) {
+  for (std::size_t i = 0; i < attachments.colours.size(); ++i) {
+    const Image* image = attachments.colours[i];
+    const bool keep = (attachments.keep >> i & 1u) != 0;
     use(*image, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-        VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-            (attachments.keep ? VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT : 0),
+        VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | (keep ? VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT : 0),
         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    colours.push_back(attachment(image->view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
+    colours.push_back(attachment(image->view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                 keep                    ? VK_ATTACHMENT_LOAD_OP_LOAD
+                                 : attachments.overwrite ? VK_ATTACHMENT_LOAD_OP_DONT_CARE
+                                                         : VK_ATTACHMENT_LOAD_OP_CLEAR));
   }
   VkRenderingAttachmentInfo depth{};
   if (attachments.depth) {
@@ -266,7 +270,8 @@ void Recorder::begin_rendering(const Attachments& attachments, glm::uvec2 size_p
         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
         VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     depth = attachment(attachments.depth_view ? attachments.depth_view : attachments.depth->view(),
-                       VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+                       VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                       attachments.keep_depth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR);
   }
   flush_barriers();
 

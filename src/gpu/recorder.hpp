@@ -137,9 +137,11 @@ class Recorder {
     std::vector<const Image*> colours;
     const Image* depth = nullptr;
     VkImageView depth_view = VK_NULL_HANDLE;  ///< Of one layer; null: the image's own view.
-    bool keep = false;                        ///< Preserves their contents.
+    std::uint32_t keep = 0;                   ///< Colours whose contents are preserved, a bit each.
+    bool keep_depth = false;
+    bool overwrite = false;  ///< The draws write all pixels of the colours that are not kept: no clear.
   };
-  /// Clears the attachments to 0 (reverse depth: infinitely far) unless `keep` is set.
+  /// Clears the attachments that are neither kept nor overwritten to 0 (reverse depth: infinitely far).
   void begin_rendering(const Attachments& attachments, glm::uvec2 size_px);
   void end_rendering();
   void draw_indexed(const Buffer& indices, std::uint32_t count, std::uint32_t first,

@@ -1,6 +1,7 @@
 // Draws the scene into the G-buffer.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "passes/scene_upload.hpp"
@@ -19,15 +20,35 @@ struct GBuffer {
 
 class GBufferPass {
  public:
+  /// In the form that suits the device.
   explicit GBufferPass(gpu::Context& context);
+  /// `depth_first`: draws all surfaces twice, so that hidden ones write no material. The same targets. Faster
+  /// where a fragment costs more than a vertex, hence not without a GPU.
+  GBufferPass(gpu::Context& context, bool depth_first);
   /// Draws the scene and `moving`, without `hidden` objects and draws outside of `view`.
   /// `frame` holds FrameConstants.
   void record(gpu::Recorder& recorder, const SceneResources& scene, std::span<const Draw> moving,
               HiddenObjects hidden, const planning::ViewFrustum& view, const gpu::Buffer& frame,
               const GBuffer& target) const;
 
+  struct VisibleDraw {
+    const Draw* draw;
+    bool moves;  ///< Over the level.
+  };
+
  private:
+  /// What it takes to draw depth first.
+  struct DepthFirst {
+    explicit DepthFirst(gpu::Context& context);
+    gpu::GraphicsPipeline depth, background;
+  };
+  void draw_depth(gpu::Recorder& recorder, const SceneResources& scene, std::span<const VisibleDraw> draws,
+                  const gpu::Buffer& frame) const;
+  void draw_materials(gpu::Recorder& recorder, const SceneResources& scene,
+                      std::span<const VisibleDraw> draws, const gpu::Buffer& frame) const;
+
   gpu::GraphicsPipeline pipeline_;
+  std::optional<DepthFirst> depth_first_;
   gpu::Sampler sampler_;
 };
 

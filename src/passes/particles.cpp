@@ -120,7 +120,7 @@ void ParticlePass::record_layer(gpu::Recorder& recorder, const Inputs& in, std::
   recorder.prepare_for_draws({gpu::uniform(in.frame), gpu::read(systems_), gpu::read(particles_),
                               gpu::read(order_), gpu::sampled(in.slices, linear_),
                               gpu::sampled(in.depth, nearest_)});
-  recorder.begin_rendering({{&layer_}, nullptr, VK_NULL_HANDLE, true}, glm::uvec2(layer_.info().size));
+  recorder.begin_rendering({{&layer_}, nullptr, VK_NULL_HANDLE, 1}, glm::uvec2(layer_.info().size));
   recorder.bind_for_draws(draw_, {
                                      {shared::kBindFrame, gpu::uniform(in.frame)},
                                      {shared::kBindParticleSystems, gpu::read(systems_)},
@@ -151,7 +151,7 @@ void ParticlePass::record_overdraw(gpu::Recorder& recorder, const Inputs& in,
   const shared::ParticleList list = record_list(recorder, in, systems);
   recorder.prepare_for_draws(
       {gpu::uniform(in.frame), gpu::read(systems_), gpu::read(particles_), gpu::read(order_)});
-  recorder.begin_rendering({{&target}, nullptr, VK_NULL_HANDLE, true}, glm::uvec2(target.info().size));
+  recorder.begin_rendering({{&target}, nullptr, VK_NULL_HANDLE, 1}, glm::uvec2(target.info().size));
   recorder.bind_for_draws(*count_, {
                                        {shared::kBindFrame, gpu::uniform(in.frame)},
                                        {shared::kBindParticleSystems, gpu::read(systems_)},

@@ -98,7 +98,7 @@ void RaycastPass::record_single_pass(gpu::Recorder& recorder, const Inputs& in,
   recorder.prepare_for_draws({gpu::read(view_), gpu::read(volumes_), gpu::uniform(in.volumes.instances),
                               gpu::read(in.volumes.pages), gpu::sampled(in.volumes.values, linear_),
                               gpu::sampled(in.depth, nearest_)});
-  recorder.begin_rendering({{&target}, nullptr, VK_NULL_HANDLE, true}, glm::uvec2(target.info().size));
+  recorder.begin_rendering({{&target}, nullptr, VK_NULL_HANDLE, 1}, glm::uvec2(target.info().size));
   recorder.set_culling(true);
   recorder.bind_for_draws(*single_, {
                                         {shared::kBindRaycastView, gpu::read(view_)},
