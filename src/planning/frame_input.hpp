@@ -55,6 +55,8 @@ struct Environment {
   /// Lights that stand for what glows in volumes. Of these and the flashes before them, at most kMaxFlashes
   /// are lit, the first ones.
   std::vector<shared::Light> glow = {};
+  /// How often surfaces and smoke pass light on to each other; 0: never.
+  std::uint32_t bounces = 0;
 };
 
 struct LevelState {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "planning/key_bytes.hpp"
 #include "planning/media_plan.hpp"
 #include "shared/light.h"
 #include "shared/volume_light.h"
@@ -47,6 +48,9 @@ class VolumeLightCache {
   std::vector<std::byte> volumes_key_;  ///< Bytes of the volumes of the last plan.
   std::vector<std::byte> key_;          ///< Bytes of all other inputs of the last update; empty: none.
 };
+
+/// Adds what the light in the volumes of a frame follows from, of the volumes themselves.
+void add_volumes(KeyBytes& key, const MediaPlan& media, std::span<const VolumeInput> volumes);
 
 /// The rays along `direction` (unit) through a volume's bounds.
 shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec3 direction);
