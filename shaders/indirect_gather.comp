@@ -36,8 +36,8 @@ vec4 through_media(vec3 p_cells, vec3 direction, float reach) {
 }
 
 void main() {
-  const uint probe = gl_GlobalInvocationID.x;
-  if (probe >= params.probe_count) return;
+  const uint probe = params.first_probe + gl_GlobalInvocationID.x;
+  if (probe >= params.end_probe) return;
   const ivec3 cell = cell_at(frame.indirect, probes[probe]);
   const uint phase = probe_phase(cell);
   const vec4 own = kMediaInCells != 0u ? texelFetch(medium, cell, 0) : vec4(0.0);

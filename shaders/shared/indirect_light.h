@@ -45,11 +45,12 @@ struct IndirectParams {
   ivec3 media_low;  // cells that may hold smoke
   ivec3 media_high;
   uint patch_count, probe_count, light_count;
+  uint first_probe, end_probe;  // that gather in a dispatch
   float relaxation;  // how much of a bounce's change is applied; above 1 it is exaggerated
   vec3 albedo;       // of the medium that the formula stands for
   float g;           // mean cosine of its phase function
 };
-SHARED_SIZE(IndirectParams, 56);
+SHARED_SIZE(IndirectParams, 64);
 
 /// Slabs of the cube, and those of the transmittance and of the formula.
 SHARED_CONST uint kIndirectSlabs = 8u;

@@ -78,6 +78,7 @@ void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t 
   const glm::uvec3 size(level.layout.size), slabs(size.x, size.y, shared::kIndirectSlabs * size.z);
   if (cube_.info().size == slabs && medium_) return;
   cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
+  next_cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
   noisy_cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
   medium_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, size);
   medium_direct_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, size);
@@ -91,57 +92,43 @@ void IndirectLightPass::upload(gpu::Recorder& recorder, const reference::LightCe
 }
 
 void IndirectLightPass::record(gpu::Recorder& recorder, const Inputs& in,
-                               std::span<const shared::Light> lights, const Box<int>& media,
-                               std::uint32_t bounces) {
-  const bool has_media = !media.empty();
-  shared::IndirectParams params{has_media ? media.low : glm::ivec3(0),
-                                has_media ? media.high : glm::ivec3(0),
-                                patch_count_,
-                                probe_count_,
-                                static_cast<std::uint32_t>(lights.size()),
-                                1,
-                                in.albedo,
-                                in.g};
-  upload_list(recorder, lights_, lights);
-  recorder.clear(cube_, {});
-  recorder.clear(noisy_cube_, {});
-  if (has_media) recorder.clear(medium_, {});
-  if (has_media) recorder.clear(medium_matter_, {});
-  record_direct(recorder, in, params);
-  for (std::uint32_t i = 0; i < bounces; ++i) {
-    params.relaxation = relaxation(i, bounces);
-    record_bounce(recorder, in, params, i == 0);
+                               const planning::IndirectLightPlan& plan, const Box<int>& media) {
+  const std::uint32_t end = plan.slices.first + plan.slices.count;
+  for (std::uint32_t i = plan.slices.first; i < end;) {
+    const std::uint32_t bounce = i / planning::kSlicesPerBounce, slice = i % planning::kSlicesPerBounce;
+    if (i == 0) begin(recorder, in, plan.lights, media);
+    if (slice == 0) record_sources(recorder, in);
+    // Slices that come together are one dispatch.
+    const std::uint32_t together = std::min(planning::kSlicesPerBounce - slice, end - i);
+    record_gather(recorder, in, slice, together);
+    i += together;
+    if (i % planning::kSlicesPerBounce != 0) continue;
+    if (bounce == 0 && has_media()) record_formula(recorder, in);
+    record_smooth(recorder, in, relaxation(bounce, plan.bounces));
+    if (bounce + 1 == plan.bounces) std::swap(cube_, next_cube_);
   }
 }
 
-void IndirectLightPass::record_direct(gpu::Recorder& recorder, const Inputs& in,
-                                      const shared::IndirectParams& params) {
-  const glm::uvec3 media_cells(params.media_high - params.media_low);
-  if (media_cells.x > 0) {
-    const gpu::ComputePipeline& medium_pass = medium_passes_.at(in.casters & kCellMedia);
-    recorder.bind(medium_pass,
-                  {{shared::kBindFrame, gpu::uniform(in.frame)},
-                   {shared::kBindPages, gpu::read(in.smoke.pages)},
-                   {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
-                   {shared::kBindNoiseTile, gpu::sampled(in.noise, linear_)},
-                   {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
-                   {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
-                   {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
-                   {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
-                   {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
-                   {shared::kBindIndirectTarget, gpu::stored(medium_matter_)}},
-                  params);
-    recorder.dispatch_threads(medium_pass, media_cells.x, media_cells.y, media_cells.z);
-    recorder.bind(medium_light_pass_,
-                  {{shared::kBindFrame, gpu::uniform(in.frame)},
-                   {shared::kBindLights, gpu::read(lights_)},
-                   {shared::kBindSun, gpu::uniform(in.shadows.sun)},
-                   {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
-                   {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
-                   {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
-                   {shared::kBindIndirectTarget, gpu::stored(medium_direct_)}},
-                  params);
-    recorder.dispatch_threads(medium_light_pass_, media_cells.x, media_cells.y, media_cells.z);
+/// The light of the lights, on patches and in media.
+void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
+                              std::span<const shared::Light> lights, const Box<int>& media) {
+  params_ = {};
+  if (!media.empty()) {
+    params_.media_low = media.low;
+    params_.media_high = media.high;
+  }
+  params_.patch_count = patch_count_;
+  params_.probe_count = probe_count_;
+  params_.light_count = static_cast<std::uint32_t>(lights.size());
+  params_.albedo = in.albedo;
+  params_.g = in.g;
+  upload_list(recorder, lights_, lights);
+  recorder.clear(next_cube_, {});
+  recorder.clear(noisy_cube_, {});
+  if (has_media()) {
+    recorder.clear(medium_, {});
+    recorder.clear(medium_matter_, {});
+    record_media(recorder, in);
   }
   recorder.bind(patches_pass_,
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
@@ -152,33 +139,69 @@ void IndirectLightPass::record_direct(gpu::Recorder& recorder, const Inputs& in,
                  {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
                  {shared::kBindSurfacePatches, gpu::read(patches_)},
                  {shared::kBindPatchIrradiance, gpu::write(irradiance_)}},
-                params);
+                params_);
   recorder.dispatch_threads(patches_pass_, patch_count_);
 }
 
-void IndirectLightPass::record_bounce(gpu::Recorder& recorder, const Inputs& in,
-                                      const shared::IndirectParams& params, bool with_formula) {
-  const glm::uvec3 media_cells(params.media_high - params.media_low);
+void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) {
+  const glm::uvec3 cells(params_.media_high - params_.media_low);
+  const gpu::ComputePipeline& medium_pass = medium_passes_.at(in.casters & kCellMedia);
+  recorder.bind(medium_pass,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindPages, gpu::read(in.smoke.pages)},
+                 {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                 {shared::kBindNoiseTile, gpu::sampled(in.noise, linear_)},
+                 {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
+                 {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
+                 {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                 {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
+                 {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
+                 {shared::kBindIndirectTarget, gpu::stored(medium_matter_)}},
+                params_);
+  recorder.dispatch_threads(medium_pass, cells.x, cells.y, cells.z);
+  recorder.bind(medium_light_pass_,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindLights, gpu::read(lights_)},
+                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                 {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
+                 {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
+                 {shared::kBindIndirectTarget, gpu::stored(medium_direct_)}},
+                params_);
+  recorder.dispatch_threads(medium_light_pass_, cells.x, cells.y, cells.z);
+}
+
+/// What patches and media send out, of the light that is known so far.
+void IndirectLightPass::record_sources(gpu::Recorder& recorder, const Inputs& in) {
   recorder.concurrently([&] {
     recorder.bind(patch_radiance_pass_,
                   {{shared::kBindFrame, gpu::uniform(in.frame)},
-                   {shared::kBindIndirectCube, gpu::sampled(cube_, linear_)},
+                   {shared::kBindIndirectCube, gpu::sampled(next_cube_, linear_)},
                    {shared::kBindSurfacePatches, gpu::read(patches_)},
                    {shared::kBindPatchIrradiance, gpu::read(irradiance_)},
                    {shared::kBindPatchRadiance, gpu::write(radiance_)}},
-                  params);
+                  params_);
     recorder.dispatch_threads(patch_radiance_pass_, patch_count_);
-    if (media_cells.x == 0) return;
+    if (!has_media()) return;
+    const glm::uvec3 cells(params_.media_high - params_.media_low);
     recorder.bind(medium_source_pass_,
                   {{shared::kBindFrame, gpu::uniform(in.frame)},
-                   {shared::kBindIndirectCube, gpu::sampled(cube_, linear_)},
+                   {shared::kBindIndirectCube, gpu::sampled(next_cube_, linear_)},
                    {shared::kBindMediumDirect, gpu::sampled(medium_direct_, linear_)},
                    {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
                    {shared::kBindIndirectTarget, gpu::stored(medium_)}},
-                  params);
-    recorder.dispatch_threads(medium_source_pass_, media_cells.x, media_cells.y, media_cells.z);
+                  params_);
+    recorder.dispatch_threads(medium_source_pass_, cells.x, cells.y, cells.z);
   });
-  const gpu::ComputePipeline& gather = media_cells.x > 0 ? gather_in_media_pass_ : gather_pass_;
+}
+
+void IndirectLightPass::record_gather(gpu::Recorder& recorder, const Inputs& in, std::uint32_t slice,
+                                      std::uint32_t count) {
+  const std::uint64_t probes = probe_count_, all = planning::kSlicesPerBounce;
+  params_.first_probe = static_cast<std::uint32_t>(probes * slice / all);
+  params_.end_probe = static_cast<std::uint32_t>(probes * (slice + count) / all);
+  if (params_.first_probe == params_.end_probe) return;
+  const gpu::ComputePipeline& gather = has_media() ? gather_in_media_pass_ : gather_pass_;
   recorder.bind(gather,
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
                  {shared::kBindIndirectProbes, gpu::read(probes_)},
@@ -186,26 +209,32 @@ void IndirectLightPass::record_bounce(gpu::Recorder& recorder, const Inputs& in,
                  {shared::kBindPatchRadiance, gpu::read(radiance_)},
                  {shared::kBindIndirectMedium, gpu::sampled(medium_, linear_)},
                  {shared::kBindIndirectTarget, gpu::stored(noisy_cube_)}},
-                params);
-  recorder.dispatch_threads(gather, probe_count_);
-  if (with_formula && media_cells.x > 0) {
-    recorder.bind(formula_pass_,
-                  {{shared::kBindFrame, gpu::uniform(in.frame)},
-                   {shared::kBindLights, gpu::read(lights_)},
-                   {shared::kBindSun, gpu::uniform(in.shadows.sun)},
-                   {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
-                   {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
-                   {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
-                   {shared::kBindIndirectTarget, gpu::read_write_stored(noisy_cube_)}},
-                  params);
-    recorder.dispatch_threads(formula_pass_, media_cells.x, media_cells.y, media_cells.z);
-  }
+                params_);
+  recorder.dispatch_threads(gather, params_.end_probe - params_.first_probe);
+}
+
+void IndirectLightPass::record_formula(gpu::Recorder& recorder, const Inputs& in) {
+  const glm::uvec3 cells(params_.media_high - params_.media_low);
+  recorder.bind(formula_pass_,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindLights, gpu::read(lights_)},
+                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                 {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
+                 {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
+                 {shared::kBindIndirectTarget, gpu::read_write_stored(noisy_cube_)}},
+                params_);
+  recorder.dispatch_threads(formula_pass_, cells.x, cells.y, cells.z);
+}
+
+void IndirectLightPass::record_smooth(gpu::Recorder& recorder, const Inputs& in, float relaxation) {
+  params_.relaxation = relaxation;
   recorder.bind(smooth_pass_,
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
                  {shared::kBindIndirectCube, gpu::sampled(noisy_cube_, linear_)},
                  {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
-                 {shared::kBindIndirectTarget, gpu::read_write_stored(cube_)}},
-                params);
+                 {shared::kBindIndirectTarget, gpu::read_write_stored(next_cube_)}},
+                params_);
   const glm::uvec3 size = noisy_cube_.info().size;
   recorder.dispatch_threads(smooth_pass_, size.x * size.y * size.z / shared::kIndirectSlabs);
 }

@@ -10,6 +10,7 @@
 #include "passes/smoke_upload.hpp"
 #include "passes/solid_volume.hpp"
 #include "passes/volume_upload.hpp"
+#include "planning/indirect_light_plan.hpp"
 #include "reference/light_cells.hpp"
 #include "shared/indirect_light.h"
 
@@ -38,17 +39,23 @@ class IndirectLightPass {
   };
   /// Uploads the level of the last `reserve`.
   void upload(gpu::Recorder& recorder, const reference::LightCells& level) const;
-  /// Finds the light of the level after FrameConstants::indirect.bounces bounces. `media`: cells that may
-  /// hold media; empty: none.
-  void record(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Light> lights,
-              const Box<int>& media, std::uint32_t bounces);
+  /// Does the slices of a plan. `media`: cells that may hold media, in the plan of the first slice; empty:
+  /// none.
+  void record(gpu::Recorder& recorder, const Inputs& in, const planning::IndirectLightPlan& plan,
+              const Box<int>& media);
 
+  /// The light of the last plan whose slices were all done.
   const gpu::Image& cube() const { return cube_; }
 
  private:
-  void record_direct(gpu::Recorder& recorder, const Inputs& in, const shared::IndirectParams& params);
-  void record_bounce(gpu::Recorder& recorder, const Inputs& in, const shared::IndirectParams& params,
-                     bool with_formula);
+  void begin(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Light> lights,
+             const Box<int>& media);
+  void record_media(gpu::Recorder& recorder, const Inputs& in);
+  void record_sources(gpu::Recorder& recorder, const Inputs& in);
+  void record_gather(gpu::Recorder& recorder, const Inputs& in, std::uint32_t slice, std::uint32_t count);
+  void record_formula(gpu::Recorder& recorder, const Inputs& in);
+  void record_smooth(gpu::Recorder& recorder, const Inputs& in, float relaxation);
+  bool has_media() const { return params_.media_low.x < params_.media_high.x; }
 
   gpu::Context& context_;
   gpu::ComputePipeline patches_pass_, medium_light_pass_, patch_radiance_pass_, medium_source_pass_,
@@ -56,8 +63,9 @@ class IndirectLightPass {
   std::map<std::uint32_t, gpu::ComputePipeline> medium_passes_;  ///< By the media of a frame.
   gpu::Sampler linear_, compare_;
   gpu::Buffer patches_, probes_, hits_, irradiance_, radiance_, lights_;
-  gpu::Image cube_, noisy_cube_, medium_, medium_direct_, medium_matter_;
+  gpu::Image cube_, next_cube_, noisy_cube_, medium_, medium_direct_, medium_matter_;
   std::uint32_t patch_count_ = 0, probe_count_ = 0;
+  shared::IndirectParams params_{};  ///< Of the light that is being found.
 };
 
 }  // namespace brume::passes

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -14,8 +14,9 @@ class KeyBytes {
   template <typename T>
   requires std::is_trivially_copyable_v<T>
   void add(const T& value) {
-    const auto bytes = std::as_bytes(std::span(&value, 1));
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    const std::size_t end = bytes_.size();
+    bytes_.resize(end + sizeof value);
+    std::memcpy(bytes_.data() + end, &value, sizeof value);
   }
   std::vector<std::byte> take() { return std::move(bytes_); }
 

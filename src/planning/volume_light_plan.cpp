@@ -47,6 +47,7 @@ std::vector<std::byte> key_of_others(const VolumeLightInputs& in) {
   for (const shared::Light& light : in.lights) key.add(light);
   key.add(in.sky.ambient);
   key.add(in.sky.bounce);
+  key.add(in.indirect_version);
   if ((in.media->casters & shared::kMediumSmoke) != 0 && in.smoke && in.smoke->slot_count() > 0) {
     key.add(in.smoke->revision());
     key.add(in.smoke_look);

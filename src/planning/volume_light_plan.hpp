@@ -34,6 +34,7 @@ struct VolumeLightInputs {
   float time = 0;  ///< Of the smoke's noise and holes [s].
   shared::Sky sky{};
   bool rebuild = false;  ///< The level changed, or light is to be found again for another reason.
+  std::uint64_t indirect_version = 0;  ///< IndirectLightPlan::version.
 };
 
 /// Tracks what the device's light was computed from.

@@ -179,7 +179,7 @@ void Renderer::record_part(gpu::Recorder& recorder, const FramePlan& plan, int p
 void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
-  if (plan.indirect_light.update)
+  if (plan.indirect_light.slices.count > 0)
     scope(recorder, "indirect_light", [&] {
       scene_.record_indirect_light(recorder, plan, frame_,
                                    {smoke_.resources(), smoke_.noise(), smoke_.lit_volumes()});

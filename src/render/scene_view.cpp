@@ -62,7 +62,6 @@ shared::IndirectLayout SceneView::indirect_layout(const planning::FramePlan& pla
 void SceneView::record_indirect_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
                                       const gpu::Buffer& frame, const MediaResources& media) {
   const planning::IndirectLightPlan& indirect = plan.indirect_light;
-  if (!indirect.update) return;
   passes::IndirectLightPass::Inputs in{.frame = frame,
                                        .shadows = shadows_,
                                        .solid = solid_,
@@ -85,7 +84,7 @@ void SceneView::record_indirect_light(gpu::Recorder& recorder, const planning::F
         intersection(Box<int>{glm::ivec3(0), layout.size},
                      {glm::ivec3(glm::floor((indirect.media.low - layout.origin_world) / layout.cell_size)),
                       glm::ivec3(glm::ceil((indirect.media.high - layout.origin_world) / layout.cell_size))});
-  indirect_light_.record(recorder, in, indirect.lights, cells, indirect.bounces);
+  indirect_light_.record(recorder, in, indirect, cells);
 }
 
 void SceneView::record_lights(gpu::Recorder& recorder, const planning::FramePlan& plan) const {
