@@ -14,6 +14,9 @@ layout(binding = kBindIndirectMedium) uniform sampler3D medium;
 layout(binding = kBindIndirectTarget, rgba16f) uniform writeonly image3D target;
 layout(scalar, push_constant) uniform Push { IndirectParams params; };
 
+/// Radiance of opaque media of this scattered radiance per metre and extinction.
+vec3 scattered_by(vec4 media) { return media.rgb / max(media.a, 1e-6); }
+
 /// Radiance of the media along a ray from the border of its cell over a number of cells, and in alpha their
 /// transmittance.
 vec4 through_media(vec3 p_cells, vec3 direction, float reach) {
@@ -29,7 +32,7 @@ vec4 through_media(vec3 p_cells, vec3 direction, float reach) {
     const vec3 p = p_cells + direction * (begin + i * ds);
     const vec4 here = textureLod(medium, p / vec3(frame.indirect.size), 0.0);
     const float passed = exp(-here.a * ds * frame.indirect.cell_size);
-    sum += transmittance * (1.0 - passed) * here.rgb;
+    sum += transmittance * (1.0 - passed) * scattered_by(here);
     transmittance *= passed;
   }
   return vec4(sum, transmittance);
@@ -51,7 +54,7 @@ void main() {
     vec3 light = hit_patch(hit) == kSkyPatch ? frame.sky.ambient * sky_shape(direction.y) : radiance[hit_patch(hit)];
     if (kMediaInCells != 0u) {
       const vec4 media = through_media(vec3(cell) + 0.5, direction, hit_cells(hit));
-      light = mix(own.rgb, media.rgb + media.a * light, leaves);
+      light = mix(scattered_by(own), media.rgb + media.a * light, leaves);
       escape += leaves * media.a;
     }
     const vec3 up = max(direction, vec3(0.0)), down = max(-direction, vec3(0.0));

@@ -1,4 +1,4 @@
-// Radiance that the media in each cell scatters in every direction.
+// Radiance that the media in each cell scatter in every direction, per metre.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -19,7 +19,7 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int slab = 0; slab < 6; ++slab)
       sum += texelFetch(indirect_cube, cell + ivec3(0, 0, slab * frame.indirect.size.z), 0);
-    source = texelFetch(medium_matter, cell, 0).rgb / direct.a * (direct.rgb + sum.rgb / 6.0);
+    source = texelFetch(medium_matter, cell, 0).rgb * (direct.rgb + sum.rgb / 6.0);
   }
   imageStore(target, cell, vec4(source, direct.a));
 }

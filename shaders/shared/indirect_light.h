@@ -11,7 +11,8 @@
 //             cube_forward(slab), and 1; then in red the mean transmittance of the media out of the cell; then what the
 //             formula of scattering.h takes for the light that is scattered more than once. Solid cells beside free ones
 //             have the mean of those times kSolidWeight, all others are 0
-//   medium    half floats, a texel per cell: radiance that it scatters, the same in all directions, and extinction [1/m]
+//   medium    half floats, a texel per cell: radiance that it scatters per metre, the same in all directions, and
+//             extinction [1/m]
 //   medium_direct       mean radiance of the lights alone, over all directions, and extinction
 //   medium_matter       scattering coefficient and extinction
 // Extinction and scattering here are those of similar media that scatter evenly: of forward scattering, the part g, the

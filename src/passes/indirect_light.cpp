@@ -1,5 +1,6 @@
 #include "passes/indirect_light.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -30,14 +31,18 @@ void upload_list(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span<c
   if (!list.empty()) recorder.upload(buffer, 0, std::as_bytes(list));
 }
 
-/// Factor of bounce i of n: the roots of a Chebyshev polynomial over the part of its light, from 0 to
-/// kMostPassed, that a bounce passes on. n bounces then leave about as little to find as three times as many
-/// would (Varga 1962, "Matrix Iterative Analysis", Richardson's method). The largest factors come first: what
-/// they exaggerate the others correct.
+/// Factor of bounce i of n: the roots of a Chebyshev polynomial over the eigenvalues of a bounce, from
+/// kLowest, where light goes back and forth between facing walls, to kHighest. n bounces then leave about as
+/// little to find as three times as many would (Varga 1962, "Matrix Iterative Analysis", Richardson's
+/// method). Small and large factors take turns, so that no bounce in between is far off; the smallest comes
+/// last.
 float relaxation(std::uint32_t i, std::uint32_t n) {
-  constexpr float kMostPassed = 0.9f;
-  const float angle = std::numbers::pi_v<float> * (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
-  return 1 / (1 - 0.5f * kMostPassed * (1 + std::cos(angle)));
+  constexpr float kLowest = -0.4f, kHighest = 0.9f;
+  if (n < 3) return 1;
+  const std::uint32_t from_smallest = i + 1 == n ? 0 : i % 2 == 0 ? 1 + i / 2 : n - 1 - i / 2;
+  const float angle =
+      std::numbers::pi_v<float> * (static_cast<float>(from_smallest) + 0.5f) / static_cast<float>(n);
+  return 1 / (1 - 0.5f * (kHighest + kLowest) + 0.5f * (kHighest - kLowest) * std::cos(angle));
 }
 
 }  // namespace

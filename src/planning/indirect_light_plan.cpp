@@ -53,7 +53,9 @@ IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaP
 
   // What is being found goes on, unless it must be there at once or the number of its bounces changed.
   std::vector<std::byte> key = key_of(input, bounces, media, plan.lights);
-  const bool at_once = shown_key_.empty() || input.quality.light_update_fraction >= 1;
+  const float fraction =
+      std::min(input.quality.light_update_fraction, input.quality.indirect_update_fraction);
+  const bool at_once = shown_key_.empty() || fraction >= 1;
   const bool changed = key != shown_key_ || input.quality.rebuild_light;
   if (changed && (solving_key_.empty() || at_once || plan.bounces != bounces_)) {
     solving_key_ = std::move(key);
@@ -62,7 +64,7 @@ IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaP
     solving_key_.clear();
   }
   bounces_ = plan.bounces;
-  if (!solving_key_.empty()) plan.slices = next_slices(at_once ? 1 : input.quality.light_update_fraction);
+  if (!solving_key_.empty()) plan.slices = next_slices(at_once ? 1 : fraction);
   plan.version = version_;
   return plan;
 }
