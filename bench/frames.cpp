@@ -15,6 +15,7 @@ RepeatedFrame::RepeatedFrame(gpu::Context& context, const scenario::Scenario& sc
   simulation_->advance_to(seconds);
   input_ = planning::frame_input(scenario, *simulation_, seconds, holes_);
   input_.quality.rebuild_light = true;
+  input_.quality.indirect_update_fraction = 0.125f;  // as the viewer
 }
 
 FrameCost RepeatedFrame::draw() {

@@ -17,6 +17,7 @@ layout(binding = kBindInscatter, rgba16f) uniform writeonly image3D inscatter;
 layout(binding = kBindFilteredDensity) uniform sampler3D filtered_density_atlas;
 layout(scalar, binding = kBindBrickLights) readonly buffer BrickLights { uvec2 brick_lights[]; };
 layout(scalar, push_constant) uniform Push { SmokeLightParams params; };
+#include "lib/indirect_light.glsl"
 #include "lib/row_texels.glsl"
 #include "lib/sky_light.glsl"
 #include "lib/smoke_texels.glsl"
@@ -35,10 +36,13 @@ float escape_of(uint block, uint local) {
 /// (x / 2) coth(x / 2) along an axis, x = k step; to second order 1 + x^2 / 12 in every direction.
 vec3 interpolation_excess(vec3 k, float step) { return 1.0 + k * k * (step * step / 12.0); }
 
+struct ScatteredLights {
+  vec3 once, often;
+};
+
 /// Light of all lights of a brick at a texel, scattered towards the eye.
-vec3 scattered_lights(LightGather brick, uint local, vec3 p_world, ManyScatterings many) {
-  const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
-  vec3 sum = vec3(0.0);
+ScatteredLights scattered_lights(LightGather brick, uint local, vec3 p_world, vec3 to_eye, ManyScatterings many) {
+  ScatteredLights sum = ScatteredLights(vec3(0.0), vec3(0.0));
   for (uint k = 0u; k < brick.light_count; ++k) {
     const uvec2 light = brick_lights[brick.first_light + k];
     const vec2 depth_lit = unpackHalf2x16(blocks[light.y * kTexelsPerBrick + local]);
@@ -46,24 +50,39 @@ vec3 scattered_lights(LightGather brick, uint local, vec3 p_world, ManyScatterin
     const Incident incident = light_at(lights[light.x], p_world);
     if (max(incident.irradiance.r, max(incident.irradiance.g, incident.irradiance.b)) < kLeastIrradiance) continue;
     const float cos_angle = -dot(incident.to_light, to_eye);
-    sum += incident.irradiance * (depth_lit.y * scattered(frame.look.phase, many, depth_lit.x, cos_angle));
+    const vec3 arriving = incident.irradiance * depth_lit.y;
+    sum.once += arriving * (exp(-depth_lit.x) * phase_value(frame.look.phase, cos_angle));
+    sum.often += arriving * scattered_often(many, depth_lit.x, cos_angle);
   }
   return sum;
+}
+
+/// The light of all that is not a light itself, or has been scattered before.
+vec3 indirect_at(vec3 p_world, vec3 to_eye, vec3 formula, float escape) {
+  const float g = mean_cosine(frame.look.phase);
+  const vec3 detail = detail_in_cells(p_world, frame.look.albedo, g, frame.look.multiple_scattering, escape);
+  return refined_by_formula(scattered_field(indirect_field(p_world), g, to_eye), formula_in_cells(p_world), formula,
+                            detail);
 }
 
 void light_texel(LightGather brick, uint local) {
   const ivec3 at = texel_in_atlas(brick.slot, local);
   const vec3 p_world = world_from_voxel(texel_position(brick.slot, local));
+  const vec3 to_eye = normalize(frame.camera.eye_world - p_world);
   const float escape = escape_of(brick.sky_page, local);
   const float density = max(texelFetch(filtered_density_atlas, at, 0).r, 0.0);
   const float texel_depth = density * frame.look.extinction * frame.volume.voxel_size;
   const vec3 excess = interpolation_excess(vec3(1.0), texel_depth);
   ManyScatterings many = multiple_scattering(frame.look, escape);
   many.fraction *= excess / interpolation_excess(many.decay, texel_depth);
-  const vec3 lights = scattered_lights(brick, local, p_world, many);
-  const vec3 sky = frame.sky.ambient * sky_visibility(p_world) *
-                   scattered_sky(frame.look.albedo, frame.look.multiple_scattering, escape);
-  imageStore(inscatter, at, vec4(sky + lights / excess, 1.0));
+  const ScatteredLights lights = scattered_lights(brick, local, p_world, to_eye, many);
+  vec3 light = lights.once / excess;
+  if (frame.indirect.bounces > 0u)
+    light += indirect_at(p_world, to_eye, lights.often / excess, escape);
+  else
+    light += lights.often / excess + frame.sky.ambient * sky_visibility(p_world) *
+                                         scattered_sky(frame.look.albedo, frame.look.multiple_scattering, escape);
+  imageStore(inscatter, at, vec4(light, 1.0));
 }
 
 void main() {

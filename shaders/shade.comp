@@ -32,6 +32,7 @@ layout(binding = kBindSmoke) uniform sampler2D smoke;
 layout(binding = kBindOcclusion) uniform sampler2D decal_occlusion;
 layout(binding = kBindRadiance, rgba16f) uniform writeonly image2D radiance_image;
 #include "lib/light_rows.glsl"
+#include "lib/indirect_light.glsl"
 #include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
 
@@ -153,8 +154,10 @@ void main() {
   vec3 radiance = lights_radiance(lit, surface, -normalize(ray));
   if (lit) {
     const vec3 emitted = texelFetch(emission, px, 0).rgb;
-    const vec3 ambient =
-        surface.albedo * frame.sky.ambient * sky_irradiance(surface.position_world, surface.normal);
+    const vec3 arriving = frame.indirect.bounces > 0u
+                              ? indirect_irradiance(surface.position_world, surface.normal)
+                              : frame.sky.ambient * sky_irradiance(surface.position_world, surface.normal);
+    const vec3 ambient = surface.albedo * arriving;
     if (kDecals == 0u)
       radiance += emitted + ambient;
     else

@@ -20,6 +20,7 @@ layout(binding = kBindSkyDepths) uniform sampler3D sky_depths;
 layout(binding = kBindVolumeLightTarget, rgba16f) uniform writeonly image3D light_target;
 layout(scalar, push_constant) uniform Push { VolumeLightParams params; };
 #include "lib/dense_volume_light.glsl"
+#include "lib/indirect_light.glsl"
 #include "lib/light_visibility.glsl"
 #include "lib/sky_light.glsl"
 
@@ -68,9 +69,13 @@ float depth_to_light(uint volume, vec3 p_world, Incident incident) {
   return depth;
 }
 
-/// Light of all lights but the sun, scattered equally in all directions.
-vec3 other_lights(uint volume, vec3 p_world, vec3 albedo, ManyScatterings many) {
-  vec3 sum = vec3(0.0);
+/// Light of all lights but the sun, scattered equally in all directions: once, and more often.
+struct OtherLights {
+  vec3 once, often;
+};
+
+OtherLights other_lights(uint volume, vec3 p_world, vec3 albedo, ManyScatterings many) {
+  OtherLights sum = OtherLights(vec3(0.0), vec3(0.0));
   for (uint i = 0u; i < frame.light_count; ++i) {
     if (i == params.sun) continue;
     const Incident incident = light_at(lights[i], p_world);
@@ -78,8 +83,9 @@ vec3 other_lights(uint volume, vec3 p_world, vec3 albedo, ManyScatterings many) 
     const float lit = light_visibility(lights[i], p_world);
     if (lit <= 0.0) continue;
     const float depth = depth_to_light(volume, p_world, incident);
-    const vec3 scattered_light = exp(-depth) * albedo + many.fraction * exp(-many.decay * depth);
-    sum += incident.irradiance * (lit * kPerSphere) * scattered_light;
+    const vec3 arriving = incident.irradiance * (lit * kPerSphere);
+    sum.once += arriving * exp(-depth) * albedo;
+    sum.often += arriving * many.fraction * exp(-many.decay * depth);
   }
   return sum;
 }
@@ -116,8 +122,11 @@ vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
   // All light here has been scattered at least once. With albedos of their own, samples multiply it by them.
   const vec3 albedo = kHasAlbedos ? vec3(1.0) : look.albedo;
   ManyScatterings many = multiple_scattering(many_fit(), look.albedo, look.anisotropy, arrivals.escape);
+  // What is not opaque within a voxel or two is known to the cells of indirect light.
+  const bool in_cells = frame.indirect.bounces > 0u && !is_dense;
   many.fraction *= look.multiple_scattering * albedo;
   vec4 light = vec4(0.0);
+  vec3 often = vec3(0.0);
   if (params.sun != kNoSun) {
     const Light sunlight = lights[params.sun];
     const float lit = light_visibility(sunlight, p_world);
@@ -127,13 +136,20 @@ vec4 light_in_cell(uint volume, vec3 p_voxel, vec3 cell_voxels) {
     else
       depth = swept_depth(sun_depths, volume, 0u, sweeps[volume * kSweepsOfVolume], p_world);
     light.a = is_dense ? lit * exp(-depth) : lit;
-    light.rgb = sunlight.intensity * (lit * kPerSphere) * many.fraction * exp(-many.decay * depth);
+    often = sunlight.intensity * (lit * kPerSphere) * many.fraction * exp(-many.decay * depth);
   }
-  light.rgb += other_lights(volume, p_world, albedo, many);
+  const OtherLights others = other_lights(volume, p_world, albedo, many);
+  often += others.often;
+  light.rgb = others.once;
   const float open_sky = mix(sky_visibility(p_world), 1.0, outside_of_level(p_world));
   const vec3 sky = is_dense ? albedo * arrivals.sky + many.fraction * arrivals.many
                             : albedo * scattered_sky(look.albedo, look.multiple_scattering, arrivals.escape);
-  light.rgb += frame.sky.ambient * open_sky * sky;
+  if (in_cells)
+    light.rgb += refined_by_formula(albedo * indirect_field(p_world).mean, albedo * formula_in_cells(p_world), often,
+                                    detail_in_cells(p_world, look.albedo, look.anisotropy, look.multiple_scattering,
+                                                    arrivals.escape));
+  else
+    light.rgb += often + frame.sky.ambient * open_sky * sky;
   return light;
 }
 

@@ -7,12 +7,12 @@ namespace brume::viewer {
 namespace {
 
 constexpr std::array kLevels{
-    Quality{"full", 1, 1, 1, 1, 1},
-    Quality{"half", 1, 2, 1, 1, 1},
-    Quality{"quarter", 1, 4, 1, 1, 1.0f / 2},
-    Quality{"coarse", 1, 4, 1.5f, 4, 1.0f / 8},
-    Quality{"small", 0.5f, 2, 1.5f, 4, 1.0f / 16},
-    Quality{"smallest", 0.5f, 4, 2, 4, 1.0f / 16},
+    Quality{"full", 1, 1, 1, 1, 1, 1.0f / 8},
+    Quality{"half", 1, 2, 1, 1, 1, 1.0f / 8},
+    Quality{"quarter", 1, 4, 1, 1, 1.0f / 2, 1.0f / 8},
+    Quality{"coarse", 1, 4, 1.5f, 4, 1.0f / 8, 1.0f / 16},
+    Quality{"small", 0.5f, 2, 1.5f, 4, 1.0f / 16, 1.0f / 32},
+    Quality{"smallest", 0.5f, 4, 2, 4, 1.0f / 16, 1.0f / 64},
 };
 
 // The first frames at a level include the cost of the change; it is judged after a few more.

@@ -9,12 +9,13 @@ namespace brume::viewer {
 
 /// The settings of a quality level.
 struct Quality {
-  const char* name;                 ///< Label in the overlay.
-  float picture_scale = 1;          ///< Rendered pixels per window pixel along each axis, (0, 1].
-  std::uint32_t march_scale = 1;    ///< render::RendererOptions::march_scale.
-  float step_scale = 1;             ///< planning::Quality::step_scale.
-  float resolve_error_scale = 1;    ///< planning::Quality::resolve_error_scale.
-  float light_update_fraction = 1;  ///< planning::Quality::light_update_fraction.
+  const char* name;                         ///< Label in the overlay.
+  float picture_scale = 1;                  ///< Rendered pixels per window pixel along each axis, (0, 1].
+  std::uint32_t march_scale = 1;            ///< render::RendererOptions::march_scale.
+  float step_scale = 1;                     ///< planning::Quality::step_scale.
+  float resolve_error_scale = 1;            ///< planning::Quality::resolve_error_scale.
+  float light_update_fraction = 1;          ///< planning::Quality::light_update_fraction.
+  float indirect_update_fraction = 0.125f;  ///< planning::Quality::indirect_update_fraction.
 };
 
 /// From best to fastest; the first one is that of `brume render`.

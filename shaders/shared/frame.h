@@ -74,6 +74,15 @@ struct FrameMedia {
 };
 SHARED_SIZE(FrameMedia, 168);
 
+/// Placement of the cells of indirect light (indirect_light.h).
+struct IndirectLayout {
+  vec3 origin_world;  // low corner of cell (0, 0, 0) [m]
+  float cell_size;    // [m]
+  ivec3 size;         // cells
+  uint bounces;       // 0: there is no indirect light
+};
+SHARED_SIZE(IndirectLayout, 32);
+
 struct FrameConstants {
   Camera camera;
   Sky sky;
@@ -93,8 +102,9 @@ struct FrameConstants {
   uint march_scale;  // edge of the tile of pixels that share a ray, 1, 2 or 4
   float texture_bias;   // of the mip level that surfaces are sampled at
   float resolve_error;  // largest error of an interpolated pixel, in display units [0, 1]
+  IndirectLayout indirect;
 };
-SHARED_SIZE(FrameConstants, 632);
+SHARED_SIZE(FrameConstants, 664);
 
 SHARED_END
 #endif

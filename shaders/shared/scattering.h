@@ -63,12 +63,16 @@ SHARED_FUNCTION vec3 scattered_sky(vec3 albedo, float weight, float p) {
   return vec3(arrives) / (vec3(1.0f) - weight * albedo * (1.0f - arrives));
 }
 
+/// The part of `scattered` that is scattered more than once.
+SHARED_FUNCTION vec3 scattered_often(ManyScatterings many, float depth, float cos_angle) {
+  return many.fraction * exp(-many.decay * depth) * henyey_greenstein(many.g, cos_angle);
+}
+
 /// Fraction of a light's unattenuated irradiance that is scattered towards the eye [1/sr] per unit of scattering
 /// coefficient, once or more often. `depth`: optical depth between light and point; `cos_angle`: between the light's
 /// direction and the direction to the eye.
 SHARED_FUNCTION vec3 scattered(Phase phase, ManyScatterings many, float depth, float cos_angle) {
-  return vec3(exp(-depth) * phase_value(phase, cos_angle)) +
-         many.fraction * exp(-many.decay * depth) * henyey_greenstein(many.g, cos_angle);
+  return vec3(exp(-depth) * phase_value(phase, cos_angle)) + scattered_often(many, depth, cos_angle);
 }
 
 SHARED_END

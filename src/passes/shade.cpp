@@ -3,6 +3,7 @@
 #include "brume_shaders.hpp"
 #include "shared/decal.h"
 #include "shared/display.h"
+#include "shared/indirect_light.h"
 #include "shared/resolve.h"
 
 namespace brume::passes {
@@ -46,6 +47,7 @@ void ShadePass::record(gpu::Recorder& recorder, const gpu::Buffer& frame, const 
           {shared::kBindSmokeShadows, gpu::sampled(smoke_shadows.atlas, linear_)},
           {shared::kBindSmoke, gpu::sampled(smoke, nearest_)},
           {shared::kBindSkyLight, gpu::sampled(level.sky.light(), linear_)},
+          {shared::kBindIndirectCube, gpu::sampled(level.indirect_cube, linear_)},
           {shared::kBindSolidTexels, gpu::sampled(level.solid.texels(), linear_)},
           {shared::kBindSmokeShadowFaces, gpu::read(smoke_shadows.faces)},
           {shared::kBindOcclusion, gpu::sampled(occlusion ? *occlusion : gbuffer.emission, nearest_)},

@@ -10,10 +10,11 @@
 
 namespace brume::passes {
 
-/// Occlusion of light by the level: solid volume and sky light.
+/// Light and occlusion by the level.
 struct LevelLight {
   const SolidVolume& solid;
   const SkyLightPass& sky;
+  const gpu::Image& indirect_cube;  ///< IndirectLightPass::cube.
 };
 
 class ShadePass {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "brume_shaders.hpp"
+#include "shared/indirect_light.h"
 
 namespace brume::passes {
 namespace {
@@ -158,6 +159,7 @@ void SmokeLightPass::dispatch_gathers(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindLightBlocks, gpu::read(ray_pages_)},
                     {shared::kBindLightGathers, gpu::read(gathers_)},
                     {shared::kBindInscatter, gpu::stored(in.smoke.inscatter)},
+                    {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
                     {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
                     {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
                     {shared::kBindFilteredDensity, gpu::sampled(in.smoke.filtered_density, linear_)},

@@ -1,6 +1,7 @@
 #include "passes/volume_light.hpp"
 
 #include "brume_shaders.hpp"
+#include "shared/indirect_light.h"
 
 namespace brume::passes {
 namespace {
@@ -72,6 +73,7 @@ void VolumeLightPass::record(gpu::Recorder& recorder, const Inputs& in,
                     {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                     {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
                     {shared::kBindSolidTexels, gpu::sampled(in.level.solid.texels(), linear_)},
+                    {shared::kBindIndirectCube, gpu::sampled(in.level.indirect_cube, linear_)},
                     {shared::kBindSkyLight, gpu::sampled(in.level.sky.light(), linear_)},
                     {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
                     {shared::kBindVolumePages, gpu::read(in.volumes.pages)},

@@ -55,6 +55,8 @@ struct Environment {
   /// Lights that stand for what glows in volumes. Of these and the flashes before them, at most kMaxFlashes
   /// are lit, the first ones.
   std::vector<shared::Light> glow = {};
+  /// How often surfaces and smoke pass light on to each other; 0: never.
+  std::uint32_t bounces = 0;
 };
 
 struct LevelState {
@@ -88,6 +90,10 @@ struct Quality {
   /// (SmokeLightCache); such a frame depends on the frames before. Up to 1/4 the shadows of smoke on surfaces
   /// (SmokeShadowCache) and the advection of slow noise (NoiseUpdates) are spread over four frames.
   float light_update_fraction = 1;
+  /// About which fraction of the indirect light that changed is found in this frame; in (0, 1]. As
+  /// light_update_fraction, which limits it.
+  float indirect_update_fraction = 1;
+  std::uint32_t most_bounces = 16;  ///< Limits Environment::bounces.
   bool rebuild_light = false;  ///< Light smoke and surfaces again even where nothing changed.
   /// Bytes of volumes with a preview that are uploaded in this frame; 0: all that is missing. Below their
   /// size such a frame depends on the frames before (VolumeStreaming).

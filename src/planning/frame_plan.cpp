@@ -31,6 +31,7 @@ void plan_visibility(FramePlan& plan, const PlanTarget& target, PlanHistory& his
   plan.decals = plan_decals(plan.input, plan.frustum);
   plan.lit_media = plan.media;
   if (lit != shown) choose_previews(plan.lit_media, plan.input.volumes, lit);
+  plan.indirect_light = history.indirect_light.plan(plan.input, plan.lit_media, std::move(lights));
 }
 
 void plan_level(FramePlan& plan, PlanHistory& history) {
@@ -80,14 +81,15 @@ void plan_smoke_light(FramePlan& plan, PlanHistory& history) {
       {input.smoke.volume, &plan.visibility, plan.lights, input.smoke.holes, input.smoke.time,
        input.smoke.look, input.environment.sky, input.view.camera.position_world,
        plan.level_changed || plan.volume_light.volumes_changed || input.quality.rebuild_light,
-       input.quality.light_update_fraction, plan.noise.catches_up});
+       input.quality.light_update_fraction, plan.noise.catches_up, plan.indirect_light.version});
 }
 
 void plan_volume_light(FramePlan& plan, PlanHistory& history) {
   const FrameInput& input = plan.input;
   plan.volume_light = history.volume_light.plan(
       {&plan.lit_media, input.volumes, plan.lights, input.smoke.volume, input.smoke.look, input.smoke.time,
-       input.environment.sky, plan.level_changed || input.quality.rebuild_light});
+       input.environment.sky, plan.level_changed || input.quality.rebuild_light,
+       plan.indirect_light.version});
   for (std::size_t i = 0; i < plan.media.frame.volume_count; ++i) {
     const shared::VolumeSweep& sun = plan.volume_light.sweeps[i * shared::kSweepsOfVolume];
     for (MediaPlan* media : {&plan.media, &plan.lit_media}) {

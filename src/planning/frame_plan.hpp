@@ -7,6 +7,7 @@
 #include "planning/decal_plan.hpp"
 #include "planning/frame_input.hpp"
 #include "planning/hole_plan.hpp"
+#include "planning/indirect_light_plan.hpp"
 #include "planning/media_plan.hpp"
 #include "planning/noise_updates.hpp"
 #include "planning/smoke_light_cache.hpp"
@@ -57,6 +58,7 @@ struct FramePlan {
   const SmokeLightPlan* smoke_light = nullptr;  ///< In the history, until it plans again; not null in a plan.
 
   VolumeLightPlan volume_light;
+  IndirectLightPlan indirect_light;
 
   ViewSlice view_slice;  ///< Where debug views cut.
 
@@ -70,6 +72,7 @@ struct PlanHistory {
   SmokeShadowCache smoke_shadows;
   SmokeLightCache smoke_light;
   VolumeLightCache volume_light;
+  IndirectLightCache indirect_light;
   VolumeStreaming volume_streaming;
   LevelView level;
   std::vector<std::uint32_t> hidden_objects;

@@ -55,7 +55,8 @@ bool LightChangeTracker::caster_bounds_changed(const SmokeLightInputs& inputs) c
 }
 
 bool LightChangeTracker::gather_inputs_changed(const SmokeLightInputs& inputs) const {
-  return !last_ || last_->eye_world != inputs.eye_world || !same_bytes(last_->sky, inputs.sky);
+  return !last_ || last_->eye_world != inputs.eye_world || !same_bytes(last_->sky, inputs.sky) ||
+         last_->indirect_version != inputs.indirect_version;
 }
 
 void LightChangeTracker::add_hole_changes(const SmokeLightInputs& inputs,
@@ -106,8 +107,14 @@ void LightChangeTracker::add_smoke_changes(const SmokeLightInputs& inputs,
 
 void LightChangeTracker::store_inputs(const SmokeLightInputs& inputs) {
   const bool other_volume = !last_ || last_->volume != inputs.volume;
-  last_ = {inputs.volume,    inputs.volume->revision(),       inputs.time, inputs.look, inputs.sky,
-           inputs.eye_world, inputs.visibility->caster_bounds};
+  last_ = {inputs.volume,
+           inputs.volume->revision(),
+           inputs.time,
+           inputs.look,
+           inputs.sky,
+           inputs.eye_world,
+           inputs.visibility->caster_bounds,
+           inputs.indirect_version};
   layout_ = inputs.volume->layout();
   holes_.assign(inputs.holes.begin(), inputs.holes.end());
   if (!other_volume && generation_ == inputs.volume->structure_generation()) return;

@@ -26,7 +26,8 @@ struct SmokeLightInputs {
   bool rebuild = false;  ///< Something else changed, walls for instance: no cached ray holds.
   /// About which fraction of what changed is updated in this frame; in (0, 1].
   float update_fraction = 1;
-  bool noise_changed = false;  ///< The noise changed, though the time may not have.
+  bool noise_changed = false;          ///< The noise changed, though the time may not have.
+  std::uint64_t indirect_version = 0;  ///< IndirectLightPlan::version.
 };
 
 /// Whether a hole removes the same everywhere at two times [s].
@@ -45,7 +46,8 @@ class LightChangeTracker {
   bool noise_moved(const SmokeLightInputs& inputs) const;
   /// Whether rays end elsewhere: where the box around the smoke does.
   bool caster_bounds_changed(const SmokeLightInputs& inputs) const;
-  /// Whether light scatters to another eye, or comes from another sky; true where there is no frame before.
+  /// Whether light scatters to another eye, or comes from another sky or other surroundings; true where there
+  /// is no frame before.
   bool gather_inputs_changed(const SmokeLightInputs& inputs) const;
 
   /// Adds where holes opened, closed, came or went.
@@ -69,6 +71,7 @@ class LightChangeTracker {
     shared::Sky sky{};
     glm::vec3 eye_world{0};
     Box<float> caster_bounds;
+    std::uint64_t indirect_version = 0;
   };
   std::optional<Last> last_;
   shared::VolumeLayout layout_{};

@@ -70,6 +70,7 @@ FrameInput frame_input(const scenario::Scenario& scenario, const scenario::Simul
   input.view.frame_index = static_cast<std::uint32_t>(std::floor(seconds * kJitterRate + kRounding));
   input.environment.sky = {timeline.sky.zenith, timeline.sky.horizon, timeline.sky.ambient,
                            timeline.sky.stars, timeline.sky.bounce};
+  input.environment.bounces = timeline.bounces;
   const scene::SmokeOptions& smoke = timeline.smoke;
   input.smoke.look.albedo = smoke.albedo;
   input.smoke.look.extinction = smoke.extinction;

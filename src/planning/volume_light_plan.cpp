@@ -27,21 +27,6 @@ constexpr std::array<glm::vec3, shared::kSkySweeps> kSkyDirections{glm::vec3(1, 
                                                                    glm::vec3(0, 1, 0), glm::vec3(0, -1, 0),
                                                                    glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)};
 
-/// Collects what a key is made of, byte by byte.
-class KeyBytes {
- public:
-  template <typename T>
-  requires std::is_trivially_copyable_v<T>
-  void add(const T& value) {
-    const auto bytes = std::as_bytes(std::span(&value, 1));
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-  }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
 void add_transfer(KeyBytes& key, const TransferInput& transfer) {
   for (const scene::OpacityPoint& point : transfer.opacity) key.add(point);
   for (const scene::ColorPoint& point : transfer.color_map.points) key.add(point);
@@ -52,21 +37,7 @@ void add_transfer(KeyBytes& key, const TransferInput& transfer) {
 
 std::vector<std::byte> key_of_volumes(const VolumeLightInputs& in) {
   KeyBytes key;
-  for (const PlacedVolume& visible : in.media->volumes) {
-    const volume::SparseVolume& volume = *shown_volume(in.volumes[visible.index], visible.is_preview).volume;
-    key.add(volume.id());
-    key.add(volume.revision());
-    key.add(visible.instance.voxel_from_world);
-    key.add(visible.instance.bounds_min);
-    key.add(visible.instance.bounds_max);
-    key.add(visible.instance.look);
-    key.add(visible.instance.transfer);
-    key.add(visible.instance.is_dense);
-    add_transfer(key, in.volumes[visible.index].transfer);
-    const volume::SparseVolume* const colors = in.volumes[visible.index].colors;
-    key.add(colors ? colors->id() : 0);
-    key.add(colors ? colors->revision() : 0);
-  }
+  add_volumes(key, *in.media, in.volumes);
   return key.take();
 }
 
@@ -76,6 +47,7 @@ std::vector<std::byte> key_of_others(const VolumeLightInputs& in) {
   for (const shared::Light& light : in.lights) key.add(light);
   key.add(in.sky.ambient);
   key.add(in.sky.bounce);
+  key.add(in.indirect_version);
   if ((in.media->casters & shared::kMediumSmoke) != 0 && in.smoke && in.smoke->slot_count() > 0) {
     key.add(in.smoke->revision());
     key.add(in.smoke_look);
@@ -102,6 +74,24 @@ std::uint32_t edge_of(const MediaPlan& media, Resolution resolution, Resolution 
 }
 
 }  // namespace
+
+void add_volumes(KeyBytes& key, const MediaPlan& media, std::span<const VolumeInput> volumes) {
+  for (const PlacedVolume& visible : media.volumes) {
+    const VolumeInput& input = volumes[visible.index];
+    const volume::SparseVolume& volume = *shown_volume(input, visible.is_preview).volume;
+    key.add(volume.id());
+    key.add(volume.revision());
+    key.add(visible.instance.voxel_from_world);
+    key.add(visible.instance.bounds_min);
+    key.add(visible.instance.bounds_max);
+    key.add(visible.instance.look);
+    key.add(visible.instance.transfer);
+    key.add(visible.instance.is_dense);
+    add_transfer(key, input.transfer);
+    key.add(input.colors ? input.colors->id() : 0);
+    key.add(input.colors ? input.colors->revision() : 0);
+  }
+}
 
 shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec3 direction) {
   // Axes across the direction, and the extent of the bounds along all three.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "planning/key_bytes.hpp"
 #include "planning/media_plan.hpp"
 #include "shared/light.h"
 #include "shared/volume_light.h"
@@ -33,6 +34,7 @@ struct VolumeLightInputs {
   float time = 0;  ///< Of the smoke's noise and holes [s].
   shared::Sky sky{};
   bool rebuild = false;  ///< The level changed, or light is to be found again for another reason.
+  std::uint64_t indirect_version = 0;  ///< IndirectLightPlan::version.
 };
 
 /// Tracks what the device's light was computed from.
@@ -47,6 +49,9 @@ class VolumeLightCache {
   std::vector<std::byte> volumes_key_;  ///< Bytes of the volumes of the last plan.
   std::vector<std::byte> key_;          ///< Bytes of all other inputs of the last update; empty: none.
 };
+
+/// Adds what the light in the volumes of a frame follows from, of the volumes themselves.
+void add_volumes(KeyBytes& key, const MediaPlan& media, std::span<const VolumeInput> volumes);
 
 /// The rays along `direction` (unit) through a volume's bounds.
 shared::VolumeSweep sweep_through(const shared::VolumeInstance& volume, glm::vec3 direction);

@@ -40,6 +40,12 @@ class Surfaces {
   Surfaces(const scene::Scene& scene, std::span<const planning::LevelState> levels, bool matte = false);
 
   std::optional<SurfaceHit> hit(const Ray& ray) const;
+  /// The nearest place of a surface on a ray, without its material.
+  struct Place {
+    glm::vec3 position{0};
+    glm::vec3 normal{0};  ///< Unit, towards the ray's origin.
+  };
+  std::optional<Place> place(const Ray& ray) const;
   /// Distance of the nearest surface on a ray; its end where there is none before [m].
   float distance(const Ray& ray) const;
   /// Whether a surface lies on a ray before its end.

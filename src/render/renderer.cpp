@@ -179,6 +179,11 @@ void Renderer::record_part(gpu::Recorder& recorder, const FramePlan& plan, int p
 void Renderer::record_light(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   scope(recorder, "upload", [&] { record_upload(recorder, plan, in); });
   scope(recorder, "sky_light", [&] { scene_.record_level(recorder, plan, frame_); });
+  if (plan.indirect_light.slices.count > 0)
+    scope(recorder, "indirect_light", [&] {
+      scene_.record_indirect_light(recorder, plan, frame_,
+                                   {smoke_.resources(), smoke_.noise(), smoke_.lit_volumes()});
+    });
   scope(recorder, "gbuffer", [&] { scene_.record_gbuffer(recorder, plan, frame_, targets_.gbuffer); });
   scope(recorder, "density", [&] { smoke_.record_density(recorder, plan, in); });
   scope(recorder, "light", [&] { smoke_.record_light(recorder, plan, in); });
@@ -232,6 +237,7 @@ void Renderer::record_decals(gpu::Recorder& recorder, const FramePlan& plan) {
 void Renderer::record_upload(gpu::Recorder& recorder, const FramePlan& plan, const FrameResources& in) {
   shared::FrameConstants frame = frame_constants(plan);
   frame.solid = scene_.level().solid.layout();
+  frame.indirect = scene_.indirect_layout(plan);
   frame.march_scale = smoke_.march_scale();
   recorder.upload(frame_, 0, std::as_bytes(std::span(&frame, 1)));
   scene_.record_lights(recorder, plan);

@@ -22,12 +22,14 @@ std::vector<passes::Draw> moving_draws(const passes::SceneResources& scene,
 SceneView::SceneView(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene)
     : context_(context),
       runner_(runner),
+      source_(&scene),
       scene_(passes::upload_scene(context, runner, scene)),
       gbuffer_pass_(context),
       shadow_pass_(context),
       shadows_(shadow_pass_.make_maps(context, scene_)),
       solid_(context),
-      sky_light_(context) {
+      sky_light_(context),
+      indirect_light_(context) {
   shadow_pass_.record(context, runner, scene_, {}, shadows_);
 }
 
@@ -35,9 +37,54 @@ void SceneView::reserve(const planning::FramePlan& plan) {
   const planning::LevelState& level = plan.input.level;
   solid_.reserve(level.voxels);
   sky_light_.reserve(solid_);
+  reserve_indirect_light(plan);
   if (!plan.changed_objects.empty())
     shadow_pass_.record_changed(context_, runner_, scene_, level.hidden_objects, plan.changed_objects,
                                 shadows_);
+}
+
+void SceneView::reserve_indirect_light(const planning::FramePlan& plan) {
+  const planning::IndirectLightPlan& indirect = plan.indirect_light;
+  if (indirect.bounces == 0) return;
+  if (indirect.level_changed) {
+    const reference::Surfaces surfaces(*source_, {&plan.input.level, 1});
+    light_cells_ = reference::make_light_cells(*plan.input.level.voxels.grid, surfaces);
+  }
+  indirect_light_.reserve(light_cells_, indirect.lights.size(), plan.media.casters);
+}
+
+shared::IndirectLayout SceneView::indirect_layout(const planning::FramePlan& plan) const {
+  shared::IndirectLayout layout = light_cells_.layout;
+  layout.bounces = plan.indirect_light.bounces;
+  return layout;
+}
+
+void SceneView::record_indirect_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
+                                      const gpu::Buffer& frame, const MediaResources& media) {
+  const planning::IndirectLightPlan& indirect = plan.indirect_light;
+  passes::IndirectLightPass::Inputs in{.frame = frame,
+                                       .shadows = shadows_,
+                                       .solid = solid_,
+                                       .smoke = media.smoke,
+                                       .noise = media.noise,
+                                       .volumes = media.volumes,
+                                       .casters = plan.media.casters};
+  if (plan.input.smoke.volume && plan.input.smoke.volume->slot_count() > 0) {
+    in.albedo = plan.input.smoke.look.albedo;
+    in.g = shared::mean_cosine(plan.input.smoke.look.phase);
+  } else if (!plan.media.volumes.empty()) {
+    in.albedo = plan.media.volumes.front().instance.look.albedo;
+    in.g = plan.media.volumes.front().instance.look.anisotropy;
+  }
+  if (indirect.level_changed) indirect_light_.upload(recorder, light_cells_);
+  const shared::IndirectLayout& layout = light_cells_.layout;
+  Box<int> cells{glm::ivec3(0), glm::ivec3(0)};
+  if (!indirect.media.empty())
+    cells =
+        intersection(Box<int>{glm::ivec3(0), layout.size},
+                     {glm::ivec3(glm::floor((indirect.media.low - layout.origin_world) / layout.cell_size)),
+                      glm::ivec3(glm::ceil((indirect.media.high - layout.origin_world) / layout.cell_size))});
+  indirect_light_.record(recorder, in, indirect, cells);
 }
 
 void SceneView::record_lights(gpu::Recorder& recorder, const planning::FramePlan& plan) const {

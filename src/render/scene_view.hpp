@@ -3,6 +3,7 @@
 #pragma once
 
 #include "passes/gbuffer.hpp"
+#include "passes/indirect_light.hpp"
 #include "passes/shade.hpp"
 #include "planning/frame_plan.hpp"
 
@@ -10,7 +11,7 @@ namespace brume::render {
 
 class SceneView {
  public:
-  /// Uploads the scene and draws its shadows. `context` and `runner` must outlive the view. Throws
+  /// Uploads the scene and draws its shadows. All three must outlive the view. Throws
   /// resource_limit.
   SceneView(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene);
 
@@ -23,23 +24,38 @@ class SceneView {
   /// Updates solid voxels and sky light where the level changed. `frame` holds FrameConstants, here and
   /// below.
   void record_level(gpu::Recorder& recorder, const planning::FramePlan& plan, const gpu::Buffer& frame);
+  /// Finds the indirect light of a plan, after the upload of its media.
+  struct MediaResources {
+    const passes::SmokeResources& smoke;
+    const gpu::Image& noise;  ///< Its tile.
+    passes::VolumeResources volumes;
+  };
+  void record_indirect_light(gpu::Recorder& recorder, const planning::FramePlan& plan,
+                             const gpu::Buffer& frame, const MediaResources& media);
+  /// Where indirect light is known; without bounces where there is none.
+  shared::IndirectLayout indirect_layout(const planning::FramePlan& plan) const;
   /// Draws the surfaces, grenades in the air included.
   void record_gbuffer(gpu::Recorder& recorder, const planning::FramePlan& plan, const gpu::Buffer& frame,
                       const passes::GBuffer& target) const;
 
   const passes::SceneResources& resources() const { return scene_; }
   const passes::ShadowMaps& shadows() const { return shadows_; }
-  passes::LevelLight level() const { return {solid_, sky_light_}; }
+  passes::LevelLight level() const { return {solid_, sky_light_, indirect_light_.cube()}; }
 
  private:
+  void reserve_indirect_light(const planning::FramePlan& plan);
+
   gpu::Context& context_;
   gpu::CommandRunner& runner_;
+  const scene::Scene* source_;
   passes::SceneResources scene_;
   passes::GBufferPass gbuffer_pass_;
   passes::ShadowPass shadow_pass_;
   passes::ShadowMaps shadows_;
   passes::SolidVolume solid_;
   passes::SkyLightPass sky_light_;
+  passes::IndirectLightPass indirect_light_;
+  reference::LightCells light_cells_;  ///< Of the last plan with indirect light.
 };
 
 }  // namespace brume::render

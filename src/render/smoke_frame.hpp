@@ -91,6 +91,10 @@ class SmokeFrame {
   std::uint32_t march_scale() const { return march_scale_; }
   bool is_accumulated() const { return accumulate_pass_.has_value(); }
   const passes::SmokeResources& resources() const { return smoke_upload_.resources(); }
+  /// The volumes as light is found in them.
+  passes::VolumeResources lit_volumes() const { return volume_upload_.lit_resources(); }
+  /// The tile of its noise, from the first frame with smoke on.
+  const gpu::Image& noise() const { return noise_; }
   const passes::HoleResources& holes() const { return hole_clusters_.resources(); }
   const passes::SmokeShadows& shadows() const { return shadows_; }
   /// The rays of the march; empty where each pixel has its own.

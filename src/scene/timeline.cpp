@@ -29,6 +29,7 @@ class TimelineReader {
     if (scene.empty() || scene.find('\0') != std::string::npos)
       root.fail("scene", "\"scene\": expected the name of a scene file");
     visit_timeline_options(timeline_, OptionReader{root});
+    visit_bounce_options(timeline_, OptionReader{root});
     visit_level_options(timeline_, OptionReader{root});
     read_tone(root, timeline_.tone);
     const toml::table* const grid = root.table("grid");

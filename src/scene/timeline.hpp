@@ -283,6 +283,7 @@ struct Timeline {
   std::filesystem::path scene;  ///< Resolved against the timeline's own folder.
   float duration = 4.0f;
   float exposure = 0.0f;
+  std::uint32_t bounces = 0;
   ToneCurve tone = ToneCurve::neutral;
   glm::vec3 origin{0};
   float scale = 1;

@@ -267,6 +267,7 @@ Result<void> check_settings(const Timeline& timeline) {
   // The timeline's own settings, then those of its tables.
   Checker look("the timeline");
   visit_timeline_options(timeline, look);
+  visit_bounce_options(timeline, look);
   visit_level_options(timeline, look);
   if (auto done = look.done(); !done) return done;
   Checker grid("[grid]"), smoke("[smoke]"), sky("[sky]"), sun("[sun]");

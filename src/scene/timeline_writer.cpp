@@ -34,6 +34,7 @@ class Writer : private TomlText {
     text_ += "version = 1\n";
     line("scene", path_from(timeline.scene, folder_).generic_string());
     options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_timeline_options(o, v); });
+    options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_bounce_options(o, v); });
     if (timeline.tone == ToneCurve::standard) line("tone", std::string("standard"));
     options(timeline, Timeline(), "", [](auto& o, auto& v) { visit_level_options(o, v); });
     options(timeline.grid, GridOptions(), "\n[grid]\n", [](auto& o, auto& v) { visit_grid_options(o, v); });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/recorder.hpp"
+#include "shared/indirect_light.h"
 
 namespace brume::passes {
 
@@ -28,6 +29,16 @@ inline gpu::Image test_image(gpu::Context& context, glm::uvec2 size, VkFormat fo
   info.size = {size, 1};
   info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  return gpu::Image(context, info);
+}
+
+/// Where there is no indirect light.
+inline gpu::Image make_indirect_cube(gpu::Context& context) {
+  gpu::ImageInfo info;
+  info.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  info.size = {1, 1, shared::kIndirectSlabs};
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
   return gpu::Image(context, info);
 }
 

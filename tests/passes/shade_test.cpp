@@ -83,7 +83,7 @@ class ShadeTest : public gpu::GpuTest {
     sky_.reserve(solid_);
     runner().run([&](gpu::Recorder& recorder) {
       if (solid_.record(recorder, {})) sky_.record(recorder, frame_buffer, solid_);
-      pass.record(recorder, frame_buffer, scene_, shadows_, smoke_shadows_, {solid_, sky_}, gbuffer_,
+      pass.record(recorder, frame_buffer, scene_, shadows_, smoke_shadows_, {solid_, sky_, indirect_cube_}, gbuffer_,
                   smoke_image, radiance, voxel_shadows);
     });
     std::vector<glm::vec4> out;
@@ -99,6 +99,7 @@ class ShadeTest : public gpu::GpuTest {
   SmokeShadows smoke_shadows_;
   SolidVolume solid_{context()};
   SkyLightPass sky_{context()};
+  gpu::Image indirect_cube_ = make_indirect_cube(context());
   GBuffer gbuffer_;
 };
 

@@ -14,6 +14,7 @@
 #include "shared/hole.h"
 #include "shared/hole_clusters.h"
 #include "shared/hole_reach.h"
+#include "shared/indirect_light.h"
 #include "shared/light.h"
 #include "shared/noise.h"
 #include "shared/noise_advection.h"
@@ -122,7 +123,10 @@
   X(79, TankLightParams) \
   X(80, NearestIds) \
   X(81, Photon) \
-  X(82, PhotonGrid)
+  X(82, PhotonGrid) \
+  X(83, IndirectLayout) \
+  X(84, SurfacePatch) \
+  X(85, IndirectParams)
 // clang-format on
 
 #endif

@@ -55,17 +55,20 @@ void for_many_members(const T& s, const All& all) {
   } else if constexpr (kCount == 17) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = s;
     all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
-  } else {
+  } else if constexpr (kCount == 18) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = s;
     all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+  } else {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t] = s;
+    all(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t);
   }
 }
 
-/// Calls visit(member) for each member of an aggregate of at most 18.
+/// Calls visit(member) for each member of an aggregate of at most 19.
 template <typename T, typename Visit>
 void for_each_member(const T& s, Visit visit) {
   constexpr std::size_t kCount = member_count<T>();
-  static_assert(kCount >= 1 && kCount <= 18);
+  static_assert(kCount >= 1 && kCount <= 19);
   const auto all = [&](const auto&... members) { (visit(members), ...); };
   if constexpr (kCount == 1) {
     const auto& [a] = s;

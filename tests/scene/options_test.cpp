@@ -97,6 +97,7 @@ TEST(Options, MatchTheTableInTheDocs) {
       volume("`[[volume]]` "), mask("`[[volume.mask]]` "), disturbance("`[volume.disturb]` "),
       carrier("`[[carrier.key]]` "), decal("`[[decal]]` "), camera("`[[camera]]` ");
   visit_timeline_options(static_cast<const Timeline&>(Timeline()), top);
+  visit_bounce_options(static_cast<const Timeline&>(Timeline()), top);
   visit_level_options(static_cast<const Timeline&>(Timeline()), top);
   visit_grid_options(static_cast<const GridOptions&>(GridOptions()), grid);
   visit_smoke_options(static_cast<const SmokeOptions&>(SmokeOptions()), smoke);

@@ -1,0 +1,103 @@
+// Indirect light: what surfaces reflect and smoke scatters onto each other, on a grid of cells over the level.
+//
+//   cells     per cell a uint: kSolidCell; or in a free one 6 bits that say which of its neighbours are solid, in the
+//             order of cube_forward, and above them the index of its first patch. x + size.x (y + size.y z)
+//   patches   a SurfacePatch for each face between a free cell and a solid one
+//   probes    indices of the free cells
+//   hits      per ray of each probe what it meets (pack_hit): ray * probe_count + probe
+//   patch_irradiance   per patch the irradiance / pi by the lights
+//   patch_radiance     per patch the radiance that leaves it
+//   cube      half floats, eight slabs of the grid's size along z: irradiance / pi of a surface that faces along
+//             cube_forward(slab), and 1; then in red the mean transmittance of the media out of the cell; then what the
+//             formula of scattering.h takes for the light that is scattered more than once. Solid cells beside free ones
+//             have the mean of those times kSolidWeight, all others are 0
+//   medium    half floats, a texel per cell: radiance that it scatters per metre, the same in all directions, and
+//             extinction [1/m]
+//   medium_direct       mean radiance of the lights alone, over all directions, and extinction
+//   medium_matter       scattering coefficient and extinction
+// Extinction and scattering here are those of similar media that scatter evenly: of forward scattering, the part g, the
+// mean cosine, counts as not scattered at all (van de Hulst 1980, "Multiple Light Scattering", similarity relations).
+#ifndef BRUME_INDIRECT_LIGHT_H
+#define BRUME_INDIRECT_LIGHT_H
+#include "shared/frame.h"
+SHARED_BEGIN
+
+SHARED_BINDING(kBindIndirectCube, 82u);
+SHARED_BINDING(kBindSurfacePatches, 84u);
+SHARED_BINDING(kBindIndirectProbes, 85u);
+SHARED_BINDING(kBindIndirectHits, 86u);
+SHARED_BINDING(kBindPatchIrradiance, 87u);
+SHARED_BINDING(kBindPatchRadiance, 88u);
+SHARED_BINDING(kBindIndirectMedium, 89u);
+SHARED_BINDING(kBindMediumDirect, 90u);
+SHARED_BINDING(kBindIndirectTarget, 91u);
+SHARED_BINDING(kBindMediumMatter, 92u);
+
+/// A piece of surface that a free cell sees.
+struct SurfacePatch {
+  vec3 position_world;
+  vec3 normal;    // unit, towards the cell
+  vec3 albedo;    // of diffuse reflection
+  vec3 emission;  // radiance
+};
+SHARED_SIZE(SurfacePatch, 48);
+
+struct IndirectParams {
+  ivec3 media_low;  // cells that may hold smoke
+  ivec3 media_high;
+  uint patch_count, probe_count, light_count;
+  uint first_probe, end_probe;  // that gather in a dispatch
+  float relaxation;  // how much of a bounce's change is applied; above 1 it is exaggerated
+  vec3 albedo;       // of the medium that the formula stands for
+  float g;           // mean cosine of its phase function
+};
+SHARED_SIZE(IndirectParams, 64);
+
+/// Slabs of the cube, and those of the transmittance and of the formula.
+SHARED_CONST uint kIndirectSlabs = 8u;
+SHARED_CONST uint kEscapeSlab = 6u;
+SHARED_CONST uint kFormulaSlab = 7u;
+/// Alpha of solid cells beside free ones: they count only where there is nothing else, in corners.
+SHARED_CONST float kSolidWeight = 0.015625f;
+
+SHARED_CONST uint kSolidCell = 0xffffffffu;
+SHARED_CONST uint kPatchFaces = 63u;
+SHARED_CONST uint kPatchShift = 6u;
+
+/// Rays of a probe. Neighbouring probes have different ones, kProbePhases sets of them.
+SHARED_CONST uint kProbeRays = 64u;
+SHARED_CONST uint kProbePhases = 8u;
+
+/// Ray i of a probe: of the points of a spherical Fibonacci lattice every eighth (Swinbank and Purser 2006).
+SHARED_FUNCTION vec3 probe_direction(uint i, uint phase) {
+  uint j = i * kProbePhases + phase;
+  float height = 1.0f - (2.0f * float(j) + 1.0f) / float(kProbeRays * kProbePhases);
+  float around = 2.39996323f * float(j), radius = sqrt(1.0f - height * height);
+  return vec3(radius * cos(around), height, radius * sin(around));
+}
+
+/// Which of the sets of rays a probe has.
+SHARED_FUNCTION uint probe_phase(ivec3 cell) {
+  return uint((cell.x & 1) | (cell.y & 1) << 1 | (cell.z & 1) << 2);
+}
+
+/// The cell of an index.
+SHARED_FUNCTION ivec3 cell_at(IndirectLayout layout_, uint index) {
+  uint x = uint(layout_.size.x), y = uint(layout_.size.y);
+  return ivec3(int(index % x), int(index / x % y), int(index / (x * y)));
+}
+
+/// What a ray meets: a patch, or kSkyPatch; and after how many cells, in steps of half a cell.
+SHARED_CONST uint kSkyPatch = 0x3fffffu;
+SHARED_FUNCTION uint pack_hit(uint patch_index, float cells) {
+  return patch_index | uint(min(2.0f * cells + 0.5f, 1023.0f)) << 22u;
+}
+SHARED_FUNCTION uint hit_patch(uint hit) {
+  return hit & kSkyPatch;
+}
+SHARED_FUNCTION float hit_cells(uint hit) {
+  return 0.5f * float(hit >> 22u);
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,247 @@
+#include "passes/indirect_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "brume_shaders.hpp"
+#include "shared/media.h"
+#include "shared/noise.h"
+#include "shared/sky_light.h"
+
+namespace brume::passes {
+namespace {
+
+gpu::Image make_image(gpu::Context& context, VkFormat format, glm::uvec3 size) {
+  gpu::ImageInfo info;
+  info.format = format;
+  info.size = size;
+  info.three_dimensional = true;
+  info.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+               VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  return {context, info};
+}
+
+/// What the pipelines of media differ by.
+constexpr std::uint32_t kCellMedia =
+    shared::kMediumSmoke | shared::kMediumVolumes | shared::kMediumTransfer | shared::kMediumColors;
+
+template <typename T>
+void upload_list(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span<const T> list) {
+  if (!list.empty()) recorder.upload(buffer, 0, std::as_bytes(list));
+}
+
+/// Factor of bounce i of n: the roots of a Chebyshev polynomial over the eigenvalues of a bounce, from
+/// kLowest, where light goes back and forth between facing walls, to kHighest. n bounces then leave about as
+/// little to find as three times as many would (Varga 1962, "Matrix Iterative Analysis", Richardson's
+/// method). Small and large factors take turns, so that no bounce in between is far off; the smallest comes
+/// last.
+float relaxation(std::uint32_t i, std::uint32_t n) {
+  constexpr float kLowest = -0.4f, kHighest = 0.9f;
+  if (n < 3) return 1;
+  const std::uint32_t from_smallest = i + 1 == n ? 0 : i % 2 == 0 ? 1 + i / 2 : n - 1 - i / 2;
+  const float angle =
+      std::numbers::pi_v<float> * (static_cast<float>(from_smallest) + 0.5f) / static_cast<float>(n);
+  return 1 / (1 - 0.5f * (kHighest + kLowest) + 0.5f * (kHighest - kLowest) * std::cos(angle));
+}
+
+}  // namespace
+
+IndirectLightPass::IndirectLightPass(gpu::Context& context)
+    : context_(context),
+      patches_pass_(context, shaders::indirect_patches_comp),
+      medium_light_pass_(context, shaders::indirect_medium_light_comp),
+      patch_radiance_pass_(context, shaders::indirect_patch_radiance_comp),
+      medium_source_pass_(context, shaders::indirect_medium_source_comp),
+      gather_pass_(context, shaders::indirect_gather_comp, {0u}),
+      gather_in_media_pass_(context, shaders::indirect_gather_comp, {1u}),
+      smooth_pass_(context, shaders::indirect_smooth_comp),
+      formula_pass_(context, shaders::indirect_formula_comp),
+      linear_(context, {}),
+      compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {
+  reserve_nothing();
+}
+
+void IndirectLightPass::reserve_nothing() {
+  if (cube_ && cube_.info().size == glm::uvec3(1, 1, shared::kIndirectSlabs)) return;
+  cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, {1, 1, shared::kIndirectSlabs});
+}
+
+void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t light_count,
+                                std::uint32_t casters) {
+  medium_passes_.try_emplace(casters & kCellMedia, context_, shaders::indirect_medium_comp,
+                             std::vector{casters & kCellMedia});
+  patch_count_ = static_cast<std::uint32_t>(level.patches.size());
+  probe_count_ = static_cast<std::uint32_t>(level.probes.size());
+  gpu::grow(context_, patches_, std::max<std::size_t>(patch_count_, 1) * sizeof(shared::SurfacePatch));
+  gpu::grow(context_, irradiance_, std::max<std::size_t>(patch_count_, 1) * sizeof(glm::vec3));
+  gpu::grow(context_, radiance_, std::max<std::size_t>(patch_count_, 1) * sizeof(glm::vec3));
+  gpu::grow(context_, probes_, std::max<std::size_t>(probe_count_, 1) * sizeof(std::uint32_t));
+  gpu::grow(context_, hits_,
+            std::max<std::size_t>(probe_count_, 1) * shared::kProbeRays * sizeof(std::uint32_t));
+  gpu::grow(context_, lights_, std::max<std::size_t>(light_count, 1) * sizeof(shared::Light));
+  const glm::uvec3 size(level.layout.size), slabs(size.x, size.y, shared::kIndirectSlabs * size.z);
+  if (cube_.info().size == slabs && medium_) return;
+  cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
+  next_cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
+  noisy_cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
+  medium_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+  medium_direct_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+  medium_matter_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, size);
+}
+
+void IndirectLightPass::upload(gpu::Recorder& recorder, const reference::LightCells& level) const {
+  upload_list<shared::SurfacePatch>(recorder, patches_, level.patches);
+  upload_list<std::uint32_t>(recorder, probes_, level.probes);
+  upload_list<std::uint32_t>(recorder, hits_, level.hits);
+}
+
+void IndirectLightPass::record(gpu::Recorder& recorder, const Inputs& in,
+                               const planning::IndirectLightPlan& plan, const Box<int>& media) {
+  const std::uint32_t end = plan.slices.first + plan.slices.count;
+  for (std::uint32_t i = plan.slices.first; i < end;) {
+    const std::uint32_t bounce = i / planning::kSlicesPerBounce, slice = i % planning::kSlicesPerBounce;
+    if (i == 0) begin(recorder, in, plan.lights, media);
+    if (slice == 0) record_sources(recorder, in);
+    // Slices that come together are one dispatch.
+    const std::uint32_t together = std::min(planning::kSlicesPerBounce - slice, end - i);
+    record_gather(recorder, in, slice, together);
+    i += together;
+    if (i % planning::kSlicesPerBounce != 0) continue;
+    if (bounce == 0 && has_media()) record_formula(recorder, in);
+    record_smooth(recorder, in, relaxation(bounce, plan.bounces));
+    if (bounce + 1 == plan.bounces) std::swap(cube_, next_cube_);
+  }
+}
+
+/// The light of the lights, on patches and in media.
+void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
+                              std::span<const shared::Light> lights, const Box<int>& media) {
+  params_ = {};
+  if (!media.empty()) {
+    params_.media_low = media.low;
+    params_.media_high = media.high;
+  }
+  params_.patch_count = patch_count_;
+  params_.probe_count = probe_count_;
+  params_.light_count = static_cast<std::uint32_t>(lights.size());
+  params_.albedo = in.albedo;
+  params_.g = in.g;
+  upload_list(recorder, lights_, lights);
+  recorder.clear(next_cube_, {});
+  recorder.clear(noisy_cube_, {});
+  if (has_media()) {
+    recorder.clear(medium_, {});
+    recorder.clear(medium_matter_, {});
+    record_media(recorder, in);
+  }
+  recorder.bind(patches_pass_,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindLights, gpu::read(lights_)},
+                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                 {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
+                 {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
+                 {shared::kBindSurfacePatches, gpu::read(patches_)},
+                 {shared::kBindPatchIrradiance, gpu::write(irradiance_)}},
+                params_);
+  recorder.dispatch_threads(patches_pass_, patch_count_);
+}
+
+void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) {
+  const glm::uvec3 cells(params_.media_high - params_.media_low);
+  const gpu::ComputePipeline& medium_pass = medium_passes_.at(in.casters & kCellMedia);
+  recorder.bind(medium_pass,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindPages, gpu::read(in.smoke.pages)},
+                 {shared::kBindDensity, gpu::sampled(in.smoke.density, linear_)},
+                 {shared::kBindNoiseTile, gpu::sampled(in.noise, linear_)},
+                 {shared::kBindVolumes, gpu::uniform(in.volumes.instances)},
+                 {shared::kBindVolumePages, gpu::read(in.volumes.pages)},
+                 {shared::kBindVolumeValues, gpu::sampled(in.volumes.values, linear_)},
+                 {shared::kBindTransfers, gpu::read(in.volumes.transfers)},
+                 {shared::kBindColorGrids, gpu::sampled(in.volumes.color_grids, linear_)},
+                 {shared::kBindIndirectTarget, gpu::stored(medium_matter_)}},
+                params_);
+  recorder.dispatch_threads(medium_pass, cells.x, cells.y, cells.z);
+  recorder.bind(medium_light_pass_,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindLights, gpu::read(lights_)},
+                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                 {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
+                 {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
+                 {shared::kBindIndirectTarget, gpu::stored(medium_direct_)}},
+                params_);
+  recorder.dispatch_threads(medium_light_pass_, cells.x, cells.y, cells.z);
+}
+
+/// What patches and media send out, of the light that is known so far.
+void IndirectLightPass::record_sources(gpu::Recorder& recorder, const Inputs& in) {
+  recorder.concurrently([&] {
+    recorder.bind(patch_radiance_pass_,
+                  {{shared::kBindFrame, gpu::uniform(in.frame)},
+                   {shared::kBindIndirectCube, gpu::sampled(next_cube_, linear_)},
+                   {shared::kBindSurfacePatches, gpu::read(patches_)},
+                   {shared::kBindPatchIrradiance, gpu::read(irradiance_)},
+                   {shared::kBindPatchRadiance, gpu::write(radiance_)}},
+                  params_);
+    recorder.dispatch_threads(patch_radiance_pass_, patch_count_);
+    if (!has_media()) return;
+    const glm::uvec3 cells(params_.media_high - params_.media_low);
+    recorder.bind(medium_source_pass_,
+                  {{shared::kBindFrame, gpu::uniform(in.frame)},
+                   {shared::kBindIndirectCube, gpu::sampled(next_cube_, linear_)},
+                   {shared::kBindMediumDirect, gpu::sampled(medium_direct_, linear_)},
+                   {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
+                   {shared::kBindIndirectTarget, gpu::stored(medium_)}},
+                  params_);
+    recorder.dispatch_threads(medium_source_pass_, cells.x, cells.y, cells.z);
+  });
+}
+
+void IndirectLightPass::record_gather(gpu::Recorder& recorder, const Inputs& in, std::uint32_t slice,
+                                      std::uint32_t count) {
+  const std::uint64_t probes = probe_count_, all = planning::kSlicesPerBounce;
+  params_.first_probe = static_cast<std::uint32_t>(probes * slice / all);
+  params_.end_probe = static_cast<std::uint32_t>(probes * (slice + count) / all);
+  if (params_.first_probe == params_.end_probe) return;
+  const gpu::ComputePipeline& gather = has_media() ? gather_in_media_pass_ : gather_pass_;
+  recorder.bind(gather,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindIndirectProbes, gpu::read(probes_)},
+                 {shared::kBindIndirectHits, gpu::read(hits_)},
+                 {shared::kBindPatchRadiance, gpu::read(radiance_)},
+                 {shared::kBindIndirectMedium, gpu::sampled(medium_, linear_)},
+                 {shared::kBindIndirectTarget, gpu::stored(noisy_cube_)}},
+                params_);
+  recorder.dispatch_threads(gather, params_.end_probe - params_.first_probe);
+}
+
+void IndirectLightPass::record_formula(gpu::Recorder& recorder, const Inputs& in) {
+  const glm::uvec3 cells(params_.media_high - params_.media_low);
+  recorder.bind(formula_pass_,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindLights, gpu::read(lights_)},
+                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
+                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
+                 {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
+                 {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
+                 {shared::kBindIndirectTarget, gpu::read_write_stored(noisy_cube_)}},
+                params_);
+  recorder.dispatch_threads(formula_pass_, cells.x, cells.y, cells.z);
+}
+
+void IndirectLightPass::record_smooth(gpu::Recorder& recorder, const Inputs& in, float relaxation) {
+  params_.relaxation = relaxation;
+  recorder.bind(smooth_pass_,
+                {{shared::kBindFrame, gpu::uniform(in.frame)},
+                 {shared::kBindIndirectCube, gpu::sampled(noisy_cube_, linear_)},
+                 {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
+                 {shared::kBindIndirectTarget, gpu::read_write_stored(next_cube_)}},
+                params_);
+  const glm::uvec3 size = noisy_cube_.info().size;
+  recorder.dispatch_threads(smooth_pass_, size.x * size.y * size.z / shared::kIndirectSlabs);
+}
+
+}  // namespace brume::passes

@@ -1,0 +1,71 @@
+// Light that surfaces and smoke pass on to each other (shared/indirect_light.h).
+#pragma once
+
+#include <map>
+#include <span>
+
+#include "gpu/recorder.hpp"
+#include "passes/scene_upload.hpp"
+#include "passes/shadow.hpp"
+#include "passes/smoke_upload.hpp"
+#include "passes/solid_volume.hpp"
+#include "passes/volume_upload.hpp"
+#include "planning/indirect_light_plan.hpp"
+#include "reference/light_cells.hpp"
+#include "shared/indirect_light.h"
+
+namespace brume::passes {
+
+class IndirectLightPass {
+ public:
+  explicit IndirectLightPass(gpu::Context& context);
+
+  /// Makes room for a level of these cells. Outside of a recording, when the device is done with what was
+  /// recorded before. Throws resource_limit.
+  void reserve(const reference::LightCells& level, std::size_t light_count, std::uint32_t casters);
+  /// Room for no level: the image of the cube has one cell.
+  void reserve_nothing();
+
+  struct Inputs {
+    const gpu::Buffer& frame;
+    const ShadowMaps& shadows;
+    const SolidVolume& solid;
+    const SmokeResources& smoke;
+    const gpu::Image& noise;
+    VolumeResources volumes;
+    std::uint32_t casters = 0;  ///< MediaPlan::casters; `reserve` has seen the set.
+    glm::vec3 albedo{0};        ///< Of the smoke, or of the first volume,
+    float g = 0;                ///< and the mean cosine of its phase function.
+  };
+  /// Uploads the level of the last `reserve`.
+  void upload(gpu::Recorder& recorder, const reference::LightCells& level) const;
+  /// Does the slices of a plan. `media`: cells that may hold media, in the plan of the first slice; empty:
+  /// none.
+  void record(gpu::Recorder& recorder, const Inputs& in, const planning::IndirectLightPlan& plan,
+              const Box<int>& media);
+
+  /// The light of the last plan whose slices were all done.
+  const gpu::Image& cube() const { return cube_; }
+
+ private:
+  void begin(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Light> lights,
+             const Box<int>& media);
+  void record_media(gpu::Recorder& recorder, const Inputs& in);
+  void record_sources(gpu::Recorder& recorder, const Inputs& in);
+  void record_gather(gpu::Recorder& recorder, const Inputs& in, std::uint32_t slice, std::uint32_t count);
+  void record_formula(gpu::Recorder& recorder, const Inputs& in);
+  void record_smooth(gpu::Recorder& recorder, const Inputs& in, float relaxation);
+  bool has_media() const { return params_.media_low.x < params_.media_high.x; }
+
+  gpu::Context& context_;
+  gpu::ComputePipeline patches_pass_, medium_light_pass_, patch_radiance_pass_, medium_source_pass_,
+      gather_pass_, gather_in_media_pass_, smooth_pass_, formula_pass_;
+  std::map<std::uint32_t, gpu::ComputePipeline> medium_passes_;  ///< By the media of a frame.
+  gpu::Sampler linear_, compare_;
+  gpu::Buffer patches_, probes_, hits_, irradiance_, radiance_, lights_;
+  gpu::Image cube_, next_cube_, noisy_cube_, medium_, medium_direct_, medium_matter_;
+  std::uint32_t patch_count_ = 0, probe_count_ = 0;
+  shared::IndirectParams params_{};  ///< Of the light that is being found.
+};
+
+}  // namespace brume::passes

@@ -1,0 +1,50 @@
+// Which indirect light a frame has (shaders/shared/indirect_light.h), and whether that of the frame before
+// holds.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/box.hpp"
+#include "planning/media_plan.hpp"
+#include "volume/range_arena.hpp"
+
+namespace brume::planning {
+
+struct IndirectLightPlan {
+  std::uint32_t bounces = 0;          ///< 0: there is none.
+  std::vector<shared::Light> lights;  ///< All of the scene and of the frame, in view or not.
+  Box<float> media = kEmptyBox;       ///< All smoke and the volumes of the frame [world space]; empty: none.
+  bool level_changed = false;         ///< Walls or hidden objects, since the last plan with bounces.
+  /// What is done in this frame, of bounces * kSlicesPerBounce slices; empty: the light of the frame before
+  /// holds. The first slice finds the light of the lights; after the last one all light shows.
+  volume::IndexRange slices{};
+  std::uint64_t version = 0;  ///< Of the light that shows in this frame: another one, other light.
+};
+
+/// Parts of a bounce that can be done in different frames.
+constexpr std::uint32_t kSlicesPerBounce = 8;
+
+/// Tracks what the device's indirect light was computed from. With an update fraction below 1, changed light
+/// is found over several frames, from what changed it in the first of them, and shows when it is found; at
+/// once where there is none to show meanwhile, and where the level changed.
+class IndirectLightCache {
+ public:
+  /// The plan of a frame. It counts as done from then on.
+  IndirectLightPlan plan(const FrameInput& input, const MediaPlan& media, std::vector<shared::Light> lights);
+
+ private:
+  /// The next slices of what is being found; it shows after the last one.
+  volume::IndexRange next_slices(float fraction);
+
+  LevelView level_;
+  std::vector<std::uint32_t> hidden_objects_;
+  bool has_level_ = false;
+  std::vector<std::byte> shown_key_;  ///< Of all other inputs of the light that shows; empty: there is none.
+  std::vector<std::byte> solving_key_;  ///< Of that which is being found; empty: none is.
+  std::uint32_t next_slice_ = 0;        ///< Of what is being found.
+  std::uint32_t bounces_ = 0;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace brume::planning

@@ -1,0 +1,150 @@
+// Indirect light where it is known: in rooms whose light is the same everywhere.
+#include <cmath>
+#include <memory>
+
+#include "planning/scenario_frame.hpp"
+#include "render/renderer.hpp"
+#include "scenario/simulation.hpp"
+#include "tests/gpu/gpu_test.hpp"
+#include "tests/passes/half.hpp"
+#include "tests/render/truth_scenes.hpp"
+
+namespace brume::render {
+namespace {
+
+constexpr glm::uvec2 kRoomSize{48, 32};
+constexpr float kEmission = 0.5f, kAlbedo = 0.6f;
+constexpr std::uint32_t kBounces = 8;
+
+/// What 8 bounces leave of the light that is to be found, at most: 1 / T8(11/9), T8 the Chebyshev polynomial,
+/// where a bounce passes on 0.9 of its light or less.
+const float kLeft = 1 / std::cosh(8 * std::acosh(1.5f / 1.3f));
+
+/// A room that is closed on all sides.
+scene::Scene closed_room(float emission, float albedo) {
+  scene::Scene scene;
+  scene::Mesh& walls = scene.meshes.emplace_back();
+  constexpr float kHalf = 2, kWall = 0.3f, kOut = kHalf + kWall;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.0f, 1.0f}) {
+      glm::vec3 low(-kOut), high(kOut);
+      (side < 0 ? high : low)[axis] = side * kHalf;
+      add_box(walls, low, high);
+    }
+  add_box(scene.meshes.emplace_back(), glm::vec3(-0.01f), glm::vec3(0.01f));
+  scene.materials.resize(1);
+  scene.materials[0].base_color = glm::vec3(albedo);
+  scene.materials[0].emission = glm::vec3(emission);
+  scene.objects = {{"walls", 0, 0, glm::mat4(1), true}};
+  scene.grenade = {"grenade", 1, 0, glm::mat4(1), false};
+  scene.camera = scene::Camera{{1.6f, 0.9f, 1.5f}, {-1.4f, -0.3f, -1}, 1.2f};
+  return scene;
+}
+
+class IndirectLightTest : public gpu::GpuTest {
+ protected:
+  struct Studio {
+    scenario::Scenario scenario;
+    std::unique_ptr<scenario::Simulation> simulation;
+    std::vector<shared::Hole> holes;
+    FrameInput input;
+    std::unique_ptr<Renderer> renderer;
+  };
+
+  static std::unique_ptr<Studio> studio(scene::Scene scene, bool smoke) {
+    scene::Timeline timeline;
+    timeline.bounces = kBounces;
+    timeline.sky = {glm::vec3(0), glm::vec3(0), glm::vec3(0), 0};
+    timeline.smoke.voxels = 900;
+    timeline.smoke.extinction = 1.5f;
+    timeline.smoke.albedo = glm::vec3(1);
+    if (smoke) timeline.smokes = {{0.0, {0, -1, 0}, {0, -1.6f, 0}}};
+    auto made = std::make_unique<Studio>(
+        Studio{scenario_of(std::move(scene), std::move(timeline), {glm::ivec3(22), 0.25f, glm::vec3(-2.7f)}),
+               {},
+               {},
+               {},
+               {}});
+    made->simulation = scenario::Simulation::create(made->scenario).value_or_throw();
+    made->simulation->advance_to(2);
+    made->input = planning::frame_input(made->scenario, *made->simulation, 2, made->holes);
+    made->renderer = std::make_unique<Renderer>(context(), runner(), made->scenario.scene,
+                                                RendererOptions{.size_px = kRoomSize});
+    return made;
+  }
+
+  static std::vector<glm::vec4> radiance(Studio& studio) {
+    studio.renderer->draw(studio.input);
+    std::vector<glm::vec4> out;
+    for (const passes::Half4& texel : read_back<passes::Half4>(studio.renderer->targets().radiance))
+      out.push_back(passes::from_half(texel));
+    return out;
+  }
+};
+
+// In a closed room of walls that glow and reflect alike, light is e / (1 - albedo) everywhere.
+TEST_F(IndirectLightTest, AClosedRoomIsAsBrightAsItsWallsMakeIt) {
+  const auto room = studio(closed_room(kEmission, kAlbedo), false);
+  const float expected = kEmission / (1 - kAlbedo);
+  // What the bounces leave, and four roundings to half floats.
+  const float bound = expected * (kLeft + 4.0f / 2048);
+  for (const glm::vec4& pixel : radiance(*room)) EXPECT_NEAR(pixel.g, expected, bound);
+}
+
+TEST_F(IndirectLightTest, WithoutBouncesOnlyTheWallsOwnLightShows) {
+  const auto room = studio(closed_room(kEmission, kAlbedo), false);
+  room->input.quality.most_bounces = 0;
+  for (const glm::vec4& pixel : radiance(*room)) EXPECT_NEAR(pixel.g, kEmission, kEmission / 1024);
+}
+
+// Smoke that only scatters is invisible in light that is the same everywhere (the furnace test).
+TEST_F(IndirectLightTest, SmokeIsInvisibleInAnEvenlyLitRoom) {
+  const auto smoky = studio(closed_room(kEmission, kAlbedo), true);
+  const std::vector<glm::vec4> pixels = radiance(*smoky);
+  // There is smoke in the picture.
+  float least = 1;
+  for (const passes::Half4& texel : read_back<passes::Half4>(smoky->renderer->media()))
+    least = std::min(least, passes::from_half(texel).a);
+  EXPECT_LT(least, 0.3f);
+  const float expected = kEmission / (1 - kAlbedo);
+  // More than 0.9 of the light is passed on in smoke, so that the bounces leave more: at worst, where a
+  // bounce passes on all of it, they find the product of 1 - 1 / relaxation, which is 1 - 0.45 (1 + cos). The
+  // march stops at a transmittance of 0.004.
+  double mean = 0;
+  for (const glm::vec4& pixel : pixels) {
+    mean += double{pixel.g} / static_cast<double>(pixels.size());
+    EXPECT_NEAR(pixel.g, expected, 0.06f * expected);
+  }
+  EXPECT_NEAR(mean, expected, 0.02 * double{expected});
+}
+
+// Light over several frames shows the light of before until it is found, then the same as light at once, bit
+// for bit.
+TEST_F(IndirectLightTest, SlicedLightArrivesWhereLightAtOnceIs) {
+  scene::Scene scene = closed_room(0, kAlbedo);
+  scene::Light& light = scene.lights.emplace_back();
+  light.position_world = {0.3f, 1, -0.4f};
+  light.intensity = {3, 2, 1};
+  const auto sliced = studio(scene, true), whole = studio(scene, true);
+  const std::vector<glm::vec4> before = radiance(*sliced);
+  shared::Light flash{};
+  flash.kind = shared::kLightPoint;
+  flash.position_world = {-1, 0.5f, 1};
+  flash.intensity = glm::vec3(4);
+  flash.range = shared::light_range(4);
+  flash.shadow_layer = shared::kNoShadow;
+  // Visible for the indirect light alone, whose lights reach beyond what the picture shows.
+  for (const auto& each : {sliced.get(), whole.get()})
+    each->input.environment.sky.ambient = {0.1f, 0.2f, 0.3f};
+  for (const auto& each : {sliced.get(), whole.get()}) each->input.environment.flashes = {flash};
+  sliced->input.quality.light_update_fraction = 0.125f;
+  sliced->input.quality.rebuild_light = false;
+  const std::vector<glm::vec4> after = radiance(*whole);
+  std::vector<glm::vec4> pixels;
+  for (int frame = 0; frame < 2 * 8 + 17; ++frame) pixels = radiance(*sliced);
+  EXPECT_EQ(pixels, after);
+  EXPECT_NE(before, after);
+}
+
+}  // namespace
+}  // namespace brume::render
