@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "core/float4.hpp"
 #include "shared/hole.h"
-#include "smoke/float4.hpp"
 #include "smoke/mask_atlas.hpp"
 
 namespace brume::smoke {

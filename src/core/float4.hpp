@@ -8,7 +8,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace brume::smoke {
+namespace brume {
 
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
@@ -73,4 +73,4 @@ inline float min3(Float4 v) {
   return least < v[2] ? least : v[2];
 }
 
-}  // namespace brume::smoke
+}  // namespace brume
