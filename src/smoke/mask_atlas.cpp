@@ -108,6 +108,7 @@ Result<MaskAtlas> MaskAtlas::pack(std::span<const Mask> masks) {
     hash = hash_values(std::span<const std::uint8_t>(mask.texels), hash);
   }
   atlas.key_ = {atlas.count(), hash};
+  atlas.find_kinds();
   return atlas;
 }
 
@@ -125,46 +126,45 @@ float MaskAtlas::at(glm::vec2 uv) const {
   return glm::mix(top, bottom, f.y);
 }
 
-namespace {
+void MaskAtlas::find_kinds() {
+  const std::size_t width = width_, height = height_;
+  kinds_.assign(width * height, MaskKind::mixed);
+  for (std::size_t y = 0; y + 1 < height; ++y) {
+    const std::uint8_t* top = texels_.data() + y * width;
+    const std::uint8_t* bottom = top + width;
+    for (std::size_t x = 0; x + 1 < width; ++x) {
+      const int any = top[x] | top[x + 1] | bottom[x] | bottom[x + 1],
+                all = top[x] & top[x + 1] & bottom[x] & bottom[x + 1];
+      kinds_[y * width + x] = static_cast<MaskKind>((any != 0 ? 1 : 0) | (all == 255 ? 2 : 0));
+    }
+  }
 
-/// The texels around a point, (0, 0) to (1, 1), and its position between the first and the last.
-struct Corners {
-  float f00, f10, f01, f11;
-  glm::vec2 fraction;
-};
-
-Corners corners_at(const MaskView& mask, glm::vec2 across) {
-  const glm::vec2 from_centres = across * glm::vec2(mask.width, mask.height) - 0.5f;
-  const glm::vec2 at = glm::clamp(from_centres, glm::vec2(0), glm::vec2(mask.width - 1, mask.height - 1));
-  const glm::ivec2 low(at), high = glm::min(low + 1, glm::ivec2(mask.width, mask.height) - 1);
-  const auto texel = [&](int x, int y) {
-    return static_cast<float>(
-        mask.first[static_cast<std::size_t>(y) * mask.stride + static_cast<std::size_t>(x)]);
-  };
-  return {texel(low.x, low.y), texel(high.x, low.y), texel(low.x, high.y), texel(high.x, high.y),
-          at - glm::vec2(low)};
+  blocks_x_ = (width + kMaskBlock - 1) / kMaskBlock;
+  block_kinds_.clear();
+  for (std::size_t y = 0; y < height; y += kMaskBlock)
+    for (std::size_t x = 0; x < width; x += kMaskBlock) {
+      unsigned any = 0, all = 3;
+      for (std::size_t j = y; j < std::min(y + kMaskBlock, height); ++j)
+        for (std::size_t i = x; i < std::min(x + kMaskBlock, width); ++i) {
+          const auto kind = static_cast<unsigned>(kinds_[j * width + i]);
+          any |= kind;
+          all &= kind;
+        }
+      block_kinds_.push_back(any == 0 ? MaskKind::black : all == 3 ? MaskKind::white : MaskKind::mixed);
+    }
 }
 
-}  // namespace
-
-float MaskView::at(glm::vec2 across) const {
-  const Corners c = corners_at(*this, across);
-  const float top = c.f00 + (c.f10 - c.f00) * c.fraction.x, bottom = c.f01 + (c.f11 - c.f01) * c.fraction.x;
-  return top + (bottom - top) * c.fraction.y;
-}
-
-std::pair<std::uint8_t, std::uint8_t> MaskView::range_around(glm::vec2 across) const {
-  const Corners c = corners_at(*this, across);
-  const auto [least, most] = std::minmax({c.f00, c.f10, c.f01, c.f11});
-  return {static_cast<std::uint8_t>(least), static_cast<std::uint8_t>(most)};
+std::array<std::uint8_t, 4> MaskView::corners(glm::ivec2 cell) const {
+  const std::size_t stride = atlas->width();
+  const std::uint8_t* texel = atlas->texels().data() + static_cast<std::size_t>(first.y + cell.y) * stride +
+                              static_cast<std::size_t>(first.x + cell.x);
+  return {texel[0], texel[1], texel[stride], texel[stride + 1]};
 }
 
 MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole) {
   const glm::vec2 size(masks.width(), masks.height());
-  const glm::uvec2 low(hole.uv_min * size), high(hole.uv_max * size);  // exact: the sides are powers of two
-  const std::size_t first = std::size_t{low.y} * masks.width() + low.x;
-  return {masks.texels().data() + first, masks.width(), static_cast<int>(high.x - low.x),
-          static_cast<int>(high.y - low.y)};
+  const glm::ivec2 low(hole.uv_min * size), high(hole.uv_max * size);  // exact: the sides are powers of two
+  return {&masks, low - static_cast<int>(kPad), high.x - low.x, high.y - low.y};
 }
 
 float hole_strength_masked(const shared::Hole& hole, glm::vec3 p_world, float time, float rim_noise_metres,
