@@ -108,7 +108,7 @@ Result<MaskAtlas> MaskAtlas::pack(std::span<const Mask> masks) {
     hash = hash_values(std::span<const std::uint8_t>(mask.texels), hash);
   }
   atlas.key_ = {atlas.count(), hash};
-  atlas.find_kinds();
+  atlas.find_cells();
   return atlas;
 }
 
@@ -126,32 +126,34 @@ float MaskAtlas::at(glm::vec2 uv) const {
   return glm::mix(top, bottom, f.y);
 }
 
-void MaskAtlas::find_kinds() {
+void MaskAtlas::find_cells() {
   const std::size_t width = width_, height = height_;
-  kinds_.assign(width * height, MaskKind::mixed);
+  cells_.assign(width * height, MaskCell{});
+  std::vector<std::uint8_t> even(width * height, 0);  // cells that are black or white
   for (std::size_t y = 0; y + 1 < height; ++y) {
     const std::uint8_t* top = texels_.data() + y * width;
     const std::uint8_t* bottom = top + width;
     for (std::size_t x = 0; x + 1 < width; ++x) {
       const int any = top[x] | top[x + 1] | bottom[x] | bottom[x + 1],
                 all = top[x] & top[x + 1] & bottom[x] & bottom[x + 1];
-      kinds_[y * width + x] = static_cast<MaskKind>((any != 0 ? 1 : 0) | (all == 255 ? 2 : 0));
+      if (any != 0 && all != 255) continue;
+      cells_[y * width + x].kind = any == 0 ? MaskCell::black : MaskCell::white;
+      even[y * width + x] = 1;
     }
   }
 
-  blocks_x_ = (width + kMaskBlock - 1) / kMaskBlock;
-  block_kinds_.clear();
-  for (std::size_t y = 0; y < height; y += kMaskBlock)
-    for (std::size_t x = 0; x < width; x += kMaskBlock) {
-      unsigned any = 0, all = 3;
-      for (std::size_t j = y; j < std::min(y + kMaskBlock, height); ++j)
-        for (std::size_t i = x; i < std::min(x + kMaskBlock, width); ++i) {
-          const auto kind = static_cast<unsigned>(kinds_[j * width + i]);
-          any |= kind;
-          all &= kind;
-        }
-      block_kinds_.push_back(any == 0 ? MaskKind::black : all == 3 ? MaskKind::white : MaskKind::mixed);
-    }
+  // Cells next to each other share texels: even ones are of one kind. Each round keeps those whose neighbours
+  // were kept.
+  std::vector<std::uint8_t> rows(width * height, 0);
+  for (int radius = 1; radius <= kMaxMaskRadius; ++radius) {
+    for (std::size_t i = 1; i + 1 < width * height; ++i)
+      rows[i] = static_cast<std::uint8_t>(even[i - 1] & even[i] & even[i + 1]);
+    for (std::size_t i = width; i + width < width * height; ++i)
+      even[i] = static_cast<std::uint8_t>(rows[i - width] & rows[i] & rows[i + width]);
+    std::fill_n(even.begin(), width, std::uint8_t{0});
+    for (std::size_t i = 0; i < width * height; ++i)
+      cells_[i].radius = static_cast<std::uint8_t>((cells_[i].radius + even[i]) & 63);
+  }
 }
 
 std::array<std::uint8_t, 4> MaskView::corners(glm::ivec2 cell) const {

@@ -32,14 +32,15 @@ struct MaskRectangle {
   glm::vec2 uv_min{0}, uv_max{0};
 };
 
-/// What a mask removes between the centres of four texels, or between those of a block of them.
-enum class MaskKind : std::uint8_t {
-  black = 0,  ///< Nothing.
-  mixed = 1,
-  white = 3  ///< All. Kinds of several cells by their bits: black if none has any, white if all have both.
+/// What a mask removes between the centres of four texels.
+struct MaskCell {
+  enum Kind : std::uint8_t { black, mixed, white };  ///< Nothing, anything, or all.
+  std::uint8_t kind : 2 = mixed;
+  /// All cells within so many of this one, along both axes, are of its kind; of mixed cells and at least 0.
+  std::uint8_t radius : 6 = 0;
 };
-/// Cells per axis of a block.
-constexpr int kMaskBlock = 8;
+/// Largest MaskCell::radius.
+constexpr int kMaxMaskRadius = 15;
 
 /// Most texels per axis of an atlas.
 constexpr std::uint32_t kMaxMaskAtlasAxis = 4096;
@@ -69,26 +70,17 @@ class MaskAtlas {
   /// for rounding.
   float at(glm::vec2 uv) const;
 
-  /// Of the cell between the centres of texels (x, y) and (x + 1, y + 1); x and y at most width() - 2 and
-  /// height() - 2.
-  MaskKind kind(int x, int y) const { return kinds_[index_of(x, y)]; }
-  /// Of all the cells of the block that the cell is in, x / kMaskBlock and y / kMaskBlock.
-  MaskKind block_kind(int x, int y) const {
-    return block_kinds_[static_cast<std::size_t>(y / kMaskBlock) * blocks_x_ +
-                        static_cast<std::size_t>(x / kMaskBlock)];
+  /// Between the centres of texels (x, y) and (x + 1, y + 1).
+  MaskCell cell(int x, int y) const {
+    return cells_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
   }
 
  private:
-  std::size_t index_of(int x, int y) const {
-    return static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
-  }
-  void find_kinds();
+  void find_cells();
 
   std::uint32_t width_ = 1, height_ = 1;
   std::vector<std::uint8_t> texels_{0};
-  std::vector<MaskKind> kinds_;  // as texels_; those of the last column and row are mixed
-  std::size_t blocks_x_ = 0;
-  std::vector<MaskKind> block_kinds_;
+  std::vector<MaskCell> cells_{MaskCell{}};  // as texels_; those of the last column and row are mixed
   std::vector<MaskRectangle> rectangles_;
   sim::MaskKey key_;
 };
@@ -100,8 +92,7 @@ struct MaskView {
   glm::ivec2 first{0};               ///< Its first cell in the atlas.
   int width = 0, height = 0;         ///< In texels.
 
-  MaskKind kind(glm::ivec2 cell) const { return atlas->kind(first.x + cell.x, first.y + cell.y); }
-  MaskKind block_kind(glm::ivec2 cell) const { return atlas->block_kind(first.x + cell.x, first.y + cell.y); }
+  MaskCell cell(glm::ivec2 at) const { return atlas->cell(first.x + at.x, first.y + at.y); }
   /// The texels around a cell: (0, 0), (1, 0), (0, 1), (1, 1).
   std::array<std::uint8_t, 4> corners(glm::ivec2 cell) const;
 };

@@ -132,27 +132,33 @@ void make_pieces(HolesOnRay& on_ray) {
       add_steady_segments(hole, number, on_ray.segments);
     else
       add_soft_segments(hole, number, on_ray.breaks, on_ray.segments);
-    on_ray.cursors.push_back({first, static_cast<std::uint32_t>(on_ray.segments.size())});
+    if (on_ray.segments.size() > first)
+      on_ray.cursors.push_back({on_ray.segments[first].begin, first,
+                                static_cast<std::uint32_t>(on_ray.segments.size()), false, false});
   }
 
   // From each begin or end of a segment to the next one.
   constexpr float kNever = std::numeric_limits<float>::infinity();
+  const HoleSegment* segments = on_ray.segments.data();
+  std::size_t members = 0;
   for (float t = -kNever;;) {
+    const std::size_t first = members;
+    if (on_ray.members.size() < first + on_ray.cursors.size())
+      on_ray.members.resize(2 * (first + on_ray.cursors.size()));
     float end = kNever;
     bool gone = false;
-    const auto first = static_cast<std::uint32_t>(on_ray.members.size());
     for (HolesOnRay::Cursor& cursor : on_ray.cursors) {
-      while (cursor.next < cursor.end && on_ray.segments[cursor.next].end <= t) ++cursor.next;
-      if (cursor.next == cursor.end) continue;
-      const HoleSegment& segment = on_ray.segments[cursor.next];
-      end = std::min(end, segment.begin <= t ? segment.end : segment.begin);
-      if (segment.begin > t) continue;
-      gone |= segment.all;
-      on_ray.members.push_back(cursor.next);
+      while (cursor.change <= t) cursor.advance(segments);
+      end = std::min(end, cursor.change);
+      on_ray.members[members] = cursor.segment;
+      members += cursor.inside;
+      gone |= cursor.all;
     }
     if (end == kNever) return;
-    const auto count = static_cast<std::uint32_t>(on_ray.members.size()) - first;
-    if (count > 0) on_ray.pieces.push_back({t, end, gone, first, count});
+    if (gone) members = first;
+    if (gone || members > first)
+      on_ray.pieces.push_back(
+          {t, end, gone, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(members - first)});
     t = end;
   }
 }
@@ -181,6 +187,18 @@ float RayHole::radius_at(float t) const {
   const float opened = std::clamp(now / expand, 0.0f, 1.0f);
   const float closed = std::clamp((now - stay_end) / fade, 0.0f, 1.0f);
   return radius * opened * (1 - closed);
+}
+
+/// Into the segment, or on to the next one.
+void HolesOnRay::Cursor::advance(const HoleSegment* segments) {
+  if (!inside) {
+    inside = true;
+    all = segments[segment].all;
+    change = segments[segment].end;
+    return;
+  }
+  inside = all = false;
+  change = ++segment < last ? segments[segment].begin : std::numeric_limits<float>::infinity();
 }
 
 Float4 HolesOnRay::remaining(const HolePiece& piece, Float4 t) const {
@@ -229,7 +247,6 @@ void HoleSet::find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, Ho
   out.holes.clear();
   out.segments.clear();
   out.pieces.clear();
-  out.members.clear();
   out.cursors.clear();
   // How far apart the lines of ray and axis are, by their Pluecker coordinates, |forward . moment of the ray
   // + step . moment of the axis| is the distance times |step x forward|. Rounding makes it wider, never

@@ -3,7 +3,8 @@
 // Along a ray the strength of a hole is smooth but for a few points: where the ray enters its edge or its
 // middle, where it passes from one texel of a mask to the next, and where the hole begins to open or to close
 // at that depth. All of them are roots of polynomials of degree one or two. Between them, quadrature of a
-// fixed order is accurate. Masks are walked cell by cell, blocks of black or white cells in one step.
+// fixed order is accurate. Masks are walked cell by cell, those that are black or white around one in one
+// step.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -57,7 +58,10 @@ struct HolesOnRay {
 
   // While the pieces are made.
   struct Cursor {
-    std::uint32_t next, end;  ///< Segments of one hole that end beyond t.
+    float change;                 ///< Where its segment begins, or ends when inside.
+    std::uint32_t segment, last;  ///< Of one hole; one past the last.
+    bool inside, all;             ///< In the segment, which removes all.
+    void advance(const HoleSegment* segments);
   };
   std::vector<Cursor> cursors;
   std::vector<float> breaks;

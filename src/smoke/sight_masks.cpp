@@ -9,60 +9,71 @@ namespace {
 constexpr float kNever = 1e30f;
 
 /// A ray along one axis of a mask. Its coordinate counts cells: cell i is [i, i + 1).
-struct MaskAxis {
-  float x, x_step;  // from the hole's axis: x + x_step (t - nearest)
-  float nearest;
-  int texels;
-  RadiusSpan span;
+class MaskAxis {
+ public:
+  /// It is at x + x_step (t - nearest) from the hole's axis.
+  MaskAxis(float x, float x_step, float nearest, int texels, const RadiusSpan& span)
+      : x_(x), x_step_(x_step), nearest_(nearest), texels_(texels), count_(static_cast<float>(texels)) {
+    slope_ = (span.r1 - span.r0) / (span.t1 - span.t0);
+    at_nearest_ = span.r0 + slope_ * (nearest - span.t0);
+    if (slope_ == 0 && x_step != 0) {
+      per_plane_ = 2 * span.r0 / (count_ * x_step);
+      planes_per_t_ = count_ * x_step / (2 * span.r0);
+      plane0_ = nearest - (x + span.r0) / x_step - 0.5f * per_plane_;
+    }
+  }
 
-  float slope() const { return (span.r1 - span.r0) / (span.t1 - span.t0); }
+  float from_axis(float t) const { return x_ + x_step_ * (t - nearest_); }
   int cell_at(float t) const {
-    const float from_axis = x + x_step * (t - nearest), radius = span.r0 + slope() * (t - span.t0);
-    const auto count = static_cast<float>(texels);
-    if (!(radius > 1e-12f)) return from_axis < 0 ? 0 : texels;
-    const float across = (0.5f + 0.5f * from_axis / radius) * count + 0.5f;
-    return static_cast<int>(std::clamp(across, 0.0f, count));
+    if (per_plane_ != 0) return static_cast<int>(std::clamp((t - plane0_) * planes_per_t_, 0.0f, count_));
+    const float radius = at_nearest_ + slope_ * (t - nearest_);
+    if (!(radius > 1e-12f)) return from_axis(t) < 0 ? 0 : texels_;
+    const float across = (0.5f + 0.5f * from_axis(t) / radius) * count_ + 0.5f;
+    return static_cast<int>(std::clamp(across, 0.0f, count_));
   }
   /// Where the ray crosses the plane between two cells: its distance from the hole's axis is then a fixed
   /// fraction of the radius.
   float crossing(int plane) const {
-    const float fraction = (2 * static_cast<float>(plane) - 1) / static_cast<float>(texels) - 1;
-    const float at_nearest = span.r0 + slope() * (nearest - span.t0);
-    const float speed = x_step - fraction * slope();
-    return speed != 0 ? nearest + (fraction * at_nearest - x) / speed : kNever;
+    if (slope_ == 0) return x_step_ != 0 ? plane0_ + per_plane_ * static_cast<float>(plane) : kNever;
+    const float fraction = (2 * static_cast<float>(plane) - 1) / count_ - 1;
+    const float speed = x_step_ - fraction * slope_;
+    return speed != 0 ? nearest_ + (fraction * at_nearest_ - x_) / speed : kNever;
   }
+
+ private:
+  float x_, x_step_, nearest_;
+  int texels_;
+  float count_, slope_, at_nearest_;
+  float plane0_ = 0, per_plane_ = 0,
+        planes_per_t_ = 0;  // where the radius is constant: t of plane 0, and from one to the next
 };
 
 /// The cells of one axis in the order of the ray: it never turns around, as the radius is linear.
 class AxisWalk {
  public:
-  AxisWalk(const MaskAxis& axis, int first_in_atlas, float from, float to)
-      : axis_(axis), first_(first_in_atlas), cell_(axis.cell_at(from)), last_(axis.cell_at(to)) {}
+  AxisWalk(const MaskAxis& axis, float from, float to)
+      : axis_(axis), cell_(axis.cell_at(from)), last_(axis.cell_at(to)), up_(last_ > cell_) {}
   int cell() const { return cell_; }
 
-  /// Sets the end of the cell, or of its block, and returns where the ray crosses it.
-  float find_exit(bool block) {
-    if (cell_ == last_) return exit_ = kNever;
-    const bool up = last_ > cell_;
-    const int low = block ? ((first_ + cell_) & -kMaskBlock) - first_ : cell_;
-    plane_ = up ? low + (block ? kMaskBlock : 1) : low;
+  /// Where the ray leaves the cells within `radius` of this one.
+  float find_exit(int radius) {
+    plane_ = up_ ? cell_ + radius + 1 : cell_ - radius;
     // Beyond the last cell is no crossing.
-    return exit_ = (up ? plane_ > last_ : plane_ <= last_) ? kNever : axis_.crossing(plane_);
+    return exit_ = (up_ ? plane_ > last_ : plane_ <= last_) ? kNever : axis_.crossing(plane_);
   }
-  /// Moves on to t, at most that crossing.
-  void move_to(float t, bool block) {
-    if (cell_ == last_) return;
-    const bool up = last_ > cell_;
+  /// Moves on to t, at most that exit.
+  void move_to(float t, int radius) {
     if (exit_ <= t)
-      cell_ = up ? plane_ : plane_ - 1;
-    else if (block)
-      cell_ = up ? std::clamp(axis_.cell_at(t), cell_, std::min(plane_ - 1, last_))
-                 : std::clamp(axis_.cell_at(t), std::max(plane_, last_), cell_);
+      cell_ = up_ ? plane_ : plane_ - 1;
+    else if (radius > 0)
+      cell_ = up_ ? std::clamp(axis_.cell_at(t), cell_, std::min(plane_ - 1, last_))
+                  : std::clamp(axis_.cell_at(t), std::max(plane_, last_), cell_);
   }
 
  private:
   const MaskAxis& axis_;
-  int first_, cell_, last_, plane_ = 0;
+  int cell_, last_, plane_ = 0;
+  bool up_;
   float exit_ = kNever;
 };
 
@@ -83,37 +94,35 @@ void add_mask_segments(const RayHole& h, std::uint32_t number, const RadiusSpan&
                        std::vector<HoleSegment>& out) {
   // Within the square.
   const auto [t0, r0, t1, r1] = span;
-  const MaskAxis across{h.x, h.x_step, h.nearest, h.mask.width, span},
-      down{-h.y, -h.y_step, h.nearest, h.mask.height, span};
+  const MaskAxis across(h.x, h.x_step, h.nearest, h.mask.width, span),
+      down(-h.y, -h.y_step, h.nearest, h.mask.height, span);
   float t = t0, end = t1;
-  for (const MaskAxis& axis : {across, down}) {
-    const float p0 = axis.x + axis.x_step * (t0 - h.nearest), p1 = axis.x + axis.x_step * (t1 - h.nearest);
+  for (const MaskAxis* axis : {&across, &down}) {
+    const float p0 = axis->from_axis(t0), p1 = axis->from_axis(t1);
     clip(r0 - p0, r1 - p1, t0, t1, t, end);
     clip(r0 + p0, r1 + p1, t0, t1, t, end);
   }
   if (!(t < end)) return;
 
-  // Cell by cell; a block of equal ones in one step.
+  // Cell by cell; those around it that are as even in one step.
   const bool closing = h.closing_at(0.5f * (t0 + t1));
-  AxisWalk x(across, h.mask.first.x, t, end), y(down, h.mask.first.y, t, end);
+  AxisWalk x(across, t, end), y(down, t, end);
   const std::size_t first = out.size();
   bool white_before = false;
   while (t < end) {
     const glm::ivec2 cell(x.cell(), y.cell());
-    MaskKind kind = h.mask.block_kind(cell);
-    const bool block = kind != MaskKind::mixed;
-    if (!block) kind = h.mask.kind(cell);
-    const float to = std::max(t, std::min({x.find_exit(block), y.find_exit(block), end}));
+    const MaskCell here = h.mask.cell(cell);
+    const float to = std::max(t, std::min({x.find_exit(here.radius), y.find_exit(here.radius), end}));
     if (t < to) {
-      const bool white = kind == MaskKind::white;
+      const bool white = here.kind == MaskCell::white;
       if (white && white_before && out.size() > first)
         out.back().end = to;
-      else if (kind != MaskKind::black)
+      else if (here.kind != MaskCell::black)
         out.push_back({t, to, number, white && !closing, cell});
       white_before = white;
     }
-    x.move_to(to, block);
-    y.move_to(to, block);
+    x.move_to(to, here.radius);
+    y.move_to(to, here.radius);
     t = to;
   }
 }
