@@ -120,7 +120,7 @@ class Walk {
       inverse_[axis] = shared::dda_inverse(ray.direction[axis]);
       leaving_[axis] = inverse_[axis] > 0;
     }
-    inverse_[3] = kHuge;
+    inverse_[3] = 100 * kHuge;  // beyond the exits of axes along which the ray does not move
     leaving_[3] = 1;
     stride_ = 2 * leaving_ - 1;
     for (int axes = 0; axes < 8; ++axes) {
