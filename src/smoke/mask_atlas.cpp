@@ -127,33 +127,35 @@ float MaskAtlas::at(glm::vec2 uv) const {
 }
 
 void MaskAtlas::find_cells() {
-  const std::size_t width = width_, height = height_;
-  cells_.assign(width * height, MaskCell{});
-  std::vector<std::uint8_t> even(width * height, 0);  // cells that are black or white
-  for (std::size_t y = 0; y + 1 < height; ++y) {
+  const std::size_t width = width_, count = width * height_;
+  std::vector<std::uint8_t> kinds(count, MaskCell::mixed), even(count, 0), rows(count, 0), radii(count, 0);
+  for (std::size_t y = 0; y + 1 < height_; ++y) {
     const std::uint8_t* top = texels_.data() + y * width;
     const std::uint8_t* bottom = top + width;
     for (std::size_t x = 0; x + 1 < width; ++x) {
       const int any = top[x] | top[x + 1] | bottom[x] | bottom[x + 1],
                 all = top[x] & top[x + 1] & bottom[x] & bottom[x + 1];
-      if (any != 0 && all != 255) continue;
-      cells_[y * width + x].kind = any == 0 ? MaskCell::black : MaskCell::white;
-      even[y * width + x] = 1;
+      kinds[y * width + x] = static_cast<std::uint8_t>((any != 0 ? 1 : 0) + (all == 255 ? 1 : 0));
+      even[y * width + x] = any == 0 || all == 255;
     }
   }
 
   // Cells next to each other share texels: even ones are of one kind. Each round keeps those whose neighbours
-  // were kept.
-  std::vector<std::uint8_t> rows(width * height, 0);
-  for (int radius = 1; radius <= kMaxMaskRadius; ++radius) {
-    for (std::size_t i = 1; i + 1 < width * height; ++i)
-      rows[i] = static_cast<std::uint8_t>(even[i - 1] & even[i] & even[i + 1]);
-    for (std::size_t i = width; i + width < width * height; ++i)
-      even[i] = static_cast<std::uint8_t>(rows[i - width] & rows[i] & rows[i + width]);
-    std::fill_n(even.begin(), width, std::uint8_t{0});
-    for (std::size_t i = 0; i < width * height; ++i)
-      cells_[i].radius = static_cast<std::uint8_t>((cells_[i].radius + even[i]) & 63);
+  // at a distance were kept, which doubles their radius. The last column and row are never even, so that no
+  // round reaches from one end of a row to the other.
+  for (std::size_t step = 1; step <= kMaxMaskRadius / 2 + 1 && 2 * step * width < count; step *= 2) {
+    for (std::size_t i = step; i + step < count; ++i)
+      rows[i] = static_cast<std::uint8_t>(even[i - step] & even[i] & even[i + step]);
+    std::fill_n(even.begin(), step * width, std::uint8_t{0});
+    std::fill_n(even.end() - static_cast<std::ptrdiff_t>(step * width), step * width, std::uint8_t{0});
+    for (std::size_t i = step * width; i + step * width < count; ++i) {
+      even[i] = static_cast<std::uint8_t>(rows[i - step * width] & rows[i] & rows[i + step * width]);
+      radii[i] = static_cast<std::uint8_t>(radii[i] + step * even[i]);
+    }
   }
+
+  cells_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) cells_[i] = {static_cast<MaskCell::Kind>(kinds[i]), radii[i]};
 }
 
 std::array<std::uint8_t, 4> MaskView::corners(glm::ivec2 cell) const {

@@ -35,9 +35,9 @@ struct MaskRectangle {
 /// What a mask removes between the centres of four texels.
 struct MaskCell {
   enum Kind : std::uint8_t { black, mixed, white };  ///< Nothing, anything, or all.
-  std::uint8_t kind : 2 = mixed;
-  /// All cells within so many of this one, along both axes, are of its kind; of mixed cells and at least 0.
-  std::uint8_t radius : 6 = 0;
+  Kind kind = mixed;
+  /// All cells within so many of this one, along both axes, are of its kind: 0, 1, 3, 7 or kMaxMaskRadius.
+  std::uint8_t radius = 0;
 };
 /// Largest MaskCell::radius.
 constexpr int kMaxMaskRadius = 15;
