@@ -10,6 +10,50 @@ namespace {
 
 constexpr int kMaxVoxel = 1 << 17;
 
+// Bits of a block's voxels in the first layer of x and of y.
+constexpr std::uint64_t kFirstX = 0x1111111111111111u, kFirstY = 0x000f000f000f000fu;
+
+/// Least and greatest of a block's voxels per axis; of at least one.
+std::pair<glm::ivec3, glm::ivec3> bounds_of(std::uint64_t mask) {
+  // Everything folded onto one row of each axis.
+  const std::uint64_t layer = mask | mask >> 16 | mask >> 32 | mask >> 48;
+  const auto xs = static_cast<unsigned>((layer | layer >> 4 | layer >> 8 | layer >> 12) & 0xf);
+  unsigned ys = 0;
+  for (unsigned y = 0; y < 4; ++y) ys |= unsigned{(layer >> (4 * y) & 0xf) != 0} << y;
+  return {{std::countr_zero(xs), std::countr_zero(ys), std::countr_zero(mask) / 16},
+          {std::bit_width(xs) - 1, std::bit_width(ys) - 1, (std::bit_width(mask) - 1) / 16}};
+}
+
+/// Those of `among` that a path over faces within `among` connects to `from`.
+std::uint64_t spread_in_block(std::uint64_t from, std::uint64_t among) {
+  for (;;) {
+    const std::uint64_t next =
+        (from | (from << 1 & ~kFirstX) | (from >> 1 & ~(kFirstX << 3)) | (from << 4 & ~kFirstY) |
+         (from >> 4 & ~(kFirstY << 12)) | from << 16 | from >> 16) &
+        among;
+    if (next == from) return from;
+    from = next;
+  }
+}
+
+/// The voxels next to those of a block in the block across a face: -x, +x, -y, +y, -z, +z.
+std::uint64_t across_face(std::uint64_t voxels, std::size_t face) {
+  switch (face) {
+    case 0:
+      return (voxels & kFirstX) << 3;
+    case 1:
+      return voxels >> 3 & kFirstX;
+    case 2:
+      return (voxels & kFirstY) << 12;
+    case 3:
+      return voxels >> 12 & kFirstY;
+    case 4:
+      return voxels << 48;
+    default:
+      return voxels >> 48;
+  }
+}
+
 }  // namespace
 
 BlockSet::BlockSet(std::span<const glm::ivec3> voxels) {
@@ -47,11 +91,10 @@ BlockSet BlockSet::from_blocks(std::vector<VoxelBlock> blocks) {
     BRUME_ASSERT(i == 0 || block_before(set.blocks_[i - 1].at, block.at), "blocks out of order");
     block.first = set.size_;
     set.size_ += static_cast<std::uint32_t>(std::popcount(block.mask));
-    for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
-      const glm::ivec3 v = voxel_of_block(glm::ivec3(block.at), std::countr_zero(bits));
-      set.low_ = i == 0 && bits == block.mask ? v : glm::min(set.low_, v);
-      set.high_ = i == 0 && bits == block.mask ? v : glm::max(set.high_, v);
-    }
+    const auto [low, high] = bounds_of(block.mask);
+    const glm::ivec3 corner = voxel_of_block(glm::ivec3(block.at), 0);
+    set.low_ = i == 0 ? corner + low : glm::min(set.low_, corner + low);
+    set.high_ = i == 0 ? corner + high : glm::max(set.high_, corner + high);
   }
   return set;
 }
@@ -70,6 +113,36 @@ std::uint32_t BlockSet::rank(glm::ivec3 voxel) const {
   const std::uint64_t bit = std::uint64_t{1} << block_bit_index(voxel);
   if (!block || !(block->mask & bit)) return kNone;
   return block->first + static_cast<std::uint32_t>(std::popcount(block->mask & (bit - 1)));
+}
+
+BlockSet connected_part(const BlockSet& set, glm::ivec3 voxel) {
+  const std::span<const VoxelBlock> blocks = set.blocks();
+  std::vector<std::uint64_t> reached(blocks.size(), 0);
+  std::vector<const VoxelBlock*> open;  // with voxels reached that have not spread
+  const auto reach = [&](glm::ivec3 at, std::uint64_t voxels) {
+    const VoxelBlock* block = voxels != 0 ? set.find_block(at) : nullptr;
+    if (!block) return;
+    std::uint64_t& of_block = reached[static_cast<std::size_t>(block - blocks.data())];
+    if ((voxels & block->mask & ~of_block) == 0) return;
+    of_block = spread_in_block(of_block | (voxels & block->mask), block->mask);
+    open.push_back(block);
+  };
+  reach(voxel >> 2, std::uint64_t{1} << block_bit_index(voxel));
+  while (!open.empty()) {
+    const VoxelBlock& block = *open.back();
+    open.pop_back();
+    const std::uint64_t voxels = reached[static_cast<std::size_t>(&block - blocks.data())];
+    for (std::size_t face = 0; face < 6; ++face) {
+      glm::ivec3 at(block.at);
+      at[static_cast<int>(face / 2)] += face % 2 == 0 ? -1 : 1;
+      reach(at, across_face(voxels, face));
+    }
+  }
+
+  std::vector<VoxelBlock> connected;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    if (reached[i] != 0) connected.push_back({blocks[i].at, reached[i], 0});
+  return BlockSet::from_blocks(std::move(connected));
 }
 
 BlockSet unite(const BlockSet& a, const BlockSet& b) {

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "sim/lattice_noise.hpp"
+#include "sim/fill_values.hpp"
 
 namespace brume::sim {
 namespace {
@@ -15,103 +15,10 @@ constexpr int kAmountBits = 20;
 constexpr std::uint32_t kWhole = 65536;
 /// Fraction of the dissolve that one voxel takes to fade.
 constexpr std::uint32_t kDissolveSoft = kWhole * 3 / 10;
-/// Parts of a voxel's survival due to distance and to noise; the sum is 255.
-constexpr std::uint32_t kSurvivalByDistance = 165, kSurvivalByNoise = 90;
-/// Radius of the sphere on which the lobe noise is sampled, in 1/256 cell: a lobe spans about 36 degrees.
-constexpr int kLobesWide = 3 * 256;
 
 /// 3x^2 - 2x^3 for x in [0, 65536].
 constexpr std::uint64_t smoothstep(std::uint64_t x) {
   return (x * x * (3 * kWhole - 2 * x)) >> 32;
-}
-
-/// Value noise of one block, trilinear between its corners: lattice cells are blocks.
-class BlockNoise {
- public:
-  BlockNoise(glm::ivec3 block, std::uint32_t seed) {
-    for (int i = 0; i < 8; ++i)
-      corners_[static_cast<std::size_t>(i)] =
-          lattice_noise(block + glm::ivec3(i & 1, i >> 1 & 1, i >> 2), seed);
-  }
-  /// At the centre of the voxel with this bit, [0, 255].
-  std::uint32_t at(int bit) const {
-    const auto x = static_cast<std::uint32_t>(2 * (bit & 3) + 1),
-               y = static_cast<std::uint32_t>(2 * (bit >> 2 & 3) + 1),
-               z = static_cast<std::uint32_t>(2 * (bit >> 4) + 1);
-    std::uint32_t sum = 0;
-    for (std::uint32_t i = 0; i < 8; ++i)
-      sum += corners_[i] * (i & 1 ? x : 8 - x) * (i & 2 ? y : 8 - y) * (i & 4 ? z : 8 - z);
-    return sum >> 9;
-  }
-
- private:
-  std::array<std::uint32_t, 8> corners_;
-};
-
-/// How far the smoke at a voxel lags behind the front: noise on a sphere around the source, so that lobes
-/// have the same angular width in all directions and stay in place while the cloud grows.
-std::uint8_t lag_of(glm::ivec3 from_source, std::uint32_t distance, std::uint32_t seed) {
-  // The direction to the voxel scaled to the sphere's radius, offset so that no component is negative.
-  const auto on_sphere = [&](int radius_256) {
-    const auto far = static_cast<std::int64_t>(std::max(distance, kFaceStep));
-    glm::ivec3 point;
-    for (int axis = 0; axis < 3; ++axis)
-      point[axis] = (64 << 8) + static_cast<int>(std::int64_t{from_source[axis]} *
-                                                 static_cast<std::int64_t>(kFaceStep) * radius_256 / far);
-    return point;
-  };
-  const std::uint32_t wide = value_noise(on_sphere(kLobesWide), seed);
-  const std::uint32_t narrow = value_noise(on_sphere(2 * kLobesWide), seed + 1);
-  const int sum = static_cast<int>(3 * wide + narrow) / 4;
-  return static_cast<std::uint8_t>(std::clamp(128 + 5 * (sum - 128) / 2, 0, 255));
-}
-
-/// How long the smoke of a fill withstands the dissolve, by rank.
-std::vector<std::uint8_t> survival_of(const BlockSet& fill, std::span<const std::uint32_t> distances,
-                                      std::uint32_t max_distance, std::uint32_t seed) {
-  std::vector<std::uint8_t> survival(fill.size());
-  for (const VoxelBlock& block : fill.blocks()) {
-    const BlockNoise noise(glm::ivec3(block.at), seed);
-    std::uint32_t rank = block.first;
-    for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1, ++rank) {
-      const std::uint64_t far =
-          std::uint64_t{kSurvivalByDistance} * distances[rank] / std::max(max_distance, 1u);
-      const std::uint32_t noisy = noise.at(std::countr_zero(bits)) * kSurvivalByNoise / 255;
-      survival[rank] = static_cast<std::uint8_t>(kSurvivalByDistance - far + noisy);
-    }
-  }
-  return survival;
-}
-
-/// What a flood decides for each voxel of the fill, by rank.
-struct FillValues {
-  std::vector<std::uint32_t> distances;
-  std::vector<std::uint8_t> survival, lag;
-};
-
-FillValues fill_values(const CloudParts& p, std::span<const FilledVoxel> filled) {
-  const glm::ivec3 source = p.origin.source;
-  const std::array<std::uint32_t, 4> seeds{static_cast<std::uint32_t>(source.x),
-                                           static_cast<std::uint32_t>(source.y),
-                                           static_cast<std::uint32_t>(source.z), p.origin.detonation_tick};
-  const auto seed = static_cast<std::uint32_t>(hash_values(std::span<const std::uint32_t>(seeds)));
-  FillValues values;
-  values.distances.resize(p.fill.size());
-  for (const FilledVoxel& one : filled) values.distances[p.fill.rank(one.voxel)] = one.distance;
-  const std::uint32_t max_distance = filled.empty() ? 0 : filled.back().distance;
-  values.survival = survival_of(p.fill, values.distances, max_distance, seed);
-  values.lag.resize(p.fill.size());
-  p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
-    values.lag[i] = lag_of(voxel - source, values.distances[i], seed);
-  });
-  return values;
-}
-
-std::vector<glm::ivec3> voxels_of(std::span<const FilledVoxel> filled) {
-  std::vector<glm::ivec3> voxels;
-  voxels.reserve(filled.size());
-  for (const FilledVoxel& one : filled) voxels.push_back(one.voxel);
-  return voxels;
 }
 
 Failure bad_parts(const std::string& expected) {
@@ -151,36 +58,31 @@ Cloud::Cloud(const voxel::BitGrid& grid, const CloudOrigin& origin) {
                std::to_string(origin.settings.voxels));
   BRUME_ASSERT(origin.settings.bloom_ticks >= 1 && origin.settings.dissolve_ticks >= 1, "a life of no ticks");
   parts_.origin = origin;
-  const std::vector<FilledVoxel> filled = flood_fill(grid, origin.source, origin.settings.voxels);
-  parts_.fill = BlockSet(voxels_of(filled));
-  finish(filled);
+  Flood flood = flood_set(grid, origin.source, origin.settings.voxels);
+  parts_.fill = std::move(flood.voxels);
+  finish(fill_values(origin, parts_.fill, std::move(flood.distances)), std::move(flood.counts));
 }
 
 Result<Cloud> Cloud::from_parts(CloudParts parts) {
   if (auto ok = check_parts(parts); !ok) return ok.failure();
-  const std::vector<FilledVoxel> filled = flood_fill(parts.fill, parts.origin.source);
-  if (filled.size() != parts.fill.size()) return bad_parts("all of its fill to be reachable from its source");
+  Flood flood = flood_set(parts.fill, parts.origin.source);
+  if (flood.voxels.size() != parts.fill.size())
+    return bad_parts("all of its fill to be reachable from its source");
   Cloud cloud;
   cloud.parts_ = std::move(parts);
-  cloud.finish(filled);
+  cloud.finish(fill_values(cloud.parts_.origin, cloud.parts_.fill, std::move(flood.distances)),
+               std::move(flood.counts));
   return cloud;
 }
 
-/// Computes all derived data from the parts and from the flood, sorted by distance.
-void Cloud::finish(std::span<const FilledVoxel> filled) {
+/// Computes all derived data from the parts and from the flood that filled them.
+void Cloud::finish(FillValues fill, std::vector<Flood::Count> counts) {
   const CloudParts& p = parts_;
   if (!p.detached.empty()) all_voxels_ = unite(p.fill, p.detached);
-
-  // How many voxels lie within each distance.
-  for (const FilledVoxel& one : filled) {
-    if (distance_counts_.empty() || distance_counts_.back().distance != one.distance)
-      distance_counts_.push_back({one.distance, 0});
-    distance_counts_.back().count = static_cast<std::uint64_t>(&one - filled.data()) + 1;
-  }
+  distance_counts_ = std::move(counts);
   distance_counts_.shrink_to_fit();
 
   // Distance, survival and lag, moved from ranks in the fill to ranks in voxels().
-  FillValues fill = fill_values(p, filled);
   if (p.detached.empty() && p.flow_tick == 0) {
     distances_ = std::move(fill.distances);
     lag_ = std::move(fill.lag);
@@ -192,8 +94,7 @@ void Cloud::finish(std::span<const FilledVoxel> filled) {
     lag_.assign(all.size(), 0);
     base_.assign(all.size(), 0);
     delay_.assign(all.size(), 0);
-    p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
-      const std::uint32_t rank = all.rank(voxel);
+    for_each_with(p.fill, all, [&](glm::ivec3, std::uint32_t i, std::uint32_t rank) {
       distances_[rank] = fill.distances[i];
       survival_[rank] = fill.survival[i];
       lag_[rank] = fill.lag[i];
@@ -201,8 +102,7 @@ void Cloud::finish(std::span<const FilledVoxel> filled) {
       base_[rank] = p.fill_base[i];
       delay_[rank] = p.fill_delay[i];
     });
-    p.detached.for_each([&](glm::ivec3 voxel, std::uint32_t i) {
-      const std::uint32_t rank = all.rank(voxel);
+    for_each_with(p.detached, all, [&](glm::ivec3, std::uint32_t i, std::uint32_t rank) {
       survival_[rank] = p.detached_survival[i];
       base_[rank] = p.detached_base[i];
       delay_[rank] = p.detached_delay[i];
@@ -242,7 +142,7 @@ std::uint64_t Cloud::bytes() const {
   const std::uint64_t parts = parts_.fill.bytes() + parts_.detached.bytes() + 3 * parts_.fill_base.size() +
                               4 * parts_.detached.size();
   return sizeof(Cloud) + parts + all_voxels_.bytes() + 4 * distances_.size() + survival_.size() +
-         lag_.size() + base_.size() + 2 * delay_.size() + sizeof(DistanceCount) * distance_counts_.size();
+         lag_.size() + base_.size() + 2 * delay_.size() + sizeof(Flood::Count) * distance_counts_.size();
 }
 
 std::uint32_t Cloud::end_tick() const {
@@ -270,28 +170,31 @@ std::uint64_t Cloud::amount(std::uint32_t tick) const {
 /// amount(tick) voxels. Once the cloud has filled everything it can reach, the front advances at the same
 /// speed: the excess makes the rim denser.
 Front Cloud::front(std::uint32_t tick) const {
-  const std::uint64_t out = amount(tick), trapped = std::uint64_t{trapped_} << kAmountBits;
-  if (out <= trapped || distance_counts_.empty()) return 0;
+  return front_of(amount(tick), trapped_, distance_counts_);
+}
+
+Front Cloud::front_of(std::uint64_t out, std::uint32_t trapped_voxels, std::span<const Flood::Count> counts) {
+  const std::uint64_t trapped = std::uint64_t{trapped_voxels} << kAmountBits;
+  if (out <= trapped || counts.empty()) return 0;
   const std::uint64_t n = out - trapped;
 
   // The distance being filled: the front is there when the first of its voxels is due, and reaches the next
   // distance when the last one is.
   const std::uint64_t whole = (n + (1u << kAmountBits) - 1) >> kAmountBits;
   const auto at =
-      std::lower_bound(distance_counts_.begin(), distance_counts_.end(), whole,
-                       [](const DistanceCount& d, std::uint64_t count) { return d.count < count; });
-  if (at == distance_counts_.end()) {
+      std::lower_bound(counts.begin(), counts.end(), whole,
+                       [](const Flood::Count& d, std::uint64_t count) { return d.count < count; });
+  if (at == counts.end()) {
     // All is filled: continue at the mean speed so far.
-    const DistanceCount& last = distance_counts_.back();
+    const Flood::Count& last = counts.back();
     const std::uint64_t over = n - (last.count << kAmountBits);
     const std::uint64_t pace = std::max<std::uint64_t>(1, last.count / std::max(last.distance, kFaceStep));
     return (last.distance + 1) * kFrontUnit + ((over / pace * kFrontUnit) >> kAmountBits);
   }
 
   // Between two distances the front moves with the amount.
-  const std::uint64_t before = at == distance_counts_.begin() ? 0 : std::prev(at)->count;
-  const std::uint64_t next =
-      std::next(at) == distance_counts_.end() ? at->distance + 1 : std::next(at)->distance;
+  const std::uint64_t before = at == counts.begin() ? 0 : std::prev(at)->count;
+  const std::uint64_t next = std::next(at) == counts.end() ? at->distance + 1 : std::next(at)->distance;
   const std::uint64_t gap = (next - at->distance) * kFrontUnit;
   const std::uint64_t due = n - (before << kAmountBits);
   return at->distance * kFrontUnit + (due / (at->count - before) * gap >> kAmountBits);

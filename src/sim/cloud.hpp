@@ -21,6 +21,7 @@
 #include "sim/block_set.hpp"
 #include "sim/events.hpp"
 #include "sim/fill.hpp"
+#include "sim/fill_values.hpp"
 #include "voxel/bit_grid.hpp"
 
 namespace brume::sim {
@@ -117,7 +118,7 @@ class Cloud {
   std::uint32_t reach(std::uint32_t rank) const {
     const std::uint32_t distance = distances_[rank];
     if (distance == kNoDistance) return kNoDistance;
-    return distance + static_cast<std::uint32_t>((std::uint64_t{distance} * lag_[rank]) >> kLagBits);
+    return reach_of(distance, lag_[rank]);
   }
   /// Geodesic distance from the source by rank in voxels(); kNoDistance for parts().detached.
   std::span<const std::uint32_t> distances() const { return distances_; }
@@ -132,29 +133,25 @@ class Cloud {
 
  private:
   Cloud() = default;
-  void finish(std::span<const FilledVoxel> filled);
+  void finish(FillValues fill, std::vector<Flood::Count> counts);
   std::uint64_t content_hash() const;
   /// Ticks a voxel takes to change to its new density.
   std::uint32_t flow_ramp() const { return std::max(1u, parts_.origin.settings.bloom_ticks / 4); }
   Front front(std::uint32_t tick) const;
-
-  /// A distance that occurs in the fill, and the number of fill voxels at that distance or nearer.
-  struct DistanceCount {
-    std::uint32_t distance;
-    std::uint64_t count;
-  };
+  /// Of an amount released, voxels trapped, and the distances of a flood.
+  static Front front_of(std::uint64_t out, std::uint32_t trapped_voxels,
+                        std::span<const Flood::Count> counts);
 
   CloudParts parts_;
   BlockSet all_voxels_;  // fill and detached; empty when nothing is detached
   std::vector<std::uint32_t> distances_;
   std::vector<std::uint8_t> survival_;
-  static constexpr int kLagBits = 10;
   std::vector<std::uint8_t> lag_;     // fraction of the distance, / 2^kLagBits
   std::vector<std::uint8_t> base_;    // fill_base and detached_base by rank in voxels(); empty without both
   std::vector<std::uint16_t> delay_;  // the same for fill_delay and detached_delay
   std::uint32_t trapped_ = 0;         // number of detached voxels that stay
-  std::vector<DistanceCount> distance_counts_;
-  std::uint32_t flow_length_ = 0;  // ticks from flow_tick to settle_tick()
+  std::vector<Flood::Count> distance_counts_;  // of the fill
+  std::uint32_t flow_length_ = 0;              // ticks from flow_tick to settle_tick()
   std::uint64_t hash_ = 0;
 };
 

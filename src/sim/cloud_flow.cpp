@@ -1,49 +1,49 @@
 // How a cloud flows when the level around it changes.
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "sim/cloud.hpp"
 
 namespace brume::sim {
 namespace {
 
-/// The free voxels of a cloud with their densities and distances before the edit.
+/// The free voxels of a cloud with their densities and distances before the edit, by rank.
 struct Before {
-  std::vector<glm::ivec3> voxels;
+  BlockSet set;
   std::vector<std::uint8_t> densities, survival;
   std::vector<std::uint32_t> distances;
-  BlockSet set;  // the same voxels: a rank is an index into the lists
 };
 
 Before capture(const Cloud& cloud, const voxel::BitGrid& grid, std::uint32_t tick) {
   Before before;
   const CloudPhase phase = cloud.undissolved_phase(tick);
-  cloud.voxels().for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
-    if (!grid.free(voxel)) return;
-    before.voxels.push_back(voxel);
+  before.densities.reserve(cloud.voxels().size());
+  before.survival.reserve(cloud.voxels().size());
+  before.distances.reserve(cloud.voxels().size());
+  before.set = filter(cloud.voxels(), [&](glm::ivec3 voxel, std::uint32_t rank) {
+    if (!grid.free(voxel)) return false;
     before.densities.push_back(cloud.density(rank, phase));
     before.survival.push_back(cloud.survival()[rank]);
     before.distances.push_back(cloud.distances()[rank]);
+    return true;
   });
-  before.set = BlockSet(before.voxels);
-  return before;  // voxels were visited in rank order, so list and set agree
+  return before;
 }
 
 /// The old source, or the nearest smoke voxel to it that is still free.
 glm::ivec3 source_in(const Before& before, glm::ivec3 old, const voxel::BitGrid& grid) {
-  if (grid.free(old) || before.voxels.empty()) return old;
+  if (grid.free(old) || before.set.empty()) return old;
   const auto nearest = std::min_element(before.distances.begin(), before.distances.end());
-  return before.voxels[static_cast<std::size_t>(nearest - before.distances.begin())];
+  const auto rank = static_cast<std::uint32_t>(nearest - before.distances.begin());
+  glm::ivec3 source = old;
+  before.set.for_each([&](glm::ivec3 voxel, std::uint32_t at) {
+    if (at == rank) source = voxel;
+  });
+  return source;
 }
 
-std::vector<glm::ivec3> voxels_of(std::span<const FilledVoxel> filled) {
-  std::vector<glm::ivec3> voxels;
-  voxels.reserve(filled.size());
-  for (const FilledVoxel& one : filled) voxels.push_back(one.voxel);
-  return voxels;
-}
-
-/// Smoke outside of the new fill, as indices into the lists of Before.
+/// Smoke outside of the new fill, as ranks in Before.
 struct Detached {
   std::vector<std::uint32_t> trapped;  // cut off from the source: stays
   std::vector<std::uint32_t> lost;     // leaves
@@ -51,20 +51,17 @@ struct Detached {
 
 /// 1 + the ticks after the edit at which each fill voxel starts to change to its new density; 0: at once.
 /// Appends the ranks of the voxels gained to `gained`, nearest first.
-std::vector<std::uint16_t> fill_delays(const Cloud& after, const Before& before, Front front,
-                                       std::vector<std::uint32_t>& gained) {
+std::vector<std::uint16_t> fill_delays(const CloudParts& p, const FillValues& fill, const Before& before,
+                                       Front front, std::vector<std::uint32_t>& gained) {
   // Voxels that held smoke before change at once, if at all.
-  const CloudParts& p = after.parts();
+  const std::vector<std::uint32_t>& distances = fill.distances;
   std::vector<std::uint16_t> delays(p.fill.size());
-  std::vector<std::uint32_t> distances(p.fill.size());
-  p.fill.for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
-    const std::uint32_t in_all = after.voxels().rank(voxel);
-    distances[rank] = after.distances()[in_all];
-    const std::uint32_t old = before.set.rank(voxel);
+  for_each_with(p.fill, before.set, [&](glm::ivec3, std::uint32_t rank, std::uint32_t old) {
     if (old == BlockSet::kNone)
       gained.push_back(rank);
     else
-      delays[rank] = before.densities[old] == Cloud::profile(after.reach(in_all), front) ? 0 : 1;
+      delays[rank] =
+          before.densities[old] == Cloud::profile(reach_of(distances[rank], fill.lag[rank]), front) ? 0 : 1;
   });
 
   // The others follow by distance, at half the mean speed of the bloom.
@@ -88,20 +85,20 @@ void set_detached(CloudParts& parts, const Before& before, Detached detached,
   std::stable_sort(lost.begin(), lost.end(), [&](std::uint32_t a, std::uint32_t b) {
     return before.distances[a] > before.distances[b];
   });
-  std::vector<std::uint16_t> delay_of(before.voxels.size(), 0);
+  std::vector<std::uint16_t> delay_of(before.set.size(), 0);
   for (std::size_t i = 0; i < lost.size(); ++i)
     delay_of[lost[i]] =
         gained.empty() ? std::uint16_t{1} : parts.fill_delay[gained[i * gained.size() / lost.size()]];
 
-  std::vector<glm::ivec3> voxels;
+  std::vector<bool> detaches(before.set.size(), false);
   for (const auto* list : {&detached.trapped, &lost})
-    for (const std::uint32_t i : *list) voxels.push_back(before.voxels[i]);
-  parts.detached = BlockSet(voxels);
-  parts.detached.for_each([&](glm::ivec3 voxel, std::uint32_t) {
-    const std::uint32_t i = before.set.rank(voxel);
+    for (const std::uint32_t i : *list) detaches[i] = true;
+  parts.detached = filter(before.set, [&](glm::ivec3, std::uint32_t i) {
+    if (!detaches[i]) return false;
     parts.detached_base.push_back(before.densities[i]);
     parts.detached_delay.push_back(delay_of[i]);
     parts.detached_survival.push_back(before.survival[i]);
+    return true;
   });
 }
 
@@ -130,41 +127,44 @@ Cloud Cloud::flowed(const voxel::BitGrid& grid, std::uint32_t tick) const {
   parts.origin.source = source_in(before, parts_.origin.source, grid);
 
   // Smoke no longer connected to the source through smoke is trapped and counts against the amount.
-  const BlockSet joined(voxels_of(flood_fill(before.set, parts.origin.source)));
-  std::uint32_t cut_off = 0;
-  for (std::size_t i = 0; i < before.voxels.size(); ++i)
-    if (before.densities[i] > 0 && !joined.contains(before.voxels[i])) ++cut_off;
+  const BlockSet joined = connected_part(before.set, parts.origin.source);
+  std::vector<std::uint32_t> cut_off;
+  for_each_with(before.set, joined, [&](glm::ivec3, std::uint32_t i, std::uint32_t in_joined) {
+    if (in_joined == BlockSet::kNone && before.densities[i] > 0) cut_off.push_back(i);
+  });
 
   // The new fill: a flood with the remaining amount.
-  const std::uint32_t amount = parts.origin.settings.voxels;
-  const auto filled = flood_fill(grid, parts.origin.source, amount - std::min(amount, cut_off));
-  parts.fill = BlockSet(voxels_of(filled));
+  const std::uint32_t whole = parts.origin.settings.voxels;
+  Flood flood = flood_set(grid, parts.origin.source,
+                          whole - std::min(whole, static_cast<std::uint32_t>(cut_off.size())));
+  parts.fill = std::move(flood.voxels);
   Detached detached;
-  for (std::uint32_t i = 0; i < before.voxels.size(); ++i)
-    if (before.densities[i] > 0 && !parts.fill.contains(before.voxels[i]))
-      (joined.contains(before.voxels[i]) ? detached.lost : detached.trapped).push_back(i);
+  auto next_cut_off = cut_off.begin();
+  for_each_with(before.set, parts.fill, [&](glm::ivec3, std::uint32_t i, std::uint32_t in_fill) {
+    const bool is_cut_off = next_cut_off != cut_off.end() && *next_cut_off == i;
+    if (is_cut_off) ++next_cut_off;
+    if (before.densities[i] > 0 && in_fill == BlockSet::kNone)
+      (is_cut_off ? detached.trapped : detached.lost).push_back(i);
+  });
 
-  // A settled cloud with the new fill gives the target densities: which voxels change, and when.
-  CloudParts settled = parts;
-  set_detached(settled, before, {detached.trapped, {}}, {});
-  Cloud after;
-  after.parts_ = std::move(settled);
-  after.finish(filled);
+  // The settled cloud with the new fill gives the target densities: which voxels change, and when.
+  FillValues values = fill_values(parts.origin, parts.fill, std::move(flood.distances));
   std::vector<std::uint32_t> gained;
-  if (!parts.fill.empty())
-    parts.fill_delay = fill_delays(after, before, after.undissolved_phase(tick).front, gained);
+  const Front front =
+      front_of(amount(tick), static_cast<std::uint32_t>(detached.trapped.size()), flood.counts);
+  if (!parts.fill.empty()) parts.fill_delay = fill_delays(parts, values, before, front, gained);
 
   // The flow starts from the densities before the edit.
   parts.flow_tick = std::max(tick, 1u);
-  parts.fill.for_each([&](glm::ivec3 voxel, std::uint32_t) {
-    const std::uint32_t old = before.set.rank(voxel);
+  parts.fill_base.reserve(parts.fill.size());
+  for_each_with(parts.fill, before.set, [&](glm::ivec3, std::uint32_t, std::uint32_t old) {
     parts.fill_base.push_back(old == BlockSet::kNone ? std::uint8_t{0} : before.densities[old]);
   });
-  set_detached(parts, before, detached, gained);
+  set_detached(parts, before, std::move(detached), gained);
 
   Cloud flowing;
   flowing.parts_ = std::move(parts);
-  flowing.finish(filled);
+  flowing.finish(std::move(values), std::move(flood.counts));
   return flowing;
 }
 
@@ -173,26 +173,23 @@ Cloud Cloud::settled() const {
   CloudParts parts;
   parts.origin = parts_.origin;
   parts.fill = parts_.fill;
-  std::vector<glm::ivec3> trapped;
-  parts_.detached.for_each([&](glm::ivec3 voxel, std::uint32_t rank) {
-    if (parts_.detached_delay[rank] != 0) return;
-    trapped.push_back(voxel);
+  parts.detached = filter(parts_.detached, [&](glm::ivec3, std::uint32_t rank) {
+    if (parts_.detached_delay[rank] != 0) return false;
     parts.detached_base.push_back(parts_.detached_base[rank]);
     parts.detached_delay.push_back(0);
     parts.detached_survival.push_back(parts_.detached_survival[rank]);
+    return true;
   });
-  parts.detached = BlockSet(trapped);  // preserves the order of ranks
 
-  // The flood is unchanged: sort its voxels by the known distances.
-  std::vector<FilledVoxel> filled;
-  parts.fill.for_each([&](glm::ivec3 voxel, std::uint32_t) {
-    filled.push_back({voxel, distances_[voxels().rank(voxel)]});
+  // The flood is unchanged.
+  std::vector<std::uint32_t> distances;
+  distances.reserve(parts.fill.size());
+  for_each_with(parts.fill, voxels(), [&](glm::ivec3, std::uint32_t, std::uint32_t rank) {
+    distances.push_back(distances_[rank]);
   });
-  std::stable_sort(filled.begin(), filled.end(),
-                   [](const FilledVoxel& a, const FilledVoxel& b) { return a.distance < b.distance; });
   Cloud cloud;
   cloud.parts_ = std::move(parts);
-  cloud.finish(filled);
+  cloud.finish(fill_values(cloud.parts_.origin, cloud.parts_.fill, std::move(distances)), distance_counts_);
   return cloud;
 }
 

@@ -23,6 +23,18 @@ struct FilledVoxel {
   bool operator==(const FilledVoxel&) const = default;
 };
 
+/// A fill as a set.
+struct Flood {
+  BlockSet voxels;
+  std::vector<std::uint32_t> distances;  ///< As in FilledVoxel, by rank in `voxels`.
+  /// A distance that occurs, and the number of voxels at that distance or nearer.
+  struct Count {
+    std::uint32_t distance;
+    std::uint64_t count;
+  };
+  std::vector<Count> counts;  ///< Nearest first.
+};
+
 /// Returns the `budget` nearest free voxels to `source` by geodesic chamfer distance, sorted by (distance,
 /// voxel index), index = x + size.x * (y + size.y * z); ties at the budget go to the lowest index. Fewer when
 /// the space reachable from `source` is smaller; none when `source` is solid or outside the grid.
@@ -38,5 +50,9 @@ std::vector<FilledVoxel> flood_fill(const voxel::BitGrid& grid, glm::ivec3 sourc
 /// Applied to the result of a flood_fill it returns the same voxels and distances, because shortest paths and
 /// the boxes of their moves contain nearer voxels only. Coordinates of the domain in [0, 2^17).
 std::vector<FilledVoxel> flood_fill(const BlockSet& domain, glm::ivec3 source);
+
+/// The voxels of flood_fill as a set, without the cost of their order.
+Flood flood_set(const voxel::BitGrid& grid, glm::ivec3 source, std::uint32_t budget);
+Flood flood_set(const BlockSet& domain, glm::ivec3 source);
 
 }  // namespace brume::sim

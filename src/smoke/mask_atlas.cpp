@@ -108,6 +108,7 @@ Result<MaskAtlas> MaskAtlas::pack(std::span<const Mask> masks) {
     hash = hash_values(std::span<const std::uint8_t>(mask.texels), hash);
   }
   atlas.key_ = {atlas.count(), hash};
+  atlas.find_cells();
   return atlas;
 }
 
@@ -125,46 +126,49 @@ float MaskAtlas::at(glm::vec2 uv) const {
   return glm::mix(top, bottom, f.y);
 }
 
-namespace {
+void MaskAtlas::find_cells() {
+  const std::size_t width = width_, count = width * height_;
+  std::vector<std::uint8_t> kinds(count, MaskCell::mixed), even(count, 0), rows(count, 0), radii(count, 0);
+  for (std::size_t y = 0; y + 1 < height_; ++y) {
+    const std::uint8_t* top = texels_.data() + y * width;
+    const std::uint8_t* bottom = top + width;
+    for (std::size_t x = 0; x + 1 < width; ++x) {
+      const int any = top[x] | top[x + 1] | bottom[x] | bottom[x + 1],
+                all = top[x] & top[x + 1] & bottom[x] & bottom[x + 1];
+      kinds[y * width + x] = static_cast<std::uint8_t>((any != 0 ? 1 : 0) + (all == 255 ? 1 : 0));
+      even[y * width + x] = any == 0 || all == 255;
+    }
+  }
 
-/// The texels around a point, (0, 0) to (1, 1), and its position between the first and the last.
-struct Corners {
-  float f00, f10, f01, f11;
-  glm::vec2 fraction;
-};
+  // Cells next to each other share texels: even ones are of one kind. Each round keeps those whose neighbours
+  // at a distance were kept, which doubles their radius. The last column and row are never even, so that no
+  // round reaches from one end of a row to the other.
+  for (std::size_t step = 1; step <= kMaxMaskRadius / 2 + 1 && 2 * step * width < count; step *= 2) {
+    for (std::size_t i = step; i + step < count; ++i)
+      rows[i] = static_cast<std::uint8_t>(even[i - step] & even[i] & even[i + step]);
+    std::fill_n(even.begin(), step * width, std::uint8_t{0});
+    std::fill_n(even.end() - static_cast<std::ptrdiff_t>(step * width), step * width, std::uint8_t{0});
+    for (std::size_t i = step * width; i + step * width < count; ++i) {
+      even[i] = static_cast<std::uint8_t>(rows[i - step * width] & rows[i] & rows[i + step * width]);
+      radii[i] = static_cast<std::uint8_t>(radii[i] + step * even[i]);
+    }
+  }
 
-Corners corners_at(const MaskView& mask, glm::vec2 across) {
-  const glm::vec2 from_centres = across * glm::vec2(mask.width, mask.height) - 0.5f;
-  const glm::vec2 at = glm::clamp(from_centres, glm::vec2(0), glm::vec2(mask.width - 1, mask.height - 1));
-  const glm::ivec2 low(at), high = glm::min(low + 1, glm::ivec2(mask.width, mask.height) - 1);
-  const auto texel = [&](int x, int y) {
-    return static_cast<float>(
-        mask.first[static_cast<std::size_t>(y) * mask.stride + static_cast<std::size_t>(x)]);
-  };
-  return {texel(low.x, low.y), texel(high.x, low.y), texel(low.x, high.y), texel(high.x, high.y),
-          at - glm::vec2(low)};
+  cells_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) cells_[i] = {static_cast<MaskCell::Kind>(kinds[i]), radii[i]};
 }
 
-}  // namespace
-
-float MaskView::at(glm::vec2 across) const {
-  const Corners c = corners_at(*this, across);
-  const float top = c.f00 + (c.f10 - c.f00) * c.fraction.x, bottom = c.f01 + (c.f11 - c.f01) * c.fraction.x;
-  return top + (bottom - top) * c.fraction.y;
-}
-
-std::pair<std::uint8_t, std::uint8_t> MaskView::range_around(glm::vec2 across) const {
-  const Corners c = corners_at(*this, across);
-  const auto [least, most] = std::minmax({c.f00, c.f10, c.f01, c.f11});
-  return {static_cast<std::uint8_t>(least), static_cast<std::uint8_t>(most)};
+std::array<std::uint8_t, 4> MaskView::corners(glm::ivec2 cell) const {
+  const std::size_t stride = atlas->width();
+  const std::uint8_t* texel = atlas->texels().data() + static_cast<std::size_t>(first.y + cell.y) * stride +
+                              static_cast<std::size_t>(first.x + cell.x);
+  return {texel[0], texel[1], texel[stride], texel[stride + 1]};
 }
 
 MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole) {
   const glm::vec2 size(masks.width(), masks.height());
-  const glm::uvec2 low(hole.uv_min * size), high(hole.uv_max * size);  // exact: the sides are powers of two
-  const std::size_t first = std::size_t{low.y} * masks.width() + low.x;
-  return {masks.texels().data() + first, masks.width(), static_cast<int>(high.x - low.x),
-          static_cast<int>(high.y - low.y)};
+  const glm::ivec2 low(hole.uv_min * size), high(hole.uv_max * size);  // exact: the sides are powers of two
+  return {&masks, low - static_cast<int>(kPad), high.x - low.x, high.y - low.y};
 }
 
 float hole_strength_masked(const shared::Hole& hole, glm::vec3 p_world, float time, float rim_noise_metres,

@@ -9,6 +9,7 @@
 //   +-+-----------+-+  +-+-----+-+
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -30,6 +31,16 @@ struct Mask {
 struct MaskRectangle {
   glm::vec2 uv_min{0}, uv_max{0};
 };
+
+/// What a mask removes between the centres of four texels.
+struct MaskCell {
+  enum Kind : std::uint8_t { black, mixed, white };  ///< Nothing, anything, or all.
+  Kind kind = mixed;
+  /// All cells within so many of this one, along both axes, are of its kind: 0, 1, 3, 7 or kMaxMaskRadius.
+  std::uint8_t radius = 0;
+};
+/// Largest MaskCell::radius.
+constexpr int kMaxMaskRadius = 15;
 
 /// Most texels per axis of an atlas.
 constexpr std::uint32_t kMaxMaskAtlasAxis = 4096;
@@ -59,23 +70,31 @@ class MaskAtlas {
   /// for rounding.
   float at(glm::vec2 uv) const;
 
+  /// Between the centres of texels (x, y) and (x + 1, y + 1).
+  MaskCell cell(int x, int y) const {
+    return cells_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
+  }
+
  private:
+  void find_cells();
+
   std::uint32_t width_ = 1, height_ = 1;
   std::vector<std::uint8_t> texels_{0};
+  std::vector<MaskCell> cells_{MaskCell{}};  // as texels_; those of the last column and row are mixed
   std::vector<MaskRectangle> rectangles_;
   sim::MaskKey key_;
 };
 
-/// One mask of an atlas, for many lookups. The atlas must outlive it.
+/// One mask of an atlas, for many lookups, which must outlive it. Its cells are counted from 0, before the
+/// first texel's centre, to width and height, after the last one's.
 struct MaskView {
-  const std::uint8_t* first = nullptr;  ///< Texel (0, 0); null: no mask.
-  std::uint32_t stride = 0;             ///< Texels from one row to the next.
-  int width = 0, height = 0;
+  const MaskAtlas* atlas = nullptr;  ///< Null: no mask.
+  glm::ivec2 first{0};               ///< Its first cell in the atlas.
+  int width = 0, height = 0;         ///< In texels.
 
-  /// [0, 255], linear between the centres of texels, the edge's beyond them; `across` in [0, 1]^2.
-  float at(glm::vec2 across) const;
-  /// The smallest and the largest of the texels that `at` reads there.
-  std::pair<std::uint8_t, std::uint8_t> range_around(glm::vec2 across) const;
+  MaskCell cell(glm::ivec2 at) const { return atlas->cell(first.x + at.x, first.y + at.y); }
+  /// The texels around a cell: (0, 0), (1, 0), (0, 1), (1, 1).
+  std::array<std::uint8_t, 4> corners(glm::ivec2 cell) const;
 };
 /// The mask of a hole whose rectangle is one of the atlas.
 MaskView view_of(const MaskAtlas& masks, const shared::Hole& hole);

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/tasks.hpp"
 #include "shared/noise_functions.h"
-#include "smoke/float4.hpp"
+#include "core/float4.hpp"
 
 namespace brume::smoke {
 namespace {

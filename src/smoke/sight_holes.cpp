@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
+
+#include "smoke/sight_masks.hpp"
 
 namespace brume::smoke {
 namespace {
@@ -29,11 +32,6 @@ void add_roots(float q2, float q1, float q0, float zero, float low, float high, 
   if (q != 0) add(q0 / q);
 }
 
-/// A part of a ray in which a hole's radius runs from r0 at t0 to r1 at t1, linearly.
-struct RadiusSpan {
-  float t0, r0, t1, r1;
-};
-
 /// Adds where the distance from the axis becomes `fraction` of the radius.
 void add_edges(const RayHole& h, float fraction, const RadiusSpan& span, std::vector<float>& out) {
   const auto [t0, r0, t1, r1] = span;
@@ -51,122 +49,135 @@ void add_edges(const RayHole& h, float fraction, const RadiusSpan& span, std::ve
             h.x * h.x + h.y * h.y - at_nearest * at_nearest, h.nearest, t0, t1, out);
 }
 
-/// Where a point of the cross-section lies across a mask: 0 at its one side, 1 at the other.
-float fraction_across(float from_axis, float radius) {
-  if (!(radius > 1e-12f)) return from_axis < 0 ? 0.0f : 1.0f;
-  return std::clamp(0.5f + 0.5f * from_axis / radius, 0.0f, 1.0f);
-}
+/// The parts of a hole with a linear radius: they end where it has opened wide, and where it begins to close.
+struct RadiusSpans {
+  std::array<float, 4> times;
+  std::size_t count = 1;  // of times
 
-/// A ray across one axis of a mask: at x + x_step (t - nearest) from the hole's axis.
-struct MaskAxis {
-  float x, x_step, nearest;
-  int texels;
+  explicit RadiusSpans(const RayHole& h) : times{h.begin, h.end, h.end, h.end} {
+    if (h.age_step != 0 && !h.steady) {
+      for (const float age : {h.expand, h.stay_end}) {
+        const float t = (age - h.age) / h.age_step;
+        if (t > h.begin && t < h.end) times[count++] = t;
+      }
+    }
+    if (count == 3 && times[1] > times[2]) std::swap(times[1], times[2]);
+    times[count++] = h.end;
+  }
+  /// Calls visit(span) for each.
+  template <typename Visit>
+  void for_each(const RayHole& h, Visit visit) const {
+    for (std::size_t i = 0; i + 1 < count; ++i)
+      if (times[i] < times[i + 1])
+        visit(RadiusSpan{times[i], h.radius_at(times[i]), times[i + 1], h.radius_at(times[i + 1])});
+  }
 };
 
-/// Adds where the ray passes the centres of the mask's texels along the axis: the distance from the hole's
-/// axis is then a fixed fraction of the radius.
-void add_texels(const MaskAxis& axis, const RadiusSpan& span, std::vector<float>& out) {
-  const auto [x, x_step, nearest, texels] = axis;
-  const auto [t0, r0, t1, r1] = span;
-  const float slope = (r1 - r0) / (t1 - t0), at_nearest = r0 + slope * (nearest - t0);
-
-  // The texels between the ends of the part, and where the ray passes each.
-  const float a = fraction_across(x + x_step * (t0 - nearest), r0),
-              b = fraction_across(x + x_step * (t1 - nearest), r1);
-  const auto count = static_cast<float>(texels);
-  const int first = static_cast<int>(std::ceil(std::min(a, b) * count - 0.5f));
-  const int last = static_cast<int>(std::floor(std::max(a, b) * count - 0.5f));
-  for (int i = first; i <= last; ++i) {
-    const float fraction = 2 * (static_cast<float>(i) + 0.5f) / count - 1;
-    add_roots(0, x_step - fraction * slope, x - fraction * at_nearest, nearest, t0, t1, out);
-  }
+/// Whether it removes all of the smoke around t, within its core.
+bool takes_all(const RayHole& h, float t) {
+  const float from_nearest = t - h.nearest, x = h.x + h.x_step * from_nearest,
+              y = h.y + h.y_step * from_nearest;
+  const float core = (1 - shared::kHoleSoftFraction) * h.radius_at(t);
+  const bool within = h.box ? std::max(std::abs(x), std::abs(y)) <= core : x * x + y * y <= core * core;
+  return within && !h.closing_at(t);
 }
 
-/// Sorts the breaks from `first` on, which lie between t0 and t1, and drops those between texels that are all
-/// black, or all white, as most of a letter is.
-void drop_even(const RayHole& h, float t0, float t1, std::size_t first, std::vector<float>& breaks) {
-  std::sort(breaks.begin() + static_cast<std::ptrdiff_t>(first), breaks.end());
-  const std::size_t count = breaks.size();
-  std::size_t end = first;
-  float from = t0;
-  RayHole::Takes before = RayHole::Takes::part;
-  for (std::size_t i = first; i <= count; ++i) {
-    const float to = i < count ? breaks[i] : t1;
-    const RayHole::Takes here = from < to ? h.takes(0.5f * (from + to)) : before;
-    // `from` is the break before this part.
-    if (i > first && (here != before || here == RayHole::Takes::part)) breaks[end++] = from;
-    before = here;
-    from = to;
-  }
-  breaks.resize(end);
-}
-
-/// Adds every t at which the strength of the hole has a kink.
-void add_breaks(const RayHole& h, std::vector<float>& out) {
-  if (h.steady && !h.box) {  // its edge begins where the hole does
-    out.insert(out.end(), {h.begin, h.end});
-    const float core = (1 - shared::kHoleSoftFraction) * h.radius,
-                speed = h.x_step * h.x_step + h.y_step * h.y_step;
-    const float inside = core * core - h.x * h.x - h.y * h.y;
-    if (inside <= 0 || !(speed > kLeastSpeed)) return;
+/// Of a wide open cylinder: its edge begins where the hole does.
+void add_steady_segments(const RayHole& h, std::uint32_t number, std::vector<HoleSegment>& out) {
+  // The part in its core.
+  const float core = (1 - shared::kHoleSoftFraction) * h.radius,
+              speed = h.x_step * h.x_step + h.y_step * h.y_step;
+  const float inside = core * core - h.x * h.x - h.y * h.y;
+  float begin = h.begin, end = inside > 0 ? h.end : h.begin;
+  if (inside > 0 && speed > kLeastSpeed) {
     const float half = std::sqrt(inside / speed);
-    for (const float t : {h.nearest - half, h.nearest + half})
-      if (t > h.begin && t < h.end) out.push_back(t);
-    return;
+    begin = std::max(begin, h.nearest - half);
+    end = std::min(end, h.nearest + half);
   }
-  // The parts with a linear radius: they end where it has opened wide, and where it begins to close.
-  std::array<float, 4> times{h.begin, h.end, h.end, h.end};
-  std::size_t count = 1;
-  if (h.age_step != 0) {
-    for (const float age : {h.expand, h.stay_end}) {
-      const float t = (age - h.age) / h.age_step;
-      if (t > h.begin && t < h.end) times[count++] = t;
-    }
-  }
-  if (count == 3 && times[1] > times[2]) std::swap(times[1], times[2]);
-  times[count++] = h.end;
+  if (!(begin < end)) begin = end = h.end;
 
-  // The kinks in each: its edge, and the core or the texels of its mask.
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    const float t0 = times[i], t1 = times[i + 1];
-    if (!(t0 < t1)) continue;
-    out.push_back(t0);
-    const RadiusSpan span{t0, h.radius_at(t0), t1, h.radius_at(t1)};
-    const std::size_t first = out.size();
-    add_edges(h, 1, span, out);
-    if (h.mask.first) {
-      add_texels({h.x, h.x_step, h.nearest, h.mask.width}, span, out);
-      add_texels({-h.y, -h.y_step, h.nearest, h.mask.height}, span, out);
-      drop_even(h, t0, t1, first, out);
-    } else {
-      add_edges(h, 1 - shared::kHoleSoftFraction, span, out);
-    }
+  if (h.begin < begin) out.push_back({h.begin, begin, number, false});
+  if (begin < end) out.push_back({begin, end, number, true});
+  if (end < h.end) out.push_back({end, h.end, number, false});
+}
+
+/// Of any other hole without a mask: cut at every t at which its strength has a kink.
+void add_soft_segments(const RayHole& h, std::uint32_t number, std::vector<float>& breaks,
+                       std::vector<HoleSegment>& out) {
+  breaks.assign({h.begin, h.end});
+  RadiusSpans(h).for_each(h, [&](const RadiusSpan& span) {
+    breaks.push_back(span.t0);
+    add_edges(h, 1, span, breaks);
+    add_edges(h, 1 - shared::kHoleSoftFraction, span, breaks);
+  });
+  if (h.box) {  // where the nearest face changes
+    add_roots(0, h.x_step - h.y_step, h.x - h.y, h.nearest, h.begin, h.end, breaks);
+    add_roots(0, h.x_step + h.y_step, h.x + h.y, h.nearest, h.begin, h.end, breaks);
   }
-  out.push_back(h.end);
-  if (h.box && !h.mask.first) {  // where the nearest face changes
-    add_roots(0, h.x_step - h.y_step, h.x - h.y, h.nearest, h.begin, h.end, out);
-    add_roots(0, h.x_step + h.y_step, h.x + h.y, h.nearest, h.begin, h.end, out);
-  }
+  std::sort(breaks.begin(), breaks.end());
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+    if (breaks[i] < breaks[i + 1])
+      out.push_back({breaks[i], breaks[i + 1], number, takes_all(h, 0.5f * (breaks[i] + breaks[i + 1]))});
 }
 
 /// Cuts the ray where a strength has a kink.
 void make_pieces(HolesOnRay& on_ray) {
-  std::vector<float>& breaks = on_ray.breaks;
-  breaks.clear();
-  for (const RayHole& hole : on_ray.holes) add_breaks(hole, breaks);
-  std::sort(breaks.begin(), breaks.end());
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const float begin = breaks[i], end = breaks[i + 1], middle = 0.5f * (begin + end);
-    if (!(begin < end)) continue;
-    bool met = false, gone = false;
-    for (const RayHole& hole : on_ray.holes) {
-      if (hole.begin > middle || hole.end < middle) continue;
-      const RayHole::Takes takes = hole.takes(middle);
-      met |= takes != RayHole::Takes::nothing;
-      gone |= takes == RayHole::Takes::all;
-    }
-    if (met) on_ray.pieces.push_back({begin, end, gone});
+  for (const RayHole& hole : on_ray.holes) {
+    const auto number = static_cast<std::uint32_t>(&hole - on_ray.holes.data());
+    const auto first = static_cast<std::uint32_t>(on_ray.segments.size());
+    if (hole.mask.atlas)
+      RadiusSpans(hole).for_each(
+          hole, [&](const RadiusSpan& span) { add_mask_segments(hole, number, span, on_ray.segments); });
+    else if (hole.steady && !hole.box)
+      add_steady_segments(hole, number, on_ray.segments);
+    else
+      add_soft_segments(hole, number, on_ray.breaks, on_ray.segments);
+    if (on_ray.segments.size() > first)
+      on_ray.cursors.push_back({on_ray.segments[first].begin, first,
+                                static_cast<std::uint32_t>(on_ray.segments.size()), false, false});
   }
+
+  // From each begin or end of a segment to the next one.
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  const HoleSegment* segments = on_ray.segments.data();
+  std::size_t members = 0;
+  for (float t = -kNever;;) {
+    const std::size_t first = members;
+    if (on_ray.members.size() < first + on_ray.cursors.size())
+      on_ray.members.resize(2 * (first + on_ray.cursors.size()));
+    float end = kNever;
+    bool gone = false;
+    for (HolesOnRay::Cursor& cursor : on_ray.cursors) {
+      while (cursor.change <= t) cursor.advance(segments);
+      end = std::min(end, cursor.change);
+      on_ray.members[members] = cursor.segment;
+      members += cursor.inside;
+      gone |= cursor.all;
+    }
+    if (end == kNever) return;
+    if (gone) members = first;
+    if (gone || members > first)
+      on_ray.pieces.push_back(
+          {t, end, gone, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(members - first)});
+    t = end;
+  }
+}
+
+/// Strength of a hole at four t of one of its segments.
+Float4 strength(const RayHole& h, const HoleSegment& segment, Float4 t) {
+  const Float4 from_nearest = t - splat(h.nearest);
+  const Float4 x = splat(h.x) + splat(h.x_step) * from_nearest,
+               y = splat(h.y) + splat(h.y_step) * from_nearest;
+  Float4 wide = splat(h.radius), open = splat(1);
+  if (!h.steady) {
+    const Float4 ages = splat(h.age) + splat(h.age_step) * t;
+    open = splat(1) - clamp4((ages - splat(h.stay_end)) / splat(h.fade), 0, 1);
+    wide = max4(wide * clamp4(ages / splat(h.expand), 0, 1) * open, splat(1e-12f));
+  }
+  if (h.mask.atlas) return mask_strength(h.mask, segment.cell, x, y, wide) * open;
+  const Float4 from_axis = h.box ? max4(abs4(x), abs4(y)) : sqrt4(x * x + y * y);
+  const Float4 edge = clamp4((wide - from_axis) / (wide * splat(shared::kHoleSoftFraction)), 0, 1);
+  return edge * edge * (splat(3) - splat(2) * edge) * open;
 }
 
 }  // namespace
@@ -178,50 +189,23 @@ float RayHole::radius_at(float t) const {
   return radius * opened * (1 - closed);
 }
 
-RayHole::Takes RayHole::takes(float t) const {
-  const float from_nearest = t - nearest, px = x + x_step * from_nearest, py = y + y_step * from_nearest;
-  const float wide = steady ? radius : radius_at(t), core = (1 - shared::kHoleSoftFraction) * wide;
-  const bool closing = !steady && age + age_step * t > stay_end;
-  if (mask.first) {
-    if (std::max(std::abs(px), std::abs(py)) > wide) return Takes::nothing;
-    const auto [least, most] =
-        mask.range_around(glm::vec2(fraction_across(px, wide), fraction_across(-py, wide)));
-    if (most == 0) return Takes::nothing;
-    return least == 255 && !closing ? Takes::all : Takes::part;
+/// Into the segment, or on to the next one.
+void HolesOnRay::Cursor::advance(const HoleSegment* segments) {
+  if (!inside) {
+    inside = true;
+    all = segments[segment].all;
+    change = segments[segment].end;
+    return;
   }
-  const bool within = box ? std::max(std::abs(px), std::abs(py)) <= core : px * px + py * py <= core * core;
-  return within && !closing ? Takes::all : Takes::part;
-}
-
-Float4 RayHole::strength(Float4 t) const {
-  const Float4 from_nearest = t - splat(nearest);
-  const Float4 px = splat(x) + splat(x_step) * from_nearest, py = splat(y) + splat(y_step) * from_nearest;
-  const Float4 from_axis = box ? max4(abs4(px), abs4(py)) : sqrt4(px * px + py * py);
-  Float4 wide = splat(radius), open = splat(1);
-  if (!steady) {
-    const Float4 ages = splat(age) + splat(age_step) * t;
-    open = splat(1) - clamp4((ages - splat(stay_end)) / splat(fade), 0, 1);
-    wide = max4(wide * clamp4(ages / splat(expand), 0, 1) * open, splat(1e-12f));
-  }
-  if (mask.first) return mask_strength(px, py, wide, open);
-  const Float4 edge = clamp4((wide - from_axis) / (wide * splat(shared::kHoleSoftFraction)), 0, 1);
-  return edge * edge * (splat(3) - splat(2) * edge) * open;
-}
-
-Float4 RayHole::mask_strength(Float4 px, Float4 py, Float4 wide, Float4 open) const {
-  Float4 result{};
-  for (int i = 0; i < 4; ++i) {
-    if (std::max(std::abs(px[i]), std::abs(py[i])) >= wide[i]) continue;
-    const glm::vec2 across(fraction_across(px[i], wide[i]), fraction_across(-py[i], wide[i]));
-    result[i] = mask.at(across) * (1.0f / 255) * open[i];
-  }
-  return result;
+  inside = all = false;
+  change = ++segment < last ? segments[segment].begin : std::numeric_limits<float>::infinity();
 }
 
 Float4 HolesOnRay::remaining(const HolePiece& piece, Float4 t) const {
   Float4 remaining = splat(1.0f);
-  for (const RayHole& hole : holes) {
-    if (hole.begin < piece.end && hole.end > piece.begin) remaining *= splat(1.0f) - hole.strength(t);
+  for (const std::uint32_t number : std::span(members).subspan(piece.first, piece.count)) {
+    const HoleSegment& segment = segments[number];
+    remaining *= splat(1.0f) - strength(holes[segment.hole], segment, t);
   }
   return remaining;
 }
@@ -261,7 +245,9 @@ HoleSet::HoleSet(std::span<const shared::Hole> holes, float time, const MaskAtla
 
 void HoleSet::find(glm::vec3 origin_world, glm::vec3 step_world, float t_end, HolesOnRay& out) const {
   out.holes.clear();
+  out.segments.clear();
   out.pieces.clear();
+  out.cursors.clear();
   // How far apart the lines of ray and axis are, by their Pluecker coordinates, |forward . moment of the ray
   // + step . moment of the axis| is the distance times |step x forward|. Rounding makes it wider, never
   // narrower.

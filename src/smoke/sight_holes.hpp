@@ -3,15 +3,16 @@
 // Along a ray the strength of a hole is smooth but for a few points: where the ray enters its edge or its
 // middle, where it passes from one texel of a mask to the next, and where the hole begins to open or to close
 // at that depth. All of them are roots of polynomials of degree one or two. Between them, quadrature of a
-// fixed order is accurate.
+// fixed order is accurate. Masks are walked cell by cell, those that are black or white around one in one
+// step.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
+#include "core/float4.hpp"
 #include "shared/hole.h"
-#include "smoke/float4.hpp"
 #include "smoke/mask_atlas.hpp"
 
 namespace brume::smoke {
@@ -26,31 +27,44 @@ struct RayHole {
   MaskView mask;  ///< Of a box whose cross-section is an image.
   bool box;
   bool steady;  ///< Wide open and not yet closing, from begin to end.
-  float radius_at(float t) const;
-  enum class Takes { nothing, part, all };
-  /// What it removes around t, where no texel begins: nothing where its mask is black or ends, all where it
-  /// is wide open and its mask white, or within its core.
-  Takes takes(float t) const;
-  /// Strength of the hole at four t between begin and end.
-  Float4 strength(Float4 t) const;
 
- private:
-  Float4 mask_strength(Float4 px, Float4 py, Float4 wide, Float4 open) const;
+  float radius_at(float t) const;
+  bool closing_at(float t) const { return !steady && age + age_step * t > stay_end; }
+};
+
+/// A part of a ray in which one hole removes something, and along which its strength has no kink.
+struct HoleSegment {
+  float begin, end;
+  std::uint32_t hole;  ///< In HolesOnRay::holes.
+  bool all;            ///< It removes all of the smoke.
+  glm::ivec2 cell{0};  ///< Of its mask.
 };
 
 /// A part of the ray along which no hole's strength has a kink.
 struct HolePiece {
   float begin, end;
-  bool gone;  ///< A hole removes all of the smoke.
+  bool gone;                   ///< A hole removes all of the smoke.
+  std::uint32_t first, count;  ///< Of HolesOnRay::members: the holes that remove a part.
 };
 
 /// The holes that a ray passes through. Reused from ray to ray only for its memory.
 struct HolesOnRay {
   std::vector<RayHole> holes;
-  std::vector<HolePiece> pieces;  ///< In order of t; between them no hole is.
-  std::vector<float> breaks;
+  std::vector<HoleSegment> segments;   ///< Hole by hole, those of one in order of t.
+  std::vector<HolePiece> pieces;       ///< In order of t; between them no hole is.
+  std::vector<std::uint32_t> members;  ///< Numbers of segments.
   /// Fraction of the smoke that remains at four t of a piece.
   Float4 remaining(const HolePiece& piece, Float4 t) const;
+
+  // While the pieces are made.
+  struct Cursor {
+    float change;                 ///< Where its segment begins, or ends when inside.
+    std::uint32_t segment, last;  ///< Of one hole; one past the last.
+    bool inside, all;             ///< In the segment, which removes all.
+    void advance(const HoleSegment* segments);
+  };
+  std::vector<Cursor> cursors;
+  std::vector<float> breaks;
 };
 
 /// The holes that are open anywhere at one time.

@@ -13,7 +13,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "densities are read four bytes at once");
 
 constexpr float kHuge = 1e30f;
-constexpr std::size_t kRow = shared::kBrickTexels, kLayer = kRow * shared::kBrickTexels;
+constexpr int kRow = shared::kBrickTexels, kLayer = kRow * kRow;
+constexpr int kEntryRow = kRow - 1;  // of the cells of a brick
 
 /// Densities [0, 255] of a cell's corners: lane y + 2 z, for the lower and the higher x.
 struct Corners {
@@ -119,9 +120,17 @@ class Walk {
       inverse_[axis] = shared::dda_inverse(ray.direction[axis]);
       leaving_[axis] = inverse_[axis] > 0;
     }
-    inverse_[3] = kHuge;
+    inverse_[3] = 100 * kHuge;  // beyond the exits of axes along which the ray does not move
     leaving_[3] = 1;
     stride_ = 2 * leaving_ - 1;
+    for (int axes = 0; axes < 8; ++axes) {
+      const auto step = [&](int row) {
+        return (axes & 1 ? stride_[0] : 0) + (axes & 2 ? stride_[1] * row : 0) +
+               (axes & 4 ? stride_[2] * row * row : 0);
+      };
+      texel_steps_[static_cast<std::size_t>(axes)] = step(kRow);
+      entry_steps_[static_cast<std::size_t>(axes)] = step(kEntryRow);
+    }
   }
 
   float run(float enough) {
@@ -150,7 +159,7 @@ class Walk {
   /// On to the brick after an empty one.
   float skip(float t, Int4& cell) const {
     const Float4 exits = (to_float(8 * leaving_) - at_) * inverse_;
-    const float out = std::max(t, min3(exits));
+    const float out = std::max(t, least3(exits)[0]);
     const Int4 crossed = exits <= splat(out);
     const Int4 inside = floor_to_int(at_ + ray_.direction * splat(std::min(out, ray_.length)));
     const Int4 beyond = 9 * leaving_ - 1;
@@ -163,27 +172,30 @@ class Walk {
   }
 
   float through_brick(std::uint32_t slot, float t, Int4& cell) {
+    const auto first_of = [&](int row) { return cell[0] + row * (cell[1] + row * cell[2]); };
     const Texel* texels = volume_.texels(slot).data();
     const std::uint32_t* entries = volume_.cells(slot).data();
+    int texel = first_of(kRow), entry = first_of(kEntryRow);
     // Within a brick, exits are counted on from cell to cell: at most seven sums an axis.
     Float4 exits = leave(cell);
     const Int4 per_cell = reinterpret_cast<Int4>(abs4(inverse_));
-    while (t < ray_.length) {
-      const auto x = static_cast<std::uint32_t>(cell[0]), y = static_cast<std::uint32_t>(cell[1]),
-                 z = static_cast<std::uint32_t>(cell[2]);
-      if ((x | y | z) > 7) break;
-      const float first = min3(exits);
-      const float out = std::min(first, ray_.length);
-      const Float4 at = at_ - to_float(cell);
-      const Int4 crossed = exits <= splat(first);
+    while (t < ray_.length && bits_of((cell & ~7) != 0) == 0) {
+      const Float4 first = least3(exits);
+      const float out = std::min(first[0], ray_.length);
+      const Int4 crossed = exits <= first, here = cell;
+      const Texel* texel_here = texels + texel;
+      const std::uint32_t entry_here = entries[entry];
+      const std::uint32_t axes = bits_of(crossed);
       cell += stride_ & crossed;
+      texel += texel_steps_[axes];
+      entry += entry_steps_[axes];
       exits += reinterpret_cast<Float4>(per_cell & crossed);
       if (!(out > t)) continue;
-      if (const std::uint32_t entry = entries[x + 9 * (y + 9 * z)]; entry != 0) {
-        through_boundary(volume_.boundary_cells()[entry - 1], at, t, out);
+      if (entry_here != 0) {
+        through_boundary(volume_.boundary_cells()[entry_here - 1], at_ - to_float(here), t, out);
       } else {
-        const TexelRows rows(texels + x + kRow * y + kLayer * z);
-        if (!rows.empty()) add(rows.corners(), at, t, out);
+        const TexelRows rows(texel_here);
+        if (!rows.empty()) add(rows.corners(), at_ - to_float(here), t, out);
       }
       t = out;
     }
@@ -252,6 +264,8 @@ class Walk {
   std::size_t next_ = 0;     // of the holes' pieces: the first that ends beyond here
   float next_hole_ = kHuge;  // where it begins
   Int4 stride_{}, leaving_{};
+  /// From one cell to the next, by the axes along which the ray leaves it.
+  std::array<int, 8> texel_steps_{}, entry_steps_{};
   Float4 inverse_{};
   Float4 at_{};  // of the ray's start, from the low corner of the brick
   Float4 total_{};

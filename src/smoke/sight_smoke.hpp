@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "smoke/float4.hpp"
+#include "core/float4.hpp"
 #include "smoke/sight_holes.hpp"
 #include "smoke/smoke_volume.hpp"
 

@@ -112,10 +112,10 @@ double cleared_length(const smoke::HolesOnRay& met) {
     constexpr int kParts = 64;  // of a piece without kinks, four samples each
     const float width = (piece.end - piece.begin) / kParts;
     for (int i = 0; i < kParts; ++i) {
-      smoke::Float4 t;
+      Float4 t;
       for (int k = 0; k < 4; ++k)
         t[k] = piece.begin + (static_cast<float>(i) + 0.125f + 0.25f * static_cast<float>(k)) * width;
-      const smoke::Float4 remaining = piece.gone ? smoke::Float4{} : met.remaining(piece, t);
+      const Float4 remaining = piece.gone ? Float4{} : met.remaining(piece, t);
       for (int k = 0; k < 4; ++k) length += 0.25 * static_cast<double>(width * (1 - remaining[k]));
     }
   }

@@ -107,6 +107,80 @@ TEST(Fill, MatchesDijkstraOn200Mazes) {
   }
 }
 
+BlockSet free_voxels(const BitGrid& grid) {
+  std::vector<glm::ivec3> voxels;
+  for (int z = 0; z < grid.size().z; ++z)
+    for (int y = 0; y < grid.size().y; ++y)
+      for (int x = 0; x < grid.size().x; ++x)
+        if (grid.free({x, y, z})) voxels.push_back({x, y, z});
+  return BlockSet(voxels);
+}
+
+TEST(Fill, IsTheSameAsAListAndAsASet) {
+  for (unsigned seed = 0; seed < 60; seed += kSanitized ? 5 : 1) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    BitGrid grid = make_maze(random, {33, 17, 20}, static_cast<Maze>(seed % 3));
+    grid.set(glm::ivec3(0), false);
+    const glm::ivec3 source = any_free(random, grid);
+    for (const std::uint32_t budget : {1u, static_cast<std::uint32_t>(random() % 3000), 100000u}) {
+      const std::vector<FilledVoxel> list = flood_fill(grid, source, budget);
+      const Flood flood = flood_set(grid, source, budget);
+      ASSERT_EQ(flood.voxels.size(), list.size());
+      ASSERT_EQ(flood.distances.size(), list.size());
+      std::map<std::uint32_t, std::uint64_t> within;  // voxels within each distance
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::uint32_t rank = flood.voxels.rank(list[i].voxel);
+        ASSERT_NE(rank, BlockSet::kNone);
+        EXPECT_EQ(flood.distances[rank], list[i].distance);
+        within[list[i].distance] = i + 1;
+      }
+      ASSERT_EQ(flood.counts.size(), within.size());
+      for (const Flood::Count& at : flood.counts) EXPECT_EQ(at.count, within[at.distance]);
+
+      // A fill of its own voxels is the same; so is what faces connect, unless the budget cut it off.
+      const Flood again = flood_set(flood.voxels, source);
+      EXPECT_EQ(again.voxels, flood.voxels);
+      EXPECT_EQ(again.distances, flood.distances);
+      EXPECT_EQ(connected_part(flood.voxels, source), flood.voxels);
+      if (list.size() < budget) {
+        EXPECT_EQ(connected_part(free_voxels(grid), source), flood.voxels);
+      }
+    }
+  }
+}
+
+TEST(Fill, VoxelsOfTwoSetsHaveTheRanksOfBoth) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<glm::ivec3> voxels[2];
+    for (auto& list : voxels)
+      for (int i = 0; i < 400; ++i)
+        list.push_back({static_cast<int>(random() % 9) - 3, static_cast<int>(random() % 9),
+                        static_cast<int>(random() % 9)});
+    const BlockSet a(voxels[0]), b(voxels[1]);
+    std::uint32_t next = 0;
+    for_each_with(a, b, [&](glm::ivec3 voxel, std::uint32_t rank, std::uint32_t rank_in_b) {
+      EXPECT_EQ(rank, next++);
+      EXPECT_EQ(rank, a.rank(voxel));
+      EXPECT_EQ(rank_in_b, b.rank(voxel));
+    });
+    EXPECT_EQ(next, a.size());
+    std::vector<glm::ivec3> even;
+    const BlockSet kept = filter(a, [&](glm::ivec3 voxel, std::uint32_t rank) {
+      EXPECT_EQ(rank, a.rank(voxel));
+      if (rank % 2 == 0) even.push_back(voxel);
+      return rank % 2 == 0;
+    });
+    EXPECT_EQ(kept, BlockSet(even));
+    EXPECT_EQ(kept.size(), (a.size() + 1) / 2);
+    glm::ivec3 low = voxels[0][0], high = low;
+    for (const glm::ivec3 v : voxels[0]) low = glm::min(low, v), high = glm::max(high, v);
+    EXPECT_EQ(a.low(), low);
+    EXPECT_EQ(a.high(), high);
+  }
+}
+
 TEST(Fill, IsEmptyForASourceInASolidOrOutside) {
   BitGrid grid({{7, 7, 7}, 0.5f, glm::vec3(0)});
   grid.set({3, 3, 3}, true);

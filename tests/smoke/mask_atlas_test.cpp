@@ -45,6 +45,49 @@ TEST(MaskAtlas, NeverShowsANeighbourAtTheEdgesOfAMask) {
         EXPECT_EQ(atlas.at(within(atlas.rectangle(i), at)), i % 2 ? 1.0f : 0.0f);
 }
 
+TEST(MaskAtlas, CellsAreOfOneKindWithinTheirRadius) {
+  // Discs, so that some cells are far from an edge.
+  std::mt19937 random(5);
+  std::vector<Mask> masks;
+  for (const int side : {1, 5, 40, 90}) {
+    Mask mask{static_cast<std::uint32_t>(side), static_cast<std::uint32_t>(side), {}};
+    for (int i = 0; i < side * side; ++i) {
+      const glm::ivec2 from_middle = glm::ivec2(i % side, i / side) - side / 2;
+      const int square = from_middle.x * from_middle.x + from_middle.y * from_middle.y;
+      const bool soft = square % 97 == 5;
+      mask.texels.push_back(static_cast<std::uint8_t>(soft                       ? random() & 255
+                                                      : 9 * square < side * side ? 255
+                                                                                 : 0));
+    }
+    masks.push_back(std::move(mask));
+  }
+  const MaskAtlas atlas = MaskAtlas::pack(masks).value_or_throw();
+  const glm::ivec2 size(atlas.width(), atlas.height());
+  const auto kind_of = [&](glm::ivec2 v) {
+    if (v.x < 0 || v.y < 0 || v.x + 1 >= size.x || v.y + 1 >= size.y) return MaskCell::mixed;
+    const std::uint8_t* texel = atlas.texels().data() + v.y * size.x + v.x;
+    int black = 0, white = 0;
+    for (const int at : {0, 1, size.x, size.x + 1}) black += texel[at] == 0, white += texel[at] == 255;
+    return black == 4 ? MaskCell::black : white == 4 ? MaskCell::white : MaskCell::mixed;
+  };
+  int largest = 0;
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const MaskCell cell = atlas.cell(x, y);
+      ASSERT_EQ(cell.kind, kind_of({x, y})) << x << ' ' << y;
+      largest = std::max(largest, int{cell.radius});
+      if (cell.kind == MaskCell::mixed) {
+        EXPECT_EQ(cell.radius, 0);
+        continue;
+      }
+      const int r = cell.radius;
+      for (int j = -r; j <= r; ++j)
+        for (int i = -r; i <= r; ++i)
+          ASSERT_EQ(kind_of({x + i, y + j}), cell.kind) << x << ' ' << y << ' ' << r;
+    }
+  EXPECT_EQ(largest, kMaxMaskRadius);
+}
+
 TEST(MaskAtlas, WithoutMasksIsOneTexelThatRemovesNothing) {
   const MaskAtlas atlas = MaskAtlas::pack({}).value_or_throw();
   EXPECT_EQ(atlas.count(), 0u);

@@ -8,7 +8,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace brume::smoke {
+namespace brume {
 
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
@@ -67,10 +67,9 @@ inline std::uint32_t bits_of(Int4 mask) {
 inline float sum4(Float4 v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
-/// Least of the first three lanes.
-inline float min3(Float4 v) {
-  const float least = v[0] < v[1] ? v[0] : v[1];
-  return least < v[2] ? least : v[2];
+/// Least of the first three lanes, in every lane.
+inline Float4 least3(Float4 v) {
+  return min4(v, min4(__builtin_shufflevector(v, v, 1, 2, 0, 0), __builtin_shufflevector(v, v, 2, 0, 1, 1)));
 }
 
-}  // namespace brume::smoke
+}  // namespace brume

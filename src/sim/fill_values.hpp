@@ -1,0 +1,28 @@
+// What a flood decides for each voxel of a cloud.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/block_set.hpp"
+
+namespace brume::sim {
+
+struct CloudOrigin;
+
+/// By rank in the fill.
+struct FillValues {
+  std::vector<std::uint32_t> distances;  ///< Of the flood.
+  std::vector<std::uint8_t> survival;    ///< Cloud::survival.
+  std::vector<std::uint8_t> lag;         ///< Fraction of the distance, / 2^kLagBits, that Cloud::reach adds.
+};
+constexpr int kLagBits = 10;
+
+FillValues fill_values(const CloudOrigin& origin, const BlockSet& fill, std::vector<std::uint32_t> distances);
+
+/// Front distance at which smoke reaches a voxel.
+inline std::uint32_t reach_of(std::uint32_t distance, std::uint8_t lag) {
+  return distance + static_cast<std::uint32_t>((std::uint64_t{distance} * lag) >> kLagBits);
+}
+
+}  // namespace brume::sim
