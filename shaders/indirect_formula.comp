@@ -1,4 +1,4 @@
-// What the formula of shared/scattering.h takes for light that is scattered more than once, in each cell. The cells know
+// What the formula of shared/scattering.h takes for light that is scattered more than once, in each cell. Cells know
 // better where beams are narrow or walls hide a light; the formula knows better what happens within a cell. So media
 // have the light of the cells, less this, plus the formula at the point itself.
 #version 460

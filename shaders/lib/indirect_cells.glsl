@@ -4,8 +4,8 @@
 #include "lib/frame.glsl"
 #include "shared/indirect_light.h"
 
-/// Mean transmittance from a cell of this extinction to the half cell around it, over its points: as much light as enters
-/// the cell is lost in it, however dense it is.
+/// Mean transmittance from a cell of this extinction to the half cell around it, over its points: as much light as
+/// enters the cell is lost in it, however dense it is.
 float out_of_cell(float extinction) {
   const float depth = extinction * frame.indirect.cell_size;
   return depth > 1e-3 ? (1.0 - exp(-depth)) / depth : 1.0;

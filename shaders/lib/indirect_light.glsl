@@ -10,7 +10,8 @@ layout(binding = kBindIndirectCube) uniform sampler3D indirect_cube;
 /// A slab at a point: premultiplied, and in alpha how much of the cells around it is free.
 vec4 indirect_slab(vec3 p_cells, uint slab) {
   const vec3 size = vec3(frame.indirect.size), inside = clamp(p_cells, vec3(0.5), size - 0.5);
-  return textureLod(indirect_cube, vec3(inside.xy, inside.z + float(slab) * size.z) / vec3(size.xy, float(kIndirectSlabs) * size.z), 0.0);
+  const vec3 at = vec3(inside.xy, inside.z + float(slab) * size.z);
+  return textureLod(indirect_cube, at / vec3(size.xy, float(kIndirectSlabs) * size.z), 0.0);
 }
 
 /// How far a point lies outside of the cells: 0 inside, 1 from a quarter of their width on.

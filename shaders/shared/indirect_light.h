@@ -9,7 +9,8 @@
 //   patch_radiance     per patch the radiance that leaves it
 //   cube      half floats, eight slabs of the grid's size along z: irradiance / pi of a surface that faces along
 //             cube_forward(slab), and 1; then in red the mean transmittance of the media out of the cell; then what the
-//             formula of scattering.h takes for the light that is scattered more than once. Solid cells beside free ones
+//             formula of scattering.h takes for the light that is scattered more than once. Solid cells beside free
+//             ones
 //             have the mean of those times kSolidWeight, all others are 0
 //   medium    half floats, a texel per cell: radiance that it scatters per metre, the same in all directions, and
 //             extinction [1/m]
