@@ -20,16 +20,13 @@ vec3 scattered_by(vec4 media) { return media.rgb / max(media.a, 1e-6); }
 /// Radiance of the media along a ray from the border of its cell over a number of cells, and in alpha their
 /// transmittance.
 vec4 through_media(vec3 p_cells, vec3 direction, float reach) {
-  const vec3 inverse = 1.0 / (direction + vec3(equal(direction, vec3(0.0))) * 1e-6);
-  const vec3 a = (vec3(params.media_low) - p_cells) * inverse, b = (vec3(params.media_high) - p_cells) * inverse;
-  const vec3 near = min(a, b), far = max(a, b);
-  const float begin = max(max(near.x, near.y), max(near.z, 0.5)), end = min(min(far.x, far.y), min(far.z, reach));
-  if (end <= begin) return vec4(0.0, 0.0, 0.0, 1.0);
-  const float steps = ceil(end - begin), ds = (end - begin) / steps;
+  const vec2 span = span_in_media(params, p_cells, direction, 0.5, reach);
+  if (span.y <= span.x) return vec4(0.0, 0.0, 0.0, 1.0);
+  const float steps = ceil(span.y - span.x), ds = (span.y - span.x) / steps;
   vec3 sum = vec3(0.0);
   float transmittance = 1.0;
   for (float i = 0.5; i < steps && transmittance > 0.01; ++i) {
-    const vec3 p = p_cells + direction * (begin + i * ds);
+    const vec3 p = p_cells + direction * (span.x + i * ds);
     const vec4 here = textureLod(medium, p / vec3(frame.indirect.size), 0.0);
     const float passed = exp(-here.a * ds * frame.indirect.cell_size);
     sum += transmittance * (1.0 - passed) * scattered_by(here);

@@ -1,7 +1,6 @@
-// Indirect light: what surfaces reflect and smoke scatters onto each other, on a grid of cells over the level.
+// Indirect light: what surfaces reflect and media scatter onto each other, on a grid of cells over the level. Cell
+// (x, y, z) has the index x + size.x (y + size.y z).
 //
-//   cells     per cell a uint: kSolidCell; or in a free one 6 bits that say which of its neighbours are solid, in the
-//             order of cube_forward, and above them the index of its first patch. x + size.x (y + size.y z)
 //   patches   a SurfacePatch for each face between a free cell and a solid one
 //   probes    indices of the free cells
 //   hits      per ray of each probe what it meets (pack_hit): ray * probe_count + probe
@@ -9,9 +8,8 @@
 //   patch_radiance     per patch the radiance that leaves it
 //   cube      half floats, eight slabs of the grid's size along z: irradiance / pi of a surface that faces along
 //             cube_forward(slab), and 1; then in red the mean transmittance of the media out of the cell; then what the
-//             formula of scattering.h takes for the light that is scattered more than once. Solid cells beside free
-//             ones
-//             have the mean of those times kSolidWeight, all others are 0
+//             formula of scattering.h takes for the light that is scattered more than once. Solid cells beside
+//             free ones have the mean of those times kSolidWeight, all others are 0
 //   medium    half floats, a texel per cell: radiance that it scatters per metre, the same in all directions, and
 //             extinction [1/m]
 //   medium_direct       mean radiance of the lights alone, over all directions, and extinction
@@ -24,15 +22,15 @@
 SHARED_BEGIN
 
 SHARED_BINDING(kBindIndirectCube, 82u);
-SHARED_BINDING(kBindSurfacePatches, 84u);
-SHARED_BINDING(kBindIndirectProbes, 85u);
-SHARED_BINDING(kBindIndirectHits, 86u);
-SHARED_BINDING(kBindPatchIrradiance, 87u);
-SHARED_BINDING(kBindPatchRadiance, 88u);
-SHARED_BINDING(kBindIndirectMedium, 89u);
-SHARED_BINDING(kBindMediumDirect, 90u);
+SHARED_BINDING(kBindSurfacePatches, 83u);
+SHARED_BINDING(kBindIndirectProbes, 84u);
+SHARED_BINDING(kBindIndirectHits, 85u);
+SHARED_BINDING(kBindPatchIrradiance, 86u);
+SHARED_BINDING(kBindPatchRadiance, 87u);
+SHARED_BINDING(kBindIndirectMedium, 88u);
+SHARED_BINDING(kBindMediumDirect, 89u);
+SHARED_BINDING(kBindMediumMatter, 90u);
 SHARED_BINDING(kBindIndirectTarget, 91u);
-SHARED_BINDING(kBindMediumMatter, 92u);
 
 /// A piece of surface that a free cell sees.
 struct SurfacePatch {
@@ -61,10 +59,6 @@ SHARED_CONST uint kFormulaSlab = 7u;
 /// Alpha of solid cells beside free ones: they count only where there is nothing else, in corners.
 SHARED_CONST float kSolidWeight = 0.015625f;
 
-SHARED_CONST uint kSolidCell = 0xffffffffu;
-SHARED_CONST uint kPatchFaces = 63u;
-SHARED_CONST uint kPatchShift = 6u;
-
 /// Rays of a probe. Neighbouring probes have different ones, kProbePhases sets of them.
 SHARED_CONST uint kProbeRays = 64u;
 SHARED_CONST uint kProbePhases = 8u;
@@ -90,8 +84,9 @@ SHARED_FUNCTION ivec3 cell_at(IndirectLayout layout_, uint index) {
 
 /// What a ray meets: a patch, or kSkyPatch; and after how many cells, in steps of half a cell.
 SHARED_CONST uint kSkyPatch = 0x3fffffu;
+SHARED_CONST float kMostHitCells = 511.5f;
 SHARED_FUNCTION uint pack_hit(uint patch_index, float cells) {
-  return patch_index | uint(min(2.0f * cells + 0.5f, 1023.0f)) << 22u;
+  return patch_index | uint(2.0f * min(cells, kMostHitCells) + 0.5f) << 22u;
 }
 SHARED_FUNCTION uint hit_patch(uint hit) {
   return hit & kSkyPatch;

@@ -16,7 +16,7 @@
 //   55       volumes as slices            slice_texture.h
 //   56 - 59  particles                    particles.h
 //   80 - 81  light paths of tanks         photons.h
-//   82 - 92  indirect light               indirect_light.h
+//   82 - 91  indirect light               indirect_light.h
 //   32 -     resources of one pass, or of a few that never meet in one shader
 #ifndef BRUME_SHIM_H
 #define BRUME_SHIM_H

@@ -34,7 +34,7 @@ void upload_list(gpu::Recorder& recorder, const gpu::Buffer& buffer, std::span<c
 /// Factor of bounce i of n: the roots of a Chebyshev polynomial over the eigenvalues of a bounce, from
 /// kLowest, where light goes back and forth between facing walls, to kHighest. n bounces then leave about as
 /// little to find as three times as many would (Varga 1962, "Matrix Iterative Analysis", Richardson's
-/// method). Small and large factors take turns, so that no bounce in between is far off; the smallest comes
+/// method). Alternates small and large factors to keep every bounce in between bounded; the smallest comes
 /// last.
 float relaxation(std::uint32_t i, std::uint32_t n) {
   constexpr float kLowest = -0.4f, kHighest = 0.9f;
@@ -59,15 +59,10 @@ IndirectLightPass::IndirectLightPass(gpu::Context& context)
       formula_pass_(context, shaders::indirect_formula_comp),
       linear_(context, {}),
       compare_(context, {VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, false, true}) {
-  reserve_nothing();
+  cube_ = make_image(context, VK_FORMAT_R16G16B16A16_SFLOAT, {1, 1, shared::kIndirectSlabs});
 }
 
-void IndirectLightPass::reserve_nothing() {
-  if (cube_ && cube_.info().size == glm::uvec3(1, 1, shared::kIndirectSlabs)) return;
-  cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, {1, 1, shared::kIndirectSlabs});
-}
-
-void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t light_count,
+void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t most_lights,
                                 std::uint32_t casters) {
   medium_passes_.try_emplace(casters & kCellMedia, context_, shaders::indirect_medium_comp,
                              std::vector{casters & kCellMedia});
@@ -79,7 +74,7 @@ void IndirectLightPass::reserve(const reference::LightCells& level, std::size_t 
   gpu::grow(context_, probes_, std::max<std::size_t>(probe_count_, 1) * sizeof(std::uint32_t));
   gpu::grow(context_, hits_,
             std::max<std::size_t>(probe_count_, 1) * shared::kProbeRays * sizeof(std::uint32_t));
-  gpu::grow(context_, lights_, std::max<std::size_t>(light_count, 1) * sizeof(shared::Light));
+  gpu::grow(context_, lights_, std::max<std::size_t>(most_lights, 1) * sizeof(shared::Light));
   const glm::uvec3 size(level.layout.size), slabs(size.x, size.y, shared::kIndirectSlabs * size.z);
   if (cube_.info().size == slabs && medium_) return;
   cube_ = make_image(context_, VK_FORMAT_R16G16B16A16_SFLOAT, slabs);
@@ -135,17 +130,24 @@ void IndirectLightPass::begin(gpu::Recorder& recorder, const Inputs& in,
     recorder.clear(medium_matter_, {});
     record_media(recorder, in);
   }
-  recorder.bind(patches_pass_,
+  dispatch_lit(recorder, in, patches_pass_, {patch_count_, 1, 1},
+               gpu::BoundResource{shared::kBindSurfacePatches, gpu::read(patches_)},
+               gpu::BoundResource{shared::kBindPatchIrradiance, gpu::write(irradiance_)});
+}
+
+template <typename... Own>
+void IndirectLightPass::dispatch_lit(gpu::Recorder& recorder, const Inputs& in,
+                                     const gpu::ComputePipeline& pipeline, glm::uvec3 threads, Own... own) {
+  recorder.bind(pipeline,
                 {{shared::kBindFrame, gpu::uniform(in.frame)},
                  {shared::kBindLights, gpu::read(lights_)},
                  {shared::kBindSun, gpu::uniform(in.shadows.sun)},
                  {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
                  {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
                  {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
-                 {shared::kBindSurfacePatches, gpu::read(patches_)},
-                 {shared::kBindPatchIrradiance, gpu::write(irradiance_)}},
+                 own...},
                 params_);
-  recorder.dispatch_threads(patches_pass_, patch_count_);
+  recorder.dispatch_threads(pipeline, threads.x, threads.y, threads.z);
 }
 
 void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) {
@@ -164,16 +166,8 @@ void IndirectLightPass::record_media(gpu::Recorder& recorder, const Inputs& in) 
                  {shared::kBindIndirectTarget, gpu::stored(medium_matter_)}},
                 params_);
   recorder.dispatch_threads(medium_pass, cells.x, cells.y, cells.z);
-  recorder.bind(medium_light_pass_,
-                {{shared::kBindFrame, gpu::uniform(in.frame)},
-                 {shared::kBindLights, gpu::read(lights_)},
-                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
-                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
-                 {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
-                 {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
-                 {shared::kBindIndirectTarget, gpu::stored(medium_direct_)}},
-                params_);
-  recorder.dispatch_threads(medium_light_pass_, cells.x, cells.y, cells.z);
+  dispatch_lit(recorder, in, medium_light_pass_, cells,
+               gpu::BoundResource{shared::kBindIndirectTarget, gpu::stored(medium_direct_)});
 }
 
 /// What patches and media send out, of the light that is known so far.
@@ -219,17 +213,8 @@ void IndirectLightPass::record_gather(gpu::Recorder& recorder, const Inputs& in,
 }
 
 void IndirectLightPass::record_formula(gpu::Recorder& recorder, const Inputs& in) {
-  const glm::uvec3 cells(params_.media_high - params_.media_low);
-  recorder.bind(formula_pass_,
-                {{shared::kBindFrame, gpu::uniform(in.frame)},
-                 {shared::kBindLights, gpu::read(lights_)},
-                 {shared::kBindSun, gpu::uniform(in.shadows.sun)},
-                 {shared::kBindShadowMaps, gpu::sampled(in.shadows.layers, compare_)},
-                 {shared::kBindSolidTexels, gpu::sampled(in.solid.texels(), linear_)},
-                 {shared::kBindMediumMatter, gpu::sampled(medium_matter_, linear_)},
-                 {shared::kBindIndirectTarget, gpu::read_write_stored(noisy_cube_)}},
-                params_);
-  recorder.dispatch_threads(formula_pass_, cells.x, cells.y, cells.z);
+  dispatch_lit(recorder, in, formula_pass_, glm::uvec3(params_.media_high - params_.media_low),
+               gpu::BoundResource{shared::kBindIndirectTarget, gpu::read_write_stored(noisy_cube_)});
 }
 
 void IndirectLightPass::record_smooth(gpu::Recorder& recorder, const Inputs& in, float relaxation) {

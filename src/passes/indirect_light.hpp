@@ -20,11 +20,9 @@ class IndirectLightPass {
  public:
   explicit IndirectLightPass(gpu::Context& context);
 
-  /// Makes room for a level of these cells. Outside of a recording, when the device is done with what was
-  /// recorded before. Throws resource_limit.
-  void reserve(const reference::LightCells& level, std::size_t light_count, std::uint32_t casters);
-  /// Room for no level: the image of the cube has one cell.
-  void reserve_nothing();
+  /// Makes room for a level of these cells, for as many lights as any of its frames has. Outside of a
+  /// recording, when the device is done with what was recorded before. Throws resource_limit.
+  void reserve(const reference::LightCells& level, std::size_t most_lights, std::uint32_t casters);
 
   struct Inputs {
     const gpu::Buffer& frame;
@@ -44,12 +42,16 @@ class IndirectLightPass {
   void record(gpu::Recorder& recorder, const Inputs& in, const planning::IndirectLightPlan& plan,
               const Box<int>& media);
 
-  /// The light of the last plan whose slices were all done.
+  /// The light of the last plan whose slices were all done; of one cell before the first `reserve`.
   const gpu::Image& cube() const { return cube_; }
 
  private:
   void begin(gpu::Recorder& recorder, const Inputs& in, std::span<const shared::Light> lights,
              const Box<int>& media);
+  /// Dispatches what reads the lights, with `own` besides.
+  template <typename... Own>
+  void dispatch_lit(gpu::Recorder& recorder, const Inputs& in, const gpu::ComputePipeline& pipeline,
+                    glm::uvec3 threads, Own... own);
   void record_media(gpu::Recorder& recorder, const Inputs& in);
   void record_sources(gpu::Recorder& recorder, const Inputs& in);
   void record_gather(gpu::Recorder& recorder, const Inputs& in, std::uint32_t slice, std::uint32_t count);

@@ -1,16 +1,13 @@
 #include "passes/solid_volume.hpp"
 
 #include <algorithm>
-#include <bit>
+
+#include "voxel/coarse_solid.hpp"
 
 namespace brume::passes {
 namespace {
 
 constexpr std::uint8_t kFreeTexel = 255;
-
-glm::ivec3 texels_of(glm::ivec3 voxels, int voxels_per_texel) {
-  return (voxels + (voxels_per_texel - 1)) / voxels_per_texel;
-}
 
 /// A box around the voxels where two lists of edits differ.
 Box<int> difference_of(const sim::EditBlocks& a, const sim::EditBlocks& b) {
@@ -30,14 +27,6 @@ Box<int> difference_of(const sim::EditBlocks& a, const sim::EditBlocks& b) {
 
 }  // namespace
 
-int voxels_per_solid_texel(glm::ivec3 voxels) {
-  for (int k = 1;; ++k) {
-    const glm::u64vec3 texels(texels_of(voxels, k));
-    const bool fits = texels.x * texels.y * texels.z <= kMaxSolidTexels;
-    if (fits && std::max({texels.x, texels.y, texels.z}) <= kMaxSolidAxis) return k;
-  }
-}
-
 SolidVolume::SolidVolume(gpu::Context& context) : context_(context) {
   make({glm::ivec3(1), 1.0f, glm::vec3(0)});
   grid_layout_ = {};  // no level's
@@ -45,10 +34,10 @@ SolidVolume::SolidVolume(gpu::Context& context) : context_(context) {
 
 void SolidVolume::make(const voxel::GridLayout& grid) {
   grid_layout_ = grid;
-  voxels_per_texel_ = voxels_per_solid_texel(grid.size);
+  voxels_per_texel_ = voxel::coarse_edge(grid.size, kMaxSolidTexels, kMaxSolidAxis);
   frame_.origin_world = grid.origin_world;
   frame_.texel_size = grid.voxel_size * static_cast<float>(voxels_per_texel_);
-  frame_.size = texels_of(grid.size, voxels_per_texel_);
+  frame_.size = voxel::coarse_size(grid.size, voxels_per_texel_);
   const auto words =
       static_cast<std::size_t>(shared::solid_row_words(frame_.size.x) * frame_.size.y * frame_.size.z);
   bits_.assign(words, 0);
@@ -77,8 +66,8 @@ bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
     static const sim::EditBlocks none;
     const Box<int> voxels = difference_of(edits_ ? *edits_ : none, level.edits ? *level.edits : none);
     if (voxels.empty()) return false;
-    changed =
-        intersection(changed, {voxels.low / voxels_per_texel_, texels_of(voxels.high, voxels_per_texel_)});
+    changed = intersection(
+        changed, {voxels.low / voxels_per_texel_, voxel::coarse_size(voxels.high, voxels_per_texel_)});
   }
   if (level.grid) fill_bits(*level.grid, changed);
   upload(recorder, changed);
@@ -88,33 +77,13 @@ bool SolidVolume::record(gpu::Recorder& recorder, const LevelView& level) {
 }
 
 void SolidVolume::fill_bits(const voxel::BitGrid& grid, const Box<int>& texels) {
-  const int k = voxels_per_texel_, row_words = shared::solid_row_words(frame_.size.x);
-  const glm::ivec3 size = texels.high - texels.low;
-  std::vector<std::uint32_t> counts(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                                    static_cast<std::size_t>(size.z));
-  const auto count_at = [&](glm::ivec3 texel) -> std::uint32_t& {
-    const glm::ivec3 t = texel - texels.low;
-    return counts[static_cast<std::size_t>(t.x + size.x * (t.y + size.y * t.z))];
-  };
-
-  // How many voxels of each texel are solid: brick by brick, bit by bit.
-  const Box<int> bricks{texels.low * k / voxel::kBrickSize,
-                        (glm::min(texels.high * k, grid.size()) + 7) / voxel::kBrickSize};
-  for_each_in(bricks, [&](glm::ivec3 b) {
-    const voxel::BitGrid::Brick* brick = grid.find_brick(b);
-    for (int z = 0; brick && z < voxel::kBrickSize; ++z)
-      for (std::uint64_t left = (*brick)[static_cast<std::size_t>(z)]; left != 0; left &= left - 1) {
-        const int bit = std::countr_zero(left);
-        const glm::ivec3 texel = (b * voxel::kBrickSize + glm::ivec3(bit & 7, bit >> 3, z)) / k;
-        if (texels.contains(texel)) ++count_at(texel);
-      }
-  });
-
-  const auto half_a_wall = static_cast<std::uint32_t>((k * k + 1) / 2);
+  const int row_words = shared::solid_row_words(frame_.size.x);
+  const std::vector<bool> solid = voxel::coarse_solid(grid, voxels_per_texel_, texels);
+  auto next = solid.begin();
   for_each_in(texels, [&](glm::ivec3 t) {
     std::uint32_t& word = bits_[static_cast<std::size_t>(t.x / 32 + row_words * (t.y + frame_.size.y * t.z))];
     const std::uint32_t bit = 1u << (t.x % 32);
-    word = count_at(t) >= half_a_wall ? word | bit : word & ~bit;
+    word = *next++ ? word | bit : word & ~bit;
   });
 }
 

@@ -19,9 +19,6 @@ using planning::LevelView;
 constexpr int kMaxSolidAxis = 256;
 constexpr std::uint32_t kMaxSolidTexels = 1u << 20;
 
-/// Voxels per edge of a texel: the smallest number for which the texels stay within the limits above.
-int voxels_per_solid_texel(glm::ivec3 voxels);
-
 class SolidVolume {
  public:
   /// A volume without solid voxels.

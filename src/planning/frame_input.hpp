@@ -93,7 +93,6 @@ struct Quality {
   /// About which fraction of the indirect light that changed is found in this frame; in (0, 1]. As
   /// light_update_fraction, which limits it.
   float indirect_update_fraction = 1;
-  std::uint32_t most_bounces = 16;  ///< Limits Environment::bounces.
   bool rebuild_light = false;  ///< Light smoke and surfaces again even where nothing changed.
   /// Bytes of volumes with a preview that are uploaded in this frame; 0: all that is missing. Below their
   /// size such a frame depends on the frames before (VolumeStreaming).

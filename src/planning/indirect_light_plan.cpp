@@ -34,7 +34,7 @@ std::vector<std::byte> key_of(const FrameInput& input, std::uint32_t bounces, co
 IndirectLightPlan IndirectLightCache::plan(const FrameInput& input, const MediaPlan& media,
                                            std::vector<shared::Light> lights) {
   IndirectLightPlan plan;
-  const std::uint32_t bounces = std::min(input.environment.bounces, input.quality.most_bounces);
+  const std::uint32_t bounces = input.environment.bounces;
   if (!input.level.voxels.grid || bounces == 0) return plan;
   plan.bounces = bounces;
   plan.lights = std::move(lights);

@@ -1,4 +1,4 @@
-// The level as indirect light knows it: cells, and the pieces of surface between free and solid ones.
+// The level as indirect light knows it: free cells, and the pieces of surface between free and solid ones.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,24 @@
 
 namespace brume::reference {
 
-/// The most cells of a level; larger levels have cells of several voxels.
+/// The most cells of a level, and along an axis; larger levels have cells of several voxels.
 constexpr std::uint32_t kMaxLightCells = 1u << 17;
+constexpr int kMaxLightCellsPerAxis = 256;
 
+/// What is uploaded of a level (shared/indirect_light.h).
 struct LightCells {
-  shared::IndirectLayout layout{};            ///< Without its bounces.
-  std::vector<std::uint32_t> cells;           ///< As shared/indirect_light.h has them.
-  std::vector<shared::SurfacePatch> patches;  ///< In the order of their cells, then of their faces.
-  std::vector<std::uint32_t> probes;          ///< Rising.
-  std::vector<std::uint32_t> hits;            ///< Of the rays of all probes.
+  shared::IndirectLayout layout{};  ///< Without its bounces.
+  std::vector<std::uint32_t> probes;
+  std::vector<shared::SurfacePatch> patches;
+  std::vector<std::uint32_t> hits;
 };
 
-/// Voxels per edge of a cell: the smallest number for which a level has at most kMaxLightCells.
-int voxels_per_light_cell(glm::ivec3 voxels);
-
-/// The cells of a level with a grid. Patches are what rays from free cells meet in solid ones: the means of
-/// four points each; a grey wall on the face where they meet nothing. Rays of probes meet the surfaces
-/// themselves, not the cells, so that gaps narrower than a voxel let light through. The same for any number
-/// of threads.
+/// The cells of a level with a grid. Free are the cells of voxel::coarse_solid, but not those inside of
+/// closed objects, from where most rays meet surfaces from behind. Patches are what rays from free cells meet
+/// in solid ones: the means of four points each; a grey wall on the face where they meet nothing. Rays of
+/// probes meet the surfaces themselves, not the cells, so that gaps narrower than a voxel let light through,
+/// and pass what is not voxelized.
+/// The same for any number of threads.
 LightCells make_light_cells(const voxel::BitGrid& grid, const Surfaces& surfaces);
 
 }  // namespace brume::reference

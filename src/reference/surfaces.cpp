@@ -172,10 +172,12 @@ float Surfaces::distance(const Ray& ray) const {
 std::optional<Surfaces::Place> Surfaces::place(const Ray& ray) const {
   const RTCRayHit query = intersect(ray);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const glm::vec3 across(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  const glm::vec3 across =
+      parts_[query.hit.geomID]->handedness * glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
   const float length = glm::length(across);
-  const glm::vec3 normal = length > 0 ? across / length : -ray.direction;
-  return Place{ray.at(query.ray.tfar), glm::dot(normal, ray.direction) > 0 ? -normal : normal};
+  const glm::vec3 outward = length > 0 ? across / length : -ray.direction;
+  const bool is_front = glm::dot(outward, ray.direction) < 0;
+  return Place{ray.at(query.ray.tfar), is_front ? outward : -outward, is_front};
 }
 
 std::optional<SurfaceHit> Surfaces::hit(const Ray& ray) const {

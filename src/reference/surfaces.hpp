@@ -43,7 +43,8 @@ class Surfaces {
   /// The nearest place of a surface on a ray, without its material.
   struct Place {
     glm::vec3 position{0};
-    glm::vec3 normal{0};  ///< Unit, towards the ray's origin.
+    glm::vec3 normal{0};    ///< Unit, towards the ray's origin.
+    bool is_front = false;  ///< The triangle is seen from outside.
   };
   std::optional<Place> place(const Ray& ray) const;
   /// Distance of the nearest surface on a ray; its end where there is none before [m].

@@ -27,8 +27,8 @@ struct RendererOptions {
 
 class Renderer {
  public:
-  /// Uploads the scene and draws its shadows. `context` and `runner` must outlive the renderer. Throws
-  /// resource_limit when the device has too little memory.
+  /// Uploads the scene and draws its shadows. `context`, `runner` and `scene`, which must not change, must
+  /// outlive the renderer. Throws resource_limit when the device has too little memory.
   Renderer(gpu::Context& context, gpu::CommandRunner& runner, const scene::Scene& scene,
            const RendererOptions& options);
 

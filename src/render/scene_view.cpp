@@ -50,7 +50,7 @@ void SceneView::reserve_indirect_light(const planning::FramePlan& plan) {
     const reference::Surfaces surfaces(*source_, {&plan.input.level, 1});
     light_cells_ = reference::make_light_cells(*plan.input.level.voxels.grid, surfaces);
   }
-  indirect_light_.reserve(light_cells_, indirect.lights.size(), plan.media.casters);
+  indirect_light_.reserve(light_cells_, scene_.light_list.size() + planning::kMaxFlashes, plan.media.casters);
 }
 
 shared::IndirectLayout SceneView::indirect_layout(const planning::FramePlan& plan) const {

@@ -119,10 +119,6 @@ TEST_F(LevelLightTest, TheVolumeIsTheGridAndFollowsItsEdits) {
 }
 
 TEST_F(LevelLightTest, ATexelOfManyVoxelsIsSolidWhereAWallRunsThrough) {
-  EXPECT_EQ(voxels_per_solid_texel({120, 20, 120}), 1);
-  EXPECT_EQ(voxels_per_solid_texel({256, 16, 256}), 1);
-  EXPECT_EQ(voxels_per_solid_texel({257, 16, 256}), 2);
-  EXPECT_EQ(voxels_per_solid_texel({4096, 4096, 4096}), 41);
   // 2 voxels a texel; walls of one voxel at odd places stay without gaps.
   BitGrid grid({{300, 10, 20}, 0.5f, {}});
   fill(grid, {0, 0, 7}, {300, 10, 8}, true);

@@ -42,10 +42,7 @@ TEST_F(IndirectLightCacheTest, FindsLightOnceAndAgainWhereItChanged) {
 TEST_F(IndirectLightCacheTest, WithoutBouncesOrLevelThereIsNone) {
   input_.environment.bounces = 0;
   EXPECT_EQ(plan().bounces, 0u);
-  input_.environment.bounces = 3;
-  input_.quality.most_bounces = 0;
-  EXPECT_EQ(plan().bounces, 0u);
-  input_.quality.most_bounces = 2;
+  input_.environment.bounces = 2;
   EXPECT_EQ(plan().slices.count, 2 * kSlicesPerBounce);
   input_.level.voxels.grid = nullptr;
   EXPECT_EQ(plan().bounces, 0u);

@@ -11,6 +11,7 @@
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/passes/half.hpp"
 #include "tests/path_tracer/statistics.hpp"
+#include "tests/render/studio.hpp"
 #include "tests/render/truth_scenes.hpp"
 #include "tests/work_folder.hpp"
 
@@ -48,15 +49,6 @@ struct Stage {
 
 class TankInLevelTest : public gpu::GpuTest {
  protected:
-  /// The level, its simulation and its renderer.
-  struct Studio {
-    scenario::Scenario scenario;
-    std::unique_ptr<scenario::Simulation> simulation;
-    std::vector<shared::Hole> holes;
-    FrameInput input;
-    std::unique_ptr<Renderer> renderer;
-  };
-
   std::unique_ptr<Studio> studio(const Stage& stage) const {
     spheres::save_tank(folder_.path() / "ball.spheres", ball(stage.color)).value_or_throw();
     scene::Scene scene;
@@ -82,19 +74,10 @@ class TankInLevelTest : public gpu::GpuTest {
     timeline.smoke.albedo = glm::vec3(0);
     if (stage.smoke) timeline.smokes = {{0.0, *stage.smoke + glm::vec3(0, 0.1f, 0), *stage.smoke}};
 
-    auto made = std::make_unique<Studio>(Studio{
-        scenario_of(std::move(scene), std::move(timeline), {{52, 20, 44}, 0.25f, {-6.5f, -0.6f, -4.6f}}),
-        {},
-        {},
-        {},
-        {}});
-    scenario::Scenario& scenario = made->scenario;
+    scenario::Scenario scenario =
+        scenario_of(std::move(scene), std::move(timeline), {{52, 20, 44}, 0.25f, {-6.5f, -0.6f, -4.6f}});
     scenario.volumes = scenario::Volumes::load(scenario.timeline.volumes).value_or_throw();
-    made->simulation = scenario::Simulation::create(scenario).value_or_throw();
-    made->simulation->advance_to(kSeconds);
-    made->input = frame_input(scenario, *made->simulation, kSeconds, made->holes);
-    made->renderer =
-        std::make_unique<Renderer>(context(), runner(), scenario.scene, RendererOptions{.size_px = kSize});
+    auto made = make_studio(context(), runner(), std::move(scenario), kSeconds, kSize);
     made->renderer->set_march_scale(1);
     return made;
   }
