@@ -114,8 +114,10 @@ TEST(LightCells, RaysMeetThePatchNearestToWhereTheyEnd) {
       ASSERT_NE(shared::hit_patch(hit), shared::kSkyPatch) << "the room is closed";
       const glm::vec3 direction = shared::probe_direction(r, phase);
       float reach = 1e9f;
-      for (int axis = 0; axis < 3; ++axis)
-        reach = std::min(reach, ((direction[axis] > 0 ? kHalf : -kHalf) - from[axis]) / direction[axis]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const float ahead = direction[axis] < 0 ? -from[axis] : from[axis];
+        reach = std::min(reach, (kHalf - ahead) / std::abs(direction[axis]));
+      }
       EXPECT_NEAR(shared::hit_cells(hit), reach / cells.layout.cell_size, 0.25f + 1e-3f);
       const shared::SurfacePatch& patch = cells.patches[shared::hit_patch(hit)];
       EXPECT_LT(glm::distance(patch.position_world, from + reach * direction), farthest);
